@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <span>
+#include <type_traits>
+
+namespace boresight {
+
+/// All memory of the core: a block that the caller owns, handed out from the front. Nothing is
+/// given back one by one; a stage that needs scratch takes a mark, allocates, and rewinds.
+/// An arena without a block only counts, which is how sizes are computed before there is memory:
+/// the same allocation code runs twice, so the count cannot disagree with the use.
+class Arena {
+ public:
+  Arena() = default;  ///< counts only
+  explicit Arena(std::span<std::byte> block) : block_(block) {}
+
+  /// `count` value-initialized objects; empty when the block is exhausted (then `exhausted()`), or
+  /// when the arena only counts.
+  template <class T>
+  std::span<T> allocate(std::size_t count) {
+    static_assert(std::is_trivially_destructible_v<T>);
+    static_assert(alignof(T) <= kAlignment);
+    const std::size_t bytes = (count * sizeof(T) + kAlignment - 1) / kAlignment * kAlignment;
+    used_ += bytes;
+    if (used_ > high_water_) high_water_ = used_;
+    if (block_.empty()) return {};
+    if (exhausted_ || used_ > block_.size()) {
+      exhausted_ = true;
+      return {};
+    }
+    T* first = reinterpret_cast<T*>(block_.data() + (used_ - bytes));
+    for (std::size_t i = 0; i < count; ++i) new (first + i) T();
+    return {first, count};
+  }
+
+  std::size_t mark() const { return used_; }
+  void rewind(std::size_t mark) { used_ = mark; }
+
+  std::size_t used() const { return used_; }
+  std::size_t highWater() const { return high_water_; }
+  bool exhausted() const { return exhausted_; }
+  bool countsOnly() const { return block_.empty(); }
+
+  static constexpr std::size_t kAlignment = 16;
+
+ private:
+  std::span<std::byte> block_;
+  std::size_t used_ = 0;
+  std::size_t high_water_ = 0;
+  bool exhausted_ = false;
+};
+
+}  // namespace boresight

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.h"
+
+namespace boresight {
+
+/// An 8-bit gray image that somebody else owns; rows are `stride` bytes apart.
+struct ImageView {
+  const std::uint8_t* data = nullptr;
+  int width = 0;
+  int height = 0;
+  std::ptrdiff_t stride = 0;
+
+  const std::uint8_t* row(int y) const { return data + stride * y; }
+  std::uint8_t at(int x, int y) const { return row(y)[x]; }
+};
+
+/// A binary image, 64 pixels to a word. Pixel x of row y is bit (x & 63) of word (x >> 6); bits
+/// beyond `width` are zero. Words, not bytes, are the unit, so the value of a map does not depend
+/// on the byte order of the machine.
+struct BitImage {
+  std::span<std::uint64_t> words;
+  int width = 0;
+  int height = 0;
+  int words_per_row = 0;
+
+  static int wordsPerRow(int width) { return (width + 63) / 64; }
+
+  /// A cleared image of `width` x `height` from the arena.
+  static BitImage create(Arena& arena, int width, int height) {
+    BitImage image;
+    image.width = width;
+    image.height = height;
+    image.words_per_row = wordsPerRow(width);
+    image.words = arena.allocate<std::uint64_t>(static_cast<std::size_t>(image.words_per_row) *
+                                                static_cast<std::size_t>(height));
+    return image;
+  }
+
+  std::uint64_t* row(int y) {
+    return words.data() + static_cast<std::ptrdiff_t>(words_per_row) * y;
+  }
+  const std::uint64_t* row(int y) const {
+    return words.data() + static_cast<std::ptrdiff_t>(words_per_row) * y;
+  }
+  bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
+  bool get(int x, int y) const { return ((row(y)[x >> 6] >> (x & 63)) & 1u) != 0; }
+  void set(int x, int y) { row(y)[x >> 6] |= std::uint64_t{1} << (x & 63); }
+  void reset(int x, int y) { row(y)[x >> 6] &= ~(std::uint64_t{1} << (x & 63)); }
+  void clear() {
+    for (std::uint64_t& word : words) word = 0;
+  }
+};
+
+}  // namespace boresight

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
+
+namespace boresight {
+
+/// Pixels of a level where the centre of a template may lie; both bounds belong to it.
+struct SearchWindow {
+  int x_min = 0, y_min = 0, x_max = -1, y_max = -1;
+  bool empty() const { return x_max < x_min || y_max < y_min; }
+  int width() const { return x_max - x_min + 1; }
+  int height() const { return y_max - y_min + 1; }
+};
+
+/// Where a point of the hypothesis can appear when the pose moves within `uncertainty` (Pham 2025,
+/// Sec. III-C): a rectangle that contains the projection of
+/// Exp(r)(p - c) + c + t for every |r_i| <= rotation_rad[i], |t_i| <= translation_m[i].
+/// Conservative by construction (bounds of the rotation's Taylor terms), clipped to centres whose
+/// template of side `template_side_px` lies inside the image; empty when none does, or when the
+/// point may come to lie behind the camera.
+SearchWindow searchWindow(const Camera& camera, const Eigen::Vector3d& point_in_camera_m,
+                          const SeedUncertainty& uncertainty, int template_side_px);
+
+}  // namespace boresight
