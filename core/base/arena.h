@@ -42,6 +42,7 @@ class Arena {
 
   std::size_t used() const { return used_; }
   std::size_t highWater() const { return high_water_; }
+  std::size_t capacity() const { return block_.size(); }
   bool exhausted() const { return exhausted_; }
   bool countsOnly() const { return block_.empty(); }
 
