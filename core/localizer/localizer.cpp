@@ -80,7 +80,7 @@ Status Localizer::restart(const Pose& camera_from_station_seed, const LocalizerO
   if (status != Status::kOk) return status;
   problem_.camera_from_station_seed = camera_from_station_seed;
   options_ = options;
-  arena_.rewind(0);
+  arena_.reset();
   begin();
   return status_;
 }
