@@ -292,7 +292,7 @@ StepReport Localizer::finishHypothesis() {
       better ? hypothesis_ : best.chosen_hypothesis;
   const int kept = better ? current_ : other;
   ++hypothesis_;
-  const int wanted = iteration_ == 0 ? options_.loop.rolled_hypotheses : 1;
+  const int wanted = iteration_ == 0 ? rolledHypotheses() : 1;
   if (hypothesis_ < wanted) {
     has_best_ = true;
     current_ = 1 - kept;
@@ -440,6 +440,16 @@ bool Localizer::isRefinement(int iteration) const {
 
 int Localizer::levelOf(IterationKind kind, int iteration) const {
   return kind == IterationKind::kMatch && iteration == 0 ? coarse_level_ : fine_level_;
+}
+
+int Localizer::rolledHypotheses() const {
+  // Each render serves half a spacing to either side.
+  const double half_rad = 0.5 * options_.loop.roll_spacing_rad;
+  const double uncovered_rad = problem_.uncertainty.rotation_rad.z() - half_rad;
+  int count = 1;
+  while (count + 2 <= options_.loop.max_rolled_hypotheses && (count - 1) * half_rad < uncovered_rad)
+    count += 2;
+  return count;
 }
 
 double Localizer::featureSize() const {

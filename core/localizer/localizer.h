@@ -94,6 +94,7 @@ class Localizer {
   double shrinkAt(double factor, int iteration) const;
   int levelOf(IterationKind kind, int iteration) const;
   bool isRefinement(int iteration) const;
+  int rolledHypotheses() const;
   double featureSize() const;
 
   LocalizationProblem problem_;

@@ -21,8 +21,8 @@ struct LoopOptions {
   std::int32_t max_iterations = 10;
   std::int32_t match_iterations = 2;
   std::int32_t coarse_size_px = 640;
-  std::int32_t rolled_hypotheses = 3;
-  double roll_spacing_rad = 0.0575958653158;  ///< 3.3 deg
+  std::int32_t max_rolled_hypotheses = 9;
+  double roll_spacing_rad = 0.0767944870878;  ///< 4.4 deg
   double inlier_threshold_px = 8.0;
   double threshold_shrink = 0.5;
   double uncertainty_shrink = 0.5;
@@ -47,12 +47,14 @@ struct LoopOptions {
             "loop.coarse_size_px", "px", 64, 16384,
             "The first iteration works at the level whose longer image side is at most this."},
         self.coarse_size_px);
-    visit(OptionInfo{"loop.rolled_hypotheses", "", 1, 9,
-                     "Renders of the first iteration, rolled about the view axis by multiples of "
-                     "the spacing."},
-          self.rolled_hypotheses);
-    visit(OptionInfo{"loop.roll_spacing_rad", "rad", 0.0, 3.2, "Angle between rolled renders."},
-          self.roll_spacing_rad);
+    visit(OptionInfo{"loop.max_rolled_hypotheses", "", 1, 9,
+                     "Renders of the first iteration, rolled about the view axis, at most."},
+          self.max_rolled_hypotheses);
+    visit(
+        OptionInfo{
+            "loop.roll_spacing_rad", "rad", 0.01, 3.2,
+            "Angle between rolled renders; as many as cover the uncertainty about the view axis."},
+        self.roll_spacing_rad);
     visit(OptionInfo{"loop.inlier_threshold_px", "px", 0.1, 200.0,
                      "RANSAC threshold of the first iteration, in pixels of the full image."},
           self.inlier_threshold_px);

@@ -64,7 +64,7 @@ LocalizerOptions paperProfile() {
   options.pnp.sampler = PnpSampler::kP3p;
   options.loop.match_iterations = options.loop.max_iterations;
   options.loop.coarse_size_px = 16384;
-  options.loop.rolled_hypotheses = 1;
+  options.loop.max_rolled_hypotheses = 1;
   options.loop.correction_point = CorrectionPoint::kCamera;
   options.refinement.enabled = false;
   options.support.gate = false;
@@ -200,7 +200,7 @@ Status Localizer::build(const ProblemSize& size) {
   if (status == Status::kOk) status = refinement_.create(options_.refinement, arena_);
   if (status != Status::kOk) return status;
   buffers_[0] = createIteration(width, height, options_, options_.refinement.enabled, arena_);
-  if (options_.loop.rolled_hypotheses > 1) {
+  if (options_.loop.max_rolled_hypotheses > 1) {
     const int coarse_width = ((size.width - 1) >> coarse_level_) + 1;
     const int coarse_height = ((size.height - 1) >> coarse_level_) + 1;
     buffers_[1] = createIteration(coarse_width, coarse_height, options_, false, arena_);
