@@ -69,10 +69,10 @@ inline bool inValidField(const Camera& camera, const Eigen::Vector2d& p) {
   return p.x() * p.x() + p.y() * p.y() <= limit * limit;
 }
 
-/// r with r g(r^2) = distorted within 1e-6 of the way, or the valid radius when there is none: a
-/// start for the plane, so close that only the tangential terms are left to find. Newton, kept
-/// between bounds because the slope may vanish at the end of the valid field.
-double radiusNear(const Camera& camera, double distorted) {
+/// r with r g(r^2) = distorted, or the valid radius when there is none in the field: a start for
+/// the plane, so close that only the tangential terms are left to find. Newton, kept between bounds
+/// because the slope may vanish at the end of the valid field.
+double radialSolution(const Camera& camera, double distorted) {
   double low = 0.0;
   double high = camera.valid_radius;
   double r = distorted < high ? distorted : high;
@@ -80,10 +80,11 @@ double radiusNear(const Camera& camera, double distorted) {
     const double s = r * r;
     const Radial radial = radialAt(camera, s);
     const double excess = r * radial.factor - distorted;
-    if (std::abs(excess) <= 1e-6 * distorted) break;
+    if (std::abs(excess) <= kTargetResidual * (1.0 + distorted)) break;
     (excess > 0.0 ? high : low) = r;
     if (!(high > low)) break;
     const double next = r - excess / (radial.factor + 2.0 * s * radial.slope);
+    if (next == r) break;
     r = next > low && next < high ? next : 0.5 * (low + high);
   }
   return r;
@@ -128,7 +129,7 @@ bool distortBrownConrady(const Camera& camera, const Eigen::Vector2d& p, Eigen::
 bool undistortBrownConrady(const Camera& camera, const Eigen::Vector2d& q, Eigen::Vector2d& p) {
   const double distorted = q.norm();
   if (!(distorted <= 2.0 * kLargestRadius)) return false;
-  p = distorted > 0.0 ? Eigen::Vector2d(q * (radiusNear(camera, distorted) / distorted)) : q;
+  p = distorted > 0.0 ? Eigen::Vector2d(q * (radialSolution(camera, distorted) / distorted)) : q;
 
   Eigen::Vector2d at_p;
   Eigen::Matrix2d jacobian;
@@ -150,7 +151,7 @@ bool undistortBrownConrady(const Camera& camera, const Eigen::Vector2d& q, Eigen
       applyWithJacobian(camera, candidate, at_p, jacobian);
       const Eigen::Vector2d candidate_residual = q - at_p;
       const double candidate_size = candidate_residual.norm();
-      better = candidate_size < size;
+      better = candidate_size < size && inValidField(camera, candidate);
       if (better) {
         p = candidate;
         residual = candidate_residual;
@@ -160,7 +161,7 @@ bool undistortBrownConrady(const Camera& camera, const Eigen::Vector2d& q, Eigen
     }
     if (!better) break;
   }
-  return size <= kAcceptedResidual * (1.0 + distorted) && inValidField(camera, p);
+  return size <= kAcceptedResidual * (1.0 + distorted);
 }
 
 }  // namespace boresight
