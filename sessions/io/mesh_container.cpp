@@ -230,7 +230,7 @@ const char* meshFormatName(MeshFormat format) {
   return "unknown";
 }
 
-MeshFormat meshFormatOf(const std::filesystem::path& file) {
+std::optional<MeshFormat> knownMeshFormat(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -239,7 +239,17 @@ MeshFormat meshFormatOf(const std::filesystem::path& file) {
   if (extension == ".stl") return MeshFormat::kStl;
   if (extension == ".gltf") return MeshFormat::kGltf;
   if (extension == ".glb") return MeshFormat::kGlb;
-  throw InputError(file, "unknown mesh format '" + extension + "' (ply, obj, stl, gltf, glb)");
+  return std::nullopt;
+}
+
+std::string unknownMeshFormat(const std::filesystem::path& file) {
+  return "unknown mesh format '" + file.extension().string() + "' (ply, obj, stl, gltf, glb)";
+}
+
+MeshFormat meshFormatOf(const std::filesystem::path& file) {
+  const std::optional<MeshFormat> format = knownMeshFormat(file);
+  if (!format) throw InputError(file, unknownMeshFormat(file));
+  return *format;
 }
 
 bool carriesUnit(MeshFormat format) {
