@@ -39,8 +39,7 @@ class TemporaryFolder {
     return path_ / name;
   }
   std::filesystem::path write(const std::string& name, std::span<const std::uint8_t> bytes) const {
-    return write(name,
-                 std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    return write(name, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   }
 
   std::string read(const std::string& name) const {

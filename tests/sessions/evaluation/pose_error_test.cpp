@@ -52,9 +52,9 @@ TEST(PoseError, SeparatesTwistFromTilt) {
   EXPECT_NEAR(twisted.rotation_mrad, 0.0, 1e-9);
   EXPECT_NEAR(twisted.in_plane_mrad, -10.0, 1e-9);
   EXPECT_NEAR(twisted.geodesic_mrad, 10.0, 1e-9);
-  const PoseError tilted = poseError(
-      kTruth, estimateFor(kTruth, poseOf(Vector3d(0.006, 0.008, 0), Vector3d::Zero())),
-      std::nullopt);
+  const PoseError tilted =
+      poseError(kTruth, estimateFor(kTruth, poseOf(Vector3d(0.006, 0.008, 0), Vector3d::Zero())),
+                std::nullopt);
   EXPECT_NEAR(tilted.rotation_mrad, 10.0, 1e-9);
   EXPECT_NEAR(tilted.in_plane_mrad, 0.0, 1e-9);
   EXPECT_NEAR(tilted.geodesic_mrad, 10.0, 1e-9);
@@ -63,14 +63,13 @@ TEST(PoseError, SeparatesTwistFromTilt) {
 TEST(PoseError, IsMeasuredAtTheEndEffector) {
   // A tilt of 10 mrad about x moves a point 0.4 m ahead by (0, -0.4 sin, 0.4 (cos - 1)).
   const Pose effector = poseOf(Vector3d(1, 2, 3), Vector3d(0, 0, 0.4));
-  const PoseError error =
-      poseError(kTruth, estimateFor(kTruth, poseOf(Vector3d(0.01, 0, 0), Vector3d::Zero())),
-                effector);
+  const PoseError error = poseError(
+      kTruth, estimateFor(kTruth, poseOf(Vector3d(0.01, 0, 0), Vector3d::Zero())), effector);
   EXPECT_NEAR(error.lateral_mm, 400.0 * std::sin(0.01), 1e-9);
   EXPECT_NEAR(error.normal_mm, 400.0 * (std::cos(0.01) - 1.0), 1e-9);
   // A compensating shift makes it vanish there, and appear at the camera.
-  const Pose compensated = poseOf(
-      Vector3d(0.01, 0, 0), Vector3d(0, 0.4 * std::sin(0.01), 0.4 * (1.0 - std::cos(0.01))));
+  const Pose compensated =
+      poseOf(Vector3d(0.01, 0, 0), Vector3d(0, 0.4 * std::sin(0.01), 0.4 * (1.0 - std::cos(0.01))));
   EXPECT_NEAR(poseError(kTruth, estimateFor(kTruth, compensated), effector).lateral_mm, 0.0, 1e-9);
   EXPECT_NEAR(poseError(kTruth, estimateFor(kTruth, compensated), std::nullopt).lateral_mm,
               400.0 * std::sin(0.01), 1e-9);
@@ -96,9 +95,9 @@ TEST(PoseError, KeepsTinyAnglesAndHalfTurnsExact) {
 TEST(PoseError, AgreesWithAnglesTakenFromMatrices) {
   Random random(9);
   for (int i = 0; i < 1000; ++i) {
-    const Pose e = poseOf(Vector3d(random.uniform(-1, 1), random.uniform(-1, 1),
-                                   random.uniform(-1, 1)),
-                          Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), 0.3));
+    const Pose e =
+        poseOf(Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)),
+               Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), 0.3));
     const PoseError error = poseError(kTruth, estimateFor(kTruth, e), std::nullopt);
     const Eigen::Matrix3d r = e.matrix();
     EXPECT_NEAR(error.rotation_mrad, 1e3 * std::acos(r(2, 2)), 1e-6);

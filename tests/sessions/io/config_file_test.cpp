@@ -41,8 +41,8 @@ struct SampleOptions {
 class ConfigFile : public ::testing::Test {
  protected:
   Config read(const std::string& rest) {
-    return readConfig(folder_.write(
-        "config.json", R"({"format": "boresight-config", "version": 1)" + rest + "}"));
+    return readConfig(folder_.write("config.json",
+                                    R"({"format": "boresight-config", "version": 1)" + rest + "}"));
   }
   std::string error(const std::string& options) {
     return folder_.message([&] {

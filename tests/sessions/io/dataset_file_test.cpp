@@ -42,9 +42,8 @@ json sampleDataset() {
                                    {"normal_threshold_deg", 20},
                                    {"depth_threshold_m", 0.002}},
                                   {{"mesh", "tube.glb"}, {"match", false}}};
-  d["cameras"]["left"] = {{"model", "pinhole"}, {"width", 8},    {"height", 6},
-                          {"fx", 10.0},         {"fy", 10.0},    {"cx", 3.5},
-                          {"cy", 2.5}};
+  d["cameras"]["left"] = {{"model", "pinhole"}, {"width", 8}, {"height", 6}, {"fx", 10.0},
+                          {"fy", 10.0},         {"cx", 3.5},  {"cy", 2.5}};
   d["cases"] = {{{"id", "a"},
                  {"station", "bc"},
                  {"image", "images/a.png"},

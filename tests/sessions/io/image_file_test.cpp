@@ -182,7 +182,8 @@ TEST_F(ReadImage, RefusesEveryTruncation) {
       if (type == CV_16UC1 && std::string(extension) == ".jpg") continue;
       const Bytes bytes = encoded(source, extension);
       for (std::size_t size = 1; size < bytes.size(); size += 1 + bytes.size() / 97) {
-        const std::string message = error(Bytes(bytes.begin(), bytes.begin() + std::ptrdiff_t(size)));
+        const std::string message =
+            error(Bytes(bytes.begin(), bytes.begin() + std::ptrdiff_t(size)));
         ASSERT_THAT(message, AnyOf(HasSubstr("truncated"), HasSubstr("not a PNG, JPEG or TIFF")))
             << extension << " cut to " << size << " of " << bytes.size();
       }

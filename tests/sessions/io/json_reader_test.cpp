@@ -39,7 +39,8 @@ std::string parseMessage(const std::string& text) {
 }
 
 TEST(JsonDocument, NamesThePlaceOfASyntaxError) {
-  EXPECT_THAT(parseMessage("{\"a\": 1,\n \"b\": }"), StartsWith("f.json: line 2, column 7: not JSON"));
+  EXPECT_THAT(parseMessage("{\"a\": 1,\n \"b\": }"),
+              StartsWith("f.json: line 2, column 7: not JSON"));
   EXPECT_THAT(parseMessage("{\"a\": [1, 2"), StartsWith("f.json: line 1, column 11: not JSON"));
   EXPECT_THAT(parseMessage("\x89PNG\r\n"), HasSubstr("not JSON"));
   EXPECT_THAT(parseMessage("{} {}"), HasSubstr("not JSON"));
@@ -109,8 +110,7 @@ TEST(JsonReader, NamesMissingAndMistypedMembers) {
   EXPECT_EQ(message([](J j) { j.at("o").at("z"); }), "f.json: o.z: missing");
   EXPECT_EQ(message([](J j) { j.at("n").at("q"); }), "f.json: n: not an object (is a number)");
   EXPECT_EQ(message([](J j) { j.at("s").number(); }), "f.json: s: not a number (is a string)");
-  EXPECT_EQ(message([](J j) { j.at("l").number(); }),
-            "f.json: l: not a number (is a list of 2)");
+  EXPECT_EQ(message([](J j) { j.at("l").number(); }), "f.json: l: not a number (is a list of 2)");
   EXPECT_EQ(message([](J j) { j.at("n").text(); }), "f.json: n: not a string (is a number)");
   EXPECT_EQ(message([](J j) { j.at("n").boolean(); }),
             "f.json: n: not true or false (is a number)");
@@ -118,7 +118,9 @@ TEST(JsonReader, NamesMissingAndMistypedMembers) {
   EXPECT_EQ(message([](J j) { j.at("l").vector3(); }),
             "f.json: l: not a list of 3 (is a list of 2)");
   EXPECT_EQ(message([](J j) { j.at("e").nonEmptyText(); }), "f.json: e: is empty");
-  EXPECT_EQ(message([](J j) { j.at("s").choice({"y", "z"}); }),
+  EXPECT_EQ(message([](J j) {
+              j.at("s").choice({"y", "z"});
+            }),
             "f.json: s: 'x' is none of 'y', 'z'");
 }
 
@@ -180,8 +182,9 @@ TEST(PrettyJson, PutsPlainListsOnOneLine) {
   json["b"] = {1, 2, 3};
   json["a"] = {{1.5, 2}, {3, 4}};
   json["e"] = nlohmann::ordered_json::object();
-  EXPECT_EQ(prettyJson(json),
-            "{\n  \"b\": [1, 2, 3],\n  \"a\": [\n    [1.5, 2],\n    [3, 4]\n  ],\n  \"e\": {}\n}\n");
+  EXPECT_EQ(
+      prettyJson(json),
+      "{\n  \"b\": [1, 2, 3],\n  \"a\": [\n    [1.5, 2],\n    [3, 4]\n  ],\n  \"e\": {}\n}\n");
 }
 
 TEST(PrettyJson, RefusesNumbersThatAreNotFinite) {

@@ -31,7 +31,7 @@ TEST(WeldMesh, JoinsEqualPositionsInTheOrderOfAppearance) {
 }
 
 TEST(WeldMesh, JoinsNegativeAndPositiveZero) {
-  const std::vector<Vector3f> vertices = {{0.0F, 0, 0}, {1, 0, 0}, {0, 1, 0},
+  const std::vector<Vector3f> vertices = {{0.0F, 0, 0},  {1, 0, 0}, {0, 1, 0},
                                           {-0.0F, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
   EXPECT_EQ(weldMesh(vertices, soup(2)).vertices.size(), 4u);
 }

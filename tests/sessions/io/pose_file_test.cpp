@@ -57,9 +57,9 @@ TEST_F(ReadPose, ReadsTheUncertainty) {
             "seed.json: uncertainty.translation_m[1]: -0.1 is outside 0 .. 1000");
   EXPECT_EQ(uncertaintyError(R"({"translation_m": 0.1, "rotation_deg": [1,1,1]})"),
             "seed.json: uncertainty.translation_m: not a list of 3 (is a number)");
-  EXPECT_EQ(uncertaintyError(
-                R"({"translation_m": [0,0,0], "rotation_deg": [1,1,1], "pivot": "arm"})"),
-            "seed.json: uncertainty.pivot: 'arm' is none of 'camera', 'station'");
+  EXPECT_EQ(
+      uncertaintyError(R"({"translation_m": [0,0,0], "rotation_deg": [1,1,1], "pivot": "arm"})"),
+      "seed.json: uncertainty.pivot: 'arm' is none of 'camera', 'station'");
 }
 
 TEST_F(ReadPose, RefusesWhatIsNotARigidTransform) {
@@ -67,8 +67,9 @@ TEST_F(ReadPose, RefusesWhatIsNotARigidTransform) {
             "seed.json: camera_from_station[1][3]: not a finite number");
   EXPECT_EQ(error(poseText("[[1,0,0],[0,1,0],[0,0,1]]")),
             "seed.json: camera_from_station: not a list of 4 (is a list of 3)");
-  EXPECT_EQ(error(poseText("[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0.1,0.2,0.3,1]]")),
-            "seed.json: camera_from_station: the last row is not 0 0 0 1 (the matrix is row-major)");
+  EXPECT_EQ(
+      error(poseText("[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0.1,0.2,0.3,1]]")),
+      "seed.json: camera_from_station: the last row is not 0 0 0 1 (the matrix is row-major)");
   EXPECT_THAT(error(poseText("[[1,0,0,0],[0,1,0,0],[0,0,-1,0],[0,0,0,1]]")),
               StartsWith("seed.json: camera_from_station: not a rotation: the determinant is -1"));
   EXPECT_THAT(error(poseText("[[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,1]]")),
@@ -82,8 +83,7 @@ TEST_F(ReadPose, RefusesWhatIsNotARigidTransform) {
 }
 
 TEST_F(ReadPose, ProjectsANearlyOrthonormalMatrixAndSaysSo) {
-  const PoseFile pose =
-      read(poseText("[[1,0.00003,0,0],[-0.00001,1,0,0],[0,0,1,0.4],[0,0,0,1]]"));
+  const PoseFile pose = read(poseText("[[1,0.00003,0,0],[-0.00001,1,0,0],[0,0,1,0.4],[0,0,0,1]]"));
   const Eigen::Matrix3d rotation = pose.camera_from_station.matrix();
   EXPECT_LT((rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm(), 1e-14);
   // The off-diagonal of R'R - I is 0.00002, twice.
