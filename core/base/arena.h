@@ -39,9 +39,15 @@ class Arena {
 
   std::size_t mark() const { return used_; }
   void rewind(std::size_t mark) { used_ = mark; }
+  /// Forgets everything that was handed out.
+  void reset() {
+    used_ = 0;
+    exhausted_ = false;
+  }
 
   std::size_t used() const { return used_; }
   std::size_t highWater() const { return high_water_; }
+  std::size_t capacity() const { return block_.size(); }
   bool exhausted() const { return exhausted_; }
   bool countsOnly() const { return block_.empty(); }
 

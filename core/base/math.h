@@ -6,9 +6,14 @@ namespace boresight {
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kDegree_rad = kPi / 180.0;
 
+/// Neither infinite nor a NaN.
+inline bool isFinite(double x) { return x - x == 0.0; }
+
 /// Elementary functions made of + - * / and sqrt in a fixed order, so that every machine gives the
 /// same bits; the C library's differ between versions and processors. Absolute error below 4e-16
 /// times max(1, |result|) for |x| <= 100 (sin, cos, tan away from its poles), any x (the rest).
+/// Sine and cosine lose accuracy beyond |x| = 1e6 but stay in [-1, 1]; a NaN gives a NaN, and so
+/// does an infinite angle.
 double sine(double x_rad);
 double cosine(double x_rad);
 double tangent(double x_rad);

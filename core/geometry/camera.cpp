@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/geometry/camera.h"
+
+#include <algorithm>
+
+#include "core/base/math.h"
+#include "core/geometry/distortion.h"
+
+namespace boresight {
+namespace {
+
+/// Far beyond any camera, and far from overflow in what is computed from them.
+constexpr double kSmallestFocalLength_px = 1e-6;
+constexpr double kLargestPixel = 1e9;
+constexpr double kLargestCoefficient = 1e12;
+
+bool plausibleFocalLength(double focal_length_px) {
+  return focal_length_px >= kSmallestFocalLength_px && focal_length_px <= kLargestPixel;
+}
+
+bool within(double value, double bound) { return value >= -bound && value <= bound; }
+
+inline bool inPinholeField(const Camera& camera, const Eigen::Vector2d& p) {
+  const double limit = camera.valid_radius;
+  return p.x() * p.x() + p.y() * p.y() <= limit * limit;
+}
+
+}  // namespace
+
+Status prepareCamera(Camera& camera) {
+  camera.valid_radius = 0.0;
+  if (camera.width <= 0 || camera.height <= 0) return Status::kInvalidCamera;
+  if (!plausibleFocalLength(camera.fx) || !plausibleFocalLength(camera.fy))
+    return Status::kInvalidCamera;
+  if (!within(camera.cx, kLargestPixel) || !within(camera.cy, kLargestPixel))
+    return Status::kInvalidCamera;
+  for (const double coefficient : camera.distortion)
+    if (!within(coefficient, kLargestCoefficient)) return Status::kInvalidCamera;
+
+  switch (camera.model) {
+    case CameraModel::kPinhole:
+      camera.valid_radius = kLargestRadius;
+      break;
+    case CameraModel::kBrownConrady:
+      camera.valid_radius = brownConradyValidRadius(camera);
+      break;
+    case CameraModel::kKannalaBrandt:
+      camera.valid_radius = kannalaBrandtValidAngle_rad(camera);
+      break;
+  }
+  return camera.valid_radius > 0.0 ? Status::kOk : Status::kInvalidCamera;
+}
+
+bool project(const Camera& camera, const Eigen::Vector3d& point_in_camera_m,
+             Eigen::Vector2d& pixel) {
+  if (!(point_in_camera_m.z() > 0.0)) return false;
+  const double inverse_z = 1.0 / point_in_camera_m.z();
+  const Eigen::Vector2d p(point_in_camera_m.x() * inverse_z, point_in_camera_m.y() * inverse_z);
+  Eigen::Vector2d q = p;
+  bool valid = false;
+  switch (camera.model) {
+    case CameraModel::kPinhole:
+      valid = inPinholeField(camera, p);
+      break;
+    case CameraModel::kBrownConrady:
+      valid = distortBrownConrady(camera, p, q);
+      break;
+    case CameraModel::kKannalaBrandt:
+      valid = distortKannalaBrandt(camera, p, q);
+      break;
+  }
+  if (!valid) return false;
+  pixel.x() = camera.fx * q.x() + camera.cx;
+  pixel.y() = camera.fy * q.y() + camera.cy;
+  return true;
+}
+
+bool projectWithJacobian(const Camera& camera, const Eigen::Vector3d& point_in_camera_m,
+                         Eigen::Vector2d& pixel, Eigen::Matrix<double, 2, 3>& jacobian) {
+  if (!(point_in_camera_m.z() > 0.0)) return false;
+  const double inverse_z = 1.0 / point_in_camera_m.z();
+  const Eigen::Vector2d p(point_in_camera_m.x() * inverse_z, point_in_camera_m.y() * inverse_z);
+  Eigen::Vector2d q = p;
+  Eigen::Matrix2d q_by_p = Eigen::Matrix2d::Identity();
+  bool valid = false;
+  switch (camera.model) {
+    case CameraModel::kPinhole:
+      valid = inPinholeField(camera, p);
+      break;
+    case CameraModel::kBrownConrady:
+      valid = distortBrownConrady(camera, p, q, q_by_p);
+      break;
+    case CameraModel::kKannalaBrandt:
+      valid = distortKannalaBrandt(camera, p, q, q_by_p);
+      break;
+  }
+  if (!valid) return false;
+  pixel.x() = camera.fx * q.x() + camera.cx;
+  pixel.y() = camera.fy * q.y() + camera.cy;
+  // d p / d point = [1 0 -p_x; 0 1 -p_y] / z.
+  const Eigen::Vector2d scale(camera.fx * inverse_z, camera.fy * inverse_z);
+  for (int row = 0; row < 2; ++row) {
+    jacobian(row, 0) = scale[row] * q_by_p(row, 0);
+    jacobian(row, 1) = scale[row] * q_by_p(row, 1);
+    jacobian(row, 2) = -(jacobian(row, 0) * p.x() + jacobian(row, 1) * p.y());
+  }
+  return true;
+}
+
+bool unproject(const Camera& camera, const Eigen::Vector2d& pixel, Eigen::Vector3d& ray) {
+  const Eigen::Vector2d q((pixel.x() - camera.cx) / camera.fx, (pixel.y() - camera.cy) / camera.fy);
+  Eigen::Vector2d p = q;
+  bool valid = false;
+  switch (camera.model) {
+    case CameraModel::kPinhole:
+      valid = inPinholeField(camera, p);
+      break;
+    case CameraModel::kBrownConrady:
+      valid = undistortBrownConrady(camera, q, p);
+      break;
+    case CameraModel::kKannalaBrandt:
+      valid = undistortKannalaBrandt(camera, q, p);
+      break;
+  }
+  if (!valid) return false;
+  ray = {p.x(), p.y(), 1.0};
+  return true;
+}
+
+Camera cameraAtLevel(const Camera& camera, int level) {
+  const int halvings = std::clamp(level, 0, 30);
+  const double scale = 1.0 / static_cast<double>(std::int64_t{1} << halvings);
+  Camera result = camera;
+  result.fx *= scale;
+  result.fy *= scale;
+  result.cx = (camera.cx + 0.5) * scale - 0.5;
+  result.cy = (camera.cy + 0.5) * scale - 0.5;
+  const auto pooled = [halvings](int size) {
+    const std::int64_t rounding = (std::int64_t{1} << halvings) - 1;
+    return static_cast<int>((size + rounding) >> halvings);
+  };
+  result.width = pooled(camera.width);
+  result.height = pooled(camera.height);
+  return result;
+}
+
+}  // namespace boresight

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace boresight {
+
+/// c[0] + c[1] x + ... + c[15] x^15: the conditions that bound a distortion model's valid field.
+struct Polynomial {
+  static constexpr std::size_t kTerms = 16;
+  std::array<double, kTerms> c{};
+
+  double operator()(double x) const;
+  Polynomial derivative() const;
+};
+
+/// Terms beyond x^15 are dropped; no product here reaches them.
+Polynomial operator*(const Polynomial& a, const Polynomial& b);
+Polynomial operator+(const Polynomial& a, const Polynomial& b);
+Polynomial operator*(double factor, const Polynomial& a);
+
+/// The largest x <= limit such that the polynomial stays positive on [0, x] (a root that it only
+/// touches does not count); 0 when it is not positive at 0. Between two neighbouring roots of the
+/// derivative a polynomial is monotone, so bisection there finds every root and misses none.
+double positiveUpTo(const Polynomial& polynomial, double limit);
+
+}  // namespace boresight

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.h"
+#include "core/base/image.h"
+#include "core/base/options.h"
+#include "core/base/status.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/mesh.h"
+#include "core/geometry/pose.h"
+#include "core/render/edge_render.h"
+
+namespace boresight {
+
+struct RefinementOptions {
+  bool enabled = true;
+  std::int32_t max_samples = 12000;
+  double first_radius_px = 6.0;
+  double last_radius_px = 2.0;
+  std::int32_t rounds = 4;
+  double derivative_sigma_px = 0.8;
+  double min_gradient = 2.0;
+  double sample_spacing_px = 2.0;
+  std::int32_t min_found = 60;
+  double covariance_inflation = 4.0;
+
+  template <class Self, class Visitor>
+  static void visitFields(Self& self, Visitor&& visit) {
+    visit(OptionInfo{"refinement.enabled", "", 0, 1,
+                     "Refine the matched pose on the raw image's edges."},
+          self.enabled);
+    visit(OptionInfo{"refinement.max_samples", "", 100, 100000, "Edge places used, at most."},
+          self.max_samples);
+    visit(OptionInfo{"refinement.first_radius_px", "px", 0.5, 50.0,
+                     "Search along the edge's normal, first refinement."},
+          self.first_radius_px);
+    visit(OptionInfo{"refinement.last_radius_px", "px", 0.5, 50.0,
+                     "Search radius of later refinements."},
+          self.last_radius_px);
+    visit(OptionInfo{"refinement.rounds", "", 1, 20, "Gauss-Newton rounds per refinement."},
+          self.rounds);
+    visit(OptionInfo{"refinement.derivative_sigma_px", "px", 0.3, 5.0,
+                     "Scale of the derivative along the normal."},
+          self.derivative_sigma_px);
+    visit(
+        OptionInfo{"refinement.min_gradient", "gray/px", 0.0, 255.0, "Weaker edges are not used."},
+        self.min_gradient);
+    visit(OptionInfo{"refinement.sample_spacing_px", "px", 0.5, 50.0,
+                     "Distance between edge places."},
+          self.sample_spacing_px);
+    visit(OptionInfo{"refinement.min_found", "", 6, 100000, "Fewer edges found are no pose."},
+          self.min_found);
+    visit(OptionInfo{"refinement.covariance_inflation", "", 1.0, 1000.0,
+                     "Factor on the covariance for the correlation of neighbouring edge places."},
+          self.covariance_inflation);
+  }
+};
+
+/// One place on a rendered edge and what the image shows there.
+struct EdgeSample {
+  Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
+  Eigen::Vector2d normal =
+      Eigen::Vector2d::Zero();  ///< in the image, from the nearer surface outwards
+  double residual_px = 0.0;     ///< along the normal, found minus predicted
+  double gradient = 0.0;        ///< signed, gray/px along the normal; 0 where nothing was found
+  double weight = 0.0;          ///< of the last round
+  std::uint8_t kind = 0;        ///< EdgeKind bits
+};
+
+struct RefinementResult {
+  Pose camera_from_station;
+  Matrix6d covariance = Matrix6d::Zero();  ///< as in PnpSolution
+  std::span<EdgeSample> samples;           ///< capacity; the first `sample_count` are valid
+  std::int32_t sample_count = 0;
+  std::int32_t found_count = 0;  ///< samples with an edge within the radius
+  std::int32_t used_count = 0;   ///< samples with a weight above one half
+  double rms_px = 0.0;           ///< weighted residual
+};
+
+/// Moves the pose so that the rendered edges meet the image's own (RAPID, Harris and Stennett 1990,
+/// with robust weights, Drummond and Cipolla 2002): places along the salient edges, searched along
+/// the line's normal for the largest derivative of the raw image, Tukey's weights, Gauss-Newton.
+class EdgeRefinement {
+ public:
+  Status create(const RefinementOptions& options, Arena& arena);
+  /// Takes the samples from a render of the same pose; `image` is raw, at full resolution, `camera`
+  /// its camera; `ignore` may be nullptr.
+  Status begin(const ImageView& image, const BitImage* ignore, const Camera& camera,
+               const MeshView& mesh, const EdgeRender& render, double radius_px,
+               RefinementResult& result);
+  /// One round; kTooFewEdges when too little is found, kDegenerate when the edges do not fix the
+  /// pose.
+  Status step(bool& done);
+
+ private:
+  void takeSamples(const MeshView& mesh, const EdgeRender& render);
+  void search(EdgeSample& sample, const Eigen::Vector2d& predicted_px) const;
+  double robustScale();
+  Status solve(double scale_px, bool last_round);
+
+  RefinementOptions options_;
+  ImageView image_;
+  const BitImage* ignore_ = nullptr;
+  Camera camera_;
+  double radius_px_ = 0.0;
+  RefinementResult* result_ = nullptr;
+  std::array<double, 32> kernel_{};  ///< one side of the derivative of a Gaussian
+  int taps_ = 0;
+  std::span<float> absolute_residuals_;
+  std::int32_t round_ = 0;
+};
+
+}  // namespace boresight

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/options.h"
+#include "core/edges/edge_map.h"
+#include "core/localizer/edge_refinement.h"
+#include "core/localizer/edge_support.h"
+#include "core/pnp/pnp.h"
+#include "core/render/edge_render.h"
+#include "core/templates/template_selection.h"
+
+namespace boresight {
+
+enum class CorrectionPoint : std::int32_t { kCamera = 0, kStation = 1 };
+inline constexpr const char* kCorrectionPointNames[] = {"camera", "station"};
+
+/// The loop around the stages (Pham 2025, Sec. III and Algorithm 1).
+struct LoopOptions {
+  std::int32_t max_iterations = 10;
+  std::int32_t match_iterations = 2;
+  std::int32_t coarse_size_px = 640;
+  std::int32_t max_rolled_hypotheses = 9;
+  double roll_spacing_rad = 0.0767944870878;  ///< 4.4 deg
+  double inlier_threshold_px = 8.0;
+  double threshold_shrink = 0.5;
+  double uncertainty_shrink = 0.5;
+  std::int32_t shrink_iterations = 2;
+  CorrectionPoint correction_point = CorrectionPoint::kStation;
+  double converged_translation_m = 0.0005;
+  double converged_rotation_rad = 0.00872664625997;  ///< 0.5 deg
+  std::int32_t converged_iterations = 2;
+  double leave_factor = 1.1;
+  std::int32_t second_peak_exclusion_px = 6;
+  bool subpixel_matches = true;
+
+  template <class Self, class Visitor>
+  static void visitFields(Self& self, Visitor&& visit) {
+    visit(OptionInfo{"loop.max_iterations", "", 1, 50, "The run ends after so many iterations."},
+          self.max_iterations);
+    visit(OptionInfo{"loop.match_iterations", "", 1, 50,
+                     "So many iterations match templates; those after refine the pose on edges."},
+          self.match_iterations);
+    visit(
+        OptionInfo{
+            "loop.coarse_size_px", "px", 64, 16384,
+            "The first iteration works at the level whose longer image side is at most this."},
+        self.coarse_size_px);
+    visit(OptionInfo{"loop.max_rolled_hypotheses", "", 1, 9,
+                     "Renders of the first iteration, rolled about the view axis, at most."},
+          self.max_rolled_hypotheses);
+    visit(
+        OptionInfo{
+            "loop.roll_spacing_rad", "rad", 0.01, 3.2,
+            "Angle between rolled renders; as many as cover the uncertainty about the view axis."},
+        self.roll_spacing_rad);
+    visit(OptionInfo{"loop.inlier_threshold_px", "px", 0.1, 200.0,
+                     "RANSAC threshold of the first iteration, in pixels of the full image."},
+          self.inlier_threshold_px);
+    visit(OptionInfo{"loop.threshold_shrink", "", 0.05, 1.0,
+                     "The threshold is multiplied by this at each of the next shrink_iterations."},
+          self.threshold_shrink);
+    visit(
+        OptionInfo{"loop.uncertainty_shrink", "", 0.05, 1.0,
+                   "The uncertainty is multiplied by this at each of the next shrink_iterations."},
+        self.uncertainty_shrink);
+    visit(OptionInfo{"loop.shrink_iterations", "", 0, 10,
+                     "Iterations that shrink threshold and uncertainty."},
+          self.shrink_iterations);
+    visit(OptionInfo{"loop.correction_point", "", 0, 1,
+                     "Where corrections are measured: at the camera's centre or at the station's.",
+                     kCorrectionPointNames},
+          self.correction_point);
+    visit(OptionInfo{"loop.converged_translation_m", "m", 0.0, 1.0,
+                     "A correction below this is small."},
+          self.converged_translation_m);
+    visit(OptionInfo{"loop.converged_rotation_rad", "rad", 0.0, 3.2,
+                     "A correction below this is small."},
+          self.converged_rotation_rad);
+    visit(OptionInfo{"loop.converged_iterations", "", 1, 10,
+                     "So many small corrections in a row end the run."},
+          self.converged_iterations);
+    visit(OptionInfo{"loop.leave_factor", "", 1.0, 10.0,
+                     "A pose beyond this multiple of the seed's uncertainty ends the run."},
+          self.leave_factor);
+    visit(OptionInfo{"loop.second_peak_exclusion_px", "px", 0, 64,
+                     "The second peak of a match lies outside this distance of the first."},
+          self.second_peak_exclusion_px);
+    visit(OptionInfo{"loop.subpixel_matches", "", 0, 1, "Parabola through the score's peak."},
+          self.subpixel_matches);
+  }
+};
+
+/// Every parameter of a run.
+struct LocalizerOptions {
+  EdgeOptions edges;
+  RenderOptions render;
+  TemplateOptions templates;
+  PnpOptions pnp;
+  LoopOptions loop;
+  RefinementOptions refinement;
+  SupportOptions support;
+
+  template <class Self, class Visitor>
+  static void visitFields(Self& self, Visitor&& visit) {
+    EdgeOptions::visitFields(self.edges, visit);
+    RenderOptions::visitFields(self.render, visit);
+    TemplateOptions::visitFields(self.templates, visit);
+    PnpOptions::visitFields(self.pnp, visit);
+    LoopOptions::visitFields(self.loop, visit);
+    RefinementOptions::visitFields(self.refinement, visit);
+    SupportOptions::visitFields(self.support, visit);
+  }
+};
+
+/// As published: full resolution from the start, P3P samples, no refinement on edges, no gate.
+LocalizerOptions paperProfile();
+/// Whatever is best.
+LocalizerOptions defaultProfile();
+
+}  // namespace boresight

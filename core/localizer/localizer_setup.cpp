@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// What happens before the first step: profiles, checks, memory.
+#include <algorithm>
+#include <cmath>
+
+#include "core/localizer/localizer.h"
+#include "core/localizer/run_digest.h"
+
+namespace boresight {
+
+const char* localizationStatusText(LocalizationStatus status) {
+  switch (status) {
+    case LocalizationStatus::kRunning:
+      return "running";
+    case LocalizationStatus::kConverged:
+      return "converged";
+    case LocalizationStatus::kLeftUncertainty:
+      return "left_uncertainty";
+    case LocalizationStatus::kTooFewEdges:
+      return "too_few_edges";
+    case LocalizationStatus::kTooFewTemplates:
+      return "too_few_templates";
+    case LocalizationStatus::kTooFewMatches:
+      return "too_few_matches";
+    case LocalizationStatus::kPnpFailed:
+      return "pnp_failed";
+    case LocalizationStatus::kNotSupported:
+      return "not_supported";
+    case LocalizationStatus::kIterationLimit:
+      return "iteration_limit";
+    case LocalizationStatus::kFault:
+      return "fault";
+  }
+  return "unknown";
+}
+
+const char* stageText(Stage stage) {
+  switch (stage) {
+    case Stage::kEdges:
+      return "edges";
+    case Stage::kRender:
+      return "render";
+    case Stage::kTemplates:
+      return "templates";
+    case Stage::kMatch:
+      return "match";
+    case Stage::kPose:
+      return "pose";
+    case Stage::kRefine:
+      return "refine";
+    case Stage::kSupport:
+      return "support";
+    case Stage::kFinished:
+      return "finished";
+  }
+  return "unknown";
+}
+
+LocalizerOptions defaultProfile() { return {}; }
+
+LocalizerOptions paperProfile() {
+  LocalizerOptions options;
+  options.templates.size_factor = 1.0;
+  options.pnp.sampler = PnpSampler::kP3p;
+  options.loop.match_iterations = options.loop.max_iterations;
+  options.loop.coarse_size_px = 16384;
+  options.loop.max_rolled_hypotheses = 1;
+  options.loop.correction_point = CorrectionPoint::kCamera;
+  options.refinement.enabled = false;
+  options.support.gate = false;
+  return options;
+}
+
+ProblemSize sizeOf(const LocalizationProblem& problem) {
+  return {problem.image.width, problem.image.height,
+          static_cast<int>(problem.mesh.vertices_in_station_m.size()),
+          static_cast<int>(problem.mesh.faces.size()), problem.ignore != nullptr};
+}
+
+namespace {
+
+int coarseLevel(int width, int height, int coarse_size_px) {
+  int level = 0;
+  while (level < kPyramidLevels - 1 && (std::max(width, height) >> level) > coarse_size_px) ++level;
+  return level;
+}
+
+Iteration createIteration(int width, int height, const LocalizerOptions& options, bool refines,
+                          Arena& arena) {
+  Iteration iteration;
+  const auto templates = static_cast<std::size_t>(options.templates.count);
+  iteration.render = createEdgeRender(width, height, options.render, arena);
+  iteration.templates = createTemplateSet(options.templates, arena);
+  iteration.matches.matches = arena.allocate<Match>(templates);
+  iteration.correspondences = arena.allocate<Correspondence>(templates);
+  iteration.template_of = arena.allocate<std::int32_t>(templates);
+  iteration.pnp.inlier = arena.allocate<std::uint8_t>(templates);
+  iteration.pnp.residual_px = arena.allocate<double>(templates);
+  if (refines) {
+    iteration.refinement.samples =
+        arena.allocate<EdgeSample>(static_cast<std::size_t>(options.refinement.max_samples));
+  }
+  return iteration;
+}
+
+/// A mesh of the right size with nothing in it, for counting.
+MeshView placeholderMesh(const ProblemSize& size) {
+  MeshView mesh;
+  mesh.vertices_in_station_m = {static_cast<const Eigen::Vector3f*>(nullptr),
+                                static_cast<std::size_t>(size.vertices)};
+  mesh.faces = {static_cast<const Face*>(nullptr), static_cast<std::size_t>(size.faces)};
+  return mesh;
+}
+
+}  // namespace
+
+namespace {
+
+Status validateProblem(const LocalizationProblem& problem, const LocalizerOptions& options) {
+  if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
+  if (problem.image.data == nullptr || problem.image.width != problem.camera.width ||
+      problem.image.height != problem.camera.height) {
+    return Status::kInvalidImage;
+  }
+  const SeedUncertainty& uncertainty = problem.uncertainty;
+  if (!problem.camera_from_station_seed.isFinite() || !uncertainty.translation_m.allFinite() ||
+      !uncertainty.rotation_rad.allFinite() || !uncertainty.pivot_in_camera_m.allFinite()) {
+    return Status::kInvalidPose;
+  }
+  return validateMesh(problem.mesh);
+}
+
+}  // namespace
+
+Localizer::Localizer(const LocalizationProblem& problem, const LocalizerOptions& options,
+                     std::span<std::byte> memory)
+    : problem_(problem), options_(options), arena_(memory) {
+  if (memory.empty()) {
+    status_ = Status::kArenaTooSmall;
+    return;
+  }
+  begin();
+}
+
+void Localizer::begin() {
+  status_ = validateProblem(problem_, options_);
+  if (status_ == Status::kOk) status_ = build(sizeOf(problem_));
+  workspace_.status = LocalizationStatus::kRunning;
+  workspace_.fault = Status::kOk;
+  workspace_.iteration = nullptr;
+  workspace_.support = {};
+  workspace_.covariance = Matrix6d::Zero();
+  workspace_.iterations = 0;
+  workspace_.camera_from_station = problem_.camera_from_station_seed;
+  camera_from_station_ = problem_.camera_from_station_seed;
+  covariance_ = Matrix6d::Zero();
+  stage_ = Stage::kEdges;
+  stage_begun_ = false;
+  iteration_pending_ = false;
+  iteration_ = 0;
+  current_ = 0;
+  small_corrections_ = 0;
+  if (status_ != Status::kOk) return;
+  bounds_ = matchedBounds(problem_.mesh);
+  digest_ = DigestWriter();
+  digestOptions(options_, digest_);
+  digestProblem(problem_, digest_);
+}
+
+Status Localizer::requiredBytes(const ProblemSize& size, const LocalizerOptions& options,
+                                std::size_t& bytes) {
+  LocalizationProblem problem;
+  problem.image.width = size.width;
+  problem.image.height = size.height;
+  problem.camera.width = size.width;
+  problem.camera.height = size.height;
+  problem.mesh = placeholderMesh(size);
+  if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
+  Localizer counter(problem, options, {});
+  counter.arena_ = Arena();
+  const Status status = counter.build(size);
+  bytes = counter.arena_.highWater();
+  return status;
+}
+
+Status Localizer::build(const ProblemSize& size) {
+  coarse_level_ = coarseLevel(size.width, size.height, options_.loop.coarse_size_px);
+  fine_level_ = std::max(0, coarse_level_ - 1);
+  const int width = ((size.width - 1) >> fine_level_) + 1;
+  const int height = ((size.height - 1) >> fine_level_) + 1;
+  Status status = buildAdjacency(problem_.mesh, arena_, adjacency_);
+  if (status == Status::kOk) status = buildLevels();
+  if (status == Status::kOk) {
+    status = renderer_.create(problem_.mesh, adjacency_, width, height, options_.render, arena_);
+  }
+  if (status == Status::kOk) status = selector_.create(width, height, options_.templates, arena_);
+  const int side = std::min(options_.templates.max_side_px, 512);
+  if (status == Status::kOk) status = search_.create(side, std::max(width, height), arena_);
+  if (status == Status::kOk) status = ransac_.create(options_.templates.count, arena_);
+  if (status == Status::kOk) status = refinement_.create(options_.refinement, arena_);
+  if (status != Status::kOk) return status;
+  buffers_[0] = createIteration(width, height, options_, options_.refinement.enabled, arena_);
+  if (options_.loop.max_rolled_hypotheses > 1) {
+    const int coarse_width = ((size.width - 1) >> coarse_level_) + 1;
+    const int coarse_height = ((size.height - 1) >> coarse_level_) + 1;
+    buffers_[1] = createIteration(coarse_width, coarse_height, options_, false, arena_);
+  }
+  // Last: the detector's scratch is given back when the edges are done.
+  if (status == Status::kOk) {
+    status =
+        detector_.begin(problem_.image, problem_.ignore, options_.edges, arena_, workspace_.edges);
+  }
+  if (status == Status::kOk && arena_.exhausted()) status = Status::kArenaTooSmall;
+  return status;
+}
+
+Status Localizer::buildLevels() {
+  Status status = Status::kOk;
+  for (int level = fine_level_; level <= coarse_level_ && status == Status::kOk; ++level) {
+    status = RayGrid::create(cameraAtLevel(problem_.camera, level), arena_,
+                             rays_[static_cast<std::size_t>(level)]);
+  }
+  return status;
+}
+
+}  // namespace boresight

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/localizer/run_digest.h"
+
+namespace boresight {
+namespace {
+
+void digestBits(const BitImage& image, DigestWriter& writer) {
+  writer.i32(image.width);
+  writer.i32(image.height);
+  for (const std::uint64_t word : image.words) writer.u64(word);
+}
+
+template <class Vector>
+void digestVector(const Vector& vector, DigestWriter& writer) {
+  for (Eigen::Index i = 0; i < vector.size(); ++i) writer.f64(vector[i]);
+}
+
+void digestMatrix(const Matrix6d& matrix, DigestWriter& writer) {
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column) writer.f64(matrix(row, column));
+  }
+}
+
+}  // namespace
+
+void digestOptions(const LocalizerOptions& options, DigestWriter& writer) {
+  writer.tag("options");
+  LocalizerOptions::visitFields(options, [&writer](const OptionInfo& info, const auto& field) {
+    writer.tag(info.name);
+    writer.f64(static_cast<double>(field));
+  });
+}
+
+void digestPose(const Pose& pose, DigestWriter& writer) {
+  writer.f64(pose.rotation.w());
+  writer.f64(pose.rotation.x());
+  writer.f64(pose.rotation.y());
+  writer.f64(pose.rotation.z());
+  digestVector(pose.translation_m, writer);
+}
+
+void digestProblem(const LocalizationProblem& problem, DigestWriter& writer) {
+  writer.tag("problem");
+  writer.i32(problem.image.width);
+  writer.i32(problem.image.height);
+  for (int y = 0; y < problem.image.height; ++y) {
+    writer.bytes({problem.image.row(y), static_cast<std::size_t>(problem.image.width)});
+  }
+  writer.u8(problem.ignore != nullptr ? 1 : 0);
+  if (problem.ignore != nullptr) digestBits(*problem.ignore, writer);
+  const Camera& camera = problem.camera;
+  writer.i32(static_cast<std::int32_t>(camera.model));
+  for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) writer.f64(value);
+  for (const double value : camera.distortion) writer.f64(value);
+  const MeshView& mesh = problem.mesh;
+  writer.u32(static_cast<std::uint32_t>(mesh.vertices_in_station_m.size()));
+  for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m) {
+    for (int i = 0; i < 3; ++i) writer.f32(vertex[i]);
+  }
+  writer.u32(static_cast<std::uint32_t>(mesh.faces.size()));
+  for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
+    for (const std::int32_t vertex : mesh.faces[face].vertex) writer.i32(vertex);
+    writer.i32(mesh.part_of_face[face]);
+  }
+  for (const ScenePart& part : mesh.parts) {
+    writer.f64(part.normal_threshold_rad);
+    writer.f64(part.depth_threshold_m);
+    writer.u8(part.match ? 1 : 0);
+  }
+  digestPose(problem.camera_from_station_seed, writer);
+  digestVector(problem.uncertainty.translation_m, writer);
+  digestVector(problem.uncertainty.rotation_rad, writer);
+  digestVector(problem.uncertainty.pivot_in_camera_m, writer);
+}
+
+void digestEdgeMap(const EdgeMap& edges, DigestWriter& writer) {
+  writer.tag("edges");
+  writer.f64(edges.low_threshold);
+  writer.f64(edges.high_threshold);
+  digestBits(edges.level[0], writer);  // the other levels follow from this one
+}
+
+void digestRender(const EdgeRender& render, DigestWriter& writer) {
+  writer.tag("render");
+  digestPose(render.camera_from_station, writer);
+  digestBits(render.edges, writer);
+  digestBits(render.mask, writer);
+  writer.i32(render.pixel_count);
+  for (std::int32_t i = 0; i < render.pixel_count; ++i) {
+    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+    writer.f32(pixel.depth_m);
+    writer.i32(pixel.face);
+    writer.u8(static_cast<std::uint8_t>(pixel.normal_x));
+    writer.u8(static_cast<std::uint8_t>(pixel.normal_y));
+    writer.u8(static_cast<std::uint8_t>(pixel.offset));
+    writer.u8(pixel.kind);
+  }
+}
+
+void digestTemplates(const TemplateSet& templates, DigestWriter& writer) {
+  writer.tag("templates");
+  writer.i32(templates.side_px);
+  writer.i32(templates.count);
+  for (std::int32_t i = 0; i < templates.count; ++i) {
+    const Template& item = templates.templates[static_cast<std::size_t>(i)];
+    writer.i32(item.center_x);
+    writer.i32(item.center_y);
+    writer.f32(item.depth_m);
+    writer.f32(item.distinctness);
+    digestVector(item.point_in_station_m, writer);
+  }
+}
+
+void digestMatches(const MatchSet& matches, DigestWriter& writer) {
+  writer.tag("matches");
+  writer.i32(matches.count);
+  for (std::int32_t i = 0; i < matches.count; ++i) {
+    const Match& match = matches.matches[static_cast<std::size_t>(i)];
+    writer.u8(match.searched ? 1 : 0);
+    if (!match.searched) continue;
+    for (const int value :
+         {match.window.x_min, match.window.y_min, match.window.x_max, match.window.y_max,
+          match.norms.edges, match.norms.empties, match.peak.x, match.peak.y,
+          match.peak.counts.edge_hits, match.peak.counts.empty_hits}) {
+      writer.i32(value);
+    }
+    writer.u8(match.peak.has_second ? 1 : 0);
+    if (match.peak.has_second) {
+      for (const int value :
+           {match.peak.second_x, match.peak.second_y, match.peak.second_counts.edge_hits,
+            match.peak.second_counts.empty_hits}) {
+        writer.i32(value);
+      }
+    }
+    writer.f64(match.x);
+    writer.f64(match.y);
+    writer.u8(match.at_border ? 1 : 0);
+  }
+}
+
+void digestPnp(const PnpSolution& solution, DigestWriter& writer) {
+  writer.tag("pose");
+  digestPose(solution.camera_from_station, writer);
+  writer.i32(solution.inlier_count);
+  writer.i32(solution.samples);
+  writer.bytes(solution.inlier);
+  for (const double residual_px : solution.residual_px) writer.f64(residual_px);
+  writer.f64(solution.rms_px);
+  digestMatrix(solution.covariance, writer);
+}
+
+void digestRefinement(const RefinementResult& refinement, DigestWriter& writer) {
+  writer.tag("refinement");
+  digestPose(refinement.camera_from_station, writer);
+  writer.i32(refinement.sample_count);
+  writer.i32(refinement.found_count);
+  writer.i32(refinement.used_count);
+  writer.f64(refinement.rms_px);
+  for (std::int32_t i = 0; i < refinement.sample_count; ++i) {
+    const EdgeSample& sample = refinement.samples[static_cast<std::size_t>(i)];
+    digestVector(sample.point_in_station_m, writer);
+    writer.f64(sample.residual_px);
+    writer.f64(sample.gradient);
+    writer.f64(sample.weight);
+  }
+  digestMatrix(refinement.covariance, writer);
+}
+
+}  // namespace boresight

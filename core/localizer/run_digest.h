@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/base/digest.h"
+#include "core/localizer/localizer_options.h"
+#include "core/localizer/problem.h"
+#include "core/localizer/workspace.h"
+
+namespace boresight {
+
+/// The serialization behind the digest of a run: big-endian, in declaration order, no times,
+/// addresses, thread or memory figures.
+void digestOptions(const LocalizerOptions& options, DigestWriter& writer);
+void digestProblem(const LocalizationProblem& problem, DigestWriter& writer);
+void digestPose(const Pose& pose, DigestWriter& writer);
+void digestEdgeMap(const EdgeMap& edges, DigestWriter& writer);
+void digestRender(const EdgeRender& render, DigestWriter& writer);
+void digestTemplates(const TemplateSet& templates, DigestWriter& writer);
+void digestMatches(const MatchSet& matches, DigestWriter& writer);
+void digestPnp(const PnpSolution& solution, DigestWriter& writer);
+void digestRefinement(const RefinementResult& refinement, DigestWriter& writer);
+
+}  // namespace boresight

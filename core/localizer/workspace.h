@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/edges/edge_map.h"
+#include "core/localizer/edge_refinement.h"
+#include "core/localizer/edge_support.h"
+#include "core/match/whs.h"
+#include "core/pnp/pnp.h"
+#include "core/render/edge_render.h"
+#include "core/templates/template_selection.h"
+
+namespace boresight {
+
+/// Where a template was found.
+struct Match {
+  SearchWindow window;  ///< at the level; empty when the template could not be searched
+  WhsNorms norms;
+  WhsPeak peak;
+  double x = 0.0, y = 0.0;  ///< sub-pixel place at the level
+  bool searched = false;
+  bool at_border = false;  ///< the peak lies on the window's border: the truth may lie beyond
+};
+
+struct MatchSet {
+  std::span<Match> matches;  ///< one per template
+  std::int32_t count = 0;
+  std::int32_t searched = 0;
+};
+
+/// Why a run, or an iteration, ended.
+enum class LocalizationStatus : std::uint8_t {
+  kRunning = 0,
+  kConverged,
+  kLeftUncertainty,
+  kTooFewEdges,
+  kTooFewTemplates,
+  kTooFewMatches,
+  kPnpFailed,
+  kNotSupported,
+  kIterationLimit,
+  kFault,  ///< a capacity or the arena did not suffice; `Workspace::fault` says which
+};
+const char* localizationStatusText(LocalizationStatus status);
+
+enum class IterationKind : std::uint8_t { kMatch = 0, kRefine = 1 };
+
+/// One rolled render of an iteration and what it yielded.
+struct HypothesisSummary {
+  double roll_rad = 0.0;
+  std::int32_t templates = 0;
+  std::int32_t matches = 0;
+  std::int32_t inliers = 0;
+  double cost =
+      0.0;  ///< truncated squared residuals over the correspondences, in thresholds squared
+  Pose camera_from_station;
+  bool solved = false;
+};
+inline constexpr int kMaxHypotheses = 9;
+
+/// Everything of one iteration: the next stage's input, and what a trace keeps.
+struct Iteration {
+  std::int32_t index = 0;
+  IterationKind kind = IterationKind::kMatch;
+  std::int32_t level = 0;
+  double threshold_px = 0.0;        ///< of the full image; the search radius when refining
+  Pose camera_from_station_before;  ///< what the render shows is this, rolled by the hypothesis
+                                    ///< chosen
+  SeedUncertainty uncertainty;
+  EdgeRender render;
+  TemplateSet templates;
+  MatchSet matches;
+  std::span<Correspondence> correspondences;  ///< of the searched templates
+  std::span<std::int32_t> template_of;        ///< template of each correspondence
+  std::int32_t correspondence_count = 0;
+  PnpSolution pnp;
+  RefinementResult refinement;
+  std::array<HypothesisSummary, kMaxHypotheses> hypotheses;
+  std::int32_t hypothesis_count = 0;
+  std::int32_t chosen_hypothesis = 0;
+  Pose camera_from_station;  ///< after
+  double correction_translation_m = 0.0;
+  double correction_rotation_rad = 0.0;
+  LocalizationStatus status = LocalizationStatus::kRunning;
+};
+
+/// What a caller can look at between two steps.
+struct Workspace {
+  EdgeMap edges;
+  const Iteration* iteration = nullptr;  ///< the latest; stages not yet reached hold old values
+  EdgeSupport support;                   ///< of the final pose
+  LocalizationStatus status = LocalizationStatus::kRunning;
+  Status fault = Status::kOk;
+  Pose camera_from_station;  ///< best estimate; the seed unless converged
+  Matrix6d covariance = Matrix6d::Zero();
+  std::int32_t iterations = 0;
+};
+
+}  // namespace boresight

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
+#include "core/pnp/correspondence.h"
+
+namespace boresight {
+
+/// H xi = g of weighted least squares in the left perturbation xi = (rotation rad, translation m)
+/// of a pose, with the weighted squares at the pose itself.
+struct NormalEquations {
+  Matrix6d information = Matrix6d::Zero();  ///< H; only the lower triangle is filled
+  Vector6d gradient = Vector6d::Zero();     ///< g = J' W (observed - predicted)
+  double squares = 0.0;                     ///< sum of ((pixel - projection) / sigma)^2
+  double prior_squares = 0.0;
+  std::int32_t projected = 0;  ///< correspondences that entered
+  std::int32_t missing = 0;    ///< used ones that do not project at this pose
+
+  /// What a step has to lower: a correspondence that stops projecting costs more than any residual,
+  /// so no step gains by pushing points behind the camera.
+  double cost() const;
+};
+
+/// Sums the reprojection terms of the correspondences whose `use` is nonzero (all when empty) in
+/// their order. Row of a point p in the camera frame with image Jacobian a (px/m): [p x a, a].
+NormalEquations reprojectionEquations(std::span<const Correspondence> correspondences,
+                                      std::span<const std::uint8_t> use, const Camera& camera,
+                                      const Pose& camera_from_station);
+
+/// Adds ((offset about the pivot) / sigma)^2. Rows: d r = Jl(r)^-1 omega, with the inverse left
+/// Jacobian of the rotation group to second order in r (relative error |r|^4 / 720), and exactly
+/// d t = omega x (c + t) + v.
+void addPrior(const PosePrior& prior, const Pose& camera_from_station, NormalEquations& equations);
+
+/// Solves (H + damping * diag H) xi = g by an LDL' factorization. False when a pivot falls below
+/// 1e-12 of its diagonal entry: the direction is not determined.
+[[nodiscard]] bool solve(const NormalEquations& equations, double damping, Vector6d& xi);
+
+/// H^-1, symmetric. False as above.
+[[nodiscard]] bool invert(const Matrix6d& information, Matrix6d& covariance);
+
+}  // namespace boresight

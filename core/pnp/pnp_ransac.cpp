@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/pnp/pnp_ransac.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/pnp/p3p.h"
+#include "core/pnp/refine_pose.h"
+
+namespace boresight {
+namespace {
+
+constexpr double kNoCost = 1e300;            ///< above every score
+constexpr double kMissingResidual_px = 1e6;  ///< stands for "does not project"
+constexpr int kFewestInliersToRefit = 4;
+constexpr int kGuidedSteps = 4;
+constexpr int kLocalSteps = 5;
+constexpr int kRefineRounds = 20;
+constexpr int kProjectionsPerStep = 32768;  ///< about a millisecond
+constexpr int kMaxSamplesPerStep = 64;
+constexpr int kP3pSize = 3;
+
+/// A pose ready to be applied to many points.
+struct Transform {
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d translation_m;
+  explicit Transform(const Pose& pose)
+      : rotation(pose.matrix()), translation_m(pose.translation_m) {}
+};
+
+/// Squared distance between the pixel and the projection; 1e12 px^2 where it does not project.
+double squaredResidual(const Transform& camera_from_station, const Camera& camera,
+                       const Correspondence& item) {
+  const Eigen::Vector3d point_in_camera_m =
+      camera_from_station.rotation * item.point_in_station_m + camera_from_station.translation_m;
+  Eigen::Vector2d projection;
+  if (!project(camera, point_in_camera_m, projection)) {
+    return kMissingResidual_px * kMissingResidual_px;
+  }
+  return (item.pixel - projection).squaredNorm();
+}
+
+/// base^exponent by squaring: the same bits everywhere, unlike pow and log.
+double power(double base, std::int32_t exponent) {
+  double result = 1.0;
+  for (std::int32_t left = exponent; left > 0; left >>= 1) {
+    if ((left & 1) != 0) result *= base;
+    base *= base;
+  }
+  return result;
+}
+
+}  // namespace
+
+Status PnpRansac::create(int max_correspondences, Arena& arena) {
+  if (max_correspondences < 0) return Status::kInvalidOption;
+  const auto count = static_cast<std::size_t>(max_correspondences);
+  phase_ = Phase::kIdle;
+  status_ = Status::kTooFewPoints;
+  usable_ = arena.allocate<std::int32_t>(count);
+  place_px_ = arena.allocate<Eigen::Vector2d>(count);
+  weight_ = arena.allocate<double>(count);
+  selected_ = arena.allocate<std::uint8_t>(count);
+  return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
+}
+
+Status PnpRansac::begin(std::span<const Correspondence> correspondences, const Camera& camera,
+                        const PosePrior& hypothesis, double threshold_px, const PnpOptions& options,
+                        PnpSolution& solution) {
+  correspondences_ = correspondences;
+  camera_ = camera;
+  hypothesis_ = hypothesis;
+  if (!isUsable(hypothesis.camera_from_station)) hypothesis_.camera_from_station = Pose();
+  threshold_px_ = threshold_px;
+  options_ = options;
+  solution_ = &solution;
+  samples_ = 0;
+  best_ = hypothesis_.camera_from_station;
+  best_score_ = {kNoCost, 0};
+  const std::size_t count = correspondences.size();
+  if (count > usable_.size() || count > solution.inlier.size() ||
+      count > solution.residual_px.size()) {
+    correspondences_ = {};
+    std::fill(solution.inlier.begin(), solution.inlier.end(), std::uint8_t{0});
+    std::fill(solution.residual_px.begin(), solution.residual_px.end(), kMissingResidual_px);
+    return finish(Status::kCapacityExceeded);
+  }
+  const Status status = validate(threshold_px, hypothesis);
+  if (status != Status::kOk) return finish(status);
+  listUsable();
+  if (usable_count_ < options_.min_inliers) return finish(Status::kTooFewPoints);
+  prior_ = {hypothesis.camera_from_station, scaled(hypothesis.sigma, options.prior_factor)};
+  sample_size_ = options.sampler == PnpSampler::kGuided ? options.guided_sample_size : kP3pSize;
+  sampler_.begin(place_px_.first(static_cast<std::size_t>(usable_count_)), sample_size_,
+                 static_cast<std::uint64_t>(options.seed));
+  phase_ = Phase::kSampling;
+  status_ = Status::kOk;
+  return status_;
+}
+
+Status PnpRansac::validate(double threshold_px, const PosePrior& hypothesis) const {
+  if (firstInvalidOption(options_) != nullptr) return Status::kInvalidOption;
+  if (!(threshold_px > 0.0 && threshold_px < kMissingResidual_px)) return Status::kInvalidOption;
+  Camera checked = camera_;
+  // An unprepared camera has no valid field and projects nothing.
+  if (prepareCamera(checked) != Status::kOk || !(camera_.valid_radius > 0.0)) {
+    return Status::kInvalidCamera;
+  }
+  return isUsable(hypothesis) ? Status::kOk : Status::kInvalidPose;
+}
+
+void PnpRansac::listUsable() {
+  const Transform transform(hypothesis_.camera_from_station);
+  const bool guided = options_.sampler == PnpSampler::kGuided;
+  usable_count_ = 0;
+  for (std::size_t i = 0; i < correspondences_.size(); ++i) {
+    const Correspondence& item = correspondences_[i];
+    weight_[i] = 0.0;
+    if (!isUsable(item)) continue;
+    weight_[i] = 1.0 / (item.sigma_px * item.sigma_px);
+    // The spread of a guided sample is judged where the hypothesis puts its points, which wrong
+    // matches cannot disturb.
+    Eigen::Vector2d place = item.pixel;
+    Eigen::Vector2d predicted;
+    if (guided &&
+        project(camera_, transform.rotation * item.point_in_station_m + transform.translation_m,
+                predicted)) {
+      place = predicted;
+    }
+    usable_[static_cast<std::size_t>(usable_count_)] = static_cast<std::int32_t>(i);
+    place_px_[static_cast<std::size_t>(usable_count_)] = place;
+    ++usable_count_;
+  }
+}
+
+Status PnpRansac::step(bool& done) {
+  done = false;
+  if (phase_ == Phase::kSampling) {
+    const int batch = std::clamp(kProjectionsPerStep / usable_count_, 1, kMaxSamplesPerStep);
+    if (samples_ == 0 && options_.sampler == PnpSampler::kGuided) {
+      consider(hypothesis_.camera_from_station);
+    }
+    for (int i = 0; i < batch && !enoughSamples(); ++i) takeSample();
+    if (enoughSamples()) phase_ = Phase::kRefining;
+    return Status::kOk;
+  }
+  done = true;
+  if (phase_ == Phase::kRefining) return finish(refine());
+  return status_;
+}
+
+Status PnpRansac::finish(Status status) {
+  if (status != Status::kOk) {
+    writeSolution(hypothesis_.camera_from_station, false);
+  }
+  phase_ = Phase::kDone;
+  status_ = status;
+  return status;
+}
+
+const Correspondence& PnpRansac::usable(std::int32_t k) const {
+  return correspondences_[static_cast<std::size_t>(usable_[static_cast<std::size_t>(k)])];
+}
+
+void PnpRansac::takeSample() {
+  const std::array<std::int32_t, 4> sample = sampler_.draw();
+  ++samples_;
+  if (options_.sampler == PnpSampler::kGuided) {
+    sampleGuided(sample);
+  } else {
+    sampleP3p(sample);
+  }
+}
+
+void PnpRansac::sampleP3p(const std::array<std::int32_t, 4>& sample) {
+  std::array<Eigen::Vector3d, 3> bearing;
+  std::array<Eigen::Vector3d, 3> point;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Correspondence& item = usable(sample[i]);
+    if (!unproject(camera_, item.pixel, bearing[i])) return;
+    bearing[i].normalize();
+    point[i] = item.point_in_station_m;
+  }
+  std::array<Pose, 4> pose;
+  const int count = solveP3p(bearing, point, pose);
+  for (int i = 0; i < count; ++i) consider(pose[static_cast<std::size_t>(i)]);
+}
+
+void PnpRansac::sampleGuided(const std::array<std::int32_t, 4>& sample) {
+  std::array<Correspondence, 4> items;
+  const auto size = static_cast<std::size_t>(sample_size_);
+  for (std::size_t i = 0; i < size; ++i) items[i] = usable(sample[i]);
+  Pose pose = hypothesis_.camera_from_station;
+  if (refinePose(std::span(items).first(size), {}, camera_, &prior_, kGuidedSteps, pose) ==
+      Status::kOk) {
+    consider(pose);
+  }
+}
+
+void PnpRansac::consider(const Pose& camera_from_station) {
+  Score found;
+  if (!score(camera_from_station, best_score_.cost, found)) return;
+  best_ = camera_from_station;
+  best_score_ = found;
+  optimizeLocally();
+}
+
+void PnpRansac::optimizeLocally() {
+  const std::span<const std::uint8_t> selected = selected_.first(correspondences_.size());
+  for (int round = 0; round < options_.local_optimizations; ++round) {
+    std::int32_t count = 0;
+    (void)selectInliers(best_, count);  // whether they changed does not matter here
+    if (count < kFewestInliersToRefit) return;
+    Pose pose = best_;
+    const Status status =
+        refinePose(correspondences_, selected, camera_, nullptr, kLocalSteps, pose);
+    Score found;
+    if (status != Status::kOk || !score(pose, best_score_.cost, found)) return;
+    best_ = pose;
+    best_score_ = found;
+  }
+}
+
+bool PnpRansac::enoughSamples() const {
+  if (samples_ >= options_.max_samples) return true;
+  const double share =
+      static_cast<double>(best_score_.inliers) / static_cast<double>(usable_count_);
+  const double all_missed = power(1.0 - power(share, sample_size_), samples_);
+  return all_missed <= 1.0 - options_.confidence;
+}
+
+/// False as soon as the cost reaches `limit`: the rest can only add.
+bool PnpRansac::score(const Pose& camera_from_station, double limit, Score& result) const {
+  const Transform transform(camera_from_station);
+  const double largest = threshold_px_ * threshold_px_;
+  double cost = 0.0;
+  std::int32_t inliers = 0;
+  for (std::int32_t k = 0; k < usable_count_; ++k) {
+    const auto i = static_cast<std::size_t>(usable_[static_cast<std::size_t>(k)]);
+    const double squared = squaredResidual(transform, camera_, correspondences_[i]);
+    const bool inside = squared <= largest;  // false for a NaN
+    inliers += inside ? 1 : 0;
+    cost += weight_[i] * (inside ? squared : largest);
+    if (!(cost < limit)) return false;
+  }
+  result = {cost, inliers};
+  return true;
+}
+
+/// Marks the inliers of a pose in selected_; true when that changed anything.
+bool PnpRansac::selectInliers(const Pose& camera_from_station, std::int32_t& count) {
+  const Transform transform(camera_from_station);
+  const double largest = threshold_px_ * threshold_px_;
+  bool changed = false;
+  count = 0;
+  for (std::size_t i = 0; i < correspondences_.size(); ++i) {
+    const bool inside =
+        weight_[i] > 0.0 && squaredResidual(transform, camera_, correspondences_[i]) <= largest;
+    const std::uint8_t mark = inside ? 1 : 0;
+    changed = changed || mark != selected_[i];
+    selected_[i] = mark;
+    count += mark;
+  }
+  return changed;
+}
+
+Status PnpRansac::refine() {
+  if (!(best_score_.cost < kNoCost)) return Status::kDegenerate;
+  const std::span<const std::uint8_t> selected = selected_.first(correspondences_.size());
+  Pose pose = best_;
+  std::int32_t count = 0;
+  bool changed = true;
+  (void)selectInliers(pose, count);  // whatever was marked before
+  for (int round = 0; round < kRefineRounds && changed; ++round) {
+    if (count < options_.min_inliers) return Status::kNoConsensus;
+    const Status status =
+        refinePose(correspondences_, selected, camera_, nullptr, options_.refine_iterations, pose);
+    if (status != Status::kOk) return status;
+    changed = selectInliers(pose, count);
+  }
+  if (count < options_.min_inliers) return Status::kNoConsensus;
+  Matrix6d covariance;
+  const Status status = poseCovariance(correspondences_, selected, camera_, pose, covariance);
+  if (status != Status::kOk) return status;
+  writeSolution(pose, true);
+  solution_->covariance = covariance;
+  return Status::kOk;
+}
+
+/// Fills the solution for a pose; `with_inliers` marks those of selected_, which must be the
+/// pose's.
+void PnpRansac::writeSolution(const Pose& camera_from_station, bool with_inliers) {
+  PnpSolution& solution = *solution_;
+  const Transform transform(camera_from_station);
+  double sum = 0.0;
+  solution.camera_from_station = camera_from_station;
+  solution.inlier_count = 0;
+  solution.covariance = Matrix6d::Zero();
+  solution.samples = samples_;
+  for (std::size_t i = 0; i < correspondences_.size(); ++i) {
+    const double squared = squaredResidual(transform, camera_, correspondences_[i]);
+    const double residual_px = std::sqrt(squared);
+    // Written so that a NaN, too, becomes the stand-in.
+    solution.residual_px[i] = residual_px < kMissingResidual_px ? residual_px : kMissingResidual_px;
+    solution.inlier[i] = with_inliers ? selected_[i] : std::uint8_t{0};
+    if (solution.inlier[i] == 0) continue;
+    ++solution.inlier_count;
+    sum += squared;
+  }
+  solution.rms_px =
+      solution.inlier_count > 0 ? std::sqrt(sum / static_cast<double>(solution.inlier_count)) : 0.0;
+}
+
+}  // namespace boresight

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/render/salient_edges.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+
+#include "core/render/rounding.h"
+
+namespace boresight {
+namespace {
+
+/// Two surfaces meet, rather than one hiding the other, when their depths at the line differ by
+/// less than this share.
+constexpr double kContact = 2e-4;
+/// (sin of the angle between ray and face)^2 below which an extended plane says little.
+constexpr double kGrazing2 = 0.0225;
+
+/// |z - z_extended| > threshold, from the inverse depths; a plane that is not met in front of the
+/// camera is infinitely far off.
+bool depthDiffers(double inverse_depth, double inverse_extended, double threshold_m) {
+  if (!(inverse_extended > 0.0)) return true;
+  return std::abs(inverse_extended - inverse_depth) >
+         threshold_m * inverse_depth * inverse_extended;
+}
+
+Eigen::Vector3d between(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double s) {
+  return from + (to - from) * s;
+}
+
+bool flatter(const PlaneCache::Entry& a, const PlaneCache::Entry& b) {
+  return a.norm2 < b.norm2 || (a.norm2 == b.norm2 && a.face < b.face);
+}
+
+std::int8_t rounded8(double value) {
+  return static_cast<std::int8_t>(floorClamped(value + 0.5, -127, 127));
+}
+
+/// Order among what several pairs say about one pixel.
+bool preferred(const EdgePixel& a, const EdgePixel& b) {
+  if (a.depth_m != b.depth_m) return a.depth_m < b.depth_m;
+  return std::abs(a.offset) < std::abs(b.offset);
+}
+
+}  // namespace
+
+SalientEdges SalientEdges::create(int max_width, Arena& arena) {
+  SalientEdges edges;
+  edges.planes_ = PlaneCache::create(arena);
+  edges.stride_ = max_width;
+  edges.candidates_ = arena.allocate<EdgePixel>(2 * static_cast<std::size_t>(max_width));
+  return edges;
+}
+
+void SalientEdges::begin(EdgeRender& output) {
+  planes_.clear();
+  output.edges.clear();
+  output.mask.clear();
+  output.pixel_count = 0;
+  output.row_begin[0] = 0;
+}
+
+bool SalientEdges::crossBorder(const Context& context, const Sample& p, const Sample& q,
+                               Crossing& crossing) {
+  crossing.nearer_is_p = p.face >= 0;
+  const Sample& nearer = crossing.nearer_is_p ? p : q;
+  const Sample& other = crossing.nearer_is_p ? q : p;
+  if (!context.scene.part(nearer.face).match) return false;
+  const SurfaceEnd end =
+      traceSurface(context.scene, planes_, nearer.face, nearer.ray, other.ray, -1);
+  if (!end.ends) {
+    // Not an end of the surface, but of what the near plane leaves of it.
+    const PlaneCache::Entry plane = planes_.get(context.scene, nearer.face);
+    if (dotProduct(plane.plane, other.ray) * context.scene.near_plane_m >= 1.0) return false;
+  }
+  const double s = std::min(end.s, 1.0);
+  crossing.s = crossing.nearer_is_p ? s : 1.0 - s;
+  crossing.face = end.face;
+  crossing.has_line = end.ends;
+  crossing.line = end.line;
+  crossing.kind = kEdgeOccluding | kEdgeBorder;
+  return true;
+}
+
+bool SalientEdges::crossSurfaces(const Context& context, const Sample& p, const Sample& q,
+                                 Crossing& crossing) {
+  const CameraScene& scene = context.scene;
+  const PlaneCache::Entry plane_p = planes_.get(scene, p.face);
+  const PlaneCache::Entry plane_q = planes_.get(scene, q.face);
+  const double inverse_p = dotProduct(plane_p.plane, p.ray);
+  const double inverse_q = dotProduct(plane_q.plane, q.ray);
+  crossing.nearer_is_p = inverse_p > inverse_q || (inverse_p == inverse_q && p.face < q.face);
+  const std::int32_t nearer_face = crossing.nearer_is_p ? p.face : q.face;
+  const ScenePart& part = scene.part(nearer_face);
+  const bool crease =
+      normalsDiffer(plane_p, plane_q, scene.cos_normal_threshold[scene.partIndex(nearer_face)]);
+  const bool occluding =
+      depthDiffers(inverse_q, dotProduct(plane_p.plane, q.ray), part.depth_threshold_m) &&
+      depthDiffers(inverse_p, dotProduct(plane_q.plane, p.ray), part.depth_threshold_m);
+  if (!crease && !occluding) return false;
+
+  const SurfaceEnd end_p = traceSurface(scene, planes_, p.face, p.ray, q.ray, q.face);
+  SurfaceEnd end_q;
+  if (!end_p.reached) end_q = traceSurface(scene, planes_, q.face, q.ray, p.ray, p.face);
+  if (!end_p.reached && !end_q.reached) {
+    crossing.kind =
+        static_cast<std::uint8_t>((crease ? kEdgeCrease : 0) | (occluding ? kEdgeOccluding : 0));
+    return crossOverlap(context, p, q, end_p, end_q, crossing) &&
+           scene.part(crossing.nearer_is_p ? p.face : q.face).match;
+  }
+
+  // One connected surface: never a depth edge, a crease where it turns enough.
+  if (!crease || !part.match) return false;
+  crossing.kind = kEdgeCrease;
+  crossing.s = end_p.reached ? end_p.s : 1.0 - end_q.s;
+  crossing.has_line = true;
+  crossing.line = end_p.reached ? end_p.line : Eigen::Vector3d(-end_q.line);
+  // Both faces hold the line; the flatter one's plane is the better known beside it.
+  crossing.nearer_is_p = flatter(plane_p, plane_q);
+  if (!crossing.nearer_is_p) crossing.line = -crossing.line;
+  crossing.face = crossing.nearer_is_p ? p.face : q.face;
+  return scene.part(crossing.face).match;
+}
+
+/// Surfaces that are not connected: both may cover a stretch between the pixels, and the one that
+/// is nearer there is seen until it ends.
+bool SalientEdges::crossOverlap(const Context& context, const Sample& p, const Sample& q,
+                                const SurfaceEnd& end_p, const SurfaceEnd& end_q,
+                                Crossing& crossing) {
+  const CameraScene& scene = context.scene;
+  const PlaneCache::Entry plane_p = planes_.get(scene, p.face);
+  const PlaneCache::Entry plane_q = planes_.get(scene, q.face);
+  const double s_p = end_p.s;        // p's surface covers 0 .. s_p
+  const double s_q = 1.0 - end_q.s;  // q's surface covers s_q .. 1
+  bool intersect = false;
+  if (s_p >= s_q) {
+    const double low = std::max(s_q, 0.0);
+    const double high = std::min(s_p, 1.0);
+    const Eigen::Vector3d ray_low = between(p.ray, q.ray, low);
+    const Eigen::Vector3d ray_high = between(p.ray, q.ray, high);
+    const double ahead_low = dotProduct(plane_p.plane, ray_low) -
+                             dotProduct(planes_.get(scene, end_q.face).plane, ray_low);
+    const double ahead_high = dotProduct(planes_.get(scene, end_p.face).plane, ray_high) -
+                              dotProduct(plane_q.plane, ray_high);
+    if (ahead_low > 0.0 && ahead_high > 0.0) crossing.nearer_is_p = true;
+    if (ahead_low < 0.0 && ahead_high < 0.0) crossing.nearer_is_p = false;
+    intersect = ahead_low > 0.0 && ahead_high < 0.0;
+    if (intersect) {
+      crossing.line = plane_p.plane - plane_q.plane;
+      const double at_p = dotProduct(crossing.line, p.ray);
+      const double at_q = dotProduct(crossing.line, q.ray);
+      const double s = at_p / (at_p - at_q);
+      crossing.s = s > low ? std::min(s, high) : low;
+      crossing.has_line = true;
+    }
+  }
+  const SurfaceEnd& end = crossing.nearer_is_p ? end_p : end_q;
+  if (!intersect) {
+    const Sample& other = crossing.nearer_is_p ? q : p;
+    if (!end.ends) {  // cut by the near plane, which is no end of the surface
+      const PlaneCache::Entry& plane = crossing.nearer_is_p ? plane_p : plane_q;
+      if (dotProduct(plane.plane, other.ray) * scene.near_plane_m >= 1.0) return false;
+    }
+    crossing.s = crossing.nearer_is_p ? std::min(s_p, 1.0) : std::max(s_q, 0.0);
+    crossing.has_line = end.ends;
+    crossing.line = end.line;
+  }
+  crossing.face = end.face;
+
+  // Where the surfaces touch, neither hides the other: the flatter one's plane is the better known.
+  const Eigen::Vector3d ray = between(p.ray, q.ray, crossing.s);
+  const double depth_p = dotProduct(plane_p.plane, ray);
+  const double depth_q = dotProduct(plane_q.plane, ray);
+  if (intersect || std::abs(depth_p - depth_q) <= kContact * std::abs(depth_p)) {
+    const bool p_flatter = flatter(plane_p, plane_q);
+    const bool line_from_p = intersect || crossing.nearer_is_p;
+    const bool both_match = scene.part(p.face).match && scene.part(q.face).match;
+    if (both_match) crossing.nearer_is_p = p_flatter;
+    crossing.face = crossing.nearer_is_p ? p.face : q.face;
+    if (line_from_p != crossing.nearer_is_p) crossing.line = -crossing.line;
+  }
+  return true;
+}
+
+void SalientEdges::comparePair(const Context& context, int x_p, int row_p, int x_q, int row_q) {
+  const RasterBand& band = context.band;
+  const Sample p{x_p, row_p, band.face[band.index(x_p, row_p)], band.ray(x_p, row_p)};
+  const Sample q{x_q, row_q, band.face[band.index(x_q, row_q)], band.ray(x_q, row_q)};
+  if (p.face == RasterBand::kInvalid || q.face == RasterBand::kInvalid) return;
+  Crossing crossing;
+  const bool border = p.face == RasterBand::kBackground || q.face == RasterBand::kBackground;
+  if (border ? crossBorder(context, p, q, crossing) : crossSurfaces(context, p, q, crossing))
+    mark(context, p, q, crossing);
+}
+
+/// z of the nearer surface for the marked pixel; 0 when there is none. `own` is the nearer
+/// surface's pixel of the pair.
+float SalientEdges::depthOf(const Context& context, const Sample& own, const Sample& marked,
+                            const Eigen::Vector3d& ray_at_line, std::int32_t face) {
+  const CameraScene& scene = context.scene;
+  const PlaneCache::Entry plane = planes_.get(scene, face);
+  double inverse_depth = dotProduct(plane.plane, marked.ray);
+  const double z0 = scene.vertex(face, 0).z();
+  const double z1 = scene.vertex(face, 1).z();
+  const double z2 = scene.vertex(face, 2).z();
+  const bool extended = own.x != marked.x || own.row != marked.row;
+  const bool grazing =
+      !(inverse_depth > 0.0) ||
+      inverse_depth * inverse_depth < kGrazing2 * plane.norm2 * dotProduct(marked.ray, marked.ray);
+  if (extended && grazing) inverse_depth = dotProduct(plane.plane, ray_at_line);
+  if (!extended || grazing) {
+    const double farthest = std::max({z0, z1, z2});
+    const double nearest = std::max(std::min({z0, z1, z2}), scene.near_plane_m);
+    inverse_depth = std::max(inverse_depth, 1.0 / farthest);
+    inverse_depth = std::min(inverse_depth, 1.0 / nearest);
+  }
+  const double depth_m = 1.0 / inverse_depth;
+  return depth_m > 0.0 && depth_m < 1e30 ? static_cast<float>(depth_m) : 0.0F;
+}
+
+void SalientEdges::mark(const Context& context, const Sample& p, const Sample& q,
+                        const Crossing& crossing) {
+  const RasterBand& band = context.band;
+  const bool mark_p = crossing.s <= 0.5;
+  const Sample& marked = mark_p ? p : q;
+  const Sample& own = crossing.nearer_is_p ? p : q;
+  const bool is_own = mark_p == crossing.nearer_is_p;
+
+  EdgePixel pixel;
+  pixel.x = static_cast<std::int16_t>(marked.x);
+  const int y = band.first_y + marked.row - 1;
+  pixel.y = static_cast<std::int16_t>(y);
+  pixel.kind = crossing.kind;
+  pixel.face = is_own ? own.face : crossing.face;
+  pixel.depth_m = depthOf(context, own, marked, between(p.ray, q.ray, crossing.s), pixel.face);
+  if (!(pixel.depth_m > 0.0F)) return;
+
+  // Without a line to differentiate: across the pair.
+  const double towards_q = crossing.nearer_is_p ? 1.0 : -1.0;
+  double normal_x = (q.x - p.x) * towards_q;
+  double normal_y = (q.row - p.row) * towards_q;
+  double distance_px = (crossing.s - (mark_p ? 0.0 : 1.0)) * towards_q;
+  // The line's value and its derivative along the image axes. The rows and columns that are
+  // differenced depend on the image alone, not on how it is cut into bands.
+  const int left = marked.x + 1 < band.x_end ? marked.x : marked.x - 1;
+  const int top = p.row != q.row ? p.row : (p.row < band.rows ? p.row : p.row - 1);
+  const bool rows_known = top >= 1 || (top == 0 && band.first_y > 0);
+  if (crossing.has_line && left >= band.x_begin && rows_known &&
+      band.face[band.index(left, marked.row)] != RasterBand::kInvalid &&
+      band.face[band.index(left + 1, marked.row)] != RasterBand::kInvalid &&
+      band.face[band.index(marked.x, top)] != RasterBand::kInvalid &&
+      band.face[band.index(marked.x, top + 1)] != RasterBand::kInvalid) {
+    const Eigen::Vector3d& line = crossing.line;
+    const double along_x = dotProduct(line, band.ray(left + 1, marked.row)) -
+                           dotProduct(line, band.ray(left, marked.row));
+    const double along_y =
+        dotProduct(line, band.ray(marked.x, top + 1)) - dotProduct(line, band.ray(marked.x, top));
+    const double norm = std::sqrt(along_x * along_x + along_y * along_y);
+    if (norm > 0.0 && norm < 1e300) {
+      normal_x = -along_x / norm;
+      normal_y = -along_y / norm;
+      distance_px = dotProduct(line, marked.ray) / norm;
+    }
+  }
+  pixel.normal_x = rounded8(normal_x * 127.0);
+  pixel.normal_y = rounded8(normal_y * 127.0);
+  pixel.offset = rounded8(distance_px * 100.0);
+
+  EdgePixel& slot = candidates_[static_cast<std::size_t>((y & 1) * stride_ + marked.x)];
+  BitImage& edges = context.output.edges;
+  if (!edges.get(marked.x, y) || preferred(pixel, slot)) slot = pixel;
+  edges.set(marked.x, y);
+}
+
+void SalientEdges::compareRow(const Context& context, int row, int x_first, int x_last) {
+  const std::int32_t* face = &context.band.face[context.band.index(0, row)];
+  for (int x = x_first; x < x_last; ++x)
+    if (face[x] != face[x + 1]) comparePair(context, x, row, x + 1, row);
+}
+
+void SalientEdges::compareRows(const Context& context, int row, int x_first, int x_last) {
+  const std::int32_t* face = &context.band.face[context.band.index(0, row)];
+  const std::int32_t* below = &context.band.face[context.band.index(0, row + 1)];
+  for (int x = x_first; x <= x_last; ++x)
+    if (face[x] != below[x]) comparePair(context, x, row, x, row + 1);
+}
+
+/// The row's mask, and its edge pixels into the output.
+Status SalientEdges::finishRow(const Context& context, int row, int x_first, int x_last) {
+  const RasterBand& band = context.band;
+  const CameraScene& scene = context.scene;
+  EdgeRender& output = context.output;
+  const int y = band.first_y + row - 1;
+  std::uint64_t* mask = output.mask.row(y);
+  const std::uint64_t* edges = output.edges.row(y);
+  for (int x = x_first; x <= x_last; ++x) {
+    const std::int32_t face = band.face[band.index(x, row)];
+    if (face >= 0 && scene.part(face).match) mask[x >> 6] |= std::uint64_t{1} << (x & 63);
+  }
+  for (int word = 0; word < output.edges.words_per_row; ++word) {
+    mask[word] |= edges[word];
+    for (std::uint64_t bits = edges[word]; bits != 0; bits &= bits - 1) {
+      const int x = word * 64 + std::countr_zero(bits);
+      if (static_cast<std::size_t>(output.pixel_count) >= output.pixels.size())
+        return Status::kCapacityExceeded;
+      output.pixels[static_cast<std::size_t>(output.pixel_count++)] =
+          candidates_[static_cast<std::size_t>((y & 1) * stride_ + x)];
+    }
+  }
+  output.row_begin[static_cast<std::size_t>(y) + 1] = output.pixel_count;
+  return Status::kOk;
+}
+
+Status SalientEdges::addBand(const CameraScene& scene, const RasterBand& band, int x_first,
+                             int x_last, bool final, EdgeRender& output) {
+  const Context context{scene, band, output};
+  const int first_row = band.first_y > 0 ? 0 : 1;
+  const int last_row = final ? band.rows : band.rows - 1;
+  for (int row = first_row; row <= last_row; ++row) {
+    compareRow(context, row, x_first, x_last);
+    if (row < band.rows) compareRows(context, row, x_first, x_last);
+    const Status status = finishRow(context, row, x_first, x_last);
+    if (status != Status::kOk) return status;
+  }
+  return Status::kOk;
+}
+
+}  // namespace boresight

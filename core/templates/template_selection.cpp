@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/templates/template_selection.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace boresight {
+namespace {
+
+constexpr int kMaxBlocks = 256;  ///< per axis, of the summed-area table
+constexpr int kMaxCells = 256;   ///< per axis, of the selection grid
+constexpr double kNormalScale = 127.0;
+
+int ceilDivide(int value, int divisor) { return (value + divisor - 1) / divisor; }
+
+bool squareInside(int x, int y, int side_px, int width, int height) {
+  const int half = side_px / 2;
+  return x >= half && y >= half && x + half <= width && y + half <= height;
+}
+
+int countBits(const BitImage& image, int x_begin, int y_begin, int x_end, int y_end) {
+  int count = 0;
+  for (int y = y_begin; y < y_end; ++y) {
+    const std::uint64_t* row = image.row(y);
+    for (int x = x_begin; x < x_end;) {
+      const int bit = x & 63;
+      const int length = std::min(64 - bit, x_end - x);
+      const std::uint64_t keep =
+          length == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << length) - 1;
+      count += std::popcount((row[x >> 6] >> bit) & keep);
+      x += length;
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+int templateSide(const TemplateOptions& options, double feature_size_m, double depth_m,
+                 const Camera& camera) {
+  const double focal_px = 0.5 * (camera.fx + camera.fy);
+  const double wanted_px =
+      options.size_factor * feature_size_m * focal_px / std::max(depth_m, 1e-6);
+  const int largest = std::min(options.max_side_px, std::min(camera.width, camera.height) / 4);
+  int side = 8;
+  // Nearest in ratio: the next power is nearer once the wanted size passes sqrt(2) times this one.
+  while (side * 2 <= largest &&
+         (side < options.min_side_px || wanted_px > side * 1.4142135623730951)) {
+    side *= 2;
+  }
+  return side;
+}
+
+TemplateSet createTemplateSet(const TemplateOptions& options, Arena& arena) {
+  TemplateSet set;
+  set.templates = arena.allocate<Template>(static_cast<std::size_t>(options.count));
+  return set;
+}
+
+Status TemplateSelector::create(int max_width, int max_height, const TemplateOptions& options,
+                                Arena& arena) {
+  options_ = options;
+  if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
+  const int blocks = std::min(kMaxBlocks, ceilDivide(std::max(max_width, max_height), 4)) + 1;
+  sums_ = arena.allocate<Scatter>(static_cast<std::size_t>(blocks * blocks));
+  cells_ = arena.allocate<Best>(static_cast<std::size_t>(kMaxCells * kMaxCells));
+  return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
+}
+
+void TemplateSelector::sumScatter(const EdgeRender& render, int side_px) {
+  const int width = render.edges.width;
+  const int height = render.edges.height;
+  block_px_ = std::max({4, side_px / 8, ceilDivide(std::max(width, height), kMaxBlocks)});
+  blocks_x_ = ceilDivide(width, block_px_);
+  blocks_y_ = ceilDivide(height, block_px_);
+  const int stride = blocks_x_ + 1;
+  std::fill_n(sums_.begin(), static_cast<std::ptrdiff_t>(stride) * (blocks_y_ + 1), Scatter{});
+  for (std::int32_t i = 0; i < render.pixel_count; ++i) {
+    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+    const int at = (pixel.y / block_px_ + 1) * stride + pixel.x / block_px_ + 1;
+    Scatter& block = sums_[static_cast<std::size_t>(at)];
+    const int nx = pixel.normal_x;
+    const int ny = pixel.normal_y;
+    block.xx += static_cast<std::uint32_t>(nx * nx);
+    block.xy += static_cast<std::uint32_t>(nx * ny);  // modulo 2^32: differences come out signed
+    block.yy += static_cast<std::uint32_t>(ny * ny);
+    block.count += 1;
+  }
+  for (int by = 1; by <= blocks_y_; ++by) {
+    Scatter row;
+    for (int bx = 1; bx <= blocks_x_; ++bx) {
+      Scatter& sum = sums_[static_cast<std::size_t>(by * stride + bx)];
+      const Scatter& above = sums_[static_cast<std::size_t>((by - 1) * stride + bx)];
+      row.xx += sum.xx;
+      row.xy += sum.xy;
+      row.yy += sum.yy;
+      row.count += sum.count;
+      sum = {above.xx + row.xx, above.xy + row.xy, above.yy + row.yy, above.count + row.count};
+    }
+  }
+}
+
+TemplateSelector::Scatter TemplateSelector::scatterAround(int x, int y, int side_px) const {
+  // The square in whole blocks: the block of the pixel in the middle, as many blocks as fit the
+  // side.
+  const int reach = std::max(1, side_px / block_px_ / 2);
+  const int bx0 = std::max(0, x / block_px_ - reach);
+  const int by0 = std::max(0, y / block_px_ - reach);
+  const int bx1 = std::min(blocks_x_, x / block_px_ + reach + 1);
+  const int by1 = std::min(blocks_y_, y / block_px_ + reach + 1);
+  const int stride = blocks_x_ + 1;
+  const Scatter& a = sums_[static_cast<std::size_t>(by0 * stride + bx0)];
+  const Scatter& b = sums_[static_cast<std::size_t>(by0 * stride + bx1)];
+  const Scatter& c = sums_[static_cast<std::size_t>(by1 * stride + bx0)];
+  const Scatter& d = sums_[static_cast<std::size_t>(by1 * stride + bx1)];
+  return {d.xx - b.xx - c.xx + a.xx, d.xy - b.xy - c.xy + a.xy, d.yy - b.yy - c.yy + a.yy,
+          d.count - b.count - c.count + a.count};
+}
+
+float TemplateSelector::distinctnessOf(const EdgePixel& pixel, int side_px) const {
+  const Scatter scatter = scatterAround(pixel.x, pixel.y, side_px);
+  if (scatter.count < static_cast<std::uint32_t>(options_.min_edge_pixels)) return -1.0F;
+  const double xx = static_cast<double>(scatter.xx);
+  const double yy = static_cast<double>(scatter.yy);
+  const double xy = static_cast<double>(static_cast<std::int32_t>(scatter.xy));
+  const double half_difference = 0.5 * (xx - yy);
+  const double smaller = 0.5 * (xx + yy) - std::sqrt(half_difference * half_difference + xy * xy);
+  return static_cast<float>(std::max(0.0, smaller / (kNormalScale * kNormalScale)));
+}
+
+bool TemplateSelector::tooMuchIgnored(const EdgePixel& pixel, int side_px, const BitImage* ignore,
+                                      int level) const {
+  if (ignore == nullptr) return false;
+  const int scale = 1 << level;
+  const int half = side_px / 2;
+  const int x_end = std::min(ignore->width, (pixel.x + half) * scale);
+  const int y_end = std::min(ignore->height, (pixel.y + half) * scale);
+  const int ignored =
+      countBits(*ignore, (pixel.x - half) * scale, (pixel.y - half) * scale, x_end, y_end);
+  return ignored > options_.max_ignored_share * side_px * scale * side_px * scale;
+}
+
+int TemplateSelector::countCells(const EdgeRender& render, int side_px, int cell_px) {
+  const int columns = ceilDivide(render.edges.width, cell_px);
+  const int rows = ceilDivide(render.edges.height, cell_px);
+  std::fill_n(cells_.begin(), static_cast<std::ptrdiff_t>(columns) * rows, Best{});
+  int occupied = 0;
+  for (std::int32_t i = 0; i < render.pixel_count; ++i) {
+    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+    if (!squareInside(pixel.x, pixel.y, side_px, render.edges.width, render.edges.height)) continue;
+    Best& cell =
+        cells_[static_cast<std::size_t>((pixel.y / cell_px) * columns + pixel.x / cell_px)];
+    if (cell.pixel < 0) ++occupied;
+    cell.pixel = i;
+  }
+  return occupied;
+}
+
+int TemplateSelector::cellSize(const EdgeRender& render, int side_px) {
+  const int longest = std::max(render.edges.width, render.edges.height);
+  int too_small = std::max(1, ceilDivide(longest, kMaxCells) - 1);
+  int enough = longest;
+  while (enough - too_small > 1) {  // bisection: at most log2(longest) rounds
+    const int middle = too_small + (enough - too_small) / 2;
+    if (countCells(render, side_px, middle) <= options_.count) {
+      enough = middle;
+    } else {
+      too_small = middle;
+    }
+  }
+  return enough;
+}
+
+Status TemplateSelector::select(const EdgeRender& render, int side_px, const BitImage* ignore,
+                                int level, TemplateSet& output) {
+  output.count = 0;
+  output.side_px = side_px;
+  sumScatter(render, side_px);
+  const int cell_px = cellSize(render, side_px);
+  const int columns = ceilDivide(render.edges.width, cell_px);
+  const int rows = ceilDivide(render.edges.height, cell_px);
+  std::fill_n(cells_.begin(), static_cast<std::ptrdiff_t>(columns) * rows, Best{});
+  for (std::int32_t i = 0; i < render.pixel_count; ++i) {
+    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+    if (!squareInside(pixel.x, pixel.y, side_px, render.edges.width, render.edges.height)) continue;
+    Best& cell =
+        cells_[static_cast<std::size_t>((pixel.y / cell_px) * columns + pixel.x / cell_px)];
+    const float distinctness = distinctnessOf(pixel, side_px);
+    if (distinctness <= cell.distinctness || tooMuchIgnored(pixel, side_px, ignore, level))
+      continue;
+    cell = {distinctness, i};
+  }
+  for (int cell = 0; cell < columns * rows && output.count < options_.count; ++cell) {
+    const Best& best = cells_[static_cast<std::size_t>(cell)];
+    if (best.pixel < 0) continue;
+    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(best.pixel)];
+    Template& chosen = output.templates[static_cast<std::size_t>(output.count)];
+    chosen.center_x = pixel.x;
+    chosen.center_y = pixel.y;
+    chosen.depth_m = pixel.depth_m;
+    chosen.distinctness = best.distinctness;
+    if (edgePointInStation(render, pixel, chosen.point_in_station_m)) ++output.count;
+  }
+  return output.count < options_.min_count ? Status::kTooFewTemplates : Status::kOk;
+}
+
+}  // namespace boresight

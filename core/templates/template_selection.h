@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "core/base/arena.h"
+#include "core/base/image.h"
+#include "core/base/options.h"
+#include "core/base/status.h"
+#include "core/render/edge_render.h"
+
+namespace boresight {
+
+struct TemplateOptions {
+  std::int32_t count = 96;
+  std::int32_t min_count = 6;
+  double feature_size_m = 0.0;
+  double size_factor = 2.0;
+  std::int32_t min_side_px = 16;
+  std::int32_t max_side_px = 256;
+  std::int32_t min_edge_pixels = 12;
+  double max_ignored_share = 0.3;
+
+  template <class Self, class Visitor>
+  static void visitFields(Self& self, Visitor&& visit) {
+    visit(OptionInfo{"templates.count", "", 4, 1024, "Templates per iteration, at most."},
+          self.count);
+    visit(OptionInfo{"templates.min_count", "", 4, 1024, "Fewer templates end the run."},
+          self.min_count);
+    visit(OptionInfo{"templates.feature_size_m", "m", 0.0, 100.0,
+                     "Size of the station's features (sleeves, screws); 0: an eighth of the mesh's "
+                     "diagonal."},
+          self.feature_size_m);
+    visit(OptionInfo{"templates.size_factor", "", 0.25, 16.0,
+                     "Side of a template over the projected feature size, before rounding to a "
+                     "power of two."},
+          self.size_factor);
+    visit(OptionInfo{"templates.min_side_px", "px", 8, 512,
+                     "Smallest side of a template at its level."},
+          self.min_side_px);
+    visit(OptionInfo{"templates.max_side_px", "px", 8, 512,
+                     "Largest side of a template at its level."},
+          self.max_side_px);
+    visit(OptionInfo{"templates.min_edge_pixels", "px", 1, 10000,
+                     "Edge pixels that a template must hold."},
+          self.min_edge_pixels);
+    visit(OptionInfo{"templates.max_ignored_share", "", 0.0, 1.0,
+                     "Templates whose predicted area is ignored beyond this share are rejected."},
+          self.max_ignored_share);
+  }
+};
+
+/// One template: the square of the render's edges and mask around an edge pixel. Its bits stay in
+/// the render.
+struct Template {
+  std::int32_t center_x = 0;  ///< px at the level of the render
+  std::int32_t center_y = 0;
+  float depth_m = 0.0F;
+  float distinctness = 0.0F;  ///< smaller eigenvalue of the edge normals' scatter, in edge pixels
+  Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
+};
+
+struct TemplateSet {
+  std::span<Template> templates;  ///< capacity; the first `count` are valid
+  std::int32_t count = 0;
+  std::int32_t side_px = 0;
+};
+
+/// The power of two nearest (in ratio) to the projected size of a feature at a depth, within the
+/// options' limits and at most a quarter of the image's smaller side.
+int templateSide(const TemplateOptions& options, double feature_size_m, double depth_m,
+                 const Camera& camera);
+
+/// Picks places where edges of more than one direction meet (a straight edge slides along itself):
+/// in every cell of a square grid over the render, the edge pixel whose surrounding square has the
+/// largest smaller eigenvalue of the scatter of edge normals, sum of n n'. The cell size is the
+/// smallest one that yields no more than `options.count` templates. Pham 2025, Sec. III-B, chooses
+/// at random instead. `ignore` (full resolution, may be nullptr) belongs to the image at `level` 0.
+class TemplateSelector {
+ public:
+  Status create(int max_width, int max_height, const TemplateOptions& options, Arena& arena);
+  /// kTooFewTemplates when fewer than options.min_count can be placed; `output` then holds those.
+  Status select(const EdgeRender& render, int side_px, const BitImage* ignore, int level,
+                TemplateSet& output);
+
+ private:
+  struct Scatter {
+    std::uint32_t xx = 0, xy = 0, yy = 0, count = 0;
+  };
+  struct Best {
+    float distinctness = -1.0F;
+    std::int32_t pixel = -1;
+  };
+
+  void sumScatter(const EdgeRender& render, int side_px);
+  Scatter scatterAround(int x, int y, int side_px) const;
+  float distinctnessOf(const EdgePixel& pixel, int side_px) const;
+  bool tooMuchIgnored(const EdgePixel& pixel, int side_px, const BitImage* ignore, int level) const;
+  int countCells(const EdgeRender& render, int side_px, int cell_px);
+  int cellSize(const EdgeRender& render, int side_px);
+
+  TemplateOptions options_;
+  std::span<Scatter> sums_;  ///< summed-area table over blocks, modulo 2^32
+
+  std::span<Best> cells_;
+  int block_px_ = 0;
+  int blocks_x_ = 0;
+  int blocks_y_ = 0;
+};
+
+/// Sizes a TemplateSet.
+TemplateSet createTemplateSet(const TemplateOptions& options, Arena& arena);
+
+}  // namespace boresight

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
+#include "sessions/io/dataset_file.h"
+
+namespace boresight::sessions {
+
+/// How far an estimate is from the truth (algorithm.md, "Errors, as reported").
+struct PoseError {
+  double normal_mm = 0.0;      ///< along the true camera's axis, signed
+  double lateral_mm = 0.0;     ///< across it
+  double rotation_mrad = 0.0;  ///< between the axes (out of plane)
+  double in_plane_mrad = 0.0;  ///< twist about the axis, signed, in (-pi, pi] rad; not judged
+  double geodesic_mrad = 0.0;  ///< whole rotation angle; not judged
+  std::optional<double> projection_px;  ///< nothing when it was not asked for or cannot be had
+};
+
+/// With E = camera_true_from_camera_estimated = [R|t] and p the end effector's origin in the camera
+/// frame (0 without one): d = R p + t - p; normal = d_z, lateral = hypot(d_x, d_y), rotation =
+/// angle(z, R z), in_plane = twist of R about z, geodesic = angle of R. The projection stays empty.
+PoseError poseError(const Pose& camera_from_station_true, const Pose& camera_from_station_estimated,
+                    const std::optional<Pose>& camera_from_end_effector);
+
+/// Mean over the vertices of the distance between their projections under estimate and truth, px.
+/// Vertices that the camera cannot project under the truth do not count; one that only the estimate
+/// puts behind the camera or outside its field counts as a whole image diagonal. Nothing when no
+/// vertex can be projected under the truth.
+std::optional<double> projectionError(const Camera& camera, const Pose& camera_from_station_true,
+                                      const Pose& camera_from_station_estimated,
+                                      std::span<const Eigen::Vector3f> vertices_in_station_m);
+
+/// Within `factor` times everything that the requirement names. A named projection error that is
+/// not known does not meet it.
+bool meetsRequirement(const PoseError& error, const Requirement& requirement, double factor = 1.0);
+
+/// Beyond 3 times the requirement: what makes a completed run a gross false positive.
+bool isGross(const PoseError& error, const Requirement& requirement);
+
+/// Over completed runs.
+struct Statistics {
+  std::int64_t count = 0;
+  double mean = 0.0;
+  double deviation = 0.0;  ///< standard deviation of the population
+  double maximum = 0.0;    ///< of the absolute values
+};
+Statistics statistics(std::span<const double> values);
+
+}  // namespace boresight::sessions

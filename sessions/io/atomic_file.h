@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+namespace boresight::sessions {
+
+/// Writes a file whole or not at all: a temporary file beside it, fsync, rename, fsync of the
+/// folder. On failure the old file is as it was and nothing is left behind. A symbolic link keeps
+/// pointing where it did; the permissions of an existing file are kept. A device or pipe
+/// (/dev/stdout) cannot be renamed onto and is written directly. Throws OutputError.
+void writeFileAtomically(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+void writeFileAtomically(const std::filesystem::path& file, std::string_view text);
+
+/// Throws OutputError when `file` evidently cannot be written (its folder is missing or read-only,
+/// it is a folder): to be asked before long work, not instead of writing.
+void requireWritable(const std::filesystem::path& file);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/camera_file.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/json_document.h"
+#include "sessions/io/json_writer.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr const char* kFormat = "boresight-camera";
+constexpr int kVersion = 1;
+constexpr double kMinFocalLength_px = 1e-3;
+constexpr double kMaxFocalLength_px = 1e7;
+constexpr double kMaxPrincipalPoint_px = 1e6;
+
+CameraModel readModel(const JsonReader& json) {
+  const JsonReader model = json.at("model");
+  const std::string name = model.text();
+  for (const CameraModel known :
+       {CameraModel::kPinhole, CameraModel::kBrownConrady, CameraModel::kKannalaBrandt})
+    if (name == cameraModelName(known)) return known;
+  if (name == "cahv" || name == "cahvor" || name == "cahvore")
+    model.fail("camera model '" + name + "' is not supported");
+  model.fail("unknown camera model '" + name +
+             "' (pinhole, brown_conrady or kannala_brandt is needed)");
+}
+
+const char* expectedCoefficients(CameraModel model) {
+  if (model == CameraModel::kBrownConrady) return "brown_conrady needs 4, 5 or 8 coefficients";
+  return "kannala_brandt needs 4 coefficients";
+}
+
+bool coefficientCountFits(CameraModel model, std::size_t count) {
+  if (model == CameraModel::kKannalaBrandt) return count == 4;
+  return count == 4 || count == 5 || count == 8;
+}
+
+void readDistortion(const JsonReader& json, Camera& camera) {
+  if (camera.model == CameraModel::kPinhole) {
+    // Somebody who gives coefficients wants them used; all zeros say nothing.
+    if (const auto dist = json.find("dist"))
+      for (const JsonReader& coefficient : dist->elements())
+        if (coefficient.number() != 0.0)
+          coefficient.fail("a pinhole camera has no distortion (use brown_conrady)");
+    return;
+  }
+  const JsonReader dist = json.at("dist");
+  const std::vector<JsonReader> coefficients = dist.elements();
+  if (!coefficientCountFits(camera.model, coefficients.size()))
+    dist.fail(std::string(expectedCoefficients(camera.model)) + ", " +
+              std::to_string(coefficients.size()) + " given");
+  for (std::size_t i = 0; i < coefficients.size(); ++i)
+    camera.distortion[i] = coefficients[i].number();
+}
+
+}  // namespace
+
+const char* cameraModelName(CameraModel model) {
+  switch (model) {
+    case CameraModel::kPinhole:
+      return "pinhole";
+    case CameraModel::kBrownConrady:
+      return "brown_conrady";
+    case CameraModel::kKannalaBrandt:
+      return "kannala_brandt";
+  }
+  return "unknown";
+}
+
+Camera readCamera(const JsonReader& json) {
+  Camera camera;
+  camera.model = readModel(json);
+  camera.width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
+  camera.height = static_cast<int>(json.at("height").integer(1, kMaxImageSide_px));
+  camera.fx = json.at("fx").number(kMinFocalLength_px, kMaxFocalLength_px);
+  camera.fy = json.at("fy").number(kMinFocalLength_px, kMaxFocalLength_px);
+  camera.cx = json.at("cx").number(-kMaxPrincipalPoint_px, kMaxPrincipalPoint_px);
+  camera.cy = json.at("cy").number(-kMaxPrincipalPoint_px, kMaxPrincipalPoint_px);
+  readDistortion(json, camera);
+  const Status status = prepareCamera(camera);
+  if (status != Status::kOk)
+    json.fail(std::string("the camera cannot project with these parameters (") +
+              statusText(status) + ")");
+  return camera;
+}
+
+Camera readCamera(const std::filesystem::path& file) {
+  const JsonDocument document(file);
+  return readCamera(document.root(kFormat, kVersion));
+}
+
+nlohmann::ordered_json toJson(const Camera& camera) {
+  nlohmann::ordered_json json;
+  json["model"] = cameraModelName(camera.model);
+  json["width"] = camera.width;
+  json["height"] = camera.height;
+  json["fx"] = camera.fx;
+  json["fy"] = camera.fy;
+  json["cx"] = camera.cx;
+  json["cy"] = camera.cy;
+  if (camera.model == CameraModel::kPinhole) return json;
+  const auto& distortion = camera.distortion;
+  std::ptrdiff_t count = 4;
+  if (camera.model == CameraModel::kBrownConrady) {
+    const bool rational = std::any_of(distortion.begin() + 5, distortion.end(),
+                                      [](double coefficient) { return coefficient != 0.0; });
+    count = rational ? 8 : 5;
+  }
+  json["dist"] = std::vector<double>(distortion.begin(), distortion.begin() + count);
+  return json;
+}
+
+void writeCamera(const std::filesystem::path& file, const Camera& camera) {
+  nlohmann::ordered_json json;
+  json["format"] = kFormat;
+  json["version"] = kVersion;
+  json.update(toJson(camera));
+  writeJsonFile(file, json);
+}
+
+}  // namespace boresight::sessions

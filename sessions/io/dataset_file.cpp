@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/dataset_file.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/base/math.h"
+#include "sessions/io/camera_file.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/json_document.h"
+#include "sessions/io/mesh_container.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr const char* kFormat = "boresight-dataset";
+constexpr int kVersion = 1;
+constexpr double kMaxFeatureSize_m = 100.0;
+constexpr double kMaxError = 1e6;
+
+/// Reads a transform and notes when it was not quite a rotation.
+Pose readNotedTransform(const JsonReader& json, Dataset& dataset) {
+  double deviation = 0.0;
+  const Pose pose = readTransform(json, &deviation);
+  const std::string note = projectionNote(deviation);
+  if (!note.empty()) dataset.notes.push_back(json.place() + ": " + note);
+  return pose;
+}
+
+/// `json` is an entry of `parts`, or a station in its short form.
+PartSource readPart(const JsonReader& json, Dataset& dataset) {
+  PartSource source;
+  source.mesh = json.at("mesh").path();
+  const MeshFormat format = meshFormatOf(source.mesh);
+  if (const auto unit = json.find("mesh_unit")) {
+    source.mesh_unit = unit->text();
+    if (!metresPerUnit(source.mesh_unit))
+      unit->fail("unknown unit '" + source.mesh_unit + "' (m, dm, cm, mm, um, in, ft, yd, km)");
+  } else if (!carriesUnit(format)) {
+    json.failMember("mesh_unit",
+                    std::string("missing: ") + meshFormatName(format) + " carries no unit");
+  }
+  if (const auto transform = json.find("station_from_mesh"))
+    source.station_from_mesh = readNotedTransform(*transform, dataset);
+  if (const auto threshold = json.find("normal_threshold_deg"))
+    source.part.normal_threshold_rad = threshold->number(0.1, 180.0) * kDegree_rad;
+  if (const auto threshold = json.find("depth_threshold_m"))
+    source.part.depth_threshold_m = threshold->number(1e-6, 1000.0);
+  if (const auto match = json.find("match")) source.part.match = match->boolean();
+  return source;
+}
+
+std::vector<PartSource> readParts(const JsonReader& json, Dataset& dataset) {
+  const auto parts = json.find("parts");
+  if (!parts) {
+    const PartSource only = readPart(json, dataset);
+    if (!only.part.match) json.failMember("match", "the station's only part must be matched");
+    return {only};
+  }
+  if (json.has("mesh")) json.failMember("mesh", "given together with 'parts'");
+  std::vector<PartSource> all;
+  for (const JsonReader& part : parts->elements()) all.push_back(readPart(part, dataset));
+  const auto matched = [](const PartSource& source) { return source.part.match; };
+  if (all.empty()) parts->fail("is empty");
+  if (std::none_of(all.begin(), all.end(), matched)) parts->fail("no part is to be matched");
+  return all;
+}
+
+Station readStation(const std::string& id, const JsonReader& json, Dataset& dataset) {
+  Station station;
+  station.id = id;
+  station.parts = readParts(json, dataset);
+  if (const auto size = json.find("feature_size_m"))
+    station.feature_size_m = size->number(1e-6, kMaxFeatureSize_m);
+  if (const auto uncertainty = json.find("uncertainty"))
+    station.uncertainty = readUncertainty(*uncertainty);
+  if (const auto transform = json.find("camera_from_end_effector"))
+    station.camera_from_end_effector = readNotedTransform(*transform, dataset);
+  return station;
+}
+
+/// Text that must be a key of `known`.
+template <class Map>
+std::string readReference(const JsonReader& json, const Map& known, const char* what) {
+  std::string id = json.text();
+  if (!known.contains(id)) json.fail(std::string("there is no ") + what + " '" + id + "'");
+  return id;
+}
+
+void readPoses(const JsonReader& json, Case& one, Dataset& dataset) {
+  const auto read = [&dataset](const JsonReader& pose_json) {
+    PoseFile pose = readPose(pose_json);
+    const std::string note = projectionNote(pose.rotation_deviation);
+    if (!note.empty()) dataset.notes.push_back(pose_json.place() + ".camera_from_station: " + note);
+    return pose;
+  };
+  const PoseFile seed = read(json.at("seed"));
+  one.seed_camera_from_station = seed.camera_from_station;
+  one.uncertainty = seed.uncertainty;
+  if (const auto truth = json.find("truth"))
+    one.truth_camera_from_station = read(*truth).camera_from_station;
+  if (const auto rig = json.find("rig"))
+    one.rig =
+        Rig{rig->at("id").nonEmptyText(), readNotedTransform(rig->at("camera_from_rig"), dataset)};
+}
+
+/// What a case may override, and what holds for it otherwise.
+void readOverrides(const JsonReader& json, const Station& station, Case& one, Dataset& dataset) {
+  if (const auto uncertainty = json.find("uncertainty"))
+    one.uncertainty = readUncertainty(*uncertainty);
+  if (!one.uncertainty) one.uncertainty = station.uncertainty;
+  one.requirement = dataset.requirement;
+  if (const auto requirement = json.find("requirement"))
+    one.requirement = readRequirement(*requirement);
+  one.camera_from_end_effector = station.camera_from_end_effector;
+  if (const auto transform = json.find("camera_from_end_effector"))
+    one.camera_from_end_effector = readNotedTransform(*transform, dataset);
+}
+
+Case readCase(const JsonReader& json, Dataset& dataset) {
+  Case one;
+  one.id = json.at("id").nonEmptyText();
+  one.station = readReference(json.at("station"), dataset.stations, "station");
+  one.camera = readReference(json.at("camera"), dataset.cameras, "camera");
+  one.image = json.at("image").path();
+  if (const auto ignore = json.find("ignore")) one.ignore = ignore->path();
+  readPoses(json, one, dataset);
+  readOverrides(json, dataset.stations.at(one.station), one, dataset);
+  if (const auto tags = json.find("tags"))
+    for (const JsonReader& tag : tags->elements()) one.tags.push_back(tag.nonEmptyText());
+  return one;
+}
+
+void requireFile(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw InputError(file, "no such file");
+  if (std::filesystem::is_directory(file, error)) throw InputError(file, "is a folder, not a file");
+}
+
+}  // namespace
+
+bool Case::hasTag(const std::string& tag) const {
+  return std::find(tags.begin(), tags.end(), tag) != tags.end();
+}
+
+const Case* Dataset::findCase(const std::string& id) const {
+  const auto found =
+      std::find_if(cases.begin(), cases.end(), [&id](const Case& one) { return one.id == id; });
+  return found == cases.end() ? nullptr : &*found;
+}
+
+Requirement readRequirement(const JsonReader& json) {
+  Requirement requirement;
+  const auto read = [&json](const char* key, std::optional<double>& value) {
+    if (const auto limit = json.find(key)) {
+      (void)limit->numberAbove(0.0);
+      value = limit->number(0.0, kMaxError);
+    }
+  };
+  read("normal_mm", requirement.normal_mm);
+  read("lateral_mm", requirement.lateral_mm);
+  read("rotation_deg", requirement.rotation_deg);
+  read("projection_px", requirement.projection_px);
+  if (!requirement.normal_mm && !requirement.lateral_mm && !requirement.rotation_deg &&
+      !requirement.projection_px)
+    json.fail("names none of normal_mm, lateral_mm, rotation_deg, projection_px");
+  return requirement;
+}
+
+Dataset readDataset(const std::filesystem::path& file) {
+  const JsonDocument document(file);
+  const JsonReader json = document.root(kFormat, kVersion);
+  Dataset dataset;
+  dataset.file = file;
+  if (const auto requirement = json.find("requirement"))
+    dataset.requirement = readRequirement(*requirement);
+  for (const auto& [id, station] : json.at("stations").members())
+    dataset.stations.emplace(id, readStation(id, station, dataset));
+  for (const auto& [id, camera] : json.at("cameras").members())
+    dataset.cameras.emplace(id, readCamera(camera));
+  std::set<std::string> ids;
+  for (const JsonReader& one : json.at("cases").elements()) {
+    dataset.cases.push_back(readCase(one, dataset));
+    if (!ids.insert(dataset.cases.back().id).second)
+      one.failMember("id", "'" + dataset.cases.back().id + "' is given twice");
+  }
+  return dataset;
+}
+
+void requireFiles(const Dataset& dataset) {
+  for (const auto& [id, station] : dataset.stations)
+    for (const PartSource& part : station.parts) requireFile(part.mesh);
+  for (const Case& one : dataset.cases) {
+    requireFile(one.image);
+    if (one.ignore) requireFile(*one.ignore);
+  }
+}
+
+GrayImage readCaseImage(const Dataset& dataset, const Case& one) {
+  GrayImage image = readImage(one.image);
+  requireSameSize(image, dataset.cameras.at(one.camera));
+  return image;
+}
+
+std::optional<IgnoreMask> readCaseMask(const Dataset& dataset, const Case& one) {
+  if (!one.ignore) return std::nullopt;
+  const Camera& camera = dataset.cameras.at(one.camera);
+  return readIgnoreMask(*one.ignore, camera.width, camera.height);
+}
+
+SceneMesh readStationScene(const Station& station) { return readScene(station.parts); }
+
+}  // namespace boresight::sessions

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
+#include "sessions/io/image_file.h"
+#include "sessions/io/json_reader.h"
+#include "sessions/io/pose_file.h"
+#include "sessions/io/scene_mesh.h"
+
+namespace boresight::sessions {
+
+/// What a result must reach; judges what it names, and names at least one.
+struct Requirement {
+  std::optional<double> normal_mm;
+  std::optional<double> lateral_mm;
+  std::optional<double> rotation_deg;
+  std::optional<double> projection_px;
+};
+
+struct Station {
+  std::string id;
+  std::vector<PartSource> parts;  ///< at least one
+  std::optional<double> feature_size_m;
+  std::optional<DeclaredUncertainty> uncertainty;
+  std::optional<Pose> camera_from_end_effector;
+};
+
+/// Cases with the same `id` were taken at once by rigidly linked cameras.
+struct Rig {
+  std::string id;
+  Pose camera_from_rig;
+};
+
+struct Case {
+  std::string id;
+  std::string station;  ///< a key of Dataset::stations
+  std::string camera;   ///< a key of Dataset::cameras
+  std::filesystem::path image;
+  std::optional<std::filesystem::path> ignore;
+  Pose seed_camera_from_station;
+  std::optional<Pose> truth_camera_from_station;
+  std::optional<Rig> rig;
+  std::vector<std::string> tags;
+  /// What holds for the case: its own, else its seed's (uncertainty), its station's or the
+  /// dataset's (requirement).
+  std::optional<DeclaredUncertainty> uncertainty;
+  std::optional<Requirement> requirement;
+  std::optional<Pose> camera_from_end_effector;
+
+  bool hasTag(const std::string& tag) const;
+};
+
+/// dataset.json (`boresight-dataset`, version 1), checked whole; images and meshes are read later.
+struct Dataset {
+  std::filesystem::path file;
+  std::optional<Requirement> requirement;
+  std::map<std::string, Station> stations;
+  std::map<std::string, Camera> cameras;
+  std::vector<Case> cases;
+  std::vector<std::string> notes;  ///< e.g. matrices that were projected to rotations
+
+  /// nullptr when there is none of this id.
+  const Case* findCase(const std::string& id) const;
+};
+
+/// InputError with the place in the file: formats, ranges, references to stations and cameras that
+/// do not exist, ids given twice, a mesh without a unit.
+Dataset readDataset(const std::filesystem::path& file);
+
+/// InputError when an image, mask or mesh that the dataset names is not there: asked before hours
+/// of work rather than in their midst.
+void requireFiles(const Dataset& dataset);
+
+Requirement readRequirement(const JsonReader& json);
+
+/// The image of a case; InputError also when its size is not the camera's.
+GrayImage readCaseImage(const Dataset& dataset, const Case& one);
+/// Nothing when the case has no mask.
+std::optional<IgnoreMask> readCaseMask(const Dataset& dataset, const Case& one);
+/// The scene of a station; several cases share it.
+SceneMesh readStationScene(const Station& station);
+
+}  // namespace boresight::sessions

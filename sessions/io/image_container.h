@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace boresight::sessions {
+
+enum class ImageContainer { kPng, kJpeg, kTiff };
+
+const char* imageContainerName(ImageContainer container);
+
+/// What the headers of an image file say, before anything is decoded.
+struct ImageHeader {
+  ImageContainer container = ImageContainer::kPng;
+  std::int64_t width = 0;
+  std::int64_t height = 0;
+};
+
+/// Reads the structure of a PNG, JPEG or TIFF from the first byte to the last that matters.
+/// Decoders fill what is missing with gray and go on, so that a truncated file is found here:
+/// PNG by its chunks, their checksums and IEND; JPEG by its segments and EOI; TIFF by the place of
+/// every strip or tile of the first image. InputError, also for any other format.
+ImageHeader checkImageContainer(const std::filesystem::path& file,
+                                std::span<const std::uint8_t> bytes);
+
+}  // namespace boresight::sessions

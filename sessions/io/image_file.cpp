@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/image_file.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "sessions/io/atomic_file.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/image_container.h"
+
+namespace boresight::sessions {
+namespace {
+
+std::string sizeText(std::int64_t width, std::int64_t height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+void checkSize(const std::filesystem::path& file, const ImageHeader& header) {
+  const auto in_range = [](std::int64_t side) { return side >= 1 && side <= kMaxImageSide_px; };
+  if (!in_range(header.width) || !in_range(header.height) ||
+      header.width * header.height > kMaxImagePixels)
+    throw InputError(file, "image size",
+                     sizeText(header.width, header.height) + " is outside the limits (sides 1 .. " +
+                         std::to_string(kMaxImageSide_px) + " px, at most " +
+                         std::to_string(kMaxImagePixels) + " px in all)");
+}
+
+/// Decodes bytes that passed checkImageContainer; samples as stored, 8 or 16 bits.
+cv::Mat decode(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes,
+               const ImageHeader& header) {
+  cv::Mat image;
+  try {
+    image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception& error) {
+    throw InputError(file, "the image cannot be decoded: " + error.err);
+  }
+  if (image.empty())
+    throw InputError(file, std::string("the ") + imageContainerName(header.container) +
+                               " image cannot be decoded (damaged, or of an unsupported kind)");
+  if (image.cols != header.width || image.rows != header.height)
+    throw InputError(file, "the decoded image has another size than its header says");
+  if (image.depth() != CV_8U && image.depth() != CV_16U)
+    throw InputError(file, "samples are not unsigned integers of 8 or 16 bits");
+  if (image.channels() > 4)
+    throw InputError(file, std::to_string(image.channels()) + " channels are not supported");
+  return image;
+}
+
+template <class Sample>
+std::uint32_t grayValue(const Sample* pixel, int channels) {
+  if (channels < 3) return pixel[0];
+  // OpenCV's integer luma; its order is blue, green, red.
+  return (3735u * pixel[0] + 19235u * pixel[1] + 9798u * pixel[2] + 16384u) >> 15;
+}
+
+template <class Sample>
+void convert(const std::filesystem::path& file, const cv::Mat& image, GrayImage& gray) {
+  const std::uint32_t largest = (1u << gray.bit_depth) - 1u;
+  std::vector<std::uint8_t> table(largest + 1u);
+  for (std::uint32_t v = 0; v <= largest; ++v) table[v] = toEightBit(v, gray.bit_depth);
+  const int channels = image.channels();
+  std::uint8_t* out = gray.pixels.data();
+  for (int y = 0; y < image.rows; ++y) {
+    const auto* pixel = image.ptr<Sample>(y);
+    for (int x = 0; x < image.cols; ++x, pixel += channels) {
+      const std::uint32_t v = grayValue(pixel, channels);
+      if (v > largest)
+        throw InputError(file, "bit_depth",
+                         "pixel (" + std::to_string(x) + ", " + std::to_string(y) + ") is " +
+                             std::to_string(v) + ", more than " + std::to_string(gray.bit_depth) +
+                             " bits");
+      *out++ = table[v];
+    }
+  }
+}
+
+std::string ruleText(const GrayImage& gray) {
+  std::string text;
+  if (gray.channels == 2 || gray.channels == 4) text += "alpha dropped; ";
+  if (gray.channels >= 3) text += "luma (9798 R + 19235 G + 3735 B + 16384) >> 15; ";
+  if (gray.bit_depth == 8) return text + "8-bit values as they are";
+  return text + "floor(v * 255 / (2^" + std::to_string(gray.bit_depth) +
+         " - 1) + 0.5), bit depth " + (gray.bit_depth_stated ? "stated" : "that of the file");
+}
+
+}  // namespace
+
+std::uint8_t toEightBit(std::uint32_t v, int n) {
+  const std::uint32_t largest = (1u << n) - 1u;
+  return static_cast<std::uint8_t>((2u * v * 255u + largest) / (2u * largest));
+}
+
+GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& options) {
+  if (options.bit_depth && (*options.bit_depth < 1 || *options.bit_depth > 16))
+    throw InputError(file, "bit_depth", std::to_string(*options.bit_depth) + " is outside 1 .. 16");
+  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxImageFileBytes);
+  const ImageHeader header = checkImageContainer(file, bytes);
+  checkSize(file, header);
+  const cv::Mat image = decode(file, bytes, header);
+
+  GrayImage gray;
+  gray.file = file;
+  gray.width = image.cols;
+  gray.height = image.rows;
+  gray.container = imageContainerName(header.container);
+  gray.channels = image.channels();
+  gray.sample_bits = image.depth() == CV_16U ? 16 : 8;
+  gray.bit_depth = options.bit_depth.value_or(gray.sample_bits);
+  gray.bit_depth_stated = options.bit_depth.has_value();
+  if (gray.bit_depth > gray.sample_bits)
+    throw InputError(file, "bit_depth",
+                     std::to_string(gray.bit_depth) + " bits stated, but the file holds " +
+                         std::to_string(gray.sample_bits));
+  gray.pixels.resize(image.total());
+  if (gray.sample_bits == 16)
+    convert<std::uint16_t>(file, image, gray);
+  else
+    convert<std::uint8_t>(file, image, gray);
+  gray.rule = ruleText(gray);
+  gray.file_sha256 = sha256Text(bytes);
+  gray.pixels_sha256 = sha256Text(gray.pixels);
+  return gray;
+}
+
+void requireSameSize(const GrayImage& image, const Camera& camera) {
+  if (image.width != camera.width || image.height != camera.height)
+    throw InputError(image.file, "image size",
+                     "is " + sizeText(image.width, image.height) + ", but the camera is " +
+                         sizeText(camera.width, camera.height));
+}
+
+BitImage IgnoreMask::view() const {
+  BitImage image;
+  image.width = width;
+  image.height = height;
+  image.words_per_row = BitImage::wordsPerRow(width);
+  image.words = {const_cast<std::uint64_t*>(words.data()), words.size()};
+  return image;
+}
+
+IgnoreMask readIgnoreMask(const std::filesystem::path& file, int width, int height) {
+  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxImageFileBytes);
+  const ImageHeader header = checkImageContainer(file, bytes);
+  checkSize(file, header);
+  if (header.container == ImageContainer::kJpeg)
+    throw InputError(file, "a mask must be lossless: PNG or TIFF, not JPEG");
+  if (header.width != width || header.height != height)
+    throw InputError(file, "mask size",
+                     "is " + sizeText(header.width, header.height) + ", but the image is " +
+                         sizeText(width, height));
+  cv::Mat image = decode(file, bytes, header);
+  if (image.depth() == CV_16U) {
+    cv::Mat nonzero;
+    cv::compare(image.reshape(1), 0, nonzero, cv::CMP_NE);
+    image = nonzero.reshape(image.channels());
+  }
+
+  IgnoreMask mask;
+  mask.file = file;
+  mask.width = width;
+  mask.height = height;
+  const int words_per_row = BitImage::wordsPerRow(width);
+  mask.words.assign(static_cast<std::size_t>(words_per_row) * static_cast<std::size_t>(height), 0);
+  mask.file_sha256 = sha256Text(bytes);
+  const int channels = image.channels();
+  const int judged = channels == 2 || channels == 4 ? channels - 1 : channels;
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t* pixel = image.ptr<std::uint8_t>(y);
+    std::uint64_t* row = mask.words.data() + static_cast<std::ptrdiff_t>(words_per_row) * y;
+    for (int x = 0; x < width; ++x, pixel += channels) {
+      if (std::all_of(pixel, pixel + judged, [](std::uint8_t v) { return v == 0; })) continue;
+      row[x >> 6] |= std::uint64_t{1} << (x & 63);
+      ++mask.ignored_count;
+    }
+  }
+  return mask;
+}
+
+void writePng(const std::filesystem::path& file, std::span<const std::uint8_t> pixels, int width,
+              int height, int channels) {
+  if (width < 1 || height < 1 || (channels != 1 && channels != 3) ||
+      pixels.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                           static_cast<std::size_t>(channels))
+    throw std::logic_error("writePng: the pixels do not fit the size");
+  const cv::Mat image(height, width, CV_MAKETYPE(CV_8U, channels),
+                      const_cast<std::uint8_t*>(pixels.data()));
+  std::vector<std::uint8_t> bytes;
+  try {
+    if (!cv::imencode(".png", image, bytes)) throw OutputError(file, "PNG encoding failed");
+  } catch (const cv::Exception& error) {
+    throw OutputError(file, "PNG encoding failed: " + error.err);
+  }
+  writeFileAtomically(file, bytes);
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/image.h"
+#include "sessions/io/camera_file.h"
+#include "sessions/io/file_bytes.h"
+
+namespace boresight::sessions {
+
+inline constexpr std::size_t kMaxImageFileBytes = 1024 * kMegabyte;
+/// Sides are bounded by kMaxImageSide_px, so this also bounds memory (134 million pixels).
+inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 27;
+
+struct ImageReadOptions {
+  /// Bits that the samples use, 1 .. 16, from a label or asked for; without it, those of the file
+  /// (8 or 16).
+  std::optional<int> bit_depth;
+};
+
+/// The 8-bit gray image that the core sees, and how it came about.
+struct GrayImage {
+  std::filesystem::path file;
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> pixels;  ///< row-major, width * height
+
+  std::string container;  ///< "PNG", "JPEG", "TIFF"
+  int channels = 1;       ///< of the file: 1 gray, 2 gray + alpha, 3 colour, 4 colour + alpha
+  int sample_bits = 8;    ///< of the decoded samples: 8 or 16
+  int bit_depth = 8;      ///< n of the rule
+  bool bit_depth_stated = false;  ///< asked for, not taken from the file
+  std::string rule;               ///< how samples became 8 bit, for provenance
+  std::string file_sha256;
+  std::string pixels_sha256;  ///< of `pixels`
+
+  ImageView view() const { return {pixels.data(), width, height, width}; }
+};
+
+/// Reads a PNG, JPEG or TIFF of 8 or 16 bits, gray or colour; alpha is dropped, an orientation tag
+/// is not applied (calibration belongs to the stored pixels). Rule (conventions.md): colour by
+/// luma (9798 R + 19235 G + 3735 B + 16384) >> 15 on the samples, then
+/// floor(v * 255 / (2^n - 1) + 0.5); a sample above 2^n - 1 contradicts the stated depth and is
+/// refused. InputError when the file is missing, empty, truncated, damaged, of another format, or
+/// too large.
+GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& options = {});
+
+/// The rule for one sample, in integers; v <= 2^n - 1, 1 <= n <= 16.
+std::uint8_t toEightBit(std::uint32_t v, int n);
+
+/// InputError naming both when the image is not of the camera's size.
+void requireSameSize(const GrayImage& image, const Camera& camera);
+
+/// Pixels to ignore, packed as the core wants them.
+struct IgnoreMask {
+  std::filesystem::path file;
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint64_t> words;
+  std::int64_t ignored_count = 0;
+  std::string file_sha256;
+
+  /// The core takes masks as `const BitImage*`; the words must not be written through this.
+  BitImage view() const;
+};
+
+/// Reads a mask image of width x height (PNG or TIFF): a pixel is ignored where any channel but
+/// alpha is not zero. A JPEG is refused, because its compression leaves nonzero pixels about.
+/// InputError.
+IgnoreMask readIgnoreMask(const std::filesystem::path& file, int width, int height);
+
+/// A PNG of 8-bit gray or BGR pixels (channels 1 or 3, row-major), written atomically; OutputError.
+void writePng(const std::filesystem::path& file, std::span<const std::uint8_t> pixels, int width,
+              int height, int channels);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/json_document.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/errors.h"
+
+namespace boresight::sessions {
+namespace {
+
+using nlohmann::json;
+
+/// Builds the document and knows the place of every value, which nlohmann's own builder does not
+/// tell: duplicates and bad numbers are reported by field, syntax errors by line and column.
+class DocumentBuilder : public nlohmann::json_sax<json> {
+ public:
+  DocumentBuilder(const std::filesystem::path& file, std::string_view text)
+      : file_(file), text_(text) {}
+
+  json takeRoot() { return std::move(root_); }
+
+  bool null() override { return add(nullptr); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(number_integer_t value) override { return add(value); }
+  bool number_unsigned(number_unsigned_t value) override { return add(value); }
+  bool number_float(number_float_t value, const string_t&) override { return add(value); }
+  bool string(string_t& value) override { return add(std::move(value)); }
+  bool binary(binary_t&) override { return false; }
+  bool start_object(std::size_t) override { return open(json::object()); }
+  bool start_array(std::size_t) override { return open(json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+
+  bool key(string_t& name) override {
+    key_ = name;
+    if (open_.back()->contains(name)) throw InputError(file_, place(), "given twice");
+    return true;
+  }
+
+  bool parse_error(std::size_t position, const std::string& last_token,
+                   const json::exception& error) override {
+    const bool number_overflow = error.id == 406;
+    if (number_overflow || startsNonFinite(position, last_token))
+      throw InputError(file_, place(), "not a finite number");
+    throw InputError(file_, lineAndColumn(position), "not JSON: " + explanation(error));
+  }
+
+ private:
+  static constexpr std::size_t kDetail = 160;
+
+  bool add(json value) {
+    place_value(std::move(value));
+    return true;
+  }
+
+  json* place_value(json value) {
+    if (open_.empty()) {
+      root_ = std::move(value);
+      return &root_;
+    }
+    json& parent = *open_.back();
+    if (parent.is_array()) {
+      parent.push_back(std::move(value));
+      return &parent.back();
+    }
+    return &(parent[key_] = std::move(value));
+  }
+
+  bool open(json value) {
+    if (open_.size() >= kMaxJsonDepth)
+      throw InputError(file_, place(),
+                       "nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
+    // Names are kept per level: `key_` is only that of the innermost object.
+    names_.push_back(ownName());
+    open_.push_back(place_value(std::move(value)));
+    return true;
+  }
+
+  bool close() {
+    open_.pop_back();
+    names_.pop_back();
+    return true;
+  }
+
+  /// ".key" or "[index]" of the value that comes next in the innermost container.
+  std::string ownName() const {
+    if (open_.empty()) return "";
+    if (open_.back()->is_array()) return "[" + std::to_string(open_.back()->size()) + "]";
+    return "." + key_;
+  }
+
+  std::string place() const {
+    std::string whole;
+    for (const std::string& name : names_) whole += name;
+    whole += ownName();
+    return !whole.empty() && whole.front() == '.' ? whole.substr(1) : whole;
+  }
+
+  /// Whether the bad token is the NaN or Infinity that some writers put into JSON.
+  bool startsNonFinite(std::size_t position, const std::string& last_token) const {
+    const std::size_t length = std::min(position, last_token.size());
+    std::string_view rest = text_.substr(std::min(position - length, text_.size()));
+    if (!rest.empty() && rest.front() == '-') rest.remove_prefix(1);
+    return rest.starts_with("NaN") || rest.starts_with("nan") || rest.starts_with("Inf") ||
+           rest.starts_with("inf");
+  }
+
+  std::string lineAndColumn(std::size_t position) const {
+    const std::string_view before = text_.substr(0, std::min(position, text_.size()));
+    std::size_t line = 1;
+    std::size_t column = 0;
+    for (const char c : before) {
+      ++column;
+      if (c == '\n') {
+        ++line;
+        column = 0;
+      }
+    }
+    return "line " + std::to_string(line) + ", column " + std::to_string(column);
+  }
+
+  /// nlohmann's message without its error number and position.
+  static std::string explanation(const json::exception& error) {
+    std::string message = error.what();
+    const std::size_t column = message.find("column ");
+    const std::size_t colon = message.find(": ", column == std::string::npos ? 0 : column);
+    if (colon != std::string::npos) message = message.substr(colon + 2);
+    return message.size() > kDetail ? message.substr(0, kDetail) + "..." : message;
+  }
+
+  const std::filesystem::path& file_;
+  std::string_view text_;
+  json root_;
+  std::vector<json*> open_;  ///< stays valid: only the innermost container grows
+  std::vector<std::string> names_;
+  std::string key_;
+};
+
+json parse(const std::filesystem::path& file, std::string_view text) {
+  if (text.size() > kMaxJsonBytes)
+    throw InputError(
+        file, "larger than the limit of " + std::to_string(kMaxJsonBytes / kMegabyte) + " MB");
+  DocumentBuilder builder(file, text);
+  if (!json::sax_parse(text.begin(), text.end(), &builder)) throw InputError(file, "not JSON");
+  return builder.takeRoot();
+}
+
+}  // namespace
+
+JsonDocument::JsonDocument(const std::filesystem::path& file, std::string_view text)
+    : file_(file), value_(std::make_unique<json>(parse(file, text))) {}
+
+JsonDocument::JsonDocument(const std::filesystem::path& file)
+    : JsonDocument(file, asText(readFileBytes(file, kMaxJsonBytes))) {}
+
+JsonDocument::JsonDocument(JsonDocument&&) noexcept = default;
+JsonDocument& JsonDocument::operator=(JsonDocument&&) noexcept = default;
+JsonDocument::~JsonDocument() = default;
+
+JsonReader JsonDocument::root() const { return {file_, *value_, ""}; }
+
+JsonReader JsonDocument::root(std::string_view format, int version) const {
+  const JsonReader top = root();
+  if (!top.isObject()) top.fail("not a JSON object");
+  const std::string found = top.at("format").text();
+  if (found != format)
+    top.failMember("format", "is '" + found + "', not '" + std::string(format) + "'");
+  const std::int64_t found_version = top.at("version").integer();
+  if (found_version != version)
+    top.failMember("version", "version " + std::to_string(found_version) +
+                                  " is not supported (this program reads version " +
+                                  std::to_string(version) + ")");
+  return top;
+}
+
+}  // namespace boresight::sessions

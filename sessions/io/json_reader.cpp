@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/json_reader.h"
+
+#include <charconv>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/errors.h"
+
+namespace boresight::sessions {
+
+std::string numberText(double value) {
+  char buffer[40];
+  const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value);
+  return {buffer, result.ptr};
+}
+
+void JsonReader::fail(const std::string& reason) const { throw InputError(*file_, place_, reason); }
+
+void JsonReader::failMember(std::string_view key, const std::string& reason) const {
+  member(key, *value_).fail(reason);
+}
+
+std::string JsonReader::mismatch(const char* wanted) const {
+  std::string found = value_->type_name();
+  if (value_->is_array()) found = "list of " + std::to_string(value_->size());
+  const bool vowel = found.starts_with("o") || found.starts_with("a");
+  return std::string("not ") + wanted + " (is " +
+         (value_->is_null() ? "null" : (vowel ? "an " : "a ") + found) + ")";
+}
+
+JsonReader JsonReader::member(std::string_view key, const nlohmann::json& value) const {
+  return {*file_, value, place_.empty() ? std::string(key) : place_ + "." + std::string(key)};
+}
+
+void JsonReader::requireObject() const {
+  if (!value_->is_object()) fail(mismatch("an object"));
+}
+
+JsonReader JsonReader::at(std::string_view key) const {
+  const std::optional<JsonReader> found = find(key);
+  if (!found) failMember(key, "missing");
+  return *found;
+}
+
+std::optional<JsonReader> JsonReader::find(std::string_view key) const {
+  requireObject();
+  const auto found = value_->find(key);
+  if (found == value_->end() || found->is_null()) return std::nullopt;
+  return member(key, *found);
+}
+
+std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
+  requireObject();
+  std::vector<std::pair<std::string, JsonReader>> all;
+  for (auto it = value_->begin(); it != value_->end(); ++it)
+    all.emplace_back(it.key(), member(it.key(), it.value()));
+  return all;
+}
+
+std::vector<JsonReader> JsonReader::elements() const {
+  if (!value_->is_array()) fail(mismatch("a list"));
+  std::vector<JsonReader> all;
+  all.reserve(value_->size());
+  for (const nlohmann::json& element : *value_)
+    all.emplace_back(*file_, element, place_ + "[" + std::to_string(all.size()) + "]");
+  return all;
+}
+
+std::vector<JsonReader> JsonReader::elements(std::size_t count) const {
+  if (!value_->is_array() || value_->size() != count)
+    fail(mismatch(("a list of " + std::to_string(count)).c_str()));
+  return elements();
+}
+
+bool JsonReader::isObject() const { return value_->is_object(); }
+bool JsonReader::isText() const { return value_->is_string(); }
+bool JsonReader::isBoolean() const { return value_->is_boolean(); }
+bool JsonReader::isNumber() const { return value_->is_number(); }
+bool JsonReader::isInteger() const { return value_->is_number_integer(); }
+
+double JsonReader::number() const {
+  if (!value_->is_number()) fail(mismatch("a number"));
+  const auto value = value_->get<double>();
+  if (!std::isfinite(value)) fail("not a finite number");
+  return value;
+}
+
+double JsonReader::number(double minimum, double maximum) const {
+  const double value = number();
+  if (!(value >= minimum && value <= maximum))
+    fail(numberText(value) + " is outside " + numberText(minimum) + " .. " + numberText(maximum));
+  return value;
+}
+
+double JsonReader::numberAbove(double bound) const {
+  const double value = number();
+  if (!(value > bound)) fail(numberText(value) + " is not above " + numberText(bound));
+  return value;
+}
+
+std::int64_t JsonReader::integer(std::int64_t minimum, std::int64_t maximum) const {
+  if (!value_->is_number()) fail(mismatch("an integer"));
+  std::int64_t value = 0;
+  if (value_->is_number_float()) {
+    // Above 2^53 a double does not say which integer is meant.
+    const auto real = value_->get<double>();
+    if (!(std::abs(real) <= 9007199254740992.0) || std::floor(real) != real)
+      fail("not an integer (is " + numberText(real) + ")");
+    value = static_cast<std::int64_t>(real);
+  } else if (value_->is_number_unsigned() &&
+             value_->get<std::uint64_t>() >
+                 static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) {
+    fail("the integer is too large");
+  } else {
+    value = value_->get<std::int64_t>();
+  }
+  if (value < minimum || value > maximum)
+    fail(std::to_string(value) + " is outside " + std::to_string(minimum) + " .. " +
+         std::to_string(maximum));
+  return value;
+}
+
+bool JsonReader::boolean() const {
+  if (!value_->is_boolean()) fail(mismatch("true or false"));
+  return value_->get<bool>();
+}
+
+std::string JsonReader::text() const {
+  if (!value_->is_string()) fail(mismatch("a string"));
+  return value_->get<std::string>();
+}
+
+std::string JsonReader::nonEmptyText() const {
+  std::string value = text();
+  if (value.empty()) fail("is empty");
+  return value;
+}
+
+std::string JsonReader::choice(std::initializer_list<const char*> choices) const {
+  std::string value = text();
+  std::string list;
+  for (const char* candidate : choices) {
+    if (value == candidate) return value;
+    list += (list.empty() ? "'" : ", '") + std::string(candidate) + "'";
+  }
+  fail("'" + value + "' is none of " + list);
+}
+
+Eigen::Vector2d JsonReader::vector2() const {
+  const std::vector<JsonReader> all = elements(2);
+  return {all[0].number(), all[1].number()};
+}
+
+Eigen::Vector3d JsonReader::vector3() const {
+  const std::vector<JsonReader> all = elements(3);
+  return {all[0].number(), all[1].number(), all[2].number()};
+}
+
+Eigen::Vector3d JsonReader::vector3(double minimum, double maximum) const {
+  const std::vector<JsonReader> all = elements(3);
+  return {all[0].number(minimum, maximum), all[1].number(minimum, maximum),
+          all[2].number(minimum, maximum)};
+}
+
+Eigen::Matrix4d JsonReader::matrix4() const {
+  Eigen::Matrix4d matrix;
+  const std::vector<JsonReader> rows = elements(4);
+  for (int row = 0; row < 4; ++row) {
+    const std::vector<JsonReader> cells = rows[static_cast<std::size_t>(row)].elements(4);
+    for (int column = 0; column < 4; ++column)
+      matrix(row, column) = cells[static_cast<std::size_t>(column)].number();
+  }
+  return matrix;
+}
+
+std::filesystem::path JsonReader::path() const {
+  const std::filesystem::path named = nonEmptyText();
+  return (named.is_absolute() ? named : file_->parent_path() / named).lexically_normal();
+}
+
+}  // namespace boresight::sessions

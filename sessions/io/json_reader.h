@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+
+namespace boresight::sessions {
+
+/// A value inside a JSON document together with its place, e.g. `cases[3].seed`. Every accessor
+/// throws InputError (file, place, reason) when the value is not what is asked for, so a reader
+/// states its format once and its errors follow. Points into the document, which must outlive it.
+class JsonReader {
+ public:
+  JsonReader(const std::filesystem::path& file, const nlohmann::json& value, std::string place)
+      : file_(&file), value_(&value), place_(std::move(place)) {}
+
+  /// Throws InputError for this place.
+  [[noreturn]] void fail(const std::string& reason) const;
+  /// Throws InputError for the member `key` of this object.
+  [[noreturn]] void failMember(std::string_view key, const std::string& reason) const;
+
+  bool has(std::string_view key) const { return find(key).has_value(); }
+  /// Member of an object; must be there.
+  JsonReader at(std::string_view key) const;
+  /// Member of an object, or nothing. A null counts as absent.
+  std::optional<JsonReader> find(std::string_view key) const;
+  std::vector<std::pair<std::string, JsonReader>> members() const;  ///< of an object, by key
+  std::vector<JsonReader> elements() const;                         ///< of an array
+  std::vector<JsonReader> elements(std::size_t count) const;        ///< of an array of `count`
+
+  bool isObject() const;
+  bool isText() const;
+  bool isBoolean() const;
+  bool isNumber() const;
+  bool isInteger() const;  ///< written without fraction or exponent
+
+  double number() const;
+  /// A number in [minimum, maximum].
+  double number(double minimum, double maximum) const;
+  /// A number above `bound`.
+  double numberAbove(double bound) const;
+  /// An integral number in [minimum, maximum]; 5.0 is accepted as 5.
+  std::int64_t integer(std::int64_t minimum = std::numeric_limits<std::int64_t>::min(),
+                       std::int64_t maximum = std::numeric_limits<std::int64_t>::max()) const;
+  bool boolean() const;
+  std::string text() const;
+  std::string nonEmptyText() const;
+  /// One of `choices`.
+  std::string choice(std::initializer_list<const char*> choices) const;
+
+  Eigen::Vector2d vector2() const;
+  Eigen::Vector3d vector3() const;
+  /// Three numbers, each in [minimum, maximum].
+  Eigen::Vector3d vector3(double minimum, double maximum) const;
+  /// Four rows of four numbers.
+  Eigen::Matrix4d matrix4() const;
+
+  /// A file named relative to the document's folder (or absolute).
+  std::filesystem::path path() const;
+
+  const std::filesystem::path& file() const { return *file_; }
+  const std::string& place() const { return place_; }
+
+ private:
+  JsonReader member(std::string_view key, const nlohmann::json& value) const;
+  void requireObject() const;
+  /// "not a number (a string)" and the like.
+  std::string mismatch(const char* wanted) const;
+
+  const std::filesystem::path* file_;
+  const nlohmann::json* value_;
+  std::string place_;
+};
+
+/// Shortest text that reads back as the same double.
+std::string numberText(double value);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/geometry/pose.h"
+
+namespace boresight::sessions {
+
+/// JSON for people: one member per line, but lists of plain values (a matrix row) on one line.
+/// Numbers are the shortest text that reads back as the same double.
+std::string prettyJson(const nlohmann::ordered_json& value);
+
+/// Writes `value` atomically; OutputError. A number that is not finite has no JSON: it is a fault
+/// of the program and throws std::logic_error rather than being written as null.
+void writeJsonFile(const std::filesystem::path& file, const nlohmann::ordered_json& value);
+
+nlohmann::ordered_json toJson(const Eigen::Vector3d& vector);
+/// Row-major 4x4.
+nlohmann::ordered_json toJson(const Pose& a_from_b);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/pose_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/math.h"
+#include "sessions/io/json_document.h"
+#include "sessions/io/json_writer.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr const char* kFormat = "boresight-pose";
+constexpr int kVersion = 1;
+constexpr double kLastRowTolerance = 1e-9;
+constexpr double kNotedDeviation = 1e-6;
+constexpr double kMaxTranslation_m = 1e6;
+
+}  // namespace
+
+Pose readTransform(const JsonReader& json, double* rotation_deviation) {
+  const Eigen::Matrix4d matrix = json.matrix4();
+  const Eigen::RowVector4d last_row(0.0, 0.0, 0.0, 1.0);
+  if ((matrix.row(3) - last_row).cwiseAbs().maxCoeff() > kLastRowTolerance)
+    json.fail("the last row is not 0 0 0 1 (the matrix is row-major)");
+  const Eigen::Vector3d translation_m = matrix.topRightCorner<3, 1>();
+  if (translation_m.cwiseAbs().maxCoeff() > kMaxTranslation_m)
+    json.fail("the translation exceeds " + numberText(kMaxTranslation_m) + " m");
+  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  Pose pose;
+  double deviation = 0.0;
+  if (poseFromMatrix(rotation, translation_m, pose, deviation) != Status::kOk) {
+    if (rotation.determinant() <= 0.0)
+      json.fail("not a rotation: the determinant is " + numberText(rotation.determinant()) +
+                " (a mirror image or a singular matrix)");
+    json.fail("not a rotation: |R'R - I| is " +
+              numberText((rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm()) +
+              ", above 1e-4");
+  }
+  if (rotation_deviation != nullptr) *rotation_deviation = deviation;
+  return pose;
+}
+
+DeclaredUncertainty readUncertainty(const JsonReader& json) {
+  DeclaredUncertainty uncertainty;
+  uncertainty.translation_m = json.at("translation_m").vector3(0.0, 1000.0);
+  uncertainty.rotation_deg = json.at("rotation_deg").vector3(0.0, 180.0);
+  if (const auto pivot = json.find("pivot"))
+    uncertainty.pivot = pivot->choice({"camera", "station"}) == "station"
+                            ? UncertaintyPivot::kStation
+                            : UncertaintyPivot::kCamera;
+  return uncertainty;
+}
+
+PoseFile readPose(const JsonReader& json) {
+  PoseFile pose;
+  if (json.has("reference_from_station") && !json.has("camera_from_station"))
+    json.failMember("reference_from_station",
+                    "needs a camera of the CAHV family, which is not supported; give "
+                    "camera_from_station");
+  pose.camera_from_station =
+      readTransform(json.at("camera_from_station"), &pose.rotation_deviation);
+  if (const auto uncertainty = json.find("uncertainty"))
+    pose.uncertainty = readUncertainty(*uncertainty);
+  return pose;
+}
+
+PoseFile readPose(const std::filesystem::path& file) {
+  const JsonDocument document(file);
+  return readPose(document.root(kFormat, kVersion));
+}
+
+std::string projectionNote(double rotation_deviation) {
+  if (rotation_deviation <= kNotedDeviation) return "";
+  return "the matrix is not quite a rotation (|R'R - I| = " + numberText(rotation_deviation) +
+         ") and was projected to the nearest one";
+}
+
+SeedUncertainty seedUncertainty(const DeclaredUncertainty& declared,
+                                const Pose& camera_from_station_seed,
+                                const Eigen::Vector3d& matched_centre_in_station_m) {
+  SeedUncertainty uncertainty;
+  uncertainty.translation_m = declared.translation_m;
+  uncertainty.rotation_rad = declared.rotation_deg * kDegree_rad;
+  uncertainty.pivot_in_camera_m = Eigen::Vector3d::Zero();
+  if (declared.pivot == UncertaintyPivot::kStation)
+    uncertainty.pivot_in_camera_m = camera_from_station_seed * matched_centre_in_station_m;
+  return uncertainty;
+}
+
+nlohmann::ordered_json toJson(const DeclaredUncertainty& uncertainty) {
+  nlohmann::ordered_json json;
+  json["translation_m"] = toJson(uncertainty.translation_m);
+  json["rotation_deg"] = toJson(uncertainty.rotation_deg);
+  json["pivot"] = uncertainty.pivot == UncertaintyPivot::kStation ? "station" : "camera";
+  return json;
+}
+
+void writePose(const std::filesystem::path& file, const Pose& camera_from_station,
+               const std::optional<DeclaredUncertainty>& uncertainty) {
+  nlohmann::ordered_json json;
+  json["format"] = kFormat;
+  json["version"] = kVersion;
+  json["camera_from_station"] = toJson(camera_from_station);
+  if (uncertainty) json["uncertainty"] = toJson(*uncertainty);
+  writeJsonFile(file, json);
+}
+
+}  // namespace boresight::sessions

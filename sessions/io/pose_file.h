@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/geometry/pose.h"
+#include "sessions/io/json_reader.h"
+
+namespace boresight::sessions {
+
+enum class UncertaintyPivot { kCamera, kStation };
+
+/// Uncertainty of a seed as files state it, per axis of the seed camera frame.
+struct DeclaredUncertainty {
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Constant(0.03);
+  Eigen::Vector3d rotation_deg = Eigen::Vector3d::Constant(5.0);
+  UncertaintyPivot pivot = UncertaintyPivot::kCamera;
+};
+
+/// What a pose file (or a pose inside another file) states.
+struct PoseFile {
+  Pose camera_from_station;
+  /// |R'R - I| (Frobenius) of the matrix in the file, before it was projected to a rotation.
+  double rotation_deviation = 0.0;
+  std::optional<DeclaredUncertainty> uncertainty;
+};
+
+/// Reads pose.json (`boresight-pose`, version 1). InputError.
+PoseFile readPose(const std::filesystem::path& file);
+/// The same for a pose inside another file, without format and version.
+PoseFile readPose(const JsonReader& json);
+
+/// A 4x4 rigid transform: last row 0 0 0 1, everything finite, and a rotation with
+/// |R'R - I| <= 1e-4, which is projected to the nearest one; refused otherwise.
+/// `rotation_deviation` may be nullptr.
+Pose readTransform(const JsonReader& json, double* rotation_deviation = nullptr);
+
+/// Translations 0 .. 1000 m, rotations 0 .. 180 deg; `pivot` is "camera" where it is not given.
+DeclaredUncertainty readUncertainty(const JsonReader& json);
+
+/// A line for people when the matrix was noticeably not a rotation (deviation above 1e-6, more than
+/// single precision explains), else empty.
+std::string projectionNote(double rotation_deviation);
+
+/// The uncertainty as the core takes it: radians, and the pivot in the seed camera's frame, which
+/// for `station` is the centre of the bounding box of the matched parts.
+SeedUncertainty seedUncertainty(const DeclaredUncertainty& declared,
+                                const Pose& camera_from_station_seed,
+                                const Eigen::Vector3d& matched_centre_in_station_m);
+
+nlohmann::ordered_json toJson(const DeclaredUncertainty& uncertainty);
+/// Writes pose.json; OutputError.
+void writePose(const std::filesystem::path& file, const Pose& camera_from_station,
+               const std::optional<DeclaredUncertainty>& uncertainty = std::nullopt);
+
+}  // namespace boresight::sessions

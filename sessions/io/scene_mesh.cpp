@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/scene_mesh.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "sessions/io/errors.h"
+
+namespace boresight::sessions {
+namespace {
+
+bool isIdentity(const Pose& pose) {
+  return pose.rotation.coeffs() == Eigen::Quaterniond::Identity().coeffs() &&
+         pose.translation_m == Eigen::Vector3d::Zero();
+}
+
+void requireBelow(const std::filesystem::path& file, std::size_t count, std::int64_t limit,
+                  const char* what) {
+  if (count > static_cast<std::size_t>(limit))
+    throw InputError(file, what,
+                     "the station's parts together have " + std::to_string(count) + ", more than " +
+                         std::to_string(limit));
+}
+
+}  // namespace
+
+void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& station_from_mesh,
+             const ScenePart& part) {
+  const std::filesystem::path& file = mesh.info.file;
+  const std::size_t first = scene.vertices_in_station_m.size();
+  requireBelow(file, first + mesh.vertices_m.size(), kMaxMeshVertices, "vertices");
+  requireBelow(file, scene.faces.size() + mesh.faces.size(), kMaxMeshFaces, "faces");
+  requireBelow(file, scene.parts.size() + 1, std::numeric_limits<std::uint16_t>::max(), "parts");
+  // Without a transform the coordinates keep their bits.
+  const bool in_place = isIdentity(station_from_mesh);
+  for (const Eigen::Vector3f& vertex : mesh.vertices_m)
+    scene.vertices_in_station_m.push_back(
+        in_place
+            ? vertex
+            : Eigen::Vector3f((station_from_mesh * vertex.cast<double>().eval()).cast<float>()));
+  for (const Face& face : mesh.faces) {
+    Face moved = face;
+    for (std::int32_t& index : moved.vertex) index += static_cast<std::int32_t>(first);
+    scene.faces.push_back(moved);
+  }
+  scene.part_of_face.resize(scene.faces.size(), static_cast<std::uint16_t>(scene.parts.size()));
+  scene.parts.push_back(part);
+  scene.infos.push_back(mesh.info);
+}
+
+SceneMesh readScene(std::span<const PartSource> parts) {
+  SceneMesh scene;
+  for (const PartSource& source : parts)
+    addPart(scene, readMesh(source.mesh, source.mesh_unit), source.station_from_mesh, source.part);
+  const bool any_matched = std::any_of(parts.begin(), parts.end(),
+                                       [](const PartSource& source) { return source.part.match; });
+  if (!any_matched)
+    throw InputError(parts.empty() ? "(station)" : parts.front().mesh, "match",
+                     "no part of the station is to be matched");
+  return scene;
+}
+
+std::vector<Eigen::Vector3f> matchedVertices(const MeshView& mesh) {
+  std::vector<bool> matched(mesh.vertices_in_station_m.size(), false);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    if (!mesh.parts[mesh.part_of_face[f]].match) continue;
+    for (const std::int32_t index : mesh.faces[f].vertex)
+      matched[static_cast<std::size_t>(index)] = true;
+  }
+  std::vector<Eigen::Vector3f> vertices;
+  for (std::size_t i = 0; i < matched.size(); ++i)
+    if (matched[i]) vertices.push_back(mesh.vertices_in_station_m[i]);
+  return vertices;
+}
+
+std::string scaleConcern(const BoundingBox& bounds_in_station, const Pose& camera_from_station) {
+  constexpr double kLarge_m = 20.0;
+  constexpr double kLargeRatio = 100.0;
+  constexpr double kSmall_m = 0.005;
+  constexpr double kSmallRatio = 1.0 / 500.0;
+  const Eigen::Vector3d camera_in_station_m = camera_from_station.inverse().translation_m;
+  const Eigen::Vector3d nearest_m = camera_in_station_m.cwiseMax(bounds_in_station.minimum_m)
+                                        .cwiseMin(bounds_in_station.maximum_m);
+  const double distance_m =
+      std::max(camera_in_station_m.norm(), (camera_in_station_m - nearest_m).norm());
+  const double diagonal_m = bounds_in_station.diagonal();
+  const bool too_large = diagonal_m >= kLarge_m && diagonal_m > kLargeRatio * distance_m;
+  const bool too_small = diagonal_m <= kSmall_m && diagonal_m < kSmallRatio * distance_m;
+  if (!too_large && !too_small) return "";
+  return "the mesh measures " + lengthText(diagonal_m) + " across, but the seed's camera is " +
+         lengthText(distance_m) + " away";
+}
+
+void requirePlausibleScale(const SceneMesh& scene, const Pose& camera_from_station) {
+  const std::string concern = scaleConcern(matchedBounds(scene.view()), camera_from_station);
+  if (concern.empty() || scene.infos.empty()) return;
+  throw InputError(scene.infos.front().file, "mesh_unit",
+                   concern + " (unit '" + scene.infos.front().unit + "'): is the unit right?");
+}
+
+}  // namespace boresight::sessions

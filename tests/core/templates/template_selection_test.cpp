@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/templates/template_selection.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <vector>
+
+#include "core/base/random.h"
+
+namespace boresight {
+namespace {
+
+struct DrawnPixel {
+  int x, y;
+  double nx, ny;
+};
+
+/// An edge render made by hand: what the selector reads of it, nothing else.
+class DrawnRender {
+ public:
+  DrawnRender(int width, int height) : memory_(8 << 20), arena_(memory_) {
+    RenderOptions options;
+    options.max_edge_pixels = 40000;
+    render = createEdgeRender(width, height, options, arena_);
+    render.camera.width = width;
+    render.camera.height = height;
+    render.camera.fx = render.camera.fy = 500.0;
+    render.camera.cx = 0.5 * width;
+    render.camera.cy = 0.5 * height;
+    EXPECT_EQ(prepareCamera(render.camera), Status::kOk);
+    render.edges.width = render.mask.width = width;
+    render.edges.height = render.mask.height = height;
+  }
+
+  void set(std::vector<DrawnPixel> drawn) {
+    std::sort(drawn.begin(), drawn.end(), [](const DrawnPixel& a, const DrawnPixel& b) {
+      return a.y != b.y ? a.y < b.y : a.x < b.x;
+    });
+    render.edges.clear();
+    render.pixel_count = 0;
+    for (const DrawnPixel& pixel : drawn) {
+      if (render.edges.get(pixel.x, pixel.y)) continue;
+      render.edges.set(pixel.x, pixel.y);
+      EdgePixel& made = render.pixels[static_cast<std::size_t>(render.pixel_count++)];
+      made = EdgePixel{};
+      made.x = static_cast<std::int16_t>(pixel.x);
+      made.y = static_cast<std::int16_t>(pixel.y);
+      made.depth_m = 1.0F;
+      made.normal_x = static_cast<std::int8_t>(std::lround(127.0 * pixel.nx));
+      made.normal_y = static_cast<std::int8_t>(std::lround(127.0 * pixel.ny));
+    }
+  }
+
+  EdgeRender render;
+
+ private:
+  std::vector<std::byte> memory_;
+  Arena arena_;
+};
+
+std::vector<DrawnPixel> squareOutline(int left, int top, int side) {
+  std::vector<DrawnPixel> drawn;
+  for (int i = 0; i <= side; ++i) {
+    drawn.push_back({left + i, top, 0.0, -1.0});
+    drawn.push_back({left + i, top + side, 0.0, 1.0});
+    drawn.push_back({left, top + i, -1.0, 0.0});
+    drawn.push_back({left + side, top + i, 1.0, 0.0});
+  }
+  return drawn;
+}
+
+class Selector {
+ public:
+  explicit Selector(const TemplateOptions& options, int width = 512, int height = 512)
+      : memory_(16 << 20), arena_(memory_) {
+    EXPECT_EQ(selector_.create(width, height, options, arena_), Status::kOk);
+    set = createTemplateSet(options, arena_);
+  }
+  Status select(const EdgeRender& render, int side_px, const BitImage* ignore = nullptr,
+                int level = 0) {
+    return selector_.select(render, side_px, ignore, level, set);
+  }
+  TemplateSet set;
+
+ private:
+  std::vector<std::byte> memory_;
+  Arena arena_;
+  TemplateSelector selector_;
+};
+
+TEST(TemplateSelector, PrefersCornersToStraightEdges) {
+  DrawnRender drawn(512, 512);
+  drawn.set(squareOutline(100, 100, 300));
+  TemplateOptions options;
+  options.count = 4;
+  options.min_count = 4;
+  Selector selector(options);
+  ASSERT_EQ(selector.select(drawn.render, 32), Status::kOk);
+  ASSERT_EQ(selector.set.count, 4);
+  for (int i = 0; i < 4; ++i) {
+    const Template& item = selector.set.templates[static_cast<std::size_t>(i)];
+    const int to_corner_x = std::min(std::abs(item.center_x - 100), std::abs(item.center_x - 400));
+    const int to_corner_y = std::min(std::abs(item.center_y - 100), std::abs(item.center_y - 400));
+    EXPECT_LE(std::max(to_corner_x, to_corner_y), 20) << item.center_x << "," << item.center_y;
+  }
+}
+
+TEST(TemplateSelector, StandsOnEdgePixelsAndInsideTheImageAndNeverExceedsTheCount) {
+  DrawnRender drawn(320, 240);
+  Random random(7);
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<DrawnPixel> pixels;
+    for (int i = 0; i < 3000; ++i) {
+      const double angle = random.uniform(0.0, 6.28);
+      pixels.push_back({static_cast<int>(random.below(320)), static_cast<int>(random.below(240)),
+                        std::cos(angle), std::sin(angle)});
+    }
+    drawn.set(pixels);
+    TemplateOptions options;
+    options.count = 4 + static_cast<std::int32_t>(random.below(120));
+    options.min_count = 4;
+    Selector selector(options, 320, 240);
+    const int side_px = 8 << random.below(4);
+    ASSERT_EQ(selector.select(drawn.render, side_px), Status::kOk);
+    EXPECT_LE(selector.set.count, options.count);
+    EXPECT_GE(selector.set.count, options.count / 4);
+    std::set<std::pair<int, int>> places;
+    for (int i = 0; i < selector.set.count; ++i) {
+      const Template& item = selector.set.templates[static_cast<std::size_t>(i)];
+      EXPECT_TRUE(drawn.render.edges.get(item.center_x, item.center_y));
+      EXPECT_GE(item.center_x, side_px / 2);
+      EXPECT_GE(item.center_y, side_px / 2);
+      EXPECT_LE(item.center_x + side_px / 2, 320);
+      EXPECT_LE(item.center_y + side_px / 2, 240);
+      EXPECT_TRUE(places.insert({item.center_x, item.center_y}).second);
+      EXPECT_NEAR(item.point_in_station_m.z(), 1.0, 1e-6);
+    }
+  }
+}
+
+TEST(TemplateSelector, DistinctnessIsTheSmallerEigenvalueOfTheScatter) {
+  // All within one block-aligned square: the table must give the plain sum.
+  DrawnRender drawn(256, 256);
+  std::vector<DrawnPixel> pixels;
+  Random random(3);
+  double xx = 0, xy = 0, yy = 0;
+  for (int i = 0; i < 60; ++i) {
+    const double angle = random.uniform(0.0, 1.0);
+    const int nx = static_cast<int>(std::lround(127.0 * std::cos(angle)));
+    const int ny = static_cast<int>(std::lround(127.0 * std::sin(angle)));
+    pixels.push_back({120 + i % 8, 120 + i / 8, nx / 127.0, ny / 127.0});
+    xx += nx * nx / 16129.0;
+    xy += nx * ny / 16129.0;
+    yy += ny * ny / 16129.0;
+  }
+  drawn.set(pixels);
+  TemplateOptions options;
+  options.count = 4;
+  options.min_count = 4;
+  Selector selector(options, 256, 256);
+  EXPECT_EQ(selector.select(drawn.render, 64),
+            Status::kTooFewTemplates);  // they share a cell or few
+  ASSERT_GE(selector.set.count, 1);
+  const double smaller = 0.5 * (xx + yy) - std::hypot(0.5 * (xx - yy), xy);
+  EXPECT_NEAR(selector.set.templates[0].distinctness, smaller, 1e-3);
+}
+
+TEST(TemplateSelector, RejectsTemplatesWhoseAreaIsIgnored) {
+  DrawnRender drawn(512, 512);
+  drawn.set(squareOutline(100, 100, 300));
+  std::vector<std::byte> memory(4 << 20);
+  Arena arena(memory);
+  BitImage ignore = BitImage::create(arena, 1024, 1024);  // the render is at level 1
+  for (int y = 0; y < 1024; ++y) {
+    for (int x = 0; x < 512; ++x) ignore.set(x, y);
+  }
+  TemplateOptions options;
+  options.count = 64;
+  options.min_count = 4;
+  Selector selector(options);
+  ASSERT_EQ(selector.select(drawn.render, 32, &ignore, 1), Status::kOk);
+  for (int i = 0; i < selector.set.count; ++i) {
+    const int ignored_columns =
+        256 - (selector.set.templates[static_cast<std::size_t>(i)].center_x - 16);
+    EXPECT_LE(ignored_columns, 0.3 * 32);
+  }
+}
+
+TEST(TemplateSelector, SaysWhenTooFewFit) {
+  DrawnRender drawn(512, 512);
+  drawn.set({});
+  Selector selector(TemplateOptions{});
+  EXPECT_EQ(selector.select(drawn.render, 64), Status::kTooFewTemplates);
+  EXPECT_EQ(selector.set.count, 0);
+}
+
+TEST(TemplateSide, IsThePowerOfTwoNearestToTheProjectedFeature) {
+  Camera camera;
+  camera.width = camera.height = 2048;
+  camera.fx = camera.fy = 3000.0;
+  TemplateOptions options;
+  options.size_factor = 1.0;
+  EXPECT_EQ(templateSide(options, 0.0128, 0.3, camera), 128);
+  EXPECT_EQ(templateSide(options, 0.0128 * 1.40, 0.3, camera), 128);
+  EXPECT_EQ(templateSide(options, 0.0128 * 1.43, 0.3, camera), 256);
+  EXPECT_EQ(templateSide(options, 0.0001, 0.3, camera), options.min_side_px);
+  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera), options.max_side_px);
+  camera.width = camera.height = 256;
+  EXPECT_LE(templateSide(options, 1.0, 0.3, camera), 64);
+}
+
+}  // namespace
+}  // namespace boresight
