@@ -13,7 +13,7 @@ namespace {
 // into place, so a tile has eight offsets less than they have bits.
 constexpr int kTileWords = 10;
 constexpr int kTileOffsets = 64 * kTileWords - 8;
-constexpr int kEdgeCapacity = 8192;
+constexpr int kEdgeCapacity = 6144;
 // Words of pixels added in a step: a few milliseconds on a workstation.
 constexpr std::int64_t kStepWork = 2'000'000;
 constexpr std::int64_t kRowOverhead = 200;
