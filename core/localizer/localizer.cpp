@@ -40,6 +40,7 @@ StepReport report(Stage stage, bool stage_complete) {
 
 StepReport Localizer::step() {
   if (status_ != Status::kOk && stage_ != Stage::kFinished) return faulted(stage_, status_);
+  if (iteration_pending_) startIteration();
   switch (stage_) {
     case Stage::kEdges:
       return stepEdges();

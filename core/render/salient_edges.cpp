@@ -131,8 +131,9 @@ bool SalientEdges::crossOverlap(const Context& context, const Sample& p, const S
   const CameraScene& scene = context.scene;
   const PlaneCache::Entry plane_p = planes_.get(scene, p.face);
   const PlaneCache::Entry plane_q = planes_.get(scene, q.face);
-  const double s_p = end_p.s;        // p's surface covers 0 .. s_p
-  const double s_q = 1.0 - end_q.s;  // q's surface covers s_q .. 1
+  const double s_p = end_p.s;                                        // p's surface covers 0 .. s_p
+  const double s_q = 1.0 - end_q.s;                                  // q's surface covers s_q .. 1
+  const Eigen::Vector3d difference = plane_p.plane - plane_q.plane;  // > 0 where p's is nearer
   bool intersect = false;
   if (s_p >= s_q) {
     const double low = std::max(s_q, 0.0);
@@ -147,9 +148,9 @@ bool SalientEdges::crossOverlap(const Context& context, const Sample& p, const S
     if (ahead_low < 0.0 && ahead_high < 0.0) crossing.nearer_is_p = false;
     intersect = ahead_low > 0.0 && ahead_high < 0.0;
     if (intersect) {
-      crossing.line = plane_p.plane - plane_q.plane;
-      const double at_p = dotProduct(crossing.line, p.ray);
-      const double at_q = dotProduct(crossing.line, q.ray);
+      crossing.line = difference;
+      const double at_p = dotProduct(difference, p.ray);
+      const double at_q = dotProduct(difference, q.ray);
       const double s = at_p / (at_p - at_q);
       crossing.s = s > low ? std::min(s, high) : low;
       crossing.has_line = true;
@@ -158,13 +159,14 @@ bool SalientEdges::crossOverlap(const Context& context, const Sample& p, const S
   const SurfaceEnd& end = crossing.nearer_is_p ? end_p : end_q;
   if (!intersect) {
     const Sample& other = crossing.nearer_is_p ? q : p;
-    if (!end.ends) {  // cut by the near plane, which is no end of the surface
-      const PlaneCache::Entry& plane = crossing.nearer_is_p ? plane_p : plane_q;
-      if (dotProduct(plane.plane, other.ray) * scene.near_plane_m >= 1.0) return false;
-    }
+    const Eigen::Vector3d& plane = crossing.nearer_is_p ? plane_p.plane : plane_q.plane;
+    // Cut by the near plane, which is no end of the surface.
+    if (!end.ends && dotProduct(plane, other.ray) * scene.near_plane_m >= 1.0) return false;
     crossing.s = crossing.nearer_is_p ? std::min(s_p, 1.0) : std::max(s_q, 0.0);
-    crossing.has_line = end.ends;
+    crossing.has_line = true;
     crossing.line = end.line;
+    // It covers the other pixel and is not seen there: the two planes meet in that very pixel.
+    if (!end.ends) crossing.line = crossing.nearer_is_p ? difference : Eigen::Vector3d(-difference);
   }
   crossing.face = end.face;
 

@@ -7,7 +7,8 @@
 namespace boresight {
 namespace {
 
-constexpr int kMaxHops = 8;
+/// A scanned surface has dozens of faces in the last pixel before its silhouette.
+constexpr int kMaxHops = 64;
 
 /// The edge through which a way leaves a triangle: the first whose value falls to zero.
 struct Exit {
