@@ -109,8 +109,9 @@ void Equalizer::begin(const ImageView& image, const BitImage* ignore, const Edge
   clip_limit_ = options.clahe_clip_limit;
   if (equalization_ == Equalization::kOff) return;
   if (equalization_ == Equalization::kClahe) tiles_ = options.clahe_tiles;
-  counts_ = arena.allocate<std::int32_t>(static_cast<std::size_t>(kLanes * kGrayLevels));
-  tables_ = arena.allocate<std::uint8_t>(static_cast<std::size_t>(tiles_ * tiles_ * kGrayLevels));
+  counts_ = arena.allocate<std::int32_t>(std::size_t{kLanes} * kGrayLevels);
+  tables_ = arena.allocate<std::uint8_t>(static_cast<std::size_t>(tiles_) *
+                                         static_cast<std::size_t>(tiles_) * kGrayLevels);
   if (equalization_ == Equalization::kClahe) beginTiles(arena);
 }
 
@@ -169,7 +170,7 @@ bool Equalizer::stepTiles(std::int32_t pixel_budget) {
     }
     if (row_ < tile_height_) return false;
     const GrayTable table = claheLut(takeHistogram(), clip_limit_);
-    std::copy(table.begin(), table.end(), tables_.begin() + tile_ * kGrayLevels);
+    std::copy(table.begin(), table.end(), tables_.begin() + std::ptrdiff_t{tile_} * kGrayLevels);
     pixel_budget -= kGrayLevels;
     row_ = 0;
     ++tile_;
@@ -228,8 +229,10 @@ void Equalizer::row(int y, std::uint8_t* __restrict out) const {
 void Equalizer::rowByTiles(int y, std::uint8_t* __restrict out) const {
   const std::uint8_t* pixels = image_.row(y);
   const TilePosition vertical = tilePosition(y, 1.0F / static_cast<float>(tile_height_), tiles_);
-  const std::uint8_t* above = tables_.data() + vertical.before * tiles_ * kGrayLevels;
-  const std::uint8_t* below = tables_.data() + vertical.after * tiles_ * kGrayLevels;
+  const std::uint8_t* above =
+      tables_.data() + std::ptrdiff_t{vertical.before} * tiles_ * kGrayLevels;
+  const std::uint8_t* below =
+      tables_.data() + std::ptrdiff_t{vertical.after} * tiles_ * kGrayLevels;
   const float weight_below = vertical.weight_after;
   const float weight_above = 1.0F - weight_below;
   for (int x = 0; x < image_.width; ++x) {
