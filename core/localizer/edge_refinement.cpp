@@ -15,6 +15,8 @@ constexpr int kMaxProfile = 512;  ///< samples of one profile
 constexpr double kTukey = 4.685;  ///< 95 % efficiency on Gaussian residuals (Huber 1981)
 constexpr double kMadToSigma = 1.4826;
 constexpr double kMinScale_px = 0.15;
+constexpr double kSettled_rad = 2e-6;  ///< a step below these moves nothing that is measured
+constexpr double kSettled_m = 1e-6;
 
 /// One side of an antisymmetric derivative-of-Gaussian kernel at kStep_px, scaled so that a unit
 /// ramp (1 gray per px) gives 1.
@@ -67,7 +69,8 @@ Status EdgeRefinement::create(const RefinementOptions& options, Arena& arena) {
 
 Status EdgeRefinement::begin(const ImageView& image, const BitImage* ignore, const Camera& camera,
                              const MeshView& mesh, const EdgeRender& render, double radius_px,
-                             const PosePrior* anchor, RefinementResult& result) {
+                             const PosePrior* anchor, const PoseEstimate* matched,
+                             RefinementResult& result) {
   image_ = image;
   ignore_ = ignore;
   camera_ = camera;
@@ -76,6 +79,8 @@ Status EdgeRefinement::begin(const ImageView& image, const BitImage* ignore, con
   round_ = 0;
   anchored_ = anchor != nullptr;
   if (anchored_) anchor_ = *anchor;
+  has_matched_ = matched != nullptr;
+  if (has_matched_) matched_ = *matched;
   result.camera_from_station = render.camera_from_station;
   result.covariance = Matrix6d::Zero();
   result.found_count = 0;
@@ -141,8 +146,11 @@ void EdgeRefinement::search(EdgeSample& sample, const Eigen::Vector2d& predicted
     const double after = derivative(i + 1);
     const double strength = std::abs(here);
     const bool peak = strength >= std::abs(before) && strength > std::abs(after);
-    if (peak && strength > best && strength >= options_.min_gradient) {
-      best = strength;
+    // A weaker edge nearby is likelier than a strong one at the rim of the search.
+    const double away = i / static_cast<double>(inner + 1);
+    const double preference = strength * (1.0 - away * away);
+    if (peak && preference > best && strength >= options_.min_gradient) {
+      best = preference;
       const double bend = std::abs(before) - 2.0 * strength + std::abs(after);
       const double shift = bend < 0.0 ? 0.5 * (std::abs(before) - std::abs(after)) / bend : 0.0;
       sample.residual_px = (i + std::clamp(shift, -0.5, 0.5)) * kStep_px;
@@ -189,13 +197,13 @@ Status EdgeRefinement::step(bool& done) {
   done = true;
   if (result.found_count < options_.min_found) return Status::kTooFewEdges;
   ++round_;
-  const bool last_round = round_ >= options_.rounds;
-  const Status status = solve(robustScale(), last_round);
-  done = last_round || status != Status::kOk;
+  bool settled = false;
+  const Status status = solve(robustScale(), settled);
+  done = settled || round_ >= options_.rounds || status != Status::kOk;
   return status;
 }
 
-Status EdgeRefinement::solve(double scale_px, bool last_round) {
+Status EdgeRefinement::solve(double scale_px, bool& settled) {
   RefinementResult& result = *result_;
   NormalEquations equations;
   double weights = 0.0;
@@ -219,15 +227,28 @@ Status EdgeRefinement::solve(double scale_px, bool last_round) {
       std::max(variance_px2, kMinScale_px * kMinScale_px) * options_.covariance_inflation;
   equations.information /= noise_px2;
   equations.gradient /= noise_px2;
-  if (last_round && !invert(equations.information, result.covariance)) return Status::kDegenerate;
-  if (anchored_) addPrior(anchor_, result.camera_from_station, equations);
+  if (!invert(equations.information, result.covariance)) return Status::kDegenerate;
+  addKnowledge(equations);
   Vector6d xi;
   if (!boresight::solve(equations, 0.0, xi)) return Status::kDegenerate;
   Pose moved = perturbed(xi, result.camera_from_station);
   moved.rotation.normalize();
   if (!moved.isFinite()) return Status::kDegenerate;
   result.camera_from_station = moved;
+  settled = xi.head<3>().cwiseAbs().maxCoeff() < kSettled_rad &&
+            xi.tail<3>().cwiseAbs().maxCoeff() < kSettled_m;
   return Status::kOk;
+}
+
+/// The seed's uncertainty and the matched pose: weak beside thousands of edges, but where the edges
+/// are few or ambiguous they keep the pose from drifting.
+void EdgeRefinement::addKnowledge(NormalEquations& equations) const {
+  const Pose& now = result_->camera_from_station;
+  if (anchored_) addPrior(anchor_, now, equations);
+  if (!has_matched_) return;
+  equations.information += matched_.information;
+  equations.gradient +=
+      matched_.information * perturbationBetween(now, matched_.camera_from_station);
 }
 
 bool EdgeRefinement::addSample(const EdgeSample& sample, double weight,

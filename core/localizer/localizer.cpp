@@ -101,12 +101,15 @@ void Localizer::startHypothesis() {
   now.level = levelOf(now.kind, iteration_);
   now.camera_from_station_before = camera_from_station_;
   now.uncertainty = uncertaintyAt(iteration_, camera_from_station_);
-  const int refined = iteration_ - options_.loop.match_iterations;
-  now.threshold_px =
-      now.kind == IterationKind::kMatch
-          ? shrinkAt(options_.loop.threshold_shrink, iteration_) * options_.loop.inlier_threshold_px
-          : (refined == 0 ? options_.refinement.first_radius_px
-                          : options_.refinement.last_radius_px);
+  if (now.kind == IterationKind::kMatch) {
+    now.threshold_px =
+        shrinkAt(options_.loop.threshold_shrink, iteration_) * options_.loop.inlier_threshold_px;
+  } else {
+    const bool first = iteration_ == options_.loop.match_iterations;
+    const double radius_px =
+        first ? options_.refinement.first_radius_px : options_.refinement.last_radius_px;
+    now.threshold_px = radius_px * static_cast<double>(1 << now.level);
+  }
   now.status = LocalizationStatus::kRunning;
   now.templates.count = 0;
   now.matches.count = 0;
@@ -312,7 +315,8 @@ StepReport Localizer::stepRefine() {
   Status status = Status::kOk;
   if (!stage_begun_) {
     status = refinement_.begin(problem_.image, problem_.ignore, problem_.camera, problem_.mesh,
-                               now.render, now.threshold_px, anchor(), now.refinement);
+                               now.render, now.threshold_px, anchor(),
+                               options_.loop.anchored ? &matched_ : nullptr, now.refinement);
     stage_begun_ = true;
   }
   bool complete = false;
@@ -334,6 +338,12 @@ StepReport Localizer::finishIteration(Stage stage, const Pose& camera_from_stati
   small_corrections_ = isSmall(now) ? small_corrections_ + 1 : 0;
   camera_from_station_ = now.camera_from_station;
   covariance_ = covariance;
+  if (matched) {
+    // Templates overlap and share their errors.
+    matched_.camera_from_station = camera_from_station_;
+    if (!invert(covariance * options_.loop.match_inflation, matched_.information))
+      matched_.information.setZero();
+  }
   StepReport made = report(stage, true);
   made.iteration_complete = true;
   ++iteration_;
@@ -427,6 +437,7 @@ void Localizer::measureCorrection(const Pose& before, const Pose& after) {
     now.correction_translation_m =
         (after.inverse().translation_m - before.inverse().translation_m).norm();
   }
+  now.correction_image_px = imageDisplacement(before, after);
   now.correction_rotation_rad =
       rotationLog((after.rotation * before.rotation.conjugate()).normalized()).norm();
 }

@@ -131,6 +131,7 @@ class Localizer {
   int coarse_level_ = 0;
   int fine_level_ = 0;
   PosePrior anchor_;          ///< the seed with its uncertainty as a Gaussian
+  PoseEstimate matched_;      ///< from the latest templates
   Pose camera_from_station_;  ///< the hypothesis
   Matrix6d covariance_ = Matrix6d::Zero();
   Workspace workspace_;

@@ -35,6 +35,7 @@ struct LoopOptions {
   double leave_factor = 1.1;
   bool anchored = true;
   double match_sigma_px = 1.0;
+  double match_inflation = 4.0;
   std::int32_t second_peak_exclusion_px = 6;
   bool subpixel_matches = true;
 
@@ -95,6 +96,9 @@ struct LoopOptions {
     visit(OptionInfo{"loop.match_sigma_px", "px", 0.01, 100.0,
                      "Standard deviation of a right match, in pixels of its level."},
           self.match_sigma_px);
+    visit(OptionInfo{"loop.match_inflation", "", 1.0, 1e6,
+                     "Factor on the matched pose's covariance when the refinement starts from it."},
+          self.match_inflation);
     visit(OptionInfo{"loop.leave_factor", "", 1.0, 10.0,
                      "A pose beyond this multiple of the seed's uncertainty ends the run."},
           self.leave_factor);
