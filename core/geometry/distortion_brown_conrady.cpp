@@ -102,15 +102,16 @@ double brownConradyValidRadius(const Camera& camera) {
   const Polynomial radial_slope =
       tangential_slope + radius * (numerator.derivative() * denominator +
                                    -1.0 * (numerator * denominator.derivative()));
-  // The tangential terms take at most 6 |(p1, p2)| r from either eigenvalue of the Jacobian (and
-  // that much from the radial one, in the direction opposite to (p2, p1)).
-  const double tangential = 6.0 * std::sqrt(p1 * p1 + p2 * p2);
+  // With m = |(p1, p2)| r, a and b the radial and tangential slope, and c the cosine between p and
+  // (p2, p1), the Jacobian is [a + 6 m c, 2 m w; 2 m w, b + 2 m c], w^2 = 1 - c^2. For a > 6 m and
+  // b > 10/3 m its determinant is least at c = -1, (a - 6 m) (b - 2 m): positive.
+  const double tangential = std::sqrt(p1 * p1 + p2 * p2);
   const Polynomial loss = -tangential * (radius * (denominator * denominator));
 
-  double limit = positiveUpTo(denominator, kLargestRadius);
+  // N D > 0 from the centre on includes D > 0: no pole.
+  double limit = positiveUpTo(tangential_slope + (10.0 / 3.0) * loss, kLargestRadius);
   limit = positiveUpTo(kLargestRadius * denominator + -1.0 * (radius * numerator), limit);
-  limit = positiveUpTo(tangential_slope + loss, limit);
-  return positiveUpTo(radial_slope + loss, limit);
+  return positiveUpTo(radial_slope + 6.0 * loss, limit);
 }
 
 bool distortBrownConrady(const Camera& camera, const Eigen::Vector2d& p, Eigen::Vector2d& q) {

@@ -20,12 +20,12 @@ const std::vector<std::string> kStages = {"base",      "geometry", "edges", "ren
                                           "templates", "match",    "pnp",   "localizer"};
 
 /// The standard headers that flight code may use: no streams, threads, heap containers, locales,
-/// clocks or random distributions.
+/// clocks or random distributions. <cstdlib> is where the integers' std::abs lives.
 const std::set<std::string> kStandardHeaders = {
-    "algorithm", "array",       "bit",     "climits",         "cmath",    "compare",
-    "concepts",  "cstddef",     "cstdint", "cstring",         "iterator", "limits",
-    "new",       "numbers",     "numeric", "optional",        "span",     "string_view",
-    "tuple",     "type_traits", "utility", "initializer_list"};
+    "algorithm",   "array",   "bit",         "climits", "cmath",           "compare",
+    "concepts",    "cstddef", "cstdint",     "cstdlib", "cstring",         "iterator",
+    "limits",      "new",     "numbers",     "numeric", "optional",        "span",
+    "string_view", "tuple",   "type_traits", "utility", "initializer_list"};
 
 struct Include {
   fs::path file;
