@@ -13,7 +13,7 @@ namespace {
 constexpr double kNoCost = 1e300;            ///< above every score
 constexpr double kMissingResidual_px = 1e6;  ///< stands for "does not project"
 constexpr int kFewestInliersToRefit = 4;
-constexpr int kGuidedSteps = 4;
+constexpr int kGuidedSteps = 3;
 constexpr int kLocalSteps = 5;
 constexpr int kRefineRounds = 20;
 constexpr int kProjectionsPerStep = 32768;  ///< about a millisecond
