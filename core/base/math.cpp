@@ -94,7 +94,7 @@ double arcTangentOfFraction(double x) {
        {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}}};
   static constexpr std::array<double, 6> kTerms = {-1.0 / 3.0, 1.0 / 5.0,   -1.0 / 7.0,
                                                    1.0 / 9.0,  -1.0 / 11.0, 1.0 / 13.0};
-  const int eighths = static_cast<int>(x * 8.0 + 0.5);
+  const int eighths = static_cast<int>(std::floor(x * 8.0 + 0.5));
   const double knot = 0.125 * eighths;
   const double t = (x - knot) / (1.0 + x * knot);
   const double square = t * t;

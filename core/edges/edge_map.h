@@ -2,75 +2,21 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/base/arena.h"
 #include "core/base/image.h"
-#include "core/base/options.h"
 #include "core/base/status.h"
+#include "core/edges/canny.h"
+#include "core/edges/edge_options.h"
+#include "core/edges/equalize.h"
+#include "core/edges/gaussian.h"
+#include "core/edges/gradient.h"
+#include "core/edges/hysteresis.h"
 
 namespace boresight {
-
-enum class Equalization : std::int32_t { kOff = 0, kHistogram = 1, kClahe = 2 };
-inline constexpr const char* kEqualizationNames[] = {"off", "histogram", "clahe"};
-
-enum class CannyThresholds : std::int32_t { kAbsolute = 0, kQuantile = 1 };
-inline constexpr const char* kCannyThresholdsNames[] = {"absolute", "quantile"};
-
-/// How the test image becomes edges (Pham 2025, Sec. III; Canny 1986).
-struct EdgeOptions {
-  Equalization equalization = Equalization::kHistogram;
-  double clahe_clip_limit = 2.0;
-  std::int32_t clahe_tiles = 8;
-  double gaussian_sigma_px = 1.5;
-  std::int32_t aperture_px = 3;
-  bool l2_gradient = true;
-  CannyThresholds thresholds = CannyThresholds::kQuantile;
-  double low_threshold = 50.0;  ///< gradient magnitude as cv::Canny counts it (kAbsolute)
-  double high_threshold = 150.0;
-  double high_quantile = 0.95;  ///< high = this quantile of the magnitudes of unignored pixels
-  double low_ratio = 0.4;       ///< low = low_ratio * high (kQuantile)
-  std::int32_t ignore_margin_px = 3;  ///< edges within this distance of ignored pixels are removed
-
-  template <class Self, class Visitor>
-  static void visitFields(Self& self, Visitor&& visit) {
-    visit(OptionInfo{"edges.equalization", "", 0, 2,
-                     "Histogram equalization before edge detection.", kEqualizationNames},
-          self.equalization);
-    visit(OptionInfo{"edges.clahe_clip_limit", "", 0.0, 100.0,
-                     "Clip limit of CLAHE, as OpenCV counts it."},
-          self.clahe_clip_limit);
-    visit(OptionInfo{"edges.clahe_tiles", "", 1, 64, "Tiles of CLAHE along each axis."},
-          self.clahe_tiles);
-    visit(OptionInfo{"edges.gaussian_sigma_px", "px", 0.0, 8.0,
-                     "Smoothing before Canny; 0 switches it off."},
-          self.gaussian_sigma_px);
-    visit(OptionInfo{"edges.aperture_px", "px", 3, 7, "Size of the Sobel kernel: 3, 5 or 7."},
-          self.aperture_px);
-    visit(OptionInfo{"edges.l2_gradient", "", 0, 1,
-                     "Gradient magnitude by the L2 norm instead of L1."},
-          self.l2_gradient);
-    visit(OptionInfo{"edges.thresholds", "", 0, 1,
-                     "Canny thresholds as given, or from the image's gradients.",
-                     kCannyThresholdsNames},
-          self.thresholds);
-    visit(OptionInfo{"edges.low_threshold", "", 0.0, 100000.0,
-                     "Lower Canny threshold when absolute."},
-          self.low_threshold);
-    visit(OptionInfo{"edges.high_threshold", "", 0.0, 100000.0,
-                     "Upper Canny threshold when absolute."},
-          self.high_threshold);
-    visit(OptionInfo{"edges.high_quantile", "", 0.5, 0.9999,
-                     "Share of pixels whose gradient lies below the upper threshold."},
-          self.high_quantile);
-    visit(OptionInfo{"edges.low_ratio", "", 0.05, 1.0,
-                     "Lower threshold as a share of the upper one."},
-          self.low_ratio);
-    visit(OptionInfo{"edges.ignore_margin_px", "px", 0, 64,
-                     "Edges this near to ignored pixels are removed."},
-          self.ignore_margin_px);
-  }
-};
 
 inline constexpr int kPyramidLevels = 4;  ///< full, half, quarter, eighth resolution
 
@@ -78,25 +24,64 @@ inline constexpr int kPyramidLevels = 4;  ///< full, half, quarter, eighth resol
 /// of the level before (an edge survives pooling; Canny at the coarse level loses it).
 struct EdgeMap {
   std::array<BitImage, kPyramidLevels> level;
-  double low_threshold = 0.0;   ///< as used
+  double low_threshold = 0.0;   ///< as used, in the units of cv::Canny
   double high_threshold = 0.0;  ///< as used
   std::int32_t edge_count = 0;  ///< set pixels at full resolution
 };
 
 /// Equalization, Gaussian, Canny, ignore mask and pooling in bounded slices. Needs, besides the
 /// output, scratch from the arena that is rewound when done. The equalized and smoothed images are
-/// never held whole: rows pass through a small ring.
+/// never held whole: rows pass through a small ring, twice when the thresholds are quantiles (once
+/// to count the gradients, once to use them).
+///
+/// Ignored pixels count neither in the histogram of the equalization nor in that of the gradient,
+/// and pixels within `ignore_margin_px` of them (Chebyshev distance) are out before hysteresis:
+/// they neither are edges nor vouch for weak ones beside them.
 class EdgeDetector {
  public:
   /// `image` and `ignore` (may be nullptr; set bits are ignored; same size) must outlive the steps.
-  /// Output and scratch are taken from `arena`; with a counting arena nothing else happens.
+  /// Output and scratch are taken from `arena`, which must not be used by others until the map is
+  /// complete; with a counting arena nothing else happens (the image needs no pixels then).
+  /// kInvalidOption, kInvalidImage (see `checkEdgeInput`) or kArenaTooSmall leave the arena as it
+  /// was.
   Status begin(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
                Arena& arena, EdgeMap& output);
   /// One bounded slice (about a million pixel operations); true when the map is complete.
   [[nodiscard]] bool step();
 
  private:
-  // (the implementer of this stage fills this in)
+  enum class Stage : std::uint8_t {
+    kEqualize,
+    kCountGradients,
+    kSuppress,
+    kGrow,
+    kPool,
+    kDone,
+  };
+
+  void allocateScratch(const ImageView& image, Arena& arena);
+  bool countGradients();
+  bool suppress();
+  bool pool();
+  void chooseThresholds();
+  void finish();
+
+  Stage stage_ = Stage::kDone;
+  EdgeOptions options_;
+  const BitImage* ignore_ = nullptr;
+  Arena* arena_ = nullptr;
+  std::size_t mark_ = 0;  ///< where the scratch begins
+  EdgeMap* output_ = nullptr;
+  int row_ = 0;         ///< next one of the stage
+  int pool_level_ = 0;  ///< being written
+  CannyLimits limits_;
+  Equalizer equalizer_;
+  SmoothedRows smoothed_;
+  GradientRows gradient_;
+  GradientHistogram histogram_;
+  Hysteresis hysteresis_;
+  BitImage candidates_;
+  std::span<std::uint64_t> near_ignored_;  ///< one row of the ignore mask, widened
 };
 
 /// The whole stage at once.

@@ -24,12 +24,15 @@ struct Camera {
   /// Brown-Conrady in OpenCV order k1 k2 p1 p2 k3 k4 k5 k6; Kannala-Brandt k1..k4 (OpenCV fisheye).
   std::array<double, 8> distortion{};
   /// Largest undistorted radius |(x/z, y/z)| (Brown-Conrady) or angle theta in rad (Kannala-Brandt)
-  /// up to which the distortion polynomial is increasing; set by `prepareCamera`.
+  /// up to which the distortion is one-to-one: the radial polynomial increases, by more than the
+  /// tangential terms can take back in any direction. Set by `prepareCamera`; until then nothing
+  /// projects. At most 1e4, and smaller where |(u - cx) / fx, (v - cy) / fy| would exceed 1e4.
   double valid_radius = 0.0;
 };
 
-/// Checks the parameters and computes the valid field. Call once after filling a Camera; projection
-/// outside the valid field then says so instead of folding back into the image.
+/// Checks the parameters (finite, focal lengths and sizes positive) and computes the valid field.
+/// kInvalidCamera when they cannot be those of a camera. Call once after filling a Camera;
+/// projection outside the valid field then says so instead of folding back into the image.
 Status prepareCamera(Camera& camera);
 
 /// Pixel of a point in the camera frame. False when the point is behind the camera (z <= 0) or

@@ -69,10 +69,10 @@ inline bool inValidField(const Camera& camera, const Eigen::Vector2d& p) {
   return p.x() * p.x() + p.y() * p.y() <= limit * limit;
 }
 
-/// r with r g(r^2) = distorted within 1e-6 of the way, or the valid radius when there is none: a
-/// start for the plane, so close that only the tangential terms are left to find. Newton, kept
-/// between bounds because the slope may vanish at the end of the valid field.
-double radiusNear(const Camera& camera, double distorted) {
+/// r with r g(r^2) = distorted, or the valid radius when there is none in the field: a start for
+/// the plane, so close that only the tangential terms are left to find. Newton, kept between bounds
+/// because the slope may vanish at the end of the valid field.
+double radialSolution(const Camera& camera, double distorted) {
   double low = 0.0;
   double high = camera.valid_radius;
   double r = distorted < high ? distorted : high;
@@ -80,10 +80,11 @@ double radiusNear(const Camera& camera, double distorted) {
     const double s = r * r;
     const Radial radial = radialAt(camera, s);
     const double excess = r * radial.factor - distorted;
-    if (std::abs(excess) <= 1e-6 * distorted) break;
+    if (std::abs(excess) <= kTargetResidual * (1.0 + distorted)) break;
     (excess > 0.0 ? high : low) = r;
     if (!(high > low)) break;
     const double next = r - excess / (radial.factor + 2.0 * s * radial.slope);
+    if (next == r) break;
     r = next > low && next < high ? next : 0.5 * (low + high);
   }
   return r;
@@ -101,15 +102,16 @@ double brownConradyValidRadius(const Camera& camera) {
   const Polynomial radial_slope =
       tangential_slope + radius * (numerator.derivative() * denominator +
                                    -1.0 * (numerator * denominator.derivative()));
-  // The tangential terms take at most 6 |(p1, p2)| r from either eigenvalue of the Jacobian (and
-  // that much from the radial one, in the direction opposite to (p2, p1)).
-  const double tangential = 6.0 * std::sqrt(p1 * p1 + p2 * p2);
+  // With m = |(p1, p2)| r, a and b the radial and tangential slope, and c the cosine between p and
+  // (p2, p1), the Jacobian is [a + 6 m c, 2 m w; 2 m w, b + 2 m c], w^2 = 1 - c^2. For a > 6 m and
+  // b > 10/3 m its determinant is least at c = -1, (a - 6 m) (b - 2 m): positive.
+  const double tangential = std::sqrt(p1 * p1 + p2 * p2);
   const Polynomial loss = -tangential * (radius * (denominator * denominator));
 
-  double limit = positiveUpTo(denominator, kLargestRadius);
+  // N D > 0 from the centre on includes D > 0: no pole.
+  double limit = positiveUpTo(tangential_slope + (10.0 / 3.0) * loss, kLargestRadius);
   limit = positiveUpTo(kLargestRadius * denominator + -1.0 * (radius * numerator), limit);
-  limit = positiveUpTo(tangential_slope + loss, limit);
-  return positiveUpTo(radial_slope + loss, limit);
+  return positiveUpTo(radial_slope + 6.0 * loss, limit);
 }
 
 bool distortBrownConrady(const Camera& camera, const Eigen::Vector2d& p, Eigen::Vector2d& q) {
@@ -128,7 +130,7 @@ bool distortBrownConrady(const Camera& camera, const Eigen::Vector2d& p, Eigen::
 bool undistortBrownConrady(const Camera& camera, const Eigen::Vector2d& q, Eigen::Vector2d& p) {
   const double distorted = q.norm();
   if (!(distorted <= 2.0 * kLargestRadius)) return false;
-  p = distorted > 0.0 ? Eigen::Vector2d(q * (radiusNear(camera, distorted) / distorted)) : q;
+  p = distorted > 0.0 ? Eigen::Vector2d(q * (radialSolution(camera, distorted) / distorted)) : q;
 
   Eigen::Vector2d at_p;
   Eigen::Matrix2d jacobian;
@@ -150,7 +152,7 @@ bool undistortBrownConrady(const Camera& camera, const Eigen::Vector2d& q, Eigen
       applyWithJacobian(camera, candidate, at_p, jacobian);
       const Eigen::Vector2d candidate_residual = q - at_p;
       const double candidate_size = candidate_residual.norm();
-      better = candidate_size < size;
+      better = candidate_size < size && inValidField(camera, candidate);
       if (better) {
         p = candidate;
         residual = candidate_residual;
@@ -160,7 +162,7 @@ bool undistortBrownConrady(const Camera& camera, const Eigen::Vector2d& q, Eigen
     }
     if (!better) break;
   }
-  return size <= kAcceptedResidual * (1.0 + distorted) && inValidField(camera, p);
+  return size <= kAcceptedResidual * (1.0 + distorted);
 }
 
 }  // namespace boresight

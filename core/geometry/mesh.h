@@ -34,12 +34,13 @@ struct MeshView {
   std::span<const ScenePart> parts;             ///< at least one
 };
 
-/// kInvalidMesh when there are no faces, an index is out of range, a coordinate is not finite, or
-/// the part of a face does not exist. Degenerate faces (zero area) are allowed and never rendered.
+/// kInvalidMesh when there are no faces, an index is out of range, a coordinate or threshold is not
+/// finite (or a threshold negative), or the part of a face does not exist. Degenerate faces (zero
+/// area) are allowed and never rendered.
 Status validateMesh(const MeshView& mesh);
 
 /// Per face the face on the other side of edge i (vertex i to vertex (i + 1) % 3), or -1 at a
-/// border or where more than two faces meet.
+/// border or where more than two faces meet. Faces that name a vertex twice join nothing.
 struct MeshAdjacency {
   std::span<std::array<std::int32_t, 3>> neighbour;
 };

@@ -31,14 +31,15 @@ Pose readNotedTransform(const JsonReader& json, Dataset& dataset) {
 PartSource readPart(const JsonReader& json, Dataset& dataset) {
   PartSource source;
   source.mesh = json.at("mesh").path();
-  const MeshFormat format = meshFormatOf(source.mesh);
+  const std::optional<MeshFormat> format = knownMeshFormat(source.mesh);
+  if (!format) json.failMember("mesh", unknownMeshFormat(source.mesh));
   if (const auto unit = json.find("mesh_unit")) {
     source.mesh_unit = unit->text();
     if (!metresPerUnit(source.mesh_unit))
       unit->fail("unknown unit '" + source.mesh_unit + "' (m, dm, cm, mm, um, in, ft, yd, km)");
-  } else if (!carriesUnit(format)) {
+  } else if (!carriesUnit(*format)) {
     json.failMember("mesh_unit",
-                    std::string("missing: ") + meshFormatName(format) + " carries no unit");
+                    std::string("missing: ") + meshFormatName(*format) + " carries no unit");
   }
   if (const auto transform = json.find("station_from_mesh"))
     source.station_from_mesh = readNotedTransform(*transform, dataset);
@@ -131,10 +132,13 @@ Case readCase(const JsonReader& json, Dataset& dataset) {
   return one;
 }
 
-void requireFile(const std::filesystem::path& file) {
+void requireFile(const Dataset& dataset, const std::string& place,
+                 const std::filesystem::path& file) {
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw InputError(file, "no such file");
-  if (std::filesystem::is_directory(file, error)) throw InputError(file, "is a folder, not a file");
+  if (!std::filesystem::exists(file, error))
+    throw InputError(dataset.file, place, "no such file: " + file.string());
+  if (std::filesystem::is_directory(file, error))
+    throw InputError(dataset.file, place, "is a folder: " + file.string());
 }
 
 }  // namespace
@@ -189,10 +193,11 @@ Dataset readDataset(const std::filesystem::path& file) {
 
 void requireFiles(const Dataset& dataset) {
   for (const auto& [id, station] : dataset.stations)
-    for (const PartSource& part : station.parts) requireFile(part.mesh);
-  for (const Case& one : dataset.cases) {
-    requireFile(one.image);
-    if (one.ignore) requireFile(*one.ignore);
+    for (const PartSource& part : station.parts) requireFile(dataset, "stations." + id, part.mesh);
+  for (std::size_t i = 0; i < dataset.cases.size(); ++i) {
+    const std::string place = "cases[" + std::to_string(i) + "]";
+    requireFile(dataset, place + ".image", dataset.cases[i].image);
+    if (dataset.cases[i].ignore) requireFile(dataset, place + ".ignore", *dataset.cases[i].ignore);
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -137,6 +137,10 @@ class TiffDirectory {
     // The count may be anything in a damaged file: bounded before it is multiplied.
     if (entry_count_ > bytes.size() || !holds(bytes, first_entry_, entry_count_ * entry_size_))
       truncated(file, "TIFF");
+    for (std::uint64_t i = 0; i < entry_count_; ++i)
+      (void)placeOfValues(first_entry_ + i * entry_size_);
+    // The link to the next directory ends this one; what it leads to is not read.
+    (void)number(first_entry_ + entry_count_ * entry_size_, word);
   }
 
   /// The values of an unsigned tag; empty when it is absent.
@@ -154,28 +158,37 @@ class TiffDirectory {
     return readUnsigned(bytes_, offset, size, big_endian_);
   }
 
-  static int typeSize(std::uint64_t type) {
-    if (type == 1) return 1;
-    if (type == 3) return 2;
-    if (type == 4 || type == 13) return 4;
-    if (type == 16 || type == 18) return 8;
-    return 0;
+  /// Bytes of one value of a TIFF type; 0 for types that do not exist.
+  static std::uint64_t typeSize(std::uint64_t type) {
+    constexpr std::uint8_t kSizes[] = {0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8, 8};
+    return type < std::size(kSizes) ? kSizes[type] : 0;
+  }
+
+  static bool isUnsigned(std::uint64_t type) {
+    return type == 1 || type == 3 || type == 4 || type == 13 || type == 16 || type == 18;
+  }
+
+  /// Where the values of an entry are: in the entry itself when they fit there.
+  std::uint64_t placeOfValues(std::uint64_t entry) const {
+    const std::uint64_t word = big_ ? 8 : 4;
+    const std::uint64_t count = number(entry + 4, static_cast<int>(word));
+    if (count > bytes_.size()) truncated(file_, "TIFF");
+    const std::uint64_t total = count * typeSize(number(entry + 2, 2));
+    const std::uint64_t inline_place = entry + 4 + word;
+    const std::uint64_t place =
+        total <= word ? inline_place : number(inline_place, static_cast<int>(word));
+    if (!holds(bytes_, place, total)) truncated(file_, "TIFF");
+    return place;
   }
 
   std::vector<std::uint64_t> entryValues(std::uint64_t entry) const {
-    const int size = typeSize(number(entry + 2, 2));
-    const int word = big_ ? 8 : 4;
-    const std::uint64_t count = number(entry + 4, word);
-    if (size == 0) damaged(file_, "a TIFF tag has an unexpected type");
-    if (count > bytes_.size()) truncated(file_, "TIFF");
-    const std::uint64_t total = count * static_cast<std::uint64_t>(size);
-    const std::uint64_t inline_place = entry + 4 + static_cast<std::uint64_t>(word);
-    const std::uint64_t place =
-        total <= static_cast<std::uint64_t>(word) ? inline_place : number(inline_place, word);
-    if (!holds(bytes_, place, total)) truncated(file_, "TIFF");
-    std::vector<std::uint64_t> all(static_cast<std::size_t>(count));
+    const std::uint64_t type = number(entry + 2, 2);
+    if (!isUnsigned(type)) damaged(file_, "a TIFF tag has an unexpected type");
+    const std::uint64_t size = typeSize(type);
+    const std::uint64_t place = placeOfValues(entry);
+    std::vector<std::uint64_t> all(static_cast<std::size_t>(number(entry + 4, big_ ? 8 : 4)));
     for (std::size_t i = 0; i < all.size(); ++i)
-      all[i] = number(place + i * static_cast<std::uint64_t>(size), size);
+      all[i] = number(place + i * size, static_cast<int>(size));
     return all;
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/io/json_document.h"
 
+#include <algorithm>
+#include <cctype>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,10 +43,10 @@ class DocumentBuilder : public nlohmann::json_sax<json> {
     return true;
   }
 
-  bool parse_error(std::size_t position, const std::string& last_token,
+  bool parse_error(std::size_t position, const std::string&,
                    const json::exception& error) override {
     const bool number_overflow = error.id == 406;
-    if (number_overflow || startsNonFinite(position, last_token))
+    if (number_overflow || stopsInNonFinite(position))
       throw InputError(file_, place(), "not a finite number");
     throw InputError(file_, lineAndColumn(position), "not JSON: " + explanation(error));
   }
@@ -100,13 +102,14 @@ class DocumentBuilder : public nlohmann::json_sax<json> {
     return !whole.empty() && whole.front() == '.' ? whole.substr(1) : whole;
   }
 
-  /// Whether the bad token is the NaN or Infinity that some writers put into JSON.
-  bool startsNonFinite(std::size_t position, const std::string& last_token) const {
-    const std::size_t length = std::min(position, last_token.size());
-    std::string_view rest = text_.substr(std::min(position - length, text_.size()));
-    if (!rest.empty() && rest.front() == '-') rest.remove_prefix(1);
-    return rest.starts_with("NaN") || rest.starts_with("nan") || rest.starts_with("Inf") ||
-           rest.starts_with("inf");
+  /// Whether the bad token is the NaN or Infinity that some writers put into JSON; the parser stops
+  /// somewhere within it.
+  bool stopsInNonFinite(std::size_t position) const {
+    std::size_t start = std::min(position, text_.size());
+    while (start > 0 && std::isalpha(static_cast<unsigned char>(text_[start - 1])) != 0) --start;
+    const std::string_view token = text_.substr(start);
+    return token.starts_with("NaN") || token.starts_with("nan") || token.starts_with("Inf") ||
+           token.starts_with("inf");
   }
 
   std::string lineAndColumn(std::size_t position) const {

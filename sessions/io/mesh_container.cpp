@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -12,6 +13,7 @@
 #include "sessions/io/byte_cursor.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
+#include "sessions/io/json_document.h"
 
 namespace boresight::sessions {
 namespace {
@@ -142,18 +144,49 @@ std::uint64_t walkPlyElement(const std::filesystem::path& file, Bytes bytes,
   return offset;
 }
 
-std::uint64_t filledLines(std::string_view text) {
-  std::uint64_t count = 0;
-  bool filled = false;
-  for (const char c : text) {
-    if (c == '\n') {
-      count += filled ? 1 : 0;
-      filled = false;
-    } else if (c != ' ' && c != '\t' && c != '\r') {
-      filled = true;
-    }
+/// Words of a text body, one after the other.
+class WordReader {
+ public:
+  explicit WordReader(std::string_view text) : text_(text) {}
+
+  /// False at the end.
+  bool skip(std::uint64_t words) {
+    for (std::uint64_t i = 0; i < words; ++i)
+      if (next().empty()) return false;
+    return true;
   }
-  return count + (filled ? 1 : 0);
+
+  std::string_view next() {
+    while (at_ < text_.size() && isBlank(text_[at_])) ++at_;
+    const std::size_t start = at_;
+    while (at_ < text_.size() && !isBlank(text_[at_])) ++at_;
+    return text_.substr(start, at_ - start);
+  }
+
+ private:
+  static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+void walkPlyText(const std::filesystem::path& file, const PlyHeader& header,
+                 std::string_view body) {
+  WordReader words(body);
+  for (const PlyElement& element : header.elements)
+    for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i)
+      for (const PlyProperty& property : element.properties) {
+        std::uint64_t values = 1;
+        if (property.count_size != 0) {
+          const std::string_view count = words.next();
+          const auto result = std::from_chars(count.data(), count.data() + count.size(), values);
+          if (count.empty()) truncated(file, "PLY");
+          if (result.ec != std::errc() || values > body.size())
+            throw InputError(file, element.name + " " + std::to_string(i),
+                             "'" + std::string(count) + "' is not the length of a list");
+        }
+        if (!words.skip(values)) truncated(file, "PLY");
+      }
 }
 
 MeshDeclaration checkPly(const std::filesystem::path& file, Bytes bytes) {
@@ -161,20 +194,18 @@ MeshDeclaration checkPly(const std::filesystem::path& file, Bytes bytes) {
     throw InputError(file, "not a PLY mesh (the file does not begin with 'ply')");
   const PlyHeader header = readPlyHeader(file, bytes);
   MeshDeclaration declaration;
-  std::uint64_t items = 0;
   for (const PlyElement& element : header.elements) {
-    // Any count of a file that we would accept fits; a sum of such counts cannot overflow.
+    // Any count of a file that we would accept fits.
     if (element.count > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
       throw InputError(file, "header", "too many items in element '" + element.name + "'");
     if (element.name == "vertex")
       declaration.vertex_count = static_cast<std::int64_t>(element.count);
     if (element.name == "face")
       declaration.polygon_count = static_cast<std::int64_t>(element.count);
-    items += element.count;
   }
   if (declaration.vertex_count.value_or(0) == 0) throw InputError(file, "the mesh has no vertices");
   if (header.encoding == PlyEncoding::kAscii) {
-    if (filledLines(asText(bytes.subspan(header.body))) < items) truncated(file, "PLY");
+    walkPlyText(file, header, asText(bytes.subspan(header.body)));
     return declaration;
   }
   std::uint64_t offset = header.body;
@@ -206,10 +237,50 @@ MeshDeclaration checkStl(const std::filesystem::path& file, Bytes bytes) {
   return declaration;
 }
 
+/// Triangles of one glTF primitive; nothing for lines and points.
+std::optional<std::int64_t> gltfTriangles(const JsonReader& primitive,
+                                          const std::vector<JsonReader>& accessors) {
+  constexpr std::int64_t kTriangles = 4;  // 5 is a strip, 6 a fan
+  constexpr std::int64_t kFan = 6;
+  const auto mode_json = primitive.find("mode");
+  const std::int64_t mode = mode_json ? mode_json->integer(0, kFan) : kTriangles;
+  if (mode < kTriangles) return std::nullopt;
+  const JsonReader accessor = primitive.has("indices") ? primitive.at("indices")
+                                                       : primitive.at("attributes").at("POSITION");
+  const std::int64_t index = accessor.integer(0, static_cast<std::int64_t>(accessors.size()) - 1);
+  const std::int64_t count = accessors[static_cast<std::size_t>(index)].at("count").integer(
+      0, std::numeric_limits<std::int32_t>::max());
+  return mode == kTriangles ? count / 3 : std::max<std::int64_t>(0, count - 2);
+}
+
+/// Importers leave out faces with bad indices; the count that the file declares shows it.
+MeshDeclaration checkGltfJson(const std::filesystem::path& file, std::string_view text) {
+  const JsonDocument document(file, text);
+  const JsonReader json = document.root();
+  MeshDeclaration declaration;
+  const auto accessors = json.find("accessors");
+  const auto meshes = json.find("meshes");
+  if (!accessors || !meshes) throw InputError(file, "the mesh has no faces");
+  const std::vector<JsonReader> all_accessors = accessors->elements();
+  std::int64_t triangles = 0;
+  for (const JsonReader& mesh : meshes->elements())
+    for (const JsonReader& primitive : mesh.at("primitives").elements()) {
+      const std::optional<std::int64_t> count = gltfTriangles(primitive, all_accessors);
+      if (!count) return declaration;
+      triangles += *count;
+    }
+  declaration.polygon_count = triangles;
+  return declaration;
+}
+
 MeshDeclaration checkGlb(const std::filesystem::path& file, Bytes bytes) {
+  constexpr std::uint64_t kHeader = 20;
   if (!asText(bytes).starts_with("glTF")) throw InputError(file, "not a GLB mesh");
-  if (bytes.size() < 20 || bytes.size() < readUnsigned(bytes, 8, 4, false)) truncated(file, "GLB");
-  return {};
+  if (bytes.size() < kHeader || bytes.size() < readUnsigned(bytes, 8, 4, false))
+    truncated(file, "GLB");
+  const std::uint64_t json_size = readUnsigned(bytes, 12, 4, false);
+  if (!holds(bytes, kHeader, json_size)) truncated(file, "GLB");
+  return checkGltfJson(file, asText(bytes.subspan(kHeader, json_size)));
 }
 
 }  // namespace
@@ -230,7 +301,7 @@ const char* meshFormatName(MeshFormat format) {
   return "unknown";
 }
 
-MeshFormat meshFormatOf(const std::filesystem::path& file) {
+std::optional<MeshFormat> knownMeshFormat(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -239,7 +310,17 @@ MeshFormat meshFormatOf(const std::filesystem::path& file) {
   if (extension == ".stl") return MeshFormat::kStl;
   if (extension == ".gltf") return MeshFormat::kGltf;
   if (extension == ".glb") return MeshFormat::kGlb;
-  throw InputError(file, "unknown mesh format '" + extension + "' (ply, obj, stl, gltf, glb)");
+  return std::nullopt;
+}
+
+std::string unknownMeshFormat(const std::filesystem::path& file) {
+  return "unknown mesh format '" + file.extension().string() + "' (ply, obj, stl, gltf, glb)";
+}
+
+MeshFormat meshFormatOf(const std::filesystem::path& file) {
+  const std::optional<MeshFormat> format = knownMeshFormat(file);
+  if (!format) throw InputError(file, unknownMeshFormat(file));
+  return *format;
 }
 
 bool carriesUnit(MeshFormat format) {
@@ -255,8 +336,9 @@ MeshDeclaration checkMeshContainer(const std::filesystem::path& file, Bytes byte
       return checkStl(file, bytes);
     case MeshFormat::kGlb:
       return checkGlb(file, bytes);
-    case MeshFormat::kObj:
     case MeshFormat::kGltf:
+      return checkGltfJson(file, asText(bytes));
+    case MeshFormat::kObj:
       return {};
   }
   return {};

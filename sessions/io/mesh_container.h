@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 
 namespace boresight::sessions {
 
@@ -14,6 +15,10 @@ const char* meshFormatName(MeshFormat format);
 
 /// By the file's extension; InputError for any other than ply, obj, stl, gltf, glb.
 MeshFormat meshFormatOf(const std::filesystem::path& file);
+
+/// The same without throwing, and the reason for a message.
+std::optional<MeshFormat> knownMeshFormat(const std::filesystem::path& file);
+std::string unknownMeshFormat(const std::filesystem::path& file);
 
 /// glTF is in metres; the others say nothing of their unit.
 bool carriesUnit(MeshFormat format);

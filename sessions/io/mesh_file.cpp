@@ -76,6 +76,22 @@ const aiScene* import(Assimp::Importer& importer, const std::filesystem::path& f
   return scene;
 }
 
+/// The importer passes on indices as they are in the file, and its triangulation trusts them.
+void checkIndices(const std::filesystem::path& file, const aiScene& scene) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    if (mesh.mVertices == nullptr || (mesh.mFaces == nullptr && mesh.mNumFaces > 0))
+      throw InputError(file, "the mesh has no vertices");
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+      for (unsigned i = 0; i < mesh.mFaces[f].mNumIndices; ++i)
+        if (mesh.mFaces[f].mIndices[i] >= mesh.mNumVertices)
+          throw InputError(file, "face " + std::to_string(f),
+                           "vertex " + std::to_string(mesh.mFaces[f].mIndices[i]) +
+                               " does not exist (there are " + std::to_string(mesh.mNumVertices) +
+                               ")");
+  }
+}
+
 std::int64_t triangleCountOf(const aiScene& scene) {
   std::int64_t count = 0;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m)
@@ -92,7 +108,7 @@ void countPrimitives(const std::filesystem::path& file, const aiScene& scene,
   }
   if (info.file_vertices > kMaxMeshVertices)
     tooMany(file, info.file_vertices, "vertices", kMaxMeshVertices);
-  if (declared.polygon_count && *declared.polygon_count != info.file_polygons)
+  if (declared.polygon_count && info.file_polygons < *declared.polygon_count)
     throw InputError(file, "faces",
                      std::to_string(*declared.polygon_count) + " declared, " +
                          std::to_string(info.file_polygons) + " readable");
@@ -134,9 +150,6 @@ void appendMesh(const std::filesystem::path& file, const aiMesh& mesh,
     }
     Face face;
     for (unsigned i = 0; i < 3; ++i) {
-      if (polygon.mIndices[i] >= mesh.mNumVertices)
-        throw InputError(file, "face " + std::to_string(f),
-                         "vertex " + std::to_string(polygon.mIndices[i]) + " does not exist");
       face.vertex[i] = first + static_cast<std::int32_t>(polygon.mIndices[i]);
     }
     // A mirrored node would turn its faces inside out.
@@ -260,6 +273,7 @@ Mesh readMesh(const std::filesystem::path& file, const std::string& unit) {
 
   Assimp::Importer importer;
   const aiScene* scene = import(importer, file, bytes, format);
+  checkIndices(file, *scene);
   countPrimitives(file, *scene, declared, info);
   const std::int64_t expected_triangles = triangleCountOf(*scene);
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate);

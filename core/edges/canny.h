@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/base/arena.h"
+#include "core/base/image.h"
+#include "core/base/status.h"
+#include "core/edges/gradient.h"
+
+namespace boresight {
+
+/// Canny's thresholds in the units of `GradientRows::magnitude`: a pixel exceeds one when its
+/// magnitude is greater.
+struct CannyLimits {
+  std::int32_t low = 0;
+  std::int32_t high = 0;
+};
+
+/// From thresholds as cv::Canny counts them (at aperture 7, sixteen times our derivatives; L2 not
+/// squared), rounded down as there. Wants 0 <= low <= high.
+CannyLimits cannyLimits(double low, double high, int aperture_px, bool l2_gradient);
+
+/// Non-maximum suppression of row y of `gradient`, whose row y + 1 must be done (if there is one):
+/// packed pixels whose magnitude exceeds the low limit and is largest across the edge
+/// (`candidates`), and those of them above the high one (`strong`). The direction is cv::Canny's
+/// integer test against tan 22.5 and 67.5 deg, and of equal neighbours the first wins, as there.
+void suppressRow(const GradientRows& gradient, int y, int width, const CannyLimits& limits,
+                 std::uint64_t* candidates, std::uint64_t* strong);
+
+/// Canny's edges (255, elsewhere 0) of an image that is smoothed already, into `edges` (rows
+/// `edges_stride` bytes apart); equals cv::Canny(image, edges, low, high, aperture_px,
+/// l2_gradient). Status as of `detectEdges`. Scratch from `arena`, rewound.
+Status canny(const ImageView& image, int aperture_px, bool l2_gradient, double low, double high,
+             Arena& arena, std::uint8_t* edges, std::ptrdiff_t edges_stride);
+
+}  // namespace boresight

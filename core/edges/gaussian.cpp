@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/edges/gaussian.h"
+
+#include <algorithm>
+
+#include "core/base/math.h"
+#include "core/edges/border.h"
+#include "core/edges/edge_input.h"
+
+namespace boresight {
+namespace {
+
+constexpr int kMargin = 32;  ///< columns beside the row that the widest kernel may read
+static_assert(kMargin >= kMaxGaussianRadius + 1);
+
+/// Nearest integer of a non-negative value, halves to even.
+int roundHalfEven(double value) {
+  const int below = static_cast<int>(value);
+  const double fraction = value - below;
+  if (fraction > 0.5 || (fraction == 0.5 && (below & 1) != 0)) return below + 1;
+  return below;
+}
+
+/// Column sums of one block, at most 256 * 255, split into bytes: rows above[k] and below[k] are k
+/// rows from the centre. Taps go in pairs; the one past the radius has no weight.
+void sumBlock(const GaussianKernel& kernel, const std::uint8_t* const* above,
+              const std::uint8_t* const* below, int x, std::uint16_t* __restrict high,
+              std::uint16_t* __restrict low) {
+  std::uint16_t sum[kRowBlock];
+  {
+    const std::uint8_t* centre = above[0] + x;
+    const std::uint8_t* a = above[1] + x;
+    const std::uint8_t* b = below[1] + x;
+    const std::uint16_t w0 = kernel.weight[0];
+    const std::uint16_t w1 = kernel.weight[1];
+    for (int i = 0; i < kRowBlock; ++i)
+      sum[i] = static_cast<std::uint16_t>(w0 * centre[i] + w1 * (a[i] + b[i]));
+  }
+  for (int tap = 2; tap <= kernel.radius; tap += 2) {
+    const std::uint8_t* a = above[tap] + x;
+    const std::uint8_t* b = below[tap] + x;
+    const std::uint8_t* c = above[tap + 1] + x;
+    const std::uint8_t* d = below[tap + 1] + x;
+    const std::uint16_t w0 = kernel.weight[static_cast<std::size_t>(tap)];
+    const std::uint16_t w1 = kernel.weight[static_cast<std::size_t>(tap) + 1];
+    for (int i = 0; i < kRowBlock; ++i)
+      sum[i] = static_cast<std::uint16_t>(sum[i] + w0 * (a[i] + b[i]) + w1 * (c[i] + d[i]));
+  }
+  for (int i = 0; i < kRowBlock; ++i) {
+    high[i] = static_cast<std::uint16_t>(sum[i] >> 8);
+    low[i] = static_cast<std::uint16_t>(sum[i] & 0xFF);
+  }
+}
+
+/// The same along a row of 16-bit values in [0, 255], `row` at the first centre.
+void sumAlongRow(const GaussianKernel& kernel, const std::uint16_t* row,
+                 std::uint16_t* __restrict sum) {
+  {
+    const std::uint16_t* a = row - 1;
+    const std::uint16_t* b = row + 1;
+    const std::uint16_t w0 = kernel.weight[0];
+    const std::uint16_t w1 = kernel.weight[1];
+    for (int i = 0; i < kRowBlock; ++i)
+      sum[i] = static_cast<std::uint16_t>(w0 * row[i] + w1 * (a[i] + b[i]));
+  }
+  for (int tap = 2; tap <= kernel.radius; tap += 2) {
+    const std::uint16_t* a = row - tap;
+    const std::uint16_t* b = row + tap;
+    const std::uint16_t* c = a - 1;
+    const std::uint16_t* d = b + 1;
+    const std::uint16_t w0 = kernel.weight[static_cast<std::size_t>(tap)];
+    const std::uint16_t w1 = kernel.weight[static_cast<std::size_t>(tap) + 1];
+    for (int i = 0; i < kRowBlock; ++i)
+      sum[i] = static_cast<std::uint16_t>(sum[i] + w0 * (a[i] + b[i]) + w1 * (c[i] + d[i]));
+  }
+}
+
+/// (256 * high + low + 2^15) / 2^16 without leaving 16 bits: the whole is at most 255 * 2^16, so
+/// high + 1 stays below 2^16.
+void roundBlock(const std::uint16_t* high, const std::uint16_t* low, std::uint8_t* __restrict out) {
+  for (int i = 0; i < kRowBlock; ++i) {
+    const std::uint16_t carry = static_cast<std::uint16_t>(((low[i] >> 1) + 0x4000) >> 7);
+    out[i] = static_cast<std::uint8_t>(static_cast<std::uint16_t>(high[i] + carry) >> 8);
+  }
+}
+
+}  // namespace
+
+GaussianKernel gaussianKernel(double sigma_px) {
+  GaussianKernel kernel;
+  kernel.weight[0] = 256;
+  if (!(sigma_px > 0.0)) return kernel;
+  kernel.radius = std::min(roundHalfEven(sigma_px * 6.0 + 1.0) / 2, kMaxGaussianRadius);
+  std::array<double, kMaxGaussianRadius + 1> value{};
+  double sum = 0.0;
+  for (int i = kernel.radius; i > 0; --i) {
+    value[static_cast<std::size_t>(i)] =
+        exponential(-0.5 * static_cast<double>(i * i) / (sigma_px * sigma_px));
+    sum += value[static_cast<std::size_t>(i)];
+  }
+  sum = 2.0 * sum + 1.0;
+  double error = 0.0;
+  int outside = 0;
+  for (int i = kernel.radius; i > 0; --i) {
+    const double wanted = value[static_cast<std::size_t>(i)] / sum * 256.0 + error;
+    const int weight = roundHalfEven(std::max(wanted, 0.0));
+    error = wanted - weight;
+    kernel.weight[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(weight);
+    outside += weight;
+  }
+  kernel.weight[0] = static_cast<std::uint16_t>(256 - 2 * outside);
+  return kernel;
+}
+
+void SmoothedRows::begin(int width, int height, double sigma_px, Arena& arena) {
+  *this = SmoothedRows();
+  kernel_ = gaussianKernel(sigma_px);
+  width_ = width;
+  height_ = height;
+  if (kernel_.radius == 0) return;
+  const std::size_t columns = static_cast<std::size_t>(roundUpToBlock(width));
+  ring_rows_ = 2 * kernel_.radius + 1;
+  ring_stride_ = static_cast<std::ptrdiff_t>(columns);
+  ring_ = arena.allocate<std::uint8_t>(columns * static_cast<std::size_t>(ring_rows_));
+  high_ = arena.allocate<std::uint16_t>(columns + 2 * std::size_t{kMargin});
+  low_ = arena.allocate<std::uint16_t>(columns + 2 * std::size_t{kMargin});
+}
+
+void SmoothedRows::row(int y, const Equalizer& source, std::uint8_t* out) {
+  if (kernel_.radius == 0) {
+    source.row(y, out);
+    return;
+  }
+  for (; loaded_ <= std::min(y + kernel_.radius, height_ - 1); ++loaded_)
+    source.row(loaded_, slot(loaded_));
+  sumColumns(y);
+  mirrorSides();
+  for (int x = 0; x < width_; x += kRowBlock) {
+    std::uint16_t high[kRowBlock];
+    std::uint16_t low[kRowBlock];
+    sumAlongRow(kernel_, high_.data() + kMargin + x, high);
+    sumAlongRow(kernel_, low_.data() + kMargin + x, low);
+    roundBlock(high, low, out + x);
+  }
+}
+
+void SmoothedRows::sumColumns(int y) {
+  std::array<const std::uint8_t*, kMaxGaussianRadius + 2> above{};
+  std::array<const std::uint8_t*, kMaxGaussianRadius + 2> below{};
+  for (int k = 0; k <= kernel_.radius + 1; ++k) {
+    const int distance = std::min(k, kernel_.radius);
+    above[static_cast<std::size_t>(k)] = slot(reflect101(y - distance, height_));
+    below[static_cast<std::size_t>(k)] = slot(reflect101(y + distance, height_));
+  }
+  for (int x = 0; x < width_; x += kRowBlock)
+    sumBlock(kernel_, above.data(), below.data(), x, high_.data() + kMargin + x,
+             low_.data() + kMargin + x);
+}
+
+/// Columns are summed alike, so mirroring the sums is mirroring the pixels.
+void SmoothedRows::mirrorSides() {
+  std::uint16_t* high = high_.data() + kMargin;
+  std::uint16_t* low = low_.data() + kMargin;
+  for (int k = 1; k <= kernel_.radius; ++k) {
+    const int left = reflect101(-k, width_);
+    const int right = reflect101(width_ - 1 + k, width_);
+    high[-k] = high[left];
+    low[-k] = low[left];
+    high[width_ - 1 + k] = high[right];
+    low[width_ - 1 + k] = low[right];
+  }
+}
+
+Status gaussianBlur(const ImageView& image, double sigma_px, Arena& arena, std::uint8_t* out,
+                    std::ptrdiff_t out_stride) {
+  EdgeOptions options;
+  options.equalization = Equalization::kOff;
+  options.gaussian_sigma_px = sigma_px;
+  if (const Status status = checkEdgeInput(image, nullptr, options, arena.countsOnly());
+      status != Status::kOk)
+    return status;
+  const std::size_t mark = arena.mark();
+  Equalizer source;
+  source.begin(image, nullptr, options, arena);
+  SmoothedRows smoothed;
+  smoothed.begin(image.width, image.height, sigma_px, arena);
+  const std::span<std::uint8_t> line =
+      arena.allocate<std::uint8_t>(static_cast<std::size_t>(roundUpToBlock(image.width)));
+  const bool enough = !arena.exhausted();
+  if (enough && !arena.countsOnly()) {
+    for (int y = 0; y < image.height; ++y) {
+      smoothed.row(y, source, line.data());
+      std::copy(line.data(), line.data() + image.width, out + out_stride * y);
+    }
+  }
+  arena.rewind(mark);
+  return enough ? Status::kOk : Status::kArenaTooSmall;
+}
+
+}  // namespace boresight

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/edges/gradient.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/edges/border.h"
+
+namespace boresight {
+namespace {
+
+constexpr int kMaxAperture = 7;
+constexpr int kReach = 16;  ///< columns past a block that the along-row sums need, rounded up
+
+using Taps = std::array<std::int16_t, kMaxAperture>;
+
+/// cv::Sobel's kernels: smoothing across, derivative along.
+constexpr Taps kSmooth5 = {1, 4, 6, 4, 1};
+constexpr Taps kSmooth7 = {1, 6, 15, 20, 15, 6, 1};
+constexpr Taps kDerive5 = {-1, -2, 0, 2, 1};
+constexpr Taps kDerive7 = {-1, -4, -5, 0, 5, 4, 1};
+
+/// Largest |dx| of an 8-bit image: 255 times the kernel's positive half, over 16 at aperture 7.
+std::int32_t maxDerivative(int aperture_px) {
+  return aperture_px == 3 ? 255 * 4 : aperture_px == 5 ? 255 * 48 : 255 * 640 / 16;
+}
+
+/// One block of derivatives; a, b, c: rows above, at and below, at the pixel before the block.
+/// Inlined, the promise that the rows do not overlap gets lost, and with it the vector code.
+[[gnu::noinline]] void sobel3(const std::uint8_t* __restrict a, const std::uint8_t* __restrict b,
+                              const std::uint8_t* __restrict c, std::int16_t* __restrict dx,
+                              std::int16_t* __restrict dy) {
+  std::int16_t smooth[kRowBlock + kReach];
+  std::int16_t derive[kRowBlock + kReach];
+  for (int i = 0; i < kRowBlock + kReach; ++i) {
+    smooth[i] = static_cast<std::int16_t>(a[i] + 2 * b[i] + c[i]);
+    derive[i] = static_cast<std::int16_t>(c[i] - a[i]);
+  }
+  for (int i = 0; i < kRowBlock; ++i) {
+    dx[i] = static_cast<std::int16_t>(smooth[i + 2] - smooth[i]);
+    dy[i] = static_cast<std::int16_t>(derive[i] + 2 * derive[i + 1] + derive[i + 2]);
+  }
+}
+
+std::int16_t sixteenth(std::int32_t value) {
+  return static_cast<std::int16_t>((value + 7 + ((value >> 4) & 1)) >> 4);
+}
+
+/// The same for apertures 5 and 7; `rows` at the pixel aperture / 2 before the block.
+void sobelWide(const std::uint8_t* const* rows, int aperture, std::int16_t* __restrict dx,
+               std::int16_t* __restrict dy) {
+  const Taps& smooth_taps = aperture == 5 ? kSmooth5 : kSmooth7;
+  const Taps& derive_taps = aperture == 5 ? kDerive5 : kDerive7;
+  std::int16_t smooth[kRowBlock + kReach] = {};
+  std::int16_t derive[kRowBlock + kReach] = {};
+  for (int k = 0; k < aperture; ++k) {
+    const std::uint8_t* row = rows[k];
+    const std::int16_t s = smooth_taps[static_cast<std::size_t>(k)];
+    const std::int16_t d = derive_taps[static_cast<std::size_t>(k)];
+    for (int i = 0; i < kRowBlock + kReach; ++i) {
+      smooth[i] = static_cast<std::int16_t>(smooth[i] + s * row[i]);
+      derive[i] = static_cast<std::int16_t>(derive[i] + d * row[i]);
+    }
+  }
+  std::int32_t sum_x[kRowBlock] = {};
+  std::int32_t sum_y[kRowBlock] = {};
+  for (int k = 0; k < aperture; ++k) {
+    const std::int16_t s = smooth_taps[static_cast<std::size_t>(k)];
+    const std::int16_t d = derive_taps[static_cast<std::size_t>(k)];
+    for (int i = 0; i < kRowBlock; ++i) {
+      sum_x[i] += d * smooth[i + k];
+      sum_y[i] += s * derive[i + k];
+    }
+  }
+  for (int i = 0; i < kRowBlock; ++i) {
+    dx[i] = aperture == 5 ? static_cast<std::int16_t>(sum_x[i]) : sixteenth(sum_x[i]);
+    dy[i] = aperture == 5 ? static_cast<std::int16_t>(sum_y[i]) : sixteenth(sum_y[i]);
+  }
+}
+
+void magnitudeBlock(const std::int16_t* dx, const std::int16_t* dy, bool l2,
+                    std::int32_t* __restrict magnitude) {
+  if (l2) {
+    for (int i = 0; i < kRowBlock; ++i) magnitude[i] = dx[i] * dx[i] + dy[i] * dy[i];
+  } else {
+    for (int i = 0; i < kRowBlock; ++i) magnitude[i] = std::abs(dx[i]) + std::abs(dy[i]);
+  }
+}
+
+/// Smallest r with r * r >= squared, for 0 <= squared < 2^30. The root of a number that is no
+/// square is at least 1.5e-5 away from an integer, far more than double precision rounds.
+inline std::int32_t ceilRoot(std::int32_t squared) {
+  return static_cast<std::int32_t>(std::sqrt(static_cast<double>(squared)) + (1.0 - 1e-6));
+}
+
+}  // namespace
+
+void GradientRows::begin(int width, int height, int aperture_px, bool l2_gradient, Arena& arena) {
+  *this = GradientRows();
+  width_ = width;
+  height_ = height;
+  aperture_ = aperture_px;
+  l2_ = l2_gradient;
+  columns_ = roundUpToBlock(width);
+  const std::size_t columns = static_cast<std::size_t>(columns_);
+  const std::size_t padded = columns + 2 * std::size_t{kMargin};
+  smoothed_ = arena.allocate<std::uint8_t>(padded * static_cast<std::size_t>(aperture_));
+  dx_ = arena.allocate<std::int16_t>(columns * kRing);
+  dy_ = arena.allocate<std::int16_t>(columns * kRing);
+  magnitude_ = arena.allocate<std::int32_t>(padded * (kRing + 1));
+}
+
+void GradientRows::restart() {
+  rows_done_ = 0;
+  smoothed_done_ = 0;
+}
+
+const std::int32_t* GradientRows::magnitude(int y) const {
+  const int slot = y < 0 || y >= height_ ? kRing : y % kRing;
+  return magnitude_.data() + (columns_ + 2 * kMargin) * slot + kMargin;
+}
+
+void GradientRows::advance(const Equalizer& source, SmoothedRows& smoothed) {
+  const int y = rows_done_++;
+  const int reach = aperture_ / 2;
+  for (; smoothed_done_ <= std::min(y + reach, height_ - 1); ++smoothed_done_) {
+    std::uint8_t* row = smoothedRow(smoothed_done_);
+    smoothed.row(smoothed_done_, source, row);
+    std::fill(row - reach, row, row[0]);
+    std::fill(row + width_, row + width_ + reach, row[width_ - 1]);
+  }
+  std::array<const std::uint8_t*, kMaxAperture> rows{};
+  for (int k = 0; k < aperture_; ++k)
+    rows[static_cast<std::size_t>(k)] =
+        smoothedRow(std::clamp(y + k - reach, 0, height_ - 1)) - reach;
+  std::int16_t* dx = dx_.data() + columns_ * (y % kRing);
+  std::int16_t* dy = dy_.data() + columns_ * (y % kRing);
+  std::int32_t* magnitude = magnitude_.data() + (columns_ + 2 * kMargin) * (y % kRing) + kMargin;
+  for (int x = 0; x < width_; x += kRowBlock) {
+    if (aperture_ == 3) {
+      sobel3(rows[0], rows[1], rows[2], dx + x, dy + x);
+    } else {
+      sobelWide(rows.data(), aperture_, dx + x, dy + x);
+    }
+    magnitudeBlock(dx + x, dy + x, l2_, magnitude + x);
+    for (int k = 0; k < aperture_; ++k) rows[static_cast<std::size_t>(k)] += kRowBlock;
+  }
+  std::fill(magnitude + width_, magnitude + columns_ + 1, 0);
+}
+
+void GradientHistogram::begin(int aperture_px, bool l2_gradient, Arena& arena) {
+  *this = GradientHistogram();
+  l2_ = l2_gradient;
+  const std::int32_t derivative = maxDerivative(aperture_px);
+  bins_ = (l2_ ? ceilRoot(2 * derivative * derivative) : 2 * derivative) + 1;
+  counts_ = arena.allocate<std::int32_t>(static_cast<std::size_t>(bins_ * kLanes));
+}
+
+void GradientHistogram::addRow(const std::int32_t* magnitude, const std::uint64_t* ignored,
+                               int width) {
+  std::int32_t* counts = counts_.data();
+  for (int x = 0; x < width; x += kRowBlock) {
+    const std::int32_t* bin = magnitude + x;
+    std::int32_t root[kRowBlock];
+    if (l2_) {
+      for (int i = 0; i < kRowBlock; ++i) root[i] = ceilRoot(bin[i]);
+      bin = root;
+    }
+    const int end = std::min(width - x, kRowBlock);
+    if (ignored != nullptr && ignored[x >> 6] != 0) {
+      for (int i = 0; i < end; ++i)
+        if (((ignored[x >> 6] >> i) & 1U) == 0) ++counts[bin[i]];
+      continue;
+    }
+    int i = 0;
+    for (; i + kLanes <= end; i += kLanes)
+#pragma GCC unroll 4
+      for (int lane = 0; lane < kLanes; ++lane) ++counts[bins_ * lane + bin[i + lane]];
+    for (; i < end; ++i) ++counts[bin[i]];
+  }
+}
+
+std::int32_t GradientHistogram::quantile(double share) const {
+  std::int64_t all = 0;
+  for (const std::int32_t count : counts_) all += count;
+  const double wanted = share * static_cast<double>(all);
+  std::int64_t sum = 0;
+  for (std::ptrdiff_t bin = 0; bin + 1 < bins_ && all > 0; ++bin) {
+    for (int lane = 0; lane < kLanes; ++lane)
+      sum += counts_[static_cast<std::size_t>(bins_ * lane + bin)];
+    if (static_cast<double>(sum) >= wanted) return static_cast<std::int32_t>(bin);
+  }
+  return static_cast<std::int32_t>(bins_ - 1);
+}
+
+}  // namespace boresight

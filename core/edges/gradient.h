@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.h"
+#include "core/base/image.h"
+#include "core/edges/equalize.h"
+#include "core/edges/gaussian.h"
+
+namespace boresight {
+
+/// Sobel derivatives and gradient magnitude of the smoothed image, row after row, in a ring of
+/// three rows: what non-maximum suppression looks at. Derivatives are those of cv::Sobel with
+/// replicated border; at aperture 7 they are divided by 16 (halves to even), as cv::Canny does. The
+/// magnitude is |dx| + |dy| (L1) or dx^2 + dy^2 (L2, squared); it is 0 outside the image.
+class GradientRows {
+ public:
+  void begin(int width, int height, int aperture_px, bool l2_gradient, Arena& arena);
+  /// Back to before the first row, for another pass.
+  void restart();
+  /// The next row, from rows of `smoothed` over `source`.
+  void advance(const Equalizer& source, SmoothedRows& smoothed);
+  int rowsDone() const { return rows_done_; }
+
+  /// Rows rowsDone() - 3 ... rowsDone() - 1, and those outside the image; x in [-1, width].
+  const std::int32_t* magnitude(int y) const;
+  const std::int16_t* dx(int y) const { return dx_.data() + columns_ * (y % kRing); }
+  const std::int16_t* dy(int y) const { return dy_.data() + columns_ * (y % kRing); }
+
+ private:
+  static constexpr int kRing = 3;
+  static constexpr std::ptrdiff_t kMargin =
+      16;  ///< on both sides, so that blocks may reach over the border
+
+  std::uint8_t* smoothedRow(int y) {
+    return smoothed_.data() + (columns_ + 2 * kMargin) * (y % aperture_) + kMargin;
+  }
+
+  int width_ = 0;
+  int height_ = 0;
+  int aperture_ = 3;
+  bool l2_ = true;
+  std::ptrdiff_t columns_ = 0;
+  int rows_done_ = 0;
+  int smoothed_done_ = 0;
+  std::span<std::uint8_t> smoothed_;
+  std::span<std::int16_t> dx_;
+  std::span<std::int16_t> dy_;
+  std::span<std::int32_t> magnitude_;  ///< the ring, then a row of zeros
+};
+
+/// Counts the magnitudes of unignored pixels and finds a quantile. Everything is an integer: a
+/// pixel counts as ceil(magnitude), so `quantile(q)` is the smallest integer h such that at least
+/// the share q of the pixels has a magnitude <= h, that is, does not exceed the threshold h.
+class GradientHistogram {
+ public:
+  void begin(int aperture_px, bool l2_gradient, Arena& arena);
+  /// `magnitude` as GradientRows gives it; `ignored` is nullptr or a row of the ignore mask.
+  void addRow(const std::int32_t* magnitude, const std::uint64_t* ignored, int width);
+  /// The largest possible magnitude where no pixel counted.
+  std::int32_t quantile(double share) const;
+
+ private:
+  static constexpr int kLanes = 4;  ///< neighbouring pixels count in different copies
+
+  bool l2_ = true;
+  std::ptrdiff_t bins_ = 0;
+  std::span<std::int32_t> counts_;
+};
+
+}  // namespace boresight

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/image.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
+
+namespace boresight {
+
+/// What is known of one salient edge pixel. It belongs to the *nearer* of the two surfaces that
+/// meet in it.
+struct EdgePixel {
+  std::int16_t x = 0;
+  std::int16_t y = 0;
+  /// z of the nearer surface's plane at the pixel's centre, extended by at most one pixel. Of a
+  /// face seen at less than 9 deg, whose extended plane says little, z at the line itself.
+  float depth_m = 0.0F;
+  std::int32_t face = 0;     ///< the nearer surface's face (its part and normal follow)
+  std::int8_t normal_x = 0;  ///< unit normal of the line in the image, times 127, pointing from the
+  std::int8_t normal_y = 0;  ///< nearer surface to the other side
+  std::int8_t offset =
+      0;  ///< signed distance from pixel centre to the line along that normal, 1/100 px
+  std::uint8_t kind = 0;  ///< EdgeKind bits
+};
+static_assert(sizeof(EdgePixel) == 16);
+
+enum EdgeKind : std::uint8_t {
+  kEdgeCrease = 1,     ///< the normals differ
+  kEdgeOccluding = 2,  ///< the depths differ
+  kEdgeBorder = 4,     ///< the other side is background
+};
+
+/// Salient edges of the scene from one pose (Pham 2025, Sec. III-A): the baseline edge map, its
+/// mask, and depth, normal and sub-pixel place at the edge pixels, in raster order.
+struct EdgeRender {
+  BitImage edges;
+  BitImage mask;  ///< 1 where a matched part is the nearest surface, and at every edge pixel
+  std::span<EdgePixel> pixels;        ///< capacity; the first `pixel_count` are valid, raster order
+  std::span<std::int32_t> row_begin;  ///< height + 1 indices into pixels
+  std::int32_t pixel_count = 0;
+  Camera camera;  ///< the camera at this level
+  Pose camera_from_station;
+};
+
+}  // namespace boresight

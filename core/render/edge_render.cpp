@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/render/edge_render.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/render/surface_render.h"
+
+namespace boresight {
+namespace {
+
+/// Vertices or faces of one step: about a millisecond on the ground.
+constexpr std::size_t kSlice = 16384;
+/// The largest image: coordinates are recorded in 16 bits.
+constexpr int kMaxSize_px = 32766;
+
+/// Gives an image the size of this level; its words were allocated for the largest.
+bool resize(BitImage& image, int width, int height) {
+  image.width = width;
+  image.height = height;
+  image.words_per_row = BitImage::wordsPerRow(width);
+  return image.words.size() >=
+         static_cast<std::size_t>(image.words_per_row) * static_cast<std::size_t>(height);
+}
+
+}  // namespace
+
+EdgeRender createEdgeRender(int width, int height, const RenderOptions& options, Arena& arena) {
+  EdgeRender render;
+  render.edges = BitImage::create(arena, width, height);
+  render.mask = BitImage::create(arena, width, height);
+  render.pixels = arena.allocate<EdgePixel>(static_cast<std::size_t>(options.max_edge_pixels));
+  render.row_begin = arena.allocate<std::int32_t>(static_cast<std::size_t>(height) + 1);
+  return render;
+}
+
+std::int32_t findEdgePixel(const EdgeRender& render, int x, int y) {
+  if (!render.edges.contains(x, y) || !render.edges.get(x, y)) return -1;
+  std::int32_t low = render.row_begin[static_cast<std::size_t>(y)];
+  std::int32_t high = render.row_begin[static_cast<std::size_t>(y) + 1];
+  while (low < high) {
+    const std::int32_t middle = low + (high - low) / 2;
+    const int at = render.pixels[static_cast<std::size_t>(middle)].x;
+    if (at == x) return middle;
+    if (at < x)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return -1;
+}
+
+bool edgePointInStation(const EdgeRender& render, const EdgePixel& pixel,
+                        Eigen::Vector3d& point_in_station_m) {
+  Eigen::Vector3d ray;
+  if (!unproject(render.camera, Eigen::Vector2d(pixel.x, pixel.y), ray)) return false;
+  const Eigen::Vector3d point_in_camera_m = ray * static_cast<double>(pixel.depth_m);
+  point_in_station_m = render.camera_from_station.inverse() * point_in_camera_m;
+  return pixel.depth_m > 0.0F;
+}
+
+bool edgeLinePoint(const EdgeRender& render, const MeshView& mesh, const EdgePixel& pixel,
+                   Eigen::Vector2d& position_px, Eigen::Vector3d& point_in_station_m) {
+  const double norm = std::sqrt(
+      static_cast<double>(pixel.normal_x * pixel.normal_x + pixel.normal_y * pixel.normal_y));
+  if (!(norm > 0.0)) return false;
+  const double distance_px = pixel.offset / (100.0 * norm);
+  position_px = {pixel.x + distance_px * pixel.normal_x, pixel.y + distance_px * pixel.normal_y};
+  Eigen::Vector3d ray;
+  if (!unproject(render.camera, position_px, ray)) return false;
+
+  const Face& face = mesh.faces[static_cast<std::size_t>(pixel.face)];
+  Eigen::Vector3d corner[3];
+  for (std::size_t i = 0; i < 3; ++i)
+    corner[i] = render.camera_from_station *
+                mesh.vertices_in_station_m[static_cast<std::size_t>(face.vertex[i])].cast<double>();
+  const Eigen::Vector3d normal = crossProduct(corner[1] - corner[0], corner[2] - corner[0]);
+  // On the face's plane, and no nearer or farther than the face itself where the plane is steep.
+  const double farthest = std::max({corner[0].z(), corner[1].z(), corner[2].z()});
+  const double nearest = std::min({corner[0].z(), corner[1].z(), corner[2].z()});
+  double depth_m = dotProduct(normal, corner[0]) / dotProduct(normal, ray);
+  if (!(depth_m >= nearest)) depth_m = nearest;
+  if (depth_m > farthest) depth_m = farthest;
+  if (!(depth_m > 0.0)) return false;
+  point_in_station_m = render.camera_from_station.inverse() * Eigen::Vector3d(ray * depth_m);
+  return true;
+}
+
+void EdgeRenderer::Columns::include(const Columns& other) {
+  first = std::min(first, other.first);
+  last = std::max(last, other.last);
+}
+
+Status EdgeRenderer::create(const MeshView& mesh, const MeshAdjacency& adjacency, int max_width,
+                            int max_height, const RenderOptions& options, Arena& arena,
+                            int band_rows) {
+  if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
+  if (max_width < 1 || max_height < 1 || max_width > kMaxSize_px || max_height > kMaxSize_px ||
+      band_rows < 1)
+    return Status::kInvalidImage;
+  const Status status = CameraScene::create(mesh, adjacency, options.near_plane_m, arena, scene_);
+  if (status != Status::kOk) return status;
+  max_width_ = max_width;
+  max_height_ = max_height;
+  band_rows_ = std::min(band_rows, max_height);
+  const auto bands = static_cast<std::size_t>((max_height - 1) / band_rows_ + 1);
+  band_ = RasterBand::create(max_width, band_rows_, arena);
+  salient_edges_ = SalientEdges::create(max_width, arena);
+  next_in_band_ = arena.allocate<std::int32_t>(mesh.faces.size());
+  band_head_ = arena.allocate<std::int32_t>(bands);
+  band_columns_ = arena.allocate<Columns>(bands);
+  phase_ = Phase::kIdle;
+  if (!arena.countsOnly() && arena.exhausted()) return Status::kArenaTooSmall;
+  return Status::kOk;
+}
+
+Status EdgeRenderer::begin(const RayGrid& rays, const Pose& camera_from_station, EdgeRender& output,
+                           const SurfaceRender& surfaces) {
+  phase_ = Phase::kIdle;
+  const Camera& camera = rays.camera();
+  if (!camera_from_station.isFinite()) return Status::kInvalidPose;
+  if (camera.width < 1 || camera.height < 1 || camera.width > max_width_ ||
+      camera.height > max_height_ || !resize(output.edges, camera.width, camera.height) ||
+      !resize(output.mask, camera.width, camera.height) ||
+      output.row_begin.size() < static_cast<std::size_t>(camera.height) + 1 ||
+      !surfaceRenderFits(surfaces, camera.width, camera.height))
+    return Status::kInvalidImage;
+  output.camera = camera;
+  output.camera_from_station = camera_from_station;
+  salient_edges_.begin(output);
+  std::fill(band_head_.begin(), band_head_.end(), -1);
+  std::fill(band_columns_.begin(), band_columns_.end(), Columns());
+  band_.rows = 0;
+  band_.x_begin = 0;
+  band_.x_end = 0;
+  rays_ = &rays;
+  output_ = &output;
+  surfaces_ = surfaces;
+  phase_ = Phase::kVertices;
+  next_ = 0;
+  return Status::kOk;
+}
+
+Status EdgeRenderer::step(bool& done) {
+  done = phase_ == Phase::kIdle;
+  if (phase_ == Phase::kVertices) {
+    const std::size_t count = scene_.vertex_in_camera_m.size();
+    const std::size_t last = std::min(next_ + kSlice, count);
+    scene_.transform(output_->camera_from_station, *rays_, next_, last);
+    next_ = last;
+    if (last == count) {
+      phase_ = Phase::kFaces;
+      next_ = 0;
+    }
+  } else if (phase_ == Phase::kFaces) {
+    const std::size_t count = scene_.mesh.faces.size();
+    const std::size_t last = std::min(next_ + kSlice, count);
+    for (; next_ < last; ++next_) bin(static_cast<std::int32_t>(next_));
+    if (last == count) {
+      phase_ = Phase::kBands;
+      next_ = 0;
+    }
+  } else if (phase_ == Phase::kBands) {
+    const Status status = stepBand();
+    ++next_;
+    const bool last = static_cast<int>(next_) * band_rows_ >= output_->camera.height;
+    if (status != Status::kOk || last) phase_ = Phase::kIdle;
+    done = phase_ == Phase::kIdle;
+    return status;
+  }
+  return Status::kOk;
+}
+
+/// Enters a face into the list of its first band; faces that cover no pixel centre go nowhere.
+void EdgeRenderer::bin(std::int32_t face) {
+  const PixelBounds bounds = faceBounds(scene_, *rays_, face);
+  if (bounds.empty()) return;
+  const Columns columns{static_cast<std::int16_t>(bounds.x_first),
+                        static_cast<std::int16_t>(bounds.x_last)};
+  const int first_band = bounds.y_first / band_rows_;
+  for (int band = first_band; band <= bounds.y_last / band_rows_; ++band)
+    band_columns_[static_cast<std::size_t>(band)].include(columns);
+  std::int32_t& head = band_head_[static_cast<std::size_t>(first_band)];
+  next_in_band_[static_cast<std::size_t>(face)] = head;
+  head = face;
+}
+
+/// Columns covered in bands band - before .. band + after, and `before + after` more on both sides,
+/// within the image.
+EdgeRenderer::Columns EdgeRenderer::columnsAround(int band, int before, int after) const {
+  Columns columns;
+  const int bands = (output_->camera.height - 1) / band_rows_ + 1;
+  for (int i = std::max(band - before, 0); i <= std::min(band + after, bands - 1); ++i)
+    columns.include(band_columns_[static_cast<std::size_t>(i)]);
+  if (columns.last < columns.first) return columns;
+  const int margin = before + after;
+  columns.first = static_cast<std::int16_t>(std::max(columns.first - margin, 0));
+  columns.last =
+      static_cast<std::int16_t>(std::min(columns.last + margin, output_->camera.width - 1));
+  return columns;
+}
+
+/// Draws the faces of the current band, and hands those that go on to the next band's list.
+void EdgeRenderer::drawBand() {
+  const int last_y = band_.first_y + band_.rows - 1;
+  std::int32_t face = band_head_[next_];
+  while (face >= 0) {
+    const std::int32_t following = next_in_band_[static_cast<std::size_t>(face)];
+    const PixelBounds bounds = faceBounds(scene_, *rays_, face);
+    drawFace(scene_, *rays_, face, bounds, band_);
+    if (bounds.y_last > last_y) {
+      next_in_band_[static_cast<std::size_t>(face)] = band_head_[next_ + 1];
+      band_head_[next_ + 1] = face;
+    }
+    face = following;
+  }
+}
+
+Status EdgeRenderer::stepBand() {
+  const auto band = static_cast<int>(next_);
+  const int y = band * band_rows_;
+  const int rows = std::min(band_rows_, output_->camera.height - y);
+  // Pairs of pixels reach one pixel beyond the faces, and the derivatives of rays there another
+  // one; rows at the borders of bands are also used with the neighbouring band.
+  const Columns prepared = columnsAround(band, 1, 1);
+  band_.advance(*rays_, y, rows, prepared.first, prepared.last);
+  drawBand();
+  copySurfaces(scene_, band_, output_->camera, surfaces_);
+  const Columns compared = columnsAround(band, 1, 0);
+  const bool final = y + rows >= output_->camera.height;
+  return salient_edges_.addBand(scene_, band_, compared.first, compared.last, final, *output_);
+}
+
+}  // namespace boresight

@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/render/salient_edges.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+#include "core/render/rounding.h"
+
+namespace boresight {
+namespace {
+
+/// Two surfaces meet, rather than one hiding the other, when their depths at the line differ by
+/// less than this share.
+constexpr double kContact = 2e-4;
+/// Sine of the angle between ray and face below which an extended plane says little.
+constexpr double kGrazing = 0.15;
+
+/// Pixels that are looked at together; a run does not straddle the words of a bit image.
+constexpr int kRun_px = 8;
+
+/// One bit for each of up to eight pixels whose faces in `a` and `b` differ. Most runs show the
+/// same ones, which is seen two at a time.
+unsigned differingFaces(const std::int32_t* a, const std::int32_t* b, int count) {
+  if (count == kRun_px) {
+    std::uint64_t pairs_a[kRun_px / 2];
+    std::uint64_t pairs_b[kRun_px / 2];
+    std::memcpy(pairs_a, a, sizeof(pairs_a));
+    std::memcpy(pairs_b, b, sizeof(pairs_b));
+    if (((pairs_a[0] ^ pairs_b[0]) | (pairs_a[1] ^ pairs_b[1]) | (pairs_a[2] ^ pairs_b[2]) |
+         (pairs_a[3] ^ pairs_b[3])) == 0)
+      return 0;
+  }
+  unsigned differing = 0;
+  for (int i = 0; i < count; ++i) differing |= static_cast<unsigned>(a[i] != b[i]) << i;
+  return differing;
+}
+
+/// |z - z_extended| > threshold, from the inverse depths; a plane that is not met in front of the
+/// camera is infinitely far off.
+bool depthDiffers(double inverse_depth, double inverse_extended, double threshold_m) {
+  if (!(inverse_extended > 0.0)) return true;
+  return std::abs(inverse_extended - inverse_depth) >
+         threshold_m * inverse_depth * inverse_extended;
+}
+
+Eigen::Vector3d between(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double s) {
+  return from + (to - from) * s;
+}
+
+bool flatter(const PlaneCache::Entry& a, const PlaneCache::Entry& b) {
+  return a.inverse_norm > b.inverse_norm || (a.inverse_norm == b.inverse_norm && a.face < b.face);
+}
+
+std::int8_t rounded8(double value) {
+  return static_cast<std::int8_t>(floorClamped(value + 0.5, -127, 127));
+}
+
+/// Order among what several pairs say about one pixel.
+bool preferred(const EdgePixel& a, const EdgePixel& b) {
+  if (a.depth_m != b.depth_m) return a.depth_m < b.depth_m;
+  return std::abs(a.offset) < std::abs(b.offset);
+}
+
+}  // namespace
+
+SalientEdges SalientEdges::create(int max_width, Arena& arena) {
+  SalientEdges edges;
+  edges.planes_ = PlaneCache::create(arena);
+  edges.stride_ = max_width;
+  edges.candidates_ = arena.allocate<EdgePixel>(2 * static_cast<std::size_t>(max_width));
+  return edges;
+}
+
+void SalientEdges::begin(EdgeRender& output) {
+  planes_.clear();
+  output.edges.clear();
+  output.mask.clear();
+  output.pixel_count = 0;
+  output.row_begin[0] = 0;
+}
+
+bool SalientEdges::crossBorder(const Context& context, const Sample& p, const Sample& q,
+                               Crossing& crossing) {
+  crossing.nearer_is_p = p.face >= 0;
+  const Sample& nearer = crossing.nearer_is_p ? p : q;
+  const Sample& other = crossing.nearer_is_p ? q : p;
+  if (!context.scene.part(nearer.face).match) return false;
+  const SurfaceEnd end =
+      traceSurface(context.scene, planes_, nearer.face, nearer.ray, other.ray, -1);
+  if (!end.ends) {
+    // Not an end of the surface, but of what the near plane leaves of it.
+    const PlaneCache::Entry plane = planes_.get(context.scene, nearer.face);
+    if (dotProduct(plane.plane, other.ray) * context.scene.near_plane_m >= 1.0) return false;
+  }
+  const double s = std::min(end.s, 1.0);
+  crossing.s = crossing.nearer_is_p ? s : 1.0 - s;
+  crossing.face = end.face;
+  crossing.has_line = end.ends;
+  crossing.line = end.line;
+  crossing.kind = kEdgeOccluding | kEdgeBorder;
+  return true;
+}
+
+/// Surfaces that differ: where one ends and the other begins.
+bool SalientEdges::crossSurfaces(const Context& context, const Sample& p, const Sample& q,
+                                 const Difference& difference, Crossing& crossing) {
+  const CameraScene& scene = context.scene;
+  const PlaneCache::Entry plane_p = planes_.get(scene, p.face);
+  const PlaneCache::Entry plane_q = planes_.get(scene, q.face);
+  crossing.nearer_is_p = difference.nearer_is_p;
+  const SurfaceEnd end_p = traceSurface(scene, planes_, p.face, p.ray, q.ray, q.face);
+  SurfaceEnd end_q;
+  if (!end_p.reached) end_q = traceSurface(scene, planes_, q.face, q.ray, p.ray, p.face);
+  if (!end_p.reached && !end_q.reached) {
+    crossing.kind = static_cast<std::uint8_t>((difference.crease ? kEdgeCrease : 0) |
+                                              (difference.occluding ? kEdgeOccluding : 0));
+    return crossOverlap(context, p, q, end_p, end_q, crossing) &&
+           scene.part(crossing.nearer_is_p ? p.face : q.face).match;
+  }
+
+  // One connected surface: never a depth edge, a crease where it turns enough.
+  if (!difference.crease || !scene.part(crossing.nearer_is_p ? p.face : q.face).match) return false;
+  crossing.kind = kEdgeCrease;
+  crossing.s = end_p.reached ? end_p.s : 1.0 - end_q.s;
+  crossing.has_line = true;
+  crossing.line = end_p.reached ? end_p.line : Eigen::Vector3d(-end_q.line);
+  // Both faces hold the line; the flatter one's plane is the better known beside it.
+  crossing.nearer_is_p = flatter(plane_p, plane_q);
+  if (!crossing.nearer_is_p) crossing.line = -crossing.line;
+  crossing.face = crossing.nearer_is_p ? p.face : q.face;
+  return scene.part(crossing.face).match;
+}
+
+/// Surfaces that are not connected: both may cover a stretch between the pixels, and the one that
+/// is nearer there is seen until it ends.
+bool SalientEdges::crossOverlap(const Context& context, const Sample& p, const Sample& q,
+                                const SurfaceEnd& end_p, const SurfaceEnd& end_q,
+                                Crossing& crossing) {
+  const CameraScene& scene = context.scene;
+  const PlaneCache::Entry plane_p = planes_.get(scene, p.face);
+  const PlaneCache::Entry plane_q = planes_.get(scene, q.face);
+  const double s_p = end_p.s;                                        // p's surface covers 0 .. s_p
+  const double s_q = 1.0 - end_q.s;                                  // q's surface covers s_q .. 1
+  const Eigen::Vector3d difference = plane_p.plane - plane_q.plane;  // > 0 where p's is nearer
+  bool intersect = false;
+  if (s_p >= s_q) {
+    const double low = std::max(s_q, 0.0);
+    const double high = std::min(s_p, 1.0);
+    const Eigen::Vector3d ray_low = between(p.ray, q.ray, low);
+    const Eigen::Vector3d ray_high = between(p.ray, q.ray, high);
+    const double ahead_low = dotProduct(plane_p.plane, ray_low) -
+                             dotProduct(planes_.get(scene, end_q.face).plane, ray_low);
+    const double ahead_high = dotProduct(planes_.get(scene, end_p.face).plane, ray_high) -
+                              dotProduct(plane_q.plane, ray_high);
+    if (ahead_low > 0.0 && ahead_high > 0.0) crossing.nearer_is_p = true;
+    if (ahead_low < 0.0 && ahead_high < 0.0) crossing.nearer_is_p = false;
+    intersect = ahead_low > 0.0 && ahead_high < 0.0;
+    if (intersect) {
+      crossing.line = difference;
+      const double at_p = dotProduct(difference, p.ray);
+      const double at_q = dotProduct(difference, q.ray);
+      const double s = at_p / (at_p - at_q);
+      crossing.s = s > low ? std::min(s, high) : low;
+      crossing.has_line = true;
+    }
+  }
+  const SurfaceEnd& end = crossing.nearer_is_p ? end_p : end_q;
+  if (!intersect) {
+    const Sample& other = crossing.nearer_is_p ? q : p;
+    const Eigen::Vector3d& plane = crossing.nearer_is_p ? plane_p.plane : plane_q.plane;
+    // Cut by the near plane, which is no end of the surface.
+    if (!end.ends && dotProduct(plane, other.ray) * scene.near_plane_m >= 1.0) return false;
+    crossing.s = crossing.nearer_is_p ? std::min(s_p, 1.0) : std::max(s_q, 0.0);
+    crossing.has_line = true;
+    crossing.line = end.line;
+    // It covers the other pixel and is not seen there: the two planes meet in that very pixel.
+    if (!end.ends) crossing.line = crossing.nearer_is_p ? difference : Eigen::Vector3d(-difference);
+  }
+  crossing.face = end.face;
+
+  // Where the surfaces touch, neither hides the other: the flatter one's plane is the better known.
+  const Eigen::Vector3d ray = between(p.ray, q.ray, crossing.s);
+  const double depth_p = dotProduct(plane_p.plane, ray);
+  const double depth_q = dotProduct(plane_q.plane, ray);
+  if (intersect || std::abs(depth_p - depth_q) <= kContact * std::abs(depth_p)) {
+    const bool p_flatter = flatter(plane_p, plane_q);
+    const bool line_from_p = intersect || crossing.nearer_is_p;
+    const bool both_match = scene.part(p.face).match && scene.part(q.face).match;
+    if (both_match) crossing.nearer_is_p = p_flatter;
+    crossing.face = crossing.nearer_is_p ? p.face : q.face;
+    if (line_from_p != crossing.nearer_is_p) crossing.line = -crossing.line;
+  }
+  return true;
+}
+
+/// The pairs that most boundaries between faces give, faces of one smooth surface, end here.
+bool SalientEdges::surfacesDiffer(const Context& context, std::size_t p, std::size_t q,
+                                  Difference& difference) {
+  const CameraScene& scene = context.scene;
+  const RasterBand& band = context.band;
+  const PlaneCache::Entry plane_p = planes_.get(scene, band.face[p]);
+  const PlaneCache::Entry& plane_q = planes_.get(scene, band.face[q]);
+  const auto inverseDepth = [&band](const Eigen::Vector3d& plane, std::size_t at) {
+    return plane.x() * band.ray_x[at] + (plane.y() * band.ray_y[at] + plane.z());
+  };
+  const double inverse_p = inverseDepth(plane_p.plane, p);
+  const double inverse_q = inverseDepth(plane_q.plane, q);
+  difference.nearer_is_p =
+      inverse_p > inverse_q || (inverse_p == inverse_q && plane_p.face < plane_q.face);
+  const std::size_t part = scene.partIndex(difference.nearer_is_p ? plane_p.face : plane_q.face);
+  const double threshold_m = scene.mesh.parts[part].depth_threshold_m;
+  difference.crease = normalsDiffer(plane_p, plane_q, scene.cos_normal_threshold[part]);
+  difference.occluding = depthDiffers(inverse_q, inverseDepth(plane_p.plane, q), threshold_m) &&
+                         depthDiffers(inverse_p, inverseDepth(plane_q.plane, p), threshold_m);
+  return difference.crease || difference.occluding;
+}
+
+void SalientEdges::comparePair(const Context& context, int x_p, int row_p, int x_q, int row_q) {
+  const RasterBand& band = context.band;
+  const std::size_t at_p = band.index(x_p, row_p);
+  const std::size_t at_q = band.index(x_q, row_q);
+  const std::int32_t face_p = band.face[at_p];
+  const std::int32_t face_q = band.face[at_q];
+  const bool border = face_p < 0 || face_q < 0;
+  Difference difference;
+  if (border ? face_p == RasterBand::kInvalid || face_q == RasterBand::kInvalid
+             : !surfacesDiffer(context, at_p, at_q, difference))
+    return;
+  const Sample p{x_p, row_p, face_p, band.ray(x_p, row_p)};
+  const Sample q{x_q, row_q, face_q, band.ray(x_q, row_q)};
+  Crossing crossing;
+  if (border ? crossBorder(context, p, q, crossing)
+             : crossSurfaces(context, p, q, difference, crossing))
+    mark(context, p, q, crossing);
+}
+
+/// z of the nearer surface for the marked pixel; 0 when there is none. `own` is the nearer
+/// surface's pixel of the pair.
+float SalientEdges::depthOf(const Context& context, const Sample& own, const Sample& marked,
+                            const Eigen::Vector3d& ray_at_line, std::int32_t face) {
+  const CameraScene& scene = context.scene;
+  const PlaneCache::Entry plane = planes_.get(scene, face);
+  double inverse_depth = dotProduct(plane.plane, marked.ray);
+  const double z0 = scene.vertex(face, 0).z();
+  const double z1 = scene.vertex(face, 1).z();
+  const double z2 = scene.vertex(face, 2).z();
+  const bool extended = own.x != marked.x || own.row != marked.row;
+  const bool grazing =
+      !(inverse_depth > 0.0) ||
+      inverse_depth * plane.inverse_norm < kGrazing * std::sqrt(dotProduct(marked.ray, marked.ray));
+  if (extended && grazing) inverse_depth = dotProduct(plane.plane, ray_at_line);
+  if (!extended || grazing) {
+    const double farthest = std::max({z0, z1, z2});
+    const double nearest = std::max(std::min({z0, z1, z2}), scene.near_plane_m);
+    inverse_depth = std::max(inverse_depth, 1.0 / farthest);
+    inverse_depth = std::min(inverse_depth, 1.0 / nearest);
+  }
+  const double depth_m = 1.0 / inverse_depth;
+  return depth_m > 0.0 && depth_m < 1e30 ? static_cast<float>(depth_m) : 0.0F;
+}
+
+void SalientEdges::mark(const Context& context, const Sample& p, const Sample& q,
+                        const Crossing& crossing) {
+  const RasterBand& band = context.band;
+  const bool mark_p = crossing.s <= 0.5;
+  const Sample& marked = mark_p ? p : q;
+  const Sample& own = crossing.nearer_is_p ? p : q;
+  const bool is_own = mark_p == crossing.nearer_is_p;
+
+  EdgePixel pixel;
+  pixel.x = static_cast<std::int16_t>(marked.x);
+  const int y = band.first_y + marked.row - 1;
+  pixel.y = static_cast<std::int16_t>(y);
+  pixel.kind = crossing.kind;
+  pixel.face = is_own ? own.face : crossing.face;
+  pixel.depth_m = depthOf(context, own, marked, between(p.ray, q.ray, crossing.s), pixel.face);
+  if (!(pixel.depth_m > 0.0F)) return;
+
+  // Without a line to differentiate: across the pair.
+  const double towards_q = crossing.nearer_is_p ? 1.0 : -1.0;
+  double normal_x = (q.x - p.x) * towards_q;
+  double normal_y = (q.row - p.row) * towards_q;
+  double distance_px = (crossing.s - (mark_p ? 0.0 : 1.0)) * towards_q;
+  // The line's value and its derivative along the image axes. The rows and columns that are
+  // differenced depend on the image alone, not on how it is cut into bands.
+  const int left = marked.x + 1 < band.x_end ? marked.x : marked.x - 1;
+  const int top = p.row != q.row ? p.row : (p.row < band.rows ? p.row : p.row - 1);
+  const bool rows_known = top >= 1 || (top == 0 && band.first_y > 0);
+  if (crossing.has_line && left >= band.x_begin && rows_known &&
+      band.face[band.index(left, marked.row)] != RasterBand::kInvalid &&
+      band.face[band.index(left + 1, marked.row)] != RasterBand::kInvalid &&
+      band.face[band.index(marked.x, top)] != RasterBand::kInvalid &&
+      band.face[band.index(marked.x, top + 1)] != RasterBand::kInvalid) {
+    const Eigen::Vector3d& line = crossing.line;
+    const double along_x = dotProduct(line, band.ray(left + 1, marked.row)) -
+                           dotProduct(line, band.ray(left, marked.row));
+    const double along_y =
+        dotProduct(line, band.ray(marked.x, top + 1)) - dotProduct(line, band.ray(marked.x, top));
+    const double norm = std::sqrt(along_x * along_x + along_y * along_y);
+    if (norm > 0.0 && norm < 1e300) {
+      normal_x = -along_x / norm;
+      normal_y = -along_y / norm;
+      distance_px = dotProduct(line, marked.ray) / norm;
+    }
+  }
+  pixel.normal_x = rounded8(normal_x * 127.0);
+  pixel.normal_y = rounded8(normal_y * 127.0);
+  pixel.offset = rounded8(distance_px * 100.0);
+
+  EdgePixel& slot = candidates_[static_cast<std::size_t>((y & 1) * stride_ + marked.x)];
+  BitImage& edges = context.output.edges;
+  if (!edges.get(marked.x, y) || preferred(pixel, slot)) slot = pixel;
+  edges.set(marked.x, y);
+}
+
+/// Pairs of neighbours within a row, and the row's mask.
+void SalientEdges::compareWithin(const Context& context, int row, int x_first, int x_last) {
+  const CameraScene& scene = context.scene;
+  const std::int32_t* face = &context.band.face[context.band.index(0, row)];
+  std::uint64_t* mask = context.output.mask.row(context.band.first_y + row - 1);
+  const auto isMatched = [&scene](std::int32_t at) -> unsigned {
+    return at >= 0 && scene.part(at).match ? ~0U : 0U;
+  };
+  unsigned matched = 0;  // all bits, of the face at hand
+  if (x_first <= x_last) matched = isMatched(face[x_first]);
+  for (int x = x_first; x <= x_last;) {
+    const int end = std::min((x / kRun_px + 1) * kRun_px, x_last + 1);
+    const int count = end - x;
+    unsigned differing = differingFaces(face + x, face + x + 1, std::min(count, x_last - x));
+    unsigned bits = matched;
+    for (; differing != 0; differing &= differing - 1) {
+      const int i = std::countr_zero(differing);
+      comparePair(context, x + i, row, x + i + 1, row);
+      matched = isMatched(face[x + i + 1]);
+      const unsigned after = ~0U << (i + 1);
+      bits = (bits & ~after) | (matched & after);
+    }
+    mask[x >> 6] |= static_cast<std::uint64_t>(bits & ((1U << count) - 1U)) << (x & 63);
+    x = end;
+  }
+}
+
+/// Pairs of a row with the row below.
+void SalientEdges::compareBelow(const Context& context, int row, int x_first, int x_last) {
+  const std::int32_t* face = &context.band.face[context.band.index(0, row)];
+  const std::int32_t* below = &context.band.face[context.band.index(0, row + 1)];
+  for (int x = x_first; x <= x_last; x += kRun_px) {
+    unsigned differing = differingFaces(face + x, below + x, std::min(kRun_px, x_last + 1 - x));
+    for (; differing != 0; differing &= differing - 1) {
+      const int at = x + std::countr_zero(differing);
+      comparePair(context, at, row, at, row + 1);
+    }
+  }
+}
+
+/// The row's edge pixels into the mask and the output.
+Status SalientEdges::finishRow(const Context& context, int row) {
+  EdgeRender& output = context.output;
+  const int y = context.band.first_y + row - 1;
+  std::uint64_t* mask = output.mask.row(y);
+  const std::uint64_t* edges = output.edges.row(y);
+  for (int word = 0; word < output.edges.words_per_row; ++word) {
+    mask[word] |= edges[word];
+    for (std::uint64_t bits = edges[word]; bits != 0; bits &= bits - 1) {
+      const int x = word * 64 + std::countr_zero(bits);
+      if (static_cast<std::size_t>(output.pixel_count) >= output.pixels.size())
+        return Status::kCapacityExceeded;
+      output.pixels[static_cast<std::size_t>(output.pixel_count++)] =
+          candidates_[static_cast<std::size_t>((y & 1) * stride_ + x)];
+    }
+  }
+  output.row_begin[static_cast<std::size_t>(y) + 1] = output.pixel_count;
+  return Status::kOk;
+}
+
+Status SalientEdges::addBand(const CameraScene& scene, const RasterBand& band, int x_first,
+                             int x_last, bool final, EdgeRender& output) {
+  const Context context{scene, band, output};
+  const int first_row = band.first_y > 0 ? 0 : 1;
+  const int last_row = final ? band.rows : band.rows - 1;
+  for (int row = first_row; row <= last_row; ++row) {
+    compareWithin(context, row, x_first, x_last);
+    if (row < band.rows) compareBelow(context, row, x_first, x_last);
+    const Status status = finishRow(context, row);
+    if (status != Status::kOk) return status;
+  }
+  return Status::kOk;
+}
+
+}  // namespace boresight

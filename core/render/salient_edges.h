@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "core/base/arena.h"
+#include "core/base/status.h"
+#include "core/render/camera_scene.h"
+#include "core/render/edge_pixel.h"
+#include "core/render/rasterizer.h"
+#include "core/render/surface_trace.h"
+
+namespace boresight {
+
+/// Finds the salient edges of rendered rows (Pham 2025, Sec. III-A), thin and unbiased: every pair
+/// of neighbouring pixels whose surfaces differ gives the exact place between their centres where
+/// the nearer surface ends, and marks the pixel that is nearer to it.
+///
+/// A pair differs when the normals do by more than the threshold of the nearer surface's part,
+/// when the depths do, or when one side is background. Depths are compared at both pixels, each
+/// surface's plane extended to the other: grazing and curved surfaces are no depth edges.
+class SalientEdges {
+ public:
+  static SalientEdges create(int max_width, Arena& arena);
+
+  /// Clears the output for a render of `width` x `height` pixels.
+  void begin(EdgeRender& output);
+
+  /// The pairs of a band's rows, columns x_first .. x_last: those within and below each row but the
+  /// last, which is left to the next band unless this one is `final`. Rows that are complete are
+  /// appended to the output. kCapacityExceeded when its pixels are not enough.
+  Status addBand(const CameraScene& scene, const RasterBand& band, int x_first, int x_last,
+                 bool final, EdgeRender& output);
+
+ private:
+  /// One pixel of a pair.
+  struct Sample {
+    int x = 0;
+    int row = 0;  ///< of the band
+    std::int32_t face = -1;
+    Eigen::Vector3d ray = Eigen::Vector3d::Zero();
+  };
+  /// In what two surfaces differ.
+  struct Difference {
+    bool nearer_is_p = true;
+    bool crease = false;
+    bool occluding = false;
+  };
+  /// What lies between two pixels.
+  struct Crossing {
+    double s = 0.0;  ///< place on the way from p to q
+    bool nearer_is_p = true;
+    std::int32_t face = -1;  ///< of the nearer surface, where it ends
+    bool has_line = false;
+    Eigen::Vector3d line = Eigen::Vector3d::Zero();  ///< line . ray > 0 on the nearer side
+    std::uint8_t kind = 0;
+  };
+  struct Context {
+    const CameraScene& scene;
+    const RasterBand& band;
+    EdgeRender& output;
+  };
+
+  void compareWithin(const Context& context, int row, int x_first, int x_last);
+  void compareBelow(const Context& context, int row, int x_first, int x_last);
+  void comparePair(const Context& context, int x_p, int row_p, int x_q, int row_q);
+  bool surfacesDiffer(const Context& context, std::size_t p, std::size_t q, Difference& difference);
+  bool crossBorder(const Context& context, const Sample& p, const Sample& q, Crossing& crossing);
+  bool crossSurfaces(const Context& context, const Sample& p, const Sample& q,
+                     const Difference& difference, Crossing& crossing);
+  bool crossOverlap(const Context& context, const Sample& p, const Sample& q,
+                    const SurfaceEnd& end_p, const SurfaceEnd& end_q, Crossing& crossing);
+  void mark(const Context& context, const Sample& p, const Sample& q, const Crossing& crossing);
+  float depthOf(const Context& context, const Sample& own, const Sample& marked,
+                const Eigen::Vector3d& ray_at_line, std::int32_t face);
+  Status finishRow(const Context& context, int row);
+
+  PlaneCache planes_;
+  std::span<EdgePixel> candidates_;  ///< two rows: this one and the next
+  int stride_ = 0;
+};
+
+}  // namespace boresight

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "core/geometry/camera.h"
+#include "core/render/camera_scene.h"
+#include "core/render/rasterizer.h"
+
+namespace boresight {
+
+/// What else the pass can give, for people who look and for methods that compare intensities; never
+/// needed by the flight loop. Each span is empty (not wanted) or has width * height entries, row by
+/// row, of the camera rendered with.
+struct SurfaceRender {
+  std::span<float> depth_m;           ///< z at the pixel's centre; 0 where nothing is
+  std::span<std::int32_t> face;       ///< -1 where nothing is
+  std::span<std::uint8_t> intensity;  ///< Lambert, lit from the camera: 30 + 225 |n . ray|
+  std::span<Eigen::Vector3f> normal_in_camera;  ///< unit, towards the camera; 0 where nothing is
+};
+
+/// True when every span is empty or large enough.
+[[nodiscard]] bool surfaceRenderFits(const SurfaceRender& surfaces, int width, int height);
+
+/// Copies the new rows of a band.
+void copySurfaces(const CameraScene& scene, const RasterBand& band, const Camera& camera,
+                  const SurfaceRender& surfaces);
+
+}  // namespace boresight

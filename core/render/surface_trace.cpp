@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/render/surface_trace.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace boresight {
+namespace {
+
+/// A scanned surface has dozens of faces in the last pixel before its silhouette.
+constexpr int kMaxHops = 64;
+
+/// The edge through which a way leaves a triangle: the first whose value falls to zero.
+struct Exit {
+  int edge = -1;
+  double s = 2.0;
+};
+
+Exit findExit(const Eigen::Vector3d edge[3], int entered_through, double s_entered,
+              const Eigen::Vector3d& ray_from, const Eigen::Vector3d& ray_to) {
+  Exit exit;
+  for (int i = 0; i < 3; ++i) {
+    if (i == entered_through) continue;
+    const double to = dotProduct(edge[i], ray_to);
+    const double from = dotProduct(edge[i], ray_from);
+    if (!(to <= 0.0 && from > to)) continue;
+    const double s = std::max(from > 0.0 ? from / (from - to) : 0.0, s_entered);
+    if (s < exit.s) exit = {i, s};
+  }
+  return exit;
+}
+
+/// The face beyond an edge folds back behind the surface when its third vertex lies on the
+/// surface's side of the edge; this does not rest on how the mesh is oriented.
+bool foldsBack(const CameraScene& scene, std::int32_t face, int edge, std::int32_t beyond,
+               const Eigen::Vector3d& line) {
+  const Face& from = scene.mesh.faces[static_cast<std::size_t>(face)];
+  const Face& to = scene.mesh.faces[static_cast<std::size_t>(beyond)];
+  const std::int32_t first = from.vertex[static_cast<std::size_t>(edge)];
+  const std::int32_t second = from.vertex[static_cast<std::size_t>((edge + 1) % 3)];
+  for (const std::int32_t vertex : to.vertex)
+    if (vertex != first && vertex != second)
+      return !(dotProduct(line, scene.vertex_in_camera_m[static_cast<std::size_t>(vertex)]) < 0.0);
+  return true;
+}
+
+int edgeTowards(const CameraScene& scene, std::int32_t face, std::int32_t neighbour) {
+  const auto& around = scene.adjacency.neighbour[static_cast<std::size_t>(face)];
+  for (int i = 0; i < 3; ++i)
+    if (around[static_cast<std::size_t>(i)] == neighbour) return i;
+  return -1;
+}
+
+/// Cosine-like measure of how near a face's normal is to another's.
+double nearness(const PlaneCache::Entry& face, const PlaneCache::Entry& other) {
+  return dotProduct(face.plane, other.plane) * other.inverse_norm;
+}
+
+}  // namespace
+
+PlaneCache PlaneCache::create(Arena& arena) {
+  PlaneCache cache;
+  cache.entries_ = arena.allocate<Entry>(kEntries);
+  return cache;
+}
+
+void PlaneCache::clear() {
+  for (Entry& entry : entries_) entry = Entry();
+}
+
+void PlaneCache::fill(const CameraScene& scene, std::int32_t face, Entry& entry) {
+  entry.face = face;
+  entry.valid = facePlane(scene, face, entry.plane);
+  const double norm2 = dotProduct(entry.plane, entry.plane);
+  entry.inverse_norm = norm2 > 0.0 ? 1.0 / std::sqrt(norm2) : 0.0;
+}
+
+SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32_t start,
+                        const Eigen::Vector3d& ray_from, const Eigen::Vector3d& ray_to,
+                        std::int32_t target) {
+  PlaneCache::Entry here = planes.get(scene, start);
+  const PlaneCache::Entry first = here;
+  const PlaneCache::Entry last = target >= 0 ? planes.get(scene, target) : first;
+  SurfaceEnd end;
+  end.face = start;
+  SurfaceEnd turn;
+  int entered_through = -1;
+  for (int hop = 0; hop <= kMaxHops; ++hop) {
+    Eigen::Vector3d edge[3];
+    if (!faceEdges(scene, end.face, edge)) break;
+    const Exit exit = findExit(edge, entered_through, end.ends ? end.s : 0.0, ray_from, ray_to);
+    end.ends = exit.edge >= 0;
+    end.s = exit.s;
+    if (!end.ends) break;
+    end.line = edge[exit.edge];
+    if (hop == kMaxHops) break;
+
+    const std::int32_t next =
+        scene.adjacency
+            .neighbour[static_cast<std::size_t>(end.face)][static_cast<std::size_t>(exit.edge)];
+    if (next < 0 || foldsBack(scene, end.face, exit.edge, next, end.line)) break;
+    if (next == target) {
+      if (turn.ends) end = turn;
+      end.reached = true;
+      break;
+    }
+    const PlaneCache::Entry there = planes.get(scene, next);
+    if (!there.valid ||
+        normalsDiffer(here, there, scene.cos_normal_threshold[scene.partIndex(end.face)]))
+      break;
+    if (target >= 0 && !turn.ends && nearness(there, last) > nearness(there, first)) turn = end;
+    entered_through = edgeTowards(scene, next, end.face);
+    if (entered_through < 0) break;
+    end.face = next;
+    here = there;
+  }
+  return end;
+}
+
+}  // namespace boresight

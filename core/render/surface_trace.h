@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "core/base/arena.h"
+#include "core/render/camera_scene.h"
+
+namespace boresight {
+
+/// Planes of the faces met last (see facePlane): neighbouring pixels ask for the same few again.
+class PlaneCache {
+ public:
+  struct Entry {
+    std::int32_t face = -1;
+    bool valid = false;
+    Eigen::Vector3d plane = Eigen::Vector3d::Zero();
+    double inverse_norm = 0.0;  ///< distance of the plane from the camera centre, m
+  };
+
+  static PlaneCache create(Arena& arena);
+  void clear();
+  /// Valid until the next call.
+  const Entry& get(const CameraScene& scene, std::int32_t face) {
+    Entry& entry = entries_[static_cast<std::size_t>(face) % kEntries];
+    if (entry.face != face) fill(scene, face, entry);
+    return entry;
+  }
+
+ private:
+  static constexpr std::size_t kEntries = 512;
+  static void fill(const CameraScene& scene, std::int32_t face, Entry& entry);
+  std::span<Entry> entries_;
+};
+
+/// True when two surfaces' normals, both taken on the camera's side, differ by more than the angle
+/// whose cosine is given.
+inline bool normalsDiffer(const PlaneCache::Entry& a, const PlaneCache::Entry& b,
+                          double cos_threshold) {
+  return dotProduct(a.plane, b.plane) * (a.inverse_norm * b.inverse_norm) < cos_threshold;
+}
+
+/// Where a surface ends on the way from the centre of one pixel (s = 0) to another's (s = 1).
+struct SurfaceEnd {
+  bool ends = false;     ///< false: the surface covers the whole way
+  bool reached = false;  ///< the way leads over one connected surface to the target face
+  double s = 2.0;
+  std::int32_t face = -1;                          ///< the face that ends there
+  Eigen::Vector3d line = Eigen::Vector3d::Zero();  ///< line . ray > 0 on the surface's side
+};
+
+/// Follows the surface from `start` over edges across which it goes on smoothly and faces the
+/// camera: silhouettes of tessellated curved surfaces consist of slivers narrower than a pixel, and
+/// stopping at the first face's edge would shift them inwards. When `target` (-1: none) is
+/// reached, `s` and `line` are where the normal turns from the start's to the target's.
+SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32_t start,
+                        const Eigen::Vector3d& ray_from, const Eigen::Vector3d& ray_to,
+                        std::int32_t target);
+
+}  // namespace boresight

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/config_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/json_document.h"
+#include "sessions/io/json_writer.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr const char* kFormat = "boresight-config";
+constexpr int kVersion = 1;
+
+OptionValue readValue(const JsonReader& json) {
+  if (json.isBoolean()) return json.boolean();
+  if (json.isInteger()) return json.integer();
+  if (json.isNumber()) return json.number();
+  if (json.isText()) return json.text();
+  json.fail("not a number, true, false, or a name");
+}
+
+}  // namespace
+
+OptionList readOptions(const JsonReader& json) {
+  OptionList options;
+  for (const auto& [name, value] : json.members()) options.emplace_back(name, readValue(value));
+  return options;
+}
+
+Config readConfig(const std::filesystem::path& file) {
+  const JsonDocument document(file);
+  const JsonReader json = document.root(kFormat, kVersion);
+  Config config;
+  config.file = file;
+  if (const auto profile = json.find("profile")) config.profile = profile->nonEmptyText();
+  if (const auto options = json.find("options")) config.options = readOptions(*options);
+  return config;
+}
+
+nlohmann::ordered_json toJson(const OptionList& options) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : options)
+    std::visit([&json, &key = name](const auto& plain) { json[key] = plain; }, value);
+  return json;
+}
+
+void writeConfig(const std::filesystem::path& file, const Config& config) {
+  nlohmann::ordered_json json;
+  json["format"] = kFormat;
+  json["version"] = kVersion;
+  json["profile"] = config.profile;
+  json["options"] = toJson(config.options);
+  writeJsonFile(file, json);
+}
+
+}  // namespace boresight::sessions

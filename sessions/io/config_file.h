@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "sessions/io/errors.h"
+#include "sessions/io/json_reader.h"
+#include "sessions/io/option_value.h"
+
+namespace boresight::sessions {
+
+/// config.json (`boresight-config`, version 1): a profile and the options that differ from it.
+/// `file` names it in messages.
+struct Config {
+  std::filesystem::path file;
+  std::string profile = "default";
+  OptionList options;
+};
+
+/// Reads config.json; values are checked when they are applied. InputError.
+Config readConfig(const std::filesystem::path& file);
+
+/// Writes config.json; OutputError.
+void writeConfig(const std::filesystem::path& file, const Config& config);
+
+/// {name: value, ...}; a number that is not finite throws std::logic_error when written.
+nlohmann::ordered_json toJson(const OptionList& options);
+/// The reverse: each member must be true/false, a number, or a string.
+OptionList readOptions(const JsonReader& json);
+
+/// Sets the options that the config names. InputError (file, options.NAME, reason) when one does
+/// not exist or cannot have its value; then `options` is as before.
+template <class Options>
+void applyConfig(Options& options, const Config& config) {
+  Options changed = options;
+  for (const auto& [name, value] : config.options) {
+    try {
+      applyOption(changed, name, value);
+    } catch (const OptionError& error) {
+      throw InputError(config.file, "options." + name, error.reason());
+    }
+  }
+  options = changed;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace boresight {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The stages in pipeline order: a folder may include itself and those before it.
+const std::vector<std::string> kStages = {"base",      "geometry", "edges", "render",
+                                          "templates", "match",    "pnp",   "localizer"};
+
+/// The standard headers that flight code may use: no streams, threads, heap containers, locales,
+/// clocks or random distributions. <cstdlib> is where the integers' std::abs lives.
+const std::set<std::string> kStandardHeaders = {
+    "algorithm",   "array",   "bit",         "climits", "cmath",           "compare",
+    "concepts",    "cstddef", "cstdint",     "cstdlib", "cstring",         "iterator",
+    "limits",      "new",     "numbers",     "numeric", "optional",        "span",
+    "string_view", "tuple",   "type_traits", "utility", "initializer_list"};
+
+struct Include {
+  fs::path file;
+  std::string header;
+  bool quoted = false;
+};
+
+std::vector<Include> includesOf(const fs::path& file) {
+  static const std::regex pattern(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
+  std::vector<Include> includes;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, pattern))
+      includes.push_back({file, match[2].str(), match[1].str() == "\""});
+  }
+  return includes;
+}
+
+std::vector<Include> includesOfCore(const fs::path& source_dir) {
+  std::vector<Include> all;
+  for (const auto& entry : fs::recursive_directory_iterator(source_dir / "core")) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".h" && extension != ".cpp") continue;
+    const auto includes = includesOf(entry.path());
+    all.insert(all.end(), includes.begin(), includes.end());
+  }
+  return all;
+}
+
+std::ptrdiff_t stageNumber(const std::string& folder) {
+  return std::find(kStages.begin(), kStages.end(), folder) - kStages.begin();
+}
+
+/// "" when the include is allowed, else what is wrong with it.
+std::string fault(const std::string& including_folder, const Include& include) {
+  const auto stage_count = static_cast<std::ptrdiff_t>(kStages.size());
+  if (stageNumber(including_folder) == stage_count) return "is in no stage of the pipeline";
+  if (!include.quoted) {
+    const bool eigen = include.header.starts_with("Eigen/");
+    return eigen || kStandardHeaders.contains(include.header)
+               ? ""
+               : "includes <" + include.header + ">, which flight code may not";
+  }
+  if (!include.header.starts_with("core/")) return "includes " + include.header + " outside core/";
+  const std::string folder = include.header.substr(5, include.header.find('/', 5) - 5);
+  if (stageNumber(folder) > stageNumber(including_folder))
+    return "includes " + include.header + " of a later stage";
+  return "";
+}
+
+TEST(Layering, NoStageIncludesALaterOneOrAnythingForeign) {
+  const fs::path source_dir = BORESIGHT_SOURCE_DIR;
+  const std::vector<Include> includes = includesOfCore(source_dir);
+  EXPECT_GT(includes.size(), 50u) << "the sources were not found in " << source_dir;
+  for (const Include& include : includes) {
+    const fs::path relative = fs::relative(include.file, source_dir / "core");
+    const std::string problem = fault(relative.begin()->string(), include);
+    EXPECT_EQ(problem, "") << relative;
+  }
+}
+
+TEST(Layering, NoticesWhatItIsThereFor) {
+  const auto faulty = [](const std::string& folder, const std::string& header, bool quoted) {
+    return !fault(folder, {"x.cpp", header, quoted}).empty();
+  };
+  EXPECT_TRUE(faulty("geometry", "core/edges/edge_map.h", true));
+  EXPECT_TRUE(faulty("pnp", "core/localizer/localizer.h", true));
+  EXPECT_TRUE(faulty("base", "sessions/io/image.h", true));
+  EXPECT_TRUE(faulty("base", "math.h", true));
+  EXPECT_TRUE(faulty("edges", "core/unheard_of/x.h", true));
+  EXPECT_TRUE(faulty("unheard_of", "cstdint", false));
+  for (const char* header : {"vector", "iostream", "thread", "opencv2/core.hpp", "random"})
+    EXPECT_TRUE(faulty("match", header, false)) << header;
+  EXPECT_FALSE(faulty("match", "core/base/image.h", true));
+  EXPECT_FALSE(faulty("match", "core/match/whs.h", true));
+  EXPECT_FALSE(faulty("localizer", "core/pnp/pnp.h", true));
+  EXPECT_FALSE(faulty("pnp", "Eigen/Core", false));
+  EXPECT_FALSE(faulty("pnp", "cmath", false));
+}
+
+}  // namespace
+}  // namespace boresight

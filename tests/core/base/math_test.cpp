@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/base/math.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.h"
+
+namespace boresight {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr long double kAllowed = 4e-16L;
+
+/// Largest |actual - exact| / max(1, |exact|), exact in extended precision.
+template <class Function, class Exact>
+long double worstError(const std::vector<double>& arguments, Function function, Exact exact) {
+  long double worst = 0.0L;
+  for (const double x : arguments) {
+    const long double expected = exact(static_cast<long double>(x));
+    const long double error = std::abs(static_cast<long double>(function(x)) - expected) /
+                              std::max(1.0L, std::abs(expected));
+    EXPECT_FALSE(std::isnan(error)) << "at " << x;
+    worst = std::max(worst, error);
+  }
+  return worst;
+}
+
+/// A dense grid, random arguments, arguments of every magnitude, and both ends.
+std::vector<double> argumentsBetween(double low, double high) {
+  Random random(7);
+  std::vector<double> arguments = {low, high};
+  for (int i = 0; i <= 100000; ++i) arguments.push_back(low + (high - low) * i / 100000.0);
+  for (int i = 0; i < 100000; ++i) arguments.push_back(random.uniform(low, high));
+  for (int i = 0; i < 20000; ++i) {
+    const double size = std::pow(10.0, random.uniform(-300.0, 2.0));
+    for (const double x : {size, -size})
+      if (x >= low && x <= high) arguments.push_back(x);
+  }
+  return arguments;
+}
+
+/// Neighbourhoods of the multiples of pi / 4, where range reduction loses digits if it can.
+std::vector<double> nearMultiplesOfQuarterPi() {
+  std::vector<double> arguments;
+  for (int k = -127; k <= 127; ++k) {
+    double x = k * (kPi / 4.0);
+    for (int i = 0; i < 20; ++i) x = std::nextafter(x, -1e3);
+    for (int i = 0; i < 40; ++i) {
+      arguments.push_back(x);
+      x = std::nextafter(x, 1e3);
+    }
+  }
+  return arguments;
+}
+
+TEST(Trigonometry, SineAndCosineAreAccurate) {
+  for (const auto& arguments : {argumentsBetween(-100.0, 100.0), nearMultiplesOfQuarterPi()}) {
+    EXPECT_LT(worstError(arguments, sine, [](long double x) { return std::sin(x); }), kAllowed);
+    EXPECT_LT(worstError(arguments, cosine, [](long double x) { return std::cos(x); }), kAllowed);
+  }
+}
+
+TEST(Trigonometry, SineKeepsRelativeAccuracyNextToItsZeros) {
+  for (const double x : nearMultiplesOfQuarterPi()) {
+    const long double expected = std::sin(static_cast<long double>(x));
+    // Extended precision itself resolves sin(x) next to k pi to about 1e-19 |x|.
+    const long double tolerance = 4e-16L * std::abs(expected) + 1e-18L;
+    EXPECT_LE(std::abs(sine(x) - expected), tolerance) << x;
+  }
+}
+
+TEST(Trigonometry, TangentIsAccurateAwayFromItsPoles) {
+  std::vector<double> arguments = argumentsBetween(-100.0, 100.0);
+  std::erase_if(arguments, [](double x) { return std::abs(std::cos(x)) < 1e-3; });
+  EXPECT_LT(worstError(arguments, tangent, [](long double x) { return std::tan(x); }), kAllowed);
+}
+
+TEST(Trigonometry, StaysInRangeForHugeArguments) {
+  Random random(11);
+  for (int i = 0; i < 20000; ++i) {
+    const double x = std::pow(10.0, random.uniform(2.0, 308.0)) * (i % 2 == 0 ? 1.0 : -1.0);
+    EXPECT_LE(std::abs(sine(x)), 1.0) << x;
+    EXPECT_LE(std::abs(cosine(x)), 1.0) << x;
+    if (std::abs(x) < 1e6) {
+      EXPECT_NEAR(sine(x), std::sin(x), 4e-16);
+      EXPECT_NEAR(cosine(x), std::cos(x), 4e-16);
+    }
+  }
+  for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    EXPECT_TRUE(std::isnan(sine(bad)));
+    EXPECT_TRUE(std::isnan(cosine(bad)));
+    EXPECT_TRUE(std::isnan(tangent(bad)));
+  }
+}
+
+TEST(Trigonometry, KnowsExactValues) {
+  EXPECT_EQ(sine(0.0), 0.0);
+  EXPECT_EQ(cosine(0.0), 1.0);
+  EXPECT_EQ(tangent(0.0), 0.0);
+  EXPECT_EQ(sine(kPi / 2.0), 1.0);
+  EXPECT_EQ(cosine(kPi), -1.0);
+  EXPECT_EQ(sine(1e-300), 1e-300);
+  EXPECT_EQ(arcTangent(1.0), kPi / 4.0);
+  EXPECT_EQ(arcTangent(1e-300), 1e-300);
+}
+
+TEST(ArcTangent, IsAccurateEverywhere) {
+  std::vector<double> arguments = argumentsBetween(-5.0, 5.0);
+  Random random(13);
+  for (int i = 0; i < 50000; ++i)
+    arguments.push_back(std::pow(10.0, random.uniform(-300.0, 300.0)) * (i % 2 == 0 ? 1 : -1));
+  for (int k = 0; k <= 16; ++k)  // where the table changes its entry
+    for (const double x : {k / 16.0, std::nextafter(k / 16.0, 2.0), std::nextafter(k / 16.0, -1.0)})
+      arguments.push_back(x);
+  arguments.push_back(kInfinity);
+  arguments.push_back(-kInfinity);
+  EXPECT_LT(worstError(arguments, arcTangent, [](long double x) { return std::atan(x); }),
+            kAllowed);
+  EXPECT_TRUE(std::isnan(arcTangent(kNan)));
+}
+
+TEST(ArcTangent, KeepsRelativeAccuracyForSmallArguments) {
+  Random random(17);
+  for (int i = 0; i < 50000; ++i) {
+    const double x = std::pow(10.0, random.uniform(-300.0, -1.3));
+    const long double expected = std::atan(static_cast<long double>(x));
+    EXPECT_LE(std::abs(arcTangent(x) - expected), 3e-16L * expected) << x;
+  }
+}
+
+TEST(ArcTangent2, IsAccurateInAllDirections) {
+  Random random(19);
+  long double worst = 0.0L;
+  for (int i = 0; i < 200000; ++i) {
+    const double size = std::pow(10.0, random.uniform(-150.0, 150.0));
+    const double x = size * random.uniform(-1.0, 1.0);
+    const double y = size * random.uniform(-1.0, 1.0) * std::pow(10.0, random.uniform(-20.0, 0.0));
+    const long double expected =
+        std::atan2(static_cast<long double>(y), static_cast<long double>(x));
+    const long double error = std::abs(arcTangent2(y, x) - expected);
+    worst = std::max(worst, error / std::max(1.0L, std::abs(expected)));
+  }
+  EXPECT_LT(worst, kAllowed);
+}
+
+TEST(ArcTangent2, KnowsTheAxesAndTheDiagonals) {
+  EXPECT_EQ(arcTangent2(0.0, 0.0), 0.0);
+  EXPECT_EQ(arcTangent2(0.0, 2.0), 0.0);
+  EXPECT_EQ(arcTangent2(0.0, -2.0), kPi);
+  EXPECT_EQ(arcTangent2(-0.0, -2.0), kPi);
+  EXPECT_EQ(arcTangent2(3.0, 0.0), kPi / 2.0);
+  EXPECT_EQ(arcTangent2(-3.0, 0.0), -kPi / 2.0);
+  EXPECT_EQ(arcTangent2(2.0, 2.0), kPi / 4.0);
+  EXPECT_EQ(arcTangent2(2.0, -2.0), 3.0 * kPi / 4.0);
+  EXPECT_EQ(arcTangent2(-2.0, -2.0), -3.0 * kPi / 4.0);
+  EXPECT_EQ(arcTangent2(kInfinity, kInfinity), kPi / 4.0);
+  EXPECT_EQ(arcTangent2(-kInfinity, 1.0), -kPi / 2.0);
+  EXPECT_EQ(arcTangent2(1.0, -kInfinity), kPi);
+  EXPECT_TRUE(std::isnan(arcTangent2(kNan, 1.0)));
+  EXPECT_TRUE(std::isnan(arcTangent2(1.0, kNan)));
+}
+
+TEST(ArcSine, AndArcCosineAreAccurateAndClamped) {
+  std::vector<double> arguments = argumentsBetween(-1.0, 1.0);
+  for (double x = 1.0, step = 0.1; step > 1e-17; step *= 0.7) {
+    arguments.push_back(x - step);
+    arguments.push_back(step - x);
+  }
+  EXPECT_LT(worstError(arguments, arcSine, [](long double x) { return std::asin(x); }), kAllowed);
+  EXPECT_LT(worstError(arguments, arcCosine, [](long double x) { return std::acos(x); }), kAllowed);
+  EXPECT_EQ(arcSine(1.5), kPi / 2.0);
+  EXPECT_EQ(arcSine(-kInfinity), -kPi / 2.0);
+  EXPECT_EQ(arcCosine(1.0000001), 0.0);
+  EXPECT_EQ(arcCosine(-7.0), kPi);
+  EXPECT_TRUE(std::isnan(arcSine(kNan)));
+  EXPECT_TRUE(std::isnan(arcCosine(kNan)));
+}
+
+TEST(Exponential, IsAccurateFromUnderflowToOverflow) {
+  const auto exact = [](long double x) { return std::exp(x); };
+  EXPECT_LT(worstError(argumentsBetween(-5.0, 5.0), exponential, exact), kAllowed);
+  EXPECT_LT(worstError(argumentsBetween(-745.0, 709.7), exponential, exact), kAllowed);
+  EXPECT_EQ(exponential(0.0), 1.0);
+  EXPECT_EQ(exponential(-1e9), 0.0);
+  EXPECT_EQ(exponential(-kInfinity), 0.0);
+  EXPECT_EQ(exponential(1e9), kInfinity);
+  EXPECT_EQ(exponential(kInfinity), kInfinity);
+  EXPECT_TRUE(std::isnan(exponential(kNan)));
+  for (const double x : {-708.0, -710.0, -740.0, -745.1})  // subnormal results
+    EXPECT_NEAR(exponential(x), std::exp(x), 5e-324 + 4e-16 * std::exp(x)) << x;
+}
+
+TEST(NaturalLogarithm, IsAccurateForEveryPositiveNumber) {
+  const auto exact = [](long double x) { return std::log(x); };
+  std::vector<double> arguments = argumentsBetween(1e-3, 50.0);
+  Random random(23);
+  for (int i = 0; i < 50000; ++i)
+    arguments.push_back(std::pow(10.0, random.uniform(-323.0, 308.0)));
+  arguments.push_back(std::numeric_limits<double>::denorm_min());
+  arguments.push_back(std::numeric_limits<double>::max());
+  EXPECT_LT(worstError(arguments, naturalLogarithm, exact), kAllowed);
+  for (int i = 1; i < 1000; ++i) {  // next to 1 the logarithm is small and keeps its digits
+    const double x = 1.0 + i * 1e-12;
+    const long double expected = std::log(static_cast<long double>(x));
+    EXPECT_LE(std::abs(naturalLogarithm(x) - expected), 3e-16L * expected);
+  }
+  EXPECT_EQ(naturalLogarithm(1.0), 0.0);
+  EXPECT_EQ(naturalLogarithm(0.0), -1e308);
+  EXPECT_EQ(naturalLogarithm(-3.0), -1e308);
+  EXPECT_EQ(naturalLogarithm(kInfinity), kInfinity);
+  EXPECT_TRUE(std::isnan(naturalLogarithm(kNan)));
+}
+
+TEST(IsFinite, KnowsInfinitiesAndNans) {
+  EXPECT_TRUE(isFinite(0.0));
+  EXPECT_TRUE(isFinite(std::numeric_limits<double>::max()));
+  EXPECT_TRUE(isFinite(std::numeric_limits<double>::denorm_min()));
+  EXPECT_FALSE(isFinite(kInfinity));
+  EXPECT_FALSE(isFinite(-kInfinity));
+  EXPECT_FALSE(isFinite(kNan));
+}
+
+}  // namespace
+}  // namespace boresight

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/edges/bit_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "tests/core/edges/test_images.h"
+
+namespace boresight {
+namespace {
+
+bool anyWithin(const BitImage& bits, int x, int y, int margin_px) {
+  for (int v = std::max(y - margin_px, 0); v <= std::min(y + margin_px, bits.height - 1); ++v)
+    for (int u = std::max(x - margin_px, 0); u <= std::min(x + margin_px, bits.width - 1); ++u)
+      if (bits.get(u, v)) return true;
+  return false;
+}
+
+TEST(DilateRow, SetsWhatIsWithinTheMargin) {
+  Random random(31);
+  for (const Size size : kSizes) {
+    for (const int margin_px : {0, 1, 2, 3, 5, 13, 63, 64}) {
+      TestBits bits(size.width, size.height);
+      fillAtRandom(*bits, 400, random);
+      TestBits row(size.width, 1);
+      for (int y = 0; y < size.height; ++y) {
+        dilateRow(*bits, y, margin_px, row->row(0));
+        int different = 0;
+        for (int x = 0; x < size.width; ++x)
+          if (row->get(x, 0) != anyWithin(*bits, x, y, margin_px)) ++different;
+        ASSERT_EQ(different, 0) << testing::PrintToString(size) << " margin " << margin_px;
+      }
+    }
+  }
+}
+
+TEST(PoolRows, IsTheOrOfTwoByTwoPixels) {
+  Random random(32);
+  for (const Size size : kSizes) {
+    TestBits fine(size.width, size.height);
+    fillAtRandom(*fine, 6, random);
+    TestBits coarse((size.width + 1) / 2, (size.height + 1) / 2);
+    fillAtRandom(*coarse, 1, random);  // must be overwritten
+    const int middle = coarse->height / 2;
+    poolRows(*fine, 0, middle, *coarse);
+    poolRows(*fine, middle, coarse->height, *coarse);
+    std::int32_t set = 0;
+    for (int y = 0; y < coarse->height; ++y) {
+      for (int x = 0; x < coarse->width; ++x) {
+        bool expected = false;
+        for (int v = 2 * y; v < std::min(2 * y + 2, size.height); ++v)
+          for (int u = 2 * x; u < std::min(2 * x + 2, size.width); ++u)
+            expected = expected || fine->get(u, v);
+        ASSERT_EQ(coarse->get(x, y), expected) << testing::PrintToString(size);
+        set += expected ? 1 : 0;
+      }
+    }
+    // No bit beyond the width either.
+    EXPECT_EQ(countBits(*coarse), set);
+  }
+}
+
+}  // namespace
+}  // namespace boresight

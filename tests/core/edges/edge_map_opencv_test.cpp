@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/edges/edge_map.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "tests/core/edges/opencv_images.h"
+
+namespace boresight {
+namespace {
+
+cv::Mat equalizedByOpenCv(const cv::Mat& image, const EdgeOptions& options) {
+  cv::Mat out = image.clone();
+  if (options.equalization == Equalization::kHistogram) cv::equalizeHist(image, out);
+  if (options.equalization == Equalization::kClahe)
+    cv::createCLAHE(options.clahe_clip_limit, cv::Size(options.clahe_tiles, options.clahe_tiles))
+        ->apply(image, out);
+  return out;
+}
+
+/// Smoothed by the core: its Gaussian has a test of its own, and Canny's oracle wants equal input.
+cv::Mat smoothed(const cv::Mat& image, const EdgeOptions& options) {
+  cv::Mat out(image.size(), CV_8UC1);
+  TestArena arena;
+  EXPECT_EQ(gaussianBlur(asView(image), options.gaussian_sigma_px, *arena, out.ptr(),
+                         static_cast<std::ptrdiff_t>(out.step[0])),
+            Status::kOk);
+  return out;
+}
+
+/// Gradient magnitudes, in the units of cv::Canny's thresholds, of pixels that `counts` sets.
+std::vector<double> magnitudes(const cv::Mat& image, const EdgeOptions& options,
+                               const cv::Mat& counts) {
+  const double scale = options.aperture_px == 7 ? 1.0 / 16.0 : 1.0;
+  cv::Mat dx;
+  cv::Mat dy;
+  cv::Sobel(image, dx, CV_16S, 1, 0, options.aperture_px, scale, 0, cv::BORDER_REPLICATE);
+  cv::Sobel(image, dy, CV_16S, 0, 1, options.aperture_px, scale, 0, cv::BORDER_REPLICATE);
+  std::vector<double> all;
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      if (counts.at<std::uint8_t>(y, x) == 0) continue;
+      const double gx = dx.at<short>(y, x);
+      const double gy = dy.at<short>(y, x);
+      all.push_back(
+          (options.l2_gradient ? std::sqrt(gx * gx + gy * gy) : std::abs(gx) + std::abs(gy)) /
+          scale);
+    }
+  }
+  return all;
+}
+
+/// The smallest multiple of `unit` that at least the share `quantile` does not exceed.
+void expectQuantile(const std::vector<double>& all, double threshold, double quantile,
+                    double unit) {
+  const auto share = [&all](double limit) {
+    return static_cast<double>(std::ranges::count_if(all, [&](double m) { return m <= limit; })) /
+           static_cast<double>(all.size());
+  };
+  EXPECT_EQ(threshold, unit * std::floor(threshold / unit));
+  EXPECT_GE(share(threshold), quantile);
+  if (threshold > 0.0) {
+    EXPECT_LT(share(threshold - unit), quantile);
+  }
+}
+
+EdgeMap detect(const cv::Mat& image, const BitImage* ignore, const EdgeOptions& options,
+               TestArena& arena) {
+  EdgeMap map;
+  EXPECT_EQ(detectEdges(asView(image), ignore, options, *arena, map), Status::kOk);
+  return map;
+}
+
+void expectSameAsOpenCv(const cv::Mat& image, const EdgeOptions& options) {
+  TestArena arena((std::size_t{1} << 20) + image.total());
+  const EdgeMap map = detect(image, nullptr, options, arena);
+  const cv::Mat smooth = smoothed(equalizedByOpenCv(image, options), options);
+  cv::Mat expected;
+  cv::Canny(smooth, expected, map.low_threshold, map.high_threshold, options.aperture_px,
+            options.l2_gradient);
+  EXPECT_EQ(countDifferent(unpack(map.level[0]), expected), 0);
+  EXPECT_EQ(map.edge_count, cv::countNonZero(expected));
+  if (options.thresholds == CannyThresholds::kAbsolute) return;
+  expectQuantile(magnitudes(smooth, options, cv::Mat::ones(image.size(), CV_8UC1)),
+                 map.high_threshold, options.high_quantile, options.aperture_px == 7 ? 16.0 : 1.0);
+  EXPECT_EQ(map.low_threshold, options.low_ratio * map.high_threshold);
+}
+
+std::vector<EdgeOptions> optionsForAllWays() {
+  std::vector<EdgeOptions> all;
+  for (const Equalization equalization :
+       {Equalization::kHistogram, Equalization::kOff, Equalization::kClahe}) {
+    for (const int aperture_px : {3, 5, 7}) {
+      for (const bool l2 : {true, false}) {
+        EdgeOptions options;
+        options.equalization = equalization;
+        options.aperture_px = aperture_px;
+        options.l2_gradient = l2;
+        all.push_back(options);
+      }
+    }
+  }
+  return all;
+}
+
+TEST(DetectEdges, EqualsOpenCvStageByStage) {
+  Random random(71);
+  for (EdgeOptions options : optionsForAllWays()) {
+    for (const Size size : kSizes) {
+      for (const Pattern pattern : {Pattern::kDisks, Pattern::kNoise, Pattern::kSpecks}) {
+        SCOPED_TRACE(testing::PrintToString(size));
+        TestImage image = makeImage(pattern, size, random);
+        options.high_quantile = random.uniform(0.5, 0.99);
+        options.low_ratio = random.uniform(0.05, 1.0);
+        options.gaussian_sigma_px = random.uniform(0.0, 3.0);
+        expectSameAsOpenCv(asMat(image), options);
+      }
+    }
+  }
+}
+
+TEST(DetectEdges, UsesAbsoluteThresholdsAsCannyDoes) {
+  Random random(72);
+  for (EdgeOptions options : optionsForAllWays()) {
+    TestImage image = makeImage(Pattern::kDisks, {201, 144}, random);
+    options.thresholds = CannyThresholds::kAbsolute;
+    options.low_threshold = 220.0;  // the wrong way round: exchanged
+    options.high_threshold = 90.0;
+    expectSameAsOpenCv(asMat(image), options);
+    TestArena arena;
+    const EdgeMap map = detect(asMat(image), nullptr, options, arena);
+    EXPECT_EQ(map.low_threshold, 90.0);
+    EXPECT_EQ(map.high_threshold, 220.0);
+  }
+}
+
+/// Candidates and strong pixels from cv::Canny with equal thresholds, ignored ones taken out, and
+/// then the connected components of candidates that hold a strong pixel.
+cv::Mat cannyWithoutIgnored(const cv::Mat& image, const EdgeOptions& options, const EdgeMap& map,
+                            const cv::Mat& near_ignored) {
+  cv::Mat candidates;
+  cv::Mat strong;
+  cv::Canny(image, candidates, map.low_threshold, map.low_threshold, options.aperture_px,
+            options.l2_gradient);
+  cv::Canny(image, strong, map.high_threshold, map.high_threshold, options.aperture_px,
+            options.l2_gradient);
+  candidates.setTo(0, near_ignored);
+  strong.setTo(0, near_ignored);
+  cv::Mat labels;
+  const int count = cv::connectedComponents(candidates, labels, 8, CV_32S);
+  std::vector<bool> kept(static_cast<std::size_t>(count), false);
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x)
+      if (strong.at<std::uint8_t>(y, x) != 0)
+        kept[static_cast<std::size_t>(labels.at<int>(y, x))] = true;
+  cv::Mat edges = cv::Mat::zeros(image.size(), CV_8UC1);
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x)
+      if (candidates.at<std::uint8_t>(y, x) != 0 &&
+          kept[static_cast<std::size_t>(labels.at<int>(y, x))])
+        edges.at<std::uint8_t>(y, x) = 255;
+  return edges;
+}
+
+TEST(DetectEdges, LeavesIgnoredPixelsOutOfCountsAndEdges) {
+  Random random(73);
+  for (EdgeOptions options : optionsForAllWays()) {
+    if (options.equalization != Equalization::kOff) continue;
+    for (const Size size : {Size{64, 64}, Size{201, 144}, Size{330, 90}}) {
+      TestImage image = makeImage(Pattern::kDisks, size, random);
+      TestBits ignore(size.width, size.height);
+      ignoreRectangles(*ignore, random);
+      options.ignore_margin_px = static_cast<std::int32_t>(random.below(6));
+      TestArena arena;
+      const EdgeMap map = detect(asMat(image), &*ignore, options, arena);
+      const cv::Mat smooth = smoothed(asMat(image), options);
+      const cv::Mat ignored = unpack(*ignore);
+      expectQuantile(magnitudes(smooth, options, ~ignored), map.high_threshold,
+                     options.high_quantile, options.aperture_px == 7 ? 16.0 : 1.0);
+      const int side = 2 * options.ignore_margin_px + 1;
+      cv::Mat near_ignored;
+      cv::dilate(ignored, near_ignored, cv::Mat::ones(side, side, CV_8UC1));
+      EXPECT_EQ(countDifferent(unpack(map.level[0]),
+                               cannyWithoutIgnored(smooth, options, map, near_ignored)),
+                0)
+          << testing::PrintToString(size) << " margin " << options.ignore_margin_px;
+    }
+  }
+}
+
+std::string dataFolder() {
+  if (const char* folder = std::getenv("BORESIGHT_DATA"); folder != nullptr && *folder != '\0')
+    return folder;
+  return BORESIGHT_DATA_FOLDER;
+}
+
+/// Images below `folder`, in the order of their paths; every `step`-th.
+std::vector<std::string> imagesBelow(const std::string& folder, std::size_t step) {
+  std::vector<std::string> paths;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension == ".png" || extension == ".jpg") paths.push_back(entry.path().string());
+  }
+  std::ranges::sort(paths);
+  std::vector<std::string> chosen;
+  for (std::size_t i = 0; i < paths.size(); i += step) chosen.push_back(paths[i]);
+  return chosen;
+}
+
+struct DataFolder {
+  const char* name;
+  std::size_t step;  ///< every so many images
+};
+
+void PrintTo(const DataFolder& folder, std::ostream* out) { *out << folder.name; }
+
+class DetectEdgesOnData : public testing::TestWithParam<DataFolder> {};
+
+TEST_P(DetectEdgesOnData, EqualsOpenCvStageByStage) {
+  const auto& [name, step] = GetParam();
+  const std::vector<std::string> paths = dataFolder().empty()
+                                             ? std::vector<std::string>()
+                                             : imagesBelow(dataFolder() + "/" + name, step);
+  if (paths.empty())
+    GTEST_SKIP() << "no images in '" << dataFolder() << "/" << name
+                 << "'; the variable BORESIGHT_DATA names the folder that holds '" << name << "'";
+  const std::vector<EdgeOptions> ways = optionsForAllWays();
+  std::size_t way = 0;
+  for (const std::string& path : paths) {
+    SCOPED_TRACE(path);
+    const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
+    ASSERT_FALSE(image.empty());
+    expectSameAsOpenCv(image, EdgeOptions{});
+    // The other ways take turns over the images.
+    for (int i = 0; i < 2; ++i) expectSameAsOpenCv(image, ways[++way % ways.size()]);
+    TestImage blurred = blankImage(image.cols, image.rows);
+    TestArena arena;
+    ASSERT_EQ(gaussianBlur(asView(image), 1.5, *arena, blurred.pixels.data(), blurred.width),
+              Status::kOk);
+    cv::Mat expected;
+    cv::GaussianBlur(image, expected, cv::Size(), 1.5);
+    EXPECT_LE(cv::norm(asMat(blurred), expected, cv::NORM_INF), 1.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Folders, DetectEdgesOnData,
+                         testing::Values(DataFolder{"real", 1}, DataFolder{"synthetic", 4}),
+                         [](const auto& folder) { return std::string(folder.param.name); });
+
+}  // namespace
+}  // namespace boresight

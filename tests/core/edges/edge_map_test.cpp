@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/edges/edge_map.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/edges/bit_rows.h"
+#include "core/edges/edge_input.h"
+#include "tests/core/edges/test_images.h"
+
+namespace boresight {
+namespace {
+
+/// A copy of a map that does not point into an arena.
+struct MapCopy {
+  std::vector<std::vector<std::uint64_t>> levels;
+  double low_threshold;
+  double high_threshold;
+  std::int32_t edge_count;
+  bool operator==(const MapCopy&) const = default;
+};
+
+MapCopy copyOf(const EdgeMap& map) {
+  MapCopy copy{{}, map.low_threshold, map.high_threshold, map.edge_count};
+  for (const BitImage& level : map.level)
+    copy.levels.emplace_back(level.words.begin(), level.words.end());
+  return copy;
+}
+
+MapCopy detect(const ImageView& image, const BitImage* ignore, const EdgeOptions& options) {
+  TestArena arena;
+  EdgeMap map;
+  EXPECT_EQ(detectEdges(image, ignore, options, *arena, map), Status::kOk);
+  return copyOf(map);
+}
+
+std::vector<EdgeOptions> someOptions() {
+  std::vector<EdgeOptions> all(6);
+  all[1].equalization = Equalization::kClahe;
+  all[1].aperture_px = 5;
+  all[2].l2_gradient = false;
+  all[2].gaussian_sigma_px = 0.0;
+  all[3].thresholds = CannyThresholds::kAbsolute;
+  all[3].equalization = Equalization::kOff;
+  all[4].aperture_px = 7;
+  all[4].gaussian_sigma_px = 8.0;
+  all[5].equalization = Equalization::kClahe;
+  all[5].clahe_tiles = 64;
+  all[5].ignore_margin_px = 64;
+  return all;
+}
+
+TEST(DetectEdges, HoldsAPyramidOfOrs) {
+  Random random(51);
+  for (const Size size : kSizes) {
+    const TestImage image = makeImage(Pattern::kDisks, size, random);
+    TestArena arena;
+    EdgeMap map;
+    ASSERT_EQ(detectEdges(image.view(), nullptr, EdgeOptions{}, *arena, map), Status::kOk);
+    EXPECT_EQ(map.level[0].width, size.width);
+    EXPECT_EQ(map.level[0].height, size.height);
+    EXPECT_EQ(map.edge_count, countBits(map.level[0]));
+    for (std::size_t k = 1; k < map.level.size(); ++k) {
+      const BitImage& fine = map.level[k - 1];
+      TestBits expected((fine.width + 1) / 2, (fine.height + 1) / 2);
+      for (int y = 0; y < fine.height; ++y)
+        for (int x = 0; x < fine.width; ++x)
+          if (fine.get(x, y)) expected->set(x / 2, y / 2);
+      EXPECT_EQ(map.level[k].width, expected->width);
+      EXPECT_EQ(map.level[k].height, expected->height);
+      EXPECT_TRUE(std::ranges::equal(map.level[k].words, expected->words));
+    }
+  }
+}
+
+TEST(DetectEdges, CountingTellsTheMemoryForEveryOptionAndTouchesNothing) {
+  Random random(52);
+  const TestImage image = makeImage(Pattern::kDisks, {330, 170}, random);
+  TestBits ignore(image.width, image.height);
+  ignoreRectangles(*ignore, random);
+  for (const EdgeOptions& options : someOptions()) {
+    ImageView sizes_only;
+    sizes_only.width = image.width;
+    sizes_only.height = image.height;
+    Arena counter;
+    EdgeMap map;
+    EdgeDetector detector;
+    ASSERT_EQ(detector.begin(sizes_only, nullptr, options, counter, map), Status::kOk);
+    EXPECT_TRUE(detector.step());
+    const std::size_t output_bytes = counter.used();
+
+    TestArena exact(counter.highWater());
+    ASSERT_EQ(detectEdges(image.view(), &*ignore, options, *exact, map), Status::kOk);
+    EXPECT_EQ((*exact).highWater(), counter.highWater());
+    EXPECT_EQ((*exact).used(), output_bytes);
+    std::size_t words = 0;
+    for (const BitImage& level : map.level) words += (level.words.size() + 1) / 2 * 2;
+    EXPECT_EQ(output_bytes, words * sizeof(std::uint64_t));
+
+    TestArena small(counter.highWater() - 64);
+    EXPECT_EQ(detectEdges(image.view(), &*ignore, options, *small, map), Status::kArenaTooSmall);
+    EXPECT_EQ((*small).used(), 0U);
+  }
+}
+
+TEST(DetectEdges, NeedsLittleMemoryBesidesTheMap) {
+  ImageView image;
+  image.width = 2048;
+  image.height = 2048;
+  for (const EdgeOptions& options : someOptions()) {
+    Arena counter;
+    EdgeMap map;
+    ASSERT_EQ(detectEdges(image, nullptr, options, counter, map), Status::kOk);
+    EXPECT_LE(counter.used(), 700000U);
+    EXPECT_LE(counter.highWater() - counter.used(), 2200000U);
+  }
+}
+
+TEST(EdgeDetector, StepsGiveTheSameMapWhereverItIsInterrupted) {
+  Random random(53);
+  const TestImage image = makeImage(Pattern::kDisks, {1100, 1000}, random);
+  TestBits ignore(image.width, image.height);
+  ignoreRectangles(*ignore, random);
+  for (const EdgeOptions& options : someOptions()) {
+    const MapCopy whole = detect(image.view(), &*ignore, options);
+    TestArena arena;
+    // Two detectors take turns; whatever one left in the caches or statics would show.
+    TestArena other_arena;
+    EdgeMap map;
+    EdgeMap other_map;
+    EdgeDetector detector;
+    EdgeDetector other;
+    ASSERT_EQ(detector.begin(image.view(), &*ignore, options, *arena, map), Status::kOk);
+    ASSERT_EQ(other.begin(image.view(), nullptr, options, *other_arena, other_map), Status::kOk);
+    int steps = 1;
+    while (!detector.step() && steps < 10000) {
+      ++steps;
+      (void)other.step();  // its end does not matter
+    }
+    EXPECT_GT(steps, 5);
+    EXPECT_TRUE(detector.step());
+    EXPECT_EQ(copyOf(map), whole);
+  }
+}
+
+/// Moving a detector about between the steps (as part of its owner) must not hurt.
+TEST(EdgeDetector, MayBeCopiedBetweenSteps) {
+  Random random(54);
+  const TestImage image = makeImage(Pattern::kDisks, {900, 700}, random);
+  TestArena arena;
+  EdgeMap map;
+  EdgeDetector first;
+  ASSERT_EQ(first.begin(image.view(), nullptr, EdgeOptions{}, *arena, map), Status::kOk);
+  for (int i = 0; i < 3; ++i) ASSERT_FALSE(first.step());
+  EdgeDetector second = first;
+  first = EdgeDetector();
+  EXPECT_TRUE(first.step());
+  while (!second.step()) {
+  }
+  EXPECT_EQ(copyOf(map), detect(image.view(), nullptr, EdgeOptions{}));
+}
+
+TEST(DetectEdges, AnEmptyIgnoreMaskGivesThePlainResult) {
+  Random random(55);
+  for (const EdgeOptions& options : someOptions()) {
+    for (const Size size : kSizes) {
+      const TestImage image = makeImage(Pattern::kDisks, size, random);
+      TestBits ignore(size.width, size.height);
+      EXPECT_EQ(detect(image.view(), &*ignore, options), detect(image.view(), nullptr, options));
+    }
+  }
+}
+
+TEST(DetectEdges, HasNoEdgeWithinTheMarginOfIgnoredPixels) {
+  Random random(56);
+  for (const int margin_px : {0, 3, 10}) {
+    EdgeOptions options;
+    options.ignore_margin_px = margin_px;
+    const TestImage image = makeImage(Pattern::kDisks, {310, 222}, random);
+    TestBits ignore(image.width, image.height);
+    ignoreRectangles(*ignore, random);
+    TestArena arena;
+    EdgeMap map;
+    ASSERT_EQ(detectEdges(image.view(), &*ignore, options, *arena, map), Status::kOk);
+    EXPECT_GT(map.edge_count, 1000);
+    TestBits near(image.width, image.height);
+    for (int y = 0; y < image.height; ++y) dilateRow(*ignore, y, margin_px, near->row(y));
+    for (std::size_t i = 0; i < near->words.size(); ++i)
+      ASSERT_EQ(map.level[0].words[i] & near->words[i], 0U);
+  }
+}
+
+/// What stands in ignored pixels reaches no further than the filters do: the thresholds stay, and
+/// so do all edges beyond the margin, as long as the margin covers the filters' reach.
+TEST(DetectEdges, DoesNotDependOnTheContentOfIgnoredPixels) {
+  Random random(57);
+  EdgeOptions options;
+  options.gaussian_sigma_px = 0.0;
+  options.ignore_margin_px = 3;
+  options.thresholds = CannyThresholds::kAbsolute;
+  TestImage image = makeImage(Pattern::kDisks, {310, 222}, random);
+  TestBits ignore(image.width, image.height);
+  ignoreRectangles(*ignore, random);
+  const MapCopy before = detect(image.view(), &*ignore, options);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (ignore->get(x, y)) image.at(x, y) = static_cast<std::uint8_t>(random.below(256));
+  EXPECT_EQ(detect(image.view(), &*ignore, options), before);
+}
+
+TEST(DetectEdges, EverythingIgnoredHasNoEdges) {
+  Random random(58);
+  const TestImage image = makeImage(Pattern::kNoise, {100, 60}, random);
+  TestBits ignore(image.width, image.height);
+  fillAtRandom(*ignore, 1, random);
+  for (const EdgeOptions& options : someOptions())
+    EXPECT_EQ(detect(image.view(), &*ignore, options).edge_count, 0);
+}
+
+TEST(DetectEdges, AFlatImageHasNoEdges) {
+  Random random(59);
+  const TestImage image = makeImage(Pattern::kConstant, {100, 60}, random);
+  for (const EdgeOptions& options : someOptions()) {
+    const MapCopy map = detect(image.view(), nullptr, options);
+    EXPECT_EQ(map.edge_count, 0);
+  }
+}
+
+TEST(DetectEdges, FindsTheOutlineOfASquare) {
+  TestImage image = blankImage(120, 100);
+  for (int y = 30; y < 70; ++y)
+    for (int x = 40; x < 90; ++x) image.at(x, y) = 200;
+  EdgeOptions options;
+  options.equalization = Equalization::kOff;
+  TestArena arena;
+  EdgeMap map;
+  ASSERT_EQ(detectEdges(image.view(), nullptr, options, *arena, map), Status::kOk);
+  // The first of two equal neighbours across the step, hence the pixel before it.
+  for (int y = 36; y < 64; ++y)
+    for (int x = 0; x < 120; ++x) EXPECT_EQ(map.level[0].get(x, y), x == 39 || x == 89) << x;
+  for (int x = 46; x < 84; ++x)
+    for (int y = 0; y < 100; ++y) EXPECT_EQ(map.level[0].get(x, y), y == 29 || y == 69) << y;
+}
+
+TEST(EdgeOptions, EachFieldOutOfRangeIsRefused) {
+  Random random(60);
+  const TestImage image = makeImage(Pattern::kNoise, {20, 20}, random);
+  const auto statusOf = [&image](auto change) {
+    EdgeOptions options;
+    change(options);
+    TestArena arena;
+    EdgeMap map;
+    return detectEdges(image.view(), nullptr, options, *arena, map);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(statusOf([](EdgeOptions&) {}), Status::kOk);
+  for (const int aperture_px : {-1, 0, 1, 2, 4, 6, 8, 9})
+    EXPECT_EQ(statusOf([=](EdgeOptions& o) { o.aperture_px = aperture_px; }),
+              Status::kInvalidOption);
+  for (const double sigma_px : {-1.0, 8.01, nan})
+    EXPECT_EQ(statusOf([=](EdgeOptions& o) { o.gaussian_sigma_px = sigma_px; }),
+              Status::kInvalidOption);
+  for (const double quantile : {0.0, 1.0, nan})
+    EXPECT_EQ(statusOf([=](EdgeOptions& o) { o.high_quantile = quantile; }),
+              Status::kInvalidOption);
+  for (const int tiles : {0, 65})
+    EXPECT_EQ(statusOf([=](EdgeOptions& o) { o.clahe_tiles = tiles; }), Status::kInvalidOption);
+  for (const int value : {-1, 3})
+    EXPECT_EQ(statusOf([=](EdgeOptions& o) { o.equalization = static_cast<Equalization>(value); }),
+              Status::kInvalidOption);
+  EXPECT_EQ(statusOf([=](EdgeOptions& o) { o.low_ratio = nan; }), Status::kInvalidOption);
+  EXPECT_EQ(statusOf([=](EdgeOptions& o) { o.low_threshold = nan; }), Status::kInvalidOption);
+  EXPECT_EQ(statusOf([=](EdgeOptions& o) { o.high_threshold = -1.0; }), Status::kInvalidOption);
+  EXPECT_EQ(statusOf([=](EdgeOptions& o) { o.clahe_clip_limit = nan; }), Status::kInvalidOption);
+  EXPECT_EQ(statusOf([=](EdgeOptions& o) { o.ignore_margin_px = 65; }), Status::kInvalidOption);
+}
+
+TEST(DetectEdges, RefusesImagesThatAreNone) {
+  Random random(61);
+  const TestImage image = makeImage(Pattern::kNoise, {20, 20}, random);
+  const auto statusOf = [](const ImageView& view, const BitImage* ignore) {
+    TestArena arena;
+    EdgeMap map;
+    const Status status = detectEdges(view, ignore, EdgeOptions{}, *arena, map);
+    EXPECT_EQ((*arena).used() == 0, status != Status::kOk);
+    return status;
+  };
+  EXPECT_EQ(statusOf(image.view(), nullptr), Status::kOk);
+  EXPECT_EQ(statusOf(ImageView{}, nullptr), Status::kInvalidImage);
+  for (const Size size : {Size{0, 20}, Size{20, 0}, Size{-20, 20}, Size{kMaxImageSide + 1, 1}}) {
+    ImageView view = image.view();
+    view.width = size.width;
+    view.height = size.height;
+    EXPECT_EQ(statusOf(view, nullptr), Status::kInvalidImage);
+  }
+  ImageView overlapping = image.view();
+  overlapping.stride = 19;
+  EXPECT_EQ(statusOf(overlapping, nullptr), Status::kInvalidImage);
+  ImageView upside_down = image.view();
+  upside_down.data += 19 * 20;
+  upside_down.stride = -20;
+  EXPECT_EQ(statusOf(upside_down, nullptr), Status::kOk);
+  TestBits other_size(20, 21);
+  EXPECT_EQ(statusOf(image.view(), &*other_size), Status::kInvalidImage);
+}
+
+}  // namespace
+}  // namespace boresight

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the lines of salient edges lie: thin, unbiased, and with the sub-pixel place recorded.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/core/render/line_oracle.h"
+#include "tests/core/render/scenes.h"
+
+namespace boresight::testing {
+namespace {
+
+/// A straight line in space that crosses the image near its centre at an angle.
+struct LineInSpace {
+  Eigen::Vector3d begin, along, across;
+  LineInSpace(double angle, double shift_m, double tilt)
+      : begin(0, 0, 0.5),
+        along(std::cos(angle), std::sin(angle), tilt),
+        across(-std::sin(angle), std::cos(angle), 0.0) {
+    begin += shift_m * across;
+    along.normalize();
+  }
+  ProjectedLine projected(const Camera& camera) const {
+    return ProjectedLine(camera, begin, along, -1.0, 1.0);
+  }
+};
+
+/// A wide plate that ends at the line; it lies on the side of -across.
+void addHalfPlane(SceneMesh& mesh, const LineInSpace& line, const Eigen::Vector3d& away) {
+  const Eigen::Vector3d a = line.begin - 3.0 * line.along;
+  const Eigen::Vector3d b = line.begin + 3.0 * line.along;
+  mesh.addQuad(a, b, b + 3.0 * away, a + 3.0 * away);
+}
+
+void addBackdrop(SceneMesh& mesh, double z) {
+  mesh.addQuad({-3, -3, z}, {3, -3, z}, {3, 3, z}, {-3, 3, z});
+}
+
+enum class LineKind { kBorder, kOccluding, kCrease, kIntersection };
+
+SceneMesh sceneOf(LineKind kind, const LineInSpace& line) {
+  SceneMesh mesh;
+  if (kind == LineKind::kBorder || kind == LineKind::kOccluding)
+    addHalfPlane(mesh, line, -line.across + Eigen::Vector3d(0, 0, 0.1));
+  if (kind == LineKind::kOccluding) addBackdrop(mesh, 0.7);
+  if (kind == LineKind::kCrease) {
+    addHalfPlane(mesh, line, -line.across + Eigen::Vector3d(0, 0, 0.4));
+    const std::int32_t c = mesh.addVertex(line.begin + 3.0 * line.along +
+                                          3.0 * (line.across + Eigen::Vector3d(0, 0, 0.5)));
+    const std::int32_t d = mesh.addVertex(line.begin - 3.0 * line.along +
+                                          3.0 * (line.across + Eigen::Vector3d(0, 0, 0.5)));
+    mesh.addFace(1, 0, d);
+    mesh.addFace(1, d, c);
+  }
+  if (kind == LineKind::kIntersection) {
+    for (const double slope : {0.5, -0.4}) {
+      const Eigen::Vector3d away = line.across + Eigen::Vector3d(0, 0, slope);
+      const Eigen::Vector3d a = line.begin - 3.0 * line.along;
+      const Eigen::Vector3d b = line.begin + 3.0 * line.along;
+      mesh.addQuad(a - 0.9 * away, b - 0.9 * away, b + 0.9 * away, a + 0.9 * away);
+    }
+  }
+  return mesh;
+}
+
+class SalientLines : public ::testing::TestWithParam<LineKind> {};
+
+TEST_P(SalientLines, ThinAndUnbiasedInEveryOrientation) {
+  const Camera camera = pinholeCamera(200, 180, 220.0);
+  double sum_of_means = 0.0;
+  for (int i = 0; i < 36; ++i) {
+    // Along the axes the distance is the same all along the line: lines at several places are one
+    // sample.
+    double mean = 0.0;
+    for (int shift = 0; shift < 8; ++shift) {
+      const LineInSpace line(2.0 * M_PI * i / 36.0, (0.013 + shift / 8.0) * 0.5 / 220.0, 0.1);
+      const Rendered rendered = render(sceneOf(GetParam(), line), camera, Pose());
+      const LineStatistics found = lineStatistics(rendered.edges, line.projected(camera), 2);
+      EXPECT_GT(found.pixels, 100) << i;
+      EXPECT_EQ(found.doubled, 0) << i;
+      EXPECT_EQ(found.missing, 0) << i;
+      EXPECT_LE(found.largest_excess_px, 1e-3) << i;
+      EXPECT_LT(found.offset_error_px, 0.01) << i;
+      EXPECT_LT(found.normal_error, 0.01) << i;
+      mean += found.mean_px / 8.0;
+    }
+    EXPECT_LT(std::abs(mean), 0.05) << i;
+    sum_of_means += mean;
+  }
+  EXPECT_LT(std::abs(sum_of_means) / 36.0, 0.005);
+}
+
+TEST_P(SalientLines, OnTheExactProjectionDespiteDistortion) {
+  for (const Camera& camera : {brownCamera(400, 320, 380.0, -0.28),
+                               brownCamera(400, 320, 420.0, 0.2), fisheyeCamera(400, 320, 260.0)}) {
+    for (int i = 0; i < 12; ++i) {
+      const LineInSpace line(2.0 * M_PI * i / 12.0 + 0.1, 0.05 * (i % 4), 0.1);
+      const Rendered rendered = render(sceneOf(GetParam(), line), camera, Pose());
+      const LineStatistics found = lineStatistics(rendered.edges, line.projected(camera), 2);
+      EXPECT_GT(found.pixels, 150) << i;
+      EXPECT_EQ(found.missing, 0) << i;
+      EXPECT_LT(std::abs(found.mean_px), 0.1) << i;
+      EXPECT_LE(found.largest_px, 0.5 + 1e-3) << i;
+      EXPECT_LT(found.offset_error_px, 0.015) << i;
+      EXPECT_LT(found.normal_error, 0.015) << i;
+    }
+  }
+}
+
+TEST_P(SalientLines, EveryPixelHasTheKindAndPointOfTheNearerSurface) {
+  const Camera camera = brownCamera(200, 180, 220.0, -0.15);
+  const Pose pose = poseOf(Eigen::Vector3d(0.2, -0.1, 0.3), Eigen::Vector3d(0.01, 0.02, -0.03));
+  for (int i = 0; i < 9; ++i) {
+    const LineInSpace line(2.0 * M_PI * i / 9.0, 0.01, 0.2);
+    SceneMesh mesh = sceneOf(GetParam(), line);
+    for (Eigen::Vector3f& vertex : mesh.vertices)
+      vertex = (pose.inverse() * Eigen::Vector3d(vertex.cast<double>())).cast<float>();
+    const Rendered rendered = render(mesh, camera, pose);
+    ASSERT_GT(rendered.edges.pixel_count, 100);
+    for (std::int32_t k = 0; k < rendered.edges.pixel_count; ++k) {
+      const EdgePixel& pixel = rendered.edges.pixels[static_cast<std::size_t>(k)];
+      EXPECT_TRUE(rendered.edges.mask.get(pixel.x, pixel.y));
+      const int expected_kind = GetParam() == LineKind::kBorder      ? kEdgeOccluding | kEdgeBorder
+                                : GetParam() == LineKind::kOccluding ? kEdgeOccluding
+                                                                     : kEdgeCrease;
+      EXPECT_EQ(pixel.kind & expected_kind, expected_kind);
+      if (GetParam() == LineKind::kBorder || GetParam() == LineKind::kOccluding) {
+        EXPECT_LT(pixel.face, 2);
+        // From the plate to the other side.
+        EXPECT_GT(pixel.normal_x * line.across.x() + pixel.normal_y * line.across.y(), 0.0);
+      }
+      // The recorded depth lies on the plane of the recorded face ...
+      Eigen::Vector3d point;
+      ASSERT_TRUE(edgePointInStation(rendered.edges, pixel, point));
+      const Face& face = mesh.faces[static_cast<std::size_t>(pixel.face)];
+      const auto corner = [&](std::size_t c) {
+        return Eigen::Vector3d(
+            mesh.vertices[static_cast<std::size_t>(face.vertex[c])].cast<double>());
+      };
+      const Eigen::Vector3d normal =
+          (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+      EXPECT_NEAR(normal.dot(point - corner(0)), 0.0, 3e-7);
+      // ... and the line's own place on the line in space.
+      Eigen::Vector2d position;
+      ASSERT_TRUE(edgeLinePoint(rendered.edges, mesh.view(), pixel, position, point));
+      const Eigen::Vector3d from_line = pose * point - line.begin;
+      EXPECT_LT((from_line - line.along * line.along.dot(from_line)).norm(), 6e-5);
+      EXPECT_EQ(findEdgePixel(rendered.edges, pixel.x, pixel.y), k);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, SalientLines,
+                         ::testing::Values(LineKind::kBorder, LineKind::kOccluding,
+                                           LineKind::kCrease, LineKind::kIntersection));
+
+}  // namespace
+}  // namespace boresight::testing

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/base/arena.h"
+#include "core/base/random.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/mesh.h"
+#include "core/geometry/pose.h"
+#include "core/render/edge_render.h"
+
+namespace boresight::testing {
+
+/// A mesh that owns its memory.
+struct SceneMesh {
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<Face> faces;
+  std::vector<std::uint16_t> part_of_face;
+  std::vector<ScenePart> parts{ScenePart()};
+
+  MeshView view() const { return {vertices, faces, part_of_face, parts}; }
+  std::int32_t addVertex(const Eigen::Vector3d& p);
+  void addFace(std::int32_t a, std::int32_t b, std::int32_t c, int part = 0);
+  /// A quadrilateral as two triangles, with vertices of its own.
+  void addQuad(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+               const Eigen::Vector3d& d, int part = 0);
+  /// A closed box, outward faces, vertices shared.
+  void addBox(const Eigen::Vector3d& centre, const Eigen::Vector3d& half, const Pose& placed,
+              int part = 0);
+  /// An open tube about the y axis through `centre`, with `facets` sides and, with caps, closed.
+  void addCylinder(const Eigen::Vector3d& centre, double radius, double half_height, int facets,
+                   bool caps, int part = 0);
+};
+
+Camera pinholeCamera(int width, int height, double focal_px);
+/// Brown-Conrady with 5 coefficients; k1 = -0.28 is a strong barrel.
+Camera brownCamera(int width, int height, double focal_px, double k1);
+Camera fisheyeCamera(int width, int height, double focal_px);
+
+/// A render with all its memory.
+struct Rendered {
+  std::vector<std::byte> memory;
+  MeshAdjacency adjacency;
+  EdgeRender edges;
+  std::vector<float> depth_m;
+  std::vector<std::int32_t> face;
+  std::vector<std::uint8_t> intensity;
+  std::vector<Eigen::Vector3f> normal;
+  int steps = 0;
+
+  float depthAt(int x, int y) const { return depth_m[at(x, y)]; }
+  std::int32_t faceAt(int x, int y) const { return face[at(x, y)]; }
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(edges.camera.width) +
+           static_cast<std::size_t>(x);
+  }
+};
+
+/// Renders everything; a failing status fails the test.
+Rendered render(const SceneMesh& mesh, const Camera& camera, const Pose& camera_from_station,
+                const RenderOptions& options = {}, int band_rows = EdgeRenderer::kBandRows);
+
+Pose poseOf(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& translation_m);
+
+}  // namespace boresight::testing

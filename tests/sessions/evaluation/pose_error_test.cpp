@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/evaluation/pose_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/base/math.h"
+#include "core/base/random.h"
+
+namespace boresight::sessions {
+namespace {
+
+using Eigen::Vector3d;
+
+Pose poseOf(const Vector3d& rotation_rad, const Vector3d& translation_m) {
+  Pose pose;
+  pose.rotation = rotationExp(rotation_rad);
+  pose.translation_m = translation_m;
+  return pose;
+}
+
+/// The estimate for which E = camera_true_from_camera_estimated is the given one.
+Pose estimateFor(const Pose& truth, const Pose& true_from_estimated) {
+  return true_from_estimated.inverse() * truth;
+}
+
+const Pose kTruth = poseOf(Vector3d(0.3, -0.7, 1.1), Vector3d(0.02, -0.03, 0.4));
+
+TEST(PoseError, IsZeroForTheTruth) {
+  const PoseError error = poseError(kTruth, kTruth, std::nullopt);
+  EXPECT_NEAR(error.normal_mm, 0.0, 1e-12);
+  EXPECT_NEAR(error.lateral_mm, 0.0, 1e-12);
+  EXPECT_NEAR(error.rotation_mrad, 0.0, 1e-12);
+  EXPECT_NEAR(error.in_plane_mrad, 0.0, 1e-12);
+  EXPECT_NEAR(error.geodesic_mrad, 0.0, 1e-12);
+  EXPECT_FALSE(error.projection_px.has_value());
+}
+
+TEST(PoseError, SplitsATranslationAlongAndAcrossTheAxis) {
+  const Pose shifted = poseOf(Vector3d::Zero(), Vector3d(0.003, -0.004, -0.0007));
+  const PoseError error = poseError(kTruth, estimateFor(kTruth, shifted), std::nullopt);
+  EXPECT_NEAR(error.normal_mm, -0.7, 1e-12);
+  EXPECT_NEAR(error.lateral_mm, 5.0, 1e-12);
+  EXPECT_NEAR(error.rotation_mrad, 0.0, 1e-12);
+}
+
+TEST(PoseError, SeparatesTwistFromTilt) {
+  const PoseError twisted = poseError(
+      kTruth, estimateFor(kTruth, poseOf(Vector3d(0, 0, -0.01), Vector3d::Zero())), std::nullopt);
+  EXPECT_NEAR(twisted.rotation_mrad, 0.0, 1e-9);
+  EXPECT_NEAR(twisted.in_plane_mrad, -10.0, 1e-9);
+  EXPECT_NEAR(twisted.geodesic_mrad, 10.0, 1e-9);
+  const PoseError tilted =
+      poseError(kTruth, estimateFor(kTruth, poseOf(Vector3d(0.006, 0.008, 0), Vector3d::Zero())),
+                std::nullopt);
+  EXPECT_NEAR(tilted.rotation_mrad, 10.0, 1e-9);
+  EXPECT_NEAR(tilted.in_plane_mrad, 0.0, 1e-9);
+  EXPECT_NEAR(tilted.geodesic_mrad, 10.0, 1e-9);
+}
+
+TEST(PoseError, IsMeasuredAtTheEndEffector) {
+  // A tilt of 10 mrad about x moves a point 0.4 m ahead by (0, -0.4 sin, 0.4 (cos - 1)).
+  const Pose effector = poseOf(Vector3d(1, 2, 3), Vector3d(0, 0, 0.4));
+  const PoseError error = poseError(
+      kTruth, estimateFor(kTruth, poseOf(Vector3d(0.01, 0, 0), Vector3d::Zero())), effector);
+  EXPECT_NEAR(error.lateral_mm, 400.0 * std::sin(0.01), 1e-9);
+  EXPECT_NEAR(error.normal_mm, 400.0 * (std::cos(0.01) - 1.0), 1e-9);
+  // A compensating shift makes it vanish there, and appear at the camera.
+  const Pose compensated =
+      poseOf(Vector3d(0.01, 0, 0), Vector3d(0, 0.4 * std::sin(0.01), 0.4 * (1.0 - std::cos(0.01))));
+  EXPECT_NEAR(poseError(kTruth, estimateFor(kTruth, compensated), effector).lateral_mm, 0.0, 1e-9);
+  EXPECT_NEAR(poseError(kTruth, estimateFor(kTruth, compensated), std::nullopt).lateral_mm,
+              400.0 * std::sin(0.01), 1e-9);
+}
+
+TEST(PoseError, KeepsTinyAnglesAndHalfTurnsExact) {
+  const PoseError tiny = poseError(
+      kTruth, estimateFor(kTruth, poseOf(Vector3d(1e-9, 0, 0), Vector3d::Zero())), std::nullopt);
+  EXPECT_NEAR(tiny.rotation_mrad, 1e-6, 1e-11);
+  const PoseError half = poseError(
+      kTruth, estimateFor(kTruth, poseOf(Vector3d(0, 0, 3.1), Vector3d::Zero())), std::nullopt);
+  EXPECT_NEAR(half.in_plane_mrad, 3100.0, 1e-9);
+  const PoseError back = poseError(
+      kTruth, estimateFor(kTruth, poseOf(Vector3d(0, 0, -3.1), Vector3d::Zero())), std::nullopt);
+  EXPECT_NEAR(back.in_plane_mrad, -3100.0, 1e-9);
+  const PoseError flipped = poseError(
+      kTruth, estimateFor(kTruth, poseOf(Vector3d(kPi, 0, 0), Vector3d::Zero())), std::nullopt);
+  EXPECT_NEAR(flipped.rotation_mrad, 1000.0 * kPi, 1e-9);
+}
+
+/// Independent of the formulas above: the tilt is the angle between the optical axes, the whole
+/// rotation follows from the trace.
+TEST(PoseError, AgreesWithAnglesTakenFromMatrices) {
+  Random random(9);
+  for (int i = 0; i < 1000; ++i) {
+    const Pose e =
+        poseOf(Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)),
+               Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), 0.3));
+    const PoseError error = poseError(kTruth, estimateFor(kTruth, e), std::nullopt);
+    const Eigen::Matrix3d r = e.matrix();
+    EXPECT_NEAR(error.rotation_mrad, 1e3 * std::acos(r(2, 2)), 1e-6);
+    EXPECT_NEAR(error.geodesic_mrad, 1e3 * std::acos((r.trace() - 1.0) / 2.0), 1e-6);
+    // Taking the tilt away leaves the twist: R = swing * twist, and swing turns z to R z.
+    const Vector3d rz = r.col(2);
+    const Eigen::Quaterniond swing = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), rz);
+    const Eigen::Matrix3d twist = swing.toRotationMatrix().transpose() * r;
+    EXPECT_NEAR(error.in_plane_mrad, 1e3 * std::atan2(twist(1, 0), twist(0, 0)), 1e-6);
+    EXPECT_NEAR(error.normal_mm, 300.0, 1e-9);
+    EXPECT_NEAR(error.lateral_mm, 1e3 * e.translation_m.head<2>().norm(), 1e-9);
+  }
+}
+
+class ProjectionError : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    camera_.width = 640;
+    camera_.height = 480;
+    camera_.fx = camera_.fy = 1000.0;
+    camera_.cx = 319.5;
+    camera_.cy = 239.5;
+    ASSERT_EQ(prepareCamera(camera_), Status::kOk);
+  }
+  Camera camera_;
+  const Pose front_ = poseOf(Vector3d::Zero(), Vector3d(0, 0, 2));
+};
+
+TEST_F(ProjectionError, AveragesDistancesOfVertices) {
+  // Shifted by 1 mm in x at 1 m and 4 m: 1 px and 0.25 px.
+  const std::vector<Eigen::Vector3f> vertices = {{0, 0, -1}, {0.5F, 0.25F, 2}};
+  const Pose shifted = poseOf(Vector3d::Zero(), Vector3d(0.001, 0, 2));
+  const auto error = projectionError(camera_, front_, shifted, vertices);
+  ASSERT_TRUE(error.has_value());
+  EXPECT_NEAR(*error, 0.625, 1e-9);
+  EXPECT_NEAR(*projectionError(camera_, front_, front_, vertices), 0.0, 1e-12);
+}
+
+TEST_F(ProjectionError, CountsADiagonalWhereOnlyTheEstimateCannotProject) {
+  const std::vector<Eigen::Vector3f> vertices = {{0, 0, 0}};
+  const Pose behind = poseOf(Vector3d::Zero(), Vector3d(0, 0, -2));
+  EXPECT_NEAR(*projectionError(camera_, front_, behind, vertices), 800.0, 1e-12);
+  EXPECT_FALSE(projectionError(camera_, behind, front_, vertices).has_value());
+  EXPECT_FALSE(projectionError(camera_, front_, front_, {}).has_value());
+}
+
+TEST(MeetsRequirement, JudgesWhatIsNamed) {
+  Requirement requirement;
+  requirement.normal_mm = 0.4;
+  PoseError error;
+  error.normal_mm = -0.4;
+  error.lateral_mm = 100.0;
+  EXPECT_TRUE(meetsRequirement(error, requirement));
+  error.normal_mm = -0.41;
+  EXPECT_FALSE(meetsRequirement(error, requirement));
+  error.normal_mm = 0.41;
+  EXPECT_FALSE(meetsRequirement(error, requirement));
+  EXPECT_FALSE(isGross(error, requirement));
+  error.normal_mm = -1.21;
+  EXPECT_TRUE(isGross(error, requirement));
+
+  requirement = {};
+  requirement.rotation_deg = 0.25;
+  error.rotation_mrad = 4.36;
+  EXPECT_TRUE(meetsRequirement(error, requirement));
+  error.rotation_mrad = 4.37;
+  EXPECT_FALSE(meetsRequirement(error, requirement));
+  error.rotation_mrad = 13.1;
+  EXPECT_TRUE(isGross(error, requirement));
+
+  requirement = {};
+  requirement.lateral_mm = 100.0;
+  EXPECT_TRUE(meetsRequirement(error, requirement));
+  requirement.lateral_mm = 99.0;
+  EXPECT_FALSE(meetsRequirement(error, requirement));
+}
+
+TEST(MeetsRequirement, NeedsAKnownProjectionErrorWhenItIsNamed) {
+  Requirement requirement;
+  requirement.projection_px = 5.0;
+  PoseError error;
+  EXPECT_FALSE(meetsRequirement(error, requirement));
+  EXPECT_TRUE(isGross(error, requirement));
+  error.projection_px = 5.0;
+  EXPECT_TRUE(meetsRequirement(error, requirement));
+  error.projection_px = 15.1;
+  EXPECT_TRUE(isGross(error, requirement));
+}
+
+TEST(StatisticsOf, HandComputedValues) {
+  const std::vector<double> values = {2.0, -4.0, 4.0, 4.0, -5.0, 5.0, 1.0, 9.0};
+  const Statistics result = statistics(values);
+  EXPECT_EQ(result.count, 8);
+  EXPECT_DOUBLE_EQ(result.mean, 2.0);
+  EXPECT_DOUBLE_EQ(result.deviation, std::sqrt((0.0 + 36 + 4 + 4 + 49 + 9 + 1 + 49) / 8.0));
+  EXPECT_DOUBLE_EQ(result.maximum, 9.0);
+  const std::vector<double> negative = {-3.0, 1.0};
+  EXPECT_DOUBLE_EQ(statistics(negative).maximum, 3.0);
+  EXPECT_EQ(statistics({}).count, 0);
+  EXPECT_EQ(statistics({}).mean, 0.0);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/camera_file.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/base/random.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using boresight::test::TemporaryFolder;
+
+std::string cameraText(const std::string& rest) {
+  return R"({"format": "boresight-camera", "version": 1, )" + rest + "}";
+}
+
+constexpr const char* kSize = R"("width": 2048, "height": 1024, )";
+constexpr const char* kFocus = R"("fx": 3100.5, "fy": 3101, "cx": 1023.5, "cy": 511.5)";
+
+class ReadCamera : public ::testing::Test {
+ protected:
+  Camera read(const std::string& rest) {
+    return readCamera(folder_.write("camera.json", cameraText(rest)));
+  }
+  std::string error(const std::string& rest) {
+    return folder_.message([&] { (void)read(rest); });
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ReadCamera, ReadsEveryModel) {
+  const Camera pinhole = read(std::string(R"("model": "pinhole", )") + kSize + kFocus);
+  EXPECT_EQ(pinhole.model, CameraModel::kPinhole);
+  EXPECT_EQ(pinhole.width, 2048);
+  EXPECT_EQ(pinhole.height, 1024);
+  EXPECT_EQ(pinhole.fx, 3100.5);
+  EXPECT_EQ(pinhole.fy, 3101.0);
+  EXPECT_EQ(pinhole.cx, 1023.5);
+  EXPECT_EQ(pinhole.cy, 511.5);
+
+  for (const char* dist : {"[-0.1, 0.05, 0.001, -0.002]", "[-0.1, 0.05, 0.001, -0.002, 0.01]",
+                           "[-0.1, 0.05, 0.001, -0.002, 0.01, 0.02, 0.03, 0.04]"}) {
+    const Camera brown = read(std::string(R"("model": "brown_conrady", )") + kSize + kFocus +
+                              R"(, "dist": )" + dist);
+    EXPECT_EQ(brown.model, CameraModel::kBrownConrady);
+    EXPECT_EQ(brown.distortion[0], -0.1);
+    EXPECT_EQ(brown.distortion[3], -0.002);
+    Eigen::Vector2d pixel;
+    EXPECT_TRUE(project(brown, Eigen::Vector3d(0.01, 0.02, 1.0), pixel)) << "not prepared";
+  }
+  const Camera fisheye = read(std::string(R"("model": "kannala_brandt", )") + kSize + kFocus +
+                              R"(, "dist": [0.01, 0.002, 0.0003, 0.00004])");
+  EXPECT_EQ(fisheye.model, CameraModel::kKannalaBrandt);
+  EXPECT_EQ(fisheye.distortion[3], 0.00004);
+}
+
+TEST_F(ReadCamera, NamesWhatIsWrong) {
+  const std::string model = R"("model": "pinhole", )";
+  EXPECT_EQ(error(std::string(kSize) + kFocus), "camera.json: model: missing");
+  EXPECT_EQ(error(std::string(R"("model": "cahvor", )") + kSize + kFocus),
+            "camera.json: model: camera model 'cahvor' is not supported");
+  EXPECT_EQ(error(std::string(R"("model": "lens", )") + kSize + kFocus),
+            "camera.json: model: unknown camera model 'lens' (pinhole, brown_conrady or "
+            "kannala_brandt is needed)");
+  EXPECT_EQ(error(model + R"("width": 0, "height": 5, )" + kFocus),
+            "camera.json: width: 0 is outside 1 .. 16384");
+  EXPECT_EQ(error(model + R"("width": 20.5, "height": 5, )" + kFocus),
+            "camera.json: width: not an integer (is 20.5)");
+  EXPECT_EQ(error(model + R"("width": 20000, "height": 5, )" + kFocus),
+            "camera.json: width: 20000 is outside 1 .. 16384");
+  EXPECT_EQ(error(model + kSize + R"("fx": -3100, "fy": 3100, "cx": 5, "cy": 5)"),
+            "camera.json: fx: -3100 is outside 0.001 .. 1e+07");
+  EXPECT_EQ(error(model + kSize + R"("fx": 3100, "cx": 5, "cy": 5)"), "camera.json: fy: missing");
+  EXPECT_EQ(error(model + kSize + R"("fx": 3100, "fy": NaN, "cx": 5, "cy": 5)"),
+            "camera.json: fy: not a finite number");
+  EXPECT_EQ(error(model + kSize + kFocus + R"(, "dist": [0.1, 0, 0, 0])"),
+            "camera.json: dist[0]: a pinhole camera has no distortion (use brown_conrady)");
+  EXPECT_EQ(error(model + kSize + kFocus + R"(, "dist": [0, 0, 0, 0])"), "(nothing)");
+}
+
+TEST_F(ReadCamera, RefusesAWrongNumberOfCoefficients) {
+  const auto with = [](const char* model, const char* dist) {
+    return std::string(R"("model": ")") + model + "\", " + kSize + kFocus + R"(, "dist": )" + dist;
+  };
+  EXPECT_EQ(error(with("brown_conrady", "[0.1, 0.2, 0.3]")),
+            "camera.json: dist: brown_conrady needs 4, 5 or 8 coefficients, 3 given");
+  EXPECT_EQ(error(with("kannala_brandt", "[0, 0, 0, 0, 0]")),
+            "camera.json: dist: kannala_brandt needs 4 coefficients, 5 given");
+  EXPECT_EQ(error(with("brown_conrady", "[0, 0, 0, \"x\"]")),
+            "camera.json: dist[3]: not a number (is a string)");
+  EXPECT_EQ(error(std::string(R"("model": "brown_conrady", )") + kSize + kFocus),
+            "camera.json: dist: missing");
+}
+
+TEST_F(ReadCamera, RefusesOtherFiles) {
+  const auto message = [this](const std::string& name) {
+    return folder_.message([&] { (void)readCamera(folder_ / name); });
+  };
+  EXPECT_EQ(message("none.json"), "none.json: no such file");
+  folder_.write("cut.json", cameraText(kSize).substr(0, 40));
+  EXPECT_NE(message("cut.json").find("not JSON"), std::string::npos);
+}
+
+TEST(WriteCamera, RoundTripIsExact) {
+  const TemporaryFolder folder;
+  Random random(7);
+  for (int i = 0; i < 60; ++i) {
+    Camera camera;
+    camera.model = static_cast<CameraModel>(i % 3);
+    camera.width = 640 + i;
+    camera.height = 480 + i;
+    camera.fx = random.uniform(500.0, 4000.0);
+    camera.fy = camera.fx * random.uniform(0.99, 1.01);
+    camera.cx = random.uniform(300.0, 340.0);
+    camera.cy = random.uniform(200.0, 240.0);
+    const std::size_t used = i % 3 == 0 ? 0 : i % 3 == 2 ? 4 : (i % 2 == 0 ? 5 : 8);
+    for (std::size_t k = 0; k < used; ++k) camera.distortion[k] = random.uniform(-0.01, 0.01);
+    ASSERT_EQ(prepareCamera(camera), Status::kOk);
+    writeCamera(folder / "camera.json", camera);
+    const Camera read = readCamera(folder / "camera.json");
+    EXPECT_EQ(read.model, camera.model);
+    EXPECT_EQ(read.width, camera.width);
+    EXPECT_EQ(read.height, camera.height);
+    EXPECT_EQ(read.fx, camera.fx);
+    EXPECT_EQ(read.fy, camera.fy);
+    EXPECT_EQ(read.cx, camera.cx);
+    EXPECT_EQ(read.cy, camera.cy);
+    EXPECT_EQ(read.distortion, camera.distortion);
+    EXPECT_EQ(read.valid_radius, camera.valid_radius);
+  }
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/dataset_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/base/math.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using boresight::test::TemporaryFolder;
+using nlohmann::json;
+using ::testing::StartsWith;
+
+json transform(double z_m) {
+  return json::parse("[[1,0,0,0],[0,1,0,0],[0,0,1," + std::to_string(z_m) + "],[0,0,0,1]]");
+}
+
+json uncertainty(double translation_m, const char* pivot = "camera") {
+  return {{"translation_m", {translation_m, translation_m, translation_m}},
+          {"rotation_deg", {5, 5, 5}},
+          {"pivot", pivot}};
+}
+
+/// Two stations, one in short form and one of two parts; two cases, one that overrides everything.
+json sampleDataset() {
+  json d = {{"format", "boresight-dataset"}, {"version", 1}};
+  d["requirement"] = {{"normal_mm", 0.4}, {"lateral_mm", 0.5}, {"rotation_deg", 0.25}};
+  d["stations"]["bc"] = {{"mesh", "bc/model.ply"},
+                         {"mesh_unit", "mm"},
+                         {"feature_size_m", 0.015},
+                         {"uncertainty", uncertainty(0.03)},
+                         {"camera_from_end_effector", transform(0.39)}};
+  d["stations"]["os"]["parts"] = {{{"mesh", "os.ply"},
+                                   {"mesh_unit", "m"},
+                                   {"station_from_mesh", transform(1.5)},
+                                   {"normal_threshold_deg", 20},
+                                   {"depth_threshold_m", 0.002}},
+                                  {{"mesh", "tube.glb"}, {"match", false}}};
+  d["cameras"]["left"] = {{"model", "pinhole"}, {"width", 8}, {"height", 6}, {"fx", 10.0},
+                          {"fy", 10.0},         {"cx", 3.5},  {"cy", 2.5}};
+  d["cases"] = {{{"id", "a"},
+                 {"station", "bc"},
+                 {"image", "images/a.png"},
+                 {"camera", "left"},
+                 {"seed", {{"camera_from_station", transform(0.4)}}}},
+                {{"id", "b"},
+                 {"station", "bc"},
+                 {"image", "images/b.png"},
+                 {"camera", "left"},
+                 {"ignore", "masks/b.png"},
+                 {"seed", {{"camera_from_station", transform(0.4)}}},
+                 {"truth", {{"camera_from_station", transform(0.41)}}},
+                 {"rig", {{"id", "pair"}, {"camera_from_rig", transform(0.1)}}},
+                 {"tags", {"low_sun", "near"}},
+                 {"uncertainty", uncertainty(0.01, "station")},
+                 {"requirement", {{"projection_px", 5.0}}},
+                 {"camera_from_end_effector", transform(0.2)}}};
+  return d;
+}
+
+class ReadDataset : public ::testing::Test {
+ protected:
+  Dataset read(const json& content) {
+    return readDataset(folder_.write("dataset.json", content.dump()));
+  }
+  Dataset readSample() { return read(sampleDataset()); }
+  /// The error after `change` was made to a good dataset.
+  template <class Change>
+  std::string error(Change&& change) {
+    json content = sampleDataset();
+    change(content);
+    return folder_.message([&] { (void)read(content); });
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ReadDataset, ReadsStationsInBothForms) {
+  const Dataset dataset = readSample();
+  EXPECT_TRUE(dataset.notes.empty());
+  ASSERT_EQ(dataset.stations.size(), 2u);
+  const Station& bc = dataset.stations.at("bc");
+  ASSERT_EQ(bc.parts.size(), 1u);
+  EXPECT_EQ(bc.parts[0].mesh, folder_ / "bc/model.ply");
+  EXPECT_EQ(bc.parts[0].mesh_unit, "mm");
+  EXPECT_TRUE(bc.parts[0].part.match);
+  EXPECT_EQ(bc.parts[0].part.normal_threshold_rad, ScenePart().normal_threshold_rad);
+  EXPECT_EQ(bc.feature_size_m, 0.015);
+  EXPECT_EQ(bc.camera_from_end_effector->translation_m.z(), 0.39);
+  const Station& os = dataset.stations.at("os");
+  ASSERT_EQ(os.parts.size(), 2u);
+  EXPECT_EQ(os.parts[0].station_from_mesh.translation_m.z(), 1.5);
+  EXPECT_DOUBLE_EQ(os.parts[0].part.normal_threshold_rad, kPi / 9.0);
+  EXPECT_EQ(os.parts[0].part.depth_threshold_m, 0.002);
+  EXPECT_FALSE(os.parts[1].part.match);
+  EXPECT_EQ(os.parts[1].mesh_unit, "");
+  EXPECT_FALSE(os.feature_size_m.has_value());
+  EXPECT_EQ(dataset.cameras.at("left").width, 8);
+}
+
+TEST_F(ReadDataset, GivesACaseWhatItsStationAndTheDatasetSay) {
+  const Dataset dataset = readSample();
+  ASSERT_EQ(dataset.cases.size(), 2u);
+  const Case& a = dataset.cases[0];
+  EXPECT_EQ(a.id, "a");
+  EXPECT_EQ(a.image, folder_ / "images/a.png");
+  EXPECT_FALSE(a.ignore.has_value());
+  EXPECT_FALSE(a.truth_camera_from_station.has_value());
+  EXPECT_FALSE(a.rig.has_value());
+  EXPECT_EQ(a.uncertainty->translation_m.x(), 0.03);
+  EXPECT_EQ(a.requirement->lateral_mm, 0.5);
+  EXPECT_FALSE(a.requirement->projection_px.has_value());
+  EXPECT_EQ(a.camera_from_end_effector->translation_m.z(), 0.39);
+}
+
+TEST_F(ReadDataset, LetsACaseOverride) {
+  const Dataset dataset = readSample();
+  const Case& b = *dataset.findCase("b");
+  EXPECT_EQ(dataset.findCase("c"), nullptr);
+  EXPECT_EQ(b.ignore, folder_ / "masks/b.png");
+  EXPECT_EQ(b.truth_camera_from_station->translation_m.z(), 0.41);
+  EXPECT_EQ(b.rig->id, "pair");
+  EXPECT_EQ(b.rig->camera_from_rig.translation_m.z(), 0.1);
+  EXPECT_TRUE(b.hasTag("near"));
+  EXPECT_FALSE(b.hasTag("far"));
+  EXPECT_EQ(b.uncertainty->translation_m.x(), 0.01);
+  EXPECT_EQ(b.uncertainty->pivot, UncertaintyPivot::kStation);
+  EXPECT_EQ(b.requirement->projection_px, 5.0);
+  EXPECT_FALSE(b.requirement->normal_mm.has_value()) << "a requirement is overridden whole";
+  EXPECT_EQ(b.camera_from_end_effector->translation_m.z(), 0.2);
+}
+
+TEST_F(ReadDataset, NamesThePlaceOfWhatIsWrong) {
+  EXPECT_EQ(error([](json& d) { d.erase("stations"); }), "dataset.json: stations: missing");
+  EXPECT_EQ(error([](json& d) { d["cases"][1]["station"] = "x"; }),
+            "dataset.json: cases[1].station: there is no station 'x'");
+  EXPECT_EQ(error([](json& d) { d["cases"][1]["camera"] = "x"; }),
+            "dataset.json: cases[1].camera: there is no camera 'x'");
+  EXPECT_EQ(error([](json& d) { d["cases"][1]["id"] = "a"; }),
+            "dataset.json: cases[1].id: 'a' is given twice");
+  EXPECT_EQ(error([](json& d) { d["cases"][0].erase("seed"); }),
+            "dataset.json: cases[0].seed: missing");
+  EXPECT_EQ(error([](json& d) { d["cases"][0]["image"] = 5; }),
+            "dataset.json: cases[0].image: not a string (is a number)");
+  EXPECT_THAT(error([](json& d) { d["cases"][1]["truth"]["camera_from_station"][0][0] = 2; }),
+              StartsWith("dataset.json: cases[1].truth.camera_from_station: not a rotation"));
+  EXPECT_EQ(error([](json& d) { d["cases"][1]["rig"].erase("id"); }),
+            "dataset.json: cases[1].rig.id: missing");
+  EXPECT_EQ(error([](json& d) { d["cases"][1]["tags"] = "near"; }),
+            "dataset.json: cases[1].tags: not a list (is a string)");
+  EXPECT_EQ(error([](json& d) { d["cameras"]["left"]["fx"] = 0; }),
+            "dataset.json: cameras.left.fx: 0 is outside 0.001 .. 1e+07");
+  EXPECT_EQ(error([](json& d) { d["requirement"] = json::object(); }),
+            "dataset.json: requirement: names none of normal_mm, lateral_mm, rotation_deg, "
+            "projection_px");
+  EXPECT_EQ(error([](json& d) { d["requirement"]["normal_mm"] = 0; }),
+            "dataset.json: requirement.normal_mm: 0 is not above 0");
+}
+
+TEST_F(ReadDataset, NamesWhatIsWrongInAStation) {
+  EXPECT_EQ(error([](json& d) { d["stations"]["bc"].erase("mesh_unit"); }),
+            "dataset.json: stations.bc.mesh_unit: missing: PLY carries no unit");
+  EXPECT_EQ(error([](json& d) { d["stations"]["bc"]["mesh_unit"] = "furlong"; }),
+            "dataset.json: stations.bc.mesh_unit: unknown unit 'furlong' (m, dm, cm, mm, um, in, "
+            "ft, yd, km)");
+  EXPECT_EQ(error([](json& d) { d["stations"]["bc"]["mesh"] = "model.step"; }),
+            "dataset.json: stations.bc.mesh: unknown mesh format '.step' (ply, obj, stl, gltf, "
+            "glb)");
+  EXPECT_EQ(error([](json& d) { d["stations"]["bc"]["parts"] = json::array(); }),
+            "dataset.json: stations.bc.mesh: given together with 'parts'");
+  EXPECT_EQ(error([](json& d) { d["stations"]["os"]["parts"] = json::array(); }),
+            "dataset.json: stations.os.parts: is empty");
+  EXPECT_EQ(error([](json& d) { d["stations"]["os"]["parts"][0]["match"] = false; }),
+            "dataset.json: stations.os.parts: no part is to be matched");
+  EXPECT_EQ(error([](json& d) { d["stations"]["bc"]["match"] = false; }),
+            "dataset.json: stations.bc.match: the station's only part must be matched");
+  EXPECT_EQ(error([](json& d) { d["stations"]["os"]["parts"][0]["depth_threshold_m"] = -1; }),
+            "dataset.json: stations.os.parts[0].depth_threshold_m: -1 is outside 1e-06 .. 1000");
+  EXPECT_EQ(error([](json& d) { d["stations"]["bc"]["feature_size_m"] = 0; }),
+            "dataset.json: stations.bc.feature_size_m: 0 is outside 1e-06 .. 100");
+  EXPECT_EQ(error([](json& d) { d["stations"]["bc"] = 5; }),
+            "dataset.json: stations.bc: not an object (is a number)");
+}
+
+TEST_F(ReadDataset, NotesMatricesThatWereProjected) {
+  json content = sampleDataset();
+  content["cases"][0]["seed"]["camera_from_station"][0][1] = 0.00002;
+  const Dataset dataset = read(content);
+  ASSERT_EQ(dataset.notes.size(), 1u);
+  EXPECT_THAT(dataset.notes[0],
+              StartsWith("cases[0].seed.camera_from_station: the matrix is not quite a rotation"));
+}
+
+TEST_F(ReadDataset, FindsMissingFilesBeforehand) {
+  const Dataset dataset = readSample();
+  EXPECT_EQ(folder_.message([&] { requireFiles(dataset); }),
+            "dataset.json: stations.bc: no such file: bc/model.ply");
+  folder_.write("bc/model.ply", "x");
+  folder_.write("os.ply", "x");
+  folder_.write("tube.glb", "x");
+  folder_.write("images/a.png", "x");
+  folder_.write("images/b.png", "x");
+  EXPECT_EQ(folder_.message([&] { requireFiles(dataset); }),
+            "dataset.json: cases[1].ignore: no such file: masks/b.png");
+  std::filesystem::create_directories(folder_ / "masks/b.png");
+  EXPECT_EQ(folder_.message([&] { requireFiles(dataset); }),
+            "dataset.json: cases[1].ignore: is a folder: masks/b.png");
+  std::filesystem::remove(folder_ / "masks/b.png");
+  folder_.write("masks/b.png", "x");
+  EXPECT_EQ(folder_.message([&] { requireFiles(dataset); }), "(nothing)");
+}
+
+TEST_F(ReadDataset, LoadsTheImageAndMaskOfACase) {
+  const Dataset dataset = readSample();
+  std::filesystem::create_directory(folder_ / "images");
+  std::filesystem::create_directory(folder_ / "masks");
+  const std::vector<std::uint8_t> pixels(48, 7);
+  writePng(folder_ / "images/b.png", pixels, 8, 6, 1);
+  writePng(folder_ / "masks/b.png", pixels, 8, 6, 1);
+  writePng(folder_ / "images/a.png", pixels, 6, 8, 1);
+  EXPECT_EQ(readCaseImage(dataset, dataset.cases[1]).pixels, pixels);
+  EXPECT_EQ(readCaseMask(dataset, dataset.cases[1])->ignored_count, 48);
+  EXPECT_FALSE(readCaseMask(dataset, dataset.cases[0]).has_value());
+  EXPECT_EQ(folder_.message([&] { (void)readCaseImage(dataset, dataset.cases[0]); }),
+            "images/a.png: image size: is 6 x 8, but the camera is 8 x 6");
+}
+
+}  // namespace
+}  // namespace boresight::sessions

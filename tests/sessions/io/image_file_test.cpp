@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/image_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "core/base/random.h"
+#include "sessions/io/errors.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using boresight::test::TemporaryFolder;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using Bytes = std::vector<std::uint8_t>;
+
+cv::Mat randomImage(int type, int width = 67, int height = 41) {
+  Random random(static_cast<std::uint64_t>(type) + 1);
+  cv::Mat image(height, width, type);
+  for (int y = 0; y < height; ++y) {
+    std::uint8_t* row = image.ptr(y);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(width) * image.elemSize(); ++i)
+      row[i] = static_cast<std::uint8_t>(random.below(256));
+  }
+  return image;
+}
+
+Bytes encoded(const cv::Mat& image, const std::string& extension) {
+  Bytes bytes;
+  EXPECT_TRUE(cv::imencode(extension, image, bytes));
+  return bytes;
+}
+
+/// The rule of conventions.md in doubles, as it is written there.
+std::uint8_t byRule(double v, int n) {
+  return static_cast<std::uint8_t>(std::floor(v * 255.0 / (std::pow(2.0, n) - 1.0) + 0.5));
+}
+
+class ReadImage : public ::testing::Test {
+ protected:
+  GrayImage read(const Bytes& bytes, const ImageReadOptions& options = {}) {
+    return readImage(folder_.write("image", bytes), options);
+  }
+  std::string error(const Bytes& bytes, const ImageReadOptions& options = {}) {
+    return folder_.message([&] { (void)read(bytes, options); });
+  }
+  TemporaryFolder folder_;
+};
+
+TEST(ToEightBit, IsTheRuleForEveryValueAndDepth) {
+  for (int n = 1; n <= 16; ++n)
+    for (std::uint32_t v = 0; v < (1u << n); ++v)
+      ASSERT_EQ(toEightBit(v, n), byRule(v, n)) << "v " << v << " n " << n;
+  EXPECT_EQ(toEightBit(65535, 16), 255);
+  EXPECT_EQ(toEightBit(128, 16), 0);
+  EXPECT_EQ(toEightBit(129, 16), 1);
+}
+
+TEST_F(ReadImage, KeepsGrayBytesAsTheyAre) {
+  const cv::Mat source = randomImage(CV_8UC1);
+  for (const char* extension : {".png", ".tiff"}) {
+    const Bytes bytes = encoded(source, extension);
+    const GrayImage image = read(bytes);
+    ASSERT_EQ(image.width, source.cols);
+    ASSERT_EQ(image.height, source.rows);
+    for (int y = 0; y < source.rows; ++y)
+      for (int x = 0; x < source.cols; ++x)
+        ASSERT_EQ(image.view().at(x, y), source.at<std::uint8_t>(y, x)) << extension;
+    EXPECT_EQ(image.rule, "8-bit values as they are");
+    EXPECT_EQ(image.bit_depth, 8);
+    EXPECT_FALSE(image.bit_depth_stated);
+    EXPECT_EQ(image.channels, 1);
+    EXPECT_EQ(image.file_sha256, sha256Text(bytes));
+    EXPECT_EQ(image.pixels_sha256, sha256Text(image.pixels));
+  }
+}
+
+TEST_F(ReadImage, ReadsJpegAsOpenCvDoes) {
+  const Bytes bytes = encoded(randomImage(CV_8UC1), ".jpg");
+  const cv::Mat expected = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+  const GrayImage image = read(bytes);
+  EXPECT_EQ(image.container, "JPEG");
+  EXPECT_TRUE(std::equal(image.pixels.begin(), image.pixels.end(), expected.ptr()));
+}
+
+TEST_F(ReadImage, TurnsColourGrayAsOpenCvDoes) {
+  const cv::Mat source = randomImage(CV_8UC3);
+  cv::Mat expected;
+  cv::cvtColor(source, expected, cv::COLOR_BGR2GRAY);
+  for (const char* extension : {".png", ".tiff"}) {
+    const GrayImage image = read(encoded(source, extension));
+    EXPECT_EQ(image.channels, 3);
+    EXPECT_TRUE(std::equal(image.pixels.begin(), image.pixels.end(), expected.ptr())) << extension;
+    EXPECT_EQ(image.rule,
+              "luma (9798 R + 19235 G + 3735 B + 16384) >> 15; 8-bit values as they are");
+  }
+}
+
+TEST_F(ReadImage, DropsAlpha) {
+  const cv::Mat source = randomImage(CV_8UC4);
+  cv::Mat expected;
+  cv::cvtColor(source, expected, cv::COLOR_BGRA2GRAY);
+  const GrayImage image = read(encoded(source, ".png"));
+  EXPECT_EQ(image.channels, 4);
+  EXPECT_TRUE(std::equal(image.pixels.begin(), image.pixels.end(), expected.ptr()));
+  EXPECT_THAT(image.rule, StartsWith("alpha dropped; luma"));
+}
+
+TEST_F(ReadImage, ScalesSixteenBits) {
+  const cv::Mat source = randomImage(CV_16UC1);
+  for (const char* extension : {".png", ".tiff"}) {
+    const GrayImage image = read(encoded(source, extension));
+    EXPECT_EQ(image.sample_bits, 16);
+    EXPECT_EQ(image.bit_depth, 16);
+    EXPECT_FALSE(image.bit_depth_stated);
+    EXPECT_EQ(image.rule, "floor(v * 255 / (2^16 - 1) + 0.5), bit depth that of the file");
+    for (int y = 0; y < source.rows; ++y)
+      for (int x = 0; x < source.cols; ++x)
+        ASSERT_EQ(image.view().at(x, y), byRule(source.at<std::uint16_t>(y, x), 16)) << extension;
+  }
+}
+
+TEST_F(ReadImage, TakesLumaOfSixteenBitColourBeforeScaling) {
+  const cv::Mat source = randomImage(CV_16UC3);
+  cv::Mat luma;
+  cv::cvtColor(source, luma, cv::COLOR_BGR2GRAY);
+  const GrayImage image = read(encoded(source, ".png"));
+  for (int y = 0; y < source.rows; ++y)
+    for (int x = 0; x < source.cols; ++x)
+      ASSERT_EQ(image.view().at(x, y), byRule(luma.at<std::uint16_t>(y, x), 16));
+}
+
+TEST_F(ReadImage, UsesAStatedBitDepth) {
+  cv::Mat source = randomImage(CV_16UC1);
+  for (int y = 0; y < source.rows; ++y)
+    for (int x = 0; x < source.cols; ++x) source.at<std::uint16_t>(y, x) &= 0x0fff;
+  const GrayImage image = read(encoded(source, ".png"), {12});
+  EXPECT_TRUE(image.bit_depth_stated);
+  EXPECT_EQ(image.rule, "floor(v * 255 / (2^12 - 1) + 0.5), bit depth stated");
+  for (int y = 0; y < source.rows; ++y)
+    for (int x = 0; x < source.cols; ++x)
+      ASSERT_EQ(image.view().at(x, y), byRule(source.at<std::uint16_t>(y, x), 12));
+}
+
+TEST_F(ReadImage, RefusesABitDepthThatThePixelsContradict) {
+  cv::Mat source(3, 4, CV_16UC1, cv::Scalar(0));
+  source.at<std::uint16_t>(2, 1) = 4096;
+  EXPECT_EQ(error(encoded(source, ".png"), {12}),
+            "image: bit_depth: pixel (1, 2) is 4096, more than 12 bits");
+  EXPECT_EQ(error(encoded(source, ".png"), {17}), "image: bit_depth: 17 is outside 1 .. 16");
+  EXPECT_EQ(error(encoded(randomImage(CV_8UC1), ".png"), {12}),
+            "image: bit_depth: 12 bits stated, but the file holds 8");
+}
+
+TEST_F(ReadImage, RefusesWhatIsNotAnImage) {
+  EXPECT_EQ(folder_.message([&] { (void)readImage(folder_ / "none.png"); }),
+            "none.png: no such file");
+  EXPECT_EQ(error({}), "image: the file is empty");
+  const std::string text = "{\"format\": \"boresight-pose\"}";
+  EXPECT_EQ(error(Bytes(text.begin(), text.end())), "image: not a PNG, JPEG or TIFF image");
+  EXPECT_EQ(error(encoded(randomImage(CV_8UC1), ".bmp")), "image: not a PNG, JPEG or TIFF image");
+  cv::Mat real(4, 4, CV_32FC1, cv::Scalar(1.0));
+  EXPECT_EQ(error(encoded(real, ".tiff")),
+            "image: samples are not unsigned integers of 8 or 16 bits");
+}
+
+/// Wherever a file is cut, it is refused: decoders alone would fill the rest with gray.
+TEST_F(ReadImage, RefusesEveryTruncation) {
+  for (const int type : {CV_8UC1, CV_8UC3, CV_16UC1}) {
+    const cv::Mat source = randomImage(type);
+    for (const char* extension : {".png", ".jpg", ".tiff"}) {
+      if (type == CV_16UC1 && std::string(extension) == ".jpg") continue;
+      const Bytes bytes = encoded(source, extension);
+      for (std::size_t size = 1; size < bytes.size(); size += 1 + bytes.size() / 97) {
+        const std::string message =
+            error(Bytes(bytes.begin(), bytes.begin() + std::ptrdiff_t(size)));
+        ASSERT_THAT(message, AnyOf(HasSubstr("truncated"), HasSubstr("not a PNG, JPEG or TIFF")))
+            << extension << " cut to " << size << " of " << bytes.size();
+      }
+      const Bytes nearly(bytes.begin(), bytes.end() - 1);
+      EXPECT_THAT(error(nearly), HasSubstr("truncated")) << extension;
+    }
+  }
+}
+
+TEST_F(ReadImage, AcceptsBytesAfterTheEnd) {
+  for (const char* extension : {".png", ".jpg"}) {
+    Bytes bytes = encoded(randomImage(CV_8UC1), extension);
+    bytes.insert(bytes.end(), {1, 2, 3});
+    EXPECT_EQ(error(bytes), "(nothing)");
+  }
+}
+
+TEST_F(ReadImage, FindsAFlippedBitInAPng) {
+  const Bytes bytes = encoded(randomImage(CV_8UC1), ".png");
+  for (std::size_t i = 8; i < bytes.size(); i += 101) {
+    Bytes changed = bytes;
+    changed[i] ^= 0x10;
+    EXPECT_NE(error(changed), "(nothing)") << "byte " << i;
+  }
+}
+
+TEST_F(ReadImage, ReadsProgressiveJpegAndSkipsFillBytes) {
+  Bytes bytes;
+  ASSERT_TRUE(cv::imencode(".jpg", randomImage(CV_8UC3), bytes,
+                           {cv::IMWRITE_JPEG_PROGRESSIVE, 1, cv::IMWRITE_JPEG_RST_INTERVAL, 2}));
+  EXPECT_EQ(error(bytes), "(nothing)");
+  bytes.insert(bytes.begin() + 2, 3, 0xff);
+  EXPECT_EQ(error(bytes), "(nothing)");
+}
+
+TEST_F(ReadImage, RefusesHugeDimensionsBeforeDecoding) {
+  // A PNG header alone can ask for gigabytes.
+  EXPECT_THAT(error(encoded(cv::Mat(1, 16385, CV_8UC1, cv::Scalar(0)), ".png")),
+              StartsWith("image: image size: 16385 x 1 is outside the limits"));
+  EXPECT_EQ(error(encoded(cv::Mat(1, 16384, CV_8UC1, cv::Scalar(0)), ".png")), "(nothing)");
+  // Width and height of this TIFF are replaced in its directory (tags 256 and 257).
+  Bytes tiff = encoded(cv::Mat(4, 4, CV_8UC1, cv::Scalar(0)), ".tiff");
+  const std::size_t directory = tiff[4] + 256u * tiff[5];
+  for (std::size_t entry = 0; entry < 2; ++entry) {
+    std::uint8_t* value = &tiff[directory + 2 + 12 * entry + 8];
+    value[0] = 0x00;
+    value[1] = 0x40;
+  }
+  EXPECT_THAT(error(tiff), StartsWith("image: image size: 16384 x 16384 is outside the limits"));
+}
+
+TEST_F(ReadImage, ComparesItsSizeWithTheCameras) {
+  const GrayImage image = read(encoded(randomImage(CV_8UC1), ".png"));
+  Camera camera;
+  camera.width = 67;
+  camera.height = 41;
+  EXPECT_NO_THROW(requireSameSize(image, camera));
+  camera.height = 42;
+  EXPECT_EQ(folder_.message([&] { requireSameSize(image, camera); }),
+            "image: image size: is 67 x 41, but the camera is 67 x 42");
+}
+
+TEST(ReadIgnoreMask, PacksNonzeroPixels) {
+  const TemporaryFolder folder;
+  Random random(5);
+  for (const int type : {CV_8UC1, CV_16UC1, CV_8UC3, CV_8UC4}) {
+    cv::Mat image(9, 130, type, cv::Scalar(0, 0, 0, 255));
+    std::vector<bool> expected(9 * 130, false);
+    std::int64_t count = 0;
+    for (int y = 0; y < image.rows; ++y)
+      for (int x = 0; x < image.cols; ++x) {
+        if (random.below(3) != 0) continue;
+        expected[static_cast<std::size_t>(y * 130 + x)] = true;
+        ++count;
+        if (type == CV_16UC1)
+          image.at<std::uint16_t>(y, x) = 0x0100;  // low byte zero
+        else
+          image.ptr(y, x)[image.channels() >= 3 ? 1 : 0] = 1;
+      }
+    const auto file = folder.write("mask.png", encoded(image, ".png"));
+    const IgnoreMask mask = readIgnoreMask(file, 130, 9);
+    EXPECT_EQ(mask.ignored_count, count);
+    const BitImage bits = mask.view();
+    ASSERT_EQ(bits.words.size(), 3u * 9u);
+    for (int y = 0; y < 9; ++y) {
+      for (int x = 0; x < 130; ++x)
+        ASSERT_EQ(bits.get(x, y), expected[static_cast<std::size_t>(y * 130 + x)]);
+      EXPECT_EQ(bits.row(y)[2] >> 2, 0u) << "bits beyond the width are set";
+    }
+  }
+}
+
+TEST(ReadIgnoreMask, RefusesOtherSizesAndJpeg) {
+  const TemporaryFolder folder;
+  const cv::Mat image(9, 130, CV_8UC1, cv::Scalar(0));
+  folder.write("mask.png", encoded(image, ".png"));
+  folder.write("mask.jpg", encoded(image, ".jpg"));
+  EXPECT_EQ(folder.message([&] { (void)readIgnoreMask(folder / "mask.png", 131, 9); }),
+            "mask.png: mask size: is 130 x 9, but the image is 131 x 9");
+  EXPECT_EQ(folder.message([&] { (void)readIgnoreMask(folder / "mask.jpg", 130, 9); }),
+            "mask.jpg: a mask must be lossless: PNG or TIFF, not JPEG");
+  EXPECT_EQ(folder.message([&] { (void)readIgnoreMask(folder / "none.png", 130, 9); }),
+            "none.png: no such file");
+}
+
+TEST(WritePng, RoundTrips) {
+  const TemporaryFolder folder;
+  const cv::Mat gray = randomImage(CV_8UC1);
+  const std::span<const std::uint8_t> pixels(gray.ptr(), gray.total());
+  writePng(folder / "gray.png", pixels, gray.cols, gray.rows, 1);
+  const GrayImage image = readImage(folder / "gray.png");
+  EXPECT_TRUE(std::equal(image.pixels.begin(), image.pixels.end(), pixels.begin()));
+  EXPECT_THROW(writePng(folder / "x.png", pixels, gray.cols + 1, gray.rows, 1), std::logic_error);
+  EXPECT_EQ(folder.message([&] { writePng(folder / "no/x.png", pixels, gray.cols, gray.rows, 1); }),
+            "cannot write no/x.png: no such folder");
+}
+
+}  // namespace
+}  // namespace boresight::sessions

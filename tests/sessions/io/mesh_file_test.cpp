@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/mesh_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/base/random.h"
+#include "sessions/io/errors.h"
+#include "tests/sessions/io/mesh_samples.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using boresight::test::TemporaryFolder;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using namespace boresight::sessions::test;  // NOLINT: the samples are this file's vocabulary
+
+double signedVolume_m3(const Mesh& mesh) {
+  double volume = 0.0;
+  for (const Face& face : mesh.faces) {
+    const auto corner = [&](std::size_t i) -> Eigen::Vector3d {
+      return mesh.vertices_m[static_cast<std::size_t>(face.vertex[i])].cast<double>();
+    };
+    volume += corner(0).dot(corner(1).cross(corner(2))) / 6.0;
+  }
+  return volume;
+}
+
+class ReadMesh : public ::testing::Test {
+ protected:
+  Mesh read(const std::string& name, const std::string& content, const std::string& unit = "m") {
+    return readMesh(folder_.write(name, content), unit);
+  }
+  std::string error(const std::string& name, const std::string& content,
+                    const std::string& unit = "m") {
+    return folder_.message([&] { (void)read(name, content, unit); });
+  }
+  TemporaryFolder folder_;
+};
+
+/// A closed, outward cube whatever the format: 8 vertices, 12 faces, the right place and volume.
+void expectCube(const Mesh& mesh, double scale = 1.0) {
+  EXPECT_EQ(mesh.vertices_m.size(), 8u);
+  EXPECT_EQ(mesh.faces.size(), 12u);
+  EXPECT_TRUE(mesh.info.minimum_m.isApprox(scale * Eigen::Vector3d(-1, -1, 9), 1e-6));
+  EXPECT_TRUE(mesh.info.maximum_m.isApprox(scale * Eigen::Vector3d(1, 1, 11), 1e-6));
+  EXPECT_NEAR(signedVolume_m3(mesh) / std::pow(scale, 3), 8.0, 1e-5);
+  EXPECT_NEAR(mesh.info.area_m2 / (scale * scale), 24.0, 1e-5);
+  EXPECT_NEAR(mesh.info.shortest_edge_m, 2.0 * scale, 1e-6 * scale);
+  EXPECT_NEAR(mesh.info.longest_edge_m, std::sqrt(8.0) * scale, 1e-6 * scale);
+  const std::array<std::uint16_t, 1> part = {0};
+  const std::vector<std::uint16_t> part_of_face(mesh.faces.size(), part[0]);
+  const std::array<ScenePart, 1> parts = {};
+  EXPECT_EQ(validateMesh({mesh.vertices_m, mesh.faces, part_of_face, parts}), Status::kOk);
+}
+
+TEST_F(ReadMesh, ReadsEveryFormat) {
+  const std::string node = R"([{"mesh":0}])";
+  expectCube(read("ascii.ply", asciiPly(cube())));
+  expectCube(read("little.ply", binaryPly(cube(), false)));
+  expectCube(read("big.ply", binaryPly(cube(), true)));
+  expectCube(read("CUBE.OBJ", obj(cube())));
+  expectCube(read("binary.stl", binaryStl(cube())));
+  expectCube(read("tricky.stl", binaryStl(cube(), "solid but binary")));
+  expectCube(read("ascii.stl", asciiStl(cube())));
+  expectCube(read("cube.glb", glb(cube(), node), ""));
+  std::size_t count = 0;
+  folder_.write("cube.bin", gltfBuffer(cube(), &count));
+  expectCube(read("cube.gltf", gltf(cube(), node, R"("uri":"cube.bin",)"), ""));
+}
+
+TEST_F(ReadMesh, KeepsCoordinatesInMetresExactly) {
+  Random random(4);
+  PolygonMesh source;
+  for (int i = 0; i < 300; ++i)
+    source.vertices.emplace_back(static_cast<float>(random.normal()),
+                                 static_cast<float>(random.normal()),
+                                 static_cast<float>(random.normal()));
+  for (std::int32_t i = 0; i + 2 < 300; i += 3) source.polygons.push_back({i, i + 1, i + 2});
+  const Mesh mesh = read("mesh.ply", binaryPly(source, false));
+  ASSERT_EQ(mesh.vertices_m.size(), 300u);
+  for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(mesh.vertices_m[i], source.vertices[i]);
+  for (std::size_t f = 0; f < 100; ++f)
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(mesh.faces[f].vertex[i], source.polygons[f][i]);
+}
+
+TEST_F(ReadMesh, ConvertsTheStatedUnit) {
+  expectCube(read("mesh.ply", asciiPly(cube()), "mm"), 1e-3);
+  expectCube(read("mesh.stl", binaryStl(cube()), "in"), 0.0254);
+  expectCube(read("mesh.obj", obj(cube()), "cm"), 1e-2);
+  expectCube(read("mesh.glb", glb(cube(), R"([{"mesh":0}])"), "mm"), 1e-3);
+  EXPECT_EQ(read("mesh.glb", glb(cube(), R"([{"mesh":0}])"), "").info.unit, "m");
+  EXPECT_EQ(metresPerUnit("um"), 1e-6);
+  EXPECT_EQ(metresPerUnit("parsec"), std::nullopt);
+}
+
+TEST_F(ReadMesh, NeverGuessesAUnit) {
+  EXPECT_EQ(error("mesh.ply", asciiPly(cube()), ""),
+            "mesh.ply: mesh_unit: missing: PLY carries no unit (m, cm, mm, um, in, ...)");
+  EXPECT_THAT(error("mesh.stl", binaryStl(cube()), ""), HasSubstr("STL carries no unit"));
+  EXPECT_THAT(error("mesh.obj", obj(cube()), ""), HasSubstr("OBJ carries no unit"));
+  EXPECT_EQ(error("mesh.ply", asciiPly(cube()), "furlong"),
+            "mesh.ply: mesh_unit: unknown unit 'furlong' (m, dm, cm, mm, um, in, ft, yd, km)");
+}
+
+TEST_F(ReadMesh, AppliesNodeTransforms) {
+  // The child is scaled by 2 and moved, its parent turned a quarter about x (y to z) and moved.
+  const std::string nodes =
+      R"([{"children":[1],"rotation":[0.70710678118654757,0,0,0.70710678118654757],)"
+      R"("translation":[100,0,0]},{"mesh":0,"scale":[2,2,2],"translation":[0,5,0]}])";
+  const Mesh mesh = read("mesh.glb", glb(cube(), nodes), "");
+  // x: 2 [-1, 1] + 100; y: -(2 [9, 11]); z: 2 [-1, 1] + 5.
+  EXPECT_TRUE(mesh.info.minimum_m.isApprox(Eigen::Vector3d(98, -22, 3), 1e-5));
+  EXPECT_TRUE(mesh.info.maximum_m.isApprox(Eigen::Vector3d(102, -18, 7), 1e-5));
+  EXPECT_NEAR(signedVolume_m3(mesh), 64.0, 1e-3);
+}
+
+TEST_F(ReadMesh, KeepsFacesOutwardUnderAMirroredNode) {
+  const Mesh mesh = read("mesh.glb", glb(cube(), R"([{"mesh":0,"scale":[-1,1,1]}])"), "");
+  EXPECT_NEAR(signedVolume_m3(mesh), 8.0, 1e-5);
+}
+
+TEST_F(ReadMesh, PlacesAMeshOncePerNode) {
+  const std::string nodes = R"([{"children":[1,2]},{"mesh":0},{"mesh":0,"translation":[10,0,0]}])";
+  const Mesh mesh = read("mesh.glb", glb(cube(), nodes), "");
+  EXPECT_EQ(mesh.faces.size(), 24u);
+  EXPECT_NEAR(mesh.info.maximum_m.x(), 11.0, 1e-6);
+}
+
+TEST_F(ReadMesh, HashesTheFileAndTheBuffersOfGltf) {
+  const std::string text = asciiPly(cube());
+  const auto bytes = std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  EXPECT_EQ(read("mesh.ply", text).info.file_sha256, sha256Text(bytes));
+  std::size_t count = 0;
+  std::string buffer = gltfBuffer(cube(), &count);
+  folder_.write("mesh.bin", buffer);
+  const std::string scene = gltf(cube(), R"([{"mesh":0}])", R"("uri":"mesh.bin",)");
+  const std::string before = read("mesh.gltf", scene, "").info.file_sha256;
+  buffer[0] ^= 1;
+  folder_.write("mesh.bin", buffer);
+  EXPECT_NE(read("mesh.gltf", scene, "").info.file_sha256, before);
+}
+
+TEST_F(ReadMesh, CountsWhatItLeavesOut) {
+  PolygonMesh mesh = cube();
+  mesh.vertices.emplace_back(50.0F, 0.0F, 0.0F);  // unused
+  mesh.vertices.push_back(mesh.vertices[0]);      // repeated
+  mesh.polygons.push_back({0, 9, 1});             // collapses
+  const Mesh read_mesh = read("mesh.ply", binaryPly(mesh, false));
+  EXPECT_EQ(read_mesh.info.file_vertices, 10);
+  EXPECT_EQ(read_mesh.info.file_polygons, 7);
+  EXPECT_EQ(read_mesh.info.unused_vertices, 1);
+  EXPECT_EQ(read_mesh.info.merged_vertices, 1);
+  EXPECT_EQ(read_mesh.info.collapsed_faces, 1);
+  EXPECT_EQ(read_mesh.info.notes().size(), 2u);
+  expectCube(read_mesh);
+}
+
+TEST_F(ReadMesh, CountsSliversAndRefusesNothingButSlivers) {
+  PolygonMesh mesh = cube();
+  mesh.vertices.emplace_back(0.0F, 0.00001F, 9.0F);
+  mesh.vertices.emplace_back(-1.0F, 0.0F, 9.0F);
+  mesh.vertices.emplace_back(1.0F, 0.0F, 9.0F);
+  mesh.polygons.push_back({8, 9, 10});
+  EXPECT_EQ(read("mesh.ply", binaryPly(mesh, false)).info.sliver_faces, 1);
+  mesh.polygons = {{8, 9, 10}, {8, 10, 9}};
+  EXPECT_EQ(error("mesh.ply", binaryPly(mesh, false)),
+            "mesh.ply: faces: all 2 are slivers without a surface");
+  mesh.vertices[8] = Eigen::Vector3f(0.0F, 0.0F, 9.0F);
+  EXPECT_THAT(error("mesh.ply", binaryPly(mesh, false)), HasSubstr("slivers"));
+  mesh.polygons = {{8, 8, 9}};
+  EXPECT_THAT(error("mesh.ply", binaryPly(mesh, false)), HasSubstr("no surface"));
+}
+
+TEST_F(ReadMesh, TriangulatesConcavePolygons) {
+  // An L of area 3, whose fan from the first corner would overlap.
+  PolygonMesh mesh;
+  mesh.vertices = {{2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 0}, {2, 0, 0}};
+  mesh.polygons = {{0, 1, 2, 3, 4, 5}};
+  for (const char* name : {"mesh.ply", "mesh.obj"}) {
+    const Mesh l = read(name, name[5] == 'p' ? asciiPly(mesh) : obj(mesh));
+    EXPECT_EQ(l.faces.size(), 4u);
+    EXPECT_NEAR(l.info.area_m2, 3.0, 1e-6);
+    EXPECT_EQ(l.info.lost_triangles, 0);
+  }
+}
+
+TEST_F(ReadMesh, RefusesPointClouds) {
+  PolygonMesh points = cube();
+  points.polygons.clear();
+  const std::string expected = "the mesh has no faces (a point cloud cannot be rendered)";
+  EXPECT_EQ(error("mesh.ply", asciiPly(points)), "mesh.ply: " + expected);
+  EXPECT_EQ(error("mesh.ply", binaryPly(points, false)), "mesh.ply: " + expected);
+  EXPECT_EQ(error("mesh.ply",
+                  "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                  "property float y\nproperty float z\nend_header\n0 0 0\n"),
+            "mesh.ply: " + expected);
+  EXPECT_THAT(error("mesh.obj", obj(points)), StartsWith("mesh.obj: "));
+  EXPECT_EQ(error("mesh.stl", binaryStl(points)), "mesh.stl: the mesh has no faces");
+  EXPECT_THAT(error("lines.obj", obj(points) + "l 1 2\n"), StartsWith("lines.obj: "));
+}
+
+TEST_F(ReadMesh, RefusesCoordinatesThatAreNotFinite) {
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    PolygonMesh mesh = cube();
+    mesh.vertices[5].y() = bad;
+    EXPECT_EQ(error("mesh.ply", binaryPly(mesh, false)), "mesh.ply: vertex 5: not a finite number");
+    EXPECT_THAT(error("mesh.ply", asciiPly(mesh)), HasSubstr("not a finite number"));
+    EXPECT_THAT(error("mesh.stl", binaryStl(mesh)), HasSubstr("not a finite number"));
+    EXPECT_THAT(error("mesh.glb", glb(mesh, R"([{"mesh":0}])"), ""), StartsWith("mesh.glb: "));
+  }
+  PolygonMesh far = cube();
+  far.vertices[2].x() = 1e30F;
+  EXPECT_EQ(error("mesh.ply", binaryPly(far, false)),
+            "mesh.ply: vertex 2: is more than 1000 km from the origin: is the unit right?");
+}
+
+TEST_F(ReadMesh, RefusesIndicesOutOfRange) {
+  for (const std::int32_t bad : {8, 1000000, -1}) {
+    PolygonMesh mesh = cube();
+    mesh.polygons[3][1] = bad;
+    EXPECT_NE(error("mesh.ply", binaryPly(mesh, false)), "(nothing)") << bad;
+    EXPECT_NE(error("mesh.ply", asciiPly(mesh)), "(nothing)") << bad;
+    if (bad < 0) continue;  // unsigned in glTF, counted from the end in OBJ
+    EXPECT_NE(error("mesh.glb", glb(mesh, R"([{"mesh":0}])"), ""), "(nothing)") << bad;
+    EXPECT_NE(error("mesh.obj", obj(mesh)), "(nothing)") << bad;
+  }
+}
+
+/// Wherever a file is cut, it is refused: importers alone would take what is there.
+TEST_F(ReadMesh, RefusesEveryTruncation) {
+  const std::pair<const char*, std::string> files[] = {
+      {"little.ply", binaryPly(cube(), false)}, {"big.ply", binaryPly(cube(), true)},
+      {"ascii.ply", asciiPly(cube())},          {"binary.stl", binaryStl(cube())},
+      {"ascii.stl", asciiStl(cube())},          {"mesh.glb", glb(cube(), R"([{"mesh":0}])")}};
+  for (const auto& [name, content] : files) {
+    const bool text = std::string(name).starts_with("ascii");
+    // A text without its last line break, or without the name of the solid, is still whole.
+    const std::size_t last = content.size() - (text ? 8 : 1);
+    for (std::size_t size = 1; size <= last; size += 1 + content.size() / 211)
+      ASSERT_NE(error(name, content.substr(0, size)), "(nothing)")
+          << name << " cut to " << size << " of " << content.size();
+    EXPECT_NE(error(name, content.substr(0, last)), "(nothing)") << name;
+  }
+  EXPECT_EQ(error("cut.ply", binaryPly(cube(), false).substr(0, 300)),
+            "cut.ply: the PLY mesh is truncated");
+  std::size_t count = 0;
+  folder_.write("cut.bin", gltfBuffer(cube(), &count).substr(0, 100));
+  EXPECT_NE(error("cut.gltf", gltf(cube(), R"([{"mesh":0}])", R"("uri":"cut.bin",)"), ""),
+            "(nothing)");
+}
+
+TEST_F(ReadMesh, RefusesOtherFiles) {
+  EXPECT_EQ(folder_.message([&] { (void)readMesh(folder_ / "none.ply", "m"); }),
+            "none.ply: no such file");
+  EXPECT_EQ(error("empty.ply", ""), "empty.ply: the file is empty");
+  EXPECT_EQ(error("mesh.step", "ISO-10303-21;"),
+            "mesh.step: unknown mesh format '.step' (ply, obj, stl, gltf, glb)");
+  EXPECT_EQ(error("mesh", "x"), "mesh: unknown mesh format '' (ply, obj, stl, gltf, glb)");
+  for (const char* name : {"mesh.ply", "mesh.obj", "mesh.stl", "mesh.gltf", "mesh.glb"}) {
+    EXPECT_THAT(error(name, "\x89PNG\r\n\x1a\n nothing of the kind"), StartsWith(name)) << name;
+    EXPECT_THAT(error(name, std::string(500, '\0')), StartsWith(name)) << name;
+  }
+}
+
+TEST_F(ReadMesh, RefusesHugeDeclarationsBeforeReading) {
+  EXPECT_EQ(error("mesh.ply", plyHeader("ascii", 5000000, 1) + std::string(10000100, '\n')),
+            "mesh.ply: the PLY mesh is truncated");
+  EXPECT_THAT(error("mesh.ply", plyHeader("binary_little_endian", 4000000000u, 4000000000u)),
+              HasSubstr("too many items"));
+  PolygonMesh mesh = cube();
+  mesh.polygons.assign(1000001, {0, 1, 2});
+  EXPECT_EQ(error("mesh.ply", binaryPly(mesh, false)),
+            "mesh.ply: faces: 1000001 exceed the limit of 1000000: decimate the mesh");
+}
+
+/// Damaged files may be refused or read, but never crash or give an invalid mesh.
+TEST_F(ReadMesh, SurvivesDamagedFiles) {
+  const std::pair<const char*, std::string> files[] = {
+      {"mesh.ply", binaryPly(cube(), false)},
+      {"text.ply", asciiPly(cube())},
+      {"mesh.stl", binaryStl(cube())},
+      {"text.stl", asciiStl(cube())},
+      {"mesh.obj", obj(cube())},
+      {"mesh.glb", glb(cube(), R"([{"mesh":0}])")}};
+  Random random(8);
+  for (const auto& [name, content] : files) {
+    for (int round = 0; round < 120; ++round) {
+      std::string damaged = content;
+      for (std::uint32_t i = 0; i <= random.below(4); ++i)
+        damaged[random.below(static_cast<std::uint32_t>(damaged.size()))] =
+            static_cast<char>(random.below(256));
+      try {
+        const Mesh mesh = read(name, damaged);
+        const std::vector<std::uint16_t> part_of_face(mesh.faces.size(), 0);
+        const std::array<ScenePart, 1> parts = {};
+        EXPECT_EQ(validateMesh({mesh.vertices_m, mesh.faces, part_of_face, parts}), Status::kOk);
+      } catch (const InputError&) {
+      }
+    }
+  }
+}
+
+TEST(LengthText, SwitchesToMillimetres) {
+  EXPECT_EQ(lengthText(0.0123), "12.3 mm");
+  EXPECT_EQ(lengthText(4.56), "4.56 m");
+}
+
+}  // namespace
+}  // namespace boresight::sessions

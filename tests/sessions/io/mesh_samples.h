@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+/// Small mesh files made by hand, so that the readers are not tested with their own writer.
+namespace boresight::sessions::test {
+
+struct PolygonMesh {
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<std::vector<std::int32_t>> polygons;
+};
+
+/// A cube of edge 2 around (0, 0, 10) with six quads, counter-clockwise seen from outside.
+inline PolygonMesh cube() {
+  PolygonMesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.vertices.emplace_back((i & 1) != 0 ? 1.0F : -1.0F, (i & 2) != 0 ? 1.0F : -1.0F,
+                               (i & 4) != 0 ? 11.0F : 9.0F);
+  mesh.polygons = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                   {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  return mesh;
+}
+
+template <class T>
+void appendNumber(std::string& bytes, T value, bool big_endian) {
+  char raw[sizeof(T)];
+  std::memcpy(raw, &value, sizeof(T));
+  const bool swap = big_endian == (std::endian::native == std::endian::little);
+  for (std::size_t i = 0; i < sizeof(T); ++i) bytes += raw[swap ? sizeof(T) - 1 - i : i];
+}
+
+inline std::string plyHeader(const std::string& encoding, std::size_t vertices, std::size_t faces) {
+  return "ply\nformat " + encoding + " 1.0\ncomment made by hand\nelement vertex " +
+         std::to_string(vertices) +
+         "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+         std::to_string(faces) + "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+inline std::string asciiPly(const PolygonMesh& mesh) {
+  std::string text = plyHeader("ascii", mesh.vertices.size(), mesh.polygons.size());
+  for (const Eigen::Vector3f& v : mesh.vertices)
+    text +=
+        std::to_string(v.x()) + " " + std::to_string(v.y()) + " " + std::to_string(v.z()) + "\n";
+  for (const auto& polygon : mesh.polygons) {
+    text += std::to_string(polygon.size());
+    for (const std::int32_t index : polygon) text += " " + std::to_string(index);
+    text += "\n";
+  }
+  return text;
+}
+
+inline std::string binaryPly(const PolygonMesh& mesh, bool big_endian) {
+  std::string bytes = plyHeader(big_endian ? "binary_big_endian" : "binary_little_endian",
+                                mesh.vertices.size(), mesh.polygons.size());
+  for (const Eigen::Vector3f& v : mesh.vertices)
+    for (int axis = 0; axis < 3; ++axis) appendNumber(bytes, v[axis], big_endian);
+  for (const auto& polygon : mesh.polygons) {
+    bytes += static_cast<char>(polygon.size());
+    for (const std::int32_t index : polygon) appendNumber(bytes, index, big_endian);
+  }
+  return bytes;
+}
+
+inline std::string obj(const PolygonMesh& mesh) {
+  std::string text = "# made by hand\n";
+  for (const Eigen::Vector3f& v : mesh.vertices)
+    text += "v " + std::to_string(v.x()) + " " + std::to_string(v.y()) + " " +
+            std::to_string(v.z()) + "\n";
+  for (const auto& polygon : mesh.polygons) {
+    text += "f";
+    for (const std::int32_t index : polygon) text += " " + std::to_string(index + 1);
+    text += "\n";
+  }
+  return text;
+}
+
+/// Fans; STL has triangles only.
+inline std::vector<std::array<Eigen::Vector3f, 3>> triangles(const PolygonMesh& mesh) {
+  std::vector<std::array<Eigen::Vector3f, 3>> all;
+  for (const auto& polygon : mesh.polygons)
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+      all.push_back({mesh.vertices[static_cast<std::size_t>(polygon[0])],
+                     mesh.vertices[static_cast<std::size_t>(polygon[i - 1])],
+                     mesh.vertices[static_cast<std::size_t>(polygon[i])]});
+  return all;
+}
+
+inline std::string binaryStl(const PolygonMesh& mesh, const std::string& header = "by hand") {
+  const auto all = triangles(mesh);
+  std::string bytes = header;
+  bytes.resize(80, ' ');
+  appendNumber(bytes, static_cast<std::uint32_t>(all.size()), false);
+  for (const auto& triangle : all) {
+    for (int i = 0; i < 3; ++i) appendNumber(bytes, 0.0F, false);
+    for (const Eigen::Vector3f& v : triangle)
+      for (int axis = 0; axis < 3; ++axis) appendNumber(bytes, v[axis], false);
+    bytes += std::string(2, '\0');
+  }
+  return bytes;
+}
+
+inline std::string asciiStl(const PolygonMesh& mesh) {
+  std::string text = "solid cube\n";
+  for (const auto& triangle : triangles(mesh)) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (const Eigen::Vector3f& v : triangle)
+      text += "vertex " + std::to_string(v.x()) + " " + std::to_string(v.y()) + " " +
+              std::to_string(v.z()) + "\n";
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid cube\n";
+}
+
+/// Positions, then 32-bit indices: the buffer of the glTF files below.
+inline std::string gltfBuffer(const PolygonMesh& mesh, std::size_t* index_count) {
+  std::string bytes;
+  for (const Eigen::Vector3f& v : mesh.vertices)
+    for (int axis = 0; axis < 3; ++axis) appendNumber(bytes, v[axis], false);
+  *index_count = 0;
+  for (const auto& polygon : mesh.polygons)
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+      for (const std::size_t corner : {std::size_t{0}, i - 1, i}) {
+        appendNumber(bytes, static_cast<std::uint32_t>(polygon[corner]), false);
+        ++*index_count;
+      }
+  return bytes;
+}
+
+/// `nodes` is the JSON text of the node list; node 0 is the scene's root, mesh 0 the mesh.
+inline std::string gltf(const PolygonMesh& mesh, const std::string& nodes,
+                        const std::string& uri_member) {
+  std::size_t index_count = 0;
+  const std::size_t size = gltfBuffer(mesh, &index_count).size();
+  const std::string positions = std::to_string(12 * mesh.vertices.size());
+  Eigen::Vector3f low = mesh.vertices[0];
+  Eigen::Vector3f high = low;
+  for (const Eigen::Vector3f& v : mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  const auto list = [](const Eigen::Vector3f& v) {
+    return "[" + std::to_string(v.x()) + "," + std::to_string(v.y()) + "," + std::to_string(v.z()) +
+           "]";
+  };
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" + nodes +
+         R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[)" +
+         R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":)" +
+         std::to_string(mesh.vertices.size()) + R"(,"min":)" + list(low) + R"(,"max":)" +
+         list(high) + R"(},{"bufferView":1,"componentType":5125,"type":"SCALAR","count":)" +
+         std::to_string(index_count) +
+         R"(}],"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":)" + positions +
+         R"(},{"buffer":0,"byteOffset":)" + positions + R"(,"byteLength":)" +
+         std::to_string(4 * index_count) + R"(}],"buffers":[{)" + uri_member + R"("byteLength":)" +
+         std::to_string(size) + "}]}";
+}
+
+inline std::string glb(const PolygonMesh& mesh, const std::string& nodes) {
+  std::string json = gltf(mesh, nodes, "");
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  std::size_t index_count = 0;
+  const std::string buffer = gltfBuffer(mesh, &index_count);
+  std::string bytes = "glTF";
+  appendNumber(bytes, std::uint32_t{2}, false);
+  appendNumber(bytes, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + buffer.size()), false);
+  appendNumber(bytes, static_cast<std::uint32_t>(json.size()), false);
+  bytes += "JSON" + json;
+  appendNumber(bytes, static_cast<std::uint32_t>(buffer.size()), false);
+  bytes += std::string("BIN\0", 4) + buffer;
+  return bytes;
+}
+
+}  // namespace boresight::sessions::test

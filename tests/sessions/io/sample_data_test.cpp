@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Datasets outside of the repository: the folder named by BORESIGHT_DATA holds some, each in a
+// folder of its own with a dataset.json.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sessions/evaluation/pose_error.h"
+#include "sessions/io/dataset_file.h"
+
+namespace boresight::sessions {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> datasetFiles() {
+  std::vector<fs::path> files;
+  const char* folder = std::getenv("BORESIGHT_DATA");
+  if (folder == nullptr || !fs::is_directory(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (fs::is_regular_file(entry.path() / "dataset.json"))
+      files.push_back(entry.path() / "dataset.json");
+  return files;
+}
+
+TEST(SampleData, EveryDatasetCanBeReadWhole) {
+  const std::vector<fs::path> files = datasetFiles();
+  if (files.empty()) GTEST_SKIP() << "BORESIGHT_DATA names no folder with datasets";
+  for (const fs::path& file : files) {
+    const Dataset dataset = readDataset(file);
+    EXPECT_FALSE(dataset.cases.empty()) << file;
+    EXPECT_TRUE(dataset.notes.empty()) << dataset.notes.front();
+    requireFiles(dataset);
+    for (const auto& [id, station] : dataset.stations) {
+      const SceneMesh scene = readStationScene(station);
+      EXPECT_EQ(validateMesh(scene.view()), Status::kOk) << id;
+    }
+    std::set<fs::path> seen;
+    for (const Case& one : dataset.cases) {
+      if (!seen.insert(one.image).second) continue;
+      const GrayImage image = readCaseImage(dataset, one);
+      EXPECT_EQ(image.pixels.size(), static_cast<std::size_t>(image.width * image.height));
+    }
+  }
+}
+
+TEST(SampleData, TruthsLieWithinTheirSeedsUncertainty) {
+  const std::vector<fs::path> files = datasetFiles();
+  if (files.empty()) GTEST_SKIP() << "BORESIGHT_DATA names no folder with datasets";
+  for (const fs::path& file : files) {
+    const Dataset dataset = readDataset(file);
+    for (const auto& [id, station] : dataset.stations) {
+      const SceneMesh scene = readStationScene(station);
+      const Eigen::Vector3d centre_m = matchedBounds(scene.view()).centre();
+      for (const Case& one : dataset.cases) {
+        if (one.station != id || !one.truth_camera_from_station || !one.uncertainty) continue;
+        const Pose& seed = one.seed_camera_from_station;
+        EXPECT_EQ(scaleConcern(matchedBounds(scene.view()), seed), "") << one.id;
+        const SeedUncertainty bounds = seedUncertainty(*one.uncertainty, seed, centre_m);
+        const Vector6d offset =
+            offsetAboutPivot(seed, *one.truth_camera_from_station, bounds.pivot_in_camera_m);
+        for (int axis = 0; axis < 3; ++axis) {
+          EXPECT_LE(std::abs(offset[axis]), bounds.rotation_rad[axis]) << one.id;
+          EXPECT_LE(std::abs(offset[3 + axis]), bounds.translation_m[axis]) << one.id;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace boresight::sessions
