@@ -93,16 +93,18 @@ struct Solver {
     solution.rms_px = nan;
   }
 
-  Status begin(const PnpScene& scene, double threshold_px, const PnpOptions& options) {
+  Status begin(const PnpScene& scene, double threshold_px, const PnpOptions& options,
+               const PosePrior* anchor = nullptr) {
     const std::size_t count = scene.correspondences.size();
     solution.inlier = std::span(inlier).first(count);
     solution.residual_px = std::span(residual_px).first(count);
     return ransac.begin(scene.correspondences, scene.camera, scene.hypothesis, threshold_px,
-                        options, solution);
+                        options, solution, anchor);
   }
 
-  Status solve(const PnpScene& scene, double threshold_px, const PnpOptions& options) {
-    Status status = begin(scene, threshold_px, options);
+  Status solve(const PnpScene& scene, double threshold_px, const PnpOptions& options,
+               const PosePrior* anchor = nullptr) {
+    Status status = begin(scene, threshold_px, options, anchor);
     bool done = status != Status::kOk;
     while (!done) status = ransac.step(done);
     return status;
