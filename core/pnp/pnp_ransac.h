@@ -42,13 +42,12 @@ struct PnpSolution {
 ///   minimizes the squares, with the anchor's, over the very inliers it reports.
 ///
 /// Statuses (of `begin` or `step`): kInvalidOption (options, or a threshold that is not positive
-/// below 1e6), kInvalidCamera (not prepared), kInvalidPose (hypothesis or
-/// anchor), kCapacityExceeded (more
-/// correspondences than `create` or the solution's spans allow for), kTooFewPoints (fewer usable
-/// correspondences than min_inliers), kDegenerate (no sample gives a pose, or the inliers do not
-/// determine one), kNoConsensus (fewer than min_inliers inliers). On any of them the solution holds
-/// the hypothesis (identity when that is not usable) and no inliers; `residual_px` always is that
-/// of the pose in the solution.
+/// below 1e6), kInvalidCamera (not prepared), kInvalidPose (hypothesis or anchor),
+/// kCapacityExceeded (more correspondences than `create` or the solution's spans allow for),
+/// kTooFewPoints (fewer usable correspondences than min_inliers), kDegenerate (no sample gives a
+/// pose, or the inliers do not determine one), kNoConsensus (fewer than min_inliers inliers). On
+/// any of them the solution holds the hypothesis (identity when that is not usable) and no inliers;
+/// `residual_px` always is that of the pose in the solution.
 class PnpRansac {
  public:
   Status create(int max_correspondences, Arena& arena);
