@@ -253,6 +253,29 @@ std::optional<std::int64_t> gltfTriangles(const JsonReader& primitive,
   return mode == kTriangles ? count / 3 : std::max<std::int64_t>(0, count - 2);
 }
 
+/// The nodes must form trees (glTF 2.0, 3.5): an importer follows shared or circular children to
+/// the end of memory.
+void checkGltfNodes(const JsonReader& json) {
+  const auto nodes_json = json.find("nodes");
+  if (!nodes_json) return;
+  const std::vector<JsonReader> nodes = nodes_json->elements();
+  const auto last = static_cast<std::int64_t>(nodes.size()) - 1;
+  std::vector<bool> has_parent(nodes.size(), false);
+  for (const JsonReader& node : nodes)
+    if (const auto children = node.find("children"))
+      for (const JsonReader& child : children->elements()) {
+        const auto index = static_cast<std::size_t>(child.integer(0, last));
+        if (has_parent[index]) child.fail("the node has two parents");
+        has_parent[index] = true;
+      }
+  if (const auto scenes = json.find("scenes"))
+    for (const JsonReader& scene : scenes->elements())
+      if (const auto roots = scene.find("nodes"))
+        for (const JsonReader& root : roots->elements())
+          if (has_parent[static_cast<std::size_t>(root.integer(0, last))])
+            root.fail("the scene's root is another node's child");
+}
+
 /// Importers leave out faces with bad indices; the count that the file declares shows it.
 MeshDeclaration checkGltfJson(const std::filesystem::path& file, std::string_view text) {
   const JsonDocument document(file, text);
@@ -261,6 +284,7 @@ MeshDeclaration checkGltfJson(const std::filesystem::path& file, std::string_vie
   const auto accessors = json.find("accessors");
   const auto meshes = json.find("meshes");
   if (!accessors || !meshes) throw InputError(file, "the mesh has no faces");
+  checkGltfNodes(json);
   const std::vector<JsonReader> all_accessors = accessors->elements();
   std::int64_t triangles = 0;
   for (const JsonReader& mesh : meshes->elements())
