@@ -15,11 +15,26 @@ namespace {
 constexpr int kTangentBits = 15;
 constexpr std::int32_t kTangent22 = 13573;  ///< tan 22.5 deg * 2^15, rounded
 
-/// 64 bytes that are 0 or 1 to the bits of a word. One multiplication gathers eight of them; which
-/// one depends on the order in which the machine put the bytes into the word.
+/// One multiplication gathers eight bytes that are 0 or 1 into the uppermost byte, the first byte
+/// in memory as the lowest bit; the factor depends on the order in which the machine reads bytes.
+constexpr std::uint64_t kGatherLittleEndian = 0x0102040810204080U;
+constexpr std::uint64_t kGatherBigEndian = 0x8040201008040201U;
+
+constexpr bool gathers(std::uint64_t factor, bool first_byte_is_lowest) {
+  for (std::uint64_t bits = 0; bits < 256; ++bits) {
+    std::uint64_t bytes = 0;
+    for (int i = 0; i < 8; ++i)
+      bytes |= ((bits >> i) & 1U) << (first_byte_is_lowest ? 8 * i : 56 - 8 * i);
+    if ((bytes * factor) >> 56 != bits) return false;
+  }
+  return true;
+}
+static_assert(gathers(kGatherLittleEndian, true) && gathers(kGatherBigEndian, false));
+
+/// 64 bytes that are 0 or 1 to the bits of a word.
 std::uint64_t packFlags(const std::uint8_t* flags) {
   constexpr std::uint64_t kGather =
-      std::endian::native == std::endian::little ? 0x0102040810204080U : 0x8040201008040201U;
+      std::endian::native == std::endian::little ? kGatherLittleEndian : kGatherBigEndian;
   std::uint64_t word = 0;
   for (int i = 0; i < 64; i += 8) {
     std::uint64_t eight = 0;

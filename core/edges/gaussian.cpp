@@ -118,13 +118,12 @@ void SmoothedRows::begin(int width, int height, double sigma_px, Arena& arena) {
   width_ = width;
   height_ = height;
   if (kernel_.radius == 0) return;
-  const int columns = roundUpToBlock(width);
+  const std::size_t columns = static_cast<std::size_t>(roundUpToBlock(width));
   ring_rows_ = 2 * kernel_.radius + 1;
-  ring_stride_ = columns;
-  ring_ = arena.allocate<std::uint8_t>(static_cast<std::size_t>(columns) *
-                                       static_cast<std::size_t>(ring_rows_));
-  high_ = arena.allocate<std::uint16_t>(static_cast<std::size_t>(columns + 2 * kMargin));
-  low_ = arena.allocate<std::uint16_t>(static_cast<std::size_t>(columns + 2 * kMargin));
+  ring_stride_ = static_cast<std::ptrdiff_t>(columns);
+  ring_ = arena.allocate<std::uint8_t>(columns * static_cast<std::size_t>(ring_rows_));
+  high_ = arena.allocate<std::uint16_t>(columns + 2 * std::size_t{kMargin});
+  low_ = arena.allocate<std::uint16_t>(columns + 2 * std::size_t{kMargin});
 }
 
 void SmoothedRows::row(int y, const Equalizer& source, std::uint8_t* out) {

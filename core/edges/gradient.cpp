@@ -104,7 +104,7 @@ void GradientRows::begin(int width, int height, int aperture_px, bool l2_gradien
   l2_ = l2_gradient;
   columns_ = roundUpToBlock(width);
   const std::size_t columns = static_cast<std::size_t>(columns_);
-  const std::size_t padded = columns + 2 * kMargin;
+  const std::size_t padded = columns + 2 * std::size_t{kMargin};
   smoothed_ = arena.allocate<std::uint8_t>(padded * static_cast<std::size_t>(aperture_));
   dx_ = arena.allocate<std::int16_t>(columns * kRing);
   dy_ = arena.allocate<std::int16_t>(columns * kRing);

@@ -32,7 +32,8 @@ class GradientRows {
 
  private:
   static constexpr int kRing = 3;
-  static constexpr int kMargin = 16;  ///< on both sides, so that blocks may reach over the border
+  static constexpr std::ptrdiff_t kMargin =
+      16;  ///< on both sides, so that blocks may reach over the border
 
   std::uint8_t* smoothedRow(int y) {
     return smoothed_.data() + (columns_ + 2 * kMargin) * (y % aperture_) + kMargin;

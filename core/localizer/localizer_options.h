@@ -31,7 +31,11 @@ struct LoopOptions {
   double converged_translation_m = 0.0005;
   double converged_rotation_rad = 0.00872664625997;  ///< 0.5 deg
   std::int32_t converged_iterations = 2;
+  double converged_image_px = 0.25;
   double leave_factor = 1.1;
+  bool anchored = true;
+  double match_sigma_px = 1.0;
+  double match_inflation = 4.0;
   std::int32_t second_peak_exclusion_px = 6;
   bool subpixel_matches = true;
 
@@ -81,6 +85,20 @@ struct LoopOptions {
     visit(OptionInfo{"loop.converged_iterations", "", 1, 10,
                      "So many small corrections in a row end the run."},
           self.converged_iterations);
+    visit(OptionInfo{"loop.converged_image_px", "px", 0.0, 100.0,
+                     "A correction that moves the scene's box by less in the image is small, too."},
+          self.converged_image_px);
+    visit(
+        OptionInfo{
+            "loop.anchored", "", 0, 1,
+            "The seed's uncertainty holds what the image leaves open, and pulls early poses back."},
+        self.anchored);
+    visit(OptionInfo{"loop.match_sigma_px", "px", 0.01, 100.0,
+                     "Standard deviation of a right match, in pixels of its level."},
+          self.match_sigma_px);
+    visit(OptionInfo{"loop.match_inflation", "", 1.0, 1e6,
+                     "Factor on the matched pose's covariance when the refinement starts from it."},
+          self.match_inflation);
     visit(OptionInfo{"loop.leave_factor", "", 1.0, 10.0,
                      "A pose beyond this multiple of the seed's uncertainty ends the run."},
           self.leave_factor);

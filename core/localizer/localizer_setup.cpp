@@ -66,15 +66,21 @@ LocalizerOptions paperProfile() {
   options.loop.coarse_size_px = 16384;
   options.loop.max_rolled_hypotheses = 1;
   options.loop.correction_point = CorrectionPoint::kCamera;
+  options.loop.converged_image_px = 0.0;
+  options.loop.anchored = false;
   options.refinement.enabled = false;
   options.support.gate = false;
   return options;
 }
 
 ProblemSize sizeOf(const LocalizationProblem& problem) {
-  return {problem.image.width, problem.image.height,
+  return {problem.image.width,
+          problem.image.height,
           static_cast<int>(problem.mesh.vertices_in_station_m.size()),
-          static_cast<int>(problem.mesh.faces.size()), problem.ignore != nullptr};
+          static_cast<int>(problem.mesh.faces.size()),
+          static_cast<int>(problem.mesh.parts.size()),
+          problem.camera.model,
+          problem.ignore != nullptr};
 }
 
 namespace {
@@ -103,12 +109,25 @@ Iteration createIteration(int width, int height, const LocalizerOptions& options
   return iteration;
 }
 
+/// Any camera of that model and size, for counting.
+Camera placeholderCamera(const ProblemSize& size) {
+  Camera camera;
+  camera.model = size.model;
+  camera.width = size.width;
+  camera.height = size.height;
+  camera.fx = camera.fy = std::max(size.width, size.height);
+  camera.cx = 0.5 * size.width;
+  camera.cy = 0.5 * size.height;
+  return camera;
+}
+
 /// A mesh of the right size with nothing in it, for counting.
 MeshView placeholderMesh(const ProblemSize& size) {
   MeshView mesh;
   mesh.vertices_in_station_m = {static_cast<const Eigen::Vector3f*>(nullptr),
                                 static_cast<std::size_t>(size.vertices)};
   mesh.faces = {static_cast<const Face*>(nullptr), static_cast<std::size_t>(size.faces)};
+  mesh.parts = {static_cast<const ScenePart*>(nullptr), static_cast<std::size_t>(size.parts)};
   return mesh;
 }
 
@@ -154,6 +173,8 @@ void Localizer::begin() {
   workspace_.camera_from_station = problem_.camera_from_station_seed;
   camera_from_station_ = problem_.camera_from_station_seed;
   covariance_ = Matrix6d::Zero();
+  // A uniform distribution's standard deviation is its half-width over the square root of 3.
+  anchor_ = {problem_.camera_from_station_seed, scaled(problem_.uncertainty, 0.57735026918962576)};
   stage_ = Stage::kEdges;
   stage_begun_ = false;
   iteration_pending_ = false;
@@ -172,10 +193,10 @@ Status Localizer::requiredBytes(const ProblemSize& size, const LocalizerOptions&
   LocalizationProblem problem;
   problem.image.width = size.width;
   problem.image.height = size.height;
-  problem.camera.width = size.width;
-  problem.camera.height = size.height;
+  problem.camera = placeholderCamera(size);
   problem.mesh = placeholderMesh(size);
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
+  if (prepareCamera(problem.camera) != Status::kOk) return Status::kInvalidCamera;
   Localizer counter(problem, options, {});
   counter.arena_ = Arena();
   const Status status = counter.build(size);

@@ -24,6 +24,8 @@ struct ProblemSize {
   int height = 0;
   int vertices = 0;
   int faces = 0;
+  int parts = 1;
+  CameraModel model = CameraModel::kPinhole;
   bool ignore = false;
 };
 ProblemSize sizeOf(const LocalizationProblem& problem);

@@ -84,6 +84,7 @@ struct Iteration {
   Pose camera_from_station;  ///< after
   double correction_translation_m = 0.0;
   double correction_rotation_rad = 0.0;
+  double correction_image_px = 0.0;  ///< mean over the corners of the scene's box
   LocalizationStatus status = LocalizationStatus::kRunning;
 };
 

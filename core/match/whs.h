@@ -7,58 +7,24 @@
 #include "core/base/arena.h"
 #include "core/base/image.h"
 #include "core/base/status.h"
+#include "core/match/bit_counters.h"
+#include "core/match/edge_pixels.h"
+#include "core/match/mask_counts.h"
+#include "core/match/peak_table.h"
 #include "core/match/search_window.h"
+#include "core/match/test_band.h"
+#include "core/match/whs_types.h"
 
 namespace boresight {
 
-/// S+ and S- of Pham 2025, Eqs. 1-3: template edge pixels that meet a test edge, and masked-in
-/// template non-edge pixels that meet none.
-struct WhsCounts {
-  std::int32_t edge_hits = 0;   ///< S+
-  std::int32_t empty_hits = 0;  ///< S-
-  bool operator==(const WhsCounts&) const = default;
-};
-
-/// c+ and c-: masked-in edge and non-edge pixels of a template.
-struct WhsNorms {
-  std::int32_t edges = 0;
-  std::int32_t empties = 0;
-};
-
-/// The integer in which offsets are compared: S+ * max(c-, 1) + S- * max(c+, 1).
-inline std::int64_t whsComparable(const WhsCounts& counts, const WhsNorms& norms) {
-  const std::int64_t c_plus = norms.edges > 1 ? norms.edges : 1;
-  const std::int64_t c_minus = norms.empties > 1 ? norms.empties : 1;
-  return counts.edge_hits * c_minus + counts.empty_hits * c_plus;
-}
-
 /// S in [0, 2] for people: S+ / c+ + S- / c-, a term whose count is 0 being 0.
 double whsScore(const WhsCounts& counts, const WhsNorms& norms);
-
-/// A square of the render, side `side_px` (even), centred at (center_x, center_y): it spans
-/// center - side/2 ... center + side/2 - 1 and lies wholly inside the render. Bits are not copied.
-struct TemplateView {
-  const BitImage* edges = nullptr;
-  const BitImage* mask = nullptr;
-  int center_x = 0;
-  int center_y = 0;
-  int side_px = 0;
-};
 
 WhsNorms whsNorms(const TemplateView& view);
 
 /// Counts with the template's centre at (x, y) of the test edges; the whole template must lie
 /// inside.
 WhsCounts whsCountsAt(const TemplateView& view, const BitImage& test_edges, int x, int y);
-
-/// Result of searching a window.
-struct WhsPeak {
-  int x = 0, y = 0;  ///< best place of the template's centre
-  WhsCounts counts;
-  int second_x = 0, second_y = 0;  ///< best place outside the exclusion square around the best
-  WhsCounts second_counts;
-  bool has_second = false;
-};
 
 /// Searches a window for the best offset. Ties go to the smallest squared distance from the
 /// predicted place (the template's own centre, or as given), then to raster order. The second best
@@ -80,9 +46,33 @@ class WhsSearch {
   const WhsNorms& norms() const { return norms_; }
 
  private:
+  void beginTile();
+  void beginRow();
+  void countEdges();
+  void searchRow();
+  void searchWord(int word, std::uint64_t candidates);
+  bool nextRow();
+
   WhsPeak peak_;
   WhsNorms norms_;
-  // (the implementer of this stage fills this in)
+  TemplateView view_;
+  const BitImage* test_edges_ = nullptr;
+  SearchWindow window_;
+  bool done_ = true;
+  int max_side_px_ = 0, max_window_px_ = 0;
+
+  EdgePixels edges_;
+  MaskCounts covered_;
+  PeakTable peaks_;
+  TestBand band_;
+  CounterRow phase_;               ///< S+ of the edge pixels of one bit position within a byte
+  CounterRow hits_;                ///< S+ of a row of offsets
+  bool edges_are_listed_ = false;  ///< all at once; else some rows at a time
+
+  // A window is searched in tiles of columns, a tile in bands of rows, so that the band of test
+  // edges stays in the cache; the place where the search stands:
+  int tile_x_ = 0, tile_width_ = 0;  ///< relative to the window
+  int row_ = 0;                      ///< row of offsets, relative to the window
 };
 
 /// Sub-pixel place of the peak: one parabola per axis through the comparable scores at the peak and

@@ -52,10 +52,12 @@ class PnpRansac {
   Status create(int max_correspondences, Arena& arena);
   /// `hypothesis` is where guided samples start and what their prior is about (sigma = uncertainty
   /// times prior_factor). Spans in `solution` must hold one entry per correspondence. The data must
-  /// outlive the steps.
+  /// outlive the steps. `anchor` is a Gaussian prior on the pose in all refits (what the matches
+  /// leave open stays near it), against the correspondences' sigma; it is not part of the
+  /// covariance.
   Status begin(std::span<const Correspondence> correspondences, const Camera& camera,
                const PosePrior& hypothesis, double threshold_px, const PnpOptions& options,
-               PnpSolution& solution);
+               PnpSolution& solution, const PosePrior* anchor = nullptr);
   /// One batch of samples, or the refinement; `done` when the solution is complete or a status
   /// other than kOk ended it.
   Status step(bool& done);
@@ -67,6 +69,7 @@ class PnpRansac {
     std::int32_t inliers = 0;
   };
 
+  const PosePrior* anchor() const { return anchored_ ? &anchor_ : nullptr; }
   Status validate(double threshold_px, const PosePrior& hypothesis) const;
   void listUsable();
   const Correspondence& usable(std::int32_t k) const;
@@ -81,6 +84,9 @@ class PnpRansac {
   bool selectInliers(const Pose& camera_from_station, std::int32_t& count);
   Status refine();
   void writeSolution(const Pose& camera_from_station, bool with_inliers);
+
+  bool anchored_ = false;
+  PosePrior anchor_;
 
   // Scratch, one entry per correspondence.
   std::span<std::int32_t> usable_;       ///< indices; the first usable_count_ are valid

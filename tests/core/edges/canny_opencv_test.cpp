@@ -22,7 +22,7 @@ constexpr Thresholds kThresholds[] = {{50, 150},   {20.7, 61.3},     {120, 40},
                                       {800, 2500}, {3000.2, 9000.9}, {9000, 40000}};
 
 int edgesDifferent(TestImage& image, int aperture_px, bool l2, const Thresholds& thresholds) {
-  TestArena arena;
+  TestArena arena(std::size_t{1} << 20);
   TestImage edges = blankImage(image.width, image.height);
   if (canny(image.view(), aperture_px, l2, thresholds.low, thresholds.high, *arena,
             edges.pixels.data(), edges.width) != Status::kOk ||
@@ -78,6 +78,7 @@ TEST(CannyLimits, FollowTheUnitsOfTheGradient) {
   EXPECT_EQ(cannyLimits(160.0, 335.9, 7, false).low, 10);
   EXPECT_EQ(cannyLimits(160.0, 335.9, 7, false).high, 20);
   EXPECT_EQ(cannyLimits(0.0, 100000.0, 3, true).high, 32767 * 32767);
+  EXPECT_EQ(cannyLimits(90000.0, 100000.0, 3, true).low, 32767 * 32767);
 }
 
 TEST(GradientRows, EqualsSobel) {

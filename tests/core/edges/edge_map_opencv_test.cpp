@@ -81,7 +81,7 @@ EdgeMap detect(const cv::Mat& image, const BitImage* ignore, const EdgeOptions& 
 }
 
 void expectSameAsOpenCv(const cv::Mat& image, const EdgeOptions& options) {
-  TestArena arena(std::size_t{24} << 20);
+  TestArena arena((std::size_t{1} << 20) + image.total());
   const EdgeMap map = detect(image, nullptr, options, arena);
   const cv::Mat smooth = smoothed(equalizedByOpenCv(image, options), options);
   cv::Mat expected;

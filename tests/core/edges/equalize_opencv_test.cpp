@@ -12,7 +12,7 @@ namespace {
 
 TestImage equalized(const TestImage& image, const BitImage* ignore, const EdgeOptions& options) {
   TestImage out = blankImage(image.width, image.height);
-  TestArena arena;
+  TestArena arena(std::size_t{1} << 18);
   EXPECT_EQ(equalizeImage(image.view(), ignore, options, *arena, out.pixels.data(), out.width),
             Status::kOk);
   EXPECT_EQ((*arena).used(), 0U);

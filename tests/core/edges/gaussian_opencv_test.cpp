@@ -27,6 +27,7 @@ TEST(GaussianKernel, SumsTo256AndFallsOff) {
   for (double sigma_px = 0.0; sigma_px <= 8.0; sigma_px += 0.01) {
     const GaussianKernel kernel = gaussianKernel(sigma_px);
     ASSERT_LE(kernel.radius, kMaxGaussianRadius);
+    EXPECT_EQ(kernel.radius, sigma_px > 0.0 ? (cvRound(6.0 * sigma_px + 1.0) | 1) / 2 : 0);
     int sum = kernel.weight[0];
     for (std::size_t i = 1; i < kernel.weight.size(); ++i) {
       sum += 2 * kernel.weight[i];

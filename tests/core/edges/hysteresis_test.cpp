@@ -87,10 +87,11 @@ TEST(Hysteresis, FillsRowsInBothDirections) {
   }
 }
 
-/// One line that winds through the whole image, the hardest shape for sweeps over rows.
+/// One line that winds through the whole image, the hardest shape for sweeps over rows, from either
+/// end: against the direction of the first sweep only the words beside a change are visited.
 TEST(Hysteresis, FollowsASerpentine) {
+  const int side = 257;
   for (const bool upright : {false, true}) {
-    const int side = 257;
     TestBits candidates(side, side);
     for (int major = 0; major < side; ++major) {
       for (int minor = 0; minor < side; ++minor) {
@@ -99,10 +100,12 @@ TEST(Hysteresis, FollowsASerpentine) {
         candidates->set(upright ? major : minor, upright ? minor : major);
       }
     }
-    TestBits edges(side, side);
-    edges->set(0, 0);
-    grow(*candidates, *edges, 1 << 20);
-    EXPECT_EQ(wordsOf(*edges), wordsOf(*candidates)) << upright;
+    for (const int seed : {0, side - 1}) {
+      TestBits edges(side, side);
+      edges->set(seed, seed);
+      grow(*candidates, *edges, 1 << 20);
+      EXPECT_EQ(wordsOf(*edges), wordsOf(*candidates)) << upright << " from " << seed;
+    }
   }
 }
 

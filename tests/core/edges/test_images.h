@@ -85,7 +85,7 @@ inline TestImage makeImage(Pattern pattern, Size size, Random& random) {
 /// An arena over its own memory.
 class TestArena {
  public:
-  explicit TestArena(std::size_t bytes = std::size_t{8} << 20)
+  explicit TestArena(std::size_t bytes = std::size_t{3} << 20)
       : memory_(bytes / sizeof(Unit) + 1), arena_(std::as_writable_bytes(std::span(memory_))) {}
   Arena& operator*() { return arena_; }
 

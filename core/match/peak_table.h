@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.h"
+#include "core/match/search_window.h"
+#include "core/match/whs_types.h"
+
+namespace boresight {
+
+/// Best offset of each 8x8 block of a window, and what offsets are still worth looking at.
+/// Offsets are compared by S+ max(c-, 1) + S- max(c+, 1) with S- = c- - C + S+, where C = corr(M,
+/// I); ties go to the smaller squared distance from the predicted place, then to raster order.
+///
+/// The second best depends on where the best ends up, which is known last. But take two offsets
+/// seen so far whose blocks are so far apart that no exclusion square touches both: wherever the
+/// best will be, one of the two stays eligible for the second place, so an offset below both of
+/// them can be neither. That is the bound below which offsets are dropped unseen.
+class PeakTable {
+ public:
+  static constexpr int kBlock = 8;
+
+  void create(int max_window_px, Arena& arena);
+  void begin(const SearchWindow& window, const WhsNorms& norms, int predicted_x, int predicted_y,
+             int exclusion_px);
+
+  /// An offset with fewer hits than this, and at least `least_covered` test edges under the mask,
+  /// cannot matter.
+  std::int32_t leastHits(std::int32_t least_covered) const;
+  /// Offset (x, y) relative to the window's corner, with S+ = `hits` and C = `covered`.
+  void offer(int x, int y, std::int32_t hits, std::int32_t covered);
+  WhsPeak finish() const;
+
+ private:
+  struct Offset {
+    int x = 0, y = 0;
+    std::int32_t hits = 0, covered = 0;
+    std::int64_t value = -1;
+  };
+  std::int64_t value(std::int32_t hits, std::int32_t covered) const;
+  std::int64_t squaredDistance(const Offset& offset) const;
+  bool isBetter(const Offset& a, const Offset& b) const;
+  bool farApart(const Offset& a, const Offset& b) const;
+  bool touchesExclusion(const Offset& offset, const Offset& best) const;
+  Offset unpack(int block_x, int block_y, std::uint64_t packed) const;
+  void updateBound(const Offset& offset);
+
+  SearchWindow window_;
+  WhsNorms norms_;
+  std::int64_t hit_weight_ = 0, covered_weight_ = 0, constant_ = 0;
+  double hits_per_value_ = 0.0;
+  int predicted_x_ = 0, predicted_y_ = 0;  ///< relative to the window's corner
+  int exclusion_px_ = 0;
+  int blocks_x_ = 0, blocks_y_ = 0;
+  /// Per block hits + 2^19 covered + 2^38 place within the block + 2^44, or 0 when empty.
+  std::span<std::uint64_t> blocks_;
+  Offset best_;
+  Offset far_;  ///< the best seen far from the best (not always the very best: a bound needs less)
+  std::int64_t bound_ = 0;
+};
+
+}  // namespace boresight

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/match/search_window.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/match/rotation_bounds.h"
+
+namespace boresight {
+namespace {
+
+// Bounds loosen with the square of a box's width: wider boxes of rotations are cut.
+constexpr double kWidestRotation_rad = 0.2;
+constexpr int kMostPieces = 18;
+constexpr double kNearest_m = 1e-6;
+
+/// The directions q = (x/z, y/z) with normal.q <= bound.
+struct HalfPlane {
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+  double bound = 0.0;
+};
+
+/// Bounds of the directions of a point: the first four half planes are x/z <=, y/z <=, -x/z <=,
+/// -y/z <=; where lenses distort, the rest cut the corners of that rectangle.
+struct DirectionBounds {
+  static constexpr int kMost = 12;
+  std::array<HalfPlane, kMost> half_planes;
+  std::size_t count = 0;
+
+  void add(const Eigen::Vector2d& normal, const Eigen::Vector2d& inside) {
+    half_planes[count++] = {normal, normal.dot(inside)};
+  }
+};
+
+struct PixelBounds {
+  Eigen::Vector2d low = Eigen::Vector2d::Zero();
+  Eigen::Vector2d high = Eigen::Vector2d::Zero();
+};
+
+bool isUsable(const Eigen::Vector3d& point, const SeedUncertainty& uncertainty) {
+  for (int i = 0; i < 3; ++i) {
+    const double translation = uncertainty.translation_m[i];
+    const double rotation = uncertainty.rotation_rad[i];
+    if (!isFinite(point[i]) || !isFinite(uncertainty.pivot_in_camera_m[i])) return false;
+    if (!(translation >= 0.0) || !isFinite(translation)) return false;
+    if (!(rotation >= 0.0) || rotation > kPi) return false;
+  }
+  return point.z() > 0.0;
+}
+
+/// The places p' = R d + c + t of a point for the rotations of a box and |t_i| <= translation_i.
+class PlaceBounds {
+ public:
+  PlaceBounds(const RotationBounds& rotated, const SeedUncertainty& uncertainty)
+      : rotated_(rotated),
+        c_(uncertainty.pivot_in_camera_m),
+        translation_m_(uncertainty.translation_m) {
+    Eigen::Vector3d point;
+    double excess = 0.0;
+    const double nearest = rotated_.upper({0.0, 0.0, -1.0}, point, excess);
+    least_z_m_ = c_.z() - translation_m_.z() - nearest - rotated_.excessPerUnitOfZ();
+  }
+
+  /// Positive when all places lie in front of the camera.
+  double leastZ() const { return least_z_m_; }
+
+  /// The least k >= `start` found such that (normal.p'_xy) / p'_z <= k at all places.
+  /// That is F(k) <= 0 for F(k) = max (normal, -k).p', which is convex and falls with a slope of at
+  /// least the least z: Newton's method comes from below, and the last step, with the least slope,
+  /// ends above.
+  double largestRatio(const Eigen::Vector2d& normal, double start) const {
+    constexpr int kNewtonSteps = 3;
+    const double translation =
+        std::abs(normal.x()) * translation_m_.x() + std::abs(normal.y()) * translation_m_.y();
+    double k = start;
+    for (int step = 0; step <= kNewtonSteps; ++step) {
+      const Eigen::Vector3d n(normal.x(), normal.y(), -k);
+      Eigen::Vector3d point;
+      double excess = 0.0;
+      const double value = rotated_.upper(n, point, excess) + n.dot(c_) + translation +
+                           std::abs(k) * translation_m_.z();
+      if (value <= 0.0) return k;
+      const double z = point.z() + c_.z() - (k < 0.0 ? -1.0 : 1.0) * translation_m_.z();
+      k += value / (step < kNewtonSteps ? z : least_z_m_);
+    }
+    return k;
+  }
+
+ private:
+  const RotationBounds& rotated_;
+  const Eigen::Vector3d& c_;
+  const Eigen::Vector3d& translation_m_;
+  double least_z_m_ = 0.0;
+};
+
+int piecesFor(double rotation_rad) {
+  const double pieces = std::floor(2.0 * rotation_rad / kWidestRotation_rad) + 1.0;
+  return static_cast<int>(std::clamp(pieces, 1.0, static_cast<double>(kMostPieces)));
+}
+
+/// Half planes across the diagonals, and along and across the radius: the further from the axis,
+/// the more the places spread along it, and lenses bend rectangles.
+void addOblique(const Eigen::Vector2d& inside, DirectionBounds& bounds) {
+  constexpr double kLeastRadius = 0.1;
+  for (const double sign : {-1.0, 1.0}) {
+    bounds.add({sign, 1.0}, inside);
+    bounds.add({sign, -1.0}, inside);
+    if (inside.squaredNorm() < kLeastRadius * kLeastRadius) continue;
+    bounds.add(sign * inside, inside);
+    bounds.add({sign * inside.y(), -sign * inside.x()}, inside);
+  }
+}
+
+/// Loosens the bounds until they hold over the whole uncertainty; false when the point may come to
+/// lie behind the camera.
+bool boundDirections(const Eigen::Vector3d& point_in_camera_m, const SeedUncertainty& uncertainty,
+                     DirectionBounds& bounds) {
+  const Eigen::Vector3d d = point_in_camera_m - uncertainty.pivot_in_camera_m;
+  const Eigen::Vector3d& widest = uncertainty.rotation_rad;
+  const std::array<int, 3> pieces{piecesFor(widest[0]), piecesFor(widest[1]), piecesFor(widest[2])};
+  const auto corner = [&](int axis, int k) {
+    return widest[axis] * (2.0 * k / pieces[static_cast<std::size_t>(axis)] - 1.0);
+  };
+  for (int i = 0; i < pieces[0]; ++i) {
+    for (int j = 0; j < pieces[1]; ++j) {
+      for (int k = 0; k < pieces[2]; ++k) {
+        const RotationBounds rotated({corner(0, i), corner(1, j), corner(2, k)},
+                                     {corner(0, i + 1), corner(1, j + 1), corner(2, k + 1)}, d);
+        const PlaceBounds places(rotated, uncertainty);
+        if (places.leastZ() < kNearest_m) return false;
+        for (std::size_t h = 0; h < bounds.count; ++h) {
+          HalfPlane& half_plane = bounds.half_planes[h];
+          half_plane.bound = places.largestRatio(half_plane.normal, half_plane.bound);
+        }
+      }
+    }
+  }
+  return true;
+}
+
+/// A convex polygon of directions, in order.
+struct Polygon {
+  std::array<Eigen::Vector2d, DirectionBounds::kMost + 1> corners;
+  std::size_t count = 0;
+
+  void add(const Eigen::Vector2d& corner) {
+    if (count < corners.size()) corners[count++] = corner;
+  }
+};
+
+/// The part of a convex polygon inside a half plane (Sutherland and Hodgman).
+Polygon clipped(const Polygon& polygon, const HalfPlane& half_plane) {
+  Polygon result;
+  for (std::size_t k = 0; k < polygon.count; ++k) {
+    const Eigen::Vector2d& from = polygon.corners[k];
+    const Eigen::Vector2d& to = polygon.corners[(k + 1) % polygon.count];
+    const double before = half_plane.normal.dot(from) - half_plane.bound;
+    const double after = half_plane.normal.dot(to) - half_plane.bound;
+    if (before <= 0.0) result.add(from);
+    if ((before < 0.0 && after > 0.0) || (before > 0.0 && after < 0.0)) {
+      result.add(from + before / (before - after) * (to - from));
+    }
+  }
+  return result;
+}
+
+Polygon polygonOf(const DirectionBounds& bounds) {
+  const auto& h = bounds.half_planes;
+  Polygon polygon;
+  polygon.add({-h[2].bound, -h[3].bound});
+  polygon.add({h[0].bound, -h[3].bound});
+  polygon.add({h[0].bound, h[1].bound});
+  polygon.add({-h[2].bound, h[1].bound});
+  for (std::size_t k = 4; k < bounds.count; ++k) polygon = clipped(polygon, h[k]);
+  return polygon;
+}
+
+/// Pixel of a direction; where the camera cannot see it, of the last direction towards it from
+/// `inside` (which the camera sees) that it can. Along the border of a polygon that pulls the part
+/// outside the valid field in to the field's border.
+Eigen::Vector2d pixelTowards(const Camera& camera, const Eigen::Vector2d& inside,
+                             const Eigen::Vector2d& direction, bool& pulled_in) {
+  constexpr int kBisections = 20;
+  Eigen::Vector2d pixel;
+  if (project(camera, {direction.x(), direction.y(), 1.0}, pixel)) return pixel;
+  pulled_in = true;
+  double low = 0.0, high = 1.0;
+  for (int k = 0; k < kBisections; ++k) {
+    const double middle = 0.5 * (low + high);
+    const Eigen::Vector2d tried = inside + middle * (direction - inside);
+    (project(camera, {tried.x(), tried.y(), 1.0}, pixel) ? low : high) = middle;
+  }
+  const Eigen::Vector2d last = inside + low * (direction - inside);
+  if (!project(camera, {last.x(), last.y(), 1.0}, pixel)) {
+    pixel = {camera.cx, camera.cy};  // `inside` itself cannot be seen: excluded by the caller
+  }
+  return pixel;
+}
+
+/// Extends `pixels` by the image of one side of a polygon of directions. Between samples the image
+/// bends away from its chord by an eighth of the second difference, for smooth distortion; twice
+/// that is allowed for where the extreme may lie between samples, and the whole distance between
+/// samples where the side leaves the valid field.
+void extendBySide(const Camera& camera, const Eigen::Vector2d& inside, const Eigen::Vector2d& from,
+                  const Eigen::Vector2d& to, PixelBounds& pixels) {
+  constexpr std::size_t kSegments = 4;
+  std::array<Eigen::Vector2d, kSegments + 1> samples;
+  bool pulled_in = false;
+  for (std::size_t k = 0; k <= kSegments; ++k) {
+    const double share = static_cast<double>(k) / static_cast<double>(kSegments);
+    samples[k] = pixelTowards(camera, inside, from + share * (to - from), pulled_in);
+    pixels.low = pixels.low.cwiseMin(samples[k]);
+    pixels.high = pixels.high.cwiseMax(samples[k]);
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    double bend = 0.0;
+    for (std::size_t k = 1; k < kSegments; ++k) {
+      bend = std::max(
+          bend, std::abs(samples[k - 1][axis] - 2.0 * samples[k][axis] + samples[k + 1][axis]));
+    }
+    for (std::size_t k = 1; k <= kSegments; ++k) {
+      const double change = std::abs(samples[k][axis] - samples[k - 1][axis]);
+      double slack = change < bend ? 0.25 * bend : 0.0;
+      if (pulled_in) slack = change;
+      pixels.low[axis] =
+          std::min(pixels.low[axis], std::min(samples[k - 1][axis], samples[k][axis]) - slack);
+      pixels.high[axis] =
+          std::max(pixels.high[axis], std::max(samples[k - 1][axis], samples[k][axis]) + slack);
+    }
+  }
+}
+
+/// Bounds of the pixels of a point. The Jacobian of every distortion model is positive definite in
+/// the valid field, so x grows with x/z, y with y/z: extremes lie on the sides of the polygon.
+bool boundPixels(const Camera& camera, const Eigen::Vector3d& point_in_camera_m,
+                 const SeedUncertainty& uncertainty, PixelBounds& pixels) {
+  if (!project(camera, point_in_camera_m, pixels.low)) return false;
+  pixels.high = pixels.low;
+  const Eigen::Vector2d inside = point_in_camera_m.head<2>() / point_in_camera_m.z();
+  DirectionBounds bounds;
+  bounds.add({1.0, 0.0}, inside);
+  bounds.add({0.0, 1.0}, inside);
+  bounds.add({-1.0, 0.0}, inside);
+  bounds.add({0.0, -1.0}, inside);
+  if (camera.model == CameraModel::kPinhole) {
+    if (!boundDirections(point_in_camera_m, uncertainty, bounds)) return false;
+    const auto& h = bounds.half_planes;
+    pixels.high = {camera.fx * h[0].bound + camera.cx, camera.fy * h[1].bound + camera.cy};
+    pixels.low = {camera.cx - camera.fx * h[2].bound, camera.cy - camera.fy * h[3].bound};
+    return true;
+  }
+  addOblique(inside, bounds);
+  if (!boundDirections(point_in_camera_m, uncertainty, bounds)) return false;
+  const Polygon polygon = polygonOf(bounds);
+  for (std::size_t k = 0; k < polygon.count; ++k) {
+    extendBySide(camera, inside, polygon.corners[k], polygon.corners[(k + 1) % polygon.count],
+                 pixels);
+  }
+  return true;
+}
+
+int floorWithin(double value, int low, int high) {
+  return static_cast<int>(
+      std::floor(std::clamp(value, static_cast<double>(low), static_cast<double>(high))));
+}
+
+}  // namespace
+
+SearchWindow searchWindow(const Camera& camera, const Eigen::Vector3d& point_in_camera_m,
+                          const SeedUncertainty& uncertainty, int template_side_px) {
+  constexpr double kRounding_px = 1e-6;
+  const int half = template_side_px / 2;
+  if (half < 1 || !isUsable(point_in_camera_m, uncertainty)) return {};
+  if (camera.width < template_side_px || camera.height < template_side_px) return {};
+  PixelBounds pixels;
+  if (!boundPixels(camera, point_in_camera_m, uncertainty, pixels)) return {};
+
+  // Rounded outwards, so that the window holds the pixels on both sides of every place; one pixel
+  // beyond the clipped range tells that a bound is outside.
+  SearchWindow window;
+  window.x_min = floorWithin(pixels.low.x() - kRounding_px, -1, camera.width + 1);
+  window.y_min = floorWithin(pixels.low.y() - kRounding_px, -1, camera.height + 1);
+  window.x_max = floorWithin(pixels.high.x() + kRounding_px, -2, camera.width + 1) + 1;
+  window.y_max = floorWithin(pixels.high.y() + kRounding_px, -2, camera.height + 1) + 1;
+  window.x_min = std::max(window.x_min, half);
+  window.y_min = std::max(window.y_min, half);
+  window.x_max = std::min(window.x_max, camera.width - half);
+  window.y_max = std::min(window.y_max, camera.height - half);
+  return window.empty() ? SearchWindow{} : window;
+}
+
+}  // namespace boresight

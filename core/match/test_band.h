@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.h"
+#include "core/base/image.h"
+
+namespace boresight {
+
+/// The rows of test edges that a band of offsets looks at, copied so that the first offset's column
+/// is bit 0, rows are byte ordered (see byteOrdered) and reading beyond a row's end finds zeros.
+/// Small enough to stay in the first-level cache for usual templates.
+class TestBand {
+ public:
+  static constexpr int kOffsetRows = 32;  ///< rows of offsets a band serves
+
+  /// Takes the memory for templates of up to `max_side` px and `max_words` words of offsets a row.
+  void create(int max_side, int max_words, Arena& arena);
+  /// Sets the layout: a row holds `side` + 64 * `words` pixels and slack.
+  void shape(int side, int words);
+  /// Copies rows y ... y + side + kOffsetRows - 1 from column x on; rows below the image are zero.
+  void load(const BitImage& test_edges, int x, int y);
+
+  /// First byte of row `row` of the band.
+  const std::uint8_t* row(int row) const { return bytes_.data() + stride_ * row; }
+  int stride() const { return stride_; }
+  /// Byte offset, relative to any row of offsets, of zeros to pad lists of pixels with.
+  int zeroOffset() const { return stride_ * (side_ + kOffsetRows); }
+
+ private:
+  std::span<std::uint8_t> bytes_;
+  int stride_ = 0;
+  int side_ = 0;
+};
+
+}  // namespace boresight

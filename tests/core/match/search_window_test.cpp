@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/match/search_window.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/base/math.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
+#include "tests/core/match/match_support.h"
+
+namespace boresight {
+namespace {
+
+using test::Dice;
+
+Camera prepared(Camera camera) {
+  EXPECT_EQ(prepareCamera(camera), Status::kOk);
+  return camera;
+}
+
+Camera pinhole() {
+  Camera camera;
+  camera.width = camera.height = 2048;
+  camera.fx = camera.fy = 3100.0;
+  camera.cx = camera.cy = 1023.5;
+  return prepared(camera);
+}
+
+Camera brownConrady() {
+  Camera camera = pinhole();
+  camera.model = CameraModel::kBrownConrady;
+  camera.distortion = {-0.25, 0.12, 0.0008, -0.0006, -0.03};
+  camera.fx = 1500.0;
+  camera.fy = 1480.0;
+  return prepared(camera);
+}
+
+/// Sees a disc in the middle of its image only: beyond it the distortion folds back.
+Camera narrowField() {
+  Camera camera = pinhole();
+  camera.model = CameraModel::kBrownConrady;
+  camera.distortion = {-0.3};
+  camera.fx = camera.fy = 700.0;
+  return prepared(camera);
+}
+
+Camera rational() {
+  Camera camera = brownConrady();
+  camera.distortion = {6.1, 3.2, 0.0003, 0.0002, 0.15, 6.4, 4.6, 0.7};
+  return prepared(camera);
+}
+
+Camera fisheye() {
+  Camera camera = pinhole();
+  camera.model = CameraModel::kKannalaBrandt;
+  camera.distortion = {-0.02, 0.006, -0.003, 0.0004};
+  camera.fx = camera.fy = 700.0;
+  return prepared(camera);
+}
+
+SeedUncertainty uncertaintyOf(double translation_m, const Eigen::Vector3d& rotation_deg,
+                              const Eigen::Vector3d& pivot_in_camera_m) {
+  SeedUncertainty uncertainty;
+  uncertainty.translation_m.setConstant(translation_m);
+  uncertainty.rotation_rad = rotation_deg * kDegree_rad;
+  uncertainty.pivot_in_camera_m = pivot_in_camera_m;
+  return uncertainty;
+}
+
+/// Anywhere in +-half, half of the time at one of its ends.
+double inBox(double half, Dice& dice) {
+  const int kind = dice.below(4);
+  if (kind == 0) return half;
+  if (kind == 1) return -half;
+  return dice.uniform(-half, half);
+}
+
+Eigen::Vector3d displaced(const Eigen::Vector3d& point, const SeedUncertainty& uncertainty,
+                          Dice& dice) {
+  Eigen::Vector3d r, t;
+  for (int i = 0; i < 3; ++i) {
+    r[i] = inBox(uncertainty.rotation_rad[i], dice);
+    t[i] = inBox(uncertainty.translation_m[i], dice);
+  }
+  const Eigen::Vector3d& c = uncertainty.pivot_in_camera_m;
+  return rotationExp(r) * (point - c) + c + t;
+}
+
+struct Tally {
+  long inside_image = 0, outside_window = 0;
+  double ratio_sum = 0.0, ratio_max = 0.0;
+  int ratios = 0;
+};
+
+/// Projects `samples` displaced points; counts those that the window misses although their
+/// template lies inside the image, and compares areas where the window is not clipped.
+void sample(const Camera& camera, const Eigen::Vector3d& point, const SeedUncertainty& uncertainty,
+            int samples, Dice& dice, Tally& tally) {
+  constexpr int kSide = 8;
+  const SearchWindow window = searchWindow(camera, point, uncertainty, kSide);
+  double x_min = 1e9, y_min = 1e9, x_max = -1e9, y_max = -1e9;
+  for (int k = 0; k < samples; ++k) {
+    Eigen::Vector2d pixel;
+    if (!project(camera, displaced(point, uncertainty, dice), pixel)) continue;
+    x_min = std::min(x_min, pixel.x());
+    y_min = std::min(y_min, pixel.y());
+    x_max = std::max(x_max, pixel.x());
+    y_max = std::max(y_max, pixel.y());
+    const int half = kSide / 2;
+    if (pixel.x() < half || pixel.y() < half || pixel.x() > camera.width - half ||
+        pixel.y() > camera.height - half) {
+      continue;
+    }
+    ++tally.inside_image;
+    if (pixel.x() < window.x_min || pixel.x() > window.x_max || pixel.y() < window.y_min ||
+        pixel.y() > window.y_max) {
+      ++tally.outside_window;
+    }
+  }
+  const bool clipped = window.x_min <= kSide / 2 || window.y_min <= kSide / 2 ||
+                       window.x_max >= camera.width - kSide / 2 ||
+                       window.y_max >= camera.height - kSide / 2;
+  if (clipped || window.empty()) return;
+  const double area = static_cast<double>(window.width()) * window.height();
+  const double least =
+      (std::ceil(x_max) - std::floor(x_min) + 1.0) * (std::ceil(y_max) - std::floor(y_min) + 1.0);
+  tally.ratio_sum += area / least;
+  tally.ratio_max = std::max(tally.ratio_max, area / least);
+  ++tally.ratios;
+}
+
+/// A point that the camera sees, 0.3 ... 0.6 m away.
+Eigen::Vector3d visiblePoint(const Camera& camera, double margin_px, Dice& dice) {
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    const Eigen::Vector2d pixel(dice.uniform(margin_px, camera.width - 1 - margin_px),
+                                dice.uniform(margin_px, camera.height - 1 - margin_px));
+    Eigen::Vector3d ray;
+    if (unproject(camera, pixel, ray) && ray.head<2>().norm() < 1.5) {
+      return ray * dice.uniform(0.3, 0.6);
+    }
+  }
+  ADD_FAILURE() << "the camera sees nothing";
+  return {0.0, 0.0, 0.5};
+}
+
+struct Setting {
+  std::string name;
+  Camera camera;
+  Eigen::Vector3d rotation_deg;
+  double translation_m;
+  double margin_px;
+  double largest_mean_ratio;
+};
+
+class SearchWindowOf : public testing::TestWithParam<int> {
+ public:
+  static std::vector<Setting> all() {
+    const Eigen::Vector3d usual(5.0, 5.0, 5.0), tube(5.5, 5.5, 40.0), wide(20.0, 15.0, 25.0);
+    const Eigen::Vector3d small(1.25, 1.25, 1.25);
+    return {{"pinhole", pinhole(), usual, 0.03, 600.0, 1.05},
+            {"brownConrady", brownConrady(), usual, 0.03, 100.0, 1.15},
+            {"rational", rational(), usual, 0.03, 100.0, 1.15},
+            {"fisheye", fisheye(), usual, 0.03, 300.0, 1.25},
+            {"pinholeSmall", pinhole(), small, 0.0075, 200.0, 1.05},
+            {"pinholeTube", pinhole(), tube, 0.02, 600.0, 1.15},
+            {"brownConradyTube", brownConrady(), tube, 0.02, 300.0, 1.2},
+            {"fisheyeWide", fisheye(), wide, 0.03, 500.0, 1.4},
+            {"narrowField", narrowField(), usual, 0.03, 5.0, 1.25}};
+  }
+};
+
+TEST_P(SearchWindowOf, ContainsEveryPlaceAndLittleMore) {
+  const Setting setting = SearchWindowOf::all()[static_cast<std::size_t>(GetParam())];
+  Dice dice;
+  Tally tally;
+  constexpr int kPoints = 100, kSamples = 1000;
+  double spent_s = 0.0;
+  for (int k = 0; k < kPoints; ++k) {
+    // Half of the points anywhere in the image, so that windows are clipped; pivots at the camera
+    // and at the station.
+    const double margin_px = k % 2 == 0 ? setting.margin_px : 5.0;
+    const Eigen::Vector3d point = visiblePoint(setting.camera, margin_px, dice);
+    const Eigen::Vector3d pivot =
+        k % 4 < 2 ? Eigen::Vector3d(0.0, 0.0, 0.0)
+                  : Eigen::Vector3d(dice.uniform(-0.05, 0.05), dice.uniform(-0.05, 0.05), 0.45);
+    const SeedUncertainty uncertainty =
+        uncertaintyOf(setting.translation_m, setting.rotation_deg, pivot);
+    sample(setting.camera, point, uncertainty, kSamples, dice, tally);
+    const auto start = std::chrono::steady_clock::now();
+    constexpr int kRepetitions = 20;
+    for (int repetition = 0; repetition < kRepetitions; ++repetition) {
+      (void)searchWindow(setting.camera, point, uncertainty, 64);  // timed only
+    }
+    spent_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
+               kRepetitions;
+  }
+  EXPECT_EQ(tally.outside_window, 0);
+  EXPECT_GT(tally.inside_image, kPoints * kSamples / 3);
+  ASSERT_GT(tally.ratios, 10);
+  const double mean_ratio = tally.ratio_sum / tally.ratios;
+  EXPECT_LT(mean_ratio, setting.largest_mean_ratio);
+  EXPECT_GE(mean_ratio, 1.0);
+  RecordProperty("mean_area_ratio", std::to_string(mean_ratio));
+  RecordProperty("largest_area_ratio", std::to_string(tally.ratio_max));
+  RecordProperty("microseconds", std::to_string(1e6 * spent_s / kPoints));
+  std::printf(
+      "%s: area beside the smallest rectangle of the samples %.3f mean, %.3f max; %.1f us\n",
+      setting.name.c_str(), mean_ratio, tally.ratio_max, 1e6 * spent_s / kPoints);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cameras, SearchWindowOf, testing::Range(0, 9), [](const testing::TestParamInfo<int>& setting) {
+      return SearchWindowOf::all()[static_cast<std::size_t>(setting.param)].name;
+    });
+
+TEST(SearchWindow, WithoutUncertaintyIsThePixelsAroundTheProjection) {
+  const SeedUncertainty none = uncertaintyOf(0.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  for (const Camera& camera : {pinhole(), brownConrady(), fisheye()}) {
+    const Eigen::Vector3d point(0.03, -0.05, 0.5);
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(project(camera, point, pixel));
+    const SearchWindow window = searchWindow(camera, point, none, 64);
+    EXPECT_EQ(window.x_min, std::floor(pixel.x()));
+    EXPECT_EQ(window.x_max, std::floor(pixel.x()) + 1);
+    EXPECT_EQ(window.y_min, std::floor(pixel.y()));
+    EXPECT_EQ(window.y_max, std::floor(pixel.y()) + 1);
+  }
+}
+
+TEST(SearchWindow, TranslationOfAPinholeIsExact) {
+  const Camera camera = pinhole();
+  SeedUncertainty uncertainty = uncertaintyOf(0.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  uncertainty.translation_m = {0.01, 0.02, 0.03};
+  const Eigen::Vector3d point(0.05, -0.04, 0.5);
+  const SearchWindow window = searchWindow(camera, point, uncertainty, 64);
+  EXPECT_EQ(window.x_max, std::floor(3100.0 * 0.06 / 0.47 + 1023.5) + 1);
+  EXPECT_EQ(window.x_min, std::floor(3100.0 * 0.04 / 0.53 + 1023.5));
+  EXPECT_EQ(window.y_min, std::floor(3100.0 * -0.06 / 0.47 + 1023.5));
+  EXPECT_EQ(window.y_max, std::floor(3100.0 * -0.02 / 0.53 + 1023.5) + 1);
+}
+
+TEST(SearchWindow, KeepsTheTemplateInsideTheImage) {
+  const Camera camera = pinhole();
+  const SeedUncertainty uncertainty = uncertaintyOf(0.03, {5.0, 5.0, 5.0}, {0.0, 0.0, 0.0});
+  const SearchWindow window = searchWindow(camera, {0.16, 0.16, 0.5}, uncertainty, 128);
+  EXPECT_EQ(window.x_max, 2048 - 64);
+  EXPECT_EQ(window.y_max, 2048 - 64);
+  EXPECT_FALSE(window.empty());
+  const SearchWindow corner = searchWindow(camera, {-0.16, -0.16, 0.5}, uncertainty, 128);
+  EXPECT_EQ(corner.x_min, 64);
+  EXPECT_EQ(corner.y_min, 64);
+  EXPECT_TRUE(searchWindow(camera, {1.0, 0.0, 0.5}, uncertainty, 128).empty());
+  EXPECT_TRUE(searchWindow(camera, {0.0, 0.0, 0.5}, uncertainty, 4096).empty());
+  const SearchWindow whole = searchWindow(camera, {0.0, 0.0, 0.5}, uncertainty, 2048);
+  EXPECT_EQ(whole.x_min, 1024);
+  EXPECT_EQ(whole.x_max, 1024);
+}
+
+TEST(SearchWindow, IsEmptyWhenThePointMayComeToLieBehindTheCamera) {
+  const Camera camera = pinhole();
+  const SeedUncertainty uncertainty = uncertaintyOf(0.03, {5.0, 5.0, 5.0}, {0.0, 0.0, 0.0});
+  EXPECT_TRUE(searchWindow(camera, {0.0, 0.0, 0.02}, uncertainty, 16).empty());
+  EXPECT_TRUE(searchWindow(camera, {0.0, 0.0, -0.5}, uncertainty, 16).empty());
+  EXPECT_FALSE(searchWindow(camera, {0.0, 0.0, 0.05}, uncertainty, 16).empty());
+  const SeedUncertainty any = uncertaintyOf(0.03, {180.0, 180.0, 180.0}, {0.0, 0.0, 0.0});
+  EXPECT_TRUE(searchWindow(camera, {0.0, 0.0, 0.5}, any, 16).empty());
+}
+
+TEST(SearchWindow, HoldsAnyRotationAboutAPivotInFront) {
+  // A point that may turn anywhere about a pivot half a metre away stays in front.
+  const Camera camera = pinhole();
+  const Eigen::Vector3d pivot(0.0, 0.0, 0.5), point(0.03, 0.0, 0.5);
+  const SeedUncertainty uncertainty = uncertaintyOf(0.0, {180.0, 180.0, 180.0}, pivot);
+  const SearchWindow window = searchWindow(camera, point, uncertainty, 16);
+  Dice dice;
+  Tally tally;
+  sample(camera, point, uncertainty, 20000, dice, tally);
+  EXPECT_EQ(tally.outside_window, 0);
+  EXPECT_EQ(tally.inside_image, 20000);
+  EXPECT_LT(window.width(), 2 * 300);
+}
+
+TEST(SearchWindow, IsEmptyForNonsense) {
+  const Camera camera = brownConrady();
+  const SeedUncertainty usual = uncertaintyOf(0.03, {5.0, 5.0, 5.0}, {0.0, 0.0, 0.0});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Eigen::Vector3d point(0.0, 0.0, 0.5);
+  ASSERT_FALSE(searchWindow(camera, point, usual, 16).empty());
+  EXPECT_TRUE(searchWindow(camera, {nan, 0.0, 0.5}, usual, 16).empty());
+  EXPECT_TRUE(searchWindow(camera, {0.0, 0.0, infinity}, usual, 16).empty());
+  EXPECT_TRUE(searchWindow(camera, point, usual, 0).empty());
+  EXPECT_TRUE(searchWindow(camera, point, usual, -16).empty());
+  for (const double bad : {nan, infinity, -0.01}) {
+    SeedUncertainty uncertainty = usual;
+    uncertainty.translation_m.y() = bad;
+    EXPECT_TRUE(searchWindow(camera, point, uncertainty, 16).empty());
+    uncertainty = usual;
+    uncertainty.rotation_rad.z() = bad;
+    EXPECT_TRUE(searchWindow(camera, point, uncertainty, 16).empty());
+  }
+  SeedUncertainty uncertainty = usual;
+  uncertainty.pivot_in_camera_m.x() = nan;
+  EXPECT_TRUE(searchWindow(camera, point, uncertainty, 16).empty());
+}
+
+}  // namespace
+}  // namespace boresight

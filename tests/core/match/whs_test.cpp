@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/match/whs.h"
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/match/whs_reference.h"
+#include "tests/core/match/match_support.h"
+
+namespace boresight {
+namespace {
+
+using test::Dice;
+using test::noise;
+using test::OwnedBits;
+
+TEST(WhsCountsAt, EqualsTheDefinition) {
+  Dice dice;
+  for (int trial = 0; trial < 300; ++trial) {
+    const int side = 2 * dice.between(1, 80), half = side / 2;
+    const OwnedBits edges = noise(side + 70, side + 5, dice.uniform(0.0, 0.5), dice);
+    const OwnedBits mask = noise(side + 70, side + 5, dice.uniform(), dice);
+    const OwnedBits test = noise(side + 90, side + 3, dice.uniform(0.0, 0.5), dice);
+    const TemplateView view{&edges.image, &mask.image, dice.between(half, edges.image.width - half),
+                            dice.between(half, edges.image.height - half), side};
+    const int x = dice.between(half, test.image.width - half);
+    const int y = dice.between(half, test.image.height - half);
+    ASSERT_EQ(whsCountsAt(view, test.image, x, y), whsCountsReference(view, test.image, x, y));
+    ASSERT_EQ(whsNorms(view), whsNormsReference(view));
+  }
+}
+
+TEST(WhsCountsAt, CountsNothingOutside) {
+  Dice dice;
+  const OwnedBits bits = noise(64, 64, 0.5, dice);
+  const TemplateView view{&bits.image, &bits.image, 32, 32, 32};
+  EXPECT_NE(whsCountsAt(view, bits.image, 16, 48), WhsCounts{});
+  EXPECT_EQ(whsCountsAt(view, bits.image, 15, 48), WhsCounts{});
+  EXPECT_EQ(whsCountsAt(view, bits.image, 16, 49), WhsCounts{});
+  EXPECT_EQ(whsNorms({&bits.image, &bits.image, 15, 32, 32}), WhsNorms{});
+  EXPECT_EQ(whsNorms({nullptr, &bits.image, 32, 32, 32}), WhsNorms{});
+}
+
+TEST(WhsScore, AddsTheTwoSharesAndNoneWhereNothingCounts) {
+  EXPECT_DOUBLE_EQ(whsScore({3, 10}, {4, 20}), 0.75 + 0.5);
+  EXPECT_DOUBLE_EQ(whsScore({4, 20}, {4, 20}), 2.0);
+  EXPECT_DOUBLE_EQ(whsScore({0, 5}, {0, 20}), 0.25);
+  EXPECT_DOUBLE_EQ(whsScore({1, 0}, {4, 0}), 0.25);
+  EXPECT_DOUBLE_EQ(whsScore({0, 0}, {0, 0}), 0.0);
+}
+
+TEST(WhsComparable, OrdersAsTheScore) {
+  Dice dice;
+  for (int trial = 0; trial < 1000; ++trial) {
+    const WhsNorms norms{dice.between(0, 3) == 0 ? 0 : dice.between(1, 3000),
+                         dice.between(0, 3) == 0 ? 0 : dice.between(1, 60000)};
+    const WhsCounts a{dice.between(0, norms.edges), dice.between(0, norms.empties)};
+    const WhsCounts b{dice.between(0, norms.edges), dice.between(0, norms.empties)};
+    const double difference = whsScore(a, norms) - whsScore(b, norms);
+    if (std::abs(difference) < 1e-12) continue;
+    EXPECT_EQ(difference > 0.0, whsComparable(a, norms) > whsComparable(b, norms));
+  }
+}
+
+TEST(WhsScoreMap, EqualsTheCountsAtEveryOffset) {
+  Dice dice;
+  const OwnedBits edges = noise(100, 90, 0.1, dice);
+  const OwnedBits mask = noise(100, 90, 0.7, dice);
+  const OwnedBits test = noise(150, 120, 0.1, dice);
+  const TemplateView view{&edges.image, &mask.image, 41, 50, 40};
+  const SearchWindow window{20, 31, 110, 77};
+  std::vector<WhsCounts> map(static_cast<std::size_t>(window.width() * window.height()));
+  whsScoreMap(view, test.image, window, map);
+  std::size_t next = 0;
+  for (int y = window.y_min; y <= window.y_max; ++y) {
+    for (int x = window.x_min; x <= window.x_max; ++x) {
+      ASSERT_EQ(map[next++], whsCountsAt(view, test.image, x, y));
+    }
+  }
+}
+
+TEST(WhsScoreMap, StopsWhereTheMapEnds) {
+  Dice dice;
+  const OwnedBits bits = noise(64, 64, 0.3, dice);
+  const TemplateView view{&bits.image, &bits.image, 32, 32, 16};
+  std::vector<WhsCounts> map(5);
+  whsScoreMap(view, bits.image, {8, 8, 56, 56}, map);
+  EXPECT_EQ(map[4], whsCountsAt(view, bits.image, 12, 8));
+  whsScoreMap(view, bits.image, SearchWindow{}, map);
+  EXPECT_EQ(map[4], whsCountsAt(view, bits.image, 12, 8));
+}
+
+/// Edge pixels within half a pixel of a circle whose centre is displaced by (dx, dy).
+OwnedBits circle(double dx, double dy, double half_width) {
+  OwnedBits bits(128, 128);
+  for (int y = 0; y < 128; ++y) {
+    for (int x = 0; x < 128; ++x) {
+      const double distance = std::hypot(x - 64.0 - dx, y - 64.0 - dy) - 30.0;
+      if (std::abs(distance) <= half_width) bits.image.set(x, y);
+    }
+  }
+  return bits;
+}
+
+TEST(SubpixelPeak, FollowsDisplacedEdges) {
+  const OwnedBits edges = circle(0.0, 0.0, 1.0);
+  OwnedBits mask(128, 128);
+  for (int y = 0; y < 128; ++y) {
+    for (int x = 0; x < 128; ++x) mask.image.set(x, y);
+  }
+  const TemplateView view{&edges.image, &mask.image, 64, 64, 80};
+  for (const double dx : {-0.4, -0.25, 0.0, 0.25, 0.4}) {
+    for (const double dy : {-0.3, 0.0, 0.45}) {
+      const OwnedBits test = circle(3.0 + dx, -2.0 + dy, 1.0);
+      const WhsPeak peak = whsPeakReference(view, test.image, {60, 60, 70, 66}, 64, 64, 2);
+      EXPECT_EQ(peak.x, 67);
+      EXPECT_EQ(peak.y, 62);
+      double x = 0.0, y = 0.0;
+      subpixelPeak(view, test.image, peak, x, y);
+      EXPECT_NEAR(x, 67.0 + dx, 0.15);
+      EXPECT_NEAR(y, 62.0 + dy, 0.15);
+    }
+  }
+}
+
+TEST(SubpixelPeak, IsTheTopOfTheParabola) {
+  Dice dice;
+  const OwnedBits bits = noise(80, 80, 0.1, dice);
+  const OwnedBits mask = noise(80, 80, 0.9, dice);
+  const OwnedBits test = noise(100, 100, 0.1, dice);
+  const TemplateView view{&bits.image, &mask.image, 40, 40, 32};
+  const WhsPeak peak = whsPeakReference(view, test.image, {30, 30, 60, 60}, 40, 40, 2);
+  const WhsNorms norms = whsNorms(view);
+  const auto value = [&](int x, int y) {
+    return static_cast<double>(whsComparable(whsCountsAt(view, test.image, x, y), norms));
+  };
+  double x = 0.0, y = 0.0;
+  subpixelPeak(view, test.image, peak, x, y);
+  const double middle = value(peak.x, peak.y);
+  const double left = value(peak.x - 1, peak.y), right = value(peak.x + 1, peak.y);
+  const double above = value(peak.x, peak.y - 1), below = value(peak.x, peak.y + 1);
+  EXPECT_NEAR(x, peak.x + 0.5 * (left - right) / (left - 2.0 * middle + right), 1e-9);
+  EXPECT_NEAR(y, peak.y + 0.5 * (above - below) / (above - 2.0 * middle + below), 1e-9);
+}
+
+TEST(SubpixelPeak, StaysAtTheBorderAndWhereNothingCurves) {
+  Dice dice;
+  const OwnedBits bits = noise(64, 64, 0.2, dice);
+  const TemplateView view{&bits.image, &bits.image, 32, 32, 32};
+  WhsPeak peak;
+  peak.x = 16;
+  peak.y = 48;
+  double x = 0.0, y = 0.0;
+  subpixelPeak(view, bits.image, peak, x, y);
+  EXPECT_EQ(x, 16.0);
+  EXPECT_EQ(y, 48.0);
+  const OwnedBits empty(64, 64);
+  peak.y = 32;
+  peak.x = 32;
+  subpixelPeak(view, empty.image, peak, x, y);
+  EXPECT_EQ(x, 32.0);
+  EXPECT_EQ(y, 32.0);
+}
+
+}  // namespace
+}  // namespace boresight
