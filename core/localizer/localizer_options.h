@@ -36,7 +36,7 @@ struct LoopOptions {
   double leave_factor = 1.1;
   bool anchored = true;
   double match_sigma_px = 1.0;
-  double match_inflation = 4.0;
+  double match_inflation = 8.0;
   std::int32_t second_peak_exclusion_px = 6;
   bool subpixel_matches = true;
 
