@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <limits>
 
 #include "core/match/bit_rows.h"
 #include "core/match/template_bits.h"
@@ -56,10 +57,12 @@ int onesBetween(const std::uint8_t* row, int begin, int end) {
   for (int word = begin >> 6; 64 * word < end; ++word) {
     std::uint64_t bits = byteOrdered(loadWord(row + 8 * word));
     bits &= sideMask(end, word) & ~sideMask(begin, word);
-    ones += std::popcount(bits);
+    ones += countOnes(bits);
   }
   return ones;
 }
+
+int padded(int count) { return (count + kGroup - 1) / kGroup * kGroup; }
 
 int padPixels(std::span<SignedPixel> pixels, int count, int zero_offset) {
   int end = count;
@@ -88,11 +91,12 @@ void MaskCounts::create(int max_words, Arena& arena) {
   allocatePlanes(kBorderPlanes, max_words, arena, single_planes_);
   allocatePlanes(kBorderPlanes, max_words, arena, run_planes_);
   differences_ = arena.allocate<std::int32_t>(offsets);
+  under_singles_ = arena.allocate<std::uint16_t>(offsets);
+  under_runs_ = arena.allocate<std::uint16_t>(offsets);
+  run_totals_ = arena.allocate<std::uint32_t>(static_cast<std::size_t>(max_words));
   counts_ = arena.allocate<std::int32_t>(offsets);
+  small_counts_ = arena.allocate<std::int16_t>(offsets);
   least_ = arena.allocate<std::int32_t>(static_cast<std::size_t>(max_words));
-  for (int x = 0; x < kLanes; ++x) {
-    offset_of_lane_[static_cast<std::size_t>(laneIndex(x))] = static_cast<std::uint16_t>(x);
-  }
 }
 
 void MaskCounts::begin(const TemplateView& view, const TestBand& band) {
@@ -104,10 +108,12 @@ void MaskCounts::begin(const TemplateView& view, const TestBand& band) {
   single_count_ = single_negatives_ = 0;
   run_end_count_ = run_end_negatives_ = run_count_ = 0;
   row_end_count_ = 0;
+  int mask_pixels = 0;
   std::uint64_t above[kRowWords] = {}, below[kRowWords];
   for (int v = 0; v <= view.side_px; ++v) {
     if (v < view.side_px) {
       maskRow(view, v, below);
+      for (const std::uint64_t word : below) mask_pixels += countOnes(word);
       forEachChange(below, [this](int) { ++row_end_count_; });
     } else {
       for (std::uint64_t& word : below) word = 0;
@@ -117,6 +123,15 @@ void MaskCounts::begin(const TemplateView& view, const TestBand& band) {
   }
   padPixels(singles_, single_count_, zero_offset_);
   padPixels(run_ends_, run_end_count_, zero_offset_);
+  is_small_ = mask_pixels <= std::numeric_limits<std::int16_t>::max();
+  for (int x = 0; x < kLanes; ++x) {
+    slope_of_lane_[static_cast<std::size_t>(laneIndex(x))] =
+        static_cast<std::uint16_t>(run_end_negatives_ * x);
+  }
+  // Borders that there are none of stay zero throughout.
+  std::fill(under_singles_.begin(), under_singles_.end(), std::uint16_t{0});
+  std::fill(under_runs_.begin(), under_runs_.end(), std::uint16_t{0});
+  std::fill(run_totals_.begin(), run_totals_.end(), std::uint32_t{0});
 }
 
 /// The borders between rows v - 1 and v of the mask; both are counted at row v.
@@ -176,40 +191,45 @@ void MaskCounts::advanceRow(const TestBand& band, const std::uint8_t* rows, int 
     computeRow(band, rows + band.stride(), words);
     return;
   }
-  single_planes_.plane_count = planesFor(single_count_);
-  run_planes_.plane_count = planesFor(run_end_count_);
-  const int singles = (single_count_ + kGroup - 1) / kGroup * kGroup;
-  const int ends = (run_end_count_ + kGroup - 1) / kGroup * kGroup;
-  countSignedPixels(rows, singles_.data(), singles, words, single_planes_);
-  countSignedPixels(rows, run_ends_.data(), ends, words, run_planes_);
+  if (single_count_ > 0) {
+    single_planes_.plane_count = planesFor(single_count_);
+    countSignedPixels(rows, singles_.data(), padded(single_count_), words, single_planes_);
+    planesToLanes(single_planes_, words, under_singles_.data());
+  }
+  if (run_end_count_ > 0) {
+    run_planes_.plane_count = planesFor(run_end_count_);
+    countSignedPixels(rows, run_ends_.data(), padded(run_end_count_), words, run_planes_);
+    planesToPrefixSums(run_planes_, words, under_runs_.data(), run_totals_.data());
+  }
   int run_sum = runSum(band, rows);
   for (int word = 0; word < words; ++word) {
-    std::uint16_t under_singles[kLanes] = {}, under_runs[kLanes] = {};
-    std::uint32_t change = 0;
-    if (single_count_ > 0) planesToLanes(single_planes_, word, under_singles);
-    if (run_end_count_ > 0) change = planesToPrefixSums(run_planes_, word, under_runs);
-    // All modulo 2^16; the change itself lies within +-kMaxBorderPixels.
-    const std::uint32_t constant =
-        static_cast<std::uint32_t>(run_sum) - static_cast<std::uint32_t>(single_negatives_);
-    const std::uint32_t slope = static_cast<std::uint32_t>(run_end_negatives_);
-    std::int32_t* counts = counts_.data() + kLanes * word;
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      const std::uint32_t sum =
-          constant + under_singles[i] + under_runs[i] - slope * offset_of_lane_[i];
-      counts[i] += static_cast<std::int16_t>(static_cast<std::uint16_t>(sum));
+    const std::uint16_t* singles = under_singles_.data() + kLanes * word;
+    const std::uint16_t* runs = under_runs_.data() + kLanes * word;
+    const std::uint16_t constant = static_cast<std::uint16_t>(run_sum - single_negatives_);
+    if (is_small_) {
+      applyChanges(word, singles, runs, constant, small_counts_.data() + kLanes * word);
+    } else {
+      applyChanges(word, singles, runs, constant, counts_.data() + kLanes * word);
     }
-    run_sum += static_cast<int>(change) - kLanes * run_end_negatives_;
+    run_sum +=
+        static_cast<int>(run_totals_[static_cast<std::size_t>(word)]) - kLanes * run_end_negatives_;
   }
-  updateLeast(words);
 }
 
-void MaskCounts::updateLeast(int words) {
-  for (int word = 0; word < words; ++word) {
-    const std::int32_t* counts = counts_.data() + kLanes * word;
-    std::int32_t least = counts[0];
-    for (int i = 1; i < kLanes; ++i) least = std::min(least, counts[i]);
-    least_[static_cast<std::size_t>(word)] = least;
+/// counts[x] += constant + singles[x] + runs[x] - slope x, all modulo 2^16: the change lies within
+/// +-kMaxBorderPixels.
+template <class Count>
+void MaskCounts::applyChanges(int word, const std::uint16_t* singles, const std::uint16_t* runs,
+                              std::uint16_t constant, Count* counts) {
+  Count least = std::numeric_limits<Count>::max();
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const std::uint16_t change =
+        static_cast<std::uint16_t>(constant + singles[i] + runs[i] - slope_of_lane_[i]);
+    const Count count = static_cast<Count>(counts[i] + static_cast<std::int16_t>(change));
+    counts[i] = count;
+    least = std::min(least, count);
   }
+  least_[static_cast<std::size_t>(word)] = least;
 }
 
 /// Adds the chunk of run ends to the differences between neighbouring offsets and empties it.
@@ -217,11 +237,9 @@ void MaskCounts::addRunEnds(const std::uint8_t* rows, int words) {
   const int count = padPixels(chunk_, chunk_count_, zero_offset_);
   run_planes_.plane_count = planesFor(chunk_count_);
   countSignedPixels(rows, chunk_.data(), count, words, run_planes_);
-  for (int word = 0; word < words; ++word) {
-    std::uint16_t lanes[kLanes];
-    planesToLanes(run_planes_, word, lanes);
-    std::int32_t* differences = differences_.data() + kLanes * word;
-    for (int i = 0; i < kLanes; ++i) differences[i] += lanes[i] - chunk_negatives_;
+  planesToLanes(run_planes_, words, under_runs_.data());
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kLanes * words); ++i) {
+    differences_[i] += under_runs_[i] - chunk_negatives_;
   }
   chunk_count_ = chunk_negatives_ = 0;
 }
@@ -245,12 +263,21 @@ void MaskCounts::computeRow(const TestBand& band, const std::uint8_t* rows, int 
     });
   }
   addRunEnds(rows, words);
-  for (int x = 0; x < kLanes * words; ++x) {
-    const std::size_t at = static_cast<std::size_t>((x & ~(kLanes - 1)) + laneIndex(x & 63));
-    counts_[at] = count;
-    count += differences_[at];
+  std::fill(under_runs_.begin(), under_runs_.end(), std::uint16_t{0});  // borrowed by addRunEnds
+  for (int word = 0; word < words; ++word) {
+    std::int32_t least = count;
+    for (int bit = 0; bit < kLanes; ++bit) {
+      const std::size_t at = static_cast<std::size_t>(kLanes * word + laneIndex(bit));
+      if (is_small_) {
+        small_counts_[at] = static_cast<std::int16_t>(count);
+      } else {
+        counts_[at] = count;
+      }
+      least = std::min(least, count);
+      count += differences_[at];
+    }
+    least_[static_cast<std::size_t>(word)] = least;
   }
-  updateLeast(words);
 }
 
 }  // namespace boresight

@@ -10,8 +10,9 @@
 namespace boresight {
 
 /// The rows of test edges that a band of offsets looks at, copied so that the first offset's column
-/// is bit 0, rows are byte ordered (see byteOrdered) and reading beyond a row's end finds zeros.
-/// Small enough to stay in the first-level cache for usual templates.
+/// is bit 0, rows are byte ordered (see byteOrdered) and reading beyond a row's end is harmless.
+/// Small bands are held in two or four copies, each shifted by some more bits, so that fewer pixels
+/// need a shift of their own; all of it is to stay in the first-level cache.
 class TestBand {
  public:
   static constexpr int kOffsetRows = 32;  ///< rows of offsets a band serves
@@ -26,13 +27,23 @@ class TestBand {
   /// First byte of row `row` of the band.
   const std::uint8_t* row(int row) const { return bytes_.data() + stride_ * row; }
   int stride() const { return stride_; }
-  /// Byte offset, relative to any row of offsets, of zeros to pad lists of pixels with.
-  int zeroOffset() const { return stride_ * (side_ + kOffsetRows); }
+
+  /// Pixels with the same shift can be counted together: there are this many different shifts.
+  int shifts() const { return 8 / copies_; }
+  /// Bytes from a row of offsets to the row of pixel (u, v), which begins there but for a shift to
+  /// the right by u % shifts().
+  int offsetOf(int u, int v) const {
+    return (u % 8) / shifts() * copy_bytes_ + v * stride_ + u / 8;
+  }
+  /// The same for zeros to pad lists of pixels with.
+  int zeroOffset() const { return copies_ * copy_bytes_; }
 
  private:
   std::span<std::uint8_t> bytes_;
   int stride_ = 0;
   int side_ = 0;
+  int copies_ = 1;
+  int copy_bytes_ = 0;
 };
 
 }  // namespace boresight
