@@ -53,19 +53,19 @@ void countSignedPixels(const std::uint8_t* base, const SignedPixel* pixels, int 
 void planesToLanes(const CounterRow& counters, int words, std::uint16_t* lanes) {
   int word = 0;
   for (; word + kWide <= words; word += kWide) {
-    wordsToLanes<WideWord>(counters, word, lanes + kLanes * word);
+    wordsToLanes<WideWord>(counters, word, lanes + lanesBefore(word));
   }
-  for (; word < words; ++word) wordsToLanes<Word1>(counters, word, lanes + kLanes * word);
+  for (; word < words; ++word) wordsToLanes<Word1>(counters, word, lanes + lanesBefore(word));
 }
 
 void planesToPrefixSums(const CounterRow& counters, int words, std::uint16_t* lanes,
                         std::uint32_t* totals) {
   int word = 0;
   for (; word + kWide <= words; word += kWide) {
-    wordsToPrefixSums<WideWord>(counters, word, lanes + kLanes * word, totals + word);
+    wordsToPrefixSums<WideWord>(counters, word, lanes + lanesBefore(word), totals + word);
   }
   for (; word < words; ++word) {
-    wordsToPrefixSums<Word1>(counters, word, lanes + kLanes * word, totals + word);
+    wordsToPrefixSums<Word1>(counters, word, lanes + lanesBefore(word), totals + word);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 namespace boresight {
@@ -22,8 +23,8 @@ struct CounterRow {
   std::uint64_t* words = nullptr;
   int stride = 0;       ///< words from one plane to the next
   int plane_count = 0;  ///< planes in use
-  std::uint64_t* plane(int k) { return words + k * stride; }
-  const std::uint64_t* plane(int k) const { return words + k * stride; }
+  std::uint64_t* plane(int k) { return words + std::ptrdiff_t{stride} * k; }
+  const std::uint64_t* plane(int k) const { return words + std::ptrdiff_t{stride} * k; }
 };
 
 /// Rows of counters, and of pixels to be counted, have this many words of slack.
@@ -60,6 +61,7 @@ void countSignedPixels(const std::uint8_t* base, const SignedPixel* pixels, int 
 /// 16-bit lanes: the counters of a word as integers. Counter x of the word is lane laneIndex(x):
 /// the order in which the transposition leaves them, so that nothing has to be moved.
 inline constexpr int kLanes = 64;
+inline constexpr std::ptrdiff_t lanesBefore(int word) { return std::ptrdiff_t{kLanes} * word; }
 constexpr int laneIndex(int x) {
   const int byte = x >> 3;
   const int lane = byte >> 1;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "core/match/bit_counters.h"
 #include "core/match/bit_rows.h"
@@ -20,6 +23,10 @@ using Word2 = std::uint64_t __attribute__((vector_size(16)));
 template <class Word>
 inline constexpr int kWordsIn = static_cast<int>(sizeof(Word) / sizeof(Word1));
 
+[[gnu::always_inline]] inline std::ptrdiff_t bytesBefore(int word) {
+  return std::ptrdiff_t{8} * word;
+}
+
 template <class Word>
 [[gnu::always_inline]] inline Word load(const void* from) {
   Word word;
@@ -32,20 +39,43 @@ template <class Word>
   std::memcpy(to, &word, sizeof word);
 }
 
-/// The words one place to the right, of which the last is `right`.
-[[gnu::always_inline]] inline Word1 nextWords(Word1, Word1 right) { return right; }
-[[gnu::always_inline]] inline Word1 firstOf(Word1 word) { return word; }
-
-/// Pixels in bit order from byte-ordered memory.
-[[gnu::always_inline]] inline Word1 inOrder(Word1 word) { return byteOrdered(word); }
-
-#if defined(__GNUC__) && defined(__SSE2__)
-[[gnu::always_inline]] inline Word2 nextWords(Word2 here, Word1 right) {
-  return Word2{here[1], right};
+template <class Word, int... Place>
+[[gnu::always_inline]] inline Word shiftedIn(const Word& words, Word1 right,
+                                             std::integer_sequence<int, Place...>) {
+  const Word last{right};
+  return __builtin_shufflevector(words, last, (Place + 1)...);
 }
-[[gnu::always_inline]] inline Word1 firstOf(Word2 words) { return words[0]; }
-[[gnu::always_inline]] inline Word2 inOrder(Word2 words) { return words; }
-#endif
+
+/// The words one place to the right, of which the last is `right`.
+template <class Word>
+[[gnu::always_inline]] inline Word nextWords(const Word& words, Word1 right) {
+  if constexpr (kWordsIn<Word> == 1) {
+    return right;
+  } else {
+    return shiftedIn(words, right, std::make_integer_sequence<int, kWordsIn<Word>>{});
+  }
+}
+
+template <class Word>
+[[gnu::always_inline]] inline Word1 firstOf(const Word& words) {
+  if constexpr (kWordsIn<Word> == 1) {
+    return words;
+  } else {
+    return words[0];
+  }
+}
+
+/// Pixels in bit order from byte-ordered memory; registers of several words are used on
+/// little-endian machines only.
+template <class Word>
+[[gnu::always_inline]] inline Word inOrder(const Word& words) {
+  if constexpr (kWordsIn<Word> == 1) {
+    return byteOrdered(words);
+  } else {
+    static_assert(std::endian::native == std::endian::little);
+    return words;
+  }
+}
 
 /// Full adder: sum + a + b = sum' + 2 carry.
 template <class Word>
@@ -139,7 +169,7 @@ template <class Word>
 [[gnu::always_inline]] inline void addPixelsAt(const std::uint8_t* base, const PixelList& pixels,
                                                int word, Word1* right, CounterRow& total) {
   Counters<Word> counters(pixels.plane_count);
-  counters.addAll(ByteAligned<Word>{base + 8 * word, pixels.offsets}, pixels.count);
+  counters.addAll(ByteAligned<Word>{base + bytesBefore(word), pixels.offsets}, pixels.count);
   const int shift = pixels.shift;
   Word carry{};
   const auto add = [&](int k, const Word& part) __attribute__((always_inline)) {
@@ -167,7 +197,7 @@ template <class Word>
                                                        const SignedPixel* pixels, int count,
                                                        int word, CounterRow& result) {
   Counters<Word> counters(result.plane_count);
-  counters.addAll(BitAligned<Word>{base + 8 * word, pixels}, count);
+  counters.addAll(BitAligned<Word>{base + bytesBefore(word), pixels}, count);
   const Word* low[] = {&counters.ones, &counters.twos, &counters.fours, &counters.eights};
   for (int k = 0; k < result.plane_count && k < 4; ++k) store(*low[k], result.plane(k) + word);
   for (int k = 4; k < result.plane_count; ++k) {
@@ -227,14 +257,14 @@ template <class Word>
   } else {
     transposeBytes(rows);
   }
-  for (int w = 0; w < 8; ++w) {
+  for (std::ptrdiff_t w = 0; w < 8; ++w) {
     lanes[2 * w] = rows[w] & kEvenBytes;
     lanes[2 * w + 1] = (rows[w] >> 8) & kEvenBytes;
   }
   if (counters.plane_count <= 8) return;
   loadFrom(8);
   transposeBytes(rows);
-  for (int w = 0; w < 8; ++w) {
+  for (std::ptrdiff_t w = 0; w < 8; ++w) {
     lanes[2 * w] |= (rows[w] & kEvenBytes) << 8;
     lanes[2 * w + 1] |= rows[w] & ~kEvenBytes;
   }
@@ -272,7 +302,7 @@ template <class Word>
   for (int w = 0; w < kLaneWords; ++w) store(lane_words[w], words[w]);
   for (int i = 0; i < kWordsIn<Word>; ++i) {
     for (int w = 0; w < kLaneWords; ++w) {
-      std::memcpy(lanes + kLanes * i + 4 * w, &words[w][i], sizeof words[w][i]);
+      std::memcpy(lanes + lanesBefore(i) + std::ptrdiff_t{4} * w, &words[w][i], sizeof words[w][i]);
     }
   }
 }

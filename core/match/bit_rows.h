@@ -52,7 +52,7 @@ inline std::uint64_t byteOrdered(std::uint64_t word) {
 }
 
 inline std::uint64_t loadWord(const std::uint8_t* bytes) {
-  std::uint64_t word;
+  std::uint64_t word = 0;
   std::memcpy(&word, bytes, sizeof word);
   return word;
 }

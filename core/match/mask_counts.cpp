@@ -20,13 +20,15 @@ constexpr int kChunk = 1020;
 // Changes of a count are 16-bit integers.
 constexpr int kMaxBorderPixels = 32767;
 constexpr int kBorderPlanes = 13;
-constexpr int kRowWords = kMaxTemplateWords + 1;  ///< a run may end at column `side`
+constexpr int kMostRowWords = kMaxTemplateWords + 1;
+/// Words of a row of the mask in which runs may begin and end (at column `side`).
+int rowWords(int side) { return side / 64 + 1; }
 
 /// Calls f(u) for every column u = 0 ... side where a row of bits differs from its left neighbour.
 template <class Function>
-void forEachChange(const std::uint64_t* bits, Function f) {
+void forEachChange(const std::uint64_t* bits, int words, Function f) {
   std::uint64_t left = 0;
-  for (int word = 0; word < kRowWords; ++word) {
+  for (int word = 0; word < words; ++word) {
     std::uint64_t change = bits[word] ^ ((bits[word] << 1) | left);
     left = bits[word] >> 63;
     for (; change != 0; change &= change - 1) f(64 * word + std::countr_zero(change));
@@ -35,9 +37,9 @@ void forEachChange(const std::uint64_t* bits, Function f) {
 
 /// Calls f(begin, end) for every run of ones.
 template <class Function>
-void forEachRun(const std::uint64_t* bits, Function f) {
+void forEachRun(const std::uint64_t* bits, int words, Function f) {
   int begin = -1;
-  forEachChange(bits, [&](int u) {
+  forEachChange(bits, words, [&](int u) {
     if (begin < 0) {
       begin = u;
     } else {
@@ -48,14 +50,14 @@ void forEachRun(const std::uint64_t* bits, Function f) {
 }
 
 void maskRow(const TemplateView& view, int v, std::uint64_t* bits) {
-  for (int word = 0; word < kRowWords; ++word) bits[word] = maskWord(view, v, word);
+  for (int word = 0; word < rowWords(view.side_px); ++word) bits[word] = maskWord(view, v, word);
 }
 
 /// Ones among pixels begin ... end - 1 of a byte-ordered row.
 int onesBetween(const std::uint8_t* row, int begin, int end) {
   int ones = 0;
   for (int word = begin >> 6; 64 * word < end; ++word) {
-    std::uint64_t bits = byteOrdered(loadWord(row + 8 * word));
+    std::uint64_t bits = byteOrdered(loadWord(row + std::ptrdiff_t{8} * word));
     bits &= sideMask(end, word) & ~sideMask(begin, word);
     ones += countOnes(bits);
   }
@@ -73,8 +75,8 @@ int padPixels(std::span<SignedPixel> pixels, int count, int zero_offset) {
 }
 
 std::span<std::uint64_t> allocatePlanes(int planes, int words, Arena& arena, CounterRow& row) {
-  const std::span<std::uint64_t> memory =
-      arena.allocate<std::uint64_t>(static_cast<std::size_t>(planes * words));
+  const std::span<std::uint64_t> memory = arena.allocate<std::uint64_t>(
+      static_cast<std::size_t>(planes) * static_cast<std::size_t>(words));
   row.words = memory.data();
   row.stride = words;
   return memory;
@@ -83,7 +85,7 @@ std::span<std::uint64_t> allocatePlanes(int planes, int words, Arena& arena, Cou
 }  // namespace
 
 void MaskCounts::create(int max_words, Arena& arena) {
-  const std::size_t offsets = static_cast<std::size_t>(kLanes * max_words);
+  const std::size_t offsets = static_cast<std::size_t>(lanesBefore(max_words));
   singles_ = arena.allocate<SignedPixel>(kMaxSingles + kGroup);
   run_ends_ = arena.allocate<SignedPixel>(kMaxRunEnds + kGroup);
   runs_ = arena.allocate<Run>(kMaxRunEnds / 2);
@@ -109,17 +111,18 @@ void MaskCounts::begin(const TemplateView& view, const TestBand& band) {
   run_end_count_ = run_end_negatives_ = run_count_ = 0;
   row_end_count_ = 0;
   int mask_pixels = 0;
-  std::uint64_t above[kRowWords] = {}, below[kRowWords];
+  const int words = rowWords(view.side_px);
+  std::uint64_t above[kMostRowWords] = {}, below[kMostRowWords] = {};
   for (int v = 0; v <= view.side_px; ++v) {
     if (v < view.side_px) {
       maskRow(view, v, below);
       for (const std::uint64_t word : below) mask_pixels += countOnes(word);
-      forEachChange(below, [this](int) { ++row_end_count_; });
+      forEachChange(below, words, [this](int) { ++row_end_count_; });
     } else {
       for (std::uint64_t& word : below) word = 0;
     }
     if (!too_many_borders_) listBorders(v, above, below);
-    for (int word = 0; word < kRowWords; ++word) above[word] = below[word];
+    for (int word = 0; word < words; ++word) above[word] = below[word];
   }
   padPixels(singles_, single_count_, zero_offset_);
   padPixels(run_ends_, run_end_count_, zero_offset_);
@@ -136,13 +139,16 @@ void MaskCounts::begin(const TemplateView& view, const TestBand& band) {
 
 /// The borders between rows v - 1 and v of the mask; both are counted at row v.
 void MaskCounts::listBorders(int v, const std::uint64_t* above, const std::uint64_t* below) {
-  std::uint64_t left[kRowWords], entered[kRowWords];
-  for (int word = 0; word < kRowWords; ++word) {
+  const int words = rowWords(view_.side_px);
+  std::uint64_t left[kMostRowWords], entered[kMostRowWords], changed = 0;
+  for (int word = 0; word < words; ++word) {
     entered[word] = above[word] & ~below[word];
     left[word] = below[word] & ~above[word];
+    changed |= entered[word] | left[word];
   }
-  forEachRun(entered, [&](int begin, int end) { addBorder(v, begin, end, 1); });
-  forEachRun(left, [&](int begin, int end) { addBorder(v, begin, end, -1); });
+  if (changed == 0) return;
+  forEachRun(entered, words, [&](int begin, int end) { addBorder(v, begin, end, 1); });
+  forEachRun(left, words, [&](int begin, int end) { addBorder(v, begin, end, -1); });
 }
 
 void MaskCounts::addBorder(int v, int begin, int end, int sign) {
@@ -181,7 +187,7 @@ int MaskCounts::runSum(const TestBand& band, const std::uint8_t* rows) const {
   int sum = 0;
   for (int k = 0; k < run_count_; ++k) {
     const Run& run = runs_[static_cast<std::size_t>(k)];
-    sum += run.sign * onesBetween(rows + band.stride() * run.v, run.begin, run.end);
+    sum += run.sign * onesBetween(rows + std::ptrdiff_t{band.stride()} * run.v, run.begin, run.end);
   }
   return sum;
 }
@@ -203,13 +209,13 @@ void MaskCounts::advanceRow(const TestBand& band, const std::uint8_t* rows, int 
   }
   int run_sum = runSum(band, rows);
   for (int word = 0; word < words; ++word) {
-    const std::uint16_t* singles = under_singles_.data() + kLanes * word;
-    const std::uint16_t* runs = under_runs_.data() + kLanes * word;
+    const std::uint16_t* singles = under_singles_.data() + lanesBefore(word);
+    const std::uint16_t* runs = under_runs_.data() + lanesBefore(word);
     const std::uint16_t constant = static_cast<std::uint16_t>(run_sum - single_negatives_);
     if (is_small_) {
-      applyChanges(word, singles, runs, constant, small_counts_.data() + kLanes * word);
+      applyChanges(word, singles, runs, constant, small_counts_.data() + lanesBefore(word));
     } else {
-      applyChanges(word, singles, runs, constant, counts_.data() + kLanes * word);
+      applyChanges(word, singles, runs, constant, counts_.data() + lanesBefore(word));
     }
     run_sum +=
         static_cast<int>(run_totals_[static_cast<std::size_t>(word)]) - kLanes * run_end_negatives_;
@@ -238,7 +244,7 @@ void MaskCounts::addRunEnds(const std::uint8_t* rows, int words) {
   run_planes_.plane_count = planesFor(chunk_count_);
   countSignedPixels(rows, chunk_.data(), count, words, run_planes_);
   planesToLanes(run_planes_, words, under_runs_.data());
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kLanes * words); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(lanesBefore(words)); ++i) {
     differences_[i] += under_runs_[i] - chunk_negatives_;
   }
   chunk_count_ = chunk_negatives_ = 0;
@@ -249,10 +255,10 @@ void MaskCounts::computeRow(const TestBand& band, const std::uint8_t* rows, int 
   chunk_count_ = chunk_negatives_ = 0;
   std::int32_t count = 0;
   for (int v = 0; v < view_.side_px; ++v) {
-    std::uint64_t mask[kRowWords];
+    std::uint64_t mask[kMostRowWords];
     maskRow(view_, v, mask);
     const int row_offset = v * band.stride();
-    forEachRun(mask, [&](int begin, int end) {
+    forEachRun(mask, rowWords(view_.side_px), [&](int begin, int end) {
       count += onesBetween(rows + row_offset, begin, end);
       if (chunk_count_ + 2 > kChunk) addRunEnds(rows, words);
       chunk_[static_cast<std::size_t>(chunk_count_++)] =
@@ -267,7 +273,7 @@ void MaskCounts::computeRow(const TestBand& band, const std::uint8_t* rows, int 
   for (int word = 0; word < words; ++word) {
     std::int32_t least = count;
     for (int bit = 0; bit < kLanes; ++bit) {
-      const std::size_t at = static_cast<std::size_t>(kLanes * word + laneIndex(bit));
+      const std::size_t at = static_cast<std::size_t>(lanesBefore(word) + laneIndex(bit));
       if (is_small_) {
         small_counts_[at] = static_cast<std::int16_t>(count);
       } else {

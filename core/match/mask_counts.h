@@ -30,7 +30,7 @@ class MaskCounts {
   void advanceRow(const TestBand& band, const std::uint8_t* rows, int words);
 
   std::int32_t count(int word, int bit) const {
-    const std::size_t at = static_cast<std::size_t>(kLanes * word + laneIndex(bit));
+    const std::size_t at = static_cast<std::size_t>(lanesBefore(word) + laneIndex(bit));
     return is_small_ ? small_counts_[at] : counts_[at];
   }
   /// Least count of a word's 64 offsets.

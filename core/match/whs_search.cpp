@@ -60,7 +60,7 @@ Status WhsSearch::create(int max_side_px, int max_window_px, Arena& arena) {
   band_.create(max_side_px, words, arena);
   hits_.stride = words + kWordPadding;
   hits_.words =
-      arena.allocate<std::uint64_t>(static_cast<std::size_t>(kMaxPlanes * hits_.stride)).data();
+      arena.allocate<std::uint64_t>(kMaxPlanes * static_cast<std::size_t>(hits_.stride)).data();
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 
@@ -116,7 +116,7 @@ bool WhsSearch::step() {
 void WhsSearch::beginRow() {
   const int half = view_.side_px / 2;
   const int words = wordsFor(tile_width_);
-  const int row_in_band = row_ % TestBand::kOffsetRows;
+  const int row_in_band = row_ % band_.offsetRows();
   if (row_in_band == 0) {
     band_.load(*test_edges_, window_.x_min - half + tile_x_, window_.y_min - half + row_);
   }
@@ -126,7 +126,7 @@ void WhsSearch::beginRow() {
 /// To the next row of offsets or the next tile; false after the last.
 bool WhsSearch::nextRow() {
   if (row_ + 1 < window_.height()) {
-    covered_.advanceRow(band_, band_.row(row_ % TestBand::kOffsetRows), wordsFor(tile_width_));
+    covered_.advanceRow(band_, band_.row(row_ % band_.offsetRows()), wordsFor(tile_width_));
     ++row_;
     return true;
   }
@@ -138,7 +138,7 @@ bool WhsSearch::nextRow() {
 
 void WhsSearch::countEdges() {
   const int words = edgeWords(tile_width_);
-  const std::uint8_t* rows = band_.row(row_ % TestBand::kOffsetRows);
+  const std::uint8_t* rows = band_.row(row_ % band_.offsetRows());
   hits_.plane_count = planesFor(norms_.edges);
   for (int k = 0; k < hits_.plane_count; ++k) std::fill_n(hits_.plane(k), words, std::uint64_t{0});
   int v = 0;

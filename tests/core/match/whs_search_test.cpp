@@ -328,6 +328,51 @@ TEST(WhsSearch, FindsADisplacedCopy) {
   EXPECT_DOUBLE_EQ(whsScore(peak.counts, owned.search.norms()), 2.0);
 }
 
+TEST(WhsSearch, FindsACopyInTheLastColumnsOfEveryWidth) {
+  // Where a word, a register or a tile ends, counters must not lose pixels.
+  Dice dice;
+  OwnedSearch owned(16, 1400);
+  constexpr int kSide = 16;
+  const auto search = [&](int offsets, int from_last) {
+    Problem problem(noise(kSide, kSide, 0.2, dice),
+                    makeMask(kSide, kSide, MaskKind::kFull, kSide, dice),
+                    OwnedBits(offsets + kSide - 1, kSide + 2), kSide);
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        if (problem.edges.image.get(x, y)) {
+          problem.test.image.set(offsets - 1 - from_last + x, y + 1);
+        }
+      }
+    }
+    const WhsPeak peak = run(owned.search, problem);
+    EXPECT_EQ(peak.x, problem.window.x_max - from_last) << offsets << " offsets";
+    EXPECT_EQ(peak.y, problem.window.y_min + 1);
+    EXPECT_EQ(peak.counts.edge_hits, owned.search.norms().edges);
+  };
+  for (int offsets = 8; offsets < 1400; offsets += offsets < 280 || offsets > 620 ? 1 : 13) {
+    search(offsets, dice.below(8));
+  }
+}
+
+TEST(WhsSearch, CountsMasksThatHideAndBareTheWholeImageByTurns) {
+  // Rows of mask on rows of test edges: from one offset to the next all or nothing is covered.
+  for (const int side : {64, 254, 258, 300, 512}) {
+    Dice dice;
+    OwnedSearch owned(512, 100);
+    OwnedBits test(side + 70, side + 9);
+    for (int y = 0; y < test.image.height; y += 2) {
+      for (int x = 0; x < test.image.width; ++x) test.image.set(x, y);
+    }
+    Problem problem(noise(side, side, 0.02, dice),
+                    makeMask(side, side, MaskKind::kRowStripes, side, dice), std::move(test), side);
+    problem.exclusion_px = 1;
+    for (const int row : {2, 3}) {  // bare and hidden offsets score the same: the nearest is best
+      problem.predicted_y = problem.window.y_min + row;
+      ASSERT_EQ(run(owned.search, problem), peakOfMap(problem)) << "side " << side;
+    }
+  }
+}
+
 TEST(WhsSearch, TakesBoundedStepsWhichOtherSearchesMayInterrupt) {
   Dice dice;
   OwnedSearch first(256, 700), second(256, 700);
