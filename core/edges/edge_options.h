@@ -24,8 +24,8 @@ struct EdgeOptions {
   CannyThresholds thresholds = CannyThresholds::kQuantile;
   double low_threshold = 50.0;  ///< gradient magnitude as cv::Canny counts it (kAbsolute)
   double high_threshold = 150.0;
-  double high_quantile = 0.95;  ///< high = this quantile of the magnitudes of unignored pixels
-  double low_ratio = 0.4;       ///< low = low_ratio * high (kQuantile)
+  double high_quantile = 0.9;  ///< high = this quantile of the magnitudes of unignored pixels
+  double low_ratio = 0.4;      ///< low = low_ratio * high (kQuantile)
   std::int32_t ignore_margin_px = 3;  ///< edges within this distance of ignored pixels are removed
 
   template <class Self, class Visitor>

@@ -10,11 +10,11 @@
 namespace boresight {
 namespace {
 
-/// Nearest integer of a value in [0, 255], halves to even: adding 1.5 * 2^23 leaves no fraction
-/// bits, so the addition itself rounds as IEEE prescribes.
-std::uint8_t roundToGray(float value) {
-  const float shifted = std::min(value, 255.0F) + 12582912.0F;
-  return static_cast<std::uint8_t>(std::bit_cast<std::uint32_t>(shifted) & 0xFFU);
+/// Nearest integer of a value in [0, 255] or just above, halves to even: adding 1.5 * 2^23 leaves
+/// no fraction bits, so the addition itself rounds as IEEE prescribes.
+inline std::uint8_t roundToGray(float value) {
+  const std::int32_t rounded = std::bit_cast<std::int32_t>(value + 12582912.0F) & 0x1FF;
+  return static_cast<std::uint8_t>(rounded > 255 ? 255 : rounded);
 }
 
 GrayTable identityTable() {
@@ -59,6 +59,31 @@ TilePosition tilePosition(int pixel, float inverse_tile_size, int tiles) {
   if (static_cast<float>(before) > position) --before;
   return {std::max(before, 0), std::min(before + 1, tiles - 1),
           position - static_cast<float>(before)};
+}
+
+/// Gray levels of a block of pixels by the tables of the four tiles around each.
+struct TileCorners {
+  std::uint8_t above_left[kRowBlock];
+  std::uint8_t above_right[kRowBlock];
+  std::uint8_t below_left[kRowBlock];
+  std::uint8_t below_right[kRowBlock];
+};
+
+/// The order of the single-precision operations is OpenCV's; another one rounds differently.
+/// Inlined, the promise that `out` overlaps nothing gets lost, and with it the vector code.
+[[gnu::noinline]] void interpolate(const TileCorners& corners, const float* weight_right,
+                                   float weight_below, std::uint8_t* __restrict out) {
+  const float weight_above = 1.0F - weight_below;
+  for (int i = 0; i < kRowBlock; ++i) {
+    const float right = weight_right[i];
+    const float left = 1.0F - right;
+    out[i] = roundToGray((static_cast<float>(corners.above_left[i]) * left +
+                          static_cast<float>(corners.above_right[i]) * right) *
+                             weight_above +
+                         (static_cast<float>(corners.below_left[i]) * left +
+                          static_cast<float>(corners.below_right[i]) * right) *
+                             weight_below);
+  }
 }
 
 }  // namespace
@@ -124,7 +149,7 @@ void Equalizer::beginTiles(Arena& arena) {
     ++tile_width_;
     ++tile_height_;
   }
-  const std::size_t columns = static_cast<std::size_t>(image_.width);
+  const std::size_t columns = static_cast<std::size_t>(roundUpToBlock(image_.width));
   left_table_ = arena.allocate<std::int32_t>(columns);
   right_table_ = arena.allocate<std::int32_t>(columns);
   right_weight_ = arena.allocate<float>(columns);
@@ -225,7 +250,6 @@ void Equalizer::row(int y, std::uint8_t* __restrict out) const {
   }
 }
 
-/// The order of the single-precision operations is OpenCV's; another one rounds differently.
 void Equalizer::rowByTiles(int y, std::uint8_t* __restrict out) const {
   const std::uint8_t* pixels = image_.row(y);
   const TilePosition vertical = tilePosition(y, 1.0F / static_cast<float>(tile_height_), tiles_);
@@ -233,20 +257,22 @@ void Equalizer::rowByTiles(int y, std::uint8_t* __restrict out) const {
       tables_.data() + std::ptrdiff_t{vertical.before} * tiles_ * kGrayLevels;
   const std::uint8_t* below =
       tables_.data() + std::ptrdiff_t{vertical.after} * tiles_ * kGrayLevels;
-  const float weight_below = vertical.weight_after;
-  const float weight_above = 1.0F - weight_below;
-  for (int x = 0; x < image_.width; ++x) {
-    const std::size_t column = static_cast<std::size_t>(x);
-    const int left = left_table_[column] + pixels[x];
-    const int right = right_table_[column] + pixels[x];
-    const float weight_right = right_weight_[column];
-    const float weight_left = 1.0F - weight_right;
-    out[x] = roundToGray((static_cast<float>(above[left]) * weight_left +
-                          static_cast<float>(above[right]) * weight_right) *
-                             weight_above +
-                         (static_cast<float>(below[left]) * weight_left +
-                          static_cast<float>(below[right]) * weight_right) *
-                             weight_below);
+  TileCorners corners{};
+  for (int first_x = 0; first_x < image_.width; first_x += kRowBlock) {
+    const int count = std::min(image_.width - first_x, kRowBlock);
+    const std::int32_t* left_table = left_table_.data() + first_x;
+    const std::int32_t* right_table = right_table_.data() + first_x;
+    for (int i = 0; i < count; ++i) {
+      const int left = left_table[i] + pixels[first_x + i];
+      const int right = right_table[i] + pixels[first_x + i];
+      corners.above_left[i] = above[left];
+      corners.above_right[i] = above[right];
+      corners.below_left[i] = below[left];
+      corners.below_right[i] = below[right];
+    }
+    std::uint8_t block[kRowBlock];
+    interpolate(corners, right_weight_.data() + first_x, vertical.weight_after, block);
+    std::copy(block, block + count, out + first_x);
   }
 }
 

@@ -12,6 +12,9 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
+#include "core/localizer/edge_search.h"
+#include "core/pnp/normal_equations.h"
+#include "core/pnp/pnp.h"
 #include "core/render/edge_render.h"
 
 namespace boresight {
@@ -19,10 +22,12 @@ namespace boresight {
 struct RefinementOptions {
   bool enabled = true;
   std::int32_t max_samples = 12000;
-  double first_radius_px = 6.0;
-  double last_radius_px = 2.0;
-  std::int32_t rounds = 4;
-  double derivative_sigma_px = 0.8;
+  std::int32_t min_samples = 4000;
+  double first_radius_px = 3.0;
+  double last_radius_px = 0.7;
+  std::int32_t min_passes = 2;
+  std::int32_t rounds = 10;
+  double derivative_sigma_px = 1.0;
   double min_gradient = 2.0;
   double sample_spacing_px = 2.0;
   std::int32_t min_found = 60;
@@ -35,14 +40,21 @@ struct RefinementOptions {
           self.enabled);
     visit(OptionInfo{"refinement.max_samples", "", 100, 100000, "Edge places used, at most."},
           self.max_samples);
+    visit(OptionInfo{"refinement.min_samples", "", 100, 100000,
+                     "Places are taken nearer than the spacing when there are fewer than these."},
+          self.min_samples);
     visit(OptionInfo{"refinement.first_radius_px", "px", 0.5, 50.0,
-                     "Search along the edge's normal, first refinement."},
+                     "Search along the edge's normal, first refinement, in pixels of the finest "
+                     "level matched."},
           self.first_radius_px);
     visit(OptionInfo{"refinement.last_radius_px", "px", 0.5, 50.0,
                      "Search radius of later refinements."},
           self.last_radius_px);
-    visit(OptionInfo{"refinement.rounds", "", 1, 20, "Gauss-Newton rounds per refinement."},
-          self.rounds);
+    visit(OptionInfo{"refinement.min_passes", "", 1, 10, "Refinements of a run, at least."},
+          self.min_passes);
+    visit(
+        OptionInfo{"refinement.rounds", "", 1, 20, "Gauss-Newton rounds per refinement, at most."},
+        self.rounds);
     visit(OptionInfo{"refinement.derivative_sigma_px", "px", 0.3, 5.0,
                      "Scale of the derivative along the normal."},
           self.derivative_sigma_px);
@@ -58,6 +70,12 @@ struct RefinementOptions {
                      "Factor on the covariance for the correlation of neighbouring edge places."},
           self.covariance_inflation);
   }
+};
+
+/// What is known of a pose already: xi' information xi with xi the perturbation from it.
+struct PoseEstimate {
+  Pose camera_from_station;
+  Matrix6d information = Matrix6d::Zero();
 };
 
 /// One place on a rendered edge and what the image shows there.
@@ -91,25 +109,29 @@ class EdgeRefinement {
   /// its camera; `ignore` may be nullptr.
   Status begin(const ImageView& image, const BitImage* ignore, const Camera& camera,
                const MeshView& mesh, const EdgeRender& render, double radius_px,
-               RefinementResult& result);
+               const PosePrior* anchor, const PoseEstimate* matched, RefinementResult& result);
   /// One round; kTooFewEdges when too little is found, kDegenerate when the edges do not fix the
   /// pose.
   Status step(bool& done);
 
  private:
   void takeSamples(const MeshView& mesh, const EdgeRender& render);
-  void search(EdgeSample& sample, const Eigen::Vector2d& predicted_px) const;
   double robustScale();
-  Status solve(double scale_px, bool last_round);
+  void addKnowledge(NormalEquations& equations) const;
+  Status solve(double scale_px, bool& settled);
+  bool addSample(const EdgeSample& sample, double weight, NormalEquations& equations) const;
 
   RefinementOptions options_;
   ImageView image_;
   const BitImage* ignore_ = nullptr;
   Camera camera_;
   double radius_px_ = 0.0;
+  bool anchored_ = false;
+  PosePrior anchor_;
+  bool has_matched_ = false;
+  PoseEstimate matched_;
   RefinementResult* result_ = nullptr;
-  std::array<double, 32> kernel_{};  ///< one side of the derivative of a Gaussian
-  int taps_ = 0;
+  EdgeSearch search_;
   std::span<float> absolute_residuals_;
   std::int32_t round_ = 0;
 };

@@ -96,17 +96,21 @@ void Localizer::startIteration() {
 
 void Localizer::startHypothesis() {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
-  now.index = iteration_;
+  now.index = workspace_.iterations;
+  now.attempt = attempt_;
   now.kind = isRefinement(iteration_) ? IterationKind::kRefine : IterationKind::kMatch;
   now.level = levelOf(now.kind, iteration_);
   now.camera_from_station_before = camera_from_station_;
   now.uncertainty = uncertaintyAt(iteration_, camera_from_station_);
-  const int refined = iteration_ - options_.loop.match_iterations;
-  now.threshold_px =
-      now.kind == IterationKind::kMatch
-          ? shrinkAt(options_.loop.threshold_shrink, iteration_) * options_.loop.inlier_threshold_px
-          : (refined == 0 ? options_.refinement.first_radius_px
-                          : options_.refinement.last_radius_px);
+  if (now.kind == IterationKind::kMatch) {
+    now.threshold_px =
+        shrinkAt(options_.loop.threshold_shrink, iteration_) * options_.loop.inlier_threshold_px;
+  } else {
+    const bool first = iteration_ == options_.loop.match_iterations;
+    const double radius_px =
+        first ? options_.refinement.first_radius_px : options_.refinement.last_radius_px;
+    now.threshold_px = radius_px * static_cast<double>(1 << now.level);
+  }
   now.status = LocalizationStatus::kRunning;
   now.templates.count = 0;
   now.matches.count = 0;
@@ -152,7 +156,8 @@ StepReport Localizer::stepRender() {
 StepReport Localizer::stepTemplates() {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   const double depth_m = (now.render.camera_from_station * bounds_.centre()).z();
-  const int side_px = templateSide(options_.templates, featureSize(), depth_m, now.render.camera);
+  const int side_px = templateSide(options_.templates, templateFactor() * featureSize(), depth_m,
+                                   now.render.camera);
   const Status status =
       selector_.select(now.render, side_px, problem_.ignore, now.level, now.templates);
   digestTemplates(now.templates, digest_);
@@ -232,7 +237,7 @@ void Localizer::collectCorrespondences() {
     made.point_in_station_m =
         now.templates.templates[static_cast<std::size_t>(i)].point_in_station_m;
     made.pixel = Eigen::Vector2d((match.x + 0.5) * scale - 0.5, (match.y + 0.5) * scale - 0.5);
-    made.sigma_px = 1.0;
+    made.sigma_px = options_.loop.match_sigma_px * scale;
     now.template_of[static_cast<std::size_t>(now.correspondence_count)] = i;
     ++now.correspondence_count;
   }
@@ -312,7 +317,8 @@ StepReport Localizer::stepRefine() {
   Status status = Status::kOk;
   if (!stage_begun_) {
     status = refinement_.begin(problem_.image, problem_.ignore, problem_.camera, problem_.mesh,
-                               now.render, now.threshold_px, now.refinement);
+                               now.render, now.threshold_px, anchor(),
+                               options_.loop.anchored ? &matched_ : nullptr, now.refinement);
     stage_begun_ = true;
   }
   bool complete = false;
@@ -327,53 +333,110 @@ StepReport Localizer::stepRefine() {
 StepReport Localizer::finishIteration(Stage stage, const Pose& camera_from_station,
                                       const Matrix6d& covariance) {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
-  now.camera_from_station = camera_from_station;
-  measureCorrection(camera_from_station_, camera_from_station);
-  const bool small = now.correction_translation_m < options_.loop.converged_translation_m &&
-                     now.correction_rotation_rad < options_.loop.converged_rotation_rad;
-  small_corrections_ = small ? small_corrections_ + 1 : 0;
-  camera_from_station_ = camera_from_station;
+  const bool matched = now.kind == IterationKind::kMatch;
+  const bool pull = options_.loop.anchored && matched && options_.refinement.enabled;
+  now.camera_from_station = pull ? pulledBack(camera_from_station) : camera_from_station;
+  measureCorrection(camera_from_station_, now.camera_from_station);
+  small_corrections_ = isSmall(now) ? small_corrections_ + 1 : 0;
+  camera_from_station_ = now.camera_from_station;
   covariance_ = covariance;
+  if (matched) {
+    // Templates overlap and share their errors.
+    matched_.camera_from_station = camera_from_station_;
+    if (!invert(covariance * options_.loop.match_inflation, matched_.information))
+      matched_.information.setZero();
+  }
   StepReport made = report(stage, true);
   made.iteration_complete = true;
   ++iteration_;
-  workspace_.iterations = iteration_;
-  if (leftUncertainty(camera_from_station))
+  ++workspace_.iterations;
+  if (leftUncertainty(camera_from_station_))
     return fail(stage, LocalizationStatus::kLeftUncertainty);
-  const bool refined = !options_.refinement.enabled || now.kind == IterationKind::kRefine;
-  if (refined && small_corrections_ >= options_.loop.converged_iterations) {
+  const int needed = options_.refinement.enabled
+                         ? std::max(options_.loop.match_iterations + options_.refinement.min_passes,
+                                    options_.loop.converged_iterations)
+                         : options_.loop.converged_iterations;
+  if (iteration_ >= needed && small_corrections_ >= options_.loop.converged_iterations) {
     stage_ = Stage::kSupport;
     return made;
   }
   if (iteration_ >= options_.loop.max_iterations)
     return fail(stage, LocalizationStatus::kIterationLimit);
-  iteration_pending_ =
-      true;  // started by the next step: until then the caller sees the one that has ended
+  // Started by the next step: until then the caller sees the iteration that has ended.
+  iteration_pending_ = true;
   return made;
 }
+
+bool Localizer::isSmall(const Iteration& iteration) const {
+  if (iteration.correction_image_px < options_.loop.converged_image_px) return true;
+  return iteration.correction_translation_m < options_.loop.converged_translation_m &&
+         iteration.correction_rotation_rad < options_.loop.converged_rotation_rad;
+}
+
+/// A coarse estimate may overshoot where the image says little: nearest pose inside the
+/// uncertainty.
+Pose Localizer::pulledBack(const Pose& camera_from_station) const {
+  const SeedUncertainty& box = problem_.uncertainty;
+  Vector6d offset = offsetAboutPivot(problem_.camera_from_station_seed, camera_from_station,
+                                     box.pivot_in_camera_m);
+  bool outside = false;
+  for (int i = 0; i < 6; ++i) {
+    const double limit = i < 3 ? box.rotation_rad[i] : box.translation_m[i - 3];
+    outside = outside || std::abs(offset[i]) > limit;
+    offset[i] = std::clamp(offset[i], -limit, limit);
+  }
+  if (!outside) return camera_from_station;
+  return displacedAboutPivot(problem_.camera_from_station_seed, offset, box.pivot_in_camera_m);
+}
+
+const PosePrior* Localizer::anchor() const { return options_.loop.anchored ? &anchor_ : nullptr; }
 
 StepReport Localizer::stepSupport() {
   const Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   workspace_.support = measureEdgeSupport(now.render, now.level, workspace_.edges, problem_.image,
                                           problem_.ignore, options_.support);
-  const bool supported =
-      !options_.support.gate || workspace_.support.share() >= options_.support.min_support;
   digest_.tag("support");
   digest_.i32(workspace_.support.rendered);
-  digest_.i32(workspace_.support.supported);
-  finish(supported ? LocalizationStatus::kConverged : LocalizationStatus::kNotSupported);
+  digest_.i32(workspace_.support.covered);
+  digest_.i32(workspace_.support.seen);
+  digest_.i32(workspace_.support.explained);
+  const bool supported =
+      !options_.support.gate || workspace_.support.share() >= options_.support.min_support;
+  if (!supported) return fail(Stage::kSupport, LocalizationStatus::kNotSupported);
+  finish(LocalizationStatus::kConverged);
   StepReport made = report(Stage::kSupport, true);
   made.finished = true;
   return made;
 }
 
 StepReport Localizer::fail(Stage stage, LocalizationStatus status) {
-  buffers_[static_cast<std::size_t>(current_)].status = status;
-  finish(status);
+  Iteration& now = buffers_[static_cast<std::size_t>(current_)];
+  now.status = status;
   StepReport made = report(stage, true);
   made.iteration_complete = true;
+  if (status != LocalizationStatus::kFault && attempt_ + 1 < options_.loop.max_attempts) {
+    startAttempt();
+    return made;
+  }
+  finish(status);
   made.finished = true;
   return made;
+}
+
+/// From the seed again, with other templates and other samples: what failed may have been one of
+/// them.
+void Localizer::startAttempt() {
+  ++attempt_;
+  workspace_.attempts = attempt_ + 1;
+  iteration_ = 0;
+  small_corrections_ = 0;
+  camera_from_station_ = problem_.camera_from_station_seed;
+  iteration_pending_ = true;
+}
+
+double Localizer::templateFactor() const {
+  constexpr double kFactors[3] = {1.0, 2.0, 0.5};
+  return kFactors[std::min(attempt_, 2)];
 }
 
 StepReport Localizer::faulted(Stage stage, Status fault) {
@@ -400,8 +463,29 @@ void Localizer::measureCorrection(const Pose& before, const Pose& after) {
     now.correction_translation_m =
         (after.inverse().translation_m - before.inverse().translation_m).norm();
   }
+  now.correction_image_px = imageDisplacement(before, after);
   now.correction_rotation_rad =
       rotationLog((after.rotation * before.rotation.conjugate()).normalized()).norm();
+}
+
+/// Mean displacement of the corners of the scene's box in the image.
+double Localizer::imageDisplacement(const Pose& before, const Pose& after) const {
+  double sum_px = 0.0;
+  int seen = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    Eigen::Vector3d point_in_station_m;
+    for (int axis = 0; axis < 3; ++axis) {
+      point_in_station_m[axis] =
+          ((corner >> axis) & 1) != 0 ? bounds_.maximum_m[axis] : bounds_.minimum_m[axis];
+    }
+    Eigen::Vector2d from_px;
+    Eigen::Vector2d to_px;
+    if (!project(problem_.camera, before * point_in_station_m, from_px)) continue;
+    if (!project(problem_.camera, after * point_in_station_m, to_px)) continue;
+    sum_px += (to_px - from_px).norm();
+    ++seen;
+  }
+  return seen > 0 ? sum_px / seen : 1e6;
 }
 
 bool Localizer::leftUncertainty(const Pose& camera_from_station) const {

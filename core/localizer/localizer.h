@@ -80,6 +80,8 @@ class Localizer {
   StepReport stepRefine();
   StepReport stepSupport();
   StepReport fail(Stage stage, LocalizationStatus status);
+  void startAttempt();
+  double templateFactor() const;
   StepReport faulted(Stage stage, Status fault);
   void finishMatch(int index);
   void collectCorrespondences();
@@ -89,6 +91,10 @@ class Localizer {
                              const Matrix6d& covariance);
   void finish(LocalizationStatus status);
   void measureCorrection(const Pose& before, const Pose& after);
+  bool isSmall(const Iteration& iteration) const;
+  double imageDisplacement(const Pose& before, const Pose& after) const;
+  Pose pulledBack(const Pose& camera_from_station) const;
+  const PosePrior* anchor() const;
   bool leftUncertainty(const Pose& camera_from_station) const;
   SeedUncertainty uncertaintyAt(int iteration, const Pose& camera_from_station) const;
   double shrinkAt(double factor, int iteration) const;
@@ -122,10 +128,13 @@ class Localizer {
   Stage stage_ = Stage::kEdges;
   bool stage_begun_ = false;
   bool iteration_pending_ = false;
-  int iteration_ = 0;
+  int attempt_ = 0;
+  int iteration_ = 0;  ///< of this attempt
   int small_corrections_ = 0;
   int coarse_level_ = 0;
   int fine_level_ = 0;
+  PosePrior anchor_;          ///< the seed with its uncertainty as a Gaussian
+  PoseEstimate matched_;      ///< from the latest templates
   Pose camera_from_station_;  ///< the hypothesis
   Matrix6d covariance_ = Matrix6d::Zero();
   Workspace workspace_;

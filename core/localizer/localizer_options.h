@@ -19,6 +19,7 @@ inline constexpr const char* kCorrectionPointNames[] = {"camera", "station"};
 /// The loop around the stages (Pham 2025, Sec. III and Algorithm 1).
 struct LoopOptions {
   std::int32_t max_iterations = 10;
+  std::int32_t max_attempts = 3;
   std::int32_t match_iterations = 2;
   std::int32_t coarse_size_px = 640;
   std::int32_t max_rolled_hypotheses = 9;
@@ -31,14 +32,22 @@ struct LoopOptions {
   double converged_translation_m = 0.0005;
   double converged_rotation_rad = 0.00872664625997;  ///< 0.5 deg
   std::int32_t converged_iterations = 2;
+  double converged_image_px = 0.25;
   double leave_factor = 1.1;
+  bool anchored = true;
+  double match_sigma_px = 1.0;
+  double match_inflation = 8.0;
   std::int32_t second_peak_exclusion_px = 6;
   bool subpixel_matches = true;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
-    visit(OptionInfo{"loop.max_iterations", "", 1, 50, "The run ends after so many iterations."},
+    visit(OptionInfo{"loop.max_iterations", "", 1, 50, "An attempt ends after so many iterations."},
           self.max_iterations);
+    visit(OptionInfo{"loop.max_attempts", "", 1, 3,
+                     "A run that fails starts anew from the seed with templates of twice, then "
+                     "half the size."},
+          self.max_attempts);
     visit(OptionInfo{"loop.match_iterations", "", 1, 50,
                      "So many iterations match templates; those after refine the pose on edges."},
           self.match_iterations);
@@ -81,6 +90,20 @@ struct LoopOptions {
     visit(OptionInfo{"loop.converged_iterations", "", 1, 10,
                      "So many small corrections in a row end the run."},
           self.converged_iterations);
+    visit(OptionInfo{"loop.converged_image_px", "px", 0.0, 100.0,
+                     "A correction that moves the scene's box by less in the image is small, too."},
+          self.converged_image_px);
+    visit(
+        OptionInfo{
+            "loop.anchored", "", 0, 1,
+            "The seed's uncertainty holds what the image leaves open, and pulls early poses back."},
+        self.anchored);
+    visit(OptionInfo{"loop.match_sigma_px", "px", 0.01, 100.0,
+                     "Standard deviation of a right match, in pixels of its level."},
+          self.match_sigma_px);
+    visit(OptionInfo{"loop.match_inflation", "", 1.0, 1e6,
+                     "Factor on the matched pose's covariance when the refinement starts from it."},
+          self.match_inflation);
     visit(OptionInfo{"loop.leave_factor", "", 1.0, 10.0,
                      "A pose beyond this multiple of the seed's uncertainty ends the run."},
           self.leave_factor);

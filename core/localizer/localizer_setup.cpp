@@ -65,7 +65,10 @@ LocalizerOptions paperProfile() {
   options.loop.match_iterations = options.loop.max_iterations;
   options.loop.coarse_size_px = 16384;
   options.loop.max_rolled_hypotheses = 1;
+  options.loop.max_attempts = 1;
   options.loop.correction_point = CorrectionPoint::kCamera;
+  options.loop.converged_image_px = 0.0;
+  options.loop.anchored = false;
   options.refinement.enabled = false;
   options.support.gate = false;
   return options;
@@ -171,10 +174,13 @@ void Localizer::begin() {
   workspace_.camera_from_station = problem_.camera_from_station_seed;
   camera_from_station_ = problem_.camera_from_station_seed;
   covariance_ = Matrix6d::Zero();
+  // A uniform distribution's standard deviation is its half-width over the square root of 3.
+  anchor_ = {problem_.camera_from_station_seed, scaled(problem_.uncertainty, 0.57735026918962576)};
   stage_ = Stage::kEdges;
   stage_begun_ = false;
   iteration_pending_ = false;
   iteration_ = 0;
+  attempt_ = 0;
   current_ = 0;
   small_corrections_ = 0;
   if (status_ != Status::kOk) return;

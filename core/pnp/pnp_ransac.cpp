@@ -13,7 +13,7 @@ namespace {
 constexpr double kNoCost = 1e300;            ///< above every score
 constexpr double kMissingResidual_px = 1e6;  ///< stands for "does not project"
 constexpr int kFewestInliersToRefit = 4;
-constexpr int kGuidedSteps = 4;
+constexpr int kGuidedSteps = 3;
 constexpr int kLocalSteps = 5;
 constexpr int kRefineRounds = 20;
 constexpr int kProjectionsPerStep = 32768;  ///< about a millisecond
@@ -66,8 +66,10 @@ Status PnpRansac::create(int max_correspondences, Arena& arena) {
 
 Status PnpRansac::begin(std::span<const Correspondence> correspondences, const Camera& camera,
                         const PosePrior& hypothesis, double threshold_px, const PnpOptions& options,
-                        PnpSolution& solution) {
+                        PnpSolution& solution, const PosePrior* anchor) {
   correspondences_ = correspondences;
+  anchored_ = anchor != nullptr;
+  if (anchored_) anchor_ = *anchor;
   camera_ = camera;
   hypothesis_ = hypothesis;
   if (!isUsable(hypothesis.camera_from_station)) hypothesis_.camera_from_station = Pose();
@@ -106,6 +108,7 @@ Status PnpRansac::validate(double threshold_px, const PosePrior& hypothesis) con
   if (prepareCamera(checked) != Status::kOk || !(camera_.valid_radius > 0.0)) {
     return Status::kInvalidCamera;
   }
+  if (anchored_ && !isUsable(anchor_)) return Status::kInvalidPose;
   return isUsable(hypothesis) ? Status::kOk : Status::kInvalidPose;
 }
 
@@ -213,7 +216,7 @@ void PnpRansac::optimizeLocally() {
     if (count < kFewestInliersToRefit) return;
     Pose pose = best_;
     const Status status =
-        refinePose(correspondences_, selected, camera_, nullptr, kLocalSteps, pose);
+        refinePose(correspondences_, selected, camera_, anchor(), kLocalSteps, pose);
     Score found;
     if (status != Status::kOk || !score(pose, best_score_.cost, found)) return;
     best_ = pose;
@@ -274,7 +277,7 @@ Status PnpRansac::refine() {
   for (int round = 0; round < kRefineRounds && changed; ++round) {
     if (count < options_.min_inliers) return Status::kNoConsensus;
     const Status status =
-        refinePose(correspondences_, selected, camera_, nullptr, options_.refine_iterations, pose);
+        refinePose(correspondences_, selected, camera_, anchor(), options_.refine_iterations, pose);
     if (status != Status::kOk) return status;
     changed = selectInliers(pose, count);
   }

@@ -33,29 +33,32 @@ struct PnpSolution {
 ///   under its weak prior (the hypothesis itself is scored first).
 /// - Score: sum of min(residual^2, threshold^2) / sigma^2 over the usable correspondences (MSAC,
 ///   Torr and Zisserman 2000), the lowest wins, the earlier of equals.
-/// - Every new best is refitted to its inliers, without the prior, while that lowers the score
+/// - Every new best is refitted to its inliers, without that prior, while this lowers the score
 ///   (LO-RANSAC, Chum, Matas and Kittler 2003).
 /// - Stops when a sample of inliers alone has been drawn with the wanted confidence, given the
 ///   best pose's share of inliers, or at max_samples.
 /// - Last, refit to the inliers and select them anew until they stay the same. Both halves lower
-///   the score, so this ends; the result minimizes the squares over the very inliers it reports.
+///   the score (unless an anchor pulls: then 20 rounds bound it), so this ends; the result
+///   minimizes the squares, with the anchor's, over the very inliers it reports.
 ///
 /// Statuses (of `begin` or `step`): kInvalidOption (options, or a threshold that is not positive
-/// below 1e6), kInvalidCamera (not prepared), kInvalidPose (hypothesis), kCapacityExceeded (more
-/// correspondences than `create` or the solution's spans allow for), kTooFewPoints (fewer usable
-/// correspondences than min_inliers), kDegenerate (no sample gives a pose, or the inliers do not
-/// determine one), kNoConsensus (fewer than min_inliers inliers). On any of them the solution holds
-/// the hypothesis (identity when that is not usable) and no inliers; `residual_px` always is that
-/// of the pose in the solution.
+/// below 1e6), kInvalidCamera (not prepared), kInvalidPose (hypothesis or anchor),
+/// kCapacityExceeded (more correspondences than `create` or the solution's spans allow for),
+/// kTooFewPoints (fewer usable correspondences than min_inliers), kDegenerate (no sample gives a
+/// pose, or the inliers do not determine one), kNoConsensus (fewer than min_inliers inliers). On
+/// any of them the solution holds the hypothesis (identity when that is not usable) and no inliers;
+/// `residual_px` always is that of the pose in the solution.
 class PnpRansac {
  public:
   Status create(int max_correspondences, Arena& arena);
   /// `hypothesis` is where guided samples start and what their prior is about (sigma = uncertainty
   /// times prior_factor). Spans in `solution` must hold one entry per correspondence. The data must
-  /// outlive the steps.
+  /// outlive the steps. `anchor` is a Gaussian prior on the pose in all refits (what the matches
+  /// leave open stays near it), against the correspondences' sigma; it is not part of the
+  /// covariance.
   Status begin(std::span<const Correspondence> correspondences, const Camera& camera,
                const PosePrior& hypothesis, double threshold_px, const PnpOptions& options,
-               PnpSolution& solution);
+               PnpSolution& solution, const PosePrior* anchor = nullptr);
   /// One batch of samples, or the refinement; `done` when the solution is complete or a status
   /// other than kOk ended it.
   Status step(bool& done);
@@ -67,6 +70,7 @@ class PnpRansac {
     std::int32_t inliers = 0;
   };
 
+  const PosePrior* anchor() const { return anchored_ ? &anchor_ : nullptr; }
   Status validate(double threshold_px, const PosePrior& hypothesis) const;
   void listUsable();
   const Correspondence& usable(std::int32_t k) const;
@@ -81,6 +85,9 @@ class PnpRansac {
   bool selectInliers(const Pose& camera_from_station, std::int32_t& count);
   Status refine();
   void writeSolution(const Pose& camera_from_station, bool with_inliers);
+
+  bool anchored_ = false;
+  PosePrior anchor_;
 
   // Scratch, one entry per correspondence.
   std::span<std::int32_t> usable_;       ///< indices; the first usable_count_ are valid

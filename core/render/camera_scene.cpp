@@ -47,7 +47,7 @@ PixelBounds clippedBounds(const CameraScene& scene, const RayGrid& rays, std::in
 Status CameraScene::create(const MeshView& mesh, const MeshAdjacency& adjacency,
                            double near_plane_m, Arena& arena, CameraScene& scene) {
   scene = CameraScene();
-  const Status status = validateMesh(mesh);
+  const Status status = arena.countsOnly() ? Status::kOk : validateMesh(mesh);
   if (status != Status::kOk) return status;
   if (adjacency.neighbour.size() != mesh.faces.size() && !arena.countsOnly())
     return Status::kInvalidMesh;

@@ -180,8 +180,9 @@ void EdgeRenderer::bin(std::int32_t face) {
   const int first_band = bounds.y_first / band_rows_;
   for (int band = first_band; band <= bounds.y_last / band_rows_; ++band)
     band_columns_[static_cast<std::size_t>(band)].include(columns);
-  next_in_band_[static_cast<std::size_t>(face)] = band_head_[static_cast<std::size_t>(first_band)];
-  band_head_[static_cast<std::size_t>(first_band)] = face;
+  std::int32_t& head = band_head_[static_cast<std::size_t>(first_band)];
+  next_in_band_[static_cast<std::size_t>(face)] = head;
+  head = face;
 }
 
 /// Columns covered in bands band - before .. band + after, and `before + after` more on both sides,
@@ -201,16 +202,15 @@ EdgeRenderer::Columns EdgeRenderer::columnsAround(int band, int before, int afte
 
 /// Draws the faces of the current band, and hands those that go on to the next band's list.
 void EdgeRenderer::drawBand() {
-  const auto band = next_;
   const int last_y = band_.first_y + band_.rows - 1;
-  std::int32_t face = band_head_[band];
+  std::int32_t face = band_head_[next_];
   while (face >= 0) {
     const std::int32_t following = next_in_band_[static_cast<std::size_t>(face)];
     const PixelBounds bounds = faceBounds(scene_, *rays_, face);
     drawFace(scene_, *rays_, face, bounds, band_);
     if (bounds.y_last > last_y) {
-      next_in_band_[static_cast<std::size_t>(face)] = band_head_[band + 1];
-      band_head_[band + 1] = face;
+      next_in_band_[static_cast<std::size_t>(face)] = band_head_[next_ + 1];
+      band_head_[next_ + 1] = face;
     }
     face = following;
   }

@@ -12,15 +12,21 @@ namespace {
 
 /// Faces this narrow are tested pixel by pixel.
 constexpr int kNarrow_px = 8;
+/// Runs this short are drawn pixel by pixel.
+constexpr int kShort_px = 8;
 /// Columns that are tested together: inside all edges, outside one, or across some.
 constexpr int kChunk_px = 64;
 
+/// Altitude over length below which a triangle's plane is uncertain: 1e-3, squared.
+constexpr double kThin2 = 1e-6;
+
 /// A face ready to be drawn.
 struct DrawnFace {
-  double a[3], b[3], c[3];  ///< edge i: (a x/z + b y/z) + c
+  double a[3], b[3], c[3];  ///< edge i: a x/z + (b y/z + c)
   double limit[3];          ///< inside when the edge's value reaches this
   double slack[3];          ///< how far an edge's value may be from linear within a chunk's row
   double plane_x, plane_y, plane_1;
+  bool clamped;      ///< 1/z has to be kept within the next two, and beyond the near plane
   double low, high;  ///< range of 1/z over the face
   double nearest;    ///< 1/z of the near plane
   std::int32_t face;
@@ -47,49 +53,27 @@ bool setUp(const CameraScene& scene, std::int32_t face, DrawnFace& drawn) {
   drawn.plane_x = plane.x();
   drawn.plane_y = plane.y();
   drawn.plane_1 = plane.z();
-  const double z0 = scene.vertex(face, 0).z();
-  const double z1 = scene.vertex(face, 1).z();
-  const double z2 = scene.vertex(face, 2).z();
-  const double z_min = std::min({z0, z1, z2});
-  const double z_max = std::max({z0, z1, z2});
+  const Eigen::Vector3d& v0 = scene.vertex(face, 0);
+  const Eigen::Vector3d& v1 = scene.vertex(face, 1);
+  const Eigen::Vector3d& v2 = scene.vertex(face, 2);
+  const double z_min = std::min({v0.z(), v1.z(), v2.z()});
+  const double z_max = std::max({v0.z(), v1.z(), v2.z()});
   if (!(z_max >= scene.near_plane_m)) return false;
-  // Within a face 1/z stays in this range; the plane of a sliver is not known that well.
-  drawn.nearest = 1.0 / scene.near_plane_m;
-  drawn.low = 1.0 / z_max;
-  drawn.high = z_min > scene.near_plane_m ? 1.0 / z_min : 2.0 * drawn.nearest;
+  // Within a face 1/z stays in a range; the plane of a sliver is not known that well.
+  const Eigen::Vector3d side1 = v1 - v0;
+  const Eigen::Vector3d side2 = v2 - v0;
+  const Eigen::Vector3d normal = crossProduct(side1, side2);
+  const double length2 = std::max(dotProduct(side1, side1), dotProduct(side2, side2));
+  const bool crosses_near_plane = !(z_min > scene.near_plane_m);
+  drawn.clamped =
+      crosses_near_plane || !(dotProduct(normal, normal) > kThin2 * (length2 * length2));
+  if (drawn.clamped) {
+    drawn.nearest = 1.0 / scene.near_plane_m;
+    drawn.low = 1.0 / z_max;
+    drawn.high = crosses_near_plane ? 2.0 * drawn.nearest : 1.0 / z_min;
+  }
   drawn.face = face;
   return true;
-}
-
-/// One row of the band, from column 0.
-struct BandRow {
-  const double* ray_x;
-  const double* ray_y;
-  float* inverse_depth;
-  std::int32_t* face;
-};
-
-inline void drawPixel(const DrawnFace& drawn, const BandRow& row, int x) {
-  double inverse_depth =
-      (drawn.plane_x * row.ray_x[x] + drawn.plane_y * row.ray_y[x]) + drawn.plane_1;
-  inverse_depth = inverse_depth < drawn.low ? drawn.low : inverse_depth;
-  inverse_depth = inverse_depth > drawn.high ? drawn.high : inverse_depth;
-  const auto rounded = static_cast<float>(inverse_depth);
-  if (rounded < row.inverse_depth[x] || inverse_depth > drawn.nearest) return;
-  if (rounded == row.inverse_depth[x] && row.face[x] < drawn.face) return;
-  row.inverse_depth[x] = rounded;
-  row.face[x] = drawn.face;
-}
-
-inline void drawTested(const DrawnFace& drawn, const BandRow& row, int x_first, int x_last) {
-  for (int x = x_first; x <= x_last; ++x) {
-    const double ray_x = row.ray_x[x];
-    const double ray_y = row.ray_y[x];
-    if (!((drawn.a[0] * ray_x + drawn.b[0] * ray_y) + drawn.c[0] >= drawn.limit[0])) continue;
-    if (!((drawn.a[1] * ray_x + drawn.b[1] * ray_y) + drawn.c[1] >= drawn.limit[1])) continue;
-    if (!((drawn.a[2] * ray_x + drawn.b[2] * ray_y) + drawn.c[2] >= drawn.limit[2])) continue;
-    drawPixel(drawn, row, x);
-  }
 }
 
 /// Columns of a row that may be inside (possible) and that surely are (certain).
@@ -115,7 +99,8 @@ inline void cutSpan(double left, double right, double slack, int x_first, int x_
   const double crossing = x_first - left * columns_per_value;
   const double width = slack * std::abs(columns_per_value) + 1e-6;
   const int before = floorClamped(crossing - width, x_first - 1, x_last + 1);
-  const int after = ceilClamped(crossing + width, x_first - 1, x_last + 1);
+  int after = std::min(before + 1, x_last + 1);
+  if (crossing + width > after) after = ceilClamped(crossing + width, x_first - 1, x_last + 1);
   if (rise > 0.0) {
     span.possible_first = std::max(span.possible_first, before);
     span.certain_first = std::max(span.certain_first, after);
@@ -125,70 +110,173 @@ inline void cutSpan(double left, double right, double slack, int x_first, int x_
   }
 }
 
-inline void drawSpan(const DrawnFace& drawn, const BandRow& row, const Span& span) {
-  if (span.certain_last < span.certain_first) {
-    drawTested(drawn, row, span.possible_first, span.possible_last);
-    return;
-  }
-  drawTested(drawn, row, span.possible_first, span.certain_first - 1);
-  for (int x = span.certain_first; x <= span.certain_last; ++x) drawPixel(drawn, row, x);
-  drawTested(drawn, row, span.certain_last + 1, span.possible_last);
-}
+/// One row of the band, from column 0. Where y/z is the same all along the row (kLevel: pinhole),
+/// the terms in it are computed once.
+template <bool kLevel>
+struct RowOfFace {
+  const double* ray_x;
+  const double* ray_y;
+  float* inverse_depth;
+  std::int32_t* owner;
+  double edge_term[3];
+  double plane_term = 0.0;
 
+  RowOfFace(const DrawnFace& drawn, RasterBand& band, int row) {
+    const std::size_t start = band.index(0, row);
+    ray_x = band.ray_x.data() + start;
+    ray_y = band.ray_y.data() + start;
+    inverse_depth = band.inverse_depth.data() + start;
+    owner = band.face.data() + start;
+    if (!kLevel) return;
+    const double y = ray_y[band.x_begin];
+    for (int i = 0; i < 3; ++i) edge_term[i] = drawn.b[i] * y + drawn.c[i];
+    plane_term = drawn.plane_y * y + drawn.plane_1;
+  }
+  double edge(const DrawnFace& drawn, int i, int x) const {
+    return drawn.a[i] * ray_x[x] + (kLevel ? edge_term[i] : drawn.b[i] * ray_y[x] + drawn.c[i]);
+  }
+  double plane(const DrawnFace& drawn, int x) const {
+    return drawn.plane_x * ray_x[x] +
+           (kLevel ? plane_term : drawn.plane_y * ray_y[x] + drawn.plane_1);
+  }
+};
+
+template <bool kLevel, bool kClamped>
 class FaceDrawer {
  public:
   FaceDrawer(const DrawnFace& drawn, RasterBand& band) : drawn_(drawn), band_(band) {}
 
   void drawNarrow(int x_first, int x_last, int row_first, int row_last) const {
-    for (int row = row_first; row <= row_last; ++row)
-      drawTested(drawn_, bandRow(row), x_first, x_last);
+    for (int y = row_first; y <= row_last; ++y)
+      drawTested(RowOfFace<kLevel>(drawn_, band_, y), x_first, x_last);
   }
 
-  void drawWide(int x_first, int x_last, int row_first, int row_last, bool reject) const {
+  void drawWide(int x_first, int x_last, int row_first, int row_last) const {
+    const bool reject = x_last - x_first >= kChunk_px;
     for (int x = x_first; x <= x_last; x += kChunk_px)
       drawChunk(x, std::min(x + kChunk_px - 1, x_last), row_first, row_last, reject);
   }
 
  private:
-  BandRow bandRow(int row) const {
-    const std::size_t start = band_.index(0, row);
-    return {band_.ray_x.data() + start, band_.ray_y.data() + start,
-            band_.inverse_depth.data() + start, band_.face.data() + start};
+  void drawPixel(const RowOfFace<kLevel>& row, int x) const {
+    double inverse_depth = row.plane(drawn_, x);
+    if (kClamped) {
+      if (inverse_depth > drawn_.nearest && drawn_.high > drawn_.nearest) return;
+      inverse_depth = inverse_depth < drawn_.low ? drawn_.low : inverse_depth;
+      inverse_depth = inverse_depth > drawn_.high ? drawn_.high : inverse_depth;
+    }
+    const auto rounded = static_cast<float>(inverse_depth);
+    const float before = row.inverse_depth[x];
+    if (rounded > before || (rounded == before && drawn_.face < row.owner[x])) {
+      row.inverse_depth[x] = rounded;
+      row.owner[x] = drawn_.face;
+    }
   }
 
-  double edgeAt(int i, const BandRow& row, int x) const {
-    return (drawn_.a[i] * row.ray_x[x] + drawn_.b[i] * row.ray_y[x]) + drawn_.c[i];
+  /// drawPixel for a run, without branches so that several pixels can be drawn at once.
+  void drawRun(const RowOfFace<kLevel>& row, int x_first, int x_last) const {
+    if (kClamped) {
+      for (int x = x_first; x <= x_last; ++x) drawPixel(row, x);
+      return;
+    }
+    const double* ray_x = row.ray_x + x_first;
+    const double* ray_y = row.ray_y + x_first;
+    float* inverse_depth = row.inverse_depth + x_first;
+    std::int32_t* owner = row.owner + x_first;
+    const double plane_x = drawn_.plane_x;
+    const double plane_y = drawn_.plane_y;
+    const double plane_1 = drawn_.plane_1;
+    const double plane_term = row.plane_term;
+    const std::int32_t face = drawn_.face;
+    const int count = x_last - x_first + 1;
+    if (count < kShort_px) {
+      for (int x = x_first; x <= x_last; ++x) drawPixel(row, x);
+      return;
+    }
+    for (int i = 0; i < count; ++i) {
+      const auto rounded = static_cast<float>(plane_x * ray_x[i] +
+                                              (kLevel ? plane_term : plane_y * ray_y[i] + plane_1));
+      const float before = inverse_depth[i];
+      const std::int32_t owner_before = owner[i];
+      const bool take = (rounded > before) | ((rounded == before) & (face < owner_before));
+      inverse_depth[i] = take ? rounded : before;
+      owner[i] = take ? face : owner_before;
+    }
+  }
+
+  void drawTested(const RowOfFace<kLevel>& row, int x_first, int x_last) const {
+    for (int x = x_first; x <= x_last; ++x) {
+      if (!(row.edge(drawn_, 0, x) >= drawn_.limit[0])) continue;
+      if (!(row.edge(drawn_, 1, x) >= drawn_.limit[1])) continue;
+      if (!(row.edge(drawn_, 2, x) >= drawn_.limit[2])) continue;
+      drawPixel(row, x);
+    }
+  }
+
+  void drawSpan(const RowOfFace<kLevel>& row, const Span& span) const {
+    if (span.certain_last < span.certain_first) {
+      drawTested(row, span.possible_first, span.possible_last);
+      return;
+    }
+    drawTested(row, span.possible_first, span.certain_first - 1);
+    drawRun(row, span.certain_first, span.certain_last);
+    drawTested(row, span.certain_last + 1, span.possible_last);
   }
 
   void drawChunk(int x_first, int x_last, int row_first, int row_last, bool reject) const {
     bool inside[3] = {false, false, false};
     if (reject) {
-      const BandRow top = bandRow(row_first);
-      const BandRow bottom = bandRow(row_last);
+      const RowOfFace<kLevel> top(drawn_, band_, row_first);
+      const RowOfFace<kLevel> bottom(drawn_, band_, row_last);
       for (int i = 0; i < 3; ++i) {
-        const double e00 = edgeAt(i, top, x_first);
-        const double e10 = edgeAt(i, top, x_last);
-        const double e01 = edgeAt(i, bottom, x_first);
-        const double e11 = edgeAt(i, bottom, x_last);
+        const double e00 = top.edge(drawn_, i, x_first);
+        const double e10 = top.edge(drawn_, i, x_last);
+        const double e01 = bottom.edge(drawn_, i, x_first);
+        const double e11 = bottom.edge(drawn_, i, x_last);
         const double slack = 2.0 * drawn_.slack[i];
         if (std::max(std::max(e00, e10), std::max(e01, e11)) < -slack) return;
         inside[i] = std::min(std::min(e00, e10), std::min(e01, e11)) > slack;
       }
     }
     for (int y = row_first; y <= row_last; ++y) {
-      const BandRow row = bandRow(y);
+      const RowOfFace<kLevel> row(drawn_, band_, y);
       Span span{x_first, x_last, x_first, x_last};
       for (int i = 0; i < 3; ++i)
         if (!inside[i])
-          cutSpan(edgeAt(i, row, x_first), edgeAt(i, row, x_last), drawn_.slack[i], x_first, x_last,
-                  span);
-      drawSpan(drawn_, row, span);
+          cutSpan(row.edge(drawn_, i, x_first), row.edge(drawn_, i, x_last), drawn_.slack[i],
+                  x_first, x_last, span);
+      drawSpan(row, span);
     }
   }
 
   const DrawnFace& drawn_;
   RasterBand& band_;
 };
+
+/// How far the edges' values may be from linear: rays differ from linear by at most bend L^2 / 8
+/// along L pixels; the rest is rounding.
+void setSlack(const RayGrid& rays, const RasterBand& band, int x_first, int x_last, int row_first,
+              int row_last, DrawnFace& drawn) {
+  const int length = std::min(x_last - x_first + 1, kChunk_px);
+  const int height = row_last - row_first + 1;
+  const double bend = rays.rayBend_per_px2() * (length * length + height * height) * 0.125;
+  const double reach = std::max(std::abs(band.ray_x[band.index(x_first, row_first)]),
+                                std::abs(band.ray_x[band.index(x_last, row_first)])) +
+                       std::abs(band.ray_y[band.index(x_first, row_first)]) + 1.0;
+  for (int i = 0; i < 3; ++i)
+    drawn.slack[i] = (std::abs(drawn.a[i]) + std::abs(drawn.b[i])) * (bend + 1e-14 * reach) +
+                     std::abs(drawn.c[i]) * 1e-14;
+}
+
+template <bool kLevel, bool kClamped>
+void draw(const DrawnFace& drawn, bool narrow, int x_first, int x_last, int row_first, int row_last,
+          RasterBand& band) {
+  const FaceDrawer<kLevel, kClamped> drawer(drawn, band);
+  if (narrow)
+    drawer.drawNarrow(x_first, x_last, row_first, row_last);
+  else
+    drawer.drawWide(x_first, x_last, row_first, row_last);
+}
 
 }  // namespace
 
@@ -252,23 +340,12 @@ void drawFace(const CameraScene& scene, const RayGrid& rays, std::int32_t face,
 
   DrawnFace drawn;
   if (!setUp(scene, face, drawn)) return;
-  const FaceDrawer drawer(drawn, band);
-  const int width = x_last - x_first + 1;
-  if (width <= kNarrow_px || !rays.smooth()) {
-    drawer.drawNarrow(x_first, x_last, row_first, row_last);
-    return;
-  }
-  // Rays differ from linear by at most bend L^2 / 8 along L pixels; the rest is rounding.
-  const int length = std::min(width, kChunk_px);
-  const int height = row_last - row_first + 1;
-  const double bend = rays.rayBend_per_px2() * (length * length + height * height) * 0.125;
-  const double reach = std::max(std::abs(band.ray_x[band.index(x_first, row_first)]),
-                                std::abs(band.ray_x[band.index(x_last, row_first)])) +
-                       std::abs(band.ray_y[band.index(x_first, row_first)]) + 1.0;
-  for (int i = 0; i < 3; ++i)
-    drawn.slack[i] = (std::abs(drawn.a[i]) + std::abs(drawn.b[i])) * (bend + 1e-14 * reach) +
-                     std::abs(drawn.c[i]) * 1e-14;
-  drawer.drawWide(x_first, x_last, row_first, row_last, width > kChunk_px);
+  // Where pixels without a ray may lie, nothing is said of a run of pixels by its ends.
+  const bool narrow = x_last - x_first < kNarrow_px || !rays.smooth();
+  if (!narrow) setSlack(rays, band, x_first, x_last, row_first, row_last, drawn);
+  const auto draw_as = rays.level() ? (drawn.clamped ? draw<true, true> : draw<true, false>)
+                                    : (drawn.clamped ? draw<false, true> : draw<false, false>);
+  draw_as(drawn, narrow, x_first, x_last, row_first, row_last, band);
 }
 
 }  // namespace boresight

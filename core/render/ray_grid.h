@@ -29,6 +29,8 @@ class RayGrid {
   /// True when every pixel of the image (and some beyond) has a ray, so that rays vary smoothly
   /// and the two bounds below hold.
   bool smooth() const { return smooth_; }
+  /// True when y/z is the same all along each row (pinhole).
+  bool level() const { return camera_.model == CameraModel::kPinhole; }
   /// Bound on the second derivatives of (x/z, y/z) along the image axes, per px^2; 0 for pinhole.
   double rayBend_per_px2() const { return ray_bend_per_px2_; }
   /// Bound on the curvature of the image of a straight line in space, 1/px; 0 for pinhole.

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 #include "core/render/rounding.h"
 
@@ -14,8 +15,28 @@ namespace {
 /// Two surfaces meet, rather than one hiding the other, when their depths at the line differ by
 /// less than this share.
 constexpr double kContact = 2e-4;
-/// (sin of the angle between ray and face)^2 below which an extended plane says little.
-constexpr double kGrazing2 = 0.0225;
+/// Sine of the angle between ray and face below which an extended plane says little.
+constexpr double kGrazing = 0.15;
+
+/// Pixels that are looked at together; a run does not straddle the words of a bit image.
+constexpr int kRun_px = 8;
+
+/// One bit for each of up to eight pixels whose faces in `a` and `b` differ. Most runs show the
+/// same ones, which is seen two at a time.
+unsigned differingFaces(const std::int32_t* a, const std::int32_t* b, int count) {
+  if (count == kRun_px) {
+    std::uint64_t pairs_a[kRun_px / 2];
+    std::uint64_t pairs_b[kRun_px / 2];
+    std::memcpy(pairs_a, a, sizeof(pairs_a));
+    std::memcpy(pairs_b, b, sizeof(pairs_b));
+    if (((pairs_a[0] ^ pairs_b[0]) | (pairs_a[1] ^ pairs_b[1]) | (pairs_a[2] ^ pairs_b[2]) |
+         (pairs_a[3] ^ pairs_b[3])) == 0)
+      return 0;
+  }
+  unsigned differing = 0;
+  for (int i = 0; i < count; ++i) differing |= static_cast<unsigned>(a[i] != b[i]) << i;
+  return differing;
+}
 
 /// |z - z_extended| > threshold, from the inverse depths; a plane that is not met in front of the
 /// camera is infinitely far off.
@@ -30,7 +51,7 @@ Eigen::Vector3d between(const Eigen::Vector3d& from, const Eigen::Vector3d& to, 
 }
 
 bool flatter(const PlaneCache::Entry& a, const PlaneCache::Entry& b) {
-  return a.norm2 < b.norm2 || (a.norm2 == b.norm2 && a.face < b.face);
+  return a.inverse_norm > b.inverse_norm || (a.inverse_norm == b.inverse_norm && a.face < b.face);
 }
 
 std::int8_t rounded8(double value) {
@@ -83,35 +104,25 @@ bool SalientEdges::crossBorder(const Context& context, const Sample& p, const Sa
   return true;
 }
 
+/// Surfaces that differ: where one ends and the other begins.
 bool SalientEdges::crossSurfaces(const Context& context, const Sample& p, const Sample& q,
-                                 Crossing& crossing) {
+                                 const Difference& difference, Crossing& crossing) {
   const CameraScene& scene = context.scene;
   const PlaneCache::Entry plane_p = planes_.get(scene, p.face);
   const PlaneCache::Entry plane_q = planes_.get(scene, q.face);
-  const double inverse_p = dotProduct(plane_p.plane, p.ray);
-  const double inverse_q = dotProduct(plane_q.plane, q.ray);
-  crossing.nearer_is_p = inverse_p > inverse_q || (inverse_p == inverse_q && p.face < q.face);
-  const std::int32_t nearer_face = crossing.nearer_is_p ? p.face : q.face;
-  const ScenePart& part = scene.part(nearer_face);
-  const bool crease =
-      normalsDiffer(plane_p, plane_q, scene.cos_normal_threshold[scene.partIndex(nearer_face)]);
-  const bool occluding =
-      depthDiffers(inverse_q, dotProduct(plane_p.plane, q.ray), part.depth_threshold_m) &&
-      depthDiffers(inverse_p, dotProduct(plane_q.plane, p.ray), part.depth_threshold_m);
-  if (!crease && !occluding) return false;
-
+  crossing.nearer_is_p = difference.nearer_is_p;
   const SurfaceEnd end_p = traceSurface(scene, planes_, p.face, p.ray, q.ray, q.face);
   SurfaceEnd end_q;
   if (!end_p.reached) end_q = traceSurface(scene, planes_, q.face, q.ray, p.ray, p.face);
   if (!end_p.reached && !end_q.reached) {
-    crossing.kind =
-        static_cast<std::uint8_t>((crease ? kEdgeCrease : 0) | (occluding ? kEdgeOccluding : 0));
+    crossing.kind = static_cast<std::uint8_t>((difference.crease ? kEdgeCrease : 0) |
+                                              (difference.occluding ? kEdgeOccluding : 0));
     return crossOverlap(context, p, q, end_p, end_q, crossing) &&
            scene.part(crossing.nearer_is_p ? p.face : q.face).match;
   }
 
   // One connected surface: never a depth edge, a crease where it turns enough.
-  if (!crease || !part.match) return false;
+  if (!difference.crease || !scene.part(crossing.nearer_is_p ? p.face : q.face).match) return false;
   crossing.kind = kEdgeCrease;
   crossing.s = end_p.reached ? end_p.s : 1.0 - end_q.s;
   crossing.has_line = true;
@@ -185,14 +196,44 @@ bool SalientEdges::crossOverlap(const Context& context, const Sample& p, const S
   return true;
 }
 
+/// The pairs that most boundaries between faces give, faces of one smooth surface, end here.
+bool SalientEdges::surfacesDiffer(const Context& context, std::size_t p, std::size_t q,
+                                  Difference& difference) {
+  const CameraScene& scene = context.scene;
+  const RasterBand& band = context.band;
+  const PlaneCache::Entry plane_p = planes_.get(scene, band.face[p]);
+  const PlaneCache::Entry& plane_q = planes_.get(scene, band.face[q]);
+  const auto inverseDepth = [&band](const Eigen::Vector3d& plane, std::size_t at) {
+    return plane.x() * band.ray_x[at] + (plane.y() * band.ray_y[at] + plane.z());
+  };
+  const double inverse_p = inverseDepth(plane_p.plane, p);
+  const double inverse_q = inverseDepth(plane_q.plane, q);
+  difference.nearer_is_p =
+      inverse_p > inverse_q || (inverse_p == inverse_q && plane_p.face < plane_q.face);
+  const std::size_t part = scene.partIndex(difference.nearer_is_p ? plane_p.face : plane_q.face);
+  const double threshold_m = scene.mesh.parts[part].depth_threshold_m;
+  difference.crease = normalsDiffer(plane_p, plane_q, scene.cos_normal_threshold[part]);
+  difference.occluding = depthDiffers(inverse_q, inverseDepth(plane_p.plane, q), threshold_m) &&
+                         depthDiffers(inverse_p, inverseDepth(plane_q.plane, p), threshold_m);
+  return difference.crease || difference.occluding;
+}
+
 void SalientEdges::comparePair(const Context& context, int x_p, int row_p, int x_q, int row_q) {
   const RasterBand& band = context.band;
-  const Sample p{x_p, row_p, band.face[band.index(x_p, row_p)], band.ray(x_p, row_p)};
-  const Sample q{x_q, row_q, band.face[band.index(x_q, row_q)], band.ray(x_q, row_q)};
-  if (p.face == RasterBand::kInvalid || q.face == RasterBand::kInvalid) return;
+  const std::size_t at_p = band.index(x_p, row_p);
+  const std::size_t at_q = band.index(x_q, row_q);
+  const std::int32_t face_p = band.face[at_p];
+  const std::int32_t face_q = band.face[at_q];
+  const bool border = face_p < 0 || face_q < 0;
+  Difference difference;
+  if (border ? face_p == RasterBand::kInvalid || face_q == RasterBand::kInvalid
+             : !surfacesDiffer(context, at_p, at_q, difference))
+    return;
+  const Sample p{x_p, row_p, face_p, band.ray(x_p, row_p)};
+  const Sample q{x_q, row_q, face_q, band.ray(x_q, row_q)};
   Crossing crossing;
-  const bool border = p.face == RasterBand::kBackground || q.face == RasterBand::kBackground;
-  if (border ? crossBorder(context, p, q, crossing) : crossSurfaces(context, p, q, crossing))
+  if (border ? crossBorder(context, p, q, crossing)
+             : crossSurfaces(context, p, q, difference, crossing))
     mark(context, p, q, crossing);
 }
 
@@ -209,7 +250,7 @@ float SalientEdges::depthOf(const Context& context, const Sample& own, const Sam
   const bool extended = own.x != marked.x || own.row != marked.row;
   const bool grazing =
       !(inverse_depth > 0.0) ||
-      inverse_depth * inverse_depth < kGrazing2 * plane.norm2 * dotProduct(marked.ray, marked.ray);
+      inverse_depth * plane.inverse_norm < kGrazing * std::sqrt(dotProduct(marked.ray, marked.ray));
   if (extended && grazing) inverse_depth = dotProduct(plane.plane, ray_at_line);
   if (!extended || grazing) {
     const double farthest = std::max({z0, z1, z2});
@@ -275,31 +316,52 @@ void SalientEdges::mark(const Context& context, const Sample& p, const Sample& q
   edges.set(marked.x, y);
 }
 
-void SalientEdges::compareRow(const Context& context, int row, int x_first, int x_last) {
+/// Pairs of neighbours within a row, and the row's mask.
+void SalientEdges::compareWithin(const Context& context, int row, int x_first, int x_last) {
+  const CameraScene& scene = context.scene;
   const std::int32_t* face = &context.band.face[context.band.index(0, row)];
-  for (int x = x_first; x < x_last; ++x)
-    if (face[x] != face[x + 1]) comparePair(context, x, row, x + 1, row);
+  std::uint64_t* mask = context.output.mask.row(context.band.first_y + row - 1);
+  const auto isMatched = [&scene](std::int32_t at) -> unsigned {
+    return at >= 0 && scene.part(at).match ? ~0U : 0U;
+  };
+  unsigned matched = 0;  // all bits, of the face at hand
+  if (x_first <= x_last) matched = isMatched(face[x_first]);
+  for (int x = x_first; x <= x_last;) {
+    const int end = std::min((x / kRun_px + 1) * kRun_px, x_last + 1);
+    const int count = end - x;
+    unsigned differing = differingFaces(face + x, face + x + 1, std::min(count, x_last - x));
+    unsigned bits = matched;
+    for (; differing != 0; differing &= differing - 1) {
+      const int i = std::countr_zero(differing);
+      comparePair(context, x + i, row, x + i + 1, row);
+      matched = isMatched(face[x + i + 1]);
+      const unsigned after = ~0U << (i + 1);
+      bits = (bits & ~after) | (matched & after);
+    }
+    mask[x >> 6] |= static_cast<std::uint64_t>(bits & ((1U << count) - 1U)) << (x & 63);
+    x = end;
+  }
 }
 
-void SalientEdges::compareRows(const Context& context, int row, int x_first, int x_last) {
+/// Pairs of a row with the row below.
+void SalientEdges::compareBelow(const Context& context, int row, int x_first, int x_last) {
   const std::int32_t* face = &context.band.face[context.band.index(0, row)];
   const std::int32_t* below = &context.band.face[context.band.index(0, row + 1)];
-  for (int x = x_first; x <= x_last; ++x)
-    if (face[x] != below[x]) comparePair(context, x, row, x, row + 1);
+  for (int x = x_first; x <= x_last; x += kRun_px) {
+    unsigned differing = differingFaces(face + x, below + x, std::min(kRun_px, x_last + 1 - x));
+    for (; differing != 0; differing &= differing - 1) {
+      const int at = x + std::countr_zero(differing);
+      comparePair(context, at, row, at, row + 1);
+    }
+  }
 }
 
-/// The row's mask, and its edge pixels into the output.
-Status SalientEdges::finishRow(const Context& context, int row, int x_first, int x_last) {
-  const RasterBand& band = context.band;
-  const CameraScene& scene = context.scene;
+/// The row's edge pixels into the mask and the output.
+Status SalientEdges::finishRow(const Context& context, int row) {
   EdgeRender& output = context.output;
-  const int y = band.first_y + row - 1;
+  const int y = context.band.first_y + row - 1;
   std::uint64_t* mask = output.mask.row(y);
   const std::uint64_t* edges = output.edges.row(y);
-  for (int x = x_first; x <= x_last; ++x) {
-    const std::int32_t face = band.face[band.index(x, row)];
-    if (face >= 0 && scene.part(face).match) mask[x >> 6] |= std::uint64_t{1} << (x & 63);
-  }
   for (int word = 0; word < output.edges.words_per_row; ++word) {
     mask[word] |= edges[word];
     for (std::uint64_t bits = edges[word]; bits != 0; bits &= bits - 1) {
@@ -320,9 +382,9 @@ Status SalientEdges::addBand(const CameraScene& scene, const RasterBand& band, i
   const int first_row = band.first_y > 0 ? 0 : 1;
   const int last_row = final ? band.rows : band.rows - 1;
   for (int row = first_row; row <= last_row; ++row) {
-    compareRow(context, row, x_first, x_last);
-    if (row < band.rows) compareRows(context, row, x_first, x_last);
-    const Status status = finishRow(context, row, x_first, x_last);
+    compareWithin(context, row, x_first, x_last);
+    if (row < band.rows) compareBelow(context, row, x_first, x_last);
+    const Status status = finishRow(context, row);
     if (status != Status::kOk) return status;
   }
   return Status::kOk;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -43,6 +44,12 @@ class SalientEdges {
     std::int32_t face = -1;
     Eigen::Vector3d ray = Eigen::Vector3d::Zero();
   };
+  /// In what two surfaces differ.
+  struct Difference {
+    bool nearer_is_p = true;
+    bool crease = false;
+    bool occluding = false;
+  };
   /// What lies between two pixels.
   struct Crossing {
     double s = 0.0;  ///< place on the way from p to q
@@ -58,17 +65,19 @@ class SalientEdges {
     EdgeRender& output;
   };
 
+  void compareWithin(const Context& context, int row, int x_first, int x_last);
+  void compareBelow(const Context& context, int row, int x_first, int x_last);
   void comparePair(const Context& context, int x_p, int row_p, int x_q, int row_q);
+  bool surfacesDiffer(const Context& context, std::size_t p, std::size_t q, Difference& difference);
   bool crossBorder(const Context& context, const Sample& p, const Sample& q, Crossing& crossing);
-  bool crossSurfaces(const Context& context, const Sample& p, const Sample& q, Crossing& crossing);
+  bool crossSurfaces(const Context& context, const Sample& p, const Sample& q,
+                     const Difference& difference, Crossing& crossing);
   bool crossOverlap(const Context& context, const Sample& p, const Sample& q,
                     const SurfaceEnd& end_p, const SurfaceEnd& end_q, Crossing& crossing);
   void mark(const Context& context, const Sample& p, const Sample& q, const Crossing& crossing);
   float depthOf(const Context& context, const Sample& own, const Sample& marked,
                 const Eigen::Vector3d& ray_at_line, std::int32_t face);
-  void compareRow(const Context& context, int row, int x_first, int x_last);
-  void compareRows(const Context& context, int row, int x_first, int x_last);
-  Status finishRow(const Context& context, int row, int x_first, int x_last);
+  Status finishRow(const Context& context, int row);
 
   PlaneCache planes_;
   std::span<EdgePixel> candidates_;  ///< two rows: this one and the next

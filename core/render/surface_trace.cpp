@@ -53,7 +53,7 @@ int edgeTowards(const CameraScene& scene, std::int32_t face, std::int32_t neighb
 
 /// Cosine-like measure of how near a face's normal is to another's.
 double nearness(const PlaneCache::Entry& face, const PlaneCache::Entry& other) {
-  return dotProduct(face.plane, other.plane) / std::sqrt(other.norm2);
+  return dotProduct(face.plane, other.plane) * other.inverse_norm;
 }
 
 }  // namespace
@@ -68,19 +68,11 @@ void PlaneCache::clear() {
   for (Entry& entry : entries_) entry = Entry();
 }
 
-PlaneCache::Entry PlaneCache::get(const CameraScene& scene, std::int32_t face) {
-  Entry& entry = entries_[static_cast<std::size_t>(face) % kEntries];
-  if (entry.face != face) {
-    entry.face = face;
-    entry.valid = facePlane(scene, face, entry.plane);
-    entry.norm2 = dotProduct(entry.plane, entry.plane);
-  }
-  return entry;
-}
-
-bool normalsDiffer(const PlaneCache::Entry& a, const PlaneCache::Entry& b, double cos_threshold) {
-  const double dot = dotProduct(a.plane, b.plane);
-  return dot < cos_threshold * std::sqrt(a.norm2 * b.norm2);
+void PlaneCache::fill(const CameraScene& scene, std::int32_t face, Entry& entry) {
+  entry.face = face;
+  entry.valid = facePlane(scene, face, entry.plane);
+  const double norm2 = dotProduct(entry.plane, entry.plane);
+  entry.inverse_norm = norm2 > 0.0 ? 1.0 / std::sqrt(norm2) : 0.0;
 }
 
 SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32_t start,

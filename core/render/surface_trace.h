@@ -18,21 +18,30 @@ class PlaneCache {
     std::int32_t face = -1;
     bool valid = false;
     Eigen::Vector3d plane = Eigen::Vector3d::Zero();
-    double norm2 = 0.0;  ///< |plane|^2
+    double inverse_norm = 0.0;  ///< distance of the plane from the camera centre, m
   };
 
   static PlaneCache create(Arena& arena);
   void clear();
-  Entry get(const CameraScene& scene, std::int32_t face);
+  /// Valid until the next call.
+  const Entry& get(const CameraScene& scene, std::int32_t face) {
+    Entry& entry = entries_[static_cast<std::size_t>(face) % kEntries];
+    if (entry.face != face) fill(scene, face, entry);
+    return entry;
+  }
 
  private:
-  static constexpr std::size_t kEntries = 256;
+  static constexpr std::size_t kEntries = 512;
+  static void fill(const CameraScene& scene, std::int32_t face, Entry& entry);
   std::span<Entry> entries_;
 };
 
 /// True when two surfaces' normals, both taken on the camera's side, differ by more than the angle
 /// whose cosine is given.
-bool normalsDiffer(const PlaneCache::Entry& a, const PlaneCache::Entry& b, double cos_threshold);
+inline bool normalsDiffer(const PlaneCache::Entry& a, const PlaneCache::Entry& b,
+                          double cos_threshold) {
+  return dotProduct(a.plane, b.plane) * (a.inverse_norm * b.inverse_norm) < cos_threshold;
+}
 
 /// Where a surface ends on the way from the centre of one pixel (s = 0) to another's (s = 1).
 struct SurfaceEnd {

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/commands.h"
+
+#include <iostream>
+
+#include "sessions/report/text_table.h"
+
+namespace boresight::app {
+namespace {
+
+constexpr const char* kDefaultProfile = "default";
+
+}  // namespace
+
+void note(const std::string& line) { std::cerr << "whs: " << line << std::endl; }
+
+std::string millimetresText(double length_m) {
+  return sessions::fixedText(length_m * 1e3, 3) + " mm";
+}
+
+void MeshArguments::addTo(CLI::App& command) {
+  command.add_option("--mesh", mesh, "Mesh of the station: PLY, OBJ, STL, glTF or GLB")
+      ->required()
+      ->type_name("FILE");
+  command
+      .add_option("--mesh-unit", unit,
+                  "Unit of the mesh's coordinates: m, mm, cm, in, ... (required unless glTF)")
+      ->type_name("UNIT");
+}
+
+sessions::SceneMesh MeshArguments::read() const {
+  sessions::PartSource part;
+  part.mesh = mesh;
+  part.mesh_unit = unit;
+  return sessions::readScene({&part, 1});
+}
+
+void addMethod(CLI::App& command, std::string& method) {
+  command.add_option("--method", method, "How to localize; there is: whs")
+      ->capture_default_str()
+      ->check([](const std::string& name) {
+        return name == "whs" ? std::string() : "there is no method \"" + name + "\"; there is: whs";
+      });
+}
+
+LocalizerOptions profileOptions(const std::string& name) {
+  return name == "paper" ? paperProfile() : defaultProfile();
+}
+
+void OptionArguments::addTo(CLI::App& command) {
+  command
+      .add_option("--profile", profile,
+                  "Set of parameters: default (whatever is best) or paper (as published)")
+      ->check(CLI::IsMember({"default", "paper"}));
+  command.add_option("--config", config, "config.json: a profile and the options that differ")
+      ->type_name("FILE");
+  command
+      .add_option("--set", assignments,
+                  "Option that differs, e.g. pnp.seed=7; `whs options` lists them all")
+      ->type_name("NAME=VALUE");
+}
+
+LocalizerOptions OptionArguments::read() const {
+  LocalizerOptions options = profileOptions(profileName());
+  if (!config.empty()) sessions::applyConfig(options, sessions::readConfig(config));
+  for (const std::string& assignment : assignments) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos) throw CLI::ValidationError("--set", "needs NAME=VALUE");
+    try {
+      sessions::applyOptionText(options, assignment.substr(0, equals),
+                                std::string_view(assignment).substr(equals + 1));
+    } catch (const sessions::OptionError& error) {
+      throw CLI::ValidationError("--set", error.what());
+    }
+  }
+  return options;
+}
+
+std::string OptionArguments::profileName() const {
+  if (!profile.empty()) return profile;
+  if (config.empty()) return kDefaultProfile;
+  const sessions::Config read = sessions::readConfig(config);
+  if (read.profile != "default" && read.profile != "paper")
+    throw sessions::InputError(
+        config, "profile",
+        "there is no profile \"" + read.profile + "\"; there are: default, paper");
+  return read.profile;
+}
+
+}  // namespace boresight::app

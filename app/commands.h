@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the subcommands of whs share: exit codes, common arguments, messages.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/localizer/localizer_options.h"
+#include "sessions/io/config_file.h"
+#include "sessions/io/pose_file.h"
+#include "sessions/io/scene_mesh.h"
+
+namespace boresight::app {
+
+enum ExitCode : int {
+  kDone = 0,  ///< and, for localize, converged
+  kInternalFault = 1,
+  kUsage = 2,
+  kBadInput = 3,
+  kNotConverged = 4,
+};
+
+/// Each adds its subcommand; what that returns when it was called goes to `exit_code`.
+void addLocalize(CLI::App& app, int& exit_code);
+void addEvaluate(CLI::App& app, int& exit_code);
+void addSolve(CLI::App& app, int& exit_code);
+void addRender(CLI::App& app, int& exit_code);
+void addInfo(CLI::App& app, int& exit_code);
+void addOptions(CLI::App& app, int& exit_code);
+
+/// A line to stderr for people.
+void note(const std::string& line);
+
+/// --mesh and --mesh-unit.
+struct MeshArguments {
+  std::string mesh;
+  std::string unit;
+
+  void addTo(CLI::App& command);
+  /// One matched part in its own frame. InputError.
+  sessions::SceneMesh read() const;
+};
+
+/// --method: refused, with what there is, unless it exists.
+void addMethod(CLI::App& command, std::string& method);
+
+/// --profile, --config and --set: where the parameters of a run come from.
+struct OptionArguments {
+  std::string profile;
+  std::string config;
+  std::vector<std::string> assignments;
+
+  void addTo(CLI::App& command);
+  /// Profile, then config, then --set. InputError for the config, CLI::ValidationError for --set.
+  LocalizerOptions read() const;
+  /// "paper" or "default": the one asked for, else the config's.
+  std::string profileName() const;
+};
+
+LocalizerOptions profileOptions(const std::string& name);
+
+/// "12.3 mm" for people.
+std::string millimetresText(double length_m);
+
+}  // namespace boresight::app

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
+
+#include "app/commands.h"
+#include "core/base/math.h"
+#include "sessions/io/camera_file.h"
+#include "sessions/io/dataset_file.h"
+#include "sessions/io/image_file.h"
+#include "sessions/io/json_document.h"
+#include "sessions/io/mesh_container.h"
+#include "sessions/io/points_file.h"
+#include "sessions/report/run_text.h"
+#include "sessions/report/text_table.h"
+#include "sessions/trace/trace_file.h"
+
+namespace boresight::app {
+namespace {
+
+using sessions::fixedText;
+using std::filesystem::path;
+
+void line(const std::string& text) { std::cout << "  " << text << "\n"; }
+void flag(const std::string& text) { std::cout << "  ! " << text << "\n"; }
+
+std::string sizeText(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+std::string vectorText(const Eigen::Vector3d& vector, int decimals) {
+  return fixedText(vector.x(), decimals) + " " + fixedText(vector.y(), decimals) + " " +
+         fixedText(vector.z(), decimals);
+}
+
+/// Angle between the rays of two pixels, deg; not finite where one has no ray.
+double angleBetween_deg(const Camera& camera, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  Eigen::Vector3d ray_a, ray_b;
+  if (!unproject(camera, a, ray_a) || !unproject(camera, b, ray_b)) return std::nan("");
+  return std::acos(std::clamp(ray_a.normalized().dot(ray_b.normalized()), -1.0, 1.0)) / kDegree_rad;
+}
+
+void describeCamera(const Camera& camera) {
+  line(std::string(sessions::cameraModelName(camera.model)) + ", " +
+       sizeText(camera.width, camera.height) + " px, fx " + fixedText(camera.fx, 3) + ", fy " +
+       fixedText(camera.fy, 3) + ", cx " + fixedText(camera.cx, 3) + ", cy " +
+       fixedText(camera.cy, 3));
+  const double right = camera.width - 1;
+  const double bottom = camera.height - 1;
+  line("field of view " +
+       fixedText(angleBetween_deg(camera, {0.0, camera.cy}, {right, camera.cy}), 2) + " x " +
+       fixedText(angleBetween_deg(camera, {camera.cx, 0.0}, {camera.cx, bottom}), 2) +
+       " deg, diagonal " + fixedText(angleBetween_deg(camera, {0.0, 0.0}, {right, bottom}), 2) +
+       " deg; 1 px is " + fixedText(1000.0 / camera.fx, 3) + " mm at 1 m");
+  const double off_centre = std::max(std::abs(camera.cx - 0.5 * right) / camera.width,
+                                     std::abs(camera.cy - 0.5 * bottom) / camera.height);
+  if (off_centre > 0.1)
+    flag(
+        "the principal point is " + fixedText(100.0 * off_centre, 0) +
+        " % of the image off its middle: is this camera of a sub-frame, or of another image size?");
+  if (camera.fx / camera.fy > 1.02 || camera.fy / camera.fx > 1.02)
+    flag("fx and fy differ by " + fixedText(100.0 * std::abs(camera.fx / camera.fy - 1.0), 1) +
+         " %");
+  Eigen::Vector3d ray;
+  for (const Eigen::Vector2d& corner :
+       {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(right, 0.0), Eigen::Vector2d(0.0, bottom),
+        Eigen::Vector2d(right, bottom)})
+    if (!unproject(camera, corner, ray)) {
+      flag("a corner of the image lies outside the valid field of the distortion");
+      break;
+    }
+}
+
+void describePose(const sessions::PoseFile& pose) {
+  std::cout << sessions::poseText(pose.camera_from_station, Matrix6d::Zero());
+  const Eigen::Vector3d camera_in_station_m = pose.camera_from_station.inverse().translation_m;
+  line("camera centre in the station frame " + vectorText(camera_in_station_m, 4) + " m");
+  if (pose.uncertainty)
+    line("uncertainty " + vectorText(pose.uncertainty->translation_m, 4) + " m, " +
+         vectorText(pose.uncertainty->rotation_deg, 2) + " deg about the " +
+         (pose.uncertainty->pivot == sessions::UncertaintyPivot::kStation ? "station" : "camera"));
+  const std::string projected = sessions::projectionNote(pose.rotation_deviation);
+  if (!projected.empty()) flag(projected);
+  if (pose.camera_from_station.translation_m.z() <= 0.0)
+    flag("the station's origin lies behind the camera");
+}
+
+void describeDataset(const sessions::Dataset& dataset) {
+  line(std::to_string(dataset.cases.size()) + " cases, " + std::to_string(dataset.stations.size()) +
+       " stations, " + std::to_string(dataset.cameras.size()) + " cameras");
+  for (const auto& [id, station] : dataset.stations) {
+    const auto cases = std::count_if(dataset.cases.begin(), dataset.cases.end(),
+                                     [&](const sessions::Case& one) { return one.station == id; });
+    line("station " + id + ": " + std::to_string(cases) + " cases, " +
+         std::to_string(station.parts.size()) + " parts" +
+         (station.feature_size_m ? ", feature size " + millimetresText(*station.feature_size_m)
+                                 : ""));
+  }
+  for (const auto& [id, camera] : dataset.cameras) {
+    line("camera " + id + ":");
+    describeCamera(camera);
+  }
+  std::set<std::string> tags;
+  for (const sessions::Case& one : dataset.cases) tags.insert(one.tags.begin(), one.tags.end());
+  std::string list;
+  for (const std::string& tag : tags) list += " " + tag;
+  if (!list.empty()) line("tags:" + list);
+  const auto blind = std::count_if(dataset.cases.begin(), dataset.cases.end(),
+                                   [](const auto& one) { return !one.truth_camera_from_station; });
+  if (blind > 0) flag(std::to_string(blind) + " cases have no truth");
+  for (const std::string& text : dataset.notes) flag(text);
+  sessions::requireFiles(dataset);
+}
+
+void describePoints(const std::vector<sessions::PointPair>& points) {
+  const auto enabled =
+      std::count_if(points.begin(), points.end(), [](const auto& point) { return point.enabled; });
+  line(std::to_string(points.size()) + " points, " + std::to_string(enabled) + " enabled");
+  if (enabled < 4) flag("a pose needs at least 4 enabled points");
+}
+
+void describeJson(const path& file) {
+  const std::string format = sessions::JsonDocument(file).root().at("format").nonEmptyText();
+  line(format);
+  if (format == "boresight-camera") {
+    describeCamera(sessions::readCamera(file));
+  } else if (format == "boresight-pose") {
+    describePose(sessions::readPose(file));
+  } else if (format == "boresight-dataset") {
+    describeDataset(sessions::readDataset(file));
+  } else if (format == "boresight-points") {
+    describePoints(sessions::readPoints(file));
+  } else if (format == "boresight-config") {
+    const sessions::Config config = sessions::readConfig(file);
+    LocalizerOptions options = profileOptions(config.profile);
+    sessions::applyConfig(options, config);
+    line("profile " + config.profile + ", " + std::to_string(config.options.size()) +
+         " options differ: " + sessions::toJson(config.options).dump());
+  } else if (format != "boresight-result") {
+    throw sessions::InputError(file, "format", "\"" + format + "\" is not known");
+  }
+}
+
+void describeMesh(const path& file, const std::string& unit) {
+  const sessions::MeshFormat format = sessions::meshFormatOf(file);
+  const bool stated = !unit.empty() || sessions::carriesUnit(format);
+  const sessions::Mesh mesh = sessions::readMesh(file, stated ? unit : "m");
+  const sessions::MeshInfo& info = mesh.info;
+  const Eigen::Vector3d extent = (info.maximum_m - info.minimum_m);
+  line(info.format + ", " + std::to_string(mesh.vertices_m.size()) + " vertices, " +
+       std::to_string(mesh.faces.size()) + " faces");
+  if (stated) {
+    line("extent " + vectorText(extent, 4) + " m, from " + vectorText(info.minimum_m, 4) + " to " +
+         vectorText(info.maximum_m, 4) + " m");
+  } else {
+    line("extent " + vectorText(extent, 4) +
+         " in the file's unit, which it does not state: with m " + fixedText(extent.norm(), 3) +
+         " m across, with mm " + fixedText(extent.norm() * 1e-3, 6) + " m");
+    if (extent.norm() > 20.0) flag("over 20 m across if in m: probably in mm");
+  }
+  for (const std::string& text : info.notes()) flag(text);
+}
+
+void describeImage(const path& file) {
+  const sessions::GrayImage image = sessions::readImage(file);
+  line(image.container + ", " + sizeText(image.width, image.height) + " px, " +
+       std::to_string(image.channels) + " channels, " + std::to_string(image.sample_bits) + " bit");
+  line("to 8 bit: " + image.rule);
+  const auto [low, high] = std::minmax_element(image.pixels.begin(), image.pixels.end());
+  const auto saturated = std::count(image.pixels.begin(), image.pixels.end(), 255);
+  const double share = static_cast<double>(saturated) / static_cast<double>(image.pixels.size());
+  line("gray " + std::to_string(*low) + " .. " + std::to_string(*high) + ", " +
+       fixedText(100.0 * share, 2) + " % saturated");
+  line("sha256 " + image.file_sha256);
+  if (share > 0.02) flag("much of the image is saturated");
+  if (*high - *low < 64) flag("the image uses few gray levels: is its bit depth stated right?");
+}
+
+void describeTrace(const path& file) {
+  const sessions::LocalizationTrace trace = sessions::loadTrace(file);
+  line("trace by whs " + trace.version + ": " + localizationStatusText(trace.status) + ", digest " +
+       trace.digest);
+  std::cout << sessions::iterationTable(trace);
+}
+
+bool beginsLikeTrace(const path& file) {
+  const auto bytes = sessions::readFileBytes(file, 4096 * sessions::kMegabyte);
+  return sessions::asText(bytes).substr(0, 8) == "BSTRACE\n";
+}
+
+void describe(const path& file, const std::string& mesh_unit) {
+  std::cout << file.string() << "\n";
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto is = [&extension](std::initializer_list<const char*> names) {
+    return std::find(names.begin(), names.end(), extension) != names.end();
+  };
+  if (is({".json"})) {
+    describeJson(file);
+  } else if (is({".ply", ".obj", ".stl", ".gltf", ".glb"})) {
+    describeMesh(file, mesh_unit);
+  } else if (is({".png", ".jpg", ".jpeg", ".tif", ".tiff"})) {
+    describeImage(file);
+  } else if (beginsLikeTrace(file)) {
+    describeTrace(file);
+  } else {
+    throw sessions::InputError(file, "neither an image, a mesh, a JSON file, nor a trace");
+  }
+}
+
+/// Every file is described; a bad one does not keep the others from it.
+int describeAll(const std::vector<std::string>& files, const std::string& mesh_unit) {
+  int exit_code = kDone;
+  for (const std::string& file : files) {
+    try {
+      describe(file, mesh_unit);
+    } catch (const sessions::FileError& error) {
+      std::cout << std::flush;
+      std::cerr << error.what() << std::endl;
+      exit_code = kBadInput;
+    }
+  }
+  std::cout << std::flush;
+  return exit_code;
+}
+
+}  // namespace
+
+void addInfo(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "info", "Says what files are: sizes, units, camera model, field of view, red flags");
+  auto files = std::make_shared<std::vector<std::string>>();
+  auto unit = std::make_shared<std::string>();
+  command
+      ->add_option("files", *files,
+                   "Images, cameras, meshes, poses, datasets, configs, points, traces")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--mesh-unit", *unit, "Unit of meshes that state none")->type_name("UNIT");
+  command->callback([files, unit, &exit_code] { exit_code = describeAll(*files, *unit); });
+}
+
+}  // namespace boresight::app

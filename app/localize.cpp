@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/commands.h"
+#include "core/base/math.h"
+#include "sessions/evaluation/pose_error.h"
+#include "sessions/io/atomic_file.h"
+#include "sessions/io/camera_file.h"
+#include "sessions/io/image_file.h"
+#include "sessions/report/overlay.h"
+#include "sessions/report/result_file.h"
+#include "sessions/report/run_text.h"
+#include "sessions/report/text_table.h"
+#include "sessions/trace/record.h"
+#include "sessions/trace/seed_check.h"
+#include "sessions/trace/trace_file.h"
+
+namespace boresight::app {
+namespace {
+
+struct LocalizeArguments {
+  std::string image, camera, seed, truth, ignore;
+  MeshArguments mesh;
+  OptionArguments options;
+  double feature_size_m = 0.0;
+  std::vector<double> uncertainty;
+  std::string pivot;
+  int bit_depth = 0;
+  std::string method = "whs";
+  std::string out, trace, overlay;
+
+  void addTo(CLI::App& command);
+};
+
+/// Everything that was read, and the problem that points into it.
+struct Inputs {
+  sessions::GrayImage image;
+  Camera camera;
+  sessions::SceneMesh scene;
+  sessions::PoseFile seed;
+  std::optional<sessions::PoseFile> truth;
+  std::optional<sessions::IgnoreMask> ignore_mask;
+  BitImage ignore;
+  sessions::DeclaredUncertainty uncertainty;
+  LocalizerOptions options;
+  std::vector<std::string> notes;  ///< said when everything has been accepted
+
+  LocalizationProblem problem() const {
+    LocalizationProblem made;
+    made.image = image.view();
+    made.ignore = ignore_mask ? &ignore : nullptr;
+    made.camera = camera;
+    made.mesh = scene.view();
+    made.camera_from_station_seed = seed.camera_from_station;
+    made.uncertainty = sessions::seedUncertainty(uncertainty, seed.camera_from_station,
+                                                 matchedBounds(scene.view()).centre());
+    return made;
+  }
+};
+
+void LocalizeArguments::addTo(CLI::App& command) {
+  const auto file = [&command](const char* name, std::string& value, const char* help) {
+    return command.add_option(name, value, help)->type_name("FILE");
+  };
+  file("--image", image, "PNG, JPEG or TIFF, 8 or 16 bit")->required();
+  file("--camera", camera, "camera.json")->required();
+  mesh.addTo(command);
+  file("--seed", seed, "pose.json: where the camera is believed to be")->required();
+  options.addTo(command);
+  command
+      .add_option("--feature-size", feature_size_m,
+                  "Size of the station's features (sleeves, screws), m; 0: from the mesh's size")
+      ->check(CLI::Range(0.0, 100.0))
+      ->type_name("M");
+  command
+      .add_option("--uncertainty", uncertainty,
+                  "How far the seed may be off along and about x, y, z of the camera: three "
+                  "lengths in m, three angles in deg (instead of what the seed's file states)")
+      ->expected(6)
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("TX TY TZ RX RY RZ");
+  command
+      .add_option("--pivot", pivot,
+                  "What the seed's rotation is uncertain about: camera (an arm camera) or station")
+      ->check(CLI::IsMember({"camera", "station"}));
+  file("--ignore", ignore, "Mask image of the same size: nonzero pixels are not trusted");
+  file("--truth", truth, "pose.json with the true pose: errors are printed, an overlay shows it");
+  command
+      .add_option("--bit-depth", bit_depth,
+                  "Bits that the image's samples use, e.g. 12 in a 16-bit file")
+      ->check(CLI::Range(1, 16))
+      ->type_name("N");
+  addMethod(command, method);
+  file("--out", out, "Writes the result as JSON");
+  file("--trace", trace, "Writes everything in between (binary)");
+  file("--overlay", overlay, "Writes a PNG: seed red, result green, truth blue over the image");
+}
+
+sessions::DeclaredUncertainty declaredUncertainty(const LocalizeArguments& arguments,
+                                                  const sessions::PoseFile& seed) {
+  sessions::DeclaredUncertainty declared =
+      seed.uncertainty.value_or(sessions::DeclaredUncertainty());
+  if (!arguments.uncertainty.empty()) {
+    const std::vector<double>& u = arguments.uncertainty;
+    declared.translation_m = {u[0], u[1], u[2]};
+    declared.rotation_deg = {u[3], u[4], u[5]};
+    if (declared.translation_m.maxCoeff() > 1000.0 || declared.rotation_deg.maxCoeff() > 180.0)
+      throw CLI::ValidationError("--uncertainty", "at most 1000 m and 180 deg");
+  }
+  if (!arguments.pivot.empty())
+    declared.pivot = arguments.pivot == "station" ? sessions::UncertaintyPivot::kStation
+                                                  : sessions::UncertaintyPivot::kCamera;
+  return declared;
+}
+
+Inputs readInputs(const LocalizeArguments& arguments) {
+  Inputs inputs;
+  inputs.options = arguments.options.read();
+  if (arguments.feature_size_m > 0.0)
+    inputs.options.templates.feature_size_m = arguments.feature_size_m;
+  inputs.camera = sessions::readCamera(std::filesystem::path(arguments.camera));
+  inputs.seed = sessions::readPose(std::filesystem::path(arguments.seed));
+  if (!arguments.truth.empty())
+    inputs.truth = sessions::readPose(std::filesystem::path(arguments.truth));
+  sessions::ImageReadOptions reading;
+  if (arguments.bit_depth > 0) reading.bit_depth = arguments.bit_depth;
+  inputs.image = sessions::readImage(arguments.image, reading);
+  sessions::requireSameSize(inputs.image, inputs.camera);
+  if (!arguments.ignore.empty()) {
+    inputs.ignore_mask =
+        sessions::readIgnoreMask(arguments.ignore, inputs.image.width, inputs.image.height);
+    inputs.ignore = inputs.ignore_mask->view();
+  }
+  inputs.scene = arguments.mesh.read();
+  inputs.uncertainty = declaredUncertainty(arguments, inputs.seed);
+  if (!inputs.seed.uncertainty && arguments.uncertainty.empty())
+    inputs.notes.push_back(
+        "the seed states no uncertainty; taking 0.03 m and 5 deg (see --uncertainty)");
+  const std::string projected = sessions::projectionNote(inputs.seed.rotation_deviation);
+  if (!projected.empty()) inputs.notes.push_back(arguments.seed + ": " + projected);
+  return inputs;
+}
+
+void requireSensibleSeed(const LocalizeArguments& arguments, const Inputs& inputs) {
+  const Pose& seed = inputs.seed.camera_from_station;
+  sessions::requirePlausibleScale(inputs.scene, seed);
+  const std::string concern = sessions::seedConcern(inputs.camera, inputs.scene.view(), seed);
+  if (!concern.empty()) throw sessions::InputError(arguments.seed, "camera_from_station", concern);
+}
+
+sessions::RunProvenance provenance(const LocalizeArguments& arguments, const Inputs& inputs) {
+  sessions::RunProvenance made;
+  made.method = arguments.method;
+  made.profile = arguments.options.profileName();
+  made.changed_options = sessions::changedOptions(inputs.options, profileOptions(made.profile));
+  made.uncertainty = inputs.uncertainty;
+  made.image = &inputs.image;
+  made.scene = &inputs.scene;
+  made.ignore = inputs.ignore_mask ? &*inputs.ignore_mask : nullptr;
+  made.camera_file = arguments.camera;
+  made.seed_file = arguments.seed;
+  made.truth_file = arguments.truth;
+  made.config_file = arguments.options.config;
+  return made;
+}
+
+void writeOverlay(const std::string& file, const Inputs& inputs,
+                  const sessions::LocalizationTrace& trace) {
+  std::vector<sessions::OverlayLayer> layers = {
+      {"seed", inputs.seed.camera_from_station, sessions::kSeedColor}};
+  if (inputs.truth)
+    layers.push_back({"truth", inputs.truth->camera_from_station, sessions::kTruthColor, 1});
+  if (trace.converged())
+    layers.push_back({"result", trace.camera_from_station, sessions::kResultColor});
+  else if (!trace.iterations.empty())
+    layers.push_back({std::string("last hypothesis, ") + localizationStatusText(trace.status),
+                      trace.iterations.back().camera_from_station, sessions::kResultColor});
+  sessions::writeColorPng(
+      file, sessions::drawOverlay(inputs.image.view(), inputs.camera, inputs.scene.view(), layers));
+}
+
+std::optional<sessions::PoseError> errorAgainstTruth(const Inputs& inputs, const Pose& estimate) {
+  if (!inputs.truth) return std::nullopt;
+  const Pose& truth = inputs.truth->camera_from_station;
+  sessions::PoseError error = sessions::poseError(truth, estimate, std::nullopt);
+  error.projection_px = sessions::projectionError(inputs.camera, truth, estimate,
+                                                  sessions::matchedVertices(inputs.scene.view()));
+  return error;
+}
+
+void printResult(const sessions::LocalizationTrace& trace,
+                 const std::optional<sessions::PoseError>& error) {
+  using sessions::fixedText;
+  std::cout << sessions::iterationTable(trace) << "\n";
+  if (trace.converged()) {
+    std::cout << "converged in " << trace.iterations.size() << " iterations, edge support "
+              << fixedText(100.0 * trace.support.share(), 1) << " %, "
+              << fixedText(trace.seconds.total(), 2) << " s\n\n"
+              << sessions::poseText(trace.camera_from_station, trace.covariance);
+  } else {
+    std::cout << "not converged: " << localizationStatusText(trace.status)
+              << "; the best estimate remains the seed\n";
+  }
+  if (error) {
+    std::cout << (trace.converged() ? "against the truth" : "the seed against the truth")
+              << " (at the camera): normal " << fixedText(error->normal_mm, 3) << " mm, lateral "
+              << fixedText(error->lateral_mm, 3) << " mm, rotation "
+              << fixedText(error->rotation_mrad, 3) << " mrad";
+    if (error->projection_px)
+      std::cout << ", projection " << fixedText(*error->projection_px, 2) << " px";
+    std::cout << "\n";
+  }
+  std::cout << "digest " << trace.digest << std::endl;
+}
+
+/// A fault is the input's or the program's.
+int exitCodeOf(const sessions::LocalizationTrace& trace) {
+  if (trace.converged()) return kDone;
+  if (trace.status != LocalizationStatus::kFault) return kNotConverged;
+  return trace.fault == Status::kCapacityExceeded ? kNotConverged : kInternalFault;
+}
+
+/// What the core refuses although the readers let it pass.
+void requireAccepted(const LocalizeArguments& arguments, const sessions::LocalizationTrace& trace) {
+  const std::string reason = statusText(trace.fault);
+  switch (trace.fault) {
+    case Status::kInvalidMesh:
+      throw sessions::InputError(arguments.mesh.mesh, reason);
+    case Status::kInvalidCamera:
+      throw sessions::InputError(arguments.camera, reason);
+    case Status::kInvalidImage:
+      throw sessions::InputError(arguments.image, reason);
+    case Status::kInvalidPose:
+      throw sessions::InputError(arguments.seed, reason);
+    default:
+      break;
+  }
+}
+
+int localizeImage(const LocalizeArguments& arguments) {
+  for (const std::string& file : {arguments.out, arguments.trace, arguments.overlay})
+    if (!file.empty()) sessions::requireWritable(file);
+  const Inputs inputs = readInputs(arguments);
+  requireSensibleSeed(arguments, inputs);
+  for (const std::string& line : inputs.notes) note(line);
+  const auto level =
+      arguments.trace.empty() ? sessions::RecordLevel::kSummary : sessions::RecordLevel::kFull;
+  const sessions::LocalizationTrace trace =
+      sessions::localize(inputs.problem(), inputs.options, level);
+  requireAccepted(arguments, trace);
+  const auto error = errorAgainstTruth(inputs, trace.camera_from_station);
+  printResult(trace, error);
+  if (!arguments.out.empty())
+    sessions::writeResult(arguments.out, trace, error, provenance(arguments, inputs));
+  if (!arguments.trace.empty()) sessions::saveTrace(arguments.trace, trace);
+  if (!arguments.overlay.empty()) writeOverlay(arguments.overlay, inputs, trace);
+  if (!trace.converged())
+    note(std::string(localizationStatusText(trace.status)) + ": " + sessions::explanation(trace));
+  return exitCodeOf(trace);
+}
+
+}  // namespace
+
+void addLocalize(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "localize", "Finds the camera's pose relative to a station in one image, from a seed");
+  auto arguments = std::make_shared<LocalizeArguments>();
+  arguments->addTo(*command);
+  command->callback([arguments, &exit_code] { exit_code = localizeImage(*arguments); });
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "sessions/report/text_table.h"
+
+namespace boresight::app {
+namespace {
+
+using sessions::OptionDescription;
+using sessions::OptionKind;
+
+std::string rangeText(const OptionDescription& option) {
+  std::string text;
+  if (option.kind == OptionKind::kBoolean) return "true, false";
+  if (option.kind == OptionKind::kChoice) {
+    for (const std::string& choice : option.choices) text += (text.empty() ? "" : ", ") + choice;
+    return text;
+  }
+  return sessions::numberText(option.minimum) + " .. " + sessions::numberText(option.maximum);
+}
+
+void printOptions(const std::string& profile) {
+  for (const OptionDescription& option : sessions::listOptions(profileOptions(profile))) {
+    std::cout << option.name << " = " << sessions::valueText(option, option.value) << "   ("
+              << rangeText(option) << ")\n    " << option.help << "\n";
+  }
+}
+
+}  // namespace
+
+void addOptions(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "options", "Lists every parameter of a run: value in a profile, range, meaning");
+  auto profile = std::make_shared<std::string>("default");
+  command->add_option("--profile", *profile, "default or paper")
+      ->check(CLI::IsMember({"default", "paper"}))
+      ->capture_default_str();
+  command->callback([profile, &exit_code] {
+    printOptions(*profile);
+    exit_code = kDone;
+  });
+}
+
+}  // namespace boresight::app

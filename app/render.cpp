@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <vector>
+
+#include "app/commands.h"
+#include "sessions/io/atomic_file.h"
+#include "sessions/io/camera_file.h"
+#include "sessions/io/image_file.h"
+#include "sessions/trace/scene_render.h"
+#include "sessions/trace/seed_check.h"
+
+namespace boresight::app {
+namespace {
+
+struct RenderArguments {
+  MeshArguments mesh;
+  std::string camera;
+  std::string pose;
+  std::string out;
+};
+
+int render(const RenderArguments& arguments) {
+  sessions::requireWritable(arguments.out);
+  const Camera camera = sessions::readCamera(arguments.camera);
+  const sessions::PoseFile pose = sessions::readPose(std::filesystem::path(arguments.pose));
+  const sessions::SceneMesh scene = arguments.mesh.read();
+  sessions::requirePlausibleScale(scene, pose.camera_from_station);
+  const std::string concern = sessions::seedConcern(camera, scene.view(), pose.camera_from_station);
+  if (!concern.empty()) throw sessions::InputError(arguments.pose, "camera_from_station", concern);
+  sessions::RenderTrace made;
+  const Status status = sessions::renderScene(camera, scene.view(), pose.camera_from_station, made);
+  if (status != Status::kOk)
+    throw sessions::InputError(arguments.mesh.mesh,
+                               std::string("cannot be rendered: ") + statusText(status));
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(camera.width) *
+                                   static_cast<std::size_t>(camera.height));
+  for (const EdgePixel& pixel : made.pixels)
+    pixels[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(camera.width) +
+           static_cast<std::size_t>(pixel.x)] = 255;
+  sessions::writePng(arguments.out, pixels, camera.width, camera.height, 1);
+  std::cout << made.pixels.size() << " edge pixels\n";
+  return kDone;
+}
+
+}  // namespace
+
+void addRender(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("render", "Draws the salient edges of a mesh seen from a pose");
+  auto arguments = std::make_shared<RenderArguments>();
+  arguments->mesh.addTo(*command);
+  command->add_option("--camera", arguments->camera, "camera.json")->required()->type_name("FILE");
+  command->add_option("--pose", arguments->pose, "pose.json")->required()->type_name("FILE");
+  command->add_option("--out", arguments->out, "PNG: white edges on black")
+      ->required()
+      ->type_name("FILE");
+  command->callback([arguments, &exit_code] { exit_code = render(*arguments); });
+}
+
+}  // namespace boresight::app

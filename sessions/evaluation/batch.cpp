@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/evaluation/batch.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <thread>
+
+#include "sessions/evaluation/reseed.h"
+#include "sessions/io/errors.h"
+#include "sessions/trace/record.h"
+#include "sessions/trace/seed_check.h"
+
+namespace boresight::sessions {
+namespace {
+
+/// A value that the first who needs it loads; a failure is the same for everybody.
+template <class T>
+class Shared {
+ public:
+  template <class Load>
+  std::shared_ptr<const T> get(Load&& load) {
+    const std::lock_guard lock(mutex_);
+    if (error_) std::rethrow_exception(error_);
+    if (value_) return value_;
+    try {
+      value_ = std::make_shared<const T>(load());
+    } catch (...) {
+      error_ = std::current_exception();
+      throw;
+    }
+    return value_;
+  }
+  void release() {
+    const std::lock_guard lock(mutex_);
+    value_.reset();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::shared_ptr<const T> value_;
+  std::exception_ptr error_;
+};
+
+struct StationScene {
+  SceneMesh scene;
+  std::vector<Eigen::Vector3f> matched_vertices;
+  Eigen::Vector3d centre_m;
+};
+
+struct CaseImage {
+  GrayImage image;
+  std::optional<IgnoreMask> ignore;
+};
+
+/// A case and what its runs share.
+struct CaseWork {
+  const Case* input = nullptr;
+  Shared<StationScene>* scene = nullptr;
+  const Station* mesh_station = nullptr;
+  Shared<CaseImage> image;
+  std::atomic<int> runs_left{0};
+};
+
+bool selects(const std::vector<std::string>& filter, const std::string& value) {
+  return filter.empty() || std::find(filter.begin(), filter.end(), value) != filter.end();
+}
+
+bool selectsTag(const std::vector<std::string>& filter, const Case& one) {
+  return filter.empty() || std::any_of(filter.begin(), filter.end(),
+                                       [&](const std::string& tag) { return one.hasTag(tag); });
+}
+
+std::vector<const Case*> selectedCases(const Dataset& dataset, const BatchOptions& options) {
+  for (const std::string& id : options.cases)
+    if (dataset.findCase(id) == nullptr)
+      throw InputError(dataset.file, "cases", "there is no case \"" + id + "\"");
+  std::vector<std::string> stations = options.stations;
+  if (!options.mesh_of.empty()) stations.push_back(options.mesh_of);
+  for (const std::string& id : stations)
+    if (dataset.stations.count(id) == 0)
+      throw InputError(dataset.file, "stations", "there is no station \"" + id + "\"");
+  std::vector<const Case*> selected;
+  for (const Case& one : dataset.cases) {
+    if (selects(options.cases, one.id) && selects(options.stations, one.station) &&
+        selectsTag(options.tags, one) && one.station != options.mesh_of)
+      selected.push_back(&one);
+  }
+  if (selected.empty()) throw InputError(dataset.file, "cases", "none meets all filters");
+  return selected;
+}
+
+StationScene loadScene(const Station& station, const std::optional<MirrorAxis>& mirror) {
+  StationScene loaded;
+  loaded.scene = readStationScene(station);
+  if (mirror) loaded.scene = mirrored(std::move(loaded.scene), *mirror);
+  loaded.matched_vertices = matchedVertices(loaded.scene.view());
+  loaded.centre_m = matchedBounds(loaded.scene.view()).centre();
+  return loaded;
+}
+
+std::optional<PoseError> errorOf(const Case& one, const Camera& camera, const Pose& estimate,
+                                 const StationScene& scene) {
+  if (!one.truth_camera_from_station) return std::nullopt;
+  const Pose& truth = *one.truth_camera_from_station;
+  PoseError error = poseError(truth, estimate, one.camera_from_end_effector);
+  error.projection_px = projectionError(camera, truth, estimate, scene.matched_vertices);
+  return error;
+}
+
+class Batch {
+ public:
+  Batch(const Dataset& dataset, const BatchOptions& options, const BatchProgress& progress);
+  std::vector<RunResult> run(const std::stop_token& stop);
+
+ private:
+  struct Item {
+    CaseWork* work = nullptr;
+    int reseed = 0;
+  };
+
+  void workUntilDone(const std::stop_token& stop);
+  RunResult runItem(const Item& item, const std::stop_token& stop);
+  void runLoaded(const Item& item, const std::stop_token& stop, RunResult& result);
+  void finish(std::size_t index, RunResult result);
+
+  const Dataset& dataset_;
+  const BatchOptions& options_;
+  const BatchProgress& progress_;
+  std::map<std::string, Shared<StationScene>> scenes_;
+  std::vector<std::unique_ptr<CaseWork>> cases_;
+  std::vector<Item> items_;
+  std::atomic<std::size_t> next_{0};
+  std::mutex mutex_;  ///< over what follows
+  std::vector<std::optional<RunResult>> results_;
+  std::size_t done_ = 0;
+  std::exception_ptr fault_;
+};
+
+Batch::Batch(const Dataset& dataset, const BatchOptions& options, const BatchProgress& progress)
+    : dataset_(dataset), options_(options), progress_(progress) {
+  for (const Case* one : selectedCases(dataset, options)) {
+    auto work = std::make_unique<CaseWork>();
+    work->input = one;
+    const std::string& mesh = options.mesh_of.empty() ? one->station : options.mesh_of;
+    work->mesh_station = &dataset.stations.at(mesh);
+    work->scene = &scenes_[mesh];
+    const int reseeds = one->truth_camera_from_station ? options.reseeds : 0;
+    work->runs_left = reseeds + 1;
+    for (int reseed = 0; reseed <= reseeds; ++reseed) items_.push_back({work.get(), reseed});
+    cases_.push_back(std::move(work));
+  }
+  results_.resize(items_.size());
+}
+
+std::vector<RunResult> Batch::run(const std::stop_token& stop) {
+  {
+    std::vector<std::jthread> threads;
+    const auto wanted = static_cast<std::size_t>(std::max(1, options_.jobs));
+    for (std::size_t i = 0; i < std::min(wanted, items_.size()); ++i)
+      threads.emplace_back([this, stop] {
+        try {
+          workUntilDone(stop);
+        } catch (...) {  // a fault of the program: for the caller's thread to report
+          const std::lock_guard lock(mutex_);
+          fault_ = std::current_exception();
+        }
+      });
+  }
+  if (fault_) std::rethrow_exception(fault_);
+  std::vector<RunResult> results;
+  for (std::optional<RunResult>& result : results_)
+    if (result) results.push_back(std::move(*result));
+  return results;
+}
+
+void Batch::workUntilDone(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    const std::size_t index = next_++;
+    if (index >= items_.size()) return;
+    const Item& item = items_[index];
+    RunResult result = runItem(item, stop);
+    if (--item.work->runs_left == 0) item.work->image.release();
+    if (!stop.stop_requested()) finish(index, std::move(result));
+  }
+}
+
+void Batch::finish(std::size_t index, RunResult result) {
+  const std::lock_guard lock(mutex_);
+  ++done_;
+  if (progress_) progress_(done_, items_.size(), result);
+  results_[index] = std::move(result);
+}
+
+RunResult Batch::runItem(const Item& item, const std::stop_token& stop) {
+  const Case& one = *item.work->input;
+  RunResult result;
+  result.case_id = one.id;
+  result.reseed = item.reseed;
+  result.station = one.station;
+  result.method = options_.method;
+  result.tags = one.tags;
+  result.requirement = one.requirement;
+  try {
+    runLoaded(item, stop, result);
+  } catch (const FileError& error) {
+    result.status = "input_error";
+    result.message = error.what();
+  } catch (const std::bad_alloc&) {
+    result.status = "input_error";
+    result.message = one.image.string() + ": not enough memory for this image and mesh";
+  }
+  return result;
+}
+
+void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& result) {
+  const Case& one = *item.work->input;
+  if (!one.uncertainty)
+    throw InputError(dataset_.file, "cases." + one.id + ".uncertainty",
+                     "neither the case nor its station states one");
+  const auto scene =
+      item.work->scene->get([&] { return loadScene(*item.work->mesh_station, options_.mirror); });
+  const auto image = item.work->image.get([&] {
+    return CaseImage{readCaseImage(dataset_, one), readCaseMask(dataset_, one)};
+  });
+
+  LocalizationProblem problem;
+  problem.image = image->image.view();
+  const BitImage ignore = image->ignore ? image->ignore->view() : BitImage{};
+  if (image->ignore) problem.ignore = &ignore;
+  problem.camera = dataset_.cameras.at(one.camera);
+  problem.mesh = scene->scene.view();
+  problem.camera_from_station_seed = one.seed_camera_from_station;
+  if (item.reseed > 0) {
+    const Vector6d offset =
+        drawOffset(*one.uncertainty, options_.reseed_scale, one.id, item.reseed);
+    problem.camera_from_station_seed = seedForOffset(*one.truth_camera_from_station, offset,
+                                                     one.uncertainty->pivot, scene->centre_m);
+  }
+  problem.uncertainty =
+      seedUncertainty(*one.uncertainty, problem.camera_from_station_seed, scene->centre_m);
+  result.camera_from_station_seed = problem.camera_from_station_seed;
+  result.camera_from_station = problem.camera_from_station_seed;
+  result.seed_error = errorOf(one, problem.camera, problem.camera_from_station_seed, *scene);
+
+  LocalizerOptions options = options_.localizer;
+  if (options.templates.feature_size_m == 0.0 && item.work->mesh_station->feature_size_m)
+    options.templates.feature_size_m = *item.work->mesh_station->feature_size_m;
+  result.message = seedConcern(problem.camera, problem.mesh, problem.camera_from_station_seed);
+  if (result.message.empty()) {
+    noteTrace(localize(problem, options, RecordLevel::kSummary, stop), result);
+  } else {
+    result.status = "bad_seed";
+  }
+  result.error = errorOf(one, problem.camera, result.camera_from_station, *scene);
+  judge(options_.wrongMesh(), result);
+}
+
+}  // namespace
+
+SceneMesh mirrored(SceneMesh scene, MirrorAxis axis) {
+  const auto index = static_cast<Eigen::Index>(axis);
+  const float twice_middle_m =
+      static_cast<float>(2.0 * matchedBounds(scene.view()).centre()[index]);
+  for (Eigen::Vector3f& vertex : scene.vertices_in_station_m)
+    vertex[index] = twice_middle_m - vertex[index];
+  for (Face& face : scene.faces) std::swap(face.vertex[1], face.vertex[2]);
+  return scene;
+}
+
+std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& options,
+                                const BatchProgress& progress, std::stop_token stop) {
+  return Batch(dataset, options, progress).run(stop);
+}
+
+}  // namespace boresight::sessions

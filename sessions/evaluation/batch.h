@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "sessions/evaluation/run_result.h"
+#include "sessions/io/dataset_file.h"
+
+namespace boresight::sessions {
+
+/// The plane in which a mesh is mirrored: the one across this axis through the middle of its
+/// matched parts.
+enum class MirrorAxis { kX = 0, kY = 1, kZ = 2 };
+
+struct BatchOptions {
+  /// What is run: cases that meet each filter that is not empty (any of its values).
+  std::vector<std::string> cases;
+  std::vector<std::string> tags;
+  std::vector<std::string> stations;
+
+  LocalizerOptions localizer;  ///< a feature size of 0 is replaced by the station's, if it has one
+  std::string method = "whs";
+  int jobs = 1;
+  int reseeds = 0;            ///< further seeds per case; needs truth
+  double reseed_scale = 1.0;  ///< how far they are drawn, while the declared uncertainty stays
+  /// Deliberately wrong meshes: another station's, or mirrored.
+  std::string mesh_of;
+  std::optional<MirrorAxis> mirror;
+
+  bool wrongMesh() const { return !mesh_of.empty() || mirror.has_value(); }
+};
+
+/// Told of each finished run, by one thread at a time and in the order of finishing.
+using BatchProgress = std::function<void(std::size_t done, std::size_t total, const RunResult&)>;
+
+/// Runs cases and reseeds on `jobs` threads. An image is read once, shared by the runs of its case,
+/// and dropped after the last; what a run keeps is small. A case whose files are wrong is a result
+/// with status "input_error", and the others go on. The results are in the order of the dataset,
+/// whatever the number of threads; after a stop, those that have not been run are missing.
+/// InputError when a filter or `mesh_of` names what the dataset does not have, or nothing is left.
+std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& options,
+                                const BatchProgress& progress, std::stop_token stop = {});
+
+/// The scene mirrored about the middle of its matched parts, faces turned so that they still look
+/// outwards.
+SceneMesh mirrored(SceneMesh scene, MirrorAxis axis);
+
+}  // namespace boresight::sessions

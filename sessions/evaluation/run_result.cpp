@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/evaluation/run_result.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/json_writer.h"
+#include "sessions/report/run_text.h"
+
+namespace boresight::sessions {
+
+bool RunResult::hasTag(const std::string& tag) const {
+  return std::find(tags.begin(), tags.end(), tag) != tags.end();
+}
+
+void noteTrace(const LocalizationTrace& trace, RunResult& result) {
+  result.status = localizationStatusText(trace.status);
+  result.message = explanation(trace);
+  result.completed = trace.converged();
+  result.camera_from_station = trace.camera_from_station;
+  result.iterations = static_cast<std::int32_t>(trace.iterations.size());
+  for (const IterationTrace& iteration : trace.iterations) {
+    if (iteration.kind != IterationKind::kMatch) continue;
+    result.matches = iteration.searched_count;
+    result.inliers = iteration.pnp.inlier_count;
+  }
+  result.edge_support = trace.support.share();
+  result.seconds = trace.seconds;
+  result.digest = trace.digest;
+}
+
+void judge(bool wrong_mesh, RunResult& result) {
+  if (wrong_mesh) {
+    result.success = false;
+    result.false_positive = result.completed;
+    result.gross_false_positive = result.completed;
+    return;
+  }
+  if (!result.error || !result.requirement) return;
+  const bool within = meetsRequirement(*result.error, *result.requirement);
+  result.success = result.completed && within;
+  result.false_positive = result.completed && !within;
+  result.gross_false_positive = result.completed && isGross(*result.error, *result.requirement);
+}
+
+nlohmann::ordered_json toJson(const PoseError& error) {
+  nlohmann::ordered_json json = {{"normal_mm", error.normal_mm},
+                                 {"lateral_mm", error.lateral_mm},
+                                 {"rotation_mrad", error.rotation_mrad},
+                                 {"in_plane_mrad", error.in_plane_mrad},
+                                 {"geodesic_mrad", error.geodesic_mrad}};
+  if (error.projection_px) json["projection_px"] = *error.projection_px;
+  return json;
+}
+
+nlohmann::ordered_json toJson(const StageSeconds& seconds) {
+  return {{"initialization", seconds.initialization},
+          {"rendering", seconds.rendering},
+          {"matching", seconds.matching},
+          {"pose", seconds.pose},
+          {"refinement", seconds.refinement}};
+}
+
+nlohmann::ordered_json toJson(const RunResult& result) {
+  nlohmann::ordered_json json = {{"id", result.case_id},         {"reseed", result.reseed},
+                                 {"station", result.station},    {"tags", result.tags},
+                                 {"method", result.method},      {"status", result.status},
+                                 {"completed", result.completed}};
+  json["success"] = result.success ? nlohmann::ordered_json(*result.success) : nullptr;
+  json["false_positive"] = result.false_positive;
+  json["gross_false_positive"] = result.gross_false_positive;
+  if (!result.message.empty()) json["message"] = result.message;
+  if (result.inputFailed()) return json;
+  json["iterations"] = result.iterations;
+  json["camera_from_station"] = toJson(result.camera_from_station);
+  json["camera_from_station_seed"] = toJson(result.camera_from_station_seed);
+  json["matches"] = result.matches;
+  json["inliers"] = result.inliers;
+  json["edge_support"] = result.edge_support;
+  if (result.error) json["error"] = toJson(*result.error);
+  if (result.seed_error) json["seed_error"] = toJson(*result.seed_error);
+  json["seconds"] = toJson(result.seconds);
+  json["digest"] = result.digest;
+  return json;
+}
+
+}  // namespace boresight::sessions

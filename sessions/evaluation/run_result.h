@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "sessions/evaluation/pose_error.h"
+#include "sessions/io/dataset_file.h"
+#include "sessions/trace/trace.h"
+
+namespace boresight::sessions {
+
+/// What is kept of one run of a batch.
+struct RunResult {
+  std::string case_id;
+  std::int32_t reseed = 0;  ///< 0: the seed of the dataset
+  std::string station;
+  std::string method;
+  std::vector<std::string> tags;
+
+  /// LocalizationStatus as text, or "input_error", or "bad_seed" (nothing to see from it).
+  std::string status;
+  std::string message;  ///< why it did not converge; empty otherwise
+  bool completed = false;
+  std::optional<bool> success;  ///< nothing without truth or requirement
+  bool false_positive = false;
+  bool gross_false_positive = false;
+
+  Pose camera_from_station_seed;
+  Pose camera_from_station;
+  std::int32_t iterations = 0;
+  std::int32_t matches = 0;  ///< of the last iteration that matched
+  std::int32_t inliers = 0;
+  double edge_support = 0.0;
+  std::optional<PoseError> error;
+  std::optional<PoseError> seed_error;
+  std::optional<Requirement> requirement;
+  StageSeconds seconds;
+  std::string digest;
+
+  bool inputFailed() const { return status == "input_error"; }
+  bool hasTag(const std::string& tag) const;
+};
+
+/// Takes over how a run ended.
+void noteTrace(const LocalizationTrace& trace, RunResult& result);
+
+/// Decides success and false positives from the error and the requirement; with a mesh that is not
+/// the case's own every completed run is a gross false positive.
+void judge(bool wrong_mesh, RunResult& result);
+
+nlohmann::ordered_json toJson(const PoseError& error);
+nlohmann::ordered_json toJson(const StageSeconds& seconds);
+/// One object as in conventions.md, for a line of results.jsonl.
+nlohmann::ordered_json toJson(const RunResult& result);
+
+}  // namespace boresight::sessions

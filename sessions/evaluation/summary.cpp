@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/evaluation/summary.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
+#include <utility>
+
+#include "sessions/report/text_table.h"
+
+namespace boresight::sessions {
+namespace {
+
+using GroupKey = std::pair<std::string, bool>;
+using Members = std::vector<const RunResult*>;
+
+std::map<GroupKey, Members> grouped(std::span<const RunResult> results) {
+  std::map<GroupKey, Members> groups;
+  for (const RunResult& result : results)
+    groups[{result.station, result.hasTag(kFarTag)}].push_back(&result);
+  return groups;
+}
+
+/// Statistics of one figure of the error over completed runs that have it.
+template <class Figure>
+Statistics statisticsOf(const Members& members, Figure&& figure) {
+  std::vector<double> values;
+  for (const RunResult* result : members) {
+    if (!result->completed || !result->error) continue;
+    const std::optional<double> value = figure(*result->error);
+    if (value) values.push_back(*value);
+  }
+  return statistics(values);
+}
+
+GroupSummary summaryOf(const GroupKey& key, const Members& members) {
+  GroupSummary group;
+  group.station = key.first;
+  group.far = key.second;
+  double seconds = 0.0;
+  for (const RunResult* result : members) {
+    if (result->inputFailed()) {
+      ++group.input_errors;
+      continue;
+    }
+    ++group.runs;
+    group.completed += result->completed ? 1 : 0;
+    group.judged += result->success.has_value() ? 1 : 0;
+    group.successful += result->success.value_or(false) ? 1 : 0;
+    group.false_positives += result->false_positive ? 1 : 0;
+    group.gross_false_positives += result->gross_false_positive ? 1 : 0;
+    seconds += result->seconds.total();
+  }
+  if (group.runs > 0) group.mean_seconds = seconds / static_cast<double>(group.runs);
+  using Value = std::optional<double>;
+  group.normal_mm = statisticsOf(members, [](const PoseError& e) -> Value { return e.normal_mm; });
+  group.lateral_mm =
+      statisticsOf(members, [](const PoseError& e) -> Value { return e.lateral_mm; });
+  group.rotation_mrad =
+      statisticsOf(members, [](const PoseError& e) -> Value { return e.rotation_mrad; });
+  group.projection_px =
+      statisticsOf(members, [](const PoseError& e) -> Value { return e.projection_px; });
+  return group;
+}
+
+std::string percentText(std::int64_t part, std::int64_t whole) {
+  return whole > 0 ? fixedText(100.0 * static_cast<double>(part) / static_cast<double>(whole), 1)
+                   : "-";
+}
+
+std::string statisticsText(const Statistics& figures, int decimals) {
+  if (figures.count == 0) return "-";
+  return fixedText(figures.mean, decimals) + " / " + fixedText(figures.deviation, decimals) +
+         " / " + fixedText(figures.maximum, decimals);
+}
+
+std::string rangeText(bool far) { return far ? "far" : "near"; }
+
+}  // namespace
+
+std::vector<GroupSummary> summarize(std::span<const RunResult> results) {
+  std::vector<GroupSummary> groups;
+  for (const auto& [key, members] : grouped(results)) groups.push_back(summaryOf(key, members));
+  return groups;
+}
+
+std::string summaryTable(std::span<const GroupSummary> groups) {
+  TextTable table({"station", "range", "runs", "completed %", "success %", "false pos.", "gross",
+                   "normal mm", "lateral mm", "rotation mrad", "px", "s/run"});
+  std::int64_t input_errors = 0;
+  for (const GroupSummary& group : groups) {
+    input_errors += group.input_errors;
+    table.add({group.station, rangeText(group.far), std::to_string(group.runs),
+               percentText(group.completed, group.runs),
+               group.judged > 0 ? percentText(group.successful, group.judged) : "-",
+               group.judged > 0 ? std::to_string(group.false_positives) : "-",
+               group.judged > 0 ? std::to_string(group.gross_false_positives) : "-",
+               statisticsText(group.normal_mm, 3), statisticsText(group.lateral_mm, 3),
+               statisticsText(group.rotation_mrad, 3),
+               group.projection_px.count > 0 ? fixedText(group.projection_px.mean, 2) : "-",
+               fixedText(group.mean_seconds, 2)});
+  }
+  std::string text =
+      table.text() +
+      "errors: mean / std / max over completed runs (max of |normal|); px: mean projection error\n";
+  if (input_errors > 0)
+    text += std::to_string(input_errors) + " runs could not start: their input was refused\n";
+  return text;
+}
+
+std::string toleranceTable(std::span<const RunResult> results) {
+  constexpr std::array<double, 6> kFactors = {0.1, 0.25, 0.5, 1.0, 2.0, 3.0};
+  std::vector<std::string> header = {"station", "range"};
+  for (const double factor : kFactors) header.push_back(fixedText(factor, 2) + " x");
+  TextTable table(header);
+  bool any = false;
+  for (const auto& [key, members] : grouped(results)) {
+    std::vector<std::string> row = {key.first, rangeText(key.second)};
+    for (const double factor : kFactors) {
+      std::int64_t judged = 0;
+      std::int64_t within = 0;
+      for (const RunResult* result : members) {
+        if (!result->success || !result->error || !result->requirement) continue;
+        ++judged;
+        if (result->completed && meetsRequirement(*result->error, *result->requirement, factor))
+          ++within;
+      }
+      any = any || judged > 0;
+      row.push_back(percentText(within, judged));
+    }
+    table.add(row);
+  }
+  return any ? "success % against multiples of the requirement\n" + table.text() : "";
+}
+
+std::string failureList(std::span<const RunResult> results, std::size_t limit) {
+  std::string text;
+  std::size_t count = 0;
+  for (const RunResult& result : results) {
+    if (result.inputFailed() || result.success.value_or(true)) continue;
+    if (++count > limit) continue;
+    text += "  " + result.case_id +
+            (result.reseed > 0 ? " reseed " + std::to_string(result.reseed) : "") + ": " +
+            result.status;
+    if (result.completed && result.error)
+      text += ", normal " + fixedText(result.error->normal_mm, 3) + " mm, lateral " +
+              fixedText(result.error->lateral_mm, 3) + " mm, rotation " +
+              fixedText(result.error->rotation_mrad, 2) + " mrad";
+    if (result.completed && result.error && result.error->projection_px)
+      text += ", " + fixedText(*result.error->projection_px, 1) + " px";
+    if (!result.message.empty()) text += ": " + result.message;
+    text += "\n";
+  }
+  if (count > limit) text += "  and " + std::to_string(count - limit) + " more\n";
+  return count > 0 ? "not successful:\n" + text : "";
+}
+
+}  // namespace boresight::sessions

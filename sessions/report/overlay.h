@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/image.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/mesh.h"
+#include "core/geometry/pose.h"
+
+namespace boresight::sessions {
+
+/// Blue, green, red, as OpenCV keeps them.
+using ColorBgr = std::array<std::uint8_t, 3>;
+inline constexpr ColorBgr kSeedColor = {40, 40, 255};
+inline constexpr ColorBgr kResultColor = {60, 230, 60};
+inline constexpr ColorBgr kTruthColor = {255, 120, 30};
+
+/// 8-bit colour, row-major, 3 bytes a pixel.
+struct ColorImage {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> bgr;
+};
+
+/// The scene's salient edges from one pose.
+struct OverlayLayer {
+  std::string label;
+  Pose camera_from_station;
+  ColorBgr color{};
+  int extra_px = 0;  ///< drawn wider by this on each side, to show beneath a later layer
+};
+
+/// The image in gray with the layers drawn over it in their order, each rendered by the core at
+/// full resolution, and a legend in the upper left corner. A layer that cannot be rendered (its
+/// pose behind the camera) is named so in the legend.
+ColorImage drawOverlay(const ImageView& image, const Camera& camera, const MeshView& mesh,
+                       std::span<const OverlayLayer> layers);
+
+/// Atomically, as PNG; OutputError.
+void writeColorPng(const std::filesystem::path& file, const ColorImage& image);
+
+}  // namespace boresight::sessions

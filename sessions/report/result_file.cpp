@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/report/result_file.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/base/math.h"
+#include "sessions/evaluation/run_result.h"
+#include "sessions/io/config_file.h"
+#include "sessions/io/file_bytes.h"
+#include "sessions/io/json_writer.h"
+#include "sessions/report/run_text.h"
+
+namespace boresight::sessions {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json fileJson(const std::filesystem::path& file) {
+  return {{"file", file.string()}, {"sha256", sha256Text(readFileBytes(file, kMaxImageFileBytes))}};
+}
+
+ordered_json covarianceJson(const Matrix6d& covariance) {
+  ordered_json rows = ordered_json::array();
+  for (int row = 0; row < 6; ++row) {
+    ordered_json values = ordered_json::array();
+    for (int column = 0; column < 6; ++column) values.push_back(covariance(row, column));
+    rows.push_back(values);
+  }
+  return rows;
+}
+
+ordered_json iterationJson(const IterationTrace& iteration) {
+  ordered_json json = {{"index", iteration.index},
+                       {"kind", iteration.kind == IterationKind::kRefine ? "refine" : "match"},
+                       {"level", iteration.level},
+                       {"status", localizationStatusText(iteration.status)},
+                       {"edge_pixels", iteration.edge_pixel_count}};
+  if (iteration.kind == IterationKind::kRefine) {
+    json["samples"] = iteration.refinement.sample_count;
+    json["found"] = iteration.refinement.found_count;
+    json["used"] = iteration.refinement.used_count;
+  } else {
+    json["templates"] = iteration.template_count;
+    json["template_side_px"] = iteration.template_side_px;
+    json["matches"] = iteration.searched_count;
+    json["inliers"] = iteration.pnp.inlier_count;
+    json["best_score"] = iteration.best_score;
+    json["mean_score"] = iteration.mean_score;
+  }
+  json["threshold_px"] = iteration.threshold_px;
+  json["rms_px"] = iteration.rms_px();
+  json["correction_mm"] = iteration.correction_translation_m * 1e3;
+  json["correction_deg"] = iteration.correction_rotation_rad / kDegree_rad;
+  json["camera_from_station"] = toJson(iteration.camera_from_station);
+  json["seconds"] = toJson(iteration.seconds);
+  return json;
+}
+
+ordered_json imageJson(const GrayImage& image) {
+  return {{"file", image.file.string()},
+          {"sha256", image.file_sha256},
+          {"pixels_sha256", image.pixels_sha256},
+          {"width", image.width},
+          {"height", image.height},
+          {"rule", image.rule}};
+}
+
+ordered_json provenanceJson(const LocalizationTrace& trace, const RunProvenance& provenance) {
+  ordered_json json = {{"version", trace.version},
+                       {"digest", trace.digest},
+                       {"profile", provenance.profile},
+                       {"options", toJson(provenance.changed_options)},
+                       {"uncertainty", toJson(provenance.uncertainty)},
+                       {"image", imageJson(*provenance.image)},
+                       {"camera", fileJson(provenance.camera_file)}};
+  ordered_json meshes = ordered_json::array();
+  for (const MeshInfo& info : provenance.scene->infos)
+    meshes.push_back(
+        {{"file", info.file.string()}, {"sha256", info.file_sha256}, {"unit", info.unit}});
+  json["meshes"] = meshes;
+  json["seed"] = fileJson(provenance.seed_file);
+  if (provenance.ignore != nullptr)
+    json["ignore"] = {{"file", provenance.ignore->file.string()},
+                      {"sha256", provenance.ignore->file_sha256},
+                      {"ignored_pixels", provenance.ignore->ignored_count}};
+  if (!provenance.truth_file.empty()) json["truth"] = fileJson(provenance.truth_file);
+  if (!provenance.config_file.empty()) json["config"] = fileJson(provenance.config_file);
+  return json;
+}
+
+}  // namespace
+
+ordered_json resultJson(const LocalizationTrace& trace, const std::optional<PoseError>& error,
+                        const RunProvenance& provenance) {
+  RunResult result;
+  noteTrace(trace, result);
+  ordered_json json = {{"format", "boresight-result"},
+                       {"version", 1},
+                       {"method", provenance.method},
+                       {"status", result.status},
+                       {"completed", result.completed}};
+  if (!result.message.empty()) json["message"] = result.message;
+  json["iterations"] = result.iterations;
+  json["camera_from_station"] = toJson(trace.camera_from_station);
+  json["camera_from_station_seed"] = toJson(trace.camera_from_station_seed);
+  if (trace.converged()) json["covariance"] = covarianceJson(trace.covariance);
+  json["matches"] = result.matches;
+  json["inliers"] = result.inliers;
+  json["edge_support"] = result.edge_support;
+  if (error) json["error"] = toJson(*error);
+  json["seconds"] = toJson(trace.seconds);
+  json["arena_bytes"] = trace.arena_bytes;
+  json["iteration"] = ordered_json::array();
+  for (const IterationTrace& iteration : trace.iterations)
+    json["iteration"].push_back(iterationJson(iteration));
+  json["provenance"] = provenanceJson(trace, provenance);
+  return json;
+}
+
+void writeResult(const std::filesystem::path& file, const LocalizationTrace& trace,
+                 const std::optional<PoseError>& error, const RunProvenance& provenance) {
+  writeJsonFile(file, resultJson(trace, error, provenance));
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "sessions/evaluation/pose_error.h"
+#include "sessions/io/image_file.h"
+#include "sessions/io/option_value.h"
+#include "sessions/io/pose_file.h"
+#include "sessions/io/scene_mesh.h"
+#include "sessions/trace/trace.h"
+
+namespace boresight::sessions {
+
+/// What a result was made from. Empty file names are inputs that were not given.
+struct RunProvenance {
+  std::string method = "whs";
+  std::string profile;
+  OptionList changed_options;  ///< what differs from the profile
+  DeclaredUncertainty uncertainty;
+  const GrayImage* image = nullptr;
+  const SceneMesh* scene = nullptr;
+  const IgnoreMask* ignore = nullptr;
+  std::filesystem::path camera_file, seed_file, truth_file, config_file;
+};
+
+/// result.json (`boresight-result`, version 1): status, pose, covariance, one line per iteration,
+/// errors against a truth, seconds per stage, and the provenance: hashes of every input (of an
+/// image the file's and the 8-bit pixels'), options, version, digest. InputError when an input is
+/// no longer there to be hashed.
+nlohmann::ordered_json resultJson(const LocalizationTrace& trace,
+                                  const std::optional<PoseError>& error,
+                                  const RunProvenance& provenance);
+
+/// The same into a file, atomically; OutputError.
+void writeResult(const std::filesystem::path& file, const LocalizationTrace& trace,
+                 const std::optional<PoseError>& error, const RunProvenance& provenance);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/report/run_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "core/base/math.h"
+#include "sessions/report/text_table.h"
+
+namespace boresight::sessions {
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  std::array<char, 640> text{};
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text.data(), text.size(), pattern, arguments);
+  va_end(arguments);
+  return text.data();
+}
+
+double toDegrees(double angle_rad) { return angle_rad / kDegree_rad; }
+double toMillimetres(double length_m) { return length_m * 1e3; }
+
+std::string sigmaText(const Matrix6d& covariance) {
+  const auto sigma = [&](int i) { return std::sqrt(std::max(0.0, covariance(i, i))); };
+  return format("1 sigma (camera axes x y z): %.4f %.4f %.4f mm, %.4f %.4f %.4f mrad\n",
+                toMillimetres(sigma(3)), toMillimetres(sigma(4)), toMillimetres(sigma(5)),
+                1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2));
+}
+
+/// The axis that is furthest beyond its limit.
+std::string leftUncertaintyText(const LocalizationTrace& trace) {
+  constexpr const char* kAxes[] = {"x", "y", "z"};
+  const Pose& last = trace.iterations.back().camera_from_station;
+  const Vector6d offset =
+      offsetAboutPivot(trace.camera_from_station_seed, last, trace.uncertainty.pivot_in_camera_m);
+  int worst = 0;
+  double worst_ratio = -1.0;
+  for (int i = 0; i < 6; ++i) {
+    const double allowed =
+        i < 3 ? trace.uncertainty.rotation_rad[i] : trace.uncertainty.translation_m[i - 3];
+    const double ratio = std::abs(offset[i]) / std::max(1e-12, allowed);
+    if (ratio > worst_ratio) {
+      worst = i;
+      worst_ratio = ratio;
+    }
+  }
+  const double factor = trace.options.loop.leave_factor;
+  const std::string measured =
+      worst < 3 ? format("%.2f deg about %s, allowed %.2f deg (%.2f x %.2f)",
+                         toDegrees(std::abs(offset[worst])), kAxes[worst],
+                         factor * toDegrees(trace.uncertainty.rotation_rad[worst]), factor,
+                         toDegrees(trace.uncertainty.rotation_rad[worst]))
+                : format("%.2f mm along %s, allowed %.2f mm (%.2f x %.2f)",
+                         toMillimetres(std::abs(offset[worst])), kAxes[worst - 3],
+                         factor * toMillimetres(trace.uncertainty.translation_m[worst - 3]), factor,
+                         toMillimetres(trace.uncertainty.translation_m[worst - 3]));
+  return "the pose moved away from the seed by " + measured +
+         "; check the seed and the mesh, or state a larger uncertainty if the seed may be that far "
+         "off";
+}
+
+std::string pnpFailedText(const LocalizationTrace& trace, const IterationTrace& last) {
+  if (last.kind == IterationKind::kRefine) {
+    return format(
+        "refinement found an image edge at %d of %d places along the rendered edges and used %d, "
+        "needed %d within %.1f px; lower refinement.min_gradient if the image is faint",
+        last.refinement.found_count, last.refinement.sample_count, last.refinement.used_count,
+        trace.options.refinement.min_found, last.threshold_px);
+  }
+  return format(
+      "no pose agrees with enough matches: %d matches, at most %d inliers at %.1f px, needed %d; "
+      "check seed and uncertainty, or the edges found in the image",
+      last.correspondence_count, last.pnp.inlier_count, last.threshold_px,
+      trace.options.pnp.min_inliers);
+}
+
+std::string faultText(const LocalizationTrace& trace) {
+  std::string text = std::string("the run could not go on: ") + statusText(trace.fault);
+  if (trace.fault == Status::kCapacityExceeded)
+    text += format(
+        "; the render has more than %d edge pixels: raise render.max_edge_pixels, or "
+        "check the mesh",
+        trace.options.render.max_edge_pixels);
+  return text;
+}
+
+std::string iterationLimitText(const LocalizationTrace& trace, const IterationTrace& last) {
+  const LoopOptions& loop = trace.options.loop;
+  return format(
+      "after %zu iterations the last correction was %.3f mm and %.3f deg; needed under %.3f mm and "
+      "%.3f deg %d times in a row; raise loop.max_iterations if corrections still shrink",
+      trace.iterations.size(), toMillimetres(last.correction_translation_m),
+      toDegrees(last.correction_rotation_rad), toMillimetres(loop.converged_translation_m),
+      toDegrees(loop.converged_rotation_rad), loop.converged_iterations);
+}
+
+std::string tooFewText(const LocalizationTrace& trace, const IterationTrace& last) {
+  const LocalizerOptions& options = trace.options;
+  if (trace.status == LocalizationStatus::kTooFewEdges)
+    return format(
+        "the render shows %d salient edge pixels, needed %d; is the station in view, and "
+        "is the mesh's unit right?",
+        last.edge_pixel_count, options.templates.min_edge_pixels);
+  if (trace.status == LocalizationStatus::kTooFewTemplates)
+    return format(
+        "%d templates of %d px could be placed on %d rendered edge pixels, needed %d; "
+        "try a smaller feature size, or a less strict ignore mask",
+        last.template_count, last.template_side_px, last.edge_pixel_count,
+        options.templates.min_count);
+  return format(
+      "%d of %d templates could be searched inside the image, needed %d; the station may "
+      "be at the image's border, or the template (%d px) too large",
+      last.correspondence_count, last.template_count, options.pnp.min_inliers,
+      last.template_side_px);
+}
+
+}  // namespace
+
+std::string iterationTable(const LocalizationTrace& trace) {
+  TextTable table({"iteration", "kind", "level", "templates", "matches", "inliers", "threshold px",
+                   "correction mm", "deg", "rms px"});
+  for (const IterationTrace& iteration : trace.iterations) {
+    const bool refines = iteration.kind == IterationKind::kRefine;
+    table.add({std::to_string(iteration.index + 1), refines ? "refine" : "match",
+               std::to_string(iteration.level),
+               refines ? std::to_string(iteration.refinement.sample_count)
+                       : std::to_string(iteration.template_count),
+               refines ? std::to_string(iteration.refinement.found_count)
+                       : std::to_string(iteration.searched_count),
+               std::to_string(iteration.support()), fixedText(iteration.threshold_px, 1),
+               fixedText(toMillimetres(iteration.correction_translation_m), 3),
+               fixedText(toDegrees(iteration.correction_rotation_rad), 3),
+               fixedText(iteration.rms_px(), 2)});
+  }
+  return table.text() + (std::any_of(trace.iterations.begin(), trace.iterations.end(),
+                                     [](const IterationTrace& iteration) {
+                                       return iteration.kind == IterationKind::kRefine;
+                                     })
+                             ? "(refine: places along rendered edges, places where an edge was "
+                               "found, places used)\n"
+                             : "");
+}
+
+std::string poseText(const Pose& camera_from_station, const Matrix6d& covariance) {
+  const Eigen::Vector3d rotation_rad = rotationLog(camera_from_station.rotation);
+  Eigen::Quaterniond q = camera_from_station.rotation;
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  const Eigen::Matrix3d matrix = camera_from_station.matrix();
+  std::string text = "camera_from_station\n";
+  for (int row = 0; row < 3; ++row)
+    text += format("  %12.9f %12.9f %12.9f %12.9f\n", matrix(row, 0), matrix(row, 1),
+                   matrix(row, 2), camera_from_station.translation_m[row]);
+  text += format("rotation vector %.5f %.5f %.5f deg; quaternion wxyz %.9f %.9f %.9f %.9f\n",
+                 toDegrees(rotation_rad.x()), toDegrees(rotation_rad.y()),
+                 toDegrees(rotation_rad.z()), q.w(), q.x(), q.y(), q.z());
+  if (!covariance.isZero(0.0)) text += sigmaText(covariance);
+  return text;
+}
+
+std::string explanation(const LocalizationTrace& trace) {
+  if (trace.converged()) return "";
+  if (trace.status == LocalizationStatus::kRunning) return "the run was stopped";
+  if (trace.status == LocalizationStatus::kFault || trace.iterations.empty())
+    return faultText(trace);
+  if (trace.edges.edge_count == 0)
+    return "the image has no edges; check its exposure and the options under edges";
+  const IterationTrace& last = trace.iterations.back();
+  switch (trace.status) {
+    case LocalizationStatus::kLeftUncertainty:
+      return leftUncertaintyText(trace);
+    case LocalizationStatus::kPnpFailed:
+      return pnpFailedText(trace, last);
+    case LocalizationStatus::kNotSupported:
+      return format(
+          "of %d rendered edge pixels %d (%.1f %%) meet an image edge, needed %.1f %%; the "
+          "pose is probably wrong: check seed and mesh",
+          trace.support.rendered, trace.support.supported, 100.0 * trace.support.share(),
+          100.0 * trace.options.support.min_support);
+    case LocalizationStatus::kIterationLimit:
+      return iterationLimitText(trace, last);
+    case LocalizationStatus::kTooFewEdges:
+    case LocalizationStatus::kTooFewTemplates:
+    case LocalizationStatus::kTooFewMatches:
+      return tooFewText(trace, last);
+    case LocalizationStatus::kRunning:
+    case LocalizationStatus::kConverged:
+    case LocalizationStatus::kFault:
+      break;
+  }
+  return "";
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run did, in words and tables for people.
+#pragma once
+
+#include <string>
+
+#include "sessions/trace/trace.h"
+
+namespace boresight::sessions {
+
+/// One line per iteration: kind, level, templates, matches, inliers, threshold, correction, rms.
+std::string iterationTable(const LocalizationTrace& trace);
+
+/// The pose as rotation vector (deg), quaternion (wxyz, w >= 0) and matrix, with its centre in m
+/// and one sigma per axis where a covariance is given (not all zero).
+std::string poseText(const Pose& camera_from_station, const Matrix6d& covariance);
+
+/// Why a run ended as it did: what was measured, what was needed, and what to try. One sentence or
+/// two; empty for a run that converged.
+std::string explanation(const LocalizationTrace& trace);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace boresight::sessions {
+
+/// Columns of equal width for a terminal: the first column left, the others right aligned.
+class TextTable {
+ public:
+  explicit TextTable(std::vector<std::string> header) { rows_.push_back(std::move(header)); }
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  /// One line per row, two blanks between columns, a rule under the header.
+  std::string text() const;
+
+ private:
+  std::vector<std::vector<std::string>> rows_;
+};
+
+/// printf's %.*f; "-" for a value that is not finite.
+std::string fixedText(double value, int decimals);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// The fields of every record in the order in which a trace file holds them. `Self` is a record, or
+// a const record when writing; the archive is an ArchiveWriter or an ArchiveReader.
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include "sessions/trace/trace.h"
+
+namespace boresight::sessions {
+
+template <class Self, class Record>
+concept Is = std::same_as<std::remove_const_t<Self>, Record>;
+
+template <class Archive, class Vector>
+void vectorFields(Archive& archive, Vector& vector) {
+  for (Eigen::Index i = 0; i < vector.size(); ++i) archive.number(vector.data()[i]);
+}
+
+template <class Archive, Is<Pose> Self>
+void fields(Archive& archive, Self& pose) {
+  vectorFields(archive, pose.rotation.coeffs());
+  vectorFields(archive, pose.translation_m);
+}
+
+template <class Archive, Is<SeedUncertainty> Self>
+void fields(Archive& archive, Self& uncertainty) {
+  vectorFields(archive, uncertainty.translation_m);
+  vectorFields(archive, uncertainty.rotation_rad);
+  vectorFields(archive, uncertainty.pivot_in_camera_m);
+}
+
+template <class Archive, Is<Camera> Self>
+void fields(Archive& archive, Self& camera) {
+  archive.choice(camera.model, CameraModel::kKannalaBrandt);
+  archive.number(camera.width);
+  archive.number(camera.height);
+  for (auto* value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) archive.number(*value);
+  for (auto& coefficient : camera.distortion) archive.number(coefficient);
+  archive.number(camera.valid_radius);
+}
+
+template <class Archive, Is<BitMap> Self>
+void fields(Archive& archive, Self& map) {
+  archive.number(map.width);
+  archive.number(map.height);
+  archive.list(map.words, [&](auto& word) { archive.number(word); });
+  archive.require(
+      map.width >= 0 && map.height >= 0 && map.width <= 32767 && map.height <= 32767 &&
+          map.words.size() == static_cast<std::size_t>(BitImage::wordsPerRow(map.width)) *
+                                  static_cast<std::size_t>(map.height),
+      "a binary image whose size contradicts its words");
+}
+
+template <class Archive, Is<EdgePixel> Self>
+void fields(Archive& archive, Self& pixel) {
+  archive.number(pixel.x);
+  archive.number(pixel.y);
+  archive.number(pixel.depth_m);
+  archive.number(pixel.face);
+  archive.number(pixel.normal_x);
+  archive.number(pixel.normal_y);
+  archive.number(pixel.offset);
+  archive.number(pixel.kind);
+}
+
+template <class Archive, Is<RenderTrace> Self>
+void fields(Archive& archive, Self& render) {
+  fields(archive, render.edges);
+  fields(archive, render.mask);
+  archive.list(render.pixels, [&](auto& pixel) {
+    fields(archive, pixel);
+    archive.require(pixel.x >= 0 && pixel.y >= 0 && pixel.x < render.edges.width &&
+                        pixel.y < render.edges.height,
+                    "an edge pixel outside its image");
+  });
+  archive.list(render.row_begin, [&](auto& index) { archive.number(index); });
+  archive.require(render.row_begin.empty() ||
+                      render.row_begin.size() == static_cast<std::size_t>(render.edges.height) + 1,
+                  "rows of edge pixels that do not fit their image");
+  for (const auto index : render.row_begin)
+    archive.require(index >= 0 && static_cast<std::size_t>(index) <= render.pixels.size(),
+                    "a row of edge pixels that does not exist");
+  fields(archive, render.camera);
+  fields(archive, render.camera_from_station);
+}
+
+template <class Archive, Is<EdgeMapTrace> Self>
+void fields(Archive& archive, Self& edges) {
+  for (auto& level : edges.level) fields(archive, level);
+  archive.number(edges.low_threshold);
+  archive.number(edges.high_threshold);
+  archive.number(edges.edge_count);
+}
+
+template <class Archive, Is<Template> Self>
+void fields(Archive& archive, Self& item) {
+  archive.number(item.center_x);
+  archive.number(item.center_y);
+  archive.number(item.depth_m);
+  archive.number(item.distinctness);
+  vectorFields(archive, item.point_in_station_m);
+}
+
+template <class Archive, Is<Match> Self>
+void fields(Archive& archive, Self& match) {
+  auto& peak = match.peak;
+  for (auto* value :
+       {&match.window.x_min, &match.window.y_min, &match.window.x_max, &match.window.y_max,
+        &match.norms.edges, &match.norms.empties, &peak.x, &peak.y, &peak.counts.edge_hits,
+        &peak.counts.empty_hits, &peak.second_x, &peak.second_y, &peak.second_counts.edge_hits,
+        &peak.second_counts.empty_hits})
+    archive.number(*value);
+  archive.number(peak.has_second);
+  archive.number(match.x);
+  archive.number(match.y);
+  archive.number(match.searched);
+  archive.number(match.at_border);
+}
+
+template <class Archive, Is<Correspondence> Self>
+void fields(Archive& archive, Self& correspondence) {
+  vectorFields(archive, correspondence.point_in_station_m);
+  vectorFields(archive, correspondence.pixel);
+  archive.number(correspondence.sigma_px);
+}
+
+template <class Archive, Is<PnpTrace> Self>
+void fields(Archive& archive, Self& pnp) {
+  fields(archive, pnp.camera_from_station);
+  archive.list(pnp.inlier, [&](auto& flag) { archive.number(flag); });
+  archive.list(pnp.residual_px, [&](auto& residual) { archive.number(residual); });
+  archive.number(pnp.inlier_count);
+  archive.number(pnp.rms_px);
+  vectorFields(archive, pnp.covariance);
+  archive.number(pnp.samples);
+}
+
+template <class Archive, Is<EdgeSample> Self>
+void fields(Archive& archive, Self& sample) {
+  vectorFields(archive, sample.point_in_station_m);
+  vectorFields(archive, sample.normal);
+  archive.number(sample.residual_px);
+  archive.number(sample.gradient);
+  archive.number(sample.weight);
+  archive.number(sample.kind);
+}
+
+template <class Archive, Is<RefinementTrace> Self>
+void fields(Archive& archive, Self& refinement) {
+  fields(archive, refinement.camera_from_station);
+  vectorFields(archive, refinement.covariance);
+  archive.list(refinement.samples, [&](auto& sample) { fields(archive, sample); });
+  archive.number(refinement.sample_count);
+  archive.number(refinement.found_count);
+  archive.number(refinement.used_count);
+  archive.number(refinement.rms_px);
+}
+
+template <class Archive, Is<HypothesisSummary> Self>
+void fields(Archive& archive, Self& hypothesis) {
+  archive.number(hypothesis.roll_rad);
+  archive.number(hypothesis.templates);
+  archive.number(hypothesis.matches);
+  archive.number(hypothesis.inliers);
+  archive.number(hypothesis.cost);
+  fields(archive, hypothesis.camera_from_station);
+  archive.number(hypothesis.solved);
+}
+
+template <class Archive, Is<StageSeconds> Self>
+void fields(Archive& archive, Self& seconds) {
+  for (auto* value : {&seconds.initialization, &seconds.rendering, &seconds.matching, &seconds.pose,
+                      &seconds.refinement})
+    archive.number(*value);
+}
+
+template <class Archive, Is<IterationTrace> Self>
+void matchingFields(Archive& archive, Self& iteration) {
+  archive.list(iteration.templates, [&](auto& item) { fields(archive, item); });
+  archive.number(iteration.template_count);
+  archive.number(iteration.template_side_px);
+  archive.list(iteration.matches, [&](auto& match) { fields(archive, match); });
+  archive.number(iteration.searched_count);
+  archive.number(iteration.best_score);
+  archive.number(iteration.mean_score);
+  archive.list(iteration.correspondences, [&](auto& item) { fields(archive, item); });
+  archive.list(iteration.template_of, [&](auto& index) { archive.number(index); });
+  archive.number(iteration.correspondence_count);
+  fields(archive, iteration.pnp);
+  const std::size_t points = iteration.correspondences.size();
+  archive.require(iteration.matches.size() <= iteration.templates.size() &&
+                      iteration.template_of.size() == points &&
+                      (iteration.pnp.inlier.empty() || iteration.pnp.inlier.size() == points) &&
+                      iteration.pnp.residual_px.size() == iteration.pnp.inlier.size(),
+                  "lists of templates, matches and inliers that do not fit together");
+  for (const auto index : iteration.template_of)
+    archive.require(index >= 0 && static_cast<std::size_t>(index) < iteration.templates.size(),
+                    "a match of a template that does not exist");
+}
+
+template <class Archive, Is<IterationTrace> Self>
+void fields(Archive& archive, Self& iteration) {
+  archive.number(iteration.index);
+  archive.choice(iteration.kind, IterationKind::kRefine);
+  archive.number(iteration.level);
+  archive.choice(iteration.reached, Stage::kFinished);
+  archive.choice(iteration.status, LocalizationStatus::kFault);
+  archive.number(iteration.threshold_px);
+  fields(archive, iteration.camera_from_station_before);
+  fields(archive, iteration.uncertainty);
+  fields(archive, iteration.render);
+  archive.number(iteration.edge_pixel_count);
+  matchingFields(archive, iteration);
+  fields(archive, iteration.refinement);
+  archive.list(iteration.hypotheses, [&](auto& hypothesis) { fields(archive, hypothesis); });
+  archive.number(iteration.chosen_hypothesis);
+  fields(archive, iteration.camera_from_station);
+  archive.number(iteration.correction_translation_m);
+  archive.number(iteration.correction_rotation_rad);
+  fields(archive, iteration.seconds);
+}
+
+template <class Archive, Is<LocalizerOptions> Self>
+void fields(Archive& archive, Self& options) {
+  LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
+    std::string name = info.name;
+    archive.text(name);
+    archive.require(name == info.name, "an option that this version does not know");
+    double value = static_cast<double>(field);
+    archive.number(value);
+    archive.require(value >= info.minimum && value <= info.maximum, "an option out of its range");
+    using Field = std::remove_reference_t<decltype(field)>;
+    if constexpr (!std::is_const_v<Field>) field = static_cast<Field>(value);
+  });
+}
+
+template <class Archive, Is<LocalizationTrace> Self>
+void fields(Archive& archive, Self& trace) {
+  archive.text(trace.version);
+  fields(archive, trace.options);
+  fields(archive, trace.camera);
+  fields(archive, trace.camera_from_station_seed);
+  fields(archive, trace.uncertainty);
+  fields(archive, trace.edges);
+  archive.list(trace.iterations, [&](auto& iteration) { fields(archive, iteration); });
+  archive.number(trace.support.rendered);
+  archive.number(trace.support.supported);
+  archive.choice(trace.status, LocalizationStatus::kFault);
+  archive.choice(trace.fault, Status::kNoConsensus);
+  fields(archive, trace.camera_from_station);
+  vectorFields(archive, trace.covariance);
+  archive.text(trace.digest);
+  fields(archive, trace.seconds);
+  archive.number(trace.arena_bytes);
+}
+
+}  // namespace boresight::sessions
