@@ -57,6 +57,7 @@ int edgeTowards(const CameraScene& scene, std::int32_t face, std::int32_t neighb
 std::int32_t trustedFace(const CameraScene& scene, std::int32_t face) {
   constexpr double kAltitude = 2e-6;  // relative to the coordinates' size in the station frame
   std::int32_t at = face;
+  std::int32_t from = -1;
   for (int hop = 0; hop < 8 && at >= 0; ++hop) {
     const Face& indices = scene.mesh.faces[static_cast<std::size_t>(at)];
     Eigen::Vector3d corner[3];
@@ -67,20 +68,23 @@ std::int32_t trustedFace(const CameraScene& scene, std::int32_t face) {
       size = std::max(size, std::max(std::max(std::abs(corner[i].x()), std::abs(corner[i].y())),
                                      std::abs(corner[i].z())));
     }
-    int longest = 0;
-    double length2 = 0.0;
-    for (int i = 0; i < 3; ++i) {
+    std::int32_t next = -1;
+    double longest2 = 0.0;
+    double next2 = -1.0;
+    for (std::size_t i = 0; i < 3; ++i) {
       const Eigen::Vector3d side = corner[(i + 1) % 3] - corner[i];
       const double side2 = dotProduct(side, side);
-      if (side2 > length2) {
-        length2 = side2;
-        longest = i;
-      }
+      longest2 = std::max(longest2, side2);
+      const std::int32_t beyond = scene.adjacency.neighbour[static_cast<std::size_t>(at)][i];
+      if (side2 <= next2 || (from >= 0 && beyond == from)) continue;
+      next2 = side2;
+      next = beyond;
     }
     const Eigen::Vector3d normal = crossProduct(corner[1] - corner[0], corner[2] - corner[0]);
     const double altitude_m = kAltitude * size;
-    if (dotProduct(normal, normal) > altitude_m * altitude_m * length2) return at;
-    at = scene.adjacency.neighbour[static_cast<std::size_t>(at)][static_cast<std::size_t>(longest)];
+    if (dotProduct(normal, normal) > altitude_m * altitude_m * longest2) return at;
+    from = at;
+    at = next;
   }
   return face;
 }
