@@ -143,23 +143,26 @@ TEST(SalientEdges, OccludingEdgeAppearsOnceWithTheNearerDepth) {
 TEST(SalientEdges, NearerIsTheOneThatEndsNotTheOneWithTheNearerPixel) {
   Camera camera = pinholeCamera(60, 60, 200.0);
   camera.fy = 200.0;
-  camera.cy = 20.0;
-  for (const double edge_row : {23.15, 23.3, 23.45, 23.6}) {
-    SceneMesh mesh;
-    mesh.addQuad({-9, 0.02, 0.1}, {9, 0.02, 0.1}, {9, 0.02, 50}, {-9, 0.02, 50});
-    const double y = 1.1 * (edge_row - 20.0) / 200.0;
-    const double floor_z = 0.02 / ((edge_row - 20.0) / 200.0);
-    ASSERT_GT(floor_z, 1.1);
-    mesh.addQuad({-1, -1, 1.1}, {1, -1, 1.1}, {1, y, 1.1}, {-1, y, 1.1});
-    const Rendered rendered = render(mesh, camera, Pose());
-    const int row = edge_row < 23.5 ? 23 : 24;
-    for (int x = 0; x < camera.width; ++x) {
-      const std::int32_t found = findEdgePixel(rendered.edges, x, row);
-      ASSERT_GE(found, 0) << edge_row;
-      const EdgePixel& pixel = rendered.edges.pixels[static_cast<std::size_t>(found)];
-      EXPECT_FLOAT_EQ(pixel.depth_m, 1.1F);
-      EXPECT_EQ(pixel.normal_y, 127);
-      EXPECT_NEAR(pixel.offset / 100.0, edge_row - row, 0.006);
+  for (const double side : {1.0, -1.0}) {  // a floor, or a ceiling
+    camera.cy = 30.0 - 10.0 * side;
+    for (const double below : {3.15, 3.3, 3.45, 3.6}) {
+      SceneMesh mesh;
+      mesh.addQuad({-9, 0.02 * side, 0.1}, {9, 0.02 * side, 0.1}, {9, 0.02 * side, 50},
+                   {-9, 0.02 * side, 50});
+      ASSERT_GT(0.02 / (below / 200.0), 1.1);
+      const double y = 1.1 * below / 200.0 * side;
+      mesh.addQuad({-1, -side, 1.1}, {1, -side, 1.1}, {1, y, 1.1}, {-1, y, 1.1});
+      const Rendered rendered = render(mesh, camera, Pose());
+      const double edge_row = camera.cy + below * side;
+      const int row = static_cast<int>(std::floor(edge_row + 0.5));
+      for (int x = 0; x < camera.width; ++x) {
+        const std::int32_t found = findEdgePixel(rendered.edges, x, row);
+        ASSERT_GE(found, 0) << edge_row;
+        const EdgePixel& pixel = rendered.edges.pixels[static_cast<std::size_t>(found)];
+        EXPECT_FLOAT_EQ(pixel.depth_m, 1.1F);
+        EXPECT_EQ(pixel.normal_y, 127 * side);
+        EXPECT_NEAR(pixel.offset / 100.0, (edge_row - row) * side, 0.006);
+      }
     }
   }
 }
