@@ -7,34 +7,19 @@
 #include <exception>
 #include <utility>
 
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <Eigen/Geometry>
-#include <assimp/Importer.hpp>
 
 #include "core/base/digest.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/json_document.h"
 #include "sessions/io/mesh_container.h"
+#include "sessions/io/mesh_import.h"
 #include "sessions/io/mesh_weld.h"
 
 namespace boresight::sessions {
 namespace {
 
-constexpr double kMaxCoordinate_m = 1e6;
 constexpr double kSliverRatio = 1e-4;
-
-struct Triangles {
-  std::vector<Eigen::Vector3f> vertices_m;
-  std::vector<Face> faces;
-};
-
-[[noreturn]] void tooMany(const std::filesystem::path& file, std::int64_t count, const char* what,
-                          std::int64_t limit) {
-  throw InputError(file, what,
-                   std::to_string(count) + " exceed the limit of " + std::to_string(limit) +
-                       ": decimate the mesh");
-}
 
 double unitScale(const std::filesystem::path& file, MeshFormat format, const std::string& unit,
                  std::string& used_unit) {
@@ -51,133 +36,6 @@ double unitScale(const std::filesystem::path& file, MeshFormat format, const std
     throw InputError(file, "mesh_unit",
                      "unknown unit '" + unit + "' (m, dm, cm, mm, um, in, ft, yd, km)");
   return *scale;
-}
-
-/// The importer's scene, polygons as they are in the file.
-const aiScene* import(Assimp::Importer& importer, const std::filesystem::path& file,
-                      const std::vector<std::uint8_t>& bytes, MeshFormat format) {
-  const aiScene* scene = nullptr;
-  std::string problem;
-  try {
-    // glTF refers to buffers beside it, so it needs the path; the others come from what was hashed.
-    if (format == MeshFormat::kGltf) {
-      scene = importer.ReadFile(file.string(), 0);
-    } else {
-      const std::string hint = file.extension().string().substr(1);
-      scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, hint.c_str());
-    }
-    problem = importer.GetErrorString();
-  } catch (const std::exception& error) {
-    problem = error.what();
-  }
-  if (scene == nullptr || scene->mRootNode == nullptr)
-    throw InputError(file, std::string("not a readable ") + meshFormatName(format) + " mesh" +
-                               (problem.empty() ? "" : ": " + problem));
-  return scene;
-}
-
-/// The importer passes on indices as they are in the file, and its triangulation trusts them.
-void checkIndices(const std::filesystem::path& file, const aiScene& scene) {
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& mesh = *scene.mMeshes[m];
-    if (mesh.mVertices == nullptr || (mesh.mFaces == nullptr && mesh.mNumFaces > 0))
-      throw InputError(file, "the mesh has no vertices");
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f)
-      for (unsigned i = 0; i < mesh.mFaces[f].mNumIndices; ++i)
-        if (mesh.mFaces[f].mIndices[i] >= mesh.mNumVertices)
-          throw InputError(file, "face " + std::to_string(f),
-                           "vertex " + std::to_string(mesh.mFaces[f].mIndices[i]) +
-                               " does not exist (there are " + std::to_string(mesh.mNumVertices) +
-                               ")");
-  }
-}
-
-std::int64_t triangleCountOf(const aiScene& scene) {
-  std::int64_t count = 0;
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m)
-    for (unsigned f = 0; f < scene.mMeshes[m]->mNumFaces; ++f)
-      count += std::max(0, static_cast<int>(scene.mMeshes[m]->mFaces[f].mNumIndices) - 2);
-  return count;
-}
-
-void countPrimitives(const std::filesystem::path& file, const aiScene& scene,
-                     const MeshDeclaration& declared, MeshInfo& info) {
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    info.file_vertices += scene.mMeshes[m]->mNumVertices;
-    info.file_polygons += scene.mMeshes[m]->mNumFaces;
-  }
-  if (info.file_vertices > kMaxMeshVertices)
-    tooMany(file, info.file_vertices, "vertices", kMaxMeshVertices);
-  if (declared.polygon_count && info.file_polygons < *declared.polygon_count)
-    throw InputError(file, "faces",
-                     std::to_string(*declared.polygon_count) + " declared, " +
-                         std::to_string(info.file_polygons) + " readable");
-}
-
-Eigen::Matrix4d toEigen(const aiMatrix4x4& m) {
-  Eigen::Matrix4d matrix;
-  matrix << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2,
-      m.d3, m.d4;
-  return matrix;
-}
-
-Eigen::Vector3f placedVertex(const std::filesystem::path& file, const aiVector3D& vertex,
-                             const Eigen::Matrix4d& metres_from_mesh, std::int64_t index) {
-  const Eigen::Vector4d raw(vertex.x, vertex.y, vertex.z, 1.0);
-  const Eigen::Vector3d placed_m = (metres_from_mesh * raw).head<3>();
-  if (!placed_m.allFinite())
-    throw InputError(file, "vertex " + std::to_string(index), "not a finite number");
-  if (placed_m.cwiseAbs().maxCoeff() > kMaxCoordinate_m)
-    throw InputError(file, "vertex " + std::to_string(index),
-                     "is more than 1000 km from the origin: is the unit right?");
-  return placed_m.cast<float>();
-}
-
-void appendMesh(const std::filesystem::path& file, const aiMesh& mesh,
-                const Eigen::Matrix4d& metres_from_mesh, Triangles& triangles, MeshInfo& info) {
-  const auto first = static_cast<std::int32_t>(triangles.vertices_m.size());
-  if (first + static_cast<std::int64_t>(mesh.mNumVertices) > kMaxMeshVertices)
-    tooMany(file, first + static_cast<std::int64_t>(mesh.mNumVertices), "vertices",
-            kMaxMeshVertices);
-  for (unsigned v = 0; v < mesh.mNumVertices; ++v)
-    triangles.vertices_m.push_back(placedVertex(file, mesh.mVertices[v], metres_from_mesh, v));
-  const bool mirrored = metres_from_mesh.topLeftCorner<3, 3>().determinant() < 0.0;
-  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-    const aiFace& polygon = mesh.mFaces[f];
-    if (polygon.mNumIndices != 3) {
-      ++info.lines_and_points;
-      continue;
-    }
-    Face face;
-    for (unsigned i = 0; i < 3; ++i) {
-      face.vertex[i] = first + static_cast<std::int32_t>(polygon.mIndices[i]);
-    }
-    // A mirrored node would turn its faces inside out.
-    if (mirrored) std::swap(face.vertex[1], face.vertex[2]);
-    triangles.faces.push_back(face);
-  }
-  if (static_cast<std::int64_t>(triangles.faces.size()) > kMaxMeshFaces)
-    tooMany(file, static_cast<std::int64_t>(triangles.faces.size()), "triangles", kMaxMeshFaces);
-}
-
-/// All meshes of all nodes, placed by their nodes' transforms.
-Triangles placeNodes(const std::filesystem::path& file, const aiScene& scene, double scale,
-                     MeshInfo& info) {
-  Triangles triangles;
-  Eigen::Matrix4d metres_from_root = Eigen::Matrix4d::Identity();
-  metres_from_root.topLeftCorner<3, 3>() *= scale;
-  std::vector<std::pair<const aiNode*, Eigen::Matrix4d>> open = {
-      {scene.mRootNode, metres_from_root}};
-  while (!open.empty()) {
-    const auto [node, metres_from_parent] = open.back();
-    open.pop_back();
-    const Eigen::Matrix4d metres_from_node = metres_from_parent * toEigen(node->mTransformation);
-    for (unsigned m = 0; m < node->mNumMeshes; ++m)
-      appendMesh(file, *scene.mMeshes[node->mMeshes[m]], metres_from_node, triangles, info);
-    for (unsigned c = node->mNumChildren; c > 0; --c)
-      open.emplace_back(node->mChildren[c - 1], metres_from_node);
-  }
-  return triangles;
 }
 
 double edgeLength(const Mesh& mesh, std::int32_t a, std::int32_t b) {
@@ -263,27 +121,20 @@ Mesh readMesh(const std::filesystem::path& file, const std::string& unit) {
   info.metres_per_unit = unitScale(file, format, unit, info.unit);
   const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxMeshFileBytes);
   const MeshDeclaration declared = checkMeshContainer(file, bytes, format);
-  if (declared.vertex_count.value_or(0) > kMaxMeshVertices)
-    tooMany(file, *declared.vertex_count, "vertices", kMaxMeshVertices);
-  if (declared.polygon_count.value_or(0) > kMaxMeshFaces)
-    tooMany(file, *declared.polygon_count, "faces", kMaxMeshFaces);
+  requireAtMost(file, declared.vertex_count.value_or(0), kMaxMeshVertices, "vertices");
+  requireAtMost(file, declared.polygon_count.value_or(0), kMaxMeshFaces, "faces");
   if (declared.polygon_count.value_or(1) == 0 || (declared.vertex_count && !declared.polygon_count))
     throw InputError(file, "the mesh has no faces (a point cloud cannot be rendered)");
   info.file_sha256 = hashWithBuffers(file, bytes, format);
 
-  Assimp::Importer importer;
-  const aiScene* scene = import(importer, file, bytes, format);
-  checkIndices(file, *scene);
-  countPrimitives(file, *scene, declared, info);
-  const std::int64_t expected_triangles = triangleCountOf(*scene);
-  scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-  if (scene == nullptr) throw InputError(file, "the mesh cannot be triangulated");
-  info.lost_triangles = std::max<std::int64_t>(0, expected_triangles - triangleCountOf(*scene));
-
-  const Triangles triangles = placeNodes(file, *scene, info.metres_per_unit, info);
-  if (triangles.faces.empty())
+  const ImportedMesh imported = importMesh(file, bytes, format, declared, info.metres_per_unit);
+  info.file_vertices = imported.file_vertices;
+  info.file_polygons = imported.file_polygons;
+  info.lines_and_points = imported.lines_and_points;
+  info.irregular_polygons = imported.irregular_polygons;
+  if (imported.faces.empty())
     throw InputError(file, "the mesh has no faces (a point cloud cannot be rendered)");
-  WeldedMesh welded = weldMesh(triangles.vertices_m, triangles.faces);
+  WeldedMesh welded = weldMesh(imported.vertices_m, imported.faces);
   if (welded.faces.empty())
     throw InputError(file, "faces", "each has two corners in the same point: no surface");
   mesh.vertices_m = std::move(welded.vertices);
@@ -303,7 +154,7 @@ std::vector<std::string> MeshInfo::notes() const {
   count(unused_vertices, "vertices belong to no face and were left out");
   count(collapsed_faces, "faces have two corners in the same point and were left out");
   count(lines_and_points, "lines and points were left out");
-  count(lost_triangles, "triangles of polygons with holes or crossings were lost");
+  count(irregular_polygons, "polygons cross themselves or have no area");
   count(sliver_faces, "faces are slivers");
   constexpr double kUnusuallyLarge_m = 20.0;
   constexpr double kUnusuallySmall_m = 0.002;

@@ -28,12 +28,12 @@ struct MeshInfo {
 
   std::int64_t file_vertices = 0;
   std::int64_t file_polygons = 0;
-  std::int64_t merged_vertices = 0;   ///< repeated positions that were welded
-  std::int64_t unused_vertices = 0;   ///< left out: no face uses them
-  std::int64_t collapsed_faces = 0;   ///< left out: two corners are the same point
-  std::int64_t lines_and_points = 0;  ///< left out: primitives that are not faces
-  std::int64_t lost_triangles = 0;    ///< polygons that could not be triangulated whole
-  std::int64_t sliver_faces = 0;      ///< kept: height below 1e-4 of the longest side
+  std::int64_t merged_vertices = 0;     ///< repeated positions that were welded
+  std::int64_t unused_vertices = 0;     ///< left out: no face uses them
+  std::int64_t collapsed_faces = 0;     ///< left out: two corners are the same point
+  std::int64_t lines_and_points = 0;    ///< left out: primitives that are not faces
+  std::int64_t irregular_polygons = 0;  ///< cross themselves or have no area: cut as a fan
+  std::int64_t sliver_faces = 0;        ///< kept: height below 1e-4 of the longest side
 
   Eigen::Vector3d minimum_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d maximum_m = Eigen::Vector3d::Zero();

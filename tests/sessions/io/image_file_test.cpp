@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -172,6 +174,59 @@ TEST_F(ReadImage, RefusesWhatIsNotAnImage) {
   cv::Mat real(4, 4, CV_32FC1, cv::Scalar(1.0));
   EXPECT_EQ(error(encoded(real, ".tiff")),
             "image: samples are not unsigned integers of 8 or 16 bits");
+}
+
+using Tag = std::array<std::uint32_t, 2>;
+
+/// A little-endian TIFF of 2 x 1 pixels with one strip; `tags` replace or add to those of 8-bit
+/// gray.
+Bytes smallTiff(const Bytes& pixels, std::vector<Tag> tags) {
+  const std::vector<Tag> gray = {{256, 2}, {257, 1}, {258, 8},
+                                 {259, 1}, {262, 1}, {273, 8},
+                                 {277, 1}, {278, 1}, {279, std::uint32_t(pixels.size())}};
+  for (const Tag& tag : gray)
+    if (std::none_of(tags.begin(), tags.end(), [&](const Tag& t) { return t[0] == tag[0]; }))
+      tags.push_back(tag);
+  std::sort(tags.begin(), tags.end());
+  Bytes bytes = {'I', 'I', 42, 0};
+  const auto append = [&bytes](std::uint32_t value, int size) {
+    for (int i = 0; i < size; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+  };
+  append(static_cast<std::uint32_t>(8 + pixels.size()), 4);
+  bytes.insert(bytes.end(), pixels.begin(), pixels.end());
+  append(static_cast<std::uint32_t>(tags.size()), 2);
+  for (const Tag& tag : tags) {
+    append(tag[0], 2);
+    append(4, 2);  // type LONG
+    append(1, 4);
+    append(tag[1], 4);
+  }
+  append(0, 4);
+  return bytes;
+}
+
+TEST_F(ReadImage, KeepsTheValuesOfTiffOrRefusesThem) {
+  EXPECT_EQ(read(smallTiff({10, 20}, {})).pixels, (Bytes{10, 20}));
+  EXPECT_EQ(read(smallTiff({10, 20}, {{262, 0}})).pixels, (Bytes{245, 235})) << "0 is white";
+  EXPECT_EQ(read(smallTiff({0xe8, 0x03, 0xff, 0xff}, {{258, 16}})).pixels, (Bytes{4, 255}));
+  EXPECT_EQ(read(smallTiff({0x80}, {{258, 1}})).pixels, (Bytes{255, 0}));
+  const Bytes four = {1, 2, 3, 4};
+  const Bytes eight = {1, 2, 3, 4, 5, 6, 7, 8};
+  EXPECT_EQ(error(smallTiff(four, {{258, 16}, {262, 0}})),
+            "image: a TIFF of 16 bits in which 0 is white is not supported");
+  EXPECT_EQ(error(smallTiff(four, {{258, 12}})),
+            "image: samples are not unsigned integers of 8 or 16 bits");
+  EXPECT_EQ(error(smallTiff(four, {{258, 16}, {339, 2}})),
+            "image: samples are not unsigned integers of 8 or 16 bits");
+  EXPECT_EQ(error(smallTiff(eight, {{258, 32}, {339, 3}})),
+            "image: samples are not unsigned integers of 8 or 16 bits");
+  EXPECT_EQ(error(smallTiff(eight, {{262, 5}, {277, 4}})),
+            "image: TIFF photometric interpretation 5 is not supported");
+  EXPECT_EQ(error(smallTiff(eight, {{262, 2}, {277, 4}, {338, 2}})),
+            "image: a TIFF with unassociated alpha is not supported: decoding it would change its "
+            "colours");
+  EXPECT_EQ(error(smallTiff(eight, {{262, 2}, {277, 3}, {284, 2}})),
+            "image: a TIFF with separate colour planes is not supported");
 }
 
 /// Wherever a file is cut, it is refused: decoders alone would fill the rest with gray.

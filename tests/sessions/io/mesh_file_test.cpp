@@ -190,7 +190,7 @@ TEST_F(ReadMesh, TriangulatesConcavePolygons) {
     const Mesh l = read(name, name[5] == 'p' ? asciiPly(mesh) : obj(mesh));
     EXPECT_EQ(l.faces.size(), 4u);
     EXPECT_NEAR(l.info.area_m2, 3.0, 1e-6);
-    EXPECT_EQ(l.info.lost_triangles, 0);
+    EXPECT_EQ(l.info.irregular_polygons, 0);
   }
 }
 

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/mesh_import.h"
+
+#include <assimp/scene.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <exception>
+#include <string>
+#include <utility>
+
+#include "sessions/io/errors.h"
+#include "sessions/io/mesh_file.h"
+#include "sessions/io/triangulate.h"
+
+#if defined(__SANITIZE_ADDRESS__)
+// Importers of assimp leak when they refuse a file; our own leaks must still be seen.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp\n"; }  // NOLINT
+#endif
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kMaxCoordinate_m = 1e6;
+
+/// The importer's scene, polygons as they are in the file.
+const aiScene* import(Assimp::Importer& importer, const std::filesystem::path& file,
+                      const std::vector<std::uint8_t>& bytes, MeshFormat format) {
+  const aiScene* scene = nullptr;
+  std::string problem;
+  try {
+    // glTF refers to buffers beside it, so it needs the path; the others come from what was hashed.
+    if (format == MeshFormat::kGltf) {
+      scene = importer.ReadFile(file.string(), 0);
+    } else {
+      const std::string hint = file.extension().string().substr(1);
+      scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, hint.c_str());
+    }
+    problem = importer.GetErrorString();
+  } catch (const std::exception& error) {
+    problem = error.what();
+  }
+  if (scene == nullptr || scene->mRootNode == nullptr)
+    throw InputError(file, std::string("not a readable ") + meshFormatName(format) + " mesh" +
+                               (problem.empty() ? "" : ": " + problem));
+  return scene;
+}
+
+/// The importer passes on indices as they are in the file, some of which do not exist in a damaged
+/// one.
+void checkIndices(const std::filesystem::path& file, const aiScene& scene) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    if (mesh.mVertices == nullptr || (mesh.mFaces == nullptr && mesh.mNumFaces > 0))
+      throw InputError(file, "the mesh has no vertices");
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+      for (unsigned i = 0; i < mesh.mFaces[f].mNumIndices; ++i)
+        if (mesh.mFaces[f].mIndices[i] >= mesh.mNumVertices)
+          throw InputError(file, "face " + std::to_string(f),
+                           "vertex " + std::to_string(mesh.mFaces[f].mIndices[i]) +
+                               " does not exist (there are " + std::to_string(mesh.mNumVertices) +
+                               ")");
+  }
+}
+
+void countPrimitives(const std::filesystem::path& file, const aiScene& scene,
+                     const MeshDeclaration& declared, ImportedMesh& imported) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    imported.file_vertices += scene.mMeshes[m]->mNumVertices;
+    imported.file_polygons += scene.mMeshes[m]->mNumFaces;
+  }
+  requireAtMost(file, imported.file_vertices, kMaxMeshVertices, "vertices");
+  if (declared.polygon_count && imported.file_polygons < *declared.polygon_count)
+    throw InputError(file, "faces",
+                     std::to_string(*declared.polygon_count) + " declared, " +
+                         std::to_string(imported.file_polygons) + " readable");
+}
+
+Eigen::Matrix4d toEigen(const aiMatrix4x4& m) {
+  Eigen::Matrix4d matrix;
+  matrix << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2,
+      m.d3, m.d4;
+  return matrix;
+}
+
+Eigen::Vector3f placedVertex(const std::filesystem::path& file, const aiVector3D& vertex,
+                             const Eigen::Matrix4d& metres_from_mesh, std::int64_t index) {
+  const Eigen::Vector4d raw(vertex.x, vertex.y, vertex.z, 1.0);
+  const Eigen::Vector3d placed_m = (metres_from_mesh * raw).head<3>();
+  if (!placed_m.allFinite())
+    throw InputError(file, "vertex " + std::to_string(index), "not a finite number");
+  if (placed_m.cwiseAbs().maxCoeff() > kMaxCoordinate_m)
+    throw InputError(file, "vertex " + std::to_string(index),
+                     "is more than 1000 km from the origin: is the unit right?");
+  return placed_m.cast<float>();
+}
+
+void appendFaces(const aiMesh& mesh, std::int32_t first, bool mirrored, ImportedMesh& imported) {
+  std::vector<std::int32_t> corners;
+  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+    const aiFace& polygon = mesh.mFaces[f];
+    if (polygon.mNumIndices < 3) {
+      ++imported.lines_and_points;
+      continue;
+    }
+    corners.clear();
+    for (unsigned i = 0; i < polygon.mNumIndices; ++i)
+      corners.push_back(first + static_cast<std::int32_t>(polygon.mIndices[i]));
+    // A mirrored node would turn its faces inside out.
+    if (mirrored) std::reverse(corners.begin(), corners.end());
+    if (!triangulatePolygon(imported.vertices_m, corners, imported.faces))
+      ++imported.irregular_polygons;
+  }
+}
+
+void appendMesh(const std::filesystem::path& file, const aiMesh& mesh,
+                const Eigen::Matrix4d& metres_from_mesh, ImportedMesh& imported) {
+  const std::size_t first = imported.vertices_m.size();
+  requireAtMost(file, static_cast<std::int64_t>(first) + mesh.mNumVertices, kMaxMeshVertices,
+                "vertices");
+  for (unsigned v = 0; v < mesh.mNumVertices; ++v)
+    imported.vertices_m.push_back(placedVertex(file, mesh.mVertices[v], metres_from_mesh, v));
+  const bool mirrored = metres_from_mesh.topLeftCorner<3, 3>().determinant() < 0.0;
+  appendFaces(mesh, static_cast<std::int32_t>(first), mirrored, imported);
+  requireAtMost(file, static_cast<std::int64_t>(imported.faces.size()), kMaxMeshFaces, "triangles");
+}
+
+/// All meshes of all nodes, placed by their nodes' transforms.
+void placeNodes(const std::filesystem::path& file, const aiScene& scene, double scale,
+                ImportedMesh& imported) {
+  Eigen::Matrix4d metres_from_root = Eigen::Matrix4d::Identity();
+  metres_from_root.topLeftCorner<3, 3>() *= scale;
+  std::vector<std::pair<const aiNode*, Eigen::Matrix4d>> open = {
+      {scene.mRootNode, metres_from_root}};
+  while (!open.empty()) {
+    const auto [node, metres_from_parent] = open.back();
+    open.pop_back();
+    const Eigen::Matrix4d metres_from_node = metres_from_parent * toEigen(node->mTransformation);
+    for (unsigned m = 0; m < node->mNumMeshes; ++m)
+      appendMesh(file, *scene.mMeshes[node->mMeshes[m]], metres_from_node, imported);
+    for (unsigned c = node->mNumChildren; c > 0; --c)
+      open.emplace_back(node->mChildren[c - 1], metres_from_node);
+  }
+}
+
+}  // namespace
+
+void requireAtMost(const std::filesystem::path& file, std::int64_t count, std::int64_t limit,
+                   const char* what) {
+  if (count > limit)
+    throw InputError(file, what,
+                     std::to_string(count) + " exceed the limit of " + std::to_string(limit) +
+                         ": decimate the mesh");
+}
+
+ImportedMesh importMesh(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes,
+                        MeshFormat format, const MeshDeclaration& declared,
+                        double metres_per_unit) {
+  ImportedMesh imported;
+  Assimp::Importer importer;
+  const aiScene* scene = import(importer, file, bytes, format);
+  checkIndices(file, *scene);
+  countPrimitives(file, *scene, declared, imported);
+  placeNodes(file, *scene, metres_per_unit, imported);
+  return imported;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/ply_container.h"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sessions/io/byte_cursor.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
+
+namespace boresight::sessions {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+
+[[noreturn]] void truncated(const std::filesystem::path& file) {
+  throw InputError(file, "the PLY mesh is truncated");
+}
+
+struct PlyProperty {
+  int count_size = 0;  ///< bytes of a list's count; 0 for a plain value
+  int value_size = 0;
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+enum class PlyEncoding { kAscii, kLittleEndian, kBigEndian };
+
+struct PlyHeader {
+  PlyEncoding encoding = PlyEncoding::kAscii;
+  std::vector<PlyElement> elements;
+  std::uint64_t body = 0;  ///< offset of the first byte after the header
+};
+
+int plyTypeSize(std::string_view type) {
+  if (type == "char" || type == "uchar" || type == "int8" || type == "uint8") return 1;
+  if (type == "short" || type == "ushort" || type == "int16" || type == "uint16") return 2;
+  if (type == "int" || type == "uint" || type == "float") return 4;
+  if (type == "int32" || type == "uint32" || type == "float32") return 4;
+  if (type == "double" || type == "float64") return 8;
+  return 0;
+}
+
+void readPlyLine(const std::filesystem::path& file, const std::string& line, PlyHeader& header) {
+  std::istringstream words(line);
+  std::string keyword;
+  words >> keyword;
+  if (keyword == "format") {
+    std::string encoding;
+    words >> encoding;
+    if (encoding == "binary_little_endian")
+      header.encoding = PlyEncoding::kLittleEndian;
+    else if (encoding == "binary_big_endian")
+      header.encoding = PlyEncoding::kBigEndian;
+    else if (encoding != "ascii")
+      throw InputError(file, "header", "unknown PLY encoding '" + encoding + "'");
+  } else if (keyword == "element") {
+    PlyElement element;
+    std::int64_t count = -1;
+    words >> element.name >> count;
+    if (!words || count < 0) throw InputError(file, "header", "bad line '" + line + "'");
+    element.count = static_cast<std::uint64_t>(count);
+    header.elements.push_back(element);
+  } else if (keyword == "property") {
+    std::string type;
+    std::string count_type;
+    words >> type;
+    PlyProperty property;
+    if (type == "list") {
+      words >> count_type >> type;
+      property.count_size = plyTypeSize(count_type);
+    }
+    property.value_size = plyTypeSize(type);
+    const bool bad_list = !count_type.empty() && property.count_size == 0;
+    if (header.elements.empty() || property.value_size == 0 || bad_list)
+      throw InputError(file, "header", "bad line '" + line + "'");
+    header.elements.back().properties.push_back(property);
+  }
+}
+
+PlyHeader readPlyHeader(const std::filesystem::path& file, Bytes bytes) {
+  constexpr std::size_t kMaxHeader = 65536;
+  const std::string_view text = asText(bytes.first(std::min(bytes.size(), kMaxHeader)));
+  PlyHeader header;
+  std::size_t start = 0;
+  while (true) {
+    const std::size_t end = text.find('\n', start);
+    if (end == std::string_view::npos) {
+      if (bytes.size() <= kMaxHeader) truncated(file);
+      throw InputError(file, "header", "no end_header within its first 64 kB");
+    }
+    std::string line(text.substr(start, end - start));
+    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
+    start = end + 1;
+    if (line == "end_header") break;
+    readPlyLine(file, line, header);
+  }
+  header.body = start;
+  return header;
+}
+
+/// Walks one binary element; returns the offset after it.
+std::uint64_t walkPlyElement(const std::filesystem::path& file, Bytes bytes,
+                             const PlyElement& element, bool big_endian, std::uint64_t offset) {
+  std::uint64_t fixed_size = 0;
+  bool has_list = false;
+  for (const PlyProperty& property : element.properties) {
+    fixed_size += static_cast<std::uint64_t>(property.value_size);
+    has_list = has_list || property.count_size != 0;
+  }
+  if (!has_list) {
+    if (fixed_size != 0 && element.count > bytes.size() / fixed_size) truncated(file);
+    if (!holds(bytes, offset, element.count * fixed_size)) truncated(file);
+    return offset + element.count * fixed_size;
+  }
+  for (std::uint64_t i = 0; i < element.count; ++i) {
+    for (const PlyProperty& property : element.properties) {
+      std::uint64_t values = 1;
+      if (property.count_size != 0) {
+        if (!holds(bytes, offset, static_cast<std::uint64_t>(property.count_size))) truncated(file);
+        values = readUnsigned(bytes, offset, property.count_size, big_endian);
+        offset += static_cast<std::uint64_t>(property.count_size);
+      }
+      if (values > bytes.size()) truncated(file);
+      const std::uint64_t size = values * static_cast<std::uint64_t>(property.value_size);
+      if (!holds(bytes, offset, size)) truncated(file);
+      offset += size;
+    }
+  }
+  return offset;
+}
+
+/// Words of a text body, one after the other.
+class WordReader {
+ public:
+  explicit WordReader(std::string_view text) : text_(text) {}
+
+  /// False at the end.
+  bool skip(std::uint64_t words) {
+    for (std::uint64_t i = 0; i < words; ++i)
+      if (next().empty()) return false;
+    return true;
+  }
+
+  std::string_view next() {
+    while (at_ < text_.size() && isBlank(text_[at_])) ++at_;
+    const std::size_t start = at_;
+    while (at_ < text_.size() && !isBlank(text_[at_])) ++at_;
+    return text_.substr(start, at_ - start);
+  }
+
+ private:
+  static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+void walkPlyText(const std::filesystem::path& file, const PlyHeader& header,
+                 std::string_view body) {
+  WordReader words(body);
+  for (const PlyElement& element : header.elements)
+    for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i)
+      for (const PlyProperty& property : element.properties) {
+        std::uint64_t values = 1;
+        if (property.count_size != 0) {
+          const std::string_view count = words.next();
+          const auto result = std::from_chars(count.data(), count.data() + count.size(), values);
+          if (count.empty()) truncated(file);
+          if (result.ec != std::errc() || values > body.size())
+            throw InputError(file, element.name + " " + std::to_string(i),
+                             "'" + std::string(count) + "' is not the length of a list");
+        }
+        if (!words.skip(values)) truncated(file);
+      }
+}
+
+}  // namespace
+
+MeshDeclaration checkPly(const std::filesystem::path& file, Bytes bytes) {
+  if (!asText(bytes).starts_with("ply\n") && !asText(bytes).starts_with("ply\r"))
+    throw InputError(file, "not a PLY mesh (the file does not begin with 'ply')");
+  const PlyHeader header = readPlyHeader(file, bytes);
+  MeshDeclaration declaration;
+  for (const PlyElement& element : header.elements) {
+    // Any count of a file that we would accept fits.
+    if (element.count > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
+      throw InputError(file, "header", "too many items in element '" + element.name + "'");
+    if (element.name == "vertex")
+      declaration.vertex_count = static_cast<std::int64_t>(element.count);
+    if (element.name == "face")
+      declaration.polygon_count = static_cast<std::int64_t>(element.count);
+  }
+  if (declaration.vertex_count.value_or(0) == 0) throw InputError(file, "the mesh has no vertices");
+  if (header.encoding == PlyEncoding::kAscii) {
+    walkPlyText(file, header, asText(bytes.subspan(header.body)));
+    return declaration;
+  }
+  std::uint64_t offset = header.body;
+  for (const PlyElement& element : header.elements)
+    offset =
+        walkPlyElement(file, bytes, element, header.encoding == PlyEncoding::kBigEndian, offset);
+  return declaration;
+}
+
+}  // namespace boresight::sessions
