@@ -33,5 +33,5 @@ installPackages() {
 # configureAndBuild PRESET [TARGET]: configures once, builds what has changed.
 configureAndBuild() {
   cmake --preset "$1" --log-level=WARNING
-  cmake --build --preset "$1" --target "${2:-all}"
+  cmake --build --preset "$1" --target "${2:-all}" --parallel "$(nproc)"
 }
