@@ -156,7 +156,9 @@ TEST(Localize, RecordsEveryAttempt) {
         i + 1 == trace.iterations.size() || trace.iterations[i + 1].attempt != iteration.attempt;
     EXPECT_EQ(iteration.status == LocalizationStatus::kNotSupported, last_of_attempt) << i;
     unsupported[static_cast<std::size_t>(iteration.attempt)] += last_of_attempt ? 1 : 0;
-    if (i > 0) EXPECT_NE(iteration.index, trace.iterations[i - 1].index);
+    if (i > 0) {
+      EXPECT_NE(iteration.index, trace.iterations[i - 1].index);
+    }
   }
   EXPECT_EQ(unsupported, (std::array<int, 2>{1, 1}));
 }
