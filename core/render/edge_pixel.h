@@ -41,6 +41,9 @@ struct EdgeRender {
   std::span<EdgePixel> pixels;        ///< capacity; the first `pixel_count` are valid, raster order
   std::span<std::int32_t> row_begin;  ///< height + 1 indices into pixels
   std::int32_t pixel_count = 0;
+  /// Words for the largest image; `edges` and `mask` use as many as the camera at hand needs.
+  std::span<std::uint64_t> edge_words;
+  std::span<std::uint64_t> mask_words;
   Camera camera;  ///< the camera at this level
   Pose camera_from_station;
 };

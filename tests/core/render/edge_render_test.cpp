@@ -233,6 +233,8 @@ TEST(EdgeRenderer, LevelsOfOneCameraShareOneRenderer) {
     bool done = false;
     while (!done) ASSERT_EQ(renderer.step(done), Status::kOk);
     const Rendered alone = render(bench.mesh, cameraAtLevel(camera, level), kAhead);
+    EXPECT_EQ(output.edges.words.size(), alone.edges.edges.words.size());
+    EXPECT_EQ(output.mask.words.size(), alone.edges.mask.words.size());
     expectEqual(output, alone.edges);
     ASSERT_EQ(renderer.step(done), Status::kOk);
     EXPECT_TRUE(done);
