@@ -122,12 +122,12 @@ std::string tooFewText(const LocalizationTrace& trace, const IterationTrace& las
 }  // namespace
 
 std::string iterationTable(const LocalizationTrace& trace) {
-  TextTable table({"iteration", "kind", "level", "templates", "matches", "inliers", "threshold px",
-                   "correction mm", "deg", "rms px"});
+  TextTable table({"iteration", "attempt", "kind", "level", "templates", "matches", "inliers",
+                   "threshold px", "correction mm", "deg", "rms px"});
   for (const IterationTrace& iteration : trace.iterations) {
     const bool refines = iteration.kind == IterationKind::kRefine;
-    table.add({std::to_string(iteration.index + 1), refines ? "refine" : "match",
-               std::to_string(iteration.level),
+    table.add({std::to_string(iteration.index + 1), std::to_string(iteration.attempt + 1),
+               refines ? "refine" : "match", std::to_string(iteration.level),
                refines ? std::to_string(iteration.refinement.sample_count)
                        : std::to_string(iteration.template_count),
                refines ? std::to_string(iteration.refinement.found_count)
@@ -177,10 +177,11 @@ std::string explanation(const LocalizationTrace& trace) {
       return pnpFailedText(trace, last);
     case LocalizationStatus::kNotSupported:
       return format(
-          "of %d rendered edge pixels %d (%.1f %%) meet an image edge, needed %.1f %%; the "
-          "pose is probably wrong: check seed and mesh",
-          trace.support.rendered, trace.support.supported, 100.0 * trace.support.share(),
-          100.0 * trace.options.support.min_support);
+          "edge support %.3f, needed %.3f: %.1f %% of the rendered edges are seen and %.1f %% of "
+          "the edges "
+          "seen on the object are rendered; the pose is probably wrong: check seed and mesh",
+          trace.support.share(), trace.options.support.min_support,
+          100.0 * trace.support.coverage(), 100.0 * trace.support.explanation());
     case LocalizationStatus::kIterationLimit:
       return iterationLimitText(trace, last);
     case LocalizationStatus::kTooFewEdges:

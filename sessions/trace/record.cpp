@@ -99,6 +99,7 @@ void recordRefinement(const RefinementResult& refinement, RecordLevel level,
 void recordEnd(const Localizer& localizer, LocalizationTrace& trace) {
   const Workspace& workspace = localizer.workspace();
   trace.support = workspace.support;
+  trace.attempts = workspace.attempts;
   trace.status = workspace.status;
   trace.fault = workspace.fault;
   trace.camera_from_station = workspace.camera_from_station;
@@ -162,6 +163,7 @@ IterationTrace recordIteration(const Iteration& iteration, Stage reached, Record
   trace.index = iteration.index;
   trace.kind = iteration.kind;
   trace.level = iteration.level;
+  trace.attempt = iteration.attempt;
   trace.reached = reached;
   trace.status = iteration.status;
   trace.threshold_px = iteration.threshold_px;
@@ -186,6 +188,7 @@ IterationTrace recordIteration(const Iteration& iteration, Stage reached, Record
   if (solved) {
     trace.correction_translation_m = iteration.correction_translation_m;
     trace.correction_rotation_rad = iteration.correction_rotation_rad;
+    trace.correction_image_px = iteration.correction_image_px;
   }
   return trace;
 }

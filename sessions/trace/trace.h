@@ -82,7 +82,8 @@ enum class RecordLevel { kSummary, kFull };
 /// Everything of one iteration up to the stage that it reached: owning copies of what the core's
 /// `Iteration` holds. With kSummary the vectors stay empty and the counts remain.
 struct IterationTrace {
-  std::int32_t index = 0;
+  std::int32_t index = 0;  ///< over all attempts
+  std::int32_t attempt = 0;
   IterationKind kind = IterationKind::kMatch;
   std::int32_t level = 0;
   Stage reached = Stage::kRender;  ///< the last stage that was worked on
@@ -111,6 +112,7 @@ struct IterationTrace {
   Pose camera_from_station;  ///< after; as before when no pose came out
   double correction_translation_m = 0.0;
   double correction_rotation_rad = 0.0;
+  double correction_image_px = 0.0;
   StageSeconds seconds;
 
   /// Inliers of a match iteration, edge places used of a refinement.
@@ -129,6 +131,7 @@ struct LocalizationTrace {
   EdgeMapTrace edges;
   std::vector<IterationTrace> iterations;
   EdgeSupport support;
+  std::int32_t attempts = 1;
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< kRunning: it was stopped
   Status fault = Status::kOk;
   Pose camera_from_station;  ///< best estimate; the seed unless converged

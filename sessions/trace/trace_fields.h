@@ -219,6 +219,8 @@ void fields(Archive& archive, Self& iteration) {
   fields(archive, iteration.camera_from_station);
   archive.number(iteration.correction_translation_m);
   archive.number(iteration.correction_rotation_rad);
+  archive.number(iteration.correction_image_px);
+  archive.number(iteration.attempt);
   fields(archive, iteration.seconds);
 }
 
@@ -246,7 +248,10 @@ void fields(Archive& archive, Self& trace) {
   fields(archive, trace.edges);
   archive.list(trace.iterations, [&](auto& iteration) { fields(archive, iteration); });
   archive.number(trace.support.rendered);
-  archive.number(trace.support.supported);
+  archive.number(trace.support.covered);
+  archive.number(trace.support.seen);
+  archive.number(trace.support.explained);
+  archive.number(trace.attempts);
   archive.choice(trace.status, LocalizationStatus::kFault);
   archive.choice(trace.fault, Status::kNoConsensus);
   fields(archive, trace.camera_from_station);
