@@ -108,14 +108,20 @@ void recordEnd(const Localizer& localizer, LocalizationTrace& trace) {
   trace.arena_bytes = localizer.highWaterBytes();
 }
 
-/// Records an iteration, or how the latest ended when only its edge support was still to be judged.
-void noteIteration(const Iteration& iteration, Stage reached, RecordLevel level,
-                   LocalizationTrace& trace) {
-  if (reached == Stage::kSupport && !trace.iterations.empty()) {
-    trace.iterations.back().status = iteration.status;
-  } else {
-    trace.iterations.push_back(recordIteration(iteration, reached, level));
+/// Records an iteration when it is complete; its edge support is judged after that and may change
+/// how it ended.
+void noteIteration(const Localizer& localizer, const StepReport& report, RecordLevel level,
+                   StageSeconds& seconds, LocalizationTrace& trace) {
+  const Iteration* iteration = localizer.workspace().iteration;
+  if (iteration == nullptr) return;
+  if (report.iteration_complete) {
+    trace.iterations.push_back(recordIteration(*iteration, report.stage, level));
+  } else if (report.stage != Stage::kSupport || trace.iterations.empty()) {
+    return;
   }
+  trace.iterations.back().status = iteration->status;
+  trace.iterations.back().seconds += seconds;
+  seconds = {};
 }
 
 /// Steps until the run has finished, recording each iteration when it is complete.
@@ -131,11 +137,7 @@ void runSteps(Localizer& localizer, RecordLevel level, const std::stop_token& st
     if (report.stage != Stage::kEdges) iteration_seconds.add(report.stage, seconds);
     if (report.stage == Stage::kEdges && report.stage_complete && level == RecordLevel::kFull)
       trace.edges = recordEdgeMap(localizer.workspace().edges);
-    if (report.iteration_complete && localizer.workspace().iteration != nullptr) {
-      noteIteration(*localizer.workspace().iteration, report.stage, level, trace);
-      trace.iterations.back().seconds += iteration_seconds;
-      iteration_seconds = {};
-    }
+    noteIteration(localizer, report, level, iteration_seconds, trace);
     finished = report.finished;
     watch.lap();  // copying is the recorder's time, not the run's
   }
