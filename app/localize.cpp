@@ -46,6 +46,7 @@ struct Inputs {
   BitImage ignore;
   sessions::DeclaredUncertainty uncertainty;
   LocalizerOptions options;
+  std::vector<std::string> notes;  ///< said when everything has been accepted
 
   LocalizationProblem problem() const {
     LocalizationProblem made;
@@ -100,12 +101,8 @@ void LocalizeArguments::addTo(CLI::App& command) {
 
 sessions::DeclaredUncertainty declaredUncertainty(const LocalizeArguments& arguments,
                                                   const sessions::PoseFile& seed) {
-  sessions::DeclaredUncertainty declared;
-  if (seed.uncertainty) {
-    declared = *seed.uncertainty;
-  } else if (arguments.uncertainty.empty()) {
-    note("the seed states no uncertainty; taking 0.03 m and 5 deg (see --uncertainty)");
-  }
+  sessions::DeclaredUncertainty declared =
+      seed.uncertainty.value_or(sessions::DeclaredUncertainty());
   if (!arguments.uncertainty.empty()) {
     const std::vector<double>& u = arguments.uncertainty;
     declared.translation_m = {u[0], u[1], u[2]};
@@ -139,8 +136,11 @@ Inputs readInputs(const LocalizeArguments& arguments) {
   }
   inputs.scene = arguments.mesh.read();
   inputs.uncertainty = declaredUncertainty(arguments, inputs.seed);
+  if (!inputs.seed.uncertainty && arguments.uncertainty.empty())
+    inputs.notes.push_back(
+        "the seed states no uncertainty; taking 0.03 m and 5 deg (see --uncertainty)");
   const std::string projected = sessions::projectionNote(inputs.seed.rotation_deviation);
-  if (!projected.empty()) note(arguments.seed + ": " + projected);
+  if (!projected.empty()) inputs.notes.push_back(arguments.seed + ": " + projected);
   return inputs;
 }
 
@@ -245,6 +245,7 @@ int localizeImage(const LocalizeArguments& arguments) {
     if (!file.empty()) sessions::requireWritable(file);
   const Inputs inputs = readInputs(arguments);
   requireSensibleSeed(arguments, inputs);
+  for (const std::string& line : inputs.notes) note(line);
   const auto level =
       arguments.trace.empty() ? sessions::RecordLevel::kSummary : sessions::RecordLevel::kFull;
   const sessions::LocalizationTrace trace =

@@ -4,7 +4,7 @@
 boresight_packages=(
   build-essential cmake ninja-build ccache git
   libeigen3-dev libopencv-dev libassimp-dev nlohmann-json3-dev libsqlite3-dev libcli11-dev
-  libgtest-dev libgmock-dev
+  libgtest-dev libgmock-dev libbenchmark-dev
 )
 
 # Installs what is missing; asks the package manager for nothing when all is there.
@@ -33,5 +33,5 @@ installPackages() {
 # configureAndBuild PRESET [TARGET]: configures once, builds what has changed.
 configureAndBuild() {
   cmake --preset "$1" --log-level=WARNING
-  cmake --build --preset "$1" --target "${2:-all}"
+  cmake --build --preset "$1" --target "${2:-all}" --parallel "$(nproc)"
 }

@@ -19,7 +19,7 @@ build/release/app/whs localize \
   --image "$example/$station/image.png" --camera "$example/$station/camera.json" \
   --mesh "$example/$station/model.ply" --mesh-unit m \
   --seed "$example/$station/seed.json" --truth "$example/$station/truth.json" \
-  --config "$example/$station/config.json" \
+  --feature-size 0.015 \
   --out "$out/result.json" --trace "$out/trace.bin" --overlay "$out/overlay.png"
 echo
 echo "Wrote $out/overlay.png (seed red, result green, truth blue), $out/result.json, $out/trace.bin"

@@ -9,60 +9,18 @@
 namespace boresight {
 namespace {
 
-constexpr double kStep_px = 0.5;  ///< between samples of a profile
-constexpr int kMaxTaps = 32;      ///< of the derivative kernel, one side
-constexpr int kMaxProfile = 512;  ///< samples of one profile
 constexpr double kTukey = 4.685;  ///< 95 % efficiency on Gaussian residuals (Huber 1981)
 constexpr double kMadToSigma = 1.4826;
 constexpr double kMinScale_px = 0.15;
 constexpr double kSettled_rad = 2e-6;  ///< a step below these moves nothing that is measured
 constexpr double kSettled_m = 1e-6;
 
-/// One side of an antisymmetric derivative-of-Gaussian kernel at kStep_px, scaled so that a unit
-/// ramp (1 gray per px) gives 1.
-struct DerivativeKernel {
-  std::array<double, kMaxTaps> weight{};
-  int taps = 0;
-};
-
-DerivativeKernel derivativeKernel(double sigma_px) {
-  DerivativeKernel kernel;
-  kernel.taps = std::min(kMaxTaps, static_cast<int>(3.0 * sigma_px / kStep_px + 0.5));
-  kernel.taps = std::max(kernel.taps, 1);
-  double ramp = 0.0;
-  for (int k = 1; k <= kernel.taps; ++k) {
-    const double s_px = k * kStep_px;
-    const double weight = s_px * exponential(-0.5 * s_px * s_px / (sigma_px * sigma_px));
-    kernel.weight[static_cast<std::size_t>(k - 1)] = weight;
-    ramp += 2.0 * s_px * weight;
-  }
-  for (double& weight : kernel.weight) weight /= ramp;
-  return kernel;
-}
-
-/// Bilinear gray value; false outside the image or where it is ignored.
-bool grayAt(const ImageView& image, double x, double y, double& gray) {
-  if (!(x >= 0.0 && y >= 0.0 && x < image.width - 1 && y < image.height - 1)) return false;
-  const int ix = static_cast<int>(x);
-  const int iy = static_cast<int>(y);
-  const double fx = x - ix;
-  const double fy = y - iy;
-  const std::uint8_t* upper = image.row(iy) + ix;
-  const std::uint8_t* lower = image.row(iy + 1) + ix;
-  const double top = upper[0] + fx * (upper[1] - upper[0]);
-  const double bottom = lower[0] + fx * (lower[1] - lower[0]);
-  gray = top + fy * (bottom - top);
-  return true;
-}
-
 }  // namespace
 
 Status EdgeRefinement::create(const RefinementOptions& options, Arena& arena) {
   options_ = options;
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
-  const DerivativeKernel kernel = derivativeKernel(options.derivative_sigma_px);
-  kernel_ = kernel.weight;
-  taps_ = kernel.taps;
+  search_ = EdgeSearch(options.derivative_sigma_px);
   absolute_residuals_ = arena.allocate<float>(static_cast<std::size_t>(options.max_samples));
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
@@ -112,60 +70,6 @@ void EdgeRefinement::takeSamples(const MeshView& mesh, const EdgeRender& render)
   }
 }
 
-void EdgeRefinement::search(EdgeSample& sample, const Eigen::Vector2d& predicted_px) const {
-  sample.gradient = 0.0;
-  const int reach =
-      std::min((kMaxProfile - 1) / 2, static_cast<int>(radius_px_ / kStep_px) + 1 + taps_);
-  std::array<double, kMaxProfile> profile;
-  const Eigen::Vector2d tangent(-sample.normal.y(), sample.normal.x());
-  for (int i = -reach; i <= reach; ++i) {
-    const Eigen::Vector2d at = predicted_px + (i * kStep_px) * sample.normal;
-    double sum = 0.0;
-    for (int side = -1; side <= 1; ++side) {
-      double gray = 0.0;
-      const Eigen::Vector2d place = at + side * tangent;
-      if (!grayAt(image_, place.x(), place.y(), gray)) return;
-      sum += (side == 0 ? 2.0 : 1.0) * gray;
-    }
-    profile[static_cast<std::size_t>(i + reach)] = 0.25 * sum;
-  }
-  const auto derivative = [&](int i) {
-    double sum = 0.0;
-    for (int k = 1; k <= taps_; ++k) {
-      sum += kernel_[static_cast<std::size_t>(k - 1)] *
-             (profile[static_cast<std::size_t>(i + reach + k)] -
-              profile[static_cast<std::size_t>(i + reach - k)]);
-    }
-    return sum;
-  };
-  const int inner = reach - taps_;
-  double before = derivative(-inner);
-  double here = derivative(-inner + 1);
-  double best = 0.0;
-  for (int i = -inner + 1; i < inner; ++i) {
-    const double after = derivative(i + 1);
-    const double strength = std::abs(here);
-    const bool peak = strength >= std::abs(before) && strength > std::abs(after);
-    // A weaker edge nearby is likelier than a strong one at the rim of the search.
-    const double away = i / static_cast<double>(inner + 1);
-    const double preference = strength * (1.0 - away * away);
-    if (peak && preference > best && strength >= options_.min_gradient) {
-      best = preference;
-      const double bend = std::abs(before) - 2.0 * strength + std::abs(after);
-      const double shift = bend < 0.0 ? 0.5 * (std::abs(before) - std::abs(after)) / bend : 0.0;
-      sample.residual_px = (i + std::clamp(shift, -0.5, 0.5)) * kStep_px;
-      sample.gradient = here;
-    }
-    before = here;
-    here = after;
-  }
-  if (ignore_ != nullptr && sample.gradient != 0.0) {
-    const Eigen::Vector2d found = predicted_px + sample.residual_px * sample.normal;
-    if (ignore_->get(static_cast<int>(found.x() + 0.5), static_cast<int>(found.y() + 0.5)))
-      sample.gradient = 0.0;
-  }
-}
-
 double EdgeRefinement::robustScale() {
   const RefinementResult& result = *result_;
   std::size_t count = 0;
@@ -190,7 +94,10 @@ Status EdgeRefinement::step(bool& done) {
     sample.weight = 0.0;
     Eigen::Vector2d predicted_px;
     if (project(camera_, result.camera_from_station * sample.point_in_station_m, predicted_px)) {
-      search(sample, predicted_px);
+      const EdgePeak peak = search_.find(image_, ignore_, predicted_px, sample.normal, radius_px_,
+                                         options_.min_gradient);
+      sample.residual_px = peak.offset_px;
+      sample.gradient = peak.gradient;
     }
     if (sample.gradient != 0.0) ++result.found_count;
   }

@@ -12,6 +12,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
+#include "core/localizer/edge_search.h"
 #include "core/pnp/normal_equations.h"
 #include "core/pnp/pnp.h"
 #include "core/render/edge_render.h"
@@ -23,10 +24,10 @@ struct RefinementOptions {
   std::int32_t max_samples = 12000;
   std::int32_t min_samples = 4000;
   double first_radius_px = 3.0;
-  double last_radius_px = 1.0;
+  double last_radius_px = 0.7;
   std::int32_t min_passes = 2;
   std::int32_t rounds = 10;
-  double derivative_sigma_px = 0.8;
+  double derivative_sigma_px = 1.0;
   double min_gradient = 2.0;
   double sample_spacing_px = 2.0;
   std::int32_t min_found = 60;
@@ -115,7 +116,6 @@ class EdgeRefinement {
 
  private:
   void takeSamples(const MeshView& mesh, const EdgeRender& render);
-  void search(EdgeSample& sample, const Eigen::Vector2d& predicted_px) const;
   double robustScale();
   void addKnowledge(NormalEquations& equations) const;
   Status solve(double scale_px, bool& settled);
@@ -131,8 +131,7 @@ class EdgeRefinement {
   bool has_matched_ = false;
   PoseEstimate matched_;
   RefinementResult* result_ = nullptr;
-  std::array<double, 32> kernel_{};  ///< one side of the derivative of a Gaussian
-  int taps_ = 0;
+  EdgeSearch search_;
   std::span<float> absolute_residuals_;
   std::int32_t round_ = 0;
 };

@@ -6,42 +6,65 @@
 #include "core/base/image.h"
 #include "core/base/options.h"
 #include "core/edges/edge_map.h"
+#include "core/localizer/edge_search.h"
 #include "core/render/edge_render.h"
 
 namespace boresight {
 
 struct SupportOptions {
   bool gate = true;
-  double min_support = 0.40;
-  double direction_tolerance_rad = 0.5235987755982988;  ///< 30 deg
+  double min_support = 0.345;
+  double search_radius_px = 4.0;
+  double near_px = 1.0;
+  double min_gradient = 4.0;
+  double derivative_sigma_px = 1.0;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
     visit(OptionInfo{"support.gate", "", 0, 1,
                      "A converged pose must be supported by the image's edges."},
           self.gate);
-    visit(
-        OptionInfo{
-            "support.min_support", "", 0.0, 1.0,
-            "Share of rendered edge pixels that must meet an image edge of their direction."},
-        self.min_support);
-    visit(OptionInfo{"support.direction_tolerance_rad", "rad", 0.05, 1.6,
-                     "Largest angle between rendered and seen edge."},
-          self.direction_tolerance_rad);
+    visit(OptionInfo{"support.min_support", "", 0.0, 1.0,
+                     "Edge support that a converged pose must have."},
+          self.min_support);
+    visit(OptionInfo{"support.search_radius_px", "px", 1.0, 50.0,
+                     "How far around a rendered edge its counterpart is looked for, in pixels of "
+                     "the render."},
+          self.search_radius_px);
+    visit(OptionInfo{"support.near_px", "px", 0.1, 50.0,
+                     "A rendered edge counts as seen when its counterpart is this near, in pixels "
+                     "of the render."},
+          self.near_px);
+    visit(OptionInfo{"support.min_gradient", "gray/px", 0.0, 255.0,
+                     "Weaker edges do not count as seen."},
+          self.min_gradient);
+    visit(OptionInfo{"support.derivative_sigma_px", "px", 0.3, 5.0,
+                     "Scale of the derivative along the normal."},
+          self.derivative_sigma_px);
   }
 };
 
-/// How much of what the pose predicts is seen, not resting on any match: rendered edge pixels with
-/// a test edge within one pixel (of the render's level) whose gradient in the raw image points
-/// along the rendered normal, either way.
+/// How well a pose explains the image, not resting on any match. Two sides, kept apart:
+/// *coverage*, how much of what the pose predicts is seen: rendered edge pixels where the strongest
+/// derivative of the raw image along the edge's normal, within the search radius, lies near the
+/// edge; *explained*, how much of what is seen on the object is predicted: test edges inside the
+/// mask with a rendered edge within one pixel (the rest is texture, shadow, or somebody else's
+/// edge). A wrong pose covers by chance and explains little; a dark or textured object is strong in
+/// one of the two.
 struct EdgeSupport {
-  std::int32_t rendered = 0;  ///< rendered edge pixels that are not ignored
-  std::int32_t supported = 0;
-  double share() const {
-    return rendered > 0 ? static_cast<double>(supported) / static_cast<double>(rendered) : 0.0;
-  }
+  std::int32_t rendered =
+      0;  ///< rendered edge pixels looked at (an even subset of many), not ignored
+  std::int32_t covered = 0;
+  std::int32_t seen = 0;  ///< test edge pixels inside the mask, at the render's level
+  std::int32_t explained = 0;
+
+  double coverage() const { return rendered > 0 ? static_cast<double>(covered) / rendered : 0.0; }
+  double explanation() const { return seen > 0 ? static_cast<double>(explained) / seen : 0.0; }
+  /// (2 coverage + explanation) / 3, in [0, 1].
+  double share() const { return (2.0 * coverage() + explanation()) / 3.0; }
 };
 
+/// `image` is raw, at full resolution; `level` is the render's. `ignore` may be nullptr.
 EdgeSupport measureEdgeSupport(const EdgeRender& render, int level, const EdgeMap& edges,
                                const ImageView& image, const BitImage* ignore,
                                const SupportOptions& options);

@@ -96,7 +96,8 @@ void Localizer::startIteration() {
 
 void Localizer::startHypothesis() {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
-  now.index = iteration_;
+  now.index = workspace_.iterations;
+  now.attempt = attempt_;
   now.kind = isRefinement(iteration_) ? IterationKind::kRefine : IterationKind::kMatch;
   now.level = levelOf(now.kind, iteration_);
   now.camera_from_station_before = camera_from_station_;
@@ -155,7 +156,8 @@ StepReport Localizer::stepRender() {
 StepReport Localizer::stepTemplates() {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   const double depth_m = (now.render.camera_from_station * bounds_.centre()).z();
-  const int side_px = templateSide(options_.templates, featureSize(), depth_m, now.render.camera);
+  const int side_px = templateSide(options_.templates, templateFactor() * featureSize(), depth_m,
+                                   now.render.camera);
   const Status status =
       selector_.select(now.render, side_px, problem_.ignore, now.level, now.templates);
   digestTemplates(now.templates, digest_);
@@ -347,7 +349,7 @@ StepReport Localizer::finishIteration(Stage stage, const Pose& camera_from_stati
   StepReport made = report(stage, true);
   made.iteration_complete = true;
   ++iteration_;
-  workspace_.iterations = iteration_;
+  ++workspace_.iterations;
   if (leftUncertainty(camera_from_station_))
     return fail(stage, LocalizationStatus::kLeftUncertainty);
   const int needed = options_.refinement.enabled
@@ -393,24 +395,48 @@ StepReport Localizer::stepSupport() {
   const Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   workspace_.support = measureEdgeSupport(now.render, now.level, workspace_.edges, problem_.image,
                                           problem_.ignore, options_.support);
-  const bool supported =
-      !options_.support.gate || workspace_.support.share() >= options_.support.min_support;
   digest_.tag("support");
   digest_.i32(workspace_.support.rendered);
-  digest_.i32(workspace_.support.supported);
-  finish(supported ? LocalizationStatus::kConverged : LocalizationStatus::kNotSupported);
+  digest_.i32(workspace_.support.covered);
+  digest_.i32(workspace_.support.seen);
+  digest_.i32(workspace_.support.explained);
+  const bool supported =
+      !options_.support.gate || workspace_.support.share() >= options_.support.min_support;
+  if (!supported) return fail(Stage::kSupport, LocalizationStatus::kNotSupported);
+  finish(LocalizationStatus::kConverged);
   StepReport made = report(Stage::kSupport, true);
   made.finished = true;
   return made;
 }
 
 StepReport Localizer::fail(Stage stage, LocalizationStatus status) {
-  buffers_[static_cast<std::size_t>(current_)].status = status;
-  finish(status);
+  Iteration& now = buffers_[static_cast<std::size_t>(current_)];
+  now.status = status;
   StepReport made = report(stage, true);
   made.iteration_complete = true;
+  if (status != LocalizationStatus::kFault && attempt_ + 1 < options_.loop.max_attempts) {
+    startAttempt();
+    return made;
+  }
+  finish(status);
   made.finished = true;
   return made;
+}
+
+/// From the seed again, with other templates and other samples: what failed may have been one of
+/// them.
+void Localizer::startAttempt() {
+  ++attempt_;
+  workspace_.attempts = attempt_ + 1;
+  iteration_ = 0;
+  small_corrections_ = 0;
+  camera_from_station_ = problem_.camera_from_station_seed;
+  iteration_pending_ = true;
+}
+
+double Localizer::templateFactor() const {
+  constexpr double kFactors[3] = {1.0, 2.0, 0.5};
+  return kFactors[std::min(attempt_, 2)];
 }
 
 StepReport Localizer::faulted(Stage stage, Status fault) {

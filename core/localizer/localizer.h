@@ -80,6 +80,8 @@ class Localizer {
   StepReport stepRefine();
   StepReport stepSupport();
   StepReport fail(Stage stage, LocalizationStatus status);
+  void startAttempt();
+  double templateFactor() const;
   StepReport faulted(Stage stage, Status fault);
   void finishMatch(int index);
   void collectCorrespondences();
@@ -126,7 +128,8 @@ class Localizer {
   Stage stage_ = Stage::kEdges;
   bool stage_begun_ = false;
   bool iteration_pending_ = false;
-  int iteration_ = 0;
+  int attempt_ = 0;
+  int iteration_ = 0;  ///< of this attempt
   int small_corrections_ = 0;
   int coarse_level_ = 0;
   int fine_level_ = 0;

@@ -19,6 +19,7 @@ inline constexpr const char* kCorrectionPointNames[] = {"camera", "station"};
 /// The loop around the stages (Pham 2025, Sec. III and Algorithm 1).
 struct LoopOptions {
   std::int32_t max_iterations = 10;
+  std::int32_t max_attempts = 3;
   std::int32_t match_iterations = 2;
   std::int32_t coarse_size_px = 640;
   std::int32_t max_rolled_hypotheses = 9;
@@ -35,14 +36,18 @@ struct LoopOptions {
   double leave_factor = 1.1;
   bool anchored = true;
   double match_sigma_px = 1.0;
-  double match_inflation = 4.0;
+  double match_inflation = 8.0;
   std::int32_t second_peak_exclusion_px = 6;
   bool subpixel_matches = true;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
-    visit(OptionInfo{"loop.max_iterations", "", 1, 50, "The run ends after so many iterations."},
+    visit(OptionInfo{"loop.max_iterations", "", 1, 50, "An attempt ends after so many iterations."},
           self.max_iterations);
+    visit(OptionInfo{"loop.max_attempts", "", 1, 3,
+                     "A run that fails starts anew from the seed with templates of twice, then "
+                     "half the size."},
+          self.max_attempts);
     visit(OptionInfo{"loop.match_iterations", "", 1, 50,
                      "So many iterations match templates; those after refine the pose on edges."},
           self.match_iterations);

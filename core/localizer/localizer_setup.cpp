@@ -65,6 +65,7 @@ LocalizerOptions paperProfile() {
   options.loop.match_iterations = options.loop.max_iterations;
   options.loop.coarse_size_px = 16384;
   options.loop.max_rolled_hypotheses = 1;
+  options.loop.max_attempts = 1;
   options.loop.correction_point = CorrectionPoint::kCamera;
   options.loop.converged_image_px = 0.0;
   options.loop.anchored = false;
@@ -179,6 +180,7 @@ void Localizer::begin() {
   stage_begun_ = false;
   iteration_pending_ = false;
   iteration_ = 0;
+  attempt_ = 0;
   current_ = 0;
   small_corrections_ = 0;
   if (status_ != Status::kOk) return;

@@ -63,7 +63,8 @@ inline constexpr int kMaxHypotheses = 9;
 
 /// Everything of one iteration: the next stage's input, and what a trace keeps.
 struct Iteration {
-  std::int32_t index = 0;
+  std::int32_t index = 0;  ///< over all attempts
+  std::int32_t attempt = 0;
   IterationKind kind = IterationKind::kMatch;
   std::int32_t level = 0;
   double threshold_px = 0.0;        ///< of the full image; the search radius when refining
@@ -97,7 +98,8 @@ struct Workspace {
   Status fault = Status::kOk;
   Pose camera_from_station;  ///< best estimate; the seed unless converged
   Matrix6d covariance = Matrix6d::Zero();
-  std::int32_t iterations = 0;
+  std::int32_t iterations = 0;  ///< of all attempts
+  std::int32_t attempts = 1;
 };
 
 }  // namespace boresight

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -12,7 +14,7 @@ namespace {
 constexpr double kMissingSquares = 1e12;  ///< of a residual of 1e6 px at unit sigma
 constexpr double kLargestSquares = 1e30;  ///< beyond it a residual says nothing
 constexpr double kSmallestSigma = 1e-9;   ///< m or rad
-constexpr double kSmallestPivotShare = 1e-12;
+constexpr double kSmallestPivot = 1e-12;  ///< of H scaled to a unit diagonal
 
 /// Lower triangle of H row by row, and g: plain arrays, which compilers keep in registers.
 struct Sums {
@@ -44,44 +46,71 @@ double priorWeight(double sigma) {
   return 1.0 / (bounded * bounded);
 }
 
-/// L D L' with unit lower triangular L (below the diagonal) and D (on it).
+/// P S H S P' = L D L' with S = diag(H)^-1/2 and the largest remaining pivot taken first: the last
+/// pivot then tells how well the least determined direction is determined, whichever it is.
 struct Factors {
-  double m[6][6];
+  std::array<double, 6> scale{};       ///< S
+  std::array<std::size_t, 6> order{};  ///< P: row k of L is parameter order[k]
+  double m[6][6] = {};                 ///< unit lower triangular L below the diagonal, D on it
 };
 
+void swapParameters(Factors& f, std::size_t a, std::size_t b) {
+  if (a == b) return;
+  std::swap(f.order[a], f.order[b]);
+  for (std::size_t i = 0; i < 6; ++i) std::swap(f.m[a][i], f.m[b][i]);
+  for (std::size_t i = 0; i < 6; ++i) std::swap(f.m[i][a], f.m[i][b]);
+}
+
+bool scaleToUnitDiagonal(const Matrix6d& information, double damping, Factors& f) {
+  for (int i = 0; i < 6; ++i) {
+    const double diagonal = information(i, i);
+    if (!(diagonal > 0.0 && diagonal < 1e300)) return false;  // nor when it is not a number
+    f.scale[static_cast<std::size_t>(i)] = 1.0 / std::sqrt(diagonal);
+  }
+  for (std::size_t i = 0; i < 6; ++i) {
+    f.order[i] = i;
+    for (std::size_t j = 0; j < i; ++j) {
+      f.m[i][j] = information(static_cast<int>(i), static_cast<int>(j)) * f.scale[i] * f.scale[j];
+      f.m[j][i] = f.m[i][j];
+    }
+    f.m[i][i] = 1.0 + damping;
+  }
+  return true;
+}
+
 bool factorize(const Matrix6d& information, double damping, Factors& f) {
-  for (int j = 0; j < 6; ++j) {
-    const double diagonal = information(j, j) * (1.0 + damping);
-    double scaled[6];  // row j of L times D
-    double pivot = diagonal;
-    for (int k = 0; k < j; ++k) {
-      scaled[k] = f.m[j][k] * f.m[k][k];
-      pivot -= scaled[k] * f.m[j][k];
+  if (!scaleToUnitDiagonal(information, damping, f)) return false;
+  for (std::size_t k = 0; k < 6; ++k) {
+    std::size_t largest = k;
+    for (std::size_t i = k + 1; i < 6; ++i) {
+      if (f.m[i][i] > f.m[largest][largest]) largest = i;
     }
-    // Written so that a NaN fails.
-    if (!(diagonal > 0.0 && pivot > kSmallestPivotShare * diagonal && diagonal < 1e300)) {
-      return false;
-    }
-    f.m[j][j] = pivot;
+    swapParameters(f, k, largest);
+    const double pivot = f.m[k][k];
+    if (!(pivot > kSmallestPivot)) return false;  // nor when it is not a number
     const double inverse = 1.0 / pivot;
-    for (int i = j + 1; i < 6; ++i) {
-      double sum = information(i, j);
-      for (int k = 0; k < j; ++k) sum -= f.m[i][k] * scaled[k];
-      f.m[i][j] = sum * inverse;
+    for (std::size_t i = k + 1; i < 6; ++i) f.m[i][k] = f.m[k][i] * inverse;
+    for (std::size_t i = k + 1; i < 6; ++i) {
+      for (std::size_t j = k + 1; j <= i; ++j) {
+        f.m[i][j] -= f.m[i][k] * f.m[k][j];
+        f.m[j][i] = f.m[i][j];
+      }
     }
   }
   return true;
 }
 
 void substitute(const Factors& f, const Vector6d& right, Vector6d& x) {
-  x = right;
-  for (int i = 1; i < 6; ++i) {
-    for (int k = 0; k < i; ++k) x[i] -= f.m[i][k] * x[k];
+  std::array<double, 6> y{};
+  for (std::size_t i = 0; i < 6; ++i) {
+    y[i] = right[static_cast<int>(f.order[i])] * f.scale[f.order[i]];
+    for (std::size_t k = 0; k < i; ++k) y[i] -= f.m[i][k] * y[k];
   }
-  for (int i = 0; i < 6; ++i) x[i] /= f.m[i][i];
-  for (int i = 4; i >= 0; --i) {
-    for (int k = i + 1; k < 6; ++k) x[i] -= f.m[k][i] * x[k];
+  for (std::size_t i = 0; i < 6; ++i) y[i] /= f.m[i][i];
+  for (std::size_t i = 5; i-- > 0;) {
+    for (std::size_t k = i + 1; k < 6; ++k) y[i] -= f.m[k][i] * y[k];
   }
+  for (std::size_t i = 0; i < 6; ++i) x[static_cast<int>(f.order[i])] = y[i] * f.scale[f.order[i]];
 }
 
 }  // namespace
@@ -132,20 +161,28 @@ void addPrior(const PosePrior& prior, const Pose& camera_from_station, NormalEqu
   const Eigen::Vector3d& pivot = prior.sigma.pivot_in_camera_m;
   const Vector6d offset = offsetAboutPivot(prior.camera_from_station, camera_from_station, pivot);
   const Eigen::Matrix3d turn = crossMatrix(offset.head<3>());
-  Matrix6d rows = Matrix6d::Zero();
-  rows.topLeftCorner<3, 3>() =
+  const Eigen::Matrix3d turn_by_omega =
       Eigen::Matrix3d::Identity() - 0.5 * turn + (1.0 / 12.0) * turn * turn;
-  rows.bottomLeftCorner<3, 3>() = -crossMatrix(pivot + offset.tail<3>());
-  rows.bottomRightCorner<3, 3>().setIdentity();
-  for (int axis = 0; axis < 6; ++axis) {
-    const double weight = priorWeight(axis < 3 ? prior.sigma.rotation_rad[axis]
-                                               : prior.sigma.translation_m[axis - 3]);
-    for (int i = 0; i < 6; ++i) {
-      const double weighted = weight * rows(axis, i);
-      equations.gradient[i] -= weighted * offset[axis];
-      for (int j = 0; j <= i; ++j) equations.information(i, j) += weighted * rows(axis, j);
+  const Eigen::Matrix3d shift_by_omega = -crossMatrix(pivot + offset.tail<3>());
+  Matrix6d& h = equations.information;
+  Vector6d& g = equations.gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double turn_weight = priorWeight(prior.sigma.rotation_rad[axis]);
+    const double shift_weight = priorWeight(prior.sigma.translation_m[axis]);
+    const double turn_pull = turn_weight * offset[axis];
+    const double shift_pull = shift_weight * offset[3 + axis];
+    for (int i = 0; i < 3; ++i) {
+      const double by_turn = turn_weight * turn_by_omega(axis, i);
+      const double by_shift = shift_weight * shift_by_omega(axis, i);
+      g[i] -= turn_pull * turn_by_omega(axis, i) + shift_pull * shift_by_omega(axis, i);
+      for (int j = 0; j <= i; ++j) {
+        h(i, j) += by_turn * turn_by_omega(axis, j) + by_shift * shift_by_omega(axis, j);
+      }
+      h(3 + axis, i) += by_shift;
     }
-    equations.prior_squares += weight * offset[axis] * offset[axis];
+    g[3 + axis] -= shift_pull;
+    h(3 + axis, 3 + axis) += shift_weight;
+    equations.prior_squares += turn_pull * offset[axis] + shift_pull * offset[3 + axis];
   }
 }
 

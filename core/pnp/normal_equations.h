@@ -36,8 +36,8 @@ NormalEquations reprojectionEquations(std::span<const Correspondence> correspond
 /// d t = omega x (c + t) + v.
 void addPrior(const PosePrior& prior, const Pose& camera_from_station, NormalEquations& equations);
 
-/// Solves (H + damping * diag H) xi = g by an LDL' factorization. False when a pivot falls below
-/// 1e-12 of its diagonal entry: the direction is not determined.
+/// Solves (H + damping * diag H) xi = g by a pivoted LDL' factorization of H scaled to a unit
+/// diagonal. False when a pivot falls below 1e-12: some direction is not determined.
 [[nodiscard]] bool solve(const NormalEquations& equations, double damping, Vector6d& xi);
 
 /// H^-1, symmetric. False as above.

@@ -16,7 +16,7 @@ struct PnpOptions {
   double confidence = 0.999;
   std::int32_t min_inliers = 6;
   std::int32_t local_optimizations = 3;  ///< rounds of refit on the inliers after each new best
-  std::int32_t guided_sample_size = 4;   ///< points of a kGuided sample
+  std::int32_t guided_sample_size = 3;   ///< points of a kGuided sample
   double prior_factor = 3.0;  ///< the weak prior's sigma as a multiple of the uncertainty (kGuided)
   std::int32_t refine_iterations = 20;
   std::int64_t seed = 1;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kNoCost = 1e300;            ///< above every score
 constexpr double kMissingResidual_px = 1e6;  ///< stands for "does not project"
 constexpr int kFewestInliersToRefit = 4;
-constexpr int kGuidedSteps = 4;
+constexpr int kGuidedSteps = 3;
 constexpr int kLocalSteps = 5;
 constexpr int kRefineRounds = 20;
 constexpr int kProjectionsPerStep = 32768;  ///< about a millisecond
@@ -68,7 +68,7 @@ Status PnpRansac::begin(std::span<const Correspondence> correspondences, const C
                         const PosePrior& hypothesis, double threshold_px, const PnpOptions& options,
                         PnpSolution& solution, const PosePrior* anchor) {
   correspondences_ = correspondences;
-  anchored_ = anchor != nullptr && isUsable(*anchor);
+  anchored_ = anchor != nullptr;
   if (anchored_) anchor_ = *anchor;
   camera_ = camera;
   hypothesis_ = hypothesis;
@@ -108,6 +108,7 @@ Status PnpRansac::validate(double threshold_px, const PosePrior& hypothesis) con
   if (prepareCamera(checked) != Status::kOk || !(camera_.valid_radius > 0.0)) {
     return Status::kInvalidCamera;
   }
+  if (anchored_ && !isUsable(anchor_)) return Status::kInvalidPose;
   return isUsable(hypothesis) ? Status::kOk : Status::kInvalidPose;
 }
 

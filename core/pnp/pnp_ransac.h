@@ -33,20 +33,21 @@ struct PnpSolution {
 ///   under its weak prior (the hypothesis itself is scored first).
 /// - Score: sum of min(residual^2, threshold^2) / sigma^2 over the usable correspondences (MSAC,
 ///   Torr and Zisserman 2000), the lowest wins, the earlier of equals.
-/// - Every new best is refitted to its inliers, without the prior, while that lowers the score
+/// - Every new best is refitted to its inliers, without that prior, while this lowers the score
 ///   (LO-RANSAC, Chum, Matas and Kittler 2003).
 /// - Stops when a sample of inliers alone has been drawn with the wanted confidence, given the
 ///   best pose's share of inliers, or at max_samples.
 /// - Last, refit to the inliers and select them anew until they stay the same. Both halves lower
-///   the score, so this ends; the result minimizes the squares over the very inliers it reports.
+///   the score (unless an anchor pulls: then 20 rounds bound it), so this ends; the result
+///   minimizes the squares, with the anchor's, over the very inliers it reports.
 ///
 /// Statuses (of `begin` or `step`): kInvalidOption (options, or a threshold that is not positive
-/// below 1e6), kInvalidCamera (not prepared), kInvalidPose (hypothesis), kCapacityExceeded (more
-/// correspondences than `create` or the solution's spans allow for), kTooFewPoints (fewer usable
-/// correspondences than min_inliers), kDegenerate (no sample gives a pose, or the inliers do not
-/// determine one), kNoConsensus (fewer than min_inliers inliers). On any of them the solution holds
-/// the hypothesis (identity when that is not usable) and no inliers; `residual_px` always is that
-/// of the pose in the solution.
+/// below 1e6), kInvalidCamera (not prepared), kInvalidPose (hypothesis or anchor),
+/// kCapacityExceeded (more correspondences than `create` or the solution's spans allow for),
+/// kTooFewPoints (fewer usable correspondences than min_inliers), kDegenerate (no sample gives a
+/// pose, or the inliers do not determine one), kNoConsensus (fewer than min_inliers inliers). On
+/// any of them the solution holds the hypothesis (identity when that is not usable) and no inliers;
+/// `residual_px` always is that of the pose in the solution.
 class PnpRansac {
  public:
   Status create(int max_correspondences, Arena& arena);

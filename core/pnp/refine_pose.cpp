@@ -13,6 +13,9 @@ constexpr double kFirstDamping = 1e-4;
 constexpr double kLargestDamping = 1e8;
 constexpr double kDampingFactor = 10.0;
 constexpr double kSmallestVariance = 1e-12;
+/// Near the minimum a good step changes the sum by less than its rounding error; refusing it there
+/// would stop short of the minimum.
+constexpr double kRoundingOfCost = 1e-13;
 constexpr int kFewestPoints = 3;
 
 struct Problem {
@@ -57,7 +60,7 @@ void iterate(const Problem& problem, int max_iterations, Pose& pose, NormalEquat
     const Pose next = stepped(xi, pose);
     const bool done = hasConverged(xi, pose);
     const NormalEquations there = equationsAt(problem, next);
-    if (isUsable(next) && there.cost() <= equations.cost()) {
+    if (isUsable(next) && there.cost() <= equations.cost() * (1.0 + kRoundingOfCost)) {
       pose = next;
       equations = there;
       damping = lowered(damping);

@@ -21,8 +21,8 @@ namespace boresight {
 ///
 /// kTooFewPoints: `use` has another length. kInvalidPose: the pose or the prior is not usable.
 /// kDegenerate: without a prior fewer than three points project, or the normal equations are
-/// singular (a pivot below 1e-12 of its diagonal entry). The pose is then left as it was; otherwise
-/// it is finite, and its sum is not above the initial one.
+/// singular (a pivot below 1e-12, as in `solve`). The pose is then left as it was; otherwise it is
+/// finite, and its sum is not above the initial one (but for rounding).
 Status refinePose(std::span<const Correspondence> correspondences,
                   std::span<const std::uint8_t> use, const Camera& camera, const PosePrior* prior,
                   int max_iterations, Pose& camera_from_station);

@@ -11,6 +11,8 @@ namespace {
 
 /// Vertices or faces of one step: about a millisecond on the ground.
 constexpr std::size_t kSlice = 16384;
+/// Faces drawn in one step, wide ones counting several times: some milliseconds on the ground.
+constexpr int kDrawnSlice = 16384;
 /// The largest image: coordinates are recorded in 16 bits.
 constexpr int kMaxSize_px = 32766;
 
@@ -138,6 +140,8 @@ Status EdgeRenderer::begin(const RayGrid& rays, const Pose& camera_from_station,
   surfaces_ = surfaces;
   phase_ = Phase::kVertices;
   next_ = 0;
+  band_open_ = false;
+  next_drawn_ = -1;
   return Status::kOk;
 }
 
@@ -161,7 +165,9 @@ Status EdgeRenderer::step(bool& done) {
       next_ = 0;
     }
   } else if (phase_ == Phase::kBands) {
-    const Status status = stepBand();
+    if (!band_open_) openBand();
+    if (!drawSome()) return Status::kOk;
+    const Status status = closeBand();
     ++next_;
     const bool last = static_cast<int>(next_) * band_rows_ >= output_->camera.height;
     if (status != Status::kOk || last) phase_ = Phase::kIdle;
@@ -200,34 +206,42 @@ EdgeRenderer::Columns EdgeRenderer::columnsAround(int band, int before, int afte
   return columns;
 }
 
-/// Draws the faces of the current band, and hands those that go on to the next band's list.
-void EdgeRenderer::drawBand() {
+void EdgeRenderer::openBand() {
+  const auto band = static_cast<int>(next_);
+  const int y = band * band_rows_;
+  // Pairs of pixels reach one pixel beyond the faces, and the derivatives of rays there another
+  // one; rows at the borders of bands are also used with the neighbouring band.
+  const Columns prepared = columnsAround(band, 1, 1);
+  band_.advance(*rays_, y, std::min(band_rows_, output_->camera.height - y), prepared.first,
+                prepared.last);
+  band_open_ = true;
+  next_drawn_ = band_head_[next_];
+}
+
+/// Draws faces of the open band, and hands those that go on to the next band's list; true when all
+/// are drawn. Bands that hold very many faces take several slices.
+bool EdgeRenderer::drawSome() {
   const int last_y = band_.first_y + band_.rows - 1;
-  std::int32_t face = band_head_[next_];
-  while (face >= 0) {
-    const std::int32_t following = next_in_band_[static_cast<std::size_t>(face)];
+  int work = 0;
+  while (next_drawn_ >= 0 && work < kDrawnSlice) {
+    const std::int32_t face = next_drawn_;
+    next_drawn_ = next_in_band_[static_cast<std::size_t>(face)];
     const PixelBounds bounds = faceBounds(scene_, *rays_, face);
     drawFace(scene_, *rays_, face, bounds, band_);
+    work += 1 + (bounds.x_last - bounds.x_first) / 16;
     if (bounds.y_last > last_y) {
       next_in_band_[static_cast<std::size_t>(face)] = band_head_[next_ + 1];
       band_head_[next_ + 1] = face;
     }
-    face = following;
   }
+  return next_drawn_ < 0;
 }
 
-Status EdgeRenderer::stepBand() {
-  const auto band = static_cast<int>(next_);
-  const int y = band * band_rows_;
-  const int rows = std::min(band_rows_, output_->camera.height - y);
-  // Pairs of pixels reach one pixel beyond the faces, and the derivatives of rays there another
-  // one; rows at the borders of bands are also used with the neighbouring band.
-  const Columns prepared = columnsAround(band, 1, 1);
-  band_.advance(*rays_, y, rows, prepared.first, prepared.last);
-  drawBand();
+Status EdgeRenderer::closeBand() {
+  band_open_ = false;
   copySurfaces(scene_, band_, output_->camera, surfaces_);
-  const Columns compared = columnsAround(band, 1, 0);
-  const bool final = y + rows >= output_->camera.height;
+  const Columns compared = columnsAround(static_cast<int>(next_), 1, 0);
+  const bool final = band_.first_y + band_.rows >= output_->camera.height;
   return salient_edges_.addBand(scene_, band_, compared.first, compared.last, final, *output_);
 }
 

@@ -68,7 +68,7 @@ class EdgeRenderer {
   /// must the output. kInvalidPose, kInvalidImage when the output or the renderer is too small.
   Status begin(const RayGrid& rays, const Pose& camera_from_station, EdgeRender& output,
                const SurfaceRender& surfaces = {});
-  /// One slice: some thousand vertices or faces, or one band; `done` when the render is complete.
+  /// One slice: some thousand vertices or faces, or a band; `done` when the render is complete.
   /// kCapacityExceeded when max_edge_pixels is not enough: the rows before are valid, `done` set.
   Status step(bool& done);
 
@@ -81,9 +81,10 @@ class EdgeRenderer {
   };
 
   void bin(std::int32_t face);
-  void drawBand();
+  bool drawSome();
   Columns columnsAround(int band, int before, int after) const;
-  Status stepBand();
+  void openBand();
+  Status closeBand();
 
   CameraScene scene_;
   RasterBand band_;
@@ -100,6 +101,8 @@ class EdgeRenderer {
   SurfaceRender surfaces_;
   Phase phase_ = Phase::kIdle;
   std::size_t next_ = 0;  ///< vertex, face or band to go on with
+  bool band_open_ = false;
+  std::int32_t next_drawn_ = -1;  ///< face of the open band to go on with
 };
 
 }  // namespace boresight

@@ -6,111 +6,19 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/render/ray_stencil.h"
 #include "core/render/rounding.h"
 
 namespace boresight {
 namespace {
 
 constexpr int kSpacing = RayGrid::kSpacing_px;
+static_assert(kSpacing == stencil::kSpacing);
 constexpr double kEverything = 1e300;
 /// Largest errors in (x/z, y/z), times 1 + (x/z)^2 + (y/z)^2, that a stencil may make: the wide one
 /// stays below a millionth of the depth of faces up to 80 deg off.
 constexpr double kTolerance = 1e-9;
 constexpr double kWideTolerance = 2e-8;
-
-/// Along the 16 pixels of a cell, the polynomial through the nodes of its stencil is summed up from
-/// its differences between pixels. Newton's form at node coordinate t (from the stencil's first
-/// node) is p(t) = sum_k d_k N_k(t), N_k(t) = t (t - 1) ... (t - k + 1) / k!, d_k the differences
-/// between nodes; `at[j][k]` is the j-th difference between pixels of N_k at the cell's first one.
-template <int kNodes>
-struct StepMatrix {
-  double at[kNodes][kNodes] = {};
-  constexpr StepMatrix() {
-    for (int k = 0; k < kNodes; ++k) {
-      double value[kNodes] = {};
-      for (int i = 0; i <= k; ++i) {
-        value[i] = 1.0;
-        for (int j = 0; j < k; ++j)
-          value[i] *= (kNodes / 2 - 1 + i / static_cast<double>(kSpacing) - j) / (j + 1);
-      }
-      for (int j = 0; j <= k; ++j) {
-        at[j][k] = value[0];
-        for (int i = 0; i + 1 < kNodes; ++i) value[i] = value[i + 1] - value[i];
-      }
-    }
-  }
-};
-template <int kNodes>
-constexpr StepMatrix<kNodes> kSteps{};
-
-/// Lagrange's weights of the stencil's nodes at pixel `i` of a cell.
-template <int kNodes>
-std::array<double, kNodes> lagrangeWeights(int i) {
-  const double s = kNodes / 2 - 1 + i / static_cast<double>(kSpacing);
-  std::array<double, kNodes> weights{};
-  for (int k = 0; k < kNodes; ++k) {
-    double weight = 1.0;
-    for (int j = 0; j < kNodes; ++j)
-      if (j != k) weight *= (s - j) / (k - j);
-    weights[static_cast<std::size_t>(k)] = weight;
-  }
-  return weights;
-}
-
-/// Values at the stencil's nodes become value and differences between pixels at the cell's first.
-template <int kNodes>
-std::array<double, kNodes> pixelSteps(std::array<double, kNodes> v) {
-  for (std::size_t order = 1; order < kNodes; ++order)
-    for (std::size_t k = kNodes - 1; k >= order; --k) v[k] -= v[k - 1];
-  std::array<double, kNodes> steps{};
-  for (std::size_t j = 0; j < kNodes; ++j)
-    for (std::size_t k = j; k < kNodes; ++k) steps[j] += kSteps<kNodes>.at[j][k] * v[k];
-  return steps;
-}
-
-/// Sums up `count` values from the differences, after `skip` that are not wanted: the same bits for
-/// every piece of a cell.
-template <int kNodes>
-void sumUp(std::array<double, kNodes> steps, int skip, int count, double* values) {
-  for (int i = -skip; i < count; ++i) {
-    if (i >= 0) values[i] = steps[0];
-    for (std::size_t j = 0; j + 1 < kNodes; ++j) steps[j] += steps[j + 1];
-  }
-}
-
-/// The values of a cell's pixels from the nodes of its row.
-template <int kNodes>
-inline void interpolateCell(const std::array<double, kNodes>& v, int skip, int count,
-                            double* values) {
-  sumUp<kNodes>(pixelSteps<kNodes>(v), skip, count, values);
-}
-
-/// Four nodes, most cameras' case, spelled out: p(u) = v1 + u (c1 + u (c2 + u c3)), u in cells.
-template <>
-inline void interpolateCell<4>(const std::array<double, 4>& v, int skip, int count,
-                               double* values) {
-  constexpr double kStep = 1.0 / kSpacing;
-  const double c3 = (v[3] - v[0]) * (1.0 / 6.0) + (v[1] - v[2]) * 0.5;
-  const double c2 = (v[0] + v[2]) * 0.5 - v[1];
-  const double c1 = ((v[2] - v[1]) - c2) - c3;
-  const double cubic = c3 * (kStep * kStep * kStep);
-  const double square = c2 * (kStep * kStep);
-  double value = v[1];
-  double step1 = (c1 * kStep + square) + cubic;
-  double step2 = 2.0 * square + 6.0 * cubic;
-  const double step3 = 6.0 * cubic;
-  const auto stepOn = [&] {
-    value += step1;
-    step1 += step2;
-    step2 += step3;
-  };
-  if (count == kSpacing) {
-    for (int i = 0; i < kSpacing; ++i, stepOn()) values[i] = value;
-    return;
-  }
-  for (int i = 0; i < skip; ++i) stepOn();
-  for (int i = 0; i < count; ++i, stepOn()) values[i] = value;
-}
 
 RayGrid::Range pinholeRange(double minimum, double maximum, double focal_px, double centre_px,
                             int size) {
@@ -287,7 +195,7 @@ bool RayGrid::checkCell(int cell_x, int cell_y, double tolerance) const {
   const int y = cell_y * kSpacing + kSpacing / 2;
   Eigen::Vector3d ray;
   if (!unproject(camera_, Eigen::Vector2d(x, y), ray)) return false;
-  const auto weights = lagrangeWeights<kNodes>(kSpacing / 2);
+  const auto weights = stencil::lagrangeWeights<kNodes>(kSpacing / 2);
   double x_over_z = 0.0;
   double y_over_z = 0.0;
   for (int j = 0; j < kNodes; ++j)
@@ -319,7 +227,7 @@ void RayGrid::interpolateRow(int y, int x_begin, int x_end, double* x_over_z, do
                              std::uint8_t* valid) const {
   std::fill_n(valid, x_end - x_begin, std::uint8_t{1});
   const int cell_y = y / kSpacing;
-  const auto weights = lagrangeWeights<kNodes>(y % kSpacing);
+  const auto weights = stencil::lagrangeWeights<kNodes>(y % kSpacing);
   const Node* first_node = &node(0, cell_y + kMargin - (kNodes / 2 - 1));
   const std::uint8_t* exact =
       &cell_exact_[static_cast<std::size_t>(cell_y) * static_cast<std::size_t>(cells_x_)];
@@ -355,8 +263,8 @@ void RayGrid::interpolateRow(int y, int x_begin, int x_end, double* x_over_z, do
       continue;
     }
     const int skip = begin - cell * kSpacing;
-    interpolateCell<kNodes>(column_x, skip, end - begin, x_over_z + (begin - x_begin));
-    interpolateCell<kNodes>(column_y, skip, end - begin, y_over_z + (begin - x_begin));
+    stencil::interpolateCell<kNodes>(column_x, skip, end - begin, x_over_z + (begin - x_begin));
+    stencil::interpolateCell<kNodes>(column_y, skip, end - begin, y_over_z + (begin - x_begin));
   }
 }
 

@@ -51,6 +51,44 @@ int edgeTowards(const CameraScene& scene, std::int32_t face, std::int32_t neighb
   return -1;
 }
 
+/// Vertices are known to single precision. Of a face whose altitude is not some thirty times that,
+/// the normal is noise, and a neighbour's along the longest edge is the surface's: the first that
+/// is wide enough, or the face itself where there is none.
+std::int32_t trustedFace(const CameraScene& scene, std::int32_t face) {
+  constexpr double kAltitude = 2e-6;  // relative to the coordinates' size in the station frame
+  std::int32_t at = face;
+  std::int32_t from = -1;
+  for (int hop = 0; hop < 8 && at >= 0; ++hop) {
+    const Face& indices = scene.mesh.faces[static_cast<std::size_t>(at)];
+    Eigen::Vector3d corner[3];
+    double size = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      corner[i] = scene.mesh.vertices_in_station_m[static_cast<std::size_t>(indices.vertex[i])]
+                      .cast<double>();
+      size = std::max(size, std::max(std::max(std::abs(corner[i].x()), std::abs(corner[i].y())),
+                                     std::abs(corner[i].z())));
+    }
+    std::int32_t next = -1;
+    double longest2 = 0.0;
+    double next2 = -1.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector3d side = corner[(i + 1) % 3] - corner[i];
+      const double side2 = dotProduct(side, side);
+      longest2 = std::max(longest2, side2);
+      const std::int32_t beyond = scene.adjacency.neighbour[static_cast<std::size_t>(at)][i];
+      if (side2 <= next2 || (from >= 0 && beyond == from)) continue;
+      next2 = side2;
+      next = beyond;
+    }
+    const Eigen::Vector3d normal = crossProduct(corner[1] - corner[0], corner[2] - corner[0]);
+    const double altitude_m = kAltitude * size;
+    if (dotProduct(normal, normal) > altitude_m * altitude_m * longest2) return at;
+    from = at;
+    at = next;
+  }
+  return face;
+}
+
 /// Cosine-like measure of how near a face's normal is to another's.
 double nearness(const PlaneCache::Entry& face, const PlaneCache::Entry& other) {
   return dotProduct(face.plane, other.plane) * other.inverse_norm;
@@ -70,7 +108,7 @@ void PlaneCache::clear() {
 
 void PlaneCache::fill(const CameraScene& scene, std::int32_t face, Entry& entry) {
   entry.face = face;
-  entry.valid = facePlane(scene, face, entry.plane);
+  entry.valid = facePlane(scene, trustedFace(scene, face), entry.plane);
   const double norm2 = dotProduct(entry.plane, entry.plane);
   entry.inverse_norm = norm2 > 0.0 ? 1.0 / std::sqrt(norm2) : 0.0;
 }

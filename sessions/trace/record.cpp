@@ -23,8 +23,16 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// The rows in use: the core's images may own room for a larger level.
 BitMap recordBits(const BitImage& image) {
-  return {{image.words.begin(), image.words.end()}, image.width, image.height};
+  BitMap map;
+  map.width = image.width;
+  map.height = image.height;
+  const int used = BitImage::wordsPerRow(image.width);
+  map.words.reserve(static_cast<std::size_t>(used) * static_cast<std::size_t>(image.height));
+  for (int y = 0; y < image.height; ++y)
+    map.words.insert(map.words.end(), image.row(y), image.row(y) + used);
+  return map;
 }
 
 /// The first `count` elements, or as many as there are.

@@ -247,9 +247,9 @@ TEST(EdgeRenderer, AMillionSliversAreNormalInput) {
     const Eigen::Vector3d centre(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3),
                                  random.uniform(0.5, 0.9));
     const Eigen::Vector3d along(random.normal(), random.normal(), random.normal());
-    mesh.addVertex(centre - 0.05 * along);
-    mesh.addVertex(centre + 0.05 * along);
-    mesh.addVertex(centre + 0.05 * along +
+    mesh.addVertex(centre - 0.01 * along);
+    mesh.addVertex(centre + 0.01 * along);
+    mesh.addVertex(centre + 0.01 * along +
                    1e-6 * Eigen::Vector3d(random.normal(), random.normal(), 0));
   }
   for (int k = 0; k < 50; ++k)

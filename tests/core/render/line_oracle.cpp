@@ -18,9 +18,19 @@ ProjectedLine::ProjectedLine(const Camera& camera, const Eigen::Vector3d& begin,
 }
 
 double ProjectedLine::signedDistance(const Eigen::Vector2d& pixel, Eigen::Vector2d& normal) const {
+  // The nearest of every 50th point, then of the pieces around it.
+  constexpr std::size_t kStride = 50;
   double best = 1e300;
+  std::size_t near = 0;
+  for (std::size_t i = 0; i < points_.size(); i += kStride)
+    if ((points_[i] - pixel).norm() < best) {
+      best = (points_[i] - pixel).norm();
+      near = i;
+    }
+  best = 1e300;
   double signed_distance = 0.0;
-  for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+  for (std::size_t i = near < 2 * kStride ? 0 : near - 2 * kStride;
+       i + 1 < std::min(points_.size(), near + 2 * kStride); ++i) {
     const Eigen::Vector2d& a = points_[i];
     const Eigen::Vector2d along = points_[i + 1] - a;
     const double length = along.norm();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -165,6 +166,27 @@ TEST(Rasterizer, AdjacentTrianglesCoverEveryPixelOnce) {
     }
     EXPECT_EQ(std::set<int>(times.begin(), times.end()), std::set<int>{1});
   }
+}
+
+/// The same with spokes that run exactly through pixel centres.
+TEST(Rasterizer, SpokesThroughPixelCentresAreDrawnOnce) {
+  Camera camera = pinholeCamera(64, 64, 64.0);
+  camera.fx = camera.fy = 64.0;
+  camera.cx = camera.cy = 32.0;
+  const Eigen::Vector2d spokes[] = {{1, 0},  {2, 1},  {1, 1},  {1, 2},   {0, 1},   {-1, 2},
+                                    {-1, 1}, {-2, 1}, {-1, 0}, {-2, -1}, {-1, -1}, {-1, -2},
+                                    {0, -1}, {1, -2}, {1, -1}, {2, -1}};
+  SceneMesh fan;
+  const std::int32_t hub = fan.addVertex({0, 0, 1});
+  for (const Eigen::Vector2d& spoke : spokes) fan.addVertex({spoke.x(), spoke.y(), 1.0});
+  std::vector<int> times(64 * 64, 0);
+  for (int i = 0; i < 16; ++i) {
+    SceneMesh blade = fan;
+    blade.addFace(hub, 1 + i, 1 + (i + 1) % 16);
+    const Rendered rendered = render(blade, camera, Pose());
+    for (std::size_t k = 0; k < times.size(); ++k) times[k] += rendered.face[k] >= 0 ? 1 : 0;
+  }
+  EXPECT_EQ(std::count(times.begin(), times.end(), 1), 64 * 64);  // the hub's pixel too
 }
 
 TEST(Rasterizer, NearestWinsThenLowerIndex) {

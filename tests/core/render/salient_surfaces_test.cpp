@@ -138,6 +138,179 @@ TEST(SalientEdges, OccludingEdgeAppearsOnceWithTheNearerDepth) {
   }
 }
 
+/// A floor that recedes from 1.0 to 1.3 m between two rows, and the lower end of a wall at 1.1 m
+/// between them: the wall is the nearer one where it ends, although its pixel is farther.
+TEST(SalientEdges, NearerIsTheOneThatEndsNotTheOneWithTheNearerPixel) {
+  Camera camera = pinholeCamera(60, 60, 200.0);
+  camera.fy = 200.0;
+  for (const double side : {1.0, -1.0}) {  // a floor, or a ceiling
+    camera.cy = 30.0 - 10.0 * side;
+    for (const double below : {3.15, 3.3, 3.45, 3.6}) {
+      SceneMesh mesh;
+      mesh.addQuad({-9, 0.02 * side, 0.1}, {9, 0.02 * side, 0.1}, {9, 0.02 * side, 50},
+                   {-9, 0.02 * side, 50});
+      ASSERT_GT(0.02 / (below / 200.0), 1.1);
+      const double y = 1.1 * below / 200.0 * side;
+      mesh.addQuad({-1, -side, 1.1}, {1, -side, 1.1}, {1, y, 1.1}, {-1, y, 1.1});
+      const Rendered rendered = render(mesh, camera, Pose());
+      const double edge_row = camera.cy + below * side;
+      const int row = static_cast<int>(std::floor(edge_row + 0.5));
+      for (int x = 0; x < camera.width; ++x) {
+        const std::int32_t found = findEdgePixel(rendered.edges, x, row);
+        ASSERT_GE(found, 0) << edge_row;
+        const EdgePixel& pixel = rendered.edges.pixels[static_cast<std::size_t>(found)];
+        EXPECT_FLOAT_EQ(pixel.depth_m, 1.1F);
+        EXPECT_EQ(pixel.normal_y, 127 * side);
+        EXPECT_NEAR(pixel.offset / 100.0, (edge_row - row) * side, 0.006);
+      }
+    }
+  }
+}
+
+/// Plates that touch without sharing vertices: one of them is recorded all along, not either by
+/// chance.
+TEST(SalientEdges, TouchingSurfacesAreRecordedConsistently) {
+  SceneMesh mesh = ridge(80.0);
+  SceneMesh apart;
+  for (const Face& face : mesh.faces) {
+    std::int32_t corner[3];
+    for (std::size_t i = 0; i < 3; ++i)
+      corner[i] =
+          apart.addVertex(mesh.vertices[static_cast<std::size_t>(face.vertex[i])].cast<double>());
+    apart.addFace(corner[0], corner[1], corner[2]);
+  }
+  const Pose pose = poseOf(Eigen::Vector3d(0, 0.3, 0.2), Eigen::Vector3d(-0.1, 0.0, 0.05));
+  const Rendered rendered = render(apart, pinholeCamera(120, 100, 150.0), pose);
+  int left = 0;
+  int right = 0;
+  for (std::int32_t i = 0; i < rendered.edges.pixel_count; ++i) {
+    const EdgePixel& pixel = rendered.edges.pixels[static_cast<std::size_t>(i)];
+    if ((pixel.kind & kEdgeBorder) == 0) (pixel.face < 2 ? left : right) += 1;
+  }
+  EXPECT_GT(left + right, 80);
+  EXPECT_TRUE(left == 0 || right == 0) << left << " " << right;
+}
+
+/// A rounded ridge, its rounding of many faces within a pixel: the crease is where it turns half.
+TEST(SalientEdges, FilletWithinAPixelIsACreaseInItsMiddle) {
+  const Camera camera = pinholeCamera(160, 120, 300.0);
+  for (const int facets : {5, 8}) {
+    SceneMesh mesh;
+    // The outline in (x, z): a 45 deg slope, an arc, the other slope.
+    constexpr double kRadius = 4e-4;  // 0.2 px
+    std::vector<Eigen::Vector2d> outline{{-1.0, 0.6 + 1.0}};
+    for (int i = 0; i <= facets; ++i) {
+      const double angle = (-45.0 + 90.0 * i / facets) * M_PI / 180.0;
+      outline.emplace_back(kRadius * std::sin(angle),
+                           0.6 + kRadius * (std::sqrt(2.0) - std::cos(angle)));
+    }
+    outline.emplace_back(1.0, 0.6 + 1.0);
+    for (const Eigen::Vector2d& point : outline) {
+      mesh.addVertex({point.x(), -2.0, point.y()});
+      mesh.addVertex({point.x(), 2.0, point.y()});
+    }
+    for (std::int32_t i = 0; i + 1 < static_cast<std::int32_t>(outline.size()); ++i) {
+      mesh.addFace(2 * i, 2 * i + 1, 2 * i + 2);
+      mesh.addFace(2 * i + 2, 2 * i + 1, 2 * i + 3);
+    }
+    for (const double roll : {0.1, 0.4}) {
+      const Pose pose = poseOf(Eigen::Vector3d(0, 0, roll), Eigen::Vector3d(0.0013, 0, 0));
+      const Rendered rendered = render(mesh, camera, pose);
+      EXPECT_GE(rendered.edges.pixel_count, 100);
+      const Eigen::Vector2d across(std::cos(roll), std::sin(roll));
+      double mean = 0.0;
+      for (std::int32_t i = 0; i < rendered.edges.pixel_count; ++i) {
+        const EdgePixel& pixel = rendered.edges.pixels[static_cast<std::size_t>(i)];
+        const Eigen::Vector2d ray((pixel.x - camera.cx) / camera.fx,
+                                  (pixel.y - camera.cy) / camera.fy);
+        // The ridge's plane of symmetry, seen edge-on but for 1.3 mm: x' = 0.0013 cos(roll).
+        const Eigen::Vector2d at = ray * (0.6 + kRadius * (std::sqrt(2.0) - 1.0));
+        const double distance_px = (at.dot(across) - 0.0013 * std::cos(roll)) / 0.6 * camera.fx;
+        const double sign = pixel.normal_x > 0 ? 1.0 : -1.0;
+        EXPECT_NEAR(pixel.offset / 100.0, -sign * distance_px, 0.12);
+        mean += (pixel.offset / 100.0 * sign + distance_px) / rendered.edges.pixel_count;
+      }
+      EXPECT_LT(std::abs(mean), 0.05);
+    }
+  }
+}
+
+/// Facets that share no vertices, close to the outline of a large cylinder: each facet's plane
+/// leaves the next one by more than the depth threshold within a pixel, but not the other way.
+TEST(SalientEdges, CurvedSurfaceOfLooseFacetsHasNoDepthEdges) {
+  SceneMesh welded;
+  welded.addCylinder(Eigen::Vector3d(0, 0, 0), 0.1, 0.2, 400, false);
+  SceneMesh loose;
+  for (const Face& face : welded.faces) {
+    std::int32_t corner[3];
+    for (std::size_t i = 0; i < 3; ++i)
+      corner[i] =
+          loose.addVertex(welded.vertices[static_cast<std::size_t>(face.vertex[i])].cast<double>());
+    loose.addFace(corner[0], corner[1], corner[2]);
+  }
+  const Camera camera = pinholeCamera(360, 200, 1200.0);
+  const Rendered rendered =
+      render(loose, camera, poseOf(Eigen::Vector3d(0, 0, 0.05), Eigen::Vector3d(0.02, 0, 0.6)));
+  for (std::int32_t i = 0; i < rendered.edges.pixel_count; ++i)
+    EXPECT_NE(rendered.edges.pixels[static_cast<std::size_t>(i)].kind & kEdgeBorder, 0);
+  EXPECT_GT(rendered.edges.pixel_count, 150);
+}
+
+/// Where two lines pass through one pixel, the nearer surface's is recorded.
+TEST(SalientEdges, NearerLineWinsWhereTwoCross) {
+  const Camera camera = pinholeCamera(100, 100, 200.0);
+  // The nearer plate ends 0.3 px above the centres of row 40, the farther one between columns.
+  Eigen::Vector3d ray;
+  ASSERT_TRUE(unproject(camera, Eigen::Vector2d(50.4, 39.7), ray));
+  SceneMesh mesh;
+  mesh.addQuad({-1, -1, 0.5}, {1, -1, 0.5}, {1, 0.5 * ray.y(), 0.5}, {-1, 0.5 * ray.y(), 0.5});
+  mesh.addQuad({-1, -1, 0.8}, {0.8 * ray.x(), -1, 0.8}, {0.8 * ray.x(), 1, 0.8}, {-1, 1, 0.8});
+  const Rendered rendered = render(mesh, camera, Pose());
+  for (int x = 0; x < camera.width; ++x) {
+    const std::int32_t found = findEdgePixel(rendered.edges, x, 40);
+    ASSERT_GE(found, 0);
+    EXPECT_FLOAT_EQ(rendered.edges.pixels[static_cast<std::size_t>(found)].depth_m, 0.5F);
+  }
+  const std::int32_t below = findEdgePixel(rendered.edges, 50, 41);
+  ASSERT_GE(below, 0);
+  EXPECT_FLOAT_EQ(rendered.edges.pixels[static_cast<std::size_t>(below)].depth_m, 0.8F);
+}
+
+/// Triangles thinner than their vertices' rounding have any normal; a smooth surface that holds
+/// some stays smooth.
+TEST(SalientEdges, NoiseInSliversIsNoCrease) {
+  Random random(11);
+  const Camera camera = pinholeCamera(200, 150, 150.0);
+  SceneMesh mesh;
+  // A plate cut in two along a seam that is filled with triangles of a fraction of a micrometre,
+  // out of plane by as much.
+  constexpr int kPieces = 40;
+  std::vector<std::int32_t> upper, lower, middle;
+  for (int i = 0; i <= kPieces; ++i) {
+    const double x = -1.5 + 3.0 * i / kPieces;
+    // The seam runs exactly through the centres of a row of pixels.
+    const double y = (75.0 - camera.cy) / camera.fy;
+    upper.push_back(mesh.addVertex({x, -2.0, 1.0}));
+    lower.push_back(mesh.addVertex({x, 2.0, 1.0}));
+    middle.push_back(mesh.addVertex({x, y - 3e-7, 1.0 + 3e-7 * random.normal()}));
+    middle.push_back(mesh.addVertex({x, y + 3e-7, 1.0 + 3e-7 * random.normal()}));
+  }
+  for (std::size_t i = 0; i < kPieces; ++i) {
+    mesh.addFace(upper[i], upper[i + 1], middle[2 * i]);
+    mesh.addFace(upper[i + 1], middle[2 * i + 2], middle[2 * i]);
+    mesh.addFace(middle[2 * i], middle[2 * i + 2], middle[2 * i + 1]);
+    mesh.addFace(middle[2 * i + 1], middle[2 * i + 2], middle[2 * i + 3]);
+    mesh.addFace(middle[2 * i + 1], middle[2 * i + 3], lower[i]);
+    mesh.addFace(middle[2 * i + 3], lower[i + 1], lower[i]);
+  }
+  const Rendered rendered = render(mesh, camera, Pose());
+  int slivers_seen = 0;
+  for (const std::int32_t face : rendered.face)
+    slivers_seen += face >= 0 && (face % 6 == 2 || face % 6 == 3) ? 1 : 0;
+  EXPECT_GT(slivers_seen, 100);
+  EXPECT_EQ(rendered.edges.pixel_count, 0);
+}
+
 /// Convex hull (Andrew's monotone chain), counter-clockwise in a frame with y up.
 std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points) {
   const auto less = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+#include "core/base/image.h"
+
+namespace boresight {
+
+/// What a search along an edge's normal found.
+struct EdgePeak {
+  double offset_px = 0.0;  ///< along the normal, from the predicted place
+  double gradient = 0.0;   ///< signed derivative along the normal, gray/px; 0: nothing found
+};
+
+/// Searches a raw image along a line's normal for its largest derivative: profiles of half-pixel
+/// steps, averaged over three parallels, against the derivative of a Gaussian.
+class EdgeSearch {
+ public:
+  EdgeSearch() = default;
+  explicit EdgeSearch(double sigma_px);
+
+  /// Nearer peaks are preferred: a strength counts (1 - (offset / radius)^2) times. Peaks weaker
+  /// than `min_gradient`, on ignored pixels (`ignore` may be nullptr) or whose profile leaves the
+  /// image are none.
+  EdgePeak find(const ImageView& image, const BitImage* ignore, const Eigen::Vector2d& predicted_px,
+                const Eigen::Vector2d& normal, double radius_px, double min_gradient) const;
+
+ private:
+  static constexpr int kMaxTaps = 32;
+  static constexpr int kMaxProfile = 512;
+  using Profile = std::array<double, kMaxProfile>;
+
+  bool sample(const ImageView& image, const Eigen::Vector2d& predicted_px,
+              const Eigen::Vector2d& normal, int reach, Profile& profile) const;
+  double derivative(const Profile& profile, int middle) const;
+
+  std::array<double, kMaxTaps> kernel_{};  ///< one side; antisymmetric
+  int taps_ = 1;
+};
+
+}  // namespace boresight

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that can be wrong with what whs localize is given: one line on stderr that names file,
+// field and reason, the exit status, and nothing written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "tests/app/run_whs.h"
+
+namespace boresight::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string contentOf(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+class BadInput : public testing::Test {
+ protected:
+  /// Runs localize with some options replaced and all outputs asked for.
+  ProgramRun run(std::map<std::string, std::string> replaced) const {
+    replaced.emplace("--out", (outputs_ / "result.json").string());
+    replaced.emplace("--trace", (outputs_ / "trace").string());
+    replaced.emplace("--overlay", (outputs_ / "overlay.png").string());
+    return runWhs(localizeArguments(replaced));
+  }
+
+  void expectRefused(const std::map<std::string, std::string>& replaced,
+                     const std::string& file_and_field, const std::string& reason) const {
+    const ProgramRun refused = run(replaced);
+    EXPECT_EQ(refused.exit_code, 3) << refused.err;
+    EXPECT_EQ(refused.errorLines(), 1) << refused.err;
+    EXPECT_THAT(refused.err, AllOf(HasSubstr(file_and_field), HasSubstr(reason)));
+    EXPECT_EQ(refused.out, "");
+    EXPECT_EQ(outputs_.fileCount(), 0u);
+  }
+
+  /// The example's seed with its matrix replaced.
+  std::string seedWith(const std::string& matrix) const {
+    return inputs_
+        .write(
+            "seed.json",
+            R"({"format": "boresight-pose", "version": 1, "camera_from_station": )" + matrix + "}")
+        .string();
+  }
+
+  const std::filesystem::path example_ = exampleFolder() / "os";
+  const TemporaryFolder inputs_;
+  const TemporaryFolder outputs_;
+};
+
+TEST_F(BadInput, NamesAFileThatIsMissing) {
+  expectRefused({{"--image", "/no/such/image.png"}}, "/no/such/image.png: ", "");
+  expectRefused({{"--camera", "/no/such/camera.json"}}, "/no/such/camera.json: ", "");
+  expectRefused({{"--mesh", "/no/such/model.ply"}}, "/no/such/model.ply: ", "");
+  expectRefused({{"--seed", "/no/such/seed.json"}}, "/no/such/seed.json: ", "");
+  expectRefused({{"--config", "/no/such/config.json"}}, "/no/such/config.json: ", "");
+  expectRefused({{"--ignore", "/no/such/mask.png"}}, "/no/such/mask.png: ", "");
+  expectRefused({{"--truth", "/no/such/truth.json"}}, "/no/such/truth.json: ", "");
+}
+
+TEST_F(BadInput, NamesAFileThatIsEmptyCutOrOfAnotherFormat) {
+  for (const auto& [option, name] :
+       std::map<std::string, std::string>{{"--image", "image.png"},
+                                          {"--mesh", "model.ply"},
+                                          {"--seed", "seed.json"},
+                                          {"--camera", "camera.json"}}) {
+    const std::string whole = contentOf(example_ / name);
+    expectRefused({{option, inputs_.write(name, std::string_view()).string()}}, name, "");
+    expectRefused({{option, inputs_.write(name, whole.substr(0, whole.size() / 2)).string()}}, name,
+                  "");
+    expectRefused({{option, inputs_.write(name, "hello, this is a letter").string()}}, name, "");
+  }
+  expectRefused({{"--seed", (example_ / "camera.json").string()}}, "camera.json: format",
+                "boresight-pose");
+}
+
+TEST_F(BadInput, NamesBothSizesWhenImageAndCameraDisagree) {
+  std::string camera = contentOf(example_ / "camera.json");
+  camera.replace(camera.find("1024"), 4, "2048");
+  expectRefused({{"--camera", inputs_.write("camera.json", camera).string()}}, "image.png", "2048");
+}
+
+TEST_F(BadInput, AsksForTheUnitOfAMeshThatStatesNone) {
+  expectRefused({{"--mesh-unit", ""}}, "model.ply", "unit");
+  expectRefused({{"--mesh-unit", "furlong"}}, "model.ply", "furlong");
+}
+
+TEST_F(BadInput, DoubtsTheUnitOfAMeshAThousandTimesTooSmallOrTooLarge) {
+  expectRefused({{"--mesh-unit", "mm"}}, "model.ply: mesh_unit", "is the unit right?");
+  expectRefused({{"--mesh-unit", "km"}}, "model.ply: mesh_unit", "is the unit right?");
+}
+
+TEST_F(BadInput, RefusesASeedThatIsNoRigidTransform) {
+  expectRefused({{"--seed", seedWith("[[2,0,0,0],[0,1,0,0],[0,0,1,0.4],[0,0,0,1]]")}},
+                "seed.json: camera_from_station", "not a rotation");
+  expectRefused({{"--seed", seedWith("[[1,0,0,0],[0,1,0,0],[0,0,-1,0.4],[0,0,0,1]]")}},
+                "seed.json: camera_from_station", "mirror");
+  expectRefused({{"--seed", seedWith("[[1,0,0,NaN],[0,1,0,0],[0,0,1,0.4],[0,0,0,1]]")}},
+                "seed.json", "");
+  expectRefused({{"--seed", seedWith("[[1,0,0,1e999],[0,1,0,0],[0,0,1,0.4],[0,0,0,1]]")}},
+                "seed.json", "");
+}
+
+TEST_F(BadInput, RefusesASeedThatSeesNothing) {
+  expectRefused({{"--seed", seedWith("[[1,0,0,0],[0,1,0,0],[0,0,1,-0.6],[0,0,0,1]]")}},
+                "seed.json: camera_from_station", "behind the camera");
+  expectRefused({{"--seed", seedWith("[[1,0,0,3],[0,1,0,0],[0,0,1,0.6],[0,0,0,1]]")}},
+                "seed.json: camera_from_station", "out of view");
+}
+
+TEST_F(BadInput, NamesAnOptionThatIsOutOfRangeOrUnknown) {
+  const auto config = [this](const std::string& options) {
+    return inputs_
+        .write("config.json",
+               R"({"format": "boresight-config", "version": 1, "options": {)" + options + "}}")
+        .string();
+  };
+  expectRefused({{"--config", config(R"("templates.count": 0)")}},
+                "config.json: options.templates.count", "");
+  expectRefused({{"--config", config(R"("templates.colour": 1)")}},
+                "config.json: options.templates.colour", "no such option");
+}
+
+TEST_F(BadInput, NamesAnOutputThatCannotBeWritten) {
+  expectRefused({{"--out", "/no/such/folder/result.json"}}, "/no/such/folder/result.json", "");
+  expectRefused({{"--overlay", "/no/such/folder/o.png"}}, "/no/such/folder/o.png", "");
+  expectRefused({{"--trace", "/no/such/folder/t"}}, "/no/such/folder/t", "");
+}
+
+TEST_F(BadInput, CallsWrongUseUsage) {
+  for (const Arguments& arguments :
+       {Arguments{}, Arguments{"fly"}, Arguments{"localize"}, Arguments{"localize", "--what"}})
+    EXPECT_EQ(runWhs(arguments).exit_code, 2);
+  EXPECT_EQ(run({{"--profile", "best"}}).exit_code, 2);
+  EXPECT_EQ(run({{"--set", "pnp.seed"}}).exit_code, 2);
+  EXPECT_EQ(run({{"--set", "pnp.seed=soon"}}).exit_code, 2);
+  const ProgramRun unknown_method = run({{"--method", "orb"}});
+  EXPECT_EQ(unknown_method.exit_code, 2);
+  EXPECT_THAT(unknown_method.err, HasSubstr("there is: whs"));
+  EXPECT_EQ(outputs_.fileCount(), 0u);
+}
+
+}  // namespace
+}  // namespace boresight::test

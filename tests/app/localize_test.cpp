@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/image_file.h"
+#include "sessions/trace/trace_file.h"
+#include "tests/app/run_whs.h"
+
+namespace boresight::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(WhsLocalize, PrintsIterationsAndPoseAndWritesWhatIsAsked) {
+  const TemporaryFolder folder;
+  const ProgramRun run =
+      runWhs(localizeArguments({{"--truth", (exampleFolder() / "os" / "truth.json").string()},
+                                {"--out", (folder / "result.json").string()},
+                                {"--trace", (folder / "run.trace").string()},
+                                {"--overlay", (folder / "overlay.png").string()}}));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(run.out, AllOf(HasSubstr("iteration"), HasSubstr("inliers"), HasSubstr("converged"),
+                             HasSubstr("1 sigma"), HasSubstr("against the truth")));
+
+  const auto result = nlohmann::json::parse(folder.read("result.json"));
+  EXPECT_EQ(result["format"], "boresight-result");
+  EXPECT_EQ(result["status"], "converged");
+  EXPECT_LT(result["error"]["projection_px"].get<double>(), 0.5);
+  EXPECT_EQ(result["provenance"]["image"]["sha256"].get<std::string>().size(), 64u);
+  EXPECT_NE(result["provenance"]["image"]["sha256"],
+            result["provenance"]["image"]["pixels_sha256"]);
+  EXPECT_EQ(result["provenance"]["options"], nlohmann::json({{"templates.feature_size_m", 0.018}}));
+
+  const sessions::LocalizationTrace trace = sessions::loadTrace(folder / "run.trace");
+  EXPECT_EQ(trace.digest, result["provenance"]["digest"]);
+  EXPECT_THAT(run.out, HasSubstr(trace.digest));
+  EXPECT_EQ(trace.iterations.size(), result["iterations"]);
+  EXPECT_EQ(sessions::readImage(folder / "overlay.png").width, 1024);
+}
+
+TEST(WhsLocalize, GivesTheSameDigestWithAndWithoutRecording) {
+  const TemporaryFolder folder;
+  const auto digestOf = [](const ProgramRun& run) {
+    return run.out.substr(run.out.find("digest"));
+  };
+  const std::string plain = digestOf(runWhs(localizeArguments()));
+  EXPECT_EQ(plain.size(), std::string("digest ").size() + 64 + 1);
+  EXPECT_EQ(digestOf(runWhs(localizeArguments({{"--trace", (folder / "t").string()}}))), plain);
+  EXPECT_NE(digestOf(runWhs(localizeArguments({{"--set", "pnp.seed=2"}}))), plain);
+}
+
+TEST(WhsLocalize, ExitsWith4AndSaysWhyWhenItDoesNotConverge) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runWhs(localizeArguments(
+      {{"--set", "loop.max_iterations=1"}, {"--out", (folder / "result.json").string()}}));
+  EXPECT_EQ(run.exit_code, 4);
+  EXPECT_EQ(run.errorLines(), 1) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("iteration_limit"), HasSubstr("mm"), HasSubstr("needed")));
+  const auto result = nlohmann::json::parse(folder.read("result.json"));
+  EXPECT_EQ(result["completed"], false);
+  EXPECT_EQ(result["camera_from_station"], result["camera_from_station_seed"]);
+  EXPECT_FALSE(result.contains("covariance"));
+}
+
+TEST(WhsLocalize, TakesProfileConfigAndAssignmentsInThisOrder) {
+  const TemporaryFolder folder;
+  const auto config = folder.write(
+      "config.json", R"({"format": "boresight-config", "version": 1, "profile": "paper",
+                         "options": {"loop.max_iterations": 1, "pnp.seed": 3}})");
+  const ProgramRun run = runWhs(localizeArguments({{"--config", config.string()},
+                                                   {"--set", "pnp.seed=4"},
+                                                   {"--out", (folder / "result.json").string()}}));
+  EXPECT_EQ(run.exit_code, 4) << run.err;
+  const auto provenance = nlohmann::json::parse(folder.read("result.json"))["provenance"];
+  EXPECT_EQ(provenance["profile"], "paper");
+  EXPECT_EQ(provenance["options"]["loop.max_iterations"], 1);
+  EXPECT_EQ(provenance["options"]["pnp.seed"], 4);
+}
+
+TEST(WhsLocalize, TakesTheUncertaintyFromTheCommandLine) {
+  const TemporaryFolder folder;
+  Arguments arguments = localizeArguments(
+      {{"--set", "loop.max_iterations=1"}, {"--out", (folder / "result.json").string()}});
+  for (const char* value :
+       {"--uncertainty", "0.01", "0.02", "0.03", "1", "2", "3", "--pivot", "station"})
+    arguments.emplace_back(value);
+  runWhs(arguments);
+  const auto uncertainty =
+      nlohmann::json::parse(folder.read("result.json"))["provenance"]["uncertainty"];
+  EXPECT_EQ(uncertainty["translation_m"], nlohmann::json({0.01, 0.02, 0.03}));
+  EXPECT_EQ(uncertainty["rotation_deg"], nlohmann::json({1.0, 2.0, 3.0}));
+  EXPECT_EQ(uncertainty["pivot"], "station");
+}
+
+TEST(WhsLocalize, SeesOnlyWhatTheIgnoreMaskLeaves) {
+  const TemporaryFolder folder;
+  std::vector<std::uint8_t> mask(1024 * 1024, 255);
+  sessions::writePng(folder / "all.png", mask, 1024, 1024, 1);
+  const ProgramRun run = runWhs(localizeArguments({{"--ignore", (folder / "all.png").string()}}));
+  EXPECT_EQ(run.exit_code, 4) << run.err;
+  EXPECT_EQ(run.errorLines(), 1) << run.err;
+}
+
+}  // namespace
+}  // namespace boresight::test

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::test {
+
+using Arguments = std::vector<std::string>;
+
+/// How a program ended and what it said.
+struct ProgramRun {
+  int exit_code = -1;  ///< -1 when it did not end by itself
+  std::string out;
+  std::string err;
+
+  std::ptrdiff_t errorLines() const { return std::count(err.begin(), err.end(), '\n'); }
+};
+
+inline ProgramRun runWhs(const Arguments& arguments) {
+  const TemporaryFolder folder;
+  std::string command = BORESIGHT_WHS;
+  for (const std::string& argument : arguments) command += " '" + argument + "'";
+  command += " >'" + (folder / "out").string() + "' 2>'" + (folder / "err").string() + "'";
+  const int status = std::system(command.c_str());
+  ProgramRun run;
+  if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
+  run.out = folder.read("out");
+  run.err = folder.read("err");
+  return run;
+}
+
+/// The arguments of `whs localize` for the example's orbiting sample; `replaced` gives some options
+/// another value, or takes them away with an empty one.
+inline Arguments localizeArguments(const std::map<std::string, std::string>& replaced = {}) {
+  const std::filesystem::path folder = exampleFolder() / "os";
+  std::map<std::string, std::string> options = {
+      {"--image", (folder / "image.png").string()}, {"--camera", (folder / "camera.json").string()},
+      {"--mesh", (folder / "model.ply").string()},  {"--mesh-unit", "m"},
+      {"--seed", (folder / "seed.json").string()},  {"--feature-size", "0.018"}};
+  for (const auto& [name, value] : replaced) options[name] = value;
+  Arguments arguments = {"localize"};
+  for (const auto& [name, value] : options) {
+    if (value.empty()) continue;
+    arguments.push_back(name);
+    arguments.push_back(value);
+  }
+  return arguments;
+}
+
+}  // namespace boresight::test

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <opencv2/calib3d.hpp>
+
+#include "tests/core/geometry/example_cameras.h"
+#include "tests/core/pnp/pnp_scene.h"
+
+namespace boresight {
+namespace {
+
+using test::makeScene;
+using test::PnpScene;
+using test::poseNear;
+using test::randomFor;
+using test::Solver;
+
+cv::Mat cameraMatrix(const Camera& camera) {
+  return (cv::Mat_<double>(3, 3) << camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0,
+          1.0);
+}
+
+cv::Mat distortionOf(const Camera& camera) {
+  return cv::Mat(1, 8, CV_64F, const_cast<double*>(camera.distortion.data())).clone();
+}
+
+struct Matched {
+  std::vector<cv::Point3d> points;
+  std::vector<cv::Point2d> pixels;
+};
+
+Matched inliersOf(const PnpScene& scene, const std::vector<std::uint8_t>& inlier) {
+  Matched matched;
+  for (std::size_t i = 0; i < scene.correspondences.size(); ++i) {
+    if (inlier[i] == 0) continue;
+    const Correspondence& item = scene.correspondences[i];
+    matched.points.emplace_back(item.point_in_station_m.x(), item.point_in_station_m.y(),
+                                item.point_in_station_m.z());
+    matched.pixels.emplace_back(item.pixel.x(), item.pixel.y());
+  }
+  return matched;
+}
+
+Pose poseFromOpenCv(const cv::Mat& rotation_vector, const cv::Mat& translation) {
+  Pose pose;
+  pose.rotation = rotationExp({rotation_vector.at<double>(0), rotation_vector.at<double>(1),
+                               rotation_vector.at<double>(2)});
+  pose.translation_m = {translation.at<double>(0), translation.at<double>(1),
+                        translation.at<double>(2)};
+  return pose;
+}
+
+/// SQPnP from nothing, then OpenCV's own Levenberg-Marquardt until it stands still.
+Pose solveByOpenCv(const Matched& matched, const Camera& camera) {
+  cv::Mat rotation_vector, translation;
+  EXPECT_TRUE(cv::solvePnP(matched.points, matched.pixels, cameraMatrix(camera),
+                           distortionOf(camera), rotation_vector, translation, false,
+                           cv::SOLVEPNP_SQPNP));
+  const cv::TermCriteria still(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 200, 1e-15);
+  cv::solvePnPRefineLM(matched.points, matched.pixels, cameraMatrix(camera), distortionOf(camera),
+                       rotation_vector, translation, still);
+  return poseFromOpenCv(rotation_vector, translation);
+}
+
+std::vector<test::NamedCamera> openCvCameras() {
+  std::vector<test::NamedCamera> cameras;
+  for (const test::NamedCamera& named : test::exampleCameras()) {
+    if (named.camera.model != CameraModel::kKannalaBrandt) cameras.push_back(named);
+  }
+  return cameras;
+}
+
+class PnpAgainstOpenCv : public ::testing::TestWithParam<test::NamedCamera> {};
+
+INSTANTIATE_TEST_SUITE_P(Cameras, PnpAgainstOpenCv, ::testing::ValuesIn(openCvCameras()),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST_P(PnpAgainstOpenCv, RefinesToTheSamePoseOnTheSameInliers) {
+  Random random = randomFor("PnpAgainstOpenCv.Same." + GetParam().name);
+  for (int trial = 0; trial < 20; ++trial) {
+    const PnpScene scene =
+        makeScene(random, {.points = 80, .outlier_share = 0.4, .noise_px = 0.5}, GetParam().camera);
+    Solver solver(80);
+    ASSERT_EQ(solver.solve(scene, 3.0, PnpOptions()), Status::kOk);
+    const Matched matched = inliersOf(scene, solver.inlier);
+    EXPECT_THAT(solver.solution.camera_from_station,
+                poseNear(solveByOpenCv(matched, scene.camera), 1e-6, 1e-6));
+  }
+}
+
+TEST_P(PnpAgainstOpenCv, AgreesWithItsIterativeSolver) {
+  Random random = randomFor("PnpAgainstOpenCv.Iterative." + GetParam().name);
+  for (int trial = 0; trial < 20; ++trial) {
+    const PnpScene scene = makeScene(random, {.points = 40, .noise_px = 0.3}, GetParam().camera);
+    Solver solver(40);
+    ASSERT_EQ(solver.solve(scene, 5.0, PnpOptions()), Status::kOk);
+    const Matched matched = inliersOf(scene, solver.inlier);
+    cv::Mat rotation_vector, translation;
+    ASSERT_TRUE(cv::solvePnP(matched.points, matched.pixels, cameraMatrix(scene.camera),
+                             distortionOf(scene.camera), rotation_vector, translation, false,
+                             cv::SOLVEPNP_ITERATIVE));
+    EXPECT_THAT(solver.solution.camera_from_station,
+                poseNear(poseFromOpenCv(rotation_vector, translation), 1e-6, 1e-6));
+  }
+}
+
+TEST_P(PnpAgainstOpenCv, AgreesWithSqpnpOnExactData) {
+  Random random = randomFor("PnpAgainstOpenCv.Sqpnp." + GetParam().name);
+  for (int trial = 0; trial < 20; ++trial) {
+    const PnpScene scene = makeScene(random, {.points = 40}, GetParam().camera);
+    Solver solver(40);
+    ASSERT_EQ(solver.solve(scene, 1.0, PnpOptions()), Status::kOk);
+    const Matched matched = inliersOf(scene, solver.inlier);
+    cv::Mat rotation_vector, translation;
+    ASSERT_TRUE(cv::solvePnP(matched.points, matched.pixels, cameraMatrix(scene.camera),
+                             distortionOf(scene.camera), rotation_vector, translation, false,
+                             cv::SOLVEPNP_SQPNP));
+    EXPECT_THAT(solver.solution.camera_from_station,
+                poseNear(poseFromOpenCv(rotation_vector, translation), 1e-6, 1e-6));
+  }
+}
+
+TEST(SolveP3pAgainstOpenCv, FindsTheSameSolutions) {
+  Random random = randomFor("SolveP3pAgainstOpenCv.FindsTheSameSolutions");
+  const Camera camera = test::makePinhole(1000, 1000, 500.0);
+  int theirs_found = 0;
+  int theirs_total = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Pose truth = test::randomCameraFromStation(random, 2.0);
+    std::array<Eigen::Vector3d, 3> bearing, point;
+    std::vector<cv::Point3d> points;
+    std::vector<cv::Point2d> pixels;
+    for (std::size_t i = 0; i < 3; ++i) {
+      point[i] = test::randomVector(random, 1.0);
+      Eigen::Vector2d pixel;
+      ASSERT_TRUE(project(camera, truth * point[i], pixel));
+      ASSERT_TRUE(unproject(camera, pixel, bearing[i]));
+      bearing[i].normalize();
+      points.emplace_back(point[i].x(), point[i].y(), point[i].z());
+      pixels.emplace_back(pixel.x(), pixel.y());
+    }
+    std::array<Pose, 4> ours;
+    const int count = solveP3p(bearing, point, ours);
+    std::vector<cv::Mat> rotations, translations;
+    cv::solveP3P(points, pixels, cameraMatrix(camera), cv::Mat(), rotations, translations,
+                 cv::SOLVEPNP_AP3P);
+    for (std::size_t k = 0; k < rotations.size(); ++k) {
+      const Pose theirs = poseFromOpenCv(rotations[k], translations[k]);
+      // Theirs, too, are only as good as they see the points.
+      double worst = 0.0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        worst = std::max(worst, ((theirs * point[i]).normalized() - bearing[i]).norm());
+      }
+      if (worst > 1e-9) continue;
+      ++theirs_total;
+      for (int i = 0; i < count; ++i) {
+        const Pose& pose = ours[static_cast<std::size_t>(i)];
+        if ((pose.translation_m - theirs.translation_m).norm() < 1e-5) {
+          ++theirs_found;
+          break;
+        }
+      }
+    }
+  }
+  EXPECT_GT(theirs_total, 1000);
+  EXPECT_EQ(theirs_found, theirs_total);
+}
+
+}  // namespace
+}  // namespace boresight

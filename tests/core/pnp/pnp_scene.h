@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/pnp/pnp.h"
+#include "tests/support/random_pose.h"
+
+/// Synthetic correspondences of a station in front of an arm camera, and a PnpRansac with the
+/// memory it needs.
+namespace boresight::test {
+
+struct PnpSceneOptions {
+  int points = 100;
+  double outlier_share = 0.0;
+  double noise_px = 0.0;
+  double half_width_m = 0.1;
+  double half_depth_m = 0.02;  ///< 0: a plane
+  double distance_m = 0.45;
+  double tilt_rad = 0.1;  ///< sigma of the rotations about x and y
+  double sigma_px = 1.0;
+};
+
+struct PnpScene {
+  Camera camera;
+  Pose camera_from_station;  ///< the truth
+  PosePrior hypothesis;      ///< inside its uncertainty of the truth
+  std::vector<Correspondence> correspondences;
+  std::vector<bool> is_outlier;
+};
+
+inline PnpScene makeScene(Random& random, const PnpSceneOptions& options, const Camera& camera) {
+  PnpScene scene;
+  scene.camera = camera;
+  scene.camera_from_station.rotation =
+      rotationExp({options.tilt_rad * random.normal(), options.tilt_rad * random.normal(),
+                   random.uniform(-kPi, kPi)});
+  scene.camera_from_station.translation_m = {random.uniform(-0.02, 0.02),
+                                             random.uniform(-0.02, 0.02), options.distance_m};
+  scene.hypothesis.camera_from_station =
+      displacedAboutPivot(scene.camera_from_station, randomOffset(random, scene.hypothesis.sigma),
+                          scene.hypothesis.sigma.pivot_in_camera_m);
+  for (int i = 0; i < options.points; ++i) {
+    Correspondence made;
+    made.sigma_px = options.sigma_px;
+    made.point_in_station_m = {random.uniform(-1.0, 1.0) * options.half_width_m,
+                               random.uniform(-1.0, 1.0) * options.half_width_m,
+                               random.uniform(-1.0, 1.0) * options.half_depth_m};
+    const Eigen::Vector3d point_in_camera_m = scene.camera_from_station * made.point_in_station_m;
+    const bool outlier = i < static_cast<int>(options.outlier_share * options.points);
+    if (!project(camera, point_in_camera_m, made.pixel)) made.pixel.setConstant(-1e5);
+    made.pixel += options.noise_px * Eigen::Vector2d{random.normal(), random.normal()};
+    if (outlier) {
+      made.pixel = {random.uniform(0.0, camera.width), random.uniform(0.0, camera.height)};
+    }
+    scene.correspondences.push_back(made);
+    scene.is_outlier.push_back(outlier);
+  }
+  for (std::size_t i = scene.correspondences.size(); i > 1; --i) {
+    const std::size_t j = random.below(static_cast<std::uint32_t>(i));
+    std::swap(scene.correspondences[i - 1], scene.correspondences[j]);
+    const bool moved = scene.is_outlier[i - 1];
+    scene.is_outlier[i - 1] = scene.is_outlier[j];
+    scene.is_outlier[j] = moved;
+  }
+  return scene;
+}
+
+inline Camera armCamera() { return makePinhole(2048, 2048, 3100.0); }
+
+inline PnpScene makeScene(Random& random, const PnpSceneOptions& options) {
+  return makeScene(random, options, armCamera());
+}
+
+/// A PnpRansac, its arena, and a solution with room for `capacity` correspondences. The solution
+/// starts filled with rubbish, so that what a status leaves behind is seen.
+struct Solver {
+  explicit Solver(std::size_t capacity)
+      : memory(capacity * 64 + 1024), inlier(capacity, 7), residual_px(capacity, -1.0) {
+    Arena arena(memory);
+    created = ransac.create(static_cast<int>(capacity), arena);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    solution.camera_from_station.translation_m.setConstant(nan);
+    solution.covariance.setConstant(nan);
+    solution.inlier_count = -1;
+    solution.rms_px = nan;
+  }
+
+  Status begin(const PnpScene& scene, double threshold_px, const PnpOptions& options,
+               const PosePrior* anchor = nullptr) {
+    const std::size_t count = scene.correspondences.size();
+    solution.inlier = std::span(inlier).first(count);
+    solution.residual_px = std::span(residual_px).first(count);
+    return ransac.begin(scene.correspondences, scene.camera, scene.hypothesis, threshold_px,
+                        options, solution, anchor);
+  }
+
+  Status solve(const PnpScene& scene, double threshold_px, const PnpOptions& options,
+               const PosePrior* anchor = nullptr) {
+    Status status = begin(scene, threshold_px, options, anchor);
+    bool done = status != Status::kOk;
+    while (!done) status = ransac.step(done);
+    return status;
+  }
+
+  PnpRansac ransac;
+  PnpSolution solution;
+  Status created = Status::kOk;
+  std::vector<std::byte> memory;
+  std::vector<std::uint8_t> inlier;
+  std::vector<double> residual_px;
+};
+
+/// One sum of the least squares of a pose, written straight from its definition.
+inline double reprojectionCost(const std::vector<Correspondence>& correspondences,
+                               const std::vector<std::uint8_t>& use, const Camera& camera,
+                               const Pose& camera_from_station) {
+  double cost = 0.0;
+  for (std::size_t i = 0; i < correspondences.size(); ++i) {
+    if (!use.empty() && use[i] == 0) continue;
+    Eigen::Vector2d pixel;
+    if (!project(camera, camera_from_station * correspondences[i].point_in_station_m, pixel)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    cost += ((correspondences[i].pixel - pixel) / correspondences[i].sigma_px).squaredNorm();
+  }
+  return cost;
+}
+
+/// Distance of the least squares from a minimum: the largest component of gradient / curvature by
+/// central differences, in the left perturbation (rad, m).
+template <class Cost>
+double newtonStepLeft(const Cost& cost, const Pose& camera_from_station) {
+  const double h = 1e-5;
+  double largest = 0.0;
+  const double here = cost(camera_from_station);
+  for (int k = 0; k < 6; ++k) {
+    Vector6d xi = Vector6d::Zero();
+    xi[k] = h;
+    const double above = cost(perturbed(xi, camera_from_station));
+    const double below = cost(perturbed(-xi, camera_from_station));
+    const double gradient = (above - below) / (2.0 * h);
+    const double curvature = (above - 2.0 * here + below) / (h * h);
+    largest = std::max(largest, std::abs(gradient / curvature));
+  }
+  return largest;
+}
+
+inline bool isFiniteMatrix(const Matrix6d& matrix) {
+  for (int i = 0; i < 36; ++i) {
+    if (!isFinite(matrix(i / 6, i % 6))) return false;
+  }
+  return true;
+}
+
+}  // namespace boresight::test

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/evaluation/batch.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "sessions/io/errors.h"
+#include "tests/support/example_case.h"
+
+namespace boresight::sessions {
+namespace {
+
+using testing::HasSubstr;
+
+Dataset exampleDataset() { return readDataset(test::exampleFolder() / "dataset.json"); }
+
+/// Quick options: the runs need not converge.
+BatchOptions quick() {
+  BatchOptions options;
+  options.localizer = defaultProfile();
+  options.localizer.loop.max_iterations = 1;
+  options.localizer.loop.max_rolled_hypotheses = 1;
+  return options;
+}
+
+TEST(RunBatch, LocalizesTheExample) {
+  BatchOptions options;
+  options.localizer = defaultProfile();
+  const auto results = runBatch(exampleDataset(), options, {});
+  ASSERT_EQ(results.size(), 2u);
+  for (const RunResult& result : results) {
+    EXPECT_EQ(result.status, "converged") << result.case_id << ": " << result.message;
+    EXPECT_EQ(result.success, true) << result.case_id;
+    EXPECT_GT(result.matches, 6);
+    EXPECT_GT(result.edge_support, 0.3);
+    ASSERT_TRUE(result.error && result.seed_error);
+    EXPECT_LT(*result.error->projection_px, 1.0);
+    EXPECT_GT(*result.seed_error->projection_px, 5.0);
+    EXPECT_EQ(result.digest.size(), 64u);
+  }
+}
+
+TEST(RunBatch, GivesTheSameInTheSameOrderForAnyNumberOfJobs) {
+  BatchOptions options = quick();
+  options.reseeds = 2;
+  const auto alone = runBatch(exampleDataset(), options, {});
+  options.jobs = 3;
+  std::size_t told = 0;
+  const auto together = runBatch(exampleDataset(), options,
+                                 [&told](std::size_t done, std::size_t total, const RunResult&) {
+                                   EXPECT_EQ(done, ++told);
+                                   EXPECT_EQ(total, 6u);
+                                 });
+  ASSERT_EQ(alone.size(), 6u);
+  ASSERT_EQ(together.size(), 6u);
+  EXPECT_EQ(told, 6u);
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    EXPECT_EQ(alone[i].case_id, together[i].case_id);
+    EXPECT_EQ(alone[i].reseed, static_cast<std::int32_t>(i % 3));
+    EXPECT_EQ(alone[i].reseed, together[i].reseed);
+    EXPECT_EQ(alone[i].digest, together[i].digest);
+  }
+  EXPECT_NE(alone[0].digest, alone[1].digest);
+}
+
+TEST(RunBatch, FiltersByCaseStationAndTag) {
+  const Dataset dataset = exampleDataset();
+  BatchOptions options = quick();
+  options.stations = {"os"};
+  ASSERT_EQ(runBatch(dataset, options, {}).size(), 1u);
+  options.stations.clear();
+  options.tags = {"half_size"};
+  EXPECT_EQ(runBatch(dataset, options, {}).size(), 2u);
+  options.cases = {dataset.cases.front().id};
+  EXPECT_EQ(runBatch(dataset, options, {}).front().case_id, dataset.cases.front().id);
+}
+
+TEST(RunBatch, RefusesFiltersThatNameNothing) {
+  const Dataset dataset = exampleDataset();
+  BatchOptions options = quick();
+  options.cases = {"bc-999"};
+  EXPECT_THROW(runBatch(dataset, options, {}), InputError);
+  options = quick();
+  options.stations = {"moon"};
+  EXPECT_THROW(runBatch(dataset, options, {}), InputError);
+  options = quick();
+  options.mesh_of = "moon";
+  EXPECT_THROW(runBatch(dataset, options, {}), InputError);
+  options = quick();
+  options.tags = {"no_such_tag"};
+  EXPECT_THROW(runBatch(dataset, options, {}), InputError);
+}
+
+TEST(RunBatch, GoesOnAfterABadCase) {
+  Dataset dataset = exampleDataset();
+  dataset.cases.front().image = dataset.cases.front().image.parent_path() / "missing.png";
+  BatchOptions options = quick();
+  options.reseeds = 1;
+  const auto results = runBatch(dataset, options, {});
+  ASSERT_EQ(results.size(), 4u);
+  EXPECT_TRUE(results[0].inputFailed());
+  EXPECT_TRUE(results[1].inputFailed());
+  EXPECT_THAT(results[0].message, HasSubstr("missing.png"));
+  EXPECT_FALSE(results[2].inputFailed());
+}
+
+TEST(RunBatch, ReportsASeedThatSeesNothing) {
+  Dataset dataset = exampleDataset();
+  dataset.cases.resize(1);
+  dataset.cases.front().seed_camera_from_station.translation_m = {5.0, 0.0, 0.4};
+  const auto results = runBatch(dataset, quick(), {});
+  EXPECT_EQ(results.front().status, "bad_seed");
+  EXPECT_THAT(results.front().message, HasSubstr("out of view"));
+  EXPECT_FALSE(results.front().completed);
+  EXPECT_EQ(results.front().success, false);
+}
+
+TEST(RunBatch, StopsBetweenRuns) {
+  std::stop_source stop;
+  BatchOptions options = quick();
+  options.reseeds = 20;
+  const auto results = runBatch(
+      exampleDataset(), options,
+      [&stop](std::size_t done, std::size_t, const RunResult&) {
+        if (done == 2) stop.request_stop();
+      },
+      stop.get_token());
+  EXPECT_EQ(results.size(), 2u);
+}
+
+TEST(RunBatch, TakesAnotherStationsMeshWhenAsked) {
+  BatchOptions options = quick();
+  options.mesh_of = "os";
+  const auto results = runBatch(exampleDataset(), options, {});
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results.front().station, "bc");
+  EXPECT_EQ(results.front().success, false);
+}
+
+TEST(Mirrored, ReflectsAboutTheMiddleAndKeepsFacesOutwards) {
+  const test::ExampleCase example("os");
+  const SceneMesh flipped = mirrored(example.scene, MirrorAxis::kX);
+  const BoundingBox before = matchedBounds(example.scene.view());
+  const BoundingBox after = matchedBounds(flipped.view());
+  EXPECT_LT((before.minimum_m - after.minimum_m).norm(), 1e-6);
+  EXPECT_LT((before.maximum_m - after.maximum_m).norm(), 1e-6);
+  double volume_before = 0.0;
+  double volume_after = 0.0;
+  const auto signedVolume = [](const SceneMesh& scene, const Face& face) {
+    const auto at = [&](std::size_t i) {
+      return scene.vertices_in_station_m[static_cast<std::size_t>(face.vertex[i])].cast<double>();
+    };
+    return at(0).dot(Eigen::Vector3d(at(1)).cross(Eigen::Vector3d(at(2)))) / 6.0;
+  };
+  for (const Face& face : example.scene.faces) volume_before += signedVolume(example.scene, face);
+  for (const Face& face : flipped.faces) volume_after += signedVolume(flipped, face);
+  EXPECT_NE(volume_before, 0.0);
+  EXPECT_NEAR(volume_after, volume_before, 1e-3 * std::abs(volume_before));
+  const SceneMesh twice = mirrored(flipped, MirrorAxis::kX);
+  for (std::size_t i = 0; i < twice.vertices_in_station_m.size(); ++i)
+    EXPECT_LT((twice.vertices_in_station_m[i] - example.scene.vertices_in_station_m[i]).norm(),
+              1e-6F);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

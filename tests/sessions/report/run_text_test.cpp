@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/report/run_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/math.h"
+
+namespace boresight::sessions {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+/// A run of one iteration that ended with this status.
+LocalizationTrace endedWith(LocalizationStatus status) {
+  LocalizationTrace trace;
+  trace.status = status;
+  trace.edges.edge_count = 1000;
+  IterationTrace iteration;
+  iteration.status = status;
+  iteration.edge_pixel_count = 7;
+  iteration.template_count = 5;
+  iteration.template_side_px = 64;
+  iteration.searched_count = 4;
+  iteration.correspondence_count = 4;
+  iteration.threshold_px = 8.0;
+  iteration.pnp.inlier_count = 3;
+  iteration.correction_translation_m = 0.0123;
+  iteration.correction_rotation_rad = 2.0 * kDegree_rad;
+  trace.iterations.push_back(iteration);
+  return trace;
+}
+
+TEST(Explanation, IsEmptyForAConvergedRun) {
+  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kConverged)), IsEmpty());
+}
+
+TEST(Explanation, NamesWhatWasMeasuredAndNeeded) {
+  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewEdges)),
+              AllOf(HasSubstr("7 salient edge pixels"), HasSubstr("needed 12")));
+  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewTemplates)),
+              AllOf(HasSubstr("5 templates of 64 px"), HasSubstr("needed 6")));
+  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewMatches)),
+              AllOf(HasSubstr("4 of 5 templates"), HasSubstr("needed 6")));
+  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kPnpFailed)),
+              AllOf(HasSubstr("4 matches"), HasSubstr("3 inliers at 8.0 px")));
+  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kIterationLimit)),
+              AllOf(HasSubstr("12.300 mm"), HasSubstr("2.000 deg")));
+}
+
+TEST(Explanation, NamesTheAxisThatLeftTheUncertainty) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kLeftUncertainty);
+  trace.uncertainty.translation_m = {0.03, 0.02, 0.03};
+  trace.iterations.back().camera_from_station.translation_m = {0.030, -0.025, 0.0};
+  EXPECT_THAT(explanation(trace),
+              AllOf(HasSubstr("25.00 mm along y"), HasSubstr("allowed 22.00 mm")));
+  trace.iterations.back().camera_from_station.rotation =
+      rotationExp(Eigen::Vector3d(0.0, 0.0, 20.0 * kDegree_rad));
+  EXPECT_THAT(explanation(trace), HasSubstr("20.00 deg about z"));
+}
+
+TEST(Explanation, GivesTheShareOfSupportedEdges) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kNotSupported);
+  trace.support = {200, 30};
+  EXPECT_THAT(explanation(trace), AllOf(HasSubstr("200 rendered"), HasSubstr("30 (15.0 %)")));
+}
+
+TEST(Explanation, BlamesAnImageWithoutEdges) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kPnpFailed);
+  trace.edges.edge_count = 0;
+  EXPECT_THAT(explanation(trace), HasSubstr("image has no edges"));
+}
+
+TEST(Explanation, NamesTheOptionThatACapacityNeeds) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kFault);
+  trace.fault = Status::kCapacityExceeded;
+  EXPECT_THAT(explanation(trace), HasSubstr("render.max_edge_pixels"));
+}
+
+TEST(IterationTable, HasOneLineForEachIteration) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kConverged);
+  const std::string matched = iterationTable(trace);
+  EXPECT_THAT(matched, AllOf(HasSubstr("match"), HasSubstr("12.300"), HasSubstr("8.0")));
+  EXPECT_THAT(matched, Not(HasSubstr("refine")));
+  trace.iterations.push_back(trace.iterations.back());
+  trace.iterations.back().kind = IterationKind::kRefine;
+  trace.iterations.back().refinement.used_count = 4321;
+  EXPECT_THAT(iterationTable(trace), AllOf(HasSubstr("refine"), HasSubstr("4321")));
+}
+
+TEST(PoseText, LabelsTheQuaternionAndKeepsItsScalarPositive) {
+  Pose pose;
+  pose.rotation = Eigen::Quaterniond(-0.5, 0.5, -0.5, 0.5);
+  EXPECT_THAT(poseText(pose, Matrix6d::Zero()),
+              AllOf(HasSubstr("wxyz 0.500000000 -0.500000000 0.500000000 -0.500000000"),
+                    Not(HasSubstr("sigma"))));
+}
+
+TEST(PoseText, GivesSigmasInMillimetresAndMilliradians) {
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance(0, 0) = 4e-6;  // rotation about x: 2 mrad
+  covariance(5, 5) = 9e-8;  // translation along z: 0.3 mm
+  EXPECT_THAT(poseText(Pose(), covariance),
+              HasSubstr("0.0000 0.0000 0.3000 mm, 2.0000 0.0000 0.0000 mrad"));
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/localizer/problem.h"
+#include "sessions/io/camera_file.h"
+#include "sessions/io/image_file.h"
+#include "sessions/io/pose_file.h"
+#include "sessions/io/scene_mesh.h"
+
+namespace boresight::test {
+
+/// The folder of the example that ships; tests that use it define BORESIGHT_EXAMPLES.
+inline std::filesystem::path exampleFolder() {
+  return std::filesystem::path(BORESIGHT_EXAMPLES) / "stations";
+}
+
+/// One station of the example with everything a run needs.
+struct ExampleCase {
+  sessions::GrayImage image;
+  Camera camera;
+  sessions::SceneMesh scene;
+  sessions::PoseFile seed;
+  sessions::PoseFile truth;
+
+  explicit ExampleCase(const std::string& station) {
+    const std::filesystem::path folder = exampleFolder() / station;
+    image = sessions::readImage(folder / "image.png");
+    camera = sessions::readCamera(folder / "camera.json");
+    seed = sessions::readPose(folder / "seed.json");
+    truth = sessions::readPose(folder / "truth.json");
+    sessions::PartSource part;
+    part.mesh = folder / "model.ply";
+    part.mesh_unit = "m";
+    scene = sessions::readScene({&part, 1});
+  }
+
+  /// Points into this case.
+  LocalizationProblem problem() const {
+    LocalizationProblem made;
+    made.image = image.view();
+    made.camera = camera;
+    made.mesh = scene.view();
+    made.camera_from_station_seed = seed.camera_from_station;
+    made.uncertainty = sessions::seedUncertainty(seed.uncertainty.value(), seed.camera_from_station,
+                                                 matchedBounds(scene.view()).centre());
+    return made;
+  }
+};
+
+}  // namespace boresight::test
