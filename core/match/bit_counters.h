@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 namespace boresight {
@@ -22,49 +23,58 @@ struct CounterRow {
   std::uint64_t* words = nullptr;
   int stride = 0;       ///< words from one plane to the next
   int plane_count = 0;  ///< planes in use
-  std::uint64_t* plane(int k) { return words + k * stride; }
-  const std::uint64_t* plane(int k) const { return words + k * stride; }
+  std::uint64_t* plane(int k) { return words + std::ptrdiff_t{stride} * k; }
+  const std::uint64_t* plane(int k) const { return words + std::ptrdiff_t{stride} * k; }
 };
 
-/// A pixel whose bit is counted: its byte offset, the shift within the byte, and whether 1 - bit is
-/// counted instead, in one word: 16 * byte + 2 * shift + negative.
+/// Rows of counters, and of pixels to be counted, have this many words of slack.
+inline constexpr int kWordPadding = 7;
+
+/// Pixels whose bits are counted: the byte at which each one's row begins, relative to a base.
+struct PixelList {
+  const std::int32_t* offsets = nullptr;
+  int count = 0;        ///< a multiple of 4: padded with offsets that point to zeros
+  int plane_count = 0;  ///< planes that hold the largest sum
+  int shift = 0;        ///< bit within the byte, the same for all (0 ... 7)
+};
+
+/// total[x] += sum over k of bit x + shift of the row of pixels that begins at base + offsets[k]
+/// (byte ordered, see byteOrdered), for x < 64 * words - 7. Reads and writes whole registers: up to
+/// kWordPadding words more than these, of which nothing is to be expected. This is the inner loop
+/// of the search: full adders take eight rows at a time (Harley and Seal), all else is overhead. A
+/// vectorized version has this signature and gives the same counters.
+void addPixels(const std::uint8_t* base, const PixelList& pixels, int words, CounterRow& total);
+
+/// A pixel at any bit: its byte offset, its bit within the byte, and whether 1 - bit is counted
+/// instead, in one word: 16 * byte + 2 * bit + negative.
 using SignedPixel = std::uint32_t;
 inline SignedPixel makeSignedPixel(int byte_offset, int shift, bool negative) {
   return static_cast<SignedPixel>(byte_offset) * 16u + static_cast<SignedPixel>(shift) * 2u +
          (negative ? 1u : 0u);
 }
 
-/// counters[x] = sum over k of bit x of the row of pixels that begins at base + offsets[k] (byte
-/// ordered, see byteOrdered), for x < 64 * words. `count` is a multiple of 4 (pad with offsets that
-/// point to zeros); the planes of `counters` must hold the largest sum. This is the inner loop of
-/// the search: full adders take eight rows at a time (Harley and Seal), all else is overhead. A
-/// vectorized version has this signature and gives the same planes.
-void countPixels(const std::uint8_t* base, const std::int32_t* offsets, int count, int words,
-                 CounterRow& counters);
-
-/// The same for pixels at any bit, each positive or negative (1 - bit is added, so that the sum is
-/// too large by the number of negative pixels).
+/// counters[x] = sum over k of pixel k displaced by x, for x < 64 * words (too large by the number
+/// of negative pixels); `count` is a multiple of 4, the planes of `counters` hold the largest sum.
 void countSignedPixels(const std::uint8_t* base, const SignedPixel* pixels, int count, int words,
                        CounterRow& counters);
 
-/// total[x] += part[x + shift] for x < 64 * words, 0 <= shift < 8; `part` has words + 1 words a
-/// plane.
-void addShifted(const CounterRow& part, int shift, int words, CounterRow& total);
-
-/// 16-bit lanes: the counters of one word of planes 0 .. 15 as integers. Counter x is
-/// lanes[laneIndex(x)]: the order in which the transposition leaves them, so that nothing has to be
-/// moved.
+/// 16-bit lanes: the counters of a word as integers. Counter x of the word is lane laneIndex(x):
+/// the order in which the transposition leaves them, so that nothing has to be moved.
 inline constexpr int kLanes = 64;
+inline constexpr std::ptrdiff_t lanesBefore(int word) { return std::ptrdiff_t{kLanes} * word; }
 constexpr int laneIndex(int x) {
   const int byte = x >> 3;
   const int lane = byte >> 1;
   const int in_word = std::endian::native == std::endian::little ? lane : 3 - lane;
   return 8 * (x & 7) + 4 * (byte & 1) + in_word;
 }
-void planesToLanes(const CounterRow& counters, int word, std::uint16_t* lanes);
+/// The lanes of words 0 ... words - 1 of planes 0 ... 15, kLanes a word; and of one word.
+void planesToLanes(const CounterRow& counters, int words, std::uint16_t* lanes);
+void wordToLanes(const CounterRow& counters, int word, std::uint16_t* lanes);
 
-/// lanes[laneIndex(x)] = sum over x' < x of counter x', for x < 64, and the sum over all 64; as
-/// planesToLanes then adding up. Sums must stay below 65536.
-std::uint32_t planesToPrefixSums(const CounterRow& counters, int word, std::uint16_t* lanes);
+/// Within each word, lane laneIndex(x) becomes the sum of counters x' < x of this word; `totals`
+/// are the sums over whole words. Sums must stay below 65536.
+void planesToPrefixSums(const CounterRow& counters, int words, std::uint16_t* lanes,
+                        std::uint32_t* totals);
 
 }  // namespace boresight

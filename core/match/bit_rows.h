@@ -21,6 +21,14 @@ inline std::uint64_t pixelsAt(const BitImage& image, int x, int y) {
   return (row[word] >> shift) | (next << (64 - shift));
 }
 
+/// Number of ones. Without an instruction for it, std::popcount is a call and a table.
+inline int countOnes(std::uint64_t word) {
+  word -= (word >> 1) & 0x5555555555555555u;
+  word = (word & 0x3333333333333333u) + ((word >> 2) & 0x3333333333333333u);
+  word = (word + (word >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+  return static_cast<int>((word * 0x0101010101010101u) >> 56);
+}
+
 /// The bits of word `word` of a row of `side` pixels.
 inline std::uint64_t sideMask(int side, int word) {
   const int rest = side - 64 * word;
@@ -44,7 +52,7 @@ inline std::uint64_t byteOrdered(std::uint64_t word) {
 }
 
 inline std::uint64_t loadWord(const std::uint8_t* bytes) {
-  std::uint64_t word;
+  std::uint64_t word = 0;
   std::memcpy(&word, bytes, sizeof word);
   return word;
 }

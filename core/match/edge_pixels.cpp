@@ -12,65 +12,77 @@ namespace {
 constexpr int kGroup = 4;
 int padded(int count) { return (count + kGroup - 1) / kGroup * kGroup; }
 
-/// Bits `phase` of all bytes.
-constexpr std::uint64_t phaseMask(int phase) { return std::uint64_t{0x0101010101010101u} << phase; }
+/// Pixels u of a word with u % shifts == shift.
+std::uint64_t shiftMask(int shift, int shifts) {
+  std::uint64_t mask = std::uint64_t{1} << shift;
+  for (int period = shifts; period < 64; period *= 2) mask |= mask << period;
+  return mask;
+}
 
 }  // namespace
 
 void EdgePixels::create(int capacity, Arena& arena) {
   // A row always fits: it is what a list of rows must be able to hold at least.
   const int least = kMaxTemplateSide_px;
-  const int size = (capacity > least ? capacity : least) + kPhases * (kGroup - 1);
+  const int size = (capacity > least ? capacity : least) + kMostShifts * (kGroup - 1);
   offsets_ = arena.allocate<std::int32_t>(static_cast<std::size_t>(size));
 }
 
-int EdgePixels::list(const TemplateView& view, const TestBand& band, int first_row) {
-  const int words = (view.side_px + 63) / 64;
-  const int room = static_cast<int>(offsets_.size()) - kPhases * (kGroup - 1);
+int EdgePixels::countRows(const TemplateView& view, int shifts, int first_row) {
+  const int room = static_cast<int>(offsets_.size()) - kMostShifts * (kGroup - 1);
+  std::array<std::uint64_t, kMostShifts> masks{};
+  for (int shift = 0; shift < shifts; ++shift) {
+    masks[static_cast<std::size_t>(shift)] = shiftMask(shift, shifts);
+  }
   count_.fill(0);
-  int total = 0, end_row = first_row;
-  for (; end_row < view.side_px; ++end_row) {
-    std::array<int, kPhases> in_row{};
+  int total = 0, v = first_row;
+  for (; v < view.side_px; ++v) {
+    std::array<int, kMostShifts> in_row{};
     int row_total = 0;
-    for (int word = 0; word < words; ++word) {
-      const std::uint64_t bits = edgeWord(view, end_row, word);
-      row_total += std::popcount(bits);
-      for (int phase = 0; bits != 0 && phase < kPhases; ++phase) {
-        in_row[static_cast<std::size_t>(phase)] += std::popcount(bits & phaseMask(phase));
+    for (int word = 0; 64 * word < view.side_px; ++word) {
+      const std::uint64_t bits = edgeWord(view, v, word);
+      if (bits == 0) continue;
+      row_total += countOnes(bits);
+      for (std::size_t k = 0; k < static_cast<std::size_t>(shifts); ++k) {
+        in_row[k] += countOnes(bits & masks[k]);
       }
     }
     if (total + row_total > room) break;
     total += row_total;
-    for (std::size_t phase = 0; phase < kPhases; ++phase) count_[phase] += in_row[phase];
+    for (std::size_t k = 0; k < kMostShifts; ++k) count_[k] += in_row[k];
   }
+  return v;
+}
 
-  std::array<int, kPhases> next{};
+int EdgePixels::list(const TemplateView& view, const TestBand& band, int first_row) {
+  const int shifts = band.shifts();
+  const int end_row = countRows(view, shifts, first_row);
+  std::array<int, kMostShifts> next{};
   int first = 0;
-  for (std::size_t phase = 0; phase < kPhases; ++phase) {
-    first_[phase] = next[phase] = first;
-    first += padded(count_[phase]);
+  for (std::size_t k = 0; k < kMostShifts; ++k) {
+    first_[k] = next[k] = first;
+    first += padded(count_[k]);
   }
   for (int v = first_row; v < end_row; ++v) {
-    for (int word = 0; word < words; ++word) {
+    for (int word = 0; 64 * word < view.side_px; ++word) {
       for (std::uint64_t bits = edgeWord(view, v, word); bits != 0; bits &= bits - 1) {
         const int u = 64 * word + std::countr_zero(bits);
-        int& at = next[static_cast<std::size_t>(u % kPhases)];
-        offsets_[static_cast<std::size_t>(at++)] = v * band.stride() + u / kPhases;
+        int& at = next[static_cast<std::size_t>(u % shifts)];
+        offsets_[static_cast<std::size_t>(at++)] = band.offsetOf(u, v);
       }
     }
   }
-  for (std::size_t phase = 0; phase < kPhases; ++phase) {
-    for (; next[phase] < first_[phase] + padded(count_[phase]); ++next[phase]) {
-      offsets_[static_cast<std::size_t>(next[phase])] = band.zeroOffset();
+  for (std::size_t k = 0; k < kMostShifts; ++k) {
+    for (; next[k] < first_[k] + padded(count_[k]); ++next[k]) {
+      offsets_[static_cast<std::size_t>(next[k])] = band.zeroOffset();
     }
   }
   return end_row;
 }
 
-std::span<const std::int32_t> EdgePixels::offsets(int phase) const {
-  const std::size_t k = static_cast<std::size_t>(phase);
-  return offsets_.subspan(static_cast<std::size_t>(first_[k]),
-                          static_cast<std::size_t>(padded(count_[k])));
+PixelList EdgePixels::pixels(int shift) const {
+  const std::size_t k = static_cast<std::size_t>(shift);
+  return {offsets_.data() + first_[k], padded(count_[k]), planesFor(count_[k]), shift};
 }
 
 }  // namespace boresight

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <limits>
 
 #include "core/match/bit_rows.h"
 #include "core/match/template_bits.h"
@@ -19,13 +20,15 @@ constexpr int kChunk = 1020;
 // Changes of a count are 16-bit integers.
 constexpr int kMaxBorderPixels = 32767;
 constexpr int kBorderPlanes = 13;
-constexpr int kRowWords = kMaxTemplateWords + 1;  ///< a run may end at column `side`
+constexpr int kMostRowWords = kMaxTemplateWords + 1;
+/// Words of a row of the mask in which runs may begin and end (at column `side`).
+int rowWords(int side) { return side / 64 + 1; }
 
 /// Calls f(u) for every column u = 0 ... side where a row of bits differs from its left neighbour.
 template <class Function>
-void forEachChange(const std::uint64_t* bits, Function f) {
+void forEachChange(const std::uint64_t* bits, int words, Function f) {
   std::uint64_t left = 0;
-  for (int word = 0; word < kRowWords; ++word) {
+  for (int word = 0; word < words; ++word) {
     std::uint64_t change = bits[word] ^ ((bits[word] << 1) | left);
     left = bits[word] >> 63;
     for (; change != 0; change &= change - 1) f(64 * word + std::countr_zero(change));
@@ -34,9 +37,9 @@ void forEachChange(const std::uint64_t* bits, Function f) {
 
 /// Calls f(begin, end) for every run of ones.
 template <class Function>
-void forEachRun(const std::uint64_t* bits, Function f) {
+void forEachRun(const std::uint64_t* bits, int words, Function f) {
   int begin = -1;
-  forEachChange(bits, [&](int u) {
+  forEachChange(bits, words, [&](int u) {
     if (begin < 0) {
       begin = u;
     } else {
@@ -47,19 +50,21 @@ void forEachRun(const std::uint64_t* bits, Function f) {
 }
 
 void maskRow(const TemplateView& view, int v, std::uint64_t* bits) {
-  for (int word = 0; word < kRowWords; ++word) bits[word] = maskWord(view, v, word);
+  for (int word = 0; word < rowWords(view.side_px); ++word) bits[word] = maskWord(view, v, word);
 }
 
 /// Ones among pixels begin ... end - 1 of a byte-ordered row.
 int onesBetween(const std::uint8_t* row, int begin, int end) {
   int ones = 0;
   for (int word = begin >> 6; 64 * word < end; ++word) {
-    std::uint64_t bits = byteOrdered(loadWord(row + 8 * word));
+    std::uint64_t bits = byteOrdered(loadWord(row + std::ptrdiff_t{8} * word));
     bits &= sideMask(end, word) & ~sideMask(begin, word);
-    ones += std::popcount(bits);
+    ones += countOnes(bits);
   }
   return ones;
 }
+
+int padded(int count) { return (count + kGroup - 1) / kGroup * kGroup; }
 
 int padPixels(std::span<SignedPixel> pixels, int count, int zero_offset) {
   int end = count;
@@ -70,8 +75,8 @@ int padPixels(std::span<SignedPixel> pixels, int count, int zero_offset) {
 }
 
 std::span<std::uint64_t> allocatePlanes(int planes, int words, Arena& arena, CounterRow& row) {
-  const std::span<std::uint64_t> memory =
-      arena.allocate<std::uint64_t>(static_cast<std::size_t>(planes * words));
+  const std::span<std::uint64_t> memory = arena.allocate<std::uint64_t>(
+      static_cast<std::size_t>(planes) * static_cast<std::size_t>(words));
   row.words = memory.data();
   row.stride = words;
   return memory;
@@ -80,7 +85,7 @@ std::span<std::uint64_t> allocatePlanes(int planes, int words, Arena& arena, Cou
 }  // namespace
 
 void MaskCounts::create(int max_words, Arena& arena) {
-  const std::size_t offsets = static_cast<std::size_t>(kLanes * max_words);
+  const std::size_t offsets = static_cast<std::size_t>(lanesBefore(max_words));
   singles_ = arena.allocate<SignedPixel>(kMaxSingles + kGroup);
   run_ends_ = arena.allocate<SignedPixel>(kMaxRunEnds + kGroup);
   runs_ = arena.allocate<Run>(kMaxRunEnds / 2);
@@ -88,11 +93,12 @@ void MaskCounts::create(int max_words, Arena& arena) {
   allocatePlanes(kBorderPlanes, max_words, arena, single_planes_);
   allocatePlanes(kBorderPlanes, max_words, arena, run_planes_);
   differences_ = arena.allocate<std::int32_t>(offsets);
+  under_singles_ = arena.allocate<std::uint16_t>(offsets);
+  under_runs_ = arena.allocate<std::uint16_t>(offsets);
+  run_totals_ = arena.allocate<std::uint32_t>(static_cast<std::size_t>(max_words));
   counts_ = arena.allocate<std::int32_t>(offsets);
+  small_counts_ = arena.allocate<std::int16_t>(offsets);
   least_ = arena.allocate<std::int32_t>(static_cast<std::size_t>(max_words));
-  for (int x = 0; x < kLanes; ++x) {
-    offset_of_lane_[static_cast<std::size_t>(laneIndex(x))] = static_cast<std::uint16_t>(x);
-  }
 }
 
 void MaskCounts::begin(const TemplateView& view, const TestBand& band) {
@@ -104,30 +110,45 @@ void MaskCounts::begin(const TemplateView& view, const TestBand& band) {
   single_count_ = single_negatives_ = 0;
   run_end_count_ = run_end_negatives_ = run_count_ = 0;
   row_end_count_ = 0;
-  std::uint64_t above[kRowWords] = {}, below[kRowWords];
+  int mask_pixels = 0;
+  const int words = rowWords(view.side_px);
+  std::uint64_t above[kMostRowWords] = {}, below[kMostRowWords] = {};
   for (int v = 0; v <= view.side_px; ++v) {
     if (v < view.side_px) {
       maskRow(view, v, below);
-      forEachChange(below, [this](int) { ++row_end_count_; });
+      for (const std::uint64_t word : below) mask_pixels += countOnes(word);
+      forEachChange(below, words, [this](int) { ++row_end_count_; });
     } else {
       for (std::uint64_t& word : below) word = 0;
     }
     if (!too_many_borders_) listBorders(v, above, below);
-    for (int word = 0; word < kRowWords; ++word) above[word] = below[word];
+    for (int word = 0; word < words; ++word) above[word] = below[word];
   }
   padPixels(singles_, single_count_, zero_offset_);
   padPixels(run_ends_, run_end_count_, zero_offset_);
+  is_small_ = mask_pixels <= std::numeric_limits<std::int16_t>::max();
+  for (int x = 0; x < kLanes; ++x) {
+    slope_of_lane_[static_cast<std::size_t>(laneIndex(x))] =
+        static_cast<std::uint16_t>(run_end_negatives_ * x);
+  }
+  // Borders that there are none of stay zero throughout.
+  std::fill(under_singles_.begin(), under_singles_.end(), std::uint16_t{0});
+  std::fill(under_runs_.begin(), under_runs_.end(), std::uint16_t{0});
+  std::fill(run_totals_.begin(), run_totals_.end(), std::uint32_t{0});
 }
 
 /// The borders between rows v - 1 and v of the mask; both are counted at row v.
 void MaskCounts::listBorders(int v, const std::uint64_t* above, const std::uint64_t* below) {
-  std::uint64_t left[kRowWords], entered[kRowWords];
-  for (int word = 0; word < kRowWords; ++word) {
+  const int words = rowWords(view_.side_px);
+  std::uint64_t left[kMostRowWords], entered[kMostRowWords], changed = 0;
+  for (int word = 0; word < words; ++word) {
     entered[word] = above[word] & ~below[word];
     left[word] = below[word] & ~above[word];
+    changed |= entered[word] | left[word];
   }
-  forEachRun(entered, [&](int begin, int end) { addBorder(v, begin, end, 1); });
-  forEachRun(left, [&](int begin, int end) { addBorder(v, begin, end, -1); });
+  if (changed == 0) return;
+  forEachRun(entered, words, [&](int begin, int end) { addBorder(v, begin, end, 1); });
+  forEachRun(left, words, [&](int begin, int end) { addBorder(v, begin, end, -1); });
 }
 
 void MaskCounts::addBorder(int v, int begin, int end, int sign) {
@@ -166,7 +187,7 @@ int MaskCounts::runSum(const TestBand& band, const std::uint8_t* rows) const {
   int sum = 0;
   for (int k = 0; k < run_count_; ++k) {
     const Run& run = runs_[static_cast<std::size_t>(k)];
-    sum += run.sign * onesBetween(rows + band.stride() * run.v, run.begin, run.end);
+    sum += run.sign * onesBetween(rows + std::ptrdiff_t{band.stride()} * run.v, run.begin, run.end);
   }
   return sum;
 }
@@ -176,40 +197,45 @@ void MaskCounts::advanceRow(const TestBand& band, const std::uint8_t* rows, int 
     computeRow(band, rows + band.stride(), words);
     return;
   }
-  single_planes_.plane_count = planesFor(single_count_);
-  run_planes_.plane_count = planesFor(run_end_count_);
-  const int singles = (single_count_ + kGroup - 1) / kGroup * kGroup;
-  const int ends = (run_end_count_ + kGroup - 1) / kGroup * kGroup;
-  countSignedPixels(rows, singles_.data(), singles, words, single_planes_);
-  countSignedPixels(rows, run_ends_.data(), ends, words, run_planes_);
+  if (single_count_ > 0) {
+    single_planes_.plane_count = planesFor(single_count_);
+    countSignedPixels(rows, singles_.data(), padded(single_count_), words, single_planes_);
+    planesToLanes(single_planes_, words, under_singles_.data());
+  }
+  if (run_end_count_ > 0) {
+    run_planes_.plane_count = planesFor(run_end_count_);
+    countSignedPixels(rows, run_ends_.data(), padded(run_end_count_), words, run_planes_);
+    planesToPrefixSums(run_planes_, words, under_runs_.data(), run_totals_.data());
+  }
   int run_sum = runSum(band, rows);
   for (int word = 0; word < words; ++word) {
-    std::uint16_t under_singles[kLanes] = {}, under_runs[kLanes] = {};
-    std::uint32_t change = 0;
-    if (single_count_ > 0) planesToLanes(single_planes_, word, under_singles);
-    if (run_end_count_ > 0) change = planesToPrefixSums(run_planes_, word, under_runs);
-    // All modulo 2^16; the change itself lies within +-kMaxBorderPixels.
-    const std::uint32_t constant =
-        static_cast<std::uint32_t>(run_sum) - static_cast<std::uint32_t>(single_negatives_);
-    const std::uint32_t slope = static_cast<std::uint32_t>(run_end_negatives_);
-    std::int32_t* counts = counts_.data() + kLanes * word;
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      const std::uint32_t sum =
-          constant + under_singles[i] + under_runs[i] - slope * offset_of_lane_[i];
-      counts[i] += static_cast<std::int16_t>(static_cast<std::uint16_t>(sum));
+    const std::uint16_t* singles = under_singles_.data() + lanesBefore(word);
+    const std::uint16_t* runs = under_runs_.data() + lanesBefore(word);
+    const std::uint16_t constant = static_cast<std::uint16_t>(run_sum - single_negatives_);
+    if (is_small_) {
+      applyChanges(word, singles, runs, constant, small_counts_.data() + lanesBefore(word));
+    } else {
+      applyChanges(word, singles, runs, constant, counts_.data() + lanesBefore(word));
     }
-    run_sum += static_cast<int>(change) - kLanes * run_end_negatives_;
+    run_sum +=
+        static_cast<int>(run_totals_[static_cast<std::size_t>(word)]) - kLanes * run_end_negatives_;
   }
-  updateLeast(words);
 }
 
-void MaskCounts::updateLeast(int words) {
-  for (int word = 0; word < words; ++word) {
-    const std::int32_t* counts = counts_.data() + kLanes * word;
-    std::int32_t least = counts[0];
-    for (int i = 1; i < kLanes; ++i) least = std::min(least, counts[i]);
-    least_[static_cast<std::size_t>(word)] = least;
+/// counts[x] += constant + singles[x] + runs[x] - slope x, all modulo 2^16: the change lies within
+/// +-kMaxBorderPixels.
+template <class Count>
+void MaskCounts::applyChanges(int word, const std::uint16_t* singles, const std::uint16_t* runs,
+                              std::uint16_t constant, Count* counts) {
+  Count least = std::numeric_limits<Count>::max();
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const std::uint16_t change =
+        static_cast<std::uint16_t>(constant + singles[i] + runs[i] - slope_of_lane_[i]);
+    const Count count = static_cast<Count>(counts[i] + static_cast<std::int16_t>(change));
+    counts[i] = count;
+    least = std::min(least, count);
   }
+  least_[static_cast<std::size_t>(word)] = least;
 }
 
 /// Adds the chunk of run ends to the differences between neighbouring offsets and empties it.
@@ -217,11 +243,9 @@ void MaskCounts::addRunEnds(const std::uint8_t* rows, int words) {
   const int count = padPixels(chunk_, chunk_count_, zero_offset_);
   run_planes_.plane_count = planesFor(chunk_count_);
   countSignedPixels(rows, chunk_.data(), count, words, run_planes_);
-  for (int word = 0; word < words; ++word) {
-    std::uint16_t lanes[kLanes];
-    planesToLanes(run_planes_, word, lanes);
-    std::int32_t* differences = differences_.data() + kLanes * word;
-    for (int i = 0; i < kLanes; ++i) differences[i] += lanes[i] - chunk_negatives_;
+  planesToLanes(run_planes_, words, under_runs_.data());
+  for (std::size_t i = 0; i < static_cast<std::size_t>(lanesBefore(words)); ++i) {
+    differences_[i] += under_runs_[i] - chunk_negatives_;
   }
   chunk_count_ = chunk_negatives_ = 0;
 }
@@ -231,10 +255,10 @@ void MaskCounts::computeRow(const TestBand& band, const std::uint8_t* rows, int 
   chunk_count_ = chunk_negatives_ = 0;
   std::int32_t count = 0;
   for (int v = 0; v < view_.side_px; ++v) {
-    std::uint64_t mask[kRowWords];
+    std::uint64_t mask[kMostRowWords];
     maskRow(view_, v, mask);
     const int row_offset = v * band.stride();
-    forEachRun(mask, [&](int begin, int end) {
+    forEachRun(mask, rowWords(view_.side_px), [&](int begin, int end) {
       count += onesBetween(rows + row_offset, begin, end);
       if (chunk_count_ + 2 > kChunk) addRunEnds(rows, words);
       chunk_[static_cast<std::size_t>(chunk_count_++)] =
@@ -245,12 +269,21 @@ void MaskCounts::computeRow(const TestBand& band, const std::uint8_t* rows, int 
     });
   }
   addRunEnds(rows, words);
-  for (int x = 0; x < kLanes * words; ++x) {
-    const std::size_t at = static_cast<std::size_t>((x & ~(kLanes - 1)) + laneIndex(x & 63));
-    counts_[at] = count;
-    count += differences_[at];
+  std::fill(under_runs_.begin(), under_runs_.end(), std::uint16_t{0});  // borrowed by addRunEnds
+  for (int word = 0; word < words; ++word) {
+    std::int32_t least = count;
+    for (int bit = 0; bit < kLanes; ++bit) {
+      const std::size_t at = static_cast<std::size_t>(lanesBefore(word) + laneIndex(bit));
+      if (is_small_) {
+        small_counts_[at] = static_cast<std::int16_t>(count);
+      } else {
+        counts_[at] = count;
+      }
+      least = std::min(least, count);
+      count += differences_[at];
+    }
+    least_[static_cast<std::size_t>(word)] = least;
   }
-  updateLeast(words);
 }
 
 }  // namespace boresight

@@ -30,7 +30,8 @@ class MaskCounts {
   void advanceRow(const TestBand& band, const std::uint8_t* rows, int words);
 
   std::int32_t count(int word, int bit) const {
-    return counts_[static_cast<std::size_t>(kLanes * word + laneIndex(bit))];
+    const std::size_t at = static_cast<std::size_t>(lanesBefore(word) + laneIndex(bit));
+    return is_small_ ? small_counts_[at] : counts_[at];
   }
   /// Least count of a word's 64 offsets.
   std::int32_t least(int word) const { return least_[static_cast<std::size_t>(word)]; }
@@ -46,7 +47,9 @@ class MaskCounts {
   void addBorder(int v, int begin, int end, int sign);
   int runSum(const TestBand& band, const std::uint8_t* rows) const;
   void addRunEnds(const std::uint8_t* rows, int words);
-  void updateLeast(int words);
+  template <class Count>
+  void applyChanges(int word, const std::uint16_t* singles, const std::uint16_t* runs,
+                    std::uint16_t constant, Count* counts);
 
   TemplateView view_;
   int stride_ = 0, zero_offset_ = 0;
@@ -65,9 +68,14 @@ class MaskCounts {
   int chunk_count_ = 0, chunk_negatives_ = 0;
   CounterRow single_planes_, run_planes_;
   std::span<std::int32_t> differences_;
-  std::span<std::int32_t> counts_;  ///< in lane order, 64 a word
+  std::span<std::uint16_t> under_singles_, under_runs_;
+  std::span<std::uint32_t> run_totals_;
+  /// In lane order, 64 a word; in 16 bits where the mask's size allows, which is twice as fast.
+  std::span<std::int32_t> counts_;
+  std::span<std::int16_t> small_counts_;
+  bool is_small_ = false;
   std::span<std::int32_t> least_;
-  std::array<std::uint16_t, kLanes> offset_of_lane_{};
+  std::array<std::uint16_t, kLanes> slope_of_lane_{};  ///< run_end_negatives_ * x, modulo 2^16
 };
 
 }  // namespace boresight

@@ -38,7 +38,7 @@ void PeakTable::begin(const SearchWindow& window, const WhsNorms& norms, int pre
   blocks_x_ = blocksFor(window.width());
   blocks_y_ = blocksFor(window.height());
   std::fill_n(blocks_.begin(), blocks_x_ * blocks_y_, std::uint64_t{0});
-  best_ = far_ = Offset{};
+  best_ = Offset{};
   bound_ = 0;
 }
 
@@ -98,7 +98,7 @@ void PeakTable::offer(int x, int y, std::int32_t hits, std::int32_t covered) {
   const Offset offset{x, y, hits, covered, value(hits, covered)};
   if (offset.value < bound_) return;
   const int block_x = x / kBlock, block_y = y / kBlock;
-  std::uint64_t& block = blocks_[static_cast<std::size_t>(block_y * blocks_x_ + block_x)];
+  std::uint64_t& block = blocks_[blockIndex(block_x, block_y)];
   if (block != 0 && !isBetter(offset, unpack(block_x, block_y, block))) return;
   const int place = y % kBlock * kBlock + x % kBlock;
   block = static_cast<std::uint64_t>(hits) | (static_cast<std::uint64_t>(covered) << kCountBits) |
@@ -111,17 +111,11 @@ void PeakTable::updateBound(const Offset& offset) {
     best_ = offset;
     return;
   }
-  if (isBetter(offset, best_)) {
-    if (farApart(best_, offset)) {
-      far_ = best_;
-    } else if (far_.value >= 0 && !farApart(far_, offset)) {
-      far_ = Offset{};
-    }
-    best_ = offset;
-  } else if (farApart(offset, best_) && (far_.value < 0 || isBetter(offset, far_))) {
-    far_ = offset;
+  const bool is_best = isBetter(offset, best_);
+  if (farApart(offset, best_)) {
+    bound_ = std::max(bound_, is_best ? best_.value : offset.value);
   }
-  bound_ = std::max(bound_, far_.value);
+  if (is_best) best_ = offset;
 }
 
 WhsPeak PeakTable::finish() const {
@@ -135,7 +129,7 @@ WhsPeak PeakTable::finish() const {
   Offset second;
   for (int block_y = 0; block_y < blocks_y_; ++block_y) {
     for (int block_x = 0; block_x < blocks_x_; ++block_x) {
-      const std::uint64_t block = blocks_[static_cast<std::size_t>(block_y * blocks_x_ + block_x)];
+      const std::uint64_t block = blocks_[blockIndex(block_x, block_y)];
       if (block == 0) continue;
       const Offset offset = unpack(block_x, block_y, block);
       if (touchesExclusion(offset, best_)) continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -39,6 +40,10 @@ class PeakTable {
     std::int32_t hits = 0, covered = 0;
     std::int64_t value = -1;
   };
+  std::size_t blockIndex(int block_x, int block_y) const {
+    return static_cast<std::size_t>(block_y) * static_cast<std::size_t>(blocks_x_) +
+           static_cast<std::size_t>(block_x);
+  }
   std::int64_t value(std::int32_t hits, std::int32_t covered) const;
   std::int64_t squaredDistance(const Offset& offset) const;
   bool isBetter(const Offset& a, const Offset& b) const;
@@ -57,8 +62,7 @@ class PeakTable {
   /// Per block hits + 2^19 covered + 2^38 place within the block + 2^44, or 0 when empty.
   std::span<std::uint64_t> blocks_;
   Offset best_;
-  Offset far_;  ///< the best seen far from the best (not always the very best: a bound needs less)
-  std::int64_t bound_ = 0;
+  std::int64_t bound_ = 0;  ///< the lower value of the best two seen so far apart
 };
 
 }  // namespace boresight

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -10,29 +11,46 @@
 namespace boresight {
 
 /// The rows of test edges that a band of offsets looks at, copied so that the first offset's column
-/// is bit 0, rows are byte ordered (see byteOrdered) and reading beyond a row's end finds zeros.
-/// Small enough to stay in the first-level cache for usual templates.
+/// is bit 0, rows are byte ordered (see byteOrdered) and reading beyond a row's end is harmless.
+/// Small bands are held in two or four copies, each shifted by some more bits, so that fewer pixels
+/// need a shift of their own; all of it is to stay in the first-level cache.
 class TestBand {
  public:
-  static constexpr int kOffsetRows = 32;  ///< rows of offsets a band serves
+  static constexpr int kMostCopies = 4;
 
   /// Takes the memory for templates of up to `max_side` px and `max_words` words of offsets a row.
   void create(int max_side, int max_words, Arena& arena);
   /// Sets the layout: a row holds `side` + 64 * `words` pixels and slack.
   void shape(int side, int words);
-  /// Copies rows y ... y + side + kOffsetRows - 1 from column x on; rows below the image are zero.
+  /// Rows of offsets that a band serves: row k looks at rows k ... k + side of the band.
+  int offsetRows() const { return offset_rows_; }
+  /// Copies the rows from (x, y) on; rows below the image are zero.
   void load(const BitImage& test_edges, int x, int y);
 
   /// First byte of row `row` of the band.
-  const std::uint8_t* row(int row) const { return bytes_.data() + stride_ * row; }
+  const std::uint8_t* row(int row) const { return bytes_.data() + std::ptrdiff_t{stride_} * row; }
   int stride() const { return stride_; }
-  /// Byte offset, relative to any row of offsets, of zeros to pad lists of pixels with.
-  int zeroOffset() const { return stride_ * (side_ + kOffsetRows); }
+
+  /// Pixels with the same shift can be counted together: there are this many different shifts.
+  int shifts() const { return 8 / copies_; }
+  /// Bytes from a row of offsets to the row of pixel (u, v), which begins there but for a shift to
+  /// the right by u % shifts().
+  int offsetOf(int u, int v) const {
+    return (u % 8) / shifts() * copy_bytes_ + v * stride_ + u / 8;
+  }
+  /// The same for zeros to pad lists of pixels with.
+  int zeroOffset() const { return copies_ * copy_bytes_; }
 
  private:
+  void storeRow(const std::uint64_t* pixels, std::uint8_t* to) const;
+
   std::span<std::uint8_t> bytes_;
   int stride_ = 0;
   int side_ = 0;
+  int words_ = 0;
+  int offset_rows_ = 0;
+  int copies_ = 1;
+  int copy_bytes_ = 0;
 };
 
 }  // namespace boresight

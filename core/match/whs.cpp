@@ -2,7 +2,6 @@
 #include "core/match/whs.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 
 #include "core/match/bit_rows.h"
@@ -63,8 +62,8 @@ WhsNorms whsNorms(const TemplateView& view) {
     for (int word = 0; 64 * word < view.side_px; ++word) {
       const std::uint64_t mask = maskWord(view, v, word);
       const std::uint64_t edges = edgeWord(view, v, word);
-      norms.edges += std::popcount(edges);
-      norms.empties += std::popcount(mask & ~edges);
+      norms.edges += countOnes(edges);
+      norms.empties += countOnes(mask & ~edges);
     }
   }
   return norms;
@@ -80,8 +79,8 @@ WhsCounts whsCountsAt(const TemplateView& view, const BitImage& test_edges, int 
       if (mask == 0) continue;
       const std::uint64_t edges = edgeWord(view, v, word);
       const std::uint64_t test = pixelsAt(test_edges, x - half + 64 * word, y - half + v);
-      counts.edge_hits += std::popcount(edges & test);
-      counts.empty_hits += std::popcount(mask & ~edges & ~test);
+      counts.edge_hits += countOnes(edges & test);
+      counts.empty_hits += countOnes(mask & ~edges & ~test);
     }
   }
   return counts;

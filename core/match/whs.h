@@ -30,14 +30,18 @@ WhsCounts whsCountsAt(const TemplateView& view, const BitImage& test_edges, int 
 /// predicted place (the template's own centre, or as given), then to raster order. The second best
 /// is the best among the 8x8 blocks of offsets (aligned to the window's corner) that do not touch
 /// the square of half-side `exclusion_px` around the best. Bit-sliced carry-save counters add the
-/// shifted rows of test edges for 64 offsets at once; the mask term comes from run borders. Scratch
-/// is taken once.
+/// shifted rows of test edges for 64 offsets at once (EdgePixels, bit_counters.h), the mask term
+/// follows the mask's borders from row to row (MaskCounts), and only offsets that may still matter
+/// are turned into integers (PeakTable). Scratch is taken once.
 class WhsSearch {
  public:
   /// `max_side_px` and `max_window_px` (largest extent of a window along an axis) bound every
   /// search.
   Status create(int max_side_px, int max_window_px, Arena& arena);
-  /// The window must be clipped so that the whole template lies inside `test_edges`.
+  /// The window must be clipped so that the whole template lies inside `test_edges`. The images
+  /// must outlive the steps. kInvalidOption for a template or window that does not fit its image,
+  /// an odd side or a negative exclusion, kCapacityExceeded beyond what create() was given; then
+  /// step() has nothing to do.
   Status begin(const TemplateView& view, const BitImage& test_edges, const SearchWindow& window,
                int predicted_x, int predicted_y, int exclusion_px);
   /// One bounded slice (some rows of offsets); true when `peak()` is complete.

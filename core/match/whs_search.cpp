@@ -9,8 +9,8 @@
 namespace boresight {
 namespace {
 
-// A tile of kTileWords words of edge counters. The sums of a phase are shifted by up to seven bits
-// into place, so a tile has eight offsets less than they have bits.
+// A tile has eight offsets less than counters, as the last seven are not whole, and blocks of the
+// peak table do not straddle tiles.
 constexpr int kTileWords = 10;
 constexpr int kTileOffsets = 64 * kTileWords - 8;
 constexpr int kEdgeCapacity = 6144;
@@ -22,10 +22,8 @@ constexpr int kMaxExclusion_px = 8192;
 
 int wordsFor(int bits) { return (bits + 63) / 64; }
 
-void allocatePlanes(Arena& arena, int words, CounterRow& row) {
-  row.stride = words;
-  row.words = arena.allocate<std::uint64_t>(static_cast<std::size_t>(kMaxPlanes * words)).data();
-}
+/// Words of edge counters for a row of offsets: the last 7 counters of addPixels are not whole.
+int edgeWords(int offsets) { return wordsFor(offsets + 7); }
 
 /// Bit x is 1 where the counter x of a word of planes is at least `least`.
 std::uint64_t atLeast(const CounterRow& counters, int word, std::int32_t least) {
@@ -55,13 +53,14 @@ Status WhsSearch::create(int max_side_px, int max_window_px, Arena& arena) {
   }
   max_side_px_ = max_side_px;
   max_window_px_ = max_window_px;
-  const int words = wordsFor(std::min(max_window_px, kTileOffsets) + EdgePixels::kPhases - 1);
+  const int words = edgeWords(std::min(max_window_px, kTileOffsets));
   edges_.create(kEdgeCapacity, arena);
   covered_.create(words, arena);
   peaks_.create(max_window_px, arena);
   band_.create(max_side_px, words, arena);
-  allocatePlanes(arena, words + 1, phase_);
-  allocatePlanes(arena, words + 1, hits_);
+  hits_.stride = words + kWordPadding;
+  hits_.words =
+      arena.allocate<std::uint64_t>(kMaxPlanes * static_cast<std::size_t>(hits_.stride)).data();
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 
@@ -94,7 +93,7 @@ void WhsSearch::beginTile() {
   tile_width_ = std::min(window_.width() - tile_x_, kTileOffsets);
   row_ = 0;
   // The layout, and with it all byte offsets, follows the width of the tile.
-  band_.shape(view_.side_px, wordsFor(tile_width_ + EdgePixels::kPhases - 1));
+  band_.shape(view_.side_px, edgeWords(tile_width_));
   edges_are_listed_ = edges_.list(view_, band_, 0) == view_.side_px;
   covered_.begin(view_, band_);
 }
@@ -117,7 +116,7 @@ bool WhsSearch::step() {
 void WhsSearch::beginRow() {
   const int half = view_.side_px / 2;
   const int words = wordsFor(tile_width_);
-  const int row_in_band = row_ % TestBand::kOffsetRows;
+  const int row_in_band = row_ % band_.offsetRows();
   if (row_in_band == 0) {
     band_.load(*test_edges_, window_.x_min - half + tile_x_, window_.y_min - half + row_);
   }
@@ -127,7 +126,7 @@ void WhsSearch::beginRow() {
 /// To the next row of offsets or the next tile; false after the last.
 bool WhsSearch::nextRow() {
   if (row_ + 1 < window_.height()) {
-    covered_.advanceRow(band_, band_.row(row_ % TestBand::kOffsetRows), wordsFor(tile_width_));
+    covered_.advanceRow(band_, band_.row(row_ % band_.offsetRows()), wordsFor(tile_width_));
     ++row_;
     return true;
   }
@@ -138,20 +137,16 @@ bool WhsSearch::nextRow() {
 }
 
 void WhsSearch::countEdges() {
-  const int words = wordsFor(tile_width_);
-  const int phase_words = wordsFor(tile_width_ + EdgePixels::kPhases - 1);
-  const std::uint8_t* rows = band_.row(row_ % TestBand::kOffsetRows);
+  const int words = edgeWords(tile_width_);
+  const std::uint8_t* rows = band_.row(row_ % band_.offsetRows());
   hits_.plane_count = planesFor(norms_.edges);
   for (int k = 0; k < hits_.plane_count; ++k) std::fill_n(hits_.plane(k), words, std::uint64_t{0});
   int v = 0;
   do {
     v = edges_are_listed_ ? view_.side_px : edges_.list(view_, band_, v);
-    for (int phase = 0; phase < EdgePixels::kPhases; ++phase) {
-      if (edges_.count(phase) == 0) continue;
-      const std::span<const std::int32_t> offsets = edges_.offsets(phase);
-      phase_.plane_count = planesFor(edges_.count(phase));
-      countPixels(rows, offsets.data(), static_cast<int>(offsets.size()), phase_words, phase_);
-      addShifted(phase_, phase, words, hits_);
+    for (int shift = 0; shift < band_.shifts(); ++shift) {
+      const PixelList pixels = edges_.pixels(shift);
+      if (pixels.count > 0) addPixels(rows, pixels, words, hits_);
     }
   } while (v < view_.side_px);
 }
@@ -167,9 +162,9 @@ void WhsSearch::searchRow() {
 
 void WhsSearch::searchWord(int word, std::uint64_t candidates) {
   constexpr int kFew = 6;  // transposing all 64 counters costs as much as reading out some
-  const bool transpose = hits_.plane_count <= 16 && std::popcount(candidates) > kFew;
+  const bool transpose = hits_.plane_count <= 16 && countOnes(candidates) > kFew;
   std::uint16_t lanes[kLanes];
-  if (transpose) planesToLanes(hits_, word, lanes);
+  if (transpose) wordToLanes(hits_, word, lanes);
   const int x = tile_x_ + 64 * word;
   for (; candidates != 0; candidates &= candidates - 1) {
     const int bit = std::countr_zero(candidates);

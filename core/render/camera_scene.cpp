@@ -11,6 +11,9 @@
 namespace boresight {
 namespace {
 
+/// Faces that turn by more than 45 deg are compared pixel by pixel whatever the thresholds.
+constexpr double kSharpestSmooth = 0.7071;
+
 /// Bounds of a face that crosses the near plane or leaves the region where projection is well
 /// behaved: what is left of it beyond the near plane has a bounding box in (x/z, y/z).
 PixelBounds clippedBounds(const CameraScene& scene, const RayGrid& rays, std::int32_t face) {
@@ -57,12 +60,57 @@ Status CameraScene::create(const MeshView& mesh, const MeshAdjacency& adjacency,
   scene.vertex_in_camera_m = arena.allocate<Eigen::Vector3d>(mesh.vertices_in_station_m.size());
   scene.vertex_px = arena.allocate<Pixel>(mesh.vertices_in_station_m.size());
   scene.cos_normal_threshold = arena.allocate<double>(mesh.parts.size());
+  scene.face_flags = arena.allocate<std::uint8_t>(mesh.faces.size());
   if (arena.countsOnly()) return Status::kOk;
   if (arena.exhausted()) return Status::kArenaTooSmall;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i)
     scene.cos_normal_threshold[i] =
         cosine(std::clamp(mesh.parts[i].normal_threshold_rad, 0.0, kPi));
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) scene.face_flags[i] = scene.smoothEdges(i);
   return Status::kOk;
+}
+
+/// Outer normal of a face in the station frame, not of unit length.
+Eigen::Vector3d CameraScene::outerNormal(std::size_t face) const {
+  Eigen::Vector3d corner[3];
+  for (std::size_t i = 0; i < 3; ++i)
+    corner[i] = mesh.vertices_in_station_m[static_cast<std::size_t>(mesh.faces[face].vertex[i])]
+                    .cast<double>();
+  return crossProduct(corner[1] - corner[0], corner[2] - corner[0]);
+}
+
+std::uint8_t CameraScene::smoothEdges(std::size_t face) const {
+  std::uint8_t flags = 0;
+  const Face& here = mesh.faces[face];
+  const Eigen::Vector3d normal = outerNormal(face);
+  const double length2 = dotProduct(normal, normal);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int32_t beyond = adjacency.neighbour[face][i];
+    if (beyond < 0) continue;
+    const auto other = static_cast<std::size_t>(beyond);
+    const Face& there = mesh.faces[other];
+    bool alike = false;  // the other runs along the common edge the other way
+    for (std::size_t k = 0; k < 3; ++k)
+      alike = alike || (there.vertex[k] == here.vertex[(i + 1) % 3] &&
+                        there.vertex[(k + 1) % 3] == here.vertex[i]);
+    const Eigen::Vector3d other_normal = outerNormal(other);
+    const double cosine_here = cos_normal_threshold[mesh.part_of_face[face]];
+    const double cosine_there = cos_normal_threshold[mesh.part_of_face[other]];
+    const double dot = dotProduct(normal, other_normal);
+    const double lengths = std::sqrt(length2 * dotProduct(other_normal, other_normal));
+    if (alike && lengths > 0.0 &&
+        dot > std::max(std::max(cosine_here, cosine_there), kSharpestSmooth) * lengths)
+      flags = static_cast<std::uint8_t>(flags | (1U << i));
+  }
+  return flags;
+}
+
+void CameraScene::orient(std::int32_t face) {
+  const Eigen::Vector3d& v0 = vertex(face, 0);
+  const Eigen::Vector3d normal = crossProduct(vertex(face, 1) - v0, vertex(face, 2) - v0);
+  std::uint8_t& flags = face_flags[static_cast<std::size_t>(face)];
+  flags = static_cast<std::uint8_t>(flags & ~kFrontFacing);
+  if (dotProduct(normal, v0) < 0.0) flags = static_cast<std::uint8_t>(flags | kFrontFacing);
 }
 
 void CameraScene::transform(const Pose& camera_from_station, const RayGrid& rays, std::size_t first,

@@ -30,6 +30,10 @@ struct CameraScene {
   std::span<Eigen::Vector3d> vertex_in_camera_m;
   std::span<Pixel> vertex_px;
   std::span<double> cos_normal_threshold;  ///< per part
+  /// Per face: bit i when the surface goes on smoothly over edge i to a face oriented alike;
+  /// kFrontFacing when the outer side is seen from this pose.
+  std::span<std::uint8_t> face_flags;
+  static constexpr std::uint8_t kFrontFacing = 8;
 
   /// The mesh and its adjacency must outlive the scene.
   static Status create(const MeshView& mesh, const MeshAdjacency& adjacency, double near_plane_m,
@@ -38,6 +42,19 @@ struct CameraScene {
   /// Vertices first .. last - 1 into the camera frame.
   void transform(const Pose& camera_from_station, const RayGrid& rays, std::size_t first,
                  std::size_t last);
+
+  /// Sets a face's kFrontFacing.
+  void orient(std::int32_t face);
+
+  /// True when two faces share an edge over which the surface goes on smoothly, and show the same
+  /// side: where they meet there is no edge to be found.
+  bool continues(std::int32_t face, std::int32_t other) const {
+    const auto& around = adjacency.neighbour[static_cast<std::size_t>(face)];
+    const std::uint8_t flags = face_flags[static_cast<std::size_t>(face)];
+    if (((flags ^ face_flags[static_cast<std::size_t>(other)]) & kFrontFacing) != 0) return false;
+    return (around[0] == other && (flags & 1) != 0) || (around[1] == other && (flags & 2) != 0) ||
+           (around[2] == other && (flags & 4) != 0);
+  }
 
   const Eigen::Vector3d& vertex(std::int32_t face, int corner) const {
     const Face& indices = mesh.faces[static_cast<std::size_t>(face)];
@@ -48,6 +65,10 @@ struct CameraScene {
   std::size_t partIndex(std::int32_t face) const {
     return mesh.part_of_face[static_cast<std::size_t>(face)];
   }
+
+ private:
+  Eigen::Vector3d outerNormal(std::size_t face) const;
+  std::uint8_t smoothEdges(std::size_t face) const;
 };
 
 /// a x b, each component a difference of two products: cross(a, b) == -cross(b, a) bit for bit,

@@ -181,6 +181,7 @@ Status EdgeRenderer::step(bool& done) {
 void EdgeRenderer::bin(std::int32_t face) {
   const PixelBounds bounds = faceBounds(scene_, *rays_, face);
   if (bounds.empty()) return;
+  scene_.orient(face);
   const Columns columns{static_cast<std::int16_t>(bounds.x_first),
                         static_cast<std::int16_t>(bounds.x_last)};
   const int first_band = bounds.y_first / band_rows_;

@@ -152,9 +152,8 @@ class FaceDrawer {
   }
 
   void drawWide(int x_first, int x_last, int row_first, int row_last) const {
-    const bool reject = x_last - x_first >= kChunk_px;
     for (int x = x_first; x <= x_last; x += kChunk_px)
-      drawChunk(x, std::min(x + kChunk_px - 1, x_last), row_first, row_last, reject);
+      drawChunk(x, std::min(x + kChunk_px - 1, x_last), row_first, row_last);
   }
 
  private:
@@ -223,29 +222,37 @@ class FaceDrawer {
     drawTested(row, span.certain_last + 1, span.possible_last);
   }
 
-  void drawChunk(int x_first, int x_last, int row_first, int row_last, bool reject) const {
-    bool inside[3] = {false, false, false};
-    if (reject) {
-      const RowOfFace<kLevel> top(drawn_, band_, row_first);
-      const RowOfFace<kLevel> bottom(drawn_, band_, row_last);
-      for (int i = 0; i < 3; ++i) {
-        const double e00 = top.edge(drawn_, i, x_first);
-        const double e10 = top.edge(drawn_, i, x_last);
-        const double e01 = bottom.edge(drawn_, i, x_first);
-        const double e11 = bottom.edge(drawn_, i, x_last);
-        const double slack = 2.0 * drawn_.slack[i];
-        if (std::max(std::max(e00, e10), std::max(e01, e11)) < -slack) return;
-        inside[i] = std::min(std::min(e00, e10), std::min(e01, e11)) > slack;
-      }
+  /// The edges' values at both ends of the rows are linear from the first row to the last, within
+  /// the slack.
+  void drawChunk(int x_first, int x_last, int row_first, int row_last) const {
+    const RowOfFace<kLevel> top(drawn_, band_, row_first);
+    const RowOfFace<kLevel> bottom(drawn_, band_, row_last);
+    const double per_row = row_last > row_first ? 1.0 / (row_last - row_first) : 0.0;
+    struct Cut {
+      double left, right, left_step, right_step, slack;
+    };
+    Cut cuts[3];
+    int cut_count = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double e00 = top.edge(drawn_, i, x_first);
+      const double e10 = top.edge(drawn_, i, x_last);
+      const double e01 = bottom.edge(drawn_, i, x_first);
+      const double e11 = bottom.edge(drawn_, i, x_last);
+      const double slack = drawn_.slack[i];
+      if (std::max(std::max(e00, e10), std::max(e01, e11)) < -slack) return;
+      if (std::min(std::min(e00, e10), std::min(e01, e11)) > slack) continue;
+      cuts[cut_count++] = {e00, e10, (e01 - e00) * per_row, (e11 - e10) * per_row, slack};
     }
     for (int y = row_first; y <= row_last; ++y) {
-      const RowOfFace<kLevel> row(drawn_, band_, y);
       Span span{x_first, x_last, x_first, x_last};
-      for (int i = 0; i < 3; ++i)
-        if (!inside[i])
-          cutSpan(row.edge(drawn_, i, x_first), row.edge(drawn_, i, x_last), drawn_.slack[i],
-                  x_first, x_last, span);
-      drawSpan(row, span);
+      for (int i = 0; i < cut_count; ++i) {
+        Cut& cut = cuts[i];
+        cutSpan(cut.left, cut.right, cut.slack, x_first, x_last, span);
+        cut.left += cut.left_step;
+        cut.right += cut.right_step;
+      }
+      if (span.possible_last >= span.possible_first)
+        drawSpan(RowOfFace<kLevel>(drawn_, band_, y), span);
     }
   }
 
@@ -253,8 +260,8 @@ class FaceDrawer {
   RasterBand& band_;
 };
 
-/// How far the edges' values may be from linear: rays differ from linear by at most bend L^2 / 8
-/// along L pixels; the rest is rounding.
+/// How far the edges' values may be from linear within a chunk: rays differ from linear by at most
+/// bend L^2 / 8 along L pixels; the rest is rounding.
 void setSlack(const RayGrid& rays, const RasterBand& band, int x_first, int x_last, int row_first,
               int row_last, DrawnFace& drawn) {
   const int length = std::min(x_last - x_first + 1, kChunk_px);
@@ -264,8 +271,8 @@ void setSlack(const RayGrid& rays, const RasterBand& band, int x_first, int x_la
                                 std::abs(band.ray_x[band.index(x_last, row_first)])) +
                        std::abs(band.ray_y[band.index(x_first, row_first)]) + 1.0;
   for (int i = 0; i < 3; ++i)
-    drawn.slack[i] = (std::abs(drawn.a[i]) + std::abs(drawn.b[i])) * (bend + 1e-14 * reach) +
-                     std::abs(drawn.c[i]) * 1e-14;
+    drawn.slack[i] = (std::abs(drawn.a[i]) + std::abs(drawn.b[i])) * (bend + 4e-14 * reach) +
+                     std::abs(drawn.c[i]) * 4e-14;
 }
 
 template <bool kLevel, bool kClamped>

@@ -21,20 +21,23 @@ constexpr double kGrazing = 0.15;
 /// Pixels that are looked at together; a run does not straddle the words of a bit image.
 constexpr int kRun_px = 8;
 
-/// One bit for each of up to eight pixels whose faces in `a` and `b` differ. Most runs show the
-/// same ones, which is seen two at a time.
+/// One bit for each of up to eight pixels whose faces in `a` and `b` differ: most do not, which is
+/// seen two at a time.
 unsigned differingFaces(const std::int32_t* a, const std::int32_t* b, int count) {
-  if (count == kRun_px) {
-    std::uint64_t pairs_a[kRun_px / 2];
-    std::uint64_t pairs_b[kRun_px / 2];
-    std::memcpy(pairs_a, a, sizeof(pairs_a));
-    std::memcpy(pairs_b, b, sizeof(pairs_b));
-    if (((pairs_a[0] ^ pairs_b[0]) | (pairs_a[1] ^ pairs_b[1]) | (pairs_a[2] ^ pairs_b[2]) |
-         (pairs_a[3] ^ pairs_b[3])) == 0)
-      return 0;
-  }
   unsigned differing = 0;
-  for (int i = 0; i < count; ++i) differing |= static_cast<unsigned>(a[i] != b[i]) << i;
+  if (count < kRun_px) {
+    for (int i = 0; i < count; ++i) differing |= static_cast<unsigned>(a[i] != b[i]) << i;
+    return differing;
+  }
+  std::uint64_t pairs_a[kRun_px / 2];
+  std::uint64_t pairs_b[kRun_px / 2];
+  std::memcpy(pairs_a, a, sizeof(pairs_a));
+  std::memcpy(pairs_b, b, sizeof(pairs_b));
+  for (int i = 0; i < kRun_px / 2; ++i) {
+    if (pairs_a[i] == pairs_b[i]) continue;
+    differing |= static_cast<unsigned>(a[2 * i] != b[2 * i]) << (2 * i);
+    differing |= static_cast<unsigned>(a[2 * i + 1] != b[2 * i + 1]) << (2 * i + 1);
+  }
   return differing;
 }
 
@@ -196,7 +199,6 @@ bool SalientEdges::crossOverlap(const Context& context, const Sample& p, const S
   return true;
 }
 
-/// The pairs that most boundaries between faces give, faces of one smooth surface, end here.
 bool SalientEdges::surfacesDiffer(const Context& context, std::size_t p, std::size_t q,
                                   Difference& difference) {
   const CameraScene& scene = context.scene;
@@ -227,7 +229,8 @@ void SalientEdges::comparePair(const Context& context, int x_p, int row_p, int x
   const bool border = face_p < 0 || face_q < 0;
   Difference difference;
   if (border ? face_p == RasterBand::kInvalid || face_q == RasterBand::kInvalid
-             : !surfacesDiffer(context, at_p, at_q, difference))
+             : context.scene.continues(face_p, face_q) ||
+                   !surfacesDiffer(context, at_p, at_q, difference))
     return;
   const Sample p{x_p, row_p, face_p, band.ray(x_p, row_p)};
   const Sample q{x_q, row_q, face_q, band.ray(x_q, row_q)};

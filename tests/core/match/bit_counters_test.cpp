@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/match/bit_counters.h"
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -19,9 +20,10 @@ constexpr int kWords = 7;
 constexpr int kZeros = 4096;  ///< byte offset of zeros
 
 struct OwnedRow {
-  explicit OwnedRow(int plane_count) : words(static_cast<std::size_t>(kMaxPlanes * (kWords + 1))) {
+  explicit OwnedRow(int plane_count)
+      : words(static_cast<std::size_t>(kMaxPlanes * (kWords + kWordPadding))) {
     row.words = words.data();
-    row.stride = kWords + 1;
+    row.stride = kWords + kWordPadding;
     row.plane_count = plane_count;
   }
   int at(int x) const {
@@ -41,7 +43,7 @@ struct OwnedRow {
 };
 
 std::vector<std::uint8_t> randomBytes(Dice& dice) {
-  std::vector<std::uint8_t> bytes(kZeros + 8 * kWords + 16);
+  std::vector<std::uint8_t> bytes(kZeros + 8 * (kWords + kWordPadding));
   for (int i = 0; i < kZeros; ++i)
     bytes[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(dice.bits());
   return bytes;
@@ -60,7 +62,7 @@ TEST(PlanesFor, HoldTheLargestCount) {
   EXPECT_EQ(planesFor(512 * 512), kMaxPlanes);
 }
 
-TEST(CountPixels, EqualsCountingOneByOne) {
+TEST(AddPixels, AddsTheCountOneByOne) {
   Dice dice;
   const std::vector<std::uint8_t> bytes = randomBytes(dice);
   for (int count = 1; count <= 300; count += count < 70 ? 1 : 23) {
@@ -69,12 +71,23 @@ TEST(CountPixels, EqualsCountingOneByOne) {
     std::vector<std::int32_t> padded = offsets;
     while (padded.size() % 4 != 0) padded.push_back(kZeros);
     for (int words = 1; words <= kWords; ++words) {
-      OwnedRow row(planesFor(count));
-      countPixels(bytes.data(), padded.data(), static_cast<int>(padded.size()), words, row.row);
-      for (int x = 0; x < 64 * words; ++x) {
-        int expected = 0;
-        for (const std::int32_t offset : offsets) expected += bitOf(bytes, 8 * offset + x);
-        ASSERT_EQ(row.at(x), expected) << "count " << count << " words " << words << " x " << x;
+      const int shift = dice.below(8);
+      OwnedRow row(12);
+      std::vector<int> expected;
+      for (int x = 0; x < 64 * words - 7; ++x) {
+        const int start = dice.below(3000);
+        row.set(x, start);
+        expected.push_back(start);
+        for (const std::int32_t offset : offsets) {
+          expected.back() += bitOf(bytes, 8 * offset + x + shift);
+        }
+      }
+      const PixelList pixels{padded.data(), static_cast<int>(padded.size()), planesFor(count),
+                             shift};
+      addPixels(bytes.data(), pixels, words, row.row);
+      for (int x = 0; x < 64 * words - 7; ++x) {
+        ASSERT_EQ(row.at(x), expected[static_cast<std::size_t>(x)])
+            << "count " << count << " words " << words << " shift " << shift << " x " << x;
       }
     }
   }
@@ -109,24 +122,14 @@ TEST(CountSignedPixels, EqualsCountingOneByOne) {
   }
 }
 
-TEST(AddShifted, AddsWhatLiesToTheRight) {
+TEST(CountOnes, CountsEveryBit) {
   Dice dice;
-  for (int shift = 0; shift < 8; ++shift) {
-    for (int words = 1; words <= kWords; ++words) {
-      OwnedRow total(12), part(dice.between(1, 9));
-      std::vector<int> expected;
-      for (int x = 0; x < 64 * (words + 1); ++x) {
-        part.set(x, dice.below(1 << part.row.plane_count));
-        if (x >= 64 * words) continue;
-        const int start = dice.below(3000);
-        total.set(x, start);
-        expected.push_back(start);
-      }
-      addShifted(part.row, shift, words, total.row);
-      for (int x = 0; x < 64 * words; ++x) {
-        ASSERT_EQ(total.at(x), expected[static_cast<std::size_t>(x)] + part.at(x + shift));
-      }
-    }
+  EXPECT_EQ(countOnes(0), 0);
+  EXPECT_EQ(countOnes(~std::uint64_t{0}), 64);
+  for (int k = 0; k < 64; ++k) EXPECT_EQ(countOnes(std::uint64_t{1} << k), 1);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const std::uint64_t word = dice.bits() & dice.bits();
+    EXPECT_EQ(countOnes(word), std::popcount(word));
   }
 }
 
@@ -135,10 +138,14 @@ TEST(PlanesToLanes, GivesEveryCounter) {
   for (int planes = 0; planes <= 16; ++planes) {
     OwnedRow row(planes);
     for (int x = 0; x < 64 * kWords; ++x) row.set(x, dice.below(1 << planes));
-    for (int word = 0; word < kWords; ++word) {
-      std::uint16_t lanes[kLanes];
-      planesToLanes(row.row, word, lanes);
-      for (int x = 0; x < 64; ++x) ASSERT_EQ(lanes[laneIndex(x)], row.at(64 * word + x));
+    for (int words = 1; words <= kWords; ++words) {
+      std::uint16_t lanes[kLanes * kWords];
+      planesToLanes(row.row, words, lanes);
+      for (int x = 0; x < 64 * words; ++x) {
+        ASSERT_EQ(lanes[x / 64 * kLanes + laneIndex(x % 64)], row.at(x));
+      }
+      wordToLanes(row.row, words - 1, lanes);
+      for (int x = 0; x < 64; ++x) ASSERT_EQ(lanes[laneIndex(x)], row.at(64 * (words - 1) + x));
     }
   }
 }
@@ -149,15 +156,18 @@ TEST(PlanesToPrefixSums, AddUpWhatLiesToTheLeft) {
     OwnedRow row(planes);
     const int largest = planes == 10 ? 1020 : (1 << planes) - 1;
     for (int x = 0; x < 64 * kWords; ++x) row.set(x, x < 64 ? largest : dice.below(largest + 1));
-    for (int word = 0; word < kWords; ++word) {
-      std::uint16_t lanes[kLanes];
-      const std::uint32_t total = planesToPrefixSums(row.row, word, lanes);
-      std::uint32_t expected = 0;
-      for (int x = 0; x < 64; ++x) {
-        ASSERT_EQ(lanes[laneIndex(x)], expected);
-        expected += static_cast<std::uint32_t>(row.at(64 * word + x));
+    for (int words = 1; words <= kWords; ++words) {
+      std::uint16_t lanes[kLanes * kWords];
+      std::uint32_t totals[kWords];
+      planesToPrefixSums(row.row, words, lanes, totals);
+      for (int word = 0; word < words; ++word) {
+        std::uint32_t expected = 0;
+        for (int x = 0; x < 64; ++x) {
+          ASSERT_EQ(lanes[word * kLanes + laneIndex(x)], expected);
+          expected += static_cast<std::uint32_t>(row.at(64 * word + x));
+        }
+        ASSERT_EQ(totals[word], expected);
       }
-      ASSERT_EQ(total, expected);
     }
   }
 }

@@ -271,6 +271,13 @@ TEST(SearchWindow, IsEmptyWhenThePointMayComeToLieBehindTheCamera) {
   EXPECT_TRUE(searchWindow(camera, {0.0, 0.0, 0.02}, uncertainty, 16).empty());
   EXPECT_TRUE(searchWindow(camera, {0.0, 0.0, -0.5}, uncertainty, 16).empty());
   EXPECT_FALSE(searchWindow(camera, {0.0, 0.0, 0.05}, uncertainty, 16).empty());
+  Dice dice;
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Eigen::Vector3d near(dice.uniform(-0.03, 0.03), dice.uniform(-0.03, 0.03),
+                               dice.uniform(0.0, 0.03));
+    EXPECT_TRUE(searchWindow(camera, near, uncertainty, 16).empty());
+    EXPECT_TRUE(searchWindow(fisheye(), near, uncertainty, 16).empty());
+  }
   const SeedUncertainty any = uncertaintyOf(0.03, {180.0, 180.0, 180.0}, {0.0, 0.0, 0.0});
   EXPECT_TRUE(searchWindow(camera, {0.0, 0.0, 0.5}, any, 16).empty());
 }
@@ -287,6 +294,19 @@ TEST(SearchWindow, HoldsAnyRotationAboutAPivotInFront) {
   EXPECT_EQ(tally.outside_window, 0);
   EXPECT_EQ(tally.inside_image, 20000);
   EXPECT_LT(window.width(), 2 * 300);
+}
+
+TEST(SearchWindow, HoldsARotationAboutOneAxisWhereAnotherWouldDoNothing) {
+  // Turning a point of the optical axis about that axis moves nothing, but widens the box.
+  Camera camera = pinhole();
+  camera.width = camera.height = 8192;
+  camera.fx = camera.fy = 20000.0;
+  camera.cx = camera.cy = 4095.5;
+  const SeedUncertainty uncertainty = uncertaintyOf(0.0, {0.0, 5.0, 40.0}, {0.0, 0.0, 0.0});
+  const SearchWindow window = searchWindow(camera, {0.0, 0.0, 0.5}, uncertainty, 16);
+  const double reach_px = camera.fx * tangent(5.0 * kDegree_rad);
+  EXPECT_GE(window.x_max, camera.cx + reach_px);
+  EXPECT_LE(window.x_min, camera.cx - reach_px);
 }
 
 TEST(SearchWindow, IsEmptyForNonsense) {

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/match/whs.h"
+#include "core/match/whs_reference.h"
+#include "tests/core/match/match_support.h"
+
+namespace boresight::test {
+
+enum class MaskKind {
+  kFull,
+  kEmpty,
+  kHalfPlane,
+  kCircle,
+  kRing,
+  kNoise,
+  kSparseNoise,
+  kColumn,
+  kRow,
+  kRowStripes,
+  kColumnStripes,
+  kCount
+};
+
+inline OwnedBits makeMask(int width, int height, MaskKind kind, int side, Dice& dice) {
+  if (kind == MaskKind::kNoise) return noise(width, height, 0.5, dice);
+  if (kind == MaskKind::kSparseNoise) return noise(width, height, 0.03, dice);
+  OwnedBits mask(width, height);
+  const int cx = dice.below(width), cy = dice.below(height);
+  const int radius = 1 + dice.below(side);
+  const int nx = dice.between(-5, 5), ny = dice.between(-5, 5);
+  const int line = dice.between(width / 2 - side / 4, width / 2 + side / 4);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const int r2 = (x - cx) * (x - cx) + (y - cy) * (y - cy);
+      bool in = false;
+      switch (kind) {
+        case MaskKind::kFull:
+          in = true;
+          break;
+        case MaskKind::kHalfPlane:
+          in = nx * (x - cx) + ny * (y - cy) >= 0;
+          break;
+        case MaskKind::kCircle:
+          in = r2 <= radius * radius;
+          break;
+        case MaskKind::kRing:
+          in = r2 <= radius * radius && 4 * r2 > radius * radius;
+          break;
+        case MaskKind::kColumn:
+          in = x == line;
+          break;
+        case MaskKind::kRow:
+          in = y == height / 2;
+          break;
+        case MaskKind::kRowStripes:
+          in = y % 2 == 0;
+          break;
+        case MaskKind::kColumnStripes:
+          in = x % 3 != 0;
+          break;
+        default:
+          break;
+      }
+      if (in) mask.image.set(x, y);
+    }
+  }
+  return mask;
+}
+
+struct Problem {
+  OwnedBits edges, mask, test;
+  TemplateView view;
+  SearchWindow window;
+  int predicted_x = 0, predicted_y = 0, exclusion_px = 0;
+
+  Problem(OwnedBits edge_bits, OwnedBits mask_bits, OwnedBits test_bits, int side)
+      : edges(std::move(edge_bits)), mask(std::move(mask_bits)), test(std::move(test_bits)) {
+    const int half = side / 2;
+    view = {&edges.image, &mask.image, half, half, side};
+    window = {half, half, test.image.width - half, test.image.height - half};
+    predicted_x = (window.x_min + window.x_max) / 2;
+    predicted_y = (window.y_min + window.y_max) / 2;
+  }
+  Problem(const Problem&) = delete;
+  Problem& operator=(const Problem&) = delete;
+
+  void moveTemplate(int center_x, int center_y) {
+    view.center_x = center_x;
+    view.center_y = center_y;
+  }
+};
+
+/// Images of odd sizes, a template anywhere in the render, a window anywhere in the image (every
+/// third: all of it), a predicted place that may lie outside.
+inline std::unique_ptr<Problem> randomProblem(int side, MaskKind kind, int most_x, int most_y,
+                                              Dice& dice) {
+  const int width = side + dice.below(70), height = side + dice.below(9);
+  auto problem = std::make_unique<Problem>(
+      noise(width, height, dice.uniform(0.0, 0.3), dice), makeMask(width, height, kind, side, dice),
+      noise(side + dice.below(most_x), side + dice.below(most_y), dice.uniform(0.0, 0.4), dice),
+      side);
+  const int half = side / 2;
+  problem->moveTemplate(dice.between(half, width - half), dice.between(half, height - half));
+  const BitImage& test = problem->test.image;
+  if (dice.below(3) != 0) {
+    SearchWindow& window = problem->window;
+    window.x_min = dice.between(half, test.width - half);
+    window.x_max = dice.between(window.x_min, test.width - half);
+    window.y_min = dice.between(half, test.height - half);
+    window.y_max = dice.between(window.y_min, test.height - half);
+  }
+  problem->predicted_x = dice.between(-10, test.width + 10);
+  problem->predicted_y = dice.between(-10, test.height + 10);
+  problem->exclusion_px = dice.below(20);
+  return problem;
+}
+
+inline Status beginOn(WhsSearch& search, const Problem& problem) {
+  return search.begin(problem.view, problem.test.image, problem.window, problem.predicted_x,
+                      problem.predicted_y, problem.exclusion_px);
+}
+
+inline WhsPeak run(WhsSearch& search, const Problem& problem) {
+  EXPECT_EQ(beginOn(search, problem), Status::kOk);
+  int steps = 0;
+  while (!search.step()) {
+    if (++steps == 1000000) {
+      ADD_FAILURE() << "does not end";
+      break;
+    }
+  }
+  return search.peak();
+}
+
+inline WhsPeak reference(const Problem& problem) {
+  return whsPeakReference(problem.view, problem.test.image, problem.window, problem.predicted_x,
+                          problem.predicted_y, problem.exclusion_px);
+}
+
+/// The peak of a map of counts, for windows that are too large for the pixel-by-pixel reference.
+inline WhsPeak peakOfMap(const Problem& problem) {
+  const SearchWindow& window = problem.window;
+  std::vector<WhsCounts> map(static_cast<std::size_t>(window.width() * window.height()));
+  whsScoreMap(problem.view, problem.test.image, window, map);
+  const WhsNorms norms = whsNorms(problem.view);
+  struct Place {
+    int x, y;
+    WhsCounts counts;
+    std::tuple<std::int64_t, std::int64_t, int, int> order;
+  };
+  std::vector<Place> places;
+  for (int y = 0; y < window.height(); ++y) {
+    for (int x = 0; x < window.width(); ++x) {
+      const WhsCounts counts = map[static_cast<std::size_t>(y * window.width() + x)];
+      const std::int64_t dx = window.x_min + x - problem.predicted_x;
+      const std::int64_t dy = window.y_min + y - problem.predicted_y;
+      places.push_back({x, y, counts, {-whsComparable(counts, norms), dx * dx + dy * dy, y, x}});
+    }
+  }
+  const auto less = [](const Place& a, const Place& b) { return a.order < b.order; };
+  const Place best = *std::min_element(places.begin(), places.end(), less);
+  WhsPeak peak{window.x_min + best.x, window.y_min + best.y, best.counts, 0, 0, {}, false};
+  const int e = problem.exclusion_px;
+  std::erase_if(places, [&](const Place& place) {
+    const int x = place.x / 8 * 8, y = place.y / 8 * 8;
+    return x + 7 >= best.x - e && x <= best.x + e && y + 7 >= best.y - e && y <= best.y + e;
+  });
+  if (places.empty()) return peak;
+  const Place second = *std::min_element(places.begin(), places.end(), less);
+  peak.second_x = window.x_min + second.x;
+  peak.second_y = window.y_min + second.y;
+  peak.second_counts = second.counts;
+  peak.has_second = true;
+  return peak;
+}
+
+}  // namespace boresight::test
