@@ -402,7 +402,11 @@ StepReport Localizer::stepSupport() {
   digest_.i32(workspace_.support.explained);
   const bool supported =
       !options_.support.gate || workspace_.support.share() >= options_.support.min_support;
-  if (!supported) return fail(Stage::kSupport, LocalizationStatus::kNotSupported);
+  if (!supported) {
+    StepReport failed = fail(Stage::kSupport, LocalizationStatus::kNotSupported);
+    failed.iteration_complete = false;  // it was reported when its pose came out
+    return failed;
+  }
   finish(LocalizationStatus::kConverged);
   StepReport made = report(Stage::kSupport, true);
   made.finished = true;

@@ -18,7 +18,9 @@ struct EdgePixel {
   /// z of the nearer surface's plane at the pixel's centre, extended by at most one pixel. Of a
   /// face seen at less than 9 deg, whose extended plane says little, z at the line itself.
   float depth_m = 0.0F;
-  std::int32_t face = 0;     ///< the nearer surface's face (its part and normal follow)
+  /// The nearer surface's face (its part and normal follow): the one seen at the pixel, or, where
+  /// the pixel lies beyond the surface, the one that ends at the line.
+  std::int32_t face = 0;
   std::int8_t normal_x = 0;  ///< unit normal of the line in the image, times 127, pointing from the
   std::int8_t normal_y = 0;  ///< nearer surface to the other side
   std::int8_t offset =
@@ -41,6 +43,9 @@ struct EdgeRender {
   std::span<EdgePixel> pixels;        ///< capacity; the first `pixel_count` are valid, raster order
   std::span<std::int32_t> row_begin;  ///< height + 1 indices into pixels
   std::int32_t pixel_count = 0;
+  /// Words for the largest image; `edges` and `mask` use as many as the camera at hand needs.
+  std::span<std::uint64_t> edge_words;
+  std::span<std::uint64_t> mask_words;
   Camera camera;  ///< the camera at this level
   Pose camera_from_station;
 };

@@ -16,13 +16,15 @@ constexpr int kDrawnSlice = 16384;
 /// The largest image: coordinates are recorded in 16 bits.
 constexpr int kMaxSize_px = 32766;
 
-/// Gives an image the size of this level; its words were allocated for the largest.
-bool resize(BitImage& image, int width, int height) {
-  image.width = width;
-  image.height = height;
-  image.words_per_row = BitImage::wordsPerRow(width);
-  return image.words.size() >=
-         static_cast<std::size_t>(image.words_per_row) * static_cast<std::size_t>(height);
+/// Gives an image the size of this level, out of the words for the largest.
+bool resize(BitImage& image, std::span<std::uint64_t>& words, int width, int height) {
+  if (words.empty()) words = image.words;
+  const int words_per_row = BitImage::wordsPerRow(width);
+  const std::size_t count =
+      static_cast<std::size_t>(words_per_row) * static_cast<std::size_t>(height);
+  if (words.size() < count) return false;
+  image = {words.first(count), width, height, words_per_row};
+  return true;
 }
 
 }  // namespace
@@ -31,6 +33,8 @@ EdgeRender createEdgeRender(int width, int height, const RenderOptions& options,
   EdgeRender render;
   render.edges = BitImage::create(arena, width, height);
   render.mask = BitImage::create(arena, width, height);
+  render.edge_words = render.edges.words;
+  render.mask_words = render.mask.words;
   render.pixels = arena.allocate<EdgePixel>(static_cast<std::size_t>(options.max_edge_pixels));
   render.row_begin = arena.allocate<std::int32_t>(static_cast<std::size_t>(height) + 1);
   return render;
@@ -122,8 +126,9 @@ Status EdgeRenderer::begin(const RayGrid& rays, const Pose& camera_from_station,
   const Camera& camera = rays.camera();
   if (!camera_from_station.isFinite()) return Status::kInvalidPose;
   if (camera.width < 1 || camera.height < 1 || camera.width > max_width_ ||
-      camera.height > max_height_ || !resize(output.edges, camera.width, camera.height) ||
-      !resize(output.mask, camera.width, camera.height) ||
+      camera.height > max_height_ ||
+      !resize(output.edges, output.edge_words, camera.width, camera.height) ||
+      !resize(output.mask, output.mask_words, camera.width, camera.height) ||
       output.row_begin.size() < static_cast<std::size_t>(camera.height) + 1 ||
       !surfaceRenderFits(surfaces, camera.width, camera.height))
     return Status::kInvalidImage;

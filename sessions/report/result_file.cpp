@@ -31,7 +31,7 @@ ordered_json covarianceJson(const Matrix6d& covariance) {
 }
 
 ordered_json iterationJson(const IterationTrace& iteration) {
-  ordered_json json = {{"index", iteration.index},
+  ordered_json json = {{"attempt", iteration.attempt},
                        {"kind", iteration.kind == IterationKind::kRefine ? "refine" : "match"},
                        {"level", iteration.level},
                        {"status", localizationStatusText(iteration.status)},
@@ -51,6 +51,7 @@ ordered_json iterationJson(const IterationTrace& iteration) {
   json["threshold_px"] = iteration.threshold_px;
   json["rms_px"] = iteration.rms_px();
   json["correction_mm"] = iteration.correction_translation_m * 1e3;
+  json["correction_px"] = iteration.correction_image_px;
   json["correction_deg"] = iteration.correction_rotation_rad / kDegree_rad;
   json["camera_from_station"] = toJson(iteration.camera_from_station);
   json["seconds"] = toJson(iteration.seconds);
@@ -102,6 +103,7 @@ ordered_json resultJson(const LocalizationTrace& trace, const std::optional<Pose
                        {"completed", result.completed}};
   if (!result.message.empty()) json["message"] = result.message;
   json["iterations"] = result.iterations;
+  json["attempts"] = trace.attempts;
   json["camera_from_station"] = toJson(trace.camera_from_station);
   json["camera_from_station_seed"] = toJson(trace.camera_from_station_seed);
   if (trace.converged()) json["covariance"] = covarianceJson(trace.covariance);

@@ -89,12 +89,22 @@ std::string faultText(const LocalizationTrace& trace) {
   return text;
 }
 
+std::string notSupportedText(const LocalizationTrace& trace) {
+  const EdgeSupport& support = trace.support;
+  return format(
+      "edge support is %.1f %%, needed %.1f %%: of %d rendered edge pixels %d are seen, of %d "
+      "image "
+      "edge pixels on the object %d are predicted; the pose is probably wrong: check seed and mesh",
+      100.0 * support.share(), 100.0 * trace.options.support.min_support, support.rendered,
+      support.covered, support.seen, support.explained);
+}
+
 std::string iterationLimitText(const LocalizationTrace& trace, const IterationTrace& last) {
   const LoopOptions& loop = trace.options.loop;
   return format(
-      "after %zu iterations the last correction was %.3f mm and %.3f deg; needed under %.3f mm and "
+      "after %d iterations the last correction was %.3f mm and %.3f deg; needed under %.3f mm and "
       "%.3f deg %d times in a row; raise loop.max_iterations if corrections still shrink",
-      trace.iterations.size(), toMillimetres(last.correction_translation_m),
+      loop.max_iterations, toMillimetres(last.correction_translation_m),
       toDegrees(last.correction_rotation_rad), toMillimetres(loop.converged_translation_m),
       toDegrees(loop.converged_rotation_rad), loop.converged_iterations);
 }
@@ -122,12 +132,13 @@ std::string tooFewText(const LocalizationTrace& trace, const IterationTrace& las
 }  // namespace
 
 std::string iterationTable(const LocalizationTrace& trace) {
-  TextTable table({"iteration", "kind", "level", "templates", "matches", "inliers", "threshold px",
-                   "correction mm", "deg", "rms px"});
+  int number = 0;
+  TextTable table({"iteration", "attempt", "kind", "level", "templates", "matches", "inliers",
+                   "threshold px", "correction mm", "deg", "rms px"});
   for (const IterationTrace& iteration : trace.iterations) {
     const bool refines = iteration.kind == IterationKind::kRefine;
-    table.add({std::to_string(iteration.index + 1), refines ? "refine" : "match",
-               std::to_string(iteration.level),
+    table.add({std::to_string(++number), std::to_string(iteration.attempt + 1),
+               refines ? "refine" : "match", std::to_string(iteration.level),
                refines ? std::to_string(iteration.refinement.sample_count)
                        : std::to_string(iteration.template_count),
                refines ? std::to_string(iteration.refinement.found_count)
@@ -176,11 +187,7 @@ std::string explanation(const LocalizationTrace& trace) {
     case LocalizationStatus::kPnpFailed:
       return pnpFailedText(trace, last);
     case LocalizationStatus::kNotSupported:
-      return format(
-          "of %d rendered edge pixels %d (%.1f %%) meet an image edge, needed %.1f %%; the "
-          "pose is probably wrong: check seed and mesh",
-          trace.support.rendered, trace.support.supported, 100.0 * trace.support.share(),
-          100.0 * trace.options.support.min_support);
+      return notSupportedText(trace);
     case LocalizationStatus::kIterationLimit:
       return iterationLimitText(trace, last);
     case LocalizationStatus::kTooFewEdges:

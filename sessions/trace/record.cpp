@@ -99,12 +99,23 @@ void recordRefinement(const RefinementResult& refinement, RecordLevel level,
 void recordEnd(const Localizer& localizer, LocalizationTrace& trace) {
   const Workspace& workspace = localizer.workspace();
   trace.support = workspace.support;
+  trace.attempts = workspace.attempts;
   trace.status = workspace.status;
   trace.fault = workspace.fault;
   trace.camera_from_station = workspace.camera_from_station;
   trace.covariance = workspace.covariance;
   trace.digest = hexText(localizer.digest()).data();
   trace.arena_bytes = localizer.highWaterBytes();
+}
+
+/// Records an iteration, or how the latest ended when only its edge support was still to be judged.
+void noteIteration(const Iteration& iteration, Stage reached, RecordLevel level,
+                   LocalizationTrace& trace) {
+  if (reached == Stage::kSupport && !trace.iterations.empty()) {
+    trace.iterations.back().status = iteration.status;
+  } else {
+    trace.iterations.push_back(recordIteration(iteration, reached, level));
+  }
 }
 
 /// Steps until the run has finished, recording each iteration when it is complete.
@@ -121,9 +132,8 @@ void runSteps(Localizer& localizer, RecordLevel level, const std::stop_token& st
     if (report.stage == Stage::kEdges && report.stage_complete && level == RecordLevel::kFull)
       trace.edges = recordEdgeMap(localizer.workspace().edges);
     if (report.iteration_complete && localizer.workspace().iteration != nullptr) {
-      trace.iterations.push_back(
-          recordIteration(*localizer.workspace().iteration, report.stage, level));
-      trace.iterations.back().seconds = iteration_seconds;
+      noteIteration(*localizer.workspace().iteration, report.stage, level, trace);
+      trace.iterations.back().seconds += iteration_seconds;
       iteration_seconds = {};
     }
     finished = report.finished;
@@ -160,6 +170,7 @@ EdgeMapTrace recordEdgeMap(const EdgeMap& edges) {
 IterationTrace recordIteration(const Iteration& iteration, Stage reached, RecordLevel level) {
   IterationTrace trace;
   trace.index = iteration.index;
+  trace.attempt = iteration.attempt;
   trace.kind = iteration.kind;
   trace.level = iteration.level;
   trace.reached = reached;
@@ -186,6 +197,7 @@ IterationTrace recordIteration(const Iteration& iteration, Stage reached, Record
   if (solved) {
     trace.correction_translation_m = iteration.correction_translation_m;
     trace.correction_rotation_rad = iteration.correction_rotation_rad;
+    trace.correction_image_px = iteration.correction_image_px;
   }
   return trace;
 }

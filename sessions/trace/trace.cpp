@@ -48,6 +48,15 @@ void StageSeconds::add(Stage stage, double seconds) {
   }
 }
 
+StageSeconds& StageSeconds::operator+=(const StageSeconds& other) {
+  initialization += other.initialization;
+  rendering += other.rendering;
+  matching += other.matching;
+  pose += other.pose;
+  refinement += other.refinement;
+  return *this;
+}
+
 std::int32_t IterationTrace::support() const {
   return kind == IterationKind::kRefine ? refinement.used_count : pnp.inlier_count;
 }

@@ -74,6 +74,7 @@ struct StageSeconds {
 
   double total() const { return initialization + rendering + matching + pose + refinement; }
   void add(Stage stage, double seconds);
+  StageSeconds& operator+=(const StageSeconds& other);
 };
 
 /// How much of an iteration is copied.
@@ -82,7 +83,9 @@ enum class RecordLevel { kSummary, kFull };
 /// Everything of one iteration up to the stage that it reached: owning copies of what the core's
 /// `Iteration` holds. With kSummary the vectors stay empty and the counts remain.
 struct IterationTrace {
-  std::int32_t index = 0;
+  std::int32_t index =
+      0;  ///< as the core counts; one that failed before its pose shares the next's
+  std::int32_t attempt = 0;  ///< a run that fails may start anew from its seed
   IterationKind kind = IterationKind::kMatch;
   std::int32_t level = 0;
   Stage reached = Stage::kRender;  ///< the last stage that was worked on
@@ -111,6 +114,7 @@ struct IterationTrace {
   Pose camera_from_station;  ///< after; as before when no pose came out
   double correction_translation_m = 0.0;
   double correction_rotation_rad = 0.0;
+  double correction_image_px = 0.0;
   StageSeconds seconds;
 
   /// Inliers of a match iteration, edge places used of a refinement.
@@ -127,7 +131,8 @@ struct LocalizationTrace {
   SeedUncertainty uncertainty;
 
   EdgeMapTrace edges;
-  std::vector<IterationTrace> iterations;
+  std::vector<IterationTrace> iterations;  ///< of all attempts
+  std::int32_t attempts = 1;
   EdgeSupport support;
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< kRunning: it was stopped
   Status fault = Status::kOk;

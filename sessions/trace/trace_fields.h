@@ -203,6 +203,7 @@ void matchingFields(Archive& archive, Self& iteration) {
 template <class Archive, Is<IterationTrace> Self>
 void fields(Archive& archive, Self& iteration) {
   archive.number(iteration.index);
+  archive.number(iteration.attempt);
   archive.choice(iteration.kind, IterationKind::kRefine);
   archive.number(iteration.level);
   archive.choice(iteration.reached, Stage::kFinished);
@@ -219,6 +220,7 @@ void fields(Archive& archive, Self& iteration) {
   fields(archive, iteration.camera_from_station);
   archive.number(iteration.correction_translation_m);
   archive.number(iteration.correction_rotation_rad);
+  archive.number(iteration.correction_image_px);
   fields(archive, iteration.seconds);
 }
 
@@ -245,8 +247,10 @@ void fields(Archive& archive, Self& trace) {
   fields(archive, trace.uncertainty);
   fields(archive, trace.edges);
   archive.list(trace.iterations, [&](auto& iteration) { fields(archive, iteration); });
-  archive.number(trace.support.rendered);
-  archive.number(trace.support.supported);
+  archive.number(trace.attempts);
+  for (auto* value : {&trace.support.rendered, &trace.support.covered, &trace.support.seen,
+                      &trace.support.explained})
+    archive.number(*value);
   archive.choice(trace.status, LocalizationStatus::kFault);
   archive.choice(trace.fault, Status::kNoConsensus);
   fields(archive, trace.camera_from_station);

@@ -91,7 +91,61 @@ TEST(EdgeRenderer, RecordsAreInRasterOrderAndConsistent) {
   EXPECT_EQ(findEdgePixel(edges, 0, edges.camera.height), -1);
 }
 
-/// Moving the mesh or the camera is the same thing, and the order of the faces does not matter.
+/// What holds for every render, whatever the scene.
+void expectRulesKept(const Rendered& rendered, const SceneMesh& mesh) {
+  const EdgeRender& edges = rendered.edges;
+  const int width = edges.camera.width;
+  std::int32_t set = 0;
+  for (int y = 0; y < edges.camera.height; ++y)
+    for (int x = 0; x < width; ++x) {
+      set += edges.edges.get(x, y) ? 1 : 0;
+      const std::int32_t face = rendered.faceAt(x, y);
+      const bool matched =
+          face >= 0 && mesh.parts[mesh.part_of_face[static_cast<std::size_t>(face)]].match;
+      EXPECT_EQ(edges.mask.get(x, y), matched || edges.edges.get(x, y));
+    }
+  EXPECT_EQ(set, edges.pixel_count);
+  // Bits beyond the image are zero.
+  for (int y = 0; y < edges.camera.height && width % 64 != 0; ++y) {
+    EXPECT_EQ(edges.edges.row(y)[width / 64] >> (width % 64), 0U);
+    EXPECT_EQ(edges.mask.row(y)[width / 64] >> (width % 64), 0U);
+  }
+  for (std::int32_t i = 0; i < edges.pixel_count; ++i) {
+    const EdgePixel& pixel = edges.pixels[static_cast<std::size_t>(i)];
+    EXPECT_TRUE(std::isfinite(pixel.depth_m) && pixel.depth_m > 0.0F);
+    ASSERT_TRUE(pixel.face >= 0 && pixel.face < static_cast<std::int32_t>(mesh.faces.size()));
+    EXPECT_TRUE(mesh.parts[mesh.part_of_face[static_cast<std::size_t>(pixel.face)]].match);
+    EXPECT_NEAR(std::hypot(pixel.normal_x, pixel.normal_y), 127.0, 1.0);
+    Eigen::Vector2d position;
+    Eigen::Vector3d point;
+    EXPECT_TRUE(edgePointInStation(edges, pixel, point) && point.allFinite());
+    EXPECT_TRUE(edgeLinePoint(edges, mesh.view(), pixel, position, point) && point.allFinite());
+  }
+}
+
+TEST(EdgeRenderer, RulesAreKeptOnAnySceneAndAnySize) {
+  Random random(12);
+  const int sizes[][2] = {{1, 1},   {1, 40},  {40, 1},  {2, 2},
+                          {16, 16}, {17, 33}, {64, 15}, {129, 65}};
+  for (const auto& size : sizes) {
+    for (int kind = 0; kind < 3; ++kind) {
+      const double focal_px = 0.8 * std::max(size[0], size[1]) + 3.0;
+      Camera camera = kind == 0   ? pinholeCamera(size[0], size[1], focal_px)
+                      : kind == 1 ? brownCamera(size[0], size[1], focal_px, -0.3)
+                                  : fisheyeCamera(size[0], size[1], 0.5 * focal_px);
+      SceneMesh mesh = cluttered(static_cast<std::uint64_t>(kind) + 20);
+      for (int i = 0; i < 40; ++i) {
+        Eigen::Vector3d corner[3];
+        for (auto& c : corner)
+          c = Eigen::Vector3d(random.normal(), random.normal(), 0.5 * random.normal());
+        mesh.addFace(mesh.addVertex(corner[0]), mesh.addVertex(corner[1]),
+                     mesh.addVertex(corner[2]), i % 3);
+      }
+      expectRulesKept(render(mesh, camera, kAhead), mesh);
+    }
+  }
+}
+
 TEST(EdgeRenderer, OrderOfFacesDoesNotMatter) {
   const SceneMesh mesh = cluttered(5);
   SceneMesh reversed = mesh;
@@ -233,6 +287,8 @@ TEST(EdgeRenderer, LevelsOfOneCameraShareOneRenderer) {
     bool done = false;
     while (!done) ASSERT_EQ(renderer.step(done), Status::kOk);
     const Rendered alone = render(bench.mesh, cameraAtLevel(camera, level), kAhead);
+    EXPECT_EQ(output.edges.words.size(), alone.edges.edges.words.size());
+    EXPECT_EQ(output.mask.words.size(), alone.edges.mask.words.size());
     expectEqual(output, alone.edges);
     ASSERT_EQ(renderer.step(done), Status::kOk);
     EXPECT_TRUE(done);

@@ -64,8 +64,10 @@ TEST(Explanation, NamesTheAxisThatLeftTheUncertainty) {
 
 TEST(Explanation, GivesTheShareOfSupportedEdges) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kNotSupported);
-  trace.support = {200, 30};
-  EXPECT_THAT(explanation(trace), AllOf(HasSubstr("200 rendered"), HasSubstr("30 (15.0 %)")));
+  trace.support = {200, 30, 400, 80};
+  // (2 * 0.15 + 0.2) / 3
+  EXPECT_THAT(explanation(trace), AllOf(HasSubstr("16.7 %"), HasSubstr("200 rendered"),
+                                        HasSubstr("30 are seen"), HasSubstr("80 are predicted")));
 }
 
 TEST(Explanation, BlamesAnImageWithoutEdges) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numeric>
 
 #include "tests/support/example_case.h"
@@ -124,6 +125,7 @@ TEST(Localize, RecordsAFailedIterationUpToItsStage) {
   LocalizerOptions options = defaultProfile();
   options.templates.min_count = 1000;
   options.templates.count = 1024;
+  options.loop.max_attempts = 1;
   const LocalizationTrace trace = localize(runs().example.problem(), options, RecordLevel::kFull);
   ASSERT_EQ(trace.status, LocalizationStatus::kTooFewTemplates);
   ASSERT_EQ(trace.iterations.size(), 1u);
@@ -136,6 +138,29 @@ TEST(Localize, RecordsAFailedIterationUpToItsStage) {
   EXPECT_TRUE(failed.pnp.inlier.empty());
   EXPECT_EQ(failed.correction_translation_m, 0.0);
   EXPECT_EQ(trace.camera_from_station.translation_m, trace.camera_from_station_seed.translation_m);
+}
+
+TEST(Localize, RecordsEveryAttempt) {
+  LocalizerOptions options = defaultProfile();
+  options.support.min_support = 1.0;
+  options.loop.max_attempts = 2;
+  const LocalizationTrace trace =
+      localize(runs().example.problem(), options, RecordLevel::kSummary);
+  EXPECT_EQ(trace.status, LocalizationStatus::kNotSupported);
+  EXPECT_EQ(trace.attempts, 2);
+  std::array<int, 2> unsupported{};
+  for (std::size_t i = 0; i < trace.iterations.size(); ++i) {
+    const IterationTrace& iteration = trace.iterations[i];
+    ASSERT_LT(iteration.attempt, 2);
+    const bool last_of_attempt =
+        i + 1 == trace.iterations.size() || trace.iterations[i + 1].attempt != iteration.attempt;
+    EXPECT_EQ(iteration.status == LocalizationStatus::kNotSupported, last_of_attempt) << i;
+    unsupported[static_cast<std::size_t>(iteration.attempt)] += last_of_attempt ? 1 : 0;
+    if (i > 0) {
+      EXPECT_NE(iteration.index, trace.iterations[i - 1].index);
+    }
+  }
+  EXPECT_EQ(unsupported, (std::array<int, 2>{1, 1}));
 }
 
 TEST(Localize, ReportsWhatCannotRunAsAFault) {
