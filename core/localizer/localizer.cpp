@@ -74,7 +74,8 @@ StepReport Localizer::stepEdges() {
 }
 
 Status Localizer::restart(const Pose& camera_from_station_seed, const LocalizerOptions& options) {
-  if (!camera_from_station_seed.isFinite()) return Status::kInvalidPose;
+  if (!isUsable(PosePrior{camera_from_station_seed, problem_.uncertainty}))
+    return Status::kInvalidPose;
   std::size_t bytes = 0;
   Status status = requiredBytes(sizeOf(problem_), options, bytes);
   if (status == Status::kOk && bytes > arena_.capacity()) status = Status::kArenaTooSmall;
@@ -417,7 +418,9 @@ StepReport Localizer::fail(Stage stage, LocalizationStatus status) {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   now.status = status;
   StepReport made = report(stage, true);
-  made.iteration_complete = true;
+  made.iteration_complete = workspace_.iteration != nullptr;  // a fault may come before the first
+  // One whose pose came out has been counted.
+  if (made.iteration_complete && now.index == workspace_.iterations) ++workspace_.iterations;
   if (status != LocalizationStatus::kFault && attempt_ + 1 < options_.loop.max_attempts) {
     startAttempt();
     return made;

@@ -38,12 +38,16 @@ struct StepReport {
 /// calls back, pauses, draws or logs. After construction nothing allocates.
 class Localizer {
  public:
-  /// Bytes of arena for a problem of this size; kInvalidOption for options out of range.
+  /// Bytes of arena for a problem of this size, in a block aligned to Arena::kAlignment (one less
+  /// aligned loses its first bytes); kInvalidOption for options out of range.
   static Status requiredBytes(const ProblemSize& size, const LocalizerOptions& options,
                               std::size_t& bytes);
 
   /// `memory` and everything `problem` points to must outlive the localizer. `status()` tells
-  /// whether it can run.
+  /// whether it can run: kInvalidOption, kInvalidImage (its size is not the camera's or the ignore
+  /// mask's), kInvalidCamera (not prepared), kInvalidPose (not finite, a quaternion not of unit
+  /// length, an uncertainty that is negative), kInvalidMesh, kArenaTooSmall. If not, the first step
+  /// ends the run as a fault.
   Localizer(const LocalizationProblem& problem, const LocalizerOptions& options,
             std::span<std::byte> memory);
 
@@ -55,8 +59,8 @@ class Localizer {
   /// One slice; after `finished` it does nothing.
   StepReport step();
 
-  /// Goes on from another pose with other options, the image's edges kept when `options.edges` are
-  /// the same. Memory is what it was: kArenaTooSmall when the new options ask for more.
+  /// Begins anew from another pose with other options, as a fresh localizer would. Memory is what
+  /// it was: kArenaTooSmall when the new options ask for more.
   Status restart(const Pose& camera_from_station_seed, const LocalizerOptions& options);
 
   const Workspace& workspace() const { return workspace_; }

@@ -2,6 +2,7 @@
 // What happens before the first step: profiles, checks, memory.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "core/localizer/localizer.h"
 #include "core/localizer/run_digest.h"
@@ -142,20 +143,25 @@ Status validateProblem(const LocalizationProblem& problem, const LocalizerOption
       problem.image.height != problem.camera.height) {
     return Status::kInvalidImage;
   }
-  const SeedUncertainty& uncertainty = problem.uncertainty;
-  if (!problem.camera_from_station_seed.isFinite() || !uncertainty.translation_m.allFinite() ||
-      !uncertainty.rotation_rad.allFinite() || !uncertainty.pivot_in_camera_m.allFinite()) {
+  if (!(problem.camera.valid_radius > 0.0)) return Status::kInvalidCamera;  // not prepared
+  if (!isUsable(PosePrior{problem.camera_from_station_seed, problem.uncertainty}))
     return Status::kInvalidPose;
-  }
   return validateMesh(problem.mesh);
+}
+
+/// The block from its first aligned byte on.
+std::span<std::byte> alignedBlock(std::span<std::byte> memory) {
+  const std::size_t past = reinterpret_cast<std::uintptr_t>(memory.data()) % Arena::kAlignment;
+  const std::size_t skipped = past > 0 ? Arena::kAlignment - past : 0;
+  return memory.subspan(std::min(skipped, memory.size()));
 }
 
 }  // namespace
 
 Localizer::Localizer(const LocalizationProblem& problem, const LocalizerOptions& options,
                      std::span<std::byte> memory)
-    : problem_(problem), options_(options), arena_(memory) {
-  if (memory.empty()) {
+    : problem_(problem), options_(options), arena_(alignedBlock(memory)) {
+  if (arena_.countsOnly()) {
     status_ = Status::kArenaTooSmall;
     return;
   }
@@ -171,6 +177,7 @@ void Localizer::begin() {
   workspace_.support = {};
   workspace_.covariance = Matrix6d::Zero();
   workspace_.iterations = 0;
+  workspace_.attempts = 1;
   workspace_.camera_from_station = problem_.camera_from_station_seed;
   camera_from_station_ = problem_.camera_from_station_seed;
   covariance_ = Matrix6d::Zero();
@@ -183,9 +190,9 @@ void Localizer::begin() {
   attempt_ = 0;
   current_ = 0;
   small_corrections_ = 0;
+  digest_ = DigestWriter();
   if (status_ != Status::kOk) return;
   bounds_ = matchedBounds(problem_.mesh);
-  digest_ = DigestWriter();
   digestOptions(options_, digest_);
   digestProblem(problem_, digest_);
 }

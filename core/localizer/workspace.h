@@ -63,7 +63,7 @@ inline constexpr int kMaxHypotheses = 9;
 
 /// Everything of one iteration: the next stage's input, and what a trace keeps.
 struct Iteration {
-  std::int32_t index = 0;  ///< over all attempts
+  std::int32_t index = 0;  ///< over all attempts, without gaps
   std::int32_t attempt = 0;
   IterationKind kind = IterationKind::kMatch;
   std::int32_t level = 0;
@@ -98,7 +98,7 @@ struct Workspace {
   Status fault = Status::kOk;
   Pose camera_from_station;  ///< best estimate; the seed unless converged
   Matrix6d covariance = Matrix6d::Zero();
-  std::int32_t iterations = 0;  ///< of all attempts
+  std::int32_t iterations = 0;  ///< of all attempts, those that failed included
   std::int32_t attempts = 1;
 };
 

@@ -21,7 +21,7 @@ constexpr double kMaxError = 1e6;
 /// Reads a transform and notes when it was not quite a rotation.
 Pose readNotedTransform(const JsonReader& json, Dataset& dataset) {
   double deviation = 0.0;
-  const Pose pose = readTransform(json, &deviation);
+  Pose pose = readTransform(json, &deviation);
   const std::string note = projectionNote(deviation);
   if (!note.empty()) dataset.notes.push_back(json.place() + ": " + note);
   return pose;

@@ -167,7 +167,7 @@ JsonDocument::~JsonDocument() = default;
 JsonReader JsonDocument::root() const { return {file_, *value_, ""}; }
 
 JsonReader JsonDocument::root(std::string_view format, int version) const {
-  const JsonReader top = root();
+  JsonReader top = root();
   if (!top.isObject()) top.fail("not a JSON object");
   const std::string found = top.at("format").text();
   if (found != format)

@@ -263,6 +263,9 @@ TEST_F(ReadImage, FindsAFlippedBitInAPng) {
     changed[i] ^= 0x10;
     EXPECT_NE(error(changed), "(nothing)") << "byte " << i;
   }
+  Bytes changed = bytes;
+  changed[bytes.size() - 20] ^= 0x01;  // before the checksum of IDAT and the 12 bytes of IEND
+  EXPECT_EQ(error(changed), "image: the image is damaged: the checksum of PNG chunk IDAT is wrong");
 }
 
 TEST_F(ReadImage, ReadsProgressiveJpegAndSkipsFillBytes) {
@@ -270,6 +273,10 @@ TEST_F(ReadImage, ReadsProgressiveJpegAndSkipsFillBytes) {
   ASSERT_TRUE(cv::imencode(".jpg", randomImage(CV_8UC3), bytes,
                            {cv::IMWRITE_JPEG_PROGRESSIVE, 1, cv::IMWRITE_JPEG_RST_INTERVAL, 2}));
   EXPECT_EQ(error(bytes), "(nothing)");
+  for (std::size_t size = bytes.size() / 4; size < bytes.size(); size += bytes.size() / 31)
+    EXPECT_EQ(error(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size))),
+              "image: the JPEG image is truncated")
+        << "cut to " << size << " of " << bytes.size();
   bytes.insert(bytes.begin() + 2, 3, 0xff);
   EXPECT_EQ(error(bytes), "(nothing)");
 }

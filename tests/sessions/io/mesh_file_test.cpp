@@ -136,6 +136,18 @@ TEST_F(ReadMesh, PlacesAMeshOncePerNode) {
   EXPECT_NEAR(mesh.info.maximum_m.x(), 11.0, 1e-6);
 }
 
+TEST_F(ReadMesh, RefusesNodesThatAreNotTrees) {
+  const auto message = [this](const std::string& nodes) {
+    return error("mesh.glb", glb(cube(), nodes), "");
+  };
+  EXPECT_EQ(message(R"([{"children":[1,1]},{"mesh":0}])"),
+            "mesh.glb: nodes[0].children[1]: the node has two parents");
+  EXPECT_EQ(message(R"([{"children":[1]},{"mesh":0,"children":[0]}])"),
+            "mesh.glb: scenes[0].nodes[0]: the scene's root is another node's child");
+  EXPECT_EQ(message(R"([{"children":[2]},{"mesh":0}])"),
+            "mesh.glb: nodes[0].children[0]: 2 is outside 0 .. 1");
+}
+
 TEST_F(ReadMesh, HashesTheFileAndTheBuffersOfGltf) {
   const std::string text = asciiPly(cube());
   const auto bytes = std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());

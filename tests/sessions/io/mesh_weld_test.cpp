@@ -72,28 +72,27 @@ TEST(WeldMesh, FindsTheSameVerticesAsComparingEveryPair) {
         vertices.push_back(vertex);
       }
     }
+    // The corners of a face come from different clusters, so that no face collapses.
+    std::vector<Face> faces;
+    for (std::int32_t cluster = 0; cluster + 2 < 20; cluster += 3)
+      for (std::int32_t i = 6 * cluster; i < 6 * cluster + 6; ++i)
+        faces.push_back({{i, i + 6, i + 12}});
     const float tolerance = weldTolerance(vertices);
     std::vector<Vector3f> kept;
-    std::vector<std::int32_t> expected;
-    for (const Vector3f& vertex : vertices) {
-      std::int32_t found = -1;
-      for (std::size_t i = 0; i < kept.size() && found < 0; ++i)
-        if ((kept[i] - vertex).cwiseAbs().maxCoeff() <= tolerance)
-          found = static_cast<std::int32_t>(i);
-      if (found < 0) {
-        found = static_cast<std::int32_t>(kept.size());
-        kept.push_back(vertex);
-      }
-      expected.push_back(found);
-    }
-    std::vector<Face> faces;
-    const auto count = static_cast<std::int32_t>(vertices.size());
-    for (std::int32_t i = 0; i + 2 < count; i += 3) faces.push_back({{i, i + 1, i + 2}});
     const WeldedMesh welded = weldMesh(vertices, faces);
-    EXPECT_EQ(welded.vertices.size(), kept.size());
-    EXPECT_EQ(welded.merged_vertices, count - static_cast<std::int64_t>(kept.size()));
-    for (std::size_t i = 0; i < std::min(kept.size(), welded.vertices.size()); ++i)
-      ASSERT_EQ(welded.vertices[i], kept[i]);
+    ASSERT_EQ(welded.faces.size(), faces.size());
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const Vector3f& vertex = vertices[static_cast<std::size_t>(faces[f].vertex[corner])];
+        std::size_t expected = 0;
+        while (expected < kept.size() &&
+               !((kept[expected] - vertex).cwiseAbs().maxCoeff() <= tolerance))
+          ++expected;
+        if (expected == kept.size()) kept.push_back(vertex);
+        ASSERT_EQ(static_cast<std::size_t>(welded.faces[f].vertex[corner]), expected);
+      }
+    EXPECT_EQ(welded.vertices, kept);
+    EXPECT_EQ(welded.merged_vertices, static_cast<std::int64_t>(3 * faces.size() - kept.size()));
   }
 }
 

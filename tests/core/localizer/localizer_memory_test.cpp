@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// One block, exactly as large as announced, and nothing beside it.
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.h"
+#include "core/localizer/localizer.h"
+#include "tests/core/localizer/heap_count.h"
+#include "tests/core/localizer/scene.h"
+
+namespace boresight::test {
+namespace {
+
+/// A block between two fields of known bytes.
+class Fenced {
+ public:
+  explicit Fenced(std::size_t bytes, std::size_t shift = 0)
+      : memory_(kFence + shift + bytes + kFence, kCanary), first_(kFence + shift), bytes_(bytes) {}
+  std::span<std::byte> block() { return std::span(memory_).subspan(first_, bytes_); }
+  bool intact() const {
+    const auto is_canary = [](std::byte value) { return value == kCanary; };
+    return std::all_of(memory_.begin(), memory_.begin() + static_cast<std::ptrdiff_t>(first_),
+                       is_canary) &&
+           std::all_of(memory_.begin() + static_cast<std::ptrdiff_t>(first_ + bytes_),
+                       memory_.end(), is_canary);
+  }
+
+ private:
+  static constexpr std::size_t kFence = 65536;
+  static constexpr std::byte kCanary{0xC7};
+  std::vector<std::byte> memory_;
+  std::size_t first_;
+  std::size_t bytes_;
+};
+
+struct Variant {
+  const char* name;
+  LocalizerOptions options;
+};
+
+std::vector<Variant> variants() {
+  std::vector<Variant> made = {{"default", {}},          {"paper", paperProfile()}, {"pyramid", {}},
+                               {"unrolled", {}},         {"unrefined", {}},         {"fixed", {}},
+                               {"equalized locally", {}}};
+  made[2].options.loop.coarse_size_px = 128;
+  made[3].options.loop.max_rolled_hypotheses = 1;
+  made[4].options.refinement.enabled = false;
+  made[5].options.edges.thresholds = CannyThresholds::kAbsolute;
+  made[5].options.edges.aperture_px = 7;
+  made[6].options.edges.equalization = Equalization::kClahe;
+  made[6].options.edges.gaussian_sigma_px = 8.0;
+  return made;
+}
+
+TEST(LocalizerMemory, IsExactlyWhatWasAnnounced) {
+  Mask mask(512, 512);
+  mask.fill(0, 0, 40, 40);
+  for (const bool distorted : {false, true}) {
+    for (const bool masked : {false, true}) {
+      Case scene = stationCase(1, distorted);
+      if (masked) scene.ignore = &mask.bits;
+      for (const Variant& variant : variants()) {
+        SCOPED_TRACE(variant.name);
+        std::size_t bytes = 0;
+        ASSERT_EQ(Localizer::requiredBytes(sizeOf(scene.problem()), variant.options, bytes),
+                  Status::kOk);
+        Fenced enough(bytes);
+        Localizer localizer(scene.problem(), variant.options, enough.block());
+        EXPECT_EQ(localizer.status(), Status::kOk);
+        EXPECT_EQ(localizer.highWaterBytes(), bytes);
+        if (distorted && masked) {
+          while (!localizer.step().finished) {
+          }
+          EXPECT_EQ(localizer.highWaterBytes(), bytes);
+        }
+        EXPECT_TRUE(enough.intact());
+
+        Fenced little(bytes - Arena::kAlignment);
+        Localizer starved(scene.problem(), variant.options, little.block());
+        EXPECT_EQ(starved.status(), Status::kArenaTooSmall);
+        EXPECT_TRUE(starved.step().finished);
+        EXPECT_EQ(starved.workspace().fault, Status::kArenaTooSmall);
+        EXPECT_TRUE(little.intact());
+      }
+    }
+  }
+}
+
+TEST(LocalizerMemory, IsNeverLeftHoweverSmallItIs) {
+  const Case scene = stationCase(1, true);
+  std::size_t bytes = 0;
+  ASSERT_EQ(Localizer::requiredBytes(sizeOf(scene.problem()), {}, bytes), Status::kOk);
+  Random random(11);
+  for (int i = 0; i < 60; ++i) {
+    const std::size_t few =
+        i < 20 ? static_cast<std::size_t>(i) : random.below(static_cast<std::uint32_t>(bytes));
+    Fenced little(few);
+    Localizer localizer(scene.problem(), {}, little.block());
+    EXPECT_EQ(localizer.status(), Status::kArenaTooSmall) << few;
+    EXPECT_TRUE(localizer.step().finished);
+    EXPECT_TRUE(little.intact()) << few;
+  }
+}
+
+TEST(LocalizerMemory, MayBeginAnywhere) {
+  const Case scene = stationCase(1);
+  std::size_t bytes = 0;
+  ASSERT_EQ(Localizer::requiredBytes(sizeOf(scene.problem()), {}, bytes), Status::kOk);
+  OwnedRun aligned(scene.problem(), {});
+  aligned.finish();
+  for (const std::size_t shift : {1u, 4u, 8u, 15u}) {
+    Fenced odd(bytes + Arena::kAlignment, shift);
+    Localizer localizer(scene.problem(), {}, odd.block());
+    ASSERT_EQ(localizer.status(), Status::kOk);
+    while (!localizer.step().finished) {
+    }
+    EXPECT_TRUE(odd.intact());
+    EXPECT_EQ(localizer.digest(), aligned.localizer.digest());
+  }
+}
+
+TEST(LocalizerMemory, HoldsAnyOfTheSizes) {
+  Random random(5);
+  for (int i = 0; i < 12; ++i) {
+    ProblemSize size;
+    size.width = 1 + static_cast<int>(random.below(1500));
+    size.height = 1 + static_cast<int>(random.below(1500));
+    size.vertices = 1 + static_cast<int>(random.below(20000));
+    size.faces = 1 + static_cast<int>(random.below(40000));
+    LocalizerOptions options;
+    std::size_t bytes = 0;
+    ASSERT_EQ(Localizer::requiredBytes(size, options, bytes), Status::kOk);
+    EXPECT_EQ(bytes % Arena::kAlignment, 0u);
+    EXPECT_GT(bytes, static_cast<std::size_t>(size.faces) * 12);
+    std::size_t more = 0;
+    size.width += 200;
+    size.faces += 1000;
+    ASSERT_EQ(Localizer::requiredBytes(size, options, more), Status::kOk);
+    EXPECT_GE(more, bytes);
+  }
+}
+
+TEST(LocalizerMemory, NothingIsAllocated) {
+  {
+    // The counter hears all of them.
+    const int before = heapAllocations();
+    void* volatile block = std::malloc(10);
+    std::free(block);
+    EXPECT_EQ(heapAllocations(), before + 1);
+    const auto owned = std::make_unique<double[]>(1000);
+    EXPECT_EQ(heapAllocations(), before + 2);
+    const Eigen::VectorXd vector = Eigen::VectorXd::Zero(1000 + before % 2);
+    EXPECT_EQ(heapAllocations(), before + 3);
+    EXPECT_EQ(vector[3], owned[3]);
+  }
+  for (const bool distorted : {false, true}) {
+    Mask mask(512, 512);
+    mask.fill(30, 30, 90, 90);
+    Case scene = stationCase(3, distorted);
+    scene.ignore = &mask.bits;
+    for (const Variant& variant : variants()) {
+      SCOPED_TRACE(variant.name);
+      std::vector<std::byte> memory = blockFor(scene.problem(), variant.options);
+      const LocalizationProblem problem = scene.problem();
+      const int before = heapAllocations();
+      Localizer localizer(problem, variant.options, memory);
+      while (!localizer.step().finished) {
+      }
+      const Status restarted = localizer.restart(scene.seed, variant.options);
+      std::size_t bytes = 0;
+      const Status sized = Localizer::requiredBytes(sizeOf(problem), variant.options, bytes);
+      const auto digest = localizer.digest();
+      const int after = heapAllocations();
+      EXPECT_EQ(after, before);
+      EXPECT_EQ(restarted, Status::kOk);
+      EXPECT_EQ(sized, Status::kOk);
+      EXPECT_EQ(digest, localizer.digest());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace boresight::test

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/localizer/localizer_options.h"
+
+#include <limits>
+#include <set>
+#include <string>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+namespace boresight::test {
+namespace {
+
+/// Bytes of the fields visited, and how many there are.
+struct Extent {
+  std::size_t bytes = 0;
+  int count = 0;
+};
+
+template <class Options>
+Extent extentOf() {
+  Options options;
+  Extent extent;
+  Options::visitFields(options, [&extent](const OptionInfo&, const auto& field) {
+    extent.bytes += sizeof(field);
+    ++extent.count;
+  });
+  return extent;
+}
+
+/// Fields that are not visited would show as bytes that padding cannot explain.
+template <class Options>
+void expectEveryFieldVisited(const char* name) {
+  const Extent extent = extentOf<Options>();
+  EXPECT_LE(extent.bytes, sizeof(Options)) << name;
+  std::size_t padding = 0;  // each run of small fields is padded to eight bytes at most
+  Options options;
+  std::size_t run = 0;
+  Options::visitFields(options, [&](const OptionInfo&, const auto& field) {
+    if (sizeof(field) < 8) {
+      run += sizeof(field);
+    } else {
+      padding += run > 0 ? 8 : 0;
+      run = 0;
+    }
+  });
+  padding += 8;
+  EXPECT_LT(sizeof(Options), extent.bytes + padding + 8) << name;
+}
+
+TEST(LocalizerOptions, EveryFieldIsVisited) {
+  expectEveryFieldVisited<EdgeOptions>("edges");
+  expectEveryFieldVisited<RenderOptions>("render");
+  expectEveryFieldVisited<TemplateOptions>("templates");
+  expectEveryFieldVisited<PnpOptions>("pnp");
+  expectEveryFieldVisited<LoopOptions>("loop");
+  expectEveryFieldVisited<RefinementOptions>("refinement");
+  expectEveryFieldVisited<SupportOptions>("support");
+  const int parts = extentOf<EdgeOptions>().count + extentOf<RenderOptions>().count +
+                    extentOf<TemplateOptions>().count + extentOf<PnpOptions>().count +
+                    extentOf<LoopOptions>().count + extentOf<RefinementOptions>().count +
+                    extentOf<SupportOptions>().count;
+  EXPECT_EQ(extentOf<LocalizerOptions>().count, parts);
+}
+
+TEST(LocalizerOptions, EveryFieldIsVisitedOnce) {
+  LocalizerOptions options;
+  std::set<const void*> places;
+  std::set<std::string> names;
+  LocalizerOptions::visitFields(options, [&](const OptionInfo& info, const auto& field) {
+    EXPECT_TRUE(places.insert(&field).second) << info.name;
+    EXPECT_TRUE(names.insert(info.name).second) << info.name;
+  });
+  EXPECT_EQ(places.size(), names.size());
+}
+
+TEST(LocalizerOptions, AreDescribed) {
+  LocalizerOptions options;
+  LocalizerOptions::visitFields(options, [](const OptionInfo& info, const auto& field) {
+    const std::string name = info.name;
+    EXPECT_NE(name.find('.'), std::string::npos) << name;
+    EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_."), std::string::npos)
+        << name;
+    EXPECT_LT(info.minimum, info.maximum) << name;
+    const std::string help = info.help;
+    EXPECT_GT(help.size(), 8u) << name;
+    EXPECT_EQ(help.back(), '.') << name;
+    const std::string unit = info.unit;
+    if (unit == "px" || unit == "m" || unit == "rad") {
+      EXPECT_TRUE(name.ends_with("_" + unit) || name.ends_with("_px") || info.help != std::string())
+          << name;
+    }
+    using Field = std::remove_cvref_t<decltype(field)>;
+    EXPECT_EQ(std::is_enum_v<Field>, !info.choices.empty()) << name;
+    if (!info.choices.empty()) {
+      EXPECT_EQ(info.minimum, 0.0) << name;
+      EXPECT_EQ(info.maximum, static_cast<double>(info.choices.size() - 1)) << name;
+    }
+  });
+}
+
+TEST(LocalizerOptions, ProfilesAreInRange) {
+  EXPECT_EQ(firstInvalidOption(defaultProfile()), nullptr);
+  EXPECT_EQ(firstInvalidOption(paperProfile()), nullptr);
+}
+
+TEST(LocalizerOptions, PaperProfileIsAsPublished) {
+  const LocalizerOptions paper = paperProfile();
+  EXPECT_EQ(paper.loop.max_iterations, 10);
+  EXPECT_EQ(paper.loop.inlier_threshold_px, 8.0);
+  EXPECT_EQ(paper.loop.threshold_shrink, 0.5);
+  EXPECT_EQ(paper.loop.uncertainty_shrink, 0.5);
+  EXPECT_EQ(paper.loop.shrink_iterations, 2);
+  EXPECT_EQ(paper.loop.converged_translation_m, 0.0005);
+  EXPECT_NEAR(paper.loop.converged_rotation_rad, 0.5 * 3.14159265358979 / 180.0, 1e-12);
+  EXPECT_EQ(paper.loop.converged_iterations, 2);
+  EXPECT_EQ(paper.loop.leave_factor, 1.1);
+  EXPECT_EQ(paper.loop.correction_point, CorrectionPoint::kCamera);
+  EXPECT_EQ(paper.pnp.sampler, PnpSampler::kP3p);
+  EXPECT_FALSE(paper.refinement.enabled);
+  EXPECT_FALSE(paper.support.gate);
+  EXPECT_EQ(paper.edges.equalization, Equalization::kHistogram);
+}
+
+TEST(LocalizerOptions, FirstInvalidOptionNamesTheCulprit) {
+  LocalizerOptions options;
+  LocalizerOptions::visitFields(options, [&options](const OptionInfo& info, auto& field) {
+    using Field = std::remove_reference_t<decltype(field)>;
+    const Field before = field;
+    if constexpr (std::is_same_v<Field, double>) {
+      for (const double bad :
+           {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+            -std::numeric_limits<double>::infinity(), info.minimum - 1e-3, info.maximum + 1e-3}) {
+        field = bad;
+        EXPECT_STREQ(firstInvalidOption(options), info.name) << bad;
+      }
+      for (const double good : {info.minimum, info.maximum}) {
+        field = good;
+        EXPECT_EQ(firstInvalidOption(options), nullptr) << info.name;
+      }
+    } else if constexpr (!std::is_same_v<Field, bool>) {
+      for (const double bad : {info.minimum - 1.0, info.maximum + 1.0}) {
+        field = static_cast<Field>(static_cast<std::int64_t>(bad));
+        EXPECT_STREQ(firstInvalidOption(options), info.name) << bad;
+      }
+    }
+    field = before;
+  });
+}
+
+}  // namespace
+}  // namespace boresight::test

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/base/arena.h"
+#include "core/base/image.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/mesh.h"
+#include "core/geometry/pose.h"
+#include "core/localizer/localizer.h"
+#include "core/localizer/problem.h"
+#include "core/render/edge_render.h"
+
+namespace boresight::test {
+
+/// A mesh that owns its memory; every face has a gray of its own for the picture.
+struct Solid {
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<Face> faces;
+  std::vector<std::uint16_t> part_of_face;
+  std::vector<double> albedo_of_face;
+  std::vector<ScenePart> parts{ScenePart()};
+
+  MeshView view() const { return {vertices, faces, part_of_face, parts}; }
+  /// An upright prism from z = bottom_m to top_m over a convex outline, counter-clockwise from
+  /// above.
+  void addPrism(const std::vector<Eigen::Vector2d>& outline_m, double bottom_m, double top_m,
+                double albedo, int part = 0);
+  void addBox(double x_m, double y_m, double half_x_m, double half_y_m, double turn_rad,
+              double bottom_m, double top_m, double albedo, int part = 0);
+  void addCylinder(double x_m, double y_m, double radius_m, double bottom_m, double top_m,
+                   double albedo, int part = 0);
+};
+
+/// A plate of 16 x 13 cm with boxes, a triangular and a hexagonal prism and cylinders of different
+/// heights; nothing about it is symmetric. Its outside is towards +z.
+Solid stationMesh();
+/// The station with a bar floating above it, part 1, which occludes and is not matched.
+Solid occludedStationMesh();
+/// First face of the bar.
+std::int32_t firstOccluderFace(const Solid& solid);
+
+Camera pinholeCamera();       ///< 512 x 512
+Camera brownConradyCamera();  ///< 512 x 512
+Pose truthPose();             ///< the station at 0.45 m, tilted
+
+struct Picture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> gray;
+  ImageView view() const { return {gray.data(), width, height, width}; }
+};
+
+/// What the camera sees: nine rays a pixel, shaded by a lamp at the side, in front of a blotchy
+/// background, blurred 3 x 3, with a little noise.
+Picture takePicture(const Solid& solid, const Camera& camera, const Pose& camera_from_station);
+Picture noisePicture(int width, int height, std::uint64_t seed);
+Picture flatPicture(int width, int height, std::uint8_t gray);
+
+/// A render with all its memory.
+struct Rendering {
+  std::vector<std::byte> memory;
+  MeshAdjacency adjacency;
+  EdgeRender edges;
+};
+Rendering renderEdges(const Solid& solid, const Camera& camera, const Pose& camera_from_station);
+
+/// An owned bit image.
+struct Mask {
+  std::vector<std::byte> memory;
+  BitImage bits;
+  Mask(int width, int height);
+  void fill(int x_begin, int y_begin, int x_end, int y_end);
+  double share() const;
+};
+
+/// +-20 mm and +-4 deg about the station's centre.
+SeedUncertainty uncertaintyAbout(const Solid& solid, const Pose& camera_from_station);
+/// A pose displaced uniformly inside `share` of the uncertainty box.
+Pose displacedSeed(const Pose& truth, const SeedUncertainty& uncertainty, double share,
+                   std::uint64_t seed);
+
+/// Everything of a run that a problem points to. The picture is shared: it takes longest.
+struct Case {
+  Solid solid;
+  Camera camera;
+  const Picture* picture = nullptr;
+  Pose truth;
+  Pose seed;
+  SeedUncertainty uncertainty;
+  const BitImage* ignore = nullptr;
+
+  LocalizationProblem problem() const;
+};
+/// The station before the pinhole camera (or another one), seeded by `seed`.
+Case stationCase(std::uint64_t seed, bool distorted = false);
+Case occludedCase(std::uint64_t seed);
+
+/// The run's own block, sized by requiredBytes.
+struct OwnedRun {
+  std::vector<std::byte> memory;
+  Localizer localizer;
+  OwnedRun(const LocalizationProblem& problem, const LocalizerOptions& options);
+  /// Steps to the end; the number of steps, or -1 when there seems to be none.
+  int finish();
+};
+std::vector<std::byte> blockFor(const LocalizationProblem& problem,
+                                const LocalizerOptions& options);
+
+/// Distance between the station's centre under two poses, and the angle between them.
+struct PoseError {
+  double centre_m = 0.0;
+  double angle_rad = 0.0;
+};
+PoseError poseError(const Solid& solid, const Pose& truth, const Pose& estimate);
+/// Mean distance between the projections of the mesh's vertices.
+double meanDisplacement_px(const Solid& solid, const Camera& camera, const Pose& truth,
+                           const Pose& estimate);
+
+}  // namespace boresight::test
