@@ -163,7 +163,7 @@ int evaluate(EvaluateArguments& arguments) {
   const bool whole = !stop.stop_requested();
   sessions::writeResultsDatabase(arguments.out, results, factsOf(arguments, whole));
   if (!arguments.jsonl.empty()) writeLines(arguments.jsonl, results);
-  std::cout << sessions::summaryTable(sessions::summarize(results)) << "\n"
+  std::cout << sessions::summaryTable(results) << "\n"
             << sessions::toleranceTable(results) << "\n"
             << sessions::failureList(results, kListedFailures) << std::flush;
   if (!whole) note("interrupted: the results hold what had been run");
