@@ -76,11 +76,11 @@ void onInterrupt(int) { interrupted = 1; }
 /// Turns an interrupt into a stop: what has been run is then still written.
 class InterruptWatch {
  public:
-  explicit InterruptWatch(std::stop_source source) {
+  explicit InterruptWatch(const std::stop_source& source) {
     interrupted = 0;
     std::signal(SIGINT, onInterrupt);
     std::signal(SIGTERM, onInterrupt);
-    thread_ = std::jthread([source](const std::stop_token& ended) mutable {
+    thread_ = std::jthread([source](const std::stop_token& ended) {
       while (!ended.stop_requested()) {
         if (interrupted != 0) source.request_stop();
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
