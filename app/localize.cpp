@@ -171,13 +171,14 @@ void writeOverlay(const std::string& file, const Inputs& inputs,
                   const sessions::LocalizationTrace& trace) {
   std::vector<sessions::OverlayLayer> layers = {
       {"seed", inputs.seed.camera_from_station, sessions::kSeedColor}};
-  if (inputs.truth)
-    layers.push_back({"truth", inputs.truth->camera_from_station, sessions::kTruthColor, 1});
-  if (trace.converged())
+  if (trace.converged()) {
     layers.push_back({"result", trace.camera_from_station, sessions::kResultColor});
-  else if (!trace.iterations.empty())
+  } else if (!trace.iterations.empty()) {
     layers.push_back({std::string("last hypothesis, ") + localizationStatusText(trace.status),
                       trace.iterations.back().camera_from_station, sessions::kResultColor});
+  }
+  if (inputs.truth)
+    layers.push_back({"truth", inputs.truth->camera_from_station, sessions::kTruthColor, true});
   sessions::writeColorPng(
       file, sessions::drawOverlay(inputs.image.view(), inputs.camera, inputs.scene.view(), layers));
 }

@@ -67,13 +67,13 @@ void drawLegend(std::span<const OverlayLayer> layers, std::span<const std::strin
 ColorImage drawOverlay(const ImageView& image, const Camera& camera, const MeshView& mesh,
                        std::span<const OverlayLayer> layers) {
   cv::Mat canvas = grayAsColor(image);
-  const int base_radius_px = std::max(image.width, image.height) / 1500;
+  const int radius_px = std::max(1, std::max(image.width, image.height) / 2048);
   std::vector<std::string> labels;
   for (const OverlayLayer& layer : layers) {
     RenderTrace render;
     const Status status = renderScene(camera, mesh, layer.camera_from_station, render);
     const bool visible = status == Status::kOk && !render.pixels.empty();
-    if (visible) drawEdges(render, layer.color, base_radius_px + layer.extra_px, canvas);
+    if (visible) drawEdges(render, layer.color, layer.thin ? radius_px - 1 : radius_px, canvas);
     labels.push_back(layer.label + (visible ? "" : " (no edges in view)"));
   }
   if (!layers.empty()) drawLegend(layers, labels, canvas);

@@ -33,7 +33,7 @@ struct OverlayLayer {
   std::string label;
   Pose camera_from_station;
   ColorBgr color{};
-  int extra_px = 0;  ///< drawn wider by this on each side, to show beneath a later layer
+  bool thin = false;  ///< drawn narrower, so that an earlier layer shows on both sides
 };
 
 /// The image in gray with the layers drawn over it in their order, each rendered by the core at
