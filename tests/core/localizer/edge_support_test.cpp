@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/localizer/edge_support.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,8 @@
 
 namespace boresight::test {
 namespace {
+
+constexpr int kDisplacements[4][2] = {{11, 0}, {0, 11}, {-11, 0}, {0, -11}};
 
 /// The test edges of a picture with their memory.
 struct Edges {
@@ -71,24 +74,33 @@ TEST(EdgeSupport, CoverageCountsEachRenderedEdgePixel) {
       ASSERT_LT(render.pixel_count, 6000);  // every one is looked at
       const EdgeSearch search(options.derivative_sigma_px);
       const double scale = level == 0 ? 1.0 : 2.0;
-      int rendered = 0;
-      int covered = 0;
+      int looked[2] = {0, 0};
+      int near[2] = {0, 0};
       for (int i = 0; i < render.pixel_count; ++i) {
         const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
         const Eigen::Vector2d normal(pixel.normal_x / 127.0, pixel.normal_y / 127.0);
-        const double x = (pixel.x + 0.01 * pixel.offset * normal.x()) * scale + 0.5 * (scale - 1.0);
-        const double y = (pixel.y + 0.01 * pixel.offset * normal.y()) * scale + 0.5 * (scale - 1.0);
-        if (masked &&
-            mask.bits.get(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y))))
-          continue;
-        ++rendered;
-        const EdgePeak peak = search.find(scene.picture->view(), scene.ignore, {x, y}, normal,
-                                          4.0 * scale, options.min_gradient);
-        covered += peak.gradient != 0.0 && std::abs(peak.offset_px) <= scale ? 1 : 0;
+        // In place, and displaced in one of four directions in turn.
+        for (const int displaced : {0, 1}) {
+          const Eigen::Vector2d at =
+              Eigen::Vector2d(pixel.x, pixel.y) + 0.01 * pixel.offset * normal +
+              displaced * Eigen::Vector2d(kDisplacements[i % 4][0], kDisplacements[i % 4][1]);
+          const Eigen::Vector2d place = at * scale + Eigen::Vector2d::Constant(0.5 * (scale - 1.0));
+          const int x = std::clamp(static_cast<int>(std::lround(place.x())), 0, 511);
+          const int y = std::clamp(static_cast<int>(std::lround(place.y())), 0, 511);
+          if (masked && mask.bits.get(x, y)) continue;
+          ++looked[displaced];
+          const EdgePeak peak = search.find(scene.picture->view(), scene.ignore, place, normal,
+                                            4.0 * scale, options.min_gradient);
+          near[displaced] += peak.gradient != 0.0 && std::abs(peak.offset_px) <= scale ? 1 : 0;
+        }
       }
       const EdgeSupport support = supportAt(scene, pose, level);
-      EXPECT_NEAR(support.rendered, rendered, 2);  // a place may fall between two pixels
-      EXPECT_NEAR(support.covered, covered, 2);
+      // A place may fall between two pixels.
+      EXPECT_NEAR(support.rendered, looked[0], 2);
+      EXPECT_NEAR(support.covered, near[0], 2);
+      EXPECT_NEAR(support.displaced, looked[1], 2);
+      EXPECT_NEAR(support.displaced_covered, near[1], 2);
+      EXPECT_GT(near[0], near[1]);
       EXPECT_EQ(support.rendered < render.pixel_count - 100, masked);
       EXPECT_TRUE(masked || support.rendered == render.pixel_count);
     }
@@ -124,23 +136,29 @@ TEST(EdgeSupport, ExplanationIsThatOfACount) {
     render.mask = maps.mask.bits;
     EdgeMap edges;
     edges.level[2] = maps.test_edges.bits;
+    const auto nearEdge = [&](int x, int y) {
+      for (int v = y - 1; v <= y + 1; ++v) {
+        for (int u = x - 1; u <= x + 1; ++u) {
+          if (maps.edges.bits.contains(u, v) && maps.edges.bits.get(u, v)) return 1;
+        }
+      }
+      return 0;
+    };
     int seen = 0;
     int explained = 0;
+    int displaced = 0;
     for (int y = 0; y < RandomMaps::kHeight; ++y) {
       for (int x = 0; x < RandomMaps::kWidth; ++x) {
         if (!maps.mask.bits.get(x, y) || !maps.test_edges.bits.get(x, y)) continue;
         ++seen;
-        bool near = false;
-        for (int v = y - 1; v <= y + 1; ++v) {
-          for (int u = x - 1; u <= x + 1; ++u)
-            near = near || (maps.edges.bits.contains(u, v) && maps.edges.bits.get(u, v));
-        }
-        explained += near ? 1 : 0;
+        explained += nearEdge(x, y);
+        for (const auto& by : kDisplacements) displaced += nearEdge(x - by[0], y - by[1]);
       }
     }
     const EdgeSupport support = measureEdgeSupport(render, 2, edges, flat.view(), nullptr, {});
     EXPECT_EQ(support.seen, seen);
     EXPECT_EQ(support.explained, explained);
+    EXPECT_EQ(support.displaced_explained, displaced);
     EXPECT_GT(seen, explained);
     EXPECT_EQ(support.rendered, 0);
   }
@@ -167,6 +185,24 @@ TEST(EdgeSupport, ShareWeighsCoverageTwice) {
   EXPECT_DOUBLE_EQ(support.coverage(), 0.6);
   EXPECT_DOUBLE_EQ(support.explanation(), 0.15);
   EXPECT_DOUBLE_EQ(support.share(), 0.45);
+}
+
+TEST(EdgeSupport, ShareIsTheExcessOverChance) {
+  EdgeSupport support;
+  support.rendered = 10;
+  support.covered = 6;
+  support.displaced = 8;
+  support.displaced_covered = 2;
+  support.seen = 20;
+  support.explained = 10;
+  support.displaced_explained = 16;
+  EXPECT_DOUBLE_EQ(support.chanceCoverage(), 0.25);
+  EXPECT_DOUBLE_EQ(support.chanceExplanation(), 0.2);
+  EXPECT_NEAR(support.share(), (2.0 * (0.35 / 0.75) + 0.3 / 0.8) / 3.0, 1e-12);
+  support.displaced_explained = 80;  // everything by chance
+  EXPECT_NEAR(support.share(), 2.0 * (0.35 / 0.75) / 3.0, 1e-12);
+  support.covered = 1;  // less than by chance
+  EXPECT_EQ(support.share(), 0.0);
 }
 
 }  // namespace
