@@ -134,8 +134,10 @@ Status EdgeRefinement::solve(double scale_px, bool& settled) {
       std::max(variance_px2, kMinScale_px * kMinScale_px) * options_.covariance_inflation;
   equations.information /= noise_px2;
   equations.gradient /= noise_px2;
-  if (!invert(equations.information, result.covariance)) return Status::kDegenerate;
+  const bool determined = invert(equations.information, result.covariance);
   addKnowledge(equations);
+  // What the edges alone leave open is known as well as it was before.
+  if (!determined && !invert(equations.information, result.covariance)) return Status::kDegenerate;
   Vector6d xi;
   if (!boresight::solve(equations, 0.0, xi)) return Status::kDegenerate;
   Pose moved = perturbed(xi, result.camera_from_station);

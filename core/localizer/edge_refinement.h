@@ -91,8 +91,10 @@ struct EdgeSample {
 
 struct RefinementResult {
   Pose camera_from_station;
-  Matrix6d covariance = Matrix6d::Zero();  ///< as in PnpSolution
-  std::span<EdgeSample> samples;           ///< capacity; the first `sample_count` are valid
+  /// As in PnpSolution: of the edges alone; of edges, anchor and matched pose together where the
+  /// edges alone leave a direction open.
+  Matrix6d covariance = Matrix6d::Zero();
+  std::span<EdgeSample> samples;  ///< capacity; the first `sample_count` are valid
   std::int32_t sample_count = 0;
   std::int32_t found_count = 0;  ///< samples with an edge within the radius
   std::int32_t used_count = 0;   ///< samples with a weight above one half
@@ -106,12 +108,13 @@ class EdgeRefinement {
  public:
   Status create(const RefinementOptions& options, Arena& arena);
   /// Takes the samples from a render of the same pose; `image` is raw, at full resolution, `camera`
-  /// its camera; `ignore` may be nullptr.
+  /// its camera; `ignore` may be nullptr. `anchor` and `matched` (each may be nullptr) are what is
+  /// known of the pose besides the edges: where these leave a direction open, it stays there.
   Status begin(const ImageView& image, const BitImage* ignore, const Camera& camera,
                const MeshView& mesh, const EdgeRender& render, double radius_px,
                const PosePrior* anchor, const PoseEstimate* matched, RefinementResult& result);
-  /// One round; kTooFewEdges when too little is found, kDegenerate when the edges do not fix the
-  /// pose.
+  /// One round; kTooFewEdges when too little is found, kDegenerate when the edges and what is known
+  /// besides do not fix the pose.
   Status step(bool& done);
 
  private:

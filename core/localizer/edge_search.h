@@ -22,9 +22,9 @@ class EdgeSearch {
   EdgeSearch() = default;
   explicit EdgeSearch(double sigma_px);
 
-  /// Nearer peaks are preferred: a strength counts (1 - (offset / radius)^2) times. Peaks weaker
-  /// than `min_gradient`, on ignored pixels (`ignore` may be nullptr) or whose profile leaves the
-  /// image are none.
+  /// Nearer peaks are preferred: a strength counts (1 - (offset / (radius + 1 px))^2) times. Peaks
+  /// weaker than `min_gradient`, on ignored pixels (`ignore` may be nullptr) or whose profile
+  /// leaves the image are none.
   EdgePeak find(const ImageView& image, const BitImage* ignore, const Eigen::Vector2d& predicted_px,
                 const Eigen::Vector2d& normal, double radius_px, double min_gradient) const;
 

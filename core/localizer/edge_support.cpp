@@ -11,35 +11,75 @@ namespace {
 constexpr std::int32_t kMaxPlaces =
     6000;  ///< so many tell the share to half a percent, in one slice
 
+/// Displacements of the render that tell what comes about by chance, px of the render: beyond any
+/// search radius in use, and no multiple of a power of two that a raster might have.
+constexpr int kDisplacements[4][2] = {{11, 0}, {0, 11}, {-11, 0}, {0, -11}};
+
+/// A place of the render in the image, and what is looked for there.
+struct Place {
+  Eigen::Vector2d position_px;
+  Eigen::Vector2d normal;
+};
+
+Place placeOf(const EdgePixel& pixel, double scale, const int displacement[2]) {
+  Place place;
+  place.normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
+  const Eigen::Vector2d line =
+      Eigen::Vector2d(pixel.x + displacement[0], pixel.y + displacement[1]) +
+      0.01 * pixel.offset * place.normal;
+  place.position_px = (line.array() + 0.5).matrix() * scale - Eigen::Vector2d::Constant(0.5);
+  return place;
+}
+
+/// Counts one place; ignored ones are left out.
+void countPlace(const Place& place, const EdgeSearch& search, double scale, const ImageView& image,
+                const BitImage* ignore, const SupportOptions& options, std::int32_t& looked,
+                std::int32_t& near) {
+  const int x = std::clamp(static_cast<int>(place.position_px.x() + 0.5), 0, image.width - 1);
+  const int y = std::clamp(static_cast<int>(place.position_px.y() + 0.5), 0, image.height - 1);
+  if (ignore != nullptr && ignore->get(x, y)) return;
+  ++looked;
+  const EdgePeak peak = search.find(image, ignore, place.position_px, place.normal,
+                                    options.search_radius_px * scale, options.min_gradient);
+  if (peak.gradient != 0.0 && std::abs(peak.offset_px) <= options.near_px * scale) ++near;
+}
+
 void measureCoverage(const EdgeRender& render, int level, const ImageView& image,
                      const BitImage* ignore, const SupportOptions& options, EdgeSupport& support) {
+  constexpr int kInPlace[2] = {0, 0};
   const EdgeSearch search(options.derivative_sigma_px);
   const double scale = static_cast<double>(1 << level);
   const std::int32_t stride = std::max(1, (render.pixel_count + kMaxPlaces - 1) / kMaxPlaces);
+  int direction = 0;
   for (std::int32_t i = 0; i < render.pixel_count; i += stride) {
     const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
-    const Eigen::Vector2d normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
-    const Eigen::Vector2d line = Eigen::Vector2d(pixel.x, pixel.y) + 0.01 * pixel.offset * normal;
-    const Eigen::Vector2d place =
-        (line.array() + 0.5).matrix() * scale - Eigen::Vector2d::Constant(0.5);
-    const int x = std::clamp(static_cast<int>(place.x() + 0.5), 0, image.width - 1);
-    const int y = std::clamp(static_cast<int>(place.y() + 0.5), 0, image.height - 1);
-    if (ignore != nullptr && ignore->get(x, y)) continue;
-    ++support.rendered;
-    const EdgePeak peak = search.find(image, ignore, place, normal,
-                                      options.search_radius_px * scale, options.min_gradient);
-    if (peak.gradient != 0.0 && std::abs(peak.offset_px) <= options.near_px * scale)
-      ++support.covered;
+    countPlace(placeOf(pixel, scale, kInPlace), search, scale, image, ignore, options,
+               support.rendered, support.covered);
+    countPlace(placeOf(pixel, scale, kDisplacements[direction]), search, scale, image, ignore,
+               options, support.displaced, support.displaced_covered);
+    direction = (direction + 1) % 4;
   }
 }
 
-/// Word `w` of a row, moved by one pixel to either side and kept: horizontal dilation by one pixel.
-std::uint64_t dilatedWord(const BitImage& image, int y, int w) {
+/// The 64 bits from pixel x on of a row; pixels outside the image are 0.
+std::uint64_t bitsFrom(const BitImage& image, int x, int y) {
   if (y < 0 || y >= image.height) return 0;
   const std::uint64_t* row = image.row(y);
-  const std::uint64_t before = w > 0 ? row[w - 1] >> 63 : 0;
-  const std::uint64_t after = w + 1 < image.words_per_row ? row[w + 1] << 63 : 0;
-  return row[w] | (row[w] << 1) | (row[w] >> 1) | before | after;
+  const int word = x >= 0 ? x / 64 : -((63 - x) / 64);
+  const int bit = x - 64 * word;
+  const auto wordAt = [&](int w) {
+    return w >= 0 && w < image.words_per_row ? row[w] : std::uint64_t{0};
+  };
+  return bit == 0 ? wordAt(word) : (wordAt(word) >> bit) | (wordAt(word + 1) << (64 - bit));
+}
+
+/// The same, dilated by one pixel in all directions.
+std::uint64_t dilatedBitsFrom(const BitImage& image, int x, int y) {
+  std::uint64_t bits = 0;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) bits |= bitsFrom(image, x + dx, y + dy);
+  }
+  return bits;
 }
 
 void measureExplanation(const EdgeRender& render, const BitImage& test_edges,
@@ -50,11 +90,13 @@ void measureExplanation(const EdgeRender& render, const BitImage& test_edges,
     for (int w = 0; w < words; ++w) {
       const std::uint64_t seen = test_edges.row(y)[w] & render.mask.row(y)[w];
       if (seen == 0) continue;
-      const std::uint64_t near = dilatedWord(render.edges, y - 1, w) |
-                                 dilatedWord(render.edges, y, w) |
-                                 dilatedWord(render.edges, y + 1, w);
       support.seen += std::popcount(seen);
-      support.explained += std::popcount(seen & near);
+      support.explained += std::popcount(seen & dilatedBitsFrom(render.edges, 64 * w, y));
+      for (const auto& displacement : kDisplacements) {
+        const std::uint64_t moved =
+            dilatedBitsFrom(render.edges, 64 * w - displacement[0], y - displacement[1]);
+        support.displaced_explained += std::popcount(seen & moved);
+      }
     }
   }
 }

@@ -13,7 +13,7 @@ namespace boresight {
 
 struct SupportOptions {
   bool gate = true;
-  double min_support = 0.345;
+  double min_support = 0.32;
   double search_radius_px = 4.0;
   double near_px = 1.0;
   double min_gradient = 4.0;
@@ -49,19 +49,37 @@ struct SupportOptions {
 /// derivative of the raw image along the edge's normal, within the search radius, lies near the
 /// edge; *explained*, how much of what is seen on the object is predicted: test edges inside the
 /// mask with a rendered edge within one pixel (the rest is texture, shadow, or somebody else's
-/// edge). A wrong pose covers by chance and explains little; a dark or textured object is strong in
-/// one of the two.
+/// edge). Both also come about by chance, the more the denser the edges: the same counts with the
+/// render displaced in four directions say how much. What exceeds chance counts. A wrong pose
+/// covers a part and explains little; a dark or textured object is strong in one of the two.
 struct EdgeSupport {
   std::int32_t rendered =
       0;  ///< rendered edge pixels looked at (an even subset of many), not ignored
   std::int32_t covered = 0;
+  std::int32_t displaced = 0;  ///< the same for the displaced render
+  std::int32_t displaced_covered = 0;
   std::int32_t seen = 0;  ///< test edge pixels inside the mask, at the render's level
   std::int32_t explained = 0;
+  std::int32_t displaced_explained = 0;  ///< over four displacements
 
-  double coverage() const { return rendered > 0 ? static_cast<double>(covered) / rendered : 0.0; }
-  double explanation() const { return seen > 0 ? static_cast<double>(explained) / seen : 0.0; }
-  /// (2 coverage + explanation) / 3, in [0, 1].
-  double share() const { return (2.0 * coverage() + explanation()) / 3.0; }
+  double coverage() const { return ratio(covered, rendered); }
+  double chanceCoverage() const { return ratio(displaced_covered, displaced); }
+  double explanation() const { return ratio(explained, seen); }
+  double chanceExplanation() const { return 0.25 * ratio(displaced_explained, seen); }
+  /// (2 coverage + explanation) / 3, each as its excess over chance, in [0, 1].
+  double share() const {
+    return (2.0 * excess(coverage(), chanceCoverage()) +
+            excess(explanation(), chanceExplanation())) /
+           3.0;
+  }
+
+ private:
+  static double ratio(std::int32_t part, std::int32_t whole) {
+    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+  }
+  static double excess(double share, double chance) {
+    return share > chance && chance < 1.0 ? (share - chance) / (1.0 - chance) : 0.0;
+  }
 };
 
 /// `image` is raw, at full resolution; `level` is the render's. `ignore` may be nullptr.

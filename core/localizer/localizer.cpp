@@ -399,8 +399,11 @@ StepReport Localizer::stepSupport() {
   digest_.tag("support");
   digest_.i32(workspace_.support.rendered);
   digest_.i32(workspace_.support.covered);
+  digest_.i32(workspace_.support.displaced);
+  digest_.i32(workspace_.support.displaced_covered);
   digest_.i32(workspace_.support.seen);
   digest_.i32(workspace_.support.explained);
+  digest_.i32(workspace_.support.displaced_explained);
   const bool supported =
       !options_.support.gate || workspace_.support.share() >= options_.support.min_support;
   if (!supported) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One block, exactly as large as announced, and nothing beside it.
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 
@@ -118,6 +119,9 @@ TEST(LocalizerMemory, MayBeginAnywhere) {
     while (!localizer.step().finished) {
     }
     EXPECT_TRUE(odd.intact());
+    const auto place =
+        reinterpret_cast<std::uintptr_t>(localizer.workspace().edges.level[0].words.data());
+    EXPECT_EQ(place % Arena::kAlignment, 0u);
     EXPECT_EQ(localizer.digest(), aligned.localizer.digest());
   }
 }

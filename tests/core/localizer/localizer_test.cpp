@@ -74,6 +74,22 @@ TEST_P(LocalizerOnCameras, PaperProfileIsAccurateWhereItConverges) {
   EXPECT_GE(converged, 4);
 }
 
+/// Matches are places of their level; correspondences, of the image.
+void expectPlacesOfTheImage(const Iteration& iteration) {
+  const double scale = static_cast<double>(1 << iteration.level);
+  for (int i = 0; i < iteration.correspondence_count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Match& match =
+        iteration.matches.matches[static_cast<std::size_t>(iteration.template_of[k])];
+    const Correspondence& made = iteration.correspondences[k];
+    EXPECT_TRUE(match.searched);
+    EXPECT_DOUBLE_EQ(made.pixel.x() + 0.5, scale * (match.x + 0.5));
+    EXPECT_DOUBLE_EQ(made.pixel.y() + 0.5, scale * (match.y + 0.5));
+    EXPECT_DOUBLE_EQ(made.sigma_px, scale);
+  }
+  EXPECT_EQ(iteration.correspondence_count, iteration.matches.searched);
+}
+
 TEST(Localizer, ConvergesFromCoarserLevels) {
   for (const int coarse_size_px : {256, 128}) {
     SCOPED_TRACE(coarse_size_px);
@@ -85,6 +101,8 @@ TEST(Localizer, ConvergesFromCoarserLevels) {
     StepReport report;
     while (!report.finished) {
       report = run.localizer.step();
+      if (report.stage == Stage::kMatch && report.stage_complete)
+        expectPlacesOfTheImage(*run.localizer.workspace().iteration);
       if (!report.iteration_complete) continue;
       const Iteration& iteration = *run.localizer.workspace().iteration;
       const int coarse = coarse_size_px == 256 ? 1 : 2;

@@ -38,7 +38,9 @@ struct Surfaces {
 Rendering render(const Solid& solid, const Camera& camera, const Pose& camera_from_station,
                  Surfaces* surfaces) {
   Rendering out;
-  out.memory.resize(std::size_t{64} << 20);
+  const auto pixels =
+      static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+  out.memory.resize((std::size_t{6} << 20) + 2 * pixels);
   Arena arena(out.memory);
   EXPECT_EQ(buildAdjacency(solid.view(), arena, out.adjacency), Status::kOk);
   RayGrid rays;
