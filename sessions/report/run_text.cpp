@@ -92,11 +92,12 @@ std::string faultText(const LocalizationTrace& trace) {
 std::string notSupportedText(const LocalizationTrace& trace) {
   const EdgeSupport& support = trace.support;
   return format(
-      "edge support is %.1f %%, needed %.1f %%: of %d rendered edge pixels %d are seen, of %d "
-      "image "
-      "edge pixels on the object %d are predicted; the pose is probably wrong: check seed and mesh",
-      100.0 * support.share(), 100.0 * trace.options.support.min_support, support.rendered,
-      support.covered, support.seen, support.explained);
+      "edge support is %.1f %%, needed %.1f %%: %.1f %% of the rendered edges are seen (%.1f %% by "
+      "chance), %.1f %% of the edges seen on the object are rendered (%.1f %% by chance); the pose "
+      "is probably wrong: check seed and mesh",
+      100.0 * support.share(), 100.0 * trace.options.support.min_support,
+      100.0 * support.coverage(), 100.0 * support.chanceCoverage(), 100.0 * support.explanation(),
+      100.0 * support.chanceExplanation());
 }
 
 std::string iterationLimitText(const LocalizationTrace& trace, const IterationTrace& last) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The fields of every record in the order in which a trace file holds them. `Self` is a record, or
-// a const record when writing; the archive is an ArchiveWriter or an ArchiveReader.
+// a const record when writing; the archive is an ArchiveWriter or an ArchiveReader. The core's
+// records are taken apart by structured bindings: a member that is added there does not compile
+// here until it has its place in the file.
 #pragma once
 
 #include <concepts>
@@ -12,6 +14,11 @@ namespace boresight::sessions {
 
 template <class Self, class Record>
 concept Is = std::same_as<std::remove_const_t<Self>, Record>;
+
+template <class Archive, class... Number>
+void numbers(Archive& archive, Number&... values) {
+  (archive.number(values), ...);
+}
 
 template <class Archive, class Vector>
 void vectorFields(Archive& archive, Vector& vector) {
@@ -26,19 +33,19 @@ void fields(Archive& archive, Self& pose) {
 
 template <class Archive, Is<SeedUncertainty> Self>
 void fields(Archive& archive, Self& uncertainty) {
-  vectorFields(archive, uncertainty.translation_m);
-  vectorFields(archive, uncertainty.rotation_rad);
-  vectorFields(archive, uncertainty.pivot_in_camera_m);
+  auto& [translation_m, rotation_rad, pivot_in_camera_m] = uncertainty;
+  vectorFields(archive, translation_m);
+  vectorFields(archive, rotation_rad);
+  vectorFields(archive, pivot_in_camera_m);
 }
 
 template <class Archive, Is<Camera> Self>
 void fields(Archive& archive, Self& camera) {
-  archive.choice(camera.model, CameraModel::kKannalaBrandt);
-  archive.number(camera.width);
-  archive.number(camera.height);
-  for (auto* value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) archive.number(*value);
-  for (auto& coefficient : camera.distortion) archive.number(coefficient);
-  archive.number(camera.valid_radius);
+  auto& [model, width, height, fx, fy, cx, cy, distortion, valid_radius] = camera;
+  archive.choice(model, CameraModel::kKannalaBrandt);
+  numbers(archive, width, height, fx, fy, cx, cy);
+  for (auto& coefficient : distortion) archive.number(coefficient);
+  archive.number(valid_radius);
 }
 
 template <class Archive, Is<BitMap> Self>
@@ -55,14 +62,8 @@ void fields(Archive& archive, Self& map) {
 
 template <class Archive, Is<EdgePixel> Self>
 void fields(Archive& archive, Self& pixel) {
-  archive.number(pixel.x);
-  archive.number(pixel.y);
-  archive.number(pixel.depth_m);
-  archive.number(pixel.face);
-  archive.number(pixel.normal_x);
-  archive.number(pixel.normal_y);
-  archive.number(pixel.offset);
-  archive.number(pixel.kind);
+  auto& [x, y, depth_m, face, normal_x, normal_y, offset, kind] = pixel;
+  numbers(archive, x, y, depth_m, face, normal_x, normal_y, offset, kind);
 }
 
 template <class Archive, Is<RenderTrace> Self>
@@ -96,34 +97,33 @@ void fields(Archive& archive, Self& edges) {
 
 template <class Archive, Is<Template> Self>
 void fields(Archive& archive, Self& item) {
-  archive.number(item.center_x);
-  archive.number(item.center_y);
-  archive.number(item.depth_m);
-  archive.number(item.distinctness);
-  vectorFields(archive, item.point_in_station_m);
+  auto& [center_x, center_y, depth_m, distinctness, point_in_station_m] = item;
+  numbers(archive, center_x, center_y, depth_m, distinctness);
+  vectorFields(archive, point_in_station_m);
+}
+
+template <class Archive, Is<WhsPeak> Self>
+void fields(Archive& archive, Self& peak) {
+  auto& [x, y, counts, second_x, second_y, second_counts, has_second] = peak;
+  numbers(archive, x, y, counts.edge_hits, counts.empty_hits, second_x, second_y,
+          second_counts.edge_hits, second_counts.empty_hits, has_second);
 }
 
 template <class Archive, Is<Match> Self>
 void fields(Archive& archive, Self& match) {
-  auto& peak = match.peak;
-  for (auto* value :
-       {&match.window.x_min, &match.window.y_min, &match.window.x_max, &match.window.y_max,
-        &match.norms.edges, &match.norms.empties, &peak.x, &peak.y, &peak.counts.edge_hits,
-        &peak.counts.empty_hits, &peak.second_x, &peak.second_y, &peak.second_counts.edge_hits,
-        &peak.second_counts.empty_hits})
-    archive.number(*value);
-  archive.number(peak.has_second);
-  archive.number(match.x);
-  archive.number(match.y);
-  archive.number(match.searched);
-  archive.number(match.at_border);
+  auto& [window, norms, peak, x, y, searched, at_border] = match;
+  numbers(archive, window.x_min, window.y_min, window.x_max, window.y_max, norms.edges,
+          norms.empties);
+  fields(archive, peak);
+  numbers(archive, x, y, searched, at_border);
 }
 
 template <class Archive, Is<Correspondence> Self>
 void fields(Archive& archive, Self& correspondence) {
-  vectorFields(archive, correspondence.point_in_station_m);
-  vectorFields(archive, correspondence.pixel);
-  archive.number(correspondence.sigma_px);
+  auto& [point_in_station_m, pixel, sigma_px] = correspondence;
+  vectorFields(archive, point_in_station_m);
+  vectorFields(archive, pixel);
+  archive.number(sigma_px);
 }
 
 template <class Archive, Is<PnpTrace> Self>
@@ -139,12 +139,10 @@ void fields(Archive& archive, Self& pnp) {
 
 template <class Archive, Is<EdgeSample> Self>
 void fields(Archive& archive, Self& sample) {
-  vectorFields(archive, sample.point_in_station_m);
-  vectorFields(archive, sample.normal);
-  archive.number(sample.residual_px);
-  archive.number(sample.gradient);
-  archive.number(sample.weight);
-  archive.number(sample.kind);
+  auto& [point_in_station_m, normal, residual_px, gradient, weight, kind] = sample;
+  vectorFields(archive, point_in_station_m);
+  vectorFields(archive, normal);
+  numbers(archive, residual_px, gradient, weight, kind);
 }
 
 template <class Archive, Is<RefinementTrace> Self>
@@ -160,20 +158,24 @@ void fields(Archive& archive, Self& refinement) {
 
 template <class Archive, Is<HypothesisSummary> Self>
 void fields(Archive& archive, Self& hypothesis) {
-  archive.number(hypothesis.roll_rad);
-  archive.number(hypothesis.templates);
-  archive.number(hypothesis.matches);
-  archive.number(hypothesis.inliers);
-  archive.number(hypothesis.cost);
-  fields(archive, hypothesis.camera_from_station);
-  archive.number(hypothesis.solved);
+  auto& [roll_rad, templates, matches, inliers, cost, camera_from_station, solved] = hypothesis;
+  numbers(archive, roll_rad, templates, matches, inliers, cost);
+  fields(archive, camera_from_station);
+  archive.number(solved);
 }
 
 template <class Archive, Is<StageSeconds> Self>
 void fields(Archive& archive, Self& seconds) {
-  for (auto* value : {&seconds.initialization, &seconds.rendering, &seconds.matching, &seconds.pose,
-                      &seconds.refinement})
-    archive.number(*value);
+  auto& [initialization, rendering, matching, pose, refinement] = seconds;
+  numbers(archive, initialization, rendering, matching, pose, refinement);
+}
+
+template <class Archive, Is<EdgeSupport> Self>
+void fields(Archive& archive, Self& support) {
+  auto& [rendered, covered, displaced, displaced_covered, seen, explained, displaced_explained] =
+      support;
+  numbers(archive, rendered, covered, displaced, displaced_covered, seen, explained,
+          displaced_explained);
 }
 
 template <class Archive, Is<IterationTrace> Self>
@@ -248,9 +250,7 @@ void fields(Archive& archive, Self& trace) {
   fields(archive, trace.edges);
   archive.list(trace.iterations, [&](auto& iteration) { fields(archive, iteration); });
   archive.number(trace.attempts);
-  for (auto* value : {&trace.support.rendered, &trace.support.covered, &trace.support.seen,
-                      &trace.support.explained})
-    archive.number(*value);
+  fields(archive, trace.support);
   archive.choice(trace.status, LocalizationStatus::kFault);
   archive.choice(trace.fault, Status::kNoConsensus);
   fields(archive, trace.camera_from_station);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/math.h"
+#include "sessions/report/text_table.h"
 
 namespace boresight::sessions {
 namespace {
@@ -64,10 +65,14 @@ TEST(Explanation, NamesTheAxisThatLeftTheUncertainty) {
 
 TEST(Explanation, GivesTheShareOfSupportedEdges) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kNotSupported);
-  trace.support = {200, 30, 400, 80};
-  // (2 * 0.15 + 0.2) / 3
-  EXPECT_THAT(explanation(trace), AllOf(HasSubstr("16.7 %"), HasSubstr("200 rendered"),
-                                        HasSubstr("30 are seen"), HasSubstr("80 are predicted")));
+  trace.support.rendered = 200;
+  trace.support.covered = 30;
+  trace.support.seen = 400;
+  trace.support.explained = 80;
+  EXPECT_THAT(explanation(trace),
+              AllOf(HasSubstr(fixedText(100.0 * trace.support.share(), 1) + " %, needed"),
+                    HasSubstr("15.0 % of the rendered edges are seen"),
+                    HasSubstr("20.0 % of the edges seen")));
 }
 
 TEST(Explanation, BlamesAnImageWithoutEdges) {

@@ -64,6 +64,7 @@ TEST(TraceFile, GivesBackEveryFieldExactly) {
   EXPECT_EQ(loaded.options.edges.gaussian_sigma_px, trace.options.edges.gaussian_sigma_px);
   EXPECT_EQ(loaded.camera_from_station.translation_m, trace.camera_from_station.translation_m);
   EXPECT_EQ(loaded.covariance, trace.covariance);
+  EXPECT_EQ(loaded.support.share(), trace.support.share());
   EXPECT_EQ(loaded.edges.level[1].words, trace.edges.level[1].words);
   const IterationTrace& first = loaded.iterations.front();
   const IterationTrace& expected = trace.iterations.front();
