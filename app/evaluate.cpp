@@ -76,11 +76,11 @@ void onInterrupt(int) { interrupted = 1; }
 /// Turns an interrupt into a stop: what has been run is then still written.
 class InterruptWatch {
  public:
-  explicit InterruptWatch(std::stop_source source) {
+  explicit InterruptWatch(const std::stop_source& source) {
     interrupted = 0;
     std::signal(SIGINT, onInterrupt);
     std::signal(SIGTERM, onInterrupt);
-    thread_ = std::jthread([source](const std::stop_token& ended) mutable {
+    thread_ = std::jthread([source](const std::stop_token& ended) {
       while (!ended.stop_requested()) {
         if (interrupted != 0) source.request_stop();
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -163,7 +163,7 @@ int evaluate(EvaluateArguments& arguments) {
   const bool whole = !stop.stop_requested();
   sessions::writeResultsDatabase(arguments.out, results, factsOf(arguments, whole));
   if (!arguments.jsonl.empty()) writeLines(arguments.jsonl, results);
-  std::cout << sessions::summaryTable(sessions::summarize(results)) << "\n"
+  std::cout << sessions::summaryTable(results) << "\n"
             << sessions::toleranceTable(results) << "\n"
             << sessions::failureList(results, kListedFailures) << std::flush;
   if (!whole) note("interrupted: the results hold what had been run");

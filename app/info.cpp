@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -93,14 +94,13 @@ void describePose(const sessions::PoseFile& pose) {
 void describeDataset(const sessions::Dataset& dataset) {
   line(std::to_string(dataset.cases.size()) + " cases, " + std::to_string(dataset.stations.size()) +
        " stations, " + std::to_string(dataset.cameras.size()) + " cameras");
-  for (const auto& [id, station] : dataset.stations) {
-    const auto cases = std::count_if(dataset.cases.begin(), dataset.cases.end(),
-                                     [&](const sessions::Case& one) { return one.station == id; });
-    line("station " + id + ": " + std::to_string(cases) + " cases, " +
+  std::map<std::string, std::int64_t> cases_of;
+  for (const sessions::Case& one : dataset.cases) ++cases_of[one.station];
+  for (const auto& [id, station] : dataset.stations)
+    line("station " + id + ": " + std::to_string(cases_of[id]) + " cases, " +
          std::to_string(station.parts.size()) + " parts" +
          (station.feature_size_m ? ", feature size " + millimetresText(*station.feature_size_m)
                                  : ""));
-  }
   for (const auto& [id, camera] : dataset.cameras) {
     line("camera " + id + ":");
     describeCamera(camera);

@@ -2,7 +2,7 @@
 # Sourced by app/run.sh and tests/run.sh: the Debian packages that Boresight is built from.
 
 boresight_packages=(
-  build-essential cmake ninja-build ccache git
+  build-essential cmake ninja-build ccache
   libeigen3-dev libopencv-dev libassimp-dev nlohmann-json3-dev libsqlite3-dev libcli11-dev
   libgtest-dev libgmock-dev libbenchmark-dev
 )

@@ -273,7 +273,7 @@ SceneMesh mirrored(SceneMesh scene, MirrorAxis axis) {
 }
 
 std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& options,
-                                const BatchProgress& progress, std::stop_token stop) {
+                                const BatchProgress& progress, const std::stop_token& stop) {
   return Batch(dataset, options, progress).run(stop);
 }
 

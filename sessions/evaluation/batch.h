@@ -43,7 +43,7 @@ using BatchProgress = std::function<void(std::size_t done, std::size_t total, co
 /// whatever the number of threads; after a stop, those that have not been run are missing.
 /// InputError when a filter or `mesh_of` names what the dataset does not have, or nothing is left.
 std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& options,
-                                const BatchProgress& progress, std::stop_token stop = {});
+                                const BatchProgress& progress, const std::stop_token& stop = {});
 
 /// The scene mirrored about the middle of its matched parts, faces turned so that they still look
 /// outwards.

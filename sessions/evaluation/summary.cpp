@@ -77,6 +77,25 @@ std::string statisticsText(const Statistics& figures, int decimals) {
 
 std::string rangeText(bool far) { return far ? "far" : "near"; }
 
+std::vector<std::string> rowOf(const GroupSummary& group, const std::string& range) {
+  const bool judged = group.judged > 0;
+  const Statistics& projection_px = group.projection_px;
+  return {group.station,
+          range,
+          std::to_string(group.runs),
+          percentText(group.completed, group.runs),
+          percentText(group.successful, group.judged),
+          judged ? std::to_string(group.false_positives) : "-",
+          judged ? std::to_string(group.gross_false_positives) : "-",
+          statisticsText(group.normal_mm, 3),
+          statisticsText(group.lateral_mm, 3),
+          statisticsText(group.rotation_mrad, 3),
+          projection_px.count > 0
+              ? fixedText(projection_px.mean, 2) + " / " + fixedText(projection_px.maximum, 2)
+              : "-",
+          fixedText(group.mean_seconds, 2)};
+}
+
 }  // namespace
 
 std::vector<GroupSummary> summarize(std::span<const RunResult> results) {
@@ -85,27 +104,20 @@ std::vector<GroupSummary> summarize(std::span<const RunResult> results) {
   return groups;
 }
 
-std::string summaryTable(std::span<const GroupSummary> groups) {
+std::string summaryTable(std::span<const RunResult> results) {
   TextTable table({"station", "range", "runs", "completed %", "success %", "false pos.", "gross",
-                   "normal mm", "lateral mm", "rotation mrad", "px", "s/run"});
-  std::int64_t input_errors = 0;
-  for (const GroupSummary& group : groups) {
-    input_errors += group.input_errors;
-    table.add({group.station, rangeText(group.far), std::to_string(group.runs),
-               percentText(group.completed, group.runs),
-               group.judged > 0 ? percentText(group.successful, group.judged) : "-",
-               group.judged > 0 ? std::to_string(group.false_positives) : "-",
-               group.judged > 0 ? std::to_string(group.gross_false_positives) : "-",
-               statisticsText(group.normal_mm, 3), statisticsText(group.lateral_mm, 3),
-               statisticsText(group.rotation_mrad, 3),
-               group.projection_px.count > 0 ? fixedText(group.projection_px.mean, 2) : "-",
-               fixedText(group.mean_seconds, 2)});
-  }
+                   "normal mm", "lateral mm", "rotation mrad", "px mean / max", "s/run"});
+  const std::vector<GroupSummary> groups = summarize(results);
+  for (const GroupSummary& group : groups) table.add(rowOf(group, rangeText(group.far)));
+  Members everybody;
+  for (const RunResult& result : results) everybody.push_back(&result);
+  const GroupSummary all = summaryOf({"all", false}, everybody);
+  if (groups.size() > 1) table.add(rowOf(all, ""));
   std::string text =
       table.text() +
-      "errors: mean / std / max over completed runs (max of |normal|); px: mean projection error\n";
-  if (input_errors > 0)
-    text += std::to_string(input_errors) + " runs could not start: their input was refused\n";
+      "errors: mean / std / max over completed runs (max of |normal|); px: projection error\n";
+  if (all.input_errors > 0)
+    text += std::to_string(all.input_errors) + " runs could not start: their input was refused\n";
   return text;
 }
 

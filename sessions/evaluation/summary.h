@@ -34,8 +34,9 @@ struct GroupSummary {
 /// By station name, near before far; groups without runs do not appear.
 std::vector<GroupSummary> summarize(std::span<const RunResult> results);
 
-/// The groups as a table of fixed width, mean / std / max in the paper's units.
-std::string summaryTable(std::span<const GroupSummary> groups);
+/// The groups, and all runs together, as a table of fixed width, mean / std / max in the paper's
+/// units.
+std::string summaryTable(std::span<const RunResult> results);
 
 /// Share of runs (percent) that completed within each of several multiples of the requirement.
 std::string toleranceTable(std::span<const RunResult> results);

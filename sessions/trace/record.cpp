@@ -205,7 +205,7 @@ IterationTrace recordIteration(const Iteration& iteration, Stage reached, Record
 }
 
 LocalizationTrace localize(const LocalizationProblem& problem, const LocalizerOptions& options,
-                           RecordLevel level, std::stop_token stop) {
+                           RecordLevel level, const std::stop_token& stop) {
   LocalizationTrace trace;
   trace.version = kVersion;
   trace.options = options;

@@ -19,6 +19,6 @@ EdgeMapTrace recordEdgeMap(const EdgeMap& edges);
 /// status at kRunning. A problem that cannot run at all is a trace with kFault and without
 /// iterations. Throws std::bad_alloc when there is no memory for the arena.
 LocalizationTrace localize(const LocalizationProblem& problem, const LocalizerOptions& options,
-                           RecordLevel level, std::stop_token stop = {});
+                           RecordLevel level, const std::stop_token& stop = {});
 
 }  // namespace boresight::sessions
