@@ -43,7 +43,7 @@ int __wrap_posix_memalign(void** block, std::size_t alignment, std::size_t size)
 }
 
 // The replacements of the whole program; in a file of their own, so that no inlining shows a
-// compiler one half of a pair. The other forms of `new` call these.
+// compiler one half of a pair. The forms for arrays, too: a sanitizer brings its own.
 void* operator new(std::size_t size) {
   void* block = std::malloc(size > 0 ? size : 1);
   if (block == nullptr) std::abort();
@@ -55,10 +55,18 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
   if (block == nullptr) std::abort();
   return block;
 }
+void* operator new[](std::size_t size) { return operator new(size); }
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return operator new(size, alignment);
+}
 void operator delete(void* block) noexcept { std::free(block); }
 void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
 void operator delete(void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
+void operator delete[](void* block) noexcept { std::free(block); }
+void operator delete[](void* block, std::size_t) noexcept { std::free(block); }
+void operator delete[](void* block, std::align_val_t) noexcept { std::free(block); }
+void operator delete[](void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
 
 namespace boresight::test {
 
