@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/views/image_panel.h"
+
+#include <cmath>
+#include <utility>
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSlider>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "sessions/trace/scene_render.h"
+#include "sessions/trace/surface_point.h"
+#include "ui/run/task_runner.h"
+#include "ui/views/image_view.h"
+#include "ui/views/layer_content.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kBlinkMs = 500;
+using RenderPtr = std::shared_ptr<const sessions::RenderTrace>;
+using MapsPtr = std::shared_ptr<const sessions::AgreementMaps>;
+
+std::shared_ptr<const sessions::IterationTrace> shownIteration(const ViewState& state) {
+  if (!state.iteration()) return nullptr;
+  return state.snapshot()->iterations[static_cast<std::size_t>(state.cursor().iteration)];
+}
+
+QToolButton* barButton(const QString& text, const QString& tip, bool checkable) {
+  auto* button = new QToolButton;
+  button->setText(text);
+  button->setToolTip(tip);
+  button->setCheckable(checkable);
+  button->setAutoRaise(true);
+  return button;
+}
+
+}  // namespace
+
+ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
+    : QWidget(parent), state_(state), tasks_(tasks), view_(new ImageView) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  auto* bar = new QHBoxLayout;
+  bar->setContentsMargins(4, 2, 4, 2);
+  buildBar(*bar);
+  layout->addLayout(bar);
+  layout->addWidget(view_, 1);
+  view_->setHint(
+      tr("Drop an image, a mesh, a camera and a seed here, or a dataset.json, or a "
+         "session"));
+  view_->setObjectName(QStringLiteral("imageView"));
+
+  blink_timer_.setInterval(kBlinkMs);
+  connect(&blink_timer_, &QTimer::timeout, this,
+          [this] { view_->setLayersHidden(!view_->layersHidden()); });
+  connect(view_, &ImageView::cursorMoved, this, &ImagePanel::showPlace);
+  connect(view_, &ImageView::cursorLeft, this, [this] { Q_EMIT placeText(QString()); });
+  connect(view_, &ImageView::transformChanged, this, [this] {
+    const double percent = 100.0 * view_->transform().scale() * view_->devicePixelRatioF();
+    zoom_label_->setText(tr("%1 %").arg(percent, 0, 'f', percent < 10.0 ? 1 : 0));
+  });
+  connect(view_, &ImageView::itemClicked, this, [this](LayerId layer, int item) {
+    if (layer != LayerId::kPoints) state_.selectTemplate(item);
+  });
+  connect(&state_, &ViewState::caseChanged, this, &ImagePanel::showCase);
+  connect(&state_, &ViewState::cursorChanged, this, &ImagePanel::showIteration);
+  connect(&state_, &ViewState::templateSelected, this, &ImagePanel::showTemplates);
+}
+
+void ImagePanel::buildBar(QBoxLayout& layout) {
+  QToolButton* fit = barButton(tr("Fit"), tr("Show the whole image (0, or a double click)"), false);
+  QToolButton* one = barButton(tr("1:1"), tr("One image pixel on one screen pixel (1)"), false);
+  core_button_ = barButton(tr("Core's view"),
+                           tr("Show the 8-bit image as the core sees it, instead of a stretched "
+                              "one (C). A stretch is for the eye: it never changes a run."),
+                           true);
+  blink_button_ = barButton(tr("Blink"), tr("Show the layers every other half second (B)"), true);
+  swipe_button_ =
+      barButton(tr("Swipe"), tr("Show the layers only left of a line (V); drag the slider"), true);
+  swipe_slider_ = new QSlider(Qt::Horizontal);
+  swipe_slider_->setRange(0, 1000);
+  swipe_slider_->setValue(500);
+  swipe_slider_->setMaximumWidth(160);
+  swipe_slider_->setEnabled(false);
+  swipe_slider_->setToolTip(tr("Where the layers end"));
+  zoom_label_ = new QLabel;
+  zoom_label_->setToolTip(tr("Screen pixels per image pixel"));
+  for (QWidget* widget :
+       {static_cast<QWidget*>(fit), static_cast<QWidget*>(one), static_cast<QWidget*>(core_button_),
+        static_cast<QWidget*>(blink_button_), static_cast<QWidget*>(swipe_button_),
+        static_cast<QWidget*>(swipe_slider_)})
+    layout.addWidget(widget);
+  layout.addStretch(1);
+  layout.addWidget(zoom_label_);
+  connect(fit, &QToolButton::clicked, view_, &ImageView::fit);
+  connect(one, &QToolButton::clicked, view_, &ImageView::showOneToOne);
+  connect(core_button_, &QToolButton::toggled, this, &ImagePanel::showImage);
+  connect(blink_button_, &QToolButton::toggled, this, [this](bool on) {
+    view_->setLayersHidden(false);
+    if (on) {
+      blink_timer_.start();
+    } else {
+      blink_timer_.stop();
+    }
+  });
+  const auto swipe = [this] {
+    const bool on = swipe_button_->isChecked();
+    swipe_slider_->setEnabled(on);
+    view_->setSwipe(on ? std::optional<double>(swipe_slider_->value() / 1000.0) : std::nullopt);
+  };
+  connect(swipe_button_, &QToolButton::toggled, this, swipe);
+  connect(swipe_slider_, &QSlider::valueChanged, this, swipe);
+}
+
+void ImagePanel::toggleBlink() { blink_button_->toggle(); }
+void ImagePanel::toggleSwipe() { swipe_button_->toggle(); }
+void ImagePanel::toggleCoreView() { core_button_->toggle(); }
+
+const LayerStyle& ImagePanel::style(LayerId id) const { return view_->layer(id).style; }
+
+void ImagePanel::setStyle(LayerId id, const LayerStyle& style) {
+  if (style == view_->layer(id).style) return;
+  view_->setStyle(id, style);
+  askForRenders();
+  Q_EMIT stylesChanged();
+}
+
+void ImagePanel::setBits(LayerId id, std::vector<LayerBits> bits) {
+  Layer layer = view_->layer(id);
+  layer.bits = std::move(bits);
+  view_->setLayer(std::move(layer));
+}
+
+void ImagePanel::setMarks(LayerId id, std::vector<Mark> marks) {
+  Layer layer = view_->layer(id);
+  layer.marks = std::move(marks);
+  view_->setLayer(std::move(layer));
+}
+
+void ImagePanel::setNudgedRender(RenderPtr render, int level) {
+  std::vector<LayerBits> bits = bitsOf(render, false);
+  for (LayerBits& one : bits) one.level = level;
+  setBits(LayerId::kNudgedEdges, std::move(bits));
+}
+
+void ImagePanel::setPoints(std::vector<Mark> marks) {
+  setMarks(LayerId::kPoints, std::move(marks));
+}
+
+void ImagePanel::showCase() {
+  asked_.fill(false);
+  agreement_of_.reset();
+  for (const LayerId id :
+       {LayerId::kSeedEdges, LayerId::kTruthEdges, LayerId::kAgreement, LayerId::kNudgedEdges})
+    setBits(id, {});
+  setBits(LayerId::kIgnoreMask, ignoreBits(state_.currentCase()));
+  showImage();
+  askForRenders();
+}
+
+void ImagePanel::showImage() {
+  const ViewState::CasePtr& one = state_.currentCase();
+  if (!one) {
+    view_->setImage(QImage());
+    return;
+  }
+  // The wrapper only reads; the copy that the view makes is its own.
+  const QImage gray(one->image.pixels.data(), one->image.width, one->image.height, one->image.width,
+                    QImage::Format_Grayscale8);
+  view_->setImage(gray.copy());
+}
+
+void ImagePanel::showIteration() {
+  const std::shared_ptr<const sessions::IterationTrace> iteration = shownIteration(state_);
+  setBits(LayerId::kIterationEdges, iterationBits(iteration, false));
+  setBits(LayerId::kMask, iterationBits(iteration, true));
+  const bool has_edges = state_.snapshot() && state_.snapshot()->edges;
+  setBits(LayerId::kTestEdges,
+          has_edges ? testEdgeBits(state_.snapshot()->edges, iteration ? iteration->level : 0)
+                    : std::vector<LayerBits>());
+  const bool posed = iteration && state_.cursor().stage >= Stage::kPose;
+  setMarks(LayerId::kResiduals,
+           posed ? residualMarks(*iteration, state_.currentCase()->camera) : std::vector<Mark>());
+  if (agreement_of_ != iteration) {
+    agreement_of_.reset();
+    setBits(LayerId::kAgreement, {});
+  }
+  showTemplates();
+  askForRenders();
+}
+
+void ImagePanel::showTemplates() {
+  const std::shared_ptr<const sessions::IterationTrace> iteration = shownIteration(state_);
+  const Stage stage = state_.cursor().stage;
+  const int selected = state_.selectedTemplate();
+  const bool placed = iteration && stage >= Stage::kTemplates;
+  const bool matched = iteration && stage >= Stage::kMatch;
+  setMarks(LayerId::kTemplates, placed ? templateMarks(*iteration, selected) : std::vector<Mark>());
+  setMarks(LayerId::kWindows, matched ? windowMarks(*iteration, selected) : std::vector<Mark>());
+  setMarks(LayerId::kMatches, matched ? matchMarks(*iteration, selected) : std::vector<Mark>());
+}
+
+void ImagePanel::askForRenders() {
+  const ViewState::CasePtr& one = state_.currentCase();
+  if (!one) return;
+  askForRender(LayerId::kSeedEdges, "seed edges", one->camera_from_station_seed);
+  if (one->camera_from_station_truth)
+    askForRender(LayerId::kTruthEdges, "truth edges", *one->camera_from_station_truth);
+  askForAgreement();
+}
+
+void ImagePanel::askForRender(LayerId id, const char* key, const Pose& camera_from_station) {
+  bool& asked = asked_[static_cast<std::size_t>(id)];
+  if (asked || !style(id).visible) return;
+  asked = true;
+  const ViewState::CasePtr one = state_.currentCase();
+  tasks_.start(
+      QString::fromLatin1(key),
+      [one, camera_from_station](const std::stop_token&) -> RenderPtr {
+        auto render = std::make_shared<sessions::RenderTrace>();
+        const Status status =
+            sessions::renderScene(one->camera, one->scene.view(), camera_from_station, *render);
+        return status == Status::kOk ? render : nullptr;
+      },
+      [this, one, id](const RenderPtr& render) {
+        if (one == state_.currentCase()) setBits(id, bitsOf(render, false));
+      });
+}
+
+void ImagePanel::askForAgreement() {
+  const std::shared_ptr<const sessions::IterationTrace> iteration = shownIteration(state_);
+  if (!iteration || !style(LayerId::kAgreement).visible || agreement_of_ == iteration) return;
+  if (!state_.snapshot()->edges) return;
+  agreement_of_ = iteration;
+  tasks_.start(
+      QStringLiteral("agreement"),
+      [iteration, edges = state_.snapshot()->edges](const std::stop_token&) -> MapsPtr {
+        return std::make_shared<const sessions::AgreementMaps>(sessions::agreementOf(
+            iteration->render, edges->level[static_cast<std::size_t>(iteration->level)]));
+      },
+      [this, iteration](const MapsPtr& maps) {
+        if (agreement_of_ == iteration)
+          setBits(LayerId::kAgreement, agreementBits(maps, iteration->level));
+      });
+}
+
+void ImagePanel::showPlace(const QPointF& pixel) {
+  const ViewState::CasePtr& one = state_.currentCase();
+  if (!one) return;
+  QString text = tr("x %1  y %2").arg(pixel.x(), 0, 'f', 1).arg(pixel.y(), 0, 'f', 1);
+  const int x = static_cast<int>(std::floor(pixel.x() + 0.5));
+  const int y = static_cast<int>(std::floor(pixel.y() + 0.5));
+  if (x >= 0 && y >= 0 && x < one->image.width && y < one->image.height) {
+    text += tr("  gray %1").arg(one->image.view().at(x, y));
+    const auto point = sessions::surfacePointAt(one->camera, one->scene.view(), state_.shownPose(),
+                                                {pixel.x(), pixel.y()});
+    if (point) {
+      text += tr("  station %1  %2  %3 mm, %4 m away")
+                  .arg(1e3 * point->in_station_m.x(), 0, 'f', 2)
+                  .arg(1e3 * point->in_station_m.y(), 0, 'f', 2)
+                  .arg(1e3 * point->in_station_m.z(), 0, 'f', 2)
+                  .arg(point->depth_m, 0, 'f', 3);
+    }
+  }
+  Q_EMIT placeText(text);
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include <QTimer>
+#include <QWidget>
+
+#include "sessions/trace/picture_data.h"
+#include "ui/state/view_state.h"
+#include "ui/views/layer.h"
+
+class QBoxLayout;
+class QLabel;
+class QSlider;
+class QToolButton;
+
+namespace boresight::ui {
+
+class ImageView;
+class TaskRunner;
+
+/// The image of the current case with the layers of the current iteration, and the bar above it:
+/// fit, 1:1, what the core sees, blink, swipe. Follows the view state; renders of seed and truth
+/// and the agreement are made by the task runner when their layer is shown first.
+class ImagePanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent = nullptr);
+
+  ImageView& view() { return *view_; }
+  void setStyle(LayerId id, const LayerStyle& style);
+  const LayerStyle& style(LayerId id) const;
+  /// Edges of the pose being nudged; nullptr takes them away.
+  void setNudgedRender(std::shared_ptr<const sessions::RenderTrace> render, int level);
+  void setPoints(std::vector<Mark> marks);
+
+ public Q_SLOTS:
+  void toggleBlink();
+  void toggleSwipe();
+  void toggleCoreView();
+
+ Q_SIGNALS:
+  void stylesChanged();
+  /// For the status bar: pixel, gray value, and the station point where the shown pose covers it.
+  void placeText(const QString& text);
+
+ private:
+  void buildBar(QBoxLayout& layout);
+  void showCase();
+  void showIteration();
+  void showTemplates();
+  void showPlace(const QPointF& pixel);
+  void askForRenders();
+  void askForRender(LayerId id, const char* key, const Pose& camera_from_station);
+  void askForAgreement();
+  void showImage();
+  void setBits(LayerId id, std::vector<LayerBits> bits);
+  void setMarks(LayerId id, std::vector<Mark> marks);
+
+  ViewState& state_;
+  TaskRunner& tasks_;
+  ImageView* view_ = nullptr;
+  QToolButton* core_button_ = nullptr;
+  QToolButton* blink_button_ = nullptr;
+  QToolButton* swipe_button_ = nullptr;
+  QSlider* swipe_slider_ = nullptr;
+  QLabel* zoom_label_ = nullptr;
+  QTimer blink_timer_;
+  std::array<bool, kLayerCount> asked_{};  ///< renders of this case that were asked for
+  std::shared_ptr<const sessions::IterationTrace> agreement_of_;
+};
+
+}  // namespace boresight::ui
