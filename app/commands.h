@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the subcommands of whs share: exit codes, common arguments, messages.
+// What the subcommands of whs share: common arguments, messages.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,20 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "app/exit_codes.h"
 #include "core/localizer/localizer_options.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/io/scene_mesh.h"
 
 namespace boresight::app {
-
-enum ExitCode : int {
-  kDone = 0,  ///< and, for localize, converged
-  kInternalFault = 1,
-  kUsage = 2,
-  kBadInput = 3,
-  kNotConverged = 4,
-};
 
 /// Each adds its subcommand; what that returns when it was called goes to `exit_code`.
 void addLocalize(CLI::App& app, int& exit_code);

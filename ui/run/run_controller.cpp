@@ -86,10 +86,7 @@ class RunController::Worker {
 
   void work() {
     if (!run_) {
-      LocalizationProblem problem = working_inputs_.one->problem();
-      if (working_inputs_.camera_from_station_seed)
-        problem.camera_from_station_seed = *working_inputs_.camera_from_station_seed;
-      run_ = std::make_unique<SteppedRun>(problem, working_inputs_.options);
+      run_ = std::make_unique<SteppedRun>(working_inputs_.one->problem(), working_inputs_.options);
     }
     // A longer way is gone in iterations, so that people can watch.
     const StepUntil stride = until_ == StepUntil::kEnd ? StepUntil::kIteration : until_;

@@ -27,7 +27,6 @@ enum class RunState {
 struct RunInputs {
   std::shared_ptr<const LoadedCase> one;
   LocalizerOptions options;
-  std::optional<Pose> camera_from_station_seed;  ///< instead of the case's
 };
 
 /// Runs one localization off the UI's thread. Inputs go in as a snapshot, records that never change

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace boresight::app {
+
+/// What the programs return to the shell.
+enum ExitCode : int {
+  kDone = 0,  ///< and, for localize, converged
+  kInternalFault = 1,
+  kUsage = 2,
+  kBadInput = 3,
+  kNotConverged = 4,
+};
+
+}  // namespace boresight::app

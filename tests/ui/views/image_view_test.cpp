@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/views/image_view.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include <QSignalSpy>
+#include <QWheelEvent>
+#include <QtTest/QTest>
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kSide = 64;
+
+QImage grayImage() {
+  QImage gray(kSide, kSide, QImage::Format_Grayscale8);
+  gray.fill(40);
+  return gray;
+}
+
+/// One bit set in a map of 64 x 64, at a level.
+struct OneBit {
+  std::shared_ptr<std::vector<std::uint64_t>> words =
+      std::make_shared<std::vector<std::uint64_t>>(static_cast<std::size_t>(kSide), 0);
+  LayerBits bits;
+
+  OneBit(int x, int y, int level) {
+    bits.owner = words;
+    bits.bits.words = *words;
+    bits.bits.width = kSide >> level;
+    bits.bits.height = kSide >> level;
+    bits.bits.words_per_row = 1;
+    bits.bits.set(x, y);
+    bits.level = level;
+  }
+};
+
+Layer layerOf(LayerId id, std::vector<LayerBits> bits, std::vector<Mark> marks = {}) {
+  Layer layer;
+  layer.id = id;
+  layer.style = {true, QColor(255, 0, 0), 1.0};
+  layer.bits = std::move(bits);
+  layer.marks = std::move(marks);
+  return layer;
+}
+
+class ImageViewTest : public ::testing::Test {
+ protected:
+  ImageViewTest() {
+    view_.resize(640, 640);
+    view_.setImage(grayImage());
+    for (int i = 0; i < kLayerCount; ++i)
+      view_.setStyle(static_cast<LayerId>(i), {false, Qt::red, 1.0});
+    view_.show();
+  }
+
+  QColor at(const QPointF& pixel) {
+    const QImage picture = view_.grab().toImage();
+    const QPointF place = view_.transform().toWidget(pixel) * picture.devicePixelRatio();
+    return picture.pixelColor(place.toPoint());
+  }
+
+  void wheel(const QPointF& place, int notches) {
+    QWheelEvent event(place, view_.mapToGlobal(place.toPoint()), QPoint(), QPoint(0, 120 * notches),
+                      Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+    QCoreApplication::sendEvent(&view_, &event);
+  }
+
+  ImageView view_;
+};
+
+TEST_F(ImageViewTest, FitsAndFollowsTheSizeUntilSomebodyZooms) {
+  EXPECT_DOUBLE_EQ(view_.transform().scale(), 10.0);
+  view_.resize(320, 320);
+  QCoreApplication::processEvents();
+  EXPECT_DOUBLE_EQ(view_.transform().scale(), 5.0);
+  wheel({10.0, 10.0}, 1);
+  const double zoomed = view_.transform().scale();
+  view_.resize(300, 300);
+  QCoreApplication::processEvents();
+  EXPECT_DOUBLE_EQ(view_.transform().scale(), zoomed);
+}
+
+TEST_F(ImageViewTest, ASetBitCoversItsPixelAndNoOther) {
+  const OneBit bit(20, 30, 0);
+  view_.setLayer(layerOf(LayerId::kSeedEdges, {bit.bits}));
+  for (const double scale : {8.0, 10.0, 21.7}) {
+    view_.fit();
+    ViewTransform transform = view_.transform();
+    transform.zoomAt(transform.toWidget(QPointF(20.0, 30.0)), scale);
+    view_.setTransform(transform);
+    // 0.1 px inside and outside the border on all four sides.
+    for (const double sign : {-1.0, 1.0}) {
+      EXPECT_EQ(at({20.0 + sign * 0.35, 30.0}), QColor(255, 0, 0)) << scale;
+      EXPECT_EQ(at({20.0, 30.0 + sign * 0.35}), QColor(255, 0, 0)) << scale;
+      EXPECT_EQ(at({20.0 + sign * 0.65, 30.2}), QColor(40, 40, 40)) << scale;
+      EXPECT_EQ(at({20.2, 30.0 + sign * 0.65}), QColor(40, 40, 40)) << scale;
+    }
+  }
+}
+
+TEST_F(ImageViewTest, ABitOfALevelCoversItsFourPixels) {
+  const OneBit bit(5, 6, 1);
+  view_.setLayer(layerOf(LayerId::kTestEdges, {bit.bits}));
+  for (const int x : {10, 11}) {
+    for (const int y : {12, 13}) EXPECT_EQ(at(QPointF(x, y)), QColor(255, 0, 0));
+  }
+  EXPECT_EQ(at({9.0, 12.0}), QColor(40, 40, 40));
+  EXPECT_EQ(at({12.0, 13.0}), QColor(40, 40, 40));
+  EXPECT_EQ(at({10.0, 11.0}), QColor(40, 40, 40));
+  EXPECT_EQ(at({10.0, 14.0}), QColor(40, 40, 40));
+}
+
+TEST_F(ImageViewTest, BlinkHidesAndSwipeCutsTheLayers) {
+  const OneBit left(10, 10, 0);
+  view_.setLayer(layerOf(LayerId::kTestEdges, {left.bits}));
+  const OneBit right(50, 10, 0);
+  view_.setLayer(layerOf(LayerId::kSeedEdges, {right.bits}));
+  view_.setLayersHidden(true);
+  EXPECT_EQ(at({10.0, 10.0}), QColor(40, 40, 40));
+  view_.setLayersHidden(false);
+  view_.setSwipe(0.5);
+  EXPECT_EQ(at({10.0, 10.0}), QColor(255, 0, 0));
+  EXPECT_EQ(at({50.0, 10.0}), QColor(40, 40, 40));
+}
+
+TEST_F(ImageViewTest, TheWheelZoomsAtTheCursor) {
+  const QPointF place(200.0, 420.0);
+  const QPointF pixel = view_.transform().toPixel(place);
+  wheel(place, 3);
+  EXPECT_GT(view_.transform().scale(), 15.0);
+  const QPointF back = view_.transform().toPixel(place);
+  EXPECT_LT(std::hypot(back.x() - pixel.x(), back.y() - pixel.y()), 1e-9);
+}
+
+TEST_F(ImageViewTest, AClickTellsItsPixelWithinHalfADevicePixel) {
+  QSignalSpy clicks(&view_, &ImageView::clicked);
+  const QPoint place(333, 127);
+  QTest::mouseClick(&view_, Qt::LeftButton, Qt::NoModifier, place);
+  ASSERT_EQ(clicks.size(), 1);
+  const QPointF pixel = clicks[0][0].toPointF();
+  const QPointF back = view_.transform().toWidget(pixel);
+  EXPECT_LT(std::abs(back.x() - place.x()) * view_.devicePixelRatioF(), 0.5);
+  EXPECT_LT(std::abs(back.y() - place.y()) * view_.devicePixelRatioF(), 0.5);
+}
+
+TEST_F(ImageViewTest, ADragMovesTheImageAndIsNoClick) {
+  QSignalSpy clicks(&view_, &ImageView::clicked);
+  const QPointF before = view_.transform().toWidget(QPointF(0.0, 0.0));
+  QTest::mousePress(&view_, Qt::LeftButton, Qt::NoModifier, {100, 100});
+  QMouseEvent move(QEvent::MouseMove, QPointF(150.0, 120.0),
+                   view_.mapToGlobal(QPoint(150, 120)), Qt::NoButton, Qt::LeftButton,
+                   Qt::NoModifier);
+  QCoreApplication::sendEvent(&view_, &move);
+  QTest::mouseRelease(&view_, Qt::LeftButton, Qt::NoModifier, {150, 120});
+  const QPointF after = view_.transform().toWidget(QPointF(0.0, 0.0));
+  EXPECT_EQ((after - before).toPoint(), QPoint(50, 20));
+  EXPECT_EQ(clicks.size(), 0);
+}
+
+TEST_F(ImageViewTest, AClickPicksTheNearestMarkOfAVisibleLayer) {
+  Mark near;
+  near.at = {20.0, 20.0};
+  near.item = 3;
+  Mark nearer = near;
+  nearer.at = {20.4, 20.0};
+  nearer.item = 4;
+  Mark unpickable = near;
+  unpickable.at = {20.3, 20.0};
+  unpickable.item = -1;
+  view_.setLayer(layerOf(LayerId::kMatches, {}, {near, nearer, unpickable}));
+  QSignalSpy picks(&view_, &ImageView::itemClicked);
+  const QPoint place = view_.transform().toWidget(QPointF(21.1, 20.0)).toPoint();
+  QTest::mouseClick(&view_, Qt::LeftButton, Qt::NoModifier, place);
+  ASSERT_EQ(picks.size(), 1);
+  EXPECT_EQ(picks[0][1].toInt(), 4);
+  view_.setStyle(LayerId::kMatches, {false, Qt::red, 1.0});
+  QTest::mouseClick(&view_, Qt::LeftButton, Qt::NoModifier, place);
+  EXPECT_EQ(picks.size(), 1) << "a hidden layer is not picked";
+  EXPECT_FALSE(view_.pickAt(QPointF(600.0, 600.0)).has_value());
+}
+
+TEST_F(ImageViewTest, AnArrowIsPickedAlongItsWholeLength) {
+  Mark arrow;
+  arrow.shape = MarkShape::kArrow;
+  arrow.at = {10.0, 10.0};
+  arrow.to = {40.0, 10.0};
+  arrow.item = 9;
+  view_.setLayer(layerOf(LayerId::kMatches, {}, {arrow}));
+  const auto pick = view_.pickAt(view_.transform().toWidget(QPointF(25.0, 10.2)));
+  ASSERT_TRUE(pick.has_value());
+  EXPECT_EQ(pick->item, 9);
+}
+
+TEST_F(ImageViewTest, ADoubleClickFitsAndKeysZoom) {
+  wheel({10.0, 10.0}, 5);
+  QTest::mouseDClick(&view_, Qt::LeftButton, Qt::NoModifier, {300, 300});
+  EXPECT_DOUBLE_EQ(view_.transform().scale(), 10.0);
+  QTest::keyClick(&view_, Qt::Key_1);
+  EXPECT_DOUBLE_EQ(view_.transform().scale(), 1.0 / view_.devicePixelRatioF());
+  QTest::keyClick(&view_, Qt::Key_Plus);
+  EXPECT_GT(view_.transform().scale(), 1.0 / view_.devicePixelRatioF());
+  QTest::keyClick(&view_, Qt::Key_0);
+  EXPECT_DOUBLE_EQ(view_.transform().scale(), 10.0);
+}
+
+TEST_F(ImageViewTest, AnEmptyViewTakesEveryEvent) {
+  ImageView empty;
+  empty.resize(100, 100);
+  empty.show();
+  QSignalSpy clicks(&empty, &ImageView::clicked);
+  QTest::mouseClick(&empty, Qt::LeftButton);
+  QTest::keyClick(&empty, Qt::Key_1);
+  empty.fit();
+  EXPECT_EQ(clicks.size(), 0);
+  EXPECT_FALSE(empty.grab().isNull());
+}
+
+}  // namespace
+}  // namespace boresight::ui

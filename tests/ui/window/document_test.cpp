@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/state/document.h"
+
+#include <gtest/gtest.h>
+
+#include <QSignalSpy>
+
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::ui {
+namespace {
+
+sessions::Session example() {
+  return sessions::makeSession(test::exampleFolder() / "dataset.json");
+}
+
+sessions::Session withoutFirst(const sessions::Session& session) {
+  return sessions::withoutCase(session, session.cases.front()->id);
+}
+
+class DocumentTest : public ::testing::Test {
+ protected:
+  test::TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_.path() / "one.boresight.json";
+};
+
+TEST_F(DocumentTest, EditsAreUndoneAndRedone) {
+  Document document;
+  ASSERT_TRUE(document.create(file_, example()));
+  EXPECT_FALSE(document.isModified());
+  EXPECT_FALSE(document.canUndo());
+  QSignalSpy changes(&document, &Document::changed);
+  ASSERT_TRUE(document.edit(withoutFirst(document.session()), QStringLiteral("Remove a case")));
+  EXPECT_EQ(changes.size(), 1);
+  EXPECT_TRUE(document.isModified());
+  EXPECT_EQ(document.undoText(), QStringLiteral("Remove a case"));
+  ASSERT_TRUE(document.undo());
+  EXPECT_EQ(document.session(), example());
+  EXPECT_FALSE(document.isModified());
+  ASSERT_TRUE(document.redo());
+  EXPECT_EQ(document.session(), withoutFirst(example()));
+  EXPECT_FALSE(document.redo());
+}
+
+TEST_F(DocumentTest, WhatIsSavedComesBack) {
+  {
+    Document document;
+    ASSERT_TRUE(document.create(file_, example()));
+    ASSERT_TRUE(document.edit(withoutFirst(example()), QStringLiteral("Remove a case")));
+    ASSERT_TRUE(document.save());
+    EXPECT_FALSE(document.isModified());
+  }
+  Document again;
+  ASSERT_TRUE(again.open(file_));
+  EXPECT_EQ(again.recovery(), nullptr);
+  EXPECT_EQ(again.session(), withoutFirst(example()));
+}
+
+TEST_F(DocumentTest, WhatWasNotSavedIsOffered) {
+  {
+    Document document;
+    ASSERT_TRUE(document.create(file_, example()));
+    ASSERT_TRUE(document.edit(withoutFirst(example()), QStringLiteral("Remove a case")));
+  }
+  Document again;
+  ASSERT_TRUE(again.open(file_));
+  ASSERT_NE(again.recovery(), nullptr);
+  EXPECT_EQ((*again.recovery())->edits.size(), 1u);
+  ASSERT_TRUE(again.acceptRecovery());
+  EXPECT_EQ(again.session(), withoutFirst(example()));
+  EXPECT_TRUE(again.isModified());
+}
+
+TEST_F(DocumentTest, ASecondOpenerMayOnlyLook) {
+  Document first;
+  ASSERT_TRUE(first.create(file_, example()));
+  Document second;
+  ASSERT_TRUE(second.open(file_));
+  EXPECT_FALSE(second.readOnlyReason().isEmpty());
+  QSignalSpy failures(&second, &Document::failed);
+  EXPECT_FALSE(second.edit(withoutFirst(example()), QStringLiteral("Remove a case")));
+  EXPECT_EQ(failures.size(), 1);
+  EXPECT_EQ(second.session(), example());
+}
+
+TEST_F(DocumentTest, WhatCannotBeOpenedIsToldInOneSentence) {
+  Document document;
+  QSignalSpy failures(&document, &Document::failed);
+  EXPECT_FALSE(document.open(folder_.path() / "nothing.json"));
+  ASSERT_EQ(failures.size(), 1);
+  EXPECT_TRUE(failures[0][0].toString().contains(QStringLiteral("nothing.json")));
+  EXPECT_FALSE(document.isOpen());
+  EXPECT_FALSE(document.save());
+  EXPECT_FALSE(document.undo());
+}
+
+}  // namespace
+}  // namespace boresight::ui

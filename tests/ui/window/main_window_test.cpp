@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/main_window.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include <QElapsedTimer>
+#include <QStandardPaths>
+#include <QtTest/QTest>
+
+#include "sessions/session/case_run.h"
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kPatienceMs = 120'000;
+
+class MainWindowTest : public ::testing::Test {
+ protected:
+  MainWindowTest() {
+    QStandardPaths::setTestModeEnabled(true);
+    window_.setQuiet(true);
+    window_.resize(1280, 800);
+    window_.show();
+  }
+
+  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
+
+  bool resting() {
+    return !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking;
+  }
+
+  void openExample() {
+    sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");
+    ASSERT_TRUE(window_.document().create(folder_.path() / "one.boresight.json", session));
+    ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }));
+  }
+
+  test::TemporaryFolder folder_;
+  MainWindow window_;
+};
+
+TEST_F(MainWindowTest, OpensEmptyAndOffersNothingThatCannotBeDone) {
+  EXPECT_TRUE(window_.image().view().grab().toImage().isNull() == false);
+  EXPECT_EQ(window_.state().currentCase(), nullptr);
+  QTest::keyClick(&window_, Qt::Key_F5);
+  EXPECT_EQ(window_.run().state(), RunState::kEmpty);
+}
+
+TEST_F(MainWindowTest, ADroppedDatasetIsShown) {
+  window_.takeFiles({test::exampleFolder() / "dataset.json"});
+  ASSERT_TRUE(wait([&] { return window_.state().currentCase() != nullptr; }));
+  EXPECT_TRUE(window_.document().isUntitled());
+  EXPECT_EQ(window_.document().session().cases.size(), 2u);
+  const auto file = window_.document().file();
+  window_.document().close();
+  std::filesystem::remove(file);
+}
+
+TEST_F(MainWindowTest, RunsToTheEndWithTheDigestOfAHeadlessRun) {
+  openExample();
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kFinished && resting(); }));
+  const auto& session = window_.document().session();
+  ASSERT_EQ(session.runs.size(), 1u) << "the run is in the session";
+  const sessions::LocalizationTrace headless = sessions::runCase(
+      session, session.runs[0].case_id, sessions::RecordLevel::kSummary);
+  EXPECT_EQ(session.runs[0].digest, headless.digest);
+  EXPECT_EQ(window_.state().snapshot()->iterations.size(), headless.iterations.size());
+}
+
+TEST_F(MainWindowTest, StepsAStageAndAnIteration) {
+  openExample();
+  QTest::keyClick(&window_, Qt::Key_F7);
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kHalted; }));
+  EXPECT_EQ(window_.state().snapshot()->stage, Stage::kEdges);
+  QTest::keyClick(&window_, Qt::Key_F7);
+  ASSERT_TRUE(wait([&] {
+    return window_.run().state() == RunState::kHalted &&
+           window_.state().snapshot()->stage == Stage::kRender;
+  }));
+  EXPECT_TRUE(window_.state().snapshot()->last_under_way);
+  QTest::keyClick(&window_, Qt::Key_F6);
+  ASSERT_TRUE(wait([&] {
+    return window_.run().state() == RunState::kHalted && !window_.state().snapshot()->last_under_way;
+  }));
+  EXPECT_EQ(window_.state().snapshot()->iterations.size(), 1u);
+  EXPECT_EQ(window_.state().cursor().iteration, 0);
+}
+
+TEST_F(MainWindowTest, StopsWithinATenthOfASecondAndGoesOn) {
+  openExample();
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kWorking; }));
+  QTest::keyClick(&window_, Qt::Key_F8);
+  ASSERT_TRUE(wait([&] { return window_.run().state() != RunState::kWorking; }));
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kFinished; }));
+  EXPECT_TRUE(window_.run().snapshot()->converged());
+}
+
+TEST_F(MainWindowTest, KeysShowAndHideLayers) {
+  openExample();
+  const bool before = window_.image().style(LayerId::kTestEdges).visible;
+  QTest::keyClick(&window_, Qt::Key_E);
+  EXPECT_EQ(window_.image().style(LayerId::kTestEdges).visible, !before);
+}
+
+TEST_F(MainWindowTest, ReopenedItShowsTheRunThatWasMade) {
+  openExample();
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+  ASSERT_TRUE(window_.document().save());
+  const std::string digest = window_.document().session().runs[0].digest;
+  window_.document().close();
+  ASSERT_TRUE(window_.openSession(folder_.path() / "one.boresight.json"));
+  ASSERT_TRUE(wait([&] { return window_.state().snapshot() != nullptr; }));
+  EXPECT_EQ(window_.state().snapshot()->digest, digest);
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/state/document.h"
+
+#include <exception>
+#include <utility>
+
+#include <QDateTime>
+#include <QDir>
+#include <QStandardPaths>
+
+namespace boresight::ui {
+
+Document::Document(QObject* parent) : QObject(parent) {}
+Document::~Document() = default;
+
+const sessions::Session& Document::session() const {
+  return document_ ? document_->session() : empty_;
+}
+
+std::filesystem::path Document::file() const {
+  return document_ ? document_->file() : std::filesystem::path();
+}
+
+QString Document::readOnlyReason() const {
+  return document_ ? QString::fromStdString(document_->readOnlyReason()) : QString();
+}
+
+const std::optional<sessions::Recovery>* Document::recovery() const {
+  return document_ && document_->recovery() ? &document_->recovery() : nullptr;
+}
+
+template <class Action>
+bool Document::attempt(Action&& action) {
+  try {
+    action();
+    return true;
+  } catch (const std::exception& error) {
+    Q_EMIT failed(QString::fromUtf8(error.what()));
+    return false;
+  }
+}
+
+void Document::become(sessions::SessionDocument&& document, bool untitled) {
+  history_.reset();  // it points to the document
+  document_.emplace(std::move(document));
+  history_.emplace(*document_);
+  untitled_ = untitled;
+}
+
+bool Document::open(const std::filesystem::path& file) {
+  const bool done = attempt([&] {
+    const std::filesystem::path parent = std::filesystem::absolute(file).parent_path();
+    become(sessions::SessionDocument::open(file), parent == untitledFolder());
+  });
+  if (done) Q_EMIT opened();
+  return done;
+}
+
+bool Document::create(const std::filesystem::path& file, const sessions::Session& session) {
+  const bool done =
+      attempt([&] { become(sessions::SessionDocument::create(file, session), false); });
+  if (done) Q_EMIT opened();
+  return done;
+}
+
+bool Document::createUntitled(const sessions::Session& session) {
+  const bool done = attempt([&] {
+    const std::filesystem::path folder = untitledFolder();
+    std::filesystem::create_directories(folder);
+    const QString stamp =
+        QDateTime::currentDateTimeUtc().toString(QStringLiteral("yyyyMMdd-hhmmss-zzz"));
+    const std::string name = "untitled-" + stamp.toStdString() + ".boresight.json";
+    become(sessions::SessionDocument::create(folder / name, session), true);
+  });
+  if (done) Q_EMIT opened();
+  return done;
+}
+
+bool Document::save() {
+  const bool done = document_ && attempt([&] { document_->save(); });
+  if (done) Q_EMIT changed();
+  return done;
+}
+
+bool Document::saveAs(const std::filesystem::path& file) {
+  const bool done = document_ && attempt([&] { document_->saveAs(file); });
+  if (done) {
+    untitled_ = false;
+    Q_EMIT changed();
+  }
+  return done;
+}
+
+void Document::close() {
+  history_.reset();
+  document_.reset();
+  untitled_ = false;
+  Q_EMIT opened();
+}
+
+bool Document::acceptRecovery() {
+  const bool done = document_ && attempt([&] { document_->acceptRecovery(); });
+  if (done) Q_EMIT opened();
+  return done;
+}
+
+bool Document::declineRecovery() {
+  const bool done = document_ && attempt([&] { document_->declineRecovery(); });
+  if (done) Q_EMIT opened();
+  return done;
+}
+
+bool Document::edit(const sessions::Session& after, const QString& text) {
+  const bool done = history_ && attempt([&] { history_->perform(after, text.toStdString()); });
+  if (done) Q_EMIT changed();
+  return done;
+}
+
+bool Document::note(const sessions::Session& after, const QString& text) {
+  const bool done = document_ && attempt([&] { document_->apply(after, text.toStdString()); });
+  if (done) Q_EMIT changed();
+  return done;
+}
+
+bool Document::undo() {
+  const bool done = canUndo() && attempt([&] { history_->undo(); });
+  if (done) Q_EMIT changed();
+  return done;
+}
+
+bool Document::redo() {
+  const bool done = canRedo() && attempt([&] { history_->redo(); });
+  if (done) Q_EMIT changed();
+  return done;
+}
+
+QString Document::undoText() const {
+  return history_ ? QString::fromStdString(history_->undoText()) : QString();
+}
+
+QString Document::redoText() const {
+  return history_ ? QString::fromStdString(history_->redoText()) : QString();
+}
+
+std::filesystem::path Document::untitledFolder() {
+  const QString data = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
+  return std::filesystem::path(data.toStdString()) / "untitled";
+}
+
+}  // namespace boresight::ui

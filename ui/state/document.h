@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <QObject>
+#include <QString>
+
+#include "sessions/session/session_document.h"
+#include "sessions/session/session_history.h"
+
+namespace boresight::ui {
+
+/// The open session as the window knows it: its value, what can be undone, and signals when either
+/// changes. Every edit is in the journal before `changed` is emitted. What fails is told by
+/// `failed`, one sentence for people, and has not happened.
+class Document : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit Document(QObject* parent = nullptr);
+  ~Document() override;
+
+  bool isOpen() const { return document_.has_value(); }
+  /// An empty session when none is open.
+  const sessions::Session& session() const;
+  std::filesystem::path file() const;
+  bool isModified() const { return document_ && document_->modified(); }
+  /// Made by dropping files and never saved under a name of its own.
+  bool isUntitled() const { return untitled_; }
+  /// Why it cannot be edited, or empty.
+  QString readOnlyReason() const;
+  /// Unsaved edits of a program that was killed, waiting for a decision.
+  const std::optional<sessions::Recovery>* recovery() const;
+
+  /// Each of these returns whether it was done.
+  bool open(const std::filesystem::path& file);
+  bool create(const std::filesystem::path& file, const sessions::Session& session);
+  /// In the folder for sessions without a name; `saveAs` gives it one.
+  bool createUntitled(const sessions::Session& session);
+  bool save();
+  bool saveAs(const std::filesystem::path& file);
+  void close();
+  bool acceptRecovery();
+  bool declineRecovery();
+
+  /// One edit, to be undone as one.
+  bool edit(const sessions::Session& after, const QString& text);
+  /// What happened rather than was edited (a run that ended, the case that is looked at): in the
+  /// journal, but not to be undone.
+  bool note(const sessions::Session& after, const QString& text);
+  bool undo();
+  bool redo();
+  bool canUndo() const { return history_ && history_->canUndo(); }
+  bool canRedo() const { return history_ && history_->canRedo(); }
+  QString undoText() const;
+  QString redoText() const;
+
+  /// Where sessions without a name are kept.
+  static std::filesystem::path untitledFolder();
+
+ Q_SIGNALS:
+  void opened();   ///< another document, or none
+  void changed();  ///< its value, or whether it is saved
+  void failed(const QString& message);
+
+ private:
+  template <class Action>
+  bool attempt(Action&& action);
+  void become(sessions::SessionDocument&& document, bool untitled);
+
+  std::optional<sessions::SessionDocument> document_;
+  std::optional<sessions::SessionHistory> history_;
+  sessions::Session empty_;
+  bool untitled_ = false;
+};
+
+}  // namespace boresight::ui

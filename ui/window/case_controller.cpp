@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/case_controller.h"
+
+#include <utility>
+
+#include <QStringList>
+
+#include "sessions/session/case_run.h"
+#include "ui/run/task_runner.h"
+#include "ui/state/document.h"
+
+namespace boresight::ui {
+
+using sessions::StepUntil;
+
+CaseController::CaseController(Document& document, ViewState& state, RunController& run,
+                               TaskRunner& tasks, QObject* parent)
+    : QObject(parent), document_(document), state_(state), run_(run), tasks_(tasks) {
+  connect(&document_, &Document::opened, this, &CaseController::documentOpened);
+  connect(&document_, &Document::changed, this, &CaseController::documentChanged);
+  connect(&run_, &RunController::snapshotChanged, this, [this] {
+    if (run_.snapshot()) state_.setSnapshot(run_.snapshot());
+  });
+  connect(&run_, &RunController::finished, this, &CaseController::runEnded);
+  connect(&run_, &RunController::failed, this, &CaseController::failed);
+}
+
+void CaseController::documentOpened() {
+  case_id_.clear();
+  queue_.clear();
+  const sessions::Session& session = document_.session();
+  QString first = QString::fromStdString(session.view.case_id);
+  if (!session.findCase(session.view.case_id))
+    first = session.cases.empty() ? QString()
+                                  : QString::fromStdString(session.cases.front()->id);
+  if (first.isEmpty()) {
+    run_.reset({});
+    state_.setCase(nullptr);
+    Q_EMIT caseChosen(QString());
+  } else {
+    chooseCase(first);
+  }
+}
+
+void CaseController::documentChanged() {
+  const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
+  if (!one) {
+    documentOpened();
+    return;
+  }
+  // Another seed, mask or image than the one that is shown.
+  if (state_.currentCase() && !(state_.currentCase()->source == *one)) load(case_id_);
+  Q_EMIT stalenessChanged();
+}
+
+void CaseController::chooseCase(const QString& id) {
+  if (id == case_id_) return;
+  case_id_ = id;
+  run_.reset({});
+  run_is_prepared_ = false;
+  Q_EMIT caseChosen(id);
+  load(id);
+}
+
+void CaseController::load(const QString& id) {
+  const sessions::SessionCase* one = document_.session().findCase(id.toStdString());
+  if (!one) return;
+  tasks_.start(
+      QStringLiteral("load case"),
+      [source = *one](const std::stop_token&) { return sessions::loadCase(source); },
+      [this, id](std::shared_ptr<const sessions::LoadedCase> one_loaded) {
+        loaded(id, std::move(one_loaded));
+      });
+}
+
+void CaseController::loaded(const QString& id,
+                            std::shared_ptr<const sessions::LoadedCase> one) {
+  if (id != case_id_) return;
+  run_.reset({});
+  run_is_prepared_ = false;
+  state_.setCase(std::move(one));
+  loadLatestRun(id);
+}
+
+void CaseController::loadLatestRun(const QString& id) {
+  const sessions::RunRecord* record = document_.session().lastRunOf(id.toStdString());
+  if (!record) {
+    Q_EMIT stalenessChanged();
+    runIfWaiting();
+    return;
+  }
+  tasks_.start(
+      QStringLiteral("load run"),
+      [run = *record](const std::stop_token&) {
+        return std::make_shared<const sessions::RunSnapshot>(
+            sessions::snapshotOf(sessions::loadRun(run)));
+      },
+      [this, id](std::shared_ptr<const sessions::RunSnapshot> snapshot) {
+        if (id != case_id_ || run_is_prepared_) return;
+        state_.setSnapshot(std::move(snapshot));
+        Q_EMIT stalenessChanged();
+        runIfWaiting();
+      });
+}
+
+LocalizerOptions CaseController::options() const {
+  const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
+  if (!one) return sessions::sessionOptions(document_.session(), document_.file());
+  return sessions::caseOptions(document_.session(), *one, document_.file());
+}
+
+QString CaseController::staleness() const {
+  const sessions::RunRecord* record = document_.session().lastRunOf(case_id_.toStdString());
+  if (!record || !state_.snapshot()) return {};
+  const sessions::Staleness stale =
+      sessions::stalenessOf(*record, document_.session(), document_.file());
+  if (stale.inputs_changed && stale.options_changed)
+    return tr("The shown run was made with other inputs and options.");
+  if (stale.inputs_changed) return tr("The shown run was made with other inputs.");
+  if (stale.options_changed) return tr("The shown run was made with other options.");
+  return {};
+}
+
+void CaseController::prepareRun() {
+  RunInputs inputs;
+  inputs.one = state_.currentCase();
+  inputs.options = options();
+  run_.reset(std::move(inputs));
+  run_is_prepared_ = true;
+}
+
+void CaseController::advance(StepUntil until) {
+  if (!state_.currentCase()) return;
+  try {
+    sessions::requireSensibleSeed(*state_.currentCase());
+    if (!run_is_prepared_ || run_.state() == RunState::kFinished) prepareRun();
+  } catch (const std::exception& error) {
+    Q_EMIT failed(QString::fromUtf8(error.what()));
+    return;
+  }
+  run_.advance(until);
+}
+
+void CaseController::stop() {
+  queue_.clear();
+  run_when_loaded_ = false;
+  run_.stop();
+}
+
+void CaseController::reset() {
+  run_.stop();
+  run_.reset({});
+  run_is_prepared_ = false;
+  state_.setSnapshot(nullptr);
+  Q_EMIT stalenessChanged();
+}
+
+void CaseController::runEnded() {
+  run_is_prepared_ = false;
+  storeRun();
+}
+
+void CaseController::storeRun() {
+  const auto snapshot = run_.snapshot();
+  if (!snapshot) {
+    runNext();
+    return;
+  }
+  const std::string id = case_id_.toStdString();
+  tasks_.start(
+      QStringLiteral("store run"),
+      [session = document_.session(), id, snapshot,
+       file = document_.file()](const std::stop_token&) {
+        return sessions::storeRun(session, id, sessions::traceOf(*snapshot), file);
+      },
+      [this](const sessions::RunRecord& record) {
+        if (document_.note(sessions::withRun(document_.session(), record),
+                           tr("Run %1").arg(QString::fromStdString(record.case_id))))
+          Q_EMIT stalenessChanged();
+        runNext();
+      });
+}
+
+void CaseController::runAll(const QStringList& ids) {
+  queue_.assign(ids.begin(), ids.end());
+  runNext();
+}
+
+void CaseController::runNext() {
+  if (queue_.empty()) return;
+  const QString next = queue_.front();
+  queue_.erase(queue_.begin());
+  if (next == case_id_ && state_.currentCase()) {
+    advance(StepUntil::kEnd);
+    return;
+  }
+  run_when_loaded_ = true;
+  chooseCase(next);
+}
+
+void CaseController::runIfWaiting() {
+  if (std::exchange(run_when_loaded_, false)) advance(StepUntil::kEnd);
+}
+
+void CaseController::useAsSeed(const Pose& camera_from_station) {
+  const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
+  if (!one) return;
+  sessions::SessionCase changed = *one;
+  changed.camera_from_station_seed = camera_from_station;
+  document_.edit(sessions::withCase(document_.session(), std::move(changed)),
+                 tr("Move the seed of %1").arg(case_id_));
+}
+
+void CaseController::setOptions(const QString& profile, const LocalizerOptions& options) {
+  document_.edit(sessions::withOptions(document_.session(), profile.toStdString(), options),
+                 tr("Change the configuration"));
+}
+
+}  // namespace boresight::ui

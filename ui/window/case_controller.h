@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <QObject>
+#include <QString>
+#include <QStringList>
+
+#include "core/localizer/localizer_options.h"
+#include "sessions/trace/stepped_run.h"
+#include "ui/run/run_controller.h"
+#include "ui/state/view_state.h"
+
+namespace boresight::ui {
+
+class Document;
+class TaskRunner;
+
+/// What happens between document, worker and view state: a case that is chosen is read and shown
+/// with its latest run, a run is shown as it goes and stored when it ends.
+class CaseController : public QObject {
+  Q_OBJECT
+
+ public:
+  CaseController(Document& document, ViewState& state, RunController& run, TaskRunner& tasks,
+                 QObject* parent = nullptr);
+
+  const QString& caseId() const { return case_id_; }
+  /// The options that the next run of the case has.
+  LocalizerOptions options() const;
+  /// Whether the shown run was made with other options or inputs; then `stale` names what.
+  QString staleness() const;
+  /// Runs of all cases that wait or are under way.
+  int queued() const { return static_cast<int>(queue_.size()); }
+
+ public Q_SLOTS:
+  void chooseCase(const QString& id);
+  void advance(boresight::sessions::StepUntil until);
+  void stop();
+  /// Drops the shown run; the next step begins anew.
+  void reset();
+  void runAll(const QStringList& ids);
+  void useAsSeed(const boresight::Pose& camera_from_station);
+  void setOptions(const QString& profile, const boresight::LocalizerOptions& options);
+
+ Q_SIGNALS:
+  void caseChosen(const QString& id);
+  /// Reading, running or storing something failed; one sentence.
+  void failed(const QString& message);
+  void stalenessChanged();
+
+ private:
+  void documentOpened();
+  void documentChanged();
+  void load(const QString& id);
+  void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one);
+  void loadLatestRun(const QString& id);
+  void prepareRun();
+  void runEnded();
+  void storeRun();
+  void runNext();
+  void runIfWaiting();
+
+  Document& document_;
+  ViewState& state_;
+  RunController& run_;
+  TaskRunner& tasks_;
+  QString case_id_;
+  bool run_is_prepared_ = false;
+  bool run_when_loaded_ = false;
+  std::vector<QString> queue_;
+};
+
+}  // namespace boresight::ui

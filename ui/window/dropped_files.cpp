@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/dropped_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <exception>
+
+#include "sessions/io/json_document.h"
+
+namespace boresight::ui {
+namespace {
+
+enum class Kind { kImage, kMesh, kCamera, kPose, kDataset, kSession, kUnknown };
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+template <std::size_t N>
+bool isOneOf(const std::string& text, const std::array<const char*, N>& known) {
+  return std::find(known.begin(), known.end(), text) != known.end();
+}
+
+Kind kindOfJson(const std::filesystem::path& file, std::string& problem) {
+  std::string format;
+  try {
+    format = sessions::JsonDocument(file).root().at("format").nonEmptyText();
+  } catch (const std::exception& error) {
+    problem = error.what();
+    return Kind::kUnknown;
+  }
+  if (format == "boresight-camera") return Kind::kCamera;
+  if (format == "boresight-pose") return Kind::kPose;
+  if (format == "boresight-dataset") return Kind::kDataset;
+  if (format == "boresight-session") return Kind::kSession;
+  problem = file.string() + ": the format '" + format +
+            "' is none that can be opened here (camera, pose, dataset, session)";
+  return Kind::kUnknown;
+}
+
+Kind kindOf(const std::filesystem::path& file, std::string& problem) {
+  const std::string extension = lower(file.extension().string());
+  if (isOneOf(extension, std::array{".png", ".jpg", ".jpeg", ".tif", ".tiff"}))
+    return Kind::kImage;
+  if (isOneOf(extension, std::array{".ply", ".obj", ".stl", ".gltf", ".glb"})) return Kind::kMesh;
+  if (extension == ".json") return kindOfJson(file, problem);
+  problem = file.string() +
+            ": not an image (png, jpg, tif), a mesh (ply, obj, stl, gltf, glb) or a json file";
+  return Kind::kUnknown;
+}
+
+bool isNamedTruth(const std::filesystem::path& file) {
+  return lower(file.stem().string()).find("truth") != std::string::npos;
+}
+
+}  // namespace
+
+bool DroppedFiles::isCase() const {
+  return !one.image.empty() && !one.camera.empty() && !one.seed.empty() && !one.parts.empty();
+}
+
+std::string DroppedFiles::missing() const {
+  std::vector<std::string> names;
+  if (one.image.empty()) names.emplace_back("an image");
+  if (one.camera.empty()) names.emplace_back("a camera (json)");
+  if (one.parts.empty()) names.emplace_back("a mesh");
+  if (one.seed.empty()) names.emplace_back("a seed pose (json)");
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
+    text += names[i];
+  }
+  return text;
+}
+
+DroppedFiles classify(const std::vector<std::filesystem::path>& files,
+                      const DroppedFiles& earlier) {
+  DroppedFiles made;
+  made.one = earlier.one;
+  bool new_mesh = true;
+  for (const std::filesystem::path& file : files) {
+    std::string problem;
+    switch (kindOf(file, problem)) {
+      case Kind::kImage:
+        made.one.image = file;
+        break;
+      case Kind::kMesh: {
+        if (new_mesh) made.one.parts.clear();
+        new_mesh = false;
+        sessions::PartSource part;
+        part.mesh = file;
+        made.one.parts.push_back(part);
+        break;
+      }
+      case Kind::kCamera:
+        made.one.camera = file;
+        break;
+      case Kind::kPose:
+        if (isNamedTruth(file)) {
+          made.one.truth = file;
+        } else {
+          made.one.seed = file;
+        }
+        break;
+      case Kind::kDataset:
+        made.dataset = file;
+        break;
+      case Kind::kSession:
+        made.session = file;
+        break;
+      case Kind::kUnknown:
+        made.problems.push_back(problem);
+        break;
+    }
+  }
+  return made;
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sessions/session/session_maker.h"
+
+namespace boresight::ui {
+
+/// What files that were dropped or opened together are.
+struct DroppedFiles {
+  std::optional<std::filesystem::path> session;
+  std::optional<std::filesystem::path> dataset;
+  sessions::CaseFiles one;            ///< as far as it goes
+  std::vector<std::string> problems;  ///< one sentence each: files that are nothing known, twice
+                                      ///< the same kind
+
+  /// What of a case is still missing, for people: "a camera and a seed", or "".
+  std::string missing() const;
+  bool isCase() const;  ///< an image, a camera, a mesh and a seed
+};
+
+/// Tells files by their content (JSON by its `format`) and by their extension. Files of an earlier
+/// drop are completed by `earlier`. Two poses are the seed and, if its name says so, the truth.
+DroppedFiles classify(const std::vector<std::filesystem::path>& files,
+                      const DroppedFiles& earlier = {});
+
+}  // namespace boresight::ui

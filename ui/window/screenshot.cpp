@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/screenshot.h"
+
+#include <functional>
+
+#include <QApplication>
+#include <QDockWidget>
+#include <QElapsedTimer>
+#include <QEventLoop>
+#include <QPixmap>
+#include <QTimer>
+
+#include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
+#include "ui/window/main_window.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kPatienceMs = 120'000;
+
+/// Lets the event loop run until something holds; false when it takes too long.
+bool waitUntil(const std::function<bool()>& holds) {
+  QElapsedTimer watch;
+  watch.start();
+  while (!holds()) {
+    if (watch.elapsed() > kPatienceMs) return false;
+    QEventLoop loop;
+    QTimer::singleShot(20, &loop, &QEventLoop::quit);
+    loop.exec();
+  }
+  return true;
+}
+
+bool isResting(const MainWindow& window, TaskRunner& tasks, RunController& run) {
+  Q_UNUSED(window);
+  return !tasks.isBusy() && run.state() != RunState::kWorking;
+}
+
+QWidget* widgetOf(MainWindow& window, const QString& view) {
+  if (view.isEmpty() || view == QLatin1String("window")) return &window;
+  if (view == QLatin1String("image")) return &window.image();
+  QDockWidget* dock = window.dock(view);
+  if (!dock) return nullptr;
+  dock->show();
+  dock->raise();
+  return dock->widget();
+}
+
+QString knownViews(const MainWindow& window) {
+  QStringList names = {QStringLiteral("window"), QStringLiteral("image")};
+  for (const QDockWidget* dock : window.findChildren<QDockWidget*>()) names << dock->objectName();
+  return names.join(QStringLiteral(", "));
+}
+
+}  // namespace
+
+QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
+  QWidget* shown = widgetOf(window, order.view);
+  if (!shown)
+    return QObject::tr("there is no view '%1'; there are %2").arg(order.view, knownViews(window));
+  window.resize(order.size);
+  window.show();
+  const auto resting = [&window] { return isResting(window, window.tasks(), window.run()); };
+  if (!waitUntil([&] { return window.state().currentCase() && resting(); }))
+    return QObject::tr("the session's case could not be shown");
+  if (!window.state().snapshot()) {
+    window.cases().advance(sessions::StepUntil::kEnd);
+    if (!waitUntil([&] { return window.state().snapshot() && resting(); }))
+      return QObject::tr("the run did not end");
+  }
+  if (order.iteration > -2) {
+    RunCursor cursor;
+    cursor.iteration = order.iteration;
+    window.state().setCursor(cursor);
+  }
+  window.image().view().fit();
+  waitUntil(resting);
+  QApplication::processEvents();
+  const QPixmap picture = shown->grab();
+  if (picture.isNull() || !picture.save(QString::fromStdString(order.out.string()), "PNG"))
+    return QObject::tr("cannot write %1").arg(QString::fromStdString(order.out.string()));
+  return {};
+}
+
+}  // namespace boresight::ui

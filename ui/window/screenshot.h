@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include <QSize>
+#include <QString>
+
+namespace boresight::ui {
+
+class MainWindow;
+
+/// What a picture of the program shows.
+struct ScreenshotOrder {
+  std::filesystem::path out;
+  QString view;  ///< object name of a dock, "image", or "" for the whole window
+  QSize size = QSize(1600, 1000);
+  int iteration = -2;  ///< index to show; -1: the seed; -2: the last
+};
+
+/// Waits until the session's chosen case is shown, runs it when it has no run yet, and writes a PNG
+/// of the window or of one view. Returns "" or why it could not.
+QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order);
+
+}  // namespace boresight::ui
