@@ -111,7 +111,8 @@ int main(int argc, char** argv) {
   Arguments arguments;
   std::string problem;
   if (!readArguments(application, arguments, problem)) return usageError(problem);
-  if (arguments.self_test) return boresight::ui::runSelfTest(std::cout) == 0 ? kDone : kInternalFault;
+  if (arguments.self_test)
+    return boresight::ui::runSelfTest(std::cout) == 0 ? kDone : kInternalFault;
   if (arguments.dark) boresight::ui::useDarkColors(application);
   boresight::ui::MainWindow window;
   if (!arguments.screenshot.out.empty()) {

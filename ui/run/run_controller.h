@@ -9,9 +9,9 @@
 #include <QString>
 
 #include "core/localizer/localizer_options.h"
+#include "sessions/session/case_run.h"
 #include "sessions/trace/run_snapshot.h"
 #include "sessions/trace/stepped_run.h"
-#include "ui/state/loaded_case.h"
 
 namespace boresight::ui {
 
@@ -25,7 +25,7 @@ enum class RunState {
 
 /// What one run works on; immutable, shared with the worker.
 struct RunInputs {
-  std::shared_ptr<const LoadedCase> one;
+  std::shared_ptr<const sessions::LoadedCase> one;
   LocalizerOptions options;
 };
 

@@ -23,7 +23,7 @@ Pose ViewState::shownPose() const {
     const bool solved = cursor_.stage >= Stage::kPose;
     return solved ? shown->camera_from_station : shown->camera_from_station_before;
   }
-  return case_ ? case_->problem().camera_from_station_seed : Pose();
+  return case_ ? case_->source.camera_from_station_seed : Pose();
 }
 
 void ViewState::setCase(CasePtr one) {

@@ -6,8 +6,8 @@
 #include <QObject>
 
 #include "core/geometry/pose.h"
+#include "sessions/session/case_run.h"
 #include "sessions/trace/run_snapshot.h"
-#include "ui/state/loaded_case.h"
 
 namespace boresight::ui {
 
@@ -28,7 +28,7 @@ class ViewState : public QObject {
  public:
   explicit ViewState(QObject* parent = nullptr);
 
-  using CasePtr = std::shared_ptr<const LoadedCase>;
+  using CasePtr = std::shared_ptr<const sessions::LoadedCase>;
   using SnapshotPtr = std::shared_ptr<const sessions::RunSnapshot>;
 
   /// nullptr while no case is open.

@@ -183,8 +183,9 @@ void ImagePanel::showIteration() {
           has_edges ? testEdgeBits(state_.snapshot()->edges, iteration ? iteration->level : 0)
                     : std::vector<LayerBits>());
   const bool posed = iteration && state_.cursor().stage >= Stage::kPose;
-  setMarks(LayerId::kResiduals,
-           posed ? residualMarks(*iteration, state_.currentCase()->camera) : std::vector<Mark>());
+  setMarks(LayerId::kResiduals, posed
+                                    ? residualMarks(*iteration, state_.currentCase()->source.camera)
+                                    : std::vector<Mark>());
   if (agreement_of_ != iteration) {
     agreement_of_.reset();
     setBits(LayerId::kAgreement, {});
@@ -207,9 +208,9 @@ void ImagePanel::showTemplates() {
 void ImagePanel::askForRenders() {
   const ViewState::CasePtr& one = state_.currentCase();
   if (!one) return;
-  askForRender(LayerId::kSeedEdges, "seed edges", one->camera_from_station_seed);
-  if (one->camera_from_station_truth)
-    askForRender(LayerId::kTruthEdges, "truth edges", *one->camera_from_station_truth);
+  askForRender(LayerId::kSeedEdges, "seed edges", one->source.camera_from_station_seed);
+  if (one->source.camera_from_station_truth)
+    askForRender(LayerId::kTruthEdges, "truth edges", *one->source.camera_from_station_truth);
   askForAgreement();
 }
 
@@ -222,8 +223,8 @@ void ImagePanel::askForRender(LayerId id, const char* key, const Pose& camera_fr
       QString::fromLatin1(key),
       [one, camera_from_station](const std::stop_token&) -> RenderPtr {
         auto render = std::make_shared<sessions::RenderTrace>();
-        const Status status =
-            sessions::renderScene(one->camera, one->scene.view(), camera_from_station, *render);
+        const Status status = sessions::renderScene(one->source.camera, one->scene.view(),
+                                                    camera_from_station, *render);
         return status == Status::kOk ? render : nullptr;
       },
       [this, one, id](const RenderPtr& render) {
@@ -256,8 +257,8 @@ void ImagePanel::showPlace(const QPointF& pixel) {
   const int y = static_cast<int>(std::floor(pixel.y() + 0.5));
   if (x >= 0 && y >= 0 && x < one->image.width && y < one->image.height) {
     text += tr("  gray %1").arg(one->image.view().at(x, y));
-    const auto point = sessions::surfacePointAt(one->camera, one->scene.view(), state_.shownPose(),
-                                                {pixel.x(), pixel.y()});
+    const auto point = sessions::surfacePointAt(one->source.camera, one->scene.view(),
+                                                state_.shownPose(), {pixel.x(), pixel.y()});
     if (point) {
       text += tr("  station %1  %2  %3 mm, %4 m away")
                   .arg(1e3 * point->in_station_m.x(), 0, 'f', 2)

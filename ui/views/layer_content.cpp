@@ -43,9 +43,9 @@ std::vector<LayerBits> testEdgeBits(const std::shared_ptr<const sessions::EdgeMa
   return {layerBits(edges, map.view(), level)};
 }
 
-std::vector<LayerBits> ignoreBits(const std::shared_ptr<const LoadedCase>& one) {
-  if (!one || !one->ignore_mask) return {};
-  return {layerBits(one, one->ignore, 0)};
+std::vector<LayerBits> ignoreBits(const std::shared_ptr<const sessions::LoadedCase>& one) {
+  if (!one || !one->ignore) return {};
+  return {layerBits(one, one->ignore_bits, 0)};
 }
 
 std::vector<LayerBits> iterationBits(

@@ -4,9 +4,9 @@
 
 #include <memory>
 
+#include "sessions/session/case_run.h"
 #include "sessions/trace/picture_data.h"
 #include "sessions/trace/run_snapshot.h"
-#include "ui/state/loaded_case.h"
 #include "ui/views/layer.h"
 
 namespace boresight::ui {
@@ -18,7 +18,7 @@ std::vector<LayerBits> bitsOf(const std::shared_ptr<const sessions::RenderTrace>
                               bool mask);
 std::vector<LayerBits> testEdgeBits(const std::shared_ptr<const sessions::EdgeMapTrace>& edges,
                                     int level);
-std::vector<LayerBits> ignoreBits(const std::shared_ptr<const LoadedCase>& one);
+std::vector<LayerBits> ignoreBits(const std::shared_ptr<const sessions::LoadedCase>& one);
 /// Edges or mask of an iteration's render.
 std::vector<LayerBits> iterationBits(
     const std::shared_ptr<const sessions::IterationTrace>& iteration, bool mask);

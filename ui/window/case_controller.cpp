@@ -31,8 +31,7 @@ void CaseController::documentOpened() {
   const sessions::Session& session = document_.session();
   QString first = QString::fromStdString(session.view.case_id);
   if (!session.findCase(session.view.case_id))
-    first = session.cases.empty() ? QString()
-                                  : QString::fromStdString(session.cases.front()->id);
+    first = session.cases.empty() ? QString() : QString::fromStdString(session.cases.front()->id);
   if (first.isEmpty()) {
     run_.reset({});
     state_.setCase(nullptr);
@@ -73,8 +72,7 @@ void CaseController::load(const QString& id) {
       });
 }
 
-void CaseController::loaded(const QString& id,
-                            std::shared_ptr<const sessions::LoadedCase> one) {
+void CaseController::loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one) {
   if (id != case_id_) return;
   run_.reset({});
   run_is_prepared_ = false;
@@ -132,7 +130,7 @@ void CaseController::prepareRun() {
 void CaseController::advance(StepUntil until) {
   if (!state_.currentCase()) return;
   try {
-    sessions::requireSensibleSeed(*state_.currentCase());
+    sessions::requireRunnable(*state_.currentCase());
     if (!run_is_prepared_ || run_.state() == RunState::kFinished) prepareRun();
   } catch (const std::exception& error) {
     Q_EMIT failed(QString::fromUtf8(error.what()));

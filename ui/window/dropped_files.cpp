@@ -43,8 +43,7 @@ Kind kindOfJson(const std::filesystem::path& file, std::string& problem) {
 
 Kind kindOf(const std::filesystem::path& file, std::string& problem) {
   const std::string extension = lower(file.extension().string());
-  if (isOneOf(extension, std::array{".png", ".jpg", ".jpeg", ".tif", ".tiff"}))
-    return Kind::kImage;
+  if (isOneOf(extension, std::array{".png", ".jpg", ".jpeg", ".tif", ".tiff"})) return Kind::kImage;
   if (isOneOf(extension, std::array{".ply", ".obj", ".stl", ".gltf", ".glb"})) return Kind::kMesh;
   if (extension == ".json") return kindOfJson(file, problem);
   problem = file.string() +

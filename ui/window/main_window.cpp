@@ -14,6 +14,7 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QPushButton>
 #include <QSettings>
 #include <QStatusBar>
 #include <QToolBar>
@@ -78,9 +79,7 @@ MainWindow::MainWindow(QWidget* parent)
 
 MainWindow::~MainWindow() = default;
 
-QDockWidget* MainWindow::dock(const QString& name) const {
-  return findChild<QDockWidget*>(name);
-}
+QDockWidget* MainWindow::dock(const QString& name) const { return findChild<QDockWidget*>(name); }
 
 QDockWidget* MainWindow::addDock(const QString& name, const QString& title, QWidget* widget,
                                  Qt::DockWidgetArea area) {
@@ -100,10 +99,9 @@ QAction* MainWindow::action(const QString& text_of_action, const QKeySequence& k
                             const QString& tip) {
   auto* made = new QAction(text_of_action, this);
   made->setShortcut(keys);
-  made->setToolTip(keys.isEmpty()
-                       ? tip
-                       : QStringLiteral("%1 (%2)").arg(
-                             tip, keys.toString(QKeySequence::NativeText)));
+  made->setToolTip(
+      keys.isEmpty() ? tip
+                     : QStringLiteral("%1 (%2)").arg(tip, keys.toString(QKeySequence::NativeText)));
   made->setStatusTip(tip);
   return made;
 }
@@ -159,8 +157,8 @@ void MainWindow::buildRunMenu() {
   step_stage_ = action(tr("Step a s&tage"), Qt::Key_F7,
                        tr("Run one stage: render, templates, match, pose or refinement"));
   stop_ = action(tr("&Stop"), Qt::Key_F8, tr("Stop; the run can go on from here"));
-  reset_ = action(tr("R&eset"), Qt::CTRL | Qt::Key_R, tr("Drop the run and begin anew"));
-  run_all_ = action(tr("Run &all cases"), Qt::CTRL | Qt::Key_F5, tr("Run every case to its end"));
+  reset_ = action(tr("R&eset"), QKeySequence(QStringLiteral("Ctrl+R")), tr("Drop the run and begin anew"));
+  run_all_ = action(tr("Run &all cases"), QKeySequence(QStringLiteral("Ctrl+F5")), tr("Run every case to its end"));
   connect(run_to_end_, &QAction::triggered, this,
           [this] { cases_.advance(sessions::StepUntil::kEnd); });
   connect(step_iteration_, &QAction::triggered, this,
@@ -275,8 +273,8 @@ void MainWindow::takeFiles(const std::vector<std::filesystem::path>& files) {
   collected_ = dropped;
   if (!dropped.dataset && !dropped.isCase()) {
     if (dropped.problems.empty())
-      statusBar()->showMessage(tr("Taken. Still missing: %1").arg(
-          QString::fromStdString(dropped.missing())));
+      statusBar()->showMessage(
+          tr("Taken. Still missing: %1").arg(QString::fromStdString(dropped.missing())));
     return;
   }
   try {
@@ -339,8 +337,9 @@ bool MainWindow::mayClose() {
   QMessageBox box(QMessageBox::Question, tr("Boresight"),
                   tr("Save the changes of %1?").arg(text(document_.file().filename())),
                   QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
-  box.setInformativeText(tr("Changes that are not saved stay in the journal and are offered when "
-                            "the session is opened again."));
+  box.setInformativeText(
+      tr("Changes that are not saved stay in the journal and are offered when "
+         "the session is opened again."));
   const int answer = box.exec();
   if (answer == QMessageBox::Save) return saveSession();
   return answer == QMessageBox::Discard;
@@ -380,11 +379,12 @@ void MainWindow::showDocument() {
 
 void MainWindow::offerRecovery() {
   const sessions::Recovery& recovery = **document_.recovery();
-  QMessageBox box(QMessageBox::Question, tr("Boresight"),
-                  tr("%1 has %n change(s) that were made but not saved, the last one at %2.", "",
-                     static_cast<int>(recovery.edits.size()))
-                      .arg(text(document_.file().filename()), QString::fromStdString(recovery.time)),
-                  QMessageBox::NoButton, this);
+  QMessageBox box(
+      QMessageBox::Question, tr("Boresight"),
+      tr("%1 has %n change(s) that were made but not saved, the last one at %2.", "",
+         static_cast<int>(recovery.edits.size()))
+          .arg(text(document_.file().filename()), QString::fromStdString(recovery.time)),
+      QMessageBox::NoButton, this);
   QStringList edits;
   for (const std::string& edit : recovery.edits) edits << QString::fromStdString(edit);
   box.setDetailedText(edits.join(QLatin1Char('\n')));

@@ -66,8 +66,7 @@ std::string checkDocument() {
   auto document = sessions::SessionDocument::open(file);
   if (!document.recovery()) return "an edit that was not saved is not offered";
   document.acceptRecovery();
-  return document.session().cases.size() + 1 == session.cases.size() ? ""
-                                                                     : "an edit was lost";
+  return document.session().cases.size() + 1 == session.cases.size() ? "" : "an edit was lost";
 }
 
 std::string checkImageView() {
