@@ -32,6 +32,7 @@ void addOptions(CLI::App& app, int& exit_code);
 void addNew(CLI::App& app, int& exit_code);
 void addRun(CLI::App& app, int& exit_code);
 void addPack(CLI::App& app, int& exit_code);
+void addProblem(CLI::App& app, int& exit_code);
 
 /// A line to stderr for people.
 void note(const std::string& line);
