@@ -23,7 +23,7 @@ struct ImageReadOptions {
   /// (8 or 16).
   std::optional<int> bit_depth;
   /// Instead of the linear rule: the 8-bit value of every sample 0 .. 2^n - 1; empty: linear.
-  std::vector<std::uint8_t> table;
+  std::vector<std::uint8_t> table = {};
 
   bool operator==(const ImageReadOptions&) const = default;
 };

@@ -36,10 +36,9 @@ TEST(SessionMaker, SaysWhichFileIsWrong) {
   EXPECT_THAT(message([](auto& f) { f.ignore = f.seed; }), HasSubstr("os/seed.json: "));
   EXPECT_THAT(message([](auto& f) { f.truth = "gone.json"; }),
               HasSubstr("gone.json: no such file"));
-  EXPECT_THAT(folder.message([&] {
-    (void)sessions::makeSession(stations / "dataset.json", {"os", "x"});
-  }),
-              HasSubstr("dataset.json: cases: there is no case 'x'"));
+  EXPECT_THAT(
+      folder.message([&] { (void)sessions::makeSession(stations / "dataset.json", {"x"}); }),
+      HasSubstr("dataset.json: cases: there is no case 'x'"));
 }
 
 TEST(SessionMaker, ADatasetAndItsFilesMakeTheSameRun) {
