@@ -2,6 +2,7 @@
 #include "app/commands.h"
 
 #include <iostream>
+#include <map>
 
 #include "sessions/report/text_table.h"
 
@@ -41,6 +42,28 @@ void addMethod(CLI::App& command, std::string& method) {
       ->check([](const std::string& name) {
         return name == "whs" ? std::string() : "there is no method \"" + name + "\"; there is: whs";
       });
+}
+
+void addKernels(CLI::App& command, Kernels& kernels) {
+  std::map<std::string, Kernels> named = {{"best", bestKernels()}};
+  std::string names = "best";
+  for (int k = 0; k < kKernelSets; ++k) {
+    const Kernels one = static_cast<Kernels>(k);
+    if (!kernelsAvailable(one)) continue;
+    named.emplace(kernelsName(one), one);
+    names += std::string(", ") + kernelsName(one);
+  }
+  command
+      .add_option_function<std::string>(
+          "--kernels",
+          [&kernels, named, names](const std::string& name) {
+            const auto found = named.find(name);
+            if (found == named.end())
+              throw CLI::ValidationError("--kernels", "this machine has " + names);
+            kernels = found->second;
+          },
+          "What to use of the processor; the result is the same")
+      ->group("");
 }
 
 LocalizerOptions profileOptions(const std::string& name) {

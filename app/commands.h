@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/kernels.h"
 #include "core/localizer/localizer_options.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/pose_file.h"
@@ -45,6 +46,9 @@ struct MeshArguments {
 
 /// --method: refused, with what there is, unless it exists.
 void addMethod(CLI::App& command, std::string& method);
+
+/// --kernels, for those who compare them: hidden from the help.
+void addKernels(CLI::App& command, Kernels& kernels);
 
 /// --profile, --config and --set: where the parameters of a run come from.
 struct OptionArguments {

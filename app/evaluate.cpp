@@ -42,6 +42,7 @@ void EvaluateArguments::addTo(CLI::App& command) {
   command.add_option("--tag", batch.tags, "Only cases with one of these tags")->type_name("T");
   command.add_option("--station", batch.stations, "Only cases of these stations")->type_name("S");
   addMethod(command, batch.method);
+  addKernels(command, batch.execution.kernels);
   options.addTo(command);
   command.add_option("--jobs", batch.jobs, "Runs at a time")
       ->check(CLI::Range(1, 256))

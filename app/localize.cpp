@@ -30,6 +30,7 @@ struct LocalizeArguments {
   std::string pivot;
   int bit_depth = 0;
   std::string method = "whs";
+  sessions::Execution execution;
   std::string out, trace, overlay;
 
   void addTo(CLI::App& command);
@@ -94,6 +95,7 @@ void LocalizeArguments::addTo(CLI::App& command) {
       ->check(CLI::Range(1, 16))
       ->type_name("N");
   addMethod(command, method);
+  addKernels(command, execution.kernels);
   file("--out", out, "Writes the result as JSON");
   file("--trace", trace, "Writes everything in between (binary)");
   file("--overlay", overlay, "Writes a PNG: seed red, result green, truth blue over the image");
@@ -250,7 +252,7 @@ int localizeImage(const LocalizeArguments& arguments) {
   const auto level =
       arguments.trace.empty() ? sessions::RecordLevel::kSummary : sessions::RecordLevel::kFull;
   const sessions::LocalizationTrace trace =
-      sessions::localize(inputs.problem(), inputs.options, level);
+      sessions::localize(inputs.problem(), inputs.options, level, {}, arguments.execution);
   requireAccepted(arguments, trace);
   const auto error = errorAgainstTruth(inputs, trace.camera_from_station);
   printResult(trace, error);

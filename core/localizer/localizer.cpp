@@ -77,7 +77,7 @@ Status Localizer::restart(const Pose& camera_from_station_seed, const LocalizerO
   if (!isUsable(PosePrior{camera_from_station_seed, problem_.uncertainty}))
     return Status::kInvalidPose;
   std::size_t bytes = 0;
-  Status status = requiredBytes(sizeOf(problem_), options, bytes);
+  Status status = requiredBytes(sizeOf(problem_), options, bytes, kernels_);
   if (status == Status::kOk && bytes > arena_.capacity()) status = Status::kArenaTooSmall;
   if (status != Status::kOk) return status;
   problem_.camera_from_station_seed = camera_from_station_seed;

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/digest.h"
+#include "core/base/kernels.h"
 #include "core/localizer/localizer_options.h"
 #include "core/localizer/problem.h"
 #include "core/localizer/workspace.h"
@@ -39,17 +40,19 @@ struct StepReport {
 class Localizer {
  public:
   /// Bytes of arena for a problem of this size, in a block aligned to Arena::kAlignment (one less
-  /// aligned loses its first bytes); kInvalidOption for options out of range.
+  /// aligned loses its first bytes); kInvalidOption for options out of range and for kernels that
+  /// are not available.
   static Status requiredBytes(const ProblemSize& size, const LocalizerOptions& options,
-                              std::size_t& bytes);
+                              std::size_t& bytes, Kernels kernels = Kernels::kPortable);
 
   /// `memory` and everything `problem` points to must outlive the localizer. `status()` tells
   /// whether it can run: kInvalidOption, kInvalidImage (its size is not the camera's or the ignore
   /// mask's), kInvalidCamera (not prepared), kInvalidPose (not finite, a quaternion not of unit
   /// length, an uncertainty that is negative), kInvalidMesh, kArenaTooSmall. If not, the first step
-  /// ends the run as a fault.
+  /// ends the run as a fault. `kernels` (those that the memory was asked for) change
+  /// nothing but the time taken.
   Localizer(const LocalizationProblem& problem, const LocalizerOptions& options,
-            std::span<std::byte> memory);
+            std::span<std::byte> memory, Kernels kernels = Kernels::kPortable);
 
   Localizer(const Localizer&) = delete;
   Localizer& operator=(const Localizer&) = delete;
@@ -109,6 +112,7 @@ class Localizer {
 
   LocalizationProblem problem_;
   LocalizerOptions options_;
+  Kernels kernels_ = Kernels::kPortable;
   Arena arena_;
   Status status_ = Status::kOk;
 

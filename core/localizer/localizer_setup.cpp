@@ -159,8 +159,8 @@ std::span<std::byte> alignedBlock(std::span<std::byte> memory) {
 }  // namespace
 
 Localizer::Localizer(const LocalizationProblem& problem, const LocalizerOptions& options,
-                     std::span<std::byte> memory)
-    : problem_(problem), options_(options), arena_(alignedBlock(memory)) {
+                     std::span<std::byte> memory, Kernels kernels)
+    : problem_(problem), options_(options), kernels_(kernels), arena_(alignedBlock(memory)) {
   if (arena_.countsOnly()) {
     status_ = Status::kArenaTooSmall;
     return;
@@ -198,7 +198,7 @@ void Localizer::begin() {
 }
 
 Status Localizer::requiredBytes(const ProblemSize& size, const LocalizerOptions& options,
-                                std::size_t& bytes) {
+                                std::size_t& bytes, Kernels kernels) {
   LocalizationProblem problem;
   problem.image.width = size.width;
   problem.image.height = size.height;
@@ -206,7 +206,7 @@ Status Localizer::requiredBytes(const ProblemSize& size, const LocalizerOptions&
   problem.mesh = placeholderMesh(size);
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   if (prepareCamera(problem.camera) != Status::kOk) return Status::kInvalidCamera;
-  Localizer counter(problem, options, {});
+  Localizer counter(problem, options, {}, kernels);
   counter.arena_ = Arena();
   const Status status = counter.build(size);
   bytes = counter.arena_.highWater();
@@ -225,7 +225,8 @@ Status Localizer::build(const ProblemSize& size) {
   }
   if (status == Status::kOk) status = selector_.create(width, height, options_.templates, arena_);
   const int side = std::min(options_.templates.max_side_px, 512);
-  if (status == Status::kOk) status = search_.create(side, std::max(width, height), arena_);
+  if (status == Status::kOk)
+    status = search_.create(side, std::max(width, height), kernels_, arena_);
   if (status == Status::kOk) status = ransac_.create(options_.templates.count, arena_);
   if (status == Status::kOk) status = refinement_.create(options_.refinement, arena_);
   if (status != Status::kOk) return status;

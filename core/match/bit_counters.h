@@ -23,8 +23,11 @@ struct CounterRow {
   std::uint64_t* words = nullptr;
   int stride = 0;       ///< words from one plane to the next
   int plane_count = 0;  ///< planes in use
-  std::uint64_t* plane(int k) { return words + std::ptrdiff_t{stride} * k; }
-  const std::uint64_t* plane(int k) const { return words + std::ptrdiff_t{stride} * k; }
+  // Inlined always, so that no copy of them is left behind by files compiled for wide registers.
+  [[gnu::always_inline]] std::uint64_t* plane(int k) { return words + std::ptrdiff_t{stride} * k; }
+  [[gnu::always_inline]] const std::uint64_t* plane(int k) const {
+    return words + std::ptrdiff_t{stride} * k;
+  }
 };
 
 /// Rows of counters, and of pixels to be counted, have this many words of slack.

@@ -46,9 +46,9 @@ std::int32_t counterAt(const CounterRow& counters, int word, int bit) {
 
 }  // namespace
 
-Status WhsSearch::create(int max_side_px, int max_window_px, Arena& arena) {
-  if (max_side_px < 2 || max_side_px > kMaxTemplateSide_px || max_window_px < 1 ||
-      max_window_px > kMaxWindow_px) {
+Status WhsSearch::create(int max_side_px, int max_window_px, Kernels kernels, Arena& arena) {
+  if (!kernelsAvailable(kernels) || max_side_px < 2 || max_side_px > kMaxTemplateSide_px ||
+      max_window_px < 1 || max_window_px > kMaxWindow_px) {
     return Status::kInvalidOption;
   }
   max_side_px_ = max_side_px;
@@ -58,6 +58,7 @@ Status WhsSearch::create(int max_side_px, int max_window_px, Arena& arena) {
   covered_.create(words, arena);
   peaks_.create(max_window_px, arena);
   band_.create(max_side_px, words, arena);
+  columns_.create(max_side_px, columnKernels(kernels), arena);
   hits_.stride = words + kWordPadding;
   hits_.words =
       arena.allocate<std::uint64_t>(kMaxPlanes * static_cast<std::size_t>(hits_.stride)).data();
@@ -81,10 +82,11 @@ Status WhsSearch::begin(const TemplateView& view, const BitImage& test_edges,
   view_ = view;
   test_edges_ = &test_edges;
   window_ = window;
-  norms_ = whsNorms(view);
+  by_columns_ = columns_.begin(view, test_edges, window);
+  norms_ = by_columns_ ? columns_.norms() : whsNorms(view);
   peaks_.begin(window, norms_, predicted_x, predicted_y, std::min(exclusion_px, kMaxExclusion_px));
   tile_x_ = 0;
-  beginTile();
+  if (!by_columns_) beginTile();
   done_ = false;
   return Status::kOk;
 }
@@ -101,15 +103,26 @@ void WhsSearch::beginTile() {
 bool WhsSearch::step() {
   std::int64_t work = 0;
   while (!done_ && work < kStepWork) {
-    const std::int64_t pixels = norms_.edges + 2 * covered_.work() + kRowOverhead;
-    work += pixels * wordsFor(tile_width_);
-    beginRow();
-    countEdges();
-    searchRow();
-    done_ = !nextRow();
+    if (by_columns_) {
+      work += columns_.workOfBand();
+      done_ = columns_.searchBand(peaks_);
+    } else {
+      work += stepRow();
+    }
     if (done_) peak_ = peaks_.finish();
   }
   return done_;
+}
+
+/// Searches a row of offsets of a tile; returns what it took.
+std::int64_t WhsSearch::stepRow() {
+  const std::int64_t pixels = norms_.edges + 2 * covered_.work() + kRowOverhead;
+  const std::int64_t work = pixels * wordsFor(tile_width_);
+  beginRow();
+  countEdges();
+  searchRow();
+  done_ = !nextRow();
+  return work;
 }
 
 /// Loads a band where one begins, and brings the counts under the mask to this row.

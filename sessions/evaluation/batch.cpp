@@ -252,7 +252,7 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
     options.templates.feature_size_m = *item.work->mesh_station->feature_size_m;
   result.message = seedConcern(problem.camera, problem.mesh, problem.camera_from_station_seed);
   if (result.message.empty()) {
-    noteTrace(localize(problem, options, RecordLevel::kSummary, stop), result);
+    noteTrace(localize(problem, options, RecordLevel::kSummary, stop, options_.execution), result);
   } else {
     result.status = "bad_seed";
   }

@@ -205,7 +205,8 @@ IterationTrace recordIteration(const Iteration& iteration, Stage reached, Record
 }
 
 LocalizationTrace localize(const LocalizationProblem& problem, const LocalizerOptions& options,
-                           RecordLevel level, const std::stop_token& stop) {
+                           RecordLevel level, const std::stop_token& stop,
+                           const Execution& execution) {
   LocalizationTrace trace;
   trace.version = kVersion;
   trace.options = options;
@@ -215,14 +216,14 @@ LocalizationTrace localize(const LocalizationProblem& problem, const LocalizerOp
   trace.uncertainty = problem.uncertainty;
   Stopwatch watch;
   std::size_t bytes = 0;
-  const Status sized = Localizer::requiredBytes(sizeOf(problem), options, bytes);
+  const Status sized = Localizer::requiredBytes(sizeOf(problem), options, bytes, execution.kernels);
   if (sized != Status::kOk) {
     trace.status = LocalizationStatus::kFault;
     trace.fault = sized;
     return trace;
   }
   const auto memory = std::make_unique_for_overwrite<std::byte[]>(bytes);
-  Localizer localizer(problem, options, {memory.get(), bytes});
+  Localizer localizer(problem, options, {memory.get(), bytes}, execution.kernels);
   trace.seconds.initialization = watch.lap();
   runSteps(localizer, level, stop, trace);
   recordEnd(localizer, trace);

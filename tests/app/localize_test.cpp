@@ -43,6 +43,18 @@ TEST(WhsLocalize, PrintsIterationsAndPoseAndWritesWhatIsAsked) {
   EXPECT_EQ(sessions::readImage(folder / "overlay.png").width, 1024);
 }
 
+TEST(WhsLocalize, GivesTheSameDigestWithAllKernels) {
+  const auto digestWith = [](const std::string& kernels) {
+    const ProgramRun run = runWhs(localizeArguments({{"--kernels", kernels}}));
+    EXPECT_EQ(run.exit_code, 0) << kernels << ": " << run.err;
+    return run.out.substr(std::min(run.out.find("digest"), run.out.size()));
+  };
+  EXPECT_EQ(digestWith("portable"), digestWith("best"));
+  const ProgramRun unknown = runWhs(localizeArguments({{"--kernels", "abacus"}}));
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, AllOf(HasSubstr("--kernels"), HasSubstr("best, portable")));
+}
+
 TEST(WhsLocalize, GivesTheSameDigestWithAndWithoutRecording) {
   const TemporaryFolder folder;
   const auto digestOf = [](const ProgramRun& run) {

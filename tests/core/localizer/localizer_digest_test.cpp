@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <iostream>
 
 #include <gtest/gtest.h>
 
@@ -43,6 +44,27 @@ TEST(LocalizerDigest, DoesNotDependOnPlaceOrContentOfMemory) {
     while (!localizer.step().finished) {
     }
     EXPECT_EQ(localizer.digest(), expected);
+  }
+}
+
+TEST(LocalizerDigest, DoesNotDependOnTheKernels) {
+  const Case scene = stationCase(4);
+  const LocalizerOptions options = defaultProfile();
+  const Digest expected = digestOf(scene.problem(), options);
+  for (int k = 1; k < kKernelSets; ++k) {
+    const Kernels kernels = static_cast<Kernels>(k);
+    std::size_t bytes = 0;
+    const Status sized = Localizer::requiredBytes(sizeOf(scene.problem()), options, bytes, kernels);
+    if (!kernelsAvailable(kernels)) {
+      std::cout << "not available here: " << kernelsName(kernels) << "\n";
+      EXPECT_EQ(sized, Status::kInvalidOption);
+      continue;
+    }
+    std::vector<std::byte> memory(bytes);
+    Localizer localizer(scene.problem(), options, memory, kernels);
+    while (!localizer.step().finished) {
+    }
+    EXPECT_EQ(localizer.digest(), expected) << kernelsName(kernels);
   }
 }
 
