@@ -157,8 +157,8 @@ TEST_P(WhsKernels, SearchesInTurnAsAFreshOneWould) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets, WhsKernels, testing::Range(0, kKernelSets),
-                         [](const testing::TestParamInfo<int>& info) {
-                           return std::string(kernelsName(static_cast<Kernels>(info.param)));
+                         [](const testing::TestParamInfo<int>& set) {
+                           return std::string(kernelsName(static_cast<Kernels>(set.param)));
                          });
 
 }  // namespace
