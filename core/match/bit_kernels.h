@@ -111,6 +111,21 @@ template <class Word>
   return carry;
 }
 
+/// Two registers side by side, for machines that have enough of them.
+template <class Word>
+struct Pair {
+  Word upper, lower;
+};
+template <class Word>
+[[gnu::always_inline]] inline Pair<Word> fullAdd(Pair<Word>& sum, const Pair<Word>& a,
+                                                 const Pair<Word>& b) {
+  return {fullAdd(sum.upper, a.upper, b.upper), fullAdd(sum.lower, a.lower, b.lower)};
+}
+template <class Word>
+[[gnu::always_inline]] inline Pair<Word> halfAdd(Pair<Word>& sum, const Pair<Word>& a) {
+  return {halfAdd(sum.upper, a.upper), halfAdd(sum.lower, a.lower)};
+}
+
 /// A row of pixels that begins at a byte.
 template <class Word>
 struct ByteAligned {

@@ -4,7 +4,6 @@
 namespace boresight {
 
 #if defined(BORESIGHT_X86_64_KERNELS)
-extern const ColumnKernels kSse2ColumnKernels;
 extern const ColumnKernels kAvx2ColumnKernels;
 extern const ColumnKernels kAvx512ColumnKernels;
 #endif
@@ -13,9 +12,8 @@ const ColumnKernels* columnKernels(Kernels kernels) {
 #if defined(BORESIGHT_X86_64_KERNELS)
   switch (kernels) {
     case Kernels::kPortable:
-      return nullptr;
     case Kernels::kSse2:
-      return &kSse2ColumnKernels;
+      return nullptr;
     case Kernels::kAvx2:
       return &kAvx2ColumnKernels;
     case Kernels::kAvx512:

@@ -51,7 +51,8 @@ struct ColumnKernels {
                   std::uint64_t* found);
 };
 
-/// Null for Kernels::kPortable, and for what this build does not have.
+/// Null for what this build does not have, and for Kernels::kPortable and kSse2: with fewer rows in
+/// a register, shifting the columns costs more than it saves.
 const ColumnKernels* columnKernels(Kernels kernels);
 
 /// Word of `counts` (see integrate) that holds the lane of counter (x, y), and the lane's bit.

@@ -106,6 +106,16 @@ struct ColumnSource {
 
   [[gnu::always_inline]] Word operator()(int k) const { return load<Word>(columns + offsets[k]); }
 };
+template <class Word>
+struct ColumnSource<Pair<Word>> {
+  const std::uint64_t* columns;
+  const std::int32_t* offsets;
+
+  [[gnu::always_inline]] Pair<Word> operator()(int k) const {
+    const std::uint64_t* from = columns + offsets[k];
+    return {load<Word>(from), load<Word>(from + kWordsIn<Word>)};
+  }
+};
 
 /// Words of a row of one column after another, under a mask.
 template <class Word>
@@ -121,32 +131,74 @@ struct MaskedSource {
   }
 };
 
-/// total += counters or their complement, at one register of its rows.
+/// total[row] += counters or their complement.
 template <class Word>
-[[gnu::always_inline]] inline void addCounters(const Counters<Word>& counters, int plane_count,
-                                               std::uint64_t invert, int row, CounterRow& total) {
+struct Adder {
+  std::uint64_t invert;
+  int row;
+  CounterRow& total;
   Word carry{};
-  const auto add = [&](int k, const Word& part) __attribute__((always_inline)) {
+
+  [[gnu::always_inline]] void add(int k, const Word& part) {
     Word sum = load<Word>(total.plane(k) + row);
     carry = fullAdd(sum, part ^ invert, carry);
     store(sum, total.plane(k) + row);
-  };
-  counters.forEachPlane(plane_count, add);
-  for (int k = plane_count; k < total.plane_count; ++k) {
+  }
+  [[gnu::always_inline]] void addCarry(int k) {
     Word sum = load<Word>(total.plane(k) + row);
     carry = halfAdd(sum, carry);
     store(sum, total.plane(k) + row);
   }
+};
+template <class Word>
+struct Adder<Pair<Word>> {
+  Adder<Word> upper, lower;
+
+  [[gnu::always_inline]] Adder(std::uint64_t invert, int row, CounterRow& total)
+      : upper{invert, row, total}, lower{invert, row + kWordsIn<Word>, total} {}
+  [[gnu::always_inline]] void add(int k, const Pair<Word>& part) {
+    upper.add(k, part.upper);
+    lower.add(k, part.lower);
+  }
+  [[gnu::always_inline]] void addCarry(int k) {
+    upper.addCarry(k);
+    lower.addCarry(k);
+  }
+};
+
+template <class Word>
+[[gnu::always_inline]] inline void addCounters(const Counters<Word>& counters, int plane_count,
+                                               std::uint64_t invert, int row, CounterRow& total) {
+  Adder<Word> adder{invert, row, total};
+  counters.forEachPlane(
+      plane_count, [&](int k, const Word& part)
+                       __attribute__((always_inline)) { adder.add(k, part); });
+  for (int k = plane_count; k < total.plane_count; ++k) adder.addCarry(k);
+}
+
+/// At one register of rows. Not inlined, so that `columns` is one address in a register.
+template <class Word>
+[[gnu::noinline]] void addPixelsAt(const std::uint64_t* columns, const std::int32_t* offsets,
+                                   int count, int plane_count, std::uint64_t invert, int row,
+                                   CounterRow& total) {
+  Counters<Word> counters(plane_count);
+  counters.addAll(ColumnSource<Word>{columns, offsets}, count);
+  addCounters(counters, plane_count, invert, row, total);
 }
 
 template <class Word>
 void addColumnPixels(const std::uint64_t* columns, const std::int32_t* offsets, int count,
                      int plane_count, int rows, bool negative, CounterRow& total) {
+  constexpr int kStep = kWordsIn<Word>;
   const std::uint64_t invert = negative ? ~std::uint64_t{0} : 0;
-  for (int y = 0; y < rows; y += kWordsIn<Word>) {
-    Counters<Word> counters(plane_count);
-    counters.addAll(ColumnSource<Word>{columns + y, offsets}, count);
-    addCounters(counters, plane_count, invert, y, total);
+  int y = 0;
+  if constexpr (kStep == 8) {
+    for (; y + kStep < rows; y += 2 * kStep) {
+      addPixelsAt<Pair<Word>>(columns + y, offsets, count, plane_count, invert, y, total);
+    }
+  }
+  for (; y < rows; y += kStep) {
+    addPixelsAt<Word>(columns + y, offsets, count, plane_count, invert, y, total);
   }
 }
 

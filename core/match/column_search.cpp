@@ -14,12 +14,13 @@ namespace {
 
 constexpr int kGroup = 4;
 constexpr int kMostRows = ColumnKernels::kMostRows;
-constexpr int kBandRows = 128;
-constexpr int kShiftedWords = 6144;  ///< 48 KiB, the usual first-level cache
+constexpr int kBandRows = 320;
+constexpr int kShiftedWords = 12288;  ///< 96 KiB
 constexpr int kEdgeCapacity = 6144;
 constexpr int kBorderCapacity = 8192;
 constexpr int kMostChunks = ColumnSearch::kMaxSide_px / kGroup;
 constexpr int kOffsetCapacity = kEdgeCapacity + kBorderCapacity + 3 * kGroup * kMostChunks;
+constexpr int kLanePlanes = 16;
 // Counts under a mask are kept modulo 2^16.
 constexpr int kMostMaskPixels = 65536;
 
@@ -84,8 +85,8 @@ void ColumnSearch::create(int max_side_px, const ColumnKernels* kernels, Arena& 
   shifted_ = words(kShiftedWords + kBandRows + 2 * kMostRows);
   const int rows = kBandRows + kMostRows;
   allocatePlanes(planesFor(kEdgeCapacity), rows, arena, hits_);
-  allocatePlanes(16, rows, arena, changes_);
-  allocatePlanes(16, kMostRows, arena, first_row_);
+  allocatePlanes(kLanePlanes, rows, arena, changes_);
+  allocatePlanes(kLanePlanes, kMostRows, arena, first_row_);
   counts_ = words(ColumnKernels::kLaneWords * rows);
   least_ = arena.allocate<std::uint16_t>(static_cast<std::size_t>(rows));
   lanes_ = arena.allocate<std::uint16_t>(static_cast<std::size_t>(kLanes * kMostRows));
@@ -97,7 +98,9 @@ bool ColumnSearch::begin(const TemplateView& view, const BitImage& test_edges,
   side_ = view.side_px;
   test_edges_ = &test_edges;
   window_ = window;
-  band_rows_ = std::min(kBandRows, roundedUp(window.height(), kMostRows));
+  // Bands of about the same height: each shifts the columns of its own rows and of `side` more.
+  const int bands = (window.height() + kBandRows - 1) / kBandRows;
+  band_rows_ = roundedUp((window.height() + bands - 1) / bands, kMostRows);
   stride_ = strideFor(side_, band_rows_);
   transpose(view);
   if (!listPixels()) return false;
@@ -148,13 +151,16 @@ bool ColumnSearch::listPixels() {
   const int columns = kShiftedWords / stride_ / kGroup * kGroup;
   chunk_count_ = offset_count_ = 0;
   change_constant_ = 0;
+  int entering = 0;
   for (int u = 0; u < side_; u += columns) {
     Chunk& chunk = chunks_[static_cast<std::size_t>(chunk_count_++)];
     chunk.first_column = u;
     chunk.columns = std::min(columns, side_ - u);
     if (!listChunk(chunk)) return false;
+    entering += chunk.entering.count;
   }
   hits_.plane_count = planesFor(norms_.edges);
+  changes_.plane_count = std::min(planesFor(entering + change_constant_), kLanePlanes);
   return true;
 }
 
@@ -208,9 +214,8 @@ bool ColumnSearch::searchBand(PeakTable& peaks) {
   loadBand();
   const int words = roundedUp(rows_, kMostRows);
   clear(hits_, words);
-  changes_.plane_count = 16;
   clear(changes_, words);
-  first_row_.plane_count = 16;
+  first_row_.plane_count = kLanePlanes;
   if (row_ == 0) clear(first_row_, kMostRows);
   for (int k = 0; k < chunk_count_; ++k) countChunk(chunks_[static_cast<std::size_t>(k)]);
   if (row_ == 0) sumFirstRow();
@@ -276,7 +281,7 @@ void ColumnSearch::countChunk(const Chunk& chunk) {
 
 /// The first row's counts under the mask, from those of the rows of a register.
 void ColumnSearch::sumFirstRow() {
-  planesToLanes(first_row_, kernels_->rows, lanes_.data());
+  bitKernels(Kernels::kPortable).planesToLanes(first_row_, kernels_->rows, lanes_.data());
   std::uint16_t sums[kLanes] = {};
   for (int r = 0; r < kernels_->rows; ++r) {
     const std::uint16_t* lanes = lanes_.data() + lanesBefore(r);

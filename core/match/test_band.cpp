@@ -10,7 +10,7 @@
 namespace boresight {
 namespace {
 
-constexpr int kCacheBytes = 24 * 1024;  ///< what copies may take up
+constexpr int kCacheBytes = 64 * 1024;  ///< what copies may take up
 constexpr int kMostWords = 24;          ///< of a row: a search asks for 19
 
 // One word more than is asked for is read when rows are shifted by less than a byte.

@@ -69,6 +69,7 @@ class WhsSearch {
   bool done_ = true;
   int max_side_px_ = 0, max_window_px_ = 0;
 
+  const BitKernels* bit_kernels_ = nullptr;
   ColumnSearch columns_;
   bool by_columns_ = false;
 

@@ -55,7 +55,8 @@ Status WhsSearch::create(int max_side_px, int max_window_px, Kernels kernels, Ar
   max_window_px_ = max_window_px;
   const int words = edgeWords(std::min(max_window_px, kTileOffsets));
   edges_.create(kEdgeCapacity, arena);
-  covered_.create(words, arena);
+  bit_kernels_ = &bitKernels(kernels);
+  covered_.create(words, *bit_kernels_, arena);
   peaks_.create(max_window_px, arena);
   band_.create(max_side_px, words, arena);
   columns_.create(max_side_px, columnKernels(kernels), arena);
@@ -150,7 +151,7 @@ bool WhsSearch::nextRow() {
 }
 
 void WhsSearch::countEdges() {
-  const int words = edgeWords(tile_width_);
+  const int words = band_.shifts() == 1 ? wordsFor(tile_width_) : edgeWords(tile_width_);
   const std::uint8_t* rows = band_.row(row_ % band_.offsetRows());
   hits_.plane_count = planesFor(norms_.edges);
   for (int k = 0; k < hits_.plane_count; ++k) std::fill_n(hits_.plane(k), words, std::uint64_t{0});
@@ -159,7 +160,7 @@ void WhsSearch::countEdges() {
     v = edges_are_listed_ ? view_.side_px : edges_.list(view_, band_, v);
     for (int shift = 0; shift < band_.shifts(); ++shift) {
       const PixelList pixels = edges_.pixels(shift);
-      if (pixels.count > 0) addPixels(rows, pixels, words, hits_);
+      if (pixels.count > 0) bit_kernels_->addPixels(rows, pixels, words, hits_);
     }
   } while (v < view_.side_px);
 }

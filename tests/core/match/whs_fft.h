@@ -27,7 +27,7 @@ inline cv::Mat1d pixelsOf(const BitImage& image, int x, int y, int width, int he
 inline cv::Mat1d correlation(const cv::Mat1d& region, const cv::Mat1d& pattern) {
   const cv::Size size(cv::getOptimalDFTSize(region.cols), cv::getOptimalDFTSize(region.rows));
   const auto spectrum = [&size](const cv::Mat1d& pixels) {
-    cv::Mat1d padded = cv::Mat1d::zeros(size);
+    cv::Mat1d padded(size, 0.0);
     pixels.copyTo(padded(cv::Rect(cv::Point(0, 0), pixels.size())));
     cv::dft(padded, padded, 0, pixels.rows);
     return padded;
@@ -57,7 +57,8 @@ struct FftProblem {
   /// S+ and S- of every offset, before rounding.
   cv::Mat1d edgeHits() const { return correlation(region, edges); }
   cv::Mat1d emptyHits() const {
-    const cv::Mat1d no_edges = 1.0 - region;
+    cv::Mat1d no_edges;
+    cv::subtract(1.0, region, no_edges);
     return correlation(no_edges, empties);
   }
 };
