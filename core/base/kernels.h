@@ -12,7 +12,7 @@ enum class Kernels : std::uint8_t {
   kPortable = 0,  ///< 64-bit integers: any machine
   kSse2,          ///< 128-bit registers
   kAvx2,          ///< 256-bit registers
-  kAvx512,        ///< 512-bit registers: F, BW, VL, VPOPCNTDQ
+  kAvx512,        ///< 512-bit registers: F, BW, VL, VBMI2, VPOPCNTDQ
 };
 inline constexpr int kKernelSets = 4;
 

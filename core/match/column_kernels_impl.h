@@ -87,14 +87,26 @@ template <class Word>
   return reinterpret_cast<Word>(((Word{} + bits) & place) != Word{});
 }
 
+/// Words shifted to the right, bits of `right` moving in.
+template <class Word>
+[[gnu::always_inline]] inline Word shiftedRight(const Word& left, const Word& right, int shift) {
+  // In two shifts, so that none reaches 64.
+  return (left >> shift) | ((right << 1) << (63 - shift));
+}
+#if defined(__AVX512VBMI2__)
+template <>
+[[gnu::always_inline]] inline Word8 shiftedRight(const Word8& left, const Word8& right, int shift) {
+  return reinterpret_cast<Word8>(_mm512_shrdv_epi64(
+      reinterpret_cast<__m512i>(left), reinterpret_cast<__m512i>(right), _mm512_set1_epi64(shift)));
+}
+#endif
+
 template <class Word>
 void shiftColumn(const std::uint64_t* left, const std::uint64_t* right, int shift, int rows,
                  std::uint64_t* column) {
   constexpr int kStep = kWordsIn<Word>;
   for (int r = 0; r < rows; r += kStep) {
-    // In two shifts, so that none reaches 64.
-    const Word high = (load<Word>(right + r) << 1) << (63 - shift);
-    store((load<Word>(left + r) >> shift) | high, column + r);
+    store(shiftedRight(load<Word>(left + r), load<Word>(right + r), shift), column + r);
   }
 }
 

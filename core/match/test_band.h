@@ -20,8 +20,8 @@ class TestBand {
 
   /// Takes the memory for templates of up to `max_side` px and `max_words` words of offsets a row.
   void create(int max_side, int max_words, Arena& arena);
-  /// Sets the layout: a row holds `side` + 64 * `words` pixels and slack.
-  void shape(int side, int words);
+  /// Sets the layout: a row holds `side` + 64 * `words` pixels and slack, in at most `most_copies`.
+  void shape(int side, int words, int most_copies = kMostCopies);
   /// Rows of offsets that a band serves: row k looks at rows k ... k + side of the band.
   int offsetRows() const { return offset_rows_; }
   /// Copies the rows from (x, y) on; rows below the image are zero.

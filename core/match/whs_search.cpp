@@ -96,7 +96,11 @@ void WhsSearch::beginTile() {
   tile_width_ = std::min(window_.width() - tile_x_, kTileOffsets);
   row_ = 0;
   // The layout, and with it all byte offsets, follows the width of the tile.
-  band_.shape(view_.side_px, edgeWords(tile_width_));
+  // The seven offsets that shifts within a byte lose may take a word more: only then are copies for
+  // all eight shifts worth making.
+  const bool takes_more = edgeWords(tile_width_) > wordsFor(tile_width_);
+  band_.shape(view_.side_px, edgeWords(tile_width_),
+              takes_more ? TestBand::kMostCopies : TestBand::kMostCopies / 2);
   edges_are_listed_ = edges_.list(view_, band_, 0) == view_.side_px;
   covered_.begin(view_, band_);
 }
