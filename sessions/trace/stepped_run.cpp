@@ -14,8 +14,9 @@ SteppedRun::SteppedRun(const LocalizationProblem& problem, const LocalizerOption
   snapshot_.camera_from_station_seed = problem.camera_from_station_seed;
   snapshot_.camera_from_station = problem.camera_from_station_seed;
   snapshot_.uncertainty = problem.uncertainty;
+  const Kernels kernels = bestKernels();
   std::size_t bytes = 0;
-  const Status sized = Localizer::requiredBytes(sizeOf(problem), options, bytes);
+  const Status sized = Localizer::requiredBytes(sizeOf(problem), options, bytes, kernels);
   if (sized != Status::kOk) {
     snapshot_.status = LocalizationStatus::kFault;
     snapshot_.fault = sized;
@@ -23,8 +24,8 @@ SteppedRun::SteppedRun(const LocalizationProblem& problem, const LocalizerOption
     return;
   }
   memory_ = std::make_unique_for_overwrite<std::byte[]>(bytes);
-  localizer_ =
-      std::make_unique<Localizer>(problem, options, std::span<std::byte>(memory_.get(), bytes));
+  localizer_ = std::make_unique<Localizer>(problem, options,
+                                           std::span<std::byte>(memory_.get(), bytes), kernels);
   snapshot_.seconds.initialization = std::chrono::duration<double>(Clock::now() - start).count();
 }
 
