@@ -7,10 +7,6 @@
 #include <cstring>
 #include <utility>
 
-#if defined(__AVX512F__)
-#include <immintrin.h>
-#endif
-
 #include "core/match/bit_counters.h"
 #include "core/match/bit_rows.h"
 

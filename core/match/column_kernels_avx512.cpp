@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// Before the loops, which use it where it is there.
+#include <immintrin.h>
+
 #include "core/match/column_kernels_impl.h"
 
 namespace boresight {
