@@ -30,6 +30,14 @@ struct DrawnFace {
 /// Sets up everything but `slack`. False when nothing of the face can be seen.
 [[nodiscard]] bool prepareFace(const CameraScene& scene, std::int32_t face, DrawnFace& drawn);
 
+/// Whether a ray passes inside all three edges. Rows of the rasterizer compute the same terms in
+/// the same order.
+[[nodiscard]] inline bool insideFace(const DrawnFace& drawn, double ray_x, double ray_y) {
+  for (int i = 0; i < 3; ++i)
+    if (!(drawn.a[i] * ray_x + (drawn.b[i] * ray_y + drawn.c[i]) >= drawn.limit[i])) return false;
+  return true;
+}
+
 /// Whether the ray (x/z, y/z, 1) passes inside all three edges: what the rasterizer computes with a
 /// prepared face, for one ray.
 [[nodiscard]] bool insideFace(const CameraScene& scene, std::int32_t face, double ray_x,

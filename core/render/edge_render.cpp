@@ -210,14 +210,14 @@ bool EdgeRenderer::drawSome() {
   int work = 0;
   while (work < kDrawnSlice) {
     if (next_drawn_ < 0) {
-      if (++list_ == FaceBins::kBandLists) return true;
+      if (++list_ == bins_.lists()) return true;
       next_drawn_ = bins_.firstFace(static_cast<int>(next_), list_);
       continue;
     }
     const std::int32_t face = next_drawn_;
     next_drawn_ = bins_.nextFace(face);
     ++work;
-    if (list_ >= FaceBins::kFirstSmallList) {
+    if (list_ >= bins_.firstSmallList()) {
       bins_.smallFaces().draw(scene_, face, band_);
       continue;
     }

@@ -58,7 +58,9 @@ class Chunk {
 FaceBins FaceBins::create(std::size_t faces, int max_bands, Arena& arena) {
   FaceBins bins;
   bins.next_ = arena.allocate<std::int32_t>(faces);
-  bins.head_ = arena.allocate<std::int32_t>(static_cast<std::size_t>(max_bands) * kKinds * 2);
+  // Level k has a block for every 2^k bands: fewer than two per band and one per level in all.
+  const int blocks = 2 * max_bands + kMostLevels;
+  bins.head_ = arena.allocate<std::int32_t>(static_cast<std::size_t>(blocks + 2 * max_bands) * 2);
   bins.columns_ = arena.allocate<Columns>(static_cast<std::size_t>(max_bands));
   return bins;
 }
@@ -66,19 +68,31 @@ FaceBins FaceBins::create(std::size_t faces, int max_bands, Arena& arena) {
 void FaceBins::begin(const CameraScene& scene, const RayGrid& rays, int band_rows, bool plain) {
   small_ = plain ? SmallFaces() : SmallFaces(scene, rays);
   band_rows_ = band_rows;
-  tall_ = -1;
+  const int bands = (rays.camera().height - 1) / band_rows + 1;
+  first_of_kind_[kSmallFront] = 0;
+  first_of_kind_[kSmallBack] = bands;
+  levels_ = 0;
+  for (int first = 2 * bands; levels_ < kMostLevels; ++levels_) {
+    first_of_level_[static_cast<std::size_t>(levels_)] = first;
+    first += ((bands - 1) >> levels_) + 1;
+    if ((bands - 1) >> levels_ == 0) break;
+  }
+  ++levels_;
   std::fill(head_.begin(), head_.end(), -1);
   std::fill(columns_.begin(), columns_.end(), Columns());
 }
 
 std::int32_t FaceBins::firstFace(int band, int list) const {
-  if (list == 0) return tall_;
-  // Wide faces, small front faces, small back faces; of each: within, with the next, with the last.
-  const int kind = (list - 1) / 3;
-  const int relation = (list - 1) % 3;
-  const int of_band = relation == 2 ? band - 1 : band;
-  if (of_band < 0) return -1;
-  return head_[static_cast<std::size_t>((of_band * kKinds + kind) * 2 + (relation > 0 ? 1 : 0))];
+  // Each block three times: within it, with the next, and with the one before.
+  const int group = list / 3;
+  const int relation = list % 3;
+  const int level = levels_ - 1 - group;
+  int block = level >= 0 ? band >> level : band;
+  if (relation == 2) --block;
+  if (block < 0) return -1;
+  const int first = level >= 0 ? first_of_level_[static_cast<std::size_t>(level)]
+                               : first_of_kind_[static_cast<std::size_t>(-1 - level)];
+  return head_[static_cast<std::size_t>((first + block) * 2 + (relation > 0 ? 1 : 0))];
 }
 
 void FaceBins::enter(std::int32_t face, Kind kind, const PixelBounds& bounds) {
@@ -86,10 +100,13 @@ void FaceBins::enter(std::int32_t face, Kind kind, const PixelBounds& bounds) {
   const int last_band = bounds.y_last / band_rows_;
   for (int band = first_band; band <= last_band; ++band)
     columns_[static_cast<std::size_t>(band)].include(bounds.x_first, bounds.x_last);
-  const int further = last_band - first_band;
-  std::int32_t& head =
-      further > 1 ? tall_
-                  : head_[static_cast<std::size_t>((first_band * kKinds + kind) * 2 + further)];
+  int level = 0;
+  while ((last_band >> level) - (first_band >> level) > 1) ++level;
+  const int block = first_band >> level;
+  const int further = (last_band >> level) - block;
+  const int first = kind == kWide || level > 0 ? first_of_level_[static_cast<std::size_t>(level)]
+                                               : first_of_kind_[kind];
+  std::int32_t& head = head_[static_cast<std::size_t>((first + block) * 2 + further)];
   next_[static_cast<std::size_t>(face)] = head;
   head = face;
 }
@@ -108,9 +125,15 @@ void FaceBins::addOne(CameraScene& scene, const RayGrid& rays, std::int32_t face
     return addWide(scene, rays, face);
   const PixelBox box = small_.box(fixed);
   const FixedScale& scale = small_.scale();
-  if (box.x_first == box.x_last && box.y_first == box.y_last &&
-      fixed.locate(box.x_first * scale.steps(), box.y_first * scale.steps()) < 0)
-    return;
+  const int tolerance = small_.tolerance(fixed);
+  const int area2 = fixed.area2();
+  if (box.x_first == box.x_last && box.y_first == box.y_last) {
+    const int x = box.x_first * scale.steps();
+    const int y = box.y_first * scale.steps();
+    const int ab = fixed.lineAb(x, y);
+    const int bc = fixed.lineBc(x, y);
+    if (FixedFace::locate(ab, bc, area2 - ab - bc, tolerance) < 0) return;
+  }
   const Camera& camera = rays.camera();
   PixelBounds bounds;
   bounds.x_first = std::max(box.x_first + scale.middle_x, 0);
@@ -118,11 +141,10 @@ void FaceBins::addOne(CameraScene& scene, const RayGrid& rays, std::int32_t face
   bounds.y_first = std::max(box.y_first + scale.middle_y, 0);
   bounds.y_last = std::min(box.y_last + scale.middle_y, camera.height - 1);
   if (bounds.empty()) return;
-  const int side = fixed.sideSeen();
-  if (side == 0)
-    scene.orient(face);
+  if (area2 > tolerance || area2 < -tolerance)
+    scene.setFrontFacing(face, area2 < 0);
   else
-    scene.setFrontFacing(face, side < 0);
+    scene.orient(face);
   enter(face, scene.isFrontFacing(face) ? kSmallFront : kSmallBack, bounds);
 }
 

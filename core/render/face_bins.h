@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -34,26 +35,31 @@ class FaceBins {
 
   const Columns& columns(int band) const { return columns_[static_cast<std::size_t>(band)]; }
 
-  /// The faces of a band, in an order in which hidden ones mostly come last: lists 0 .. kBandLists
-  /// - 1, those from kFirstSmallList on of small faces. Faces of list 0 may lie in other bands.
-  static constexpr int kBandLists = 10;
-  static constexpr int kFirstSmallList = 4;
+  /// The faces of a band, in an order in which hidden ones mostly come last: lists 0 .. lists() -
+  /// 1, those from firstSmallList() on of small faces. Some faces lie in other bands only.
+  int lists() const { return firstSmallList() + 6; }
+  int firstSmallList() const { return 3 * levels_; }
   std::int32_t firstFace(int band, int list) const;
   std::int32_t nextFace(std::int32_t face) const { return next_[static_cast<std::size_t>(face)]; }
 
   const SmallFaces& smallFaces() const { return small_; }
 
  private:
-  enum Kind : std::uint8_t { kWide, kSmallFront, kSmallBack };
-  static constexpr int kKinds = 3;
+  enum Kind : std::uint8_t { kSmallFront, kSmallBack, kWide };
+  /// Of the blocks of 2, 4, 8 .. bands into which faces that touch many bands are sorted.
+  static constexpr int kMostLevels = 16;
   void addOne(CameraScene& scene, const RayGrid& rays, std::int32_t face, const FixedFace& fixed);
   void addWide(CameraScene& scene, const RayGrid& rays, std::int32_t face);
   void enter(std::int32_t face, Kind kind, const PixelBounds& bounds);
 
   std::span<std::int32_t> next_;  ///< per face: the next one of its list
-  std::span<std::int32_t> head_;  ///< per band, kind, and whether the next band is touched too
-  std::span<Columns> columns_;    ///< per band
-  std::int32_t tall_ = -1;        ///< list of the faces in more than two bands
+  /// Per block of bands, the first face within it and the first that lies in the next one too:
+  /// small front faces, small back faces (blocks of one band), wide faces (all levels).
+  std::span<std::int32_t> head_;
+  std::span<Columns> columns_;  ///< per band
+  std::array<int, 2> first_of_kind_{};
+  std::array<int, kMostLevels> first_of_level_{};
+  int levels_ = 0;
   int band_rows_ = 1;
   SmallFaces small_;
 };

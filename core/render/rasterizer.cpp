@@ -43,11 +43,12 @@ inline void cutSpan(double left, double right, double slack, int x_first, int x_
   const int before = floorClamped(crossing - width, x_first - 1, x_last + 1);
   int after = std::min(before + 1, x_last + 1);
   if (crossing + width > after) after = ceilClamped(crossing + width, x_first - 1, x_last + 1);
+  // `before` and `after` lie beyond the slack on either side.
   if (rise > 0.0) {
-    span.possible_first = std::max(span.possible_first, before);
+    span.possible_first = std::max(span.possible_first, before + 1);
     span.certain_first = std::max(span.certain_first, after);
   } else {
-    span.possible_last = std::min(span.possible_last, after);
+    span.possible_last = std::min(span.possible_last, after - 1);
     span.certain_last = std::min(span.certain_last, before);
   }
 }

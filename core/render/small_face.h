@@ -11,13 +11,11 @@ namespace boresight {
 
 /// A face as its vertices' fixed pixels show it. The true vertices are at most half a step away
 /// along each axis, so the value of a line through two of them, at a point of the face's box, is
-/// wrong by at most the box's extents; an eighth more covers the bend of lines, four steps the
-/// box's slack and terms of second order.
+/// wrong by at most the box's extents; the bend of lines adds its share of them, and four steps
+/// cover the box's slack and terms of second order.
 struct FixedFace {
   int a_x, a_y, b_x, b_y, c_x, c_y;
   int low_x, high_x, low_y, high_y;
-  int area2;      ///< twice the area, positive when the inner side is seen
-  int tolerance;  ///< values of lines (and the area) beyond this have the right sign
 
   FixedFace(const FixedPixel& a, const FixedPixel& b, const FixedPixel& c)
       : a_x(a.x), a_y(a.y), b_x(b.x), b_y(b.y), c_x(c.x), c_y(c.y) {
@@ -25,23 +23,21 @@ struct FixedFace {
     low_y = lower(lower(a_y, b_y), c_y);
     high_x = higher(higher(a_x, b_x), c_x);
     high_y = higher(higher(a_y, b_y), c_y);
-    const int extent = (high_x - low_x) + (high_y - low_y);
-    tolerance = extent + extent / 8 + 4;
-    area2 = (b_x - a_x) * (c_y - a_y) - (b_y - a_y) * (c_x - a_x);
   }
 
-  /// > 0 when the inner side is seen, < 0 when the outer one is, 0 when this cannot be told.
-  int sideSeen() const { return area2 > tolerance ? 1 : area2 < -tolerance ? -1 : 0; }
+  /// Twice the area, positive when the inner side is seen.
+  int area2() const { return (b_x - a_x) * (c_y - a_y) - (b_y - a_y) * (c_x - a_x); }
+  /// Values of lines a to b and b to c at a point; all three add up to area2().
+  int lineAb(int x, int y) const { return (b_x - a_x) * (y - a_y) - (b_y - a_y) * (x - a_x); }
+  int lineBc(int x, int y) const { return (c_x - b_x) * (y - b_y) - (c_y - b_y) * (x - b_x); }
 
-  /// Whether a point of the box lies inside (> 0), outside (< 0), or too near to a line (0).
-  int locate(int x, int y) const {
-    const int ab = (b_x - a_x) * (y - a_y) - (b_y - a_y) * (x - a_x);
-    const int bc = (c_x - b_x) * (y - b_y) - (c_y - b_y) * (x - b_x);
-    const int ca = area2 - ab - bc;
-    const int side = sideSeen();
-    if (side == 0) return 0;
-    const int least = side > 0 ? lower(lower(ab, bc), ca) : -higher(higher(ab, bc), ca);
-    return least > tolerance ? 1 : least < -tolerance ? -1 : 0;
+  /// Whether a point with these values lies inside (> 0), outside (< 0), or too near to a line (0).
+  /// Whichever side is seen: inside, all three have its sign.
+  static int locate(int ab, int bc, int ca, int tolerance) {
+    const int least = lower(lower(ab, bc), ca);
+    const int most = higher(higher(ab, bc), ca);
+    if (least < -tolerance && most > tolerance) return -1;
+    return least > tolerance || most < -tolerance ? 1 : 0;
   }
 
  private:
@@ -60,7 +56,7 @@ struct PixelBox {
 class SmallFaces {
  public:
   /// Largest extent along each image axis.
-  static constexpr int kLargest_px = 8;
+  static constexpr int kLargest_px = 12;
 
   /// Everything that is the same for all faces of a render.
   SmallFaces(const CameraScene& scene, const RayGrid& rays);
@@ -81,12 +77,18 @@ class SmallFaces {
     return {(face.low_x + up) >> scale_.shift, (face.high_x + slack_) >> scale_.shift,
             (face.low_y + up) >> scale_.shift, (face.high_y + slack_) >> scale_.shift};
   }
+  /// Values of lines, and areas, beyond this have the right sign.
+  int tolerance(const FixedFace& face) const {
+    const int extent = (face.high_x - face.low_x) + (face.high_y - face.low_y);
+    return extent + ((extent * bend_) >> 3) + 4;
+  }
   const FixedScale& scale() const { return scale_; }
 
   void draw(const CameraScene& scene, std::int32_t face, RasterBand& band) const;
 
  private:
   int slack_ = 1;
+  int bend_ = 0;  ///< eighths of a step by which lines may bend
   int largest_ = 0;
   bool possible_ = false;
   FixedScale scale_;
