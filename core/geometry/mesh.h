@@ -48,7 +48,8 @@ struct MeshAdjacency {
 };
 
 /// Builds the adjacency; deterministic, O(n log n). Output and scratch come from the arena (the
-/// scratch is rewound). kArenaTooSmall when they do not fit.
+/// scratch, 24 bytes a face and 4 a vertex, is rewound). kArenaTooSmall when they do not fit,
+/// kInvalidMesh when an index is out of range.
 Status buildAdjacency(const MeshView& mesh, Arena& arena, MeshAdjacency& adjacency);
 
 /// Axis-aligned bounding box of the vertices used by faces of matched parts, station frame.
