@@ -67,7 +67,7 @@ void addKernels(CLI::App& command, Kernels& kernels) {
 }
 
 LocalizerOptions profileOptions(const std::string& name) {
-  return name == "paper" ? paperProfile() : defaultProfile();
+  return sessions::profileOptions(name).value_or(defaultProfile());
 }
 
 void OptionArguments::addTo(CLI::App& command) {
