@@ -10,28 +10,21 @@
 namespace boresight {
 namespace {
 
-/// One side of one face. Equal `ends` are the same edge of the mesh.
-struct Side {
-  std::uint64_t ends = 0;  ///< lower vertex index, then the higher one
-  std::int32_t face = 0;
-  std::int32_t edge = 0;  ///< 0..2 in the face
-};
+/// A side of a face by its number, 3 face + edge: what is compared is looked up in the mesh, so
+/// that sorting them takes no more memory than the adjacency itself.
+using Side = std::uint32_t;
+constexpr std::size_t kMostFaces = std::numeric_limits<std::int32_t>::max() / 3;
 
 bool hasRepeatedVertex(const Face& face) {
   return face.vertex[0] == face.vertex[1] || face.vertex[1] == face.vertex[2] ||
          face.vertex[2] == face.vertex[0];
 }
 
-Side sideOf(const Face& face, std::size_t face_index, std::size_t edge) {
-  const auto [low, high] = std::minmax(face.vertex[edge], face.vertex[(edge + 1) % 3]);
-  return {(static_cast<std::uint64_t>(low) << 32) | static_cast<std::uint64_t>(high),
-          static_cast<std::int32_t>(face_index), static_cast<std::int32_t>(edge)};
-}
-
-/// Total: no two sides share face and edge.
-bool sideBefore(const Side& a, const Side& b) {
-  if (a.ends != b.ends) return a.ends < b.ends;
-  return a.face != b.face ? a.face < b.face : a.edge < b.edge;
+/// Lower vertex index, then the higher one; equal ends are the same edge of the mesh.
+std::uint64_t endsOf(const MeshView& mesh, Side side) {
+  const Face& face = mesh.faces[side / 3];
+  const auto [low, high] = std::minmax(face.vertex[side % 3], face.vertex[(side + 1) % 3]);
+  return (static_cast<std::uint64_t>(low) << 32) | static_cast<std::uint64_t>(high);
 }
 
 /// Sides of all faces that have three different vertices; how many there are.
@@ -39,22 +32,24 @@ std::size_t collectSides(const MeshView& mesh, std::span<Side> sides) {
   std::size_t count = 0;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (hasRepeatedVertex(mesh.faces[f])) continue;
-    for (std::size_t edge = 0; edge < 3; ++edge) sides[count++] = sideOf(mesh.faces[f], f, edge);
+    for (std::size_t edge = 0; edge < 3; ++edge) sides[count++] = static_cast<Side>(3 * f + edge);
   }
   return count;
 }
 
 /// Joins the faces of every run of exactly two sides with the same ends.
-void joinPairs(std::span<const Side> sides, std::span<std::array<std::int32_t, 3>> neighbour) {
+void joinPairs(const MeshView& mesh, std::span<const Side> sides,
+               std::span<std::array<std::int32_t, 3>> neighbour) {
   std::size_t first = 0;
   while (first < sides.size()) {
+    const std::uint64_t ends = endsOf(mesh, sides[first]);
     std::size_t end = first + 1;
-    while (end < sides.size() && sides[end].ends == sides[first].ends) ++end;
+    while (end < sides.size() && endsOf(mesh, sides[end]) == ends) ++end;
     if (end - first == 2) {
-      const Side& a = sides[first];
-      const Side& b = sides[first + 1];
-      neighbour[static_cast<std::size_t>(a.face)][static_cast<std::size_t>(a.edge)] = b.face;
-      neighbour[static_cast<std::size_t>(b.face)][static_cast<std::size_t>(b.edge)] = a.face;
+      const Side a = sides[first];
+      const Side b = sides[first + 1];
+      neighbour[a / 3][a % 3] = static_cast<std::int32_t>(b / 3);
+      neighbour[b / 3][b % 3] = static_cast<std::int32_t>(a / 3);
     }
     first = end;
   }
@@ -70,7 +65,7 @@ bool validThresholds(const ScenePart& part) {
 Status validateMesh(const MeshView& mesh) {
   constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
   const std::size_t vertex_count = mesh.vertices_in_station_m.size();
-  if (mesh.faces.empty() || mesh.faces.size() > kMost || vertex_count > kMost)
+  if (mesh.faces.empty() || mesh.faces.size() > kMostFaces || vertex_count > kMost)
     return Status::kInvalidMesh;
   if (mesh.parts.empty() || mesh.part_of_face.size() != mesh.faces.size())
     return Status::kInvalidMesh;
@@ -89,20 +84,25 @@ Status validateMesh(const MeshView& mesh) {
   return Status::kOk;
 }
 
-Status buildAdjacency(const MeshView& mesh, Arena& arena, MeshAdjacency& adjacency) {
+Status buildAdjacency(const MeshView& mesh, Arena& kept, Arena& scratch, MeshAdjacency& adjacency) {
   adjacency.neighbour = {};
   const std::size_t face_count = mesh.faces.size();
-  const auto neighbour = arena.allocate<std::array<std::int32_t, 3>>(face_count);
-  const std::size_t scratch = arena.mark();
-  const std::span<Side> sides = arena.allocate<Side>(3 * face_count);
-  arena.rewind(scratch);
-  if (arena.countsOnly()) return Status::kOk;
-  if (arena.exhausted()) return Status::kArenaTooSmall;
+  const auto neighbour = kept.allocate<std::array<std::int32_t, 3>>(face_count);
+  const std::size_t mark = scratch.mark();
+  const std::span<Side> sides = scratch.allocate<Side>(3 * face_count);
+  scratch.rewind(mark);
+  if (kept.countsOnly() || scratch.countsOnly()) return Status::kOk;
+  if (kept.exhausted() || scratch.exhausted()) return Status::kArenaTooSmall;
 
   for (auto& of_face : neighbour) of_face = {-1, -1, -1};
   const std::span<Side> used = sides.first(collectSides(mesh, sides));
-  std::sort(used.begin(), used.end(), sideBefore);
-  joinPairs(used, neighbour);
+  // The numbers tell apart what has the same ends: the order is total.
+  std::sort(used.begin(), used.end(), [&mesh](Side a, Side b) {
+    const std::uint64_t ends_a = endsOf(mesh, a);
+    const std::uint64_t ends_b = endsOf(mesh, b);
+    return ends_a != ends_b ? ends_a < ends_b : a < b;
+  });
+  joinPairs(mesh, used, neighbour);
   adjacency.neighbour = neighbour;
   return Status::kOk;
 }

@@ -78,11 +78,10 @@ Status Localizer::restart(const Pose& camera_from_station_seed, const LocalizerO
     return Status::kInvalidPose;
   std::size_t bytes = 0;
   Status status = requiredBytes(sizeOf(problem_), options, bytes);
-  if (status == Status::kOk && bytes > arena_.capacity()) status = Status::kArenaTooSmall;
+  if (status == Status::kOk && bytes > memory_.size()) status = Status::kArenaTooSmall;
   if (status != Status::kOk) return status;
   problem_.camera_from_station_seed = camera_from_station_seed;
   options_ = options;
-  arena_.reset();
   begin();
   return status_;
 }
@@ -92,6 +91,9 @@ void Localizer::startIteration() {
   hypothesis_ = 0;
   has_best_ = false;
   current_ = 0;
+  // The renderer works where the finer edge maps were.
+  for (int level = 0; level < fine_level_; ++level)
+    workspace_.edges.level[static_cast<std::size_t>(level)] = BitImage();
   startHypothesis();
 }
 
@@ -113,6 +115,8 @@ void Localizer::startHypothesis() {
     now.threshold_px = radius_px * static_cast<double>(1 << now.level);
   }
   now.status = LocalizationStatus::kRunning;
+  now.render = now.level == coarse_level_ ? coarse_render_[static_cast<std::size_t>(current_)]
+                                          : fine_render_;
   now.templates.count = 0;
   now.matches.count = 0;
   now.matches.searched = 0;

@@ -25,6 +25,21 @@ enum class Stage : std::uint8_t {
 };
 const char* stageText(Stage stage);
 
+/// Bytes of a localizer's block: what lives throughout, what construction takes besides (given back
+/// before the first step), and what each stage takes besides; these share the same memory.
+struct MemoryUse {
+  std::size_t kept = 0;
+  std::size_t construction = 0;
+  std::array<std::size_t, static_cast<std::size_t>(Stage::kFinished)> stage{};
+
+  /// High-water mark of a stage.
+  std::size_t of(Stage at) const {
+    return at < Stage::kFinished ? kept + stage[static_cast<std::size_t>(at)] : kept;
+  }
+  /// High-water mark of the whole: what the block must hold.
+  std::size_t total() const;
+};
+
 /// What one step did.
 struct StepReport {
   Stage stage = Stage::kEdges;  ///< the stage that was worked on
@@ -36,12 +51,20 @@ struct StepReport {
 /// Render-and-compare localization (Pham 2025), one bounded slice per call. The flight loop, the
 /// command line, a window's worker and a recorder are callers of the same `step()`; nothing in here
 /// calls back, pauses, draws or logs. After construction nothing allocates.
+///
+/// All memory is one block: first what lives throughout (adjacency, ray grids, edge maps from the
+/// finest level that is matched on, renders, matches), then one piece that the stages use in turn.
+/// What a stage leaves in it stays until the next step that works on another stage: edge maps finer
+/// than the finest level until the first render, the samples of a refinement until the next render.
 class Localizer {
  public:
   /// Bytes of arena for a problem of this size, in a block aligned to Arena::kAlignment (one less
   /// aligned loses its first bytes); kInvalidOption for options out of range.
   static Status requiredBytes(const ProblemSize& size, const LocalizerOptions& options,
                               std::size_t& bytes);
+  /// The same in detail.
+  static Status requiredMemory(const ProblemSize& size, const LocalizerOptions& options,
+                               MemoryUse& use);
 
   /// `memory` and everything `problem` points to must outlive the localizer. `status()` tells
   /// whether it can run: kInvalidOption, kInvalidImage (its size is not the camera's or the ignore
@@ -66,14 +89,21 @@ class Localizer {
   const Workspace& workspace() const { return workspace_; }
   const LocalizationProblem& problem() const { return problem_; }
   const LocalizerOptions& options() const { return options_; }
-  std::size_t highWaterBytes() const { return arena_.highWater(); }
+  std::size_t highWaterBytes() const { return kept_.highWater() + scratch_.highWater(); }
+  /// What the stages need of the memory; known from the start.
+  const MemoryUse& memoryUse() const { return memory_use_; }
   /// SHA-256 over options, inputs and every intermediate up to now, whoever looks or not.
   std::array<std::uint8_t, 32> digest() const { return digest_.digest(); }
 
  private:
   void begin();
-  Status build(const ProblemSize& size);
-  Status buildLevels();
+  Status build();
+  Status layOut(const ProblemSize& size);
+  Status layOutKept();
+  void layOutRenders();
+  Status layOutStages(const ProblemSize& size);
+  void shareScratch(std::size_t& bytes);
+  std::size_t& bytesOf(Stage stage) { return memory_use_.stage[static_cast<std::size_t>(stage)]; }
   void startIteration();
   void startHypothesis();
   StepReport stepEdges();
@@ -109,7 +139,10 @@ class Localizer {
 
   LocalizationProblem problem_;
   LocalizerOptions options_;
-  Arena arena_;
+  std::span<std::byte> memory_;
+  Arena kept_;
+  Arena scratch_;  ///< of construction and of the stages, one after the other
+  MemoryUse memory_use_;
   Status status_ = Status::kOk;
 
   MeshAdjacency adjacency_;
@@ -123,6 +156,8 @@ class Localizer {
   std::array<RayGrid, kPyramidLevels> rays_;
 
   std::array<Iteration, 2> buffers_;  ///< the current hypothesis and the best of this iteration
+  std::array<EdgeRender, 2> coarse_render_;  ///< of the first iteration, one per buffer
+  EdgeRender fine_render_;  ///< of later ones, in the same memory unless it is the same level
   int current_ = 0;
   bool has_best_ = false;
   int hypothesis_ = 0;

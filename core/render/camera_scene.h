@@ -35,9 +35,10 @@ struct CameraScene {
   std::span<std::uint8_t> face_flags;
   static constexpr std::uint8_t kFrontFacing = 8;
 
-  /// The mesh and its adjacency must outlive the scene.
+  /// The mesh and its adjacency must outlive the scene. What depends on the pose comes from
+  /// `scratch`.
   static Status create(const MeshView& mesh, const MeshAdjacency& adjacency, double near_plane_m,
-                       Arena& arena, CameraScene& scene);
+                       Arena& kept, Arena& scratch, CameraScene& scene);
 
   /// Vertices first .. last - 1 into the camera frame.
   void transform(const Pose& camera_from_station, const RayGrid& rays, std::size_t first,
