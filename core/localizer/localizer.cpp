@@ -41,6 +41,7 @@ StepReport report(Stage stage, bool stage_complete) {
 StepReport Localizer::step() {
   if (status_ != Status::kOk && stage_ != Stage::kFinished) return faulted(stage_, status_);
   if (iteration_pending_) startIteration();
+  if (hypothesis_pending_) startHypothesis();
   switch (stage_) {
     case Stage::kEdges:
       return stepEdges();
@@ -94,10 +95,11 @@ void Localizer::startIteration() {
   // The renderer works where the finer edge maps were.
   for (int level = 0; level < fine_level_; ++level)
     workspace_.edges.level[static_cast<std::size_t>(level)] = BitImage();
-  startHypothesis();
+  hypothesis_pending_ = true;
 }
 
 void Localizer::startHypothesis() {
+  hypothesis_pending_ = false;
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   now.index = workspace_.iterations;
   now.attempt = attempt_;
@@ -307,7 +309,8 @@ StepReport Localizer::finishHypothesis() {
   if (hypothesis_ < wanted) {
     has_best_ = true;
     current_ = 1 - kept;
-    startHypothesis();
+    // Started by the next step: until then the caller sees the hypothesis that has ended.
+    hypothesis_pending_ = true;
     return report(Stage::kPose, true);
   }
   current_ = kept;

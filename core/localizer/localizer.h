@@ -167,6 +167,7 @@ class Localizer {
   Stage stage_ = Stage::kEdges;
   bool stage_begun_ = false;
   bool iteration_pending_ = false;
+  bool hypothesis_pending_ = false;
   int attempt_ = 0;
   int iteration_ = 0;  ///< of this attempt
   int small_corrections_ = 0;

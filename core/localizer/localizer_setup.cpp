@@ -178,6 +178,7 @@ void Localizer::begin() {
   stage_ = Stage::kEdges;
   stage_begun_ = false;
   iteration_pending_ = false;
+  hypothesis_pending_ = false;
   iteration_ = 0;
   attempt_ = 0;
   current_ = 0;

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sessions/trace/trace.h"
+
+namespace boresight::sessions {
+
+/// A run as far as it has come, cheap to copy: what is whole is shared and never changes.
+/// LocalizationTrace is the same as one value, for files and for runs that nobody watches.
+struct RunSnapshot {
+  std::string version;
+  LocalizerOptions options;
+  Camera camera;
+  Pose camera_from_station_seed;
+  SeedUncertainty uncertainty;
+
+  std::shared_ptr<const EdgeMapTrace> edges;  ///< nullptr until the test edges are there
+  /// In order; the last one may be under way (`IterationTrace::reached` tells how far it is).
+  std::vector<std::shared_ptr<const IterationTrace>> iterations;
+  bool last_under_way = false;
+  bool finished = false;
+  Stage stage = Stage::kEdges;  ///< the last one that was worked on
+  std::int32_t attempts = 1;
+  EdgeSupport support;
+  LocalizationStatus status = LocalizationStatus::kRunning;
+  Status fault = Status::kOk;
+  Pose camera_from_station;
+  Matrix6d covariance = Matrix6d::Zero();
+  std::string digest;  ///< empty until the run has finished
+  StageSeconds seconds;
+  std::uint64_t arena_bytes = 0;
+
+  bool converged() const { return status == LocalizationStatus::kConverged; }
+};
+
+/// Of a run that was read from a file.
+RunSnapshot snapshotOf(LocalizationTrace&& trace);
+/// For files; copies every iteration.
+LocalizationTrace traceOf(const RunSnapshot& snapshot);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include <QObject>
+#include <QString>
+
+#include "core/localizer/localizer_options.h"
+#include "sessions/trace/run_snapshot.h"
+#include "sessions/trace/stepped_run.h"
+#include "ui/state/loaded_case.h"
+
+namespace boresight::ui {
+
+enum class RunState {
+  kEmpty,    ///< no case
+  kReady,    ///< nothing has run yet
+  kWorking,  ///< the worker is at it
+  kHalted,   ///< between two slices, can go on
+  kFinished,
+};
+
+/// What one run works on; immutable, shared with the worker.
+struct RunInputs {
+  std::shared_ptr<const LoadedCase> one;
+  LocalizerOptions options;
+  std::optional<Pose> camera_from_station_seed;  ///< instead of the case's
+};
+
+/// Runs one localization off the UI's thread. Inputs go in as a snapshot, records that never change
+/// come back through signals; the newest order wins, what an older one still yields is dropped, and
+/// stopping never waits.
+class RunController : public QObject {
+  Q_OBJECT
+
+ public:
+  using SnapshotPtr = std::shared_ptr<const sessions::RunSnapshot>;
+
+  explicit RunController(QObject* parent = nullptr);
+  ~RunController() override;
+
+  RunState state() const { return state_; }
+  /// The latest record; nullptr before the first.
+  const SnapshotPtr& snapshot() const { return snapshot_; }
+  const RunInputs& inputs() const { return inputs_; }
+
+  /// Drops the run, if any; the next step begins anew from these. Without a case: kEmpty.
+  void reset(RunInputs inputs);
+  /// Goes on until the stage, the iteration or the run is complete. Nothing while working, without
+  /// a case, or after the end.
+  void advance(sessions::StepUntil until);
+  /// Halts after the slice under way (20 ms at most at 2048 x 2048).
+  void stop();
+
+ Q_SIGNALS:
+  void stateChanged();
+  /// A stage or an iteration is complete, or the run has halted or ended.
+  void snapshotChanged();
+  /// The run has ended by itself.
+  void finished();
+  /// The worker could not go on (no memory); a sentence for people.
+  void failed(const QString& message);
+
+ private:
+  class Worker;
+
+  void takeResult(std::uint64_t generation, SnapshotPtr snapshot, bool halted);
+  void takeFailure(std::uint64_t generation, const QString& message);
+  void setState(RunState state);
+
+  RunState state_ = RunState::kEmpty;
+  RunInputs inputs_;
+  SnapshotPtr snapshot_;
+  std::uint64_t generation_ = 0;
+  std::unique_ptr<Worker> worker_;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include <QObject>
+
+#include "core/geometry/pose.h"
+#include "sessions/trace/run_snapshot.h"
+#include "ui/state/loaded_case.h"
+
+namespace boresight::ui {
+
+/// The place in a run that every view shows.
+struct RunCursor {
+  int iteration = -1;  ///< index into the snapshot's iterations; -1: the seed, before the first
+  Stage stage = Stage::kFinished;  ///< what of the iteration is shown: this stage and those before
+
+  bool operator==(const RunCursor&) const = default;
+};
+
+/// What the whole window looks at: one case, its run as far as it has come, one place in it, one
+/// template of it, and the pose that a person has nudged. All views show this and change it only
+/// here; nothing of it is part of the document.
+class ViewState : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit ViewState(QObject* parent = nullptr);
+
+  using CasePtr = std::shared_ptr<const LoadedCase>;
+  using SnapshotPtr = std::shared_ptr<const sessions::RunSnapshot>;
+
+  /// nullptr while no case is open.
+  const CasePtr& currentCase() const { return case_; }
+  /// nullptr before the first run of the case.
+  const SnapshotPtr& snapshot() const { return snapshot_; }
+  const RunCursor& cursor() const { return cursor_; }
+  /// The iteration under the cursor, or nullptr.
+  const sessions::IterationTrace* iteration() const;
+  /// Index into the iteration's templates, or -1.
+  int selectedTemplate() const { return selected_template_; }
+  /// The pose that is being nudged, if any.
+  const std::optional<Pose>& nudgedPose() const { return nudged_; }
+  /// The pose that the views show: the nudged one, else that after the cursor's iteration (before
+  /// it where the shown stage is earlier), else the seed. Identity without a case.
+  Pose shownPose() const;
+
+  void setCase(CasePtr one);
+  /// Keeps the cursor where it was; at the last iteration it follows the run.
+  void setSnapshot(SnapshotPtr snapshot);
+  void setCursor(const RunCursor& cursor);
+  /// -1 selects none.
+  void selectTemplate(int index);
+  void setNudgedPose(const std::optional<Pose>& camera_from_station);
+
+ Q_SIGNALS:
+  void caseChanged();
+  void snapshotChanged();
+  void cursorChanged();
+  void templateSelected(int index);
+  void nudgedPoseChanged();
+
+ private:
+  int lastIteration() const;
+
+  CasePtr case_;
+  SnapshotPtr snapshot_;
+  RunCursor cursor_;
+  int selected_template_ = -1;
+  std::optional<Pose> nudged_;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/views/image_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPaintEvent>
+#include <QPainter>
+#include <QWheelEvent>
+
+#include "ui/views/mark_painter.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr double kPickRadius = 8.0;
+constexpr int kClickSlack = 3;
+
+}  // namespace
+
+ImageView::ImageView(QWidget* parent) : QWidget(parent), layers_(kLayerCount), drawn_(kLayerCount) {
+  for (int i = 0; i < kLayerCount; ++i) {
+    Layer& made = layers_[static_cast<std::size_t>(i)];
+    made.id = static_cast<LayerId>(i);
+    made.style = layerInfo(made.id).style;
+  }
+  setMouseTracking(true);
+  setFocusPolicy(Qt::StrongFocus);
+  setAutoFillBackground(false);
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  setMinimumSize(160, 120);
+}
+
+void ImageView::setImage(const QImage& gray) {
+  const QSize before = image_.size();
+  image_ = GrayPyramid(gray.isNull() ? QImage() : gray.convertToFormat(QImage::Format_Grayscale8));
+  values_ = image_.isNull() ? QImage() : image_.full();
+  if (image_.size() != before) fit();
+  update();
+}
+
+void ImageView::setLayer(Layer layer) {
+  const auto index = static_cast<std::size_t>(layer.id);
+  layers_[index] = std::move(layer);
+  drawn_[index].pixmaps.clear();
+  update();
+}
+
+void ImageView::setStyle(LayerId id, const LayerStyle& style) {
+  const auto index = static_cast<std::size_t>(id);
+  if (layers_[index].style.color != style.color) drawn_[index].pixmaps.clear();
+  layers_[index].style = style;
+  update();
+}
+
+void ImageView::setTransform(const ViewTransform& transform) {
+  if (transform == transform_) return;
+  transform_ = transform;
+  fitted_ = false;
+  changed();
+}
+
+void ImageView::fit() {
+  fitted_ = true;
+  transform_.fit(image_.size(), size());
+  changed();
+}
+
+void ImageView::showOneToOne() {
+  fitted_ = false;
+  transform_.zoomAt(QPointF(0.5 * width(), 0.5 * height()), 1.0 / devicePixelRatioF());
+  changed();
+}
+
+void ImageView::centreOn(const QPointF& pixel, double least_scale) {
+  fitted_ = false;
+  if (transform_.scale() < least_scale)
+    transform_.zoomAt(QPointF(0.5 * width(), 0.5 * height()), least_scale);
+  transform_.centreOn(pixel, size());
+  changed();
+}
+
+void ImageView::setSwipe(std::optional<double> share) {
+  swipe_ = share;
+  update();
+}
+
+void ImageView::setLayersHidden(bool hidden) {
+  layers_hidden_ = hidden;
+  update();
+}
+
+void ImageView::setHint(const QString& hint) {
+  hint_ = hint;
+  update();
+}
+
+void ImageView::setToolActive(bool active, double radius_px) {
+  tool_active_ = active;
+  tool_radius_px_ = radius_px;
+  setCursor(active ? Qt::CrossCursor : Qt::ArrowCursor);
+  update();
+}
+
+void ImageView::changed() {
+  update();
+  Q_EMIT transformChanged();
+}
+
+std::optional<ImageView::Pick> ImageView::pickAt(const QPointF& widget) const {
+  std::optional<Pick> found;
+  double nearest = kPickRadius;
+  if (layers_hidden_) return found;
+  for (const Layer& layer : layers_) {
+    if (!layer.style.visible) continue;
+    for (const Mark& mark : layer.marks) {
+      if (mark.item < 0) continue;
+      const double distance = distanceTo(transform_, mark, widget);
+      if (distance > nearest || (found && distance == nearest)) continue;
+      nearest = distance;
+      found = Pick{layer.id, mark.item};
+    }
+  }
+  return found;
+}
+
+QRect ImageView::visiblePixels() const {
+  const QPointF first = transform_.toPixel(QPointF(0.0, 0.0));
+  const QPointF last = transform_.toPixel(QPointF(width(), height()));
+  const QRect seen(
+      QPoint(static_cast<int>(std::floor(first.x())), static_cast<int>(std::floor(first.y()))),
+      QPoint(static_cast<int>(std::ceil(last.x())), static_cast<int>(std::ceil(last.y()))));
+  return seen.intersected(QRect(QPoint(0, 0), image_.size()));
+}
+
+void ImageView::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), palette().color(QPalette::Dark));
+  if (image_.isNull()) {
+    painter.setPen(palette().color(QPalette::BrightText));
+    painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap, hint_);
+    return;
+  }
+  paintImage(painter);
+  if (!layers_hidden_) {
+    painter.save();
+    if (swipe_) painter.setClipRect(QRectF(0.0, 0.0, *swipe_ * width(), height()));
+    for (std::size_t i = 0; i < layers_.size(); ++i) paintLayer(painter, i);
+    painter.restore();
+  }
+  if (swipe_) {
+    painter.setPen(QPen(palette().color(QPalette::Highlight), 2.0));
+    const double x = *swipe_ * width();
+    painter.drawLine(QPointF(x, 0.0), QPointF(x, height()));
+  }
+  if (transform_.scale() >= kGridScale) paintGrid(painter);
+  if (transform_.scale() >= kValueScale) paintValues(painter);
+  if (tool_active_ && tool_radius_px_ > 0.0 && underMouse()) {
+    const double radius = tool_radius_px_ * transform_.scale();
+    painter.setPen(QPen(palette().color(QPalette::Highlight), 1.5));
+    painter.drawEllipse(QPointF(last_), radius, radius);
+  }
+}
+
+void ImageView::paintImage(QPainter& painter) const {
+  int step = 0;
+  const double device_scale = transform_.scale() * devicePixelRatioF();
+  const QImage& picture = image_.at(1.0 / device_scale, step);
+  const double factor = static_cast<double>(1 << step);
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, device_scale < 1.0);
+  // A pixel of the picture covers `factor` pixels of the image, the last one perhaps fewer.
+  const QRectF covered(-0.5, -0.5, picture.width() * factor, picture.height() * factor);
+  painter.drawImage(transform_.toWidget(covered), picture);
+}
+
+void ImageView::paintLayer(QPainter& painter, std::size_t index) {
+  const Layer& layer = layers_[index];
+  if (!layer.style.visible || layer.style.opacity <= 0.0) return;
+  DrawnLayer& drawn = drawn_[index];
+  painter.setOpacity(layer.style.opacity);
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
+  for (std::size_t i = 0; i < layer.bits.size(); ++i) {
+    const LayerBits& bits = layer.bits[i];
+    if (drawn.pixmaps.size() <= i)
+      drawn.pixmaps.emplace_back(bits.bits, bits.color.isValid() ? bits.color : layer.style.color);
+    const double level_px = static_cast<double>(1 << bits.level);
+    int step = 0;
+    const double per_device = 1.0 / (transform_.scale() * devicePixelRatioF() * level_px);
+    const QImage& picture = drawn.pixmaps[i].at(per_device, step);
+    const double factor = level_px * static_cast<double>(1 << step);
+    const QRectF covered(-0.5, -0.5, picture.width() * factor, picture.height() * factor);
+    painter.drawImage(transform_.toWidget(covered), picture);
+  }
+  painter.setRenderHint(QPainter::Antialiasing, true);
+  for (const Mark& mark : layer.marks) paintMark(painter, transform_, mark, layer.style.color);
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  painter.setOpacity(1.0);
+}
+
+void ImageView::paintGrid(QPainter& painter) const {
+  const QRect seen = visiblePixels();
+  painter.setPen(QColor(128, 128, 128, 70));
+  for (int x = seen.left(); x <= seen.right() + 1; ++x) {
+    const double at = transform_.toWidget(QPointF(x - 0.5, 0.0)).x();
+    painter.drawLine(QPointF(at, 0.0), QPointF(at, height()));
+  }
+  for (int y = seen.top(); y <= seen.bottom() + 1; ++y) {
+    const double at = transform_.toWidget(QPointF(0.0, y - 0.5)).y();
+    painter.drawLine(QPointF(0.0, at), QPointF(width(), at));
+  }
+}
+
+void ImageView::paintValues(QPainter& painter) const {
+  if (values_.isNull()) return;
+  const QRect seen = visiblePixels();
+  QFont small = font();
+  small.setPixelSize(static_cast<int>(std::clamp(0.36 * transform_.scale(), 9.0, 22.0)));
+  painter.setFont(small);
+  for (int y = seen.top(); y <= seen.bottom(); ++y) {
+    for (int x = seen.left(); x <= seen.right(); ++x) {
+      const int gray = values_.constScanLine(y)[x];
+      painter.setPen(gray < 128 ? QColor(255, 255, 255, 190) : QColor(0, 0, 0, 190));
+      painter.drawText(transform_.toWidget(QRectF(x - 0.5, y - 0.5, 1.0, 1.0)), Qt::AlignCenter,
+                       QString::number(gray));
+    }
+  }
+}
+
+void ImageView::resizeEvent(QResizeEvent*) {
+  if (fitted_) fit();
+}
+
+void ImageView::wheelEvent(QWheelEvent* event) {
+  const double notches = event->angleDelta().y() / 120.0;
+  if (notches == 0.0 || image_.isNull()) return;
+  fitted_ = false;
+  transform_.zoomAt(event->position(), transform_.scale() * std::pow(1.25, notches));
+  event->accept();
+  changed();
+}
+
+void ImageView::mousePressEvent(QMouseEvent* event) {
+  press_ = last_ = event->pos();
+  dragging_ = false;
+  if (tool_active_ && event->button() == Qt::LeftButton) {
+    tool_pressed_ = true;
+    Q_EMIT toolPressed(transform_.toPixel(event->pos()));
+  }
+}
+
+void ImageView::mouseMoveEvent(QMouseEvent* event) {
+  const QPoint delta = event->pos() - last_;
+  last_ = event->pos();
+  if (tool_pressed_) {
+    Q_EMIT toolMoved(transform_.toPixel(event->pos()));
+  } else if ((event->buttons() & (Qt::LeftButton | Qt::MiddleButton)) != 0) {
+    if ((event->pos() - press_).manhattanLength() > kClickSlack) dragging_ = true;
+    if (dragging_) {
+      fitted_ = false;
+      transform_.pan(delta);
+      changed();
+    }
+  }
+  if (tool_active_) update();
+  if (!image_.isNull()) Q_EMIT cursorMoved(transform_.toPixel(event->pos()));
+}
+
+void ImageView::mouseReleaseEvent(QMouseEvent* event) {
+  if (tool_pressed_) {
+    tool_pressed_ = false;
+    Q_EMIT toolReleased(transform_.toPixel(event->pos()));
+    return;
+  }
+  if (dragging_) {
+    dragging_ = false;
+    return;
+  }
+  if (image_.isNull()) return;
+  if (event->button() == Qt::LeftButton) {
+    if (const std::optional<Pick> pick = pickAt(event->pos()))
+      Q_EMIT itemClicked(pick->layer, pick->item);
+  }
+  Q_EMIT clicked(transform_.toPixel(event->pos()), event->button(), event->modifiers());
+}
+
+void ImageView::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton && !tool_active_) fit();
+}
+
+void ImageView::keyPressEvent(QKeyEvent* event) {
+  const double step = 0.1 * std::min(width(), height());
+  switch (event->key()) {
+    case Qt::Key_1:
+      showOneToOne();
+      return;
+    case Qt::Key_0:
+      fit();
+      return;
+    case Qt::Key_Plus:
+    case Qt::Key_Equal:
+      fitted_ = false;
+      transform_.zoomAt(QPointF(0.5 * width(), 0.5 * height()), transform_.scale() * 1.25);
+      changed();
+      return;
+    case Qt::Key_Minus:
+      fitted_ = false;
+      transform_.zoomAt(QPointF(0.5 * width(), 0.5 * height()), transform_.scale() / 1.25);
+      changed();
+      return;
+    case Qt::Key_Left:
+    case Qt::Key_Right:
+    case Qt::Key_Up:
+    case Qt::Key_Down: {
+      fitted_ = false;
+      const double x = event->key() == Qt::Key_Left    ? step
+                       : event->key() == Qt::Key_Right ? -step
+                                                       : 0.0;
+      const double y = event->key() == Qt::Key_Up     ? step
+                       : event->key() == Qt::Key_Down ? -step
+                                                      : 0.0;
+      transform_.pan({x, y});
+      changed();
+      return;
+    }
+    default:
+      QWidget::keyPressEvent(event);
+  }
+}
+
+void ImageView::leaveEvent(QEvent*) {
+  Q_EMIT cursorLeft();
+  if (tool_active_) update();
+}
+
+}  // namespace boresight::ui

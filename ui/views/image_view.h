@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <QPoint>
+#include <QWidget>
+
+#include "ui/views/bit_pixmaps.h"
+#include "ui/views/gray_pyramid.h"
+#include "ui/views/layer.h"
+#include "ui/views/view_transform.h"
+
+namespace boresight::ui {
+
+/// The image with layers over it, in plain Qt: exact, and the same on every platform. The wheel
+/// zooms at the cursor, dragging pans, a double click fits; from 8x the pixel grid and the gray
+/// values show. It knows nothing of runs; who owns it hands it pictures and marks.
+class ImageView : public QWidget {
+  Q_OBJECT
+
+ public:
+  static constexpr double kGridScale = 8.0;
+  static constexpr double kValueScale = 28.0;  ///< a pixel must hold three digits
+
+  explicit ImageView(QWidget* parent = nullptr);
+
+  /// 8-bit gray; a null image shows nothing but a hint. Keeps the zoom when the size stays.
+  void setImage(const QImage& gray);
+  /// Gray levels that the values of the grid are taken from, when the picture is stretched.
+  void setValues(const QImage& gray) { values_ = gray; }
+  /// Replaces one layer; the others keep what they have drawn before.
+  void setLayer(Layer layer);
+  const Layer& layer(LayerId id) const { return layers_[static_cast<std::size_t>(id)]; }
+  void setStyle(LayerId id, const LayerStyle& style);
+
+  const ViewTransform& transform() const { return transform_; }
+  void setTransform(const ViewTransform& transform);
+  void fit();
+  void showOneToOne();  ///< one image pixel on one device pixel
+  void centreOn(const QPointF& pixel, double least_scale);
+
+  /// Layers are drawn only left of this share of the width; none: everywhere.
+  void setSwipe(std::optional<double> share);
+  const std::optional<double>& swipe() const { return swipe_; }
+  /// Hides all layers for the moment (blinking).
+  void setLayersHidden(bool hidden);
+  bool layersHidden() const { return layers_hidden_; }
+
+  /// The mark under a place of the widget that belongs to an item of a visible layer, the nearest
+  /// one within 8 px; {layer, item}.
+  struct Pick {
+    LayerId layer = LayerId::kTemplates;
+    int item = -1;
+  };
+  std::optional<Pick> pickAt(const QPointF& widget) const;
+
+  /// What is shown when there is no image.
+  void setHint(const QString& hint);
+
+  QSize sizeHint() const override { return {640, 640}; }
+
+ Q_SIGNALS:
+  void cursorMoved(const QPointF& pixel);
+  void cursorLeft();
+  void clicked(const QPointF& pixel, Qt::MouseButton button, Qt::KeyboardModifiers modifiers);
+  void itemClicked(boresight::ui::LayerId layer, int item);
+  void transformChanged();
+  /// While a tool is set, dragging paints instead of panning.
+  void toolPressed(const QPointF& pixel);
+  void toolMoved(const QPointF& pixel);
+  void toolReleased(const QPointF& pixel);
+
+ public:
+  /// A tool takes the left button; its radius (image px) is shown round the cursor when positive.
+  void setToolActive(bool active, double radius_px = 0.0);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+
+ private:
+  struct DrawnLayer {
+    std::vector<BitPixmaps> pixmaps;  ///< one per LayerBits, made when first drawn
+  };
+
+  void paintImage(QPainter& painter) const;
+  void paintLayer(QPainter& painter, std::size_t index);
+  void paintGrid(QPainter& painter) const;
+  void paintValues(QPainter& painter) const;
+  QRect visiblePixels() const;
+  void changed();
+
+  GrayPyramid image_;
+  QImage values_;
+  std::vector<Layer> layers_;
+  std::vector<DrawnLayer> drawn_;
+  ViewTransform transform_;
+  bool fitted_ = true;  ///< follows the widget's size
+  std::optional<double> swipe_;
+  bool layers_hidden_ = false;
+  QString hint_;
+  QPoint press_;
+  QPoint last_;
+  bool dragging_ = false;
+  bool tool_active_ = false;
+  bool tool_pressed_ = false;
+  double tool_radius_px_ = 0.0;
+};
+
+}  // namespace boresight::ui

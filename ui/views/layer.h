@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <QColor>
+#include <QPointF>
+#include <QRectF>
+#include <QString>
+
+#include "core/base/image.h"
+
+namespace boresight::ui {
+
+/// What can lie over the image, from the lowest to the highest.
+enum class LayerId : std::uint8_t {
+  kIgnoreMask,
+  kTestEdges,
+  kMask,
+  kSeedEdges,
+  kTruthEdges,
+  kIterationEdges,
+  kAgreement,
+  kNudgedEdges,
+  kWindows,
+  kTemplates,
+  kMatches,
+  kResiduals,
+  kPoints,
+};
+inline constexpr int kLayerCount = 13;
+
+struct LayerStyle {
+  bool visible = false;
+  QColor color;
+  double opacity = 1.0;  ///< 0 .. 1
+
+  bool operator==(const LayerStyle&) const = default;
+};
+
+/// What people are told of a layer: its name, its key, how it looks at first.
+struct LayerInfo {
+  LayerId id = LayerId::kTestEdges;
+  const char* name = "";
+  const char* key = "";  ///< key sequence that shows and hides it
+  const char* help = "";
+  LayerStyle style;
+};
+const LayerInfo& layerInfo(LayerId id);
+
+/// A packed binary image of a pyramid level; `owner` keeps its words alive.
+struct LayerBits {
+  std::shared_ptr<const void> owner;
+  BitImage bits;
+  int level = 0;  ///< its pixel (x, y) covers 2^level x 2^level pixels of the image
+  QColor color;   ///< instead of the layer's, where valid
+};
+
+enum class MarkShape : std::uint8_t { kCross, kCircle, kSquare, kDiamond, kArrow, kRectangle };
+
+/// Something drawn with lines of constant width. Coordinates are pixels of the full image; the
+/// centre of the top-left pixel is (0, 0).
+struct Mark {
+  MarkShape shape = MarkShape::kCross;
+  QPointF at;            ///< centre, or where an arrow begins
+  QPointF to;            ///< where an arrow ends
+  QRectF area;           ///< of a rectangle
+  double size_px = 9.0;  ///< on the screen, whatever the zoom
+  QColor color;          ///< instead of the layer's, where valid
+  bool dashed = false;   ///< a second difference besides the colour
+  int item = -1;         ///< what it belongs to (a template, a point), or -1: cannot be picked
+  QString label;
+};
+
+/// One layer as the image view draws it.
+struct Layer {
+  LayerId id = LayerId::kTestEdges;
+  LayerStyle style;
+  std::vector<LayerBits> bits;
+  std::vector<Mark> marks;
+};
+
+}  // namespace boresight::ui

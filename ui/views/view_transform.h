@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QPointF>
+#include <QRectF>
+#include <QSizeF>
+
+namespace boresight::ui {
+
+/// Between image pixels (the centre of the top-left one is (0, 0)) and the widget's coordinates:
+/// widget = (pixel + 0.5) * scale + offset, so that a pixel covers a square of side `scale`.
+class ViewTransform {
+ public:
+  static constexpr double kMinScale = 1.0 / 64.0;
+  static constexpr double kMaxScale = 128.0;
+
+  double scale() const { return scale_; }
+  QPointF toWidget(const QPointF& pixel) const;
+  QPointF toPixel(const QPointF& widget) const;
+  /// Corners of pixels on the widget: the whole image is imageRect({-0.5, -0.5, width, height}).
+  QRectF toWidget(const QRectF& pixels) const;
+
+  /// The whole image, centred.
+  void fit(const QSizeF& image, const QSizeF& widget);
+  /// A scale about a place that stays where it is on the widget.
+  void zoomAt(const QPointF& widget, double scale);
+  void pan(const QPointF& widget_delta) { offset_ += widget_delta; }
+  /// Puts a pixel into the middle.
+  void centreOn(const QPointF& pixel, const QSizeF& widget);
+
+  bool operator==(const ViewTransform&) const = default;
+
+ private:
+  double scale_ = 1.0;
+  QPointF offset_;
+};
+
+}  // namespace boresight::ui
