@@ -55,8 +55,10 @@ struct OptionArguments {
   void addTo(CLI::App& command);
   /// Profile, then config, then --set. InputError for the config, CLI::ValidationError for --set.
   LocalizerOptions read() const;
-  /// "paper" or "default": the one asked for, else the config's.
+  /// "paper", "default" or "flight": the one asked for, else the config's.
   std::string profileName() const;
+  /// Bytes for a run and its inputs; 0 where the profile sets no limit.
+  std::size_t memoryLimit() const;
 };
 
 LocalizerOptions profileOptions(const std::string& name);

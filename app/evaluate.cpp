@@ -145,6 +145,7 @@ int evaluate(EvaluateArguments& arguments) {
   if (!arguments.mirror.empty())
     arguments.batch.mirror = static_cast<sessions::MirrorAxis>(arguments.mirror.front() - 'x');
   arguments.batch.localizer = arguments.options.read();
+  arguments.batch.memory_limit = arguments.options.memoryLimit();
   const sessions::Dataset dataset = sessions::readDataset(arguments.dataset);
   for (const std::string& line : dataset.notes) note(line);
 

@@ -19,4 +19,7 @@ std::string poseText(const Pose& camera_from_station, const Matrix6d& covariance
 /// two; empty for a run that converged.
 std::string explanation(const LocalizationTrace& trace);
 
+/// High-water mark of memory by stage, against the limit if there is one.
+std::string memoryTable(const LocalizationTrace& trace);
+
 }  // namespace boresight::sessions

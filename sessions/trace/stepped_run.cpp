@@ -14,14 +14,15 @@ SteppedRun::SteppedRun(const LocalizationProblem& problem, const LocalizerOption
   snapshot_.camera_from_station_seed = problem.camera_from_station_seed;
   snapshot_.camera_from_station = problem.camera_from_station_seed;
   snapshot_.uncertainty = problem.uncertainty;
-  std::size_t bytes = 0;
-  const Status sized = Localizer::requiredBytes(sizeOf(problem), options, bytes);
+  snapshot_.memory.inputs = inputBytes(problem);
+  const Status sized = Localizer::requiredMemory(sizeOf(problem), options, snapshot_.memory.use);
   if (sized != Status::kOk) {
     snapshot_.status = LocalizationStatus::kFault;
     snapshot_.fault = sized;
     snapshot_.finished = true;
     return;
   }
+  const std::size_t bytes = snapshot_.memory.use.total();
   memory_ = std::make_unique_for_overwrite<std::byte[]>(bytes);
   localizer_ =
       std::make_unique<Localizer>(problem, options, std::span<std::byte>(memory_.get(), bytes));
