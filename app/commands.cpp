@@ -45,6 +45,14 @@ void addMethod(CLI::App& command, std::string& method) {
       });
 }
 
+void addThreads(CLI::App& command, int& threads) {
+  command
+      .add_option("--threads", threads, "Threads of a run; the result is the same with any number")
+      ->check(CLI::Range(1, Localizer::kMaxWorkers))
+      ->capture_default_str()
+      ->type_name("N");
+}
+
 LocalizerOptions profileOptions(const std::string& name) {
   return name == "paper" ? paperProfile() : defaultProfile();
 }

@@ -46,6 +46,9 @@ struct MeshArguments {
 /// --method: refused, with what there is, unless it exists.
 void addMethod(CLI::App& command, std::string& method);
 
+/// --threads: how many a run may use.
+void addThreads(CLI::App& command, int& threads);
+
 /// --profile, --config and --set: where the parameters of a run come from.
 struct OptionArguments {
   std::string profile;

@@ -47,6 +47,7 @@ void EvaluateArguments::addTo(CLI::App& command) {
       ->check(CLI::Range(1, 256))
       ->capture_default_str()
       ->type_name("N");
+  addThreads(command, batch.threads);
   command
       .add_option("--reseed", batch.reseeds,
                   "Further seeds per case, uniform in the ellipsoids inscribed in its uncertainty")

@@ -30,6 +30,7 @@ struct LocalizeArguments {
   std::string pivot;
   int bit_depth = 0;
   std::string method = "whs";
+  int threads = 1;
   std::string out, trace, overlay;
 
   void addTo(CLI::App& command);
@@ -94,6 +95,7 @@ void LocalizeArguments::addTo(CLI::App& command) {
       ->check(CLI::Range(1, 16))
       ->type_name("N");
   addMethod(command, method);
+  addThreads(command, threads);
   file("--out", out, "Writes the result as JSON");
   file("--trace", trace, "Writes everything in between (binary)");
   file("--overlay", overlay, "Writes a PNG: seed red, result green, truth blue over the image");
@@ -253,6 +255,7 @@ int localizeImage(const LocalizeArguments& arguments) {
   settings.level =
       arguments.trace.empty() ? sessions::RecordLevel::kSummary : sessions::RecordLevel::kFull;
   settings.memory_limit = arguments.options.memoryLimit();
+  settings.threads = arguments.threads;
   const sessions::LocalizationTrace trace =
       sessions::localize(inputs.problem(), inputs.options, settings);
   requireAccepted(arguments, trace);

@@ -86,9 +86,14 @@ double EdgeRefinement::robustScale() {
 }
 
 Status EdgeRefinement::step(bool& done) {
+  for (int chunk = 0; chunk < chunks(); ++chunk) searchChunk(chunk);
+  return finishRound(done);
+}
+
+void EdgeRefinement::searchChunk(int chunk) {
   RefinementResult& result = *result_;
-  result.found_count = 0;
-  for (std::int32_t i = 0; i < result.sample_count; ++i) {
+  const std::int32_t end = std::min(result.sample_count, (chunk + 1) * kChunk);
+  for (std::int32_t i = chunk * kChunk; i < end; ++i) {
     EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
     sample.gradient = 0.0;
     sample.weight = 0.0;
@@ -99,7 +104,14 @@ Status EdgeRefinement::step(bool& done) {
       sample.residual_px = peak.offset_px;
       sample.gradient = peak.gradient;
     }
-    if (sample.gradient != 0.0) ++result.found_count;
+  }
+}
+
+Status EdgeRefinement::finishRound(bool& done) {
+  RefinementResult& result = *result_;
+  result.found_count = 0;
+  for (std::int32_t i = 0; i < result.sample_count; ++i) {
+    if (result.samples[static_cast<std::size_t>(i)].gradient != 0.0) ++result.found_count;
   }
   done = true;
   if (result.found_count < options_.min_found) return Status::kTooFewEdges;

@@ -113,11 +113,21 @@ class EdgeRefinement {
   Status begin(const ImageView& image, const BitImage* ignore, const Camera& camera,
                const MeshView& mesh, const EdgeRender& render, double radius_px,
                const PosePrior* anchor, const PoseEstimate* matched, RefinementResult& result);
-  /// One round; kTooFewEdges when too little is found, kDegenerate when the edges and what is known
-  /// besides do not fix the pose.
+  /// A round looks for the image's edge at every sample first, in chunks that do not depend on each
+  /// other: different ones may be searched at the same time.
+  int chunks() const { return (result_->sample_count + kChunk - 1) / kChunk; }
+  static int chunksOf(const RefinementOptions& options) {
+    return (options.max_samples + kChunk - 1) / kChunk;
+  }
+  void searchChunk(int chunk);
+  /// Ends the round when all chunks have been searched; kTooFewEdges when too little is found,
+  /// kDegenerate when the edges and what is known besides do not fix the pose.
+  Status finishRound(bool& done);
+  /// A whole round.
   Status step(bool& done);
 
  private:
+  static constexpr std::int32_t kChunk = 256;
   void takeSamples(const MeshView& mesh, const EdgeRender& render);
   double robustScale();
   void addKnowledge(NormalEquations& equations) const;

@@ -151,8 +151,8 @@ std::span<std::byte> alignedBlock(std::span<std::byte> memory) {
 }  // namespace
 
 Localizer::Localizer(const LocalizationProblem& problem, const LocalizerOptions& options,
-                     std::span<std::byte> memory)
-    : problem_(problem), options_(options), memory_(alignedBlock(memory)) {
+                     std::span<std::byte> memory, int workers)
+    : problem_(problem), options_(options), memory_(alignedBlock(memory)), workers_(workers) {
   if (memory_.empty()) {
     status_ = Status::kArenaTooSmall;
     return;
@@ -183,6 +183,7 @@ void Localizer::begin() {
   attempt_ = 0;
   current_ = 0;
   small_corrections_ = 0;
+  openPieces(0);
   digest_ = DigestWriter();
   if (status_ != Status::kOk) return;
   bounds_ = matchedBounds(problem_.mesh);
@@ -195,15 +196,15 @@ std::size_t MemoryUse::total() const {
 }
 
 Status Localizer::requiredBytes(const ProblemSize& size, const LocalizerOptions& options,
-                                std::size_t& bytes) {
+                                int workers, std::size_t& bytes) {
   MemoryUse use;
-  const Status status = requiredMemory(size, options, use);
+  const Status status = requiredMemory(size, options, workers, use);
   bytes = use.total();
   return status;
 }
 
 Status Localizer::requiredMemory(const ProblemSize& size, const LocalizerOptions& options,
-                                 MemoryUse& use) {
+                                 int workers, MemoryUse& use) {
   LocalizationProblem problem;
   problem.image.width = size.width;
   problem.image.height = size.height;
@@ -211,7 +212,7 @@ Status Localizer::requiredMemory(const ProblemSize& size, const LocalizerOptions
   problem.mesh = placeholderMesh(size);
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   if (prepareCamera(problem.camera) != Status::kOk) return Status::kInvalidCamera;
-  Localizer counter(problem, options, {});
+  Localizer counter(problem, options, {}, workers);
   const Status status = counter.layOut(size);
   use = counter.memory_use_;
   return status;
@@ -230,6 +231,7 @@ Status Localizer::build() {
 }
 
 Status Localizer::layOut(const ProblemSize& size) {
+  if (workers_ < 1 || workers_ > kMaxWorkers) return Status::kInvalidOption;
   coarse_level_ = coarseLevel(size.width, size.height, options_.loop.coarse_size_px);
   fine_level_ = std::max(0, coarse_level_ - 1);
   Status status = layOutKept();
@@ -248,6 +250,9 @@ Status Localizer::layOutKept() {
                              rays_[static_cast<std::size_t>(level)]);
   }
   layOutRenders();
+  searches_ = kept_.allocate<WhsSearch>(static_cast<std::size_t>(workers_));
+  done_ = kept_.allocate<std::uint8_t>(static_cast<std::size_t>(
+      std::max(options_.templates.count, EdgeRefinement::chunksOf(options_.refinement))));
   buffers_[0] = createIteration(options_, kept_);
   if (options_.loop.max_rolled_hypotheses > 1) buffers_[1] = createIteration(options_, kept_);
   return status;
@@ -282,7 +287,11 @@ Status Localizer::layOutStages(const ProblemSize& size) {
   if (status == Status::kOk) status = selector_.create(width, height, options_.templates, scratch_);
   shareScratch(bytesOf(Stage::kTemplates));
   const int side = std::min(options_.templates.max_side_px, 512);
-  if (status == Status::kOk) status = search_.create(side, std::max(width, height), scratch_);
+  WhsSearch counted;
+  for (int worker = 0; worker < workers_ && status == Status::kOk; ++worker) {
+    WhsSearch& search = searches_.empty() ? counted : searches_[static_cast<std::size_t>(worker)];
+    status = search.create(side, std::max(width, height), scratch_);
+  }
   shareScratch(bytesOf(Stage::kMatch));
   if (status == Status::kOk) status = ransac_.create(options_.templates.count, scratch_);
   shareScratch(bytesOf(Stage::kPose));

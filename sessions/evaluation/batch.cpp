@@ -255,6 +255,7 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
     RunSettings settings;
     settings.level = RecordLevel::kSummary;
     settings.memory_limit = options_.memory_limit;
+    settings.threads = options_.threads;
     noteTrace(localize(problem, options, settings, stop), result);
   } else {
     result.status = "bad_seed";

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 
+#include "sessions/trace/worker_pool.h"
 #include "sessions/version.h"
 
 namespace boresight::sessions {
@@ -125,12 +126,21 @@ void noteIteration(const Localizer& localizer, const StepReport& report, RecordL
 }
 
 /// Steps until the run has finished, recording each iteration when it is complete.
-void runSteps(Localizer& localizer, RecordLevel level, const std::stop_token& stop,
+void runSteps(Localizer& localizer, const RunSettings& settings, const std::stop_token& stop,
               LocalizationTrace& trace) {
+  const RecordLevel level = settings.level;
+  WorkerPool pool(settings.threads);
+  const WorkerPool::Work work = [&localizer](int piece, int worker) {
+    localizer.work(piece, worker);
+  };
   Stopwatch watch;
   StageSeconds iteration_seconds;
   bool finished = false;
   while (!finished && !stop.stop_requested()) {
+    if (pool.workers() > 1 && localizer.pieces() > 1) {
+      pool.run(localizer.pieces(), work, stop);
+      if (stop.stop_requested()) break;
+    }
     const StepReport report = localizer.step();
     const double seconds = watch.lap();
     trace.seconds.add(report.stage, seconds);
@@ -225,7 +235,8 @@ LocalizationTrace localize(const LocalizationProblem& problem, const LocalizerOp
   Stopwatch watch;
   trace.memory.inputs = inputBytes(problem);
   trace.memory.limit = settings.memory_limit;
-  Status sized = Localizer::requiredMemory(sizeOf(problem), options, trace.memory.use);
+  Status sized =
+      Localizer::requiredMemory(sizeOf(problem), options, settings.threads, trace.memory.use);
   const bool limited = settings.memory_limit > 0;
   if (sized == Status::kOk && limited && trace.memory.total() > settings.memory_limit)
     sized = Status::kArenaTooSmall;
@@ -237,9 +248,9 @@ LocalizationTrace localize(const LocalizationProblem& problem, const LocalizerOp
   const std::size_t bytes =
       limited ? settings.memory_limit - trace.memory.inputs : trace.memory.use.total();
   const auto memory = std::make_unique_for_overwrite<std::byte[]>(bytes);
-  Localizer localizer(problem, options, {memory.get(), bytes});
+  Localizer localizer(problem, options, {memory.get(), bytes}, settings.threads);
   trace.seconds.initialization = watch.lap();
-  runSteps(localizer, settings.level, stop, trace);
+  runSteps(localizer, settings, stop, trace);
   recordEnd(localizer, trace);
   return trace;
 }

@@ -24,6 +24,7 @@ std::size_t inputBytes(const LocalizationProblem& problem);
 struct RunSettings {
   RecordLevel level = RecordLevel::kFull;
   std::size_t memory_limit = 0;  ///< bytes, inputs and the localizer's block; 0: whatever it takes
+  int threads = 1;               ///< 1 ... Localizer::kMaxWorkers
 };
 
 /// Runs a whole localization with memory of its own: a loop around Localizer::step(). What is

@@ -177,8 +177,9 @@ TEST(LocalizerDigest, ARestartIsAFreshRun) {
 TEST(LocalizerDigest, ARestartInTheMiddleIsAFreshRun) {
   const Case scene = stationCase(4);
   const Digest expected = digestOf(scene.problem(), paperProfile());
-  // Small first, then what needs as much as there is, and back.
-  std::vector<std::byte> memory = blockFor(scene.problem(), defaultProfile());
+  // What needs as much as there is, then what needs less, and back.
+  std::vector<std::byte> memory = blockFor(scene.problem(), paperProfile());
+  ASSERT_GT(memory.size(), blockFor(scene.problem(), defaultProfile()).size());
   Localizer localizer(scene.problem(), paperProfile(), memory);
   for (const int steps : {1, 7, 100, 333}) {
     for (int i = 0; i < steps; ++i) localizer.step();
