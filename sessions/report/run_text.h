@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "sessions/trace/run_snapshot.h"
 #include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
@@ -21,5 +22,9 @@ std::string explanation(const LocalizationTrace& trace);
 
 /// High-water mark of memory by stage, against the limit if there is one.
 std::string memoryTable(const LocalizationTrace& trace);
+
+/// Where a run stands, for a line that is always in view: how it ended with what speaks for the
+/// pose, why it failed (as `explanation` says), or what it is at. Whole sentences.
+std::string standingText(const RunSnapshot& snapshot);
 
 }  // namespace boresight::sessions
