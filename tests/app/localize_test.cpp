@@ -86,6 +86,16 @@ TEST(WhsLocalize, RefusesOptionsThatAskForMoreMemoryThanFlightHas) {
   EXPECT_THAT(asking.out, Not(HasSubstr("digest")));
 }
 
+TEST(WhsLocalize, GivesTheSameDigestWithAnyNumberOfThreads) {
+  const auto digestOf = [](const ProgramRun& run) {
+    return run.out.substr(run.out.find("digest"));
+  };
+  const std::string plain = digestOf(runWhs(localizeArguments()));
+  for (const std::string threads : {"1", "2", "3", "8"})
+    EXPECT_EQ(digestOf(runWhs(localizeArguments({{"--threads", threads}}))), plain) << threads;
+  EXPECT_EQ(runWhs(localizeArguments({{"--threads", "0"}})).exit_code, 2);
+}
+
 TEST(WhsLocalize, ExitsWith4AndSaysWhyWhenItDoesNotConverge) {
   const TemporaryFolder folder;
   const ProgramRun run = runWhs(localizeArguments(

@@ -185,6 +185,19 @@ TEST(Localize, GivesTheSameWithinALimit) {
   EXPECT_EQ(refused.memory.total(), settings.memory_limit + 1);
 }
 
+TEST(Localize, GivesTheSameWithAnyNumberOfThreads) {
+  RunSettings settings;
+  settings.level = RecordLevel::kSummary;
+  for (const int threads : {2, 3, 8}) {
+    settings.threads = threads;
+    const LocalizationTrace trace = localize(runs().example.problem(), defaultProfile(), settings);
+    EXPECT_EQ(trace.digest, runs().full.digest) << threads;
+  }
+  settings.threads = 0;
+  const LocalizationTrace none = localize(runs().example.problem(), defaultProfile(), settings);
+  EXPECT_EQ(none.fault, Status::kInvalidOption);
+}
+
 TEST(Localize, CountsWhatTheProblemPointsTo) {
   LocalizationProblem problem = runs().example.problem();
   const std::size_t bytes = inputBytes(problem);
