@@ -54,7 +54,7 @@ void addThreads(CLI::App& command, int& threads) {
 }
 
 LocalizerOptions profileOptions(const std::string& name) {
-  return name == "paper" ? paperProfile() : defaultProfile();
+  return sessions::profileOptions(name).value_or(defaultProfile());
 }
 
 void OptionArguments::addTo(CLI::App& command) {

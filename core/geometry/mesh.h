@@ -23,6 +23,8 @@ struct ScenePart {
   double normal_threshold_rad = 0.5235987755982988;  ///< 30 deg
   double depth_threshold_m = 0.005;
   bool match = true;  ///< false: occludes, yields neither edges nor mask nor templates
+
+  bool operator==(const ScenePart&) const = default;
 };
 
 /// The scene that the caller owns: welded vertices in the station frame (metres), faces, and the
@@ -45,9 +47,9 @@ struct MeshAdjacency {
   std::span<std::array<std::int32_t, 3>> neighbour;
 };
 
-/// Builds the adjacency; deterministic, O(n log n). The output comes from `kept`, as much memory
-/// again from `scratch` (which may be the same arena, and is rewound). kArenaTooSmall when they do
-/// not fit.
+/// Builds the adjacency; deterministic, O(n log n). The output comes from `kept`, 24 bytes a face
+/// and 4 a vertex from `scratch` (which may be the same arena, and is rewound). kArenaTooSmall when
+/// they do not fit, kInvalidMesh when an index is out of range.
 Status buildAdjacency(const MeshView& mesh, Arena& kept, Arena& scratch, MeshAdjacency& adjacency);
 inline Status buildAdjacency(const MeshView& mesh, Arena& arena, MeshAdjacency& adjacency) {
   return buildAdjacency(mesh, arena, arena, adjacency);

