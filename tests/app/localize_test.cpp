@@ -66,6 +66,48 @@ TEST(WhsLocalize, GivesTheSameDigestWithAndWithoutRecording) {
   EXPECT_NE(digestOf(runWhs(localizeArguments({{"--set", "pnp.seed=2"}}))), plain);
 }
 
+TEST(WhsLocalize, GivesTheSameDigestInTheMemoryOfFlight) {
+  const auto digestOf = [](const ProgramRun& run) {
+    return run.out.substr(run.out.find("digest"), 64 + 7);
+  };
+  for (const std::string station : {"os", "bc"}) {
+    const std::filesystem::path folder = exampleFolder() / station;
+    std::map<std::string, std::string> inputs;
+    for (const auto& [name, file] :
+         {std::pair{"--image", "image.png"}, std::pair{"--camera", "camera.json"},
+          std::pair{"--mesh", "model.ply"}, std::pair{"--seed", "seed.json"}})
+      inputs[name] = (folder / file).string();
+    const ProgramRun plain = runWhs(localizeArguments(inputs));
+    inputs["--profile"] = "flight";
+    const ProgramRun flight = runWhs(localizeArguments(inputs));
+    EXPECT_EQ(flight.exit_code, 0) << flight.err;
+    EXPECT_EQ(digestOf(flight), digestOf(plain));
+    EXPECT_THAT(flight.out, AllOf(HasSubstr("high water"), HasSubstr("refine"),
+                                  HasSubstr("bytes of 10000000")));
+    EXPECT_THAT(plain.out, Not(HasSubstr("high water")));
+  }
+}
+
+TEST(WhsLocalize, RefusesOptionsThatAskForMoreMemoryThanFlightHas) {
+  const ProgramRun asking = runWhs(
+      localizeArguments({{"--profile", "flight"}, {"--set", "render.max_edge_pixels=1000000"}}));
+  EXPECT_EQ(asking.exit_code, 4);
+  EXPECT_EQ(asking.errorLines(), 1) << asking.err;
+  EXPECT_THAT(asking.err, AllOf(HasSubstr("arena_too_small"), HasSubstr("bytes"),
+                                HasSubstr("10000000 in all"), HasSubstr("lower")));
+  EXPECT_THAT(asking.out, Not(HasSubstr("digest")));
+}
+
+TEST(WhsLocalize, GivesTheSameDigestWithAnyNumberOfThreads) {
+  const auto digestOf = [](const ProgramRun& run) {
+    return run.out.substr(run.out.find("digest"));
+  };
+  const std::string plain = digestOf(runWhs(localizeArguments()));
+  for (const std::string threads : {"1", "2", "3", "8"})
+    EXPECT_EQ(digestOf(runWhs(localizeArguments({{"--threads", threads}}))), plain) << threads;
+  EXPECT_EQ(runWhs(localizeArguments({{"--threads", "0"}})).exit_code, 2);
+}
+
 TEST(WhsLocalize, ExitsWith4AndSaysWhyWhenItDoesNotConverge) {
   const TemporaryFolder folder;
   const ProgramRun run = runWhs(localizeArguments(
