@@ -9,9 +9,12 @@
 #include <QPixmap>
 #include <QStyle>
 #include <QStyleFactory>
+#include <QtTest/QTest>
 
 #include "tests/support/example_run.h"
 #include "ui/panels/iterations_panel.h"
+#include "ui/panels/match_inspector_panel.h"
+#include "ui/panels/score_map_view.h"
 
 namespace boresight::ui {
 namespace {
@@ -73,6 +76,20 @@ TEST_F(PanelPictures, Iterations) {
   IterationsPanel panel(view_);
   view_.setCursor({1, Stage::kMatch});
   picture(QStringLiteral("iterations"), panel, {1400, 300});
+}
+
+TEST_F(PanelPictures, Matches) {
+  MatchInspectorPanel panel(view_);
+  view_.setCursor({0, Stage::kFinished});
+  view_.selectTemplate(5);
+  auto* map = panel.findChild<ScoreMapView*>();
+  ASSERT_TRUE(QTest::qWaitFor([map] { return map->map() != nullptr; }, 20000));
+  picture(QStringLiteral("matches"), panel, {1400, 420});
+}
+
+TEST_F(PanelPictures, Refinement) {
+  MatchInspectorPanel panel(view_);
+  picture(QStringLiteral("refinement"), panel, {1400, 300});
 }
 
 }  // namespace
