@@ -23,6 +23,8 @@ struct ScenePart {
   double normal_threshold_rad = 0.5235987755982988;  ///< 30 deg
   double depth_threshold_m = 0.005;
   bool match = true;  ///< false: occludes, yields neither edges nor mask nor templates
+
+  bool operator==(const ScenePart&) const = default;
 };
 
 /// The scene that the caller owns: welded vertices in the station frame (metres), faces, and the
