@@ -15,6 +15,7 @@
 #include "core/geometry/pose.h"
 #include "core/render/camera_scene.h"
 #include "core/render/edge_pixel.h"
+#include "core/render/face_bins.h"
 #include "core/render/rasterizer.h"
 #include "core/render/ray_grid.h"
 #include "core/render/salient_edges.h"
@@ -24,7 +25,7 @@ namespace boresight {
 
 struct RenderOptions {
   double near_plane_m = 0.01;
-  std::int32_t max_edge_pixels = 200000;
+  std::int32_t max_edge_pixels = 80000;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -32,13 +33,18 @@ struct RenderOptions {
                      "Surfaces nearer than this are not rendered."},
           self.near_plane_m);
     visit(OptionInfo{"render.max_edge_pixels", "", 1000, 4000000,
-                     "Capacity for salient edge pixels."},
+                     "Capacity for salient edge pixels of a render at the finest level; half as "
+                     "many at the level before."},
           self.max_edge_pixels);
   }
 };
 
-/// Sizes an EdgeRender for images up to width x height.
-EdgeRender createEdgeRender(int width, int height, const RenderOptions& options, Arena& arena);
+/// Sizes an EdgeRender for images up to width x height and `max_edge_pixels` edge pixels.
+EdgeRender createEdgeRender(int width, int height, std::int32_t max_edge_pixels, Arena& arena);
+inline EdgeRender createEdgeRender(int width, int height, const RenderOptions& options,
+                                   Arena& arena) {
+  return createEdgeRender(width, height, options.max_edge_pixels, arena);
+}
 
 /// The pixel's index in `render.pixels`, or -1 (binary search in its row).
 std::int32_t findEdgePixel(const EdgeRender& render, int x, int y);
@@ -63,7 +69,16 @@ class EdgeRenderer {
   /// adjacency must outlive the renderer. Counting arenas only count. kInvalidMesh, kInvalidImage
   /// (size), kInvalidOption, kArenaTooSmall.
   Status create(const MeshView& mesh, const MeshAdjacency& adjacency, int max_width, int max_height,
-                const RenderOptions& options, Arena& arena, int band_rows = kBandRows);
+                const RenderOptions& options, Arena& arena, int band_rows = kBandRows) {
+    return create(mesh, adjacency, max_width, max_height, options, arena, arena, band_rows);
+  }
+  /// The same with what is only needed from begin() to the last step in `scratch`: between two
+  /// renders somebody else may use that memory.
+  Status create(const MeshView& mesh, const MeshAdjacency& adjacency, int max_width, int max_height,
+                const RenderOptions& options, Arena& kept, Arena& scratch,
+                int band_rows = kBandRows);
+  /// Draws small faces like all others, for comparison: the result is the same.
+  void drawPlainly(bool plain) { plain_ = plain; }
   /// Starts one render; rays must be made for the camera of this level, and outlive the steps, as
   /// must the output. kInvalidPose, kInvalidImage when the output or the renderer is too small.
   Status begin(const RayGrid& rays, const Pose& camera_from_station, EdgeRender& output,
@@ -74,13 +89,8 @@ class EdgeRenderer {
 
  private:
   enum class Phase : std::uint8_t { kIdle, kVertices, kFaces, kBands };
-  struct Columns {
-    std::int16_t first = 32767;
-    std::int16_t last = -1;
-    void include(const Columns& other);
-  };
+  using Columns = FaceBins::Columns;
 
-  void bin(std::int32_t face);
   bool drawSome();
   Columns columnsAround(int band, int before, int after) const;
   void openBand();
@@ -89,9 +99,7 @@ class EdgeRenderer {
   CameraScene scene_;
   RasterBand band_;
   SalientEdges salient_edges_;
-  std::span<std::int32_t> next_in_band_;  ///< per face: the next one of its band's list
-  std::span<std::int32_t> band_head_;     ///< per band: its first face, or -1
-  std::span<Columns> band_columns_;       ///< per band: columns that faces may cover
+  FaceBins bins_;
   int max_width_ = 0;
   int max_height_ = 0;
   int band_rows_ = kBandRows;
@@ -101,8 +109,10 @@ class EdgeRenderer {
   SurfaceRender surfaces_;
   Phase phase_ = Phase::kIdle;
   std::size_t next_ = 0;  ///< vertex, face or band to go on with
+  bool plain_ = false;
   bool band_open_ = false;
-  std::int32_t next_drawn_ = -1;  ///< face of the open band to go on with
+  int list_ = 0;                  ///< of the open band's faces
+  std::int32_t next_drawn_ = -1;  ///< face of that list to go on with
 };
 
 }  // namespace boresight
