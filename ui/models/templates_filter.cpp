@@ -58,9 +58,9 @@ bool TemplatesFilter::filterAcceptsRow(int row, const QModelIndex& /*parent*/) c
 bool TemplatesFilter::lessThan(const QModelIndex& left, const QModelIndex& right) const {
   const double a = left.data(sortRole()).toDouble();
   const double b = right.data(sortRole()).toDouble();
-  const bool descending = sortOrder() == Qt::DescendingOrder;
-  if (std::isnan(a) || std::isnan(b))
-    return std::isnan(a) == descending && std::isnan(a) != std::isnan(b);
+  if (std::isnan(a) && std::isnan(b)) return false;
+  if (std::isnan(a)) return sortOrder() == Qt::DescendingOrder;
+  if (std::isnan(b)) return sortOrder() == Qt::AscendingOrder;
   return a < b;
 }
 
