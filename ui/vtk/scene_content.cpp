@@ -215,6 +215,12 @@ QColor residualColor(double share) {
   return QColor::fromRgbF(mixed[0], mixed[1], mixed[2]);
 }
 
+QColor axisColor(int axis) {
+  static const std::array<QColor, 3> colors = {QColor(235, 90, 80), QColor(110, 200, 90),
+                                               QColor(90, 150, 245)};
+  return colors[static_cast<std::size_t>(axis)];
+}
+
 std::vector<std::array<std::int32_t, 2>> sharpEdges(const MeshView& mesh) {
   struct Side {
     std::array<std::int32_t, 2> ends{};

@@ -99,6 +99,9 @@ SceneContent sceneContent(const ViewState& state);
 /// Walt 2015). Beyond 1 it stays yellow.
 QColor residualColor(double share);
 
+/// Colours of the station's x, y and z axis, which also carry their letters.
+QColor axisColor(int axis);
+
 /// Edges of the mesh worth drawing, as pairs of vertices: where two faces meet at more than 30 deg,
 /// where a face ends, or where more than two meet.
 std::vector<std::array<std::int32_t, 2>> sharpEdges(const MeshView& mesh);
