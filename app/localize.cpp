@@ -2,153 +2,51 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "app/commands.h"
-#include "core/base/math.h"
+#include "app/problem_inputs.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/atomic_file.h"
-#include "sessions/io/camera_file.h"
 #include "sessions/io/image_file.h"
 #include "sessions/report/overlay.h"
 #include "sessions/report/result_file.h"
 #include "sessions/report/run_text.h"
 #include "sessions/report/text_table.h"
 #include "sessions/trace/record.h"
-#include "sessions/trace/seed_check.h"
 #include "sessions/trace/trace_file.h"
 
 namespace boresight::app {
 namespace {
 
-struct LocalizeArguments {
-  std::string image, camera, seed, truth, ignore;
-  MeshArguments mesh;
-  OptionArguments options;
-  double feature_size_m = 0.0;
-  std::vector<double> uncertainty;
-  std::string pivot;
-  int bit_depth = 0;
+struct LocalizeArguments : InputArguments {
+  std::string truth;
   std::string method = "whs";
   std::string out, trace, overlay;
 
   void addTo(CLI::App& command);
 };
 
-/// Everything that was read, and the problem that points into it.
-struct Inputs {
-  sessions::GrayImage image;
-  Camera camera;
-  sessions::SceneMesh scene;
-  sessions::PoseFile seed;
+struct Inputs : ProblemInputs {
   std::optional<sessions::PoseFile> truth;
-  std::optional<sessions::IgnoreMask> ignore_mask;
-  BitImage ignore;
-  sessions::DeclaredUncertainty uncertainty;
-  LocalizerOptions options;
-  std::vector<std::string> notes;  ///< said when everything has been accepted
-
-  LocalizationProblem problem() const {
-    LocalizationProblem made;
-    made.image = image.view();
-    made.ignore = ignore_mask ? &ignore : nullptr;
-    made.camera = camera;
-    made.mesh = scene.view();
-    made.camera_from_station_seed = seed.camera_from_station;
-    made.uncertainty = sessions::seedUncertainty(uncertainty, seed.camera_from_station,
-                                                 matchedBounds(scene.view()).centre());
-    return made;
-  }
 };
 
 void LocalizeArguments::addTo(CLI::App& command) {
   const auto file = [&command](const char* name, std::string& value, const char* help) {
     return command.add_option(name, value, help)->type_name("FILE");
   };
-  file("--image", image, "PNG, JPEG or TIFF, 8 or 16 bit")->required();
-  file("--camera", camera, "camera.json")->required();
-  mesh.addTo(command);
-  file("--seed", seed, "pose.json: where the camera is believed to be")->required();
-  options.addTo(command);
-  command
-      .add_option("--feature-size", feature_size_m,
-                  "Size of the station's features (sleeves, screws), m; 0: from the mesh's size")
-      ->check(CLI::Range(0.0, 100.0))
-      ->type_name("M");
-  command
-      .add_option("--uncertainty", uncertainty,
-                  "How far the seed may be off along and about x, y, z of the camera: three "
-                  "lengths in m, three angles in deg (instead of what the seed's file states)")
-      ->expected(6)
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("TX TY TZ RX RY RZ");
-  command
-      .add_option("--pivot", pivot,
-                  "What the seed's rotation is uncertain about: camera (an arm camera) or station")
-      ->check(CLI::IsMember({"camera", "station"}));
-  file("--ignore", ignore, "Mask image of the same size: nonzero pixels are not trusted");
+  InputArguments::addTo(command);
   file("--truth", truth, "pose.json with the true pose: errors are printed, an overlay shows it");
-  command
-      .add_option("--bit-depth", bit_depth,
-                  "Bits that the image's samples use, e.g. 12 in a 16-bit file")
-      ->check(CLI::Range(1, 16))
-      ->type_name("N");
   addMethod(command, method);
   file("--out", out, "Writes the result as JSON");
   file("--trace", trace, "Writes everything in between (binary)");
   file("--overlay", overlay, "Writes a PNG: seed red, result green, truth blue over the image");
 }
 
-sessions::DeclaredUncertainty declaredUncertainty(const LocalizeArguments& arguments,
-                                                  const sessions::PoseFile& seed) {
-  sessions::DeclaredUncertainty declared =
-      seed.uncertainty.value_or(sessions::DeclaredUncertainty());
-  if (!arguments.uncertainty.empty()) {
-    const std::vector<double>& u = arguments.uncertainty;
-    declared.translation_m = {u[0], u[1], u[2]};
-    declared.rotation_deg = {u[3], u[4], u[5]};
-    if (declared.translation_m.maxCoeff() > 1000.0 || declared.rotation_deg.maxCoeff() > 180.0)
-      throw CLI::ValidationError("--uncertainty", "at most 1000 m and 180 deg");
-  }
-  if (!arguments.pivot.empty())
-    declared.pivot = arguments.pivot == "station" ? sessions::UncertaintyPivot::kStation
-                                                  : sessions::UncertaintyPivot::kCamera;
-  return declared;
-}
-
 Inputs readInputs(const LocalizeArguments& arguments) {
-  Inputs inputs;
-  inputs.options = arguments.options.read();
-  if (arguments.feature_size_m > 0.0)
-    inputs.options.templates.feature_size_m = arguments.feature_size_m;
-  inputs.camera = sessions::readCamera(std::filesystem::path(arguments.camera));
-  inputs.seed = sessions::readPose(std::filesystem::path(arguments.seed));
+  Inputs inputs{readProblemInputs(arguments), std::nullopt};
   if (!arguments.truth.empty())
     inputs.truth = sessions::readPose(std::filesystem::path(arguments.truth));
-  sessions::ImageReadOptions reading;
-  if (arguments.bit_depth > 0) reading.bit_depth = arguments.bit_depth;
-  inputs.image = sessions::readImage(arguments.image, reading);
-  sessions::requireSameSize(inputs.image, inputs.camera);
-  if (!arguments.ignore.empty()) {
-    inputs.ignore_mask =
-        sessions::readIgnoreMask(arguments.ignore, inputs.image.width, inputs.image.height);
-    inputs.ignore = inputs.ignore_mask->view();
-  }
-  inputs.scene = arguments.mesh.read();
-  inputs.uncertainty = declaredUncertainty(arguments, inputs.seed);
-  if (!inputs.seed.uncertainty && arguments.uncertainty.empty())
-    inputs.notes.push_back(
-        "the seed states no uncertainty; taking 0.03 m and 5 deg (see --uncertainty)");
-  const std::string projected = sessions::projectionNote(inputs.seed.rotation_deviation);
-  if (!projected.empty()) inputs.notes.push_back(arguments.seed + ": " + projected);
   return inputs;
-}
-
-void requireSensibleSeed(const LocalizeArguments& arguments, const Inputs& inputs) {
-  const Pose& seed = inputs.seed.camera_from_station;
-  sessions::requirePlausibleScale(inputs.scene, seed);
-  const std::string concern = sessions::seedConcern(inputs.camera, inputs.scene.view(), seed);
-  if (!concern.empty()) throw sessions::InputError(arguments.seed, "camera_from_station", concern);
 }
 
 sessions::RunProvenance provenance(const LocalizeArguments& arguments, const Inputs& inputs) {
@@ -245,7 +143,7 @@ int localizeImage(const LocalizeArguments& arguments) {
   for (const std::string& file : {arguments.out, arguments.trace, arguments.overlay})
     if (!file.empty()) sessions::requireWritable(file);
   const Inputs inputs = readInputs(arguments);
-  requireSensibleSeed(arguments, inputs);
+  requireSensibleSeed(inputs, arguments.seed);
   for (const std::string& line : inputs.notes) note(line);
   const auto level =
       arguments.trace.empty() ? sessions::RecordLevel::kSummary : sessions::RecordLevel::kFull;

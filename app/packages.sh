@@ -8,14 +8,24 @@ boresight_packages=(
   qtbase5-dev libvtk9-dev libvtk9-qt-dev libqwt-qt5-dev xvfb xauth libgl1-mesa-dri
 )
 
-# Installs what is missing; asks the package manager for nothing when all is there.
-installPackages() {
-  local missing=() package
-  for package in "${boresight_packages[@]}"; do
+# Other compilers, and an emulator for what one of them makes: the tests that need them are skipped,
+# visibly, where they are not.
+boresight_optional_packages=(clang g++-powerpc-linux-gnu qemu-user)
+
+# missingPackages PACKAGE...: those that are not installed, one a line.
+missingPackages() {
+  local package
+  for package in "$@"; do
     if [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ]; then
-      missing+=("$package")
+      echo "$package"
     fi
   done
+}
+
+# installMissing PACKAGE...: asks the package manager for nothing when all is there.
+installMissing() {
+  local missing
+  mapfile -t missing < <(missingPackages "$@")
   [ "${#missing[@]}" -eq 0 ] && return 0
   local as_root=()
   if [ "$(id -u)" -ne 0 ]; then
@@ -29,6 +39,16 @@ installPackages() {
   "${as_root[@]}" apt-get update
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends \
     "${missing[@]}"
+}
+
+installPackages() {
+  installMissing "${boresight_packages[@]}"
+}
+
+# What tests need beyond the build, where it can be had.
+installOptionalPackages() {
+  installMissing "${boresight_optional_packages[@]}" ||
+    echo "going on without; the tests that need these packages will be skipped" >&2
 }
 
 # configureAndBuild PRESET [TARGET]: configures once, builds what has changed.

@@ -26,6 +26,7 @@ int run(int argc, char** argv) {
   addRender(app, exit_code);
   addInfo(app, exit_code);
   addOptions(app, exit_code);
+  addProblem(app, exit_code);
   for (CLI::App* command : app.get_subcommands({}))
     command->set_version_flag("--version", std::string("whs ") + sessions::kVersion);
   try {

@@ -1,17 +1,22 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs what is missing, builds, and runs every test; with --all also under the sanitizers.
+# Installs what is missing, builds, and runs every test; with --all also under the sanitizers, and
+# with BORESIGHT_DATA set also on images of full size.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source app/packages.sh
 
 case "${1:-}" in
   "") presets=(release) ;;
-  --all) presets=(release asan) ;;
+  --all)
+    presets=(release asan)
+    export BORESIGHT_ALL=1  # also cases of full size, where there is data
+    ;;
   *) echo "usage: bash tests/run.sh [--all]" >&2; exit 2 ;;
 esac
 
 installPackages
+installOptionalPackages
 for preset in "${presets[@]}"; do
   configureAndBuild "$preset"
   ctest --preset "$preset" --output-on-failure -j2

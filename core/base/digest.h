@@ -2,40 +2,31 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
+#include <bit>
 #include <cstdint>
 #include <span>
 
+#include "core/base/sha256.h"
+
 namespace boresight {
-
-/// SHA-256 (FIPS 180-4), fed piece by piece.
-class Sha256 {
- public:
-  Sha256();
-  void update(std::span<const std::uint8_t> bytes);
-  /// The digest of all that was fed so far; the object may be fed further.
-  std::array<std::uint8_t, 32> digest() const;
-
- private:
-  void compress(const std::uint8_t* block);
-
-  std::array<std::uint32_t, 8> state_{};
-  std::array<std::uint8_t, 64> buffer_{};
-  std::size_t buffered_ = 0;
-  std::uint64_t length_bytes_ = 0;
-};
 
 /// Canonical big-endian serialization into a SHA-256: what the digest of a run is made of.
 /// -0 counts as +0; a NaN is written as one fixed pattern.
 class DigestWriter {
  public:
-  void u8(std::uint8_t value);
-  void u32(std::uint32_t value);
-  void i32(std::int32_t value);
-  void u64(std::uint64_t value);
-  void f32(float value);
-  void f64(double value);
-  void bytes(std::span<const std::uint8_t> bytes);
+  void u8(std::uint8_t value) { sha_.updateBigEndian(value); }
+  void u32(std::uint32_t value) { sha_.updateBigEndian(value); }
+  void i32(std::int32_t value) { u32(static_cast<std::uint32_t>(value)); }
+  void u64(std::uint64_t value) { sha_.updateBigEndian(value); }
+  void f32(float value) {
+    if (value != value) return u32(0x7fc00000u);
+    u32(value == 0.0f ? 0u : std::bit_cast<std::uint32_t>(value));
+  }
+  void f64(double value) {
+    if (value != value) return u64(std::uint64_t{0x7ff80000u} << 32);
+    u64(value == 0.0 ? 0u : std::bit_cast<std::uint64_t>(value));
+  }
+  void bytes(std::span<const std::uint8_t> bytes) { sha_.update(bytes); }
   /// A section name, so that neighbouring fields cannot be confused: length, then the characters.
   void tag(const char* name);
 

@@ -12,8 +12,30 @@ namespace {
 constexpr double kTukey = 4.685;  ///< 95 % efficiency on Gaussian residuals (Huber 1981)
 constexpr double kMadToSigma = 1.4826;
 constexpr double kMinScale_px = 0.15;
-constexpr double kSettled_rad = 2e-6;  ///< a step below these moves nothing that is measured
-constexpr double kSettled_m = 1e-6;
+constexpr double kSettled_px = 0.003;  ///< a step below this moves nothing that is measured
+
+/// The lower triangle of a symmetric matrix is filled.
+double quadraticForm(const Matrix6d& lower, const Vector6d& x) {
+  double sum = 0.0;
+  for (int a = 0; a < 6; ++a) {
+    for (int b = 0; b <= a; ++b) sum += (a == b ? 1.0 : 2.0) * lower(a, b) * x[a] * x[b];
+  }
+  return sum;
+}
+
+void addRow(const EdgeSample& sample, const Eigen::Vector3d& point_in_camera_m,
+            const Eigen::Matrix<double, 2, 3>& jacobian, NormalEquations& equations) {
+  const Eigen::Vector3d slope = (sample.normal.transpose() * jacobian).transpose();
+  Vector6d row;
+  row << point_in_camera_m.cross(slope), slope;  // d(n . pixel)/d xi for p -> p + r x p + t
+  for (int a = 0; a < 6; ++a) {
+    const double weighted = sample.weight * row[a];
+    equations.gradient[a] += weighted * sample.residual_px;
+    for (int b = 0; b <= a; ++b) equations.information(a, b) += weighted * row[b];
+  }
+  equations.squares += sample.weight * sample.residual_px * sample.residual_px;
+  ++equations.projected;
+}
 
 }  // namespace
 
@@ -22,6 +44,7 @@ Status EdgeRefinement::create(const RefinementOptions& options, Arena& arena) {
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   search_ = EdgeSearch(options.derivative_sigma_px);
   absolute_residuals_ = arena.allocate<float>(static_cast<std::size_t>(options.max_samples));
+  found_at_px_ = arena.allocate<double>(static_cast<std::size_t>(options.max_samples));
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 
@@ -35,6 +58,7 @@ Status EdgeRefinement::begin(const ImageView& image, const BitImage* ignore, con
   radius_px_ = radius_px;
   result_ = &result;
   round_ = 0;
+  moved_px_ = 0.0;
   anchored_ = anchor != nullptr;
   if (anchored_) anchor_ = *anchor;
   has_matched_ = matched != nullptr;
@@ -86,49 +110,48 @@ double EdgeRefinement::robustScale() {
 }
 
 Status EdgeRefinement::step(bool& done) {
-  RefinementResult& result = *result_;
-  result.found_count = 0;
-  for (std::int32_t i = 0; i < result.sample_count; ++i) {
-    EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
-    sample.gradient = 0.0;
-    sample.weight = 0.0;
-    Eigen::Vector2d predicted_px;
-    if (project(camera_, result.camera_from_station * sample.point_in_station_m, predicted_px)) {
-      const EdgePeak peak = search_.find(image_, ignore_, predicted_px, sample.normal, radius_px_,
-                                         options_.min_gradient);
-      sample.residual_px = peak.offset_px;
-      sample.gradient = peak.gradient;
-    }
-    if (sample.gradient != 0.0) ++result.found_count;
-  }
+  const RefinementResult& result = *result_;
+  const bool search = round_ == 0 || moved_px_ > options_.search_again_px;
+  if (search) searchEdges();
   done = true;
   if (result.found_count < options_.min_found) return Status::kTooFewEdges;
+  if (search) scale_px_ = robustScale();
   ++round_;
   bool settled = false;
-  const Status status = solve(robustScale(), settled);
+  const Status status = solve(settled);
   done = settled || round_ >= options_.rounds || status != Status::kOk;
   return status;
 }
 
-Status EdgeRefinement::solve(double scale_px, bool& settled) {
+void EdgeRefinement::searchEdges() {
   RefinementResult& result = *result_;
-  NormalEquations equations;
-  double weights = 0.0;
-  result.used_count = 0;
-  const double cut_px = kTukey * scale_px;
+  result.found_count = 0;
+  moved_px_ = 0.0;
+  const Eigen::Matrix3d rotation = result.camera_from_station.matrix();
+  const Eigen::Vector3d translation_m = result.camera_from_station.translation_m;
   for (std::int32_t i = 0; i < result.sample_count; ++i) {
     EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
-    if (sample.gradient == 0.0 || std::abs(sample.residual_px) >= cut_px) continue;
-    const double ratio = sample.residual_px / cut_px;
-    const double weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
-    if (!addSample(sample, weight, equations)) continue;
-    sample.weight = weight;
-    weights += weight;
-    if (weight > 0.5) ++result.used_count;
+    sample.gradient = 0.0;
+    Eigen::Vector2d predicted_px;
+    if (!project(camera_, rotation * sample.point_in_station_m + translation_m, predicted_px))
+      continue;
+    const EdgePeak peak = search_.find(image_, ignore_, predicted_px, sample.normal, radius_px_,
+                                       options_.min_gradient);
+    sample.residual_px = peak.offset_px;
+    sample.gradient = peak.gradient;
+    found_at_px_[static_cast<std::size_t>(i)] = sample.normal.dot(predicted_px) + peak.offset_px;
+    if (sample.gradient != 0.0) ++result.found_count;
   }
+}
+
+Status EdgeRefinement::solve(bool& settled) {
+  RefinementResult& result = *result_;
+  double weights = 0.0;
+  NormalEquations equations = weightedEquations(weights);
   if (result.used_count < options_.min_found) return Status::kTooFewEdges;
   const double variance_px2 = equations.squares / weights;
   result.rms_px = std::sqrt(variance_px2);
+  const Matrix6d motion = equations.information / weights;  // xi' motion xi: mean square, px^2
   // Neighbouring places share their errors: each counts for less than one measurement.
   const double noise_px2 =
       std::max(variance_px2, kMinScale_px * kMinScale_px) * options_.covariance_inflation;
@@ -144,8 +167,9 @@ Status EdgeRefinement::solve(double scale_px, bool& settled) {
   moved.rotation.normalize();
   if (!moved.isFinite()) return Status::kDegenerate;
   result.camera_from_station = moved;
-  settled = xi.head<3>().cwiseAbs().maxCoeff() < kSettled_rad &&
-            xi.tail<3>().cwiseAbs().maxCoeff() < kSettled_m;
+  const double step_px = std::sqrt(std::max(0.0, quadraticForm(motion, xi)));
+  moved_px_ += step_px;
+  settled = step_px < kSettled_px;
   return Status::kOk;
 }
 
@@ -160,24 +184,31 @@ void EdgeRefinement::addKnowledge(NormalEquations& equations) const {
       matched_.information * perturbationBetween(now, matched_.camera_from_station);
 }
 
-bool EdgeRefinement::addSample(const EdgeSample& sample, double weight,
-                               NormalEquations& equations) const {
-  const Eigen::Vector3d point_in_camera_m =
-      result_->camera_from_station * sample.point_in_station_m;
-  Eigen::Vector2d pixel;
-  Eigen::Matrix<double, 2, 3> jacobian;
-  if (!projectWithJacobian(camera_, point_in_camera_m, pixel, jacobian)) return false;
-  const Eigen::Vector3d slope = (sample.normal.transpose() * jacobian).transpose();
-  Vector6d row;
-  row << point_in_camera_m.cross(slope), slope;  // d(n . pixel)/d xi for p -> p + r x p + t
-  for (int a = 0; a < 6; ++a) {
-    const double weighted = weight * row[a];
-    equations.gradient[a] += weighted * sample.residual_px;
-    for (int b = 0; b <= a; ++b) equations.information(a, b) += weighted * row[b];
+/// Of the edges found, at the pose as it is now, with Tukey's weights; counts the used ones.
+NormalEquations EdgeRefinement::weightedEquations(double& weights) {
+  RefinementResult& result = *result_;
+  const Eigen::Matrix3d rotation = result.camera_from_station.matrix();
+  const Eigen::Vector3d translation_m = result.camera_from_station.translation_m;
+  const double cut_px = kTukey * scale_px_;
+  NormalEquations equations;
+  result.used_count = 0;
+  for (std::int32_t i = 0; i < result.sample_count; ++i) {
+    EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
+    sample.weight = 0.0;
+    if (sample.gradient == 0.0) continue;
+    const Eigen::Vector3d point_in_camera_m = rotation * sample.point_in_station_m + translation_m;
+    Eigen::Vector2d pixel;
+    Eigen::Matrix<double, 2, 3> jacobian;
+    if (!projectWithJacobian(camera_, point_in_camera_m, pixel, jacobian)) continue;
+    sample.residual_px = found_at_px_[static_cast<std::size_t>(i)] - sample.normal.dot(pixel);
+    if (std::abs(sample.residual_px) >= cut_px) continue;
+    const double ratio = sample.residual_px / cut_px;
+    sample.weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
+    addRow(sample, point_in_camera_m, jacobian, equations);
+    weights += sample.weight;
+    if (sample.weight > 0.5) ++result.used_count;
   }
-  equations.squares += weight * sample.residual_px * sample.residual_px;
-  ++equations.projected;
-  return true;
+  return equations;
 }
 
 }  // namespace boresight

@@ -27,6 +27,7 @@ struct RefinementOptions {
   double last_radius_px = 0.7;
   std::int32_t min_passes = 2;
   std::int32_t rounds = 10;
+  double search_again_px = 0.1;
   double derivative_sigma_px = 1.0;
   double min_gradient = 2.0;
   double sample_spacing_px = 2.0;
@@ -55,6 +56,10 @@ struct RefinementOptions {
     visit(
         OptionInfo{"refinement.rounds", "", 1, 20, "Gauss-Newton rounds per refinement, at most."},
         self.rounds);
+    visit(OptionInfo{"refinement.search_again_px", "px", 0.0, 50.0,
+                     "Edges are looked for anew once the rendered ones have moved by this along "
+                     "their normals (root mean square); until then those found serve."},
+          self.search_again_px);
     visit(OptionInfo{"refinement.derivative_sigma_px", "px", 0.3, 5.0,
                      "Scale of the derivative along the normal."},
           self.derivative_sigma_px);
@@ -104,6 +109,8 @@ struct RefinementResult {
 /// Moves the pose so that the rendered edges meet the image's own (RAPID, Harris and Stennett 1990,
 /// with robust weights, Drummond and Cipolla 2002): places along the salient edges, searched along
 /// the line's normal for the largest derivative of the raw image, Tukey's weights, Gauss-Newton.
+/// What was found serves until the pose has moved so far that the search could find otherwise; the
+/// pose returned is at most that far from where the edges were looked for.
 class EdgeRefinement {
  public:
   Status create(const RefinementOptions& options, Arena& arena);
@@ -119,10 +126,11 @@ class EdgeRefinement {
 
  private:
   void takeSamples(const MeshView& mesh, const EdgeRender& render);
+  void searchEdges();
   double robustScale();
   void addKnowledge(NormalEquations& equations) const;
-  Status solve(double scale_px, bool& settled);
-  bool addSample(const EdgeSample& sample, double weight, NormalEquations& equations) const;
+  Status solve(bool& settled);
+  NormalEquations weightedEquations(double& weights);
 
   RefinementOptions options_;
   ImageView image_;
@@ -136,7 +144,11 @@ class EdgeRefinement {
   RefinementResult* result_ = nullptr;
   EdgeSearch search_;
   std::span<float> absolute_residuals_;
+  /// Per sample, where the edge was found: the image's coordinate along the sample's normal.
+  std::span<double> found_at_px_;
   std::int32_t round_ = 0;
+  double moved_px_ = 0.0;  ///< since the edges were looked for
+  double scale_px_ = 0.0;  ///< of the residuals then
 };
 
 }  // namespace boresight

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include "core/base/math.h"
 
@@ -11,19 +13,31 @@ namespace {
 
 constexpr double kStep_px = 0.5;
 
-/// Bilinear gray value; false outside the image.
-bool grayAt(const ImageView& image, double x, double y, double& gray) {
-  if (!(x >= 0.0 && y >= 0.0 && x < image.width - 1 && y < image.height - 1)) return false;
-  const int ix = static_cast<int>(x);
-  const int iy = static_cast<int>(y);
-  const double fx = x - ix;
-  const double fy = y - iy;
-  const std::uint8_t* upper = image.row(iy) + ix;
-  const std::uint8_t* lower = image.row(iy + 1) + ix;
-  const double top = upper[0] + fx * (upper[1] - upper[0]);
-  const double bottom = lower[0] + fx * (lower[1] - lower[0]);
-  gray = top + fy * (bottom - top);
-  return true;
+constexpr int kPlaceBits = 20;   ///< of a place: its unit is 2^-20 px
+constexpr int kWeightBits = 10;  ///< of a bilinear weight
+constexpr std::int32_t kWeightMask = (1 << kWeightBits) - 1;
+/// Unit of a profile: the three parallels weigh 1, 2, 1.
+constexpr double kProfileUnit_gray = 1.0 / (4 << (2 * kWeightBits));
+/// More than what rounding moves a place by.
+constexpr double kMargin_px = 1e-3;
+
+/// Steps and places relative to a pixel; symmetric about 0, so that a line searched from its other
+/// side is sampled at the same places.
+std::int32_t toPlace(double value_px) {
+  const double scaled = value_px * (1 << kPlaceBits);
+  return static_cast<std::int32_t>(scaled < 0.0 ? scaled - 0.5 : scaled + 0.5);
+}
+
+/// Bilinear gray value in units of 2^-20 at a place relative to `origin`.
+std::int32_t grayAt(const std::uint8_t* origin, std::ptrdiff_t stride, std::int32_t x,
+                    std::int32_t y) {
+  const std::uint8_t* upper = origin + (y >> kPlaceBits) * stride + (x >> kPlaceBits);
+  const std::uint8_t* lower = upper + stride;
+  const std::int32_t right = (x >> (kPlaceBits - kWeightBits)) & kWeightMask;
+  const std::int32_t down = (y >> (kPlaceBits - kWeightBits)) & kWeightMask;
+  const std::int32_t top = (upper[0] << kWeightBits) + right * (upper[1] - upper[0]);
+  const std::int32_t bottom = (lower[0] << kWeightBits) + right * (lower[1] - lower[0]);
+  return (top << kWeightBits) + down * (bottom - top);
 }
 
 }  // namespace
@@ -31,40 +45,61 @@ bool grayAt(const ImageView& image, double x, double y, double& gray) {
 EdgeSearch::EdgeSearch(double sigma_px) {
   taps_ = std::clamp(static_cast<int>(3.0 * sigma_px / kStep_px + 0.5), 1, kMaxTaps);
   double ramp = 0.0;
+  std::array<double, kMaxTaps> weights{};
   for (int k = 1; k <= taps_; ++k) {
     const double s_px = k * kStep_px;
     const double weight = s_px * exponential(-0.5 * s_px * s_px / (sigma_px * sigma_px));
-    kernel_[static_cast<std::size_t>(k - 1)] = weight;
+    weights[static_cast<std::size_t>(k - 1)] = weight;
     ramp += 2.0 * s_px * weight;
   }
-  for (double& weight : kernel_) weight /= ramp;  // a ramp of 1 gray per px gives 1
+  // A ramp of 1 gray per px gives 1.
+  for (std::size_t k = 0; k < kernel_.size(); ++k)
+    kernel_[k] = static_cast<float>(weights[k] / ramp * kProfileUnit_gray);
 }
 
+/// 2 reach + 1 places; false when one lies outside the image.
 bool EdgeSearch::sample(const ImageView& image, const Eigen::Vector2d& predicted_px,
                         const Eigen::Vector2d& normal, int reach, Profile& profile) const {
-  const Eigen::Vector2d tangent(-normal.y(), normal.x());
-  for (int i = -reach; i <= reach; ++i) {
-    const Eigen::Vector2d at = predicted_px + (i * kStep_px) * normal;
-    double sum = 0.0;
-    for (int side = -1; side <= 1; ++side) {
-      double gray = 0.0;
-      const Eigen::Vector2d place = at + side * tangent;
-      if (!grayAt(image, place.x(), place.y(), gray)) return false;
-      sum += (side == 0 ? 2.0 : 1.0) * gray;
-    }
-    profile[static_cast<std::size_t>(i + reach)] = 0.25 * sum;
+  const Eigen::Vector2d extent_px =
+      (reach * kStep_px) * normal.cwiseAbs() +
+      Eigen::Vector2d(std::abs(normal.y()) + kMargin_px, std::abs(normal.x()) + kMargin_px);
+  const Eigen::Vector2d first_px = predicted_px - extent_px;
+  const Eigen::Vector2d last_px = predicted_px + extent_px;
+  if (!(first_px.x() >= 0.0 && first_px.y() >= 0.0 && last_px.x() < image.width - 1 &&
+        last_px.y() < image.height - 1)) {
+    return false;
+  }
+  const int pixel_x = static_cast<int>(predicted_px.x());
+  const int pixel_y = static_cast<int>(predicted_px.y());
+  const std::uint8_t* origin = image.row(pixel_y) + pixel_x;
+  const auto stride = static_cast<std::ptrdiff_t>(image.stride);
+  const std::int32_t step_x = toPlace(kStep_px * normal.x());
+  const std::int32_t step_y = toPlace(kStep_px * normal.y());
+  const std::int32_t aside_x = -toPlace(normal.y());
+  const std::int32_t aside_y = toPlace(normal.x());
+  std::int32_t x = toPlace(predicted_px.x() - pixel_x) - reach * step_x;
+  std::int32_t y = toPlace(predicted_px.y() - pixel_y) - reach * step_y;
+  for (int i = 0; i <= 2 * reach; ++i) {
+    const std::int32_t sum = grayAt(origin, stride, x - aside_x, y - aside_y) +
+                             2 * grayAt(origin, stride, x, y) +
+                             grayAt(origin, stride, x + aside_x, y + aside_y);
+    profile[static_cast<std::size_t>(i)] = static_cast<float>(sum);
+    x += step_x;
+    y += step_y;
   }
   return true;
 }
 
-double EdgeSearch::derivative(const Profile& profile, int middle) const {
-  double sum = 0.0;
+/// The derivative at `count` places, the first of them at the profile's place taps_.
+void EdgeSearch::derive(const Profile& profile, int count, Profile& slope) const {
+  std::fill_n(slope.begin(), count, 0.0F);
   for (int k = 1; k <= taps_; ++k) {
-    sum +=
-        kernel_[static_cast<std::size_t>(k - 1)] * (profile[static_cast<std::size_t>(middle + k)] -
-                                                    profile[static_cast<std::size_t>(middle - k)]);
+    const float weight = kernel_[static_cast<std::size_t>(k - 1)];
+    const float* before = profile.data() + taps_ - k;
+    const float* after = profile.data() + taps_ + k;
+    for (int i = 0; i < count; ++i)
+      slope[static_cast<std::size_t>(i)] += weight * (after[i] - before[i]);
   }
-  return sum;
 }
 
 EdgePeak EdgeSearch::find(const ImageView& image, const BitImage* ignore,
@@ -76,24 +111,24 @@ EdgePeak EdgeSearch::find(const ImageView& image, const BitImage* ignore,
   Profile profile;
   if (!sample(image, predicted_px, normal, reach, profile)) return peak;
   const int inner = reach - taps_;
-  double before = derivative(profile, reach - inner);
-  double here = derivative(profile, reach - inner + 1);
+  Profile slope;
+  derive(profile, 2 * inner + 1, slope);
+  const float* middle = slope.data() + inner;
   double best = 0.0;
   for (int i = -inner + 1; i < inner; ++i) {
-    const double after = derivative(profile, reach + i + 1);
+    const double here = middle[i];
     const double strength = std::abs(here);
+    const double before = std::abs(static_cast<double>(middle[i - 1]));
+    const double after = std::abs(static_cast<double>(middle[i + 1]));
+    if (!(strength >= before && strength > after && strength >= min_gradient)) continue;
     // A weaker edge nearby is likelier than a strong one at the rim of the search.
     const double away = i / static_cast<double>(inner + 1);
     const double preference = strength * (1.0 - away * away);
-    const bool local_maximum = strength >= std::abs(before) && strength > std::abs(after);
-    if (local_maximum && preference > best && strength >= min_gradient) {
-      best = preference;
-      const double bend = std::abs(before) - 2.0 * strength + std::abs(after);
-      const double shift = bend < 0.0 ? 0.5 * (std::abs(before) - std::abs(after)) / bend : 0.0;
-      peak = {(i + std::clamp(shift, -0.5, 0.5)) * kStep_px, here};
-    }
-    before = here;
-    here = after;
+    if (preference <= best) continue;
+    best = preference;
+    const double bend = before - 2.0 * strength + after;
+    const double shift = bend < 0.0 ? 0.5 * (before - after) / bend : 0.0;
+    peak = {(i + std::clamp(shift, -0.5, 0.5)) * kStep_px, here};
   }
   if (ignore != nullptr && peak.gradient != 0.0) {
     // Inside: the profile around it was sampled.

@@ -16,7 +16,8 @@ struct EdgePeak {
 };
 
 /// Searches a raw image along a line's normal for its largest derivative: profiles of half-pixel
-/// steps, averaged over three parallels, against the derivative of a Gaussian.
+/// steps, averaged over three parallels, against the derivative of a Gaussian. Gray values between
+/// pixels are bilinear with weights of 1/1024, in integers.
 class EdgeSearch {
  public:
   EdgeSearch() = default;
@@ -31,13 +32,13 @@ class EdgeSearch {
  private:
   static constexpr int kMaxTaps = 32;
   static constexpr int kMaxProfile = 512;
-  using Profile = std::array<double, kMaxProfile>;
+  using Profile = std::array<float, kMaxProfile>;
 
   bool sample(const ImageView& image, const Eigen::Vector2d& predicted_px,
               const Eigen::Vector2d& normal, int reach, Profile& profile) const;
-  double derivative(const Profile& profile, int middle) const;
+  void derive(const Profile& profile, int count, Profile& slope) const;
 
-  std::array<double, kMaxTaps> kernel_{};  ///< one side; antisymmetric
+  std::array<float, kMaxTaps> kernel_{};  ///< one side; antisymmetric; for the profile's unit
   int taps_ = 1;
 };
 

@@ -1,13 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/localizer/run_digest.h"
 
+#include <algorithm>
+#include <bit>
+
 namespace boresight {
 namespace {
 
+/// Most words of edges and masks are as the word before them: which ones differ, 64 at a time, and
+/// those. The whole image follows from that.
 void digestBits(const BitImage& image, DigestWriter& writer) {
   writer.i32(image.width);
   writer.i32(image.height);
-  for (const std::uint64_t word : image.words) writer.u64(word);
+  std::uint64_t before = 0;
+  for (std::size_t first = 0; first < image.words.size(); first += 64) {
+    const auto words =
+        image.words.subspan(first, std::min<std::size_t>(64, image.words.size() - first));
+    std::uint64_t differing = 0;
+    std::uint64_t last = before;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      differing |= static_cast<std::uint64_t>(words[i] != last) << i;
+      last = words[i];
+    }
+    writer.u64(differing);
+    for (; differing != 0; differing &= differing - 1)
+      writer.u64(words[static_cast<std::size_t>(std::countr_zero(differing))]);
+    before = last;
+  }
 }
 
 template <class Vector>

@@ -72,7 +72,7 @@ template <class Word>
   if constexpr (kWordsIn<Word> == 1) {
     return byteOrdered(words);
   } else {
-    static_assert(std::endian::native == std::endian::little);
+    static_assert(kWordsIn<Word> > 1 && std::endian::native == std::endian::little);
     return words;
   }
 }

@@ -130,6 +130,41 @@ std::string tooFewText(const LocalizationTrace& trace, const IterationTrace& las
       last.template_side_px);
 }
 
+/// The run without what `explanation` does not look at: all iterations but the last.
+LocalizationTrace endOf(const RunSnapshot& snapshot) {
+  RunSnapshot end = snapshot;
+  if (end.iterations.size() > 1)
+    end.iterations.erase(end.iterations.begin(), end.iterations.end() - 1);
+  return traceOf(end);
+}
+
+std::string sentence(std::string text) {
+  if (text.empty()) return text;
+  if (text.front() >= 'a' && text.front() <= 'z')
+    text.front() = static_cast<char>(text.front() - 'a' + 'A');
+  return text.back() == '.' ? text : text + ".";
+}
+
+std::string countText(std::size_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string convergedText(const RunSnapshot& snapshot) {
+  const auto sigma = [&](int i) { return std::sqrt(std::max(0.0, snapshot.covariance(i, i))); };
+  std::string text =
+      "Converged in " + countText(snapshot.iterations.size(), "iteration", "iterations");
+  if (snapshot.attempts > 1) text += format(" and %d attempts", snapshot.attempts);
+  text += format(", %.2f s.", snapshot.seconds.total());
+  if (snapshot.options.support.gate)
+    text += format(" Edge support is %.1f %%, needed %.1f %%.", 100.0 * snapshot.support.share(),
+                   100.0 * snapshot.options.support.min_support);
+  return text + format(
+                    " 1 sigma along x, y, z of the camera: %.3f, %.3f, %.3f mm; about them: "
+                    "%.3f, %.3f, %.3f mrad.",
+                    toMillimetres(sigma(3)), toMillimetres(sigma(4)), toMillimetres(sigma(5)),
+                    1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2));
+}
+
 }  // namespace
 
 std::string iterationTable(const LocalizationTrace& trace) {
@@ -201,6 +236,17 @@ std::string explanation(const LocalizationTrace& trace) {
       break;
   }
   return "";
+}
+
+std::string standingText(const RunSnapshot& snapshot) {
+  if (snapshot.converged()) return convergedText(snapshot);
+  if (snapshot.finished) return "Did not converge. " + sentence(explanation(endOf(snapshot)));
+  if (snapshot.iterations.empty())
+    return snapshot.edges ? "The image's edges are found." : "Nothing has run yet.";
+  const std::string number = std::to_string(snapshot.iterations.size());
+  if (!snapshot.last_under_way) return "Iteration " + number + " is complete.";
+  return "Iteration " + number + " is under way, its last complete stage is " +
+         stageText(snapshot.iterations.back()->reached) + ".";
 }
 
 }  // namespace boresight::sessions

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "sessions/trace/run_snapshot.h"
 #include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
@@ -18,5 +19,9 @@ std::string poseText(const Pose& camera_from_station, const Matrix6d& covariance
 /// Why a run ended as it did: what was measured, what was needed, and what to try. One sentence or
 /// two; empty for a run that converged.
 std::string explanation(const LocalizationTrace& trace);
+
+/// Where a run stands, for a line that is always in view: how it ended with what speaks for the
+/// pose, why it failed (as `explanation` says), or what it is at. Whole sentences.
+std::string standingText(const RunSnapshot& snapshot);
 
 }  // namespace boresight::sessions

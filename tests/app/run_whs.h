@@ -27,9 +27,9 @@ struct ProgramRun {
   std::ptrdiff_t errorLines() const { return std::count(err.begin(), err.end(), '\n'); }
 };
 
-inline ProgramRun runWhs(const Arguments& arguments) {
+inline ProgramRun runProgram(const std::string& program, const Arguments& arguments) {
   const TemporaryFolder folder;
-  std::string command = BORESIGHT_WHS;
+  std::string command = program;
   for (const std::string& argument : arguments) command += " '" + argument + "'";
   command += " >'" + (folder / "out").string() + "' 2>'" + (folder / "err").string() + "'";
   const int status = std::system(command.c_str());
@@ -38,6 +38,10 @@ inline ProgramRun runWhs(const Arguments& arguments) {
   run.out = folder.read("out");
   run.err = folder.read("err");
   return run;
+}
+
+inline ProgramRun runWhs(const Arguments& arguments) {
+  return runProgram(BORESIGHT_WHS, arguments);
 }
 
 /// The arguments of `whs localize` for the example's orbiting sample; `replaced` gives some options

@@ -53,6 +53,45 @@ TEST(Sha256, DoesNotDependOnHowItIsFed) {
   }
 }
 
+TEST(Sha256, GivesTheSameWithTheProcessorsOwnInstructions) {
+  const Sha256Kernel instructions = sha256Instructions();
+  if (instructions == nullptr) GTEST_SKIP() << "this processor has no SHA instructions";
+  Random random(2);
+  std::vector<std::uint8_t> blocks(64 * 9);
+  Sha256State plain{};
+  Sha256State fast{};
+  for (int round = 0; round < 200; ++round) {
+    for (std::uint8_t& byte : blocks) byte = static_cast<std::uint8_t>(random.below(256));
+    for (std::uint32_t& word : plain) word = random.below(0xffffffffu);
+    fast = plain;
+    const std::size_t count = static_cast<std::size_t>(round) % 10;
+    sha256Plain(plain, blocks.data(), count);
+    instructions(fast, blocks.data(), count);
+    ASSERT_EQ(plain, fast) << count << " blocks";
+  }
+}
+
+TEST(Sha256, TakesValuesAsTheirBytes) {
+  Random random(3);
+  for (const Sha256Kernel kernel : {sha256Plain, fastestSha256()}) {
+    Sha256 values(kernel);
+    std::vector<std::uint8_t> bytes;
+    for (int i = 0; i < 3000; ++i) {
+      const std::uint64_t value = random.below(0xffffffffu) * std::uint64_t{0x9e3779b97f4a7c15};
+      const std::size_t size = std::size_t{1} << random.below(4);
+      if (size == 1) values.updateBigEndian(static_cast<std::uint8_t>(value));
+      if (size == 2) values.updateBigEndian(static_cast<std::uint16_t>(value));
+      if (size == 4) values.updateBigEndian(static_cast<std::uint32_t>(value));
+      if (size == 8) values.updateBigEndian(value);
+      for (std::size_t k = size; k-- > 0;)
+        bytes.push_back(static_cast<std::uint8_t>(value >> (8 * k)));
+    }
+    Sha256 whole(sha256Plain);
+    whole.update(bytes);
+    EXPECT_EQ(values.digest(), whole.digest());
+  }
+}
+
 TEST(Sha256, MayBeFedAfterItsDigestWasTaken) {
   Sha256 sha;
   sha.update(bytesOf("a"));

@@ -114,5 +114,35 @@ TEST(PoseText, GivesSigmasInMillimetresAndMilliradians) {
               HasSubstr("0.0000 0.0000 0.3000 mm, 2.0000 0.0000 0.0000 mrad"));
 }
 
+/// The same as it comes from a run that is watched.
+RunSnapshot snapshotWith(LocalizationStatus status) { return snapshotOf(endedWith(status)); }
+
+TEST(StandingText, ExplainsARunThatFailed) {
+  EXPECT_THAT(standingText(snapshotWith(LocalizationStatus::kTooFewEdges)),
+              AllOf(HasSubstr("Did not converge. The render shows 7 salient edge pixels"),
+                    testing::EndsWith(".")));
+}
+
+TEST(StandingText, SaysWhatSpeaksForAPose) {
+  RunSnapshot snapshot = snapshotWith(LocalizationStatus::kConverged);
+  snapshot.covariance(3, 3) = 4e-10;  // 0.02 mm
+  snapshot.support.rendered = snapshot.support.covered = 10;
+  snapshot.support.seen = snapshot.support.explained = 10;
+  EXPECT_THAT(standingText(snapshot),
+              AllOf(HasSubstr("Converged in 1 iteration,"), HasSubstr("0.020, 0.000, 0.000 mm"),
+                    HasSubstr("Edge support is 100.0 %")));
+  snapshot.options.support.gate = false;
+  EXPECT_THAT(standingText(snapshot), Not(HasSubstr("Edge support")));
+}
+
+TEST(StandingText, SaysHowFarARunIs) {
+  RunSnapshot snapshot;
+  EXPECT_EQ(standingText(snapshot), "Nothing has run yet.");
+  snapshot = snapshotWith(LocalizationStatus::kRunning);
+  EXPECT_EQ(standingText(snapshot), "Iteration 1 is complete.");
+  snapshot.last_under_way = true;
+  EXPECT_THAT(standingText(snapshot), AllOf(HasSubstr("under way"), HasSubstr("render")));
+}
+
 }  // namespace
 }  // namespace boresight::sessions

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs one localization as a flight computer would: the core alone, all memory one static block,
+// pixels and problem already decoded. Prints what the ground can compare: pose and digest.
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <span>
+
+#include "app/flight/pgm_file.h"
+#include "core/localizer/localizer.h"
+#include "core/localizer/problem_bytes.h"
+
+namespace boresight::flight {
+namespace {
+
+enum ExitCode : int { kConverged = 0, kUsage = 2, kBadInput = 3, kNotConverged = 4 };
+
+#ifndef BORESIGHT_FLIGHT_ARENA_BYTES
+#define BORESIGHT_FLIGHT_ARENA_BYTES 10000000
+#endif
+constexpr std::size_t kArenaBytes = BORESIGHT_FLIGHT_ARENA_BYTES;
+static_assert(kArenaBytes % Arena::kAlignment == 0);
+
+/// Everything that grows with the problem: mesh and mask, then the pixels, then the localizer's
+/// own. The encoded problem is read to the end, and overwritten once it has been decoded.
+alignas(Arena::kAlignment) std::byte arena_block[kArenaBytes];
+
+/// What is wrong with an input, for people.
+struct Fault {
+  const char* reason = nullptr;  ///< nullptr: nothing is
+  const char* option = nullptr;  ///< the option that it is about, or nullptr
+};
+
+int refuse(const char* file, const Fault& fault) {
+  if (fault.option != nullptr) {
+    std::fprintf(stderr, "%s: %s: %s\n", file, fault.option, fault.reason);
+  } else {
+    std::fprintf(stderr, "%s: %s\n", file, fault.reason);
+  }
+  return kBadInput;
+}
+
+/// The size of the file, or -1; its first byte is next afterwards.
+long sizeOfFile(std::FILE* stream) {
+  if (std::fseek(stream, 0, SEEK_END) != 0) return -1;
+  const long size = std::ftell(stream);
+  return std::fseek(stream, 0, SEEK_SET) == 0 ? size : -1;
+}
+
+/// `used` are the bytes taken from the front of the block.
+Fault readProblem(std::FILE* stream, std::span<std::byte> block, LocalizationProblem& problem,
+                  LocalizerOptions& options, std::size_t& used) {
+  const long size = sizeOfFile(stream);
+  if (size < 0) return {"cannot be read; give a file, not a pipe"};
+  const auto count = static_cast<std::size_t>(size);
+  if (count > block.size()) return {"larger than all memory there is; use a coarser mesh"};
+  const std::span<std::byte> end = block.last(count);
+  if (std::fread(end.data(), 1, count, stream) != count) return {"cannot be read"};
+  Arena arena(block.first(block.size() - count));
+  const ProblemCheck check = decodeProblem(
+      {reinterpret_cast<const std::uint8_t*>(end.data()), count}, arena, problem, options);
+  used = arena.used();
+  if (check.fault == ProblemFault::kNone) return {};
+  return {problemFaultText(check.fault), check.option};
+}
+
+Fault readImage(std::FILE* stream, Arena& arena, LocalizationProblem& problem) {
+  int width = 0;
+  int height = 0;
+  const char* wrong = readPgmHeader(stream, width, height);
+  if (wrong != nullptr) return {wrong};
+  if (width != problem.camera.width || height != problem.camera.height)
+    return {"its size is not the camera's; write image and problem with one whs problem"};
+  const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (count > kArenaBytes) return {"does not fit into memory; use a smaller image"};
+  const std::span<std::uint8_t> pixels = arena.allocate<std::uint8_t>(count);
+  if (pixels.empty()) return {"does not fit into memory; use a smaller image"};
+  problem.image = {pixels.data(), width, height, width};
+  return {readPgmPixels(stream, pixels)};
+}
+
+void printPose(const Pose& camera_from_station) {
+  const Eigen::Matrix3d rotation = camera_from_station.matrix();
+  std::printf("camera_from_station (m)\n");
+  for (int row = 0; row < 3; ++row) {
+    std::printf("  %.17g %.17g %.17g %.17g\n", rotation(row, 0), rotation(row, 1), rotation(row, 2),
+                camera_from_station.translation_m[row]);
+  }
+}
+
+int printResult(const Localizer& localizer, std::size_t input_bytes) {
+  const Workspace& workspace = localizer.workspace();
+  std::printf("status %s\n", localizationStatusText(workspace.status));
+  if (workspace.status == LocalizationStatus::kFault)
+    std::printf("fault %s\n", statusText(workspace.fault));
+  std::printf("iterations %d\n", static_cast<int>(workspace.iterations));
+  printPose(workspace.camera_from_station);
+  std::printf("input_bytes %lu\n", static_cast<unsigned long>(input_bytes));
+  std::printf("localizer_bytes %lu\n", static_cast<unsigned long>(localizer.highWaterBytes()));
+  std::printf("arena_bytes %lu of %lu\n",
+              static_cast<unsigned long>(input_bytes + localizer.highWaterBytes()),
+              static_cast<unsigned long>(kArenaBytes));
+  std::printf("digest %s\n", hexText(localizer.digest()).data());
+  return workspace.status == LocalizationStatus::kConverged ? kConverged : kNotConverged;
+}
+
+int localize(const LocalizationProblem& problem, const LocalizerOptions& options,
+             std::span<std::byte> memory, const char* problem_file) {
+  Localizer localizer(problem, options, memory);
+  if (localizer.status() == Status::kArenaTooSmall) {
+    std::size_t needed = 0;
+    if (Localizer::requiredBytes(sizeOf(problem), options, needed) != Status::kOk) needed = 0;
+    std::fprintf(stderr,
+                 "%s: needs %lu bytes beside its inputs, and there are %lu; use a smaller "
+                 "image or a coarser mesh\n",
+                 problem_file, static_cast<unsigned long>(needed),
+                 static_cast<unsigned long>(memory.size()));
+    return kBadInput;
+  }
+  if (localizer.status() != Status::kOk)
+    return refuse(problem_file, {statusText(localizer.status())});
+  while (!localizer.step().finished) {
+  }
+  return printResult(localizer, kArenaBytes - memory.size());
+}
+
+int run(const char* problem_file, const char* image_file) {
+  const std::span<std::byte> block(arena_block);
+  std::FILE* problem_stream = std::fopen(problem_file, "rb");
+  if (problem_stream == nullptr) return refuse(problem_file, {"cannot be opened"});
+  LocalizationProblem problem;
+  LocalizerOptions options;
+  std::size_t used = 0;
+  Fault wrong = readProblem(problem_stream, block, problem, options, used);
+  std::fclose(problem_stream);
+  if (wrong.reason != nullptr) return refuse(problem_file, wrong);
+
+  std::FILE* image_stream = std::fopen(image_file, "rb");
+  if (image_stream == nullptr) return refuse(image_file, {"cannot be opened"});
+  Arena arena(block.subspan(used));
+  wrong = readImage(image_stream, arena, problem);
+  std::fclose(image_stream);
+  if (wrong.reason != nullptr) return refuse(image_file, wrong);
+  return localize(problem, options, block.subspan(used + arena.used()), problem_file);
+}
+
+}  // namespace
+}  // namespace boresight::flight
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: flight_driver PROBLEM.bin IMAGE.pgm (see whs problem --help)\n");
+    return boresight::flight::kUsage;
+  }
+  return boresight::flight::run(argv[1], argv[2]);
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.h"
+#include "core/localizer/localizer_options.h"
+#include "core/localizer/problem.h"
+
+namespace boresight {
+
+/// A localization without its pixels as bytes, for a program that reads neither JSON nor meshes.
+/// Every problem has one encoding; all values are big-endian, reals are IEEE 754:
+///
+///     "BORSIGHT"  u32 version  u32 size of the whole in bytes
+///     u32 options, each: u8 length, name, u8 kind (0 bool, 1 integer, 2 real, 3 choice),
+///       u64 value (a real's bits; a signed integer else); in the order of visitFields
+///     camera: i32 model, i32 width, i32 height, f64 fx fy cx cy (px), 8 f64 distortion
+///     seed camera_from_station: f64 quaternion w x y z, f64 translation x y z (m)
+///     uncertainty: 3 f64 translation (m), 3 f64 rotation (rad), 3 f64 pivot in camera (m)
+///     u32 parts, each: f64 normal threshold (rad), f64 depth threshold (m), u8 match
+///     u32 vertices, each: 3 f32 in station (m)
+///     u32 faces, each: 3 i32 vertices, u16 part
+///     u8 ignore: 1 when there is a mask, then its words (u64) row by row
+///     32 bytes SHA-256 of all before
+inline constexpr std::uint32_t kProblemVersion = 1;
+
+/// What may be wrong with such bytes, in the order in which it is looked for.
+enum class ProblemFault : std::uint8_t {
+  kNone = 0,
+  kNotAProblem,    ///< too short, or other first bytes
+  kVersion,        ///< another version of the format
+  kSize,           ///< not as long as it says
+  kChecksum,       ///< some byte has changed
+  kOption,         ///< an option is unknown, missing, of another kind or out of range
+  kCamera,         ///< cannot be a camera's
+  kPose,           ///< seed or uncertainty that cannot be used
+  kMesh,           ///< see validateMesh
+  kIgnore,         ///< mask bits beyond the image
+  kContent,        ///< counts that do not fit the size, or bytes left over
+  kArenaTooSmall,  ///< no room for the mesh and the mask
+};
+/// What is wrong, for people: "the checksum does not match", ...
+const char* problemFaultText(ProblemFault fault);
+
+/// Why bytes were refused. `option` names the one that was expected there, with kOption.
+struct ProblemCheck {
+  ProblemFault fault = ProblemFault::kNone;
+  const char* option = nullptr;
+};
+
+/// Writes a problem and its options to `out` and returns how many bytes that takes; when `out` is
+/// smaller, which may be empty, what it holds is of no use. The image is not written, only its size
+/// as the camera's.
+std::size_t encodeProblem(const LocalizationProblem& problem, const LocalizerOptions& options,
+                          std::span<std::uint8_t> out);
+
+/// Reads what encodeProblem has written, whatever the bytes are: refused unless every value is one
+/// that a Localizer takes. Mesh and mask come from the arena, nothing points into `bytes`;
+/// `problem.image` remains empty, the caller's to set. After a fault `problem` and `options` are
+/// not to be used.
+ProblemCheck decodeProblem(std::span<const std::uint8_t> bytes, Arena& arena,
+                           LocalizationProblem& problem, LocalizerOptions& options);
+
+}  // namespace boresight

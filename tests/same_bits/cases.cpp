@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes the localizations that every build of the core must compute with the same bits: usage
+// `same_bits_cases FOLDER`. Each becomes a folder with what `whs localize` is given (arguments, one
+// a line), what it says (digest, exit_code), and what the flight driver is given (problem.bin,
+// image.pgm). Images are the examples' seen by other cameras, small enough for an emulator.
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "core/base/math.h"
+#include "sessions/io/atomic_file.h"
+#include "sessions/io/dataset_file.h"
+#include "tests/app/run_whs.h"
+
+namespace boresight::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SameBitsCase {
+  std::string name;
+  std::string station;
+  Camera camera;
+  Vector6d seed_from_truth = Vector6d::Zero();  ///< (rotation rad, translation m) about the camera
+  Arguments extra = {};
+  bool ignore = false;
+};
+
+Camera cameraOf(CameraModel model, int width, int height, double focal_length_px,
+                std::initializer_list<double> distortion = {}) {
+  Camera camera;
+  camera.model = model;
+  camera.width = width;
+  camera.height = height;
+  camera.fx = focal_length_px;
+  camera.fy = 1.01 * focal_length_px;
+  camera.cx = 0.5 * width + 3.2;
+  camera.cy = 0.5 * height - 2.7;
+  std::copy(distortion.begin(), distortion.end(), camera.distortion.begin());
+  if (prepareCamera(camera) != Status::kOk) throw std::logic_error("no camera");
+  return camera;
+}
+
+Vector6d offset(double rx_deg, double ry_deg, double rz_deg, double tx_mm, double ty_mm,
+                double tz_mm) {
+  Vector6d made;
+  made << rx_deg * kDegree_rad, ry_deg * kDegree_rad, rz_deg * kDegree_rad, tx_mm * 1e-3,
+      ty_mm * 1e-3, tz_mm * 1e-3;
+  return made;
+}
+
+std::vector<SameBitsCase> allCases() {
+  using enum CameraModel;
+  const Camera brown = cameraOf(kBrownConrady, 448, 448, 690.0, {-0.12, 0.06, 4e-4, -3e-4, 0.0});
+  const Camera rational = cameraOf(kBrownConrady, 416, 400, 620.0,
+                                   {0.08, -0.05, -2e-4, 3e-4, 0.01, 0.02, -0.01, 0.004});
+  const Camera pinhole = cameraOf(kPinhole, 400, 432, 610.0);
+  const Camera fisheye = cameraOf(kKannalaBrandt, 450, 400, 640.0, {0.03, -0.01, 0.004, 0.001});
+  return {
+      {"bc_brown_conrady", "bc", brown, offset(2.0, -1.5, 1.0, 10.0, -8.0, 6.0)},
+      {"bc_pinhole", "bc", pinhole, offset(-1.0, 2.0, -3.0, -12.0, 5.0, -9.0)},
+      {"bc_fisheye_paper",
+       "bc",
+       fisheye,
+       offset(0.5, 0.5, -0.5, 4.0, 3.0, 5.0),
+       {"--profile", "paper"}},
+      {"os_rational", "os", rational, offset(1.0, 1.2, -0.8, 6.0, -5.0, 4.0)},
+      {"os_fisheye",
+       "os",
+       fisheye,
+       offset(-1.5, 0.5, 1.6, -7.0, 6.0, -8.0),
+       {"--set", "pnp.seed=77", "--pivot", "station"}},
+      {"os_pinhole_ignore", "os", pinhole, offset(0.7, -1.0, 0.9, 5.0, 7.0, -6.0), {}, true},
+      {"os_not_converged",
+       "os",
+       brown,
+       offset(1.0, 1.0, 1.0, 5.0, 5.0, 5.0),
+       {"--set", "loop.max_iterations=1", "--set", "loop.max_attempts=2"}},
+  };
+}
+
+/// What `seen` would have looked like to `camera`: bilinear, 0 beyond its border.
+std::vector<std::uint8_t> resample(const sessions::GrayImage& seen, const Camera& seen_by,
+                                   const Camera& camera) {
+  std::vector<std::uint8_t> pixels;
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x < camera.width; ++x) {
+      Eigen::Vector3d ray;
+      Eigen::Vector2d at;
+      double value = 0.0;
+      if (unproject(camera, {x, y}, ray) && project(seen_by, ray, at) && at.minCoeff() >= 0.0 &&
+          at.x() < seen.width - 1 && at.y() < seen.height - 1) {
+        const int left = static_cast<int>(at.x());
+        const int top = static_cast<int>(at.y());
+        const double u = at.x() - left;
+        const double v = at.y() - top;
+        const auto pixel = [&](int dx, int dy) {
+          return seen.view().at(left + dx, top + dy) * 1.0;
+        };
+        value = (1.0 - v) * ((1.0 - u) * pixel(0, 0) + u * pixel(1, 0)) +
+                v * ((1.0 - u) * pixel(0, 1) + u * pixel(1, 1));
+      }
+      pixels.push_back(static_cast<std::uint8_t>(value + 0.5));
+    }
+  }
+  return pixels;
+}
+
+/// A stripe across the image that is not trusted.
+void writeMask(const fs::path& file, const Camera& camera) {
+  std::vector<std::uint8_t> mask;
+  for (int y = 0; y < camera.height; ++y)
+    mask.insert(mask.end(), static_cast<std::size_t>(camera.width),
+                y > camera.height / 3 && y < camera.height / 2 ? 255 : 0);
+  sessions::writePng(file, mask, camera.width, camera.height, 1);
+}
+
+/// Throws unless whs ran to its end: converged, or not.
+ProgramRun mustRun(const std::string& command, const Arguments& arguments) {
+  Arguments all = {command};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  ProgramRun run = runWhs(all);
+  if (run.exit_code != 0 && run.exit_code != 4)
+    throw std::runtime_error("whs " + command + " ended with " + std::to_string(run.exit_code) +
+                             ": " + run.err);
+  return run;
+}
+
+void writeText(const fs::path& file, const std::string& text) {
+  sessions::writeFileAtomically(file, text + "\n");
+}
+
+/// Runs whs both ways and keeps what the comparison needs. Whether the run converged.
+bool writeExpectation(const fs::path& folder, const Arguments& arguments) {
+  const ProgramRun run = mustRun("localize", arguments);
+  const std::size_t at = run.out.rfind("digest ");
+  if (at == std::string::npos) throw std::runtime_error("whs localize printed no digest");
+  Arguments problem = arguments;
+  for (const auto& [option, file] :
+       {std::pair{"--out", "problem.bin"}, {"--image-out", "image.pgm"}}) {
+    problem.emplace_back(option);
+    problem.emplace_back(folder / file);
+  }
+  mustRun("problem", problem);
+  std::string lines;
+  for (const std::string& argument : arguments) lines += (lines.empty() ? "" : "\n") + argument;
+  writeText(folder / "arguments", lines);
+  writeText(folder / "exit_code", std::to_string(run.exit_code));
+  writeText(folder / "digest", run.out.substr(at + 7, 64));  // last: the folder is whole
+  return run.exit_code == 0;
+}
+
+bool writeCase(const SameBitsCase& one, const fs::path& folder) {
+  fs::create_directories(folder);
+  const ExampleCase example(one.station);
+  sessions::writeCamera(folder / "camera.json", one.camera);
+  sessions::writePng(folder / "image.png", resample(example.image, example.camera, one.camera),
+                     one.camera.width, one.camera.height, 1);
+  const Pose seed = displacedAboutPivot(example.truth.camera_from_station, one.seed_from_truth,
+                                        Eigen::Vector3d::Zero());
+  sessions::writePose(folder / "seed.json", seed, example.seed.uncertainty);
+  Arguments arguments = {"--image",        folder / "image.png",
+                         "--camera",       folder / "camera.json",
+                         "--mesh",         exampleFolder() / one.station / "model.ply",
+                         "--mesh-unit",    "m",
+                         "--seed",         folder / "seed.json",
+                         "--feature-size", one.station == "bc" ? "0.015" : "0.018"};
+  if (one.ignore) {
+    writeMask(folder / "ignore.png", one.camera);
+    arguments.insert(arguments.end(), {"--ignore", folder / "ignore.png"});
+  }
+  arguments.insert(arguments.end(), one.extra.begin(), one.extra.end());
+  return writeExpectation(folder, arguments);
+}
+
+/// A case of full size from the data that tests may be given.
+bool writeDataCase(const std::string& id, const fs::path& data, const fs::path& folder) {
+  fs::create_directories(folder);
+  const sessions::Dataset dataset = sessions::readDataset(data / "synthetic" / "dataset.json");
+  const sessions::Case* one = dataset.findCase(id);
+  if (one == nullptr) throw std::runtime_error("the data has no case " + id);
+  const sessions::Station& station = dataset.stations.at(one->station);
+  const sessions::PartSource& part = station.parts.at(0);
+  sessions::writeCamera(folder / "camera.json", dataset.cameras.at(one->camera));
+  sessions::writePose(folder / "seed.json", one->seed_camera_from_station, one->uncertainty);
+  return writeExpectation(
+      folder, {"--image", one->image, "--camera", folder / "camera.json", "--mesh", part.mesh,
+               "--mesh-unit", part.mesh_unit, "--seed", folder / "seed.json", "--feature-size",
+               std::to_string(station.feature_size_m.value_or(0.0))});
+}
+
+/// Cases are worth comparing when most of them go through every stage.
+void writeAll(const fs::path& folder) {
+  fs::remove_all(folder);
+  int converged = 0;
+  for (const SameBitsCase& one : allCases()) {
+    const bool done = writeCase(one, folder / one.name);
+    converged += done ? 1 : 0;
+    std::printf("%s: %s\n", one.name.c_str(), done ? "converged" : "not converged");
+  }
+  if (converged < 5) throw std::runtime_error("fewer than five cases converge");
+  const char* data = std::getenv("BORESIGHT_DATA");
+  if (data == nullptr || std::getenv("BORESIGHT_ALL") == nullptr) {
+    std::printf("no cases of full size: BORESIGHT_DATA and BORESIGHT_ALL are not both set\n");
+    return;
+  }
+  for (const char* id : {"bc-000000", "os-000000"}) {
+    const bool done = writeDataCase(id, data, folder / id);
+    std::printf("%s: %s\n", id, done ? "converged" : "not converged");
+  }
+}
+
+}  // namespace
+}  // namespace boresight::test
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: same_bits_cases FOLDER\n");
+    return 2;
+  }
+  try {
+    boresight::test::writeAll(argv[1]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "same_bits_cases: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

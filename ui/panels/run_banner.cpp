@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/run_banner.h"
+
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QLabel>
+
+#include "sessions/report/run_text.h"
+#include "ui/models/number_text.h"
+#include "ui/plots/plot_colors.h"
+
+namespace boresight::ui {
+
+RunBanner::RunBanner(QWidget* parent) : QFrame(parent) {
+  setFrameShape(QFrame::StyledPanel);
+  setAutoFillBackground(true);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(8, 4, 8, 4);
+  sign_ = new QLabel(this);
+  QFont large = font();
+  large.setPointSizeF(1.4 * large.pointSizeF());
+  large.setBold(true);
+  sign_->setFont(large);
+  row->addWidget(sign_);
+  text_ = new QLabel(this);
+  text_->setObjectName(QStringLiteral("standing"));
+  text_->setWordWrap(true);
+  text_->setTextFormat(Qt::PlainText);
+  text_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  row->addWidget(text_, 1);
+  setSnapshot(nullptr);
+}
+
+QString RunBanner::text() const { return text_->text(); }
+
+void RunBanner::setSnapshot(const sessions::RunSnapshot* snapshot) {
+  if (snapshot == nullptr) {
+    kind_ = Kind::kNone;
+    text_->setText(tr("Nothing has run yet."));
+  } else {
+    kind_ = snapshot->converged() ? Kind::kConverged
+            : snapshot->finished  ? Kind::kFailed
+                                  : Kind::kUnderWay;
+    text_->setText(fromText(sessions::standingText(*snapshot)));
+  }
+  sign_->setText(kind_ == Kind::kConverged ? QStringLiteral("✓")
+                 : kind_ == Kind::kFailed  ? QStringLiteral("✗")
+                                           : QStringLiteral("…"));
+  applyPalette();
+}
+
+void RunBanner::applyPalette() {
+  const QPalette& base = parentWidget() ? parentWidget()->palette() : palette();
+  const PlotColors colors = plotColors(base);
+  QColor tint = kind_ == Kind::kConverged ? colors.first
+                : kind_ == Kind::kFailed  ? colors.second
+                                          : base.color(QPalette::Window);
+  const QColor window = base.color(QPalette::Window);
+  // A tint that leaves the text readable.
+  const auto mixed = [&](int a, int b) { return (3 * a + b) / 4; };
+  tint = QColor(mixed(window.red(), tint.red()), mixed(window.green(), tint.green()),
+                mixed(window.blue(), tint.blue()));
+  if (palette().color(QPalette::Window) == tint) return;
+  QPalette tinted = base;
+  tinted.setColor(QPalette::Window, tint);
+  setPalette(tinted);
+}
+
+void RunBanner::changeEvent(QEvent* event) {
+  QFrame::changeEvent(event);
+  if (event->type() == QEvent::ParentChange && text_ != nullptr) applyPalette();
+}
+
+}  // namespace boresight::ui

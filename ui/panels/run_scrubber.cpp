@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/run_scrubber.h"
+
+#include <QAction>
+#include <QButtonGroup>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QToolButton>
+
+#include "ui/panels/stage_steps.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kMostStages = 4;
+
+QString stageName(Stage stage) {
+  switch (stage) {
+    case Stage::kRender:
+      return RunScrubber::tr("Render");
+    case Stage::kTemplates:
+      return RunScrubber::tr("Templates");
+    case Stage::kMatch:
+      return RunScrubber::tr("Match");
+    case Stage::kPose:
+      return RunScrubber::tr("Pose");
+    default:
+      return RunScrubber::tr("Refine");
+  }
+}
+
+QString stageHelp(Stage stage) {
+  switch (stage) {
+    case Stage::kRender:
+      return RunScrubber::tr("Show the edges rendered from the iteration's first pose.");
+    case Stage::kTemplates:
+      return RunScrubber::tr("Show the templates cut from the render.");
+    case Stage::kMatch:
+      return RunScrubber::tr("Show where the templates were found in the image.");
+    case Stage::kPose:
+      return RunScrubber::tr("Show the pose solved from the matches, its inliers and residuals.");
+    default:
+      return RunScrubber::tr("Show the pose moved until rendered edges meet the image's own.");
+  }
+}
+
+}  // namespace
+
+RunScrubber::RunScrubber(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  addStep(Step::kFirst, QStringLiteral("|◀"), tr("Seed"),
+          tr("Go to the seed, before the first iteration."));
+  addStep(Step::kPrevious, QStringLiteral("◀"), tr("Previous iteration"),
+          tr("Go to the iteration before."));
+  slider_ = new QSlider(Qt::Horizontal, this);
+  slider_->setObjectName(QStringLiteral("iterations"));
+  slider_->setAccessibleName(tr("Iteration"));
+  slider_->setToolTip(tr("The iteration that every view shows; leftmost: the seed."));
+  slider_->setTickPosition(QSlider::TicksBelow);
+  slider_->setTickInterval(1);
+  slider_->setPageStep(1);
+  row->addWidget(slider_, 1);
+  addStep(Step::kNext, QStringLiteral("▶"), tr("Next iteration"), tr("Go to the iteration after."));
+  addStep(Step::kLast, QStringLiteral("▶|"), tr("Last iteration"),
+          tr("Go to the last iteration and follow the run."));
+  place_ = new QLabel(this);
+  place_->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("8.88 (88 of 88)")));
+  row->addWidget(place_);
+  addStep(Step::kPreviousStage, QStringLiteral("◁"), tr("Previous stage"),
+          tr("Go one stage back, across iterations."));
+  addStageButtons();
+  addStep(Step::kNextStage, QStringLiteral("▷"), tr("Next stage"),
+          tr("Go one stage on, across iterations."));
+
+  connect(slider_, &QSlider::valueChanged, this, [this](int value) {
+    view_.setCursor({value, Stage::kFinished});
+  });
+  connect(&view_, &ViewState::snapshotChanged, this, &RunScrubber::showCursor);
+  connect(&view_, &ViewState::cursorChanged, this, &RunScrubber::showCursor);
+  showCursor();
+}
+
+void RunScrubber::addStep(Step step, const QString& sign, const QString& name,
+                          const QString& help) {
+  auto* action = new QAction(name, this);
+  action->setIconText(sign);
+  action->setToolTip(help);
+  connect(action, &QAction::triggered, this, [this, step] { go(step); });
+  actions_[static_cast<std::size_t>(step)] = action;
+  auto* button = new QToolButton(this);
+  button->setDefaultAction(action);
+  button->setToolButtonStyle(Qt::ToolButtonTextOnly);
+  button->setAutoRaise(true);
+  button->setAccessibleName(name);
+  button->setFocusPolicy(Qt::TabFocus);
+  layout()->addWidget(button);
+}
+
+void RunScrubber::addStageButtons() {
+  stages_ = new QButtonGroup(this);
+  for (int i = 0; i < kMostStages; ++i) {
+    auto* button = new QToolButton(this);
+    button->setCheckable(true);
+    button->setFocusPolicy(Qt::TabFocus);
+    stages_->addButton(button, i);
+    layout()->addWidget(button);
+  }
+  connect(stages_, &QButtonGroup::idClicked, this, &RunScrubber::chooseStage);
+}
+
+void RunScrubber::setPlace(const QString& text) { place_->setText(text); }
+
+void RunScrubber::go(Step step) {
+  const RunCursor& cursor = view_.cursor();
+  const bool by_stage = step == Step::kPreviousStage || step == Step::kNextStage;
+  if (by_stage) {
+    if (!view_.snapshot()) return;
+    view_.setCursor(step == Step::kNextStage ? nextStage(*view_.snapshot(), cursor)
+                                             : previousStage(*view_.snapshot(), cursor));
+    return;
+  }
+  const int target = step == Step::kFirst      ? -1
+                     : step == Step::kPrevious ? cursor.iteration - 1
+                     : step == Step::kNext     ? cursor.iteration + 1
+                                               : slider_->maximum();
+  view_.setCursor({target, Stage::kFinished});
+}
+
+void RunScrubber::chooseStage(int index) {
+  const sessions::IterationTrace* shown = view_.iteration();
+  if (shown == nullptr) return;
+  const std::vector<Stage> stages = stagesOf(*shown);
+  const bool last = index + 1 >= static_cast<int>(stages.size());
+  view_.setCursor({view_.cursor().iteration,
+                   last ? Stage::kFinished : stages[static_cast<std::size_t>(index)]});
+}
+
+void RunScrubber::showCursor() {
+  const int last =
+      view_.snapshot() ? static_cast<int>(view_.snapshot()->iterations.size()) - 1 : -1;
+  const QSignalBlocker blocked(slider_);
+  slider_->setRange(-1, last);
+  slider_->setValue(view_.cursor().iteration);
+  slider_->setEnabled(last >= 0);
+  const bool at_start = view_.cursor().iteration < 0;
+  const bool at_end = view_.cursor().iteration >= last;
+  action(Step::kFirst)->setEnabled(!at_start);
+  action(Step::kPrevious)->setEnabled(!at_start);
+  action(Step::kNext)->setEnabled(!at_end);
+  action(Step::kLast)->setEnabled(!at_end);
+  showStages();
+}
+
+void RunScrubber::showStages() {
+  const sessions::IterationTrace* shown = view_.iteration();
+  const std::vector<Stage> stages = shown ? stagesOf(*shown) : std::vector<Stage>();
+  const int chosen = shown ? shownStage(stages, view_.cursor().stage) : -1;
+  // An exclusive group cannot have none checked.
+  stages_->setExclusive(false);
+  for (int i = 0; i < kMostStages; ++i) {
+    auto* button = qobject_cast<QToolButton*>(stages_->button(i));
+    const bool exists = i < static_cast<int>(stages.size());
+    button->setVisible(exists);
+    button->setChecked(i == chosen);
+    QFont weight = font();
+    weight.setBold(i == chosen);
+    button->setFont(weight);
+    if (!exists) continue;
+    button->setText(stageName(stages[static_cast<std::size_t>(i)]));
+    button->setToolTip(stageHelp(stages[static_cast<std::size_t>(i)]));
+  }
+  stages_->setExclusive(chosen >= 0);
+  const auto* run = view_.snapshot().get();
+  action(Step::kPreviousStage)->setEnabled(run && view_.cursor().iteration >= 0);
+  action(Step::kNextStage)->setEnabled(run && !(nextStage(*run, view_.cursor()) == view_.cursor()));
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QColor>
+#include <QPalette>
+
+namespace boresight::ui {
+
+/// Colours that people who confuse red and green tell apart (Okabe and Ito 2008), in a lighter
+/// variant on dark ground. Shapes and lines differ besides.
+struct PlotColors {
+  QColor first;   ///< blue
+  QColor second;  ///< orange
+  QColor grid;
+  QColor cursor;
+};
+
+bool isDark(const QPalette& palette);
+PlotColors plotColors(const QPalette& palette);
+
+}  // namespace boresight::ui
