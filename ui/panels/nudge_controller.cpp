@@ -100,10 +100,8 @@ void NudgeController::setPivot(NudgePivot pivot) {
 
 /// What the views would show if nothing was nudged.
 Pose NudgeController::estimate() const {
-  if (const sessions::IterationTrace* shown = state_.iteration())
-    return state_.cursor().stage >= Stage::kPose ? shown->camera_from_station
-                                                 : shown->camera_from_station_before;
-  return state_.currentCase() ? state_.currentCase()->camera_from_station_seed : Pose();
+  if (const auto estimate = poseOf(state_, PoseRole::kEstimate)) return *estimate;
+  return poseOf(state_, PoseRole::kSeed).value_or(Pose());
 }
 
 Pose NudgeController::base() const { return base_ ? *base_ : estimate(); }

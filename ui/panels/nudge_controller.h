@@ -7,7 +7,7 @@
 #include <QTimer>
 
 #include "ui/panels/nudge.h"
-#include "ui/state/view_state.h"
+#include "ui/state/pose_role.h"
 
 class QKeyEvent;
 

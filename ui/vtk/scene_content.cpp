@@ -85,19 +85,16 @@ Frustum frustum(PoseRole role, const QString& label, const Camera& camera,
 void addFrusta(const ViewState& state, SceneContent& content) {
   const LoadedCase& one = *content.one;
   const Eigen::Vector3d centre_m = content.bounds.centre();
-  const auto add = [&](PoseRole role, const QString& label, const Pose& pose) {
-    if (pose.isFinite()) content.frusta.push_back(frustum(role, label, one.camera, pose, centre_m));
-  };
-  add(PoseRole::kSeed, text("seed"),
-      state.snapshot() ? state.snapshot()->camera_from_station_seed : one.camera_from_station_seed);
-  if (const sessions::IterationTrace* shown = state.iteration()) {
-    const bool solved = state.cursor().stage >= Stage::kPose;
-    add(PoseRole::kEstimate, text("iteration %1").arg(state.cursor().iteration + 1),
-        solved ? shown->camera_from_station : shown->camera_from_station_before);
+  const std::array<QString, kPoseRoles> labels = {
+      text("seed"), text("iteration %1").arg(state.cursor().iteration + 1), text("nudged"),
+      text("truth")};
+  for (int i = 0; i < kPoseRoles; ++i) {
+    const auto role = static_cast<PoseRole>(i);
+    const std::optional<Pose> pose = poseOf(state, role);
+    if (pose && pose->isFinite())
+      content.frusta.push_back(
+          frustum(role, labels[static_cast<std::size_t>(i)], one.camera, *pose, centre_m));
   }
-  if (state.nudgedPose()) add(PoseRole::kNudged, text("nudged"), *state.nudgedPose());
-  if (one.camera_from_station_truth)
-    add(PoseRole::kTruth, text("truth"), *one.camera_from_station_truth);
 }
 
 void addTrail(const ViewState& state, SceneContent& content) {
@@ -155,10 +152,10 @@ double residualLimit(const std::vector<ScenePoint>& points) {
 
 const PoseRoleStyle& poseRoleStyle(PoseRole role) {
   static const std::array<PoseRoleStyle, kPoseRoles> styles = {{
-      {"seed", layerInfo(LayerId::kSeedEdges).style.color, {0.6, 0.4}},
-      {"estimate", layerInfo(LayerId::kIterationEdges).style.color, {}},
-      {"nudged", layerInfo(LayerId::kNudgedEdges).style.color, {0.5, 0.2, 0.1, 0.2}},
-      {"truth", layerInfo(LayerId::kTruthEdges).style.color, {0.2, 0.3}},
+      {"seed", layerInfo(LayerId::kSeedEdges).style.color, {0.6, 0.4}, 2.0},
+      {"estimate", layerInfo(LayerId::kIterationEdges).style.color, {}, 3.0},
+      {"nudged", layerInfo(LayerId::kNudgedEdges).style.color, {0.5, 0.2, 0.1, 0.2}, 2.5},
+      {"truth", layerInfo(LayerId::kTruthEdges).style.color, {0.25, 0.25}, 2.0},
   }};
   return styles[static_cast<std::size_t>(role)];
 }
@@ -185,14 +182,16 @@ SceneContent sceneContent(const ViewState& state) {
   content.one = state.currentCase();
   if (!content.one) return content;
   content.bounds = boundsOf(content.mesh());
-  content.axis_length_m = roundedUp(0.1 * content.bounds.diagonal());
+  content.axis_length_m = roundedUp(0.2 * content.bounds.diagonal());
   addFrusta(state, content);
   addTrail(state, content);
   if (const sessions::IterationTrace* shown = state.iteration()) {
-    if (!shown->templates.empty())
+    if (!shown->templates.empty()) {
       addTemplates(*shown, content);
-    else
+    } else {
       addEdgePlaces(*shown, content);
+      content.point_radius_px = 2.0;
+    }
   }
   content.residual_limit_px = residualLimit(content.points);
   content.selected_template = state.selectedTemplate();

@@ -14,20 +14,18 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
-#include "ui/state/view_state.h"
+#include "ui/state/pose_role.h"
 
 namespace boresight::ui {
 
-/// Whose pose something stands for. Colours are those of the image's layers.
-enum class PoseRole : std::uint8_t { kSeed, kEstimate, kNudged, kTruth };
-inline constexpr int kPoseRoles = 4;
-
+/// How a pose's camera looks; the colours are those of the image's layers.
 struct PoseRoleStyle {
   const char* name = "";
   QColor color;
   /// Lengths of dashes and gaps in turn, as shares of the line; empty: one whole line. The second
   /// difference besides the colour.
   std::vector<double> dashes;
+  double width_px = 2.0;
 };
 const PoseRoleStyle& poseRoleStyle(PoseRole role);
 
@@ -84,6 +82,7 @@ struct SceneContent {
   int trail_now = -1;                    ///< the one that is shown, or -1
   std::vector<ScenePoint> points;
   double residual_limit_px = 1.0;  ///< upper end of the colours
+  double point_radius_px = 4.5;    ///< on the screen; edge places are many and therefore small
   int selected_template = -1;
   double axis_length_m = 0.1;
 

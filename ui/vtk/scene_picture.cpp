@@ -13,8 +13,6 @@
 namespace boresight::ui {
 namespace {
 
-constexpr double kPointRadius_px = 4.5;
-
 /// The core's render of the surfaces, by device pixels.
 struct Surfaces {
   Camera camera;
@@ -98,9 +96,10 @@ struct Brush {
   void point(const ScenePoint& point) const {
     QPointF at;
     if (!visible(point.at_m, at)) return;
+    const double radius_px = content.point_radius_px;
     const QColor color = residualColor(point.residual_px / content.residual_limit_px);
     if (point.kind == ScenePointKind::kOutlier) {
-      const double r = 1.2 * kPointRadius_px;
+      const double r = 1.2 * radius_px;
       for (const auto& [pen_color, width] : {std::pair(QColor(Qt::black), 4.0), {color, 2.2}}) {
         painter.setPen(QPen(pen_color, width));
         painter.drawLine(at - QPointF(r, r), at + QPointF(r, r));
@@ -108,7 +107,7 @@ struct Brush {
       }
     } else {
       const bool inlier = point.kind == ScenePointKind::kInlier;
-      const double r = inlier ? kPointRadius_px : 0.5 * kPointRadius_px;
+      const double r = inlier ? radius_px : 0.5 * radius_px;
       painter.setPen(QPen(Qt::black, 0.8));
       painter.setBrush(inlier ? color : QColor(150, 150, 150));
       painter.drawEllipse(at, r, r);
@@ -116,7 +115,7 @@ struct Brush {
     painter.setBrush(Qt::NoBrush);
     if (point.template_index >= 0 && point.template_index == content.selected_template) {
       painter.setPen(QPen(QColor(255, 235, 60), 2.0));
-      painter.drawEllipse(at, 2.1 * kPointRadius_px, 2.1 * kPointRadius_px);
+      painter.drawEllipse(at, 2.1 * radius_px, 2.1 * radius_px);
     }
   }
 };
@@ -158,7 +157,8 @@ void paintThings(const Brush& brush, const SceneContent& content, const SceneLoo
                  QPen(axisColor(axis), 2.0));
   if (look.shown.frusta)
     for (const Frustum& frustum : content.frusta)
-      for (const SceneLine& line : frustum.lines) brush.line(line, QPen(frustum.color, 2.0));
+      for (const SceneLine& line : frustum.lines)
+        brush.line(line, QPen(frustum.color, poseRoleStyle(frustum.role).width_px));
   if (look.shown.trail) {
     const QColor color = poseRoleStyle(PoseRole::kEstimate).color;
     for (std::size_t i = 1; i < content.trail_m.size(); ++i)

@@ -278,13 +278,8 @@ void SceneView::updateLook() {
 }
 
 Pose SceneView::throughPose() const {
-  const LoadedCase& one = *content_->one;
-  if (role_ == PoseRole::kTruth && one.camera_from_station_truth)
-    return *one.camera_from_station_truth;
-  if (role_ == PoseRole::kSeed)
-    return state_.snapshot() ? state_.snapshot()->camera_from_station_seed
-                             : one.camera_from_station_seed;
-  return state_.shownPose();
+  if (role_ == PoseRole::kEstimate) return state_.shownPose();
+  return poseOf(state_, role_).value_or(state_.shownPose());
 }
 
 Viewpoint SceneView::viewpoint() const {

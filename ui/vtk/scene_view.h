@@ -43,6 +43,9 @@ class SceneView : public QWidget {
   /// Where the image lies while looking through the camera.
   const ViewTransform& imageTransform() const { return image_; }
 
+  /// The image lies behind the mesh while looking through the camera.
+  bool backdropReady() const { return through_ && !backdrop_.isNull(); }
+
   /// Shows the whole scene again (through the camera: the whole image).
   void resetView();
   void lookFrom(StandardView view);

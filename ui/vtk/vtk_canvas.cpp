@@ -32,7 +32,6 @@
 namespace boresight::ui {
 namespace {
 
-constexpr double kPointRadius_px = 4.5;
 constexpr double kTrailRadius_px = 2.5;
 
 void insert(vtkPoints& points, const Eigen::Vector3d& at_m) {
@@ -148,7 +147,10 @@ struct Lines {
     actor->GetProperty()->SetLighting(false);
     // In front of the faces that they lie on.
     mapper->SetResolveCoincidentTopologyToPolygonOffset();
-    mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -4.0);
+    lift(4.0);
+  }
+  void lift(double units) {
+    mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -units);
   }
   void set(const std::vector<std::pair<SceneLine, QColor>>& lines) {
     mapper->SetInputData(linesOf(lines));
@@ -169,8 +171,12 @@ class VtkCanvas final : public SceneCanvas {
     setUpMesh(occluding_, kOccludingColor);
     setUpBackdrop();
     setUpPoints();
-    for (Lines* lines : {&mesh_lines_, &frusta_, &axes_, &trail_})
-      renderer_->AddActor(lines->actor);
+    for (Lines* lines : {&mesh_lines_, &axes_, &trail_}) renderer_->AddActor(lines->actor);
+    for (std::size_t role = 0; role < frusta_.size(); ++role) {
+      // Poses that agree nearly coincide: the later ones are thinner and lie upon the others.
+      frusta_[role].lift(4.0 + 6.0 * static_cast<double>(role));
+      renderer_->AddActor(frusta_[role].actor);
+    }
   }
 
   QWidget* widget() override { return widget_; }
@@ -194,8 +200,11 @@ class VtkCanvas final : public SceneCanvas {
     placeBackdrop(backdrop);
     scalePoints();
     const double ratio = widget_->devicePixelRatioF();
-    for (Lines* lines : {&frusta_, &axes_, &trail_})
+    for (Lines* lines : {&axes_, &trail_})
       lines->actor->GetProperty()->SetLineWidth(static_cast<float>(2.0 * ratio));
+    for (std::size_t role = 0; role < frusta_.size(); ++role)
+      frusta_[role].actor->GetProperty()->SetLineWidth(
+          static_cast<float>(poseRoleStyle(static_cast<PoseRole>(role)).width_px * ratio));
     mesh_lines_.actor->GetProperty()->SetLineWidth(static_cast<float>(ratio));
     render();
   }
@@ -293,10 +302,13 @@ class VtkCanvas final : public SceneCanvas {
       lines.push_back({{vertex(ends[0]), vertex(ends[1])}, look_.mesh_lines});
     mesh_lines_.set(lines);
 
-    lines.clear();
-    for (const Frustum& frustum : content_->frusta)
-      for (const SceneLine& line : frustum.lines) lines.push_back({line, frustum.color});
-    frusta_.set(lines);
+    for (std::size_t role = 0; role < frusta_.size(); ++role) {
+      lines.clear();
+      for (const Frustum& frustum : content_->frusta)
+        if (frustum.role == static_cast<PoseRole>(role))
+          for (const SceneLine& line : frustum.lines) lines.push_back({line, frustum.color});
+      frusta_[role].set(lines);
+    }
 
     lines.clear();
     for (int axis = 0; axis < 3; ++axis)
@@ -347,7 +359,7 @@ class VtkCanvas final : public SceneCanvas {
       if (!on) lines.actor->VisibilityOff();
     };
     show(mesh_lines_, shown.mesh_edges);
-    show(frusta_, shown.frusta);
+    for (Lines& frustum : frusta_) show(frustum, shown.frusta);
     show(axes_, shown.axes);
     show(trail_, shown.trail);
     for (Cloud* cloud : {&inliers_, &outliers_, &unmatched_, &selected_})
@@ -462,7 +474,7 @@ class VtkCanvas final : public SceneCanvas {
     };
     const double pixel_m = pixel_at(content_->bounds.centre());
     for (Cloud* cloud : {&inliers_, &outliers_, &unmatched_, &selected_})
-      cloud->mapper->SetScaleFactor(kPointRadius_px * pixel_m);
+      cloud->mapper->SetScaleFactor(content_->point_radius_px * pixel_m);
     if (content_->trail_m.empty()) return;
     const double trail_pixel_m = pixel_at(content_->trail_m.back());
     for (Cloud* cloud : {&trail_points_, &trail_now_})
@@ -483,7 +495,7 @@ class VtkCanvas final : public SceneCanvas {
   qint64 backdrop_key_ = 0;
   vtkNew<vtkLookupTable> table_;
   Lines mesh_lines_;
-  Lines frusta_;
+  std::array<Lines, kPoseRoles> frusta_;  ///< by role
   Lines axes_;
   Lines trail_;
   Cloud inliers_;
