@@ -44,7 +44,7 @@ void addMethod(CLI::App& command, std::string& method) {
 }
 
 LocalizerOptions profileOptions(const std::string& name) {
-  return name == "paper" ? paperProfile() : defaultProfile();
+  return sessions::profileOptions(name).value_or(defaultProfile());
 }
 
 void OptionArguments::addTo(CLI::App& command) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -10,7 +9,6 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "core/base/math.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/image_file.h"
@@ -19,6 +17,11 @@
 #include "sessions/io/points_file.h"
 #include "sessions/report/run_text.h"
 #include "sessions/report/text_table.h"
+#include "sessions/session/input_check.h"
+#include "sessions/session/input_sheet.h"
+#include "sessions/session/session_document.h"
+#include "sessions/session/session_file.h"
+#include "sessions/session/session_json.h"
 #include "sessions/trace/trace_file.h"
 
 namespace boresight::app {
@@ -39,42 +42,14 @@ std::string vectorText(const Eigen::Vector3d& vector, int decimals) {
          fixedText(vector.z(), decimals);
 }
 
-/// Angle between the rays of two pixels, deg; not finite where one has no ray.
-double angleBetween_deg(const Camera& camera, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  Eigen::Vector3d ray_a, ray_b;
-  if (!unproject(camera, a, ray_a) || !unproject(camera, b, ray_b)) return std::nan("");
-  return std::acos(std::clamp(ray_a.normalized().dot(ray_b.normalized()), -1.0, 1.0)) / kDegree_rad;
+void flagAll(const std::vector<sessions::RedFlag>& flags) {
+  for (const sessions::RedFlag& one : flags) flag(one.text);
 }
 
 void describeCamera(const Camera& camera) {
-  line(std::string(sessions::cameraModelName(camera.model)) + ", " +
-       sizeText(camera.width, camera.height) + " px, fx " + fixedText(camera.fx, 3) + ", fy " +
-       fixedText(camera.fy, 3) + ", cx " + fixedText(camera.cx, 3) + ", cy " +
-       fixedText(camera.cy, 3));
-  const double right = camera.width - 1;
-  const double bottom = camera.height - 1;
-  line("field of view " +
-       fixedText(angleBetween_deg(camera, {0.0, camera.cy}, {right, camera.cy}), 2) + " x " +
-       fixedText(angleBetween_deg(camera, {camera.cx, 0.0}, {camera.cx, bottom}), 2) +
-       " deg, diagonal " + fixedText(angleBetween_deg(camera, {0.0, 0.0}, {right, bottom}), 2) +
-       " deg; 1 px is " + fixedText(1000.0 / camera.fx, 3) + " mm at 1 m");
-  const double off_centre = std::max(std::abs(camera.cx - 0.5 * right) / camera.width,
-                                     std::abs(camera.cy - 0.5 * bottom) / camera.height);
-  if (off_centre > 0.1)
-    flag(
-        "the principal point is " + fixedText(100.0 * off_centre, 0) +
-        " % of the image off its middle: is this camera of a sub-frame, or of another image size?");
-  if (camera.fx / camera.fy > 1.02 || camera.fy / camera.fx > 1.02)
-    flag("fx and fy differ by " + fixedText(100.0 * std::abs(camera.fx / camera.fy - 1.0), 1) +
-         " %");
-  Eigen::Vector3d ray;
-  for (const Eigen::Vector2d& corner :
-       {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(right, 0.0), Eigen::Vector2d(0.0, bottom),
-        Eigen::Vector2d(right, bottom)})
-    if (!unproject(camera, corner, ray)) {
-      flag("a corner of the image lies outside the valid field of the distortion");
-      break;
-    }
+  const sessions::CameraSheet sheet = sessions::cameraSheet(camera);
+  for (const std::string& text : sessions::cameraLines(sheet, camera)) line(text);
+  flagAll(sheet.flags);
 }
 
 void describePose(const sessions::PoseFile& pose) {
@@ -124,6 +99,52 @@ void describePoints(const std::vector<sessions::PointPair>& points) {
   if (enabled < 4) flag("a pose needs at least 4 enabled points");
 }
 
+std::string stalenessText(const sessions::Staleness& staleness) {
+  if (!staleness.stale()) return "";
+  return std::string(", stale: ") + (staleness.inputs_changed ? "inputs" : "") +
+         (staleness.inputs_changed && staleness.options_changed ? " and " : "") +
+         (staleness.options_changed ? "options" : "") + " changed since";
+}
+
+void describeCase(const sessions::Session& session, const sessions::SessionCase& one,
+                  const path& file) {
+  line("case " + one.id + (one.station.empty() ? "" : ", station " + one.station));
+  try {
+    const sessions::InputSheet sheet = sessions::inputSheet(*sessions::loadCase(one));
+    for (const sessions::SheetLine& entry : sheet.lines)
+      line("  " + entry.label + ": " + entry.value);
+    flagAll(sheet.flags);
+  } catch (const sessions::InputError& error) {
+    flag(error.what());
+  }
+  for (const sessions::RunRecord& run : session.runs)
+    if (run.case_id == one.id)
+      line("  run " + run.digest + ": " + run.status + ", " + run.time + ", whs " + run.version +
+           stalenessText(sessions::stalenessOf(run, session, file)));
+  if (const sessions::Decision* decision = session.decisionOn(one.id))
+    line(std::string("  ") +
+         (decision->verdict == sessions::Verdict::kValidated ? "validated" : "rejected") + " by " +
+         decision->by + ", " + decision->time +
+         (decision->comment.empty() ? "" : ": " + decision->comment));
+}
+
+void describeSession(const path& file) {
+  const auto document = sessions::SessionDocument::open(file, sessions::Access::kReadOnly);
+  const sessions::Session& session = document.session();
+  line(std::to_string(session.cases.size()) + " cases, " + std::to_string(session.runs.size()) +
+       " runs, profile " + session.profile + ", " + std::to_string(session.options.size()) +
+       " options differ: " + sessions::toJson(session.options).dump());
+  if (const auto holder = sessions::readLockFile(sessions::lockFileOf(file)))
+    line((sessions::hasEnded(*holder) ? "was left open by " : "is open in ") + holder->text());
+  for (const std::string& text : document.notices()) flag(text);
+  if (document.recovery())
+    flag(std::to_string(document.recovery()->edits.size()) +
+         " edits are in its journal and not in the file, the last of " + document.recovery()->time);
+  for (const auto& one : session.cases) describeCase(session, *one, file);
+  for (const sessions::Finding& finding : sessions::checkInputs(session))
+    if (finding.what == "run" || finding.what == "onboard_record") flag(finding.text);
+}
+
 void describeJson(const path& file) {
   const std::string format = sessions::JsonDocument(file).root().at("format").nonEmptyText();
   line(format);
@@ -135,6 +156,8 @@ void describeJson(const path& file) {
     describeDataset(sessions::readDataset(file));
   } else if (format == "boresight-points") {
     describePoints(sessions::readPoints(file));
+  } else if (format == sessions::kSessionFormat) {
+    describeSession(file);
   } else if (format == "boresight-config") {
     const sessions::Config config = sessions::readConfig(file);
     LocalizerOptions options = profileOptions(config.profile);
@@ -171,14 +194,11 @@ void describeImage(const path& file) {
   line(image.container + ", " + sizeText(image.width, image.height) + " px, " +
        std::to_string(image.channels) + " channels, " + std::to_string(image.sample_bits) + " bit");
   line("to 8 bit: " + image.rule);
-  const auto [low, high] = std::minmax_element(image.pixels.begin(), image.pixels.end());
-  const auto saturated = std::count(image.pixels.begin(), image.pixels.end(), 255);
-  const double share = static_cast<double>(saturated) / static_cast<double>(image.pixels.size());
-  line("gray " + std::to_string(*low) + " .. " + std::to_string(*high) + ", " +
-       fixedText(100.0 * share, 2) + " % saturated");
+  const sessions::ImageSheet sheet = sessions::imageSheet(image);
+  line("gray " + std::to_string(sheet.lowest_gray) + " .. " + std::to_string(sheet.highest_gray) +
+       ", " + fixedText(100.0 * sheet.saturated_share, 2) + " % saturated");
   line("sha256 " + image.file_sha256);
-  if (share > 0.02) flag("much of the image is saturated");
-  if (*high - *low < 64) flag("the image uses few gray levels: is its bit depth stated right?");
+  flagAll(sheet.flags);
 }
 
 void describeTrace(const path& file) {
@@ -239,7 +259,7 @@ void addInfo(CLI::App& app, int& exit_code) {
   auto unit = std::make_shared<std::string>();
   command
       ->add_option("files", *files,
-                   "Images, cameras, meshes, poses, datasets, configs, points, traces")
+                   "Images, cameras, meshes, poses, datasets, sessions, configs, points, traces")
       ->required()
       ->type_name("FILE");
   command->add_option("--mesh-unit", *unit, "Unit of meshes that state none")->type_name("UNIT");

@@ -26,6 +26,9 @@ int run(int argc, char** argv) {
   addRender(app, exit_code);
   addInfo(app, exit_code);
   addOptions(app, exit_code);
+  addNew(app, exit_code);
+  addRun(app, exit_code);
+  addPack(app, exit_code);
   addProblem(app, exit_code);
   for (CLI::App* command : app.get_subcommands({}))
     command->set_version_flag("--version", std::string("whs ") + sessions::kVersion);

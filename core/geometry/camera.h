@@ -28,6 +28,8 @@ struct Camera {
   /// tangential terms can take back in any direction. Set by `prepareCamera`; until then nothing
   /// projects. At most 1e4, and smaller where |(u - cx) / fx, (v - cy) / fy| would exceed 1e4.
   double valid_radius = 0.0;
+
+  bool operator==(const Camera&) const = default;
 };
 
 /// Checks the parameters (finite, focal lengths and sizes positive) and computes the valid field.

@@ -10,51 +10,76 @@
 namespace boresight {
 namespace {
 
-/// One side of one face. Equal `ends` are the same edge of the mesh.
+/// One side of one face, in the group of its lower vertex. Equal `high` are the same edge of the
+/// mesh.
 struct Side {
-  std::uint64_t ends = 0;  ///< lower vertex index, then the higher one
-  std::int32_t face = 0;
-  std::int32_t edge = 0;  ///< 0..2 in the face
+  std::int32_t high = 0;   ///< the higher vertex index
+  std::uint32_t side = 0;  ///< 3 * face + edge
 };
+
+/// So that sides can be counted in 32 bits.
+constexpr std::size_t kMostFaces = std::numeric_limits<std::uint32_t>::max() / 3;
 
 bool hasRepeatedVertex(const Face& face) {
   return face.vertex[0] == face.vertex[1] || face.vertex[1] == face.vertex[2] ||
          face.vertex[2] == face.vertex[0];
 }
 
-Side sideOf(const Face& face, std::size_t face_index, std::size_t edge) {
-  const auto [low, high] = std::minmax(face.vertex[edge], face.vertex[(edge + 1) % 3]);
-  return {(static_cast<std::uint64_t>(low) << 32) | static_cast<std::uint64_t>(high),
-          static_cast<std::int32_t>(face_index), static_cast<std::int32_t>(edge)};
-}
-
-/// Total: no two sides share face and edge.
-bool sideBefore(const Side& a, const Side& b) {
-  if (a.ends != b.ends) return a.ends < b.ends;
-  return a.face != b.face ? a.face < b.face : a.edge < b.edge;
-}
-
-/// Sides of all faces that have three different vertices; how many there are.
-std::size_t collectSides(const MeshView& mesh, std::span<Side> sides) {
-  std::size_t count = 0;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    if (hasRepeatedVertex(mesh.faces[f])) continue;
-    for (std::size_t edge = 0; edge < 3; ++edge) sides[count++] = sideOf(mesh.faces[f], f, edge);
+/// Calls use(low, high, 3 * face + edge) for the sides of all faces that have three different
+/// vertices, in order.
+template <class Use>
+void forEachSide(const MeshView& mesh, Use&& use) {
+  std::uint32_t side = 0;
+  for (const Face& face : mesh.faces) {
+    const auto& v = face.vertex;
+    const bool joins = !hasRepeatedVertex(face);
+    for (std::size_t edge = 0; edge < 3; ++edge, ++side) {
+      const std::int32_t from = v[edge];
+      const std::int32_t to = v[edge < 2 ? edge + 1 : 0];
+      if (joins) use(static_cast<std::size_t>(from < to ? from : to), from < to ? to : from, side);
+    }
   }
-  return count;
 }
 
-/// Joins the faces of every run of exactly two sides with the same ends.
-void joinPairs(std::span<const Side> sides, std::span<std::array<std::int32_t, 3>> neighbour) {
+bool indicesInRange(const MeshView& mesh) {
+  const std::size_t vertex_count = mesh.vertices_in_station_m.size();
+  bool in_range = true;
+  for (const Face& face : mesh.faces)
+    for (const std::int32_t vertex : face.vertex)
+      in_range = in_range && vertex >= 0 && static_cast<std::size_t>(vertex) < vertex_count;
+  return in_range;
+}
+
+/// Groups the sides by their lower vertex (counting sort): group v is sides[group_end[v - 1]] up to
+/// sides[group_end[v]], in the order of faces.
+void groupSides(const MeshView& mesh, std::span<std::uint32_t> group_end, std::span<Side> sides) {
+  for (std::uint32_t& end : group_end) end = 0;
+  forEachSide(mesh, [&](std::size_t low, std::int32_t, std::uint32_t) { ++group_end[low]; });
+  std::uint32_t begin = 0;
+  for (std::uint32_t& end : group_end) {
+    const std::uint32_t count = end;
+    end = begin;
+    begin += count;
+  }
+  forEachSide(mesh, [&](std::size_t low, std::int32_t high, std::uint32_t side) {
+    sides[group_end[low]++] = {high, side};
+  });
+}
+
+/// Joins the faces of every run of exactly two sides with the same ends. `sides`: one group.
+void joinPairs(std::span<Side> sides, std::span<std::array<std::int32_t, 3>> neighbour) {
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return a.high != b.high ? a.high < b.high : a.side < b.side;
+  });
   std::size_t first = 0;
   while (first < sides.size()) {
     std::size_t end = first + 1;
-    while (end < sides.size() && sides[end].ends == sides[first].ends) ++end;
+    while (end < sides.size() && sides[end].high == sides[first].high) ++end;
     if (end - first == 2) {
-      const Side& a = sides[first];
-      const Side& b = sides[first + 1];
-      neighbour[static_cast<std::size_t>(a.face)][static_cast<std::size_t>(a.edge)] = b.face;
-      neighbour[static_cast<std::size_t>(b.face)][static_cast<std::size_t>(b.edge)] = a.face;
+      const std::uint32_t a = sides[first].side;
+      const std::uint32_t b = sides[first + 1].side;
+      neighbour[a / 3][a % 3] = static_cast<std::int32_t>(b / 3);
+      neighbour[b / 3][b % 3] = static_cast<std::int32_t>(a / 3);
     }
     first = end;
   }
@@ -94,32 +119,43 @@ Status buildAdjacency(const MeshView& mesh, Arena& arena, MeshAdjacency& adjacen
   const std::size_t face_count = mesh.faces.size();
   const auto neighbour = arena.allocate<std::array<std::int32_t, 3>>(face_count);
   const std::size_t scratch = arena.mark();
-  const std::span<Side> sides = arena.allocate<Side>(3 * face_count);
+  const auto sides = arena.allocate<Side>(3 * face_count);
+  const auto group_end = arena.allocate<std::uint32_t>(mesh.vertices_in_station_m.size());
   arena.rewind(scratch);
   if (arena.countsOnly()) return Status::kOk;
   if (arena.exhausted()) return Status::kArenaTooSmall;
+  if (face_count > kMostFaces || !indicesInRange(mesh)) return Status::kInvalidMesh;
 
   for (auto& of_face : neighbour) of_face = {-1, -1, -1};
-  const std::span<Side> used = sides.first(collectSides(mesh, sides));
-  std::sort(used.begin(), used.end(), sideBefore);
-  joinPairs(used, neighbour);
+  groupSides(mesh, group_end, sides);
+  std::uint32_t begin = 0;
+  for (const std::uint32_t end : group_end) {
+    if (end - begin > 1) joinPairs(sides.subspan(begin, end - begin), neighbour);
+    begin = end;
+  }
   adjacency.neighbour = neighbour;
   return Status::kOk;
 }
 
 BoundingBox matchedBounds(const MeshView& mesh) {
-  BoundingBox box;
+  Eigen::Vector3f low = Eigen::Vector3f::Zero();
+  Eigen::Vector3f high = low;
   bool empty = true;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (!mesh.parts[mesh.part_of_face[f]].match) continue;
     for (const std::int32_t index : mesh.faces[f].vertex) {
-      const Eigen::Vector3d vertex =
-          mesh.vertices_in_station_m[static_cast<std::size_t>(index)].cast<double>();
-      box.minimum_m = empty ? vertex : Eigen::Vector3d(box.minimum_m.cwiseMin(vertex));
-      box.maximum_m = empty ? vertex : Eigen::Vector3d(box.maximum_m.cwiseMax(vertex));
+      const Eigen::Vector3f& vertex = mesh.vertices_in_station_m[static_cast<std::size_t>(index)];
+      if (empty) low = high = vertex;
       empty = false;
+      for (int k = 0; k < 3; ++k) {
+        if (vertex[k] < low[k]) low[k] = vertex[k];
+        if (vertex[k] > high[k]) high[k] = vertex[k];
+      }
     }
   }
+  BoundingBox box;
+  box.minimum_m = low.cast<double>();
+  box.maximum_m = high.cast<double>();
   return box;
 }
 

@@ -23,6 +23,8 @@ struct ScenePart {
   double normal_threshold_rad = 0.5235987755982988;  ///< 30 deg
   double depth_threshold_m = 0.005;
   bool match = true;  ///< false: occludes, yields neither edges nor mask nor templates
+
+  bool operator==(const ScenePart&) const = default;
 };
 
 /// The scene that the caller owns: welded vertices in the station frame (metres), faces, and the
@@ -46,7 +48,8 @@ struct MeshAdjacency {
 };
 
 /// Builds the adjacency; deterministic, O(n log n). Output and scratch come from the arena (the
-/// scratch is rewound). kArenaTooSmall when they do not fit.
+/// scratch, 24 bytes a face and 4 a vertex, is rewound). kArenaTooSmall when they do not fit,
+/// kInvalidMesh when an index is out of range.
 Status buildAdjacency(const MeshView& mesh, Arena& arena, MeshAdjacency& adjacency);
 
 /// Axis-aligned bounding box of the vertices used by faces of matched parts, station frame.

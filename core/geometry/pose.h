@@ -22,6 +22,7 @@ struct Pose {
   Pose inverse() const;
   Eigen::Matrix3d matrix() const { return rotation.toRotationMatrix(); }
   bool isFinite() const;
+  bool operator==(const Pose&) const = default;  ///< the same numbers, not the same rotation
 };
 
 /// Rotation by |r| rad about r (Rodrigues), with the core's own sine and cosine.

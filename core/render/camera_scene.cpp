@@ -13,6 +13,17 @@ namespace {
 
 /// Faces that turn by more than 45 deg are compared pixel by pixel whatever the thresholds.
 constexpr double kSharpestSmooth = 0.7071;
+/// Steps of 1/128 px at most.
+constexpr int kMostShift = 7;
+constexpr double kDeepest = 65535.0;
+/// Scenes flatter than this towards the camera are given that depth.
+constexpr double kThinnest_m = 1e-9;
+
+/// NaN gives `low`.
+double clamped(double value, double low, double high) {
+  const double above = value > low ? value : low;
+  return above < high ? above : high;
+}
 
 /// Bounds of a face that crosses the near plane or leaves the region where projection is well
 /// behaved: what is left of it beyond the near plane has a bounding box in (x/z, y/z).
@@ -58,7 +69,8 @@ Status CameraScene::create(const MeshView& mesh, const MeshAdjacency& adjacency,
   scene.adjacency = adjacency;
   scene.near_plane_m = near_plane_m;
   scene.vertex_in_camera_m = arena.allocate<Eigen::Vector3d>(mesh.vertices_in_station_m.size());
-  scene.vertex_px = arena.allocate<Pixel>(mesh.vertices_in_station_m.size());
+  scene.vertex_px = arena.allocate<FixedPixel>(mesh.vertices_in_station_m.size());
+  scene.vertex_depth = arena.allocate<std::uint16_t>(mesh.vertices_in_station_m.size());
   scene.cos_normal_threshold = arena.allocate<double>(mesh.parts.size());
   scene.face_flags = arena.allocate<std::uint8_t>(mesh.faces.size());
   if (arena.countsOnly()) return Status::kOk;
@@ -66,8 +78,21 @@ Status CameraScene::create(const MeshView& mesh, const MeshAdjacency& adjacency,
   for (std::size_t i = 0; i < mesh.parts.size(); ++i)
     scene.cos_normal_threshold[i] =
         cosine(std::clamp(mesh.parts[i].normal_threshold_rad, 0.0, kPi));
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i) scene.face_flags[i] = scene.smoothEdges(i);
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) scene.setFlags(i);
+  scene.measureBox();
   return Status::kOk;
+}
+
+void CameraScene::measureBox() {
+  Eigen::Vector3f low = mesh.vertices_in_station_m.front();
+  Eigen::Vector3f high = low;
+  for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m)
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], vertex[k]);
+      high[k] = std::max(high[k], vertex[k]);
+    }
+  minimum_m = low.cast<double>();
+  maximum_m = high.cast<double>();
 }
 
 /// Outer normal of a face in the station frame, not of unit length.
@@ -79,60 +104,176 @@ Eigen::Vector3d CameraScene::outerNormal(std::size_t face) const {
   return crossProduct(corner[1] - corner[0], corner[2] - corner[0]);
 }
 
-std::uint8_t CameraScene::smoothEdges(std::size_t face) const {
-  std::uint8_t flags = 0;
+/// Vertices are known to single precision. Of a face whose altitude is not some thirty times that,
+/// the normal is noise.
+bool CameraScene::normalIsKnown(std::size_t face, const Eigen::Vector3d& normal) const {
+  constexpr double kAltitude = 2e-6;  // relative to the coordinates' size in the station frame
+  Eigen::Vector3d corner[3];
+  double size = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    corner[i] = mesh.vertices_in_station_m[static_cast<std::size_t>(mesh.faces[face].vertex[i])]
+                    .cast<double>();
+    for (int k = 0; k < 3; ++k) size = std::max(size, std::abs(corner[i][k]));
+  }
+  double longest2 = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3d side = corner[i < 2 ? i + 1 : 0] - corner[i];
+    longest2 = std::max(longest2, dotProduct(side, side));
+  }
+  const double altitude_m = kAltitude * size;
+  return dotProduct(normal, normal) > altitude_m * altitude_m * longest2;
+}
+
+/// Sets a face's kNormalKnown, and the bits of its edges to faces after it, on both sides.
+void CameraScene::setFlags(std::size_t face) {
   const Face& here = mesh.faces[face];
   const Eigen::Vector3d normal = outerNormal(face);
   const double length2 = dotProduct(normal, normal);
+  unsigned flags = face_flags[face];
+  if (normalIsKnown(face, normal)) flags |= kNormalKnown;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::int32_t beyond = adjacency.neighbour[face][i];
-    if (beyond < 0) continue;
+    if (beyond < 0 || static_cast<std::size_t>(beyond) < face) continue;
     const auto other = static_cast<std::size_t>(beyond);
     const Face& there = mesh.faces[other];
-    bool alike = false;  // the other runs along the common edge the other way
-    for (std::size_t k = 0; k < 3; ++k)
-      alike = alike || (there.vertex[k] == here.vertex[(i + 1) % 3] &&
-                        there.vertex[(k + 1) % 3] == here.vertex[i]);
-    const Eigen::Vector3d other_normal = outerNormal(other);
-    const double cosine_here = cos_normal_threshold[mesh.part_of_face[face]];
-    const double cosine_there = cos_normal_threshold[mesh.part_of_face[other]];
-    const double dot = dotProduct(normal, other_normal);
-    const double lengths = std::sqrt(length2 * dotProduct(other_normal, other_normal));
-    if (alike && lengths > 0.0 &&
-        dot > std::max(std::max(cosine_here, cosine_there), kSharpestSmooth) * lengths)
-      flags = static_cast<std::uint8_t>(flags | (1U << i));
+    const std::int32_t from = here.vertex[i];
+    const std::int32_t to = here.vertex[i < 2 ? i + 1 : 0];
+    for (std::size_t k = 0; k < 3; ++k) {
+      // Oriented alike: the other runs along the common edge the other way.
+      if (there.vertex[k] != to || there.vertex[k < 2 ? k + 1 : 0] != from) continue;
+      const Eigen::Vector3d other_normal = outerNormal(other);
+      const double lengths = std::sqrt(length2 * dotProduct(other_normal, other_normal));
+      const double threshold = std::max(std::max(cos_normal_threshold[mesh.part_of_face[face]],
+                                                 cos_normal_threshold[mesh.part_of_face[other]]),
+                                        kSharpestSmooth);
+      if (!(lengths > 0.0 && dotProduct(normal, other_normal) > threshold * lengths)) continue;
+      flags |= 1U << i;
+      face_flags[other] = static_cast<std::uint8_t>(face_flags[other] | (1U << k));
+    }
   }
-  return flags;
+  face_flags[face] = static_cast<std::uint8_t>(flags);
 }
 
 void CameraScene::orient(std::int32_t face) {
   const Eigen::Vector3d& v0 = vertex(face, 0);
   const Eigen::Vector3d normal = crossProduct(vertex(face, 1) - v0, vertex(face, 2) - v0);
-  std::uint8_t& flags = face_flags[static_cast<std::size_t>(face)];
-  flags = static_cast<std::uint8_t>(flags & ~kFrontFacing);
-  if (dotProduct(normal, v0) < 0.0) flags = static_cast<std::uint8_t>(flags | kFrontFacing);
+  setFrontFacing(face, dotProduct(normal, v0) < 0.0);
 }
+
+void CameraScene::begin(const Pose& camera_from_station, const RayGrid& rays) {
+  const Camera& camera = rays.camera();
+  // The middle is a pixel's centre, and a node's spacing beyond the image still has a place.
+  scale.middle_x = camera.width / 2;
+  scale.middle_y = camera.height / 2;
+  const int reach_px = std::max(camera.width, camera.height) / 2 + 2 * RayGrid::kSpacing_px;
+  scale.shift = 0;
+  while (scale.shift < kMostShift && (reach_px << (scale.shift + 1)) < FixedScale::kLimit)
+    ++scale.shift;
+
+  const Eigen::Matrix3d r = camera_from_station.matrix();
+  double low_m = camera_from_station.translation_m.z();
+  double high_m = low_m;
+  for (int k = 0; k < 3; ++k) {
+    low_m += std::min(r(2, k) * minimum_m[k], r(2, k) * maximum_m[k]);
+    high_m += std::max(r(2, k) * minimum_m[k], r(2, k) * maximum_m[k]);
+  }
+  scale.low_m = low_m;
+  scale.per_m = kDeepest / std::max(high_m - low_m, kThinnest_m);
+  // One step for the rounding of each, and single precision of 1/z many times over.
+  scale.gap = 2 + ceilClamped(1e-6 * std::abs(high_m) * scale.per_m, 0, 1 << 17);
+}
+
+namespace {
+
+/// Some vertices at once, coordinate by coordinate: loops over these need no branch.
+constexpr std::size_t kBlock = 64;
+struct VertexBlock {
+  double station[3][kBlock];
+  double camera[3][kBlock];
+};
+
+void rotate(const Eigen::Matrix3d& r, const Eigen::Vector3d& t, VertexBlock& block) {
+  for (int k = 0; k < 3; ++k) {
+    const double rx = r(k, 0);
+    const double ry = r(k, 1);
+    const double rz = r(k, 2);
+    const double translation_m = t[k];
+    for (std::size_t i = 0; i < kBlock; ++i)
+      block.camera[k][i] =
+          ((rx * block.station[0][i] + ry * block.station[1][i]) + rz * block.station[2][i]) +
+          translation_m;
+  }
+}
+
+}  // namespace
 
 void CameraScene::transform(const Pose& camera_from_station, const RayGrid& rays, std::size_t first,
                             std::size_t last) {
   const Eigen::Matrix3d r = camera_from_station.matrix();
-  const Eigen::Vector3d& t = camera_from_station.translation_m;
-  const Camera& camera = rays.camera();
+  VertexBlock block = {};
+  double steps_of_depth[kBlock];
+  for (std::size_t begin = first; begin < last; begin += kBlock) {
+    const std::size_t count = std::min(kBlock, last - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3f& p = mesh.vertices_in_station_m[begin + i];
+      for (int k = 0; k < 3; ++k) block.station[k][i] = static_cast<double>(p[k]);
+    }
+    rotate(r, camera_from_station.translation_m, block);
+    for (std::size_t i = 0; i < kBlock; ++i)
+      steps_of_depth[i] = clamped((block.camera[2][i] - scale.low_m) * scale.per_m, 0.0, kDeepest);
+    for (std::size_t i = 0; i < count; ++i) {
+      vertex_in_camera_m[begin + i] = {block.camera[0][i], block.camera[1][i], block.camera[2][i]};
+      vertex_depth[begin + i] = static_cast<std::uint16_t>(static_cast<int>(steps_of_depth[i]));
+    }
+    if (rays.level())
+      projectPinhole(rays.camera(), block.camera[0], block.camera[1], block.camera[2],
+                     vertex_px.subspan(begin, count));
+  }
+  if (!rays.level()) projectDistorted(rays.camera(), first, last);
+}
+
+void CameraScene::projectPinhole(const Camera& camera, const double* x_m, const double* y_m,
+                                 const double* z_m, std::span<FixedPixel> pixels) const {
+  // Counted from -kLimit, so that truncation rounds towards the same side everywhere.
+  const double steps = scale.steps();
+  const double focal_x = camera.fx * steps;
+  const double focal_y = camera.fy * steps;
+  const double from_x = (camera.cx - scale.middle_x) * steps + (FixedScale::kLimit + 0.5);
+  const double from_y = (camera.cy - scale.middle_y) * steps + (FixedScale::kLimit + 0.5);
+  int fixed_x[kBlock];
+  int fixed_y[kBlock];
+  for (std::size_t i = 0; i < kBlock; ++i) {
+    const double inverse_z = 1.0 / z_m[i];
+    const double x = x_m[i] * inverse_z * focal_x + from_x;
+    const double y = y_m[i] * inverse_z * focal_y + from_y;
+    fixed_x[i] = static_cast<int>(clamped(x, 0.0, 2.0 * FixedScale::kLimit));
+    fixed_y[i] = static_cast<int>(clamped(y, 0.0, 2.0 * FixedScale::kLimit));
+  }
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    pixels[i] = {static_cast<std::int16_t>(fixed_x[i] - FixedScale::kLimit),
+                 static_cast<std::int16_t>(fixed_y[i] - FixedScale::kLimit)};
+    if (!(z_m[i] >= near_plane_m))
+      pixels[i] = {FixedPixel::kNotProjected, FixedPixel::kNotProjected};
+  }
+}
+
+void CameraScene::projectDistorted(const Camera& camera, std::size_t first, std::size_t last) {
   // The bound on the bend of lines holds over the image and one node beyond it.
-  const bool pinhole = camera.model == CameraModel::kPinhole;
   const double reach = RayGrid::kSpacing_px;
+  const double steps = scale.steps();
   for (std::size_t i = first; i < last; ++i) {
-    const Eigen::Vector3d p = mesh.vertices_in_station_m[i].cast<double>();
-    Eigen::Vector3d& q = vertex_in_camera_m[i];
-    for (int k = 0; k < 3; ++k)
-      q[k] = ((r(k, 0) * p.x() + r(k, 1) * p.y()) + r(k, 2) * p.z()) + t[k];
-    vertex_px[i] = {kNotProjected, kNotProjected};
+    const Eigen::Vector3d& q = vertex_in_camera_m[i];
+    vertex_px[i] = {FixedPixel::kNotProjected, FixedPixel::kNotProjected};
     Eigen::Vector2d pixel;
     if (!(q.z() >= near_plane_m) || !project(camera, q, pixel)) continue;
-    const bool usable = pinhole ? std::abs(pixel.x()) < 1e9 && std::abs(pixel.y()) < 1e9
-                                : pixel.x() >= -reach && pixel.x() <= camera.width - 1 + reach &&
-                                      pixel.y() >= -reach && pixel.y() <= camera.height - 1 + reach;
-    if (usable) vertex_px[i] = {static_cast<float>(pixel.x()), static_cast<float>(pixel.y())};
+    if (!(pixel.x() >= -reach && pixel.x() <= camera.width - 1 + reach && pixel.y() >= -reach &&
+          pixel.y() <= camera.height - 1 + reach))
+      continue;
+    const auto fixed = [steps](double value_px) {
+      return static_cast<std::int16_t>(
+          floorClamped(value_px * steps + 0.5, -FixedScale::kLimit, FixedScale::kLimit));
+    };
+    vertex_px[i] = {fixed(pixel.x() - scale.middle_x), fixed(pixel.y() - scale.middle_y)};
   }
 }
 
@@ -162,21 +303,20 @@ bool facePlane(const CameraScene& scene, std::int32_t face, Eigen::Vector3d& pla
 
 PixelBounds faceBounds(const CameraScene& scene, const RayGrid& rays, std::int32_t face) {
   const Face& indices = scene.mesh.faces[static_cast<std::size_t>(face)];
-  const CameraScene::Pixel& a = scene.vertex_px[static_cast<std::size_t>(indices.vertex[0])];
-  const CameraScene::Pixel& b = scene.vertex_px[static_cast<std::size_t>(indices.vertex[1])];
-  const CameraScene::Pixel& c = scene.vertex_px[static_cast<std::size_t>(indices.vertex[2])];
-  const double x_max = std::max({a.x, b.x, c.x});
-  if (x_max >= static_cast<double>(CameraScene::kNotProjected))
-    return clippedBounds(scene, rays, face);
-  const double x_min = std::min({a.x, b.x, c.x});
-  const double y_min = std::min({a.y, b.y, c.y});
-  const double y_max = std::max({a.y, b.y, c.y});
-  // A line of length L and curvature k stays within k L^2 / 8 of its chord; twice that, and the
-  // rounding of the pixels to single precision.
+  const FixedPixel& a = scene.vertex_px[static_cast<std::size_t>(indices.vertex[0])];
+  const FixedPixel& b = scene.vertex_px[static_cast<std::size_t>(indices.vertex[1])];
+  const FixedPixel& c = scene.vertex_px[static_cast<std::size_t>(indices.vertex[2])];
+  const int low_x = std::min({a.x, b.x, c.x});
+  if (low_x == FixedPixel::kNotProjected) return clippedBounds(scene, rays, face);
+  const double pixels_per_step = 1.0 / scene.scale.steps();
+  const double x_min = scene.scale.middle_x + low_x * pixels_per_step;
+  const double x_max = scene.scale.middle_x + std::max({a.x, b.x, c.x}) * pixels_per_step;
+  const double y_min = scene.scale.middle_y + std::min({a.y, b.y, c.y}) * pixels_per_step;
+  const double y_max = scene.scale.middle_y + std::max({a.y, b.y, c.y}) * pixels_per_step;
+  // A line of length L and curvature k stays within k L^2 / 8 of its chord; twice that. Half a step
+  // for the rounding of the vertices, and as much for all other rounding.
   const double length2 = (x_max - x_min) * (x_max - x_min) + (y_max - y_min) * (y_max - y_min);
-  const double margin =
-      0.25 * rays.lineBend_per_px() * length2 + 0.01 +
-      1e-6 * (std::abs(x_min) + std::abs(x_max) + std::abs(y_min) + std::abs(y_max));
+  const double margin = 0.25 * rays.lineBend_per_px() * length2 + pixels_per_step;
   const Camera& camera = rays.camera();
   PixelBounds bounds;
   bounds.x_first = ceilClamped(x_min - margin, 0, camera.width);

@@ -15,36 +15,72 @@
 
 namespace boresight {
 
-/// The mesh seen from one pose: its vertices in the camera frame, and their pixels, which serve
-/// for bounds only. Refilled for every pose.
-struct CameraScene {
-  struct Pixel {
-    float x = 0.0F;
-    float y = 0.0F;  ///< kNotProjected when the vertex has no usable pixel
-  };
-  static constexpr float kNotProjected = 1e30F;
+/// A vertex's pixel in 16 bits: rounded to 1 / FixedScale::steps() px, counted from the middle of
+/// the image.
+struct FixedPixel {
+  std::int16_t x = 0;
+  std::int16_t y = 0;
+  /// Both coordinates of a vertex that has no usable pixel.
+  static constexpr std::int16_t kNotProjected = -32000;
+};
 
+/// How pixels and depths of one render are put into 16 bits, as finely as the image's size and the
+/// scene's depth allow.
+struct FixedScale {
+  static constexpr int kLimit = 31000;  ///< pixels farther off are moved here, outside the image
+  int shift = 0;                        ///< 2^shift steps to a pixel
+  int middle_x = 0;                     ///< the pixel from which coordinates are counted
+  int middle_y = 0;
+  double low_m = 0.0;  ///< z of depth 0
+  double per_m = 0.0;  ///< steps of depth per metre
+  int gap = 0;         ///< depths this far apart differ beyond all rounding
+
+  int steps() const { return 1 << shift; }
+};
+
+/// The mesh seen from one pose: its vertices in the camera frame, and their pixels and depths in
+/// few bits, which serve for bounds and for what is clear without more. Refilled for every pose.
+struct CameraScene {
   MeshView mesh;
   MeshAdjacency adjacency;
   double near_plane_m = 0.0;
+  Eigen::Vector3d minimum_m = Eigen::Vector3d::Zero();  ///< box of all vertices, station frame
+  Eigen::Vector3d maximum_m = Eigen::Vector3d::Zero();
   std::span<Eigen::Vector3d> vertex_in_camera_m;
-  std::span<Pixel> vertex_px;
+  std::span<FixedPixel> vertex_px;
+  std::span<std::uint16_t> vertex_depth;  ///< floor((z - low_m) per_m)
+  FixedScale scale;
   std::span<double> cos_normal_threshold;  ///< per part
   /// Per face: bit i when the surface goes on smoothly over edge i to a face oriented alike;
-  /// kFrontFacing when the outer side is seen from this pose.
+  /// kFrontFacing when the outer side is seen from this pose; kNormalKnown when the face is wide
+  /// enough for its normal to be known.
   std::span<std::uint8_t> face_flags;
   static constexpr std::uint8_t kFrontFacing = 8;
+  static constexpr std::uint8_t kNormalKnown = 16;
 
   /// The mesh and its adjacency must outlive the scene.
   static Status create(const MeshView& mesh, const MeshAdjacency& adjacency, double near_plane_m,
                        Arena& arena, CameraScene& scene);
 
+  /// Chooses the scale for a render; before `transform`.
+  void begin(const Pose& camera_from_station, const RayGrid& rays);
   /// Vertices first .. last - 1 into the camera frame.
   void transform(const Pose& camera_from_station, const RayGrid& rays, std::size_t first,
                  std::size_t last);
 
   /// Sets a face's kFrontFacing.
   void orient(std::int32_t face);
+  void setFrontFacing(std::int32_t face, bool front) {
+    std::uint8_t& flags = face_flags[static_cast<std::size_t>(face)];
+    flags = static_cast<std::uint8_t>(front ? flags | kFrontFacing : flags & ~kFrontFacing);
+  }
+  bool isFrontFacing(std::int32_t face) const {
+    return (face_flags[static_cast<std::size_t>(face)] & kFrontFacing) != 0;
+  }
+
+  bool normalKnown(std::int32_t face) const {
+    return (face_flags[static_cast<std::size_t>(face)] & kNormalKnown) != 0;
+  }
 
   /// True when two faces share an edge over which the surface goes on smoothly, and show the same
   /// side: where they meet there is no edge to be found.
@@ -67,8 +103,13 @@ struct CameraScene {
   }
 
  private:
+  void measureBox();
+  void projectPinhole(const Camera& camera, const double* x_m, const double* y_m, const double* z_m,
+                      std::span<FixedPixel> pixels) const;
+  void projectDistorted(const Camera& camera, std::size_t first, std::size_t last);
   Eigen::Vector3d outerNormal(std::size_t face) const;
-  std::uint8_t smoothEdges(std::size_t face) const;
+  bool normalIsKnown(std::size_t face, const Eigen::Vector3d& normal) const;
+  void setFlags(std::size_t face);
 };
 
 /// a x b, each component a difference of two products: cross(a, b) == -cross(b, a) bit for bit,

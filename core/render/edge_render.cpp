@@ -92,11 +92,6 @@ bool edgeLinePoint(const EdgeRender& render, const MeshView& mesh, const EdgePix
   return true;
 }
 
-void EdgeRenderer::Columns::include(const Columns& other) {
-  first = std::min(first, other.first);
-  last = std::max(last, other.last);
-}
-
 Status EdgeRenderer::create(const MeshView& mesh, const MeshAdjacency& adjacency, int max_width,
                             int max_height, const RenderOptions& options, Arena& arena,
                             int band_rows) {
@@ -109,12 +104,10 @@ Status EdgeRenderer::create(const MeshView& mesh, const MeshAdjacency& adjacency
   max_width_ = max_width;
   max_height_ = max_height;
   band_rows_ = std::min(band_rows, max_height);
-  const auto bands = static_cast<std::size_t>((max_height - 1) / band_rows_ + 1);
+  const int bands = (max_height - 1) / band_rows_ + 1;
   band_ = RasterBand::create(max_width, band_rows_, arena);
   salient_edges_ = SalientEdges::create(max_width, arena);
-  next_in_band_ = arena.allocate<std::int32_t>(mesh.faces.size());
-  band_head_ = arena.allocate<std::int32_t>(bands);
-  band_columns_ = arena.allocate<Columns>(bands);
+  bins_ = FaceBins::create(mesh.faces.size(), bands, arena);
   phase_ = Phase::kIdle;
   if (!arena.countsOnly() && arena.exhausted()) return Status::kArenaTooSmall;
   return Status::kOk;
@@ -135,8 +128,8 @@ Status EdgeRenderer::begin(const RayGrid& rays, const Pose& camera_from_station,
   output.camera = camera;
   output.camera_from_station = camera_from_station;
   salient_edges_.begin(output);
-  std::fill(band_head_.begin(), band_head_.end(), -1);
-  std::fill(band_columns_.begin(), band_columns_.end(), Columns());
+  scene_.begin(camera_from_station, rays);
+  bins_.begin(scene_, rays, band_rows_, plain_);
   band_.rows = 0;
   band_.x_begin = 0;
   band_.x_end = 0;
@@ -164,7 +157,8 @@ Status EdgeRenderer::step(bool& done) {
   } else if (phase_ == Phase::kFaces) {
     const std::size_t count = scene_.mesh.faces.size();
     const std::size_t last = std::min(next_ + kSlice, count);
-    for (; next_ < last; ++next_) bin(static_cast<std::int32_t>(next_));
+    bins_.add(scene_, *rays_, next_, last);
+    next_ = last;
     if (last == count) {
       phase_ = Phase::kBands;
       next_ = 0;
@@ -182,28 +176,13 @@ Status EdgeRenderer::step(bool& done) {
   return Status::kOk;
 }
 
-/// Enters a face into the list of its first band; faces that cover no pixel centre go nowhere.
-void EdgeRenderer::bin(std::int32_t face) {
-  const PixelBounds bounds = faceBounds(scene_, *rays_, face);
-  if (bounds.empty()) return;
-  scene_.orient(face);
-  const Columns columns{static_cast<std::int16_t>(bounds.x_first),
-                        static_cast<std::int16_t>(bounds.x_last)};
-  const int first_band = bounds.y_first / band_rows_;
-  for (int band = first_band; band <= bounds.y_last / band_rows_; ++band)
-    band_columns_[static_cast<std::size_t>(band)].include(columns);
-  std::int32_t& head = band_head_[static_cast<std::size_t>(first_band)];
-  next_in_band_[static_cast<std::size_t>(face)] = head;
-  head = face;
-}
-
 /// Columns covered in bands band - before .. band + after, and `before + after` more on both sides,
 /// within the image.
 EdgeRenderer::Columns EdgeRenderer::columnsAround(int band, int before, int after) const {
   Columns columns;
   const int bands = (output_->camera.height - 1) / band_rows_ + 1;
   for (int i = std::max(band - before, 0); i <= std::min(band + after, bands - 1); ++i)
-    columns.include(band_columns_[static_cast<std::size_t>(i)]);
+    columns.include(bins_.columns(i).first, bins_.columns(i).last);
   if (columns.last < columns.first) return columns;
   const int margin = before + after;
   columns.first = static_cast<std::int16_t>(std::max(columns.first - margin, 0));
@@ -221,31 +200,40 @@ void EdgeRenderer::openBand() {
   band_.advance(*rays_, y, std::min(band_rows_, output_->camera.height - y), prepared.first,
                 prepared.last);
   band_open_ = true;
-  next_drawn_ = band_head_[next_];
+  list_ = 0;
+  next_drawn_ = bins_.firstFace(band, list_);
 }
 
-/// Draws faces of the open band, and hands those that go on to the next band's list; true when all
-/// are drawn. Bands that hold very many faces take several slices.
+/// Draws faces of the open band; true when all are drawn. Bands that hold very many faces take
+/// several slices.
 bool EdgeRenderer::drawSome() {
-  const int last_y = band_.first_y + band_.rows - 1;
   int work = 0;
-  while (next_drawn_ >= 0 && work < kDrawnSlice) {
+  while (work < kDrawnSlice) {
+    if (next_drawn_ < 0) {
+      if (++list_ == bins_.lists()) return true;
+      next_drawn_ = bins_.firstFace(static_cast<int>(next_), list_);
+      continue;
+    }
     const std::int32_t face = next_drawn_;
-    next_drawn_ = next_in_band_[static_cast<std::size_t>(face)];
+    next_drawn_ = bins_.nextFace(face);
+    ++work;
+    if (list_ >= bins_.firstSmallList()) {
+      bins_.smallFaces().draw(scene_, face, band_);
+      continue;
+    }
     const PixelBounds bounds = faceBounds(scene_, *rays_, face);
     drawFace(scene_, *rays_, face, bounds, band_);
-    work += 1 + (bounds.x_last - bounds.x_first) / 16;
-    if (bounds.y_last > last_y) {
-      next_in_band_[static_cast<std::size_t>(face)] = band_head_[next_ + 1];
-      band_head_[next_ + 1] = face;
-    }
+    work += (bounds.x_last - bounds.x_first) / 16;
   }
-  return next_drawn_ < 0;
+  return false;
 }
 
 Status EdgeRenderer::closeBand() {
   band_open_ = false;
-  copySurfaces(scene_, band_, output_->camera, surfaces_);
+  if (surfaces_.wanted()) {
+    resolveDepths(scene_, band_);
+    copySurfaces(scene_, band_, output_->camera, surfaces_);
+  }
   const Columns compared = columnsAround(static_cast<int>(next_), 1, 0);
   const bool final = band_.first_y + band_.rows >= output_->camera.height;
   return salient_edges_.addBand(scene_, band_, compared.first, compared.last, final, *output_);

@@ -15,6 +15,7 @@
 #include "core/geometry/pose.h"
 #include "core/render/camera_scene.h"
 #include "core/render/edge_pixel.h"
+#include "core/render/face_bins.h"
 #include "core/render/rasterizer.h"
 #include "core/render/ray_grid.h"
 #include "core/render/salient_edges.h"
@@ -64,6 +65,8 @@ class EdgeRenderer {
   /// (size), kInvalidOption, kArenaTooSmall.
   Status create(const MeshView& mesh, const MeshAdjacency& adjacency, int max_width, int max_height,
                 const RenderOptions& options, Arena& arena, int band_rows = kBandRows);
+  /// Draws small faces like all others, for comparison: the result is the same.
+  void drawPlainly(bool plain) { plain_ = plain; }
   /// Starts one render; rays must be made for the camera of this level, and outlive the steps, as
   /// must the output. kInvalidPose, kInvalidImage when the output or the renderer is too small.
   Status begin(const RayGrid& rays, const Pose& camera_from_station, EdgeRender& output,
@@ -74,13 +77,8 @@ class EdgeRenderer {
 
  private:
   enum class Phase : std::uint8_t { kIdle, kVertices, kFaces, kBands };
-  struct Columns {
-    std::int16_t first = 32767;
-    std::int16_t last = -1;
-    void include(const Columns& other);
-  };
+  using Columns = FaceBins::Columns;
 
-  void bin(std::int32_t face);
   bool drawSome();
   Columns columnsAround(int band, int before, int after) const;
   void openBand();
@@ -89,9 +87,7 @@ class EdgeRenderer {
   CameraScene scene_;
   RasterBand band_;
   SalientEdges salient_edges_;
-  std::span<std::int32_t> next_in_band_;  ///< per face: the next one of its band's list
-  std::span<std::int32_t> band_head_;     ///< per band: its first face, or -1
-  std::span<Columns> band_columns_;       ///< per band: columns that faces may cover
+  FaceBins bins_;
   int max_width_ = 0;
   int max_height_ = 0;
   int band_rows_ = kBandRows;
@@ -101,8 +97,10 @@ class EdgeRenderer {
   SurfaceRender surfaces_;
   Phase phase_ = Phase::kIdle;
   std::size_t next_ = 0;  ///< vertex, face or band to go on with
+  bool plain_ = false;
   bool band_open_ = false;
-  std::int32_t next_drawn_ = -1;  ///< face of the open band to go on with
+  int list_ = 0;                  ///< of the open band's faces
+  std::int32_t next_drawn_ = -1;  ///< face of that list to go on with
 };
 
 }  // namespace boresight

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/render/drawn_face.h"
 #include "core/render/rounding.h"
 
 namespace boresight {
@@ -16,65 +17,6 @@ constexpr int kNarrow_px = 8;
 constexpr int kShort_px = 8;
 /// Columns that are tested together: inside all edges, outside one, or across some.
 constexpr int kChunk_px = 64;
-
-/// Altitude over length below which a triangle's plane is uncertain: 1e-3, squared.
-constexpr double kThin2 = 1e-6;
-
-/// A face ready to be drawn.
-struct DrawnFace {
-  double a[3], b[3], c[3];  ///< edge i: a x/z + (b y/z + c)
-  double limit[3];          ///< inside when the edge's value reaches this
-  double slack[3];          ///< how far an edge's value may be from linear within a chunk's row
-  double plane_x, plane_y, plane_1;
-  bool clamped;      ///< 1/z has to be kept within the next two, and beyond the near plane
-  double low, high;  ///< range of 1/z over the face
-  double nearest;    ///< 1/z of the near plane
-  std::int32_t face;
-};
-
-/// The line a x + b y + c = 0 belongs to the face on its positive side, or to the other one: a rule
-/// that changes with the line's sign.
-bool ownsLine(const Eigen::Vector3d& edge) {
-  if (edge.x() != 0.0) return edge.x() > 0.0;
-  if (edge.y() != 0.0) return edge.y() > 0.0;
-  return edge.z() > 0.0;
-}
-
-bool setUp(const CameraScene& scene, std::int32_t face, DrawnFace& drawn) {
-  Eigen::Vector3d edge[3];
-  Eigen::Vector3d plane;
-  if (!faceEdges(scene, face, edge) || !facePlane(scene, face, plane)) return false;
-  for (int i = 0; i < 3; ++i) {
-    drawn.a[i] = edge[i].x();
-    drawn.b[i] = edge[i].y();
-    drawn.c[i] = edge[i].z();
-    drawn.limit[i] = ownsLine(edge[i]) ? 0.0 : std::numeric_limits<double>::denorm_min();
-  }
-  drawn.plane_x = plane.x();
-  drawn.plane_y = plane.y();
-  drawn.plane_1 = plane.z();
-  const Eigen::Vector3d& v0 = scene.vertex(face, 0);
-  const Eigen::Vector3d& v1 = scene.vertex(face, 1);
-  const Eigen::Vector3d& v2 = scene.vertex(face, 2);
-  const double z_min = std::min({v0.z(), v1.z(), v2.z()});
-  const double z_max = std::max({v0.z(), v1.z(), v2.z()});
-  if (!(z_max >= scene.near_plane_m)) return false;
-  // Within a face 1/z stays in a range; the plane of a sliver is not known that well.
-  const Eigen::Vector3d side1 = v1 - v0;
-  const Eigen::Vector3d side2 = v2 - v0;
-  const Eigen::Vector3d normal = crossProduct(side1, side2);
-  const double length2 = std::max(dotProduct(side1, side1), dotProduct(side2, side2));
-  const bool crosses_near_plane = !(z_min > scene.near_plane_m);
-  drawn.clamped =
-      crosses_near_plane || !(dotProduct(normal, normal) > kThin2 * (length2 * length2));
-  if (drawn.clamped) {
-    drawn.nearest = 1.0 / scene.near_plane_m;
-    drawn.low = 1.0 / z_max;
-    drawn.high = crosses_near_plane ? 2.0 * drawn.nearest : 1.0 / z_min;
-  }
-  drawn.face = face;
-  return true;
-}
 
 /// Columns of a row that may be inside (possible) and that surely are (certain).
 struct Span {
@@ -101,11 +43,12 @@ inline void cutSpan(double left, double right, double slack, int x_first, int x_
   const int before = floorClamped(crossing - width, x_first - 1, x_last + 1);
   int after = std::min(before + 1, x_last + 1);
   if (crossing + width > after) after = ceilClamped(crossing + width, x_first - 1, x_last + 1);
+  // `before` and `after` lie beyond the slack on either side.
   if (rise > 0.0) {
-    span.possible_first = std::max(span.possible_first, before);
+    span.possible_first = std::max(span.possible_first, before + 1);
     span.certain_first = std::max(span.certain_first, after);
   } else {
-    span.possible_last = std::min(span.possible_last, after);
+    span.possible_last = std::min(span.possible_last, after - 1);
     span.certain_last = std::min(span.certain_last, before);
   }
 }
@@ -159,11 +102,7 @@ class FaceDrawer {
  private:
   void drawPixel(const RowOfFace<kLevel>& row, int x) const {
     double inverse_depth = row.plane(drawn_, x);
-    if (kClamped) {
-      if (inverse_depth > drawn_.nearest && drawn_.high > drawn_.nearest) return;
-      inverse_depth = inverse_depth < drawn_.low ? drawn_.low : inverse_depth;
-      inverse_depth = inverse_depth > drawn_.high ? drawn_.high : inverse_depth;
-    }
+    if (kClamped && !drawn_.clamp(inverse_depth)) return;
     const auto rounded = static_cast<float>(inverse_depth);
     const float before = row.inverse_depth[x];
     if (rounded > before || (rounded == before && drawn_.face < row.owner[x])) {
@@ -346,7 +285,7 @@ void drawFace(const CameraScene& scene, const RayGrid& rays, std::int32_t face,
   if (x_last < x_first || row_last < row_first) return;
 
   DrawnFace drawn;
-  if (!setUp(scene, face, drawn)) return;
+  if (!prepareFace(scene, face, drawn)) return;
   // Where pixels without a ray may lie, nothing is said of a run of pixels by its ends.
   const bool narrow = x_last - x_first < kNarrow_px || !rays.smooth();
   if (!narrow) setSlack(rays, band, x_first, x_last, row_first, row_last, drawn);

@@ -18,10 +18,12 @@ namespace boresight {
 struct RasterBand {
   static constexpr std::int32_t kBackground = -1;
   static constexpr std::int32_t kInvalid = -2;  ///< outside the camera's valid field
+  /// Of a small face whose depth nobody has asked for yet.
+  static constexpr float kUnknownDepth = -1.0F;
 
   std::span<double> ray_x;         ///< x/z
   std::span<double> ray_y;         ///< y/z
-  std::span<float> inverse_depth;  ///< 1/z, 1/m; 0 where nothing is
+  std::span<float> inverse_depth;  ///< 1/z, 1/m; 0 where nothing is, or kUnknownDepth
   std::span<std::int32_t> face;    ///< or kBackground, kInvalid
   std::span<std::uint8_t> valid;   ///< scratch, one row
   int stride = 0;
@@ -50,7 +52,7 @@ struct RasterBand {
 /// Draws one face into the band's new rows, within `bounds`. A pixel belongs to a face when its ray
 /// passes inside all three edges; a ray exactly through an edge belongs to one of the two faces
 /// there. The nearest surface wins, then the lower face index, so the order of drawing does not
-/// matter. Both orientations are drawn.
+/// matter. Both orientations are drawn. Only where all depths are known.
 void drawFace(const CameraScene& scene, const RayGrid& rays, std::int32_t face,
               const PixelBounds& bounds, RasterBand& band);
 

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 
 #include "core/render/rounding.h"
 
@@ -19,24 +18,24 @@ constexpr double kContact = 2e-4;
 constexpr double kGrazing = 0.15;
 
 /// Pixels that are looked at together; a run does not straddle the words of a bit image.
-constexpr int kRun_px = 8;
+constexpr int kRun_px = 16;
 
-/// One bit for each of up to eight pixels whose faces in `a` and `b` differ: most do not, which is
-/// seen two at a time.
-unsigned differingFaces(const std::int32_t* a, const std::int32_t* b, int count) {
+/// One bit for each of up to 16 pixels whose faces in `a` and `b` differ: most do not, which is
+/// seen of all at once.
+inline unsigned differingFaces(const std::int32_t* a, const std::int32_t* b, int count) {
   unsigned differing = 0;
   if (count < kRun_px) {
     for (int i = 0; i < count; ++i) differing |= static_cast<unsigned>(a[i] != b[i]) << i;
     return differing;
   }
-  std::uint64_t pairs_a[kRun_px / 2];
-  std::uint64_t pairs_b[kRun_px / 2];
-  std::memcpy(pairs_a, a, sizeof(pairs_a));
-  std::memcpy(pairs_b, b, sizeof(pairs_b));
-  for (int i = 0; i < kRun_px / 2; ++i) {
-    if (pairs_a[i] == pairs_b[i]) continue;
-    differing |= static_cast<unsigned>(a[2 * i] != b[2 * i]) << (2 * i);
-    differing |= static_cast<unsigned>(a[2 * i + 1] != b[2 * i + 1]) << (2 * i + 1);
+  std::uint8_t differs[kRun_px];
+  for (int i = 0; i < kRun_px; ++i) differs[i] = a[i] != b[i] ? 1 : 0;
+  for (int half = 0; half < 2; ++half) {
+    const std::uint8_t* of = differs + 8 * half;
+    std::uint64_t bytes = 0;
+    for (int i = 0; i < 8; ++i) bytes |= static_cast<std::uint64_t>(of[i]) << (8 * i);
+    // Byte i times 2^(56 - 7 i) is bit i of the highest byte.
+    differing |= static_cast<unsigned>((bytes * 0x0102040810204080U) >> 56) << (8 * half);
   }
   return differing;
 }

@@ -51,9 +51,6 @@ bool surfaceRenderFits(const SurfaceRender& surfaces, int width, int height) {
 
 void copySurfaces(const CameraScene& scene, const RasterBand& band, const Camera& camera,
                   const SurfaceRender& surfaces) {
-  if (surfaces.depth_m.empty() && surfaces.face.empty() && surfaces.intensity.empty() &&
-      surfaces.normal_in_camera.empty())
-    return;
   for (int row = 1; row <= band.rows; ++row) {
     const std::size_t start =
         static_cast<std::size_t>(band.first_y + row - 1) * static_cast<std::size_t>(camera.width);

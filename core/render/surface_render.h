@@ -20,12 +20,16 @@ struct SurfaceRender {
   std::span<std::int32_t> face;       ///< -1 where nothing is
   std::span<std::uint8_t> intensity;  ///< Lambert, lit from the camera: 30 + 225 |n . ray|
   std::span<Eigen::Vector3f> normal_in_camera;  ///< unit, towards the camera; 0 where nothing is
+
+  bool wanted() const {
+    return !depth_m.empty() || !face.empty() || !intensity.empty() || !normal_in_camera.empty();
+  }
 };
 
 /// True when every span is empty or large enough.
 [[nodiscard]] bool surfaceRenderFits(const SurfaceRender& surfaces, int width, int height);
 
-/// Copies the new rows of a band.
+/// Copies the new rows of a band, all of whose depths are known.
 void copySurfaces(const CameraScene& scene, const RasterBand& band, const Camera& camera,
                   const SurfaceRender& surfaces);
 

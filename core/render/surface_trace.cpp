@@ -51,38 +51,36 @@ int edgeTowards(const CameraScene& scene, std::int32_t face, std::int32_t neighb
   return -1;
 }
 
-/// Vertices are known to single precision. Of a face whose altitude is not some thirty times that,
-/// the normal is noise, and a neighbour's along the longest edge is the surface's: the first that
-/// is wide enough, or the face itself where there is none.
+/// The neighbour along a face's longest edge, that to `from` (-1: none) left out.
+std::int32_t acrossLongestEdge(const CameraScene& scene, std::int32_t face, std::int32_t from) {
+  const Face& indices = scene.mesh.faces[static_cast<std::size_t>(face)];
+  std::int32_t across = -1;
+  double longest2 = -1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3d begin =
+        scene.mesh.vertices_in_station_m[static_cast<std::size_t>(indices.vertex[i])]
+            .cast<double>();
+    const Eigen::Vector3d end =
+        scene.mesh.vertices_in_station_m[static_cast<std::size_t>(indices.vertex[(i + 1) % 3])]
+            .cast<double>();
+    const Eigen::Vector3d side = end - begin;
+    const double side2 = dotProduct(side, side);
+    const std::int32_t beyond = scene.adjacency.neighbour[static_cast<std::size_t>(face)][i];
+    if (side2 <= longest2 || (from >= 0 && beyond == from)) continue;
+    longest2 = side2;
+    across = beyond;
+  }
+  return across;
+}
+
+/// Of a face that is too narrow for its normal to be known, a neighbour's along the longest edge is
+/// the surface's: the first that is wide enough, or the face itself where there is none.
 std::int32_t trustedFace(const CameraScene& scene, std::int32_t face) {
-  constexpr double kAltitude = 2e-6;  // relative to the coordinates' size in the station frame
   std::int32_t at = face;
   std::int32_t from = -1;
   for (int hop = 0; hop < 8 && at >= 0; ++hop) {
-    const Face& indices = scene.mesh.faces[static_cast<std::size_t>(at)];
-    Eigen::Vector3d corner[3];
-    double size = 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      corner[i] = scene.mesh.vertices_in_station_m[static_cast<std::size_t>(indices.vertex[i])]
-                      .cast<double>();
-      size = std::max(size, std::max(std::max(std::abs(corner[i].x()), std::abs(corner[i].y())),
-                                     std::abs(corner[i].z())));
-    }
-    std::int32_t next = -1;
-    double longest2 = 0.0;
-    double next2 = -1.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Eigen::Vector3d side = corner[(i + 1) % 3] - corner[i];
-      const double side2 = dotProduct(side, side);
-      longest2 = std::max(longest2, side2);
-      const std::int32_t beyond = scene.adjacency.neighbour[static_cast<std::size_t>(at)][i];
-      if (side2 <= next2 || (from >= 0 && beyond == from)) continue;
-      next2 = side2;
-      next = beyond;
-    }
-    const Eigen::Vector3d normal = crossProduct(corner[1] - corner[0], corner[2] - corner[0]);
-    const double altitude_m = kAltitude * size;
-    if (dotProduct(normal, normal) > altitude_m * altitude_m * longest2) return at;
+    if (scene.normalKnown(at)) return at;
+    const std::int32_t next = acrossLongestEdge(scene, at, from);
     from = at;
     at = next;
   }

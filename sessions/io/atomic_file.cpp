@@ -144,6 +144,17 @@ void writeFileAtomically(const fs::path& file, std::string_view text) {
                       std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }
 
+void moveIntoPlace(const fs::path& finished, const fs::path& file) {
+  const int descriptor = ::open(finished.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(file, errno);
+  const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  if (error != 0) fail(file, error);
+  const fs::path target = linkTarget(file);
+  if (::rename(finished.c_str(), target.c_str()) != 0) fail(file, errno);
+  syncFolder(folderOf(target));
+}
+
 void requireWritable(const fs::path& file) {
   if (file.empty()) throw OutputError("(no name)", "a file name is empty");
   const fs::path target = linkTarget(file);

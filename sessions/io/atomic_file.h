@@ -15,6 +15,10 @@ namespace boresight::sessions {
 void writeFileAtomically(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 void writeFileAtomically(const std::filesystem::path& file, std::string_view text);
 
+/// Gives a finished file in the same folder the name `file`: fsync, rename, fsync of the folder.
+/// On failure both are as they were. OutputError.
+void moveIntoPlace(const std::filesystem::path& finished, const std::filesystem::path& file);
+
 /// Throws OutputError when `file` evidently cannot be written (its folder is missing or read-only,
 /// it is a folder): to be asked before long work, not instead of writing.
 void requireWritable(const std::filesystem::path& file);

@@ -22,6 +22,14 @@ OptionValue readValue(const JsonReader& json) {
 
 }  // namespace
 
+std::optional<LocalizerOptions> profileOptions(const std::string& name) {
+  if (name == "default") return defaultProfile();
+  if (name == "paper") return paperProfile();
+  return std::nullopt;
+}
+
+const char* profileNames() { return "default, paper"; }
+
 OptionList readOptions(const JsonReader& json) {
   OptionList options;
   for (const auto& [name, value] : json.members()) options.emplace_back(name, readValue(value));

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "core/localizer/localizer_options.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/io/option_value.h"
@@ -19,6 +21,11 @@ struct Config {
   std::string profile = "default";
   OptionList options;
 };
+
+/// The options of a profile: "default" or "paper"; nothing for another name.
+std::optional<LocalizerOptions> profileOptions(const std::string& name);
+/// "default, paper", for messages.
+const char* profileNames();
 
 /// Reads config.json; values are checked when they are applied. InputError.
 Config readConfig(const std::filesystem::path& file);

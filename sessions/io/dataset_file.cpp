@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include <nlohmann/json.hpp>
+
 #include "core/base/math.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
@@ -169,6 +171,18 @@ Requirement readRequirement(const JsonReader& json) {
       !requirement.projection_px)
     json.fail("names none of normal_mm, lateral_mm, rotation_deg, projection_px");
   return requirement;
+}
+
+nlohmann::ordered_json toJson(const Requirement& requirement) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  const auto write = [&json](const char* key, const std::optional<double>& value) {
+    if (value) json[key] = *value;
+  };
+  write("normal_mm", requirement.normal_mm);
+  write("lateral_mm", requirement.lateral_mm);
+  write("rotation_deg", requirement.rotation_deg);
+  write("projection_px", requirement.projection_px);
+  return json;
 }
 
 Dataset readDataset(const std::filesystem::path& file) {

@@ -22,6 +22,8 @@ struct Requirement {
   std::optional<double> lateral_mm;
   std::optional<double> rotation_deg;
   std::optional<double> projection_px;
+
+  bool operator==(const Requirement&) const = default;
 };
 
 struct Station {
@@ -36,6 +38,8 @@ struct Station {
 struct Rig {
   std::string id;
   Pose camera_from_rig;
+
+  bool operator==(const Rig&) const = default;
 };
 
 struct Case {
@@ -79,6 +83,7 @@ Dataset readDataset(const std::filesystem::path& file);
 void requireFiles(const Dataset& dataset);
 
 Requirement readRequirement(const JsonReader& json);
+nlohmann::ordered_json toJson(const Requirement& requirement);
 
 /// The image of a case; InputError also when its size is not the camera's.
 GrayImage readCaseImage(const Dataset& dataset, const Case& one);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sessions/io/byte_cursor.h"
+#include "sessions/io/crc32.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/tiff_container.h"
@@ -26,23 +27,6 @@ constexpr std::array<std::uint8_t, 8> kPngSignature = {0x89, 'P', 'N', 'G', 0x0d
 }
 
 // PNG: ISO/IEC 15948.
-
-std::array<std::uint32_t, 256> crcTable() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t n = 0; n < table.size(); ++n) {
-    std::uint32_t c = n;
-    for (int bit = 0; bit < 8; ++bit) c = (c & 1u) != 0 ? 0xedb88320u ^ (c >> 1) : c >> 1;
-    table[n] = c;
-  }
-  return table;
-}
-
-std::uint32_t crc32(Bytes bytes) {
-  static const std::array<std::uint32_t, 256> table = crcTable();
-  std::uint32_t c = 0xffffffffu;
-  for (const std::uint8_t byte : bytes) c = table[(c ^ byte) & 0xffu] ^ (c >> 8);
-  return c ^ 0xffffffffu;
-}
 
 ImageHeader checkPng(const std::filesystem::path& file, Bytes bytes) {
   ImageHeader header{ImageContainer::kPng, 0, 0};

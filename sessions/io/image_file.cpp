@@ -57,10 +57,9 @@ std::uint32_t grayValue(const Sample* pixel, int channels) {
 }
 
 template <class Sample>
-void convert(const std::filesystem::path& file, const cv::Mat& image, GrayImage& gray) {
+void convert(const std::filesystem::path& file, const cv::Mat& image,
+             const std::vector<std::uint8_t>& table, GrayImage& gray) {
   const std::uint32_t largest = (1u << gray.bit_depth) - 1u;
-  std::vector<std::uint8_t> table(largest + 1u);
-  for (std::uint32_t v = 0; v <= largest; ++v) table[v] = toEightBit(v, gray.bit_depth);
   const int channels = image.channels();
   std::uint8_t* out = gray.pixels.data();
   for (int y = 0; y < image.rows; ++y) {
@@ -77,10 +76,29 @@ void convert(const std::filesystem::path& file, const cv::Mat& image, GrayImage&
   }
 }
 
-std::string ruleText(const GrayImage& gray) {
+/// The 8-bit value of every sample.
+std::vector<std::uint8_t> sampleTable(const std::filesystem::path& file, int bit_depth,
+                                      const ImageReadOptions& options) {
+  const std::size_t count = std::size_t{1} << bit_depth;
+  if (!options.table.empty()) {
+    if (options.table.size() != count)
+      throw InputError(file, "table",
+                       "has " + std::to_string(options.table.size()) + " entries, but " +
+                           std::to_string(bit_depth) + " bits need " + std::to_string(count));
+    return options.table;
+  }
+  std::vector<std::uint8_t> table(count);
+  for (std::size_t v = 0; v < count; ++v)
+    table[v] = toEightBit(static_cast<std::uint32_t>(v), bit_depth);
+  return table;
+}
+
+std::string ruleText(const GrayImage& gray, bool by_table) {
   std::string text;
   if (gray.channels == 2 || gray.channels == 4) text += "alpha dropped; ";
   if (gray.channels >= 3) text += "luma (9798 R + 19235 G + 3735 B + 16384) >> 15; ";
+  if (by_table)
+    return text + "by a given table of " + std::to_string(1 << gray.bit_depth) + " values";
   if (gray.bit_depth == 8) return text + "8-bit values as they are";
   return text + "floor(v * 255 / (2^" + std::to_string(gray.bit_depth) +
          " - 1) + 0.5), bit depth " + (gray.bit_depth_stated ? "stated" : "that of the file");
@@ -115,11 +133,12 @@ GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& o
                      std::to_string(gray.bit_depth) + " bits stated, but the file holds " +
                          std::to_string(gray.sample_bits));
   gray.pixels.resize(image.total());
+  const std::vector<std::uint8_t> table = sampleTable(file, gray.bit_depth, options);
   if (gray.sample_bits == 16)
-    convert<std::uint16_t>(file, image, gray);
+    convert<std::uint16_t>(file, image, table, gray);
   else
-    convert<std::uint8_t>(file, image, gray);
-  gray.rule = ruleText(gray);
+    convert<std::uint8_t>(file, image, table, gray);
+  gray.rule = ruleText(gray, !options.table.empty());
   gray.file_sha256 = sha256Text(bytes);
   gray.pixels_sha256 = sha256Text(gray.pixels);
   return gray;

@@ -22,6 +22,10 @@ struct ImageReadOptions {
   /// Bits that the samples use, 1 .. 16, from a label or asked for; without it, those of the file
   /// (8 or 16).
   std::optional<int> bit_depth;
+  /// Instead of the linear rule: the 8-bit value of every sample 0 .. 2^n - 1; empty: linear.
+  std::vector<std::uint8_t> table = {};
+
+  bool operator==(const ImageReadOptions&) const = default;
 };
 
 /// The 8-bit gray image that the core sees, and how it came about.
@@ -46,9 +50,9 @@ struct GrayImage {
 /// Reads a PNG, JPEG or TIFF of 8 or 16 bits, gray or colour; alpha is dropped, an orientation tag
 /// is not applied (calibration belongs to the stored pixels). Rule (conventions.md): colour by
 /// luma (9798 R + 19235 G + 3735 B + 16384) >> 15 on the samples, then
-/// floor(v * 255 / (2^n - 1) + 0.5); a sample above 2^n - 1 contradicts the stated depth and is
-/// refused. InputError when the file is missing, empty, truncated, damaged, of another format, or
-/// too large.
+/// floor(v * 255 / (2^n - 1) + 0.5) or the given table; a sample above 2^n - 1 contradicts the
+/// stated depth and is refused. InputError when the file is missing, empty, truncated, damaged, of
+/// another format, or too large.
 GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& options = {});
 
 /// The rule for one sample, in integers; v <= 2^n - 1, 1 <= n <= 16.

@@ -15,6 +15,8 @@ constexpr const char* kFormat = "boresight-points";
 constexpr int kVersion = 1;
 constexpr double kMaxSigma_px = 1e4;
 
+}  // namespace
+
 PointPair readPoint(const JsonReader& json) {
   PointPair point;
   point.id = json.at("id").nonEmptyText();
@@ -26,7 +28,16 @@ PointPair readPoint(const JsonReader& json) {
   return point;
 }
 
-}  // namespace
+nlohmann::ordered_json toJson(const PointPair& point) {
+  nlohmann::ordered_json json;
+  json["id"] = point.id;
+  json["point_in_station_m"] = toJson(point.point_in_station_m);
+  json["pixel"] = nlohmann::ordered_json::array({point.pixel.x(), point.pixel.y()});
+  json["sigma_px"] = point.sigma_px;
+  json["enabled"] = point.enabled;
+  json["comment"] = point.comment;
+  return json;
+}
 
 std::vector<PointPair> readPoints(const std::filesystem::path& file) {
   const JsonDocument document(file);
@@ -42,16 +53,7 @@ std::vector<PointPair> readPoints(const std::filesystem::path& file) {
 
 void writePoints(const std::filesystem::path& file, const std::vector<PointPair>& points) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const PointPair& point : points) {
-    nlohmann::ordered_json json;
-    json["id"] = point.id;
-    json["point_in_station_m"] = toJson(point.point_in_station_m);
-    json["pixel"] = nlohmann::ordered_json::array({point.pixel.x(), point.pixel.y()});
-    json["sigma_px"] = point.sigma_px;
-    json["enabled"] = point.enabled;
-    json["comment"] = point.comment;
-    list.push_back(json);
-  }
+  for (const PointPair& point : points) list.push_back(toJson(point));
   nlohmann::ordered_json json;
   json["format"] = kFormat;
   json["version"] = kVersion;

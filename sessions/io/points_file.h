@@ -6,6 +6,9 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+
+#include "sessions/io/json_reader.h"
 
 namespace boresight::sessions {
 
@@ -17,7 +20,13 @@ struct PointPair {
   double sigma_px = 1.0;  ///< standard deviation per axis
   bool enabled = true;    ///< takes part in solving
   std::string comment;
+
+  bool operator==(const PointPair&) const = default;
 };
+
+/// A pair inside another file.
+PointPair readPoint(const JsonReader& json);
+nlohmann::ordered_json toJson(const PointPair& point);
 
 /// Reads points.json (`boresight-points`, version 1). InputError.
 std::vector<PointPair> readPoints(const std::filesystem::path& file);

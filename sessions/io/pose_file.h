@@ -20,6 +20,8 @@ struct DeclaredUncertainty {
   Eigen::Vector3d translation_m = Eigen::Vector3d::Constant(0.03);
   Eigen::Vector3d rotation_deg = Eigen::Vector3d::Constant(5.0);
   UncertaintyPivot pivot = UncertaintyPivot::kCamera;
+
+  bool operator==(const DeclaredUncertainty&) const = default;
 };
 
 /// What a pose file (or a pose inside another file) states.

@@ -21,6 +21,8 @@ struct PartSource {
   std::string mesh_unit;  ///< "" where the format carries its unit
   Pose station_from_mesh;
   ScenePart part;
+
+  bool operator==(const PartSource&) const = default;
 };
 
 /// Several meshes in one station frame: what stands behind the core's MeshView.

@@ -30,23 +30,6 @@ SceneMesh cluttered(std::uint64_t seed) {
 
 const Pose kAhead = poseOf(Eigen::Vector3d(0.1, 0.2, 0.3), Eigen::Vector3d(0.01, 0.0, 0.5));
 
-void expectEqual(const EdgeRender& a, const EdgeRender& b) {
-  ASSERT_EQ(a.pixel_count, b.pixel_count);
-  for (std::int32_t i = 0; i < a.pixel_count; ++i) {
-    const EdgePixel& p = a.pixels[static_cast<std::size_t>(i)];
-    const EdgePixel& q = b.pixels[static_cast<std::size_t>(i)];
-    EXPECT_TRUE(p.x == q.x && p.y == q.y && p.depth_m == q.depth_m && p.face == q.face &&
-                p.normal_x == q.normal_x && p.normal_y == q.normal_y && p.offset == q.offset &&
-                p.kind == q.kind)
-        << p.x << " " << p.y;
-  }
-  for (int y = 0; y < a.camera.height; ++y)
-    for (int word = 0; word < a.edges.words_per_row; ++word) {
-      EXPECT_EQ(a.edges.row(y)[word], b.edges.row(y)[word]);
-      EXPECT_EQ(a.mask.row(y)[word], b.mask.row(y)[word]);
-    }
-}
-
 TEST(EdgeRenderer, BandsDoNotShow) {
   const SceneMesh mesh = cluttered(3);
   for (const Camera& camera :

@@ -98,7 +98,7 @@ Camera fisheyeCamera(int width, int height, double focal_px) {
 }
 
 Rendered render(const SceneMesh& mesh, const Camera& camera, const Pose& camera_from_station,
-                const RenderOptions& options, int band_rows) {
+                const RenderOptions& options, int band_rows, bool plainly) {
   Rendered out;
   out.memory.resize(std::size_t{24} << 20);
   Arena arena(out.memory);
@@ -116,6 +116,7 @@ Rendered render(const SceneMesh& mesh, const Camera& camera, const Pose& camera_
   out.face.assign(pixels, -7);
   out.intensity.assign(pixels, 7);
   out.normal.assign(pixels, Eigen::Vector3f::Constant(7.0F));
+  renderer.drawPlainly(plainly);
   EXPECT_EQ(renderer.begin(rays, camera_from_station, out.edges,
                            {out.depth_m, out.face, out.intensity, out.normal}),
             Status::kOk);
@@ -132,6 +133,23 @@ Pose poseOf(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& translat
   pose.rotation = rotationExp(rotation_rad);
   pose.translation_m = translation_m;
   return pose;
+}
+
+void expectEqual(const EdgeRender& a, const EdgeRender& b) {
+  ASSERT_EQ(a.pixel_count, b.pixel_count);
+  for (std::int32_t i = 0; i < a.pixel_count; ++i) {
+    const EdgePixel& p = a.pixels[static_cast<std::size_t>(i)];
+    const EdgePixel& q = b.pixels[static_cast<std::size_t>(i)];
+    EXPECT_TRUE(p.x == q.x && p.y == q.y && p.depth_m == q.depth_m && p.face == q.face &&
+                p.normal_x == q.normal_x && p.normal_y == q.normal_y && p.offset == q.offset &&
+                p.kind == q.kind)
+        << p.x << " " << p.y;
+  }
+  for (int y = 0; y < a.camera.height; ++y)
+    for (int word = 0; word < a.edges.words_per_row; ++word) {
+      EXPECT_EQ(a.edges.row(y)[word], b.edges.row(y)[word]);
+      EXPECT_EQ(a.mask.row(y)[word], b.mask.row(y)[word]);
+    }
 }
 
 }  // namespace boresight::testing

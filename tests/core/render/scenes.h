@@ -61,9 +61,13 @@ struct Rendered {
   }
 };
 
-/// Renders everything; a failing status fails the test.
+/// Renders everything; a failing status fails the test. `plainly`: see EdgeRenderer::drawPlainly.
 Rendered render(const SceneMesh& mesh, const Camera& camera, const Pose& camera_from_station,
-                const RenderOptions& options = {}, int band_rows = EdgeRenderer::kBandRows);
+                const RenderOptions& options = {}, int band_rows = EdgeRenderer::kBandRows,
+                bool plainly = false);
+
+/// Expects two renders to agree in every bit of edges, mask and edge pixels.
+void expectEqual(const EdgeRender& a, const EdgeRender& b);
 
 Pose poseOf(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& translation_m);
 

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
+#include "app/commands.h"
+#include "sessions/session/session_document.h"
+#include "sessions/session/session_maker.h"
+
+namespace boresight::app {
+namespace {
+
+struct NewArguments {
+  std::string dataset;
+  std::vector<std::string> cases;
+  std::string image, camera, mesh, mesh_unit, seed, truth, ignore, id, out;
+  int bit_depth = 0;
+  double feature_size_m = 0.0;
+  OptionArguments options;
+
+  void addTo(CLI::App& command);
+};
+
+void NewArguments::addTo(CLI::App& command) {
+  const auto file = [&command](const char* name, std::string& value, const char* help) {
+    return command.add_option(name, value, help)->type_name("FILE");
+  };
+  CLI::Option* from_dataset =
+      file("--dataset", dataset, "dataset.json: its cases become the session's");
+  command.add_option("--case", cases, "Only this case of the dataset; may be repeated")
+      ->needs(from_dataset)
+      ->type_name("ID");
+  CLI::Option* from_image = file("--image", image, "One case: PNG, JPEG or TIFF, 8 or 16 bit");
+  from_image->excludes(from_dataset);
+  file("--camera", camera, "camera.json")->needs(from_image);
+  file("--mesh", mesh, "Mesh of the station: PLY, OBJ, STL, glTF or GLB")->needs(from_image);
+  command
+      .add_option("--mesh-unit", mesh_unit, "Unit of the mesh's coordinates: m, mm, cm, in, ...")
+      ->needs(from_image)
+      ->type_name("UNIT");
+  file("--seed", seed, "pose.json: where the camera is believed to be")->needs(from_image);
+  file("--truth", truth, "pose.json with the true pose")->needs(from_image);
+  file("--ignore", ignore, "Mask image of the same size: nonzero pixels are not trusted")
+      ->needs(from_image);
+  command.add_option("--id", id, "Name of the case (else the image's)")->needs(from_image);
+  command.add_option("--bit-depth", bit_depth, "Bits that the image's samples use")
+      ->check(CLI::Range(1, 16))
+      ->needs(from_image)
+      ->type_name("N");
+  command.add_option("--feature-size", feature_size_m, "Size of the station's features, m")
+      ->check(CLI::Range(1e-6, 100.0))
+      ->needs(from_image)
+      ->type_name("M");
+  options.addTo(command);
+  file("--out", out, "The session file that is made, e.g. sol12.boresight.json")->required();
+}
+
+sessions::Session sessionOf(const NewArguments& arguments) {
+  if (!arguments.dataset.empty()) return sessions::makeSession(arguments.dataset, arguments.cases);
+  for (const auto& [name, value] :
+       {std::pair("--image", &arguments.image), std::pair("--camera", &arguments.camera),
+        std::pair("--mesh", &arguments.mesh), std::pair("--seed", &arguments.seed)})
+    if (value->empty()) throw CLI::ValidationError(name, "is needed where there is no --dataset");
+  sessions::CaseFiles files;
+  files.id = arguments.id;
+  files.image = arguments.image;
+  if (arguments.bit_depth > 0) files.eight_bit.bit_depth = arguments.bit_depth;
+  files.camera = arguments.camera;
+  files.parts.resize(1);
+  files.parts[0].mesh = arguments.mesh;
+  files.parts[0].mesh_unit = arguments.mesh_unit;
+  files.seed = arguments.seed;
+  if (!arguments.truth.empty()) files.truth = arguments.truth;
+  if (!arguments.ignore.empty()) files.ignore = arguments.ignore;
+  if (arguments.feature_size_m > 0.0) files.feature_size_m = arguments.feature_size_m;
+  const sessions::MadeCase made = sessions::makeCase(files);
+  for (const std::string& text : made.notes) note(text);
+  return withCase({}, made.made);
+}
+
+int makeNew(const NewArguments& arguments) {
+  sessions::Session session = sessionOf(arguments);
+  session = withOptions(session, arguments.options.profileName(), arguments.options.read());
+  const auto document = sessions::SessionDocument::create(arguments.out, session);
+  std::cout << document.file().string() << ": " << session.cases.size() << " cases" << std::endl;
+  return kDone;
+}
+
+}  // namespace
+
+void addNew(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("new", "Makes a session from a dataset or from the files of one case");
+  auto arguments = std::make_shared<NewArguments>();
+  arguments->addTo(*command);
+  command->callback([arguments, &exit_code] { exit_code = makeNew(*arguments); });
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
+#include "app/commands.h"
+#include "sessions/io/errors.h"
+#include "sessions/session/session_document.h"
+#include "sessions/session/session_pack.h"
+
+namespace boresight::app {
+namespace {
+
+int pack(const std::string& session, const std::string& out) {
+  const auto document = sessions::SessionDocument::open(session, sessions::Access::kReadOnly);
+  for (const std::string& text : document.notices()) note(text);
+  if (document.recovery())
+    throw sessions::InputError(document.file(),
+                               std::to_string(document.recovery()->edits.size()) +
+                                   " edits are not saved yet; save the session first");
+  for (const std::string& text : packSession(document.session(), document.file(), out)) note(text);
+  std::cout << out << std::endl;
+  return kDone;
+}
+
+}  // namespace
+
+void addPack(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "pack", "Makes one archive of a session, its inputs and its runs, which opens elsewhere");
+  auto session = std::make_shared<std::string>();
+  auto out = std::make_shared<std::string>();
+  command->add_option("session", *session, "Session file")->required()->type_name("FILE");
+  command->add_option("--out", *out, "The zip archive that is made")->required()->type_name("FILE");
+  command->callback([session, out, &exit_code] { exit_code = pack(*session, *out); });
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
+#include "app/commands.h"
+#include "sessions/io/errors.h"
+#include "sessions/session/case_run.h"
+#include "sessions/session/session_document.h"
+
+namespace boresight::app {
+namespace {
+
+struct RunArguments {
+  std::string session;
+  std::vector<std::string> cases;
+  bool recover = false;
+};
+
+/// The cases to run: those asked for, or all.
+std::vector<std::string> selectedCases(const sessions::SessionDocument& document,
+                                       const std::vector<std::string>& asked) {
+  for (const std::string& id : asked)
+    if (document.session().findCase(id) == nullptr)
+      throw sessions::InputError(document.file(), "cases", "there is no case '" + id + "'");
+  if (!asked.empty()) return asked;
+  std::vector<std::string> all;
+  for (const auto& one : document.session().cases) all.push_back(one->id);
+  return all;
+}
+
+/// Runs and records one case; a line to stdout, a reason for a failure to stderr.
+int runOne(sessions::SessionDocument& document, const std::string& id) {
+  const sessions::LocalizationTrace trace = sessions::runCase(document.session(), id);
+  const sessions::RunRecord run =
+      sessions::storeRun(document.session(), id, trace, document.file());
+  document.apply(sessions::withRun(document.session(), run), "Run " + id);
+  std::cout << id << ": " << run.status << ", " << trace.iterations.size() << " iterations, digest "
+            << run.digest << std::endl;
+  return trace.converged() ? kDone : kNotConverged;
+}
+
+int runSession(const RunArguments& arguments) {
+  sessions::SessionDocument document = sessions::SessionDocument::open(arguments.session);
+  if (document.readOnly()) throw sessions::OutputError(document.file(), document.readOnlyReason());
+  for (const std::string& text : document.notices()) note(text);
+  if (document.recovery() && !arguments.recover)
+    throw sessions::InputError(document.file(),
+                               std::to_string(document.recovery()->edits.size()) +
+                                   " edits were never saved; take them with --recover, or open "
+                                   "the session in the desktop program");
+  document.acceptRecovery();
+  int exit_code = kDone;
+  for (const std::string& id : selectedCases(document, arguments.cases)) {
+    try {
+      const int code = runOne(document, id);
+      if (exit_code == kDone) exit_code = code;
+    } catch (const sessions::InputError& error) {
+      std::cerr << "case " << id << ": " << error.what() << std::endl;
+      exit_code = kBadInput;
+    }
+  }
+  document.save();
+  return exit_code;
+}
+
+}  // namespace
+
+void addRun(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("run", "Runs the cases of a session and records the runs in it");
+  auto arguments = std::make_shared<RunArguments>();
+  command->add_option("session", arguments->session, "Session file")->required()->type_name("FILE");
+  command->add_option("--case", arguments->cases, "Only this case; may be repeated")
+      ->type_name("ID");
+  command->add_flag("--recover", arguments->recover,
+                    "Take edits that a killed program left in the session's journal");
+  command->callback([arguments, &exit_code] { exit_code = runSession(*arguments); });
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "core/render/camera_scene.h"
+
+namespace boresight {
+
+/// A face ready to be drawn.
+struct DrawnFace {
+  double a[3], b[3], c[3];  ///< edge i: a x/z + (b y/z + c)
+  double limit[3];          ///< inside when the edge's value reaches this
+  double slack[3];          ///< how far an edge's value may be from linear within a chunk's row
+  double plane_x, plane_y, plane_1;
+  bool clamped;      ///< 1/z has to be kept within the next two, and beyond the near plane
+  double low, high;  ///< range of 1/z over the face
+  double nearest;    ///< 1/z of the near plane
+  std::int32_t face;
+
+  /// Keeps 1/z within the face; false where the near plane cuts the face off.
+  bool clamp(double& inverse_depth) const {
+    if (inverse_depth > nearest && high > nearest) return false;
+    inverse_depth = inverse_depth < low ? low : inverse_depth;
+    inverse_depth = inverse_depth > high ? high : inverse_depth;
+    return true;
+  }
+};
+
+/// Sets up everything but `slack`. False when nothing of the face can be seen.
+[[nodiscard]] bool prepareFace(const CameraScene& scene, std::int32_t face, DrawnFace& drawn);
+
+/// Whether a ray passes inside all three edges. Rows of the rasterizer compute the same terms in
+/// the same order.
+[[nodiscard]] inline bool insideFace(const DrawnFace& drawn, double ray_x, double ray_y) {
+  for (int i = 0; i < 3; ++i)
+    if (!(drawn.a[i] * ray_x + (drawn.b[i] * ray_y + drawn.c[i]) >= drawn.limit[i])) return false;
+  return true;
+}
+
+/// Whether the ray (x/z, y/z, 1) passes inside all three edges: what the rasterizer computes with a
+/// prepared face, for one ray.
+[[nodiscard]] bool insideFace(const CameraScene& scene, std::int32_t face, double ray_x,
+                              double ray_y);
+
+/// 1/z where the ray meets the face's plane, rounded as it is compared; false where the near plane
+/// cuts the face off.
+[[nodiscard]] inline bool inverseDepthOn(const DrawnFace& drawn, double ray_x, double ray_y,
+                                         float& inverse_depth) {
+  double value = drawn.plane_x * ray_x + (drawn.plane_y * ray_y + drawn.plane_1);
+  if (drawn.clamped && !drawn.clamp(value)) return false;
+  inverse_depth = static_cast<float>(value);
+  return true;
+}
+
+}  // namespace boresight

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.h"
+#include "core/render/camera_scene.h"
+#include "core/render/ray_grid.h"
+#include "core/render/small_face.h"
+
+namespace boresight {
+
+/// Sorts the faces that may cover a pixel's centre into the bands of rows in which they are drawn.
+/// Nothing changes while bands are drawn, so bands may be drawn in any order.
+class FaceBins {
+ public:
+  /// Columns that faces may cover.
+  struct Columns {
+    std::int16_t first = 32767;
+    std::int16_t last = -1;
+    void include(int other_first, int other_last) {
+      if (other_first < first) first = static_cast<std::int16_t>(other_first);
+      if (other_last > last) last = static_cast<std::int16_t>(other_last);
+    }
+  };
+
+  static FaceBins create(std::size_t faces, int max_bands, Arena& arena);
+  /// `plain`: no face is treated as small, for comparison.
+  void begin(const CameraScene& scene, const RayGrid& rays, int band_rows, bool plain);
+  /// Adds faces first .. last - 1 and sets their kFrontFacing.
+  void add(CameraScene& scene, const RayGrid& rays, std::size_t first, std::size_t last);
+
+  const Columns& columns(int band) const { return columns_[static_cast<std::size_t>(band)]; }
+
+  /// The faces of a band, in an order in which hidden ones mostly come last: lists 0 .. lists() -
+  /// 1, those from firstSmallList() on of small faces. Some faces lie in other bands only.
+  int lists() const { return firstSmallList() + 6; }
+  int firstSmallList() const { return 3 * levels_; }
+  std::int32_t firstFace(int band, int list) const;
+  std::int32_t nextFace(std::int32_t face) const { return next_[static_cast<std::size_t>(face)]; }
+
+  const SmallFaces& smallFaces() const { return small_; }
+
+ private:
+  enum Kind : std::uint8_t { kSmallFront, kSmallBack, kWide };
+  /// Of the blocks of 2, 4, 8 .. bands into which faces that touch many bands are sorted.
+  static constexpr int kMostLevels = 16;
+  void addOne(CameraScene& scene, const RayGrid& rays, std::int32_t face, const FixedFace& fixed);
+  void addWide(CameraScene& scene, const RayGrid& rays, std::int32_t face);
+  void enter(std::int32_t face, Kind kind, const PixelBounds& bounds);
+
+  std::span<std::int32_t> next_;  ///< per face: the next one of its list
+  /// Per block of bands, the first face within it and the first that lies in the next one too:
+  /// small front faces, small back faces (blocks of one band), wide faces (all levels).
+  std::span<std::int32_t> head_;
+  std::span<Columns> columns_;  ///< per band
+  std::array<int, 2> first_of_kind_{};
+  std::array<int, kMostLevels> first_of_level_{};
+  int levels_ = 0;
+  int band_rows_ = 1;
+  SmallFaces small_;
+};
+
+}  // namespace boresight

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/render/small_face.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/render/drawn_face.h"
+#include "core/render/rounding.h"
+
+namespace boresight {
+namespace {
+
+/// Depths of a face's vertices.
+struct DepthRange {
+  int low = 0;
+  int high = 0;
+};
+
+DepthRange depthRange(const CameraScene& scene, std::int32_t face) {
+  const Face& indices = scene.mesh.faces[static_cast<std::size_t>(face)];
+  const std::uint16_t a = scene.vertex_depth[static_cast<std::size_t>(indices.vertex[0])];
+  const std::uint16_t b = scene.vertex_depth[static_cast<std::size_t>(indices.vertex[1])];
+  const std::uint16_t c = scene.vertex_depth[static_cast<std::size_t>(indices.vertex[2])];
+  return {std::min({a, b, c}), std::max({a, b, c})};
+}
+
+/// The face at hand: what exact answers need is computed at most once, also about the face that it
+/// met last.
+class SmallFace {
+ public:
+  SmallFace(const CameraScene& scene, std::int32_t face, RasterBand& band)
+      : scene_(scene), band_(band), face_(face) {}
+
+  bool covers(std::size_t at) {
+    return prepare() && insideFace(drawn_, band_.ray_x[at], band_.ray_y[at]);
+  }
+  /// The same for a face with one pixel, of which no more may be asked.
+  bool coversOnly(std::size_t at) {
+    return insideFace(scene_, face_, band_.ray_x[at], band_.ray_y[at]) && prepare();
+  }
+
+  void put(std::size_t at) {
+    const std::int32_t owner = band_.face[at];
+    if (owner < 0) return take(at);
+    if (owner != owner_) meet(owner);
+    if (relation_ == Relation::kNearer) return take(at);
+    if (relation_ == Relation::kUnclear) contest(at);
+  }
+
+ private:
+  enum class Relation : std::uint8_t { kNearer, kFarther, kUnclear };
+
+  void take(std::size_t at) {
+    band_.face[at] = face_;
+    band_.inverse_depth[at] = RasterBand::kUnknownDepth;
+  }
+
+  bool prepare() {
+    if (!prepared_) visible_ = prepareFace(scene_, face_, drawn_);
+    prepared_ = true;
+    return visible_;
+  }
+
+  void meet(std::int32_t owner) {
+    owner_ = owner;
+    owner_prepared_ = false;
+    if (!depth_known_) depth_ = depthRange(scene_, face_);
+    depth_known_ = true;
+    const DepthRange other = depthRange(scene_, owner);
+    relation_ = depth_.low >= other.high + scene_.scale.gap   ? Relation::kFarther
+                : other.low >= depth_.high + scene_.scale.gap ? Relation::kNearer
+                                                              : Relation::kUnclear;
+  }
+
+  /// Neither is clearly nearer: as the rasterizer compares.
+  void contest(std::size_t at) {
+    float inverse_depth = 0.0F;
+    if (!prepare() || !inverseDepthOn(drawn_, band_.ray_x[at], band_.ray_y[at], inverse_depth))
+      return;
+    if (band_.inverse_depth[at] == RasterBand::kUnknownDepth) {
+      if (!owner_prepared_) owner_visible_ = prepareFace(scene_, owner_, owner_drawn_);
+      owner_prepared_ = true;
+      float known = 0.0F;
+      if (owner_visible_ && inverseDepthOn(owner_drawn_, band_.ray_x[at], band_.ray_y[at], known))
+        band_.inverse_depth[at] = known;
+    }
+    const float before = band_.inverse_depth[at];
+    if (inverse_depth > before || (inverse_depth == before && face_ < owner_)) {
+      band_.inverse_depth[at] = inverse_depth;
+      band_.face[at] = face_;
+    }
+  }
+
+  const CameraScene& scene_;
+  RasterBand& band_;
+  std::int32_t face_;
+  std::int32_t owner_ = -1;  ///< the face met last
+  Relation relation_ = Relation::kUnclear;
+  bool prepared_ = false;
+  bool visible_ = false;
+  bool depth_known_ = false;
+  bool owner_prepared_ = false;
+  bool owner_visible_ = false;
+  DepthRange depth_;
+  DrawnFace drawn_;
+  DrawnFace owner_drawn_;
+};
+
+}  // namespace
+
+SmallFaces::SmallFaces(const CameraScene& scene, const RayGrid& rays) : scale_(scene.scale) {
+  // Lines bend by at most k L^2 / 8; twice that, in steps.
+  constexpr double kLength2 = 2.0 * kLargest_px * kLargest_px;
+  const double bend = 0.25 * rays.lineBend_per_px() * kLength2 * scale_.steps();
+  bend_ = ceilClamped(8.0 * bend, 0, 64);
+  slack_ = 1 + (bend_ + 7) / 8;
+  largest_ = kLargest_px * scale_.steps();
+  possible_ = rays.smooth() && bend <= 8.0;
+}
+
+void SmallFaces::draw(const CameraScene& scene, std::int32_t face, RasterBand& band) const {
+  const Face& indices = scene.mesh.faces[static_cast<std::size_t>(face)];
+  const FixedFace fixed(scene.vertex_px[static_cast<std::size_t>(indices.vertex[0])],
+                        scene.vertex_px[static_cast<std::size_t>(indices.vertex[1])],
+                        scene.vertex_px[static_cast<std::size_t>(indices.vertex[2])]);
+  PixelBox box = this->box(fixed);
+  const bool single = box.x_first == box.x_last && box.y_first == box.y_last;
+  const int top = band.first_y - scale_.middle_y;
+  box.x_first = std::max(box.x_first, band.x_begin - scale_.middle_x);
+  box.x_last = std::min(box.x_last, band.x_end - 1 - scale_.middle_x);
+  box.y_first = std::max(box.y_first, top);
+  box.y_last = std::min(box.y_last, top + band.rows - 1);
+  if (box.x_last < box.x_first) return;
+
+  SmallFace small(scene, face, band);
+  const int steps = scale_.steps();
+  const int tolerance = this->tolerance(fixed);
+  const int area2 = fixed.area2();
+  const int ab_per_px = -(fixed.b_y - fixed.a_y) * steps;
+  const int bc_per_px = -(fixed.c_y - fixed.b_y) * steps;
+  for (int y = box.y_first; y <= box.y_last; ++y) {
+    int ab = fixed.lineAb(box.x_first * steps, y * steps);
+    int bc = fixed.lineBc(box.x_first * steps, y * steps);
+    std::size_t at = band.index(box.x_first + scale_.middle_x, y - top + 1);
+    for (int x = box.x_first; x <= box.x_last; ++x, ++at, ab += ab_per_px, bc += bc_per_px) {
+      const int located = FixedFace::locate(ab, bc, area2 - ab - bc, tolerance);
+      if (located < 0) continue;
+      if (located > 0 || (single ? small.coversOnly(at) : small.covers(at))) small.put(at);
+    }
+  }
+}
+
+void resolveDepths(const CameraScene& scene, RasterBand& band) {
+  for (int row = 1; row <= band.rows; ++row)
+    for (int x = band.x_begin; x < band.x_end; ++x) {
+      const std::size_t at = band.index(x, row);
+      DrawnFace drawn;
+      float inverse_depth = 0.0F;
+      if (band.inverse_depth[at] == RasterBand::kUnknownDepth &&
+          prepareFace(scene, band.face[at], drawn) &&
+          inverseDepthOn(drawn, band.ray_x[at], band.ray_y[at], inverse_depth))
+        band.inverse_depth[at] = inverse_depth;
+    }
+}
+
+}  // namespace boresight

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/case_run.h"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+
+#include "sessions/io/errors.h"
+#include "sessions/session/session_file.h"
+#include "sessions/trace/record.h"
+#include "sessions/trace/seed_check.h"
+#include "sessions/trace/trace_file.h"
+
+namespace boresight::sessions {
+namespace {
+
+namespace fs = std::filesystem;
+
+void requireSame(const fs::path& file, const char* what, const std::string& found,
+                 const std::string& known) {
+  if (found != known)
+    throw InputError(file, std::string(what) +
+                               " are not those that the session was made with: relink the file, "
+                               "or accept it as it is now");
+}
+
+std::optional<IgnoreMask> loadMask(const SessionCase& one, const GrayImage& image) {
+  if (!one.ignore && one.ignore_strokes.empty()) return std::nullopt;
+  IgnoreMask mask = emptyMask(image.width, image.height);
+  if (one.ignore) {
+    mask = readIgnoreMask(one.ignore->file, image.width, image.height);
+    requireSame(one.ignore->file, "its bytes", mask.file_sha256, one.ignore->sha256);
+  }
+  applyStrokes(one.ignore_strokes, image.view(), mask);
+  return mask;
+}
+
+/// What the core refuses although the readers let it pass.
+void requireAccepted(const LoadedCase& loaded, const LocalizationTrace& trace) {
+  const std::string reason = statusText(trace.fault);
+  switch (trace.fault) {
+    case Status::kInvalidMesh:
+      throw InputError(loaded.source.parts.front().source.mesh, reason);
+    case Status::kInvalidCamera:
+      throw InputError(loaded.source.image.source.file, "camera", reason);
+    case Status::kInvalidImage:
+      throw InputError(loaded.source.image.source.file, reason);
+    case Status::kInvalidPose:
+      throw InputError(loaded.source.image.source.file, "seed", reason);
+    default:
+      break;
+  }
+}
+
+const SessionCase& requireCase(const Session& session, const std::string& case_id) {
+  const SessionCase* one = session.findCase(case_id);
+  if (one == nullptr) throw InputError("session", "cases", "there is no case '" + case_id + "'");
+  return *one;
+}
+
+}  // namespace
+
+LocalizationProblem LoadedCase::problem() const {
+  LocalizationProblem made;
+  made.image = image.view();
+  made.ignore = ignore ? &ignore_bits : nullptr;
+  made.camera = source.camera;
+  made.mesh = scene.view();
+  made.camera_from_station_seed = source.camera_from_station_seed;
+  made.uncertainty = seedUncertainty(source.uncertainty, source.camera_from_station_seed,
+                                     matchedBounds(scene.view()).centre());
+  return made;
+}
+
+std::shared_ptr<const LoadedCase> loadCase(const SessionCase& one) {
+  auto loaded = std::make_shared<LoadedCase>();
+  loaded->source = one;
+  loaded->image = readImage(one.image.source.file, one.image.eight_bit);
+  requireSame(one.image.source.file, "its bytes", loaded->image.file_sha256,
+              one.image.source.sha256);
+  requireSame(one.image.source.file, "its 8-bit pixels", loaded->image.pixels_sha256,
+              one.image.pixels_sha256);
+  std::vector<PartSource> parts;
+  for (const MeshInput& part : one.parts) parts.push_back(part.source);
+  loaded->scene = readScene(parts);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    requireSame(parts[i].mesh, "its bytes", loaded->scene.infos[i].file_sha256,
+                one.parts[i].sha256);
+  loaded->ignore = loadMask(one, loaded->image);
+  if (loaded->ignore) loaded->ignore_bits = loaded->ignore->view();
+  return loaded;
+}
+
+void requireRunnable(const LoadedCase& loaded) {
+  const SessionCase& one = loaded.source;
+  requireSameSize(loaded.image, one.camera);
+  requirePlausibleScale(loaded.scene, one.camera_from_station_seed);
+  const std::string concern =
+      seedConcern(one.camera, loaded.scene.view(), one.camera_from_station_seed);
+  if (!concern.empty()) throw InputError("case " + one.id, "seed", concern);
+}
+
+LocalizationTrace runCase(const Session& session, const LoadedCase& loaded, RecordLevel level,
+                          const std::stop_token& stop) {
+  const LocalizerOptions options = caseOptions(session, loaded.source, "session");
+  requireRunnable(loaded);
+  LocalizationTrace trace = localize(loaded.problem(), options, level, stop);
+  requireAccepted(loaded, trace);
+  return trace;
+}
+
+LocalizationTrace runCase(const Session& session, const std::string& case_id, RecordLevel level,
+                          const std::stop_token& stop) {
+  return runCase(session, *loadCase(requireCase(session, case_id)), level, stop);
+}
+
+RunRecord storeRun(const Session& session, const std::string& case_id,
+                   const LocalizationTrace& trace, const fs::path& session_file) {
+  if (trace.status == LocalizationStatus::kRunning)
+    throw std::logic_error("a run that was stopped cannot be stored");
+  const SessionCase& one = requireCase(session, case_id);
+  RunRecord run;
+  run.case_id = case_id;
+  run.digest = trace.digest;
+  run.file = fs::absolute(runFileOf(session_file, trace.digest)).lexically_normal();
+  run.status = localizationStatusText(trace.status);
+  run.version = trace.version;
+  run.time = utcNowText();
+  run.inputs_sha256 = inputsDigest(one);
+  run.options_sha256 = optionsDigest(caseOptions(session, one, session_file));
+  if (!isSha256Text(run.digest))
+    throw OutputError(session_file, "case " + case_id + ": the run ended before it had a digest (" +
+                                        statusText(trace.fault) + ")");
+  try {
+    if (loadRun(run).digest == run.digest) return run;
+  } catch (const InputError&) {
+    // not there, or damaged: it is written now
+  }
+  std::error_code error;
+  fs::create_directories(run.file.parent_path(), error);
+  if (error) throw OutputError(run.file.parent_path(), error.message());
+  saveTrace(run.file, trace);
+  return run;
+}
+
+Session withRun(const Session& session, RunRecord run) {
+  Session next = session;
+  std::erase_if(next.runs, [&run](const RunRecord& other) {
+    return other.case_id == run.case_id && other.digest == run.digest &&
+           other.inputs_sha256 == run.inputs_sha256 && other.options_sha256 == run.options_sha256;
+  });
+  next.runs.push_back(std::move(run));
+  return next;
+}
+
+LocalizationTrace loadRun(const RunRecord& run) {
+  LocalizationTrace trace = loadTrace(run.file);
+  if (trace.digest != run.digest)
+    throw InputError(run.file, "digest",
+                     "is " + trace.digest + ", but the session names " + run.digest);
+  return trace;
+}
+
+}  // namespace boresight::sessions

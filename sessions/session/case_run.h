@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "sessions/io/image_file.h"
+#include "sessions/io/scene_mesh.h"
+#include "sessions/session/session.h"
+#include "sessions/trace/trace.h"
+
+namespace boresight::sessions {
+
+/// What a case names, read and found to be what the session knows. Immutable; shared by those who
+/// run it, show it and render it.
+struct LoadedCase {
+  SessionCase source;
+  GrayImage image;
+  SceneMesh scene;
+  std::optional<IgnoreMask> ignore;  ///< mask image and strokes together
+  BitImage ignore_bits;              ///< of `ignore`; must not be written through
+
+  /// Points into this object.
+  LocalizationProblem problem() const;
+
+  LoadedCase() = default;
+  LoadedCase(const LoadedCase&) = delete;
+  LoadedCase& operator=(const LoadedCase&) = delete;
+};
+
+/// Reads a case's inputs. InputError when one is missing, wrong, or no longer the one that the
+/// session was made with. An image of another size than its camera is loaded all the same.
+std::shared_ptr<const LoadedCase> loadCase(const SessionCase& one);
+
+/// InputError when a run makes no sense: image and camera differ in size, the station is out of
+/// view, behind the camera, or of a size that only a wrong unit explains.
+void requireRunnable(const LoadedCase& loaded);
+
+/// Runs a case of the session as it is: the one function behind `whs run` and the desktop program,
+/// so that both get the same digest. A stop leaves the status at kRunning. InputError for inputs
+/// or options that cannot be run.
+LocalizationTrace runCase(const Session& session, const LoadedCase& loaded,
+                          RecordLevel level = RecordLevel::kFull, const std::stop_token& stop = {});
+/// The same, with the inputs read first.
+LocalizationTrace runCase(const Session& session, const std::string& case_id,
+                          RecordLevel level = RecordLevel::kFull, const std::stop_token& stop = {});
+
+/// Writes the trace into the session's folder of runs, unless a run of the same digest is there
+/// already, and says what to note of it. `session` is the one that ran. OutputError. A run that was
+/// stopped is no run: std::logic_error.
+RunRecord storeRun(const Session& session, const std::string& case_id,
+                   const LocalizationTrace& trace, const std::filesystem::path& session_file);
+
+/// Notes a run; one of the same case, digest, inputs and options is moved to the end.
+Session withRun(const Session& session, RunRecord run);
+
+/// The trace of a run. InputError when the file is missing, damaged, or of another run.
+LocalizationTrace loadRun(const RunRecord& run);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/ignore_strokes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace boresight::sessions {
+namespace {
+
+/// Pixels of one row or column from `first` to `last`, both inside the image.
+struct PixelRange {
+  int first = 0;
+  int last = -1;
+};
+
+/// The pixels with low <= centre <= high.
+PixelRange pixelsBetween(double low, double high, int size) {
+  const double first = std::clamp(std::ceil(low), 0.0, static_cast<double>(size));
+  const double last = std::clamp(std::floor(high), -1.0, static_cast<double>(size - 1));
+  return {static_cast<int>(first), static_cast<int>(last)};
+}
+
+void setPixel(IgnoreMask& mask, int x, int y, bool erase) {
+  const int words_per_row = BitImage::wordsPerRow(mask.width);
+  std::uint64_t& word =
+      mask.words[static_cast<std::size_t>(words_per_row) * static_cast<std::size_t>(y) +
+                 static_cast<std::size_t>(x >> 6)];
+  const std::uint64_t bit = std::uint64_t{1} << (x & 63);
+  word = erase ? word & ~bit : word | bit;
+}
+
+double squaredDistance(const Eigen::Vector2d& point, const Eigen::Vector2d& a,
+                       const Eigen::Vector2d& b) {
+  const Eigen::Vector2d along = b - a;
+  const double squared_length = along.squaredNorm();
+  if (squared_length == 0.0) return (point - a).squaredNorm();
+  const double t = std::clamp((point - a).dot(along) / squared_length, 0.0, 1.0);
+  return (a + t * along - point).squaredNorm();
+}
+
+void brushSegment(const MaskStroke& stroke, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                  IgnoreMask& mask) {
+  const double radius_px = stroke.radius_px;
+  const Eigen::Vector2d low = a.cwiseMin(b).array() - radius_px;
+  const Eigen::Vector2d high = a.cwiseMax(b).array() + radius_px;
+  const PixelRange rows = pixelsBetween(low.y(), high.y(), mask.height);
+  const PixelRange columns = pixelsBetween(low.x(), high.x(), mask.width);
+  for (int y = rows.first; y <= rows.last; ++y)
+    for (int x = columns.first; x <= columns.last; ++x)
+      if (squaredDistance({x, y}, a, b) <= radius_px * radius_px)
+        setPixel(mask, x, y, stroke.erase);
+}
+
+void fillPolygon(const MaskStroke& stroke, IgnoreMask& mask) {
+  const std::vector<Eigen::Vector2d>& points = stroke.points;
+  std::vector<double> crossings;
+  for (int y = 0; y < mask.height; ++y) {
+    crossings.clear();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Eigen::Vector2d& a = points[i];
+      const Eigen::Vector2d& b = points[(i + 1) % points.size()];
+      if ((a.y() <= y) == (b.y() <= y)) continue;
+      crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+      const PixelRange columns = pixelsBetween(crossings[i], crossings[i + 1], mask.width);
+      for (int x = columns.first; x <= columns.last; ++x) setPixel(mask, x, y, stroke.erase);
+    }
+  }
+}
+
+void markSaturated(const MaskStroke& stroke, const ImageView& image, IgnoreMask& mask) {
+  for (int y = 0; y < mask.height; ++y)
+    for (int x = 0; x < mask.width; ++x)
+      if (image.at(x, y) >= stroke.level) setPixel(mask, x, y, stroke.erase);
+}
+
+void applyStroke(const MaskStroke& stroke, const ImageView& image, IgnoreMask& mask) {
+  switch (stroke.kind) {
+    case StrokeKind::kBrush:
+      for (std::size_t i = 0; i < stroke.points.size(); ++i)
+        brushSegment(stroke, stroke.points[i > 0 ? i - 1 : 0], stroke.points[i], mask);
+      break;
+    case StrokeKind::kPolygon:
+      fillPolygon(stroke, mask);
+      break;
+    case StrokeKind::kSaturation:
+      markSaturated(stroke, image, mask);
+      break;
+  }
+}
+
+}  // namespace
+
+IgnoreMask emptyMask(int width, int height) {
+  IgnoreMask mask;
+  mask.width = width;
+  mask.height = height;
+  mask.words.assign(
+      static_cast<std::size_t>(BitImage::wordsPerRow(width)) * static_cast<std::size_t>(height), 0);
+  return mask;
+}
+
+void applyStrokes(const MaskStrokes& strokes, const ImageView& image, IgnoreMask& mask) {
+  for (const MaskStroke& stroke : strokes) applyStroke(stroke, image, mask);
+  mask.ignored_count = 0;
+  for (const std::uint64_t word : mask.words) mask.ignored_count += std::popcount(word);
+}
+
+}  // namespace boresight::sessions

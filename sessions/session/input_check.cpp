@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/input_check.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+#include <system_error>
+
+#include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
+#include "sessions/io/mesh_container.h"
+#include "sessions/io/mesh_file.h"
+
+namespace boresight::sessions {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxInputBytes = 4096 * kMegabyte;
+constexpr std::size_t kMaxSearched = 100000;
+
+/// One file that a case depends on.
+struct Dependency {
+  std::string what;
+  fs::path file;
+  std::string sha256;
+  const PartSource* part = nullptr;  ///< of a mesh
+};
+
+std::vector<Dependency> dependenciesOf(const SessionCase& one) {
+  std::vector<Dependency> all;
+  all.push_back({"image", one.image.source.file, one.image.source.sha256, nullptr});
+  for (std::size_t i = 0; i < one.parts.size(); ++i)
+    all.push_back({"parts[" + std::to_string(i) + "]", one.parts[i].source.mesh,
+                   one.parts[i].sha256, &one.parts[i].source});
+  if (one.ignore) all.push_back({"ignore", one.ignore->file, one.ignore->sha256, nullptr});
+  if (one.onboard_record)
+    all.push_back(
+        {"onboard_record", one.onboard_record->file, one.onboard_record->sha256, nullptr});
+  return all;
+}
+
+std::string sha256Of(const Dependency& dependency) {
+  return dependency.part != nullptr ? meshSha256(*dependency.part) : inputSha256(dependency.file);
+}
+
+/// Hashes each file once, whatever number of cases share it.
+class Checker {
+ public:
+  void check(const std::string& case_id, const Dependency& dependency) {
+    const State& state = stateOf(dependency);
+    Finding finding;
+    finding.case_id = case_id;
+    finding.what = dependency.what;
+    finding.file = dependency.file;
+    const std::string name = "case " + case_id + ": " + dependency.file.string();
+    if (!state.error.empty()) {
+      finding.kind = state.missing ? FindingKind::kMissing : FindingKind::kUnreadable;
+      finding.text = name + ": " + state.error;
+    } else if (state.sha256 != dependency.sha256) {
+      finding.kind = FindingKind::kChanged;
+      finding.text = name + " is not the file that the session was made with (its SHA-256 is " +
+                     state.sha256.substr(0, 12) + "..., not " + dependency.sha256.substr(0, 12) +
+                     "...)";
+    } else {
+      return;
+    }
+    findings_.push_back(finding);
+  }
+
+  void checkRun(const RunRecord& run) {
+    std::error_code error;
+    if (fs::is_regular_file(run.file, error)) return;
+    findings_.push_back(
+        {FindingKind::kMissing, run.case_id, "run", run.file,
+         "case " + run.case_id + ": the trace of a run is missing: " + run.file.string()});
+  }
+
+  std::vector<Finding> take() { return std::move(findings_); }
+
+ private:
+  struct State {
+    std::string sha256;
+    std::string error;
+    bool missing = false;
+  };
+
+  const State& stateOf(const Dependency& dependency) {
+    const auto [place, added] = states_.try_emplace(dependency.file);
+    State& state = place->second;
+    if (!added) return state;
+    std::error_code error;
+    state.missing = !fs::exists(dependency.file, error);
+    try {
+      state.sha256 = sha256Of(dependency);
+    } catch (const InputError& unreadable) {
+      state.error = unreadable.reason();
+    }
+    return state;
+  }
+
+  std::map<fs::path, State> states_;
+  std::vector<Finding> findings_;
+};
+
+bool hasSha256(const Dependency& dependency, const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return false;
+  Dependency moved = dependency;
+  moved.file = file;
+  PartSource part;
+  if (dependency.part != nullptr) {
+    part = *dependency.part;
+    part.mesh = file;
+    moved.part = &part;
+  }
+  try {
+    return sha256Of(moved) == dependency.sha256;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// Files below the session's folder, by name.
+class Search {
+ public:
+  explicit Search(fs::path folder) : folder_(std::move(folder)) {}
+
+  std::optional<fs::path> find(const Dependency& dependency) {
+    fs::path end;
+    std::vector<fs::path> steps(dependency.file.begin(), dependency.file.end());
+    for (auto step = steps.rbegin(); step != steps.rend() && step->has_filename(); ++step) {
+      if (*step == "/") break;
+      end = end.empty() ? *step : *step / end;
+      if (hasSha256(dependency, folder_ / end)) return folder_ / end;
+    }
+    const auto [first, last] = files().equal_range(dependency.file.filename());
+    for (auto place = first; place != last; ++place)
+      if (hasSha256(dependency, place->second)) return place->second;
+    return std::nullopt;
+  }
+
+ private:
+  const std::multimap<fs::path, fs::path>& files() {
+    if (listed_) return files_;
+    listed_ = true;
+    std::error_code error;
+    constexpr auto kSkip = fs::directory_options::skip_permission_denied;
+    auto entry = fs::recursive_directory_iterator(folder_, kSkip, error);
+    for (; !error && entry != fs::end(entry) && files_.size() < kMaxSearched;
+         entry.increment(error))
+      files_.emplace(entry->path().filename(), entry->path());
+    return files_;
+  }
+
+  fs::path folder_;
+  bool listed_ = false;
+  std::multimap<fs::path, fs::path> files_;
+};
+
+}  // namespace
+
+std::string inputSha256(const fs::path& file) {
+  return sha256Text(readFileBytes(file, kMaxInputBytes));
+}
+
+std::string meshSha256(const PartSource& part) {
+  if (knownMeshFormat(part.mesh) == MeshFormat::kGltf)
+    return readMesh(part.mesh, part.mesh_unit).info.file_sha256;
+  return inputSha256(part.mesh);
+}
+
+std::vector<Finding> checkInputs(const Session& session) {
+  Checker checker;
+  for (const auto& one : session.cases)
+    for (const Dependency& dependency : dependenciesOf(*one)) checker.check(one->id, dependency);
+  for (const RunRecord& run : session.runs) checker.checkRun(run);
+  return checker.take();
+}
+
+std::vector<Relink> findMissing(const Session& session, const fs::path& session_file) {
+  Search search(fs::absolute(session_file).lexically_normal().parent_path());
+  std::vector<Relink> relinks;
+  std::set<fs::path> seen;
+  std::error_code error;
+  for (const auto& one : session.cases)
+    for (const Dependency& dependency : dependenciesOf(*one)) {
+      if (fs::exists(dependency.file, error) || !seen.insert(dependency.file).second) continue;
+      if (const auto found = search.find(dependency)) relinks.push_back({dependency.file, *found});
+    }
+  for (const RunRecord& run : session.runs) {
+    const fs::path moved = fs::absolute(session_file).lexically_normal().parent_path() /
+                           run.file.parent_path().filename() / run.file.filename();
+    if (!fs::exists(run.file, error) && fs::exists(moved, error) && seen.insert(run.file).second)
+      relinks.push_back({run.file, moved});
+  }
+  return relinks;
+}
+
+Session relinked(const Session& session, const std::vector<Relink>& relinks) {
+  const auto move = [&relinks](fs::path& file) {
+    const auto found = std::find_if(relinks.begin(), relinks.end(),
+                                    [&file](const Relink& one) { return one.missing == file; });
+    if (found == relinks.end()) return false;
+    file = found->found;
+    return true;
+  };
+  Session next = session;
+  for (auto& one : next.cases) {
+    SessionCase changed = *one;
+    bool moved = move(changed.image.source.file);
+    for (MeshInput& part : changed.parts) moved |= move(part.source.mesh);
+    if (changed.ignore) moved |= move(changed.ignore->file);
+    if (changed.onboard_record) moved |= move(changed.onboard_record->file);
+    if (moved) one = std::move(changed);
+  }
+  for (RunRecord& run : next.runs) move(run.file);
+  return next;
+}
+
+Session acceptingInputs(const Session& session, const std::string& case_id) {
+  const SessionCase* one = session.findCase(case_id);
+  if (one == nullptr) return session;
+  SessionCase changed = *one;
+  const GrayImage image = readImage(changed.image.source.file, changed.image.eight_bit);
+  changed.image.source.sha256 = image.file_sha256;
+  changed.image.pixels_sha256 = image.pixels_sha256;
+  changed.image.width = image.width;
+  changed.image.height = image.height;
+  for (MeshInput& part : changed.parts) part.sha256 = meshSha256(part.source);
+  if (changed.ignore) changed.ignore->sha256 = inputSha256(changed.ignore->file);
+  if (changed.onboard_record)
+    changed.onboard_record->sha256 = inputSha256(changed.onboard_record->file);
+  return withCase(session, std::move(changed));
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/input_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "sessions/io/camera_file.h"
+#include "sessions/report/text_table.h"
+#include "sessions/trace/seed_check.h"
+
+namespace boresight::sessions {
+namespace {
+
+/// A station smaller than this in the image cannot be matched.
+constexpr double kSmallestStation_px = 24.0;
+
+std::string sizeText(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+/// Angle between the rays of two pixels, deg; not finite where one has no ray.
+double angleBetween_deg(const Camera& camera, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  Eigen::Vector3d ray_a, ray_b;
+  if (!unproject(camera, a, ray_a) || !unproject(camera, b, ray_b)) return std::nan("");
+  return std::acos(std::clamp(ray_a.normalized().dot(ray_b.normalized()), -1.0, 1.0)) / kDegree_rad;
+}
+
+void flagCamera(const Camera& camera, CameraSheet& sheet) {
+  const double right = camera.width - 1;
+  const double bottom = camera.height - 1;
+  const double off_centre = std::max(std::abs(camera.cx - 0.5 * right) / camera.width,
+                                     std::abs(camera.cy - 0.5 * bottom) / camera.height);
+  if (off_centre > 0.1)
+    sheet.flags.push_back(
+        {"camera_off_centre",
+         "the principal point is " + fixedText(100.0 * off_centre, 0) +
+             " % of the image off its middle: is this camera of a sub-frame, or of another image "
+             "size?"});
+  if (camera.fx / camera.fy > 1.02 || camera.fy / camera.fx > 1.02)
+    sheet.flags.push_back(
+        {"camera_aspect", "fx and fy differ by " +
+                              fixedText(100.0 * std::abs(camera.fx / camera.fy - 1.0), 1) + " %"});
+  Eigen::Vector3d ray;
+  for (const Eigen::Vector2d& corner :
+       {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(right, 0.0), Eigen::Vector2d(0.0, bottom),
+        Eigen::Vector2d(right, bottom)})
+    if (!unproject(camera, corner, ray)) {
+      sheet.flags.push_back(
+          {"camera_corners",
+           "a corner of the image lies outside the valid field of the distortion"});
+      return;
+    }
+}
+
+/// Sums of absolute differences of pixels one and two apart.
+struct Differences {
+  double next = 0.0;
+  double second = 0.0;
+
+  /// Noise alone makes both alike; a margin keeps it from counting.
+  bool alternate() const { return next > 1.25 * second && next > 0.0; }
+};
+
+void flagMeshes(const SceneMesh& scene, InputSheet& sheet) {
+  for (const MeshInfo& info : scene.infos)
+    for (const std::string& note : info.notes())
+      sheet.flags.push_back({"mesh", info.file.filename().string() + ": " + note});
+}
+
+void flagSeed(const LoadedCase& loaded, const BoundingBox& bounds, InputSheet& sheet) {
+  const SessionCase& one = loaded.source;
+  const Pose& seed = one.camera_from_station_seed;
+  const std::string scale = scaleConcern(bounds, seed);
+  if (!scale.empty()) sheet.flags.push_back({"mesh_scale", scale + ": is the mesh's unit right?"});
+  const std::string concern = seedConcern(one.camera, loaded.scene.view(), seed);
+  if (!concern.empty()) {
+    const bool behind = concern.find("behind") != std::string::npos;
+    sheet.flags.push_back({behind ? "station_behind_camera" : "station_out_of_view", concern});
+  }
+  if (isInside(loaded.scene.view(), seed.inverse().translation_m))
+    sheet.flags.push_back({"camera_in_station",
+                           "the seed puts the camera inside the station: is the mesh's unit "
+                           "right, and the seed camera_from_station?"});
+  const double size_px = bounds.diagonal() / sheet.seed_distance_m * one.camera.fx;
+  if (size_px < kSmallestStation_px)
+    sheet.flags.push_back({"station_small", "the station would be only " + fixedText(size_px, 1) +
+                                                " px large in the image at the seed: is the mesh's "
+                                                "unit right?"});
+}
+
+void measure(const LoadedCase& loaded, const BoundingBox& bounds, InputSheet& sheet) {
+  const Camera& camera = loaded.source.camera;
+  const Eigen::Vector3d centre_in_camera_m =
+      loaded.source.camera_from_station_seed * bounds.centre();
+  sheet.station_extent_mm = (bounds.maximum_m - bounds.minimum_m) * 1e3;
+  sheet.station_diagonal_mm = bounds.diagonal() * 1e3;
+  sheet.seed_distance_m = centre_in_camera_m.norm();
+  sheet.view_width_mm = 1e3 * sheet.seed_distance_m * camera.width / camera.fx;
+  const double view_height_mm = 1e3 * sheet.seed_distance_m * camera.height / camera.fy;
+  sheet.station_share = sheet.station_diagonal_mm / std::hypot(sheet.view_width_mm, view_height_mm);
+}
+
+void describe(const LoadedCase& loaded, InputSheet& sheet) {
+  const SessionCase& one = loaded.source;
+  const GrayImage& image = loaded.image;
+  const auto add = [&sheet](const char* label, const std::string& value) {
+    sheet.lines.push_back({label, value});
+  };
+  add("image", image.container + ", " + sizeText(image.width, image.height) + " px, " +
+                   std::to_string(image.channels) + " channels, " +
+                   std::to_string(image.sample_bits) +
+                   " bit; the centre of the top-left pixel is "
+                   "(0, 0)");
+  add("to 8 bit", image.rule);
+  add("gray", std::to_string(sheet.image.lowest_gray) + " .. " +
+                  std::to_string(sheet.image.highest_gray) + ", " +
+                  fixedText(100.0 * sheet.image.saturated_share, 2) + " % saturated");
+  add("camera", sheet.camera.model + ", " + sizeText(one.camera.width, one.camera.height) + " px");
+  add("field of view", fixedText(sheet.camera.field_of_view_x_deg, 2) + " x " +
+                           fixedText(sheet.camera.field_of_view_y_deg, 2) + " deg");
+  for (const MeshInfo& info : loaded.scene.infos)
+    add("mesh", info.file.filename().string() + ", " + info.format + " in " + info.unit + ", " +
+                    fixedText(info.diagonal_m() * 1e3, 1) + " mm across");
+  add("station", fixedText(sheet.station_extent_mm.x(), 1) + " x " +
+                     fixedText(sheet.station_extent_mm.y(), 1) + " x " +
+                     fixedText(sheet.station_extent_mm.z(), 1) + " mm; the view is " +
+                     fixedText(sheet.view_width_mm, 1) + " mm wide at its distance");
+  add("seed", fixedText(sheet.seed_distance_m, 4) + " m from the camera to the station's middle");
+  if (loaded.ignore)
+    add("ignored", std::to_string(loaded.ignore->ignored_count) + " px, " +
+                       fixedText(100.0 * static_cast<double>(loaded.ignore->ignored_count) /
+                                     static_cast<double>(image.pixels.size()),
+                                 2) +
+                       " % of the image");
+}
+
+}  // namespace
+
+CameraSheet cameraSheet(const Camera& camera) {
+  CameraSheet sheet;
+  sheet.model = cameraModelName(camera.model);
+  sheet.width = camera.width;
+  sheet.height = camera.height;
+  const double right = camera.width - 1;
+  const double bottom = camera.height - 1;
+  sheet.field_of_view_x_deg = angleBetween_deg(camera, {0.0, camera.cy}, {right, camera.cy});
+  sheet.field_of_view_y_deg = angleBetween_deg(camera, {camera.cx, 0.0}, {camera.cx, bottom});
+  sheet.field_of_view_diagonal_deg = angleBetween_deg(camera, {0.0, 0.0}, {right, bottom});
+  sheet.pixel_at_1_m_mm = 1000.0 / camera.fx;
+  flagCamera(camera, sheet);
+  return sheet;
+}
+
+std::vector<std::string> cameraLines(const CameraSheet& sheet, const Camera& camera) {
+  return {sheet.model + ", " + sizeText(sheet.width, sheet.height) + " px, fx " +
+              fixedText(camera.fx, 3) + ", fy " + fixedText(camera.fy, 3) + ", cx " +
+              fixedText(camera.cx, 3) + ", cy " + fixedText(camera.cy, 3),
+          "field of view " + fixedText(sheet.field_of_view_x_deg, 2) + " x " +
+              fixedText(sheet.field_of_view_y_deg, 2) + " deg, diagonal " +
+              fixedText(sheet.field_of_view_diagonal_deg, 2) + " deg; 1 px is " +
+              fixedText(sheet.pixel_at_1_m_mm, 3) + " mm at 1 m"};
+}
+
+bool looksLikeMosaic(const ImageView& image) {
+  Differences along_rows, along_columns;
+  for (int y = 0; y + 2 < image.height; ++y)
+    for (int x = 0; x + 2 < image.width; ++x) {
+      const int here = image.at(x, y);
+      along_rows.next += std::abs(here - image.at(x + 1, y));
+      along_rows.second += std::abs(here - image.at(x + 2, y));
+      along_columns.next += std::abs(here - image.at(x, y + 1));
+      along_columns.second += std::abs(here - image.at(x, y + 2));
+    }
+  return along_rows.alternate() && along_columns.alternate();
+}
+
+ImageSheet imageSheet(const GrayImage& image) {
+  ImageSheet sheet;
+  const auto [low, high] = std::minmax_element(image.pixels.begin(), image.pixels.end());
+  sheet.lowest_gray = *low;
+  sheet.highest_gray = *high;
+  sheet.saturated_share =
+      static_cast<double>(std::count(image.pixels.begin(), image.pixels.end(), 255)) /
+      static_cast<double>(image.pixels.size());
+  if (sheet.saturated_share > 0.02)
+    sheet.flags.push_back({"image_saturated", "much of the image is saturated"});
+  if (*high - *low < 64)
+    sheet.flags.push_back(
+        {"image_few_grays", "the image uses few gray levels: is its bit depth stated right?"});
+  if (image.sample_bits > 8 && !image.bit_depth_stated)
+    sheet.flags.push_back({"image_bit_depth",
+                           "the samples have 16 bits and nothing says how many of them are used: "
+                           "state the bit depth"});
+  if (looksLikeMosaic(image.view()))
+    sheet.flags.push_back({"image_mosaic",
+                           "the pixels alternate like a Bayer mosaic: turn it into gray or colour "
+                           "before matching"});
+  return sheet;
+}
+
+InputSheet inputSheet(const LoadedCase& loaded) {
+  InputSheet sheet;
+  const SessionCase& one = loaded.source;
+  sheet.case_id = one.id;
+  sheet.camera = cameraSheet(one.camera);
+  sheet.image = imageSheet(loaded.image);
+  const BoundingBox bounds = matchedBounds(loaded.scene.view());
+  measure(loaded, bounds, sheet);
+  describe(loaded, sheet);
+  sheet.flags = sheet.image.flags;
+  if (loaded.image.width != one.camera.width || loaded.image.height != one.camera.height)
+    sheet.flags.push_back({"camera_size", "the camera is of " +
+                                              sizeText(one.camera.width, one.camera.height) +
+                                              " px, but the image has " +
+                                              sizeText(loaded.image.width, loaded.image.height)});
+  sheet.flags.insert(sheet.flags.end(), sheet.camera.flags.begin(), sheet.camera.flags.end());
+  flagMeshes(loaded.scene, sheet);
+  flagSeed(loaded, bounds, sheet);
+  return sheet;
+}
+
+bool isInside(const MeshView& mesh, const Eigen::Vector3d& point_in_station_m) {
+  double winding_rad = 0.0;  // sum of half solid angles (Van Oosterom and Strackee 1983)
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    if (!mesh.parts[mesh.part_of_face[f]].match) continue;
+    Eigen::Vector3d corner[3];
+    for (std::size_t i = 0; i < 3; ++i)
+      corner[i] = mesh.vertices_in_station_m[static_cast<std::size_t>(mesh.faces[f].vertex[i])]
+                      .cast<double>() -
+                  point_in_station_m;
+    const double a = corner[0].norm(), b = corner[1].norm(), c = corner[2].norm();
+    winding_rad += std::atan2(corner[0].dot(corner[1].cross(corner[2])),
+                              a * b * c + corner[0].dot(corner[1]) * c +
+                                  corner[1].dot(corner[2]) * a + corner[2].dot(corner[0]) * b);
+  }
+  return std::abs(winding_rad) > kPi;  // 2 pi inside, 0 outside of a closed surface
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/session.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <span>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/digest.h"
+#include "sessions/io/camera_file.h"
+#include "sessions/io/config_file.h"
+#include "sessions/io/errors.h"
+
+namespace boresight::sessions {
+namespace {
+
+/// Feeds a canonical serialization: every value with its name, so that neighbours cannot be
+/// confused.
+class InputsDigest {
+ public:
+  void text(const char* name, const std::string& value) {
+    writer_.tag(name);
+    writer_.u64(value.size());
+    writer_.bytes({reinterpret_cast<const std::uint8_t*>(value.data()), value.size()});
+  }
+  void number(const char* name, double value) {
+    writer_.tag(name);
+    writer_.f64(value);
+  }
+  template <class Vector>
+  void vector(const char* name, const Vector& values) {
+    writer_.tag(name);
+    for (Eigen::Index i = 0; i < values.size(); ++i) writer_.f64(values[i]);
+  }
+  void pose(const char* name, const Pose& pose) {
+    vector(name, pose.rotation.coeffs());
+    vector(name, pose.translation_m);
+  }
+  std::string digest() const { return hexText(writer_.digest()).data(); }
+
+ private:
+  DigestWriter writer_;
+};
+
+void add(InputsDigest& digest, const MeshInput& part) {
+  digest.text("part", part.sha256);
+  digest.text("mesh_unit", part.source.mesh_unit);
+  digest.pose("station_from_mesh", part.source.station_from_mesh);
+  digest.number("normal_threshold_rad", part.source.part.normal_threshold_rad);
+  digest.number("depth_threshold_m", part.source.part.depth_threshold_m);
+  digest.number("match", part.source.part.match ? 1.0 : 0.0);
+}
+
+void add(InputsDigest& digest, const MaskStroke& stroke) {
+  digest.number("stroke", static_cast<double>(stroke.kind));
+  digest.number("erase", stroke.erase ? 1.0 : 0.0);
+  digest.number("radius_px", stroke.radius_px);
+  digest.number("level", stroke.level);
+  digest.number("points", static_cast<double>(stroke.points.size()));
+  for (const Eigen::Vector2d& point : stroke.points) digest.vector("point", point);
+}
+
+}  // namespace
+
+const SessionCase* Session::findCase(const std::string& id) const {
+  const auto found =
+      std::find_if(cases.begin(), cases.end(), [&id](const auto& one) { return one->id == id; });
+  return found == cases.end() ? nullptr : &**found;
+}
+
+const Decision* Session::decisionOn(const std::string& case_id) const {
+  const auto found = std::find_if(decisions.rbegin(), decisions.rend(),
+                                  [&](const Decision& one) { return one.case_id == case_id; });
+  return found == decisions.rend() ? nullptr : &*found;
+}
+
+const RunRecord* Session::lastRunOf(const std::string& case_id) const {
+  const auto found = std::find_if(runs.rbegin(), runs.rend(),
+                                  [&](const RunRecord& run) { return run.case_id == case_id; });
+  return found == runs.rend() ? nullptr : &*found;
+}
+
+Session withCase(const Session& session, SessionCase changed) {
+  Session next = session;
+  const auto found = std::find_if(next.cases.begin(), next.cases.end(),
+                                  [&](const auto& one) { return one->id == changed.id; });
+  if (found != next.cases.end())
+    *found = std::move(changed);
+  else
+    next.cases.push_back(std::move(changed));
+  return next;
+}
+
+Session withoutCase(const Session& session, const std::string& case_id) {
+  Session next = session;
+  std::erase_if(next.cases, [&](const auto& one) { return one->id == case_id; });
+  next.annotations.erase(case_id);
+  std::erase_if(next.decisions, [&](const Decision& one) { return one.case_id == case_id; });
+  std::erase_if(next.runs, [&](const RunRecord& run) { return run.case_id == case_id; });
+  if (next.view.case_id == case_id) next.view = {};
+  return next;
+}
+
+Session withAnnotation(const Session& session, const std::string& case_id, Annotation annotation) {
+  Session next = session;
+  if (annotation == Annotation())
+    next.annotations.erase(case_id);
+  else
+    next.annotations.insert_or_assign(case_id, std::move(annotation));
+  return next;
+}
+
+Session withOptions(const Session& session, const std::string& profile,
+                    const LocalizerOptions& options) {
+  Session next = session;
+  next.profile = profile;
+  next.options = changedOptions(options, profileOptions(profile).value());
+  std::sort(next.options.begin(), next.options.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  return next;
+}
+
+LocalizerOptions sessionOptions(const Session& session, const std::filesystem::path& file) {
+  std::optional<LocalizerOptions> options = profileOptions(session.profile);
+  if (!options)
+    throw InputError(
+        file, "profile",
+        "there is no profile \"" + session.profile + "\"; there are: " + profileNames());
+  Config config;
+  config.file = file;
+  config.profile = session.profile;
+  config.options = session.options;
+  applyConfig(*options, config);
+  return *options;
+}
+
+LocalizerOptions caseOptions(const Session& session, const SessionCase& one,
+                             const std::filesystem::path& file) {
+  LocalizerOptions options = sessionOptions(session, file);
+  if (options.templates.feature_size_m == 0.0 && one.feature_size_m)
+    options.templates.feature_size_m = *one.feature_size_m;
+  return options;
+}
+
+std::string optionsDigest(const LocalizerOptions& options) {
+  DigestWriter writer;
+  LocalizerOptions::visitFields(options, [&writer](const OptionInfo& info, const auto& field) {
+    writer.tag(info.name);
+    writer.f64(static_cast<double>(field));
+  });
+  return hexText(writer.digest()).data();
+}
+
+std::string inputsDigest(const SessionCase& one) {
+  InputsDigest digest;
+  digest.text("pixels", one.image.pixels_sha256);
+  digest.text("camera", toJson(one.camera).dump());
+  for (const MeshInput& part : one.parts) add(digest, part);
+  digest.pose("seed", one.camera_from_station_seed);
+  digest.vector("translation_m", one.uncertainty.translation_m);
+  digest.vector("rotation_deg", one.uncertainty.rotation_deg);
+  digest.number("pivot", static_cast<double>(one.uncertainty.pivot));
+  digest.text("ignore", one.ignore ? one.ignore->sha256 : "");
+  for (const MaskStroke& stroke : one.ignore_strokes) add(digest, stroke);
+  return digest.digest();
+}
+
+Staleness stalenessOf(const RunRecord& run, const Session& session,
+                      const std::filesystem::path& file) {
+  const SessionCase* one = session.findCase(run.case_id);
+  if (one == nullptr) return {true, false};
+  return {run.inputs_sha256 != inputsDigest(*one),
+          run.options_sha256 != optionsDigest(caseOptions(session, *one, file))};
+}
+
+std::string utcNowText() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm utc{};
+  ::gmtime_r(&now, &utc);
+  std::array<char, 32> text{};
+  (void)std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text.data();
+}
+
+bool isUtcText(const std::string& text) {
+  constexpr std::string_view kForm = "dddd-dd-ddTdd:dd:ddZ";
+  return text.size() == kForm.size() &&
+         std::equal(text.begin(), text.end(), kForm.begin(), [](char c, char form) {
+           return form == 'd' ? std::isdigit(static_cast<unsigned char>(c)) != 0 : c == form;
+         });
+}
+
+bool isSha256Text(const std::string& text) {
+  return text.size() == 64 && std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+         });
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// The operator's document: one plain value. What is done with it (files, journal, lock, undo) is in
+// the headers beside this one.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
+#include "core/localizer/localizer_options.h"
+#include "sessions/io/dataset_file.h"
+#include "sessions/io/image_file.h"
+#include "sessions/io/option_value.h"
+#include "sessions/io/points_file.h"
+#include "sessions/session/ignore_strokes.h"
+#include "sessions/session/shared_value.h"
+
+namespace boresight::sessions {
+
+/// A file that a session depends on, and the bytes that it must have.
+struct InputFile {
+  std::filesystem::path file;  ///< absolute
+  std::string sha256;          ///< 64 lower-case hexadecimal digits
+
+  bool operator==(const InputFile&) const = default;
+};
+
+struct ImageInput {
+  InputFile source;
+  int width = 0;  ///< px
+  int height = 0;
+  ImageReadOptions eight_bit;  ///< how its samples become 8 bit
+  std::string pixels_sha256;   ///< of the 8-bit pixels that the core sees
+
+  bool operator==(const ImageInput&) const = default;
+};
+
+/// One part of the station. For glTF the hash includes the buffers beside the file.
+struct MeshInput {
+  PartSource source;  ///< its path is absolute
+  std::string sha256;
+
+  bool operator==(const MeshInput&) const = default;
+};
+
+/// Everything that a run of one image is given, and what its result is judged by.
+struct SessionCase {
+  std::string id;       ///< unique in the session, not empty
+  std::string station;  ///< a name for people, may be empty
+  ImageInput image;
+  Camera camera;
+  std::vector<MeshInput> parts;  ///< at least one that is matched
+  std::optional<double> feature_size_m;
+  Pose camera_from_station_seed;
+  DeclaredUncertainty uncertainty;
+  std::optional<Pose> camera_from_station_truth;
+  std::optional<InputFile> ignore;  ///< mask image
+  MaskStrokes ignore_strokes;       ///< edits of the mask, applied in their order
+  std::optional<InputFile> onboard_record;
+  std::optional<Rig> rig;
+  std::vector<std::string> tags;
+  std::optional<Requirement> requirement;
+  std::optional<Pose> camera_from_end_effector;
+
+  bool operator==(const SessionCase&) const = default;
+};
+
+/// What a person marked in one case.
+struct Annotation {
+  std::vector<PointPair> points;
+
+  bool operator==(const Annotation&) const = default;
+};
+
+enum class Verdict { kValidated, kRejected };
+
+/// What an operator decided about a case's result; the last one of a case holds.
+struct Decision {
+  std::string case_id;
+  Verdict verdict = Verdict::kRejected;
+  std::string by;  ///< who, not empty
+  std::string comment;
+  std::string time;    ///< UTC, "2026-01-31T23:59:59Z"
+  std::string digest;  ///< of the run that was judged, or empty
+
+  bool operator==(const Decision&) const = default;
+};
+
+/// A run whose trace is a file of its own beside the session.
+struct RunRecord {
+  std::string case_id;
+  std::string digest;  ///< of the trace, which names its file
+  std::filesystem::path file;
+  std::string status;          ///< as localizationStatusText says
+  std::string version;         ///< of the program that ran it
+  std::string time;            ///< UTC, when it ended
+  std::string inputs_sha256;   ///< inputsDigest of the case that ran
+  std::string options_sha256;  ///< optionsDigest of what ran
+
+  bool operator==(const RunRecord&) const = default;
+};
+
+/// What of the view belongs to the document; windows and layout do not.
+struct DocumentView {
+  std::string case_id;          ///< chosen case, or empty
+  std::string digest;           ///< chosen run, or empty
+  std::int32_t iteration = -1;  ///< chosen iteration of that run, -1: the last
+
+  bool operator==(const DocumentView&) const = default;
+};
+
+struct Session {
+  std::string profile = "default";
+  OptionList options;  ///< what differs from the profile, by name in the order of the alphabet
+  std::vector<SharedValue<SessionCase>> cases;
+  std::map<std::string, SharedValue<Annotation>> annotations;  ///< by case; none is empty
+  std::vector<Decision> decisions;
+  std::vector<RunRecord> runs;  ///< in the order in which they were made
+  DocumentView view;
+
+  /// nullptr when there is none of this id.
+  const SessionCase* findCase(const std::string& id) const;
+  /// The decision that holds for a case, or nullptr.
+  const Decision* decisionOn(const std::string& case_id) const;
+  /// The latest run of a case, or nullptr.
+  const RunRecord* lastRunOf(const std::string& case_id) const;
+
+  bool operator==(const Session&) const = default;
+};
+
+/// The same session with this case in place of the one of its id, or at the end.
+Session withCase(const Session& session, SessionCase changed);
+/// The same session without a case and all that refers to it.
+Session withoutCase(const Session& session, const std::string& case_id);
+/// The same session with a case's annotation; an empty one is taken away.
+Session withAnnotation(const Session& session, const std::string& case_id, Annotation annotation);
+
+/// The same session with these options, kept as what differs from a profile that exists.
+Session withOptions(const Session& session, const std::string& profile,
+                    const LocalizerOptions& options);
+
+/// The options of the session's runs before a case's feature size. InputError (`file` names the
+/// session) when the profile or an option does not exist or cannot have its value.
+LocalizerOptions sessionOptions(const Session& session, const std::filesystem::path& file);
+/// The options that a case is run with: a feature size of 0 is replaced by the case's.
+LocalizerOptions caseOptions(const Session& session, const SessionCase& one,
+                             const std::filesystem::path& file);
+
+/// SHA-256 over every option, by name and value: whatever differs makes a run stale.
+std::string optionsDigest(const LocalizerOptions& options);
+/// SHA-256 over what a run of the case depends on: pixels, mask, camera, parts, seed, uncertainty;
+/// not names, truth, tags or requirement.
+std::string inputsDigest(const SessionCase& one);
+
+/// In what a run differs from what would be run now.
+struct Staleness {
+  bool inputs_changed = false;
+  bool options_changed = false;
+
+  bool stale() const { return inputs_changed || options_changed; }
+};
+/// A run of a case that is no longer there has changed inputs.
+Staleness stalenessOf(const RunRecord& run, const Session& session,
+                      const std::filesystem::path& file);
+
+/// "2026-01-31T23:59:59Z", now.
+std::string utcNowText();
+/// Whether `text` has that form.
+bool isUtcText(const std::string& text);
+/// Whether `text` is a SHA-256 in lower-case hexadecimal digits.
+bool isSha256Text(const std::string& text);
+
+}  // namespace boresight::sessions

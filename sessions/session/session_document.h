@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "sessions/session/journal.h"
+#include "sessions/session/session.h"
+#include "sessions/session/session_lock.h"
+
+namespace boresight::sessions {
+
+enum class Access { kEdit, kReadOnly };
+
+/// Edits that were made but not saved when a program ended.
+struct Recovery {
+  Session session;                 ///< with all of them
+  std::vector<std::string> edits;  ///< what they were, in their order
+  std::string time;                ///< UTC, of the last one
+  std::size_t lost_lines = 0;      ///< of the journal, damaged; a last torn one was never confirmed
+};
+
+/// An open session: its value, its file, and the journal and lock beside it. An edit is on the disk
+/// before `apply` returns; what is shown is what `session()` says. Not for several threads at once.
+class SessionDocument {
+ public:
+  /// Opens a session file. With kEdit the lock is taken; where that cannot be (somebody else has
+  /// it, the folder is read-only) the document opens read-only and says why. InputError when the
+  /// file is not a session.
+  static SessionDocument open(const std::filesystem::path& file, Access access = Access::kEdit);
+  /// Writes a new session file and opens it. OutputError when there is a file of this name already,
+  /// or nothing can be written.
+  static SessionDocument create(const std::filesystem::path& file, const Session& session);
+
+  SessionDocument(SessionDocument&&) noexcept;
+  SessionDocument& operator=(SessionDocument&&) noexcept;
+  ~SessionDocument();
+
+  const Session& session() const { return session_; }
+  const std::filesystem::path& file() const { return file_; }  ///< absolute
+  bool modified() const { return !(session_ == saved_); }      ///< differs from the file
+  bool readOnly() const { return !read_only_reason_.empty(); }
+  const std::string& readOnlyReason() const { return read_only_reason_; }
+  /// What people should know of how it opened: a lock that a killed program left, a journal that
+  /// was set aside.
+  const std::vector<std::string>& notices() const { return notices_; }
+
+  /// Unsaved edits of a program that was killed; they wait to be accepted or declined, and until
+  /// then nothing can be edited or saved.
+  const std::optional<Recovery>& recovery() const { return recovery_; }
+  /// The recovered session becomes the document's, not yet saved. OutputError.
+  void acceptRecovery();
+  /// The journal is set aside under another name. OutputError.
+  void declineRecovery();
+
+  /// Makes `next` the session, once the journal has it; `text` says what was done. OutputError when
+  /// it cannot be written, the document is read-only, or a recovery waits; InputError when `next`
+  /// is not a session that a file could hold (two cases of one id, an option out of range). Then
+  /// nothing has changed. A `next` like the present value is no edit.
+  void apply(const Session& next, const std::string& text);
+
+  /// Writes the file and drops the journal. OutputError, also when another program has changed the
+  /// file meanwhile; then file and journal are as they were.
+  void save();
+  /// Goes on under another name, whatever lay there before; traces of runs are copied along. The
+  /// former file stays as it was last saved. OutputError leaves the document as it was.
+  void saveAs(const std::filesystem::path& file);
+
+ private:
+  explicit SessionDocument(const std::filesystem::path& file);
+  void takeLock();
+  void readSaved();
+  void readJournalBeside();
+  void noteRecovery(const JournalContents& contents, std::size_t first);
+  std::optional<Session> replayed(const JournalContents& contents, std::size_t first,
+                                  std::size_t end) const;
+  void setJournalAside(const std::string& why);
+  void requireEditable() const;
+  void become(const Session& session);
+
+  std::filesystem::path file_;
+  std::string file_sha256_;  ///< of the file as it was read or written last
+  Session session_;
+  Session saved_;
+  std::unique_ptr<nlohmann::json> json_;  ///< of session_
+  std::unique_ptr<SessionLock> lock_;
+  std::unique_ptr<Journal> journal_;  ///< nullptr while there are no edits
+  std::optional<Recovery> recovery_;
+  std::string read_only_reason_;
+  std::vector<std::string> notices_;
+};
+
+}  // namespace boresight::sessions

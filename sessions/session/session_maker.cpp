@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/session_maker.h"
+
+#include <algorithm>
+#include <map>
+
+#include "sessions/io/camera_file.h"
+#include "sessions/io/errors.h"
+#include "sessions/session/input_check.h"
+
+namespace boresight::sessions {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path wholePath(const fs::path& file) { return fs::absolute(file).lexically_normal(); }
+
+ImageInput imageInput(const fs::path& file, const ImageReadOptions& eight_bit) {
+  const GrayImage image = readImage(file, eight_bit);
+  ImageInput input;
+  input.source = {wholePath(file), image.file_sha256};
+  input.width = image.width;
+  input.height = image.height;
+  input.eight_bit = eight_bit;
+  input.pixels_sha256 = image.pixels_sha256;
+  return input;
+}
+
+std::vector<MeshInput> meshInputs(const std::vector<PartSource>& parts) {
+  const SceneMesh scene = readScene(parts);
+  std::vector<MeshInput> inputs;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    inputs.push_back({parts[i], scene.infos[i].file_sha256});
+    inputs.back().source.mesh = wholePath(parts[i].mesh);
+  }
+  return inputs;
+}
+
+InputFile maskInput(const fs::path& file, const ImageInput& image) {
+  return {wholePath(file), readIgnoreMask(file, image.width, image.height).file_sha256};
+}
+
+SessionCase caseOf(const Dataset& dataset, const Case& one, const std::vector<MeshInput>& parts) {
+  if (!one.uncertainty)
+    throw InputError(dataset.file, "cases." + one.id + ".uncertainty",
+                     "neither the case nor its station states one");
+  SessionCase made;
+  made.id = one.id;
+  made.station = one.station;
+  made.image = imageInput(one.image, {});
+  made.camera = dataset.cameras.at(one.camera);
+  made.parts = parts;
+  made.feature_size_m = dataset.stations.at(one.station).feature_size_m;
+  made.camera_from_station_seed = one.seed_camera_from_station;
+  made.uncertainty = *one.uncertainty;
+  made.camera_from_station_truth = one.truth_camera_from_station;
+  if (one.ignore) made.ignore = maskInput(*one.ignore, made.image);
+  made.rig = one.rig;
+  made.tags = one.tags;
+  made.requirement = one.requirement;
+  made.camera_from_end_effector = one.camera_from_end_effector;
+  return made;
+}
+
+}  // namespace
+
+MadeCase makeCase(const CaseFiles& files) {
+  MadeCase result;
+  SessionCase& made = result.made;
+  made.id = files.id.empty() ? files.image.stem().string() : files.id;
+  made.image = imageInput(files.image, files.eight_bit);
+  made.camera = readCamera(files.camera);
+  made.parts = meshInputs(files.parts);
+  made.feature_size_m = files.feature_size_m;
+  const PoseFile seed = readPose(files.seed);
+  made.camera_from_station_seed = seed.camera_from_station;
+  made.uncertainty =
+      files.uncertainty ? *files.uncertainty : seed.uncertainty.value_or(DeclaredUncertainty());
+  if (!files.uncertainty && !seed.uncertainty)
+    result.notes.push_back("the seed states no uncertainty; taking 0.03 m and 5 deg");
+  const std::string projected = projectionNote(seed.rotation_deviation);
+  if (!projected.empty()) result.notes.push_back(files.seed.string() + ": " + projected);
+  if (files.truth) made.camera_from_station_truth = readPose(*files.truth).camera_from_station;
+  if (files.ignore) made.ignore = maskInput(*files.ignore, made.image);
+  return result;
+}
+
+Session makeSession(const fs::path& dataset_file, const std::vector<std::string>& case_ids) {
+  const Dataset dataset = readDataset(dataset_file);
+  for (const std::string& id : case_ids)
+    if (dataset.findCase(id) == nullptr)
+      throw InputError(dataset_file, "cases", "there is no case '" + id + "'");
+  Session session;
+  std::map<std::string, std::vector<MeshInput>> parts;
+  for (const Case& one : dataset.cases) {
+    if (!case_ids.empty() && std::find(case_ids.begin(), case_ids.end(), one.id) == case_ids.end())
+      continue;
+    if (!parts.contains(one.station))
+      parts[one.station] = meshInputs(dataset.stations.at(one.station).parts);
+    session.cases.emplace_back(caseOf(dataset, one, parts[one.station]));
+  }
+  return session;
+}
+
+}  // namespace boresight::sessions

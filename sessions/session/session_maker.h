@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sessions/session/case_run.h"
+#include "sessions/session/session.h"
+
+namespace boresight::sessions {
+
+/// Files that make one case. Nothing of them is guessed.
+struct CaseFiles {
+  std::string id;  ///< "": the image's name without extension
+  std::filesystem::path image;
+  ImageReadOptions eight_bit;
+  std::filesystem::path camera;
+  std::vector<PartSource> parts;
+  std::filesystem::path seed;
+  std::optional<DeclaredUncertainty> uncertainty;  ///< instead of the seed file's
+  std::optional<std::filesystem::path> truth;
+  std::optional<std::filesystem::path> ignore;
+  std::optional<double> feature_size_m;
+};
+
+/// A case with the hashes of its files as they are now, and what people should be told (a seed that
+/// states no uncertainty, a matrix that is not quite a rotation).
+struct MadeCase {
+  SessionCase made;
+  std::vector<std::string> notes;
+};
+
+/// Reads all files once. InputError when one is missing or wrong. An image of another size than its
+/// camera makes a case all the same, which the input sheet flags and a run refuses.
+MadeCase makeCase(const CaseFiles& files);
+
+/// A session of the cases of a dataset.json with these ids, or of all. Requirement, truth, rig,
+/// tags and uncertainty come along. InputError, also for an id that the dataset does not have.
+Session makeSession(const std::filesystem::path& dataset_file,
+                    const std::vector<std::string>& case_ids = {});
+
+}  // namespace boresight::sessions

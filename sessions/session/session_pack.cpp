@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/session_pack.h"
+
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
+#include "sessions/io/mesh_container.h"
+#include "sessions/session/input_check.h"
+#include "sessions/session/session_file.h"
+#include "sessions/session/session_json.h"
+#include "sessions/session/zip_writer.h"
+
+namespace boresight::sessions {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxPackedBytes = 4096 * kMegabyte;
+constexpr std::size_t kHashDigits = 16;
+
+/// The file name, which may hold %20 and the like, of a buffer that lies beside a glTF file; empty
+/// for one that is inside it.
+std::string bufferName(const nlohmann::json& buffer) {
+  const std::string uri = buffer.is_object() ? buffer.value("uri", "") : "";
+  if (uri.starts_with("data:")) return "";
+  std::string name;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const std::string digits = uri[i] == '%' ? uri.substr(i + 1, 2) : "";
+    if (digits.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos &&
+        digits.size() == 2) {
+      name += static_cast<char>(std::stoi(digits, nullptr, 16));
+      i += 2;
+    } else {
+      name += uri[i];
+    }
+  }
+  return name;
+}
+
+/// Packs files and moves their paths into a folder of the archive.
+class Packer {
+ public:
+  Packer(const fs::path& session_file, const fs::path& archive)
+      : name_(session_file.filename()), top_(runsFolderOf(name_).stem().string()), zip_(archive) {}
+
+  void pack(fs::path& file, const std::string& sha256) {
+    const std::string folder = inputFolder(sha256);
+    const std::string name = folder + "/" + file.filename().string();
+    if (!zip_.has(top_ + "/" + name)) {
+      const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxPackedBytes);
+      requireSame(file, sha256Text(bytes), sha256);
+      zip_.add(top_ + "/" + name, bytes);
+    }
+    file = place(name);
+  }
+
+  void packMesh(MeshInput& part) {
+    fs::path& file = part.source.mesh;
+    if (knownMeshFormat(file) != MeshFormat::kGltf) return pack(file, part.sha256);
+    requireSame(file, meshSha256(part.source), part.sha256);
+    const std::string folder = inputFolder(part.sha256);
+    const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxPackedBytes);
+    zip_.add(top_ + "/" + folder + "/" + file.filename().string(), bytes);
+    const auto json = nlohmann::json::parse(asText(bytes), nullptr, false);
+    for (const auto& buffer : json.value("buffers", nlohmann::json::array())) {
+      const std::string name = bufferName(buffer);
+      if (name.find("..") != std::string::npos || fs::path(name).is_absolute())
+        throw InputError(file, "buffers", "'" + name + "' lies outside the mesh's folder");
+      if (!name.empty())
+        zip_.add(top_ + "/" + folder + "/" + name,
+                 readFileBytes(file.parent_path() / name, kMaxPackedBytes));
+    }
+    file = place(folder + "/" + file.filename().string());
+  }
+
+  /// False when the trace is not there.
+  bool packRun(RunRecord& run) {
+    std::error_code error;
+    if (!fs::exists(run.file, error)) return false;
+    const std::string name = runFileOf(name_, run.digest).string();
+    zip_.add(top_ + "/" + name, readFileBytes(run.file, kMaxPackedBytes));
+    run.file = place(name);
+    return true;
+  }
+
+  void finish(const Session& session) {
+    zip_.add(top_ + "/" + name_.string(), sessionText(session, place(name_.string())));
+    zip_.commit();
+  }
+
+ private:
+  static void requireSame(const fs::path& file, const std::string& found,
+                          const std::string& known) {
+    if (found != known)
+      throw InputError(file,
+                       "it is not the file that the session was made with: accept it as it "
+                       "is now, or bring back the other one");
+  }
+  static std::string inputFolder(const std::string& sha256) {
+    return "inputs/" + sha256.substr(0, kHashDigits);
+  }
+  /// Only what is relative to the session's own folder is written.
+  static fs::path place(const std::string& name) { return fs::path("/session") / name; }
+
+  fs::path name_;
+  std::string top_;
+  ZipWriter zip_;
+};
+
+}  // namespace
+
+std::vector<std::string> packSession(const Session& session, const fs::path& session_file,
+                                     const fs::path& archive) {
+  Packer packer(session_file, archive);
+  Session packed = session;
+  for (auto& one : packed.cases) {
+    SessionCase changed = *one;
+    packer.pack(changed.image.source.file, changed.image.source.sha256);
+    for (MeshInput& part : changed.parts) packer.packMesh(part);
+    if (changed.ignore) packer.pack(changed.ignore->file, changed.ignore->sha256);
+    if (changed.onboard_record)
+      packer.pack(changed.onboard_record->file, changed.onboard_record->sha256);
+    one = std::move(changed);
+  }
+  std::vector<std::string> notes;
+  std::vector<RunRecord> runs;
+  for (RunRecord& run : packed.runs) {
+    const fs::path file = run.file;
+    if (packer.packRun(run))
+      runs.push_back(run);
+    else
+      notes.push_back("the trace of a run of case " + run.case_id +
+                      " is missing and was left out: " + file.string());
+  }
+  packed.runs = std::move(runs);
+  packer.finish(packed);
+  return notes;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// new, run, pack, and info of a session.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/session/session_document.h"
+#include "sessions/session/session_file.h"
+#include "tests/app/run_whs.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::Session;
+using sessions::SessionDocument;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::filesystem::path kDataset = exampleFolder() / "dataset.json";
+
+/// The id of the orbiting sample's case.
+std::string idOfOs() {
+  for (const sessions::Case& one : sessions::readDataset(kDataset).cases)
+    if (one.station == "os") return one.id;
+  return "";
+}
+
+/// A session of one case in `folder`.
+std::string newSession(const TemporaryFolder& folder) {
+  const std::string file = folder / "s.boresight.json";
+  const ProgramRun made = runWhs({"new", "--dataset", kDataset, "--case", idOfOs(), "--out", file});
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  return file;
+}
+
+TEST(WhsNew, RefusesWhatIsIncompleteOrThere) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("s.json", "mine");
+  const ProgramRun there = runWhs({"new", "--dataset", kDataset, "--out", file});
+  EXPECT_EQ(there.exit_code, 3);
+  EXPECT_THAT(there.err, HasSubstr("there is a file of this name already"));
+  EXPECT_EQ(folder.read("s.json"), "mine");
+  const std::string out = folder / "t.json";
+  EXPECT_EQ(runWhs({"new", "--out", out}).exit_code, 2);
+  EXPECT_EQ(runWhs({"new", "--image", "a.png", "--out", out}).exit_code, 2);
+  EXPECT_EQ(runWhs({"new", "--dataset", kDataset, "--case", "x", "--out", out}).exit_code, 3);
+  EXPECT_EQ(runWhs({"new", "--dataset", "none.json", "--out", out}).exit_code, 3);
+  EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(WhsRun, RecordsTheRunOfLocalizeAndInfoTellsIt) {
+  const TemporaryFolder folder;
+  const std::string file = newSession(folder);
+  const ProgramRun run = runWhs({"run", file});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun localized = runWhs(localizeArguments());
+  const Session session = sessions::readSessionFile(file).session;
+  ASSERT_EQ(session.runs.size(), 1u);
+  EXPECT_THAT(localized.out, HasSubstr("digest " + session.runs[0].digest));
+  EXPECT_THAT(run.out, AllOf(HasSubstr(": converged, "), HasSubstr(session.runs[0].digest)));
+  EXPECT_TRUE(
+      std::filesystem::exists(folder / ("s.boresight.runs/" + session.runs[0].digest + ".trace")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.boresight.journal"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.boresight.lock"));
+
+  ProgramRun info = runWhs({"info", file});
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_THAT(info.out,
+              AllOf(HasSubstr("run " + session.runs[0].digest + ": converged"),
+                    HasSubstr("field of view: "), HasSubstr("seed: "), Not(HasSubstr("stale"))));
+  {
+    SessionDocument document = SessionDocument::open(file);
+    LocalizerOptions options = defaultProfile();
+    options.pnp.seed += 1;
+    document.apply(withOptions(document.session(), "default", options), "Another seed");
+    document.save();
+  }
+  info = runWhs({"info", file});
+  EXPECT_THAT(info.out, HasSubstr("stale: options changed since"));
+}
+
+TEST(WhsRun, RefusesWhatItMustNotTouch) {
+  const TemporaryFolder folder;
+  const std::string file = newSession(folder);
+  EXPECT_EQ(runWhs({"run", folder / "none.json"}).exit_code, 3);
+  EXPECT_EQ(runWhs({"run", file, "--case", "x"}).exit_code, 3);
+  EXPECT_EQ(runWhs({"run", kDataset}).exit_code, 3);
+  {
+    SessionDocument document = SessionDocument::open(file);
+    const ProgramRun busy = runWhs({"run", file});
+    EXPECT_EQ(busy.exit_code, 3);
+    EXPECT_THAT(busy.err, HasSubstr("it is open already: process "));
+    EXPECT_EQ(busy.errorLines(), 1);
+    Session next = document.session();
+    next.view.case_id = next.cases[0]->id;
+    document.apply(next, "Look at it");
+  }
+  const ProgramRun unsaved = runWhs({"run", file});
+  EXPECT_EQ(unsaved.exit_code, 3);
+  EXPECT_THAT(unsaved.err, HasSubstr("1 edits were never saved"));
+  EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("1 edits are in its journal"));
+  EXPECT_EQ(runWhs({"pack", file, "--out", folder / "p.zip"}).exit_code, 3);
+  EXPECT_FALSE(std::filesystem::exists(folder / "p.zip"));
+}
+
+TEST(WhsPack, MakesAnArchiveAndRefusesChangedInputs) {
+  const TemporaryFolder folder;
+  std::filesystem::copy(exampleFolder(), folder / "stations",
+                        std::filesystem::copy_options::recursive);
+  const std::string file = folder / "s.json";
+  ASSERT_EQ(runWhs({"new", "--dataset", folder / "stations/dataset.json", "--out", file}).exit_code,
+            0);
+  EXPECT_EQ(runWhs({"pack", file, "--out", folder / "s.zip"}).exit_code, 0);
+  EXPECT_EQ(folder.read("s.zip").substr(0, 2), "PK");
+  folder.write("stations/os/model.ply", folder.read("stations/bc/model.ply"));
+  const ProgramRun changed = runWhs({"pack", file, "--out", folder / "t.zip"});
+  EXPECT_EQ(changed.exit_code, 3);
+  EXPECT_THAT(changed.err, HasSubstr("stations/os/model.ply: it is not the file"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "t.zip"));
+  const ProgramRun run = runWhs({"run", file, "--case", idOfOs()});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.err, HasSubstr("its bytes are not those that the session was made with"));
+  EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("! "));
+}
+
+}  // namespace
+}  // namespace boresight::test

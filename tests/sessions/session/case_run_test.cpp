@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/case_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sessions/session/input_check.h"
+#include "sessions/session/session_file.h"
+#include "sessions/session/session_pack.h"
+#include "sessions/trace/record.h"
+#include "tests/sessions/session/example_session.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::RunRecord;
+using sessions::Session;
+using sessions::SessionCase;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Session sessionOfOs(const std::filesystem::path& stations) {
+  const Session all = sessions::makeSession(stations / "dataset.json");
+  Session os;
+  for (const auto& one : all.cases)
+    if (one->station == "os") os.cases.push_back(one);
+  return os;
+}
+
+TEST(CaseRun, RefusesWhatCannotBeRun) {
+  const TemporaryFolder folder;
+  const Session session = sessionOfOs(exampleFolder());
+  const SessionCase& os = *session.cases[0];
+  const auto message = [&](const std::function<void(SessionCase&)>& spoil) {
+    SessionCase one = os;
+    spoil(one);
+    return folder.message([&] { (void)sessions::runCase(withCase(session, one), os.id); });
+  };
+  EXPECT_THAT(folder.message([&] { (void)sessions::runCase(session, "x"); }),
+              HasSubstr("there is no case 'x'"));
+  EXPECT_THAT(message([](auto& c) { c.camera.width = 100; }), HasSubstr("image size: is 1024"));
+  EXPECT_THAT(message([](auto& c) { c.camera_from_station_seed.translation_m.z() *= -1; }),
+              HasSubstr("seed: the station lies behind the camera"));
+  EXPECT_THAT(message([](auto& c) { c.parts[0].source.mesh_unit = "km"; }),
+              HasSubstr("mesh_unit: the mesh measures"));
+  EXPECT_THAT(message([](auto& c) { c.image.pixels_sha256 = std::string(64, '0'); }),
+              HasSubstr("its 8-bit pixels are not those"));
+  Session options = session;
+  options.options.emplace_back("pnp.nonsense", 1.0);
+  EXPECT_THAT(folder.message([&] { (void)sessions::runCase(options, os.id); }),
+              HasSubstr("options.pnp.nonsense: there is no such option"));
+}
+
+TEST(CaseRun, StrokesAndMaskFileTogetherAreTheMask) {
+  const TemporaryFolder folder;
+  SessionCase one = *sessionOfOs(exampleFolder()).cases[0];
+  std::vector<std::uint8_t> mask(1024 * 1024, 0);
+  mask[5] = 1;
+  sessions::writePng(folder / "m.png", mask, 1024, 1024, 1);
+  one.ignore = sessions::InputFile{folder / "m.png", sessions::inputSha256(folder / "m.png")};
+  sessions::MaskStroke dot;
+  dot.radius_px = 0.0;
+  dot.points = {{7.0, 0.0}};
+  one.ignore_strokes = {dot};
+  const auto loaded = sessions::loadCase(one);
+  EXPECT_EQ(loaded->ignore->ignored_count, 2);
+  EXPECT_TRUE(loaded->problem().ignore->get(5, 0));
+  EXPECT_TRUE(loaded->problem().ignore->get(7, 0));
+  one.ignore->sha256[0] = one.ignore->sha256[0] == '0' ? '1' : '0';
+  EXPECT_THAT(folder.message([&] { (void)sessions::loadCase(one); }),
+              HasSubstr("m.png: its bytes are not those"));
+}
+
+TEST(CaseRun, IsTheRunOfItsInputsAndIsKeptByItsDigest) {
+  const TemporaryFolder folder;
+  const Session session = sessionOfOs(exampleFolder());
+  const std::string id = session.cases[0]->id;
+  const sessions::LocalizationTrace trace = sessions::runCase(session, id);
+  const ExampleCase example("os");
+  LocalizerOptions options = defaultProfile();
+  options.templates.feature_size_m = session.cases[0]->feature_size_m.value();
+  EXPECT_EQ(trace.digest,
+            sessions::localize(example.problem(), options, sessions::RecordLevel::kSummary).digest);
+  EXPECT_TRUE(trace.converged());
+
+  const std::filesystem::path file = folder / "s.boresight.json";
+  const RunRecord run = sessions::storeRun(session, id, trace, file);
+  EXPECT_EQ(run.file, folder / "s.boresight.runs" / (trace.digest + ".trace"));
+  EXPECT_EQ(run.status, "converged");
+  EXPECT_EQ(sessions::loadRun(run).digest, trace.digest);
+  // Immutable: the same run again leaves the file as it is.
+  const std::string bytes = folder.read("s.boresight.runs/" + trace.digest + ".trace");
+  sessions::LocalizationTrace slower = trace;
+  slower.seconds.matching += 1.0;
+  (void)sessions::storeRun(session, id, slower, file);
+  EXPECT_EQ(folder.read("s.boresight.runs/" + trace.digest + ".trace"), bytes);
+  const Session ran = withRun(withRun(session, run), run);
+  EXPECT_EQ(ran.runs.size(), 1u);
+
+  EXPECT_FALSE(sessions::stalenessOf(run, ran, file).stale());
+  SessionCase nudged = *ran.cases[0];
+  nudged.camera_from_station_seed.translation_m.x() += 1e-6;
+  EXPECT_TRUE(sessions::stalenessOf(run, withCase(ran, nudged), file).inputs_changed);
+  LocalizerOptions other = defaultProfile();
+  other.pnp.seed += 1;
+  const sessions::Staleness options_changed =
+      sessions::stalenessOf(run, withOptions(ran, "default", other), file);
+  EXPECT_TRUE(options_changed.options_changed);
+  EXPECT_FALSE(options_changed.inputs_changed);
+
+  RunRecord wrong = run;
+  wrong.digest[0] = wrong.digest[0] == '0' ? '1' : '0';
+  EXPECT_THAT(folder.message([&] { (void)sessions::loadRun(wrong); }), HasSubstr("digest: is"));
+  std::filesystem::remove(run.file);
+  EXPECT_THAT(folder.message([&] { (void)sessions::loadRun(run); }), HasSubstr("no such file"));
+  EXPECT_EQ(sessions::checkInputs(ran).size(), 1u);
+}
+
+TEST(CaseRun, AStoppedRunIsNotStored) {
+  const TemporaryFolder folder;
+  const Session session = sessionOfOs(exampleFolder());
+  std::stop_source stop;
+  stop.request_stop();
+  const sessions::LocalizationTrace trace = sessions::runCase(
+      session, session.cases[0]->id, sessions::RecordLevel::kFull, stop.get_token());
+  EXPECT_THROW((void)sessions::storeRun(session, session.cases[0]->id, trace, folder / "s.json"),
+               std::logic_error);
+  EXPECT_EQ(folder.fileCount(), 0u);
+}
+
+/// Unpacks a zip with another program than the one that packed it.
+void unpack(const std::filesystem::path& archive, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  const std::string command =
+      "cd '" + folder.string() + "' && '" BORESIGHT_CMAKE "' -E tar xf '" + archive.string() + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+}
+
+TEST(SessionPack, OpensAndRunsElsewhereWithTheSameDigest) {
+  const TemporaryFolder folder;
+  const std::filesystem::path stations = copyOfExamples(folder);
+  Session session = sessions::makeSession(stations / "dataset.json");
+  const std::string id = sessionOfOs(stations).cases[0]->id;
+  const std::filesystem::path file = folder / "here/s.boresight.json";
+  std::filesystem::create_directories(folder / "here");
+  const sessions::LocalizationTrace trace = sessions::runCase(session, id);
+  session = withRun(session, sessions::storeRun(session, id, trace, file));
+  EXPECT_THAT(sessions::packSession(session, file, folder / "s.zip"), IsEmpty());
+  const std::string bytes = folder.read("s.zip");
+  EXPECT_THAT(sessions::packSession(session, file, folder / "s.zip"), IsEmpty());
+  EXPECT_EQ(folder.read("s.zip"), bytes);
+  std::filesystem::remove_all(stations);
+  std::filesystem::remove_all(folder / "here");
+
+  unpack(folder / "s.zip", folder / "there");
+  const std::filesystem::path unpacked = folder / "there/s.boresight/s.boresight.json";
+  const Session again = sessions::readSessionFile(unpacked).session;
+  EXPECT_THAT(sessions::checkInputs(again), IsEmpty());
+  ASSERT_EQ(again.runs.size(), 1u);
+  EXPECT_FALSE(sessions::stalenessOf(again.runs[0], again, unpacked).stale());
+  EXPECT_EQ(sessions::loadRun(again.runs[0]).digest, trace.digest);
+  EXPECT_EQ(sessions::runCase(again, id).digest, trace.digest);
+}
+
+TEST(SessionPack, RefusesWhatWouldNotBeTheSession) {
+  const TemporaryFolder folder;
+  const std::filesystem::path stations = copyOfExamples(folder);
+  Session session = sessions::makeSession(stations / "dataset.json");
+  const std::string digest(64, 'd');
+  session.runs.push_back({session.cases[0]->id, digest, folder / "gone.trace", "converged", "0.1.0",
+                          "2026-01-31T23:59:59Z", digest, digest});
+  EXPECT_THAT(sessions::packSession(session, folder / "s.json", folder / "s.zip"),
+              testing::ElementsAre(HasSubstr("is missing and was left out")));
+  const std::size_t files = folder.fileCount();
+  folder.write("stations/bc/image.png", "another image");
+  EXPECT_THAT(folder.message([&] {
+    (void)sessions::packSession(session, folder / "s.json", folder / "t.zip");
+  }),
+              HasSubstr("bc/image.png: it is not the file that the session was made with"));
+  EXPECT_THAT(folder.message([&] {
+    (void)sessions::packSession(session, folder / "s.json", folder / "none/t.zip");
+  }),
+              HasSubstr("cannot write none/t.zip: no such folder"));
+  EXPECT_EQ(folder.fileCount(), files);
+}
+
+}  // namespace
+}  // namespace boresight::test

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::test {
+
+/// A copy of the example's stations that a test may spoil.
+inline std::filesystem::path copyOfExamples(const TemporaryFolder& folder) {
+  std::filesystem::copy(exampleFolder(), folder / "stations",
+                        std::filesystem::copy_options::recursive);
+  return folder / "stations";
+}
+
+/// The files of one station.
+inline sessions::CaseFiles filesOf(const std::filesystem::path& station) {
+  sessions::CaseFiles files;
+  files.id = station.filename().string();
+  files.image = station / "image.png";
+  files.camera = station / "camera.json";
+  files.parts.resize(1);
+  files.parts[0].mesh = station / "model.ply";
+  files.parts[0].mesh_unit = "m";
+  files.seed = station / "seed.json";
+  files.truth = station / "truth.json";
+  return files;
+}
+
+}  // namespace boresight::test

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/input_sheet.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/base/math.h"
+#include "tests/sessions/session/example_session.h"
+#include "tests/support/random_pose.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::InputSheet;
+using sessions::SessionCase;
+using testing::Contains;
+using testing::IsEmpty;
+
+SessionCase exampleOs() { return sessions::makeCase(filesOf(exampleFolder() / "os")).made; }
+
+std::vector<std::string> codes(const std::vector<sessions::RedFlag>& flags) {
+  std::vector<std::string> all;
+  for (const sessions::RedFlag& flag : flags) all.push_back(flag.code);
+  return all;
+}
+
+std::vector<std::string> flagsWith(const std::function<void(SessionCase&)>& change) {
+  SessionCase one = exampleOs();
+  change(one);
+  return codes(sessions::inputSheet(*sessions::loadCase(one)).flags);
+}
+
+TEST(InputSheet, MeasuresTheExample) {
+  const SessionCase one = exampleOs();
+  const InputSheet sheet = sessions::inputSheet(*sessions::loadCase(one));
+  // 4.8 % of this image is the bright background.
+  EXPECT_THAT(codes(sheet.flags), testing::ElementsAre("image_saturated"));
+  // Independent figures: a pinhole of the same focal length, and the seed's own translation.
+  const double pinhole_deg = 2.0 * std::atan(0.5 * one.camera.width / one.camera.fx) / kDegree_rad;
+  EXPECT_NEAR(sheet.camera.field_of_view_x_deg, pinhole_deg, 1.0);
+  EXPECT_NEAR(sheet.seed_distance_m, one.camera_from_station_seed.translation_m.norm(), 0.1);
+  EXPECT_NEAR(sheet.view_width_mm,
+              2e3 * sheet.seed_distance_m * std::tan(0.5 * pinhole_deg * kDegree_rad), 1.0);
+  EXPECT_NEAR(sheet.station_diagonal_mm, sheet.station_extent_mm.norm(), 1e-9);
+  EXPECT_GT(sheet.station_share, 0.1);
+  EXPECT_LT(sheet.station_share, 2.0);
+  for (const sessions::SheetLine& line : sheet.lines) EXPECT_FALSE(line.value.empty());
+}
+
+TEST(InputSheet, FlagsWhatIsProbablyWrong) {
+  EXPECT_THAT(flagsWith([](auto& c) { c.parts[0].source.mesh_unit = "mm"; }),
+              Contains("station_small"));
+  EXPECT_THAT(flagsWith([](auto& c) { c.parts[0].source.mesh_unit = "km"; }),
+              Contains("mesh_scale"));
+  EXPECT_THAT(flagsWith([](auto& c) { c.camera_from_station_seed.translation_m.z() *= -1; }),
+              Contains("station_behind_camera"));
+  EXPECT_THAT(flagsWith([](auto& c) { c.camera_from_station_seed.translation_m.x() += 5.0; }),
+              Contains("station_out_of_view"));
+  EXPECT_THAT(flagsWith([](auto& c) { c.camera.width += 2; }), Contains("camera_size"));
+  EXPECT_THAT(flagsWith([](auto& c) { c.camera.cx += 400.0; }), Contains("camera_off_centre"));
+  EXPECT_THAT(flagsWith([](auto& c) { c.camera.fy *= 1.1; }), Contains("camera_aspect"));
+  EXPECT_THAT(flagsWith([](auto& c) {
+                c.camera = makeCamera(CameraModel::kBrownConrady, c.camera.width, c.camera.height,
+                                      c.camera.fx, {-3.0, 0.0, 0.0, 0.0});
+              }),
+              Contains("camera_corners"));
+}
+
+TEST(InputSheet, TellsTheInsideOfASurface) {
+  const sessions::SceneMesh scene = ExampleCase("os").scene;
+  // A cube of two triangles a side, from -1 to 1.
+  sessions::SceneMesh cube;
+  for (int i = 0; i < 8; ++i)
+    cube.vertices_in_station_m.emplace_back(i & 1 ? 1.f : -1.f, i & 2 ? 1.f : -1.f,
+                                            i & 4 ? 1.f : -1.f);
+  for (const auto& quad :
+       {std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4},
+        std::array{2, 6, 7, 3}, std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}}) {
+    cube.faces.push_back({{quad[0], quad[1], quad[2]}});
+    cube.faces.push_back({{quad[0], quad[2], quad[3]}});
+  }
+  cube.part_of_face.assign(cube.faces.size(), 0);
+  cube.parts.resize(1);
+  Random random = randomFor("cube");
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3d point = randomVector(random, 2.0);
+    EXPECT_EQ(sessions::isInside(cube.view(), point), point.cwiseAbs().maxCoeff() < 1.0);
+  }
+  EXPECT_FALSE(sessions::isInside(scene.view(), {0.0, 0.0, 10.0}));
+}
+
+/// An image as a Bayer sensor sees a scene of smooth colours.
+std::vector<std::uint8_t> mosaic(int width, int height) {
+  std::vector<std::uint8_t> pixels;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const double shade = 0.6 + 0.4 * std::sin(0.05 * x) * std::cos(0.07 * y);
+      const double color = y % 2 == 0 ? (x % 2 == 0 ? 220.0 : 130.0) : (x % 2 == 0 ? 130.0 : 60.0);
+      pixels.push_back(static_cast<std::uint8_t>(shade * color));
+    }
+  return pixels;
+}
+
+TEST(InputSheet, KnowsAMosaicFromNoiseAndPictures) {
+  const std::vector<std::uint8_t> raw = mosaic(200, 150);
+  EXPECT_TRUE(sessions::looksLikeMosaic({raw.data(), 200, 150, 200}));
+  Random random = randomFor("noise");
+  std::vector<std::uint8_t> noise(200 * 150);
+  for (std::uint8_t& pixel : noise) pixel = static_cast<std::uint8_t>(random.below(256));
+  EXPECT_FALSE(sessions::looksLikeMosaic({noise.data(), 200, 150, 200}));
+  EXPECT_FALSE(sessions::looksLikeMosaic({noise.data(), 2, 2, 2}));
+  for (const char* station : {"bc", "os"})
+    EXPECT_FALSE(sessions::looksLikeMosaic(ExampleCase(station).image.view())) << station;
+}
+
+TEST(InputSheet, FlagsSixteenBitsWithoutARule) {
+  const TemporaryFolder folder;
+  cv::Mat image(100, 100, CV_16UC1);
+  for (int i = 0; i < 10000; ++i)
+    image.at<std::uint16_t>(i / 100, i % 100) = static_cast<std::uint16_t>(i / 3);
+  cv::imwrite((folder / "16.png").string(), image);
+  EXPECT_THAT(codes(sessions::imageSheet(sessions::readImage(folder / "16.png")).flags),
+              Contains("image_bit_depth"));
+  sessions::ImageReadOptions stated;
+  stated.bit_depth = 12;
+  EXPECT_THAT(codes(sessions::imageSheet(sessions::readImage(folder / "16.png", stated)).flags),
+              IsEmpty());
+}
+
+TEST(ReadImage, TakesAGivenTable) {
+  const TemporaryFolder folder;
+  cv::Mat image(1, 4, CV_16UC1);
+  for (int i = 0; i < 4; ++i) image.at<std::uint16_t>(0, i) = static_cast<std::uint16_t>(i);
+  cv::imwrite((folder / "t.png").string(), image);
+  sessions::ImageReadOptions options;
+  options.bit_depth = 2;
+  options.table = {9, 7, 200, 3};
+  const sessions::GrayImage read = sessions::readImage(folder / "t.png", options);
+  EXPECT_EQ(read.pixels, options.table);
+  EXPECT_EQ(read.rule, "by a given table of 4 values");
+  options.table.pop_back();
+  EXPECT_EQ(folder.message([&] { (void)sessions::readImage(folder / "t.png", options); }),
+            "t.png: table: has 3 entries, but 2 bits need 4");
+}
+
+}  // namespace
+}  // namespace boresight::test

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "sessions/session/session.h"
+#include "tests/support/random_pose.h"
+
+namespace boresight::test {
+
+/// A file system path with blanks and letters of other scripts, absolute.
+inline std::filesystem::path randomPath(Random& random, const char* extension) {
+  static const char* const kFolders[] = {"/data", "/data/Sol 12/raw", "/data/\xC3\xBC", "/x"};
+  return std::filesystem::path(kFolders[random.below(4)]) /
+         ("file " + std::to_string(random.below(1000)) + extension);
+}
+
+inline std::string randomSha256(Random& random) {
+  std::string text;
+  for (int i = 0; i < 64; ++i) text += "0123456789abcdef"[random.below(16)];
+  return text;
+}
+
+/// Uniform in 0 .. count - 1.
+inline std::size_t indexBelow(Random& random, std::size_t count) {
+  return random.below(static_cast<std::uint32_t>(count));
+}
+
+inline bool coin(Random& random) { return random.below(2) == 0; }
+
+inline sessions::InputFile randomInput(Random& random, const char* extension) {
+  return {randomPath(random, extension), randomSha256(random)};
+}
+
+inline sessions::MaskStroke randomStroke(Random& random) {
+  sessions::MaskStroke stroke;
+  stroke.kind = static_cast<sessions::StrokeKind>(random.below(3));
+  stroke.erase = coin(random);
+  if (stroke.kind == sessions::StrokeKind::kSaturation) {
+    stroke.level = static_cast<int>(random.below(256));
+    return stroke;
+  }
+  if (stroke.kind == sessions::StrokeKind::kBrush) stroke.radius_px = random.uniform(0.0, 40.0);
+  for (std::uint32_t i = random.below(5); i > 0; --i)
+    stroke.points.emplace_back(random.uniform(-9.0, 900.0), random.uniform(-9.0, 900.0));
+  return stroke;
+}
+
+inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
+  sessions::SessionCase one;
+  one.id = id;
+  if (coin(random)) one.station = "station \"q\"";
+  one.image.source = randomInput(random, ".png");
+  one.image.width = 1 + static_cast<int>(random.below(4000));
+  one.image.height = 1 + static_cast<int>(random.below(4000));
+  one.image.pixels_sha256 = randomSha256(random);
+  if (coin(random)) one.image.eight_bit.bit_depth = 1 + static_cast<int>(random.below(8));
+  if (one.image.eight_bit.bit_depth && coin(random))
+    for (int i = 0; i < 1 << *one.image.eight_bit.bit_depth; ++i)
+      one.image.eight_bit.table.push_back(static_cast<std::uint8_t>(random.below(256)));
+  one.camera = randomCamera(random, static_cast<CameraModel>(random.below(3)));
+  for (std::uint32_t i = 1u + random.below(3); i > 0; --i) {
+    sessions::MeshInput part;
+    part.source.mesh = randomPath(random, ".ply");
+    part.source.mesh_unit = coin(random) ? "m" : "mm";
+    if (coin(random)) part.source.station_from_mesh = randomPose(random);
+    part.source.part.normal_threshold_rad = random.uniform(0.1, 1.0);
+    part.source.part.depth_threshold_m = random.uniform(0.001, 0.1);
+    part.source.part.match = i == 1 || coin(random);
+    part.sha256 = randomSha256(random);
+    one.parts.push_back(part);
+  }
+  if (coin(random)) one.feature_size_m = random.uniform(0.001, 0.1);
+  one.camera_from_station_seed = randomPose(random);
+  one.uncertainty.translation_m = randomVector(random, 0.05).cwiseAbs();
+  one.uncertainty.rotation_deg = randomVector(random, 9.0).cwiseAbs();
+  if (coin(random)) one.uncertainty.pivot = sessions::UncertaintyPivot::kStation;
+  if (coin(random)) one.camera_from_station_truth = randomPose(random);
+  if (coin(random)) one.ignore = randomInput(random, ".png");
+  for (std::uint32_t i = random.below(3); i > 0; --i)
+    one.ignore_strokes.push_back(randomStroke(random));
+  if (coin(random)) one.onboard_record = randomInput(random, ".whsr");
+  if (coin(random)) one.rig = sessions::Rig{"rig", randomPose(random)};
+  if (coin(random)) one.tags = {"low sun", "dusty"};
+  if (coin(random)) {
+    one.requirement = sessions::Requirement();
+    one.requirement->normal_mm = random.uniform(0.1, 2.0);
+    if (coin(random)) one.requirement->projection_px = random.uniform(0.1, 2.0);
+  }
+  if (coin(random)) one.camera_from_end_effector = randomPose(random);
+  return one;
+}
+
+inline sessions::Annotation randomAnnotation(Random& random) {
+  sessions::Annotation annotation;
+  for (std::uint32_t i = 1u + random.below(6); i > 0; --i) {
+    sessions::PointPair point;
+    point.id = "p" + std::to_string(i);
+    point.point_in_station_m = randomVector(random, 0.3);
+    point.pixel = {random.uniform(0.0, 2000.0), random.uniform(0.0, 2000.0)};
+    point.sigma_px = random.uniform(0.1, 3.0);
+    point.enabled = coin(random);
+    if (coin(random)) point.comment = "at the\nsecond \"screw\" \xE2\x80\x93 unsure";
+    annotation.points.push_back(point);
+  }
+  return annotation;
+}
+
+inline LocalizerOptions randomOptions(Random& random) {
+  LocalizerOptions options;
+  LocalizerOptions::visitFields(options, [&random](const OptionInfo& info, auto& field) {
+    using Field = std::remove_reference_t<decltype(field)>;
+    if (random.below(8) != 0) return;
+    const double value = random.uniform(info.minimum, std::min(info.maximum, info.minimum + 100.0));
+    if constexpr (std::is_same_v<Field, bool>)
+      field = !field;
+    else if constexpr (!std::is_same_v<Field, double>)
+      field = static_cast<Field>(static_cast<std::int64_t>(value));
+    else
+      field = value;
+  });
+  return options;
+}
+
+inline sessions::Session randomSession(Random& random) {
+  sessions::Session session =
+      sessions::withOptions({}, coin(random) ? "default" : "paper", randomOptions(random));
+  for (std::uint32_t i = random.below(5); i > 0; --i) {
+    const std::string id = "case " + std::to_string(i);
+    session.cases.emplace_back(randomCase(random, id));
+    if (coin(random)) session = withAnnotation(session, id, randomAnnotation(random));
+    if (coin(random))
+      session.decisions.push_back(
+          {id, coin(random) ? sessions::Verdict::kValidated : sessions::Verdict::kRejected, "Ada",
+           "looks right", "2026-01-31T23:59:59Z", coin(random) ? randomSha256(random) : ""});
+    if (coin(random))
+      session.runs.push_back({id, randomSha256(random), randomPath(random, ".trace"), "converged",
+                              "0.1.0", "2026-01-31T23:59:59Z", randomSha256(random),
+                              randomSha256(random)});
+    if (coin(random)) session.view = {id, "", static_cast<std::int32_t>(random.below(9)) - 1};
+  }
+  return session;
+}
+
+/// Something that a person might do to a session.
+inline sessions::Session randomEdit(Random& random, const sessions::Session& session) {
+  if (session.cases.empty() || random.below(6) == 0)
+    return withCase(session, randomCase(random, "new " + std::to_string(random.below(1000000))));
+  const sessions::SessionCase& one = *session.cases[indexBelow(random, session.cases.size())];
+  switch (random.below(6)) {
+    case 0:
+      return withoutCase(session, one.id);
+    case 1:
+      return withAnnotation(session, one.id, randomAnnotation(random));
+    case 2:
+      return withOptions(session, "default", randomOptions(random));
+    case 3: {
+      sessions::Session next = session;
+      next.decisions.push_back(
+          {one.id, sessions::Verdict::kRejected, "Ada", "no", "2026-01-31T23:59:59Z", ""});
+      return next;
+    }
+    case 4: {
+      sessions::Session next = session;
+      std::swap(next.cases.front(), next.cases.back());
+      return next;
+    }
+    default: {
+      sessions::SessionCase moved = one;
+      moved.camera_from_station_seed = randomPose(random);
+      return withCase(session, moved);
+    }
+  }
+}
+
+}  // namespace boresight::test

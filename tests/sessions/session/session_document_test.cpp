@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/session_document.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <limits>
+
+#include "sessions/io/errors.h"
+#include "sessions/session/session_file.h"
+#include "sessions/session/session_json.h"
+#include "tests/sessions/session/in_child.h"
+#include "tests/sessions/session/random_session.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::Access;
+using sessions::Session;
+using sessions::SessionDocument;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Session sessionOf(const std::string& name) {
+  Random random = randomFor(name);
+  return withCase(withCase({}, randomCase(random, "a")), randomCase(random, "b"));
+}
+
+/// A session in which something has been done `number` times.
+Session edited(const Session& session, int number) {
+  Session next = session;
+  next.view.case_id = "a";
+  next.view.iteration = number;
+  return next;
+}
+
+/// A document that is killed after `edits` edits, unsaved.
+void leaveUnsaved(const std::filesystem::path& file, int edits) {
+  const std::string said = inChild([&]() -> std::string {
+    SessionDocument document = SessionDocument::open(file);
+    for (int i = 1; i <= edits; ++i)
+      document.apply(edited(document.session(), i), "Edit " + std::to_string(i));
+    ::kill(::getpid(), SIGKILL);
+    return "";
+  });
+  ASSERT_EQ(said, "the child did not end by itself");
+}
+
+TEST(SessionDocument, SavesWhatWasEditedAndLeavesNothingBeside) {
+  const TemporaryFolder folder;
+  const Session first = sessionOf("first");
+  {
+    SessionDocument document = SessionDocument::create(folder / "s.json", first);
+    EXPECT_FALSE(document.modified());
+    document.apply(edited(first, 1), "Edit");
+    EXPECT_TRUE(document.modified());
+    EXPECT_TRUE(std::filesystem::exists(folder / "s.journal"));
+    document.save();
+    EXPECT_FALSE(document.modified());
+    EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
+  }
+  EXPECT_EQ(folder.fileCount(), 1u);
+  const SessionDocument again = SessionDocument::open(folder / "s.json");
+  EXPECT_TRUE(again.session() == edited(first, 1));
+  EXPECT_FALSE(again.recovery());
+  EXPECT_THAT(again.notices(), IsEmpty());
+}
+
+TEST(SessionDocument, CreateTouchesNoFileThatIsThere) {
+  const TemporaryFolder folder;
+  folder.write("s.json", "mine");
+  EXPECT_THAT(folder.message([&] { SessionDocument::create(folder / "s.json", {}); }),
+              HasSubstr("there is a file of this name already"));
+  EXPECT_EQ(folder.read("s.json"), "mine");
+  EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(SessionDocument, OffersWhatAKilledProgramLeft) {
+  const TemporaryFolder folder;
+  const Session first = sessionOf("first");
+  { SessionDocument::create(folder / "s.json", first); }
+  leaveUnsaved(folder / "s.json", 3);
+  {
+    SessionDocument document = SessionDocument::open(folder / "s.json");
+    EXPECT_THAT(document.notices(), ElementsAre(HasSubstr("did not close it: process")));
+    EXPECT_TRUE(document.session() == first);
+    ASSERT_TRUE(document.recovery());
+    EXPECT_TRUE(document.recovery()->session == edited(first, 3));
+    EXPECT_THAT(document.recovery()->edits, ElementsAre("Edit 1", "Edit 2", "Edit 3"));
+    EXPECT_THAT(folder.message([&] { document.apply(edited(first, 9), "x"); }),
+                HasSubstr("wait to be recovered or declined"));
+    EXPECT_THAT(folder.message([&] { document.save(); }), HasSubstr("wait to be recovered"));
+  }
+  // Neither accepted nor declined: they still wait. Accepted but not saved: they are kept.
+  {
+    SessionDocument document = SessionDocument::open(folder / "s.json");
+    document.acceptRecovery();
+    EXPECT_TRUE(document.session() == edited(first, 3));
+    EXPECT_TRUE(document.modified());
+    document.apply(edited(first, 4), "Edit 4");
+  }
+  {
+    SessionDocument document = SessionDocument::open(folder / "s.json");
+    ASSERT_TRUE(document.recovery());
+    EXPECT_THAT(document.recovery()->edits, ElementsAre("Recover 3 edits", "Edit 4"));
+    document.acceptRecovery();
+    document.save();
+  }
+  const SessionDocument document = SessionDocument::open(folder / "s.json");
+  EXPECT_FALSE(document.recovery());
+  EXPECT_TRUE(document.session() == edited(first, 4));
+}
+
+TEST(SessionDocument, ADeclinedJournalIsKeptAside) {
+  const TemporaryFolder folder;
+  const Session first = sessionOf("first");
+  { SessionDocument::create(folder / "s.json", first); }
+  leaveUnsaved(folder / "s.json", 2);
+  const std::string journal = folder.read("s.journal");
+  SessionDocument document = SessionDocument::open(folder / "s.json");
+  document.declineRecovery();
+  EXPECT_TRUE(document.session() == first);
+  EXPECT_FALSE(document.recovery());
+  EXPECT_EQ(folder.read("s.journal.aside-1"), journal);
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
+}
+
+TEST(SessionDocument, ReadsTheJournalUpToItsTear) {
+  const TemporaryFolder folder;
+  const Session first = sessionOf("first");
+  { SessionDocument::create(folder / "s.json", first); }
+  leaveUnsaved(folder / "s.json", 3);
+  const std::string whole = folder.read("s.journal");
+  folder.write("s.journal", whole.substr(0, whole.size() - 7));
+  SessionDocument document = SessionDocument::open(folder / "s.json");
+  ASSERT_TRUE(document.recovery());
+  EXPECT_TRUE(document.recovery()->session == edited(first, 2));
+  EXPECT_EQ(document.recovery()->lost_lines, 1u);
+  document.acceptRecovery();
+  document.apply(edited(first, 8), "Edit 8");  // nothing of the torn line is in its way
+  { SessionDocument moved = std::move(document); }
+  EXPECT_TRUE(SessionDocument::open(folder / "s.json").recovery()->session == edited(first, 8));
+}
+
+TEST(SessionDocument, SetsAJournalOfAnotherStateAside) {
+  const TemporaryFolder folder;
+  const Session first = sessionOf("first");
+  { SessionDocument::create(folder / "s.json", first); }
+  leaveUnsaved(folder / "s.json", 1);
+  sessions::writeSessionFile(folder / "s.json", sessionOf("another"));
+  const SessionDocument document = SessionDocument::open(folder / "s.json");
+  EXPECT_FALSE(document.recovery());
+  EXPECT_THAT(document.notices(), testing::Contains(HasSubstr("belongs to another state")));
+  EXPECT_TRUE(std::filesystem::exists(folder / "s.journal.aside-1"));
+}
+
+TEST(SessionDocument, KnowsAJournalWhoseEditsWereSaved) {
+  const TemporaryFolder folder;
+  const Session first = sessionOf("first");
+  { SessionDocument::create(folder / "s.json", first); }
+  leaveUnsaved(folder / "s.json", 3);
+  // As if the program had ended between writing the file and dropping the journal, or some edits
+  // after it.
+  sessions::writeSessionFile(folder / "s.json", edited(first, 2));
+  {
+    const SessionDocument document = SessionDocument::open(folder / "s.json");
+    ASSERT_TRUE(document.recovery());
+    EXPECT_THAT(document.recovery()->edits, ElementsAre("Edit 3"));
+    EXPECT_TRUE(document.recovery()->session == edited(first, 3));
+  }
+  sessions::writeSessionFile(folder / "s.json", edited(first, 3));
+  const SessionDocument document = SessionDocument::open(folder / "s.json");
+  EXPECT_FALSE(document.recovery());
+  EXPECT_THAT(document.notices(), IsEmpty());
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
+}
+
+TEST(SessionDocument, TheSecondToOpenItOnlyReads) {
+  const TemporaryFolder folder;
+  SessionDocument first = SessionDocument::create(folder / "s.json", sessionOf("first"));
+  first.apply(edited(first.session(), 1), "Edit");
+  SessionDocument second = SessionDocument::open(folder / "s.json");
+  EXPECT_TRUE(second.readOnly());
+  EXPECT_FALSE(second.recovery());
+  EXPECT_THAT(second.readOnlyReason(),
+              HasSubstr("it is open already: process " + std::to_string(::getpid())));
+  EXPECT_THAT(folder.message([&] { second.apply(edited(second.session(), 2), "x"); }),
+              HasSubstr("cannot write s.json: it is open already"));
+  EXPECT_THAT(folder.message([&] { second.save(); }), HasSubstr("it is open already"));
+  // The first one is not disturbed, and the second can go on under another name.
+  first.save();
+  second.saveAs(folder / "copy.json");
+  EXPECT_FALSE(second.readOnly());
+  second.apply(edited(second.session(), 3), "x");
+  EXPECT_THAT(folder.message([&] { second.saveAs(folder / "s.json"); }),
+              HasSubstr("it is open already"));
+}
+
+TEST(SessionDocument, RefusesEditsThatCouldNotBeOpenedAgain) {
+  const TemporaryFolder folder;
+  const Session first = sessionOf("first");
+  SessionDocument document = SessionDocument::create(folder / "s.json", first);
+  Session twice = first;
+  twice.cases.push_back(twice.cases[0]);
+  EXPECT_THAT(folder.message([&] { document.apply(twice, "x"); }), HasSubstr("is given twice"));
+  Session option = first;
+  option.options.emplace_back("loop.max_iterations", std::int64_t{0});
+  EXPECT_THAT(folder.message([&] { document.apply(option, "x"); }), HasSubstr("max_iterations"));
+  sessions::SessionCase nan = *first.cases[0];
+  nan.camera_from_station_seed.translation_m.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(document.apply(withCase(first, nan), "x"), std::logic_error);
+  EXPECT_TRUE(document.session() == first);
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
+}
+
+TEST(SessionDocument, DoesNotOverwriteWhatSomebodyElseChanged) {
+  const TemporaryFolder folder;
+  SessionDocument document = SessionDocument::create(folder / "s.json", sessionOf("first"));
+  document.apply(edited(document.session(), 1), "Edit");
+  folder.write("s.json", "by somebody else");
+  EXPECT_THAT(folder.message([&] { document.save(); }), HasSubstr("another program has changed"));
+  EXPECT_EQ(folder.read("s.json"), "by somebody else");
+  document.saveAs(folder / "t.json");
+  EXPECT_TRUE(SessionDocument::open(folder / "t.json", Access::kReadOnly).session() ==
+              document.session());
+}
+
+TEST(SessionDocument, SaysWhatCannotBeOpened) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(folder.message([&] { SessionDocument::open(folder / "none.json"); }),
+            "none.json: no such file");
+  EXPECT_EQ(folder.message([&] { SessionDocument::open(folder.write("e.json", "")); }),
+            "e.json: the file is empty");
+  EXPECT_EQ(folder.message([&] { SessionDocument::open(folder.path()); }),
+            folder.path().string() + ": is a folder, not a file");
+  std::filesystem::remove(folder / "e.json");
+  EXPECT_EQ(folder.fileCount(), 0u);  // no lock stays behind
+}
+
+TEST(SessionDocument, OpensInAReadOnlyFolderToBeRead) {
+  const TemporaryFolder folder;
+  { SessionDocument::create(folder / "s.json", sessionOf("first")); }
+  ::chmod(folder.path().c_str(), 0555);
+  ::chmod((folder / "s.json").c_str(), 0444);
+  const std::string said = inChild([&] {
+    stopBeingRoot();
+    SessionDocument document = SessionDocument::open(folder / "s.json");
+    std::string text = document.readOnlyReason() + "; ";
+    text += folder.message([&] { document.apply(edited(document.session(), 1), "x"); }) + "; ";
+    return text + folder.message([&] { document.save(); });
+  });
+  ::chmod(folder.path().c_str(), 0755);
+  const std::string reason = "nothing can be written beside it (Permission denied)";
+  EXPECT_EQ(said, reason + "; cannot write s.json: " + reason + "; cannot write s.json: " + reason);
+  EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(SessionDocument, AFullDiskLeavesFileAndSessionAsTheyWere) {
+  const TemporaryFolder folder;
+  const Session first = sessionOf("first");
+  { SessionDocument::create(folder / "s.json", first); }
+  const std::string before = folder.read("s.json");
+  const std::string said = inChild([&] {
+    SessionDocument document = SessionDocument::open(folder / "s.json");
+    document.apply(edited(first, 1), "Edit 1");
+    limitFileSize(std::filesystem::file_size(folder / "s.journal") + 10);
+    std::string text = folder.message([&] { document.apply(edited(first, 2), "Edit 2"); }) + "; ";
+    text += document.session() == edited(first, 1) ? "as it was; " : "changed; ";
+    text += folder.message([&] { document.save(); });
+    return text;
+  });
+  EXPECT_EQ(said,
+            "cannot write s.journal: the file would become larger than is allowed; as it was; "
+            "cannot write s.json: File too large");
+  EXPECT_EQ(folder.read("s.json"), before);
+  const SessionDocument document = SessionDocument::open(folder / "s.json");
+  EXPECT_TRUE(document.recovery()->session == edited(first, 1));
+}
+
+TEST(SessionDocument, AFullFileSystemLeavesEverythingAsItWas) {
+  const TemporaryFolder folder;
+  const std::filesystem::path small = folder / "small";
+  std::filesystem::create_directory(small);
+  if (::mount("tmpfs", small.c_str(), "tmpfs", 0, "size=64k") != 0)
+    GTEST_SKIP() << "only root may mount a small file system";
+  const Session first = sessionOf("first");
+  {
+    SessionDocument document = SessionDocument::create(small / "s.json", first);
+    const std::string before = folder.read("small/s.json");
+    std::string error;
+    int edits = 0;
+    while (error.empty() && edits < 10000) {
+      Session next = document.session();
+      next.decisions.push_back({"a", sessions::Verdict::kRejected, "Ada", std::string(500, 'x'),
+                                "2026-01-31T23:59:59Z", ""});
+      try {
+        document.apply(next, "Reject");
+        ++edits;
+      } catch (const sessions::OutputError& full) {
+        error = full.reason();
+      }
+    }
+    EXPECT_EQ(error, "no space left on the device");
+    EXPECT_EQ(document.session().decisions.size(), static_cast<std::size_t>(edits));
+    EXPECT_THAT(folder.message([&] { document.save(); }), HasSubstr("no space left on the device"));
+    EXPECT_EQ(folder.read("small/s.json"), before);
+  }
+  // Opened when there is room, everything that was confirmed is there.
+  {
+    const std::filesystem::path copy = folder / "copy";
+    std::filesystem::create_directory(copy);
+    for (const char* name : {"s.json", "s.journal"}) std::filesystem::copy(small / name, copy);
+    EXPECT_GT(SessionDocument::open(copy / "s.json").recovery()->session.decisions.size(), 0u);
+  }
+  ::umount(small.c_str());
+}
+
+TEST(SessionDocument, RandomEditsAreAllRecovered) {
+  Random random = randomFor("RandomEdits");
+  for (int round = 0; round < 20; ++round) {
+    const TemporaryFolder folder;
+    Session last;
+    {
+      SessionDocument document = SessionDocument::create(folder / "s.json", randomSession(random));
+      for (int i = 0; i < 20; ++i)
+        document.apply(randomEdit(random, document.session()), "Edit " + std::to_string(i));
+      last = document.session();
+    }
+    SessionDocument document = SessionDocument::open(folder / "s.json");
+    if (document.recovery()) document.acceptRecovery();
+    ASSERT_TRUE(document.session() == last);
+  }
+}
+
+}  // namespace
+}  // namespace boresight::test

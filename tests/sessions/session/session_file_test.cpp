@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/session_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/errors.h"
+#include "sessions/session/session_json.h"
+#include "tests/sessions/session/random_session.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::test {
+namespace {
+
+using nlohmann::json;
+using sessions::Session;
+using testing::HasSubstr;
+
+TEST(SessionFile, ReadsBackWhatItWrote) {
+  Random random = randomFor("SessionFile");
+  const TemporaryFolder folder;
+  for (int i = 0; i < 200; ++i) {
+    const Session session = randomSession(random);
+    const std::string sha256 = sessions::writeSessionFile(folder / "s.json", session);
+    const sessions::SavedSession read = sessions::readSessionFile(folder / "s.json");
+    ASSERT_TRUE(read.session == session) << folder.read("s.json");
+    ASSERT_EQ(read.file_sha256, sha256);
+    ASSERT_EQ(sessions::sessionText(read.session, folder / "s.json"), folder.read("s.json"));
+  }
+}
+
+TEST(SessionFile, EveryMemberMakesADifference) {
+  Random random = randomFor("SessionFileMembers");
+  Session session;
+  while (session.cases.size() < 3 || session.runs.empty() || session.decisions.empty())
+    session = randomSession(random);
+  const std::string text = sessions::sessionText(session, "/s.json");
+  for (int i = 0; i < 100; ++i) {
+    const Session edited = randomEdit(random, session);
+    EXPECT_EQ(edited == session, sessions::sessionText(edited, "/s.json") == text);
+  }
+}
+
+TEST(SessionFile, NamesFilesRelativeToItself) {
+  const TemporaryFolder folder;
+  Random random = randomFor("paths");
+  sessions::SessionCase one = randomCase(random, "a");
+  one.image.source.file = folder / "images/1.png";
+  one.parts.resize(1);
+  one.parts[0].source.part.match = true;
+  one.parts[0].source.mesh = folder.path().parent_path() / "mesh.ply";
+  std::filesystem::create_directories(folder / "deep/er");
+  sessions::writeSessionFile(folder / "deep/s.json", withCase({}, one));
+  const json written = json::parse(folder.read("deep/s.json"));
+  EXPECT_EQ(written["cases"][0]["image"]["file"], "../images/1.png");
+  EXPECT_EQ(written["cases"][0]["parts"][0]["file"], "../../mesh.ply");
+  // Moved together with its inputs, it names the moved ones.
+  folder.write("deep/er/s.json", folder.read("deep/s.json"));
+  const Session moved = sessions::readSessionFile(folder / "deep/er/s.json").session;
+  EXPECT_EQ(moved.cases[0]->image.source.file, folder / "deep/images/1.png");
+}
+
+TEST(SessionFile, NamesWhatLiesBesideIt) {
+  EXPECT_EQ(sessions::journalFileOf("/a/x.boresight.json"), "/a/x.boresight.journal");
+  EXPECT_EQ(sessions::lockFileOf("/a/x.json"), "/a/x.lock");
+  EXPECT_EQ(sessions::runsFolderOf("/a/x.sol12"), "/a/x.sol12.runs");
+  EXPECT_EQ(sessions::runFileOf("/a/x.json", "d"), "/a/x.runs/d.trace");
+}
+
+/// A whole session as JSON, to be spoilt in one place.
+json goodSession() {
+  Random random = randomFor("goodSession");
+  sessions::SessionCase one = randomCase(random, "bc");
+  one.parts.resize(1);
+  one.parts[0].source.part.match = true;
+  one.ignore_strokes = {sessions::MaskStroke()};
+  one.camera = makePinhole(100, 80, 200.0);
+  one.image.eight_bit = {};
+  Session session = withCase({}, one);
+  session = withAnnotation(session, "bc", randomAnnotation(random));
+  session.decisions.push_back(
+      {"bc", sessions::Verdict::kValidated, "Ada", "", "2026-01-31T23:59:59Z", ""});
+  session.runs.push_back({"bc", std::string(64, 'a'), "/x", "converged", "0.1.0",
+                          "2026-01-31T23:59:59Z", std::string(64, 'b'), std::string(64, 'c')});
+  return json::parse(sessions::sessionText(session, "/s.json"));
+}
+
+TEST(SessionFile, SaysWhatIsWrongAndWhere) {
+  const TemporaryFolder folder;
+  const auto message = [&folder](const std::function<void(json&)>& spoil) {
+    json value = goodSession();
+    spoil(value);
+    const auto file = folder.write("s.json", value.dump());
+    return folder.message([&] { (void)sessions::readSessionFile(file); });
+  };
+  EXPECT_EQ(message([](json&) {}), "(nothing)");
+  const std::vector<std::pair<std::function<void(json&)>, const char*>> spoilt = {
+      {[](json& s) { s = json::array(); }, "s.json: not a JSON object"},
+      {[](json& s) { s.erase("format"); }, "s.json: format: missing"},
+      {[](json& s) { s["format"] = "boresight-pose"; }, "format: is 'boresight-pose'"},
+      {[](json& s) { s["version"] = 2; }, "version: version 2 was written by a newer program"},
+      {[](json& s) { s["version"] = 0; }, "version: there is no version 0"},
+      {[](json& s) { s["version"] = "1"; }, "version: not an integer"},
+      {[](json& s) { s["zoom"] = 1; }, "zoom: is not known to version 1"},
+      {[](json& s) { s["profile"] = "best"; }, "profile: there is no profile \"best\""},
+      {[](json& s) { s["options"]["pnp.speed"] = 1; },
+       "options.pnp.speed: there is no such option"},
+      {[](json& s) { s["options"]["loop.max_iterations"] = 0; }, "options.loop.max_iterations: "},
+      {[](json& s) { s.erase("cases"); }, "cases: missing"},
+      {[](json& s) { s["cases"].push_back(s["cases"][0]); }, "cases[1].id: 'bc' is given twice"},
+      {[](json& s) { s["cases"][0]["id"] = ""; }, "cases[0].id: is empty"},
+      {[](json& s) { s["cases"][0]["image"]["sha256"] = "12"; },
+       "cases[0].image.sha256: not a SHA"},
+      {[](json& s) { s["cases"][0]["image"]["width"] = 0; }, "cases[0].image.width: 0 is outside"},
+      {[](json& s) { s["cases"][0]["image"]["rule"] = "log"; }, "image.rule: 'log' is none of"},
+      {[](json& s) { s["cases"][0]["image"]["rule"] = "table"; }, "image.table: missing"},
+      {[](json& s) { s["cases"][0]["image"]["table"] = {1}; }, "image.table: given although"},
+      {[](json& s) {
+         s["cases"][0]["image"].update({{"rule", "table"}, {"bit_depth", 2}, {"table", {1, 2, 3}}});
+       },
+       "image.table: has 3 values, but bit_depth needs 4"},
+      {[](json& s) { s["cases"][0]["image"]["files"] = 1; }, "image.files: is not known"},
+      {[](json& s) { s["cases"][0]["camera"]["fx"] = 0; }, "cases[0].camera.fx: "},
+      {[](json& s) { s["cases"][0]["parts"] = json::array(); }, "parts: no part is to be matched"},
+      {[](json& s) { s["cases"][0]["parts"][0]["file"] = "a.doc"; }, "parts[0].file: "},
+      {[](json& s) { s["cases"][0]["parts"][0]["mesh_unit"] = "elle"; }, "unknown unit 'elle'"},
+      {[](json& s) { s["cases"][0]["parts"][0].erase("mesh_unit"); }, "mesh_unit: missing: PLY"},
+      {[](json& s) {
+         s["cases"][0]["seed"]["rotation_wxyz"] = {1, 1, 0, 0};
+       },
+       "cases[0].seed.rotation_wxyz: not a unit quaternion"},
+      {[](json& s) {
+         s["cases"][0]["seed"]["rotation_wxyz"] = {1, 0, 0};
+       },
+       "not a list of 4"},
+      {[](json& s) { s["cases"][0]["seed"]["translation_m"][1] = 1e9; }, "translation_m[1]: "},
+      {[](json& s) { s["cases"][0]["uncertainty"]["pivot"] = "moon"; }, "uncertainty.pivot: "},
+      {[](json& s) { s["cases"][0]["uncertainty"]["pivots"] = 1; }, "uncertainty.pivots: "},
+      {[](json& s) { s["cases"][0]["ignore_strokes"][0]["kind"] = "pen"; }, "strokes[0].kind: "},
+      {[](json& s) {
+         s["cases"][0]["ignore_strokes"][0]["points"] = {{1e9, 0}};
+       },
+       "points[0]: is"},
+      {[](json& s) { s["annotations"]["os"] = s["annotations"]["bc"]; },
+       "annotations.os: there is no case 'os'"},
+      {[](json& s) {
+         json& points = s["annotations"]["bc"]["points"];
+         points.push_back(points[0]);
+       },
+       "is given twice"},
+      {[](json& s) { s["decisions"][0]["case"] = "os"; }, "decisions[0].case: there is no case"},
+      {[](json& s) { s["decisions"][0]["by"] = ""; }, "decisions[0].by: is empty"},
+      {[](json& s) { s["decisions"][0]["time"] = "today"; }, "decisions[0].time: not a time"},
+      {[](json& s) { s["decisions"][0]["verdict"] = "maybe"; }, "decisions[0].verdict: "},
+      {[](json& s) { s["runs"][0]["digest"] = "a"; }, "runs[0].digest: not a SHA-256"},
+      {[](json& s) { s["runs"][0]["case"] = "os"; }, "runs[0].case: there is no case 'os'"},
+      {[](json& s) { s["view"]["iteration"] = -2; }, "view.iteration: "},
+  };
+  for (const auto& [spoil, expected] : spoilt) EXPECT_THAT(message(spoil), HasSubstr(expected));
+}
+
+TEST(SessionFile, SurvivesAnyByteLostOrChanged) {
+  const TemporaryFolder folder;
+  const std::string good = goodSession().dump();
+  Random random = randomFor("bytes");
+  for (int i = 0; i < 300; ++i) {
+    std::string bad = good;
+    if (coin(random))
+      bad.resize(indexBelow(random, bad.size()));
+    else
+      bad[indexBelow(random, bad.size())] = static_cast<char>(random.below(256));
+    const auto file = folder.write("s.json", bad);
+    try {
+      (void)sessions::readSessionFile(file);  // a changed digit may well be a session
+    } catch (const sessions::InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("s.json: "));
+    }
+  }
+}
+
+TEST(SessionFile, RefusesToWriteWhatIsNotText) {
+  const TemporaryFolder folder;
+  folder.write("s.json", "old");
+  Random random = randomFor("utf8");
+  sessions::SessionCase one = randomCase(random, "a");
+  one.image.source.file = "/data/\xff.png";
+  EXPECT_THAT(
+      folder.message([&] { sessions::writeSessionFile(folder / "s.json", withCase({}, one)); }),
+      HasSubstr("is not UTF-8"));
+  EXPECT_EQ(folder.read("s.json"), "old");
+}
+
+}  // namespace
+}  // namespace boresight::test

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/session_lock.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "sessions/io/errors.h"
+#include "tests/sessions/session/in_child.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::SessionLock;
+using testing::HasSubstr;
+
+TEST(SessionLock, IsHeldByOneAndSaysByWhom) {
+  const TemporaryFolder folder;
+  {
+    const SessionLock first(folder / "s.lock");
+    EXPECT_TRUE(first.held());
+    EXPECT_FALSE(first.stale());
+    const SessionLock second(folder / "s.lock");
+    EXPECT_FALSE(second.held());
+    ASSERT_TRUE(second.other());
+    EXPECT_EQ(second.other()->process, ::getpid());
+    EXPECT_FALSE(sessions::hasEnded(*second.other()));
+    EXPECT_THAT(second.other()->text(), HasSubstr("process " + std::to_string(::getpid())));
+    const std::string pid = std::to_string(::getpid());
+    EXPECT_EQ(inChild([&] {
+                const SessionLock third(folder / "s.lock");
+                return third.held() ? "held" : std::to_string(third.other()->process);
+              }),
+              pid);
+  }
+  EXPECT_EQ(folder.fileCount(), 0u);
+  EXPECT_TRUE(SessionLock(folder / "s.lock").held());
+}
+
+TEST(SessionLock, IsTakenOverFromAKilledProgram) {
+  const TemporaryFolder folder;
+  const std::string ended = inChild([&]() -> std::string {
+    const SessionLock lock(folder / "s.lock");
+    ::kill(::getpid(), SIGKILL);
+    return "";
+  });
+  EXPECT_EQ(ended, "the child did not end by itself");
+  ASSERT_EQ(folder.fileCount(), 1u);
+  const SessionLock lock(folder / "s.lock");
+  EXPECT_TRUE(lock.held());
+  ASSERT_TRUE(lock.stale());
+  EXPECT_NE(lock.stale()->process, ::getpid());
+  EXPECT_TRUE(sessions::hasEnded(*lock.stale()));
+}
+
+TEST(SessionLock, KnowsAProcessByItsStartToo) {
+  const TemporaryFolder folder;
+  const SessionLock lock(folder / "s.lock");
+  sessions::LockHolder holder = sessions::readLockFile(folder / "s.lock").value();
+  EXPECT_FALSE(sessions::hasEnded(holder));
+  holder.process_start += 1;  // the number was given to another process
+  EXPECT_TRUE(sessions::hasEnded(holder));
+  holder.host = "elsewhere";
+  EXPECT_FALSE(sessions::hasEnded(holder));
+}
+
+TEST(SessionLock, ARubbishLockFileIsTaken) {
+  const TemporaryFolder folder;
+  for (const char* text : {"", "{", "{}", "[1]", R"({"process": "x"})"}) {
+    folder.write("s.lock", text);
+    EXPECT_FALSE(sessions::readLockFile(folder / "s.lock")) << text;
+    EXPECT_TRUE(SessionLock(folder / "s.lock").held()) << text;
+  }
+}
+
+TEST(SessionLock, SaysWhenItCannotBeWritten) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(folder.message([&] { SessionLock lock(folder / "none/s.lock"); }),
+              HasSubstr("cannot write none/s.lock: No such file"));
+}
+
+}  // namespace
+}  // namespace boresight::test

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/session_maker.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sessions/session/input_check.h"
+#include "sessions/session/session_file.h"
+#include "tests/sessions/session/example_session.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::Session;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(SessionMaker, SaysWhichFileIsWrong) {
+  const TemporaryFolder folder;
+  const std::filesystem::path stations = copyOfExamples(folder);
+  const auto message = [&](const std::function<void(sessions::CaseFiles&)>& spoil) {
+    sessions::CaseFiles files = filesOf(stations / "os");
+    spoil(files);
+    return folder.message([&] { (void)sessions::makeCase(files); });
+  };
+  EXPECT_EQ(message([](auto&) {}), "(nothing)");
+  EXPECT_THAT(message([](auto& f) { f.image = "none.png"; }), HasSubstr("none.png: no such file"));
+  EXPECT_THAT(message([](auto& f) { f.image = f.camera; }), HasSubstr("os/camera.json: "));
+  EXPECT_THAT(message([](auto& f) { f.camera = f.seed; }), HasSubstr("os/seed.json: format: is"));
+  EXPECT_THAT(message([](auto& f) { f.seed = f.camera; }), HasSubstr("os/camera.json: format: is"));
+  EXPECT_THAT(message([](auto& f) { f.parts[0].mesh_unit = ""; }), HasSubstr("model.ply: "));
+  EXPECT_THAT(message([](auto& f) { f.parts[0].mesh = f.image; }), HasSubstr("os/image.png: "));
+  EXPECT_THAT(message([](auto& f) { f.parts.clear(); }), HasSubstr("no part"));
+  EXPECT_THAT(message([](auto& f) { f.eight_bit.bit_depth = 12; }),
+              HasSubstr("bit_depth: 12 bits"));
+  EXPECT_THAT(message([](auto& f) { f.ignore = f.seed; }), HasSubstr("os/seed.json: "));
+  EXPECT_THAT(message([](auto& f) { f.truth = "gone.json"; }),
+              HasSubstr("gone.json: no such file"));
+  EXPECT_THAT(
+      folder.message([&] { (void)sessions::makeSession(stations / "dataset.json", {"x"}); }),
+      HasSubstr("dataset.json: cases: there is no case 'x'"));
+}
+
+TEST(SessionMaker, ADatasetAndItsFilesMakeTheSameRun) {
+  const Session session = sessions::makeSession(exampleFolder() / "dataset.json");
+  ASSERT_EQ(session.cases.size(), 2u);
+  for (const auto& one : session.cases) {
+    const sessions::MadeCase made = sessions::makeCase(filesOf(exampleFolder() / one->station));
+    EXPECT_THAT(made.notes, IsEmpty());
+    EXPECT_EQ(sessions::inputsDigest(made.made), sessions::inputsDigest(*one)) << one->id;
+    EXPECT_TRUE(one->requirement);
+    EXPECT_TRUE(one->feature_size_m);
+    EXPECT_TRUE(one->camera_from_station_truth == made.made.camera_from_station_truth);
+  }
+  const Session only =
+      sessions::makeSession(exampleFolder() / "dataset.json", {session.cases[1]->id});
+  ASSERT_EQ(only.cases.size(), 1u);
+  EXPECT_TRUE(only.cases[0] == session.cases[1]);
+}
+
+TEST(SessionMaker, TheSessionThatShipsIsMadeOfTheDatasetThatShips) {
+  const auto file = exampleFolder().parent_path() / "example.boresight.json";
+  const Session shipped = sessions::readSessionFile(file).session;
+  EXPECT_TRUE(shipped == sessions::makeSession(exampleFolder() / "dataset.json"));
+  EXPECT_THAT(sessions::checkInputs(shipped), IsEmpty());
+}
+
+TEST(SessionMaker, DigestsTellInputsApartThatMatter) {
+  const sessions::SessionCase one =
+      *sessions::makeSession(exampleFolder() / "dataset.json").cases[0];
+  const std::string digest = sessions::inputsDigest(one);
+  const auto changed = [&](const std::function<void(sessions::SessionCase&)>& change) {
+    sessions::SessionCase other = one;
+    change(other);
+    return sessions::inputsDigest(other) != digest;
+  };
+  EXPECT_FALSE(changed([](auto& c) { c.id = "other"; }));
+  EXPECT_FALSE(changed([](auto& c) { c.tags = {"new"}; }));
+  EXPECT_FALSE(changed([](auto& c) { c.camera_from_station_truth.reset(); }));
+  EXPECT_FALSE(changed([](auto& c) { c.image.source.file = "/moved"; }));
+  EXPECT_TRUE(changed([](auto& c) { c.image.pixels_sha256[0] ^= 1; }));
+  EXPECT_TRUE(changed([](auto& c) { c.parts[0].sha256[0] ^= 1; }));
+  EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.mesh_unit = "mm"; }));
+  EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.station_from_mesh.translation_m.x() = 1; }));
+  EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.part.normal_threshold_rad *= 2; }));
+  EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.part.match = false; }));
+  EXPECT_TRUE(changed([](auto& c) { c.parts.push_back(c.parts[0]); }));
+  EXPECT_TRUE(changed([](auto& c) { c.camera.fx += 1e-9; }));
+  EXPECT_TRUE(changed([](auto& c) { c.camera_from_station_seed.translation_m.z() += 1e-9; }));
+  EXPECT_TRUE(changed([](auto& c) { c.uncertainty.rotation_deg.x() = 1.0; }));
+  EXPECT_TRUE(changed([](auto& c) { c.uncertainty.pivot = sessions::UncertaintyPivot::kStation; }));
+  EXPECT_TRUE(changed([](auto& c) { c.ignore = sessions::InputFile{"/m", std::string(64, 'a')}; }));
+  EXPECT_TRUE(changed([](auto& c) { c.ignore_strokes.emplace_back(); }));
+}
+
+}  // namespace
+}  // namespace boresight::test
