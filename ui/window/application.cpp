@@ -6,6 +6,7 @@
 #include <QStyleFactory>
 
 #include "sessions/version.h"
+#include "ui/vtk/scene_backend.h"
 
 namespace boresight::ui {
 
@@ -14,6 +15,7 @@ void prepareApplication(bool without_display) {
   QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
 #endif
+  prepareSceneSurface();
   if (!qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) return;
   qputenv("QT_QPA_PLATFORM", without_display ? "offscreen" : "xcb");
 }

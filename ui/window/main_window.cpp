@@ -21,10 +21,20 @@
 #include <QUrl>
 
 #include "sessions/io/mesh_file.h"
+#include "sessions/session/input_sheet.h"
 #include "sessions/version.h"
+#include "ui/panels/cases_panel.h"
+#include "ui/panels/configuration_panel.h"
+#include "ui/panels/input_sheet_panel.h"
+#include "ui/panels/iterations_panel.h"
+#include "ui/panels/match_inspector_panel.h"
+#include "ui/panels/pose_panel.h"
+#include "ui/run/pose_renderer.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/views/layers_panel.h"
+#include "ui/vtk/scene_view.h"
+#include "ui/window/case_rows.h"
 #include "ui/window/shortcut_sheet.h"
 
 namespace boresight::ui {
@@ -91,8 +101,112 @@ QDockWidget* MainWindow::addDock(const QString& name, const QString& title, QWid
 }
 
 void MainWindow::buildDocks() {
-  addDock(QStringLiteral("layers"), tr("Layers"), new LayersPanel(*image_),
-          Qt::RightDockWidgetArea);
+  cases_panel_ = new CasesPanel;
+  configuration_ = new ConfigurationPanel(state_);
+  inputs_ = new InputSheetPanel;
+  poses_ = new PosePanel(state_);
+  nudged_ = new PoseRenderer(this);
+  addDock(QStringLiteral("cases"), tr("Cases"), cases_panel_, Qt::LeftDockWidgetArea);
+  QDockWidget* layers = addDock(QStringLiteral("layers"), tr("Layers"), new LayersPanel(*image_),
+                                Qt::RightDockWidgetArea);
+  QDockWidget* configuration = addDock(QStringLiteral("configuration"), tr("Configuration"),
+                                       configuration_, Qt::RightDockWidgetArea);
+  QDockWidget* inputs =
+      addDock(QStringLiteral("inputs"), tr("Inputs"), inputs_, Qt::RightDockWidgetArea);
+  QDockWidget* poses = addDock(QStringLiteral("pose"), tr("Pose"), poses_, Qt::RightDockWidgetArea);
+  QDockWidget* scene =
+      addDock(QStringLiteral("scene"), tr("Scene"), new SceneView(state_), Qt::RightDockWidgetArea);
+  QDockWidget* iterations = addDock(QStringLiteral("iterations"), tr("Iterations"),
+                                    new IterationsPanel(state_), Qt::BottomDockWidgetArea);
+  QDockWidget* inspector = addDock(QStringLiteral("inspector"), tr("Match inspector"),
+                                   new MatchInspectorPanel(state_), Qt::BottomDockWidgetArea);
+  for (QDockWidget* each : {configuration, inputs, poses, scene}) tabifyDockWidget(layers, each);
+  tabifyDockWidget(iterations, inspector);
+  layers->raise();
+  iterations->raise();
+  connectCases();
+  connectConfiguration();
+  connectPoses();
+}
+
+void MainWindow::connectCases() {
+  connect(cases_panel_, &CasesPanel::openRequested, &cases_, &CaseController::chooseCase);
+  connect(cases_panel_, &CasesPanel::runRequested, this,
+          [this](const QString& id) { cases_.runAll({id}); });
+  connect(cases_panel_, &CasesPanel::runAllRequested, &cases_, &CaseController::runAll);
+  connect(&cases_, &CaseController::caseChosen, this, [this](const QString& id) {
+    showCases();
+    cases_panel_->setCurrent(id);
+  });
+  connect(&document_, &Document::opened, this, &MainWindow::showCases);
+  connect(&document_, &Document::changed, this, &MainWindow::showCases);
+  connect(&run_, &RunController::stateChanged, this, &MainWindow::showCases);
+  connect(&state_, &ViewState::caseChanged, this, &MainWindow::showInputs);
+}
+
+void MainWindow::connectConfiguration() {
+  connect(configuration_, &ConfigurationPanel::optionsEdited, &cases_, &CaseController::setOptions);
+  connect(configuration_, &ConfigurationPanel::runAgainRequested, this, [this] {
+    cases_.reset();
+    cases_.advance(sessions::StepUntil::kEnd);
+  });
+  connect(&document_, &Document::opened, this, &MainWindow::showConfiguration);
+  connect(&document_, &Document::changed, this, &MainWindow::showConfiguration);
+}
+
+void MainWindow::connectPoses() {
+  connect(poses_, &PosePanel::useAsSeedRequested, &cases_, &CaseController::useAsSeed);
+  connect(&state_, &ViewState::caseChanged, this, [this] {
+    const ViewState::CasePtr& one = state_.currentCase();
+    nudged_->setCase(one);
+    PoseJudgement judgement;
+    if (one) {
+      judgement.requirement = one->source.requirement;
+      judgement.camera_from_end_effector = one->source.camera_from_end_effector;
+    }
+    poses_->setJudgement(judgement);
+  });
+  connect(&state_, &ViewState::nudgedPoseChanged, this, [this] {
+    if (state_.nudgedPose()) {
+      nudged_->setPose(*state_.nudgedPose());
+    } else {
+      nudged_->clear();
+      image_->setNudgedRender(nullptr, 0);
+    }
+  });
+  connect(nudged_, &PoseRenderer::rendered, image_, &ImagePanel::setNudgedRender);
+}
+
+void MainWindow::showCases() {
+  const bool working = run_.state() == RunState::kWorking;
+  cases_panel_->setRows(caseRows(document_.session(), working ? cases_.caseId() : QString()));
+  cases_panel_->setRunnable(!working);
+}
+
+void MainWindow::showConfiguration() {
+  try {
+    const sessions::Session& session = document_.session();
+    configuration_->setOptions(QString::fromStdString(session.profile),
+                               sessions::sessionOptions(session, document_.file()));
+    const ViewState::CasePtr& one = state_.currentCase();
+    configuration_->setCaseFeatureSize(one ? one->source.feature_size_m.value_or(0.0) : 0.0);
+  } catch (const std::exception& error) {
+    showMessage(QString::fromUtf8(error.what()));
+  }
+}
+
+/// Figures of the inputs take a look at every pixel and face: off this thread.
+void MainWindow::showInputs() {
+  const ViewState::CasePtr one = state_.currentCase();
+  inputs_->setSheet(std::nullopt);
+  showConfiguration();
+  if (!one) return;
+  tasks_.start(
+      QStringLiteral("input sheet"),
+      [one](const std::stop_token&) { return sessions::inputSheet(*one); },
+      [this, one](sessions::InputSheet sheet) {
+        if (one == state_.currentCase()) inputs_->setSheet(std::move(sheet));
+      });
 }
 
 QAction* MainWindow::action(const QString& text_of_action, const QKeySequence& keys,
@@ -157,8 +271,10 @@ void MainWindow::buildRunMenu() {
   step_stage_ = action(tr("Step a s&tage"), Qt::Key_F7,
                        tr("Run one stage: render, templates, match, pose or refinement"));
   stop_ = action(tr("&Stop"), Qt::Key_F8, tr("Stop; the run can go on from here"));
-  reset_ = action(tr("R&eset"), QKeySequence(QStringLiteral("Ctrl+R")), tr("Drop the run and begin anew"));
-  run_all_ = action(tr("Run &all cases"), QKeySequence(QStringLiteral("Ctrl+F5")), tr("Run every case to its end"));
+  reset_ = action(tr("R&eset"), QKeySequence(QStringLiteral("Ctrl+R")),
+                  tr("Drop the run and begin anew"));
+  run_all_ = action(tr("Run &all cases"), QKeySequence(QStringLiteral("Ctrl+F5")),
+                    tr("Run every case to its end"));
   connect(run_to_end_, &QAction::triggered, this,
           [this] { cases_.advance(sessions::StepUntil::kEnd); });
   connect(step_iteration_, &QAction::triggered, this,

@@ -19,7 +19,12 @@ class QLabel;
 
 namespace boresight::ui {
 
+class CasesPanel;
+class ConfigurationPanel;
 class ImagePanel;
+class InputSheetPanel;
+class PosePanel;
+class PoseRenderer;
 
 /// The window: docks round the image, menus, keys. It only connects what lies beside it.
 class MainWindow : public QMainWindow {
@@ -54,6 +59,12 @@ class MainWindow : public QMainWindow {
 
  private:
   void buildDocks();
+  void connectCases();
+  void connectConfiguration();
+  void connectPoses();
+  void showCases();
+  void showConfiguration();
+  void showInputs();
   void buildMenus();
   void buildFileMenu();
   void buildEditMenu();
@@ -85,6 +96,11 @@ class MainWindow : public QMainWindow {
   RunController run_;
   CaseController cases_;
   ImagePanel* image_ = nullptr;
+  CasesPanel* cases_panel_ = nullptr;
+  ConfigurationPanel* configuration_ = nullptr;
+  InputSheetPanel* inputs_ = nullptr;
+  PosePanel* poses_ = nullptr;
+  PoseRenderer* nudged_ = nullptr;
   bool quiet_ = false;
   QString last_message_;
   DroppedFiles collected_;  ///< of a case that is not complete yet
