@@ -486,7 +486,7 @@ void MainWindow::dropEvent(QDropEvent* event) {
 }
 
 void MainWindow::showDocument() {
-  if (document_.recovery()) offerRecovery();
+  if (document_.recovery() && !quiet_) offerRecovery();
   const QString reason = document_.readOnlyReason();
   if (!reason.isEmpty() && !document_.recovery()) statusBar()->showMessage(reason);
   updateActions();
