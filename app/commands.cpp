@@ -2,13 +2,16 @@
 #include "app/commands.h"
 
 #include <iostream>
+#include <map>
 
 #include "sessions/report/text_table.h"
+#include "sessions/trace/record.h"
 
 namespace boresight::app {
 namespace {
 
 constexpr const char* kDefaultProfile = "default";
+constexpr const char* kFlightProfile = "flight";
 
 }  // namespace
 
@@ -43,6 +46,36 @@ void addMethod(CLI::App& command, std::string& method) {
       });
 }
 
+void addThreads(CLI::App& command, int& threads) {
+  command
+      .add_option("--threads", threads, "Threads of a run; the result is the same with any number")
+      ->check(CLI::Range(1, Localizer::kMaxWorkers))
+      ->capture_default_str()
+      ->type_name("N");
+}
+
+void addKernels(CLI::App& command, Kernels& kernels) {
+  std::map<std::string, Kernels> named = {{"best", bestKernels()}};
+  std::string names = "best";
+  for (int k = 0; k < kKernelSets; ++k) {
+    const Kernels one = static_cast<Kernels>(k);
+    if (!kernelsAvailable(one)) continue;
+    named.emplace(kernelsName(one), one);
+    names += std::string(", ") + kernelsName(one);
+  }
+  command
+      .add_option_function<std::string>(
+          "--kernels",
+          [&kernels, named, names](const std::string& name) {
+            const auto found = named.find(name);
+            if (found == named.end())
+              throw CLI::ValidationError("--kernels", "this machine has " + names);
+            kernels = found->second;
+          },
+          "What to use of the processor; the result is the same")
+      ->group("");
+}
+
 LocalizerOptions profileOptions(const std::string& name) {
   return sessions::profileOptions(name).value_or(defaultProfile());
 }
@@ -50,8 +83,9 @@ LocalizerOptions profileOptions(const std::string& name) {
 void OptionArguments::addTo(CLI::App& command) {
   command
       .add_option("--profile", profile,
-                  "Set of parameters: default (whatever is best) or paper (as published)")
-      ->check(CLI::IsMember({"default", "paper"}));
+                  "Set of parameters: default (whatever is best), paper (as published), or flight "
+                  "(the default's, within 10,000,000 bytes of memory, image and mesh included)")
+      ->check(CLI::IsMember({"default", "paper", "flight"}));
   command.add_option("--config", config, "config.json: a profile and the options that differ")
       ->type_name("FILE");
   command
@@ -80,11 +114,15 @@ std::string OptionArguments::profileName() const {
   if (!profile.empty()) return profile;
   if (config.empty()) return kDefaultProfile;
   const sessions::Config read = sessions::readConfig(config);
-  if (read.profile != "default" && read.profile != "paper")
+  if (read.profile != "default" && read.profile != "paper" && read.profile != kFlightProfile)
     throw sessions::InputError(
         config, "profile",
-        "there is no profile \"" + read.profile + "\"; there are: default, paper");
+        "there is no profile \"" + read.profile + "\"; there are: default, paper, flight");
   return read.profile;
+}
+
+std::size_t OptionArguments::memoryLimit() const {
+  return profileName() == kFlightProfile ? sessions::kFlightMemoryBytes : 0;
 }
 
 }  // namespace boresight::app

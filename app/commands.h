@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/kernels.h"
 #include "core/localizer/localizer_options.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/pose_file.h"
@@ -50,6 +51,12 @@ struct MeshArguments {
 /// --method: refused, with what there is, unless it exists.
 void addMethod(CLI::App& command, std::string& method);
 
+/// --threads: how many a run may use.
+void addThreads(CLI::App& command, int& threads);
+
+/// --kernels, for those who compare them: hidden from the help.
+void addKernels(CLI::App& command, Kernels& kernels);
+
 /// --profile, --config and --set: where the parameters of a run come from.
 struct OptionArguments {
   std::string profile;
@@ -59,8 +66,10 @@ struct OptionArguments {
   void addTo(CLI::App& command);
   /// Profile, then config, then --set. InputError for the config, CLI::ValidationError for --set.
   LocalizerOptions read() const;
-  /// "paper" or "default": the one asked for, else the config's.
+  /// "paper", "default" or "flight": the one asked for, else the config's.
   std::string profileName() const;
+  /// Bytes for a run and its inputs; 0 where the profile sets no limit.
+  std::size_t memoryLimit() const;
 };
 
 LocalizerOptions profileOptions(const std::string& name);

@@ -42,11 +42,13 @@ void EvaluateArguments::addTo(CLI::App& command) {
   command.add_option("--tag", batch.tags, "Only cases with one of these tags")->type_name("T");
   command.add_option("--station", batch.stations, "Only cases of these stations")->type_name("S");
   addMethod(command, batch.method);
+  addKernels(command, batch.kernels);
   options.addTo(command);
   command.add_option("--jobs", batch.jobs, "Runs at a time")
       ->check(CLI::Range(1, 256))
       ->capture_default_str()
       ->type_name("N");
+  addThreads(command, batch.threads);
   command
       .add_option("--reseed", batch.reseeds,
                   "Further seeds per case, uniform in the ellipsoids inscribed in its uncertainty")
@@ -145,6 +147,7 @@ int evaluate(EvaluateArguments& arguments) {
   if (!arguments.mirror.empty())
     arguments.batch.mirror = static_cast<sessions::MirrorAxis>(arguments.mirror.front() - 'x');
   arguments.batch.localizer = arguments.options.read();
+  arguments.batch.memory_limit = arguments.options.memoryLimit();
   const sessions::Dataset dataset = sessions::readDataset(arguments.dataset);
   for (const std::string& line : dataset.notes) note(line);
 

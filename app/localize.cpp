@@ -21,6 +21,8 @@ namespace {
 struct LocalizeArguments : InputArguments {
   std::string truth;
   std::string method = "whs";
+  int threads = 1;
+  Kernels kernels = bestKernels();
   std::string out, trace, overlay;
 
   void addTo(CLI::App& command);
@@ -37,6 +39,8 @@ void LocalizeArguments::addTo(CLI::App& command) {
   InputArguments::addTo(command);
   file("--truth", truth, "pose.json with the true pose: errors are printed, an overlay shows it");
   addMethod(command, method);
+  addThreads(command, threads);
+  addKernels(command, kernels);
   file("--out", out, "Writes the result as JSON");
   file("--trace", trace, "Writes everything in between (binary)");
   file("--overlay", overlay, "Writes a PNG: seed red, result green, truth blue over the image");
@@ -112,14 +116,16 @@ void printResult(const sessions::LocalizationTrace& trace,
       std::cout << ", projection " << fixedText(*error->projection_px, 2) << " px";
     std::cout << "\n";
   }
-  std::cout << "digest " << trace.digest << std::endl;
+  if (!trace.digest.empty()) std::cout << "digest " << trace.digest << std::endl;
 }
 
-/// A fault is the input's or the program's.
+/// A fault is the input's or the program's, unless the options give too little room.
 int exitCodeOf(const sessions::LocalizationTrace& trace) {
   if (trace.converged()) return kDone;
   if (trace.status != LocalizationStatus::kFault) return kNotConverged;
-  return trace.fault == Status::kCapacityExceeded ? kNotConverged : kInternalFault;
+  const bool too_little =
+      trace.fault == Status::kCapacityExceeded || trace.fault == Status::kArenaTooSmall;
+  return too_little ? kNotConverged : kInternalFault;
 }
 
 /// What the core refuses although the readers let it pass.
@@ -145,13 +151,18 @@ int localizeImage(const LocalizeArguments& arguments) {
   const Inputs inputs = readInputs(arguments);
   requireSensibleSeed(inputs, arguments.seed);
   for (const std::string& line : inputs.notes) note(line);
-  const auto level =
+  sessions::RunSettings settings;
+  settings.level =
       arguments.trace.empty() ? sessions::RecordLevel::kSummary : sessions::RecordLevel::kFull;
+  settings.memory_limit = arguments.options.memoryLimit();
+  settings.threads = arguments.threads;
+  settings.kernels = arguments.kernels;
   const sessions::LocalizationTrace trace =
-      sessions::localize(inputs.problem(), inputs.options, level);
+      sessions::localize(inputs.problem(), inputs.options, settings);
   requireAccepted(arguments, trace);
   const auto error = errorAgainstTruth(inputs, trace.camera_from_station);
   printResult(trace, error);
+  if (settings.memory_limit > 0) std::cout << "\n" << sessions::memoryTable(trace) << std::flush;
   if (!arguments.out.empty())
     sessions::writeResult(arguments.out, trace, error, provenance(arguments, inputs));
   if (!arguments.trace.empty()) sessions::saveTrace(arguments.trace, trace);

@@ -24,35 +24,39 @@ Status checkEdgeInput(const ImageView& image, const BitImage* ignore, const Edge
 }
 
 Status EdgeDetector::begin(const ImageView& image, const BitImage* ignore,
-                           const EdgeOptions& options, Arena& arena, EdgeMap& output) {
+                           const EdgeOptions& options, Arena& kept, Arena& scratch, int finest_kept,
+                           EdgeMap& output) {
   *this = EdgeDetector();
   output = EdgeMap();
-  if (const Status status = checkEdgeInput(image, ignore, options, arena.countsOnly());
+  if (const Status status = checkEdgeInput(image, ignore, options, kept.countsOnly());
       status != Status::kOk)
     return status;
   options_ = options;
   ignore_ = ignore;
-  arena_ = &arena;
+  scratch_ = &scratch;
   output_ = &output;
 
-  const std::size_t start = arena.mark();
+  const std::size_t kept_start = kept.mark();
+  const std::size_t scratch_start = scratch.mark();
   int width = image.width;
   int height = image.height;
-  for (BitImage& level : output.level) {
-    level = BitImage::create(arena, width, height);
+  for (int level = 0; level < kPyramidLevels; ++level) {
+    output.level[static_cast<std::size_t>(level)] =
+        BitImage::create(level < finest_kept ? scratch : kept, width, height);
     width = (width + 1) / 2;
     height = (height + 1) / 2;
   }
-  mark_ = arena.mark();
-  equalizer_.begin(image, ignore, options, arena);
-  allocateScratch(image, arena);
-  if (arena.exhausted()) {
-    arena.rewind(start);
+  mark_ = scratch.mark();
+  equalizer_.begin(image, ignore, options, scratch);
+  allocateScratch(image, scratch);
+  if (kept.exhausted() || scratch.exhausted()) {
+    kept.rewind(kept_start);
+    scratch.rewind(scratch_start);
     output = EdgeMap();
     return Status::kArenaTooSmall;
   }
-  if (arena.countsOnly()) {
-    arena.rewind(mark_);
+  if (kept.countsOnly()) {
+    scratch.rewind(mark_);
   } else {
     stage_ = Stage::kEqualize;
   }
@@ -163,7 +167,7 @@ bool EdgeDetector::pool() {
 
 void EdgeDetector::finish() {
   output_->edge_count = countBits(output_->level[0]);
-  arena_->rewind(mark_);
+  scratch_->rewind(mark_);
   stage_ = Stage::kDone;
 }
 

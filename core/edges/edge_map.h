@@ -45,7 +45,13 @@ class EdgeDetector {
   /// kInvalidOption, kInvalidImage (see `checkEdgeInput`) or kArenaTooSmall leave the arena as it
   /// was.
   Status begin(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
-               Arena& arena, EdgeMap& output);
+               Arena& arena, EdgeMap& output) {
+    return begin(image, ignore, options, arena, arena, 0, output);
+  }
+  /// The same with levels finer than `finest_kept` from `scratch`, where the detector's own scratch
+  /// follows: they are valid until somebody else uses that memory.
+  Status begin(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
+               Arena& kept, Arena& scratch, int finest_kept, EdgeMap& output);
   /// One bounded slice (about a million pixel operations); true when the map is complete.
   [[nodiscard]] bool step();
 
@@ -69,7 +75,7 @@ class EdgeDetector {
   Stage stage_ = Stage::kDone;
   EdgeOptions options_;
   const BitImage* ignore_ = nullptr;
-  Arena* arena_ = nullptr;
+  Arena* scratch_ = nullptr;
   std::size_t mark_ = 0;  ///< where the scratch begins
   EdgeMap* output_ = nullptr;
   int row_ = 0;         ///< next one of the stage

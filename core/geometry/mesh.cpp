@@ -114,16 +114,16 @@ Status validateMesh(const MeshView& mesh) {
   return Status::kOk;
 }
 
-Status buildAdjacency(const MeshView& mesh, Arena& arena, MeshAdjacency& adjacency) {
+Status buildAdjacency(const MeshView& mesh, Arena& kept, Arena& scratch, MeshAdjacency& adjacency) {
   adjacency.neighbour = {};
   const std::size_t face_count = mesh.faces.size();
-  const auto neighbour = arena.allocate<std::array<std::int32_t, 3>>(face_count);
-  const std::size_t scratch = arena.mark();
-  const auto sides = arena.allocate<Side>(3 * face_count);
-  const auto group_end = arena.allocate<std::uint32_t>(mesh.vertices_in_station_m.size());
-  arena.rewind(scratch);
-  if (arena.countsOnly()) return Status::kOk;
-  if (arena.exhausted()) return Status::kArenaTooSmall;
+  const auto neighbour = kept.allocate<std::array<std::int32_t, 3>>(face_count);
+  const std::size_t mark = scratch.mark();
+  const auto sides = scratch.allocate<Side>(3 * face_count);
+  const auto group_end = scratch.allocate<std::uint32_t>(mesh.vertices_in_station_m.size());
+  scratch.rewind(mark);
+  if (kept.countsOnly()) return Status::kOk;
+  if (kept.exhausted() || scratch.exhausted()) return Status::kArenaTooSmall;
   if (face_count > kMostFaces || !indicesInRange(mesh)) return Status::kInvalidMesh;
 
   for (auto& of_face : neighbour) of_face = {-1, -1, -1};

@@ -47,10 +47,13 @@ struct MeshAdjacency {
   std::span<std::array<std::int32_t, 3>> neighbour;
 };
 
-/// Builds the adjacency; deterministic, O(n log n). Output and scratch come from the arena (the
-/// scratch, 24 bytes a face and 4 a vertex, is rewound). kArenaTooSmall when they do not fit,
-/// kInvalidMesh when an index is out of range.
-Status buildAdjacency(const MeshView& mesh, Arena& arena, MeshAdjacency& adjacency);
+/// Builds the adjacency; deterministic, O(n log n). The output comes from `kept`, 24 bytes a face
+/// and 4 a vertex from `scratch` (which may be the same arena, and is rewound). kArenaTooSmall when
+/// they do not fit, kInvalidMesh when an index is out of range.
+Status buildAdjacency(const MeshView& mesh, Arena& kept, Arena& scratch, MeshAdjacency& adjacency);
+inline Status buildAdjacency(const MeshView& mesh, Arena& arena, MeshAdjacency& adjacency) {
+  return buildAdjacency(mesh, arena, arena, adjacency);
+}
 
 /// Axis-aligned bounding box of the vertices used by faces of matched parts, station frame.
 struct BoundingBox {

@@ -110,9 +110,20 @@ double EdgeRefinement::robustScale() {
 }
 
 Status EdgeRefinement::step(bool& done) {
-  const RefinementResult& result = *result_;
-  const bool search = round_ == 0 || moved_px_ > options_.search_again_px;
-  if (search) searchEdges();
+  for (int chunk = 0; chunk < chunks(); ++chunk) searchChunk(chunk);
+  return finishRound(done);
+}
+
+Status EdgeRefinement::finishRound(bool& done) {
+  RefinementResult& result = *result_;
+  const bool search = searches();
+  if (search) {
+    moved_px_ = 0.0;
+    result.found_count = 0;
+    for (std::int32_t i = 0; i < result.sample_count; ++i) {
+      if (result.samples[static_cast<std::size_t>(i)].gradient != 0.0) ++result.found_count;
+    }
+  }
   done = true;
   if (result.found_count < options_.min_found) return Status::kTooFewEdges;
   if (search) scale_px_ = robustScale();
@@ -123,13 +134,12 @@ Status EdgeRefinement::step(bool& done) {
   return status;
 }
 
-void EdgeRefinement::searchEdges() {
+void EdgeRefinement::searchChunk(int chunk) {
   RefinementResult& result = *result_;
-  result.found_count = 0;
-  moved_px_ = 0.0;
   const Eigen::Matrix3d rotation = result.camera_from_station.matrix();
   const Eigen::Vector3d translation_m = result.camera_from_station.translation_m;
-  for (std::int32_t i = 0; i < result.sample_count; ++i) {
+  const std::int32_t end = std::min(result.sample_count, (chunk + 1) * kChunk);
+  for (std::int32_t i = chunk * kChunk; i < end; ++i) {
     EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
     sample.gradient = 0.0;
     Eigen::Vector2d predicted_px;
@@ -140,7 +150,6 @@ void EdgeRefinement::searchEdges() {
     sample.residual_px = peak.offset_px;
     sample.gradient = peak.gradient;
     found_at_px_[static_cast<std::size_t>(i)] = sample.normal.dot(predicted_px) + peak.offset_px;
-    if (sample.gradient != 0.0) ++result.found_count;
   }
 }
 

@@ -120,13 +120,24 @@ class EdgeRefinement {
   Status begin(const ImageView& image, const BitImage* ignore, const Camera& camera,
                const MeshView& mesh, const EdgeRender& render, double radius_px,
                const PosePrior* anchor, const PoseEstimate* matched, RefinementResult& result);
-  /// One round; kTooFewEdges when too little is found, kDegenerate when the edges and what is known
-  /// besides do not fix the pose.
+  /// A round that looks for the image's edges does so in chunks of samples that do not depend on
+  /// each other: different ones may be searched at the same time. 0 when what was found still
+  /// serves.
+  int chunks() const { return searches() ? (result_->sample_count + kChunk - 1) / kChunk : 0; }
+  static int chunksOf(const RefinementOptions& options) {
+    return (options.max_samples + kChunk - 1) / kChunk;
+  }
+  void searchChunk(int chunk);
+  /// Ends the round when all chunks have been searched; kTooFewEdges when too little is found,
+  /// kDegenerate when the edges and what is known besides do not fix the pose.
+  Status finishRound(bool& done);
+  /// A whole round.
   Status step(bool& done);
 
  private:
+  static constexpr std::int32_t kChunk = 256;
   void takeSamples(const MeshView& mesh, const EdgeRender& render);
-  void searchEdges();
+  bool searches() const { return round_ == 0 || moved_px_ > options_.search_again_px; }
   double robustScale();
   void addKnowledge(NormalEquations& equations) const;
   Status solve(bool& settled);

@@ -78,12 +78,11 @@ Status Localizer::restart(const Pose& camera_from_station_seed, const LocalizerO
   if (!isUsable(PosePrior{camera_from_station_seed, problem_.uncertainty}))
     return Status::kInvalidPose;
   std::size_t bytes = 0;
-  Status status = requiredBytes(sizeOf(problem_), options, bytes);
-  if (status == Status::kOk && bytes > arena_.capacity()) status = Status::kArenaTooSmall;
+  Status status = requiredBytes(sizeOf(problem_), options, workers_, bytes, kernels_);
+  if (status == Status::kOk && bytes > memory_.size()) status = Status::kArenaTooSmall;
   if (status != Status::kOk) return status;
   problem_.camera_from_station_seed = camera_from_station_seed;
   options_ = options;
-  arena_.reset();
   begin();
   return status_;
 }
@@ -93,6 +92,9 @@ void Localizer::startIteration() {
   hypothesis_ = 0;
   has_best_ = false;
   current_ = 0;
+  // The renderer works where the finer edge maps were.
+  for (int level = 0; level < fine_level_; ++level)
+    workspace_.edges.level[static_cast<std::size_t>(level)] = BitImage();
   hypothesis_pending_ = true;
 }
 
@@ -115,6 +117,8 @@ void Localizer::startHypothesis() {
     now.threshold_px = radius_px * static_cast<double>(1 << now.level);
   }
   now.status = LocalizationStatus::kRunning;
+  now.render = now.level == coarse_level_ ? coarse_render_[static_cast<std::size_t>(current_)]
+                                          : fine_render_;
   now.templates.count = 0;
   now.matches.count = 0;
   now.matches.searched = 0;
@@ -150,7 +154,7 @@ StepReport Localizer::stepRender() {
     stage_ = now.kind == IterationKind::kRefine ? Stage::kRefine : Stage::kTemplates;
     stage_begun_ = false;
     if (now.render.pixel_count < options_.templates.min_edge_pixels) {
-      return fail(Stage::kRender, LocalizationStatus::kTooFewEdges);
+      return failHypothesis(Stage::kRender, LocalizationStatus::kTooFewEdges);
     }
   }
   return report(Stage::kRender, complete);
@@ -165,58 +169,98 @@ StepReport Localizer::stepTemplates() {
       selector_.select(now.render, side_px, problem_.ignore, now.level, now.templates);
   digestTemplates(now.templates, digest_);
   if (status == Status::kTooFewTemplates)
-    return fail(Stage::kTemplates, LocalizationStatus::kTooFewTemplates);
+    return failHypothesis(Stage::kTemplates, LocalizationStatus::kTooFewTemplates);
   if (status != Status::kOk) return faulted(Stage::kTemplates, status);
   now.matches.count = now.templates.count;
-  match_index_ = 0;
-  match_begun_ = false;
+  openPieces(now.templates.count);
   stage_ = Stage::kMatch;
   return report(Stage::kTemplates, true);
 }
 
+int Localizer::pieces() const {
+  const bool idle = status_ != Status::kOk || iteration_pending_ || hypothesis_pending_;
+  // What step() has begun it also ends.
+  return idle || piece_begun_ ? 0 : piece_count_;
+}
+
+void Localizer::openPieces(int count) {
+  piece_count_ = count;
+  piece_ = 0;
+  piece_begun_ = false;
+  std::fill_n(done_.begin(), count, std::uint8_t{0});
+}
+
+/// Moves on to the first piece that nobody has done; false when there is none.
+bool Localizer::nextUndone() {
+  while (piece_ < piece_count_ && done_[static_cast<std::size_t>(piece_)] != 0) ++piece_;
+  return piece_ < piece_count_;
+}
+
+void Localizer::work(int piece, int worker) {
+  if (piece < 0 || piece >= pieces() || worker < 0 || worker >= workers_) return;
+  if (stage_ == Stage::kMatch) {
+    WhsSearch& search = searches_[static_cast<std::size_t>(worker)];
+    if (beginMatch(piece, search)) {
+      while (!search.step()) {
+      }
+      finishMatch(piece, search);
+    }
+  } else {
+    refinement_.searchChunk(piece);
+  }
+  done_[static_cast<std::size_t>(piece)] = 1;
+}
+
 StepReport Localizer::stepMatch() {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
-  const Template& item = now.templates.templates[static_cast<std::size_t>(match_index_)];
-  Match& match = now.matches.matches[static_cast<std::size_t>(match_index_)];
-  const TemplateView view{&now.render.edges, &now.render.mask, item.center_x, item.center_y,
-                          now.templates.side_px};
-  const BitImage& test_edges = workspace_.edges.level[static_cast<std::size_t>(now.level)];
-  bool searched = true;
-  if (!match_begun_) {
-    match = Match{};
-    // The window is about the unrolled hypothesis: that is what the uncertainty speaks of.
-    match.window = searchWindow(now.render.camera, camera_from_station_ * item.point_in_station_m,
-                                now.uncertainty, now.templates.side_px);
-    searched = !match.window.empty() &&
-               search_.begin(view, test_edges, match.window, item.center_x, item.center_y,
-                             options_.loop.second_peak_exclusion_px) == Status::kOk;
-    match_begun_ = searched;
+  if (nextUndone()) {
+    WhsSearch& search = searches_.front();
+    if (!piece_begun_) piece_begun_ = beginMatch(piece_, search);
+    if (piece_begun_ && !search.step()) return report(Stage::kMatch, false);
+    if (piece_begun_) finishMatch(piece_, search);
+    piece_begun_ = false;
+    done_[static_cast<std::size_t>(piece_)] = 1;
+    if (nextUndone()) return report(Stage::kMatch, false);
   }
-  if (searched) {
-    if (!search_.step()) return report(Stage::kMatch, false);
-    finishMatch(match_index_);
+  openPieces(0);
+  for (std::int32_t i = 0; i < now.matches.count; ++i) {
+    if (now.matches.matches[static_cast<std::size_t>(i)].searched) ++now.matches.searched;
   }
-  match_begun_ = false;
-  ++match_index_;
-  if (match_index_ < now.templates.count) return report(Stage::kMatch, false);
   digestMatches(now.matches, digest_);
   collectCorrespondences();
   stage_ = Stage::kPose;
   stage_begun_ = false;
   if (now.correspondence_count < options_.pnp.min_inliers) {
-    return fail(Stage::kMatch, LocalizationStatus::kTooFewMatches);
+    return failHypothesis(Stage::kMatch, LocalizationStatus::kTooFewMatches);
   }
   return report(Stage::kMatch, true);
 }
 
-void Localizer::finishMatch(int index) {
+/// False when the template cannot be searched for.
+bool Localizer::beginMatch(int index, WhsSearch& search) {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   const Template& item = now.templates.templates[static_cast<std::size_t>(index)];
   Match& match = now.matches.matches[static_cast<std::size_t>(index)];
   const TemplateView view{&now.render.edges, &now.render.mask, item.center_x, item.center_y,
                           now.templates.side_px};
-  match.peak = search_.peak();
-  match.norms = search_.norms();
+  match = Match{};
+  // The window is about the unrolled hypothesis: that is what the uncertainty speaks of.
+  match.window = searchWindow(now.render.camera, camera_from_station_ * item.point_in_station_m,
+                              now.uncertainty, now.templates.side_px);
+  return !match.window.empty() &&
+         search.begin(view, workspace_.edges.level[static_cast<std::size_t>(now.level)],
+                      match.window, item.center_x, item.center_y,
+                      options_.loop.second_peak_exclusion_px) == Status::kOk;
+}
+
+void Localizer::finishMatch(int index, const WhsSearch& search) {
+  Iteration& now = buffers_[static_cast<std::size_t>(current_)];
+  const Template& item = now.templates.templates[static_cast<std::size_t>(index)];
+  Match& match = now.matches.matches[static_cast<std::size_t>(index)];
+  const TemplateView view{&now.render.edges, &now.render.mask, item.center_x, item.center_y,
+                          now.templates.side_px};
+  match.peak = search.peak();
+  match.norms = search.norms();
   match.x = match.peak.x;
   match.y = match.peak.y;
   if (options_.loop.subpixel_matches) {
@@ -226,7 +270,6 @@ void Localizer::finishMatch(int index) {
   match.searched = true;
   match.at_border = match.peak.x == match.window.x_min || match.peak.x == match.window.x_max ||
                     match.peak.y == match.window.y_min || match.peak.y == match.window.y_max;
-  ++now.matches.searched;
 }
 
 void Localizer::collectCorrespondences() {
@@ -268,7 +311,7 @@ StepReport Localizer::stepPose() {
   digestPnp(now.pnp, digest_);
   now.status =
       status == Status::kOk ? LocalizationStatus::kRunning : LocalizationStatus::kPnpFailed;
-  return finishHypothesis();
+  return finishHypothesis(Stage::kPose);
 }
 
 void Localizer::noteHypothesis() {
@@ -291,7 +334,18 @@ void Localizer::noteHypothesis() {
   }
 }
 
-StepReport Localizer::finishHypothesis() {
+/// Too little to go on with. Another hypothesis may have more: it counts as one without a pose.
+StepReport Localizer::failHypothesis(Stage stage, LocalizationStatus status) {
+  Iteration& now = buffers_[static_cast<std::size_t>(current_)];
+  now.status = status;
+  if (now.kind == IterationKind::kRefine) return fail(stage, status);
+  now.pnp.inlier_count = 0;
+  now.pnp.camera_from_station = camera_from_station_;
+  return finishHypothesis(stage);
+}
+
+StepReport Localizer::finishHypothesis(Stage stage) {
+  reached_[static_cast<std::size_t>(current_)] = stage;
   noteHypothesis();
   const int other = 1 - current_;
   const Iteration& now = buffers_[static_cast<std::size_t>(current_)];
@@ -307,12 +361,13 @@ StepReport Localizer::finishHypothesis() {
     current_ = 1 - kept;
     // Started by the next step: until then the caller sees the hypothesis that has ended.
     hypothesis_pending_ = true;
-    return report(Stage::kPose, true);
+    return report(stage, true);
   }
   current_ = kept;
   Iteration& chosen = buffers_[static_cast<std::size_t>(kept)];
   workspace_.iteration = &chosen;
-  if (chosen.status != LocalizationStatus::kRunning) return fail(Stage::kPose, chosen.status);
+  if (chosen.status != LocalizationStatus::kRunning)
+    return fail(reached_[static_cast<std::size_t>(kept)], chosen.status);
   return finishIteration(Stage::kPose, chosen.pnp.camera_from_station, chosen.pnp.covariance);
 }
 
@@ -324,10 +379,21 @@ StepReport Localizer::stepRefine() {
                                now.render, now.threshold_px, anchor(),
                                options_.loop.anchored ? &matched_ : nullptr, now.refinement);
     stage_begun_ = true;
+    if (status == Status::kOk) {
+      openPieces(refinement_.chunks());
+      return report(Stage::kRefine, false);
+    }
   }
   bool complete = false;
-  if (status == Status::kOk) status = refinement_.step(complete);
-  if (status == Status::kOk && !complete) return report(Stage::kRefine, false);
+  if (status == Status::kOk) {
+    for (; nextUndone(); ++piece_) refinement_.searchChunk(piece_);
+    status = refinement_.finishRound(complete);
+    if (status == Status::kOk && !complete) {
+      openPieces(refinement_.chunks());
+      return report(Stage::kRefine, false);
+    }
+  }
+  openPieces(0);
   digestRefinement(now.refinement, digest_);
   if (status != Status::kOk) return fail(Stage::kRefine, LocalizationStatus::kPnpFailed);
   return finishIteration(Stage::kRefine, now.refinement.camera_from_station,

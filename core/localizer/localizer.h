@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/digest.h"
+#include "core/base/kernels.h"
 #include "core/localizer/localizer_options.h"
 #include "core/localizer/problem.h"
 #include "core/localizer/workspace.h"
@@ -25,6 +26,21 @@ enum class Stage : std::uint8_t {
 };
 const char* stageText(Stage stage);
 
+/// Bytes of a localizer's block: what lives throughout, what construction takes besides (given back
+/// before the first step), and what each stage takes besides; these share the same memory.
+struct MemoryUse {
+  std::size_t kept = 0;
+  std::size_t construction = 0;
+  std::array<std::size_t, static_cast<std::size_t>(Stage::kFinished)> stage{};
+
+  /// High-water mark of a stage.
+  std::size_t of(Stage at) const {
+    return at < Stage::kFinished ? kept + stage[static_cast<std::size_t>(at)] : kept;
+  }
+  /// High-water mark of the whole: what the block must hold.
+  std::size_t total() const;
+};
+
 /// What one step did.
 struct StepReport {
   Stage stage = Stage::kEdges;  ///< the stage that was worked on
@@ -36,20 +52,50 @@ struct StepReport {
 /// Render-and-compare localization (Pham 2025), one bounded slice per call. The flight loop, the
 /// command line, a window's worker and a recorder are callers of the same `step()`; nothing in here
 /// calls back, pauses, draws or logs. After construction nothing allocates.
+///
+/// All memory is one block: first what lives throughout (adjacency, ray grids, edge maps from the
+/// finest level that is matched on, renders, matches), then one piece that the stages use in turn.
+/// What a stage leaves in it stays until the next step that works on another stage: edge maps finer
+/// than the finest level until the first render, the samples of a refinement until the next render.
+///
+/// A caller with threads of its own may share out the stages that consist of independent pieces:
+///
+///     while (!finished) {
+///       for piece in 0 ... pieces() - 1, at the same time:  work(piece, worker)
+///       finished = step().finished
+///     }
+///
+/// Whatever has not been done by then, `step()` does itself: the results are the same bits with any
+/// number of workers, and without any.
 class Localizer {
  public:
   /// Bytes of arena for a problem of this size, in a block aligned to Arena::kAlignment (one less
-  /// aligned loses its first bytes); kInvalidOption for options out of range.
+  /// aligned loses its first bytes); kInvalidOption for options out of range and for kernels that
+  /// are not available.
   static Status requiredBytes(const ProblemSize& size, const LocalizerOptions& options,
-                              std::size_t& bytes);
+                              std::size_t& bytes) {
+    return requiredBytes(size, options, 1, bytes);
+  }
+  /// The same with scratch for so many workers, 1 ... kMaxWorkers.
+  static Status requiredBytes(const ProblemSize& size, const LocalizerOptions& options, int workers,
+                              std::size_t& bytes, Kernels kernels = Kernels::kPortable);
+  /// The same in detail.
+  static Status requiredMemory(const ProblemSize& size, const LocalizerOptions& options,
+                               int workers, MemoryUse& use, Kernels kernels = Kernels::kPortable);
+  static Status requiredMemory(const ProblemSize& size, const LocalizerOptions& options,
+                               MemoryUse& use) {
+    return requiredMemory(size, options, 1, use);
+  }
+  static constexpr int kMaxWorkers = 256;
 
   /// `memory` and everything `problem` points to must outlive the localizer. `status()` tells
   /// whether it can run: kInvalidOption, kInvalidImage (its size is not the camera's or the ignore
   /// mask's), kInvalidCamera (not prepared), kInvalidPose (not finite, a quaternion not of unit
   /// length, an uncertainty that is negative), kInvalidMesh, kArenaTooSmall. If not, the first step
-  /// ends the run as a fault.
+  /// ends the run as a fault. `kernels` (those that the memory was asked for) change nothing but
+  /// the time taken.
   Localizer(const LocalizationProblem& problem, const LocalizerOptions& options,
-            std::span<std::byte> memory);
+            std::span<std::byte> memory, int workers = 1, Kernels kernels = Kernels::kPortable);
 
   Localizer(const Localizer&) = delete;
   Localizer& operator=(const Localizer&) = delete;
@@ -59,6 +105,13 @@ class Localizer {
   /// One slice; after `finished` it does nothing.
   StepReport step();
 
+  /// Pieces of the work before the next step that may be done at the same time; 0 where there is
+  /// nothing to share out.
+  int pieces() const;
+  /// Does one of them, in the scratch of one of the workers. Each piece at most once between two
+  /// steps; calls at the same time need different pieces and different workers.
+  void work(int piece, int worker);
+
   /// Begins anew from another pose with other options, as a fresh localizer would. Memory is what
   /// it was: kArenaTooSmall when the new options ask for more.
   Status restart(const Pose& camera_from_station_seed, const LocalizerOptions& options);
@@ -66,14 +119,22 @@ class Localizer {
   const Workspace& workspace() const { return workspace_; }
   const LocalizationProblem& problem() const { return problem_; }
   const LocalizerOptions& options() const { return options_; }
-  std::size_t highWaterBytes() const { return arena_.highWater(); }
+  std::size_t highWaterBytes() const { return kept_.highWater() + scratch_.highWater(); }
+  /// What the stages need of the memory; known from the start.
+  const MemoryUse& memoryUse() const { return memory_use_; }
   /// SHA-256 over options, inputs and every intermediate up to now, whoever looks or not.
   std::array<std::uint8_t, 32> digest() const { return digest_.digest(); }
 
  private:
   void begin();
-  Status build(const ProblemSize& size);
-  Status buildLevels();
+  Status build();
+  Status layOut(const ProblemSize& size);
+  Status layOutKept();
+  void layOutRenders();
+  Status layOutStages(const ProblemSize& size);
+  void shareScratch(std::size_t& bytes);
+  void openPieces(int count);
+  std::size_t& bytesOf(Stage stage) { return memory_use_.stage[static_cast<std::size_t>(stage)]; }
   void startIteration();
   void startHypothesis();
   StepReport stepEdges();
@@ -87,10 +148,13 @@ class Localizer {
   void startAttempt();
   double templateFactor() const;
   StepReport faulted(Stage stage, Status fault);
-  void finishMatch(int index);
+  bool beginMatch(int index, WhsSearch& search);
+  void finishMatch(int index, const WhsSearch& search);
+  bool nextUndone();
   void collectCorrespondences();
   void noteHypothesis();
-  StepReport finishHypothesis();
+  StepReport failHypothesis(Stage stage, LocalizationStatus status);
+  StepReport finishHypothesis(Stage stage);
   StepReport finishIteration(Stage stage, const Pose& camera_from_station,
                              const Matrix6d& covariance);
   void finish(LocalizationStatus status);
@@ -109,7 +173,12 @@ class Localizer {
 
   LocalizationProblem problem_;
   LocalizerOptions options_;
-  Arena arena_;
+  std::span<std::byte> memory_;
+  Arena kept_;
+  int workers_ = 1;
+  Kernels kernels_ = Kernels::kPortable;
+  Arena scratch_;  ///< of construction and of the stages, one after the other
+  MemoryUse memory_use_;
   Status status_ = Status::kOk;
 
   MeshAdjacency adjacency_;
@@ -117,17 +186,22 @@ class Localizer {
   EdgeDetector detector_;
   EdgeRenderer renderer_;
   TemplateSelector selector_;
-  WhsSearch search_;
+  std::span<WhsSearch> searches_;  ///< one per worker
   PnpRansac ransac_;
   EdgeRefinement refinement_;
   std::array<RayGrid, kPyramidLevels> rays_;
 
   std::array<Iteration, 2> buffers_;  ///< the current hypothesis and the best of this iteration
+  std::array<Stage, 2> reached_{};    ///< by each of them
+  std::array<EdgeRender, 2> coarse_render_;  ///< of the first iteration, one per buffer
+  EdgeRender fine_render_;  ///< of later ones, in the same memory unless it is the same level
   int current_ = 0;
   bool has_best_ = false;
   int hypothesis_ = 0;
-  int match_index_ = 0;
-  bool match_begun_ = false;
+  std::span<std::uint8_t> done_;  ///< pieces of the stage, or of its round
+  int piece_count_ = 0;
+  int piece_ = 0;             ///< none before it is left to do
+  bool piece_begun_ = false;  ///< by step() itself
 
   Stage stage_ = Stage::kEdges;
   bool stage_begun_ = false;

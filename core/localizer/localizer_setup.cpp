@@ -61,6 +61,7 @@ LocalizerOptions defaultProfile() { return {}; }
 
 LocalizerOptions paperProfile() {
   LocalizerOptions options;
+  options.render.max_edge_pixels = 200000;  // of the whole resolution
   options.templates.size_factor = 1.0;
   options.pnp.sampler = PnpSampler::kP3p;
   options.loop.match_iterations = options.loop.max_iterations;
@@ -93,21 +94,16 @@ int coarseLevel(int width, int height, int coarse_size_px) {
   return level;
 }
 
-Iteration createIteration(int width, int height, const LocalizerOptions& options, bool refines,
-                          Arena& arena) {
+/// Everything but the render and the samples.
+Iteration createIteration(const LocalizerOptions& options, Arena& arena) {
   Iteration iteration;
   const auto templates = static_cast<std::size_t>(options.templates.count);
-  iteration.render = createEdgeRender(width, height, options.render, arena);
   iteration.templates = createTemplateSet(options.templates, arena);
   iteration.matches.matches = arena.allocate<Match>(templates);
   iteration.correspondences = arena.allocate<Correspondence>(templates);
   iteration.template_of = arena.allocate<std::int32_t>(templates);
   iteration.pnp.inlier = arena.allocate<std::uint8_t>(templates);
   iteration.pnp.residual_px = arena.allocate<double>(templates);
-  if (refines) {
-    iteration.refinement.samples =
-        arena.allocate<EdgeSample>(static_cast<std::size_t>(options.refinement.max_samples));
-  }
   return iteration;
 }
 
@@ -133,10 +129,6 @@ MeshView placeholderMesh(const ProblemSize& size) {
   return mesh;
 }
 
-}  // namespace
-
-namespace {
-
 Status validateProblem(const LocalizationProblem& problem, const LocalizerOptions& options) {
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   if (problem.image.data == nullptr || problem.image.width != problem.camera.width ||
@@ -159,9 +151,13 @@ std::span<std::byte> alignedBlock(std::span<std::byte> memory) {
 }  // namespace
 
 Localizer::Localizer(const LocalizationProblem& problem, const LocalizerOptions& options,
-                     std::span<std::byte> memory)
-    : problem_(problem), options_(options), arena_(alignedBlock(memory)) {
-  if (arena_.countsOnly()) {
+                     std::span<std::byte> memory, int workers, Kernels kernels)
+    : problem_(problem),
+      options_(options),
+      memory_(alignedBlock(memory)),
+      workers_(workers),
+      kernels_(kernels) {
+  if (memory_.empty()) {
     status_ = Status::kArenaTooSmall;
     return;
   }
@@ -170,7 +166,7 @@ Localizer::Localizer(const LocalizationProblem& problem, const LocalizerOptions&
 
 void Localizer::begin() {
   status_ = validateProblem(problem_, options_);
-  if (status_ == Status::kOk) status_ = build(sizeOf(problem_));
+  if (status_ == Status::kOk) status_ = build();
   workspace_.status = LocalizationStatus::kRunning;
   workspace_.fault = Status::kOk;
   workspace_.iteration = nullptr;
@@ -191,6 +187,7 @@ void Localizer::begin() {
   attempt_ = 0;
   current_ = 0;
   small_corrections_ = 0;
+  openPieces(0);
   digest_ = DigestWriter();
   if (status_ != Status::kOk) return;
   bounds_ = matchedBounds(problem_.mesh);
@@ -198,8 +195,20 @@ void Localizer::begin() {
   digestProblem(problem_, digest_);
 }
 
+std::size_t MemoryUse::total() const {
+  return kept + std::max(construction, *std::max_element(stage.begin(), stage.end()));
+}
+
 Status Localizer::requiredBytes(const ProblemSize& size, const LocalizerOptions& options,
-                                std::size_t& bytes) {
+                                int workers, std::size_t& bytes, Kernels kernels) {
+  MemoryUse use;
+  const Status status = requiredMemory(size, options, workers, use, kernels);
+  bytes = use.total();
+  return status;
+}
+
+Status Localizer::requiredMemory(const ProblemSize& size, const LocalizerOptions& options,
+                                 int workers, MemoryUse& use, Kernels kernels) {
   LocalizationProblem problem;
   problem.image.width = size.width;
   problem.image.height = size.height;
@@ -207,51 +216,111 @@ Status Localizer::requiredBytes(const ProblemSize& size, const LocalizerOptions&
   problem.mesh = placeholderMesh(size);
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   if (prepareCamera(problem.camera) != Status::kOk) return Status::kInvalidCamera;
-  Localizer counter(problem, options, {});
-  counter.arena_ = Arena();
-  const Status status = counter.build(size);
-  bytes = counter.arena_.highWater();
+  Localizer counter(problem, options, {}, workers, kernels);
+  const Status status = counter.layOut(size);
+  use = counter.memory_use_;
   return status;
 }
 
-Status Localizer::build(const ProblemSize& size) {
+/// Counts, then divides the block and lays everything out once more, in earnest.
+Status Localizer::build() {
+  kept_ = Arena();
+  scratch_ = Arena();
+  const Status status = layOut(sizeOf(problem_));
+  if (status != Status::kOk) return status;
+  if (memory_use_.total() > memory_.size()) return Status::kArenaTooSmall;
+  kept_ = Arena(memory_.first(memory_use_.kept));
+  scratch_ = Arena(memory_.subspan(memory_use_.kept));
+  return layOut(sizeOf(problem_));
+}
+
+Status Localizer::layOut(const ProblemSize& size) {
+  if (workers_ < 1 || workers_ > kMaxWorkers) return Status::kInvalidOption;
   coarse_level_ = coarseLevel(size.width, size.height, options_.loop.coarse_size_px);
   fine_level_ = std::max(0, coarse_level_ - 1);
-  const int width = ((size.width - 1) >> fine_level_) + 1;
-  const int height = ((size.height - 1) >> fine_level_) + 1;
-  Status status = buildAdjacency(problem_.mesh, arena_, adjacency_);
-  if (status == Status::kOk) status = buildLevels();
-  if (status == Status::kOk) {
-    status = renderer_.create(problem_.mesh, adjacency_, width, height, options_.render, arena_);
-  }
-  if (status == Status::kOk) status = selector_.create(width, height, options_.templates, arena_);
-  const int side = std::min(options_.templates.max_side_px, 512);
-  if (status == Status::kOk) status = search_.create(side, std::max(width, height), arena_);
-  if (status == Status::kOk) status = ransac_.create(options_.templates.count, arena_);
-  if (status == Status::kOk) status = refinement_.create(options_.refinement, arena_);
-  if (status != Status::kOk) return status;
-  buffers_[0] = createIteration(width, height, options_, options_.refinement.enabled, arena_);
-  if (options_.loop.max_rolled_hypotheses > 1) {
-    const int coarse_width = ((size.width - 1) >> coarse_level_) + 1;
-    const int coarse_height = ((size.height - 1) >> coarse_level_) + 1;
-    buffers_[1] = createIteration(coarse_width, coarse_height, options_, false, arena_);
-  }
-  // Last: the detector's scratch is given back when the edges are done.
-  if (status == Status::kOk) {
-    status =
-        detector_.begin(problem_.image, problem_.ignore, options_.edges, arena_, workspace_.edges);
-  }
-  if (status == Status::kOk && arena_.exhausted()) status = Status::kArenaTooSmall;
+  Status status = layOutKept();
+  if (status == Status::kOk) status = layOutStages(size);
+  if (kept_.countsOnly()) memory_use_.kept = kept_.highWater();
+  if (status == Status::kOk && (kept_.exhausted() || scratch_.exhausted()))
+    status = Status::kArenaTooSmall;
   return status;
 }
 
-Status Localizer::buildLevels() {
-  Status status = Status::kOk;
+Status Localizer::layOutKept() {
+  Status status = buildAdjacency(problem_.mesh, kept_, scratch_, adjacency_);
+  shareScratch(memory_use_.construction);
   for (int level = fine_level_; level <= coarse_level_ && status == Status::kOk; ++level) {
-    status = RayGrid::create(cameraAtLevel(problem_.camera, level), arena_,
+    status = RayGrid::create(cameraAtLevel(problem_.camera, level), kept_,
                              rays_[static_cast<std::size_t>(level)]);
   }
+  layOutRenders();
+  searches_ = kept_.allocate<WhsSearch>(static_cast<std::size_t>(workers_));
+  done_ = kept_.allocate<std::uint8_t>(static_cast<std::size_t>(
+      std::max(options_.templates.count, EdgeRefinement::chunksOf(options_.refinement))));
+  buffers_[0] = createIteration(options_, kept_);
+  if (options_.loop.max_rolled_hypotheses > 1) buffers_[1] = createIteration(options_, kept_);
   return status;
+}
+
+/// The first iteration compares two coarse renders; later ones have one fine render in their place.
+void Localizer::layOutRenders() {
+  const auto create = [this](int level) {
+    const Camera camera = cameraAtLevel(problem_.camera, level);
+    const std::int32_t capacity = options_.render.max_edge_pixels >> (level - fine_level_);
+    return createEdgeRender(camera.width, camera.height,
+                            std::min(capacity, camera.width * camera.height), kept_);
+  };
+  const std::size_t start = kept_.mark();
+  coarse_render_[0] = create(coarse_level_);
+  if (options_.loop.max_rolled_hypotheses > 1) coarse_render_[1] = create(coarse_level_);
+  fine_render_ = coarse_render_[0];
+  if (fine_level_ == coarse_level_) return;
+  const std::size_t end = kept_.mark();
+  kept_.rewind(start);
+  fine_render_ = create(fine_level_);
+  kept_.rewind(std::max(end, kept_.mark()));
+}
+
+/// One after the other in the same memory; the edges last, as that stage is the first to run.
+Status Localizer::layOutStages(const ProblemSize& size) {
+  const int width = ((size.width - 1) >> fine_level_) + 1;
+  const int height = ((size.height - 1) >> fine_level_) + 1;
+  Status status =
+      renderer_.create(problem_.mesh, adjacency_, width, height, options_.render, kept_, scratch_);
+  shareScratch(bytesOf(Stage::kRender));
+  if (status == Status::kOk) status = selector_.create(width, height, options_.templates, scratch_);
+  shareScratch(bytesOf(Stage::kTemplates));
+  const int side = std::min(options_.templates.max_side_px, 512);
+  WhsSearch counted;
+  for (int worker = 0; worker < workers_ && status == Status::kOk; ++worker) {
+    WhsSearch& search = searches_.empty() ? counted : searches_[static_cast<std::size_t>(worker)];
+    status = search.create(side, std::max(width, height), kernels_, scratch_);
+  }
+  shareScratch(bytesOf(Stage::kMatch));
+  if (status == Status::kOk) status = ransac_.create(options_.templates.count, scratch_);
+  shareScratch(bytesOf(Stage::kPose));
+  if (status == Status::kOk) status = refinement_.create(options_.refinement, scratch_);
+  if (options_.refinement.enabled) {
+    buffers_[0].refinement.samples =
+        scratch_.allocate<EdgeSample>(static_cast<std::size_t>(options_.refinement.max_samples));
+  }
+  shareScratch(bytesOf(Stage::kRefine));
+  if (status == Status::kOk) {
+    status = detector_.begin(problem_.image, problem_.ignore, options_.edges, kept_, scratch_,
+                             fine_level_, workspace_.edges);
+  }
+  if (scratch_.countsOnly()) shareScratch(bytesOf(Stage::kEdges));
+  return status;
+}
+
+/// What comes next takes the same memory.
+void Localizer::shareScratch(std::size_t& bytes) {
+  if (scratch_.countsOnly()) {
+    bytes = scratch_.highWater();
+    scratch_ = Arena();
+  } else {
+    scratch_.rewind(0);
+  }
 }
 
 }  // namespace boresight

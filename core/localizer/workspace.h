@@ -91,7 +91,7 @@ struct Iteration {
 
 /// What a caller can look at between two steps.
 struct Workspace {
-  EdgeMap edges;
+  EdgeMap edges;  ///< levels finer than any render are gone when the first iteration has begun
   const Iteration* iteration = nullptr;  ///< the latest; stages not yet reached hold old values
   EdgeSupport support;                   ///< of the final pose
   LocalizationStatus status = LocalizationStatus::kRunning;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/kernels.h"
+
 namespace boresight {
 
 /// Bit-sliced counters: plane k holds bit k of 64 counters a word, so that one logical operation
@@ -23,8 +25,11 @@ struct CounterRow {
   std::uint64_t* words = nullptr;
   int stride = 0;       ///< words from one plane to the next
   int plane_count = 0;  ///< planes in use
-  std::uint64_t* plane(int k) { return words + std::ptrdiff_t{stride} * k; }
-  const std::uint64_t* plane(int k) const { return words + std::ptrdiff_t{stride} * k; }
+  // Inlined always, so that no copy of them is left behind by files compiled for wide registers.
+  [[gnu::always_inline]] std::uint64_t* plane(int k) { return words + std::ptrdiff_t{stride} * k; }
+  [[gnu::always_inline]] const std::uint64_t* plane(int k) const {
+    return words + std::ptrdiff_t{stride} * k;
+  }
 };
 
 /// Rows of counters, and of pixels to be counted, have this many words of slack.
@@ -38,13 +43,6 @@ struct PixelList {
   int shift = 0;        ///< bit within the byte, the same for all (0 ... 7)
 };
 
-/// total[x] += sum over k of bit x + shift of the row of pixels that begins at base + offsets[k]
-/// (byte ordered, see byteOrdered), for x < 64 * words - 7. Reads and writes whole registers: up to
-/// kWordPadding words more than these, of which nothing is to be expected. This is the inner loop
-/// of the search: full adders take eight rows at a time (Harley and Seal), all else is overhead. A
-/// vectorized version has this signature and gives the same counters.
-void addPixels(const std::uint8_t* base, const PixelList& pixels, int words, CounterRow& total);
-
 /// A pixel at any bit: its byte offset, its bit within the byte, and whether 1 - bit is counted
 /// instead, in one word: 16 * byte + 2 * bit + negative.
 using SignedPixel = std::uint32_t;
@@ -52,11 +50,6 @@ inline SignedPixel makeSignedPixel(int byte_offset, int shift, bool negative) {
   return static_cast<SignedPixel>(byte_offset) * 16u + static_cast<SignedPixel>(shift) * 2u +
          (negative ? 1u : 0u);
 }
-
-/// counters[x] = sum over k of pixel k displaced by x, for x < 64 * words (too large by the number
-/// of negative pixels); `count` is a multiple of 4, the planes of `counters` hold the largest sum.
-void countSignedPixels(const std::uint8_t* base, const SignedPixel* pixels, int count, int words,
-                       CounterRow& counters);
 
 /// 16-bit lanes: the counters of a word as integers. Counter x of the word is lane laneIndex(x):
 /// the order in which the transposition leaves them, so that nothing has to be moved.
@@ -68,13 +61,31 @@ constexpr int laneIndex(int x) {
   const int in_word = std::endian::native == std::endian::little ? lane : 3 - lane;
   return 8 * (x & 7) + 4 * (byte & 1) + in_word;
 }
-/// The lanes of words 0 ... words - 1 of planes 0 ... 15, kLanes a word; and of one word.
-void planesToLanes(const CounterRow& counters, int words, std::uint16_t* lanes);
-void wordToLanes(const CounterRow& counters, int word, std::uint16_t* lanes);
+/// The loops over words of counters, for one set of kernels; every set gives the same counters.
+struct BitKernels {
+  /// total[x] += sum over k of bit x + shift of the row of pixels that begins at base + offsets[k]
+  /// (byte ordered, see byteOrdered), for x < 64 * words - 7, or all x where the shift is 0. Reads
+  /// and writes whole registers: up to kWordPadding words more than these, of which nothing is to
+  /// be expected. This is the inner loop of the search: full adders take 64 rows at a time (Harley
+  /// and Seal), all else is overhead.
+  void (*addPixels)(const std::uint8_t* base, const PixelList& pixels, int words,
+                    CounterRow& total);
+  /// counters[x] = sum over k of pixel k displaced by x, for x < 64 * words (too large by the
+  /// number of negative pixels); `count` is a multiple of 4, the planes of `counters` hold the
+  /// largest sum.
+  void (*countSignedPixels)(const std::uint8_t* base, const SignedPixel* pixels, int count,
+                            int words, CounterRow& counters);
+  /// The lanes of words 0 ... words - 1 of planes 0 ... 15, kLanes a word.
+  void (*planesToLanes)(const CounterRow& counters, int words, std::uint16_t* lanes);
+  /// Within each word, lane laneIndex(x) becomes the sum of counters x' < x of this word; `totals`
+  /// are the sums over whole words. Sums must stay below 65536.
+  void (*planesToPrefixSums)(const CounterRow& counters, int words, std::uint16_t* lanes,
+                             std::uint32_t* totals);
+};
+/// 64-bit words for Kernels::kPortable, else the 128-bit registers that come with more.
+const BitKernels& bitKernels(Kernels set);
 
-/// Within each word, lane laneIndex(x) becomes the sum of counters x' < x of this word; `totals`
-/// are the sums over whole words. Sums must stay below 65536.
-void planesToPrefixSums(const CounterRow& counters, int words, std::uint16_t* lanes,
-                        std::uint32_t* totals);
+/// The lanes of one word of planes 0 ... 15.
+void wordToLanes(const CounterRow& counters, int word, std::uint16_t* lanes);
 
 }  // namespace boresight

@@ -18,6 +18,8 @@ namespace boresight::kernels {
 using Word1 = std::uint64_t;
 #if defined(__GNUC__) && defined(__SSE2__)
 using Word2 = std::uint64_t __attribute__((vector_size(16)));
+using Word4 = std::uint64_t __attribute__((vector_size(32)));
+using Word8 = std::uint64_t __attribute__((vector_size(64)));
 #endif
 
 template <class Word>
@@ -86,11 +88,38 @@ template <class Word>
   return carry;
 }
 
+#if defined(__AVX512F__)
+/// The same in two instructions: parity and majority of three as lookups.
+template <>
+[[gnu::always_inline]] inline Word8 fullAdd(Word8& sum, const Word8& a, const Word8& b) {
+  const __m512i x = reinterpret_cast<__m512i>(sum);
+  const __m512i y = reinterpret_cast<__m512i>(a);
+  const __m512i z = reinterpret_cast<__m512i>(b);
+  sum = reinterpret_cast<Word8>(_mm512_ternarylogic_epi64(x, y, z, 0x96));
+  return reinterpret_cast<Word8>(_mm512_ternarylogic_epi64(x, y, z, 0xe8));
+}
+#endif
+
 template <class Word>
 [[gnu::always_inline]] inline Word halfAdd(Word& sum, const Word& a) {
   const Word carry = sum & a;
   sum ^= a;
   return carry;
+}
+
+/// Two registers side by side, for machines that have enough of them.
+template <class Word>
+struct Pair {
+  Word upper, lower;
+};
+template <class Word>
+[[gnu::always_inline]] inline Pair<Word> fullAdd(Pair<Word>& sum, const Pair<Word>& a,
+                                                 const Pair<Word>& b) {
+  return {fullAdd(sum.upper, a.upper, b.upper), fullAdd(sum.lower, a.lower, b.lower)};
+}
+template <class Word>
+[[gnu::always_inline]] inline Pair<Word> halfAdd(Pair<Word>& sum, const Pair<Word>& a) {
+  return {halfAdd(sum.upper, a.upper), halfAdd(sum.lower, a.lower)};
 }
 
 /// A row of pixels that begins at a byte.
@@ -120,46 +149,69 @@ struct BitAligned {
   }
 };
 
+/// Bit-sliced counters of one register. The low planes stay in registers: carries from 64 rows at a
+/// time go to the upper ones.
 template <class Word>
 struct Counters {
-  Word ones{}, twos{}, fours{}, eights{};
-  Word upper[kMaxPlanes - 4];
+  static constexpr int kLow = 6;
+  Word low[kLow] = {};
+  Word upper[kMaxPlanes - kLow];
   int upper_count;
 
   [[gnu::always_inline]] explicit Counters(int plane_count)
-      : upper_count(plane_count > 4 ? plane_count - 4 : 0) {
+      : upper_count(plane_count > kLow ? plane_count - kLow : 0) {
     for (int k = 0; k < upper_count; ++k) upper[k] = Word{};
   }
 
-  template <class Source>
-  [[gnu::always_inline]] Word addFour(const Source& source, int k) {
-    const Word low = fullAdd(ones, source(k), source(k + 1));
-    const Word high = fullAdd(ones, source(k + 2), source(k + 3));
-    return fullAdd(twos, low, high);
+  /// Adds 2^(Level + 1) rows; returns the carry out of plane `Level`.
+  template <int Level, class Source>
+  [[gnu::always_inline]] Word addRows(const Source& source, int k) {
+    if constexpr (Level == 0) {
+      return fullAdd(low[0], source(k), source(k + 1));
+    } else {
+      const Word first = addRows<Level - 1>(source, k);
+      const Word second = addRows<Level - 1>(source, k + (1 << Level));
+      return fullAdd(low[Level], first, second);
+    }
   }
-  template <class Source>
-  [[gnu::always_inline]] Word addEight(const Source& source, int k) {
-    const Word low = addFour(source, k);
-    const Word high = addFour(source, k + 4);
-    return fullAdd(fours, low, high);
-  }
-  [[gnu::always_inline]] void addSixteens(Word carry) {
-    for (int k = 0; k < upper_count; ++k) carry = halfAdd(upper[k], carry);
+  /// Adds a carry into plane `Level` and all above.
+  template <int Level>
+  [[gnu::always_inline]] void addCarry(Word carry) {
+    if constexpr (Level < kLow) {
+      addCarry<Level + 1>(halfAdd(low[Level], carry));
+    } else {
+      for (int k = 0; k < upper_count; ++k) carry = halfAdd(upper[k], carry);
+    }
   }
   /// Adds `count` rows, a multiple of four.
   template <class Source>
   [[gnu::always_inline]] void addAll(const Source& source, int count) {
     int k = 0;
-    for (; k + 16 <= count; k += 16) {
-      const Word low = addEight(source, k);
-      const Word high = addEight(source, k + 8);
-      addSixteens(fullAdd(eights, low, high));
+    for (; k + 64 <= count; k += 64) addCarry<6>(addRows<5>(source, k));
+    if (k + 32 <= count) {
+      addCarry<5>(addRows<4>(source, k));
+      k += 32;
+    }
+    if (k + 16 <= count) {
+      addCarry<4>(addRows<3>(source, k));
+      k += 16;
     }
     if (k + 8 <= count) {
-      addSixteens(halfAdd(eights, addEight(source, k)));
+      addCarry<3>(addRows<2>(source, k));
       k += 8;
     }
-    if (k + 4 <= count) addSixteens(halfAdd(eights, halfAdd(fours, addFour(source, k))));
+    if (k + 4 <= count) addCarry<2>(addRows<1>(source, k));
+  }
+  /// Calls f(k, plane k) for the planes in use.
+  template <class Function>
+  [[gnu::always_inline]] void forEachPlane(int plane_count, const Function& f) const {
+    if (plane_count > 0) f(0, low[0]);
+    if (plane_count > 1) f(1, low[1]);
+    if (plane_count > 2) f(2, low[2]);
+    if (plane_count > 3) f(3, low[3]);
+    if (plane_count > 4) f(4, low[4]);
+    if (plane_count > 5) f(5, low[5]);
+    for (int k = kLow; k < plane_count; ++k) f(k, upper[k - kLow]);
   }
 };
 
@@ -180,11 +232,7 @@ template <class Word>
     carry = fullAdd(sum, addend, carry);
     store(sum, total.plane(k) + word);
   };
-  if (pixels.plane_count > 0) add(0, counters.ones);
-  if (pixels.plane_count > 1) add(1, counters.twos);
-  if (pixels.plane_count > 2) add(2, counters.fours);
-  if (pixels.plane_count > 3) add(3, counters.eights);
-  for (int k = 4; k < pixels.plane_count; ++k) add(k, counters.upper[k - 4]);
+  counters.forEachPlane(pixels.plane_count, add);
   for (int k = pixels.plane_count; k < total.plane_count; ++k) {
     Word sum = load<Word>(total.plane(k) + word);
     carry = halfAdd(sum, carry);
@@ -198,11 +246,10 @@ template <class Word>
                                                        int word, CounterRow& result) {
   Counters<Word> counters(result.plane_count);
   counters.addAll(BitAligned<Word>{base + bytesBefore(word), pixels}, count);
-  const Word* low[] = {&counters.ones, &counters.twos, &counters.fours, &counters.eights};
-  for (int k = 0; k < result.plane_count && k < 4; ++k) store(*low[k], result.plane(k) + word);
-  for (int k = 4; k < result.plane_count; ++k) {
-    store(counters.upper[k - 4], result.plane(k) + word);
-  }
+  counters.forEachPlane(
+      result.plane_count, [&](int k, const Word& part) __attribute__((always_inline)) {
+        store(part, result.plane(k) + word);
+      });
 }
 
 /// Swaps the bits of b under `mask` with those of a `shift` higher.

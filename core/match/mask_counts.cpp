@@ -84,7 +84,8 @@ std::span<std::uint64_t> allocatePlanes(int planes, int words, Arena& arena, Cou
 
 }  // namespace
 
-void MaskCounts::create(int max_words, Arena& arena) {
+void MaskCounts::create(int max_words, const BitKernels& kernels, Arena& arena) {
+  kernels_ = &kernels;
   const std::size_t offsets = static_cast<std::size_t>(lanesBefore(max_words));
   singles_ = arena.allocate<SignedPixel>(kMaxSingles + kGroup);
   run_ends_ = arena.allocate<SignedPixel>(kMaxRunEnds + kGroup);
@@ -199,13 +200,14 @@ void MaskCounts::advanceRow(const TestBand& band, const std::uint8_t* rows, int 
   }
   if (single_count_ > 0) {
     single_planes_.plane_count = planesFor(single_count_);
-    countSignedPixels(rows, singles_.data(), padded(single_count_), words, single_planes_);
-    planesToLanes(single_planes_, words, under_singles_.data());
+    kernels_->countSignedPixels(rows, singles_.data(), padded(single_count_), words,
+                                single_planes_);
+    kernels_->planesToLanes(single_planes_, words, under_singles_.data());
   }
   if (run_end_count_ > 0) {
     run_planes_.plane_count = planesFor(run_end_count_);
-    countSignedPixels(rows, run_ends_.data(), padded(run_end_count_), words, run_planes_);
-    planesToPrefixSums(run_planes_, words, under_runs_.data(), run_totals_.data());
+    kernels_->countSignedPixels(rows, run_ends_.data(), padded(run_end_count_), words, run_planes_);
+    kernels_->planesToPrefixSums(run_planes_, words, under_runs_.data(), run_totals_.data());
   }
   int run_sum = runSum(band, rows);
   for (int word = 0; word < words; ++word) {
@@ -242,8 +244,8 @@ void MaskCounts::applyChanges(int word, const std::uint16_t* singles, const std:
 void MaskCounts::addRunEnds(const std::uint8_t* rows, int words) {
   const int count = padPixels(chunk_, chunk_count_, zero_offset_);
   run_planes_.plane_count = planesFor(chunk_count_);
-  countSignedPixels(rows, chunk_.data(), count, words, run_planes_);
-  planesToLanes(run_planes_, words, under_runs_.data());
+  kernels_->countSignedPixels(rows, chunk_.data(), count, words, run_planes_);
+  kernels_->planesToLanes(run_planes_, words, under_runs_.data());
   for (std::size_t i = 0; i < static_cast<std::size_t>(lanesBefore(words)); ++i) {
     differences_[i] += under_runs_[i] - chunk_negatives_;
   }

@@ -21,7 +21,7 @@ namespace boresight {
 /// borders are too many to list, is summed up from the ends of all its runs and one exact value.
 class MaskCounts {
  public:
-  void create(int max_words, Arena& arena);
+  void create(int max_words, const BitKernels& kernels, Arena& arena);
   /// Lists the borders of a template's mask.
   void begin(const TemplateView& view, const TestBand& band);
   /// Counts a row of offsets afresh; `rows` is the band's row of this row of offsets.
@@ -51,6 +51,7 @@ class MaskCounts {
   void applyChanges(int word, const std::uint16_t* singles, const std::uint16_t* runs,
                     std::uint16_t constant, Count* counts);
 
+  const BitKernels* kernels_ = nullptr;
   TemplateView view_;
   int stride_ = 0, zero_offset_ = 0;
   bool too_many_borders_ = false;

@@ -10,7 +10,7 @@
 namespace boresight {
 namespace {
 
-constexpr int kCacheBytes = 24 * 1024;  ///< what copies may take up
+constexpr int kCacheBytes = 64 * 1024;  ///< what copies may take up
 constexpr int kMostWords = 24;          ///< of a row: a search asks for 19
 
 // One word more than is asked for is read when rows are shifted by less than a byte.
@@ -40,14 +40,14 @@ void TestBand::create(int max_side, int max_words, Arena& arena) {
   bytes_ = arena.allocate<std::uint8_t>(static_cast<std::size_t>(bytes));
 }
 
-void TestBand::shape(int side, int words) {
+void TestBand::shape(int side, int words, int most_copies) {
   side_ = side;
   words_ = wordsFor(side, words);
   stride_ = 8 * words_;
   offset_rows_ = offsetRowsFor(side);
   copy_bytes_ = pixelBytesFor(side, stride_);
   copies_ = 1;
-  while (copies_ < kMostCopies && 2 * copies_ * copy_bytes_ <= kCacheBytes) copies_ *= 2;
+  while (copies_ < most_copies && 2 * copies_ * copy_bytes_ <= kCacheBytes) copies_ *= 2;
   std::fill_n(bytes_.begin() + zeroOffset(), zeroBytesFor(side, stride_), std::uint8_t{0});
 }
 

@@ -12,16 +12,16 @@ namespace boresight {
 
 /// The rows of test edges that a band of offsets looks at, copied so that the first offset's column
 /// is bit 0, rows are byte ordered (see byteOrdered) and reading beyond a row's end is harmless.
-/// Small bands are held in two or four copies, each shifted by some more bits, so that fewer pixels
+/// Small bands are held in up to eight copies, each shifted by some more bits, so that fewer pixels
 /// need a shift of their own; all of it is to stay in the first-level cache.
 class TestBand {
  public:
-  static constexpr int kMostCopies = 4;
+  static constexpr int kMostCopies = 8;
 
   /// Takes the memory for templates of up to `max_side` px and `max_words` words of offsets a row.
   void create(int max_side, int max_words, Arena& arena);
-  /// Sets the layout: a row holds `side` + 64 * `words` pixels and slack.
-  void shape(int side, int words);
+  /// Sets the layout: a row holds `side` + 64 * `words` pixels and slack, in at most `most_copies`.
+  void shape(int side, int words, int most_copies = kMostCopies);
   /// Rows of offsets that a band serves: row k looks at rows k ... k + side of the band.
   int offsetRows() const { return offset_rows_; }
   /// Copies the rows from (x, y) on; rows below the image are zero.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/match/whs.h"
 
-#include <algorithm>
 #include <cstddef>
 
 #include "core/match/bit_rows.h"
@@ -21,15 +20,6 @@ bool squareInside(const BitImage& image, int center_x, int center_y, int side) {
   const int half = side / 2;
   return center_x >= half && center_y >= half && center_x <= image.width - half &&
          center_y <= image.height - half;
-}
-
-/// Offset of the parabola's top through (-1, left), (0, middle), (1, right), within +-0.5; 0 where
-/// it has none.
-double parabolaTop(std::int64_t left, std::int64_t middle, std::int64_t right) {
-  const std::int64_t curvature = left - 2 * middle + right;
-  if (curvature >= 0) return 0.0;
-  const double top = 0.5 * static_cast<double>(left - right) / static_cast<double>(curvature);
-  return std::clamp(top, -0.5, 0.5);
 }
 
 }  // namespace
@@ -84,26 +74,6 @@ WhsCounts whsCountsAt(const TemplateView& view, const BitImage& test_edges, int 
     }
   }
   return counts;
-}
-
-void subpixelPeak(const TemplateView& view, const BitImage& test_edges, const WhsPeak& peak,
-                  double& x, double& y) {
-  x = peak.x;
-  y = peak.y;
-  if (!isValidTemplate(view) || !templateFits(view, test_edges, peak.x, peak.y)) return;
-  const WhsNorms norms = whsNorms(view);
-  const auto comparable = [&](int dx, int dy) {
-    return whsComparable(whsCountsAt(view, test_edges, peak.x + dx, peak.y + dy), norms);
-  };
-  const std::int64_t middle = comparable(0, 0);
-  if (templateFits(view, test_edges, peak.x - 1, peak.y) &&
-      templateFits(view, test_edges, peak.x + 1, peak.y)) {
-    x += parabolaTop(comparable(-1, 0), middle, comparable(1, 0));
-  }
-  if (templateFits(view, test_edges, peak.x, peak.y - 1) &&
-      templateFits(view, test_edges, peak.x, peak.y + 1)) {
-    y += parabolaTop(comparable(0, -1), middle, comparable(0, 1));
-  }
 }
 
 void whsScoreMap(const TemplateView& view, const BitImage& test_edges, const SearchWindow& window,

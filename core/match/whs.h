@@ -6,8 +6,10 @@
 
 #include "core/base/arena.h"
 #include "core/base/image.h"
+#include "core/base/kernels.h"
 #include "core/base/status.h"
 #include "core/match/bit_counters.h"
+#include "core/match/column_search.h"
 #include "core/match/edge_pixels.h"
 #include "core/match/mask_counts.h"
 #include "core/match/peak_table.h"
@@ -36,8 +38,9 @@ WhsCounts whsCountsAt(const TemplateView& view, const BitImage& test_edges, int 
 class WhsSearch {
  public:
   /// `max_side_px` and `max_window_px` (largest extent of a window along an axis) bound every
-  /// search.
-  Status create(int max_side_px, int max_window_px, Arena& arena);
+  /// search. kInvalidOption for kernels that are not available. Searches share nothing: each worker
+  /// may have its own.
+  Status create(int max_side_px, int max_window_px, Kernels kernels, Arena& arena);
   /// The window must be clipped so that the whole template lies inside `test_edges`. The images
   /// must outlive the steps. kInvalidOption for a template or window that does not fit its image,
   /// an odd side or a negative exclusion, kCapacityExceeded beyond what create() was given; then
@@ -50,6 +53,7 @@ class WhsSearch {
   const WhsNorms& norms() const { return norms_; }
 
  private:
+  std::int64_t stepRow();
   void beginTile();
   void beginRow();
   void countEdges();
@@ -64,6 +68,10 @@ class WhsSearch {
   SearchWindow window_;
   bool done_ = true;
   int max_side_px_ = 0, max_window_px_ = 0;
+
+  const BitKernels* bit_kernels_ = nullptr;
+  ColumnSearch columns_;
+  bool by_columns_ = false;
 
   EdgePixels edges_;
   MaskCounts covered_;

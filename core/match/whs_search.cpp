@@ -46,18 +46,20 @@ std::int32_t counterAt(const CounterRow& counters, int word, int bit) {
 
 }  // namespace
 
-Status WhsSearch::create(int max_side_px, int max_window_px, Arena& arena) {
-  if (max_side_px < 2 || max_side_px > kMaxTemplateSide_px || max_window_px < 1 ||
-      max_window_px > kMaxWindow_px) {
+Status WhsSearch::create(int max_side_px, int max_window_px, Kernels kernels, Arena& arena) {
+  if (!kernelsAvailable(kernels) || max_side_px < 2 || max_side_px > kMaxTemplateSide_px ||
+      max_window_px < 1 || max_window_px > kMaxWindow_px) {
     return Status::kInvalidOption;
   }
   max_side_px_ = max_side_px;
   max_window_px_ = max_window_px;
   const int words = edgeWords(std::min(max_window_px, kTileOffsets));
   edges_.create(kEdgeCapacity, arena);
-  covered_.create(words, arena);
+  bit_kernels_ = &bitKernels(kernels);
+  covered_.create(words, *bit_kernels_, arena);
   peaks_.create(max_window_px, arena);
   band_.create(max_side_px, words, arena);
+  columns_.create(max_side_px, columnKernels(kernels), arena);
   hits_.stride = words + kWordPadding;
   hits_.words =
       arena.allocate<std::uint64_t>(kMaxPlanes * static_cast<std::size_t>(hits_.stride)).data();
@@ -81,10 +83,11 @@ Status WhsSearch::begin(const TemplateView& view, const BitImage& test_edges,
   view_ = view;
   test_edges_ = &test_edges;
   window_ = window;
-  norms_ = whsNorms(view);
+  by_columns_ = columns_.begin(view, test_edges, window);
+  norms_ = by_columns_ ? columns_.norms() : whsNorms(view);
   peaks_.begin(window, norms_, predicted_x, predicted_y, std::min(exclusion_px, kMaxExclusion_px));
   tile_x_ = 0;
-  beginTile();
+  if (!by_columns_) beginTile();
   done_ = false;
   return Status::kOk;
 }
@@ -93,7 +96,11 @@ void WhsSearch::beginTile() {
   tile_width_ = std::min(window_.width() - tile_x_, kTileOffsets);
   row_ = 0;
   // The layout, and with it all byte offsets, follows the width of the tile.
-  band_.shape(view_.side_px, edgeWords(tile_width_));
+  // The seven offsets that shifts within a byte lose may take a word more: only then are copies for
+  // all eight shifts worth making.
+  const bool takes_more = edgeWords(tile_width_) > wordsFor(tile_width_);
+  band_.shape(view_.side_px, edgeWords(tile_width_),
+              takes_more ? TestBand::kMostCopies : TestBand::kMostCopies / 2);
   edges_are_listed_ = edges_.list(view_, band_, 0) == view_.side_px;
   covered_.begin(view_, band_);
 }
@@ -101,15 +108,26 @@ void WhsSearch::beginTile() {
 bool WhsSearch::step() {
   std::int64_t work = 0;
   while (!done_ && work < kStepWork) {
-    const std::int64_t pixels = norms_.edges + 2 * covered_.work() + kRowOverhead;
-    work += pixels * wordsFor(tile_width_);
-    beginRow();
-    countEdges();
-    searchRow();
-    done_ = !nextRow();
+    if (by_columns_) {
+      work += columns_.workOfBand();
+      done_ = columns_.searchBand(peaks_);
+    } else {
+      work += stepRow();
+    }
     if (done_) peak_ = peaks_.finish();
   }
   return done_;
+}
+
+/// Searches a row of offsets of a tile; returns what it took.
+std::int64_t WhsSearch::stepRow() {
+  const std::int64_t pixels = norms_.edges + 2 * covered_.work() + kRowOverhead;
+  const std::int64_t work = pixels * wordsFor(tile_width_);
+  beginRow();
+  countEdges();
+  searchRow();
+  done_ = !nextRow();
+  return work;
 }
 
 /// Loads a band where one begins, and brings the counts under the mask to this row.
@@ -137,7 +155,7 @@ bool WhsSearch::nextRow() {
 }
 
 void WhsSearch::countEdges() {
-  const int words = edgeWords(tile_width_);
+  const int words = band_.shifts() == 1 ? wordsFor(tile_width_) : edgeWords(tile_width_);
   const std::uint8_t* rows = band_.row(row_ % band_.offsetRows());
   hits_.plane_count = planesFor(norms_.edges);
   for (int k = 0; k < hits_.plane_count; ++k) std::fill_n(hits_.plane(k), words, std::uint64_t{0});
@@ -146,7 +164,7 @@ void WhsSearch::countEdges() {
     v = edges_are_listed_ ? view_.side_px : edges_.list(view_, band_, v);
     for (int shift = 0; shift < band_.shifts(); ++shift) {
       const PixelList pixels = edges_.pixels(shift);
-      if (pixels.count > 0) addPixels(rows, pixels, words, hits_);
+      if (pixels.count > 0) bit_kernels_->addPixels(rows, pixels, words, hits_);
     }
   } while (v < view_.side_px);
 }

@@ -59,22 +59,22 @@ PixelBounds clippedBounds(const CameraScene& scene, const RayGrid& rays, std::in
 }  // namespace
 
 Status CameraScene::create(const MeshView& mesh, const MeshAdjacency& adjacency,
-                           double near_plane_m, Arena& arena, CameraScene& scene) {
+                           double near_plane_m, Arena& kept, Arena& scratch, CameraScene& scene) {
   scene = CameraScene();
-  const Status status = arena.countsOnly() ? Status::kOk : validateMesh(mesh);
+  const Status status = kept.countsOnly() ? Status::kOk : validateMesh(mesh);
   if (status != Status::kOk) return status;
-  if (adjacency.neighbour.size() != mesh.faces.size() && !arena.countsOnly())
+  if (adjacency.neighbour.size() != mesh.faces.size() && !kept.countsOnly())
     return Status::kInvalidMesh;
   scene.mesh = mesh;
   scene.adjacency = adjacency;
   scene.near_plane_m = near_plane_m;
-  scene.vertex_in_camera_m = arena.allocate<Eigen::Vector3d>(mesh.vertices_in_station_m.size());
-  scene.vertex_px = arena.allocate<FixedPixel>(mesh.vertices_in_station_m.size());
-  scene.vertex_depth = arena.allocate<std::uint16_t>(mesh.vertices_in_station_m.size());
-  scene.cos_normal_threshold = arena.allocate<double>(mesh.parts.size());
-  scene.face_flags = arena.allocate<std::uint8_t>(mesh.faces.size());
-  if (arena.countsOnly()) return Status::kOk;
-  if (arena.exhausted()) return Status::kArenaTooSmall;
+  scene.cos_normal_threshold = kept.allocate<double>(mesh.parts.size());
+  scene.face_flags = kept.allocate<std::uint8_t>(mesh.faces.size());
+  scene.vertex_in_camera_m = scratch.allocate<Eigen::Vector3d>(mesh.vertices_in_station_m.size());
+  scene.vertex_px = scratch.allocate<FixedPixel>(mesh.vertices_in_station_m.size());
+  scene.vertex_depth = scratch.allocate<std::uint16_t>(mesh.vertices_in_station_m.size());
+  if (kept.countsOnly()) return Status::kOk;
+  if (kept.exhausted() || scratch.exhausted()) return Status::kArenaTooSmall;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i)
     scene.cos_normal_threshold[i] =
         cosine(std::clamp(mesh.parts[i].normal_threshold_rad, 0.0, kPi));

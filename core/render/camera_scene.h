@@ -58,9 +58,10 @@ struct CameraScene {
   static constexpr std::uint8_t kFrontFacing = 8;
   static constexpr std::uint8_t kNormalKnown = 16;
 
-  /// The mesh and its adjacency must outlive the scene.
+  /// The mesh and its adjacency must outlive the scene. What depends on the pose comes from
+  /// `scratch`.
   static Status create(const MeshView& mesh, const MeshAdjacency& adjacency, double near_plane_m,
-                       Arena& arena, CameraScene& scene);
+                       Arena& kept, Arena& scratch, CameraScene& scene);
 
   /// Chooses the scale for a render; before `transform`.
   void begin(const Pose& camera_from_station, const RayGrid& rays);

@@ -29,13 +29,13 @@ bool resize(BitImage& image, std::span<std::uint64_t>& words, int width, int hei
 
 }  // namespace
 
-EdgeRender createEdgeRender(int width, int height, const RenderOptions& options, Arena& arena) {
+EdgeRender createEdgeRender(int width, int height, std::int32_t max_edge_pixels, Arena& arena) {
   EdgeRender render;
   render.edges = BitImage::create(arena, width, height);
   render.mask = BitImage::create(arena, width, height);
   render.edge_words = render.edges.words;
   render.mask_words = render.mask.words;
-  render.pixels = arena.allocate<EdgePixel>(static_cast<std::size_t>(options.max_edge_pixels));
+  render.pixels = arena.allocate<EdgePixel>(static_cast<std::size_t>(max_edge_pixels));
   render.row_begin = arena.allocate<std::int32_t>(static_cast<std::size_t>(height) + 1);
   return render;
 }
@@ -93,23 +93,24 @@ bool edgeLinePoint(const EdgeRender& render, const MeshView& mesh, const EdgePix
 }
 
 Status EdgeRenderer::create(const MeshView& mesh, const MeshAdjacency& adjacency, int max_width,
-                            int max_height, const RenderOptions& options, Arena& arena,
-                            int band_rows) {
+                            int max_height, const RenderOptions& options, Arena& kept,
+                            Arena& scratch, int band_rows) {
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   if (max_width < 1 || max_height < 1 || max_width > kMaxSize_px || max_height > kMaxSize_px ||
       band_rows < 1)
     return Status::kInvalidImage;
-  const Status status = CameraScene::create(mesh, adjacency, options.near_plane_m, arena, scene_);
+  const Status status =
+      CameraScene::create(mesh, adjacency, options.near_plane_m, kept, scratch, scene_);
   if (status != Status::kOk) return status;
   max_width_ = max_width;
   max_height_ = max_height;
   band_rows_ = std::min(band_rows, max_height);
   const int bands = (max_height - 1) / band_rows_ + 1;
-  band_ = RasterBand::create(max_width, band_rows_, arena);
-  salient_edges_ = SalientEdges::create(max_width, arena);
-  bins_ = FaceBins::create(mesh.faces.size(), bands, arena);
+  band_ = RasterBand::create(max_width, band_rows_, scratch);
+  salient_edges_ = SalientEdges::create(max_width, scratch);
+  bins_ = FaceBins::create(mesh.faces.size(), bands, scratch);
   phase_ = Phase::kIdle;
-  if (!arena.countsOnly() && arena.exhausted()) return Status::kArenaTooSmall;
+  if (kept.exhausted() || scratch.exhausted()) return Status::kArenaTooSmall;
   return Status::kOk;
 }
 

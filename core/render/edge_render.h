@@ -25,7 +25,7 @@ namespace boresight {
 
 struct RenderOptions {
   double near_plane_m = 0.01;
-  std::int32_t max_edge_pixels = 200000;
+  std::int32_t max_edge_pixels = 80000;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -33,13 +33,18 @@ struct RenderOptions {
                      "Surfaces nearer than this are not rendered."},
           self.near_plane_m);
     visit(OptionInfo{"render.max_edge_pixels", "", 1000, 4000000,
-                     "Capacity for salient edge pixels."},
+                     "Capacity for salient edge pixels of a render at the finest level; half as "
+                     "many at the level before."},
           self.max_edge_pixels);
   }
 };
 
-/// Sizes an EdgeRender for images up to width x height.
-EdgeRender createEdgeRender(int width, int height, const RenderOptions& options, Arena& arena);
+/// Sizes an EdgeRender for images up to width x height and `max_edge_pixels` edge pixels.
+EdgeRender createEdgeRender(int width, int height, std::int32_t max_edge_pixels, Arena& arena);
+inline EdgeRender createEdgeRender(int width, int height, const RenderOptions& options,
+                                   Arena& arena) {
+  return createEdgeRender(width, height, options.max_edge_pixels, arena);
+}
 
 /// The pixel's index in `render.pixels`, or -1 (binary search in its row).
 std::int32_t findEdgePixel(const EdgeRender& render, int x, int y);
@@ -64,7 +69,14 @@ class EdgeRenderer {
   /// adjacency must outlive the renderer. Counting arenas only count. kInvalidMesh, kInvalidImage
   /// (size), kInvalidOption, kArenaTooSmall.
   Status create(const MeshView& mesh, const MeshAdjacency& adjacency, int max_width, int max_height,
-                const RenderOptions& options, Arena& arena, int band_rows = kBandRows);
+                const RenderOptions& options, Arena& arena, int band_rows = kBandRows) {
+    return create(mesh, adjacency, max_width, max_height, options, arena, arena, band_rows);
+  }
+  /// The same with what is only needed from begin() to the last step in `scratch`: between two
+  /// renders somebody else may use that memory.
+  Status create(const MeshView& mesh, const MeshAdjacency& adjacency, int max_width, int max_height,
+                const RenderOptions& options, Arena& kept, Arena& scratch,
+                int band_rows = kBandRows);
   /// Draws small faces like all others, for comparison: the result is the same.
   void drawPlainly(bool plain) { plain_ = plain; }
   /// Starts one render; rays must be made for the camera of this level, and outlive the steps, as

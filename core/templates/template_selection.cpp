@@ -64,7 +64,8 @@ Status TemplateSelector::create(int max_width, int max_height, const TemplateOpt
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   const int blocks = std::min(kMaxBlocks, ceilDivide(std::max(max_width, max_height), 4)) + 1;
   sums_ = arena.allocate<Scatter>(static_cast<std::size_t>(blocks * blocks));
-  cells_ = arena.allocate<Best>(static_cast<std::size_t>(kMaxCells * kMaxCells));
+  cells_ = arena.allocate<std::uint16_t>(static_cast<std::size_t>(kMaxCells * kMaxCells));
+  best_ = arena.allocate<Best>(static_cast<std::size_t>(options.count));
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 
@@ -144,15 +145,15 @@ bool TemplateSelector::tooMuchIgnored(const EdgePixel& pixel, int side_px, const
 int TemplateSelector::countCells(const EdgeRender& render, int side_px, int cell_px) {
   const int columns = ceilDivide(render.edges.width, cell_px);
   const int rows = ceilDivide(render.edges.height, cell_px);
-  std::fill_n(cells_.begin(), static_cast<std::ptrdiff_t>(columns) * rows, Best{});
+  std::fill_n(cells_.begin(), static_cast<std::ptrdiff_t>(columns) * rows, kUnoccupied);
   int occupied = 0;
   for (std::int32_t i = 0; i < render.pixel_count; ++i) {
     const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
     if (!squareInside(pixel.x, pixel.y, side_px, render.edges.width, render.edges.height)) continue;
-    Best& cell =
+    std::uint16_t& cell =
         cells_[static_cast<std::size_t>((pixel.y / cell_px) * columns + pixel.x / cell_px)];
-    if (cell.pixel < 0) ++occupied;
-    cell.pixel = i;
+    if (cell == kUnoccupied) ++occupied;
+    cell = 0;
   }
   return occupied;
 }
@@ -172,6 +173,30 @@ int TemplateSelector::cellSize(const EdgeRender& render, int side_px) {
   return enough;
 }
 
+/// The most distinct pixel of every cell that holds any. There are at most as many as templates:
+/// that is how the cell size was chosen.
+void TemplateSelector::chooseBest(const EdgeRender& render, int side_px, int cell_px,
+                                  const BitImage* ignore, int level) {
+  const int columns = ceilDivide(render.edges.width, cell_px);
+  const int rows = ceilDivide(render.edges.height, cell_px);
+  std::fill_n(cells_.begin(), static_cast<std::ptrdiff_t>(columns) * rows, kUnoccupied);
+  std::uint16_t occupied = 0;
+  for (std::int32_t i = 0; i < render.pixel_count; ++i) {
+    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+    if (!squareInside(pixel.x, pixel.y, side_px, render.edges.width, render.edges.height)) continue;
+    std::uint16_t& cell =
+        cells_[static_cast<std::size_t>((pixel.y / cell_px) * columns + pixel.x / cell_px)];
+    if (cell == kUnoccupied) {
+      cell = occupied++;
+      best_[cell] = Best{};
+    }
+    const float distinctness = distinctnessOf(pixel, side_px);
+    if (distinctness <= best_[cell].distinctness || tooMuchIgnored(pixel, side_px, ignore, level))
+      continue;
+    best_[cell] = {distinctness, i};
+  }
+}
+
 Status TemplateSelector::select(const EdgeRender& render, int side_px, const BitImage* ignore,
                                 int level, TemplateSet& output) {
   output.count = 0;
@@ -180,20 +205,11 @@ Status TemplateSelector::select(const EdgeRender& render, int side_px, const Bit
   const int cell_px = cellSize(render, side_px);
   const int columns = ceilDivide(render.edges.width, cell_px);
   const int rows = ceilDivide(render.edges.height, cell_px);
-  std::fill_n(cells_.begin(), static_cast<std::ptrdiff_t>(columns) * rows, Best{});
-  for (std::int32_t i = 0; i < render.pixel_count; ++i) {
-    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
-    if (!squareInside(pixel.x, pixel.y, side_px, render.edges.width, render.edges.height)) continue;
-    Best& cell =
-        cells_[static_cast<std::size_t>((pixel.y / cell_px) * columns + pixel.x / cell_px)];
-    const float distinctness = distinctnessOf(pixel, side_px);
-    if (distinctness <= cell.distinctness || tooMuchIgnored(pixel, side_px, ignore, level))
-      continue;
-    cell = {distinctness, i};
-  }
+  chooseBest(render, side_px, cell_px, ignore, level);
   for (int cell = 0; cell < columns * rows && output.count < options_.count; ++cell) {
-    const Best& best = cells_[static_cast<std::size_t>(cell)];
-    if (best.pixel < 0) continue;
+    const std::uint16_t place = cells_[static_cast<std::size_t>(cell)];
+    if (place == kUnoccupied || best_[place].pixel < 0) continue;
+    const Best& best = best_[place];
     const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(best.pixel)];
     Template& chosen = output.templates[static_cast<std::size_t>(output.count)];
     chosen.center_x = pixel.x;

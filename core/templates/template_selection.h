@@ -94,6 +94,7 @@ class TemplateSelector {
     float distinctness = -1.0F;
     std::int32_t pixel = -1;
   };
+  static constexpr std::uint16_t kUnoccupied = 0xffff;
 
   void sumScatter(const EdgeRender& render, int side_px);
   Scatter scatterAround(int x, int y, int side_px) const;
@@ -101,11 +102,14 @@ class TemplateSelector {
   bool tooMuchIgnored(const EdgePixel& pixel, int side_px, const BitImage* ignore, int level) const;
   int countCells(const EdgeRender& render, int side_px, int cell_px);
   int cellSize(const EdgeRender& render, int side_px);
+  void chooseBest(const EdgeRender& render, int side_px, int cell_px, const BitImage* ignore,
+                  int level);
 
   TemplateOptions options_;
   std::span<Scatter> sums_;  ///< summed-area table over blocks, modulo 2^32
 
-  std::span<Best> cells_;
+  std::span<std::uint16_t> cells_;  ///< per cell its place in best_, or kUnoccupied
+  std::span<Best> best_;            ///< one for each occupied cell
   int block_px_ = 0;
   int blocks_x_ = 0;
   int blocks_y_ = 0;

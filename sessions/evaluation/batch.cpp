@@ -252,7 +252,12 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
     options.templates.feature_size_m = *item.work->mesh_station->feature_size_m;
   result.message = seedConcern(problem.camera, problem.mesh, problem.camera_from_station_seed);
   if (result.message.empty()) {
-    noteTrace(localize(problem, options, RecordLevel::kSummary, stop), result);
+    RunSettings settings;
+    settings.level = RecordLevel::kSummary;
+    settings.memory_limit = options_.memory_limit;
+    settings.threads = options_.threads;
+    settings.kernels = options_.kernels;
+    noteTrace(localize(problem, options, settings, stop), result);
   } else {
     result.status = "bad_seed";
   }

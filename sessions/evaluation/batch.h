@@ -9,6 +9,7 @@
 
 #include "sessions/evaluation/run_result.h"
 #include "sessions/io/dataset_file.h"
+#include "sessions/trace/record.h"
 
 namespace boresight::sessions {
 
@@ -24,9 +25,12 @@ struct BatchOptions {
 
   LocalizerOptions localizer;  ///< a feature size of 0 is replaced by the station's, if it has one
   std::string method = "whs";
+  Kernels kernels = bestKernels();
   int jobs = 1;
-  int reseeds = 0;            ///< further seeds per case; needs truth
-  double reseed_scale = 1.0;  ///< how far they are drawn, while the declared uncertainty stays
+  int threads = 1;               ///< of each run
+  std::size_t memory_limit = 0;  ///< of each run, see RunSettings
+  int reseeds = 0;               ///< further seeds per case; needs truth
+  double reseed_scale = 1.0;     ///< how far they are drawn, while the declared uncertainty stays
   /// Deliberately wrong meshes: another station's, or mirrored.
   std::string mesh_of;
   std::optional<MirrorAxis> mirror;

@@ -113,6 +113,7 @@ ordered_json resultJson(const LocalizationTrace& trace, const std::optional<Pose
   if (error) json["error"] = toJson(*error);
   json["seconds"] = toJson(trace.seconds);
   json["arena_bytes"] = trace.arena_bytes;
+  json["input_bytes"] = trace.memory.inputs;
   json["iteration"] = ordered_json::array();
   for (const IterationTrace& iteration : trace.iterations)
     json["iteration"].push_back(iterationJson(iteration));

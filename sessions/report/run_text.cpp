@@ -86,6 +86,13 @@ std::string faultText(const LocalizationTrace& trace) {
         "; the render has more than %d edge pixels: raise render.max_edge_pixels, or "
         "check the mesh",
         trace.options.render.max_edge_pixels);
+  if (trace.fault == Status::kArenaTooSmall) {
+    text += format(
+        "; image, mask and mesh take %zu bytes and the options ask for %zu more, of %zu in all: "
+        "lower render.max_edge_pixels or loop.coarse_size_px, or use a coarser mesh or the default "
+        "profile",
+        trace.memory.inputs, trace.memory.use.total(), trace.memory.limit);
+  }
   return text;
 }
 
@@ -236,6 +243,24 @@ std::string explanation(const LocalizationTrace& trace) {
       break;
   }
   return "";
+}
+
+std::string memoryTable(const LocalizationTrace& trace) {
+  const MemoryTrace& memory = trace.memory;
+  TextTable table({"memory", "bytes", "high water"});
+  const auto add = [&](const char* name, std::size_t bytes, std::size_t high_water) {
+    table.add({name, std::to_string(bytes), std::to_string(high_water)});
+  };
+  const std::size_t lasting = memory.inputs + memory.use.kept;
+  add("image, mask, mesh", memory.inputs, memory.inputs);
+  add("kept throughout", memory.use.kept, lasting);
+  add("construction", memory.use.construction, lasting + memory.use.construction);
+  for (std::size_t i = 0; i < memory.use.stage.size(); ++i)
+    add(stageText(static_cast<Stage>(i)), memory.use.stage[i], lasting + memory.use.stage[i]);
+  std::string text = table.text();
+  text += format("all: %zu bytes", memory.total());
+  if (memory.limit > 0) text += format(" of %zu", memory.limit);
+  return text + "\n";
 }
 
 std::string standingText(const RunSnapshot& snapshot) {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 
+#include "sessions/trace/worker_pool.h"
 #include "sessions/version.h"
 
 namespace boresight::sessions {
@@ -125,12 +126,21 @@ void noteIteration(const Localizer& localizer, const StepReport& report, RecordL
 }
 
 /// Steps until the run has finished, recording each iteration when it is complete.
-void runSteps(Localizer& localizer, RecordLevel level, const std::stop_token& stop,
+void runSteps(Localizer& localizer, const RunSettings& settings, const std::stop_token& stop,
               LocalizationTrace& trace) {
+  const RecordLevel level = settings.level;
+  WorkerPool pool(settings.threads);
+  const WorkerPool::Work work = [&localizer](int piece, int worker) {
+    localizer.work(piece, worker);
+  };
   Stopwatch watch;
   StageSeconds iteration_seconds;
   bool finished = false;
   while (!finished && !stop.stop_requested()) {
+    if (pool.workers() > 1 && localizer.pieces() > 1) {
+      pool.run(localizer.pieces(), work, stop);
+      if (stop.stop_requested()) break;
+    }
     const StepReport report = localizer.step();
     const double seconds = watch.lap();
     trace.seconds.add(report.stage, seconds);
@@ -204,8 +214,17 @@ IterationTrace recordIteration(const Iteration& iteration, Stage reached, Record
   return trace;
 }
 
+std::size_t inputBytes(const LocalizationProblem& problem) {
+  const ImageView& image = problem.image;
+  const MeshView& mesh = problem.mesh;
+  return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) +
+         (problem.ignore != nullptr ? problem.ignore->words.size_bytes() : 0) +
+         mesh.vertices_in_station_m.size_bytes() + mesh.faces.size_bytes() +
+         mesh.part_of_face.size_bytes() + mesh.parts.size_bytes();
+}
+
 LocalizationTrace localize(const LocalizationProblem& problem, const LocalizerOptions& options,
-                           RecordLevel level, const std::stop_token& stop) {
+                           const RunSettings& settings, const std::stop_token& stop) {
   LocalizationTrace trace;
   trace.version = kVersion;
   trace.options = options;
@@ -214,17 +233,25 @@ LocalizationTrace localize(const LocalizationProblem& problem, const LocalizerOp
   trace.camera_from_station = problem.camera_from_station_seed;
   trace.uncertainty = problem.uncertainty;
   Stopwatch watch;
-  std::size_t bytes = 0;
-  const Status sized = Localizer::requiredBytes(sizeOf(problem), options, bytes);
+  trace.memory.inputs = inputBytes(problem);
+  trace.memory.limit = settings.memory_limit;
+  const bool limited = settings.memory_limit > 0;
+  const Kernels kernels = limited ? Kernels::kPortable : settings.kernels;
+  Status sized = Localizer::requiredMemory(sizeOf(problem), options, settings.threads,
+                                           trace.memory.use, kernels);
+  if (sized == Status::kOk && limited && trace.memory.total() > settings.memory_limit)
+    sized = Status::kArenaTooSmall;
   if (sized != Status::kOk) {
     trace.status = LocalizationStatus::kFault;
     trace.fault = sized;
     return trace;
   }
+  const std::size_t bytes =
+      limited ? settings.memory_limit - trace.memory.inputs : trace.memory.use.total();
   const auto memory = std::make_unique_for_overwrite<std::byte[]>(bytes);
-  Localizer localizer(problem, options, {memory.get(), bytes});
+  Localizer localizer(problem, options, {memory.get(), bytes}, settings.threads, kernels);
   trace.seconds.initialization = watch.lap();
-  runSteps(localizer, level, stop, trace);
+  runSteps(localizer, settings, stop, trace);
   recordEnd(localizer, trace);
   return trace;
 }

@@ -3,6 +3,7 @@
 
 #include <stop_token>
 
+#include "core/base/kernels.h"
 #include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
@@ -14,11 +15,33 @@ IterationTrace recordIteration(const Iteration& iteration, Stage reached, Record
 RenderTrace recordRender(const EdgeRender& render);
 EdgeMapTrace recordEdgeMap(const EdgeMap& edges);
 
+/// All memory of the flight profile, in bytes: image, ignore mask, mesh and the localizer's block.
+inline constexpr std::size_t kFlightMemoryBytes = 10'000'000;
+
+/// Bytes of what a problem points to: image, ignore mask, mesh.
+std::size_t inputBytes(const LocalizationProblem& problem);
+
+/// How a run is carried out; what is computed does not depend on it.
+struct RunSettings {
+  RecordLevel level = RecordLevel::kFull;
+  std::size_t memory_limit = 0;  ///< bytes, inputs and the localizer's block; 0: whatever it takes
+  int threads = 1;               ///< 1 ... Localizer::kMaxWorkers
+  /// What the inner loops use of the processor. Within a limit always the portable ones: wide
+  /// registers need more memory, and the limit is that of a machine without them.
+  Kernels kernels = bestKernels();
+};
+
 /// Runs a whole localization with memory of its own: a loop around Localizer::step(). What is
 /// recorded does not change what is computed. A stop is noticed between two steps and leaves the
-/// status at kRunning. A problem that cannot run at all is a trace with kFault and without
-/// iterations. Throws std::bad_alloc when there is no memory for the arena.
+/// status at kRunning. A problem that cannot run at all, or not within the limit (kArenaTooSmall),
+/// is a trace with kFault and without iterations. With a limit the localizer gets all that the
+/// inputs leave of it. Throws std::bad_alloc when there is no memory for the arena.
 LocalizationTrace localize(const LocalizationProblem& problem, const LocalizerOptions& options,
-                           RecordLevel level, const std::stop_token& stop = {});
+                           const RunSettings& settings, const std::stop_token& stop = {});
+inline LocalizationTrace localize(const LocalizationProblem& problem,
+                                  const LocalizerOptions& options, RecordLevel level,
+                                  const std::stop_token& stop = {}) {
+  return localize(problem, options, RunSettings{.level = level}, stop);
+}
 
 }  // namespace boresight::sessions

@@ -23,6 +23,7 @@ void copyHead(const From& from, To& to) {
   to.digest = from.digest;
   to.seconds = from.seconds;
   to.arena_bytes = from.arena_bytes;
+  to.memory = from.memory;
 }
 
 }  // namespace

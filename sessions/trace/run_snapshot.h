@@ -33,6 +33,7 @@ struct RunSnapshot {
   std::string digest;  ///< empty until the run has finished
   StageSeconds seconds;
   std::uint64_t arena_bytes = 0;
+  MemoryTrace memory;
 
   bool converged() const { return status == LocalizationStatus::kConverged; }
 };

@@ -14,17 +14,20 @@ SteppedRun::SteppedRun(const LocalizationProblem& problem, const LocalizerOption
   snapshot_.camera_from_station_seed = problem.camera_from_station_seed;
   snapshot_.camera_from_station = problem.camera_from_station_seed;
   snapshot_.uncertainty = problem.uncertainty;
-  std::size_t bytes = 0;
-  const Status sized = Localizer::requiredBytes(sizeOf(problem), options, bytes);
+  snapshot_.memory.inputs = inputBytes(problem);
+  const Kernels kernels = bestKernels();
+  const Status sized =
+      Localizer::requiredMemory(sizeOf(problem), options, 1, snapshot_.memory.use, kernels);
   if (sized != Status::kOk) {
     snapshot_.status = LocalizationStatus::kFault;
     snapshot_.fault = sized;
     snapshot_.finished = true;
     return;
   }
+  const std::size_t bytes = snapshot_.memory.use.total();
   memory_ = std::make_unique_for_overwrite<std::byte[]>(bytes);
-  localizer_ =
-      std::make_unique<Localizer>(problem, options, std::span<std::byte>(memory_.get(), bytes));
+  localizer_ = std::make_unique<Localizer>(problem, options,
+                                           std::span<std::byte>(memory_.get(), bytes), 1, kernels);
   snapshot_.seconds.initialization = std::chrono::duration<double>(Clock::now() - start).count();
 }
 

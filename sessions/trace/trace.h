@@ -77,6 +77,15 @@ struct StageSeconds {
   StageSeconds& operator+=(const StageSeconds& other);
 };
 
+/// Memory of a run, in bytes. Not part of the digest.
+struct MemoryTrace {
+  MemoryUse use;           ///< of the localizer's block, as its options ask for
+  std::size_t inputs = 0;  ///< image, ignore mask and mesh
+  std::size_t limit = 0;   ///< for both together; 0: there was none
+
+  std::size_t total() const { return inputs + use.total(); }
+};
+
 /// How much of an iteration is copied.
 enum class RecordLevel { kSummary, kFull };
 
@@ -141,6 +150,7 @@ struct LocalizationTrace {
   std::string digest;  ///< 64 hexadecimal digits
   StageSeconds seconds;
   std::uint64_t arena_bytes = 0;
+  MemoryTrace memory;
 
   bool converged() const { return status == LocalizationStatus::kConverged; }
 };

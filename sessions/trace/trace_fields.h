@@ -240,6 +240,14 @@ void fields(Archive& archive, Self& options) {
   });
 }
 
+template <class Archive, Is<MemoryTrace> Self>
+void fields(Archive& archive, Self& memory) {
+  auto& [kept, construction, stage] = memory.use;
+  numbers(archive, kept, construction);
+  for (auto& bytes : stage) archive.number(bytes);
+  numbers(archive, memory.inputs, memory.limit);
+}
+
 template <class Archive, Is<LocalizationTrace> Self>
 void fields(Archive& archive, Self& trace) {
   archive.text(trace.version);
@@ -258,6 +266,7 @@ void fields(Archive& archive, Self& trace) {
   archive.text(trace.digest);
   fields(archive, trace.seconds);
   archive.number(trace.arena_bytes);
+  fields(archive, trace.memory);
 }
 
 }  // namespace boresight::sessions

@@ -43,6 +43,18 @@ TEST(WhsLocalize, PrintsIterationsAndPoseAndWritesWhatIsAsked) {
   EXPECT_EQ(sessions::readImage(folder / "overlay.png").width, 1024);
 }
 
+TEST(WhsLocalize, GivesTheSameDigestWithAllKernels) {
+  const auto digestWith = [](const std::string& kernels) {
+    const ProgramRun run = runWhs(localizeArguments({{"--kernels", kernels}}));
+    EXPECT_EQ(run.exit_code, 0) << kernels << ": " << run.err;
+    return run.out.substr(std::min(run.out.find("digest"), run.out.size()));
+  };
+  EXPECT_EQ(digestWith("portable"), digestWith("best"));
+  const ProgramRun unknown = runWhs(localizeArguments({{"--kernels", "abacus"}}));
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, AllOf(HasSubstr("--kernels"), HasSubstr("best, portable")));
+}
+
 TEST(WhsLocalize, GivesTheSameDigestWithAndWithoutRecording) {
   const TemporaryFolder folder;
   const auto digestOf = [](const ProgramRun& run) {
@@ -52,6 +64,48 @@ TEST(WhsLocalize, GivesTheSameDigestWithAndWithoutRecording) {
   EXPECT_EQ(plain.size(), std::string("digest ").size() + 64 + 1);
   EXPECT_EQ(digestOf(runWhs(localizeArguments({{"--trace", (folder / "t").string()}}))), plain);
   EXPECT_NE(digestOf(runWhs(localizeArguments({{"--set", "pnp.seed=2"}}))), plain);
+}
+
+TEST(WhsLocalize, GivesTheSameDigestInTheMemoryOfFlight) {
+  const auto digestOf = [](const ProgramRun& run) {
+    return run.out.substr(run.out.find("digest"), 64 + 7);
+  };
+  for (const std::string station : {"os", "bc"}) {
+    const std::filesystem::path folder = exampleFolder() / station;
+    std::map<std::string, std::string> inputs;
+    for (const auto& [name, file] :
+         {std::pair{"--image", "image.png"}, std::pair{"--camera", "camera.json"},
+          std::pair{"--mesh", "model.ply"}, std::pair{"--seed", "seed.json"}})
+      inputs[name] = (folder / file).string();
+    const ProgramRun plain = runWhs(localizeArguments(inputs));
+    inputs["--profile"] = "flight";
+    const ProgramRun flight = runWhs(localizeArguments(inputs));
+    EXPECT_EQ(flight.exit_code, 0) << flight.err;
+    EXPECT_EQ(digestOf(flight), digestOf(plain));
+    EXPECT_THAT(flight.out, AllOf(HasSubstr("high water"), HasSubstr("refine"),
+                                  HasSubstr("bytes of 10000000")));
+    EXPECT_THAT(plain.out, Not(HasSubstr("high water")));
+  }
+}
+
+TEST(WhsLocalize, RefusesOptionsThatAskForMoreMemoryThanFlightHas) {
+  const ProgramRun asking = runWhs(
+      localizeArguments({{"--profile", "flight"}, {"--set", "render.max_edge_pixels=1000000"}}));
+  EXPECT_EQ(asking.exit_code, 4);
+  EXPECT_EQ(asking.errorLines(), 1) << asking.err;
+  EXPECT_THAT(asking.err, AllOf(HasSubstr("arena_too_small"), HasSubstr("bytes"),
+                                HasSubstr("10000000 in all"), HasSubstr("lower")));
+  EXPECT_THAT(asking.out, Not(HasSubstr("digest")));
+}
+
+TEST(WhsLocalize, GivesTheSameDigestWithAnyNumberOfThreads) {
+  const auto digestOf = [](const ProgramRun& run) {
+    return run.out.substr(run.out.find("digest"));
+  };
+  const std::string plain = digestOf(runWhs(localizeArguments()));
+  for (const std::string threads : {"1", "2", "3", "8"})
+    EXPECT_EQ(digestOf(runWhs(localizeArguments({{"--threads", threads}}))), plain) << threads;
+  EXPECT_EQ(runWhs(localizeArguments({{"--threads", "0"}})).exit_code, 2);
 }
 
 TEST(WhsLocalize, ExitsWith4AndSaysWhyWhenItDoesNotConverge) {

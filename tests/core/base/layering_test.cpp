@@ -60,13 +60,21 @@ std::ptrdiff_t stageNumber(const std::string& folder) {
   return std::find(kStages.begin(), kStages.end(), folder) - kStages.begin();
 }
 
+/// Files for one kind of processor, which other machines do not compile, may use its instructions.
+bool isForOneProcessor(const Include& include) {
+  const std::string stem = include.file.stem().string();
+  const bool named = stem.ends_with("_x86") || stem.ends_with("_avx512");
+  return named && include.file.extension() == ".cpp" &&
+         (include.header == "immintrin.h" || include.header == "cpuid.h");
+}
+
 /// "" when the include is allowed, else what is wrong with it.
 std::string fault(const std::string& including_folder, const Include& include) {
   const auto stage_count = static_cast<std::ptrdiff_t>(kStages.size());
   if (stageNumber(including_folder) == stage_count) return "is in no stage of the pipeline";
   if (!include.quoted) {
     const bool eigen = include.header.starts_with("Eigen/");
-    return eigen || kStandardHeaders.contains(include.header)
+    return eigen || isForOneProcessor(include) || kStandardHeaders.contains(include.header)
                ? ""
                : "includes <" + include.header + ">, which flight code may not";
   }
@@ -98,7 +106,8 @@ TEST(Layering, NoticesWhatItIsThereFor) {
   EXPECT_TRUE(faulty("base", "math.h", true));
   EXPECT_TRUE(faulty("edges", "core/unheard_of/x.h", true));
   EXPECT_TRUE(faulty("unheard_of", "cstdint", false));
-  for (const char* header : {"vector", "iostream", "thread", "opencv2/core.hpp", "random"})
+  for (const char* header :
+       {"vector", "iostream", "thread", "opencv2/core.hpp", "random", "immintrin.h"})
     EXPECT_TRUE(faulty("match", header, false)) << header;
   EXPECT_FALSE(faulty("match", "core/base/image.h", true));
   EXPECT_FALSE(faulty("match", "core/match/whs.h", true));

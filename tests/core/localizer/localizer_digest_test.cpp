@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The digest depends on what a run works on and on nothing else.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <iostream>
 
 #include <gtest/gtest.h>
 
@@ -43,6 +45,28 @@ TEST(LocalizerDigest, DoesNotDependOnPlaceOrContentOfMemory) {
     while (!localizer.step().finished) {
     }
     EXPECT_EQ(localizer.digest(), expected);
+  }
+}
+
+TEST(LocalizerDigest, DoesNotDependOnTheKernels) {
+  const Case scene = stationCase(4);
+  const LocalizerOptions options = defaultProfile();
+  const Digest expected = digestOf(scene.problem(), options);
+  for (int k = 1; k < kKernelSets; ++k) {
+    const Kernels kernels = static_cast<Kernels>(k);
+    std::size_t bytes = 0;
+    const Status sized =
+        Localizer::requiredBytes(sizeOf(scene.problem()), options, 1, bytes, kernels);
+    if (!kernelsAvailable(kernels)) {
+      std::cout << "not available here: " << kernelsName(kernels) << "\n";
+      EXPECT_EQ(sized, Status::kInvalidOption);
+      continue;
+    }
+    std::vector<std::byte> memory(bytes);
+    Localizer localizer(scene.problem(), options, memory, 1, kernels);
+    while (!localizer.step().finished) {
+    }
+    EXPECT_EQ(localizer.digest(), expected) << kernelsName(kernels);
   }
 }
 
@@ -177,8 +201,9 @@ TEST(LocalizerDigest, ARestartIsAFreshRun) {
 TEST(LocalizerDigest, ARestartInTheMiddleIsAFreshRun) {
   const Case scene = stationCase(4);
   const Digest expected = digestOf(scene.problem(), paperProfile());
-  // Small first, then what needs as much as there is, and back.
-  std::vector<std::byte> memory = blockFor(scene.problem(), defaultProfile());
+  // What needs as much as there is, then what needs less, and back.
+  std::vector<std::byte> memory(std::max(blockFor(scene.problem(), paperProfile()).size(),
+                                         blockFor(scene.problem(), defaultProfile()).size()));
   Localizer localizer(scene.problem(), paperProfile(), memory);
   for (const int steps : {1, 7, 100, 333}) {
     for (int i = 0; i < steps; ++i) localizer.step();

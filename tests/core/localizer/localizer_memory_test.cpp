@@ -120,7 +120,7 @@ TEST(LocalizerMemory, MayBeginAnywhere) {
     }
     EXPECT_TRUE(odd.intact());
     const auto place =
-        reinterpret_cast<std::uintptr_t>(localizer.workspace().edges.level[0].words.data());
+        reinterpret_cast<std::uintptr_t>(localizer.workspace().edges.level[3].words.data());
     EXPECT_EQ(place % Arena::kAlignment, 0u);
     EXPECT_EQ(localizer.digest(), aligned.localizer.digest());
   }
@@ -144,6 +144,76 @@ TEST(LocalizerMemory, HoldsAnyOfTheSizes) {
     size.faces += 1000;
     ASSERT_EQ(Localizer::requiredBytes(size, options, more), Status::kOk);
     EXPECT_GE(more, bytes);
+  }
+}
+
+/// What the caller holds, byte by byte.
+std::size_t inputBytes(const ProblemSize& size) {
+  const auto pixels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+  const std::size_t mask = size.ignore ? pixels / 8 : 0;
+  return pixels + mask + static_cast<std::size_t>(size.vertices) * sizeof(Eigen::Vector3f) +
+         static_cast<std::size_t>(size.faces) * (sizeof(Face) + sizeof(std::uint16_t)) +
+         static_cast<std::size_t>(size.parts) * sizeof(ScenePart);
+}
+
+TEST(LocalizerMemory, FitsTheFlightBudget) {
+  ProblemSize size;
+  size.width = size.height = 2048;
+  size.faces = 60000;
+  size.vertices = size.faces / 2 + 2;  // a closed surface's, or a sphere's in the end
+  for (const CameraModel model :
+       {CameraModel::kPinhole, CameraModel::kBrownConrady, CameraModel::kKannalaBrandt}) {
+    size.model = model;
+    std::size_t bytes = 0;
+    ASSERT_EQ(Localizer::requiredBytes(size, defaultProfile(), bytes), Status::kOk);
+    EXPECT_LE(bytes + inputBytes(size), 10'000'000u);
+  }
+}
+
+TEST(LocalizerMemory, IsDividedAmongTheStages) {
+  const Case scene = stationCase(1, true);
+  for (const Variant& variant : variants()) {
+    SCOPED_TRACE(variant.name);
+    MemoryUse use;
+    ASSERT_EQ(Localizer::requiredMemory(sizeOf(scene.problem()), variant.options, use),
+              Status::kOk);
+    std::size_t most = use.kept + use.construction;
+    for (int i = 0; i < static_cast<int>(Stage::kFinished); ++i) {
+      const auto stage = static_cast<Stage>(i);
+      EXPECT_EQ(use.of(stage) == use.kept, stage == Stage::kSupport) << stageText(stage);
+      most = std::max(most, use.of(stage));
+    }
+    EXPECT_EQ(use.total(), most);
+    EXPECT_EQ(use.of(Stage::kFinished), use.kept);
+    OwnedRun run(scene.problem(), variant.options);
+    EXPECT_EQ(run.localizer.memoryUse().total(), most);
+    EXPECT_EQ(run.localizer.memoryUse().stage, use.stage);
+  }
+}
+
+TEST(LocalizerMemory, FinerEdgeMapsLastUntilTheFirstRender) {
+  const Case scene = stationCase(1);
+  LocalizerOptions options;
+  options.loop.coarse_size_px = 128;  // levels 2 and 1 are rendered
+  OwnedRun run(scene.problem(), options);
+  while (!run.localizer.step().stage_complete) {
+  }
+  const EdgeMap& edges = run.localizer.workspace().edges;
+  std::vector<std::byte> memory(std::size_t{1} << 21);
+  Arena arena(memory);
+  EdgeMap expected;
+  ASSERT_EQ(detectEdges(scene.problem().image, nullptr, options.edges, arena, expected),
+            Status::kOk);
+  for (std::size_t level = 0; level < expected.level.size(); ++level) {
+    EXPECT_TRUE(std::equal(expected.level[level].words.begin(), expected.level[level].words.end(),
+                           edges.level[level].words.begin(), edges.level[level].words.end()));
+  }
+  run.finish();
+  EXPECT_TRUE(edges.level[0].words.empty());
+  EXPECT_EQ(edges.level[0].width, 0);
+  for (std::size_t level = 1; level < expected.level.size(); ++level) {
+    EXPECT_TRUE(std::equal(expected.level[level].words.begin(), expected.level[level].words.end(),
+                           edges.level[level].words.begin(), edges.level[level].words.end()));
   }
 }
 

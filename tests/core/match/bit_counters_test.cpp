@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <iostream>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -15,6 +17,22 @@ namespace boresight {
 namespace {
 
 using test::Dice;
+
+/// The tests below run for every set of kernels that is there.
+class BitCounters : public testing::TestWithParam<int> {
+ protected:
+  void SetUp() override {
+    if (kernelsAvailable(set_)) return;
+    std::cout << "not available here: " << kernelsName(set_) << "\n";
+    GTEST_SKIP() << kernelsName(set_) << " is not available here";
+  }
+  const Kernels set_ = static_cast<Kernels>(GetParam());
+  const BitKernels& kernels_ = bitKernels(set_);
+};
+INSTANTIATE_TEST_SUITE_P(Sets, BitCounters, testing::Range(0, kKernelSets),
+                         [](const testing::TestParamInfo<int>& set) {
+                           return std::string(kernelsName(static_cast<Kernels>(set.param)));
+                         });
 
 constexpr int kWords = 7;
 constexpr int kZeros = 4096;  ///< byte offset of zeros
@@ -62,7 +80,7 @@ TEST(PlanesFor, HoldTheLargestCount) {
   EXPECT_EQ(planesFor(512 * 512), kMaxPlanes);
 }
 
-TEST(AddPixels, AddsTheCountOneByOne) {
+TEST_P(BitCounters, AddPixelsOneByOne) {
   Dice dice;
   const std::vector<std::uint8_t> bytes = randomBytes(dice);
   for (int count = 1; count <= 300; count += count < 70 ? 1 : 23) {
@@ -84,7 +102,7 @@ TEST(AddPixels, AddsTheCountOneByOne) {
       }
       const PixelList pixels{padded.data(), static_cast<int>(padded.size()), planesFor(count),
                              shift};
-      addPixels(bytes.data(), pixels, words, row.row);
+      kernels_.addPixels(bytes.data(), pixels, words, row.row);
       for (int x = 0; x < 64 * words - 7; ++x) {
         ASSERT_EQ(row.at(x), expected[static_cast<std::size_t>(x)])
             << "count " << count << " words " << words << " shift " << shift << " x " << x;
@@ -93,7 +111,7 @@ TEST(AddPixels, AddsTheCountOneByOne) {
   }
 }
 
-TEST(CountSignedPixels, EqualsCountingOneByOne) {
+TEST_P(BitCounters, CountSignedPixelsOneByOne) {
   Dice dice;
   const std::vector<std::uint8_t> bytes = randomBytes(dice);
   for (int count = 1; count <= 200; count += count < 40 ? 1 : 31) {
@@ -108,8 +126,8 @@ TEST(CountSignedPixels, EqualsCountingOneByOne) {
     while (pixels.size() % 4 != 0) pixels.push_back(makeSignedPixel(kZeros, 0, false));
     for (int words = 1; words <= kWords; ++words) {
       OwnedRow row(planesFor(count));
-      countSignedPixels(bytes.data(), pixels.data(), static_cast<int>(pixels.size()), words,
-                        row.row);
+      kernels_.countSignedPixels(bytes.data(), pixels.data(), static_cast<int>(pixels.size()),
+                                 words, row.row);
       for (int x = 0; x < 64 * words; ++x) {
         int expected = 0;
         for (std::size_t k = 0; k < bits.size(); ++k) {
@@ -133,14 +151,14 @@ TEST(CountOnes, CountsEveryBit) {
   }
 }
 
-TEST(PlanesToLanes, GivesEveryCounter) {
+TEST_P(BitCounters, BecomeLanes) {
   Dice dice;
   for (int planes = 0; planes <= 16; ++planes) {
     OwnedRow row(planes);
     for (int x = 0; x < 64 * kWords; ++x) row.set(x, dice.below(1 << planes));
     for (int words = 1; words <= kWords; ++words) {
       std::uint16_t lanes[kLanes * kWords];
-      planesToLanes(row.row, words, lanes);
+      kernels_.planesToLanes(row.row, words, lanes);
       for (int x = 0; x < 64 * words; ++x) {
         ASSERT_EQ(lanes[x / 64 * kLanes + laneIndex(x % 64)], row.at(x));
       }
@@ -150,7 +168,7 @@ TEST(PlanesToLanes, GivesEveryCounter) {
   }
 }
 
-TEST(PlanesToPrefixSums, AddUpWhatLiesToTheLeft) {
+TEST_P(BitCounters, AddUpWhatLiesToTheLeft) {
   Dice dice;
   for (int planes = 0; planes <= 10; ++planes) {
     OwnedRow row(planes);
@@ -159,7 +177,7 @@ TEST(PlanesToPrefixSums, AddUpWhatLiesToTheLeft) {
     for (int words = 1; words <= kWords; ++words) {
       std::uint16_t lanes[kLanes * kWords];
       std::uint32_t totals[kWords];
-      planesToPrefixSums(row.row, words, lanes, totals);
+      kernels_.planesToPrefixSums(row.row, words, lanes, totals);
       for (int word = 0; word < words; ++word) {
         std::uint32_t expected = 0;
         for (int x = 0; x < 64; ++x) {

@@ -67,12 +67,12 @@ inline OwnedBits noise(int width, int height, double density, Dice& dice) {
 
 /// A WhsSearch with memory of its own.
 struct OwnedSearch {
-  OwnedSearch(int max_side_px, int max_window_px) {
+  OwnedSearch(int max_side_px, int max_window_px, Kernels kernels = Kernels::kPortable) {
     Arena count;
-    (void)search.create(max_side_px, max_window_px, count);  // counting cannot fail
+    (void)search.create(max_side_px, max_window_px, kernels, count);  // counting cannot fail
     memory.resize(count.highWater());
     Arena arena{memory};
-    status = search.create(max_side_px, max_window_px, arena);
+    status = search.create(max_side_px, max_window_px, kernels, arena);
   }
   std::vector<std::byte> memory;
   WhsSearch search;

@@ -223,15 +223,20 @@ TEST(WhsSearch, RefusesWhatItCannotSearch) {
 TEST(WhsSearch, NeedsLittleMemoryAndSaysWhenItHasLess) {
   Arena count;
   WhsSearch search;
-  ASSERT_EQ(search.create(512, 1400, count), Status::kOk);
+  ASSERT_EQ(search.create(512, 1400, Kernels::kPortable, count), Status::kOk);
   EXPECT_LT(count.highWater(), 400000u);
   std::vector<std::byte> memory(count.highWater() - 1);
   Arena arena{memory};
-  EXPECT_EQ(search.create(512, 1400, arena), Status::kArenaTooSmall);
+  EXPECT_EQ(search.create(512, 1400, Kernels::kPortable, arena), Status::kArenaTooSmall);
   Arena other;
-  EXPECT_EQ(search.create(514, 1400, other), Status::kInvalidOption);
-  EXPECT_EQ(search.create(0, 1400, other), Status::kInvalidOption);
-  EXPECT_EQ(search.create(512, 0, other), Status::kInvalidOption);
+  EXPECT_EQ(search.create(514, 1400, Kernels::kPortable, other), Status::kInvalidOption);
+  EXPECT_EQ(search.create(0, 1400, Kernels::kPortable, other), Status::kInvalidOption);
+  EXPECT_EQ(search.create(512, 0, Kernels::kPortable, other), Status::kInvalidOption);
+  for (int k = 0; k <= kKernelSets; ++k) {
+    const Kernels kernels = static_cast<Kernels>(k);
+    EXPECT_EQ(search.create(512, 1400, kernels, other),
+              kernelsAvailable(kernels) ? Status::kOk : Status::kInvalidOption);
+  }
 }
 
 }  // namespace

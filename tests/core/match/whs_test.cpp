@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/match/whs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -144,6 +146,46 @@ TEST(SubpixelPeak, IsTheTopOfTheParabola) {
   const double above = value(peak.x, peak.y - 1), below = value(peak.x, peak.y + 1);
   EXPECT_NEAR(x, peak.x + 0.5 * (left - right) / (left - 2.0 * middle + right), 1e-9);
   EXPECT_NEAR(y, peak.y + 0.5 * (above - below) / (above - 2.0 * middle + below), 1e-9);
+}
+
+/// Top of the parabola through the scores at -1, 0, 1, as the definition has it.
+double topThrough(std::int64_t left, std::int64_t middle, std::int64_t right) {
+  const std::int64_t curvature = left - 2 * middle + right;
+  if (curvature >= 0) return 0.0;
+  return std::clamp(0.5 * static_cast<double>(left - right) / static_cast<double>(curvature), -0.5,
+                    0.5);
+}
+
+TEST(SubpixelPeak, EqualsTheDefinitionForRandomInput) {
+  Dice dice;
+  for (int trial = 0; trial < 200; ++trial) {
+    const int side = 2 * dice.between(1, trial % 10 == 0 ? 256 : 70), half = side / 2;
+    const OwnedBits bits = noise(side + 9, side + 5, 0.2, dice);
+    const OwnedBits mask = noise(side + 9, side + 5, dice.uniform(), dice);
+    const OwnedBits test = noise(side + dice.below(70), side + dice.below(4), 0.3, dice);
+    const TemplateView view{&bits.image, &mask.image, half + dice.below(9), half + dice.below(5),
+                            side};
+    WhsPeak peak;
+    peak.x = dice.between(half, test.image.width - half);
+    peak.y = dice.between(half, test.image.height - half);
+    const WhsNorms norms = whsNormsReference(view);
+    const auto value = [&](int x, int y) {
+      return whsComparable(whsCountsReference(view, test.image, x, y), norms);
+    };
+    const auto inside = [&](int x, int y) {
+      return x >= half && y >= half && x <= test.image.width - half &&
+             y <= test.image.height - half;
+    };
+    const int px = peak.x, py = peak.y;
+    double expected_x = px, expected_y = py, x = 0.0, y = 0.0;
+    if (inside(px - 1, py) && inside(px + 1, py))
+      expected_x += topThrough(value(px - 1, py), value(px, py), value(px + 1, py));
+    if (inside(px, py - 1) && inside(px, py + 1))
+      expected_y += topThrough(value(px, py - 1), value(px, py), value(px, py + 1));
+    subpixelPeak(view, test.image, peak, x, y);
+    ASSERT_EQ(x, expected_x) << "trial " << trial << " side " << side;
+    ASSERT_EQ(y, expected_y) << "trial " << trial << " side " << side;
+  }
 }
 
 TEST(SubpixelPeak, StaysAtTheBorderAndWhereNothingCurves) {

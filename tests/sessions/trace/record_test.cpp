@@ -163,6 +163,55 @@ TEST(Localize, RecordsEveryAttempt) {
   EXPECT_EQ(unsupported, (std::array<int, 2>{1, 1}));
 }
 
+TEST(Localize, GivesTheSameWithinALimit) {
+  const LocalizationProblem problem = runs().example.problem();
+  std::size_t bytes = 0;
+  ASSERT_EQ(Localizer::requiredBytes(sizeOf(problem), defaultProfile(), bytes), Status::kOk);
+  RunSettings settings;
+  settings.level = RecordLevel::kSummary;
+  settings.memory_limit = bytes + inputBytes(problem);
+  const LocalizationTrace exact = localize(problem, defaultProfile(), settings);
+  EXPECT_EQ(exact.digest, runs().full.digest);
+  EXPECT_EQ(exact.memory.total(), settings.memory_limit);
+  EXPECT_EQ(exact.arena_bytes, bytes);
+  settings.memory_limit = kFlightMemoryBytes;
+  EXPECT_EQ(localize(problem, defaultProfile(), settings).digest, runs().full.digest);
+
+  settings.memory_limit = bytes + inputBytes(problem) - 1;
+  const LocalizationTrace refused = localize(problem, defaultProfile(), settings);
+  EXPECT_EQ(refused.status, LocalizationStatus::kFault);
+  EXPECT_EQ(refused.fault, Status::kArenaTooSmall);
+  EXPECT_TRUE(refused.iterations.empty());
+  EXPECT_EQ(refused.memory.total(), settings.memory_limit + 1);
+}
+
+TEST(Localize, GivesTheSameWithAnyNumberOfThreads) {
+  RunSettings settings;
+  settings.level = RecordLevel::kSummary;
+  for (const int threads : {2, 3, 8}) {
+    settings.threads = threads;
+    const LocalizationTrace trace = localize(runs().example.problem(), defaultProfile(), settings);
+    EXPECT_EQ(trace.digest, runs().full.digest) << threads;
+  }
+  settings.threads = 0;
+  const LocalizationTrace none = localize(runs().example.problem(), defaultProfile(), settings);
+  EXPECT_EQ(none.fault, Status::kInvalidOption);
+}
+
+TEST(Localize, CountsWhatTheProblemPointsTo) {
+  LocalizationProblem problem = runs().example.problem();
+  const std::size_t bytes = inputBytes(problem);
+  const auto pixels = static_cast<std::size_t>(problem.image.width * problem.image.height);
+  EXPECT_EQ(bytes, pixels + problem.mesh.vertices_in_station_m.size() * 12 +
+                       problem.mesh.faces.size() * 14 +
+                       problem.mesh.parts.size() * sizeof(ScenePart));
+  std::vector<std::uint64_t> words(100);
+  BitImage ignore;
+  ignore.words = words;
+  problem.ignore = &ignore;
+  EXPECT_EQ(inputBytes(problem), bytes + 800);
+}
+
 TEST(Localize, ReportsWhatCannotRunAsAFault) {
   LocalizationProblem problem = runs().example.problem();
   LocalizerOptions options = defaultProfile();

@@ -80,11 +80,11 @@ struct Mask {
   }
 };
 
-/// Share of one mask's border that has the other's within one pixel.
+/// Share of one mask's border that has the other's within one pixel, below the note at the top.
 double borderShare(const Mask& of, const Mask& in) {
   int count = 0;
   int met = 0;
-  for (int y = 2; y < of.height - 2; ++y)
+  for (int y = 30; y < of.height - 2; ++y)
     for (int x = 2; x < of.width - 2; ++x) {
       if (!of.border(x, y)) continue;
       ++count;

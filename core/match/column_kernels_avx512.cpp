@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// Before the loops, which use it where it is there.
+#include <immintrin.h>
+
+#include "core/match/column_kernels_impl.h"
+
+namespace boresight {
+
+extern const ColumnKernels kAvx512ColumnKernels;
+constinit const ColumnKernels kAvx512ColumnKernels = kernels::kColumnKernels<kernels::Word8>;
+
+}  // namespace boresight
