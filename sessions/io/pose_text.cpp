@@ -6,7 +6,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "core/base/math.h"
@@ -77,10 +76,12 @@ ParsedPose refused(PoseForm form, std::string problem) {
   return parsed;
 }
 
+/// Six digits, whatever the locale.
 std::string shortNumber(double value) {
   std::array<char, 40> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.2g", value);
-  return buffer.data();
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                 std::chars_format::general, 6);
+  return {buffer.data(), end.ptr};
 }
 
 /// The pose of a rotation and a translation as they were read.

@@ -9,22 +9,17 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "sessions/io/dataset_file.h"
+#include "sessions/session/case_run.h"
+#include "sessions/session/session_maker.h"
 #include "ui/run/pose_renderer.h"
 
 using namespace boresight;
 
 namespace {
 
-std::shared_ptr<const ui::LoadedCase> load(const char* file, const char* id) {
-  const sessions::Dataset dataset = sessions::readDataset(file);
-  const sessions::Case* one = dataset.findCase(id);
-  if (one == nullptr) return nullptr;
-  auto loaded = std::make_shared<ui::LoadedCase>();
-  loaded->camera = dataset.cameras.at(one->camera);
-  loaded->scene = sessions::readStationScene(dataset.stations.at(one->station));
-  loaded->camera_from_station_seed = one->seed_camera_from_station;
-  return loaded;
+std::shared_ptr<const sessions::LoadedCase> load(const char* file, const char* id) {
+  const sessions::Session session = sessions::makeSession(file, {id});
+  return sessions::loadCase(*session.cases.front());
 }
 
 }  // namespace
@@ -62,7 +57,7 @@ int main(int argc, char** argv) {
       rested.start();
       return;
     }
-    Pose pose = one->camera_from_station_seed;
+    Pose pose = one->source.camera_from_station_seed;
     pose.translation_m.x() += 0.01 * std::sin(0.005 * static_cast<double>(clock.elapsed()));
     renderer.setPose(pose);
   });

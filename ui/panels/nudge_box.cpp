@@ -187,7 +187,7 @@ bool NudgeBox::eventFilter(QObject* watched, QEvent* event) {
   } else if (type == QEvent::MouseButtonRelease || type == QEvent::FocusOut) {
     // After the box itself: its last step still belongs to the gesture.
     QMetaObject::invokeMethod(
-        &controller_, [this] { controller_.finishGesture(); }, Qt::QueuedConnection);
+        this, [this] { controller_.finishGesture(); }, Qt::QueuedConnection);
   } else if (type == QEvent::Wheel && !static_cast<QWidget*>(watched)->hasFocus()) {
     event->ignore();  // scrolling past must not move the pose
     return true;

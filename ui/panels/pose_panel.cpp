@@ -45,6 +45,7 @@ PosePanel::PosePanel(ViewState& state, QWidget* parent)
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
   outer->addWidget(scroll);
+  page_ = scroll;
   auto* page = new QWidget(scroll);
   auto* layout = new QVBoxLayout(page);
   layout->setContentsMargins(6, 6, 6, 6);
@@ -73,6 +74,9 @@ PosePanel::PosePanel(ViewState& state, QWidget* parent)
     connect(&state_, signal, this, &PosePanel::refresh);
   refresh();
 }
+
+/// Widgets that go tell the controller of the focus they lose.
+PosePanel::~PosePanel() { delete page_; }
 
 QWidget* PosePanel::buildTable() {
   table_ = new QTableView(this);

@@ -27,6 +27,7 @@ class PosePanel : public QWidget {
 
  public:
   explicit PosePanel(ViewState& state, QWidget* parent = nullptr);
+  ~PosePanel() override;
 
   void setJudgement(const PoseJudgement& judgement);
   /// For other widgets that take the nudging keys: install it on them as an event filter.
@@ -53,6 +54,7 @@ class PosePanel : public QWidget {
   ViewState& state_;
   NudgeController controller_;
   PoseTableModel model_;
+  QWidget* page_ = nullptr;
   QTableView* table_ = nullptr;
   QComboBox* copied_ = nullptr;
   PoseComparison* comparison_ = nullptr;

@@ -83,7 +83,7 @@ TEST(ParsePose, RefusesWhatIsNoRotation) {
   const auto problem = [](const std::string& text) { return parsePose(text, {}).problem; };
   EXPECT_NE(problem("1.001 0 0 0 0 1 0 0 0 0 1 0").find("not a rotation"), std::string::npos);
   EXPECT_NE(problem("-1 0 0 0 0 1 0 0 0 0 1 0").find("mirrors"), std::string::npos);
-  EXPECT_NE(problem("1 0 0 0.01 0 0 0").find("unit length"), std::string::npos);
+  EXPECT_NE(problem("1 0 0 0.02 0 0 0").find("unit length (it is 1.0002)"), std::string::npos);
   EXPECT_NE(problem("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 2").find("last row"), std::string::npos);
   EXPECT_NE(problem("1 2 3").find("holds 3 numbers"), std::string::npos);
   EXPECT_NE(problem("").find("holds 0 numbers"), std::string::npos);

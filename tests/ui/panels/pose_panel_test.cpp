@@ -265,7 +265,7 @@ TEST(PastePoseDialog, RefusesWhatIsNoRotationInASentence) {
                   ->text()
                   .contains(QStringLiteral("not a rotation")));
   for (const QPushButton* button : dialog.findChildren<QPushButton*>())
-    if (button->text().startsWith(QStringLiteral("Nudge"))) EXPECT_FALSE(button->isEnabled());
+    EXPECT_NE(button->isEnabled(), button->text().startsWith(QStringLiteral("Nudge")));
 }
 
 TEST(PastePoseDialog, GuessesAndLetsPeopleCorrect) {

@@ -61,7 +61,7 @@ class SceneViewTest : public ::testing::Test {
 };
 
 TEST_F(SceneViewTest, AClickSelectsTheTemplateUnderIt) {
-  view_.lookFrom(StandardView::kTop);
+  view_.setThroughCamera(true);  // from where the templates are seen
   int tried = 0;
   for (const ScenePoint& point : view_.content().points) {
     const int expected = pickTemplate(view_.content(), view_.viewpoint(), onCanvas(point.at_m));
