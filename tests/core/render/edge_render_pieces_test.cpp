@@ -32,7 +32,7 @@ SceneMesh scattered(std::uint64_t seed, int facets) {
 struct Shared {
   const SceneMesh& mesh;
   Camera camera;
-  std::vector<std::byte> memory = std::vector<std::byte>(std::size_t{12} << 20);
+  std::vector<std::byte> memory = std::vector<std::byte>(std::size_t{32} << 20);
   Arena arena{memory};
   MeshAdjacency adjacency;
   RayGrid rays;
