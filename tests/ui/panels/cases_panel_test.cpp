@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/cases_panel.h"
+
+#include <gtest/gtest.h>
+#include <QComboBox>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTableView>
+#include <QtTest/QTest>
+
+namespace boresight::ui {
+namespace {
+
+class CasesPanelTest : public testing::Test {
+ protected:
+  CasesPanelTest() {
+    panel_.resize(500, 400);
+    panel_.show();
+    std::vector<CaseRow> rows(3);
+    rows[0].id = QStringLiteral("os-2");
+    rows[1].id = QStringLiteral("bc-1");
+    rows[1].state = CaseState::kFailed;
+    rows[2].id = QStringLiteral("os-1");
+    panel_.setRows(rows);
+    table_ = panel_.findChild<QTableView*>();
+  }
+  QPushButton* button(const char* name) const {
+    return panel_.findChild<QPushButton*>(QString::fromLatin1(name));
+  }
+  void clickRow(int row) {
+    QTest::mouseClick(table_->viewport(), Qt::LeftButton, Qt::NoModifier,
+                      table_->visualRect(table_->model()->index(row, 0)).center());
+  }
+
+  CasesPanel panel_;
+  QTableView* table_ = nullptr;
+};
+
+TEST_F(CasesPanelTest, AClickAsksForACase) {
+  QSignalSpy opened(&panel_, &CasesPanel::openRequested);
+  EXPECT_FALSE(button("run")->isEnabled());
+  clickRow(1);
+  ASSERT_EQ(opened.count(), 1);
+  EXPECT_EQ(opened.at(0).at(0).toString(), QStringLiteral("os-1"));
+  QSignalSpy ran(&panel_, &CasesPanel::runRequested);
+  QTest::mouseClick(button("run"), Qt::LeftButton);
+  ASSERT_EQ(ran.count(), 1);
+  EXPECT_EQ(ran.at(0).at(0).toString(), QStringLiteral("os-1"));
+}
+
+TEST_F(CasesPanelTest, ShowsTheOpenCaseWithoutAskingForIt) {
+  QSignalSpy opened(&panel_, &CasesPanel::openRequested);
+  panel_.setCurrent(QStringLiteral("os-2"));
+  EXPECT_EQ(table_->currentIndex().row(), 2);
+  EXPECT_EQ(opened.count(), 0);
+}
+
+TEST_F(CasesPanelTest, RunsWhatIsListed) {
+  QTest::keyClicks(panel_.findChild<QLineEdit*>(), QStringLiteral("os"));
+  QSignalSpy ran(&panel_, &CasesPanel::runAllRequested);
+  QTest::mouseClick(button("runAll"), Qt::LeftButton);
+  ASSERT_EQ(ran.count(), 1);
+  EXPECT_EQ(ran.at(0).at(0).toStringList().join(QLatin1Char(' ')), QStringLiteral("os-1 os-2"));
+  panel_.setRunnable(false);
+  EXPECT_FALSE(button("runAll")->isEnabled());
+}
+
+TEST_F(CasesPanelTest, ListsOneState) {
+  panel_.findChild<QComboBox*>()->setCurrentIndex(1 + static_cast<int>(CaseState::kFailed));
+  EXPECT_EQ(panel_.listed(), QStringList{QStringLiteral("bc-1")});
+}
+
+TEST_F(CasesPanelTest, KeepsTheChosenCaseWhileStatesChange) {
+  clickRow(0);
+  std::vector<CaseRow> rows = {panel_.model().caseAt(0), panel_.model().caseAt(1),
+                               panel_.model().caseAt(2)};
+  rows[0].state = CaseState::kRunning;
+  QSignalSpy opened(&panel_, &CasesPanel::openRequested);
+  panel_.setRows(rows);
+  EXPECT_EQ(table_->currentIndex().row(), 0);
+  EXPECT_EQ(opened.count(), 0);
+}
+
+}  // namespace
+}  // namespace boresight::ui

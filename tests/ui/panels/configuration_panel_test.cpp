@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/configuration_panel.h"
+
+#include <gtest/gtest.h>
+#include <QApplication>
+#include <QComboBox>
+#include <QFrame>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QSpinBox>
+#include <QTreeView>
+#include <QtTest/QTest>
+
+#include "tests/support/example_run.h"
+
+namespace boresight::ui {
+namespace {
+
+class ConfigurationPanelTest : public testing::Test {
+ protected:
+  ConfigurationPanelTest() {
+    panel_.resize(900, 700);
+    panel_.show();
+    tree_ = panel_.findChild<QTreeView*>(QStringLiteral("options"));
+    stale_ = panel_.findChild<QFrame*>(QStringLiteral("stale"));
+    QObject::connect(&panel_, &ConfigurationPanel::optionsEdited, &panel_,
+                     [this](const QString& profile, const LocalizerOptions& options) {
+                       ++edits_;
+                       profile_ = profile;
+                       options_ = options;
+                     });
+  }
+
+  /// The row of the one option that the words find.
+  QModelIndex find(const QString& words, int column = OptionsModel::kValue) {
+    auto* line = panel_.findChild<QLineEdit*>();
+    line->clear();
+    QTest::keyClicks(line, words);
+    const QAbstractItemModel& model = *tree_->model();
+    EXPECT_EQ(model.rowCount(model.index(0, 0)), 1) << words.toStdString();
+    return model.index(0, column, model.index(0, 0));
+  }
+  /// Opens the editor as a person does, with F2.
+  template <class Editor>
+  Editor* edit(const QString& words) {
+    tree_->setCurrentIndex(find(words));
+    tree_->setFocus();
+    QTest::keyClick(tree_, Qt::Key_F2);
+    return tree_->viewport()->findChild<Editor*>();
+  }
+  /// The editor commits when the event loop comes round.
+  static void enter(QWidget* editor) {
+    QTest::keyClick(editor, Qt::Key_Return);
+    QApplication::processEvents();
+  }
+  QString help() const { return panel_.findChild<QLabel*>(QStringLiteral("help"))->text(); }
+
+  ViewState view_;
+  ConfigurationPanel panel_{view_};
+  QTreeView* tree_ = nullptr;
+  QFrame* stale_ = nullptr;
+  int edits_ = 0;
+  QString profile_;
+  LocalizerOptions options_;
+};
+
+TEST_F(ConfigurationPanelTest, AnIntegerIsEditedInASpinBox) {
+  auto* box = edit<QSpinBox>(QStringLiteral("loop.max_iterations"));
+  ASSERT_NE(box, nullptr);
+  box->selectAll();
+  QTest::keyClicks(box, QStringLiteral("12"));
+  enter(box);
+  EXPECT_EQ(edits_, 1);
+  EXPECT_EQ(options_.loop.max_iterations, 12);
+  EXPECT_TRUE(help().contains(QStringLiteral("loop.max_iterations")));
+}
+
+TEST_F(ConfigurationPanelTest, AValueOutOfRangeIsRefusedWithItsRange) {
+  auto* box = edit<QSpinBox>(QStringLiteral("loop.max_iterations"));
+  ASSERT_NE(box, nullptr);
+  box->selectAll();
+  QTest::keyClicks(box, QStringLiteral("99"));
+  enter(box);
+  EXPECT_EQ(edits_, 0);
+  EXPECT_TRUE(help().contains(QStringLiteral("99 is outside 1 .. 50"))) << help().toStdString();
+  EXPECT_EQ(panel_.model().options().loop.max_iterations, LoopOptions().max_iterations);
+}
+
+TEST_F(ConfigurationPanelTest, ANumberIsTypedInFull) {
+  auto* line = edit<QLineEdit>(QStringLiteral("roll_spacing"));
+  ASSERT_NE(line, nullptr);
+  line->selectAll();
+  QTest::keyClicks(line, QStringLiteral("0.0123456789"));
+  enter(line);
+  EXPECT_EQ(options_.loop.roll_spacing_rad, 0.0123456789);
+}
+
+TEST_F(ConfigurationPanelTest, AChoiceIsChosenFromAList) {
+  auto* box = edit<QComboBox>(QStringLiteral("correction_point"));
+  ASSERT_NE(box, nullptr);
+  EXPECT_EQ(box->count(), 2);
+  QTest::keyClick(box, Qt::Key_Up);
+  enter(box);
+  EXPECT_EQ(options_.loop.correction_point, CorrectionPoint::kCamera);
+}
+
+TEST_F(ConfigurationPanelTest, SpaceTogglesASwitch) {
+  tree_->setCurrentIndex(find(QStringLiteral("refinement.enabled")));
+  tree_->setFocus();
+  QTest::keyClick(tree_, Qt::Key_Space);
+  EXPECT_FALSE(options_.refinement.enabled);
+  EXPECT_EQ(edits_, 1);
+}
+
+TEST_F(ConfigurationPanelTest, AClickResetsARow) {
+  LocalizerOptions options;
+  options.loop.max_iterations = 7;
+  panel_.setOptions(QStringLiteral("default"), options);
+  EXPECT_EQ(edits_, 0) << "the document is no person";
+  const QModelIndex reset = find(QStringLiteral("loop.max_iterations"), OptionsModel::kReset);
+  tree_->scrollTo(reset);
+  QTest::mouseClick(tree_->viewport(), Qt::LeftButton, Qt::NoModifier,
+                    tree_->visualRect(reset).center());
+  EXPECT_EQ(edits_, 1);
+  EXPECT_EQ(options_.loop.max_iterations, LoopOptions().max_iterations);
+}
+
+TEST_F(ConfigurationPanelTest, AProfileSetsEverything) {
+  auto* box = panel_.findChild<QComboBox*>();
+  box->setFocus();
+  QTest::keyClicks(box, QStringLiteral("paper"));
+  EXPECT_GE(edits_, 1);
+  EXPECT_EQ(profile_, QStringLiteral("paper"));
+  EXPECT_TRUE(sessions::changedOptions(options_, paperProfile()).empty());
+}
+
+TEST_F(ConfigurationPanelTest, SaysThatTheShownRunIsStale) {
+  EXPECT_FALSE(stale_->isVisible());
+  view_.setSnapshot(test::exampleRun());
+  EXPECT_FALSE(stale_->isVisible());
+  LocalizerOptions options;
+  options.loop.max_iterations = 7;
+  panel_.setOptions(QStringLiteral("default"), options);
+  EXPECT_TRUE(stale_->isVisible());
+  EXPECT_EQ(panel_.differences(), QStringList{QStringLiteral("loop.max_iterations (was 10)")});
+  QSignalSpy asked(&panel_, &ConfigurationPanel::runAgainRequested);
+  QTest::mouseClick(panel_.findChild<QPushButton*>(QStringLiteral("runAgain")), Qt::LeftButton);
+  EXPECT_EQ(asked.count(), 1);
+  panel_.setOptions(QStringLiteral("default"), defaultProfile());
+  EXPECT_FALSE(stale_->isVisible());
+}
+
+TEST_F(ConfigurationPanelTest, ACasesFeatureSizeIsNoDifference) {
+  auto run = std::make_shared<sessions::RunSnapshot>(*test::exampleRun());
+  run->options.templates.feature_size_m = 0.015;
+  view_.setSnapshot(run);
+  EXPECT_TRUE(stale_->isVisible());
+  panel_.setCaseFeatureSize(0.015);
+  EXPECT_FALSE(stale_->isVisible());
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/cases_panel.h"
+
+#include <utility>
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTableView>
+#include <QVBoxLayout>
+
+#include "ui/panels/table_style.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kThumbnail_px = 48;
+
+}  // namespace
+
+CasesPanel::CasesPanel(QWidget* parent) : QWidget(parent) {
+  filter_.setSourceModel(&model_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(4, 4, 4, 4);
+  auto* top = new QHBoxLayout;
+  text_ = new QLineEdit(this);
+  text_->setPlaceholderText(tr("Find a case"));
+  text_->setClearButtonEnabled(true);
+  state_ = new QComboBox(this);
+  state_->setAccessibleName(tr("State"));
+  state_->addItem(tr("Any state"));
+  for (int i = 0; i < kCaseStateCount; ++i)
+    state_->addItem(CasesModel::stateText(static_cast<CaseState>(i)));
+  top->addWidget(text_, 1);
+  top->addWidget(state_);
+  column->addLayout(top);
+  buildTable();
+  column->addWidget(table_, 1);
+  auto* bottom = new QHBoxLayout;
+  count_ = new QLabel(this);
+  run_ = new QPushButton(tr("Run"), this);
+  run_->setObjectName(QStringLiteral("run"));
+  run_->setToolTip(tr("Run the chosen case from its seed to the end."));
+  run_all_ = new QPushButton(tr("Run all"), this);
+  run_all_->setObjectName(QStringLiteral("runAll"));
+  run_all_->setToolTip(tr("Run the cases that are listed, one after the other."));
+  bottom->addWidget(count_, 1);
+  bottom->addWidget(run_);
+  bottom->addWidget(run_all_);
+  column->addLayout(bottom);
+  connect(text_, &QLineEdit::textChanged, this, [this](const QString& text) {
+    filter_.setText(text);
+    setCurrent(current_);
+  });
+  connect(state_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
+    filter_.setState(index > 0 ? std::optional(static_cast<CaseState>(index - 1)) : std::nullopt);
+    setCurrent(current_);
+  });
+  connect(run_, &QPushButton::clicked, this, [this] { Q_EMIT runRequested(chosen()); });
+  connect(run_all_, &QPushButton::clicked, this, [this] { Q_EMIT runAllRequested(listed()); });
+  showCount();
+}
+
+void CasesPanel::buildTable() {
+  table_ = new QTableView(this);
+  table_->setObjectName(QStringLiteral("cases"));
+  table_->setAccessibleName(tr("Cases"));
+  table_->setModel(&filter_);
+  styleTable(*table_);
+  table_->setIconSize({kThumbnail_px, kThumbnail_px});
+  table_->verticalHeader()->setDefaultSectionSize(kThumbnail_px + 4);
+  table_->setSortingEnabled(true);
+  table_->sortByColumn(CasesModel::kCase, Qt::AscendingOrder);
+  connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          &CasesPanel::chooseRow);
+}
+
+void CasesPanel::setRows(std::vector<CaseRow> rows) {
+  showing_ = true;
+  model_.setRows(std::move(rows));
+  showing_ = false;
+  fitColumns(*table_);
+  setCurrent(current_);
+}
+
+void CasesPanel::setCurrent(const QString& id) {
+  current_ = id;
+  showing_ = true;
+  const QModelIndex row = filter_.mapFromSource(model_.index(model_.rowOf(id), 0));
+  table_->setCurrentIndex(row);
+  if (row.isValid()) table_->scrollTo(row);
+  showing_ = false;
+  showCount();
+}
+
+void CasesPanel::setRunnable(bool runnable) {
+  runnable_ = runnable;
+  showCount();
+}
+
+QStringList CasesPanel::listed() const {
+  QStringList ids;
+  for (int row = 0; row < filter_.rowCount(); ++row)
+    ids.append(filter_.index(row, CasesModel::kCase).data().toString());
+  return ids;
+}
+
+QString CasesPanel::chosen() const {
+  return table_->currentIndex().siblingAtColumn(CasesModel::kCase).data().toString();
+}
+
+void CasesPanel::chooseRow(const QModelIndex& current) {
+  if (showing_ || !current.isValid()) return;
+  current_ = chosen();
+  showCount();
+  Q_EMIT openRequested(current_);
+}
+
+void CasesPanel::showCount() {
+  count_->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
+  run_->setEnabled(runnable_ && table_->currentIndex().isValid());
+  run_all_->setEnabled(runnable_ && filter_.rowCount() > 0);
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QStringList>
+#include <QWidget>
+
+#include "ui/models/cases_filter.h"
+#include "ui/models/cases_model.h"
+
+QT_BEGIN_NAMESPACE
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QTableView;
+QT_END_NAMESPACE
+
+namespace boresight::ui {
+
+/// The images of the session: filter, sort, open, run one, run those that are listed.
+class CasesPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit CasesPanel(QWidget* parent = nullptr);
+
+  void setRows(std::vector<CaseRow> rows);
+  /// The case that is open; shows it without asking for it.
+  void setCurrent(const QString& id);
+  /// Whether runs can be started now.
+  void setRunnable(bool runnable);
+  /// Ids in the order in which they are listed.
+  QStringList listed() const;
+  const CasesModel& model() const { return model_; }
+
+ Q_SIGNALS:
+  void openRequested(const QString& id);
+  void runRequested(const QString& id);
+  void runAllRequested(const QStringList& ids);
+
+ private:
+  void buildTable();
+  QString chosen() const;
+  void chooseRow(const QModelIndex& current);
+  void showCount();
+
+  CasesModel model_;
+  CasesFilter filter_;
+  QLineEdit* text_ = nullptr;
+  QComboBox* state_ = nullptr;
+  QTableView* table_ = nullptr;
+  QLabel* count_ = nullptr;
+  QPushButton* run_ = nullptr;
+  QPushButton* run_all_ = nullptr;
+  QString current_;
+  bool runnable_ = true;
+  bool showing_ = false;  ///< the table follows the window, not a person
+};
+
+}  // namespace boresight::ui

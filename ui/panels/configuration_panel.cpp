@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/configuration_panel.h"
+
+#include <QAction>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFrame>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QTreeView>
+#include <QVBoxLayout>
+
+#include "ui/models/number_text.h"
+#include "ui/panels/option_delegate.h"
+
+namespace boresight::ui {
+
+ConfigurationPanel::ConfigurationPanel(ViewState& view, QWidget* parent)
+    : QWidget(parent), view_(view) {
+  filter_.setSourceModel(&model_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(4, 4, 4, 4);
+  column->addLayout(buildTop());
+  column->addWidget(buildStale());
+  buildTree();
+  column->addWidget(tree_, 1);
+  help_ = new QLabel(this);
+  help_->setObjectName(QStringLiteral("help"));
+  help_->setWordWrap(true);
+  help_->setTextFormat(Qt::PlainText);
+  help_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  help_->setMinimumHeight(2 * help_->fontMetrics().lineSpacing());
+  column->addWidget(help_);
+  connect(&model_, &OptionsModel::edited, this, [this] {
+    showOptions();
+    Q_EMIT optionsEdited(model_.profile(), model_.options());
+  });
+  connect(&model_, &QAbstractItemModel::modelReset, tree_, &QTreeView::expandAll);
+  connect(&model_, &OptionsModel::refused, this, &ConfigurationPanel::showMessage);
+  connect(&view_, &ViewState::snapshotChanged, this, &ConfigurationPanel::showStale);
+  setOptions(model_.profile(), model_.options());
+}
+
+QHBoxLayout* ConfigurationPanel::buildTop() {
+  auto* row = new QHBoxLayout;
+  profile_ = new QComboBox(this);
+  profile_->addItems(OptionsModel::profiles());
+  profile_->setToolTip(
+      tr("Sets every option: default is whatever is best, paper is as published."));
+  auto* label = new QLabel(tr("&Profile"), this);
+  label->setBuddy(profile_);
+  words_ = new QLineEdit(this);
+  words_->setPlaceholderText(tr("Find an option"));
+  words_->setClearButtonEnabled(true);
+  changed_only_ = new QCheckBox(tr("Changed only"), this);
+  reset_all_ = new QPushButton(tr("Reset all"), this);
+  reset_all_->setToolTip(tr("Take every option back to the profile's value."));
+  row->addWidget(label);
+  row->addWidget(profile_);
+  row->addWidget(words_, 1);
+  row->addWidget(changed_only_);
+  row->addWidget(reset_all_);
+  connect(profile_, QOverload<int>::of(&QComboBox::activated), this,
+          [this] { model_.setProfile(profile_->currentText()); });
+  connect(words_, &QLineEdit::textChanged, this, [this](const QString& text) {
+    filter_.setWords(text);
+    tree_->expandAll();
+  });
+  connect(changed_only_, &QCheckBox::toggled, this, [this](bool on) {
+    filter_.setChangedOnly(on);
+    tree_->expandAll();
+  });
+  connect(reset_all_, &QPushButton::clicked, this, [this] { model_.resetAll(); });
+  return row;
+}
+
+QFrame* ConfigurationPanel::buildStale() {
+  stale_ = new QFrame(this);
+  stale_->setObjectName(QStringLiteral("stale"));
+  stale_->setFrameShape(QFrame::StyledPanel);
+  auto* row = new QHBoxLayout(stale_);
+  row->setContentsMargins(8, 4, 8, 4);
+  stale_text_ = new QLabel(stale_);
+  stale_text_->setWordWrap(true);
+  auto* again = new QPushButton(tr("Run again with these"), stale_);
+  again->setObjectName(QStringLiteral("runAgain"));
+  row->addWidget(stale_text_, 1);
+  row->addWidget(again);
+  connect(again, &QPushButton::clicked, this, &ConfigurationPanel::runAgainRequested);
+  return stale_;
+}
+
+void ConfigurationPanel::buildTree() {
+  tree_ = new QTreeView(this);
+  tree_->setObjectName(QStringLiteral("options"));
+  tree_->setAccessibleName(tr("Options"));
+  tree_->setModel(&filter_);
+  tree_->setItemDelegateForColumn(OptionsModel::kValue, new OptionDelegate(tree_));
+  tree_->setAlternatingRowColors(true);
+  tree_->setUniformRowHeights(true);
+  tree_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::SelectedClicked |
+                         QAbstractItemView::EditKeyPressed | QAbstractItemView::AnyKeyPressed);
+  auto* reset = new QAction(tr("Reset"), tree_);
+  reset->setShortcut(QKeySequence::Delete);
+  reset->setShortcutContext(Qt::WidgetShortcut);
+  tree_->addAction(reset);
+  tree_->setContextMenuPolicy(Qt::ActionsContextMenu);
+  connect(reset, &QAction::triggered, this, [this] { model_.reset(chosenSource()); });
+  connect(tree_, &QTreeView::clicked, this, &ConfigurationPanel::resetRow);
+  connect(tree_->selectionModel(), &QItemSelectionModel::currentChanged, this,
+          &ConfigurationPanel::showChosen);
+}
+
+QModelIndex ConfigurationPanel::chosenSource() const {
+  return filter_.mapToSource(tree_->currentIndex());
+}
+
+void ConfigurationPanel::setOptions(const QString& profile, const LocalizerOptions& options) {
+  model_.setOptions(profile, options);
+  for (int column = 0; column < OptionsModel::kColumnCount; ++column)
+    tree_->resizeColumnToContents(column);
+  tree_->header()->setStretchLastSection(true);
+  showOptions();
+}
+
+void ConfigurationPanel::setCaseFeatureSize(double feature_size_m) {
+  case_feature_size_m_ = feature_size_m;
+  showStale();
+}
+
+void ConfigurationPanel::showOptions() {
+  const QSignalBlocker blocked(profile_);
+  profile_->setCurrentText(model_.profile());
+  reset_all_->setEnabled(model_.changedCount() > 0);
+  showChosen();
+  showStale();
+}
+
+void ConfigurationPanel::showChosen() {
+  const QModelIndex index = chosenSource();
+  help_->setText(model_.option(index) ? index.data(Qt::ToolTipRole).toString()
+                                      : tr("Choose an option to read what it does."));
+}
+
+void ConfigurationPanel::showMessage(const QString& message) {
+  help_->setText(tr("✗ Not changed: %1.").arg(message));
+}
+
+QStringList ConfigurationPanel::differences() const {
+  const auto* run = view_.snapshot().get();
+  if (run == nullptr) return {};
+  LocalizerOptions now = model_.options();
+  if (!(now.templates.feature_size_m > 0.0)) now.templates.feature_size_m = case_feature_size_m_;
+  QStringList names;
+  for (const auto& option : sessions::listOptions(run->options)) {
+    for (const auto& [name, value] : sessions::changedOptions(run->options, now)) {
+      if (name != option.name) continue;
+      names.append(tr("%1 (was %2)").arg(fromText(name), fromText(valueText(option, value))));
+    }
+  }
+  return names;
+}
+
+void ConfigurationPanel::showStale() {
+  constexpr int kMostNamed = 4;
+  QStringList names = differences();
+  stale_->setVisible(!names.isEmpty());
+  const auto more = names.size() - kMostNamed;
+  if (more > 0) {
+    names = names.mid(0, kMostNamed);
+    names.append(tr("%1 more").arg(more));
+  }
+  stale_text_->setText(tr("⚠ The run that is shown was made with other options: %1.")
+                           .arg(names.join(QStringLiteral(", "))));
+}
+
+void ConfigurationPanel::resetRow(const QModelIndex& index) {
+  if (index.column() == OptionsModel::kReset) model_.reset(filter_.mapToSource(index));
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+
+#include <QObject>
+
+#include "sessions/trace/run_snapshot.h"
+#include "sessions/trace/score_map.h"
+
+namespace boresight::ui {
+
+/// Computes score maps off the UI's thread, one at a time: the newest request wins, an older one is
+/// cancelled and never answered. Keeps the latest maps.
+class ScoreMapper : public QObject {
+  Q_OBJECT
+
+ public:
+  using MapPtr = std::shared_ptr<const sessions::ScoreMap>;
+
+  struct Request {
+    std::shared_ptr<const sessions::EdgeMapTrace> edges;
+    std::shared_ptr<const sessions::IterationTrace> iteration;
+    int template_index = -1;
+
+    bool operator==(const Request&) const = default;
+  };
+
+  explicit ScoreMapper(QObject* parent = nullptr);
+  ~ScoreMapper() override;
+
+  /// The map if it is known; else nullptr, and `ready` comes later.
+  MapPtr request(const Request& request);
+  /// Nothing that was asked for is answered any more.
+  void cancel();
+
+ Q_SIGNALS:
+  /// nullptr when there is no map of that template.
+  void ready(const boresight::ui::ScoreMapper::MapPtr& map);
+
+ private:
+  class Worker;
+  struct Known {
+    Request request;
+    MapPtr map;
+  };
+
+  void take(std::uint64_t generation, const Request& request, const MapPtr& map);
+
+  std::deque<Known> known_;
+  std::uint64_t generation_ = 0;
+  std::unique_ptr<Worker> worker_;
+};
+
+}  // namespace boresight::ui
