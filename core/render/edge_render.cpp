@@ -109,17 +109,17 @@ Status EdgeRenderer::create(const MeshView& mesh, const MeshAdjacency& adjacency
   const int bands = (max_height - 1) / band_rows_ + 1;
   painter_ = BandPainter::create(max_width, band_rows_, scratch);
   bins_ = FaceBins::create(mesh.faces.size(), bands, std::max(mostPieces(workers), 1), scratch);
-  createWorkers(workers, max_width * max_height, options, scratch);
+  createWorkers(workers, max_width * max_height, options, kept, scratch);
   phase_ = Phase::kIdle;
   if (kept.exhausted() || scratch.exhausted()) return Status::kArenaTooSmall;
   return Status::kOk;
 }
 
 void EdgeRenderer::createWorkers(int workers, int max_pixels, const RenderOptions& options,
-                                 Arena& scratch) {
+                                 Arena& kept, Arena& scratch) {
   workers_ = {};
   if (workers < 2) return;
-  workers_ = scratch.allocate<Worker>(static_cast<std::size_t>(workers));
+  workers_ = kept.allocate<Worker>(static_cast<std::size_t>(workers));
   blocks_ = scratch.allocate<Block>(static_cast<std::size_t>(mostPieces(workers)));
   for (int i = 0; i < workers; ++i) {
     Worker counted;

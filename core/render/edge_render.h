@@ -123,7 +123,8 @@ class EdgeRenderer {
     std::int32_t pixel_count = 0;
   };
 
-  void createWorkers(int workers, int max_pixels, const RenderOptions& options, Arena& scratch);
+  void createWorkers(int workers, int max_pixels, const RenderOptions& options, Arena& kept,
+                     Arena& scratch);
   std::size_t itemsOf(Phase phase) const;
   int piecesOf(Phase phase) const;
   void enter(Phase phase);
@@ -140,8 +141,8 @@ class EdgeRenderer {
   int max_width_ = 0;
   int max_height_ = 0;
   int band_rows_ = kBandRows;
-  std::span<Worker> workers_;  ///< empty when there is one, who needs nothing more
-  std::span<Block> blocks_;
+  std::span<Worker> workers_;  ///< kept; empty when there is one, who needs nothing more
+  std::span<Block> blocks_;    ///< from the last phase's beginning to its end
 
   const RayGrid* rays_ = nullptr;
   EdgeRender* output_ = nullptr;
