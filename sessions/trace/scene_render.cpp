@@ -2,7 +2,7 @@
 #include "sessions/trace/scene_render.h"
 
 #include <algorithm>
-#include <memory>
+#include <cstddef>
 
 #include "sessions/trace/record.h"
 
@@ -15,8 +15,11 @@ RenderOptions optionsFor(const Camera& camera) {
   return options;
 }
 
-/// What one render needs besides the mesh.
-struct Equipment {
+}  // namespace
+
+/// What renders need besides the mesh.
+struct SceneRenderer::Equipment {
+  std::unique_ptr<std::byte[]> memory;
   MeshAdjacency adjacency;
   RayGrid rays;
   EdgeRenderer renderer;
@@ -34,25 +37,50 @@ struct Equipment {
   }
 };
 
-}  // namespace
+SceneRenderer::SceneRenderer() = default;
+SceneRenderer::~SceneRenderer() = default;
+SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
+SceneRenderer& SceneRenderer::operator=(SceneRenderer&&) noexcept = default;
 
-Status renderScene(const Camera& camera, const MeshView& mesh, const Pose& camera_from_station,
-                   RenderTrace& output) {
+Status SceneRenderer::create(const Camera& camera, const MeshView& mesh) {
+  equipment_.reset();
   Status status = validateMesh(mesh);
   if (status != Status::kOk) return status;
   Arena counter;
   Equipment counted;
   status = counted.create(camera, mesh, counter);
   if (status != Status::kOk) return status;
-  const auto memory = std::make_unique_for_overwrite<std::byte[]>(counter.highWater());
-  Arena arena({memory.get(), counter.highWater()});
-  Equipment equipment;
-  status = equipment.create(camera, mesh, arena);
-  if (status == Status::kOk)
-    status = equipment.renderer.begin(equipment.rays, camera_from_station, equipment.render);
+  auto made = std::make_unique<Equipment>();
+  made->memory = std::make_unique_for_overwrite<std::byte[]>(counter.highWater());
+  Arena arena({made->memory.get(), counter.highWater()});
+  status = made->create(camera, mesh, arena);
+  if (status == Status::kOk) equipment_ = std::move(made);
+  return status;
+}
+
+Status SceneRenderer::begin(const Pose& camera_from_station, const SurfaceRender& surfaces) {
+  if (!equipment_) return Status::kInvalidMesh;
+  return equipment_->renderer.begin(equipment_->rays, camera_from_station, equipment_->render,
+                                    surfaces);
+}
+
+Status SceneRenderer::step(bool& done) {
+  if (!equipment_) return Status::kInvalidMesh;
+  return equipment_->renderer.step(done);
+}
+
+RenderTrace SceneRenderer::record() const {
+  return equipment_ ? recordRender(equipment_->render) : RenderTrace();
+}
+
+Status renderScene(const Camera& camera, const MeshView& mesh, const Pose& camera_from_station,
+                   RenderTrace& output, const SurfaceRender& surfaces) {
+  SceneRenderer renderer;
+  Status status = renderer.create(camera, mesh);
+  if (status == Status::kOk) status = renderer.begin(camera_from_station, surfaces);
   bool done = false;
-  while (status == Status::kOk && !done) status = equipment.renderer.step(done);
-  if (status == Status::kOk) output = recordRender(equipment.render);
+  while (status == Status::kOk && !done) status = renderer.step(done);
+  if (status == Status::kOk) output = renderer.record();
   return status;
 }
 

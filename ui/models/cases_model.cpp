@@ -5,6 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include <QIcon>
+#include <QPixmap>
+
 #include "ui/models/number_text.h"
 
 namespace boresight::ui {
@@ -92,7 +95,8 @@ QVariant CasesModel::data(const QModelIndex& index, int role) const {
       if (column == kCase) return row.id;
       return column == kState ? stateText(row.state) : numberText(errorOf(row, column), 3);
     case Qt::DecorationRole:
-      return column == kCase && !row.thumbnail.isNull() ? QVariant(row.thumbnail) : QVariant();
+      if (column != kCase || row.thumbnail.isNull()) return {};
+      return QIcon(QPixmap::fromImage(row.thumbnail));  // drawn in the view's size
     case Qt::ToolTipRole:
       return tooltipOf(row);
     case Qt::TextAlignmentRole:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/configuration_panel.h"
 
+#include <algorithm>
+
 #include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
@@ -99,6 +101,7 @@ void ConfigurationPanel::buildTree() {
   tree_->setObjectName(QStringLiteral("options"));
   tree_->setAccessibleName(tr("Options"));
   tree_->setModel(&filter_);
+  tree_->header()->moveSection(OptionsModel::kReset, OptionsModel::kUnit);  // beside the value
   tree_->setItemDelegateForColumn(OptionsModel::kValue, new OptionDelegate(tree_));
   tree_->setAlternatingRowColors(true);
   tree_->setUniformRowHeights(true);
@@ -115,15 +118,24 @@ void ConfigurationPanel::buildTree() {
           &ConfigurationPanel::showChosen);
 }
 
+void ConfigurationPanel::fitTree() {
+  for (int column = 0; column < OptionsModel::kColumnCount; ++column)
+    tree_->resizeColumnToContents(column);
+  // One long number must not push the rest out of sight; tooltip and editor show it whole.
+  const int most = tree_->fontMetrics().horizontalAdvance(QStringLiteral("0.123456789"));
+  for (const int column : {OptionsModel::kValue, OptionsModel::kDefault})
+    tree_->setColumnWidth(column, std::min(tree_->columnWidth(column), most));
+  tree_->setColumnWidth(OptionsModel::kReset,
+                        tree_->fontMetrics().horizontalAdvance(tr("↺ reset")) + 16);
+}
+
 QModelIndex ConfigurationPanel::chosenSource() const {
   return filter_.mapToSource(tree_->currentIndex());
 }
 
 void ConfigurationPanel::setOptions(const QString& profile, const LocalizerOptions& options) {
   model_.setOptions(profile, options);
-  for (int column = 0; column < OptionsModel::kColumnCount; ++column)
-    tree_->resizeColumnToContents(column);
-  tree_->header()->setStretchLastSection(true);
+  fitTree();
   showOptions();
 }
 

@@ -47,6 +47,7 @@ class ConfigurationPanel : public QWidget {
   QHBoxLayout* buildTop();
   QFrame* buildStale();
   void buildTree();
+  void fitTree();
   void showOptions();
   void showChosen();
   void showMessage(const QString& message);

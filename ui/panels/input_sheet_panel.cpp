@@ -28,6 +28,8 @@ InputSheetPanel::InputSheetPanel(QWidget* parent) : QWidget(parent) {
   table_->setObjectName(QStringLiteral("sheet"));
   table_->setAccessibleName(tr("Inputs"));
   styleTable(*table_);
+  table_->setWordWrap(true);
+  table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   table_->setHorizontalHeaderLabels({tr("Input"), tr("Value")});
   table_->horizontalHeader()->setStretchLastSection(true);

@@ -56,6 +56,45 @@ TEST(RenderScene, GivesTheViewThatTheCoreUnderstands) {
             static_cast<std::int32_t>(render.pixels.size() / 2));
 }
 
+TEST(SceneRenderer, DrawsEveryPoseAsAFreshOneWould) {
+  const Square square;
+  const Camera camera = test::makePinhole(300, 200, 500.0);
+  SceneRenderer renderer;
+  ASSERT_EQ(renderer.create(camera, square.view()), Status::kOk);
+  ASSERT_EQ(renderer.begin(atDistance(0.7)), Status::kOk);
+  bool done = false;
+  ASSERT_EQ(renderer.step(done), Status::kOk);  // given up after one slice
+  for (const double distance_m : {1.0, 0.8, 1.3}) {
+    ASSERT_EQ(renderer.begin(atDistance(distance_m)), Status::kOk);
+    for (done = false; !done;) ASSERT_EQ(renderer.step(done), Status::kOk);
+    const RenderTrace render = renderer.record();
+    RenderTrace fresh;
+    ASSERT_EQ(renderScene(camera, square.view(), atDistance(distance_m), fresh), Status::kOk);
+    EXPECT_EQ(render.edges.words, fresh.edges.words);
+    EXPECT_EQ(render.mask.words, fresh.mask.words);
+    EXPECT_EQ(render.pixels.size(), fresh.pixels.size());
+  }
+}
+
+TEST(SceneRenderer, GivesSurfacesWhereTheMaskIs) {
+  const Square square;
+  const Camera camera = test::makePinhole(300, 200, 500.0);
+  std::vector<float> depth_m(300 * 200);
+  SurfaceRender surfaces;
+  surfaces.depth_m = depth_m;
+  RenderTrace render;
+  ASSERT_EQ(renderScene(camera, square.view(), atDistance(1.0), render, surfaces), Status::kOk);
+  EXPECT_NEAR(depth_m[100 * 300 + 150], 1.0F, 1e-6F);
+  EXPECT_EQ(depth_m[100 * 300 + 50], 0.0F);
+}
+
+TEST(SceneRenderer, DoesNothingBeforeItIsCreated) {
+  SceneRenderer renderer;
+  bool done = false;
+  EXPECT_EQ(renderer.begin(atDistance(1.0)), Status::kInvalidMesh);
+  EXPECT_EQ(renderer.step(done), Status::kInvalidMesh);
+}
+
 TEST(RenderScene, RefusesAMeshWithoutFaces) {
   Square square;
   square.faces.clear();

@@ -85,6 +85,16 @@ TEST_F(CasesModelTest, FiltersByTextAndState) {
   EXPECT_EQ(filter_.rowCount(), 3);
 }
 
+TEST_F(CasesModelTest, TheUnknownIsLastWhereverItCameFrom) {
+  model_.setRows({rowNamed("a", CaseState::kNew), rowNamed("b", CaseState::kConverged, 10.0),
+                  rowNamed("c", CaseState::kNew), rowNamed("d", CaseState::kConverged, 9.0),
+                  rowNamed("e", CaseState::kConverged, 11.0)});
+  filter_.sort(CasesModel::kNormal_mm, Qt::DescendingOrder);
+  EXPECT_EQ(listed().mid(0, 3).join(QLatin1Char(' ')), QStringLiteral("e b d"));
+  filter_.sort(CasesModel::kNormal_mm, Qt::AscendingOrder);
+  EXPECT_EQ(listed().mid(0, 3).join(QLatin1Char(' ')), QStringLiteral("d b e"));
+}
+
 TEST_F(CasesModelTest, SortsErrorsAsNumbersAndTheUnknownLast) {
   filter_.sort(CasesModel::kNormal_mm, Qt::AscendingOrder);
   EXPECT_EQ(listed().join(QLatin1Char(' ')), QStringLiteral("bc-2 bc-1 os-1"));

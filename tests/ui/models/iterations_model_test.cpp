@@ -81,6 +81,20 @@ TEST_F(IterationsModelTest, AppendsWhatARunAddsAndKeepsSelections) {
   EXPECT_EQ(model_.rowCount(), 0);
 }
 
+TEST_F(IterationsModelTest, TheIterationUnderWayChangesInPlace) {
+  auto halted = std::make_shared<sessions::RunSnapshot>(*test::firstIterations(*run_, 2));
+  auto early = std::make_shared<sessions::IterationTrace>(*halted->iterations.back());
+  early->reached = Stage::kRender;
+  halted->iterations.back() = early;
+  halted->last_under_way = true;
+  model_.setSnapshot(halted);
+  EXPECT_EQ(text(2, IterationsModel::kInliers), QString());
+  QSignalSpy resets(&model_, &QAbstractItemModel::modelReset);
+  model_.setSnapshot(test::firstIterations(*run_, 2));
+  EXPECT_EQ(resets.count(), 0);
+  EXPECT_NE(text(2, IterationsModel::kInliers), QString());
+}
+
 TEST_F(IterationsModelTest, LeavesBlankWhatIsNotThereYet) {
   auto run = std::make_shared<sessions::RunSnapshot>(*test::firstIterations(*run_, 1));
   auto early = std::make_shared<sessions::IterationTrace>(*run->iterations.front());

@@ -78,6 +78,18 @@ TEST_F(TemplatesModelTest, FiltersByWhatBecameOfATemplate) {
   EXPECT_GT(low, 0);
 }
 
+TEST_F(TemplatesModelTest, WhatWasNotSearchedIsNoOutlier) {
+  sessions::IterationTrace early = firstIteration();
+  early.matches[2].searched = false;
+  early.reached = Stage::kMatch;  // nothing is solved yet
+  model_.setIteration(&early);
+  EXPECT_EQ(countOf(Show::kNotSearched), 1);
+  EXPECT_EQ(countOf(Show::kOutliers), 0);
+  EXPECT_EQ(countOf(Show::kInliers), 0);
+  EXPECT_EQ(text(2, TemplatesModel::kVerdict), QStringLiteral("not searched"));
+  EXPECT_EQ(text(3, TemplatesModel::kVerdict), QStringLiteral("found"));
+}
+
 TEST_F(TemplatesModelTest, SortsByNumberAndPutsTheUnknownLast) {
   sessions::IterationTrace iteration = firstIteration();
   iteration.matches[2].searched = false;

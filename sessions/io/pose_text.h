@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/geometry/pose.h"
+
+namespace boresight::sessions {
+
+/// How a pose is written for people and for other programs.
+enum class PoseForm { kRotationVector, kQuaternion, kMatrix };
+enum class PoseDirection { kCameraFromStation, kStationFromCamera };
+enum class MatrixOrder { kRowMajor, kColumnMajor };
+enum class QuaternionOrder { kWxyz, kXyzw };
+enum class LengthUnit { kMetre, kMillimetre };
+
+/// The unit quaternion with w >= 0 (and, at half turns, the first other part that is not 0
+/// positive).
+Eigen::Quaterniond shownQuaternion(const Eigen::Quaterniond& rotation);
+
+/// The pose in one form, with names that say its direction, order and units, exact enough to be
+/// read back to 1e-12. A matrix is 4x4, row-major, metres, as in pose files; the others give mm.
+std::string poseText(const Pose& camera_from_station, PoseForm form);
+
+/// What the numbers of a text mean; people are asked, as no text says it all.
+struct PoseReading {
+  PoseDirection direction = PoseDirection::kCameraFromStation;
+  MatrixOrder matrix_order = MatrixOrder::kRowMajor;
+  QuaternionOrder quaternion_order = QuaternionOrder::kWxyz;
+  LengthUnit unit = LengthUnit::kMetre;
+};
+
+/// What the text itself says (names, a last row of 0 0 0 1), for a dialog to begin with.
+PoseReading guessReading(std::string_view text);
+
+/// What came of a text.
+struct ParsedPose {
+  bool valid = false;
+  Pose camera_from_station;
+  PoseForm form = PoseForm::kMatrix;  ///< of the text, by the count of its numbers
+  double rotation_deviation = 0.0;    ///< |R'R - I| before it was projected to a rotation
+  std::string problem;                ///< one sentence, when not valid
+};
+
+/// Reads 16 or 12 numbers (a matrix, with or without its last row), 7 (quaternion, then
+/// translation) or 6 (rotation vector in deg, then translation); words, brackets, commas and
+/// semicolons between them don't matter, numbers that belong to a name (p1) don't count. Refuses
+/// what is not a rotation to 1e-4, a last row other than 0 0 0 1, and a quaternion whose length is
+/// not 1 to 1e-4.
+ParsedPose parsePose(std::string_view text, const PoseReading& reading);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/image.h"
+#include "core/geometry/camera.h"
+
+namespace boresight::sessions {
+
+/// An image as a camera without distortion would have taken it.
+struct UndistortedImage {
+  Camera camera;                     ///< pinhole
+  std::vector<std::uint8_t> pixels;  ///< row-major, 0 where the camera does not see
+
+  ImageView view() const { return {pixels.data(), camera.width, camera.height, camera.width}; }
+};
+
+/// The pinhole camera that people look through instead: same centre, size, focal lengths and
+/// principal point, no distortion.
+Camera pinholeOf(const Camera& camera);
+
+/// The image resampled (bilinear) through the core's own camera model, so that what a renderer
+/// without distortion draws from the same pose lies on it. A pinhole image comes back as it is.
+/// The image must have the camera's size.
+UndistortedImage undistort(const Camera& camera, const ImageView& image);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// How many renders a second somebody who nudges a pose sees: nudge_rate DATASET CASE [SECONDS].
+// Poses come at 60 a second, as a held key sends them at most.
+#include <QCoreApplication>
+#include <QElapsedTimer>
+#include <QTimer>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "sessions/io/dataset_file.h"
+#include "ui/run/pose_renderer.h"
+
+using namespace boresight;
+
+namespace {
+
+std::shared_ptr<const ui::LoadedCase> load(const char* file, const char* id) {
+  const sessions::Dataset dataset = sessions::readDataset(file);
+  const sessions::Case* one = dataset.findCase(id);
+  if (one == nullptr) return nullptr;
+  auto loaded = std::make_shared<ui::LoadedCase>();
+  loaded->camera = dataset.cameras.at(one->camera);
+  loaded->scene = sessions::readStationScene(dataset.stations.at(one->station));
+  loaded->camera_from_station_seed = one->seed_camera_from_station;
+  return loaded;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const QCoreApplication application(argc, argv);
+  const auto one = argc > 2 ? load(argv[1], argv[2]) : nullptr;
+  if (!one) {
+    std::fputs("usage: nudge_rate DATASET CASE [SECONDS]\n", stderr);
+    return 2;
+  }
+  const int seconds = argc > 3 ? std::atoi(argv[3]) : 5;
+  ui::PoseRenderer renderer;
+  renderer.setCase(one);
+  int moving = 0;
+  QElapsedTimer rested;
+  QElapsedTimer clock;
+  QObject::connect(&renderer, &ui::PoseRenderer::rendered, [&](const auto& render, int level) {
+    if (level > 0) {
+      ++moving;
+      return;
+    }
+    std::printf(
+        "%d x %d, %zu faces: %d renders at half resolution in %d s (%.1f a second); full "
+        "resolution %lld ms after the last move\n",
+        render->edges.width, render->edges.height, one->scene.faces.size(), moving, seconds,
+        static_cast<double>(moving) / seconds, static_cast<long long>(rested.elapsed()));
+    QCoreApplication::quit();
+  });
+  QTimer keys;
+  clock.start();
+  QObject::connect(&keys, &QTimer::timeout, [&] {
+    if (clock.elapsed() > 1000 * seconds) {
+      keys.stop();
+      rested.start();
+      return;
+    }
+    Pose pose = one->camera_from_station_seed;
+    pose.translation_m.x() += 0.01 * std::sin(0.005 * static_cast<double>(clock.elapsed()));
+    renderer.setPose(pose);
+  });
+  keys.setTimerType(Qt::PreciseTimer);
+  keys.start(16);
+  return QCoreApplication::exec();
+}

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/nudge_controller.h"
+
+#include <QKeyEvent>
+
+namespace boresight::ui {
+namespace {
+
+bool isEqual(const Pose& a, const Pose& b) {
+  return a.translation_m == b.translation_m && a.rotation.coeffs() == b.rotation.coeffs();
+}
+
+/// The axis (0..2) and the sense of a key; sense 0 for keys that nudge nothing.
+struct KeyAxis {
+  int axis = 0;
+  double sense = 0.0;
+};
+
+KeyAxis moveOf(int key) {
+  switch (key) {
+    case Qt::Key_Left:
+      return {0, -1.0};
+    case Qt::Key_Right:
+      return {0, 1.0};
+    case Qt::Key_Up:  // the camera's y points down
+      return {1, -1.0};
+    case Qt::Key_Down:
+      return {1, 1.0};
+    case Qt::Key_PageUp:
+      return {2, 1.0};
+    case Qt::Key_PageDown:
+      return {2, -1.0};
+    default:
+      return {};
+  }
+}
+
+/// So that what is near the viewer goes where the arrow points.
+KeyAxis turnOf(int key) {
+  switch (key) {
+    case Qt::Key_Left:
+      return {1, 1.0};
+    case Qt::Key_Right:
+      return {1, -1.0};
+    case Qt::Key_Up:
+      return {0, -1.0};
+    case Qt::Key_Down:
+      return {0, 1.0};
+    case Qt::Key_PageUp:
+      return {2, 1.0};
+    case Qt::Key_PageDown:
+      return {2, -1.0};
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+NudgeController::NudgeController(ViewState& state, QObject* parent)
+    : QObject(parent), state_(state) {
+  pause_.setSingleShot(true);
+  pause_.setInterval(kPause_ms);
+  connect(&pause_, &QTimer::timeout, this, &NudgeController::finishGesture);
+  connect(&state_, &ViewState::caseChanged, this, &NudgeController::caseChanged);
+  connect(&state_, &ViewState::nudgedPoseChanged, this, &NudgeController::stateChanged);
+  connect(&state_, &ViewState::cursorChanged, this, &NudgeController::changed);
+  caseChanged();
+}
+
+void NudgeController::caseChanged() {
+  before_.reset();
+  pause_.stop();
+  base_.reset();
+  if (state_.currentCase())
+    frame_.centre_in_station_m = matchedBounds(state_.currentCase()->scene.view()).centre();
+  Q_EMIT changed();
+}
+
+/// Somebody else (undo, a pasted pose) may have nudged.
+void NudgeController::stateChanged() {
+  if (!state_.nudgedPose())
+    base_.reset();
+  else if (!base_)
+    base_ = estimate();
+  Q_EMIT changed();
+}
+
+void NudgeController::setAxes(NudgeAxes axes) {
+  finishGesture();
+  frame_.axes = axes;
+  Q_EMIT changed();
+}
+
+void NudgeController::setPivot(NudgePivot pivot) {
+  finishGesture();
+  frame_.pivot = pivot;
+  Q_EMIT changed();
+}
+
+/// What the views would show if nothing was nudged.
+Pose NudgeController::estimate() const {
+  if (const auto estimate = poseOf(state_, PoseRole::kEstimate)) return *estimate;
+  return poseOf(state_, PoseRole::kSeed).value_or(Pose());
+}
+
+Pose NudgeController::base() const { return base_ ? *base_ : estimate(); }
+
+Vector6d NudgeController::offset() const {
+  if (!state_.nudgedPose()) return Vector6d::Zero();
+  return nudgeBetween(base(), *state_.nudgedPose(), frame_);
+}
+
+void NudgeController::move(const Pose& camera_from_station) {
+  if (!state_.currentCase() || !camera_from_station.isFinite()) return;
+  if (!base_) base_ = estimate();
+  if (!before_) before_ = state_.shownPose();
+  pause_.start();
+  state_.setNudgedPose(camera_from_station);
+}
+
+void NudgeController::nudgeBy(const Vector6d& steps) {
+  move(nudged(state_.shownPose(), steps, frame_));
+}
+
+void NudgeController::setOffset(const Vector6d& offset) { move(nudged(base(), offset, frame_)); }
+
+void NudgeController::setOffset(int axis, double value) {
+  Vector6d next = offset();
+  next[axis] = value;
+  setOffset(next);
+}
+
+void NudgeController::setPose(const Pose& camera_from_station) {
+  finishGesture();
+  move(camera_from_station);
+  finishGesture();
+}
+
+void NudgeController::backToEstimate() {
+  if (!state_.nudgedPose()) return;
+  finishGesture();
+  base_ = estimate();
+  setPose(estimate());
+}
+
+void NudgeController::drop() {
+  if (!state_.nudgedPose()) return;
+  finishGesture();
+  const Pose before = *state_.nudgedPose();
+  state_.setNudgedPose(std::nullopt);
+  Q_EMIT gestureFinished(before, state_.shownPose());
+}
+
+void NudgeController::finishGesture() {
+  pause_.stop();
+  if (!before_) return;
+  const Pose before = *before_;
+  before_.reset();
+  const Pose after = state_.shownPose();
+  if (!isEqual(before, after)) Q_EMIT gestureFinished(before, after);
+}
+
+bool NudgeController::takes(const QKeyEvent& event) const {
+  return state_.currentCase() && moveOf(event.key()).sense != 0.0;
+}
+
+bool NudgeController::eventFilter(QObject* watched, QEvent* event) {
+  const QEvent::Type type = event->type();
+  if (type == QEvent::FocusOut) finishGesture();
+  const bool is_key =
+      type == QEvent::KeyPress || type == QEvent::KeyRelease || type == QEvent::ShortcutOverride;
+  if (!is_key) return QObject::eventFilter(watched, event);
+  const auto& key = static_cast<const QKeyEvent&>(*event);
+  if (!takes(key)) return QObject::eventFilter(watched, event);
+  if (type == QEvent::ShortcutOverride) {
+    event->accept();
+    return false;
+  }
+  if (type == QEvent::KeyRelease) {
+    if (!key.isAutoRepeat()) finishGesture();
+    return true;
+  }
+  const Qt::KeyboardModifiers modifiers = key.modifiers();
+  const bool turns = modifiers.testFlag(Qt::ControlModifier);
+  double factor = 1.0;
+  if (modifiers.testFlag(Qt::ShiftModifier)) factor *= kCoarse;
+  if (modifiers.testFlag(Qt::AltModifier)) factor *= kFine;
+  const KeyAxis chosen = turns ? turnOf(key.key()) : moveOf(key.key());
+  Vector6d steps = Vector6d::Zero();
+  steps[turns ? chosen.axis : 3 + chosen.axis] =
+      chosen.sense * factor * (turns ? step_.rotation_rad : step_.translation_m);
+  nudgeBy(steps);
+  // A key that repeats holds the gesture open until it is let go.
+  pause_.stop();
+  return true;
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include <QObject>
+#include <QString>
+#include <QTimer>
+
+#include "core/geometry/pose.h"
+#include "sessions/trace/trace.h"
+#include "ui/state/loaded_case.h"
+
+namespace boresight::ui {
+
+/// Renders the salient edges of a pose that somebody moves, off the UI's thread. While poses come
+/// in, each is drawn at half resolution, the newest first, and those in between are left out; once
+/// the pose has rested it is drawn at full resolution, which the next move interrupts.
+class PoseRenderer : public QObject {
+  Q_OBJECT
+
+ public:
+  static constexpr int kRest_ms = 150;
+  static constexpr int kMovingLevel = 1;  ///< half resolution
+
+  using RenderPtr = std::shared_ptr<const sessions::RenderTrace>;
+
+  explicit PoseRenderer(QObject* parent = nullptr);
+  ~PoseRenderer() override;
+
+  /// Later poses are of this case; what was drawn of another one is dropped. nullptr: none.
+  void setCase(std::shared_ptr<const LoadedCase> one);
+  void setPose(const Pose& camera_from_station);
+  /// Nothing more comes until the next pose.
+  void clear();
+
+ Q_SIGNALS:
+  /// `level` is that of the render's pixels: 0 full resolution, 1 half.
+  void rendered(const std::shared_ptr<const boresight::sessions::RenderTrace>& render, int level);
+  /// The pose cannot be drawn; a sentence for people.
+  void failed(const QString& message);
+
+ private:
+  class Worker;
+
+  void order(int level);
+  void take(std::uint64_t generation, const RenderPtr& render, int level);
+  void takeFailure(std::uint64_t generation, const QString& message);
+
+  std::shared_ptr<const LoadedCase> case_;
+  Pose camera_from_station_;
+  QTimer rest_;
+  std::uint64_t generation_ = 0;  ///< of the orders that are still wanted
+  std::unique_ptr<Worker> worker_;
+};
+
+}  // namespace boresight::ui

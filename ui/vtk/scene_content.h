@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <QColor>
+#include <QString>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/mesh.h"
+#include "core/geometry/pose.h"
+#include "ui/state/pose_role.h"
+
+namespace boresight::ui {
+
+/// How a pose's camera looks; the colours are those of the image's layers.
+struct PoseRoleStyle {
+  const char* name = "";
+  QColor color;
+  /// Lengths of dashes and gaps in turn, as shares of the line; empty: one whole line. The second
+  /// difference besides the colour.
+  std::vector<double> dashes;
+  double width_px = 2.0;
+};
+const PoseRoleStyle& poseRoleStyle(PoseRole role);
+
+/// A straight line in the station frame, metres.
+using SceneLine = std::pair<Eigen::Vector3d, Eigen::Vector3d>;
+
+/// A line cut into the dashes of a style, which repeat along it.
+std::vector<SceneLine> dashed(const SceneLine& line, const std::vector<double>& dashes);
+
+/// A camera as a pyramid: what its image's corners see.
+struct Frustum {
+  PoseRole role = PoseRole::kSeed;
+  QString label;
+  QColor color;
+  Eigen::Vector3d apex_m = Eigen::Vector3d::Zero();
+  std::array<Eigen::Vector3d, 4> corner_m;  ///< top left, top right, bottom right, bottom left
+  std::vector<SceneLine> lines;             ///< dashed as the role is; a roof marks the image's top
+  Eigen::Vector3d label_at_m = Eigen::Vector3d::Zero();
+};
+
+enum class ScenePointKind : std::uint8_t {
+  kInlier,
+  kOutlier,
+  kUnmatched,  ///< a template that was not found, or an edge place that was not used
+};
+
+/// A template's 3D point, or a place along an edge that the refinement searched from.
+struct ScenePoint {
+  Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  ///< station frame
+  ScenePointKind kind = ScenePointKind::kUnmatched;
+  double residual_px = 0.0;  ///< magnitude; 0 where there is none
+  int template_index = -1;   ///< into the iteration's templates, or -1
+};
+
+/// What of the scene people want to see.
+struct SceneShown {
+  bool mesh = true;
+  bool mesh_edges = true;
+  bool frusta = true;
+  bool trail = true;
+  bool points = true;
+  bool axes = true;
+
+  bool operator==(const SceneShown&) const = default;
+};
+
+/// Everything that the scene draws, as plain values in the station frame.
+struct SceneContent {
+  /// Keeps the mesh alive, which is looked at in place; nullptr: nothing is open.
+  std::shared_ptr<const LoadedCase> one;
+  BoundingBox bounds;  ///< of all parts
+  std::vector<Frustum> frusta;
+  std::vector<Eigen::Vector3d> trail_m;  ///< camera centres: the seed's, then each iteration's
+  int trail_now = -1;                    ///< the one that is shown, or -1
+  std::vector<ScenePoint> points;
+  double residual_limit_px = 1.0;  ///< upper end of the colours
+  double point_radius_px = 4.5;    ///< on the screen; edge places are many and therefore small
+  int selected_template = -1;
+  double axis_length_m = 0.1;
+
+  bool empty() const { return one == nullptr; }
+  MeshView mesh() const { return one ? one->scene.view() : MeshView(); }
+};
+
+/// What the state's cursor points at.
+SceneContent sceneContent(const ViewState& state);
+
+/// Colour of a residual as a share of the limit, from dark blue over green to yellow: lightness
+/// grows all the way, so it reads without colour vision too (after "viridis", Smith and van der
+/// Walt 2015). Beyond 1 it stays yellow.
+QColor residualColor(double share);
+
+/// Colours of the station's x, y and z axis, which also carry their letters.
+QColor axisColor(int axis);
+
+/// Edges of the mesh worth drawing, as pairs of vertices: where two faces meet at more than 30 deg,
+/// where a face ends, or where more than two meet.
+std::vector<std::array<std::int32_t, 2>> sharpEdges(const MeshView& mesh);
+
+/// A place on the mesh under a pixel.
+struct SurfaceHit {
+  Eigen::Vector3d at_m = Eigen::Vector3d::Zero();
+  std::int32_t face = -1;
+  double depth_m = 0.0;  ///< along the ray in units of its length
+};
+/// Nearest face along a ray from an eye; nothing when it misses.
+std::optional<SurfaceHit> hitSurface(const MeshView& mesh, const Eigen::Vector3d& eye_m,
+                                     const Eigen::Vector3d& ray);
+
+}  // namespace boresight::ui

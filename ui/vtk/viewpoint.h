@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QPointF>
+#include <QSizeF>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/mesh.h"
+#include "core/geometry/pose.h"
+#include "ui/views/view_transform.h"
+
+namespace boresight::ui {
+
+/// From where and with which (pinhole) camera the scene is drawn. The camera's pixels are those of
+/// the canvas, its centre of the top-left pixel is (0, 0), and its principal point may lie
+/// anywhere: what every canvas, the picking and the labels agree on.
+struct Viewpoint {
+  Pose view_from_station;
+  Camera camera;
+
+  /// False behind the viewer.
+  [[nodiscard]] bool toCanvas(const Eigen::Vector3d& point_in_station_m, QPointF& pixel,
+                              double& depth_m) const;
+  /// Direction (not of unit length, z forward 1) of the ray through a pixel, station frame.
+  Eigen::Vector3d rayInStation(const QPointF& pixel) const;
+  Eigen::Vector3d eyeInStation_m() const;
+};
+
+/// The fixed directions to look from. "Front" looks along the station's +y.
+enum class StandardView { kTop, kBottom, kFront, kBack, kLeft, kRight, kOblique };
+
+/// Looking at a place from around it, with the station's z axis always upright on the screen.
+class OrbitCamera {
+ public:
+  static constexpr double kFieldOfView_rad = 0.6;
+
+  /// Looks at the box from the same side as before, as far away as shows all of it.
+  void frame(const BoundingBox& bounds);
+  void lookFrom(StandardView view);
+  /// Looks at the box as the pose's camera does, as nearly as an upright view can.
+  void lookLike(const Pose& camera_from_station);
+
+  /// Dragging by this many pixels of a canvas of this height.
+  void orbit(const QPointF& pixels, double canvas_height);
+  void pan(const QPointF& pixels, double canvas_height);
+  /// Factor below 1 comes nearer.
+  void dolly(double factor);
+
+  Viewpoint viewpoint(const QSizeF& canvas) const;
+  double distance_m() const { return distance_m_; }
+  double elevation_rad() const { return elevation_rad_; }
+  double azimuth_rad() const { return azimuth_rad_; }
+  const Eigen::Vector3d& target_m() const { return target_m_; }
+
+ private:
+  Eigen::Matrix3d viewFromStation() const;
+  double metresPerPixel(double canvas_height) const;
+
+  Eigen::Vector3d target_m_ = Eigen::Vector3d::Zero();
+  double radius_m_ = 1.0;  ///< of the scene
+  double distance_m_ = 3.0;
+  double azimuth_rad_ = -0.9;   ///< of the eye, seen from the target, from +x towards +y
+  double elevation_rad_ = 0.6;  ///< of the eye above the xy plane
+};
+
+/// The view through a case's camera, undistorted: `image` is where its image lies on the canvas.
+Viewpoint throughCamera(const Camera& camera, const Pose& camera_from_station,
+                        const ViewTransform& image, const QSizeF& canvas);
+
+}  // namespace boresight::ui
