@@ -145,9 +145,17 @@ StepReport Localizer::stepRender() {
         renderer_.begin(rays_[static_cast<std::size_t>(now.level)], rendered, now.render);
     if (status != Status::kOk) return faulted(Stage::kRender, status);
     stage_begun_ = true;
+    openPieces(renderer_.pieces());
+    if (piece_count_ > 0) return report(Stage::kRender, false);
+  }
+  if (nextUndone()) {
+    renderer_.work(piece_, 0);
+    done_[static_cast<std::size_t>(piece_)] = 1;
+    if (nextUndone()) return report(Stage::kRender, false);
   }
   bool complete = false;
   const Status status = renderer_.step(complete);
+  openPieces(renderer_.pieces());
   if (status != Status::kOk) return faulted(Stage::kRender, status);
   if (complete) {
     digestRender(now.render, digest_);
@@ -198,7 +206,10 @@ bool Localizer::nextUndone() {
 
 void Localizer::work(int piece, int worker) {
   if (piece < 0 || piece >= pieces() || worker < 0 || worker >= workers_) return;
-  if (stage_ == Stage::kMatch) {
+  if (done_[static_cast<std::size_t>(piece)] != 0) return;
+  if (stage_ == Stage::kRender) {
+    renderer_.work(piece, worker);
+  } else if (stage_ == Stage::kMatch) {
     WhsSearch& search = searches_[static_cast<std::size_t>(worker)];
     if (beginMatch(piece, search)) {
       while (!search.step()) {

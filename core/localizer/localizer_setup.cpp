@@ -256,7 +256,8 @@ Status Localizer::layOutKept() {
   layOutRenders();
   searches_ = kept_.allocate<WhsSearch>(static_cast<std::size_t>(workers_));
   done_ = kept_.allocate<std::uint8_t>(static_cast<std::size_t>(
-      std::max(options_.templates.count, EdgeRefinement::chunksOf(options_.refinement))));
+      std::max({options_.templates.count, EdgeRefinement::chunksOf(options_.refinement),
+                EdgeRenderer::mostPieces(workers_)})));
   buffers_[0] = createIteration(options_, kept_);
   if (options_.loop.max_rolled_hypotheses > 1) buffers_[1] = createIteration(options_, kept_);
   return status;
@@ -285,8 +286,8 @@ void Localizer::layOutRenders() {
 Status Localizer::layOutStages(const ProblemSize& size) {
   const int width = ((size.width - 1) >> fine_level_) + 1;
   const int height = ((size.height - 1) >> fine_level_) + 1;
-  Status status =
-      renderer_.create(problem_.mesh, adjacency_, width, height, options_.render, kept_, scratch_);
+  Status status = renderer_.create(problem_.mesh, adjacency_, width, height, options_.render, kept_,
+                                   scratch_, EdgeRenderer::kBandRows, workers_);
   shareScratch(bytesOf(Stage::kRender));
   if (status == Status::kOk) status = selector_.create(width, height, options_.templates, scratch_);
   shareScratch(bytesOf(Stage::kTemplates));

@@ -11,8 +11,9 @@ namespace {
 
 /// Vertices or faces of one step: about a millisecond on the ground.
 constexpr std::size_t kSlice = 16384;
-/// Faces drawn in one step, wide ones counting several times: some milliseconds on the ground.
-constexpr int kDrawnSlice = 16384;
+/// Less than this is not worth sharing out: vertices or faces, bands.
+constexpr std::size_t kLeastItems = 1024;
+constexpr std::size_t kLeastBands = 2;
 /// The largest image: coordinates are recorded in 16 bits.
 constexpr int kMaxSize_px = 32766;
 
@@ -94,8 +95,8 @@ bool edgeLinePoint(const EdgeRender& render, const MeshView& mesh, const EdgePix
 
 Status EdgeRenderer::create(const MeshView& mesh, const MeshAdjacency& adjacency, int max_width,
                             int max_height, const RenderOptions& options, Arena& kept,
-                            Arena& scratch, int band_rows) {
-  if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
+                            Arena& scratch, int band_rows, int workers) {
+  if (firstInvalidOption(options) != nullptr || workers < 1) return Status::kInvalidOption;
   if (max_width < 1 || max_height < 1 || max_width > kMaxSize_px || max_height > kMaxSize_px ||
       band_rows < 1)
     return Status::kInvalidImage;
@@ -106,12 +107,28 @@ Status EdgeRenderer::create(const MeshView& mesh, const MeshAdjacency& adjacency
   max_height_ = max_height;
   band_rows_ = std::min(band_rows, max_height);
   const int bands = (max_height - 1) / band_rows_ + 1;
-  band_ = RasterBand::create(max_width, band_rows_, scratch);
-  salient_edges_ = SalientEdges::create(max_width, scratch);
-  bins_ = FaceBins::create(mesh.faces.size(), bands, scratch);
+  painter_ = BandPainter::create(max_width, band_rows_, scratch);
+  bins_ = FaceBins::create(mesh.faces.size(), bands, std::max(mostPieces(workers), 1), scratch);
+  createWorkers(workers, max_width * max_height, options, kept, scratch);
   phase_ = Phase::kIdle;
   if (kept.exhausted() || scratch.exhausted()) return Status::kArenaTooSmall;
   return Status::kOk;
+}
+
+void EdgeRenderer::createWorkers(int workers, int max_pixels, const RenderOptions& options,
+                                 Arena& kept, Arena& scratch) {
+  workers_ = {};
+  if (workers < 2) return;
+  workers_ = kept.allocate<Worker>(static_cast<std::size_t>(workers));
+  blocks_ = scratch.allocate<Block>(static_cast<std::size_t>(mostPieces(workers)));
+  for (int i = 0; i < workers; ++i) {
+    Worker counted;
+    Worker& worker = workers_.empty() ? counted : workers_[static_cast<std::size_t>(i)];
+    // The first one's is that of a render by one alone.
+    worker.painter = i == 0 ? painter_ : BandPainter::create(max_width_, band_rows_, scratch);
+    worker.pixels = scratch.allocate<EdgePixel>(
+        static_cast<std::size_t>(std::min(options.max_edge_pixels, max_pixels)));
+  }
 }
 
 Status EdgeRenderer::begin(const RayGrid& rays, const Pose& camera_from_station, EdgeRender& output,
@@ -128,116 +145,157 @@ Status EdgeRenderer::begin(const RayGrid& rays, const Pose& camera_from_station,
     return Status::kInvalidImage;
   output.camera = camera;
   output.camera_from_station = camera_from_station;
-  salient_edges_.begin(output);
-  scene_.begin(camera_from_station, rays);
-  bins_.begin(scene_, rays, band_rows_, plain_);
-  band_.rows = 0;
-  band_.x_begin = 0;
-  band_.x_end = 0;
+  SalientEdges::clear(output);
   rays_ = &rays;
   output_ = &output;
   surfaces_ = surfaces;
-  phase_ = Phase::kVertices;
-  next_ = 0;
-  band_open_ = false;
-  next_drawn_ = -1;
+  scene_.begin(camera_from_station, rays);
+  bins_.begin(scene_, rays, band_rows_, plain_, std::max(piecesOf(Phase::kFaces), 1));
+  enter(Phase::kVertices);
   return Status::kOk;
+}
+
+/// What a phase goes through.
+std::size_t EdgeRenderer::itemsOf(Phase phase) const {
+  if (phase == Phase::kVertices) return scene_.vertex_in_camera_m.size();
+  if (phase == Phase::kFaces) return scene_.mesh.faces.size();
+  return static_cast<std::size_t>(covered_count_);
+}
+
+int EdgeRenderer::piecesOf(Phase phase) const {
+  if (workers_.empty()) return 0;
+  const bool bands = phase == Phase::kBands;
+  if (bands && band_rows_ < 2) return 1;
+  const std::size_t worthwhile = itemsOf(phase) / (bands ? kLeastBands : kLeastItems);
+  return static_cast<int>(std::clamp<std::size_t>(worthwhile, 1, blocks_.size()));
+}
+
+void EdgeRenderer::enter(Phase phase) {
+  phase_ = phase;
+  next_ = 0;
+  if (phase == Phase::kBands) {
+    bins_.finish();
+    findCoveredBands();
+    painter_.begin(source(), 0, source().bands(), *output_);
+  }
+  piece_count_ = piecesOf(phase);
+  for (Worker& worker : workers_) worker.pixel_count = 0;
+}
+
+void EdgeRenderer::findCoveredBands() {
+  int first = source().bands();
+  int end = 0;
+  for (int band = 0; band < source().bands(); ++band) {
+    if (bins_.columns(band).last < bins_.columns(band).first) continue;
+    first = std::min(first, band);
+    end = band + 1;
+  }
+  covered_first_ = first;
+  covered_count_ = std::max(end - first, 0);
 }
 
 Status EdgeRenderer::step(bool& done) {
   done = phase_ == Phase::kIdle;
+  if (done) return Status::kOk;
+  if (workers_.empty()) return stepAlone(done);
   if (phase_ == Phase::kVertices) {
-    const std::size_t count = scene_.vertex_in_camera_m.size();
-    const std::size_t last = std::min(next_ + kSlice, count);
-    scene_.transform(output_->camera_from_station, *rays_, next_, last);
-    next_ = last;
-    if (last == count) {
-      phase_ = Phase::kFaces;
-      next_ = 0;
-    }
+    enter(Phase::kFaces);
   } else if (phase_ == Phase::kFaces) {
-    const std::size_t count = scene_.mesh.faces.size();
-    const std::size_t last = std::min(next_ + kSlice, count);
-    bins_.add(scene_, *rays_, next_, last);
-    next_ = last;
-    if (last == count) {
-      phase_ = Phase::kBands;
-      next_ = 0;
-    }
-  } else if (phase_ == Phase::kBands) {
-    if (!band_open_) openBand();
-    if (!drawSome()) return Status::kOk;
-    const Status status = closeBand();
-    ++next_;
-    const bool last = static_cast<int>(next_) * band_rows_ >= output_->camera.height;
-    if (status != Status::kOk || last) phase_ = Phase::kIdle;
-    done = phase_ == Phase::kIdle;
-    return status;
+    enter(Phase::kBands);
+  } else {
+    phase_ = Phase::kIdle;
+    done = true;
+    return joinBlocks();
   }
   return Status::kOk;
 }
 
-/// Columns covered in bands band - before .. band + after, and `before + after` more on both sides,
-/// within the image.
-EdgeRenderer::Columns EdgeRenderer::columnsAround(int band, int before, int after) const {
-  Columns columns;
-  const int bands = (output_->camera.height - 1) / band_rows_ + 1;
-  for (int i = std::max(band - before, 0); i <= std::min(band + after, bands - 1); ++i)
-    columns.include(bins_.columns(i).first, bins_.columns(i).last);
-  if (columns.last < columns.first) return columns;
-  const int margin = before + after;
-  columns.first = static_cast<std::int16_t>(std::max(columns.first - margin, 0));
-  columns.last =
-      static_cast<std::int16_t>(std::min(columns.last + margin, output_->camera.width - 1));
-  return columns;
-}
-
-void EdgeRenderer::openBand() {
-  const auto band = static_cast<int>(next_);
-  const int y = band * band_rows_;
-  // Pairs of pixels reach one pixel beyond the faces, and the derivatives of rays there another
-  // one; rows at the borders of bands are also used with the neighbouring band.
-  const Columns prepared = columnsAround(band, 1, 1);
-  band_.advance(*rays_, y, std::min(band_rows_, output_->camera.height - y), prepared.first,
-                prepared.last);
-  band_open_ = true;
-  list_ = 0;
-  next_drawn_ = bins_.firstFace(band, list_);
-}
-
-/// Draws faces of the open band; true when all are drawn. Bands that hold very many faces take
-/// several slices.
-bool EdgeRenderer::drawSome() {
-  int work = 0;
-  while (work < kDrawnSlice) {
-    if (next_drawn_ < 0) {
-      if (++list_ == bins_.lists()) return true;
-      next_drawn_ = bins_.firstFace(static_cast<int>(next_), list_);
-      continue;
-    }
-    const std::int32_t face = next_drawn_;
-    next_drawn_ = bins_.nextFace(face);
-    ++work;
-    if (list_ >= bins_.firstSmallList()) {
-      bins_.smallFaces().draw(scene_, face, band_);
-      continue;
-    }
-    const PixelBounds bounds = faceBounds(scene_, *rays_, face);
-    drawFace(scene_, *rays_, face, bounds, band_);
-    work += (bounds.x_last - bounds.x_first) / 16;
+Status EdgeRenderer::stepAlone(bool& done) {
+  if (phase_ == Phase::kBands) {
+    const Status status = painter_.step(source(), *output_, done);
+    if (done) phase_ = Phase::kIdle;
+    return status;
   }
-  return false;
+  const std::size_t count = itemsOf(phase_);
+  const std::size_t last = std::min(next_ + kSlice, count);
+  if (phase_ == Phase::kVertices)
+    scene_.transform(output_->camera_from_station, *rays_, next_, last);
+  else
+    bins_.add(scene_, *rays_, next_, last, 0);
+  next_ = last;
+  if (last == count) enter(phase_ == Phase::kVertices ? Phase::kFaces : Phase::kBands);
+  return Status::kOk;
 }
 
-Status EdgeRenderer::closeBand() {
-  band_open_ = false;
-  if (surfaces_.wanted()) {
-    resolveDepths(scene_, band_);
-    copySurfaces(scene_, band_, output_->camera, surfaces_);
+void EdgeRenderer::work(int piece, int worker) {
+  if (piece < 0 || piece >= pieces() || worker < 0 ||
+      static_cast<std::size_t>(worker) >= workers_.size())
+    return;
+  if (phase_ == Phase::kBands) return drawBlock(piece, worker);
+  const std::size_t count = itemsOf(phase_);
+  const auto pieces = static_cast<std::size_t>(piece_count_);
+  const std::size_t first = count * static_cast<std::size_t>(piece) / pieces;
+  const std::size_t last = count * (static_cast<std::size_t>(piece) + 1) / pieces;
+  if (phase_ == Phase::kVertices)
+    scene_.transform(output_->camera_from_station, *rays_, first, last);
+  else
+    bins_.add(scene_, *rays_, first, last, piece);
+}
+
+/// The bands that hold faces in equal parts, those above and below with the outermost.
+int EdgeRenderer::beginOfBlock(int block) const {
+  if (block <= 0) return 0;
+  if (block >= piece_count_) return source().bands();
+  return covered_first_ + covered_count_ * block / piece_count_;
+}
+
+/// Bits go into rows of the output that are this block's alone; edge pixels to the worker's own,
+/// where a row's first is counted from the block's first.
+void EdgeRenderer::drawBlock(int index, int worker_index) {
+  Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
+  Block& block = blocks_[static_cast<std::size_t>(index)];
+  EdgeRender rows = *output_;
+  rows.pixels = worker.pixels.subspan(static_cast<std::size_t>(worker.pixel_count));
+  rows.pixel_count = 0;
+  const BandSource source = this->source();
+  worker.painter.begin(source, beginOfBlock(index), beginOfBlock(index + 1), rows);
+  bool done = false;
+  Status status = Status::kOk;
+  while (!done) status = worker.painter.step(source, rows, done);
+  block = {worker_index, worker.pixel_count, rows.pixel_count, status == Status::kOk};
+  worker.pixel_count += rows.pixel_count;
+}
+
+/// The blocks' edge pixels one after the other. Where there is no room for all, the rows before are
+/// those of a render by one alone, as is all else: it is made anew.
+Status EdgeRenderer::joinBlocks() {
+  EdgeRender& output = *output_;
+  const int height = output.camera.height;
+  bool fits = true;
+  for (int index = 0; index < piece_count_ && fits; ++index) {
+    const Block& block = blocks_[static_cast<std::size_t>(index)];
+    const auto begin = static_cast<std::size_t>(output.pixel_count);
+    const auto count = static_cast<std::size_t>(block.count);
+    fits = block.complete && count <= output.pixels.size() - begin;
+    if (!fits) break;
+    const Worker& worker = workers_[static_cast<std::size_t>(block.worker)];
+    std::copy_n(worker.pixels.begin() + block.first, block.count,
+                output.pixels.begin() + output.pixel_count);
+    const int first_row = BandPainter::firstRow(beginOfBlock(index), band_rows_);
+    const int end_row = index + 1 < piece_count_
+                            ? BandPainter::firstRow(beginOfBlock(index + 1), band_rows_)
+                            : height;
+    for (int y = first_row; y < end_row; ++y)
+      output.row_begin[static_cast<std::size_t>(y) + 1] += output.pixel_count;
+    output.pixel_count += block.count;
   }
-  const Columns compared = columnsAround(static_cast<int>(next_), 1, 0);
-  const bool final = band_.first_y + band_.rows >= output_->camera.height;
-  return salient_edges_.addBand(scene_, band_, compared.first, compared.last, final, *output_);
+  if (fits) return Status::kOk;
+  SalientEdges::clear(output);
+  painter_.begin(source(), 0, source().bands(), output);
+  bool done = false;
+  Status status = Status::kOk;
+  while (!done) status = painter_.step(source(), output, done);
+  return status;
 }
 
 }  // namespace boresight

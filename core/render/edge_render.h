@@ -13,12 +13,11 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
+#include "core/render/band_painter.h"
 #include "core/render/camera_scene.h"
 #include "core/render/edge_pixel.h"
 #include "core/render/face_bins.h"
-#include "core/render/rasterizer.h"
 #include "core/render/ray_grid.h"
-#include "core/render/salient_edges.h"
 #include "core/render/surface_render.h"
 
 namespace boresight {
@@ -61,6 +60,14 @@ std::int32_t findEdgePixel(const EdgeRender& render, int x, int y);
 
 /// Renders in bands of rows; memory is one band, not an image, and the mesh in the camera frame.
 /// The result does not depend on the bands' height.
+///
+/// With several workers each phase (vertices, faces, bands) consists of pieces that may be done at
+/// the same time, and the result does not depend on who does which:
+///
+///     while (!done) {
+///       for piece in 0 ... pieces() - 1, at the same time:  work(piece, worker)
+///       step(done)
+///     }
 class EdgeRenderer {
  public:
   static constexpr int kBandRows = 16;
@@ -69,14 +76,17 @@ class EdgeRenderer {
   /// adjacency must outlive the renderer. Counting arenas only count. kInvalidMesh, kInvalidImage
   /// (size), kInvalidOption, kArenaTooSmall.
   Status create(const MeshView& mesh, const MeshAdjacency& adjacency, int max_width, int max_height,
-                const RenderOptions& options, Arena& arena, int band_rows = kBandRows) {
-    return create(mesh, adjacency, max_width, max_height, options, arena, arena, band_rows);
+                const RenderOptions& options, Arena& arena, int band_rows = kBandRows,
+                int workers = 1) {
+    return create(mesh, adjacency, max_width, max_height, options, arena, arena, band_rows,
+                  workers);
   }
   /// The same with what is only needed from begin() to the last step in `scratch`: between two
-  /// renders somebody else may use that memory.
+  /// renders somebody else may use that memory. Each worker takes a band's memory, and when they
+  /// are several, room for all edge pixels.
   Status create(const MeshView& mesh, const MeshAdjacency& adjacency, int max_width, int max_height,
                 const RenderOptions& options, Arena& kept, Arena& scratch,
-                int band_rows = kBandRows);
+                int band_rows = kBandRows, int workers = 1);
   /// Draws small faces like all others, for comparison: the result is the same.
   void drawPlainly(bool plain) { plain_ = plain; }
   /// Starts one render; rays must be made for the camera of this level, and outlive the steps, as
@@ -85,34 +95,64 @@ class EdgeRenderer {
                const SurfaceRender& surfaces = {});
   /// One slice: some thousand vertices or faces, or a band; `done` when the render is complete.
   /// kCapacityExceeded when max_edge_pixels is not enough: the rows before are valid, `done` set.
+  /// With several workers it ends a phase all of whose pieces have been done.
   Status step(bool& done);
+
+  /// Pieces of the phase at hand; 0 with one worker, whose steps do everything.
+  int pieces() const { return phase_ == Phase::kIdle ? 0 : piece_count_; }
+  static int mostPieces(int workers) { return workers > 1 ? kPiecesPerWorker * workers : 0; }
+  /// Does one piece, each exactly once before the step. Calls at the same time need different
+  /// pieces and different workers.
+  void work(int piece, int worker);
 
  private:
   enum class Phase : std::uint8_t { kIdle, kVertices, kFaces, kBands };
-  using Columns = FaceBins::Columns;
+  /// More than one, so that a worker with a full part of the image need not be waited for.
+  static constexpr int kPiecesPerWorker = 4;
+  /// Bands in a row that one worker draws, and their edge pixels until all are known.
+  struct Block {
+    int worker = 0;
+    std::int32_t first = 0;  ///< of the worker's edge pixels
+    std::int32_t count = 0;
+    bool complete = false;
+  };
+  /// What a worker has to itself.
+  struct Worker {
+    BandPainter painter;
+    std::span<EdgePixel> pixels;
+    std::int32_t pixel_count = 0;
+  };
 
-  bool drawSome();
-  Columns columnsAround(int band, int before, int after) const;
-  void openBand();
-  Status closeBand();
+  void createWorkers(int workers, int max_pixels, const RenderOptions& options, Arena& kept,
+                     Arena& scratch);
+  std::size_t itemsOf(Phase phase) const;
+  int piecesOf(Phase phase) const;
+  void enter(Phase phase);
+  Status stepAlone(bool& done);
+  Status joinBlocks();
+  void findCoveredBands();
+  int beginOfBlock(int block) const;
+  void drawBlock(int index, int worker);
+  BandSource source() const { return {scene_, *rays_, bins_, surfaces_, band_rows_}; }
 
   CameraScene scene_;
-  RasterBand band_;
-  SalientEdges salient_edges_;
+  BandPainter painter_;
   FaceBins bins_;
   int max_width_ = 0;
   int max_height_ = 0;
   int band_rows_ = kBandRows;
+  std::span<Worker> workers_;  ///< kept; empty when there is one, who needs nothing more
+  std::span<Block> blocks_;    ///< from the last phase's beginning to its end
 
   const RayGrid* rays_ = nullptr;
   EdgeRender* output_ = nullptr;
   SurfaceRender surfaces_;
   Phase phase_ = Phase::kIdle;
-  std::size_t next_ = 0;  ///< vertex, face or band to go on with
+  std::size_t next_ = 0;  ///< vertex or face to go on with
   bool plain_ = false;
-  bool band_open_ = false;
-  int list_ = 0;                  ///< of the open band's faces
-  std::int32_t next_drawn_ = -1;  ///< face of that list to go on with
+  int piece_count_ = 0;
+  int covered_first_ = 0;  ///< bands from here on hold faces
+  int covered_count_ = 0;
 };
 
 }  // namespace boresight

@@ -55,17 +55,22 @@ class Chunk {
 
 }  // namespace
 
-FaceBins FaceBins::create(std::size_t faces, int max_bands, Arena& arena) {
+FaceBins FaceBins::create(std::size_t faces, int max_bands, int max_shares, Arena& arena) {
   FaceBins bins;
   bins.next_ = arena.allocate<std::int32_t>(faces);
   // Level k has a block for every 2^k bands: fewer than two per band and one per level in all.
   const int blocks = 2 * max_bands + kMostLevels;
-  bins.head_ = arena.allocate<std::int32_t>(static_cast<std::size_t>(blocks + 2 * max_bands) * 2);
-  bins.columns_ = arena.allocate<Columns>(static_cast<std::size_t>(max_bands));
+  bins.heads_ = static_cast<std::size_t>(blocks + 2 * max_bands) * 2;
+  bins.bands_ = static_cast<std::size_t>(max_bands);
+  const auto shares = static_cast<std::size_t>(max_shares);
+  bins.head_ = arena.allocate<std::int32_t>(shares * bins.heads_);
+  bins.columns_ = arena.allocate<Columns>(shares * bins.bands_);
   return bins;
 }
 
-void FaceBins::begin(const CameraScene& scene, const RayGrid& rays, int band_rows, bool plain) {
+void FaceBins::begin(const CameraScene& scene, const RayGrid& rays, int band_rows, bool plain,
+                     int shares) {
+  shares_ = shares;
   small_ = plain ? SmallFaces() : SmallFaces(scene, rays);
   band_rows_ = band_rows;
   const int bands = (rays.camera().height - 1) / band_rows + 1;
@@ -83,46 +88,50 @@ void FaceBins::begin(const CameraScene& scene, const RayGrid& rays, int band_row
 }
 
 std::int32_t FaceBins::firstFace(int band, int list) const {
-  // Each block three times: within it, with the next, and with the one before.
-  const int group = list / 3;
-  const int relation = list % 3;
+  // Each block three times: within it, with the next, and with the one before; and that of every
+  // share.
+  const int share = list % shares_;
+  const int group = list / shares_ / 3;
+  const int relation = list / shares_ % 3;
   const int level = levels_ - 1 - group;
   int block = level >= 0 ? band >> level : band;
   if (relation == 2) --block;
   if (block < 0) return -1;
   const int first = level >= 0 ? first_of_level_[static_cast<std::size_t>(level)]
                                : first_of_kind_[static_cast<std::size_t>(-1 - level)];
-  return head_[static_cast<std::size_t>((first + block) * 2 + (relation > 0 ? 1 : 0))];
+  return head_[static_cast<std::size_t>(share) * heads_ +
+               static_cast<std::size_t>((first + block) * 2 + (relation > 0 ? 1 : 0))];
 }
 
-void FaceBins::enter(std::int32_t face, Kind kind, const PixelBounds& bounds) {
+void FaceBins::enter(std::int32_t face, Kind kind, const PixelBounds& bounds, const Share& share) {
   const int first_band = bounds.y_first / band_rows_;
   const int last_band = bounds.y_last / band_rows_;
   for (int band = first_band; band <= last_band; ++band)
-    columns_[static_cast<std::size_t>(band)].include(bounds.x_first, bounds.x_last);
+    share.columns[static_cast<std::size_t>(band)].include(bounds.x_first, bounds.x_last);
   int level = 0;
   while ((last_band >> level) - (first_band >> level) > 1) ++level;
   const int block = first_band >> level;
   const int further = (last_band >> level) - block;
   const int first = kind == kWide || level > 0 ? first_of_level_[static_cast<std::size_t>(level)]
                                                : first_of_kind_[kind];
-  std::int32_t& head = head_[static_cast<std::size_t>((first + block) * 2 + further)];
+  std::int32_t& head = share.head[static_cast<std::size_t>((first + block) * 2 + further)];
   next_[static_cast<std::size_t>(face)] = head;
   head = face;
 }
 
-void FaceBins::addWide(CameraScene& scene, const RayGrid& rays, std::int32_t face) {
+void FaceBins::addWide(CameraScene& scene, const RayGrid& rays, std::int32_t face,
+                       const Share& share) {
   const PixelBounds bounds = faceBounds(scene, rays, face);
   if (bounds.empty()) return;
   scene.orient(face);
-  enter(face, kWide, bounds);
+  enter(face, kWide, bounds, share);
 }
 
 /// A face that its chunk could not rule out.
 void FaceBins::addOne(CameraScene& scene, const RayGrid& rays, std::int32_t face,
-                      const FixedFace& fixed) {
+                      const FixedFace& fixed, const Share& share) {
   if (fixed.low_x == FixedPixel::kNotProjected || !small_.isSmall(fixed))
-    return addWide(scene, rays, face);
+    return addWide(scene, rays, face, share);
   const PixelBox box = small_.box(fixed);
   const FixedScale& scale = small_.scale();
   const int tolerance = small_.tolerance(fixed);
@@ -145,14 +154,16 @@ void FaceBins::addOne(CameraScene& scene, const RayGrid& rays, std::int32_t face
     scene.setFrontFacing(face, area2 < 0);
   else
     scene.orient(face);
-  enter(face, scene.isFrontFacing(face) ? kSmallFront : kSmallBack, bounds);
+  enter(face, scene.isFrontFacing(face) ? kSmallFront : kSmallBack, bounds, share);
 }
 
 /// Most faces of a fine mesh lie between the centres of pixels: such are found many at a time.
-void FaceBins::add(CameraScene& scene, const RayGrid& rays, std::size_t first, std::size_t last) {
+void FaceBins::add(CameraScene& scene, const RayGrid& rays, std::size_t first, std::size_t last,
+                   int share) {
+  const Share entered = shareOf(share);
   if (!small_.possible()) {
     for (std::size_t face = first; face < last; ++face)
-      addWide(scene, rays, static_cast<std::int32_t>(face));
+      addWide(scene, rays, static_cast<std::int32_t>(face), entered);
     return;
   }
   Chunk chunk;
@@ -163,7 +174,15 @@ void FaceBins::add(CameraScene& scene, const RayGrid& rays, std::size_t first, s
     for (std::size_t i = 0; i < count; ++i)
       if (chunk.holdsCentre(i))
         addOne(scene, rays, static_cast<std::int32_t>(begin + i),
-               FixedFace(chunk.corner(0, i), chunk.corner(1, i), chunk.corner(2, i)));
+               FixedFace(chunk.corner(0, i), chunk.corner(1, i), chunk.corner(2, i)), entered);
+  }
+}
+
+void FaceBins::finish() {
+  for (int share = 1; share < shares_; ++share) {
+    const Share other = shareOf(share);
+    for (std::size_t band = 0; band < bands_; ++band)
+      columns_[band].include(other.columns[band].first, other.columns[band].last);
   }
 }
 

@@ -27,18 +27,21 @@ class FaceBins {
     }
   };
 
-  static FaceBins create(std::size_t faces, int max_bands, Arena& arena);
-  /// `plain`: no face is treated as small, for comparison.
-  void begin(const CameraScene& scene, const RayGrid& rays, int band_rows, bool plain);
+  static FaceBins create(std::size_t faces, int max_bands, int max_shares, Arena& arena);
+  /// `plain`: no face is treated as small, for comparison. Faces may be added in up to `max_shares`
+  /// shares, each by somebody else.
+  void begin(const CameraScene& scene, const RayGrid& rays, int band_rows, bool plain, int shares);
   /// Adds faces first .. last - 1 and sets their kFrontFacing.
-  void add(CameraScene& scene, const RayGrid& rays, std::size_t first, std::size_t last);
+  void add(CameraScene& scene, const RayGrid& rays, std::size_t first, std::size_t last, int share);
+  /// After the last face, before the first band.
+  void finish();
 
   const Columns& columns(int band) const { return columns_[static_cast<std::size_t>(band)]; }
 
   /// The faces of a band, in an order in which hidden ones mostly come last: lists 0 .. lists() -
   /// 1, those from firstSmallList() on of small faces. Some faces lie in other bands only.
-  int lists() const { return firstSmallList() + 6; }
-  int firstSmallList() const { return 3 * levels_; }
+  int lists() const { return firstSmallList() + 6 * shares_; }
+  int firstSmallList() const { return 3 * levels_ * shares_; }
   std::int32_t firstFace(int band, int list) const;
   std::int32_t nextFace(std::int32_t face) const { return next_[static_cast<std::size_t>(face)]; }
 
@@ -48,15 +51,28 @@ class FaceBins {
   enum Kind : std::uint8_t { kSmallFront, kSmallBack, kWide };
   /// Of the blocks of 2, 4, 8 .. bands into which faces that touch many bands are sorted.
   static constexpr int kMostLevels = 16;
-  void addOne(CameraScene& scene, const RayGrid& rays, std::int32_t face, const FixedFace& fixed);
-  void addWide(CameraScene& scene, const RayGrid& rays, std::int32_t face);
-  void enter(std::int32_t face, Kind kind, const PixelBounds& bounds);
+  /// Where the faces of one share are entered.
+  struct Share {
+    std::span<std::int32_t> head;
+    std::span<Columns> columns;
+  };
+  Share shareOf(int share) const {
+    const auto index = static_cast<std::size_t>(share);
+    return {head_.subspan(index * heads_, heads_), columns_.subspan(index * bands_, bands_)};
+  }
+  void addOne(CameraScene& scene, const RayGrid& rays, std::int32_t face, const FixedFace& fixed,
+              const Share& share);
+  void addWide(CameraScene& scene, const RayGrid& rays, std::int32_t face, const Share& share);
+  void enter(std::int32_t face, Kind kind, const PixelBounds& bounds, const Share& share);
 
   std::span<std::int32_t> next_;  ///< per face: the next one of its list
-  /// Per block of bands, the first face within it and the first that lies in the next one too:
-  /// small front faces, small back faces (blocks of one band), wide faces (all levels).
+  /// Per share and block of bands, the first face within it and the first that lies in the next one
+  /// too: small front faces, small back faces (blocks of one band), wide faces (all levels).
   std::span<std::int32_t> head_;
-  std::span<Columns> columns_;  ///< per band
+  std::span<Columns> columns_;  ///< per share and band; in the end the first share's are for all
+  std::size_t heads_ = 0;       ///< per share
+  std::size_t bands_ = 0;       ///< per share, at most
+  int shares_ = 1;
   std::array<int, 2> first_of_kind_{};
   std::array<int, kMostLevels> first_of_level_{};
   int levels_ = 0;

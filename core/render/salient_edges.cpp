@@ -76,8 +76,13 @@ SalientEdges SalientEdges::create(int max_width, Arena& arena) {
   return edges;
 }
 
-void SalientEdges::begin(EdgeRender& output) {
+void SalientEdges::begin(int first_y, int last_y) {
   planes_.clear();
+  first_y_ = first_y;
+  last_y_ = last_y;
+}
+
+void SalientEdges::clear(EdgeRender& output) {
   output.edges.clear();
   output.mask.clear();
   output.pixel_count = 0;
@@ -269,12 +274,13 @@ void SalientEdges::mark(const Context& context, const Sample& p, const Sample& q
   const RasterBand& band = context.band;
   const bool mark_p = crossing.s <= 0.5;
   const Sample& marked = mark_p ? p : q;
+  const int y = band.first_y + marked.row - 1;
+  if (y < first_y_ || y > last_y_) return;
   const Sample& own = crossing.nearer_is_p ? p : q;
   const bool is_own = mark_p == crossing.nearer_is_p;
 
   EdgePixel pixel;
   pixel.x = static_cast<std::int16_t>(marked.x);
-  const int y = band.first_y + marked.row - 1;
   pixel.y = static_cast<std::int16_t>(y);
   pixel.kind = crossing.kind;
   pixel.face = is_own ? own.face : crossing.face;
@@ -376,6 +382,11 @@ Status SalientEdges::finishRow(const Context& context, int row) {
   }
   output.row_begin[static_cast<std::size_t>(y) + 1] = output.pixel_count;
   return Status::kOk;
+}
+
+void SalientEdges::addRowAbove(const CameraScene& scene, const RasterBand& band, int x_first,
+                               int x_last, EdgeRender& output) {
+  compareBelow({scene, band, output}, 1, x_first, x_last);
 }
 
 Status SalientEdges::addBand(const CameraScene& scene, const RasterBand& band, int x_first,

@@ -27,8 +27,17 @@ class SalientEdges {
  public:
   static SalientEdges create(int max_width, Arena& arena);
 
-  /// Clears the output for a render of `width` x `height` pixels.
-  void begin(EdgeRender& output);
+  /// Clears the output for a render.
+  static void clear(EdgeRender& output);
+
+  /// Begins with bands from which rows first_y .. last_y of the image are completed; what pairs say
+  /// about pixels of other rows is somebody else's to find.
+  void begin(int first_y, int last_y);
+
+  /// Of the band's first two new rows, the pairs between them: they belong to the row below, the
+  /// first to be completed.
+  void addRowAbove(const CameraScene& scene, const RasterBand& band, int x_first, int x_last,
+                   EdgeRender& output);
 
   /// The pairs of a band's rows, columns x_first .. x_last: those within and below each row but the
   /// last, which is left to the next band unless this one is `final`. Rows that are complete are
@@ -82,6 +91,8 @@ class SalientEdges {
   PlaneCache planes_;
   std::span<EdgePixel> candidates_;  ///< two rows: this one and the next
   int stride_ = 0;
+  int first_y_ = 0;
+  int last_y_ = 0;
 };
 
 }  // namespace boresight

@@ -46,6 +46,7 @@ TEST(LocalizerPieces, MayBeDoneInAnyOrderByAnyWorkerOrNotAtAll) {
     for (const std::uint32_t share : {100u, 50u, 3u}) {
       SharedRun run(scene.problem(), options, 3);
       Random random(share);
+      bool rendered = false;
       bool matched = false;
       bool refined = false;
       StepReport report;
@@ -56,9 +57,11 @@ TEST(LocalizerPieces, MayBeDoneInAnyOrderByAnyWorkerOrNotAtAll) {
         }
         const bool had_pieces = run.localizer.pieces() > 0;
         report = run.localizer.step();
+        rendered = rendered || (had_pieces && report.stage == Stage::kRender);
         matched = matched || (had_pieces && report.stage == Stage::kMatch);
         refined = refined || (had_pieces && report.stage == Stage::kRefine);
       }
+      EXPECT_TRUE(rendered);
       EXPECT_TRUE(matched);
       EXPECT_EQ(refined, !paper);
       EXPECT_EQ(run.localizer.digest(), plain.localizer.digest()) << share;
@@ -68,22 +71,41 @@ TEST(LocalizerPieces, MayBeDoneInAnyOrderByAnyWorkerOrNotAtAll) {
 }
 
 TEST(LocalizerPieces, MayBeDoneAtTheSameTime) {
-  constexpr int kWorkers = 3;
   const Case scene = stationCase(6);
   OwnedRun plain(scene.problem(), defaultProfile());
   plain.finish();
-  SharedRun run(scene.problem(), defaultProfile(), kWorkers);
-  do {
-    const int pieces = run.localizer.pieces();
-    std::vector<std::jthread> threads;
-    for (int worker = 0; worker < kWorkers && pieces > 0; ++worker) {
-      threads.emplace_back([&run, pieces, worker] {
-        for (int piece = worker; piece < pieces; piece += kWorkers)
-          run.localizer.work(piece, worker);
-      });
+  for (const int workers : {2, 3, 8}) {
+    SharedRun run(scene.problem(), defaultProfile(), workers);
+    do {
+      const int pieces = run.localizer.pieces();
+      std::vector<std::jthread> threads;
+      for (int worker = 0; worker < workers && pieces > 0; ++worker) {
+        threads.emplace_back([&run, pieces, worker, workers] {
+          for (int piece = worker; piece < pieces; piece += workers)
+            run.localizer.work(piece, worker);
+        });
+      }
+    } while (!run.localizer.step().finished);
+    EXPECT_EQ(run.localizer.digest(), plain.localizer.digest()) << workers;
+  }
+}
+
+/// A fault while the render is shared out, and nobody but step() to do the pieces.
+TEST(LocalizerPieces, FaultsAreTheSame) {
+  const Case scene = stationCase(4);
+  LocalizerOptions options = defaultProfile();
+  options.render.max_edge_pixels = 1000;
+  OwnedRun plain(scene.problem(), options);
+  plain.finish();
+  ASSERT_EQ(plain.localizer.workspace().fault, Status::kCapacityExceeded);
+  for (const int workers : {2, 3}) {
+    SharedRun run(scene.problem(), options, workers);
+    while (!run.localizer.step().finished) {
     }
-  } while (!run.localizer.step().finished);
-  EXPECT_EQ(run.localizer.digest(), plain.localizer.digest());
+    EXPECT_EQ(run.localizer.workspace().fault, Status::kCapacityExceeded);
+    EXPECT_EQ(run.localizer.workspace().status, LocalizationStatus::kFault);
+    EXPECT_EQ(run.localizer.digest(), plain.localizer.digest());
+  }
 }
 
 TEST(LocalizerPieces, AreAStageOnceTheyAreDone) {

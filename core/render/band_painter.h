@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/arena.h"
+#include "core/base/status.h"
+#include "core/render/camera_scene.h"
+#include "core/render/edge_pixel.h"
+#include "core/render/face_bins.h"
+#include "core/render/rasterizer.h"
+#include "core/render/ray_grid.h"
+#include "core/render/salient_edges.h"
+#include "core/render/surface_render.h"
+
+namespace boresight {
+
+/// What is drawn, the same for all bands of a render.
+struct BandSource {
+  const CameraScene& scene;
+  const RayGrid& rays;
+  const FaceBins& bins;
+  const SurfaceRender& surfaces;
+  int band_rows;
+
+  int bands() const { return (rays.camera().height - 1) / band_rows + 1; }
+};
+
+/// Draws bands of rows one after the other and finds their salient edges; memory is one band. A
+/// render may be divided among several painters, each with some bands in a row: what comes out for
+/// a row does not depend on where the others begin.
+class BandPainter {
+ public:
+  static BandPainter create(int max_width, int band_rows, Arena& arena);
+
+  /// Begins with bands `first_band` ... end_band - 1, whose rows in `output` are clear. A row is
+  /// complete when the next one is drawn, so the painter completes the last row of the band before
+  /// its first one, and not its own last row unless the image ends there. Bands of a single row
+  /// cannot be divided.
+  void begin(const BandSource& source, int first_band, int end_band, EdgeRender& output);
+  /// One slice: a band, or a part of one that holds very many faces; `done` when all bands are.
+  /// Complete rows are appended to the output. kCapacityExceeded when its pixels are not enough:
+  /// the rows before are valid, `done` set.
+  Status step(const BandSource& source, EdgeRender& output, bool& done);
+
+  /// The first row that a painter of bands from `first_band` on completes.
+  static int firstRow(int first_band, int band_rows) {
+    return first_band > 0 ? first_band * band_rows - 1 : 0;
+  }
+
+ private:
+  void open(const BandSource& source, int band, int y, int rows);
+  bool drawSome(const BandSource& source);
+
+  RasterBand raster_;
+  SalientEdges salient_edges_;
+  int band_ = 0;  ///< to go on with
+  int end_band_ = 0;
+  bool open_ = false;
+  int drawn_band_ = 0;            ///< the open one
+  int list_ = 0;                  ///< of its faces
+  std::int32_t next_drawn_ = -1;  ///< face of that list to go on with
+};
+
+}  // namespace boresight
