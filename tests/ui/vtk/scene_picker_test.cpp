@@ -96,7 +96,8 @@ TEST(PickMesh, SaysWhenNothingIsThere) {
 TEST(PickMesh, DoesNotSnapToAVertexBehindAFace) {
   Stack stack;
   stack.view.view_from_station.translation_m = {0.05, 0.05, 0.16};  // over the near square's corner
-  auto moved = std::make_shared<sessions::LoadedCase>(*stack.content.one);
+  auto moved = std::make_shared<sessions::LoadedCase>();
+  moved->scene = stack.content.one->scene;
   moved->scene.vertices_in_station_m[6] = {0.02F, 0.02F, 0.1F};  // a far vertex, covered
   stack.content.one = moved;
   const QPointF pixel = stack.at({0.02, 0.02, 0.1});
