@@ -29,7 +29,7 @@ TEST(WhsByFft, GivesTheSameIntegersAsTheCore) {
     const SearchWindow& window = problem->window;
     std::vector<WhsCounts> map(static_cast<std::size_t>(window.width() * window.height()));
     whsScoreMap(problem->view, problem->test.image, window, map);
-    ASSERT_EQ(map, whsMapByFft(problem->view, problem->test.image, window))
+    ASSERT_EQ(map, test::whsMapByFft(problem->view, problem->test.image, window))
         << "trial " << trial << " side " << side;
   }
 }
@@ -51,7 +51,7 @@ TEST(WhsByFft, HasItsLargestValueWhereEverySearchEnds) {
     const auto problem =
         randomProblem(side, static_cast<MaskKind>(trial % kMaskKinds), 200, 150, dice);
     const SearchWindow& window = problem->window;
-    const std::vector<WhsCounts> map = whsMapByFft(problem->view, problem->test.image, window);
+    const std::vector<WhsCounts> map = test::whsMapByFft(problem->view, problem->test.image, window);
     const WhsNorms norms = whsNormsReference(problem->view);
     std::int64_t largest = 0;
     for (const WhsCounts& counts : map) largest = std::max(largest, whsComparable(counts, norms));
