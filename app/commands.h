@@ -23,6 +23,7 @@ void addSolve(CLI::App& app, int& exit_code);
 void addRender(CLI::App& app, int& exit_code);
 void addInfo(CLI::App& app, int& exit_code);
 void addOptions(CLI::App& app, int& exit_code);
+void addBench(CLI::App& app, int& exit_code);
 void addNew(CLI::App& app, int& exit_code);
 void addRun(CLI::App& app, int& exit_code);
 void addPack(CLI::App& app, int& exit_code);

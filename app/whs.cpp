@@ -30,6 +30,7 @@ int run(int argc, char** argv) {
   addRun(app, exit_code);
   addPack(app, exit_code);
   addProblem(app, exit_code);
+  addBench(app, exit_code);
   for (CLI::App* command : app.get_subcommands({}))
     command->set_version_flag("--version", std::string("whs ") + sessions::kVersion);
   try {

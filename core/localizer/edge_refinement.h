@@ -120,6 +120,10 @@ class EdgeRefinement {
   Status begin(const ImageView& image, const BitImage* ignore, const Camera& camera,
                const MeshView& mesh, const EdgeRender& render, double radius_px,
                const PosePrior* anchor, const PoseEstimate* matched, RefinementResult& result);
+  /// Another pose than the render's to start from, after begin().
+  void startFrom(const Pose& camera_from_station) {
+    result_->camera_from_station = camera_from_station;
+  }
   /// A round that looks for the image's edges does so in chunks of samples that do not depend on
   /// each other: different ones may be searched at the same time. 0 when what was found still
   /// serves.

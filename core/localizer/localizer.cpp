@@ -117,8 +117,10 @@ void Localizer::startHypothesis() {
     now.threshold_px = radius_px * static_cast<double>(1 << now.level);
   }
   now.status = LocalizationStatus::kRunning;
-  now.render = now.level == coarse_level_ ? coarse_render_[static_cast<std::size_t>(current_)]
-                                          : fine_render_;
+  if (!canReuseRender(now)) {
+    now.render = now.level == coarse_level_ ? coarse_render_[static_cast<std::size_t>(current_)]
+                                            : fine_render_;
+  }
   now.templates.count = 0;
   now.matches.count = 0;
   now.matches.searched = 0;
@@ -134,6 +136,10 @@ void Localizer::startHypothesis() {
 
 StepReport Localizer::stepRender() {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
+  if (!stage_begun_ && canReuseRender(now)) {
+    stage_ = Stage::kRefine;
+    return report(Stage::kRender, true);
+  }
   if (!stage_begun_) {
     const Eigen::Vector3d centre_in_camera_m = camera_from_station_ * bounds_.centre();
     const Pose rendered = hypothesis_ == 0
@@ -166,6 +172,13 @@ StepReport Localizer::stepRender() {
     }
   }
   return report(Stage::kRender, complete);
+}
+
+/// The last refinement's render shows the scene as it would be rendered again.
+bool Localizer::canReuseRender(const Iteration& now) const {
+  return now.kind == IterationKind::kRefine && iteration_ > options_.loop.match_iterations &&
+         imageDisplacement(now.render.camera_from_station, camera_from_station_) <
+             options_.loop.render_again_px;
 }
 
 StepReport Localizer::stepTemplates() {
@@ -367,7 +380,7 @@ StepReport Localizer::finishHypothesis(Stage stage) {
   const int kept = better ? current_ : other;
   ++hypothesis_;
   const int wanted = iteration_ == 0 ? rolledHypotheses() : 1;
-  if (hypothesis_ < wanted) {
+  if (hypothesis_ < wanted && !isConvincing(buffers_[static_cast<std::size_t>(kept)])) {
     has_best_ = true;
     current_ = 1 - kept;
     // Started by the next step: until then the caller sees the hypothesis that has ended.
@@ -382,6 +395,13 @@ StepReport Localizer::finishHypothesis(Stage stage) {
   return finishIteration(Stage::kPose, chosen.pnp.camera_from_station, chosen.pnp.covariance);
 }
 
+/// So many matches agree by chance with no pose. A further attempt looks at every roll.
+bool Localizer::isConvincing(const Iteration& iteration) const {
+  return attempt_ == 0 && iteration.status == LocalizationStatus::kRunning &&
+         iteration.pnp.inlier_count >=
+             options_.loop.enough_inliers * iteration.correspondence_count;
+}
+
 StepReport Localizer::stepRefine() {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   Status status = Status::kOk;
@@ -389,6 +409,7 @@ StepReport Localizer::stepRefine() {
     status = refinement_.begin(problem_.image, problem_.ignore, problem_.camera, problem_.mesh,
                                now.render, now.threshold_px, anchor(),
                                options_.loop.anchored ? &matched_ : nullptr, now.refinement);
+    refinement_.startFrom(camera_from_station_);
     stage_begun_ = true;
     if (status == Status::kOk) {
       openPieces(refinement_.chunks());

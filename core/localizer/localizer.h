@@ -153,6 +153,8 @@ class Localizer {
   bool nextUndone();
   void collectCorrespondences();
   void noteHypothesis();
+  bool isConvincing(const Iteration& iteration) const;
+  bool canReuseRender(const Iteration& now) const;
   StepReport failHypothesis(Stage stage, LocalizationStatus status);
   StepReport finishHypothesis(Stage stage);
   StepReport finishIteration(Stage stage, const Pose& camera_from_station,

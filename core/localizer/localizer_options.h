@@ -22,8 +22,10 @@ struct LoopOptions {
   std::int32_t max_attempts = 3;
   std::int32_t match_iterations = 2;
   std::int32_t coarse_size_px = 640;
+  std::int32_t halved_size_px = 512;
   std::int32_t max_rolled_hypotheses = 9;
   double roll_spacing_rad = 0.0767944870878;  ///< 4.4 deg
+  double enough_inliers = 0.5;
   double inlier_threshold_px = 8.0;
   double threshold_shrink = 0.5;
   double uncertainty_shrink = 0.5;
@@ -33,6 +35,7 @@ struct LoopOptions {
   double converged_rotation_rad = 0.00872664625997;  ///< 0.5 deg
   std::int32_t converged_iterations = 2;
   double converged_image_px = 0.25;
+  double render_again_px = 0.25;
   double leave_factor = 1.1;
   bool anchored = true;
   double match_sigma_px = 1.0;
@@ -56,6 +59,10 @@ struct LoopOptions {
             "loop.coarse_size_px", "px", 64, 16384,
             "The first iteration works at the level whose longer image side is at most this."},
         self.coarse_size_px);
+    visit(OptionInfo{"loop.halved_size_px", "px", 64, 16384,
+                     "An image whose longer side is more than this starts at half its resolution "
+                     "at least."},
+          self.halved_size_px);
     visit(OptionInfo{"loop.max_rolled_hypotheses", "", 1, 9,
                      "Renders of the first iteration, rolled about the view axis, at most."},
           self.max_rolled_hypotheses);
@@ -64,6 +71,10 @@ struct LoopOptions {
             "loop.roll_spacing_rad", "rad", 0.01, 3.2,
             "Angle between rolled renders; as many as cover the uncertainty about the view axis."},
         self.roll_spacing_rad);
+    visit(OptionInfo{"loop.enough_inliers", "", 0.0, 2.0,
+                     "A first attempt tries no further rolled renders after one with this share of "
+                     "inliers among its matches; above 1: it tries all."},
+          self.enough_inliers);
     visit(OptionInfo{"loop.inlier_threshold_px", "px", 0.1, 200.0,
                      "RANSAC threshold of the first iteration, in pixels of the full image."},
           self.inlier_threshold_px);
@@ -93,6 +104,10 @@ struct LoopOptions {
     visit(OptionInfo{"loop.converged_image_px", "px", 0.0, 100.0,
                      "A correction that moves the scene's box by less in the image is small, too."},
           self.converged_image_px);
+    visit(OptionInfo{"loop.render_again_px", "px", 0.0, 100.0,
+                     "A refinement goes on with the last one's render while the scene's box has "
+                     "moved by less in the image since."},
+          self.render_again_px);
     visit(
         OptionInfo{
             "loop.anchored", "", 0, 1,

@@ -66,10 +66,13 @@ LocalizerOptions paperProfile() {
   options.pnp.sampler = PnpSampler::kP3p;
   options.loop.match_iterations = options.loop.max_iterations;
   options.loop.coarse_size_px = 16384;
+  options.loop.halved_size_px = 16384;
   options.loop.max_rolled_hypotheses = 1;
   options.loop.max_attempts = 1;
   options.loop.correction_point = CorrectionPoint::kCamera;
   options.loop.converged_image_px = 0.0;
+  options.loop.enough_inliers = 2.0;
+  options.loop.render_again_px = 0.0;
   options.loop.anchored = false;
   options.refinement.enabled = false;
   options.support.gate = false;
@@ -88,9 +91,10 @@ ProblemSize sizeOf(const LocalizationProblem& problem) {
 
 namespace {
 
-int coarseLevel(int width, int height, int coarse_size_px) {
-  int level = 0;
-  while (level < kPyramidLevels - 1 && (std::max(width, height) >> level) > coarse_size_px) ++level;
+int coarseLevel(int width, int height, const LoopOptions& loop) {
+  const int longer = std::max(width, height);
+  int level = longer > loop.halved_size_px ? 1 : 0;
+  while (level < kPyramidLevels - 1 && (longer >> level) > loop.coarse_size_px) ++level;
   return level;
 }
 
@@ -236,7 +240,7 @@ Status Localizer::build() {
 
 Status Localizer::layOut(const ProblemSize& size) {
   if (workers_ < 1 || workers_ > kMaxWorkers) return Status::kInvalidOption;
-  coarse_level_ = coarseLevel(size.width, size.height, options_.loop.coarse_size_px);
+  coarse_level_ = coarseLevel(size.width, size.height, options_.loop);
   fine_level_ = std::max(0, coarse_level_ - 1);
   Status status = layOutKept();
   if (status == Status::kOk) status = layOutStages(size);

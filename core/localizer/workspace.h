@@ -67,9 +67,10 @@ struct Iteration {
   std::int32_t attempt = 0;
   IterationKind kind = IterationKind::kMatch;
   std::int32_t level = 0;
-  double threshold_px = 0.0;        ///< of the full image; the search radius when refining
-  Pose camera_from_station_before;  ///< what the render shows is this, rolled by the hypothesis
-                                    ///< chosen
+  double threshold_px = 0.0;  ///< of the full image; the search radius when refining
+  /// What the render shows is this, rolled by the hypothesis chosen; a refinement's may be the last
+  /// one's, from a pose less than loop.render_again_px away.
+  Pose camera_from_station_before;
   SeedUncertainty uncertainty;
   EdgeRender render;
   TemplateSet templates;

@@ -80,6 +80,29 @@ TEST(EdgeRefinement, ConvergesFromPixelsAway) {
   }
 }
 
+TEST(EdgeRefinement, EdgesFoundServeUntilThePoseHasMoved) {
+  const Case scene = stationCase(1);
+  const Pose start = poseOff(scene, 1.0, 5);
+  RefinementOptions always;
+  always.search_again_px = 0.0;
+  RefinementOptions once;
+  once.search_again_px = 50.0;
+  Refined each_round(always);
+  Refined spared;
+  Refined first_only(once);
+  for (Refined* refined : {&each_round, &spared, &first_only}) {
+    refined->pass(scene, start, 3.0);
+    ASSERT_EQ(refined->status, Status::kOk);
+  }
+  const auto between_px = [&scene](const Refined& a, const Refined& b) {
+    return meanDisplacement_px(scene.solid, scene.camera, a.result.camera_from_station,
+                               b.result.camera_from_station);
+  };
+  EXPECT_LT(between_px(each_round, spared), 0.02);
+  // Searched from a pixel away alone they are others.
+  EXPECT_GT(between_px(each_round, first_only), 0.05);
+}
+
 TEST(EdgeRefinement, CountsWhatItUses) {
   const Case scene = stationCase(1);
   Refined refined;

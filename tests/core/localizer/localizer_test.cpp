@@ -300,5 +300,68 @@ TEST(Localizer, ThresholdsAndUncertaintyHalveTwice) {
   EXPECT_GE(iterations, 4);
 }
 
+/// Rolled renders of the first iteration of each attempt.
+std::vector<int> rolledRenders(const Case& scene, const LocalizerOptions& options) {
+  OwnedRun run(scene.problem(), options);
+  std::vector<int> counts;
+  StepReport report;
+  while (!report.finished) {
+    report = run.localizer.step();
+    const Iteration* iteration = run.localizer.workspace().iteration;
+    if (!report.iteration_complete || iteration->kind != IterationKind::kMatch) continue;
+    if (static_cast<int>(counts.size()) == iteration->attempt)
+      counts.push_back(iteration->hypothesis_count);
+  }
+  return counts;
+}
+
+TEST(Localizer, AConvincingRenderSparesTheOthersInAFirstAttempt) {
+  Case scene = stationCase(2);
+  scene.uncertainty.rotation_rad.z() = 0.17;
+  LocalizerOptions options;
+  options.loop.enough_inliers = 2.0;
+  const std::vector<int> all = rolledRenders(scene, options);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0], 5);
+  options.loop.enough_inliers = 0.0;
+  EXPECT_EQ(rolledRenders(scene, options), std::vector<int>{1});
+  // A run that fails looks at all of them when it tries again.
+  options.support.min_support = 1.0;
+  const std::vector<int> attempts = rolledRenders(scene, options);
+  ASSERT_GE(attempts.size(), 2u);
+  EXPECT_EQ(attempts[0], 1);
+  EXPECT_EQ(attempts[1], 5);
+}
+
+TEST(Localizer, ARenderServesWhileTheSceneHardlyMoves) {
+  int reused = 0;
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    const Case scene = stationCase(seed);
+    Pose final_pose[2];
+    for (const bool again : {true, false}) {
+      LocalizerOptions options;
+      options.loop.render_again_px = again ? 0.0 : 0.25;
+      OwnedRun run(scene.problem(), options);
+      StepReport report;
+      while (!report.finished) {
+        report = run.localizer.step();
+        if (!report.iteration_complete) continue;
+        const Iteration& now = *run.localizer.workspace().iteration;
+        if (now.kind != IterationKind::kRefine) continue;
+        const double moved_px =
+            meanDisplacement_px(scene.solid, scene.camera, now.render.camera_from_station,
+                                now.camera_from_station_before);
+        EXPECT_TRUE(!again || moved_px == 0.0) << moved_px;
+        EXPECT_LT(moved_px, 0.5);  // the box's corners lie outside of the mesh
+        reused += moved_px > 0.0 ? 1 : 0;
+      }
+      ASSERT_EQ(run.localizer.workspace().status, LocalizationStatus::kConverged);
+      final_pose[again ? 1 : 0] = run.localizer.workspace().camera_from_station;
+    }
+    EXPECT_LT(meanDisplacement_px(scene.solid, scene.camera, final_pose[1], final_pose[0]), 0.03);
+  }
+  EXPECT_GT(reused, 0);
+}
+
 }  // namespace
 }  // namespace boresight::test
