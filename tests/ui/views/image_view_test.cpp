@@ -151,9 +151,8 @@ TEST_F(ImageViewTest, ADragMovesTheImageAndIsNoClick) {
   QSignalSpy clicks(&view_, &ImageView::clicked);
   const QPointF before = view_.transform().toWidget(QPointF(0.0, 0.0));
   QTest::mousePress(&view_, Qt::LeftButton, Qt::NoModifier, {100, 100});
-  QMouseEvent move(QEvent::MouseMove, QPointF(150.0, 120.0),
-                   view_.mapToGlobal(QPoint(150, 120)), Qt::NoButton, Qt::LeftButton,
-                   Qt::NoModifier);
+  QMouseEvent move(QEvent::MouseMove, QPointF(150.0, 120.0), view_.mapToGlobal(QPoint(150, 120)),
+                   Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
   QCoreApplication::sendEvent(&view_, &move);
   QTest::mouseRelease(&view_, Qt::LeftButton, Qt::NoModifier, {150, 120});
   const QPointF after = view_.transform().toWidget(QPointF(0.0, 0.0));

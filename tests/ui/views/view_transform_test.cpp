@@ -9,7 +9,9 @@
 namespace boresight::ui {
 namespace {
 
-double distance(const QPointF& a, const QPointF& b) { return std::hypot(a.x() - b.x(), a.y() - b.y()); }
+double distance(const QPointF& a, const QPointF& b) {
+  return std::hypot(a.x() - b.x(), a.y() - b.y());
+}
 
 TEST(ViewTransform, PixelsComeBack) {
   std::mt19937 random(7);

@@ -153,10 +153,10 @@ TEST_F(SceneViewTest, ThroughTheCameraTheMeshLiesWhereTheImageShowsIt) {
   view_.setThroughRole(PoseRole::kTruth);
   const Viewpoint view = view_.viewpoint();
   EXPECT_EQ(view.view_from_station.translation_m,
-            test::sceneCase()->camera_from_station_truth->translation_m);
+            test::sceneCase()->source.camera_from_station_truth->translation_m);
   // Mirrors the camera's principal point, which is not the canvas' centre.
   const QPointF centre = view_.imageTransform().toWidget(
-      QPointF(test::sceneCase()->camera.cx, test::sceneCase()->camera.cy));
+      QPointF(test::sceneCase()->source.camera.cx, test::sceneCase()->source.camera.cy));
   EXPECT_NEAR(view.camera.cx + 0.5, centre.x(), 1e-9);
   EXPECT_NEAR(view.camera.cy + 0.5, centre.y(), 1e-9);
 }

@@ -13,9 +13,9 @@ namespace {
 
 TEST(DroppedFiles, FourFilesMakeACase) {
   const std::filesystem::path folder = test::exampleFolder() / "bc";
-  const DroppedFiles dropped = classify({folder / "model.ply", folder / "seed.json",
-                                         folder / "image.png", folder / "camera.json",
-                                         folder / "truth.json"});
+  const DroppedFiles dropped =
+      classify({folder / "model.ply", folder / "seed.json", folder / "image.png",
+                folder / "camera.json", folder / "truth.json"});
   EXPECT_TRUE(dropped.problems.empty());
   EXPECT_TRUE(dropped.isCase());
   EXPECT_EQ(dropped.missing(), "");
@@ -47,8 +47,8 @@ TEST(DroppedFiles, WhatIsNothingKnownIsToldByName) {
   std::ofstream(folder.path() / "odd.json") << R"({"format": "boresight-points", "version": 1})";
   std::ofstream(folder.path() / "broken.json") << "{";
   std::ofstream(folder.path() / "notes.txt") << "hello";
-  const DroppedFiles dropped = classify({folder.path() / "odd.json", folder.path() / "broken.json",
-                                         folder.path() / "notes.txt"});
+  const DroppedFiles dropped = classify(
+      {folder.path() / "odd.json", folder.path() / "broken.json", folder.path() / "notes.txt"});
   ASSERT_EQ(dropped.problems.size(), 3u);
   EXPECT_NE(dropped.problems[0].find("odd.json"), std::string::npos);
   EXPECT_NE(dropped.problems[1].find("broken.json"), std::string::npos);

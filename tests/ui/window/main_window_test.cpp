@@ -69,8 +69,8 @@ TEST_F(MainWindowTest, RunsToTheEndWithTheDigestOfAHeadlessRun) {
   ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kFinished && resting(); }));
   const auto& session = window_.document().session();
   ASSERT_EQ(session.runs.size(), 1u) << "the run is in the session";
-  const sessions::LocalizationTrace headless = sessions::runCase(
-      session, session.runs[0].case_id, sessions::RecordLevel::kSummary);
+  const sessions::LocalizationTrace headless =
+      sessions::runCase(session, session.runs[0].case_id, sessions::RecordLevel::kSummary);
   EXPECT_EQ(session.runs[0].digest, headless.digest);
   EXPECT_EQ(window_.state().snapshot()->iterations.size(), headless.iterations.size());
 }
@@ -88,7 +88,8 @@ TEST_F(MainWindowTest, StepsAStageAndAnIteration) {
   EXPECT_TRUE(window_.state().snapshot()->last_under_way);
   QTest::keyClick(&window_, Qt::Key_F6);
   ASSERT_TRUE(wait([&] {
-    return window_.run().state() == RunState::kHalted && !window_.state().snapshot()->last_under_way;
+    return window_.run().state() == RunState::kHalted &&
+           !window_.state().snapshot()->last_under_way;
   }));
   EXPECT_EQ(window_.state().snapshot()->iterations.size(), 1u);
   EXPECT_EQ(window_.state().cursor().iteration, 0);
