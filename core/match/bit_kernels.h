@@ -88,7 +88,7 @@ template <class Word>
   return carry;
 }
 
-#if defined(__AVX512F__)
+#if defined(BORESIGHT_AVX512_KERNELS)
 /// The same in two instructions: parity and majority of three as lookups.
 template <>
 [[gnu::always_inline]] inline Word8 fullAdd(Word8& sum, const Word8& a, const Word8& b) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Before the loops, which use it where it is there.
+// Before the loops, which use it where it is there. The compiler's own macro would not do: it is
+// also set where a whole build is for such a machine.
+#define BORESIGHT_AVX512_KERNELS
 #include <immintrin.h>
 
 #include "core/match/column_kernels_impl.h"

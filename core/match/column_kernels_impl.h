@@ -71,7 +71,7 @@ template <class Word>
   for (int i = 0; i < kWordsIn<Word>; ++i) any |= words[i];
   return any != 0;
 }
-#if defined(__AVX512F__)
+#if defined(BORESIGHT_AVX512_KERNELS)
 template <>
 [[gnu::always_inline]] inline bool anyBit(const Word8& words) {
   const __m512i all = reinterpret_cast<__m512i>(words);
@@ -93,7 +93,7 @@ template <class Word>
   // In two shifts, so that none reaches 64.
   return (left >> shift) | ((right << 1) << (63 - shift));
 }
-#if defined(__AVX512VBMI2__)
+#if defined(BORESIGHT_AVX512_KERNELS)
 template <>
 [[gnu::always_inline]] inline Word8 shiftedRight(const Word8& left, const Word8& right, int shift) {
   return reinterpret_cast<Word8>(_mm512_shrdv_epi64(
