@@ -15,7 +15,7 @@ for needed in "$(command -v "${prefix}nm" || true)" "$library"; do
 done
 
 # Memory and strings that compilers call by themselves, and the two roundings-free functions.
-allowed='memcpy|memmove|memset|memcmp|strlen|sqrt|floor'
+allowed='memcpy|memmove|memset|memcmp|bcmp|strlen|sqrt|floor'
 # Which of the processor's vector units may be used is found out at run time.
 allowed+='|__cpu_model|__cpu_indicator_init|__cpu_features2'
 # Arithmetic that the processor does not have: 64-bit integers, their conversion, counting of bits.
