@@ -19,6 +19,7 @@
 #include <cmath>
 
 #include "sessions/report/undistort.h"
+#include "ui/views/pointer_place.h"
 #include "ui/vtk/scene_overlay.h"
 
 namespace boresight::ui {
@@ -337,7 +338,8 @@ void SceneView::orderBackdrop() {
   });
 }
 
-void SceneView::takeBackdrop(const std::shared_ptr<const sessions::LoadedCase>& one, const QImage& gray) {
+void SceneView::takeBackdrop(const std::shared_ptr<const sessions::LoadedCase>& one,
+                             const QImage& gray) {
   if (backdrop_of_.lock() != one) return;
   backdrop_ = gray;
   updateView();
@@ -364,17 +366,17 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
       return false;
     case QEvent::MouseButtonPress: {
       const auto* mouse = static_cast<QMouseEvent*>(event);
-      press(mouse->pos(), mouse->button());
+      press(pointerPlace(*mouse, *canvas()), mouse->button());
       return true;
     }
     case QEvent::MouseMove: {
       const auto* mouse = static_cast<QMouseEvent*>(event);
-      drag(mouse->pos(), mouse->buttons(), mouse->modifiers());
+      drag(pointerPlace(*mouse, *canvas()), mouse->buttons(), mouse->modifiers());
       return true;
     }
     case QEvent::MouseButtonRelease: {
       const auto* mouse = static_cast<QMouseEvent*>(event);
-      release(mouse->pos(), mouse->button());
+      release(pointerPlace(*mouse, *canvas()), mouse->button());
       return true;
     }
     case QEvent::MouseButtonDblClick:
