@@ -9,9 +9,7 @@
 #include <QLabel>
 #include <QMenu>
 #include <QMouseEvent>
-#include <QPointer>
 #include <QSlider>
-#include <QThreadPool>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <QWheelEvent>
@@ -326,16 +324,12 @@ void SceneView::orderBackdrop() {
     return;
   }
   backdrop_ = QImage();
-  const QPointer<SceneView> self(this);
-  QThreadPool::globalInstance()->start([one, self] {
-    const QImage gray = copyOf(sessions::undistort(one->source.camera, one->image.view()).view());
-    QMetaObject::invokeMethod(
-        qApp,
-        [one, self, gray] {
-          if (self) self->takeBackdrop(one, gray);
-        },
-        Qt::QueuedConnection);
-  });
+  runner_.start(
+      QStringLiteral("backdrop"),
+      [one](const std::stop_token&) {
+        return copyOf(sessions::undistort(one->source.camera, one->image.view()).view());
+      },
+      [this, one](const QImage& gray) { takeBackdrop(one, gray); });
 }
 
 void SceneView::takeBackdrop(const std::shared_ptr<const sessions::LoadedCase>& one,
