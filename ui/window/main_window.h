@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include <QMainWindow>
@@ -11,20 +12,17 @@
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
 #include "ui/window/case_controller.h"
-#include "ui/window/dropped_files.h"
+#include "ui/window/window_parts.h"
 
-class QAction;
 class QDockWidget;
 class QLabel;
 
 namespace boresight::ui {
 
-class CasesPanel;
-class ConfigurationPanel;
 class ImagePanel;
-class InputSheetPanel;
-class PosePanel;
-class PoseRenderer;
+class SessionFiles;
+class WindowDocks;
+class WindowMenus;
 
 /// The window: docks round the image, menus, keys. It only connects what lies beside it.
 class MainWindow : public QMainWindow {
@@ -48,7 +46,7 @@ class MainWindow : public QMainWindow {
   RunController& run() { return run_; }
   TaskRunner& tasks() { return tasks_; }
   CaseController& cases() { return cases_; }
-  ImagePanel& image() { return *image_; }
+  ImagePanel& image();
   /// The dock of this object name, or nullptr.
   QDockWidget* dock(const QString& name) const;
 
@@ -58,67 +56,24 @@ class MainWindow : public QMainWindow {
   void dropEvent(QDropEvent* event) override;
 
  private:
-  void buildDocks();
-  void connectCases();
-  void connectConfiguration();
-  void connectPoses();
-  void showCases();
-  void showConfiguration();
-  void showInputs();
-  void buildMenus();
-  void buildFileMenu();
-  void buildEditMenu();
-  void buildRunMenu();
-  void buildViewMenu();
-  void buildHelpMenu();
   void buildStatusBar();
-  QDockWidget* addDock(const QString& name, const QString& title, QWidget* widget,
-                       Qt::DockWidgetArea area);
-  QAction* action(const QString& text, const QKeySequence& keys, const QString& tip);
-
-  void askForSession();
-  void askForFiles();
-  bool saveSession();
-  bool saveSessionAs();
-  bool mayClose();
+  void connectAll();
   void showDocument();
-  void offerRecovery();
-  void showRunState();
-  void updateActions();
+  void showState();
   void showMessage(const QString& message);
-  void noteRecent(const std::filesystem::path& file);
-  void showRecent();
-  bool askForUnits(sessions::CaseFiles& files);
 
   Document document_;
   ViewState state_;
   TaskRunner tasks_;
   RunController run_;
   CaseController cases_;
-  ImagePanel* image_ = nullptr;
-  CasesPanel* cases_panel_ = nullptr;
-  ConfigurationPanel* configuration_ = nullptr;
-  InputSheetPanel* inputs_ = nullptr;
-  PosePanel* poses_ = nullptr;
-  PoseRenderer* nudged_ = nullptr;
+  WindowParts parts_;
+  std::unique_ptr<WindowDocks> docks_;
+  SessionFiles* files_ = nullptr;
+  WindowMenus* menus_ = nullptr;
+  QLabel* run_label_ = nullptr;
   bool quiet_ = false;
   QString last_message_;
-  DroppedFiles collected_;  ///< of a case that is not complete yet
-
-  QAction* save_ = nullptr;
-  QAction* save_as_ = nullptr;
-  QAction* undo_ = nullptr;
-  QAction* redo_ = nullptr;
-  QAction* run_to_end_ = nullptr;
-  QAction* step_stage_ = nullptr;
-  QAction* step_iteration_ = nullptr;
-  QAction* stop_ = nullptr;
-  QAction* reset_ = nullptr;
-  QAction* run_all_ = nullptr;
-  QMenu* recent_menu_ = nullptr;
-  QMenu* view_menu_ = nullptr;
-  QLabel* place_label_ = nullptr;
-  QLabel* run_label_ = nullptr;
 };
 
 }  // namespace boresight::ui

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/panel_links.h"
+
+#include "sessions/session/input_sheet.h"
+#include "ui/panels/cases_panel.h"
+#include "ui/panels/configuration_panel.h"
+#include "ui/panels/input_sheet_panel.h"
+#include "ui/panels/pose_panel.h"
+#include "ui/run/pose_renderer.h"
+#include "ui/run/run_controller.h"
+#include "ui/run/task_runner.h"
+#include "ui/state/document.h"
+#include "ui/state/view_state.h"
+#include "ui/views/image_panel.h"
+#include "ui/window/case_controller.h"
+#include "ui/window/case_rows.h"
+#include "ui/window/window_docks.h"
+
+namespace boresight::ui {
+
+PanelLinks::PanelLinks(const WindowParts& parts, const WindowDocks& docks, QObject* parent)
+    : QObject(parent), parts_(parts), docks_(docks), nudged_(new PoseRenderer(this)) {
+  linkCases();
+  linkConfiguration();
+  linkPoses();
+  connect(&parts_.state, &ViewState::caseChanged, this, &PanelLinks::showInputs);
+}
+
+void PanelLinks::linkCases() {
+  CasesPanel& panel = docks_.cases();
+  CaseController& cases = parts_.cases;
+  connect(&panel, &CasesPanel::openRequested, &cases, &CaseController::chooseCase);
+  connect(&panel, &CasesPanel::runRequested, this,
+          [this](const QString& id) { parts_.cases.runAll({id}); });
+  connect(&panel, &CasesPanel::runAllRequested, &cases, &CaseController::runAll);
+  connect(&cases, &CaseController::caseChosen, this, [this](const QString& id) {
+    showCases();
+    docks_.cases().setCurrent(id);
+  });
+  connect(&parts_.document, &Document::opened, this, &PanelLinks::showCases);
+  connect(&parts_.document, &Document::changed, this, &PanelLinks::showCases);
+  connect(&parts_.run, &RunController::stateChanged, this, &PanelLinks::showCases);
+}
+
+void PanelLinks::linkConfiguration() {
+  ConfigurationPanel& panel = docks_.configuration();
+  connect(&panel, &ConfigurationPanel::optionsEdited, &parts_.cases, &CaseController::setOptions);
+  connect(&panel, &ConfigurationPanel::runAgainRequested, this, [this] {
+    parts_.cases.reset();
+    parts_.cases.advance(sessions::StepUntil::kEnd);
+  });
+  connect(&parts_.document, &Document::opened, this, &PanelLinks::showConfiguration);
+  connect(&parts_.document, &Document::changed, this, &PanelLinks::showConfiguration);
+}
+
+void PanelLinks::linkPoses() {
+  connect(&docks_.poses(), &PosePanel::useAsSeedRequested, &parts_.cases,
+          &CaseController::useAsSeed);
+  connect(&parts_.state, &ViewState::caseChanged, this, &PanelLinks::showJudgement);
+  connect(&parts_.state, &ViewState::nudgedPoseChanged, this, &PanelLinks::showNudgedPose);
+  connect(nudged_, &PoseRenderer::rendered, &docks_.image(), &ImagePanel::setNudgedRender);
+}
+
+void PanelLinks::showCases() {
+  const bool working = parts_.run.state() == RunState::kWorking;
+  docks_.cases().setRows(
+      caseRows(parts_.document.session(), working ? parts_.cases.caseId() : QString()));
+  docks_.cases().setRunnable(!working);
+}
+
+void PanelLinks::showConfiguration() {
+  try {
+    const sessions::Session& session = parts_.document.session();
+    docks_.configuration().setOptions(QString::fromStdString(session.profile),
+                                      sessions::sessionOptions(session, parts_.document.file()));
+    const ViewState::CasePtr& one = parts_.state.currentCase();
+    docks_.configuration().setCaseFeatureSize(one ? one->source.feature_size_m.value_or(0.0) : 0.0);
+  } catch (const std::exception& error) {
+    Q_EMIT failed(QString::fromUtf8(error.what()));
+  }
+}
+
+/// Figures of the inputs take a look at every pixel and face: off this thread.
+void PanelLinks::showInputs() {
+  const ViewState::CasePtr one = parts_.state.currentCase();
+  docks_.inputs().setSheet(std::nullopt);
+  showConfiguration();
+  if (!one) return;
+  parts_.tasks.start(
+      QStringLiteral("input sheet"),
+      [one](const std::stop_token&) { return sessions::inputSheet(*one); },
+      [this, one](sessions::InputSheet sheet) {
+        if (one == parts_.state.currentCase()) docks_.inputs().setSheet(std::move(sheet));
+      });
+}
+
+void PanelLinks::showJudgement() {
+  const ViewState::CasePtr& one = parts_.state.currentCase();
+  nudged_->setCase(one);
+  PoseJudgement judgement;
+  if (one) {
+    judgement.requirement = one->source.requirement;
+    judgement.camera_from_end_effector = one->source.camera_from_end_effector;
+  }
+  docks_.poses().setJudgement(judgement);
+}
+
+void PanelLinks::showNudgedPose() {
+  if (parts_.state.nudgedPose()) {
+    nudged_->setPose(*parts_.state.nudgedPose());
+  } else {
+    nudged_->clear();
+    docks_.image().setNudgedRender(nullptr, 0);
+  }
+}
+
+}  // namespace boresight::ui

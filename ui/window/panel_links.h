@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QObject>
+
+#include "ui/window/window_parts.h"
+
+namespace boresight::ui {
+
+class PoseRenderer;
+class WindowDocks;
+
+/// Keeps the panels in step with the document, the worker and the view state, and hands on what a
+/// person asks of them. Panels that follow the view state alone are not known here.
+class PanelLinks : public QObject {
+  Q_OBJECT
+
+ public:
+  PanelLinks(const WindowParts& parts, const WindowDocks& docks, QObject* parent = nullptr);
+
+ Q_SIGNALS:
+  /// A panel cannot show something; one sentence.
+  void failed(const QString& message);
+
+ private:
+  void linkCases();
+  void linkConfiguration();
+  void linkPoses();
+  void showCases();
+  void showConfiguration();
+  void showInputs();
+  void showJudgement();
+  void showNudgedPose();
+
+  WindowParts parts_;
+  const WindowDocks& docks_;
+  PoseRenderer* nudged_;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/session_files.h"
+
+#include <exception>
+#include <utility>
+
+#include <QFileDialog>
+#include <QInputDialog>
+#include <QMessageBox>
+#include <QPushButton>
+
+#include "sessions/session/session_maker.h"
+#include "ui/state/document.h"
+#include "ui/window/case_controller.h"
+#include "ui/window/recent_files.h"
+
+namespace boresight::ui {
+namespace {
+
+QString text(const std::filesystem::path& file) { return QString::fromStdString(file.string()); }
+
+std::filesystem::path path(const QString& file) { return file.toStdString(); }
+
+}  // namespace
+
+SessionFiles::SessionFiles(QWidget& window, const WindowParts& parts)
+    : QObject(&window), window_(window), parts_(parts) {}
+
+bool SessionFiles::open(const std::filesystem::path& file) {
+  if (!parts_.document.open(file)) return false;
+  noteRecentFile(file);
+  return true;
+}
+
+void SessionFiles::askForSession() {
+  if (!mayLeave()) return;
+  const QString file = QFileDialog::getOpenFileName(&window_, tr("Open a session"), {},
+                                                    tr("Sessions (*.json);;All files (*)"));
+  if (!file.isEmpty()) open(path(file));
+}
+
+void SessionFiles::askForFiles() {
+  const QStringList files = QFileDialog::getOpenFileNames(
+      &window_, tr("A dataset, or an image, a camera, a mesh and a seed"), {},
+      tr("All (*.json *.png *.jpg *.jpeg *.tif *.tiff *.ply *.obj *.stl *.gltf *.glb)"));
+  std::vector<std::filesystem::path> paths;
+  for (const QString& file : files) paths.push_back(path(file));
+  if (!paths.empty()) take(paths);
+}
+
+void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
+  const DroppedFiles dropped = classify(files, collected_);
+  for (const std::string& problem : dropped.problems)
+    Q_EMIT failed(QString::fromStdString(problem));
+  if (dropped.session) {
+    if (mayLeave()) open(*dropped.session);
+    return;
+  }
+  collected_ = dropped;
+  if (!dropped.dataset && !dropped.isCase()) {
+    if (dropped.problems.empty())
+      Q_EMIT noted(tr("Taken. Still missing: %1").arg(QString::fromStdString(dropped.missing())));
+    return;
+  }
+  try {
+    if (dropped.dataset) {
+      makeFromDataset(*dropped.dataset);
+    } else {
+      addCase();
+    }
+  } catch (const std::exception& error) {
+    collected_ = {};
+    Q_EMIT failed(QString::fromUtf8(error.what()));
+  }
+}
+
+void SessionFiles::makeFromDataset(const std::filesystem::path& dataset) {
+  if (!mayLeave()) return;
+  parts_.document.createUntitled(sessions::makeSession(dataset));
+  collected_ = {};
+}
+
+void SessionFiles::addCase() {
+  if (!askForUnits()) return;
+  sessions::MadeCase made = sessions::makeCase(collected_.one);
+  const QString id = QString::fromStdString(made.made.id);
+  Document& document = parts_.document;
+  const sessions::Session session = sessions::withCase(document.session(), std::move(made.made));
+  if (!document.isOpen() || !document.readOnlyReason().isEmpty()) {
+    document.createUntitled(session);
+  } else if (document.edit(session, tr("Add %1").arg(id))) {
+    parts_.cases.chooseCase(id);
+  }
+  collected_ = {};
+}
+
+bool SessionFiles::askForUnits() {
+  for (sessions::PartSource& part : collected_.one.parts) {
+    if (!part.mesh_unit.empty()) continue;
+    const std::string extension = part.mesh.extension().string();
+    if (extension == ".gltf" || extension == ".glb") continue;  // metres by their definition
+    bool chosen = false;
+    const QString unit = QInputDialog::getItem(
+        &window_, tr("Unit of the mesh"),
+        tr("%1 states no unit. Its coordinates are in").arg(text(part.mesh.filename())),
+        {QStringLiteral("m"), QStringLiteral("mm"), QStringLiteral("cm"), QStringLiteral("in"),
+         QStringLiteral("ft")},
+        0, false, &chosen);
+    if (!chosen) return false;
+    part.mesh_unit = unit.toStdString();
+  }
+  return true;
+}
+
+bool SessionFiles::save() {
+  if (parts_.document.isUntitled()) return saveAs();
+  return parts_.document.save();
+}
+
+bool SessionFiles::saveAs() {
+  const QString file = QFileDialog::getSaveFileName(&window_, tr("Save the session"), {},
+                                                    tr("Sessions (*.boresight.json)"));
+  if (file.isEmpty() || !parts_.document.saveAs(path(file))) return false;
+  noteRecentFile(path(file));
+  return true;
+}
+
+bool SessionFiles::mayLeave() {
+  const Document& document = parts_.document;
+  if (!document.isModified()) return true;
+  QMessageBox box(QMessageBox::Question, tr("Boresight"),
+                  tr("Save the changes of %1?").arg(text(document.file().filename())),
+                  QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
+  box.setInformativeText(
+      tr("Changes that are not saved stay in the journal and are offered when "
+         "the session is opened again."));
+  const int answer = box.exec();
+  if (answer == QMessageBox::Save) return save();
+  return answer == QMessageBox::Discard;
+}
+
+void SessionFiles::offerRecovery() {
+  Document& document = parts_.document;
+  if (!document.recovery()) return;
+  const sessions::Recovery& recovery = **document.recovery();
+  QMessageBox box(QMessageBox::Question, tr("Boresight"),
+                  tr("%1 has %n change(s) that were made but not saved, the last one at %2.", "",
+                     static_cast<int>(recovery.edits.size()))
+                      .arg(text(document.file().filename()), QString::fromStdString(recovery.time)),
+                  QMessageBox::NoButton, &window_);
+  QStringList edits;
+  for (const std::string& edit : recovery.edits) edits << QString::fromStdString(edit);
+  box.setDetailedText(edits.join(QLatin1Char('\n')));
+  QAbstractButton* accept = box.addButton(tr("Recover them"), QMessageBox::AcceptRole);
+  box.addButton(tr("Set them aside"), QMessageBox::DestructiveRole);
+  box.exec();
+  if (box.clickedButton() == accept) {
+    document.acceptRecovery();
+  } else {
+    document.declineRecovery();
+  }
+}
+
+}  // namespace boresight::ui

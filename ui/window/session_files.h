@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include <QObject>
+#include <QString>
+
+#include "ui/window/dropped_files.h"
+#include "ui/window/window_parts.h"
+
+class QWidget;
+
+namespace boresight::ui {
+
+/// Sessions and what they are made of, from and to files: opening, making, saving, recovering. Asks
+/// a person where it must, in front of the window.
+class SessionFiles : public QObject {
+  Q_OBJECT
+
+ public:
+  SessionFiles(QWidget& window, const WindowParts& parts);
+
+  /// False, with a message, when it cannot be opened.
+  bool open(const std::filesystem::path& file);
+  /// Another session, a dataset, or what makes a case; parts of a case are kept until it is whole.
+  void take(const std::vector<std::filesystem::path>& files);
+  /// Whether the open session may be left; asks when it has changes.
+  bool mayLeave();
+  /// Offers the edits of a program that was killed, if there are any.
+  void offerRecovery();
+
+ public Q_SLOTS:
+  void askForSession();
+  void askForFiles();
+  bool save();
+  bool saveAs();
+
+ Q_SIGNALS:
+  /// Something could not be done; one sentence.
+  void failed(const QString& message);
+  /// What happened, for the status bar.
+  void noted(const QString& message);
+
+ private:
+  void makeFromDataset(const std::filesystem::path& dataset);
+  void addCase();
+  bool askForUnits();
+
+  QWidget& window_;
+  WindowParts parts_;
+  DroppedFiles collected_;  ///< of a case that is not complete yet
+};
+
+}  // namespace boresight::ui

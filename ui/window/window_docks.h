@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <QString>
+
+#include "ui/window/window_parts.h"
+
+class QDockWidget;
+class QMainWindow;
+
+namespace boresight::ui {
+
+class CasesPanel;
+class ConfigurationPanel;
+class ImagePanel;
+class InputSheetPanel;
+class PosePanel;
+
+/// The panels of the window and the docks that they lie in, as they are when the program starts for
+/// the first time. Each dock has an object name by which its place is remembered and by which
+/// pictures of it are asked for.
+class WindowDocks {
+ public:
+  WindowDocks(QMainWindow& window, const WindowParts& parts);
+
+  ImagePanel& image() const { return *image_; }
+  CasesPanel& cases() const { return *cases_; }
+  ConfigurationPanel& configuration() const { return *configuration_; }
+  InputSheetPanel& inputs() const { return *inputs_; }
+  PosePanel& poses() const { return *poses_; }
+  /// In the order in which menus list them.
+  const std::vector<QDockWidget*>& all() const { return docks_; }
+
+ private:
+  QDockWidget* add(const QString& name, const QString& title, QWidget* widget,
+                   Qt::DockWidgetArea area);
+
+  QMainWindow& window_;
+  std::vector<QDockWidget*> docks_;
+  ImagePanel* image_;
+  CasesPanel* cases_;
+  ConfigurationPanel* configuration_;
+  InputSheetPanel* inputs_;
+  PosePanel* poses_;
+};
+
+}  // namespace boresight::ui

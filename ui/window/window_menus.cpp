@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/window_menus.h"
+
+#include <QAction>
+#include <QDockWidget>
+#include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QToolBar>
+
+#include "sessions/version.h"
+#include "ui/run/run_controller.h"
+#include "ui/state/document.h"
+#include "ui/state/view_state.h"
+#include "ui/views/image_panel.h"
+#include "ui/window/case_controller.h"
+#include "ui/window/recent_files.h"
+#include "ui/window/session_files.h"
+#include "ui/window/shortcut_sheet.h"
+#include "ui/window/window_docks.h"
+
+namespace boresight::ui {
+
+using sessions::StepUntil;
+
+WindowMenus::WindowMenus(QMainWindow& window, const WindowParts& parts, const WindowDocks& docks,
+                         SessionFiles& files)
+    : QObject(&window), window_(window), parts_(parts), docks_(docks), files_(files) {
+  buildFileMenu();
+  buildEditMenu();
+  buildRunMenu();
+  buildViewMenu();
+  buildHelpMenu();
+}
+
+QAction* WindowMenus::action(const QString& text, const QKeySequence& keys, const QString& tip) {
+  auto* made = new QAction(text, &window_);
+  made->setShortcut(keys);
+  made->setToolTip(
+      keys.isEmpty() ? tip
+                     : QStringLiteral("%1 (%2)").arg(tip, keys.toString(QKeySequence::NativeText)));
+  made->setStatusTip(tip);
+  return made;
+}
+
+void WindowMenus::buildFileMenu() {
+  QMenu* menu = window_.menuBar()->addMenu(tr("&File"));
+  QAction* open = action(tr("&Open session..."), QKeySequence::Open, tr("Open a session"));
+  QAction* add = action(tr("&New from files..."), QKeySequence::New,
+                        tr("Make a session from a dataset, or from an image, a camera, a mesh and "
+                           "a seed"));
+  save_ = action(tr("&Save"), QKeySequence::Save, tr("Save the session"));
+  save_as_ =
+      action(tr("Save &as..."), QKeySequence::SaveAs, tr("Save the session under another name"));
+  QAction* quit = action(tr("&Quit"), QKeySequence::Quit, tr("Close the program"));
+  connect(open, &QAction::triggered, &files_, &SessionFiles::askForSession);
+  connect(add, &QAction::triggered, &files_, &SessionFiles::askForFiles);
+  connect(save_, &QAction::triggered, &files_, &SessionFiles::save);
+  connect(save_as_, &QAction::triggered, &files_, &SessionFiles::saveAs);
+  connect(quit, &QAction::triggered, &window_, &QWidget::close);
+  menu->addAction(add);
+  menu->addAction(open);
+  recent_menu_ = menu->addMenu(tr("Open &recent"));
+  connect(recent_menu_, &QMenu::aboutToShow, this, &WindowMenus::showRecent);
+  menu->addSeparator();
+  menu->addAction(save_);
+  menu->addAction(save_as_);
+  menu->addSeparator();
+  menu->addAction(quit);
+}
+
+void WindowMenus::buildEditMenu() {
+  QMenu* menu = window_.menuBar()->addMenu(tr("&Edit"));
+  undo_ = action(tr("&Undo"), QKeySequence::Undo, tr("Take back the last change"));
+  redo_ = action(tr("&Redo"), QKeySequence::Redo, tr("Make the change again"));
+  connect(undo_, &QAction::triggered, &parts_.document, &Document::undo);
+  connect(redo_, &QAction::triggered, &parts_.document, &Document::redo);
+  menu->addAction(undo_);
+  menu->addAction(redo_);
+}
+
+void WindowMenus::buildRunMenu() {
+  QMenu* menu = window_.menuBar()->addMenu(tr("&Run"));
+  run_to_end_ = action(tr("&Run"), Qt::Key_F5, tr("Run to the end"));
+  step_iteration_ = action(tr("Step an &iteration"), Qt::Key_F6, tr("Run one iteration"));
+  step_stage_ = action(tr("Step a s&tage"), Qt::Key_F7,
+                       tr("Run one stage: render, templates, match, pose or refinement"));
+  stop_ = action(tr("&Stop"), Qt::Key_F8, tr("Stop; the run can go on from here"));
+  reset_ = action(tr("R&eset"), QKeySequence(QStringLiteral("Ctrl+R")),
+                  tr("Drop the run and begin anew"));
+  run_all_ = action(tr("Run &all cases"), QKeySequence(QStringLiteral("Ctrl+F5")),
+                    tr("Run every case to its end"));
+  CaseController& cases = parts_.cases;
+  connect(run_to_end_, &QAction::triggered, this, [&cases] { cases.advance(StepUntil::kEnd); });
+  connect(step_iteration_, &QAction::triggered, this,
+          [&cases] { cases.advance(StepUntil::kIteration); });
+  connect(step_stage_, &QAction::triggered, this, [&cases] { cases.advance(StepUntil::kStage); });
+  connect(stop_, &QAction::triggered, &cases, &CaseController::stop);
+  connect(reset_, &QAction::triggered, &cases, &CaseController::reset);
+  connect(run_all_, &QAction::triggered, this, [this] {
+    QStringList ids;
+    for (const auto& one : parts_.document.session().cases) ids << QString::fromStdString(one->id);
+    parts_.cases.runAll(ids);
+  });
+  QToolBar* bar = window_.addToolBar(tr("Run"));
+  bar->setObjectName(QStringLiteral("runBar"));
+  bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
+  for (QAction* each : {run_to_end_, step_iteration_, step_stage_, stop_, reset_}) {
+    menu->addAction(each);
+    bar->addAction(each);
+  }
+  menu->addSeparator();
+  menu->addAction(run_all_);
+}
+
+void WindowMenus::buildViewMenu() {
+  QMenu* menu = window_.menuBar()->addMenu(tr("&View"));
+  buildLayersMenu(*menu->addMenu(tr("&Layers")));
+  QAction* blink = action(tr("&Blink the layers"), Qt::Key_B, tr("Layers on and off"));
+  QAction* swipe = action(tr("&Swipe"), Qt::Key_V, tr("Layers only left of a line"));
+  QAction* core = action(tr("What the &core sees"), Qt::Key_C, tr("The 8-bit image"));
+  ImagePanel* image = &docks_.image();
+  connect(blink, &QAction::triggered, image, &ImagePanel::toggleBlink);
+  connect(swipe, &QAction::triggered, image, &ImagePanel::toggleSwipe);
+  connect(core, &QAction::triggered, image, &ImagePanel::toggleCoreView);
+  menu->addActions({blink, swipe, core});
+  menu->addSeparator();
+  for (QDockWidget* each : docks_.all()) menu->addAction(each->toggleViewAction());
+}
+
+void WindowMenus::buildLayersMenu(QMenu& menu) {
+  for (int i = 0; i < kLayerCount; ++i) {
+    const LayerInfo& info = layerInfo(static_cast<LayerId>(i));
+    QAction* toggle =
+        action(tr(info.name), QKeySequence(QString::fromLatin1(info.key)), tr(info.help));
+    connect(toggle, &QAction::triggered, this, [this, id = info.id] {
+      LayerStyle style = docks_.image().style(id);
+      style.visible = !style.visible;
+      docks_.image().setStyle(id, style);
+    });
+    menu.addAction(toggle);
+  }
+}
+
+void WindowMenus::buildHelpMenu() {
+  QMenu* menu = window_.menuBar()->addMenu(tr("&Help"));
+  QAction* keys = action(tr("&Keys"), Qt::Key_F1, tr("Every key of this window"));
+  connect(keys, &QAction::triggered, this, [this] { ShortcutSheet(window_).exec(); });
+  QAction* about = action(tr("&About Boresight"), {}, tr("Version"));
+  connect(about, &QAction::triggered, this, &WindowMenus::showAbout);
+  menu->addAction(keys);
+  menu->addAction(about);
+}
+
+void WindowMenus::showAbout() {
+  QMessageBox::about(&window_, tr("Boresight"),
+                     tr("<b>Boresight %1</b><p>Localization of a station in one image by salient "
+                        "edges and Weighted Hamming Similarity, as it runs in flight.</p>")
+                         .arg(QString::fromUtf8(sessions::kVersion)));
+}
+
+void WindowMenus::showRecent() {
+  recent_menu_->clear();
+  const QStringList files = recentFiles();
+  for (const QString& file : files) {
+    QAction* each = recent_menu_->addAction(file);
+    connect(each, &QAction::triggered, this, [this, file] {
+      if (files_.mayLeave()) files_.open(file.toStdString());
+    });
+  }
+  if (files.isEmpty()) recent_menu_->addAction(tr("None yet"))->setEnabled(false);
+}
+
+void WindowMenus::update() {
+  const Document& document = parts_.document;
+  const bool open = document.isOpen();
+  const bool editable = open && document.readOnlyReason().isEmpty();
+  const bool working = parts_.run.state() == RunState::kWorking;
+  const bool has_case = parts_.state.currentCase() != nullptr;
+  save_->setEnabled(editable && (document.isModified() || document.isUntitled()));
+  save_as_->setEnabled(open);
+  undo_->setEnabled(editable && document.canUndo());
+  redo_->setEnabled(editable && document.canRedo());
+  undo_->setText(document.canUndo() ? tr("&Undo: %1").arg(document.undoText()) : tr("&Undo"));
+  redo_->setText(document.canRedo() ? tr("&Redo: %1").arg(document.redoText()) : tr("&Redo"));
+  for (QAction* each : {run_to_end_, step_iteration_, step_stage_})
+    each->setEnabled(has_case && !working);
+  stop_->setEnabled(working);
+  reset_->setEnabled(has_case && !working && parts_.state.snapshot());
+  run_all_->setEnabled(open && !working && !document.session().cases.empty());
+}
+
+}  // namespace boresight::ui

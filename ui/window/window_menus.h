@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QObject>
+
+#include "ui/window/window_parts.h"
+
+class QAction;
+class QKeySequence;
+class QMainWindow;
+class QMenu;
+
+namespace boresight::ui {
+
+class SessionFiles;
+class WindowDocks;
+
+/// Menus, tool bar and keys: what a person can ask of the window, and when. Every action is in a
+/// menu, so that the sheet of keys can list it.
+class WindowMenus : public QObject {
+  Q_OBJECT
+
+ public:
+  WindowMenus(QMainWindow& window, const WindowParts& parts, const WindowDocks& docks,
+              SessionFiles& files);
+
+  /// Enables what can be done now.
+  void update();
+
+ private:
+  void buildFileMenu();
+  void buildEditMenu();
+  void buildRunMenu();
+  void buildViewMenu();
+  void buildLayersMenu(QMenu& menu);
+  void buildHelpMenu();
+  void showRecent();
+  void showAbout();
+  QAction* action(const QString& text, const QKeySequence& keys, const QString& tip);
+
+  QMainWindow& window_;
+  WindowParts parts_;
+  const WindowDocks& docks_;
+  SessionFiles& files_;
+  QAction* save_ = nullptr;
+  QAction* save_as_ = nullptr;
+  QAction* undo_ = nullptr;
+  QAction* redo_ = nullptr;
+  QAction* run_to_end_ = nullptr;
+  QAction* step_stage_ = nullptr;
+  QAction* step_iteration_ = nullptr;
+  QAction* stop_ = nullptr;
+  QAction* reset_ = nullptr;
+  QAction* run_all_ = nullptr;
+  QMenu* recent_menu_ = nullptr;
+};
+
+}  // namespace boresight::ui

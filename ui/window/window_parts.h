@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace boresight::ui {
+
+class CaseController;
+class Document;
+class RunController;
+class TaskRunner;
+class ViewState;
+
+/// What the pieces of the window have in common. The window owns all of it, and it outlives them.
+struct WindowParts {
+  Document& document;
+  ViewState& state;
+  TaskRunner& tasks;
+  RunController& run;
+  CaseController& cases;
+};
+
+}  // namespace boresight::ui
