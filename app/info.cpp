@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "sessions/annotation/marks_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/image_file.h"
 #include "sessions/io/json_document.h"
 #include "sessions/io/mesh_container.h"
-#include "sessions/io/points_file.h"
 #include "sessions/report/run_text.h"
 #include "sessions/report/text_table.h"
 #include "sessions/session/input_check.h"
@@ -92,11 +92,14 @@ void describeDataset(const sessions::Dataset& dataset) {
   sessions::requireFiles(dataset);
 }
 
-void describePoints(const std::vector<sessions::PointPair>& points) {
-  const auto enabled =
-      std::count_if(points.begin(), points.end(), [](const auto& point) { return point.enabled; });
-  line(std::to_string(points.size()) + " points, " + std::to_string(enabled) + " enabled");
-  if (enabled < 4) flag("a pose needs at least 4 enabled points");
+void describeMarks(const sessions::Marks& marks) {
+  const auto used = [](const auto& pairs) {
+    return std::count_if(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.used(); });
+  };
+  line(std::to_string(marks.points.size()) + " points, " + std::to_string(used(marks.points)) +
+       " of them whole and on; " + std::to_string(marks.lines.size()) + " lines, " +
+       std::to_string(used(marks.lines)));
+  if (used(marks.points) < 4) flag("without a seed a pose needs at least 4 points");
 }
 
 std::string stalenessText(const sessions::Staleness& staleness) {
@@ -155,7 +158,7 @@ void describeJson(const path& file) {
   } else if (format == "boresight-dataset") {
     describeDataset(sessions::readDataset(file));
   } else if (format == "boresight-points") {
-    describePoints(sessions::readPoints(file));
+    describeMarks(sessions::readMarks(file));
   } else if (format == sessions::kSessionFormat) {
     describeSession(file);
   } else if (format == "boresight-config") {

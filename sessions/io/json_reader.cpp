@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/io/json_reader.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -57,6 +58,12 @@ std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
   for (auto it = value_->begin(); it != value_->end(); ++it)
     all.emplace_back(it.key(), member(it.key(), it.value()));
   return all;
+}
+
+void JsonReader::requireKnown(std::initializer_list<std::string_view> known) const {
+  for (const auto& [name, value] : members())
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      value.fail("is not known to this version of the format");
 }
 
 std::vector<JsonReader> JsonReader::elements() const {

@@ -35,8 +35,10 @@ class JsonReader {
   /// Member of an object, or nothing. A null counts as absent.
   std::optional<JsonReader> find(std::string_view key) const;
   std::vector<std::pair<std::string, JsonReader>> members() const;  ///< of an object, by key
-  std::vector<JsonReader> elements() const;                         ///< of an array
-  std::vector<JsonReader> elements(std::size_t count) const;        ///< of an array of `count`
+  /// An object has no other members: a program that writes the file anew would lose them.
+  void requireKnown(std::initializer_list<std::string_view> known) const;
+  std::vector<JsonReader> elements() const;                   ///< of an array
+  std::vector<JsonReader> elements(std::size_t count) const;  ///< of an array of `count`
 
   bool isObject() const;
   bool isText() const;

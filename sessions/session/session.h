@@ -13,10 +13,10 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "core/localizer/localizer_options.h"
+#include "sessions/annotation/marks.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/image_file.h"
 #include "sessions/io/option_value.h"
-#include "sessions/io/points_file.h"
 #include "sessions/session/ignore_strokes.h"
 #include "sessions/session/shared_value.h"
 
@@ -71,11 +71,7 @@ struct SessionCase {
 };
 
 /// What a person marked in one case.
-struct Annotation {
-  std::vector<PointPair> points;
-
-  bool operator==(const Annotation&) const = default;
-};
+using Annotation = Marks;
 
 enum class Verdict { kValidated, kRejected };
 

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sessions/annotation/marks_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/errors.h"
@@ -169,13 +170,6 @@ ordered_json viewJson(const DocumentView& view) {
 
 // ---- reading
 
-/// A session is written anew by whoever opens it: a member that is not known would be lost.
-void requireKnown(const JsonReader& json, std::initializer_list<std::string_view> known) {
-  for (const auto& [name, value] : json.members())
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      value.fail("is not known to version " + std::to_string(kSessionVersion) + " of the format");
-}
-
 std::string readSha256(const JsonReader& json) {
   std::string text = json.text();
   if (!isSha256Text(text)) json.fail("not a SHA-256 (64 lower-case hexadecimal digits)");
@@ -191,7 +185,7 @@ std::string readTime(const JsonReader& json) {
 fs::path readPath(const JsonReader& json) { return fs::absolute(json.path()).lexically_normal(); }
 
 Pose readExactPose(const JsonReader& json) {
-  requireKnown(json, {"rotation_wxyz", "translation_m"});
+  json.requireKnown({"rotation_wxyz", "translation_m"});
   const JsonReader rotation = json.at("rotation_wxyz");
   const std::vector<JsonReader> q = rotation.elements(4);
   Pose pose;
@@ -203,7 +197,7 @@ Pose readExactPose(const JsonReader& json) {
 }
 
 InputFile readInput(const JsonReader& json) {
-  requireKnown(json, {"file", "sha256"});
+  json.requireKnown({"file", "sha256"});
   return {readPath(json.at("file")), readSha256(json.at("sha256"))};
 }
 
@@ -226,8 +220,8 @@ ImageReadOptions readEightBit(const JsonReader& json) {
 }
 
 ImageInput readImageInput(const JsonReader& json) {
-  requireKnown(
-      json, {"file", "sha256", "width", "height", "pixels_sha256", "rule", "bit_depth", "table"});
+  json.requireKnown(
+      {"file", "sha256", "width", "height", "pixels_sha256", "rule", "bit_depth", "table"});
   ImageInput image;
   image.source = {readPath(json.at("file")), readSha256(json.at("sha256"))};
   image.width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
@@ -238,8 +232,8 @@ ImageInput readImageInput(const JsonReader& json) {
 }
 
 MeshInput readMeshInput(const JsonReader& json) {
-  requireKnown(json, {"file", "sha256", "mesh_unit", "station_from_mesh", "normal_threshold_rad",
-                      "depth_threshold_m", "match"});
+  json.requireKnown({"file", "sha256", "mesh_unit", "station_from_mesh", "normal_threshold_rad",
+                     "depth_threshold_m", "match"});
   MeshInput part;
   part.source.mesh = readPath(json.at("file"));
   const std::optional<MeshFormat> format = knownMeshFormat(part.source.mesh);
@@ -262,7 +256,7 @@ MeshInput readMeshInput(const JsonReader& json) {
 }
 
 MaskStroke readStroke(const JsonReader& json) {
-  requireKnown(json, {"kind", "erase", "radius_px", "level", "points"});
+  json.requireKnown({"kind", "erase", "radius_px", "level", "points"});
   MaskStroke stroke;
   const std::string kind = json.at("kind").choice({"brush", "polygon", "saturation"});
   while (kind != kStrokeNames[static_cast<int>(stroke.kind)])
@@ -290,13 +284,13 @@ void readExtras(const JsonReader& json, SessionCase& one) {
       one.ignore_strokes.push_back(readStroke(stroke));
   if (const auto record = json.find("onboard_record")) one.onboard_record = readInput(*record);
   if (const auto rig = json.find("rig")) {
-    requireKnown(*rig, {"id", "camera_from_rig"});
+    rig->requireKnown({"id", "camera_from_rig"});
     one.rig = Rig{rig->at("id").nonEmptyText(), readExactPose(rig->at("camera_from_rig"))};
   }
   if (const auto tags = json.find("tags"))
     for (const JsonReader& tag : tags->elements()) one.tags.push_back(tag.nonEmptyText());
   if (const auto requirement = json.find("requirement")) {
-    requireKnown(*requirement, {"normal_mm", "lateral_mm", "rotation_deg", "projection_px"});
+    requirement->requireKnown({"normal_mm", "lateral_mm", "rotation_deg", "projection_px"});
     one.requirement = readRequirement(*requirement);
   }
   if (const auto pose = json.find("camera_from_end_effector"))
@@ -304,9 +298,9 @@ void readExtras(const JsonReader& json, SessionCase& one) {
 }
 
 SessionCase readSessionCase(const JsonReader& json) {
-  requireKnown(json, {"id", "station", "image", "camera", "parts", "feature_size_m", "seed",
-                      "uncertainty", "truth", "ignore", "ignore_strokes", "onboard_record", "rig",
-                      "tags", "requirement", "camera_from_end_effector"});
+  json.requireKnown({"id", "station", "image", "camera", "parts", "feature_size_m", "seed",
+                     "uncertainty", "truth", "ignore", "ignore_strokes", "onboard_record", "rig",
+                     "tags", "requirement", "camera_from_end_effector"});
   SessionCase one;
   one.id = json.at("id").nonEmptyText();
   if (const auto station = json.find("station")) one.station = station->nonEmptyText();
@@ -319,7 +313,7 @@ SessionCase readSessionCase(const JsonReader& json) {
     parts.fail("no part is to be matched");
   if (const auto size = json.find("feature_size_m")) one.feature_size_m = size->number(1e-6, 100.0);
   one.camera_from_station_seed = readExactPose(json.at("seed"));
-  requireKnown(json.at("uncertainty"), {"translation_m", "rotation_deg", "pivot"});
+  json.at("uncertainty").requireKnown({"translation_m", "rotation_deg", "pivot"});
   one.uncertainty = readUncertainty(json.at("uncertainty"));
   readExtras(json, one);
   return one;
@@ -332,21 +326,8 @@ std::string readCaseReference(const JsonReader& json, const Session& session) {
   return id;
 }
 
-Annotation readAnnotation(const JsonReader& json) {
-  requireKnown(json, {"points"});
-  Annotation annotation;
-  std::set<std::string> ids;
-  for (const JsonReader& point : json.at("points").elements()) {
-    requireKnown(point, {"id", "point_in_station_m", "pixel", "sigma_px", "enabled", "comment"});
-    annotation.points.push_back(readPoint(point));
-    if (!ids.insert(annotation.points.back().id).second)
-      point.failMember("id", "'" + annotation.points.back().id + "' is given twice");
-  }
-  return annotation;
-}
-
 Decision readDecision(const JsonReader& json, const Session& session) {
-  requireKnown(json, {"case", "verdict", "by", "comment", "time", "run"});
+  json.requireKnown({"case", "verdict", "by", "comment", "time", "run"});
   Decision decision;
   decision.case_id = readCaseReference(json.at("case"), session);
   decision.verdict = json.at("verdict").choice({"validated", "rejected"}) == "validated"
@@ -360,8 +341,8 @@ Decision readDecision(const JsonReader& json, const Session& session) {
 }
 
 RunRecord readRun(const JsonReader& json, const Session& session) {
-  requireKnown(json, {"case", "digest", "file", "status", "version", "time", "inputs_sha256",
-                      "options_sha256"});
+  json.requireKnown(
+      {"case", "digest", "file", "status", "version", "time", "inputs_sha256", "options_sha256"});
   RunRecord run;
   run.case_id = readCaseReference(json.at("case"), session);
   run.digest = readSha256(json.at("digest"));
@@ -375,7 +356,7 @@ RunRecord readRun(const JsonReader& json, const Session& session) {
 }
 
 DocumentView readView(const JsonReader& json, const Session& session) {
-  requireKnown(json, {"case", "run", "iteration"});
+  json.requireKnown({"case", "run", "iteration"});
   DocumentView view;
   if (const auto one = json.find("case")) view.case_id = readCaseReference(*one, session);
   if (const auto run = json.find("run")) view.digest = readSha256(*run);
@@ -417,8 +398,7 @@ ordered_json toJson(const Session& session, const fs::path& file) {
   json["cases"] = listJson(session.cases, [&](const auto& one) { return caseJson(*one, path); });
   json["annotations"] = ordered_json::object();
   for (const auto& [id, annotation] : session.annotations)
-    json["annotations"][id]["points"] =
-        listJson(annotation->points, [](const PointPair& point) { return toJson(point); });
+    json["annotations"][id] = toJson(*annotation);
   json["decisions"] = listJson(session.decisions, decisionJson);
   json["runs"] = listJson(session.runs, [&](const RunRecord& run) { return runJson(run, path); });
   json["view"] = viewJson(session.view);
@@ -437,8 +417,8 @@ std::string sessionText(const Session& session, const fs::path& file) {
 
 Session readSession(const JsonReader& json) {
   requireVersion(json);
-  requireKnown(json, {"format", "version", "profile", "options", "cases", "annotations",
-                      "decisions", "runs", "view"});
+  json.requireKnown({"format", "version", "profile", "options", "cases", "annotations", "decisions",
+                     "runs", "view"});
   Session session;
   readOptionsOf(json, session);
   std::set<std::string> ids;
@@ -449,7 +429,8 @@ Session readSession(const JsonReader& json) {
   }
   for (const auto& [id, annotation] : json.at("annotations").members()) {
     if (!ids.contains(id)) annotation.fail("there is no case '" + id + "'");
-    session.annotations.insert_or_assign(id, readAnnotation(annotation));
+    annotation.requireKnown({"points", "lines"});
+    session.annotations.insert_or_assign(id, readMarks(annotation));
   }
   for (const JsonReader& decision : json.at("decisions").elements())
     session.decisions.push_back(readDecision(decision, session));

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sessions/io/points_file.h"
+#include "sessions/annotation/marks_file.h"
 #include "sessions/trace/scene_render.h"
 #include "tests/app/run_whs.h"
 
@@ -56,30 +56,34 @@ TEST(WhsRender, DrawsWhatTheCoreRenders) {
 }
 
 /// Points of the example's mesh where the true pose projects them.
-std::vector<sessions::PointPair> truePoints(std::size_t count) {
+sessions::Marks trueMarks(std::size_t count) {
   const ExampleCase example("os");
-  std::vector<sessions::PointPair> points;
+  sessions::Marks marks;
   const auto& vertices = example.scene.vertices_in_station_m;
-  for (std::size_t i = 0; i < vertices.size() && points.size() < count; i += 97) {
+  for (std::size_t i = 0; i < vertices.size() && marks.points.size() < count; i += 97) {
     sessions::PointPair point;
     point.id = "p" + std::to_string(i);
     point.point_in_station_m = vertices[i].cast<double>();
-    if (project(example.camera, example.truth.camera_from_station * point.point_in_station_m,
-                point.pixel))
-      points.push_back(point);
+    Eigen::Vector2d pixel;
+    if (!project(example.camera, example.truth.camera_from_station * *point.point_in_station_m,
+                 pixel))
+      continue;
+    point.pixel = pixel;
+    marks.points.push_back(point);
   }
-  return points;
+  return marks;
 }
 
 TEST(WhsSolve, FindsThePoseDespiteAMistakenPoint) {
   const TemporaryFolder folder;
-  auto points = truePoints(10);
-  points[3].pixel += Eigen::Vector2d(120.0, -80.0);
-  sessions::writePoints(folder / "points.json", points);
-  const ProgramRun run = runWhs({"solve", "--points", folder / "points.json", "--camera",
-                                 kExample / "camera.json", "--out", folder / "pose.json"});
+  sessions::Marks marks = trueMarks(10);
+  *marks.points[3].pixel += Eigen::Vector2d(120.0, -80.0);
+  sessions::writeMarks(folder / "points.json", marks);
+  const ProgramRun run =
+      runWhs({"solve", "--points", folder / "points.json", "--camera", kExample / "camera.json",
+              "--robust", "--out", folder / "pose.json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, AllOf(HasSubstr("9 of 10 points used"), HasSubstr("144.22")));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("10 marks"), HasSubstr("120.000"), HasSubstr(" !")));
   const Vector6d error =
       perturbationBetween(ExampleCase("os").truth.camera_from_station,
                           sessions::readPose(folder / "pose.json").camera_from_station);
@@ -88,25 +92,46 @@ TEST(WhsSolve, FindsThePoseDespiteAMistakenPoint) {
 
 TEST(WhsSolve, LeavesOutDisabledPointsAndAsksForFour) {
   const TemporaryFolder folder;
-  auto points = truePoints(5);
-  points[0].enabled = false;
-  points[1].enabled = false;
-  sessions::writePoints(folder / "points.json", points);
-  const ProgramRun run =
-      runWhs({"solve", "--points", folder / "points.json", "--camera", kExample / "camera.json"});
-  EXPECT_EQ(run.exit_code, 3);
-  EXPECT_THAT(run.err, AllOf(HasSubstr("points.json: points: 3 enabled"), HasSubstr("at least 4")));
+  sessions::Marks marks = trueMarks(5);
+  marks.points[0].enabled = false;
+  marks.points[1].enabled = false;
+  sessions::writeMarks(folder / "points.json", marks);
+  Arguments arguments = {"solve", "--points", folder / "points.json", "--camera",
+                         kExample / "camera.json"};
+  const ProgramRun run = runWhs(arguments);
+  EXPECT_EQ(run.exit_code, 4);
+  EXPECT_THAT(run.err, HasSubstr("one image needs 4"));
+  // Three do where there is a first guess.
+  arguments.insert(arguments.end(), {"--seed", kExample / "seed.json"});
+  EXPECT_EQ(runWhs(arguments).exit_code, 0);
 }
 
 TEST(WhsSolve, SaysWhenNoPoseAgrees) {
   const TemporaryFolder folder;
-  auto points = truePoints(6);
-  for (std::size_t i = 0; i < points.size(); ++i) points[i].pixel = points[0].pixel;
-  sessions::writePoints(folder / "points.json", points);
-  const ProgramRun run = runWhs({"solve", "--points", folder / "points.json", "--camera",
-                                 kExample / "camera.json", "--threshold", "0.5"});
+  sessions::Marks marks = trueMarks(6);
+  for (sessions::PointPair& point : marks.points)
+    point.point_in_station_m = marks.points[0].point_in_station_m;
+  sessions::writeMarks(folder / "points.json", marks);
+  const ProgramRun run =
+      runWhs({"solve", "--points", folder / "points.json", "--camera", kExample / "camera.json"});
   EXPECT_EQ(run.exit_code, 4) << run.out;
   EXPECT_EQ(run.errorLines(), 1) << run.err;
+}
+
+TEST(WhsSolve, SolvesTwoCamerasOfARigAsOne) {
+  const TemporaryFolder folder;
+  sessions::writeMarks(folder / "points.json", trueMarks(6));
+  const std::string view = R"("camera": ")" + (kExample / "camera.json").string() +
+                           R"(", "points": "points.json", "camera_from_rig":
+      [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]})";
+  folder.write("rig.json", R"({"format": "boresight-rig", "version": 1, "views": [{"name": "a", )" +
+                               view + R"(, {"name": "b", )" + view + "]}");
+  const ProgramRun run =
+      runWhs({"solve", "--rig", folder / "rig.json", "--out", folder / "pose.json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("12 marks"));
+  EXPECT_EQ(runWhs({"solve"}).exit_code, 2);
+  EXPECT_EQ(runWhs({"solve", "--points", folder / "points.json"}).exit_code, 2);
 }
 
 TEST(WhsInfo, DescribesEveryKindOfFile) {

@@ -98,11 +98,19 @@ inline sessions::Annotation randomAnnotation(Random& random) {
     sessions::PointPair point;
     point.id = "p" + std::to_string(i);
     point.point_in_station_m = randomVector(random, 0.3);
-    point.pixel = {random.uniform(0.0, 2000.0), random.uniform(0.0, 2000.0)};
+    if (coin(random))
+      point.pixel = Eigen::Vector2d(random.uniform(0.0, 2000.0), random.uniform(0.0, 2000.0));
     point.sigma_px = random.uniform(0.1, 3.0);
     point.enabled = coin(random);
+    point.locked = coin(random);
     if (coin(random)) point.comment = "at the\nsecond \"screw\" \xE2\x80\x93 unsure";
     annotation.points.push_back(point);
+  }
+  if (coin(random)) {
+    sessions::LinePair line;
+    line.id = "l1";
+    line.edge = sessions::ModelEdge{randomVector(random, 0.3), randomVector(random, 0.3)};
+    annotation.lines.push_back(line);
   }
   return annotation;
 }

@@ -104,7 +104,7 @@ TEST(SessionFile, SaysWhatIsWrongAndWhere) {
       {[](json& s) { s["version"] = 2; }, "version: version 2 was written by a newer program"},
       {[](json& s) { s["version"] = 0; }, "version: there is no version 0"},
       {[](json& s) { s["version"] = "1"; }, "version: not an integer"},
-      {[](json& s) { s["zoom"] = 1; }, "zoom: is not known to version 1"},
+      {[](json& s) { s["zoom"] = 1; }, "zoom: is not known to this version"},
       {[](json& s) { s["profile"] = "best"; }, "profile: there is no profile \"best\""},
       {[](json& s) { s["options"]["pnp.speed"] = 1; },
        "options.pnp.speed: there is no such option"},

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/annotation/geometry_meter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+namespace boresight::sessions {
+namespace {
+
+constexpr int kUnknowns = 6;
+constexpr int kFewestPoints = 4;
+constexpr double kFewestOfDepth = 0.02;  ///< of the mean distance
+constexpr double kFewestOfImage = 0.25;  ///< of the station's extent in the image, each way
+
+std::vector<Eigen::Vector3d> markedPlaces(std::span<const MarkedView> views) {
+  std::vector<Eigen::Vector3d> places;
+  for (const MarkedView& view : views) {
+    for (const PointPair& point : view.marks.points)
+      if (point.used()) places.push_back(*point.point_in_station_m);
+    for (const LinePair& line : view.marks.lines) {
+      if (!line.used()) continue;
+      places.push_back(line.edge->start_in_station_m);
+      places.push_back(line.edge->end_in_station_m);
+    }
+  }
+  return places;
+}
+
+/// Widths of the smallest upright box around the places that the camera sees.
+Eigen::Vector2d extentInImage(const MarkedView& view, const Pose& camera_from_station,
+                              std::span<const Eigen::Vector3d> places_m) {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300);
+  Eigen::Vector2d high = -low;
+  for (const Eigen::Vector3d& place : places_m) {
+    Eigen::Vector2d pixel;
+    if (!project(view.camera, camera_from_station * place, pixel)) continue;
+    low = low.cwiseMin(pixel);
+    high = high.cwiseMax(pixel);
+  }
+  return (high - low).cwiseMax(0.0);
+}
+
+/// Measurements, and the most points of one view.
+struct Counts {
+  int measurements = 0;
+  int most_points = 0;
+};
+
+Counts countMarks(std::span<const MarkedView> views) {
+  Counts counts;
+  counts.measurements = 2 * static_cast<int>(usedMarks(views).size());
+  for (const MarkedView& view : views) {
+    const auto points = std::count_if(view.marks.points.begin(), view.marks.points.end(),
+                                      [](const PointPair& point) { return point.used(); });
+    counts.most_points = std::max(counts.most_points, static_cast<int>(points));
+  }
+  return counts;
+}
+
+void warnOfCounts(const Counts& counts, bool guessed, std::vector<GeometryWarning>& warnings) {
+  const int missing = (kUnknowns - counts.measurements + 1) / 2;
+  if (missing > 0) {
+    warnings.push_back({GeometryWeakness::kTooFew, true,
+                        "too few marks: a pose needs " + std::to_string(missing) +
+                            (missing == 1 ? " more pair" : " more pairs")});
+  } else if (!guessed && counts.most_points < kFewestPoints) {
+    warnings.push_back({GeometryWeakness::kTooFew, true,
+                        "too few points: without a first guess of the pose one image needs " +
+                            std::to_string(kFewestPoints)});
+  } else if (counts.measurements == kUnknowns) {
+    warnings.push_back(
+        {GeometryWeakness::kFew, false, "nothing is left over to check the pose: add a pair"});
+  }
+}
+
+void warnOfDepth(std::span<const MarkedView> views, const Pose& rig_from_station,
+                 std::span<const Eigen::Vector3d> places_m,
+                 std::vector<GeometryWarning>& warnings) {
+  if (views.size() != 1) return;  // several cameras see depth
+  const Pose camera_from_station = views.front().camera_from_rig * rig_from_station;
+  double nearest_m = 1e300;
+  double farthest_m = -1e300;
+  for (const Eigen::Vector3d& place : places_m) {
+    const double depth_m = (camera_from_station * place).z();
+    nearest_m = std::min(nearest_m, depth_m);
+    farthest_m = std::max(farthest_m, depth_m);
+  }
+  if (farthest_m - nearest_m > kFewestOfDepth * 0.5 * (farthest_m + nearest_m)) return;
+  warnings.push_back({GeometryWeakness::kOneDepth, false,
+                      "all marks are equally far from the camera, which leaves its tilt open: add "
+                      "one that is nearer or farther"});
+}
+
+}  // namespace
+
+MarkedSpread markedSpread(std::span<const MarkedView> views) {
+  const std::vector<Eigen::Vector3d> places = markedPlaces(views);
+  MarkedSpread spread;
+  spread.places = static_cast<int>(places.size());
+  if (places.empty()) return spread;
+  const double count = static_cast<double>(places.size());
+  for (const Eigen::Vector3d& place : places) spread.middle_in_station_m += place / count;
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& place : places) {
+    const Eigen::Vector3d from_middle = place - spread.middle_in_station_m;
+    scatter += from_middle * from_middle.transpose() / count;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+  for (int i = 0; i < 3; ++i) {
+    spread.axes_in_station.col(i) = solver.eigenvectors().col(2 - i);
+    spread.deviation_m[i] = std::sqrt(std::max(0.0, solver.eigenvalues()[2 - i]));
+  }
+  return spread;
+}
+
+std::vector<GeometryWarning> geometryWarnings(std::span<const MarkedView> views, const Pose* guess,
+                                              std::span<const Eigen::Vector3d> station_m) {
+  std::vector<GeometryWarning> warnings;
+  warnOfCounts(countMarks(views), guess != nullptr, warnings);
+  if (!warnings.empty() && warnings.back().prevents) return warnings;
+  const MarkedSpread spread = markedSpread(views);
+  if (spread.collinear()) {
+    warnings.push_back(
+        {GeometryWeakness::kCollinear, true, "all marks lie on one line: add one beside it"});
+    return warnings;
+  }
+  if (spread.coplanar()) {
+    warnings.push_back({GeometryWeakness::kCoplanar, false,
+                        "all marks lie in one plane: two poses may explain them; add one off it"});
+  }
+  if (guess == nullptr) return warnings;
+  const std::vector<Eigen::Vector3d> places = markedPlaces(views);
+  warnOfDepth(views, *guess, places, warnings);
+  bool covered = station_m.empty();
+  for (const MarkedView& view : views) {
+    const Pose camera_from_station = view.camera_from_rig * *guess;
+    const Eigen::Vector2d marked = extentInImage(view, camera_from_station, places);
+    const Eigen::Vector2d whole = extentInImage(view, camera_from_station, station_m);
+    covered = covered || (marked.array() >= kFewestOfImage * whole.array()).all();
+  }
+  if (!covered) {
+    warnings.push_back({GeometryWeakness::kClustered, false,
+                        "the marks cover little of the station: add some far from the others"});
+  }
+  return warnings;
+}
+
+}  // namespace boresight::sessions

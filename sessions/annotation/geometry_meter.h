@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sessions/annotation/marked_view.h"
+
+namespace boresight::sessions {
+
+/// How the marked places of the station (points, and both ends of edges) lie.
+struct MarkedSpread {
+  int places = 0;
+  Eigen::Vector3d middle_in_station_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d axes_in_station = Eigen::Matrix3d::Identity();  ///< columns, widest first
+  Eigen::Vector3d deviation_m = Eigen::Vector3d::Zero();          ///< along these, rms
+
+  bool collinear() const { return deviation_m[1] < 0.02 * deviation_m[0]; }
+  bool coplanar() const { return deviation_m[2] < 0.02 * deviation_m[0]; }
+};
+MarkedSpread markedSpread(std::span<const MarkedView> views);
+
+enum class GeometryWeakness {
+  kTooFew,     ///< fewer than six measurements, or four points without a guess
+  kFew,        ///< no measurement left over to check the pose
+  kCollinear,  ///< all places on a line
+  kCoplanar,   ///< all places in a plane: two poses may explain them
+  kClustered,  ///< the marks cover little of the station's image
+  kOneDepth,   ///< all at one distance from the camera
+};
+
+struct GeometryWarning {
+  GeometryWeakness weakness = GeometryWeakness::kTooFew;
+  bool prevents = false;  ///< no pose can come out
+  std::string text;       ///< what is weak and what to add
+};
+
+/// What is weak in the marks that are on, before anything is solved. `guess` (rig from station, or
+/// nullptr) tells distances and how much of the station's image is covered. `station` are places
+/// that span the station (its mesh's box corners), or empty.
+std::vector<GeometryWarning> geometryWarnings(std::span<const MarkedView> views, const Pose* guess,
+                                              std::span<const Eigen::Vector3d> station_m);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/annotation/image_snap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kSmoothing_px = 1.0;
+constexpr double kLeastContrast = 3.0;  ///< gray levels per pixel
+constexpr int kDirections = 120;
+constexpr double kRayStep_px = 0.25;
+constexpr double kSmallestEllipse_px = 2.0;
+constexpr double kLeastSupport = 0.6;
+constexpr double kOnEllipse_px = 1.0;
+
+/// A piece of the image about a place, smoothed, and its gradient. Coordinates are the image's.
+class Patch {
+ public:
+  Patch(const ImageView& image, const Eigen::Vector2d& about, double radius_px) {
+    const int margin = static_cast<int>(std::ceil(radius_px)) + 6;
+    const int x = static_cast<int>(std::floor(about.x() + 0.5));
+    const int y = static_cast<int>(std::floor(about.y() + 0.5));
+    const cv::Mat whole(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.data),
+                        static_cast<std::size_t>(image.stride));
+    const cv::Rect area = cv::Rect(x - margin, y - margin, 2 * margin + 1, 2 * margin + 1) &
+                          cv::Rect(0, 0, image.width, image.height);
+    if (area.width < 5 || area.height < 5) return;
+    origin_ = {area.x, area.y};
+    whole(area).convertTo(gray_, CV_32F);
+    cv::Mat smooth;
+    cv::GaussianBlur(gray_, smooth, cv::Size(), kSmoothing_px, kSmoothing_px, cv::BORDER_REPLICATE);
+    // Central differences of the smoothed image.
+    cv::Sobel(smooth, gradient_x_, CV_32F, 1, 0, 1, 0.5, 0.0, cv::BORDER_REPLICATE);
+    cv::Sobel(smooth, gradient_y_, CV_32F, 0, 1, 1, 0.5, 0.0, cv::BORDER_REPLICATE);
+  }
+
+  bool empty() const { return gray_.empty(); }
+  const cv::Mat& gray() const { return gray_; }
+  Eigen::Vector2d origin() const { return origin_; }
+
+  bool contains(const Eigen::Vector2d& pixel) const {
+    const Eigen::Vector2d at = pixel - origin_;
+    return at.minCoeff() >= 0.0 && at.x() <= gray_.cols - 1.0 && at.y() <= gray_.rows - 1.0;
+  }
+
+  /// Bilinear.
+  Eigen::Vector2d gradient(const Eigen::Vector2d& pixel) const {
+    return {sample(gradient_x_, pixel - origin_), sample(gradient_y_, pixel - origin_)};
+  }
+
+ private:
+  static double sample(const cv::Mat& values, const Eigen::Vector2d& at) {
+    const int x = std::clamp(static_cast<int>(std::floor(at.x())), 0, values.cols - 2);
+    const int y = std::clamp(static_cast<int>(std::floor(at.y())), 0, values.rows - 2);
+    const double u = at.x() - x;
+    const double v = at.y() - y;
+    const auto value = [&](int dx, int dy) {
+      return static_cast<double>(values.at<float>(y + dy, x + dx));
+    };
+    return (1.0 - v) * ((1.0 - u) * value(0, 0) + u * value(1, 0)) +
+           v * ((1.0 - u) * value(0, 1) + u * value(1, 1));
+  }
+
+  Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
+  cv::Mat gray_;
+  cv::Mat gradient_x_;
+  cv::Mat gradient_y_;
+};
+
+/// Top of the parabola through three values a step apart, in steps from the middle one.
+double parabolaTop(double before, double middle, double after) {
+  const double curvature = before - 2.0 * middle + after;
+  return curvature < 0.0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0.0;
+}
+
+/// Walks along `direction` to where the gradient along it is largest; nothing on the way up.
+std::optional<EdgeSnap> climb(const Patch& patch, const Eigen::Vector2d& start) {
+  Eigen::Vector2d at = start;
+  for (int step = 0; step < 30; ++step) {
+    if (!patch.contains(at)) return {};
+    const Eigen::Vector2d gradient = patch.gradient(at);
+    const double contrast = gradient.norm();
+    if (contrast < kLeastContrast) return {};
+    const Eigen::Vector2d normal = gradient / contrast;
+    const auto across = [&](double offset) {
+      return patch.gradient(at + offset * normal).dot(normal);
+    };
+    const double before = across(-1.0);
+    const double after = across(1.0);
+    const double middle = across(0.0);
+    if (middle >= before && middle >= after) {
+      // About its own top a symmetric profile has no bias.
+      double top = 0.0;
+      for (int round = 0; round < 4; ++round)
+        top += parabolaTop(across(top - 1.0), across(top), across(top + 1.0));
+      return EdgeSnap{at + top * normal, normal, contrast};
+    }
+    at += (after > before ? 0.5 : -0.5) * normal;
+  }
+  return {};
+}
+
+/// Farthest steep place inward of which nothing steeper lies: the first maximum of the gradient
+/// along a ray whose contrast is at least half of the ray's best.
+std::optional<Eigen::Vector2d> edgeOnRay(const Patch& patch, const Eigen::Vector2d& from,
+                                         const Eigen::Vector2d& direction, double radius_px) {
+  std::vector<double> along;
+  for (double s = 0.0; s <= radius_px; s += kRayStep_px) {
+    const Eigen::Vector2d at = from + s * direction;
+    if (!patch.contains(at)) break;
+    along.push_back(std::abs(patch.gradient(at).dot(direction)));
+  }
+  if (along.size() < 3) return {};
+  const double best = *std::max_element(along.begin(), along.end());
+  if (best < kLeastContrast) return {};
+  for (std::size_t i = 1; i + 1 < along.size(); ++i) {
+    if (along[i] < 0.5 * best || along[i] < along[i - 1] || along[i] < along[i + 1]) continue;
+    const double s =
+        kRayStep_px * (static_cast<double>(i) + parabolaTop(along[i - 1], along[i], along[i + 1]));
+    return from + s * direction;
+  }
+  return {};
+}
+
+/// Distance from an ellipse to first order: (|q| - 1) along its normal, q in units of its axes.
+double distanceFrom(const cv::RotatedRect& ellipse, const cv::Point2f& point) {
+  const double angle = ellipse.angle * std::numbers::pi / 180.0;
+  const Eigen::Vector2d offset(point.x - ellipse.center.x, point.y - ellipse.center.y);
+  const Eigen::Vector2d half(0.5 * ellipse.size.width, 0.5 * ellipse.size.height);
+  const Eigen::Vector2d in_axes(std::cos(angle) * offset.x() + std::sin(angle) * offset.y(),
+                                -std::sin(angle) * offset.x() + std::cos(angle) * offset.y());
+  const Eigen::Vector2d unit = in_axes.cwiseQuotient(half);
+  const double value = unit.squaredNorm() - 1.0;
+  return value / (2.0 * unit.cwiseQuotient(half)).norm();
+}
+
+/// Fits again and again to what agrees with the fit.
+std::optional<cv::RotatedRect> fitEllipse(std::vector<cv::Point2f>& points) {
+  double limit_px = 8.0;
+  std::vector<cv::Point2f> kept = points;
+  for (int round = 0; round < 8; ++round) {
+    if (kept.size() < 6) return {};
+    const cv::RotatedRect ellipse = cv::fitEllipse(kept);
+    if (!(ellipse.size.width > 0.0f) || !(ellipse.size.height > 0.0f)) return {};
+    if (round == 7) {
+      points = kept;
+      return ellipse;
+    }
+    limit_px = std::max(kOnEllipse_px, 0.6 * limit_px);
+    kept.clear();
+    for (const cv::Point2f& point : points)
+      if (std::abs(distanceFrom(ellipse, point)) < limit_px) kept.push_back(point);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<EdgeSnap> snapToEdge(const ImageView& image, const Eigen::Vector2d& near,
+                                   double radius_px) {
+  const Patch patch(image, near, radius_px);
+  if (patch.empty()) return {};
+  std::optional<EdgeSnap> nearest;
+  double nearest_px = radius_px;
+  for (double dy = -radius_px; dy <= radius_px; dy += 1.0) {
+    for (double dx = -radius_px; dx <= radius_px; dx += 1.0) {
+      const std::optional<EdgeSnap> snap = climb(patch, near + Eigen::Vector2d(dx, dy));
+      if (!snap) continue;
+      const double distance_px = (snap->pixel - near).norm();
+      if (distance_px > nearest_px) continue;
+      nearest = snap;
+      nearest_px = distance_px;
+    }
+  }
+  return nearest;
+}
+
+std::optional<Eigen::Vector2d> snapToCorner(const ImageView& image, const Eigen::Vector2d& near,
+                                            double radius_px) {
+  const Patch patch(image, near, radius_px);
+  if (patch.empty()) return {};
+  cv::Mat strength;
+  cv::cornerMinEigenVal(patch.gray() / 255.0f, strength, 3, 3);
+  const Eigen::Vector2d in_patch = near - patch.origin();
+  cv::Point2f best(-1.0f, -1.0f);
+  float most = 1e-4f;
+  for (int y = 0; y < strength.rows; ++y) {
+    for (int x = 0; x < strength.cols; ++x) {
+      if ((Eigen::Vector2d(x, y) - in_patch).norm() > radius_px) continue;
+      if (strength.at<float>(y, x) <= most) continue;
+      most = strength.at<float>(y, x);
+      best = cv::Point2f(static_cast<float>(x), static_cast<float>(y));
+    }
+  }
+  if (best.x < 0.0f) return {};
+  std::vector<cv::Point2f> corner = {best};
+  cv::cornerSubPix(patch.gray(), corner, cv::Size(4, 4), cv::Size(-1, -1),
+                   cv::TermCriteria(cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 100, 1e-4));
+  // It wanders off where there is no corner after all.
+  if (cv::norm(corner[0] - best) > 3.0) return {};
+  const Eigen::Vector2d found = patch.origin() + Eigen::Vector2d(corner[0].x, corner[0].y);
+  if ((found - near).norm() > radius_px + 1.0) return {};
+  return found;
+}
+
+std::optional<EllipseSnap> snapToEllipse(const ImageView& image, const Eigen::Vector2d& inside,
+                                         double radius_px) {
+  const Patch patch(image, inside, radius_px);
+  if (patch.empty()) return {};
+  Eigen::Vector2d from = inside;
+  std::optional<EllipseSnap> snap;
+  // Once more from the centre that was found: all directions then see the ellipse alike.
+  for (int round = 0; round < 2; ++round) {
+    std::vector<cv::Point2f> points;
+    for (int i = 0; i < kDirections; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / kDirections;
+      const auto edge = edgeOnRay(patch, from, {std::cos(angle), std::sin(angle)}, radius_px);
+      // The ray meets the edge at an angle: what counts is its steepest place straight across.
+      const auto across = edge ? climb(patch, *edge) : std::nullopt;
+      if (!across || (across->pixel - *edge).norm() > 2.0) continue;
+      points.emplace_back(static_cast<float>(across->pixel.x()),
+                          static_cast<float>(across->pixel.y()));
+    }
+    const std::optional<cv::RotatedRect> ellipse = fitEllipse(points);
+    if (!ellipse) return {};
+    double squares = 0.0;
+    for (const cv::Point2f& point : points)
+      squares += distanceFrom(*ellipse, point) * distanceFrom(*ellipse, point);
+    EllipseSnap made;
+    made.centre = {ellipse->center.x, ellipse->center.y};
+    made.half_axes_px = 0.5 * Eigen::Vector2d(ellipse->size.height, ellipse->size.width);
+    made.angle_rad = (ellipse->angle + 90.0) * std::numbers::pi / 180.0;
+    if (made.half_axes_px.x() < made.half_axes_px.y()) {
+      std::swap(made.half_axes_px.x(), made.half_axes_px.y());
+      made.angle_rad += 0.5 * std::numbers::pi;
+    }
+    made.angle_rad = std::fmod(made.angle_rad, std::numbers::pi);
+    made.support = static_cast<double>(points.size()) / kDirections;
+    made.rms_px = std::sqrt(squares / static_cast<double>(points.size()));
+    if (made.support < kLeastSupport || made.half_axes_px.y() < kSmallestEllipse_px ||
+        made.half_axes_px.x() > radius_px || !patch.contains(made.centre))
+      return {};
+    snap = made;
+    from = made.centre;
+  }
+  return snap;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/annotation/mark_equations.h"
+
+#include <Eigen/Geometry>
+
+namespace boresight::sessions {
+namespace {
+
+using Row6 = Eigen::Matrix<double, 1, 6>;
+
+/// d (c . dA) / d xi for a point A of the camera frame that moves by omega x A + v.
+Row6 rowOf(const Eigen::Vector3d& point, const Eigen::RowVector3d& c) {
+  Row6 row;
+  row << point.cross(c.transpose()).transpose(), c;
+  return row;
+}
+
+MarkResidual pointResidual(const Camera& camera, const PointPair& pair,
+                           const Pose& camera_from_station) {
+  MarkResidual made;
+  const Eigen::Vector3d point = camera_from_station * *pair.point_in_station_m;
+  Eigen::Vector2d predicted;
+  Eigen::Matrix<double, 2, 3> jacobian;
+  made.valid = projectWithJacobian(camera, point, predicted, jacobian);
+  if (!made.valid) return made;
+  made.residual_px = *pair.pixel - predicted;
+  for (int i = 0; i < 2; ++i) made.predicted_by_xi.row(i) = rowOf(point, jacobian.row(i));
+  made.depth_m = point.z();
+  return made;
+}
+
+/// The edge's interpretation plane through the camera's centre, unit normal.
+struct EdgePlane {
+  Eigen::Vector3d a;  ///< ends in the camera frame
+  Eigen::Vector3d b;
+  Eigen::Vector3d normal;
+  double length = 0.0;  ///< of a x b
+};
+
+/// One end of the line; false where the camera cannot say which ray it is.
+bool endResidual(const Camera& camera, const EdgePlane& plane, const Eigen::Vector2d& seen,
+                 double& residual_px, Row6& predicted_by_xi) {
+  Eigen::Vector3d ray;
+  if (!unproject(camera, seen, ray)) return false;
+  const Eigen::Vector3d d = ray.normalized();
+  Eigen::Vector2d pixel;
+  Eigen::Matrix<double, 2, 3> jacobian;
+  if (!projectWithJacobian(camera, d, pixel, jacobian)) return false;
+  const double sine = plane.normal.dot(d);
+  // Pixels across the edge for a unit step of the ray along the plane's normal.
+  const Eigen::Vector2d along = jacobian * plane.normal.cross(d);
+  const Eigen::Vector2d across = jacobian * plane.normal;
+  const double along_length = along.norm();
+  if (!(along_length > 0.0)) return false;
+  const double scale_px = (along.x() * across.y() - along.y() * across.x()) / along_length;
+  residual_px = scale_px * sine;
+  // n = (a x b) / |a x b|: d n . d = (da x b + a x db) . m.
+  const Eigen::Vector3d m = (d - sine * plane.normal) / plane.length;
+  predicted_by_xi = -scale_px * (rowOf(plane.a, plane.b.cross(m).transpose()) +
+                                 rowOf(plane.b, m.cross(plane.a).transpose()));
+  return true;
+}
+
+MarkResidual lineResidual(const Camera& camera, const LinePair& pair,
+                          const Pose& camera_from_station) {
+  MarkResidual made;
+  EdgePlane plane;
+  plane.a = camera_from_station * pair.edge->start_in_station_m;
+  plane.b = camera_from_station * pair.edge->end_in_station_m;
+  if (!(plane.a.z() > 0.0) || !(plane.b.z() > 0.0)) return made;
+  const Eigen::Vector3d normal = plane.a.cross(plane.b);
+  plane.length = normal.norm();
+  if (!(plane.length > 1e-12 * plane.a.norm() * plane.b.norm())) return made;
+  plane.normal = normal / plane.length;
+  const Eigen::Vector2d ends[2] = {pair.line->start, pair.line->end};
+  made.valid = true;
+  for (int i = 0; i < 2; ++i) {
+    Row6 row;
+    made.valid = made.valid && endResidual(camera, plane, ends[i], made.residual_px[i], row);
+    if (made.valid) made.predicted_by_xi.row(i) = row;
+  }
+  made.depth_m = 0.5 * (plane.a.z() + plane.b.z());
+  return made;
+}
+
+}  // namespace
+
+MarkResidual markResidual(const MarkedView& view, const MarkAddress& at,
+                          const Pose& camera_from_station) {
+  if (at.kind == MarkKind::kPoint)
+    return pointResidual(view.camera, view.marks.points[at.index], camera_from_station);
+  return lineResidual(view.camera, view.marks.lines[at.index], camera_from_station);
+}
+
+Matrix6d adjoint(const Pose& camera_from_rig) {
+  const Eigen::Matrix3d rotation = camera_from_rig.matrix();
+  Matrix6d made = Matrix6d::Zero();
+  made.topLeftCorner<3, 3>() = rotation;
+  made.bottomRightCorner<3, 3>() = rotation;
+  for (int i = 0; i < 3; ++i) {
+    made.block<3, 1>(3, i) = camera_from_rig.translation_m.cross(Eigen::Vector3d(rotation.col(i)));
+  }
+  return made;
+}
+
+NormalEquations markEquations(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
+                              std::span<const double> weight, const Pose& rig_from_station) {
+  NormalEquations sum;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const MarkedView& view = views[marks[i].view];
+    const double factor = weight.empty() ? 1.0 : weight[i];
+    if (factor == 0.0) continue;
+    const MarkResidual mark = markResidual(view, marks[i], view.camera_from_rig * rig_from_station);
+    if (!mark.valid) {
+      ++sum.missing;
+      continue;
+    }
+    const double sigma_px = markSigma_px(views, marks[i]);
+    const double w = factor / (sigma_px * sigma_px);
+    const Eigen::Matrix<double, 2, 6> rows = mark.predicted_by_xi * adjoint(view.camera_from_rig);
+    sum.information += w * rows.transpose() * rows;
+    sum.gradient += w * rows.transpose() * mark.residual_px;
+    sum.squares += w * mark.residual_px.squaredNorm();
+    ++sum.projected;
+  }
+  return sum;
+}
+
+}  // namespace boresight::sessions

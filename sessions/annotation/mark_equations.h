@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "core/pnp/normal_equations.h"
+#include "sessions/annotation/marked_view.h"
+
+namespace boresight::sessions {
+
+/// What a mark says about a pose: two residuals (pixels, seen minus predicted) and how they change.
+/// Of a point these are x and y; of a line the distances of its two ends across the projected edge,
+/// to first order, with the whole camera model (the interpretation plane of the edge against the
+/// rays of the ends: Hartley and Zisserman 2004, 8.1, scaled by the camera's Jacobian).
+struct MarkResidual {
+  bool valid = false;  ///< false where the pose does not project it
+  Eigen::Vector2d residual_px = Eigen::Vector2d::Zero();
+  /// d predicted / d xi, xi = (rotation rad, translation m), left perturbation, camera frame.
+  Eigen::Matrix<double, 2, 6> predicted_by_xi = Eigen::Matrix<double, 2, 6>::Zero();
+  double depth_m = 0.0;  ///< of the point, or of the edge's middle
+};
+
+MarkResidual markResidual(const MarkedView& view, const MarkAddress& at,
+                          const Pose& camera_from_station);
+
+/// A xi of the rig's frame as one of a camera's: Exp(A xi) camera_from_rig = camera_from_rig
+/// Exp(xi) to first order.
+Matrix6d adjoint(const Pose& camera_from_rig);
+
+/// Normal equations of all `marks` in xi of rig_from_station; `weight` (one per mark, or empty: all
+/// 1) multiplies 1 / sigma^2. A mark that does not project counts as missing.
+NormalEquations markEquations(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
+                              std::span<const double> weight, const Pose& rig_from_station);
+
+}  // namespace boresight::sessions

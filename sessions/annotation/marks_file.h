@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "sessions/annotation/marks.h"
+#include "sessions/io/json_reader.h"
+
+namespace boresight::sessions {
+
+/// points.json (`boresight-points`, version 1):
+///
+///     {"format": "boresight-points", "version": 1,
+///      "points": [{"id": "p1", "point_in_station_m": [x, y, z], "pixel": [u, v], "sigma_px": 0.3,
+///                  "enabled": true, "locked": false, "comment": "left screw"}],
+///      "lines": [{"id": "l1", "edge_in_station_m": [[x, y, z], [x, y, z]],
+///                 "line_px": [[u, v], [u, v]], "sigma_px": 0.3, "enabled": true, ...}]}
+///
+/// The centre of the top-left pixel is (0, 0). Only `id` must be there: sigma_px is 1, enabled
+/// true, locked false without them; of a half-made pair the station's or the image's side is
+/// missing. Members that the format does not know are refused. InputError.
+Marks readMarks(const std::filesystem::path& file);
+
+/// Writes points.json; reading it back gives the same values. OutputError.
+void writeMarks(const std::filesystem::path& file, const Marks& marks);
+
+/// Marks inside another file: an object with `points` and `lines`, of which either may be missing.
+Marks readMarks(const JsonReader& json);
+nlohmann::ordered_json toJson(const Marks& marks);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/annotation/mesh_snap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include "sessions/io/errors.h"
+#include "sessions/trace/surface_point.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kSmallestCircle = 8;       ///< corners
+constexpr double kCircleDeviation = 0.03;   ///< of the radius
+constexpr double kOcclusion = 0.005;        ///< of the depth
+constexpr std::size_t kMostSeenTests = 12;  ///< candidates that are tested for being seen
+
+Eigen::Vector3d faceNormal(const MeshView& mesh, const Face& face) {
+  const auto at = [&](int i) {
+    return mesh
+        .vertices_in_station_m[static_cast<std::size_t>(face.vertex[static_cast<std::size_t>(i)])]
+        .cast<double>()
+        .eval();
+  };
+  return (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+}
+
+/// Place of a segment that is nearest to a pixel once projected; sections are searched, then the
+/// best one is narrowed down.
+std::optional<Eigen::Vector3d> nearestOnEdge(const Camera& camera, const Pose& camera_from_station,
+                                             const ModelEdge& edge, const Eigen::Vector2d& pixel) {
+  const auto at = [&](double t) {
+    return ((1.0 - t) * edge.start_in_station_m + t * edge.end_in_station_m).eval();
+  };
+  const auto distance = [&](double t) {
+    Eigen::Vector2d seen;
+    return project(camera, camera_from_station * at(t), seen) ? (seen - pixel).norm() : 1e9;
+  };
+  constexpr int kSections = 16;
+  int best = 0;
+  double least = 1e9;
+  for (int i = 0; i <= kSections; ++i) {
+    const double here = distance(static_cast<double>(i) / kSections);
+    if (here >= least) continue;
+    least = here;
+    best = i;
+  }
+  if (least >= 1e9) return {};
+  double low = std::max(0.0, (best - 1.0) / kSections);
+  double high = std::min(1.0, (best + 1.0) / kSections);
+  for (int i = 0; i < 60; ++i) {
+    const double a = low + (high - low) / 3.0;
+    const double b = high - (high - low) / 3.0;
+    (distance(a) < distance(b) ? high : low) = distance(a) < distance(b) ? b : a;
+  }
+  return at(0.5 * (low + high));
+}
+
+}  // namespace
+
+MeshSnapper::MeshSnapper(const MeshView& mesh) : mesh_(mesh) {
+  if (validateMesh(mesh) != Status::kOk) throw InputError("mesh", "", "is not valid");
+  collectEdges();
+  collectCircles();
+}
+
+Eigen::Vector3d MeshSnapper::vertex(std::int32_t index) const {
+  return mesh_.vertices_in_station_m[static_cast<std::size_t>(index)].cast<double>();
+}
+
+void MeshSnapper::collectEdges() {
+  std::map<Ends, std::vector<std::size_t>> faces_of_edge;
+  for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+    const auto& corner = mesh_.faces[f].vertex;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Ends ends = {std::min(corner[i], corner[(i + 1) % 3]),
+                         std::max(corner[i], corner[(i + 1) % 3])};
+      if (ends[0] != ends[1]) faces_of_edge[ends].push_back(f);
+    }
+  }
+  std::set<std::int32_t> corners;
+  for (const auto& [ends, faces] : faces_of_edge) {
+    const ScenePart& part = mesh_.parts[mesh_.part_of_face[faces[0]]];
+    bool salient = faces.size() != 2;
+    if (!salient) {
+      // Faces need not be oriented alike.
+      const double cosine = std::abs(
+          faceNormal(mesh_, mesh_.faces[faces[0]]).dot(faceNormal(mesh_, mesh_.faces[faces[1]])));
+      salient = cosine < std::cos(part.normal_threshold_rad);
+    }
+    if (!salient || vertex(ends[0]) == vertex(ends[1])) continue;
+    ends_.push_back(ends);
+    edges_.push_back({vertex(ends[0]), vertex(ends[1])});
+    corners.insert(ends.begin(), ends.end());
+  }
+  corners_.assign(corners.begin(), corners.end());
+}
+
+/// Loops along vertices where just two salient edges meet.
+void MeshSnapper::collectCircles() {
+  std::map<std::int32_t, std::vector<std::int32_t>> neighbours;
+  for (const Ends& ends : ends_) {
+    neighbours[ends[0]].push_back(ends[1]);
+    neighbours[ends[1]].push_back(ends[0]);
+  }
+  std::set<std::int32_t> visited;
+  for (const auto& [start, around] : neighbours) {
+    if (around.size() != 2 || visited.contains(start)) continue;
+    std::vector<std::int32_t> loop = {start};
+    visited.insert(start);
+    std::int32_t before = start;
+    std::int32_t now = around[0];
+    while (now != start && neighbours[now].size() == 2 && visited.insert(now).second) {
+      loop.push_back(now);
+      const auto& next = neighbours[now];
+      const std::int32_t ahead = next[0] == before ? next[1] : next[0];
+      before = now;
+      now = ahead;
+    }
+    if (now == start) addLoop(loop);
+  }
+}
+
+void MeshSnapper::addLoop(const std::vector<std::int32_t>& loop) {
+  if (static_cast<double>(loop.size()) < kSmallestCircle) return;
+  const double count = static_cast<double>(loop.size());
+  MeshCircle circle;
+  for (const std::int32_t index : loop) circle.centre_in_station_m += vertex(index) / count;
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const std::int32_t index : loop) {
+    const Eigen::Vector3d offset = vertex(index) - circle.centre_in_station_m;
+    scatter += offset * offset.transpose() / count;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+  circle.normal_in_station = solver.eigenvectors().col(0);
+  const Eigen::Vector3d u = solver.eigenvectors().col(1);
+  const Eigen::Vector3d v = solver.eigenvectors().col(2);
+  // x^2 + y^2 = 2 a x + 2 b y + c, least squares (Kasa 1976): corners need not be evenly spaced.
+  Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const std::int32_t index : loop) {
+    const Eigen::Vector3d offset = vertex(index) - circle.centre_in_station_m;
+    const Eigen::Vector3d row(2.0 * offset.dot(u), 2.0 * offset.dot(v), 1.0);
+    const double squared = 0.25 * (row.x() * row.x() + row.y() * row.y());
+    normal_matrix += row * row.transpose();
+    right += row * squared;
+  }
+  const Eigen::Vector3d fit = normal_matrix.ldlt().solve(right);
+  circle.radius_m = std::sqrt(std::max(0.0, fit.z() + fit.x() * fit.x() + fit.y() * fit.y()));
+  circle.centre_in_station_m += fit.x() * u + fit.y() * v;
+  circle.vertices = loop;
+  for (const std::int32_t index : loop) {
+    const Eigen::Vector3d offset = vertex(index) - circle.centre_in_station_m;
+    const double height_m = offset.dot(circle.normal_in_station);
+    const double deviation_m = std::hypot(
+        (offset - height_m * circle.normal_in_station).norm() - circle.radius_m, height_m);
+    if (!(deviation_m < kCircleDeviation * circle.radius_m)) return;
+  }
+  circles_.push_back(circle);
+}
+
+/// Nothing of the mesh is clearly nearer on the same ray.
+bool MeshSnapper::isSeen(const Camera& camera, const Pose& camera_from_station,
+                         const Eigen::Vector3d& point_in_station_m) const {
+  const Eigen::Vector3d point = camera_from_station * point_in_station_m;
+  Eigen::Vector2d pixel;
+  if (!project(camera, point, pixel)) return false;
+  const auto surface = surfacePointAt(camera, mesh_, camera_from_station, pixel);
+  return !surface || surface->depth_m > point.z() * (1.0 - kOcclusion);
+}
+
+std::vector<MeshSnap> MeshSnapper::near(const Camera& camera, const Pose& camera_from_station,
+                                        const Eigen::Vector2d& pixel, double radius_px) const {
+  std::vector<MeshSnap> found;
+  const auto offer = [&](std::vector<MeshSnap>& offers, MeshSnap snap) {
+    if (!project(camera, camera_from_station * snap.point_in_station_m, snap.pixel)) return;
+    snap.distance_px = (snap.pixel - pixel).norm();
+    if (snap.distance_px <= radius_px) offers.push_back(snap);
+  };
+  const auto keepNearest = [&](std::vector<MeshSnap>& offers, const auto& seen) {
+    std::sort(offers.begin(), offers.end(),
+              [](const MeshSnap& a, const MeshSnap& b) { return a.distance_px < b.distance_px; });
+    for (std::size_t i = 0; i < std::min(offers.size(), kMostSeenTests); ++i) {
+      if (!seen(offers[i])) continue;
+      found.push_back(offers[i]);
+      return;
+    }
+  };
+  const auto itself = [&](const MeshSnap& snap) {
+    return isSeen(camera, camera_from_station, snap.point_in_station_m);
+  };
+  std::vector<MeshSnap> vertices;
+  for (const std::int32_t corner : corners_)
+    offer(vertices, {MeshSnapKind::kVertex, vertex(corner), {}, 0.0, {}, 0.0});
+  keepNearest(vertices, itself);
+  std::vector<MeshSnap> edges;
+  for (const ModelEdge& edge : edges_)
+    if (const auto point = nearestOnEdge(camera, camera_from_station, edge, pixel))
+      offer(edges, {MeshSnapKind::kEdge, *point, {}, 0.0, edge, 0.0});
+  keepNearest(edges, itself);
+  std::vector<MeshSnap> circles;
+  for (const MeshCircle& circle : circles_)
+    offer(circles,
+          {MeshSnapKind::kCircle, circle.centre_in_station_m, {}, 0.0, {}, circle.radius_m});
+  // A hole's centre lies in the air: some of its rim must be seen.
+  keepNearest(circles, [&](const MeshSnap& snap) {
+    const auto circle = std::find_if(circles_.begin(), circles_.end(), [&](const MeshCircle& one) {
+      return one.centre_in_station_m == snap.point_in_station_m;
+    });
+    return std::any_of(circle->vertices.begin(), circle->vertices.end(), [&](std::int32_t index) {
+      return isSeen(camera, camera_from_station, vertex(index));
+    });
+  });
+  return found;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/mesh.h"
+#include "core/geometry/pose.h"
+#include "sessions/annotation/marks.h"
+
+namespace boresight::sessions {
+
+/// A circle of the mesh: a closed loop of salient edges whose corners lie on one.
+struct MeshCircle {
+  Eigen::Vector3d centre_in_station_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal_in_station = Eigen::Vector3d::UnitZ();
+  double radius_m = 0.0;
+  std::vector<std::int32_t> vertices;
+};
+
+enum class MeshSnapKind { kVertex, kEdge, kCircle };
+
+/// A place of the mesh that a mark may snap to.
+struct MeshSnap {
+  MeshSnapKind kind = MeshSnapKind::kVertex;
+  Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< where the pose projects it
+  double distance_px = 0.0;                         ///< from the place that was asked about
+  std::optional<ModelEdge> edge;                    ///< that it lies on, of a kEdge
+  double radius_m = 0.0;                            ///< of a kCircle
+};
+
+/// What of a mesh a person would point at: corners where salient edges meet, salient edges
+/// (borders, and folds beyond the part's normal threshold), and the centres of circles. Works on
+/// the geometry alone: no window, no pixels, exact at any magnification.
+class MeshSnapper {
+ public:
+  /// `mesh` must outlive it. InputError for a mesh that core refuses.
+  explicit MeshSnapper(const MeshView& mesh);
+
+  const std::vector<ModelEdge>& edges() const { return edges_; }
+  const std::vector<MeshCircle>& circles() const { return circles_; }
+
+  /// The nearest one of each kind that is seen within the radius of a pixel, vertex, edge, circle.
+  std::vector<MeshSnap> near(const Camera& camera, const Pose& camera_from_station,
+                             const Eigen::Vector2d& pixel, double radius_px) const;
+
+ private:
+  using Ends = std::array<std::int32_t, 2>;
+
+  Eigen::Vector3d vertex(std::int32_t index) const;
+  void collectEdges();
+  void collectCircles();
+  void addLoop(const std::vector<std::int32_t>& loop);
+  bool isSeen(const Camera& camera, const Pose& camera_from_station,
+              const Eigen::Vector3d& point_in_station_m) const;
+
+  MeshView mesh_;
+  std::vector<Ends> ends_;  ///< of `edges_`
+  std::vector<ModelEdge> edges_;
+  std::vector<std::int32_t> corners_;  ///< vertices of salient edges
+  std::vector<MeshCircle> circles_;
+};
+
+}  // namespace boresight::sessions

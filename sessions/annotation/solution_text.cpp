@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/annotation/solution_text.h"
+
+#include "sessions/annotation/geometry_meter.h"
+#include "sessions/report/run_text.h"
+#include "sessions/report/text_table.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kStandsOut = 3.0;  ///< standard deviations
+
+TextTable markTable(std::span<const MarkedView> views, const MarksSolution& solution) {
+  TextTable table({"view", "mark", "kind", "dx px", "dy px", "dx mm", "dy mm", "sigmas", "weight",
+                   "without: mm", "mrad"});
+  const std::vector<LeftOut> left_out = leaveOneOut(views, solution);
+  for (std::size_t i = 0; i < solution.marks.size(); ++i) {
+    const SolvedMark& mark = solution.marks[i];
+    const LeftOut& without = left_out[i];
+    const bool stands_out = mark.normalized > kStandsOut;
+    table.add({views[mark.address.view].name, markId(views, mark.address),
+               mark.address.kind == MarkKind::kPoint ? "point" : "line",
+               fixedText(mark.residual_px.x(), 3), fixedText(mark.residual_px.y(), 3),
+               fixedText(mark.residual_mm.x(), 3), fixedText(mark.residual_mm.y(), 3),
+               fixedText(mark.normalized, 1) + (stands_out ? " !" : ""), fixedText(mark.weight, 2),
+               without.determined ? fixedText(without.translation_mm, 3) : "no pose",
+               without.determined ? fixedText(without.rotation_mrad, 3) : "-"});
+  }
+  return table;
+}
+
+std::string summaryLine(const MarksSolution& solution) {
+  std::string text = std::to_string(solution.marks.size()) + " marks, rms " +
+                     fixedText(solution.rms_px, 3) + " px, ";
+  if (solution.degrees_of_freedom == 0) return text + "none left over to check the pose";
+  return text + "noise " + fixedText(solution.noise_factor, 2) + " times the stated sigma (" +
+         std::to_string(solution.degrees_of_freedom) + " degrees of freedom)";
+}
+
+}  // namespace
+
+std::string solutionText(std::span<const MarkedView> views, const MarksSolution& solution) {
+  std::string text = markTable(views, solution).text();
+  text += "(dx, dy: seen minus predicted; of a line, both ends across the edge; !: stands out)\n\n";
+  text += summaryLine(solution) + "\n";
+  for (const GeometryWarning& warning : geometryWarnings(views, &solution.rig_from_station, {}))
+    text += "weak: " + warning.text + "\n";
+  text += "\n" + poseText(solution.rig_from_station, solution.covariance);
+  if (!solution.twin) return text;
+  text += "\nanother pose explains these marks with rms " + fixedText(solution.twin->rms_px, 3) +
+          " px:\n";
+  return text + poseText(solution.twin->rig_from_station, Matrix6d::Zero());
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/annotation/solve_marks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sessions/annotation/first_pose.h"
+#include "sessions/annotation/geometry_meter.h"
+#include "sessions/annotation/refine_marks.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr int kUnknowns = 6;
+constexpr int kRobustRounds = 50;
+constexpr double kTukey = 4.685;  ///< 95 % efficient on Gaussian errors
+/// Of |residual| / sigma of a two-dimensional Gaussian: its median is 1.1774.
+constexpr double kMedianOfRayleigh = 1.1774;
+constexpr double kTwinRatio = 5.0;       ///< of both poses' rms, or the other one is ruled out
+constexpr double kTwinFloor_px = 1.0;    ///< rms below this is never ruled out
+constexpr double kTwinAngle_rad = 0.02;  ///< nearer than this it is the same pose
+
+/// A pose and the squares that it leaves.
+struct Fit {
+  Pose rig_from_station;
+  NormalEquations equations;
+  std::vector<double> weight;  ///< one per mark
+};
+
+std::vector<double> weightedNorms(std::span<const MarkedView> views,
+                                  std::span<const MarkAddress> marks, const Pose& pose) {
+  std::vector<double> norms;
+  for (const MarkAddress& at : marks) {
+    const MarkedView& view = views[at.view];
+    const MarkResidual mark = markResidual(view, at, view.camera_from_rig * pose);
+    norms.push_back(mark.valid ? mark.residual_px.norm() / markSigma_px(views, at) : 1e9);
+  }
+  return norms;
+}
+
+double medianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Tukey's biweight; its scale is not taken below the marks' own sigma.
+std::vector<double> tukeyWeights(const std::vector<double>& norms) {
+  const double limit = kTukey * std::max(1.0, medianOf(norms) / kMedianOfRayleigh);
+  std::vector<double> weight;
+  for (const double norm : norms) {
+    const double ratio = std::min(1.0, norm / limit);
+    weight.push_back((1.0 - ratio * ratio) * (1.0 - ratio * ratio));
+  }
+  return weight;
+}
+
+std::optional<Fit> fitFrom(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
+                           const Pose& start, bool robust) {
+  Fit fit{start, {}, std::vector<double>(marks.size(), 1.0)};
+  if (!robust) {
+    if (!refineMarks(views, marks, fit.weight, fit.rig_from_station, fit.equations)) return {};
+    return fit;
+  }
+  // The start agrees with most marks, so the first weights come from it.
+  for (int round = 0; round < kRobustRounds; ++round) {
+    const std::vector<double> before = fit.weight;
+    fit.weight = tukeyWeights(weightedNorms(views, marks, fit.rig_from_station));
+    if (!refineMarks(views, marks, fit.weight, fit.rig_from_station, fit.equations)) return {};
+    double change = 0.0;
+    for (std::size_t i = 0; i < before.size(); ++i)
+      change = std::max(change, std::abs(before[i] - fit.weight[i]));
+    if (change < 1e-9) break;
+  }
+  return fit;
+}
+
+double rmsOf(const Fit& fit) {
+  double weights = 0.0;
+  for (const double weight : fit.weight) weights += weight;
+  return std::sqrt(fit.equations.squares / std::max(1.0, 2.0 * weights));
+}
+
+/// The better of what the starts lead to. Robust fits leave marks out: the one with more left wins.
+std::optional<Fit> bestFit(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
+                           const SolveMarksOptions& options) {
+  std::optional<Fit> best;
+  const auto cost = [](const Fit& fit) {
+    double excluded = 0.0;
+    for (const double weight : fit.weight) excluded += 1.0 - weight;
+    return fit.equations.squares + 2.0 * kTukey * kTukey * excluded;
+  };
+  const auto consider = [&](const std::optional<Pose>& start) {
+    if (!start) return;
+    const std::optional<Fit> fit = fitFrom(views, marks, *start, options.robust);
+    if (fit && (!best || cost(*fit) < cost(*best))) best = fit;
+  };
+  consider(firstPose(views));
+  consider(options.rig_from_station_guess);
+  if (best) consider(mirroredPose(views, best->rig_from_station));
+  return best;
+}
+
+std::optional<PoseTwin> twinOf(std::span<const MarkedView> views,
+                               std::span<const MarkAddress> marks, const Fit& fit, bool robust) {
+  const std::optional<Pose> start = mirroredPose(views, fit.rig_from_station);
+  if (!start) return {};
+  const std::optional<Fit> other = fitFrom(views, marks, *start, robust);
+  if (!other) return {};
+  const Eigen::Quaterniond turn =
+      (other->rig_from_station.rotation * fit.rig_from_station.rotation.conjugate()).normalized();
+  if (rotationLog(turn).norm() < kTwinAngle_rad) return {};
+  const double rms_px = rmsOf(*other);
+  if (rms_px > std::max(kTwinFloor_px, kTwinRatio * rmsOf(fit))) return {};
+  return PoseTwin{other->rig_from_station, rms_px};
+}
+
+/// Residual scaled by its own deviation: what a mark pulls on the pose makes its residual smaller
+/// (studentized; Cook and Weisberg 1982).
+double normalizedResidual(const MarkResidual& mark, const Matrix6d& camera_covariance,
+                          double noise_px) {
+  Eigen::Matrix2d variance =
+      noise_px * noise_px * Eigen::Matrix2d::Identity() -
+      mark.predicted_by_xi * camera_covariance * mark.predicted_by_xi.transpose();
+  // A mark that alone holds the pose has no residual to speak of.
+  for (int i = 0; i < 2; ++i) variance(i, i) = std::max(variance(i, i), 1e-4 * noise_px * noise_px);
+  double largest = 0.0;
+  for (int i = 0; i < 2; ++i)
+    largest = std::max(largest, std::abs(mark.residual_px[i]) / std::sqrt(variance(i, i)));
+  return largest;
+}
+
+double pixelsPerRadian(const Camera& camera) { return 0.5 * (camera.fx + camera.fy); }
+
+void describeMarks(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
+                   const Fit& fit, MarksSolution& solution) {
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const MarkedView& view = views[marks[i].view];
+    const MarkResidual mark =
+        markResidual(view, marks[i], solution.camera_from_station[marks[i].view]);
+    SolvedMark made;
+    made.address = marks[i];
+    made.weight = fit.weight[i];
+    made.projected = mark.valid;
+    if (mark.valid) {
+      made.residual_px = mark.residual_px;
+      made.residual_mm = mark.residual_px * (1000.0 * mark.depth_m / pixelsPerRadian(view.camera));
+      const double noise_px = markSigma_px(views, marks[i]) * std::max(solution.noise_factor, 1e-6);
+      made.normalized = normalizedResidual(mark, cameraCovariance(solution, view), noise_px);
+    }
+    solution.marks.push_back(made);
+  }
+}
+
+MarksSolution describe(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
+                       const Fit& fit, bool robust) {
+  MarksSolution solution;
+  solution.rig_from_station = fit.rig_from_station;
+  for (const MarkedView& view : views)
+    solution.camera_from_station.push_back(view.camera_from_rig * fit.rig_from_station);
+  double weights = 0.0;
+  for (const double weight : fit.weight) weights += weight;
+  const double freedom = 2.0 * weights - kUnknowns;
+  solution.degrees_of_freedom = std::max(0, static_cast<int>(std::floor(freedom + 1e-9)));
+  if (solution.degrees_of_freedom > 0)
+    solution.noise_factor = std::sqrt(fit.equations.squares / freedom);
+  Matrix6d covariance;
+  if (invert(fit.equations.information, covariance))
+    solution.covariance = solution.noise_factor * solution.noise_factor * covariance;
+  describeMarks(views, marks, fit, solution);
+  double squares_px = 0.0;
+  for (const SolvedMark& mark : solution.marks)
+    squares_px += mark.weight * mark.residual_px.squaredNorm();
+  solution.rms_px = std::sqrt(squares_px / std::max(1.0, 2.0 * weights));
+  solution.twin = twinOf(views, marks, fit, robust);
+  return solution;
+}
+
+/// Why nothing can be solved, or "".
+std::string hindrance(std::span<const MarkedView> views, const SolveMarksOptions& options) {
+  const Pose* guess = options.rig_from_station_guess ? &*options.rig_from_station_guess : nullptr;
+  for (const GeometryWarning& warning : geometryWarnings(views, guess, {}))
+    if (warning.prevents) return warning.text;
+  return "";
+}
+
+}  // namespace
+
+MarksResult solveMarks(std::span<const MarkedView> views, const SolveMarksOptions& options) {
+  const std::string hindered = hindrance(views, options);
+  if (!hindered.empty()) return {{}, hindered};
+  const std::vector<MarkAddress> marks = usedMarks(views);
+  const std::optional<Fit> fit = bestFit(views, marks, options);
+  if (!fit)
+    return {{},
+            "no pose agrees with the marks: look for mixed-up pairs, or add a pair far from the "
+            "others"};
+  return {describe(views, marks, *fit, options.robust), ""};
+}
+
+std::vector<LeftOut> leaveOneOut(std::span<const MarkedView> views, const MarksSolution& solution) {
+  std::vector<MarkAddress> marks;
+  std::vector<double> weight;
+  for (const SolvedMark& mark : solution.marks) {
+    marks.push_back(mark.address);
+    weight.push_back(mark.weight);
+  }
+  const Eigen::Vector3d middle_m = markedSpread(views).middle_in_station_m;
+  std::vector<LeftOut> all;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    std::vector<double> without = weight;
+    without[i] = 0.0;
+    Pose pose = solution.rig_from_station;
+    NormalEquations equations;
+    LeftOut made;
+    made.address = marks[i];
+    made.determined = refineMarks(views, marks, without, pose, equations);
+    if (made.determined) {
+      made.translation_mm =
+          1000.0 * (pose * middle_m - solution.rig_from_station * middle_m).norm();
+      made.rotation_mrad =
+          1000.0 *
+          rotationLog((pose.rotation * solution.rig_from_station.rotation.conjugate()).normalized())
+              .norm();
+    }
+    all.push_back(made);
+  }
+  return all;
+}
+
+Matrix6d cameraCovariance(const MarksSolution& solution, const MarkedView& view) {
+  const Matrix6d camera_by_rig = adjoint(view.camera_from_rig);
+  return camera_by_rig * solution.covariance * camera_by_rig.transpose();
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/geometry/pose.h"
+#include "sessions/annotation/marked_view.h"
+
+namespace boresight::sessions {
+
+struct SolveMarksOptions {
+  /// Tukey's weights instead of equal ones: marks far out count little or nothing.
+  bool robust = false;
+  /// Where to begin when the points alone do not say (fewer than four in every view).
+  std::optional<Pose> rig_from_station_guess;
+};
+
+/// How well the pose explains a mark.
+struct SolvedMark {
+  MarkAddress address;
+  bool projected = false;  ///< false: the pose does not project it, the rest says nothing
+  /// Seen minus predicted: x and y of a point, the distances of a line's ends across the edge.
+  Eigen::Vector2d residual_px = Eigen::Vector2d::Zero();
+  Eigen::Vector2d residual_mm = Eigen::Vector2d::Zero();  ///< the same at the mark's distance
+  double weight = 1.0;                                    ///< 0 ... 1; 1 unless robust
+  /// Norm of the residual in units of its own standard deviation, sigma_px times the noise factor
+  /// reduced by what the mark itself pulls; above 3 it stands out.
+  double normalized = 0.0;
+};
+
+/// How far the pose moves without a mark.
+struct LeftOut {
+  MarkAddress address;
+  bool determined = false;      ///< false: without it there is no pose
+  double translation_mm = 0.0;  ///< of the middle of the marked places
+  double rotation_mrad = 0.0;
+};
+
+/// Another pose that explains coplanar marks nearly as well (Schweighofer and Pinz 2006).
+struct PoseTwin {
+  Pose rig_from_station;
+  double rms_px = 0.0;
+};
+
+struct MarksSolution {
+  Pose rig_from_station;
+  std::vector<Pose> camera_from_station;  ///< by view
+  /// Over xi = (rotation rad, translation m), left perturbation, rig frame: noise_factor^2
+  /// (J' W J)^-1 with W = 1 / sigma_px^2.
+  Matrix6d covariance = Matrix6d::Zero();
+  /// Root of the weighted squares by degrees of freedom: 1 when the marks are as good as their
+  /// sigmas say. 1 where nothing is left over to tell.
+  double noise_factor = 1.0;
+  int degrees_of_freedom = 0;
+  double rms_px = 0.0;            ///< over both residuals of all marks, weighted
+  std::vector<SolvedMark> marks;  ///< in the order of usedMarks
+  std::optional<PoseTwin> twin;
+};
+
+/// A pose, or in one sentence why there is none and what to do.
+struct MarksResult {
+  std::optional<MarksSolution> solution;
+  std::string reason;
+};
+
+/// The pose of the rig that explains all marks that are on, best in the sense of least squares over
+/// sigma (or robust ones), with the whole camera models. It starts from P3P on random points where
+/// a view has four, and from the guess. Deterministic: the same marks give the same digits.
+/// Robust: iteratively reweighted least squares with Tukey's biweight, c = 4.685 (Huber and
+/// Ronchetti 2009), its scale the median of the residuals' norms.
+MarksResult solveMarks(std::span<const MarkedView> views, const SolveMarksOptions& options);
+
+/// Solves again without one mark after the other; equal or robust weights stay what they are.
+std::vector<LeftOut> leaveOneOut(std::span<const MarkedView> views, const MarksSolution& solution);
+
+/// The covariance of a camera, in its own frame.
+Matrix6d cameraCovariance(const MarksSolution& solution, const MarkedView& view);
+
+}  // namespace boresight::sessions

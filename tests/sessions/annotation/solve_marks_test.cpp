@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/annotation/solve_marks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <opencv2/calib3d.hpp>
+
+#include "tests/sessions/annotation/marked_scene.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::addLine;
+using test::addPoint;
+using test::MarkedScene;
+using test::randomFor;
+using test::randomScene;
+using testing::HasSubstr;
+
+double distance(const Pose& a, const Pose& b) { return perturbationBetween(a, b).norm(); }
+
+TEST(SolveMarks, FindsTheTruthWithEveryCamera) {
+  Random random = randomFor("SolveMarks.Truth");
+  for (const CameraModel model :
+       {CameraModel::kPinhole, CameraModel::kBrownConrady, CameraModel::kKannalaBrandt}) {
+    for (int trial = 0; trial < 30; ++trial) {
+      const MarkedScene scene = randomScene(random, model, 4 + trial % 5, trial % 4, 0.0);
+      const MarksResult result = solveMarks(scene.views(), {});
+      ASSERT_TRUE(result.solution) << result.reason;
+      EXPECT_LT(distance(result.solution->rig_from_station, scene.camera_from_station), 1e-7);
+      EXPECT_LT(result.solution->rms_px, 1e-5);
+    }
+  }
+}
+
+TEST(SolveMarks, LinesAloneDoFromAGuess) {
+  Random random = randomFor("SolveMarks.Lines");
+  for (int trial = 0; trial < 30; ++trial) {
+    const MarkedScene scene = randomScene(random, CameraModel::kBrownConrady, 0, 8, 0.0);
+    EXPECT_THAT(solveMarks(scene.views(), {}).reason, HasSubstr("guess"));
+    SolveMarksOptions options;
+    Vector6d off;
+    off << 0.03, -0.05, 0.04, 0.01, -0.01, 0.02;
+    options.rig_from_station_guess = perturbed(off, scene.camera_from_station);
+    const MarksResult result = solveMarks(scene.views(), options);
+    ASSERT_TRUE(result.solution) << result.reason;
+    EXPECT_LT(distance(result.solution->rig_from_station, scene.camera_from_station), 1e-7);
+  }
+}
+
+cv::Mat cameraMatrix(const Camera& camera) {
+  return (cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+}
+
+void toOpenCv(const Marks& marks, std::vector<cv::Point3d>& places,
+              std::vector<cv::Point2d>& pixels) {
+  for (const PointPair& point : marks.points) {
+    const Eigen::Vector3d& p = *point.point_in_station_m;
+    places.emplace_back(p.x(), p.y(), p.z());
+    pixels.emplace_back(point.pixel->x(), point.pixel->y());
+  }
+}
+
+Pose fromOpenCv(const cv::Mat& rotation, const cv::Mat& translation) {
+  Pose pose;
+  pose.rotation =
+      rotationExp({rotation.at<double>(0), rotation.at<double>(1), rotation.at<double>(2)});
+  pose.translation_m = {translation.at<double>(0), translation.at<double>(1),
+                        translation.at<double>(2)};
+  return pose;
+}
+
+TEST(SolveMarks, AgreesWithOpenCvsIterativeSolution) {
+  Random random = randomFor("SolveMarks.OpenCv");
+  for (int trial = 0; trial < 30; ++trial) {
+    const MarkedScene scene = randomScene(random, CameraModel::kBrownConrady, 12, 0, 0.5);
+    std::vector<cv::Point3d> places;
+    std::vector<cv::Point2d> pixels;
+    toOpenCv(scene.view.marks, places, pixels);
+    const std::vector<double> distortion(scene.view.camera.distortion.begin(),
+                                         scene.view.camera.distortion.begin() + 5);
+    cv::Mat rotation;
+    cv::Mat translation;
+    ASSERT_TRUE(cv::solvePnP(places, pixels, cameraMatrix(scene.view.camera), distortion, rotation,
+                             translation, false, cv::SOLVEPNP_SQPNP));
+    cv::solvePnPRefineLM(
+        places, pixels, cameraMatrix(scene.view.camera), distortion, rotation, translation,
+        cv::TermCriteria(cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 100, 1e-14));
+    const MarksResult result = solveMarks(scene.views(), {});
+    ASSERT_TRUE(result.solution) << result.reason;
+    EXPECT_LT(distance(result.solution->rig_from_station, fromOpenCv(rotation, translation)), 1e-5);
+  }
+}
+
+TEST(SolveMarks, ShowsBothPosesOfAPlaneAsIppeDoes) {
+  Random random = randomFor("SolveMarks.Plane");
+  int ambiguous = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    // Small and far away: nearly parallel rays, where both poses fit.
+    MarkedScene scene = randomScene(random, CameraModel::kPinhole, 0, 0, 0.0);
+    const double azimuth = random.uniform(-kPi, kPi);
+    const Eigen::Vector3d tilt_axis(std::cos(azimuth), std::sin(azimuth), 0.0);
+    scene.camera_from_station.rotation = rotationExp(random.uniform(0.3, 0.9) * tilt_axis) *
+                                         rotationExp({0.0, 0.0, random.uniform(-kPi, kPi)});
+    scene.camera_from_station.translation_m = {0.05, -0.03, 1.2};
+    const auto corner = [&](double x, double y) {
+      return Eigen::Vector3d(0.015 * x, 0.015 * y, 0.0);
+    };
+    for (const Eigen::Vector3d& place_m : {corner(-1, -1), corner(1, -1), corner(1, 1),
+                                           corner(-1, 1), corner(0, 0.5), corner(-0.5, 0)})
+      ASSERT_TRUE(addPoint(scene.view, scene.camera_from_station, place_m, 0.3, 0.3, random));
+    std::vector<cv::Point3d> places;
+    std::vector<cv::Point2d> pixels;
+    toOpenCv(scene.view.marks, places, pixels);
+    std::vector<cv::Mat> rotations;
+    std::vector<cv::Mat> translations;
+    std::vector<double> errors;
+    cv::solvePnPGeneric(places, pixels, cameraMatrix(scene.view.camera), cv::noArray(), rotations,
+                        translations, false, cv::SOLVEPNP_IPPE, cv::noArray(), cv::noArray(),
+                        errors);
+    const MarksResult result = solveMarks(scene.views(), {});
+    ASSERT_TRUE(result.solution) << result.reason;
+    // Never worse than IPPE's best.
+    double least = 1e9;
+    for (const double error : errors) least = std::min(least, error);
+    EXPECT_LE(result.solution->rms_px, least * 1.001 + 1e-6);
+    const double apart_rad =
+        rotationLog((fromOpenCv(rotations[0], translations[0]).rotation *
+                     fromOpenCv(rotations[1], translations[1]).rotation.conjugate())
+                        .normalized())
+            .norm();
+    const bool expected = apart_rad > 0.3 && std::max(errors[0], errors[1]) < least + 0.3;
+    ambiguous += expected ? 1 : 0;
+    if (expected) {
+      EXPECT_TRUE(result.solution->twin) << errors[0] << " " << errors[1] << " " << apart_rad;
+    }
+    if (!result.solution->twin) continue;
+    EXPECT_GE(result.solution->twin->rms_px, result.solution->rms_px - 1e-9);
+    double nearest = 1e9;
+    for (std::size_t i = 0; i < rotations.size(); ++i)
+      nearest = std::min(nearest, distance(result.solution->twin->rig_from_station,
+                                           fromOpenCv(rotations[i], translations[i])));
+    EXPECT_LT(nearest, 0.2);
+  }
+  EXPECT_GT(ambiguous, 5);
+}
+
+TEST(SolveMarks, RobustlyIgnoresMarksThatAreFarOut) {
+  Random random = randomFor("SolveMarks.Robust");
+  SolveMarksOptions robust;
+  robust.robust = true;
+  for (int trial = 0; trial < 30; ++trial) {
+    MarkedScene scene = randomScene(random, CameraModel::kBrownConrady, 14, 4, 0.3);
+    const MarksResult clean = solveMarks(scene.views(), robust);
+    ASSERT_TRUE(clean.solution);
+    *scene.view.marks.points[2].pixel += Eigen::Vector2d(60.0, -25.0);
+    *scene.view.marks.points[9].pixel += Eigen::Vector2d(-8.0, 12.0);
+    scene.view.marks.lines[1].line->start += Eigen::Vector2d(30.0, 30.0);
+    const MarksResult result = solveMarks(scene.views(), robust);
+    ASSERT_TRUE(result.solution) << result.reason;
+    const double robust_error =
+        distance(result.solution->rig_from_station, scene.camera_from_station);
+    EXPECT_LT(robust_error,
+              3.0 * distance(clean.solution->rig_from_station, scene.camera_from_station) + 2e-3);
+    EXPECT_EQ(result.solution->marks[2].weight, 0.0);
+    EXPECT_EQ(result.solution->marks[9].weight, 0.0);
+    EXPECT_GT(result.solution->marks[2].normalized, 3.0);
+    const MarksResult plain = solveMarks(scene.views(), {});
+    ASSERT_TRUE(plain.solution);
+    EXPECT_GT(distance(plain.solution->rig_from_station, scene.camera_from_station), robust_error);
+  }
+}
+
+TEST(SolveMarks, ARigIsSolvedAsOne) {
+  Random random = randomFor("SolveMarks.Rig");
+  double single = 0.0;
+  double together = 0.0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const MarkedScene left = randomScene(random, CameraModel::kBrownConrady, 6, 2, 0.5);
+    MarkedView right;
+    right.name = "right";
+    right.camera = test::annotatedCamera(CameraModel::kPinhole);
+    right.camera_from_rig.translation_m = {-0.15, 0.01, 0.0};
+    right.camera_from_rig.rotation = rotationExp({0.02, 0.25, -0.03});
+    const Pose right_from_station = right.camera_from_rig * left.camera_from_station;
+    for (const PointPair& point : left.view.marks.points)
+      addPoint(right, right_from_station, *point.point_in_station_m, 0.5, 0.5, random);
+    const std::vector<MarkedView> views = {left.view, right};
+    const MarksResult result = solveMarks(views, {});
+    ASSERT_TRUE(result.solution) << result.reason;
+    EXPECT_LT(distance(result.solution->camera_from_station[1],
+                       right.camera_from_rig * result.solution->rig_from_station),
+              1e-12);
+    const MarksResult alone = solveMarks(left.views(), {});
+    ASSERT_TRUE(alone.solution);
+    const auto off_m = [&](const MarksSolution& solution) {
+      return (solution.rig_from_station.translation_m - left.camera_from_station.translation_m)
+          .norm();
+    };
+    single += off_m(*alone.solution);
+    together += off_m(*result.solution);
+    const auto stated = [](const MarksSolution& solution) {
+      return solution.covariance.trace() / (solution.noise_factor * solution.noise_factor);
+    };
+    EXPECT_LT(stated(*result.solution), stated(*alone.solution));
+  }
+  EXPECT_LT(together, 0.7 * single);
+}
+
+TEST(SolveMarks, TheFrameOfARigChangesNothing) {
+  Random random = randomFor("SolveMarks.RigFrame");
+  MarkedScene scene = randomScene(random, CameraModel::kPinhole, 8, 0, 0.5);
+  const MarksResult plain = solveMarks(scene.views(), {});
+  scene.view.camera_from_rig = test::randomPose(random);
+  const MarksResult framed = solveMarks(scene.views(), {});
+  ASSERT_TRUE(plain.solution && framed.solution);
+  EXPECT_LT(distance(plain.solution->rig_from_station, framed.solution->camera_from_station[0]),
+            1e-8);
+  const Matrix6d covariance = cameraCovariance(*framed.solution, scene.view);
+  EXPECT_LT((covariance - plain.solution->covariance).norm(),
+            1e-6 * plain.solution->covariance.norm());
+}
+
+TEST(SolveMarks, LeavingOneOutIsSolvingWithoutIt) {
+  Random random = randomFor("SolveMarks.LeaveOneOut");
+  MarkedScene scene = randomScene(random, CameraModel::kBrownConrady, 6, 2, 0.5);
+  const MarksResult whole = solveMarks(scene.views(), {});
+  ASSERT_TRUE(whole.solution);
+  const std::vector<LeftOut> left_out = leaveOneOut(scene.views(), *whole.solution);
+  ASSERT_EQ(left_out.size(), 8u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    MarkedScene without = scene;
+    without.view.marks.points[i].enabled = false;
+    const MarksResult result = solveMarks(without.views(), {});
+    ASSERT_TRUE(result.solution && left_out[i].determined);
+    const double rotation_mrad =
+        1000.0 * rotationLog((result.solution->rig_from_station.rotation *
+                              whole.solution->rig_from_station.rotation.conjugate())
+                                 .normalized())
+                     .norm();
+    // Steps on lines converge linearly: they hold the lines' scale fixed.
+    EXPECT_NEAR(left_out[i].rotation_mrad, rotation_mrad, 1e-4);
+    EXPECT_GT(left_out[i].translation_mm, 0.0);
+  }
+}
+
+TEST(SolveMarks, WithoutASpareMarkNothingIsDetermined) {
+  Random random = randomFor("SolveMarks.Exact");
+  const MarkedScene scene = randomScene(random, CameraModel::kPinhole, 3, 0, 0.0);
+  SolveMarksOptions options;
+  options.rig_from_station_guess = scene.camera_from_station;
+  const MarksResult result = solveMarks(scene.views(), options);
+  ASSERT_TRUE(result.solution) << result.reason;
+  EXPECT_EQ(result.solution->degrees_of_freedom, 0);
+  EXPECT_EQ(result.solution->noise_factor, 1.0);
+  for (const LeftOut& one : leaveOneOut(scene.views(), *result.solution))
+    EXPECT_FALSE(one.determined);
+}
+
+TEST(SolveMarks, ThatAreOffOrHalfMadeCountForNothing) {
+  Random random = randomFor("SolveMarks.Off");
+  MarkedScene scene = randomScene(random, CameraModel::kPinhole, 6, 0, 0.4);
+  const MarksResult before = solveMarks(scene.views(), {});
+  PointPair wrong;
+  wrong.id = "off";
+  wrong.enabled = false;
+  wrong.pixel = Eigen::Vector2d(1.0, 2.0);
+  wrong.point_in_station_m = Eigen::Vector3d(1.0, 2.0, 3.0);
+  scene.view.marks.points.insert(scene.view.marks.points.begin(), wrong);
+  wrong.id = "half";
+  wrong.enabled = true;
+  wrong.pixel.reset();
+  scene.view.marks.points.push_back(wrong);
+  const MarksResult after = solveMarks(scene.views(), {});
+  ASSERT_TRUE(before.solution && after.solution);
+  EXPECT_EQ(before.solution->rig_from_station, after.solution->rig_from_station);
+  EXPECT_EQ(after.solution->marks[0].address, (MarkAddress{0, MarkKind::kPoint, 1}));
+}
+
+TEST(SolveMarks, SaysWhyThereIsNoPose) {
+  Random random = randomFor("SolveMarks.Reason");
+  MarkedScene scene = randomScene(random, CameraModel::kPinhole, 3, 0, 0.0);
+  EXPECT_THAT(solveMarks(scene.views(), {}).reason, HasSubstr("needs 4"));
+  scene = randomScene(random, CameraModel::kPinhole, 6, 0, 0.0);
+  for (PointPair& point : scene.view.marks.points)
+    point.point_in_station_m = Eigen::Vector3d(point.point_in_station_m->x(), 0.0, 0.0);
+  EXPECT_THAT(solveMarks(scene.views(), {}).reason, HasSubstr("one line"));
+  EXPECT_THAT(solveMarks({}, {}).reason, HasSubstr("too few"));
+}
+
+}  // namespace
+}  // namespace boresight::sessions
