@@ -5,6 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sessions/annotation/marks_csv.h"
+#include "sessions/io/atomic_file.h"
+#include "sessions/io/file_bytes.h"
 #include "sessions/io/json_document.h"
 #include "sessions/io/json_writer.h"
 
@@ -95,6 +98,8 @@ ordered_json lineJson(const LinePair& line) {
   return json;
 }
 
+bool isTable(const std::filesystem::path& file) { return file.extension() == ".csv"; }
+
 }  // namespace
 
 Marks readMarks(const JsonReader& json) {
@@ -128,6 +133,7 @@ ordered_json toJson(const Marks& marks) {
 }
 
 Marks readMarks(const std::filesystem::path& file) {
+  if (isTable(file)) return parseMarksCsv(file, asText(readFileBytes(file, kMaxJsonBytes)));
   const JsonDocument document(file);
   const JsonReader root = document.root(kFormat, kVersion);
   root.requireKnown({"format", "version", "points", "lines"});
@@ -135,6 +141,10 @@ Marks readMarks(const std::filesystem::path& file) {
 }
 
 void writeMarks(const std::filesystem::path& file, const Marks& marks) {
+  if (isTable(file)) {
+    writeFileAtomically(file, marksCsv(marks));
+    return;
+  }
   ordered_json json;
   json["format"] = kFormat;
   json["version"] = kVersion;

@@ -23,7 +23,8 @@ namespace boresight::sessions {
 /// missing. Members that the format does not know are refused. InputError.
 Marks readMarks(const std::filesystem::path& file);
 
-/// Writes points.json; reading it back gives the same values. OutputError.
+/// Writes points.json, or a table where the name ends in .csv; reading it back gives the same
+/// values. OutputError.
 void writeMarks(const std::filesystem::path& file, const Marks& marks);
 
 /// Marks inside another file: an object with `points` and `lines`, of which either may be missing.

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "core/base/random.h"
+#include "tests/sessions/annotation/random_marks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
@@ -13,43 +13,15 @@ namespace {
 
 using boresight::test::TemporaryFolder;
 
-PointPair randomPoint(Random& random, int i) {
-  PointPair point;
-  point.id = "p" + std::to_string(i);
-  if (i % 4 != 1)
-    point.point_in_station_m = Eigen::Vector3d(random.normal(), random.normal(), random.normal());
-  if (i % 4 != 2)
-    point.pixel = Eigen::Vector2d(random.uniform(-10, 2000), random.uniform(-10, 2000));
-  point.sigma_px = random.uniform(0.1, 3.0);
-  point.enabled = i % 3 != 0;
-  point.locked = i % 5 == 0;
-  point.comment = i % 2 == 0 ? "left \"screw\"\n\u00e9" : "";
-  return point;
-}
-
-LinePair randomLine(Random& random, int i) {
-  LinePair line;
-  line.id = "l" + std::to_string(i);
-  if (i % 4 != 1)
-    line.edge = ModelEdge{Eigen::Vector3d::Constant(random.normal()),
-                          Eigen::Vector3d(random.normal(), random.normal(), random.normal())};
-  if (i % 4 != 2)
-    line.line = ImageLine{Eigen::Vector2d::Constant(random.uniform(0, 2000)),
-                          Eigen::Vector2d(random.uniform(0, 2000), random.uniform(0, 2000))};
-  line.sigma_px = random.uniform(0.1, 3.0);
-  line.enabled = i % 3 != 0;
-  line.locked = i % 5 == 0;
-  return line;
-}
-
 TEST(MarksFile, RoundTripIsExact) {
   const TemporaryFolder folder;
   Random random(2);
-  Marks marks;
-  for (int i = 0; i < 20; ++i) marks.points.push_back(randomPoint(random, i));
-  for (int i = 0; i < 12; ++i) marks.lines.push_back(randomLine(random, i));
+  const Marks marks = test::randomMarks(random, 20, 12);
   writeMarks(folder / "points.json", marks);
   EXPECT_EQ(readMarks(folder / "points.json"), marks);
+  writeMarks(folder / "points.csv", marks);
+  EXPECT_EQ(readMarks(folder / "points.csv"), marks);
+  EXPECT_EQ(folder.read("points.csv").substr(0, 8), "kind,id,");
   writeMarks(folder / "none.json", {});
   EXPECT_TRUE(readMarks(folder / "none.json").empty());
 }

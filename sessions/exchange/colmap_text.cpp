@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/exchange/colmap_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "sessions/io/atomic_file.h"
+#include "sessions/io/camera_file.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
+#include "sessions/io/json_reader.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kPixelOrigin = 0.5;  ///< where COLMAP has the centre of the top-left pixel
+constexpr std::size_t kMaxBytes = 256 * kMegabyte;
+
+/// A COLMAP model: how many focal lengths it has, and which of ours its further numbers are.
+struct ColmapModel {
+  const char* name;
+  int focal_lengths;
+  CameraModel model;
+  std::vector<std::size_t> distortion;
+};
+
+const std::vector<ColmapModel>& colmapModels() {
+  static const std::vector<ColmapModel> models = {
+      {"PINHOLE", 2, CameraModel::kPinhole, {}},
+      {"OPENCV", 2, CameraModel::kBrownConrady, {0, 1, 2, 3}},
+      {"FULL_OPENCV", 2, CameraModel::kBrownConrady, {0, 1, 2, 3, 4, 5, 6, 7}},
+      {"OPENCV_FISHEYE", 2, CameraModel::kKannalaBrandt, {0, 1, 2, 3}},
+      {"SIMPLE_PINHOLE", 1, CameraModel::kPinhole, {}},
+      {"SIMPLE_RADIAL", 1, CameraModel::kBrownConrady, {0}},
+      {"RADIAL", 1, CameraModel::kBrownConrady, {0, 1}}};
+  return models;
+}
+
+const ColmapModel& modelFor(const Camera& camera) {
+  const bool short_form = std::all_of(camera.distortion.begin() + 4, camera.distortion.end(),
+                                      [](double value) { return value == 0.0; });
+  switch (camera.model) {
+    case CameraModel::kPinhole:
+      return colmapModels()[0];
+    case CameraModel::kBrownConrady:
+      return colmapModels()[short_form ? 1 : 2];
+    case CameraModel::kKannalaBrandt:
+      return colmapModels()[3];
+  }
+  throw std::logic_error("no such camera model");
+}
+
+std::string cameraLine(int id, const Camera& camera) {
+  const ColmapModel& model = modelFor(camera);
+  std::string line = std::to_string(id) + " " + model.name + " " + std::to_string(camera.width) +
+                     " " + std::to_string(camera.height);
+  for (const double value :
+       {camera.fx, camera.fy, camera.cx + kPixelOrigin, camera.cy + kPixelOrigin})
+    line += " " + numberText(value);
+  for (const std::size_t i : model.distortion) line += " " + numberText(camera.distortion[i]);
+  return line + "\n";
+}
+
+std::string imageLines(const PosedImage& image, int camera_id) {
+  const Eigen::Quaterniond& q = image.camera_from_station.rotation;
+  const Eigen::Vector3d& t = image.camera_from_station.translation_m;
+  std::string line = std::to_string(image.id);
+  for (const double value : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()})
+    line += " " + numberText(value);
+  return line + " " + std::to_string(camera_id) + " " + image.name + "\n\n";
+}
+
+/// The words of a line, and what to say of it.
+class Line {
+ public:
+  Line(const std::filesystem::path& file, int number, const std::string& text)
+      : file_(file), number_(number), words_(text) {}
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw InputError(file_, "line " + std::to_string(number_), reason);
+  }
+
+  std::string word(const char* what) {
+    std::string made;
+    if (!(words_ >> made)) fail(std::string(what) + " is missing");
+    return made;
+  }
+
+  double number(const char* what) {
+    const std::string text = word(what);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+      fail(std::string(what) + ": '" + text + "' is not a number");
+    return value;
+  }
+
+  int integer(const char* what, int minimum, int maximum) {
+    const double value = number(what);
+    if (value != std::floor(value) || value < minimum || value > maximum)
+      fail(std::string(what) + " must be a whole number, " + std::to_string(minimum) + " .. " +
+           std::to_string(maximum));
+    return static_cast<int>(value);
+  }
+
+  std::string rest(const char* what) {
+    std::string made;
+    std::getline(words_ >> std::ws, made);
+    while (!made.empty() && (made.back() == '\r' || made.back() == ' ')) made.pop_back();
+    if (made.empty()) fail(std::string(what) + " is missing");
+    return made;
+  }
+
+  void end() {
+    std::string more;
+    if (words_ >> more) fail("has more than it should: '" + more + "'");
+  }
+
+ private:
+  const std::filesystem::path& file_;
+  int number_;
+  std::istringstream words_;
+};
+
+std::vector<std::string> linesOf(const std::filesystem::path& file) {
+  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxBytes);
+  std::istringstream stream{std::string(asText(bytes))};
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+bool isComment(const std::string& line) { return !line.empty() && line[0] == '#'; }
+
+bool isBlank(const std::string& line) {
+  return line.find_first_not_of(" \t\r") == std::string::npos;
+}
+
+Camera readCameraLine(Line& line) {
+  const std::string name = line.word("the camera's model");
+  const ColmapModel* model = nullptr;
+  for (const ColmapModel& one : colmapModels())
+    if (name == one.name) model = &one;
+  if (model == nullptr) line.fail("the camera model " + name + " is not known");
+  Camera camera;
+  camera.model = model->model;
+  camera.width = line.integer("the width", 1, kMaxImageSide_px);
+  camera.height = line.integer("the height", 1, kMaxImageSide_px);
+  camera.fx = line.number("the focal length");
+  camera.fy = model->focal_lengths == 2 ? line.number("the second focal length") : camera.fx;
+  camera.cx = line.number("cx") - kPixelOrigin;
+  camera.cy = line.number("cy") - kPixelOrigin;
+  for (const std::size_t i : model->distortion) camera.distortion[i] = line.number("a coefficient");
+  line.end();
+  if (prepareCamera(camera) != Status::kOk) line.fail("the numbers cannot be a camera's");
+  return camera;
+}
+
+std::map<int, Camera> readCameras(const std::filesystem::path& file) {
+  std::map<int, Camera> cameras;
+  int number = 0;
+  for (const std::string& text : linesOf(file)) {
+    ++number;
+    if (isComment(text) || isBlank(text)) continue;
+    Line line(file, number, text);
+    const int id = line.integer("the camera's id", 0, 1 << 30);
+    if (!cameras.emplace(id, readCameraLine(line)).second)
+      line.fail("camera " + std::to_string(id) + " is given twice");
+  }
+  return cameras;
+}
+
+PosedImage readImageLine(Line& line, const std::map<int, Camera>& cameras) {
+  PosedImage image;
+  image.id = line.integer("the image's id", 0, 1 << 30);
+  Eigen::Quaterniond& q = image.camera_from_station.rotation;
+  q.w() = line.number("QW");
+  q.x() = line.number("QX");
+  q.y() = line.number("QY");
+  q.z() = line.number("QZ");
+  if (std::abs(q.norm() - 1.0) > 1e-4) line.fail("the quaternion has not the length 1");
+  // One that has it to the last bits stays what it is.
+  if (std::abs(q.norm() - 1.0) > 1e-12) q.normalize();
+  for (int i = 0; i < 3; ++i)
+    image.camera_from_station.translation_m[i] = line.number("the translation");
+  const int camera = line.integer("the camera's id", 0, 1 << 30);
+  const auto found = cameras.find(camera);
+  if (found == cameras.end()) line.fail("there is no camera " + std::to_string(camera));
+  image.camera = found->second;
+  image.name = line.rest("the image's name");
+  return image;
+}
+
+}  // namespace
+
+void writeColmapText(const std::filesystem::path& folder, std::span<const PosedImage> images) {
+  std::vector<Camera> cameras;
+  std::set<int> ids;
+  std::string image_text = "# IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, then its points\n";
+  for (const PosedImage& image : images) {
+    const bool named = !image.name.empty() && image.name.find_first_of("\r\n") == std::string::npos;
+    if (image.id < 1 || !ids.insert(image.id).second || !named)
+      throw OutputError(folder / "images.txt", "image " + std::to_string(image.id) + " '" +
+                                                   image.name +
+                                                   "' needs an id and a name of its own");
+    auto at = std::find(cameras.begin(), cameras.end(), image.camera);
+    if (at == cameras.end()) at = cameras.insert(cameras.end(), image.camera);
+    image_text += imageLines(image, static_cast<int>(at - cameras.begin()) + 1);
+  }
+  std::string camera_text = "# CAMERA_ID MODEL WIDTH HEIGHT PARAMS\n";
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    camera_text += cameraLine(static_cast<int>(i) + 1, cameras[i]);
+  writeFileAtomically(folder / "cameras.txt", camera_text);
+  writeFileAtomically(folder / "images.txt", image_text);
+}
+
+std::vector<PosedImage> readColmapText(const std::filesystem::path& folder) {
+  const std::map<int, Camera> cameras = readCameras(folder / "cameras.txt");
+  const std::filesystem::path file = folder / "images.txt";
+  const std::vector<std::string> lines = linesOf(file);
+  std::vector<PosedImage> images;
+  std::set<int> ids;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (isComment(lines[i]) || isBlank(lines[i])) continue;
+    Line line(file, static_cast<int>(i) + 1, lines[i]);
+    images.push_back(readImageLine(line, cameras));
+    if (!ids.insert(images.back().id).second)
+      line.fail("image " + std::to_string(images.back().id) + " is given twice");
+    ++i;  // its points, which may be none
+  }
+  return images;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "sessions/exchange/posed_image.h"
+
+namespace boresight::sessions {
+
+/// Writes cameras.txt and images.txt of a COLMAP text model (colmap.github.io/format.html) into a
+/// folder: PINHOLE, OPENCV, FULL_OPENCV or OPENCV_FISHEYE, one camera for all images that share its
+/// numbers. COLMAP's top-left pixel has its centre at (0.5, 0.5): cx and cy are written half a
+/// pixel larger. Its world is our station. OutputError; also for an id that is given twice or is
+/// not positive, and a name with line breaks or none.
+void writeColmapText(const std::filesystem::path& folder, std::span<const PosedImage> images);
+
+/// Reads them back, and what COLMAP itself wrote with these models or SIMPLE_PINHOLE, SIMPLE_RADIAL
+/// and RADIAL. Poses and distortion come back bit by bit, cx and cy to the last bit but one.
+/// InputError.
+std::vector<PosedImage> readColmapText(const std::filesystem::path& folder);
+
+}  // namespace boresight::sessions

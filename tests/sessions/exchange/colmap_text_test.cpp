@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/exchange/colmap_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sessions/io/errors.h"
+#include "tests/sessions/exchange/posed_images.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::preparedCamera;
+using test::randomFor;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+TEST(ColmapText, RoundTripIsExact) {
+  const TemporaryFolder folder;
+  Random random = randomFor("ColmapText.RoundTrip");
+  const std::vector<PosedImage> images =
+      test::randomImages(random,
+                         {preparedCamera(CameraModel::kPinhole, {}),
+                          preparedCamera(CameraModel::kBrownConrady, {-0.1, 0.02, 1e-4, -2e-4}),
+                          preparedCamera(CameraModel::kBrownConrady,
+                                         {-0.1, 0.02, 1e-4, -2e-4, 0.01, 0.001, 0.0, 1e-5}),
+                          preparedCamera(CameraModel::kKannalaBrandt, {0.03, -0.01, 0.004, 0.001})},
+                         10);
+  writeColmapText(folder / "", images);
+  const std::vector<PosedImage> read = readColmapText(folder / "");
+  ASSERT_EQ(read.size(), images.size());
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    EXPECT_EQ(read[i].id, images[i].id);
+    EXPECT_EQ(read[i].name, images[i].name);
+    EXPECT_EQ(read[i].camera_from_station, images[i].camera_from_station);
+    EXPECT_EQ(read[i].camera.distortion, images[i].camera.distortion);
+    EXPECT_EQ(read[i].camera.model, images[i].camera.model);
+    EXPECT_DOUBLE_EQ(read[i].camera.cx, images[i].camera.cx);
+    EXPECT_DOUBLE_EQ(read[i].camera.cy, images[i].camera.cy);
+  }
+}
+
+TEST(ColmapText, IsWhatColmapReads) {
+  const TemporaryFolder folder;
+  PosedImage image;
+  image.id = 7;
+  image.name = "a.png";
+  image.camera = preparedCamera(CameraModel::kPinhole, {});
+  image.camera_from_station.translation_m = {0.5, 0.25, 2.0};
+  writeColmapText(folder / "", {&image, 1});
+  // Half a pixel further: COLMAP's origin is the corner of the image.
+  EXPECT_THAT(folder.read("cameras.txt"),
+              HasSubstr("\n1 PINHOLE 640 480 700.25 701.125 319.875 241.6\n"));
+  EXPECT_THAT(folder.read("images.txt"), HasSubstr("\n7 1 0 0 0 0.5 0.25 2 1 a.png\n\n"));
+}
+
+TEST(ColmapText, ReadsSimplerModelsAndPoints) {
+  const TemporaryFolder folder;
+  folder.write("cameras.txt", "# a comment\n2 RADIAL 100 80 90 50 40 0.01 -0.002\n\n");
+  folder.write("images.txt",
+               "# a comment\n1 1 0 0 0 0 0 1 2 x y.png\r\n1.5 2.5 -1 3 4 17\n"
+               "2 0.6 0 0.8 0 0 0 1 2 b.png\n\n");
+  const std::vector<PosedImage> read = readColmapText(folder / "");
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_EQ(read[0].name, "x y.png");
+  EXPECT_EQ(read[0].camera.fy, 90.0);
+  EXPECT_EQ(read[0].camera.cx, 49.5);
+  EXPECT_EQ(read[0].camera.distortion[1], -0.002);
+  EXPECT_EQ(read[1].camera_from_station.rotation.y(), 0.8);
+}
+
+TEST(ColmapText, NamesWhatIsWrong) {
+  const TemporaryFolder folder;
+  const auto error = [&folder](const std::string& cameras, const std::string& images) {
+    folder.write("cameras.txt", cameras);
+    folder.write("images.txt", images);
+    return folder.message([&] { (void)readColmapText(folder / ""); });
+  };
+  const std::string camera = "1 PINHOLE 10 10 9 9 5 5\n";
+  EXPECT_EQ(error("1 FOV 10 10 9 9 5 5 1\n", "x"),
+            "cameras.txt: line 1: the camera model FOV is not known");
+  EXPECT_EQ(error("1 PINHOLE 10 10 9 9 5\n", "x"), "cameras.txt: line 1: cy is missing");
+  EXPECT_EQ(error("1 PINHOLE 10 10 9 9 5 5 5\n", "x"),
+            "cameras.txt: line 1: has more than it should: '5'");
+  EXPECT_EQ(error("1 PINHOLE 10 10 0 9 5 5\n", "x"),
+            "cameras.txt: line 1: the numbers cannot be a camera's");
+  EXPECT_EQ(error(camera, "\n1 1 0 0 0 0 0 1 2 a.png\n\n"),
+            "images.txt: line 2: there is no camera 2");
+  EXPECT_EQ(error(camera, "1 1 1 0 0 0 0 1 1 a.png\n\n"),
+            "images.txt: line 1: the quaternion has not the length 1");
+  EXPECT_EQ(error(camera, "1 1 0 0 0 0 0 nan 1 a.png\n\n"),
+            "images.txt: line 1: the translation: 'nan' is not a number");
+  EXPECT_EQ(error(camera, "1 1 0 0 0 0 0 1 1\n\n"),
+            "images.txt: line 1: the image's name is missing");
+}
+
+TEST(ColmapText, RefusesWhatItCouldNotReadBack) {
+  const TemporaryFolder folder;
+  PosedImage image;
+  image.camera = preparedCamera(CameraModel::kPinhole, {});
+  image.name = "a.png";
+  EXPECT_THROW(writeColmapText(folder / "", {&image, 1}), OutputError);  // id 0
+  image.id = 1;
+  const PosedImage twice[] = {image, image};
+  EXPECT_THROW(writeColmapText(folder / "", twice), OutputError);
+  image.name = "a\nb";
+  EXPECT_THROW(writeColmapText(folder / "", {&image, 1}), OutputError);
+}
+
+}  // namespace
+}  // namespace boresight::sessions
