@@ -60,6 +60,7 @@ class DoublePlot : public QWidget {
   void addCurve(Curve& curve, const Series& series, int axis);
   void fill(Curve& curve, const QVector<QPointF>& points);
   void applyPalette();
+  void nameIterations();
   void titleAxis(const Curve& curve, const QColor& color);
 
   QwtPlot* plot_ = nullptr;

@@ -15,6 +15,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <QWheelEvent>
+#include <QWidgetAction>
 #include <array>
 #include <cmath>
 
@@ -126,7 +127,7 @@ QWidget* SceneView::buildBar() {
 
   addShowActions(bar, *layout);
 
-  through_action_ = new QAction(tr("Through the camera"), this);
+  through_action_ = new QAction(tr("Camera"), this);
   through_action_->setCheckable(true);
   through_action_->setToolTip(tr("Look through the camera, with its image behind the mesh (V)"));
   connect(through_action_, &QAction::toggled, this, &SceneView::setThroughCamera);
@@ -144,23 +145,13 @@ QWidget* SceneView::buildBar() {
           [this] { setThroughRole(static_cast<PoseRole>(through_role_->currentData().toInt())); });
   layout->addWidget(through_role_);
   layout->addStretch(1);
-
-  opacity_ = new QSlider(Qt::Horizontal, bar);
-  opacity_->setRange(0, 100);
-  opacity_->setMaximumWidth(110);
-  opacity_->setToolTip(tr("Opacity of the mesh, in percent"));
-  opacity_->setAccessibleName(tr("Opacity of the mesh"));
-  connect(opacity_, &QSlider::valueChanged, this,
-          [this](int value) { setMeshOpacity(0.01 * value); });
-  layout->addWidget(new QLabel(tr("Mesh"), bar));
-  layout->addWidget(opacity_);
   return bar;
 }
 
 void SceneView::addShowActions(QWidget* bar, QBoxLayout& layout) {
   auto* show = new QToolButton(bar);
   show->setText(tr("Show"));
-  show->setToolTip(tr("What of the scene is drawn"));
+  show->setToolTip(tr("What of the scene is drawn, and how opaque the mesh is"));
   show->setPopupMode(QToolButton::InstantPopup);
   auto* menu = new QMenu(show);
   for (const ShowEntry& entry : kShowEntries) {
@@ -173,8 +164,27 @@ void SceneView::addShowActions(QWidget* bar, QBoxLayout& layout) {
       setShown(shown);
     });
   }
+  menu->addSeparator();
+  addOpacity(*menu);
   show->setMenu(menu);
   layout.addWidget(show);
+}
+
+void SceneView::addOpacity(QMenu& menu) {
+  auto* line = new QWidget(&menu);
+  auto* row = new QHBoxLayout(line);
+  row->setContentsMargins(28, 2, 8, 2);
+  opacity_ = new QSlider(Qt::Horizontal, line);
+  opacity_->setRange(0, 100);
+  opacity_->setToolTip(tr("Opacity of the mesh, in percent"));
+  opacity_->setAccessibleName(tr("Opacity of the mesh"));
+  connect(opacity_, &QSlider::valueChanged, this,
+          [this](int value) { setMeshOpacity(0.01 * value); });
+  row->addWidget(new QLabel(tr("Opacity of the mesh"), line));
+  row->addWidget(opacity_, 1);
+  auto* action = new QWidgetAction(&menu);
+  action->setDefaultWidget(line);
+  menu.addAction(action);
 }
 
 void SceneView::refreshSoon() {
@@ -337,7 +347,8 @@ void SceneView::orderBackdrop() {
   });
 }
 
-void SceneView::takeBackdrop(const std::shared_ptr<const sessions::LoadedCase>& one, const QImage& gray) {
+void SceneView::takeBackdrop(const std::shared_ptr<const sessions::LoadedCase>& one,
+                             const QImage& gray) {
   if (backdrop_of_.lock() != one) return;
   backdrop_ = gray;
   updateView();

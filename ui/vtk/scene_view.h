@@ -16,6 +16,7 @@ class QAction;
 class QBoxLayout;
 class QComboBox;
 class QLabel;
+class QMenu;
 class QSlider;
 
 namespace boresight::ui {
@@ -71,6 +72,7 @@ class SceneView : public QWidget {
  private:
   void build();
   QWidget* buildBar();
+  void addOpacity(QMenu& menu);
   void addShowActions(QWidget* bar, QBoxLayout& layout);
   void refreshSoon();
   void updateLook();

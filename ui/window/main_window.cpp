@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/main_window.h"
 
+#include <utility>
+
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QLabel>
@@ -18,6 +20,10 @@
 
 namespace boresight::ui {
 namespace {
+
+constexpr const char* kGeometryKey = "window/geometry";
+constexpr const char* kLayoutKey = "window/state";
+constexpr int kLayoutVersion = 2;  // of another set of panels, a layout is not taken over
 
 QString stateText(RunState state) {
   switch (state) {
@@ -48,9 +54,6 @@ MainWindow::MainWindow(QWidget* parent)
   buildStatusBar();
   connectAll();
   resize(1280, 800);
-  const QSettings settings;
-  restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray());
-  restoreState(settings.value(QStringLiteral("window/state")).toByteArray());
   showDocument();
 }
 
@@ -102,10 +105,24 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     return;
   }
   cases_.stop();
-  QSettings settings;
-  settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
-  settings.setValue(QStringLiteral("window/state"), saveState());
   event->accept();
+  if (!remembers_layout_) return;
+  QSettings settings;
+  settings.setValue(QLatin1String(kGeometryKey), saveGeometry());
+  settings.setValue(QLatin1String(kLayoutKey), saveState(kLayoutVersion));
+}
+
+void MainWindow::rememberLayout() {
+  remembers_layout_ = true;
+  const QSettings settings;
+  restoreGeometry(settings.value(QLatin1String(kGeometryKey)).toByteArray());
+  arranged_ = restoreState(settings.value(QLatin1String(kLayoutKey)).toByteArray(), kLayoutVersion);
+}
+
+/// Panels take sizes only once the window has one.
+void MainWindow::showEvent(QShowEvent* event) {
+  QMainWindow::showEvent(event);
+  if (!std::exchange(arranged_, true)) docks_->arrange();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

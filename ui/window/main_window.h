@@ -41,6 +41,10 @@ class MainWindow : public QMainWindow {
   void setQuiet(bool quiet) { quiet_ = quiet; }
   const QString& lastMessage() const { return last_message_; }
 
+  /// Takes the place, size and panels that the window had when it was last closed, and leaves them
+  /// to the next one. Without this the window is as at the first start.
+  void rememberLayout();
+
   Document& document() { return document_; }
   ViewState& state() { return state_; }
   RunController& run() { return run_; }
@@ -51,6 +55,7 @@ class MainWindow : public QMainWindow {
   QDockWidget* dock(const QString& name) const;
 
  protected:
+  void showEvent(QShowEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
@@ -73,6 +78,8 @@ class MainWindow : public QMainWindow {
   WindowMenus* menus_ = nullptr;
   QLabel* run_label_ = nullptr;
   bool quiet_ = false;
+  bool arranged_ = false;
+  bool remembers_layout_ = false;
   QString last_message_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/screenshot.h"
 
+#include <exception>
 #include <functional>
 
 #include <QApplication>
@@ -32,8 +33,7 @@ bool waitUntil(const std::function<bool()>& holds) {
   return true;
 }
 
-bool isResting(const MainWindow& window, TaskRunner& tasks, RunController& run) {
-  Q_UNUSED(window);
+bool isResting(TaskRunner& tasks, RunController& run) {
   return !tasks.isBusy() && run.state() != RunState::kWorking;
 }
 
@@ -55,16 +55,31 @@ QString knownViews(const MainWindow& window) {
 
 }  // namespace
 
+QString openForPictures(MainWindow& window, const std::filesystem::path& session,
+                        const std::filesystem::path& folder) {
+  try {
+    const auto document = sessions::SessionDocument::open(session, sessions::Access::kReadOnly);
+    const auto& recovery = document.recovery();
+    if (window.document().create(folder / session.filename(),
+                                 recovery ? recovery->session : document.session()))
+      return {};
+    return window.lastMessage();
+  } catch (const std::exception& error) {
+    return QString::fromUtf8(error.what());
+  }
+}
+
 QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
   QWidget* shown = widgetOf(window, order.view);
   if (!shown)
     return QObject::tr("there is no view '%1'; there are %2").arg(order.view, knownViews(window));
   window.resize(order.size);
   window.show();
-  const auto resting = [&window] { return isResting(window, window.tasks(), window.run()); };
-  if (!waitUntil([&] { return window.state().currentCase() && resting(); }))
+  const auto resting = [&window] { return isResting(window.tasks(), window.run()); };
+  const bool empty = window.document().session().cases.empty();
+  if (!waitUntil([&] { return (empty || window.state().currentCase()) && resting(); }))
     return QObject::tr("the session's case could not be shown");
-  if (!window.state().snapshot()) {
+  if (!empty && !window.state().snapshot()) {
     window.cases().advance(sessions::StepUntil::kEnd);
     if (!waitUntil([&] { return window.state().snapshot() && resting(); }))
       return QObject::tr("the run did not end");

@@ -17,6 +17,7 @@ class ConfigurationPanel;
 class ImagePanel;
 class InputSheetPanel;
 class PosePanel;
+class WarningBar;
 
 /// The panels of the window and the docks that they lie in, as they are when the program starts for
 /// the first time. Each dock has an object name by which its place is remembered and by which
@@ -30,10 +31,19 @@ class WindowDocks {
   ConfigurationPanel& configuration() const { return *configuration_; }
   InputSheetPanel& inputs() const { return *inputs_; }
   PosePanel& poses() const { return *poses_; }
+  /// Above the image: what looks wrong with the case's inputs.
+  WarningBar& warnings() const { return *warnings_; }
+  /// Brings a dock to the front.
+  void raise(const QString& name) const;
+  /// Every dock where it was when the program started for the first time, in sizes that suit the
+  /// window as large as it is now.
+  void arrange() const;
   /// In the order in which menus list them.
   const std::vector<QDockWidget*>& all() const { return docks_; }
 
  private:
+  void buildCentre();
+  QDockWidget* dock(const QString& name) const;
   QDockWidget* add(const QString& name, const QString& title, QWidget* widget,
                    Qt::DockWidgetArea area);
 
@@ -44,6 +54,7 @@ class WindowDocks {
   ConfigurationPanel* configuration_;
   InputSheetPanel* inputs_;
   PosePanel* poses_;
+  WarningBar* warnings_;
 };
 
 }  // namespace boresight::ui

@@ -127,6 +127,11 @@ void WindowMenus::buildViewMenu() {
   menu->addActions({blink, swipe, core});
   menu->addSeparator();
   for (QDockWidget* each : docks_.all()) menu->addAction(each->toggleViewAction());
+  menu->addSeparator();
+  QAction* arrange = action(tr("A&rrange the panels anew"), {},
+                            tr("Put every panel back where it was at the first start"));
+  connect(arrange, &QAction::triggered, this, [this] { docks_.arrange(); });
+  menu->addAction(arrange);
 }
 
 void WindowMenus::buildLayersMenu(QMenu& menu) {
