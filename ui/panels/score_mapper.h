@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <deque>
 #include <memory>
 
@@ -9,6 +8,7 @@
 
 #include "sessions/trace/run_snapshot.h"
 #include "sessions/trace/score_map.h"
+#include "ui/run/task_runner.h"
 
 namespace boresight::ui {
 
@@ -29,7 +29,6 @@ class ScoreMapper : public QObject {
   };
 
   explicit ScoreMapper(QObject* parent = nullptr);
-  ~ScoreMapper() override;
 
   /// The map if it is known; else nullptr, and `ready` comes later.
   MapPtr request(const Request& request);
@@ -41,17 +40,15 @@ class ScoreMapper : public QObject {
   void ready(const boresight::ui::ScoreMapper::MapPtr& map);
 
  private:
-  class Worker;
   struct Known {
     Request request;
     MapPtr map;
   };
 
-  void take(std::uint64_t generation, const Request& request, const MapPtr& map);
+  void take(const Request& request, const MapPtr& map);
 
   std::deque<Known> known_;
-  std::uint64_t generation_ = 0;
-  std::unique_ptr<Worker> worker_;
+  TaskRunner runner_;
 };
 
 }  // namespace boresight::ui

@@ -2,175 +2,131 @@
 #include "ui/run/pose_renderer.h"
 
 #include <array>
-#include <atomic>
-#include <condition_variable>
-#include <mutex>
-#include <new>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "sessions/trace/scene_render.h"
 
 namespace boresight::ui {
+namespace {
 
-/// The thread that draws. It holds one order at a time; a newer one replaces it.
-class PoseRenderer::Worker {
- public:
-  struct Order {
-    std::shared_ptr<const sessions::LoadedCase> one;
-    Pose camera_from_station;
-    int level = 0;
-    std::uint64_t generation = 0;
-  };
+QString movingKey() { return QStringLiteral("moving"); }
+QString restingKey() { return QStringLiteral("resting"); }
 
-  explicit Worker(PoseRenderer& owner) : owner_(owner), thread_([this] { loop(); }) {}
+}  // namespace
 
-  ~Worker() {
-    {
-      const std::lock_guard lock(mutex_);
-      quit_ = true;
-      newer_ = true;
-    }
-    wake_.notify_all();
-    thread_.join();
-  }
+struct PoseRenderer::Drawn {
+  RenderPtr render;  ///< nullptr: `problem` says why, or it was stopped
+  int level = 0;
+  QString problem;
+};
 
-  void put(Order order) {
-    {
-      const std::lock_guard lock(mutex_);
-      order_ = std::move(order);
-      newer_ = true;
-    }
-    wake_.notify_all();
-  }
+/// Of one case. The worker's own but for the case.
+struct PoseRenderer::Renderers {
+  std::shared_ptr<const sessions::LoadedCase> one;
+  std::array<std::optional<sessions::SceneRenderer>, kMovingLevel + 1> by_level;
 
-  void drop() {
-    const std::lock_guard lock(mutex_);
-    order_.reset();
-    newer_ = true;
-  }
-
- private:
-  void loop() {
-    while (waitForOrder()) {
-      try {
-        draw();
-      } catch (const std::bad_alloc&) {
-        renderers_ = {};
-        post(tr("There is not enough memory to draw this pose; close other sessions."));
-      }
-    }
-  }
-
-  /// False when it is time to go.
-  bool waitForOrder() {
-    std::unique_lock lock(mutex_);
-    wake_.wait(lock, [this] { return quit_ || order_.has_value(); });
-    if (quit_) return false;
-    const bool other_case = working_.one != order_->one;
-    if (other_case) renderers_ = {};  // before the mesh that they look at
-    working_ = std::move(*order_);
-    order_.reset();
-    newer_ = false;
-    return true;
-  }
-
-  /// Full resolution gives way to whatever is newer. Half resolution is finished: if it gave way
-  /// too, somebody who moves fast would see nothing.
-  bool givesWay() const { return newer_ && working_.level == 0; }
-
-  void draw() {
-    auto& renderer = renderers_[static_cast<std::size_t>(working_.level)];
-    Status status = Status::kOk;
+  Status begin(const Pose& camera_from_station, int level) {
+    auto& renderer = by_level[static_cast<std::size_t>(level)];
     if (!renderer) {
       renderer.emplace();
-      status = renderer->create(cameraAtLevel(working_.one->source.camera, working_.level),
-                                working_.one->scene.view());
-      if (status != Status::kOk) renderer.reset();
+      const Status status =
+          renderer->create(cameraAtLevel(one->source.camera, level), one->scene.view());
+      if (status != Status::kOk) {
+        renderer.reset();
+        return status;
+      }
     }
-    if (status == Status::kOk) status = renderer->begin(working_.camera_from_station);
-    bool done = false;
-    while (status == Status::kOk && !done) {
-      if (givesWay()) return;
+    return renderer->begin(camera_from_station);
+  }
+
+  Drawn draw(const Pose& camera_from_station, int level, const std::stop_token& stop) {
+    Drawn drawn;
+    drawn.level = level;
+    Status status = begin(camera_from_station, level);
+    auto& renderer = by_level[static_cast<std::size_t>(level)];
+    for (bool done = false; status == Status::kOk && !done;) {
+      if (stop.stop_requested()) return drawn;
       status = renderer->step(done);
     }
     if (status == Status::kOk)
-      post(std::make_shared<const sessions::RenderTrace>(renderer->record()));
+      drawn.render = std::make_shared<const sessions::RenderTrace>(renderer->record());
     else
-      post(tr("The edges of this pose cannot be drawn: %1.")
-               .arg(QString::fromUtf8(statusText(status))));
+      drawn.problem = tr("The edges of this pose cannot be drawn: %1.")
+                          .arg(QString::fromUtf8(statusText(status)));
+    return drawn;
   }
-
-  void post(RenderPtr render) {
-    const auto generation = working_.generation;
-    const int level = working_.level;
-    QMetaObject::invokeMethod(
-        &owner_,
-        [this, generation, level, render = std::move(render)] {
-          owner_.take(generation, render, level);
-        },
-        Qt::QueuedConnection);
-  }
-
-  void post(const QString& message) {
-    const auto generation = working_.generation;
-    QMetaObject::invokeMethod(
-        &owner_, [this, generation, message] { owner_.takeFailure(generation, message); },
-        Qt::QueuedConnection);
-  }
-
-  PoseRenderer& owner_;
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  bool quit_ = false;
-  std::optional<Order> order_;
-  std::atomic<bool> newer_ = false;
-
-  // The thread's own:
-  Order working_;
-  std::array<std::optional<sessions::SceneRenderer>, kMovingLevel + 1> renderers_;  ///< by level
-
-  std::thread thread_;  ///< last: it starts when everything above is there
 };
 
-PoseRenderer::PoseRenderer(QObject* parent)
-    : QObject(parent), worker_(std::make_unique<Worker>(*this)) {
+PoseRenderer::PoseRenderer(QObject* parent) : QObject(parent) {
   rest_.setSingleShot(true);
   rest_.setInterval(kRest_ms);
-  connect(&rest_, &QTimer::timeout, this, [this] { order(0); });
+  connect(&rest_, &QTimer::timeout, this, &PoseRenderer::drawResting);
+  connect(&runner_, &TaskRunner::failed, this, [this](const QString& message) {
+    setCase(renderers_ ? renderers_->one : nullptr);  // gives their memory back
+    Q_EMIT failed(message);
+  });
 }
 
 PoseRenderer::~PoseRenderer() = default;
 
 void PoseRenderer::setCase(std::shared_ptr<const sessions::LoadedCase> one) {
   clear();
-  case_ = std::move(one);
+  renderers_.reset();
+  if (!one) return;
+  renderers_ = std::make_shared<Renderers>();
+  renderers_->one = std::move(one);
 }
 
 void PoseRenderer::setPose(const Pose& camera_from_station) {
-  if (!case_) return;
+  if (!renderers_) return;
   camera_from_station_ = camera_from_station;
-  order(kMovingLevel);
+  runner_.cancel(restingKey());
   rest_.start();
+  // What is under way is finished first: somebody who moves fast would see nothing otherwise.
+  if (drawing_)
+    overtaken_ = true;
+  else
+    drawMoving();
 }
 
 void PoseRenderer::clear() {
   rest_.stop();
-  ++generation_;
-  worker_->drop();
+  runner_.cancel(movingKey());
+  runner_.cancel(restingKey());
+  drawing_ = false;
+  overtaken_ = false;
 }
 
-void PoseRenderer::order(int level) {
-  worker_->put({case_, camera_from_station_, level, generation_});
+void PoseRenderer::drawMoving() {
+  drawing_ = true;
+  overtaken_ = false;
+  runner_.start(
+      movingKey(),
+      [renderers = renderers_, pose = camera_from_station_](const std::stop_token& stop) {
+        return renderers->draw(pose, kMovingLevel, stop);
+      },
+      [this](const Drawn& drawn) {
+        drawing_ = false;
+        if (overtaken_) drawMoving();
+        take(drawn);
+      });
 }
 
-void PoseRenderer::take(std::uint64_t generation, const RenderPtr& render, int level) {
-  if (generation == generation_) Q_EMIT rendered(render, level);
+void PoseRenderer::drawResting() {
+  runner_.start(
+      restingKey(),
+      [renderers = renderers_, pose = camera_from_station_](const std::stop_token& stop) {
+        return renderers->draw(pose, 0, stop);
+      },
+      [this](const Drawn& drawn) { take(drawn); });
 }
 
-void PoseRenderer::takeFailure(std::uint64_t generation, const QString& message) {
-  if (generation == generation_) Q_EMIT failed(message);
+void PoseRenderer::take(const Drawn& drawn) {
+  if (drawn.render)
+    Q_EMIT rendered(drawn.render, drawn.level);
+  else if (!drawn.problem.isEmpty())
+    Q_EMIT failed(drawn.problem);
 }
 
 }  // namespace boresight::ui

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <memory>
 
 #include <QObject>
@@ -9,8 +8,9 @@
 #include <QTimer>
 
 #include "core/geometry/pose.h"
-#include "sessions/trace/trace.h"
 #include "sessions/session/case_run.h"
+#include "sessions/trace/trace.h"
+#include "ui/run/task_runner.h"
 
 namespace boresight::ui {
 
@@ -42,17 +42,19 @@ class PoseRenderer : public QObject {
   void failed(const QString& message);
 
  private:
-  class Worker;
+  struct Renderers;
+  struct Drawn;
 
-  void order(int level);
-  void take(std::uint64_t generation, const RenderPtr& render, int level);
-  void takeFailure(std::uint64_t generation, const QString& message);
+  void drawMoving();
+  void drawResting();
+  void take(const Drawn& drawn);
 
-  std::shared_ptr<const sessions::LoadedCase> case_;
+  std::shared_ptr<Renderers> renderers_;  ///< nullptr without a case
   Pose camera_from_station_;
+  bool drawing_ = false;    ///< at half resolution
+  bool overtaken_ = false;  ///< by a pose that waits for the end of that
   QTimer rest_;
-  std::uint64_t generation_ = 0;  ///< of the orders that are still wanted
-  std::unique_ptr<Worker> worker_;
+  TaskRunner runner_;
 };
 
 }  // namespace boresight::ui

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <memory>
-#include <optional>
 
 #include <QObject>
 #include <QString>
@@ -12,6 +10,7 @@
 #include "sessions/session/case_run.h"
 #include "sessions/trace/run_snapshot.h"
 #include "sessions/trace/stepped_run.h"
+#include "ui/run/task_runner.h"
 
 namespace boresight::ui {
 
@@ -64,17 +63,17 @@ class RunController : public QObject {
   void failed(const QString& message);
 
  private:
-  class Worker;
+  struct Job;
 
-  void takeResult(std::uint64_t generation, SnapshotPtr snapshot, bool halted);
-  void takeFailure(std::uint64_t generation, const QString& message);
+  void takeResult(SnapshotPtr snapshot, bool halted);
+  void takeFailure(const QString& message);
   void setState(RunState state);
 
   RunState state_ = RunState::kEmpty;
   RunInputs inputs_;
   SnapshotPtr snapshot_;
-  std::uint64_t generation_ = 0;
-  std::unique_ptr<Worker> worker_;
+  std::shared_ptr<Job> job_;
+  TaskRunner runner_;
 };
 
 }  // namespace boresight::ui

@@ -5,81 +5,106 @@
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <thread>
 
 namespace boresight::ui {
 
 class TaskRunner::Thread {
  public:
+  struct Item {
+    QString key;
+    std::uint64_t number = 0;
+    Work work;
+    std::stop_source stop;
+  };
+
   explicit Thread(TaskRunner& owner) : owner_(owner), thread_([this] { loop(); }) {}
 
   ~Thread() {
     {
       const std::lock_guard lock(mutex_);
       quit_ = true;
-      running_stop_.request_stop();
+      running_.stop.request_stop();
     }
     wake_.notify_all();
     thread_.join();
   }
 
-  void add(const QString& key, std::uint64_t number, Task task) {
+  void add(Item item) {
     {
       const std::lock_guard lock(mutex_);
-      if (running_key_ == key) running_stop_.request_stop();
-      queue_.push_back({key, number, std::move(task)});
+      drop(item.key);
+      queue_.push_back(std::move(item));
     }
     wake_.notify_all();
   }
 
+  void stop(const QString& key) {
+    const std::lock_guard lock(mutex_);
+    if (running_.key == key) running_.stop.request_stop();
+    for (Item& item : queue_)
+      if (item.key == key) item.stop.request_stop();
+  }
+
   void cancel(const QString& key) {
     const std::lock_guard lock(mutex_);
-    if (running_key_ == key) running_stop_.request_stop();
+    drop(key);
   }
 
  private:
-  struct Item {
-    QString key;
-    std::uint64_t number = 0;
-    Task task;
-  };
+  /// What waits is passed over, what runs is asked to stop; its owner drops what it yields.
+  void drop(const QString& key) {
+    if (running_.key == key) running_.stop.request_stop();
+    for (Item& item : queue_)
+      if (item.key == key) item.work = nullptr;
+  }
+
+  /// False when it is time to go.
+  bool waitForItem(Item& item) {
+    std::unique_lock lock(mutex_);
+    running_ = {};
+    wake_.wait(lock, [this] { return quit_ || !queue_.empty(); });
+    if (quit_) return false;
+    item = std::move(queue_.front());
+    queue_.pop_front();
+    running_.key = item.key;
+    running_.stop = item.stop;
+    return true;
+  }
 
   void loop() {
-    for (;;) {
-      Item item;
-      std::stop_token token;
-      {
-        std::unique_lock lock(mutex_);
-        wake_.wait(lock, [this] { return quit_ || !queue_.empty(); });
-        if (quit_) return;
-        item = std::move(queue_.front());
-        queue_.pop_front();
-        // A newer one of the same kind waits already.
-        for (const Item& later : queue_) {
-          if (later.key == item.key) item.task = nullptr;
-        }
-        running_key_ = item.key;
-        running_stop_ = std::stop_source();
-        token = running_stop_.get_token();
-      }
-      std::function<void()> done;
-      QString error;
-      try {
-        if (item.task) done = item.task(token);
-      } catch (const std::exception& exception) {
-        error = QString::fromUtf8(exception.what());
-      }
-      {
-        const std::lock_guard lock(mutex_);
-        running_key_.clear();
-      }
-      QMetaObject::invokeMethod(
-          &owner_,
-          [owner = &owner_, key = item.key, number = item.number, done, error] {
-            owner->take(key, number, done, error);
-          },
-          Qt::QueuedConnection);
+    for (Item item; waitForItem(item); item = {}) {
+      const QString error = work(item);
+      post([owner = &owner_, key = item.key, number = item.number, error] {
+        owner->end(key, number, error);
+      });
     }
+  }
+
+  /// Why it failed, or nothing.
+  QString work(const Item& item) {
+    if (!item.work) return {};
+    const Report report = [this, key = item.key, number = item.number](auto function) {
+      post([owner = &owner_, key, number, function = std::move(function)] {
+        if (owner->isNewest(key, number)) function();
+      });
+    };
+    try {
+      item.work(item.stop.get_token(), report);
+    } catch (const std::bad_alloc&) {
+      return tr(
+          "There is not enough memory for this; close other sessions or use a smaller image.");
+    } catch (const std::exception& exception) {
+      return QString::fromUtf8(exception.what());
+    }
+    return {};
+  }
+
+  /// In the owner's thread; dropped when the owner is gone.
+  template <class Function>
+  void post(Function&& function) {
+    QMetaObject::invokeMethod(&owner_, std::forward<Function>(function), Qt::QueuedConnection);
   }
 
   TaskRunner& owner_;
@@ -87,8 +112,7 @@ class TaskRunner::Thread {
   std::condition_variable wake_;
   bool quit_ = false;
   std::deque<Item> queue_;
-  QString running_key_;
-  std::stop_source running_stop_;
+  Item running_;        ///< its key and stop source
   std::thread thread_;  ///< last: it starts when everything above is there
 };
 
@@ -97,25 +121,28 @@ TaskRunner::TaskRunner(QObject* parent)
 
 TaskRunner::~TaskRunner() = default;
 
-void TaskRunner::enqueue(const QString& key, Task task) {
+void TaskRunner::run(const QString& key, Work work) {
   newest_[key] = ++count_;
   ++pending_;
-  thread_->add(key, count_, std::move(task));
+  thread_->add({key, count_, std::move(work), std::stop_source()});
   if (pending_ == 1) Q_EMIT busyChanged();
 }
+
+void TaskRunner::stop(const QString& key) { thread_->stop(key); }
 
 void TaskRunner::cancel(const QString& key) {
   newest_[key] = 0;
   thread_->cancel(key);
 }
 
-void TaskRunner::take(const QString& key, std::uint64_t number, const std::function<void()>& done,
-                      const QString& error) {
+bool TaskRunner::isNewest(const QString& key, std::uint64_t number) const {
+  const auto found = newest_.find(key);
+  return found != newest_.end() && found->second == number;
+}
+
+void TaskRunner::end(const QString& key, std::uint64_t number, const QString& error) {
   --pending_;
-  if (newest_[key] == number) {
-    if (!error.isEmpty()) Q_EMIT failed(error);
-    if (done) done();
-  }
+  if (!error.isEmpty() && isNewest(key, number)) Q_EMIT failed(error);
   if (pending_ == 0) Q_EMIT busyChanged();
 }
 

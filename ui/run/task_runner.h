@@ -13,26 +13,36 @@
 
 namespace boresight::ui {
 
-/// Work for views, off the UI's thread and in the order in which it was asked for. Each kind of
-/// work has a key: of one key only the newest counts, an older one is stopped and its result
-/// dropped.
+/// The one worker thread there is a class for: work for views, off the UI's thread and in the order
+/// in which it was asked for. Each kind of work has a key: of one key only the newest counts, an
+/// older one is stopped and what it still yields is dropped. Work that must not wait for other work
+/// has a runner of its own.
 class TaskRunner : public QObject {
   Q_OBJECT
 
  public:
+  /// Has a function called on the runner's own (the UI's) thread, unless the task is dropped.
+  using Report = std::function<void(std::function<void()>)>;
+  using Work = std::function<void(const std::stop_token&, const Report&)>;
+
   explicit TaskRunner(QObject* parent = nullptr);
   ~TaskRunner() override;
 
-  /// `work(stop_token)` makes a value on the runner's thread, `done(value)` takes it on this
-  /// object's thread. What `work` captures must be shared or copied. If it throws, `failed` says
-  /// why.
-  template <class Work, class Done>
-  void start(const QString& key, Work work, Done done) {
-    enqueue(key, [work = std::move(work), done = std::move(done)](const std::stop_token& stop) {
-      auto value = std::make_shared<decltype(work(stop))>(work(stop));
-      return std::function<void()>([value, done] { done(std::move(*value)); });
+  /// Work that reports on its way. What it captures must be shared or copied. If it throws,
+  /// `failed` says why.
+  void run(const QString& key, Work work);
+
+  /// `work(stop_token)` makes a value, `done(value)` takes it on this object's thread.
+  template <class Make, class Done>
+  void start(const QString& key, Make make, Done done) {
+    run(key, [make = std::move(make), done = std::move(done)](const std::stop_token& stop,
+                                                              const Report& report) {
+      auto value = std::make_shared<decltype(make(stop))>(make(stop));
+      report([value, done] { done(std::move(*value)); });
     });
   }
+  /// Asks what is under way or waits under this key to stop; what it reports still counts.
+  void stop(const QString& key);
   /// Drops what is under way or waits under this key.
   void cancel(const QString& key);
   bool isBusy() const { return pending_ > 0; }
@@ -42,12 +52,10 @@ class TaskRunner : public QObject {
   void failed(const QString& message);
 
  private:
-  using Task = std::function<std::function<void()>(const std::stop_token&)>;
   class Thread;
 
-  void enqueue(const QString& key, Task task);
-  void take(const QString& key, std::uint64_t number, const std::function<void()>& done,
-            const QString& error);
+  bool isNewest(const QString& key, std::uint64_t number) const;
+  void end(const QString& key, std::uint64_t number, const QString& error);
 
   std::map<QString, std::uint64_t> newest_;  ///< number of the newest task of each key
   std::uint64_t count_ = 0;

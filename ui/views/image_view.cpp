@@ -12,12 +12,13 @@
 #include <QWheelEvent>
 
 #include "ui/views/mark_painter.h"
+#include "ui/views/pointer_place.h"
 
 namespace boresight::ui {
 namespace {
 
 constexpr double kPickRadius = 8.0;
-constexpr int kClickSlack = 3;
+constexpr double kClickSlack = 3.0;
 
 }  // namespace
 
@@ -161,7 +162,7 @@ void ImageView::paintEvent(QPaintEvent*) {
   if (tool_active_ && tool_radius_px_ > 0.0 && underMouse()) {
     const double radius = tool_radius_px_ * transform_.scale();
     painter.setPen(QPen(palette().color(QPalette::Highlight), 1.5));
-    painter.drawEllipse(QPointF(last_), radius, radius);
+    painter.drawEllipse(last_, radius, radius);
   }
 }
 
@@ -243,21 +244,22 @@ void ImageView::wheelEvent(QWheelEvent* event) {
 }
 
 void ImageView::mousePressEvent(QMouseEvent* event) {
-  press_ = last_ = event->pos();
+  press_ = last_ = pointerPlace(*event, *this);
   dragging_ = false;
   if (tool_active_ && event->button() == Qt::LeftButton) {
     tool_pressed_ = true;
-    Q_EMIT toolPressed(transform_.toPixel(event->pos()));
+    Q_EMIT toolPressed(transform_.toPixel(last_));
   }
 }
 
 void ImageView::mouseMoveEvent(QMouseEvent* event) {
-  const QPoint delta = event->pos() - last_;
-  last_ = event->pos();
+  const QPointF place = pointerPlace(*event, *this);
+  const QPointF delta = place - last_;
+  last_ = place;
   if (tool_pressed_) {
-    Q_EMIT toolMoved(transform_.toPixel(event->pos()));
+    Q_EMIT toolMoved(transform_.toPixel(place));
   } else if ((event->buttons() & (Qt::LeftButton | Qt::MiddleButton)) != 0) {
-    if ((event->pos() - press_).manhattanLength() > kClickSlack) dragging_ = true;
+    if ((place - press_).manhattanLength() > kClickSlack) dragging_ = true;
     if (dragging_) {
       fitted_ = false;
       transform_.pan(delta);
@@ -265,13 +267,14 @@ void ImageView::mouseMoveEvent(QMouseEvent* event) {
     }
   }
   if (tool_active_) update();
-  if (!image_.isNull()) Q_EMIT cursorMoved(transform_.toPixel(event->pos()));
+  if (!image_.isNull()) Q_EMIT cursorMoved(transform_.toPixel(place));
 }
 
 void ImageView::mouseReleaseEvent(QMouseEvent* event) {
+  const QPointF place = pointerPlace(*event, *this);
   if (tool_pressed_) {
     tool_pressed_ = false;
-    Q_EMIT toolReleased(transform_.toPixel(event->pos()));
+    Q_EMIT toolReleased(transform_.toPixel(place));
     return;
   }
   if (dragging_) {
@@ -280,10 +283,9 @@ void ImageView::mouseReleaseEvent(QMouseEvent* event) {
   }
   if (image_.isNull()) return;
   if (event->button() == Qt::LeftButton) {
-    if (const std::optional<Pick> pick = pickAt(event->pos()))
-      Q_EMIT itemClicked(pick->layer, pick->item);
+    if (const std::optional<Pick> pick = pickAt(place)) Q_EMIT itemClicked(pick->layer, pick->item);
   }
-  Q_EMIT clicked(transform_.toPixel(event->pos()), event->button(), event->modifiers());
+  Q_EMIT clicked(transform_.toPixel(place), event->button(), event->modifiers());
 }
 
 void ImageView::mouseDoubleClickEvent(QMouseEvent* event) {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include <QPoint>
+#include <QPointF>
 #include <QWidget>
 
 #include "ui/views/bit_pixmaps.h"
@@ -108,8 +108,8 @@ class ImageView : public QWidget {
   std::optional<double> swipe_;
   bool layers_hidden_ = false;
   QString hint_;
-  QPoint press_;
-  QPoint last_;
+  QPointF press_;
+  QPointF last_;
   bool dragging_ = false;
   bool tool_active_ = false;
   bool tool_pressed_ = false;

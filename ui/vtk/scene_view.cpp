@@ -9,9 +9,7 @@
 #include <QLabel>
 #include <QMenu>
 #include <QMouseEvent>
-#include <QPointer>
 #include <QSlider>
-#include <QThreadPool>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <QWheelEvent>
@@ -20,6 +18,7 @@
 #include <cmath>
 
 #include "sessions/report/undistort.h"
+#include "ui/views/pointer_place.h"
 #include "ui/vtk/scene_overlay.h"
 
 namespace boresight::ui {
@@ -335,16 +334,12 @@ void SceneView::orderBackdrop() {
     return;
   }
   backdrop_ = QImage();
-  const QPointer<SceneView> self(this);
-  QThreadPool::globalInstance()->start([one, self] {
-    const QImage gray = copyOf(sessions::undistort(one->source.camera, one->image.view()).view());
-    QMetaObject::invokeMethod(
-        qApp,
-        [one, self, gray] {
-          if (self) self->takeBackdrop(one, gray);
-        },
-        Qt::QueuedConnection);
-  });
+  runner_.start(
+      QStringLiteral("backdrop"),
+      [one](const std::stop_token&) {
+        return copyOf(sessions::undistort(one->source.camera, one->image.view()).view());
+      },
+      [this, one](const QImage& gray) { takeBackdrop(one, gray); });
 }
 
 void SceneView::takeBackdrop(const std::shared_ptr<const sessions::LoadedCase>& one,
@@ -375,17 +370,17 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
       return false;
     case QEvent::MouseButtonPress: {
       const auto* mouse = static_cast<QMouseEvent*>(event);
-      press(mouse->pos(), mouse->button());
+      press(pointerPlace(*mouse, *canvas()), mouse->button());
       return true;
     }
     case QEvent::MouseMove: {
       const auto* mouse = static_cast<QMouseEvent*>(event);
-      drag(mouse->pos(), mouse->buttons(), mouse->modifiers());
+      drag(pointerPlace(*mouse, *canvas()), mouse->buttons(), mouse->modifiers());
       return true;
     }
     case QEvent::MouseButtonRelease: {
       const auto* mouse = static_cast<QMouseEvent*>(event);
-      release(mouse->pos(), mouse->button());
+      release(pointerPlace(*mouse, *canvas()), mouse->button());
       return true;
     }
     case QEvent::MouseButtonDblClick:

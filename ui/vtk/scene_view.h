@@ -7,6 +7,7 @@
 #include <QPoint>
 #include <QWidget>
 
+#include "ui/run/task_runner.h"
 #include "ui/state/view_state.h"
 #include "ui/vtk/scene_backend.h"
 #include "ui/vtk/scene_canvas.h"
@@ -115,6 +116,7 @@ class SceneView : public QWidget {
   QPointF press_;
   QPointF last_;
   bool dragging_ = false;
+  TaskRunner runner_;
 };
 
 }  // namespace boresight::ui

@@ -85,9 +85,9 @@ TEST(PoseRenderer, DrawsTheNewCaseAfterTheOldOneIsGone) {
   drawn.renderer.setPose(drawn.pose(0.0));
   ASSERT_TRUE(drawn.fullArrives());
   sessions::RenderTrace expected;
-  ASSERT_EQ(
-      sessions::renderScene(drawn.one->source.camera, drawn.one->scene.view(), drawn.pose(0.0), expected),
-      Status::kOk);
+  ASSERT_EQ(sessions::renderScene(drawn.one->source.camera, drawn.one->scene.view(),
+                                  drawn.pose(0.0), expected),
+            Status::kOk);
   EXPECT_EQ(drawn.renders.back().first->edges.words, expected.edges.words);
 }
 

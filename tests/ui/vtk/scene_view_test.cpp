@@ -33,6 +33,8 @@ class SceneViewTest : public ::testing::Test {
     EXPECT_TRUE(view_.viewpoint().toCanvas(at_m, pixel, depth_m));
     return pixel.toPoint();
   }
+  /// What is under the pointer after a click there: the middle of that screen pixel.
+  static QPointF middle(const QPoint& at) { return QPointF(at) + QPointF(0.5, 0.5); }
   void click(const QPoint& at) {
     QTest::mouseClick(view_.canvas(), Qt::LeftButton, Qt::NoModifier, at);
   }
@@ -64,7 +66,8 @@ TEST_F(SceneViewTest, AClickSelectsTheTemplateUnderIt) {
   view_.setThroughCamera(true);  // from where the templates are seen
   int tried = 0;
   for (const ScenePoint& point : view_.content().points) {
-    const int expected = pickTemplate(view_.content(), view_.viewpoint(), onCanvas(point.at_m));
+    const int expected =
+        pickTemplate(view_.content(), view_.viewpoint(), middle(onCanvas(point.at_m)));
     if (expected < 0 || ++tried > 10) continue;
     state_.selectTemplate(-1);
     click(onCanvas(point.at_m));
@@ -83,7 +86,7 @@ TEST_F(SceneViewTest, AClickOnTheMeshTellsItsPlaceInTheStation) {
   int hit = 0;
   for (std::size_t i = 0; i < vertices.size() && hit < 5; i += 7) {
     const Eigen::Vector3d vertex_m = vertices[i].cast<double>();
-    const auto expected = pickMesh(view_.content(), view_.viewpoint(), onCanvas(vertex_m));
+    const auto expected = pickMesh(view_.content(), view_.viewpoint(), middle(onCanvas(vertex_m)));
     if (!expected || expected->vertex != static_cast<int>(i)) continue;
     click(onCanvas(vertex_m));
     EXPECT_EQ(picked_vertex_, static_cast<int>(i));

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/run/run_controller.h"
+
+#include <gtest/gtest.h>
+#include <QtTest/QTest>
+
+#include <vector>
+
+#include "sessions/trace/record.h"
+#include "tests/support/loaded_example.h"
+
+namespace boresight::ui {
+namespace {
+
+using sessions::StepUntil;
+
+constexpr int kPatienceMs = 60000;
+
+class RunControllerTest : public testing::Test {
+ protected:
+  RunControllerTest() {
+    QObject::connect(&run_, &RunController::snapshotChanged, &run_, [this] {
+      if (run_.snapshot()) counts_.push_back(run_.snapshot()->iterations.size());
+    });
+  }
+  RunInputs inputs() const { return {case_, defaultProfile()}; }
+  bool arrives(RunState state) {
+    return QTest::qWaitFor([this, state] { return run_.state() == state; }, kPatienceMs);
+  }
+  std::string headlessDigest() const {
+    return sessions::localize(case_->problem(), defaultProfile(), sessions::RecordLevel::kSummary)
+        .digest;
+  }
+
+  std::shared_ptr<const sessions::LoadedCase> case_ = test::loadedExample("bc");
+  RunController run_;
+  std::vector<std::size_t> counts_;  ///< iterations of each snapshot
+};
+
+TEST_F(RunControllerTest, ShowsEveryIterationOnTheWayToTheEnd) {
+  run_.reset(inputs());
+  run_.advance(StepUntil::kEnd);
+  ASSERT_TRUE(arrives(RunState::kFinished));
+  EXPECT_EQ(run_.snapshot()->digest, headlessDigest());
+  for (std::size_t i = 0; i < run_.snapshot()->iterations.size(); ++i)
+    EXPECT_NE(std::find(counts_.begin(), counts_.end(), i + 1), counts_.end()) << i;
+}
+
+TEST_F(RunControllerTest, AStopHaltsItWhereItIsAndChangesNoBit) {
+  run_.reset(inputs());
+  int stops = 0;
+  do {
+    run_.advance(StepUntil::kEnd);
+    QTest::qWait(5);
+    run_.stop();
+    ASSERT_TRUE(
+        QTest::qWaitFor([this] { return run_.state() != RunState::kWorking; }, kPatienceMs));
+  } while (++stops < 1000 && run_.state() != RunState::kFinished);
+  EXPECT_EQ(run_.snapshot()->digest, headlessDigest());
+}
+
+TEST_F(RunControllerTest, AResetDropsWhatIsUnderWay) {
+  run_.reset(inputs());
+  run_.advance(StepUntil::kEnd);
+  run_.reset(inputs());
+  EXPECT_EQ(run_.state(), RunState::kReady);
+  counts_.clear();
+  run_.advance(StepUntil::kStage);
+  ASSERT_TRUE(arrives(RunState::kHalted));
+  EXPECT_EQ(counts_, std::vector<std::size_t>{0}) << "the edges of the new run, nothing else";
+  run_.reset({});
+  EXPECT_EQ(run_.state(), RunState::kEmpty);
+  run_.advance(StepUntil::kEnd);
+  EXPECT_EQ(run_.state(), RunState::kEmpty);
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs with QT_SCALE_FACTOR=1.5, where a coordinate of the widget is one and a half screen pixels.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include <QMouseEvent>
+#include <QSignalSpy>
+#include <QtTest/QTest>
+
+#include "ui/views/image_view.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr double kRatio = 1.5;
+constexpr int kSide = 200;
+
+/// Neighbours within some pixels of each other have different grays.
+int grayAt(int x, int y) { return (7 * x + 31 * y) % 251; }
+
+QImage testImage() {
+  QImage gray(kSide, kSide, QImage::Format_Grayscale8);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) gray.scanLine(y)[x] = static_cast<uchar>(grayAt(x, y));
+  return gray;
+}
+
+class HighDpiTest : public ::testing::TestWithParam<double> {
+ protected:
+  void SetUp() override {
+    ASSERT_DOUBLE_EQ(view_.devicePixelRatioF(), kRatio) << "run with QT_SCALE_FACTOR=1.5";
+    view_.resize(301, 203);
+    view_.setImage(testImage());
+    for (int i = 0; i < kLayerCount; ++i)
+      view_.setStyle(static_cast<LayerId>(i), {false, Qt::red, 1.0});
+    view_.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&view_));
+    ViewTransform transform = view_.transform();
+    transform.zoomAt(QPointF(150.3, 101.9), GetParam());
+    view_.setTransform(transform);
+    picture_ = view_.grab().toImage();
+  }
+
+  /// What the windowing system tells of the pointer on a screen pixel.
+  void send(QEvent::Type type, const QPoint& screen_pixel, Qt::MouseButtons held) {
+    const QPointF at = QPointF(screen_pixel) / kRatio;
+    const auto button = type == QEvent::MouseMove ? Qt::NoButton : Qt::LeftButton;
+    QMouseEvent event(type, at, QPointF(view_.mapToGlobal(QPoint(0, 0))) + at, button, held,
+                      Qt::NoModifier);
+    QCoreApplication::sendEvent(&view_, &event);
+  }
+
+  ImageView view_;
+  QImage picture_;  ///< of the screen, in its pixels
+};
+
+/// Counts the image pixels within half a screen pixel of a place whose gray is the one drawn there.
+int grayFits(const QPointF& pixel, double half_screen_pixel, int drawn) {
+  int fits = 0;
+  const auto first = [&](double v) {
+    return static_cast<int>(std::floor(v - half_screen_pixel + 0.5));
+  };
+  const auto last = [&](double v) {
+    return static_cast<int>(std::floor(v + half_screen_pixel + 0.5));
+  };
+  for (int y = first(pixel.y()); y <= last(pixel.y()); ++y)
+    for (int x = first(pixel.x()); x <= last(pixel.x()); ++x)
+      if (x >= 0 && y >= 0 && x < kSide && y < kSide && grayAt(x, y) == drawn) ++fits;
+  return fits;
+}
+
+TEST_P(HighDpiTest, ThePointerTellsThePixelThatIsDrawnUnderIt) {
+  ASSERT_EQ(picture_.size(), QSize(452, 305));
+  // Exactly half is allowed; the rest is for the rounding of doubles.
+  const double half = (0.5 + 1e-6) / (view_.transform().scale() * kRatio);
+  QSignalSpy moves(&view_, &ImageView::cursorMoved);
+  int seen = 0;
+  for (int y = 1; y + 1 < picture_.height(); y += 7) {
+    for (int x = 1; x + 1 < picture_.width(); x += 5) {
+      send(QEvent::MouseMove, {x, y}, Qt::NoButton);
+      const QPointF pixel = moves.back()[0].toPointF();
+      const bool inside =
+          pixel.x() > 0.5 && pixel.y() > 0.5 && pixel.x() < kSide - 1.5 && pixel.y() < kSide - 1.5;
+      if (!inside) continue;
+      ++seen;
+      EXPECT_GE(grayFits(pixel, half, qRed(picture_.pixel(x, y))), 1)
+          << "screen pixel " << x << ", " << y << " is told as " << pixel.x() << ", " << pixel.y();
+    }
+  }
+  EXPECT_GT(seen, 500);
+}
+
+TEST_P(HighDpiTest, AClickAndAToolTellTheSamePixelAsThePointer) {
+  QSignalSpy moves(&view_, &ImageView::cursorMoved);
+  std::vector<QPointF> clicks;
+  QObject::connect(&view_, &ImageView::clicked,
+                   [&clicks](const QPointF& pixel) { clicks.push_back(pixel); });
+  QSignalSpy strokes(&view_, &ImageView::toolPressed);
+  for (const QPoint at : {QPoint(100, 100), QPoint(201, 92), QPoint(302, 203)}) {
+    send(QEvent::MouseMove, at, Qt::NoButton);
+    send(QEvent::MouseButtonPress, at, Qt::LeftButton);
+    send(QEvent::MouseButtonRelease, at, Qt::NoButton);
+    EXPECT_EQ(clicks.back(), moves.back()[0].toPointF());
+    view_.setToolActive(true, 3.0);
+    send(QEvent::MouseButtonPress, at, Qt::LeftButton);
+    send(QEvent::MouseButtonRelease, at, Qt::NoButton);
+    view_.setToolActive(false);
+    EXPECT_EQ(strokes.back()[0].toPointF(), moves.back()[0].toPointF());
+  }
+}
+
+TEST_P(HighDpiTest, AMarkIsDrawnWhereItsPixelIs) {
+  Layer layer;
+  layer.id = LayerId::kPoints;
+  layer.style = {true, QColor(255, 0, 0), 1.0};
+  Mark mark;
+  mark.shape = MarkShape::kCircle;
+  mark.at = view_.transform().toPixel(QPointF(150.25, 101.5));
+  mark.item = 5;
+  layer.marks = {mark};
+  view_.setLayer(layer);
+  picture_ = view_.grab().toImage();
+  QPointF sum;
+  double weight = 0.0;
+  for (int y = 0; y < picture_.height(); ++y)
+    for (int x = 0; x < picture_.width(); ++x) {
+      const QRgb color = picture_.pixel(x, y);
+      const double red = qRed(color) - qBlue(color);
+      if (red <= 0.0) continue;
+      sum += red * QPointF(x + 0.5, y + 0.5);
+      weight += red;
+    }
+  ASSERT_GT(weight, 0.0);
+  const QPointF off = sum / weight - kRatio * view_.transform().toWidget(mark.at);
+  EXPECT_LT(std::abs(off.x()), 0.5);
+  EXPECT_LT(std::abs(off.y()), 0.5);
+  const auto pick = view_.pickAt(sum / weight / kRatio);
+  ASSERT_TRUE(pick.has_value());
+  EXPECT_EQ(pick->item, 5);
+}
+
+// From one image pixel per screen pixel up to where the pixel grid begins to cover the pixels.
+INSTANTIATE_TEST_SUITE_P(Zooms, HighDpiTest, ::testing::Values(1.0 / kRatio, 1.0, 2.37, 5.0, 7.9));
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/views/image_panel.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include <QMouseEvent>
+#include <QRegularExpression>
+#include <QtTest/QTest>
+
+#include "tests/support/loaded_example.h"
+#include "ui/run/task_runner.h"
+#include "ui/views/image_view.h"
+
+namespace boresight::ui {
+namespace {
+
+class ImagePanelTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    QObject::connect(&panel_, &ImagePanel::placeText,
+                     [this](const QString& text) { text_ = text; });
+    panel_.resize(900, 700);
+    panel_.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&panel_));
+    static const auto one = test::loadedExample("os");
+    state_.setCase(one);
+  }
+
+  /// With the middle of a screen pixel on this place.
+  void pointAt(const QPointF& pixel) {
+    const QPointF half(0.5, 0.5);
+    const QPointF at = panel_.view().transform().toWidget(pixel) - half;
+    QMouseEvent move(QEvent::MouseMove, at, panel_.view().mapToGlobal(at.toPoint()), Qt::NoButton,
+                     Qt::NoButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&panel_.view(), &move);
+  }
+
+  /// Station coordinates in the text, m.
+  std::optional<Eigen::Vector3d> pointInText() const {
+    static const QRegularExpression form(
+        QStringLiteral("station (-?[0-9.]+)  (-?[0-9.]+)  (-?[0-9.]+) mm"));
+    const QRegularExpressionMatch match = form.match(text_);
+    if (!match.hasMatch()) return std::nullopt;
+    return 1e-3 * Eigen::Vector3d(match.captured(1).toDouble(), match.captured(2).toDouble(),
+                                  match.captured(3).toDouble());
+  }
+
+  TaskRunner tasks_;
+  ViewState state_;
+  ImagePanel panel_{state_, tasks_};
+  QString text_;
+};
+
+/// Pointing at the middle of a face tells that place, or one before it that hides it.
+TEST_F(ImagePanelTest, TheStationPointUnderThePointerIsTold) {
+  const auto& one = *state_.currentCase();
+  const MeshView mesh = one.scene.view();
+  Pose moved = *one.source.camera_from_station_truth;
+  moved.translation_m.x() += 0.01;
+  for (const Pose& pose : {one.source.camera_from_station_seed, moved}) {
+    if (&pose != &one.source.camera_from_station_seed) state_.setNudgedPose(pose);
+    int places = 0, seen = 0;
+    for (std::size_t i = 0; i < mesh.faces.size(); i += 97) {
+      Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+      for (const std::int32_t vertex : mesh.faces[i].vertex)
+        centre += mesh.vertices_in_station_m[static_cast<std::size_t>(vertex)].cast<double>() / 3.0;
+      Eigen::Vector2d pixel;
+      if (!project(one.source.camera, pose * centre, pixel)) continue;
+      if (pixel.minCoeff() < 0.0 || pixel.x() > one.image.width - 1.0 ||
+          pixel.y() > one.image.height - 1.0)
+        continue;
+      pointAt({pixel.x(), pixel.y()});
+      const auto point = pointInText();
+      ASSERT_TRUE(point) << text_.toStdString();
+      ++places;
+      Eigen::Vector2d back;
+      ASSERT_TRUE(project(one.source.camera, pose * *point, back));
+      EXPECT_LT((back - pixel).norm(), 0.1) << "the text has hundredths of a millimetre";
+      EXPECT_LT((pose * *point).z(), (pose * centre).z() + 2e-5);
+      if ((*point - centre).norm() < 2e-5) ++seen;
+    }
+    EXPECT_GT(places, 20);
+    EXPECT_GT(seen, places / 5);
+  }
+}
+
+TEST_F(ImagePanelTest, BesideTheStationOnlyThePixelIsTold) {
+  pointAt({3.0, 5.0});
+  EXPECT_TRUE(text_.contains(QStringLiteral("gray ")));
+  EXPECT_FALSE(pointInText());
+  pointAt({-40.0, 5.0});
+  EXPECT_FALSE(text_.contains(QStringLiteral("gray ")));
+  QEvent leave(QEvent::Leave);
+  QCoreApplication::sendEvent(&panel_.view(), &leave);
+  EXPECT_TRUE(text_.isEmpty());
+}
+
+}  // namespace
+}  // namespace boresight::ui
