@@ -28,8 +28,8 @@ IterationsPanel::IterationsPanel(ViewState& view, QWidget* parent) : QWidget(par
   splitter->addWidget(table_);
   plots_ = buildPlots();
   splitter->addWidget(plots_);
-  splitter->setStretchFactor(0, 3);
-  splitter->setStretchFactor(1, 2);
+  splitter->setStretchFactor(0, 1);
+  splitter->setStretchFactor(1, 1);
   splitter->setChildrenCollapsible(false);
   column->addWidget(splitter, 1);
 

@@ -76,6 +76,7 @@ void DoublePlot::addCurve(Curve& curve, const Series& series, int axis) {
 }
 
 void DoublePlot::setNames(std::function<QString(int)> name_of) {
+  name_of_ = name_of;
   plot_->setAxisScaleDraw(QwtPlot::xBottom, new NamedScale(std::move(name_of)));
 }
 
@@ -90,7 +91,9 @@ void DoublePlot::setPoints(int place_count, const QVector<QPointF>& left,
 
 /// As many names as have room beside each other.
 void DoublePlot::nameIterations() {
-  const int name_px = fontMetrics().horizontalAdvance(QStringLiteral("10.10 "));
+  const int last = std::max(0, place_count_ - 1);
+  const QString widest = (name_of_ ? name_of_(last) : QString::number(last)) + QLatin1Char(' ');
+  const int name_px = fontMetrics().horizontalAdvance(widest);
   const double most = std::max(1, plot_->canvas()->width() / name_px);
   const double step = std::max(1.0, std::ceil(place_count_ / most));
   plot_->setAxisScale(QwtPlot::xBottom, -0.4, std::max(1, place_count_) - 0.6, step);
@@ -156,7 +159,11 @@ void DoublePlot::changeEvent(QEvent* event) {
 }
 
 bool DoublePlot::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == plot_->canvas() && event->type() == QEvent::Resize) nameIterations();
+  if (watched == plot_->canvas() && event->type() == QEvent::Resize) {
+    nameIterations();
+    QMetaObject::invokeMethod(
+        plot_, [plot = plot_] { plot->replot(); }, Qt::QueuedConnection);
+  }
   if (watched != plot_->canvas() || event->type() != QEvent::MouseButtonPress)
     return QWidget::eventFilter(watched, event);
   const auto* mouse = static_cast<QMouseEvent*>(event);

@@ -69,6 +69,7 @@ class DoublePlot : public QWidget {
   Curve left_;
   Curve right_;
   int place_count_ = 0;
+  std::function<QString(int)> name_of_;
 };
 
 }  // namespace boresight::ui

@@ -97,6 +97,7 @@ void SceneView::build() {
   readout_ = new QLabel(this);
   readout_->setObjectName(QStringLiteral("sceneReadout"));
   readout_->setContentsMargins(6, 2, 6, 2);
+  readout_->setWordWrap(true);
   readout_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   readout_->setText(tr("Click a template or a point of the mesh."));
   layout->addWidget(readout_);
@@ -136,6 +137,8 @@ QWidget* SceneView::buildBar() {
   layout->addWidget(through);
 
   through_role_ = new QComboBox(bar);
+  through_role_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  through_role_->setMinimumContentsLength(7);
   through_role_->setToolTip(tr("Whose pose the camera has while you look through it"));
   through_role_->addItem(tr("shown pose"), static_cast<int>(PoseRole::kEstimate));
   through_role_->addItem(tr("seed"), static_cast<int>(PoseRole::kSeed));

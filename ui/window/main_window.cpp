@@ -119,10 +119,12 @@ void MainWindow::rememberLayout() {
   arranged_ = restoreState(settings.value(QLatin1String(kLayoutKey)).toByteArray(), kLayoutVersion);
 }
 
-/// Panels take sizes only once the window has one.
+/// Panels take sizes only once the window has its own.
 void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
-  if (!std::exchange(arranged_, true)) docks_->arrange();
+  if (!std::exchange(arranged_, true))
+    QMetaObject::invokeMethod(
+        this, [this] { docks_->giveSizes(); }, Qt::QueuedConnection);
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

@@ -41,10 +41,7 @@ QWidget* widgetOf(MainWindow& window, const QString& view) {
   if (view.isEmpty() || view == QLatin1String("window")) return &window;
   if (view == QLatin1String("image")) return &window.image();
   QDockWidget* dock = window.dock(view);
-  if (!dock) return nullptr;
-  dock->show();
-  dock->raise();
-  return dock->widget();
+  return dock ? dock->widget() : nullptr;
 }
 
 QString knownViews(const MainWindow& window) {
@@ -75,6 +72,11 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
     return QObject::tr("there is no view '%1'; there are %2").arg(order.view, knownViews(window));
   window.resize(order.size);
   window.show();
+  QApplication::processEvents();  // the panels are arranged
+  if (QDockWidget* dock = window.dock(order.view)) {
+    dock->show();
+    dock->raise();
+  }
   const auto resting = [&window] { return isResting(window.tasks(), window.run()); };
   const bool empty = window.document().session().cases.empty();
   if (!waitUntil([&] { return (empty || window.state().currentCase()) && resting(); }))

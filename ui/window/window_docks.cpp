@@ -2,6 +2,7 @@
 #include "ui/window/window_docks.h"
 
 #include <QDockWidget>
+#include <QLayout>
 #include <QMainWindow>
 #include <QVBoxLayout>
 
@@ -41,18 +42,15 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   // Tables of poses and options are long, the one of iterations is wide.
   window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
   buildCentre();
-  add(QStringLiteral("cases"), tr("Cases"), cases_, Qt::LeftDockWidgetArea);
-  add(QStringLiteral("layers"), tr("Layers"), new LayersPanel(*image_), Qt::RightDockWidgetArea);
-  add(QStringLiteral("inputs"), tr("Inputs"), inputs_, Qt::RightDockWidgetArea);
-  add(QStringLiteral("pose"), tr("Pose"), poses_, Qt::RightDockWidgetArea);
-  add(QStringLiteral("configuration"), tr("Configuration"), configuration_,
-      Qt::RightDockWidgetArea);
-  add(QStringLiteral("scene"), tr("Scene"), new SceneView(parts.state), Qt::RightDockWidgetArea);
-  add(QStringLiteral("iterations"), tr("Iterations"), new IterationsPanel(parts.state),
-      Qt::BottomDockWidgetArea);
-  add(QStringLiteral("inspector"), tr("Match inspector"), new MatchInspectorPanel(parts.state),
-      Qt::BottomDockWidgetArea);
-  arrange();
+  add(QStringLiteral("cases"), tr("Cases"), cases_);
+  add(QStringLiteral("layers"), tr("Layers"), new LayersPanel(*image_));
+  add(QStringLiteral("inputs"), tr("Inputs"), inputs_);
+  add(QStringLiteral("pose"), tr("Pose"), poses_);
+  add(QStringLiteral("configuration"), tr("Configuration"), configuration_);
+  add(QStringLiteral("scene"), tr("Scene"), new SceneView(parts.state));
+  add(QStringLiteral("iterations"), tr("Iterations"), new IterationsPanel(parts.state));
+  add(QStringLiteral("inspector"), tr("Match inspector"), new MatchInspectorPanel(parts.state));
+  place();
 }
 
 void WindowDocks::buildCentre() {
@@ -77,10 +75,12 @@ void WindowDocks::raise(const QString& name) const {
 }
 
 void WindowDocks::arrange() const {
-  for (QDockWidget* each : docks_) {
-    each->setFloating(false);
-    each->show();
-  }
+  place();
+  giveSizes();
+}
+
+void WindowDocks::place() const {
+  for (QDockWidget* each : docks_) each->setFloating(false);
   QDockWidget* cases = dock(QStringLiteral("cases"));
   QDockWidget* scene = dock(QStringLiteral("scene"));
   QDockWidget* layers = dock(QStringLiteral("layers"));
@@ -92,28 +92,31 @@ void WindowDocks::arrange() const {
     window_.tabifyDockWidget(layers, dock(QLatin1String(name)));
   window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
   window_.tabifyDockWidget(iterations, dock(QStringLiteral("inspector")));
+  for (QDockWidget* each : docks_) each->show();
   layers->raise();
   iterations->raise();
+}
+
+void WindowDocks::giveSizes() const {
+  window_.layout()->activate();  // as minimum sizes are now
+  QDockWidget* iterations = dock(QStringLiteral("iterations"));
   const int width = window_.width();
   const int height = window_.height();
   window_.resizeDocks(
-      {cases, layers},
+      {dock(QStringLiteral("cases")), dock(QStringLiteral("layers"))},
       {static_cast<int>(kCasesShare * width), static_cast<int>(kRightShare * width)},
       Qt::Horizontal);
   window_.resizeDocks(
-      {iterations, scene},
+      {iterations, dock(QStringLiteral("scene"))},
       {static_cast<int>(kBottomShare * height), static_cast<int>(kSceneShare * height)},
       Qt::Vertical);
 }
 
-QDockWidget* WindowDocks::add(const QString& name, const QString& title, QWidget* widget,
-                              Qt::DockWidgetArea area) {
+void WindowDocks::add(const QString& name, const QString& title, QWidget* widget) {
   auto* made = new QDockWidget(title, &window_);
   made->setObjectName(name);
   made->setWidget(widget);
-  window_.addDockWidget(area, made);
   docks_.push_back(made);
-  return made;
 }
 
 }  // namespace boresight::ui

@@ -35,17 +35,18 @@ class WindowDocks {
   WarningBar& warnings() const { return *warnings_; }
   /// Brings a dock to the front.
   void raise(const QString& name) const;
-  /// Every dock where it was when the program started for the first time, in sizes that suit the
-  /// window as large as it is now.
+  /// Every dock where it was when the program started for the first time.
   void arrange() const;
+  /// Sizes that suit the window as large as it is now; only once it is shown.
+  void giveSizes() const;
   /// In the order in which menus list them.
   const std::vector<QDockWidget*>& all() const { return docks_; }
 
  private:
   void buildCentre();
+  void place() const;
   QDockWidget* dock(const QString& name) const;
-  QDockWidget* add(const QString& name, const QString& title, QWidget* widget,
-                   Qt::DockWidgetArea area);
+  void add(const QString& name, const QString& title, QWidget* widget);
 
   QMainWindow& window_;
   std::vector<QDockWidget*> docks_;
