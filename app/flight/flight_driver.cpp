@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs one localization as a flight computer would: the core alone, all memory one static block,
 // pixels and problem already decoded. Prints what the ground can compare: pose and digest.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -22,7 +23,7 @@ constexpr std::size_t kArenaBytes = BORESIGHT_FLIGHT_ARENA_BYTES;
 static_assert(kArenaBytes % Arena::kAlignment == 0);
 
 /// Everything that grows with the problem: mesh and mask, then the pixels, then the localizer's
-/// own. The encoded problem is read to the end, and overwritten once it has been decoded.
+/// own. The encoded problem is read behind what it decodes to, and overwritten after that.
 alignas(Arena::kAlignment) std::byte arena_block[kArenaBytes];
 
 /// What is wrong with an input, for people.
@@ -54,11 +55,13 @@ Fault readProblem(std::FILE* stream, std::span<std::byte> block, LocalizationPro
   if (size < 0) return {"cannot be read; give a file, not a pipe"};
   const auto count = static_cast<std::size_t>(size);
   if (count > block.size()) return {"larger than all memory there is; use a coarser mesh"};
-  const std::span<std::byte> end = block.last(count);
-  if (std::fread(end.data(), 1, count, stream) != count) return {"cannot be read"};
-  Arena arena(block.first(block.size() - count));
+  // It decodes to about as many bytes. As low as that allows: no page more is touched than needed.
+  const std::size_t room = std::min(2 * count + 4096, block.size() - count);
+  const std::span<std::byte> encoded = block.subspan(room, count);
+  if (std::fread(encoded.data(), 1, count, stream) != count) return {"cannot be read"};
+  Arena arena(block.first(room));
   const ProblemCheck check = decodeProblem(
-      {reinterpret_cast<const std::uint8_t*>(end.data()), count}, arena, problem, options);
+      {reinterpret_cast<const std::uint8_t*>(encoded.data()), count}, arena, problem, options);
   used = arena.used();
   if (check.fault == ProblemFault::kNone) return {};
   return {problemFaultText(check.fault), check.option};

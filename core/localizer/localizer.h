@@ -47,6 +47,8 @@ struct StepReport {
   bool stage_complete = false;
   bool iteration_complete = false;  ///< its record is whole, up to the stage that failed
   bool finished = false;
+
+  static StepReport of(Stage stage, bool stage_complete) { return {stage, stage_complete}; }
 };
 
 /// Render-and-compare localization (Pham 2025), one bounded slice per call. The flight loop, the
@@ -146,7 +148,6 @@ class Localizer {
   StepReport stepSupport();
   StepReport fail(Stage stage, LocalizationStatus status);
   void startAttempt();
-  double templateFactor() const;
   StepReport faulted(Stage stage, Status fault);
   bool beginMatch(int index, WhsSearch& search);
   void finishMatch(int index, const WhsSearch& search);
@@ -162,15 +163,7 @@ class Localizer {
   void finish(LocalizationStatus status);
   void measureCorrection(const Pose& before, const Pose& after);
   bool isSmall(const Iteration& iteration) const;
-  double imageDisplacement(const Pose& before, const Pose& after) const;
-  Pose pulledBack(const Pose& camera_from_station) const;
   const PosePrior* anchor() const;
-  bool leftUncertainty(const Pose& camera_from_station) const;
-  SeedUncertainty uncertaintyAt(int iteration, const Pose& camera_from_station) const;
-  double shrinkAt(double factor, int iteration) const;
-  int levelOf(IterationKind kind, int iteration) const;
-  bool isRefinement(int iteration) const;
-  int rolledHypotheses() const;
   double featureSize() const;
 
   LocalizationProblem problem_;

@@ -6,6 +6,7 @@
 
 #include "core/localizer/localizer.h"
 #include "core/localizer/run_digest.h"
+#include "core/localizer/schedule.h"
 
 namespace boresight {
 
@@ -90,13 +91,6 @@ ProblemSize sizeOf(const LocalizationProblem& problem) {
 }
 
 namespace {
-
-int coarseLevel(int width, int height, const LoopOptions& loop) {
-  const int longer = std::max(width, height);
-  int level = longer > loop.halved_size_px ? 1 : 0;
-  while (level < kPyramidLevels - 1 && (longer >> level) > loop.coarse_size_px) ++level;
-  return level;
-}
 
 /// Everything but the render and the samples.
 Iteration createIteration(const LocalizerOptions& options, Arena& arena) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the localizations that every build of the core must compute with the same bits: usage
-// `same_bits_cases FOLDER`. Each becomes a folder with what `whs localize` is given (arguments, one
+// `same_bits_cases FOLDER`, or `same_bits_cases --largest FOLDER` for the one that fills a flight
+// computer's memory. Each becomes a folder with what `whs localize` is given (arguments, one
 // a line), what it says (digest, exit_code), and what the flight driver is given (problem.bin,
 // image.pgm). Images are the examples' seen by other cameras, small enough for an emulator.
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <sstream>
 #include <stdexcept>
 
 #include "core/base/math.h"
@@ -24,6 +27,7 @@ struct SameBitsCase {
   Vector6d seed_from_truth = Vector6d::Zero();  ///< (rotation rad, translation m) about the camera
   Arguments extra = {};
   bool ignore = false;
+  std::size_t triangles = 0;  ///< split the mesh into so many; 0: as it is
 };
 
 Camera cameraOf(CameraModel model, int width, int height, double focal_length_px,
@@ -77,6 +81,48 @@ std::vector<SameBitsCase> allCases() {
        offset(1.0, 1.0, 1.0, 5.0, 5.0, 5.0),
        {"--set", "loop.max_iterations=1", "--set", "loop.max_attempts=2"}},
   };
+}
+
+/// The largest problem that a flight computer must hold.
+SameBitsCase largestCase() {
+  SameBitsCase largest;
+  largest.name = "largest";
+  largest.station = "bc";
+  largest.camera =
+      cameraOf(CameraModel::kBrownConrady, 2048, 2048, 3150.0, {-0.12, 0.06, 4e-4, -3e-4, 0.0});
+  largest.seed_from_truth = offset(2.0, -1.5, 1.0, 10.0, -8.0, 6.0);
+  largest.extra = {"--profile", "flight"};
+  largest.triangles = 60000;
+  return largest;
+}
+
+/// Puts a vertex into the middle of one triangle after the other: the same surface of at most
+/// `triangles` triangles.
+void splitTriangles(sessions::SceneMesh& scene, std::size_t triangles) {
+  for (std::size_t i = 0; scene.faces.size() + 2 <= triangles; ++i) {
+    const auto [a, b, c] = scene.faces[i].vertex;
+    const auto middle = static_cast<std::int32_t>(scene.vertices_in_station_m.size());
+    const auto at = [&](std::int32_t vertex) {
+      return scene.vertices_in_station_m[static_cast<std::size_t>(vertex)];
+    };
+    scene.vertices_in_station_m.emplace_back((at(a) + at(b) + at(c)) / 3.0f);
+    scene.faces[i] = {{a, b, middle}};
+    scene.faces.push_back({{b, c, middle}});
+    scene.faces.push_back({{c, a, middle}});
+  }
+}
+
+void writePly(const fs::path& file, const sessions::SceneMesh& scene) {
+  std::ostringstream text;
+  text.precision(9);
+  text << "ply\nformat ascii 1.0\nelement vertex " << scene.vertices_in_station_m.size()
+       << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
+       << scene.faces.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Eigen::Vector3f& point : scene.vertices_in_station_m)
+    text << point.x() << ' ' << point.y() << ' ' << point.z() << '\n';
+  for (const Face& face : scene.faces)
+    text << "3 " << face.vertex[0] << ' ' << face.vertex[1] << ' ' << face.vertex[2] << '\n';
+  sessions::writeFileAtomically(file, text.str());
 }
 
 /// What `seen` would have looked like to `camera`: bilinear, 0 beyond its border.
@@ -152,7 +198,13 @@ bool writeExpectation(const fs::path& folder, const Arguments& arguments) {
 
 bool writeCase(const SameBitsCase& one, const fs::path& folder) {
   fs::create_directories(folder);
-  const ExampleCase example(one.station);
+  ExampleCase example(one.station);
+  fs::path mesh = exampleFolder() / one.station / "model.ply";
+  if (one.triangles > 0) {
+    splitTriangles(example.scene, one.triangles);
+    mesh = folder / "model.ply";
+    writePly(mesh, example.scene);
+  }
   sessions::writeCamera(folder / "camera.json", one.camera);
   sessions::writePng(folder / "image.png", resample(example.image, example.camera, one.camera),
                      one.camera.width, one.camera.height, 1);
@@ -161,7 +213,7 @@ bool writeCase(const SameBitsCase& one, const fs::path& folder) {
   sessions::writePose(folder / "seed.json", seed, example.seed.uncertainty);
   Arguments arguments = {"--image",        folder / "image.png",
                          "--camera",       folder / "camera.json",
-                         "--mesh",         exampleFolder() / one.station / "model.ply",
+                         "--mesh",         mesh,
                          "--mesh-unit",    "m",
                          "--seed",         folder / "seed.json",
                          "--feature-size", one.station == "bc" ? "0.015" : "0.018"};
@@ -210,16 +262,28 @@ void writeAll(const fs::path& folder) {
   }
 }
 
+void writeLargest(const fs::path& folder) {
+  const SameBitsCase one = largestCase();
+  fs::remove_all(folder);
+  if (!writeCase(one, folder / one.name))
+    throw std::runtime_error("the largest case does not converge");
+}
+
 }  // namespace
 }  // namespace boresight::test
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: same_bits_cases FOLDER\n");
+  const bool largest = argc == 3 && std::strcmp(argv[1], "--largest") == 0;
+  if (argc != 2 && !largest) {
+    std::fprintf(stderr, "usage: same_bits_cases [--largest] FOLDER\n");
     return 2;
   }
   try {
-    boresight::test::writeAll(argv[1]);
+    if (largest) {
+      boresight::test::writeLargest(argv[2]);
+    } else {
+      boresight::test::writeAll(argv[1]);
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "same_bits_cases: %s\n", error.what());
     return 1;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "sessions/trace/record.h"
 #include "sessions/trace/stepped_run.h"
 #include "tests/support/example_case.h"
 
@@ -21,6 +22,15 @@ inline std::shared_ptr<const sessions::RunSnapshot> runOfExample(
 /// The same, run once per program: the station "os" with the default options.
 inline std::shared_ptr<const sessions::RunSnapshot> exampleRun() {
   static const auto made = runOfExample("os");
+  return made;
+}
+
+/// The same as a full trace, with the score maps' inputs.
+inline const sessions::LocalizationTrace& exampleTrace() {
+  static const sessions::LocalizationTrace made = [] {
+    const ExampleCase example("os");
+    return sessions::localize(example.problem(), defaultProfile(), sessions::RecordLevel::kFull);
+  }();
   return made;
 }
 

@@ -239,5 +239,18 @@ TEST(WhsSearch, NeedsLittleMemoryAndSaysWhenItHasLess) {
   }
 }
 
+TEST(WhsSearch, ListsTemplatesWithMorePixelsThanFitSomeRowsAtATime) {
+  Dice dice;
+  OwnedSearch owned(512, 200);
+  ASSERT_EQ(owned.status, Status::kOk);
+  for (const MaskKind kind : {MaskKind::kFull, MaskKind::kNoise, MaskKind::kRowStripes}) {
+    const int side = 512;
+    const Problem problem(noise(side, side, 0.9, dice), makeMask(side, side, kind, side, dice),
+                          noise(side + 130, side + 40, 0.5, dice), side);
+    ASSERT_GT(whsNorms(problem.view).edges, 3 * 6144);
+    ASSERT_EQ(run(owned.search, problem), peakOfMap(problem));
+  }
+}
+
 }  // namespace
 }  // namespace boresight

@@ -5,19 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include "sessions/trace/record.h"
-#include "tests/support/example_case.h"
+#include "tests/support/example_run.h"
 
 namespace boresight::sessions {
 namespace {
 
-const LocalizationTrace& wholeRun() {
-  static const LocalizationTrace made = [] {
-    const test::ExampleCase example("os");
-    return localize(example.problem(), defaultProfile(), RecordLevel::kFull);
-  }();
-  return made;
-}
+using test::exampleTrace;
 
 TEST(FullImagePixel, IsTheCentreOfTheBlockThatAPixelCovers) {
   EXPECT_EQ(fullImagePixel(3.0, 4.0, 0), Eigen::Vector2d(3.0, 4.0));
@@ -26,7 +19,7 @@ TEST(FullImagePixel, IsTheCentreOfTheBlockThatAPixelCovers) {
 }
 
 TEST(MatchDetails, SayWhatTheIterationRecorded) {
-  const IterationTrace& first = wholeRun().iterations.front();
+  const IterationTrace& first = exampleTrace().iterations.front();
   const std::vector<MatchDetails> all = matchDetails(first);
   ASSERT_EQ(all.size(), first.templates.size());
   ASSERT_GT(all.size(), 10u);
@@ -54,7 +47,7 @@ TEST(MatchDetails, SayWhatTheIterationRecorded) {
 }
 
 TEST(MatchDetails, PlaceAMatchWhereItsCorrespondenceIs) {
-  const IterationTrace& first = wholeRun().iterations.front();
+  const IterationTrace& first = exampleTrace().iterations.front();
   const std::vector<MatchDetails> all = matchDetails(first);
   for (std::size_t i = 0; i < first.correspondences.size(); ++i) {
     const MatchDetails& one = all[static_cast<std::size_t>(first.template_of[i])];
@@ -65,7 +58,7 @@ TEST(MatchDetails, PlaceAMatchWhereItsCorrespondenceIs) {
 }
 
 TEST(MatchDetails, KnowNothingOfWhatWasNotReached) {
-  IterationTrace early = wholeRun().iterations.front();
+  IterationTrace early = exampleTrace().iterations.front();
   early.reached = Stage::kTemplates;
   early.matches.clear();
   for (const MatchDetails& one : matchDetails(early)) {

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/localizer/pose_change.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace boresight {
+namespace {
+
+/// Half-widths of the uncertainty in the order of an offset: rotation, translation.
+Vector6d limitsOf(const SeedUncertainty& uncertainty) {
+  Vector6d limits;
+  limits << uncertainty.rotation_rad, uncertainty.translation_m;
+  return limits;
+}
+
+Vector6d offsetFromSeed(const LocalizationProblem& problem, const Pose& camera_from_station) {
+  return offsetAboutPivot(problem.camera_from_station_seed, camera_from_station,
+                          problem.uncertainty.pivot_in_camera_m);
+}
+
+}  // namespace
+
+double translationBetween_m(const Pose& before, const Pose& after, const BoundingBox& scene,
+                            CorrectionPoint point) {
+  if (point == CorrectionPoint::kStation)
+    return (after * scene.centre() - before * scene.centre()).norm();
+  return (after.inverse().translation_m - before.inverse().translation_m).norm();
+}
+
+double rotationBetween_rad(const Pose& before, const Pose& after) {
+  return rotationLog((after.rotation * before.rotation.conjugate()).normalized()).norm();
+}
+
+double displacementBetween_px(const Pose& before, const Pose& after, const BoundingBox& scene,
+                              const Camera& camera) {
+  double sum_px = 0.0;
+  int seen = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    Eigen::Vector3d point_in_station_m;
+    for (int axis = 0; axis < 3; ++axis) {
+      point_in_station_m[axis] =
+          ((corner >> axis) & 1) != 0 ? scene.maximum_m[axis] : scene.minimum_m[axis];
+    }
+    Eigen::Vector2d from_px;
+    Eigen::Vector2d to_px;
+    if (!project(camera, before * point_in_station_m, from_px)) continue;
+    if (!project(camera, after * point_in_station_m, to_px)) continue;
+    sum_px += (to_px - from_px).norm();
+    ++seen;
+  }
+  return seen > 0 ? sum_px / seen : 1e6;
+}
+
+Pose rolledAboutScene(const Pose& camera_from_station, double roll_rad, const BoundingBox& scene) {
+  const Eigen::Vector3d axis = (camera_from_station * scene.centre()).normalized();
+  const Eigen::Quaterniond turn = rotationExp(axis * roll_rad);
+  Pose rolled;
+  rolled.rotation = (turn * camera_from_station.rotation).normalized();
+  rolled.translation_m = turn * camera_from_station.translation_m;
+  return rolled;
+}
+
+bool leftUncertainty(const LocalizationProblem& problem, const Pose& camera_from_station,
+                     double factor) {
+  const Vector6d offset = offsetFromSeed(problem, camera_from_station);
+  const Vector6d limits = limitsOf(problem.uncertainty);
+  for (int i = 0; i < 6; ++i)
+    if (std::abs(offset[i]) > factor * limits[i]) return true;
+  return false;
+}
+
+Pose pulledBack(const LocalizationProblem& problem, const Pose& camera_from_station) {
+  Vector6d offset = offsetFromSeed(problem, camera_from_station);
+  const Vector6d limits = limitsOf(problem.uncertainty);
+  bool outside = false;
+  for (int i = 0; i < 6; ++i) {
+    outside = outside || std::abs(offset[i]) > limits[i];
+    offset[i] = std::clamp(offset[i], -limits[i], limits[i]);
+  }
+  if (!outside) return camera_from_station;
+  return displacedAboutPivot(problem.camera_from_station_seed, offset,
+                             problem.uncertainty.pivot_in_camera_m);
+}
+
+}  // namespace boresight

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/geometry/camera.h"
+#include "core/geometry/mesh.h"
+#include "core/geometry/pose.h"
+#include "core/localizer/localizer_options.h"
+#include "core/localizer/problem.h"
+
+// How far two poses are apart, as the loop sees it.
+namespace boresight {
+
+/// Distance between the poses: of the camera's centre in the station's frame, or of the scene's
+/// middle in the camera's.
+double translationBetween_m(const Pose& before, const Pose& after, const BoundingBox& scene,
+                            CorrectionPoint point);
+/// Angle between the poses, [0, pi].
+double rotationBetween_rad(const Pose& before, const Pose& after);
+/// Mean displacement of the corners of the scene's box in the image; 1e6 when none is seen from
+/// both poses.
+double displacementBetween_px(const Pose& before, const Pose& after, const BoundingBox& scene,
+                              const Camera& camera);
+
+/// The pose turned about the ray through the scene's middle, so that the scene stays where it is.
+Pose rolledAboutScene(const Pose& camera_from_station, double roll_rad, const BoundingBox& scene);
+
+/// Whether the pose lies outside the seed's uncertainty, `factor` times as large.
+bool leftUncertainty(const LocalizationProblem& problem, const Pose& camera_from_station,
+                     double factor);
+/// The nearest pose inside the seed's uncertainty, axis by axis: a coarse estimate may overshoot
+/// where the image says little.
+Pose pulledBack(const LocalizationProblem& problem, const Pose& camera_from_station);
+
+}  // namespace boresight

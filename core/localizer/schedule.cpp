@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/localizer/schedule.h"
+
+#include <algorithm>
+
+#include "core/edges/edge_map.h"
+
+namespace boresight {
+
+int coarseLevel(int width, int height, const LoopOptions& loop) {
+  const int longer = std::max(width, height);
+  int level = longer > loop.halved_size_px ? 1 : 0;
+  while (level < kPyramidLevels - 1 && (longer >> level) > loop.coarse_size_px) ++level;
+  return level;
+}
+
+bool isRefinement(const LocalizerOptions& options, int iteration) {
+  return options.refinement.enabled && iteration >= options.loop.match_iterations;
+}
+
+double shrinkAt(double factor, const LoopOptions& loop, int iteration) {
+  double product = 1.0;
+  for (int i = 0; i < std::min(iteration, loop.shrink_iterations); ++i) product *= factor;
+  return product;
+}
+
+double thresholdAt(const LocalizerOptions& options, int iteration, int level) {
+  if (!isRefinement(options, iteration)) {
+    return shrinkAt(options.loop.threshold_shrink, options.loop, iteration) *
+           options.loop.inlier_threshold_px;
+  }
+  const bool first = iteration == options.loop.match_iterations;
+  const double radius_px =
+      first ? options.refinement.first_radius_px : options.refinement.last_radius_px;
+  return radius_px * static_cast<double>(1 << level);
+}
+
+SeedUncertainty uncertaintyAt(const LocalizationProblem& problem, const LoopOptions& loop,
+                              int iteration, const Pose& camera_from_station) {
+  const SeedUncertainty& seed = problem.uncertainty;
+  SeedUncertainty now = scaled(seed, shrinkAt(loop.uncertainty_shrink, loop, iteration));
+  // The pivot belongs to the scene: it goes where the hypothesis takes it, unless it is the
+  // camera's centre.
+  if (seed.pivot_in_camera_m.squaredNorm() > 0.0) {
+    now.pivot_in_camera_m =
+        camera_from_station * (problem.camera_from_station_seed.inverse() * seed.pivot_in_camera_m);
+  }
+  return now;
+}
+
+int rolledHypotheses(const LoopOptions& loop, const SeedUncertainty& uncertainty) {
+  const double half_rad = 0.5 * loop.roll_spacing_rad;
+  const double uncovered_rad = uncertainty.rotation_rad.z() - half_rad;
+  int count = 1;
+  while (count + 2 <= loop.max_rolled_hypotheses && (count - 1) * half_rad < uncovered_rad)
+    count += 2;
+  return count;
+}
+
+double rollOf(int hypothesis, double spacing_rad) {
+  if (hypothesis == 0) return 0.0;
+  const int step = (hypothesis + 1) / 2;
+  return (hypothesis % 2 == 1 ? 1.0 : -1.0) * step * spacing_rad;
+}
+
+double templateFactor(int attempt) {
+  constexpr double kFactors[3] = {1.0, 2.0, 0.5};
+  return kFactors[std::clamp(attempt, 0, 2)];
+}
+
+int iterationsNeeded(const LocalizerOptions& options) {
+  const int converged = options.loop.converged_iterations;
+  if (!options.refinement.enabled) return converged;
+  return std::max(options.loop.match_iterations + options.refinement.min_passes, converged);
+}
+
+}  // namespace boresight

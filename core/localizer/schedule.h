@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/geometry/pose.h"
+#include "core/localizer/localizer_options.h"
+#include "core/localizer/problem.h"
+
+// What the options ask of an iteration. Iterations are counted from 0 within an attempt, hypotheses
+// within an iteration.
+namespace boresight {
+
+/// Level of the image pyramid that the first iteration matches on; later ones work one level finer.
+int coarseLevel(int width, int height, const LoopOptions& loop);
+
+/// Whether the iteration refines on the image's own edges instead of matching templates.
+bool isRefinement(const LocalizerOptions& options, int iteration);
+
+/// `factor` to the power of the iterations that shrink something.
+double shrinkAt(double factor, const LoopOptions& loop, int iteration);
+
+/// Inlier threshold of a matching iteration, or search radius of a refinement on this level; in
+/// pixels of the image itself.
+double thresholdAt(const LocalizerOptions& options, int iteration, int level);
+
+/// How far the pose may be off in this iteration, about a pivot that moves with the hypothesis.
+SeedUncertainty uncertaintyAt(const LocalizationProblem& problem, const LoopOptions& loop,
+                              int iteration, const Pose& camera_from_station);
+
+/// Renders that the first iteration compares, turned about the view axis, so that each serves half
+/// a spacing to either side and all of them the seed's uncertainty.
+int rolledHypotheses(const LoopOptions& loop, const SeedUncertainty& uncertainty);
+/// Turn of one of them: 0, +s, -s, +2s, -2s, ...
+double rollOf(int hypothesis, double spacing_rad);
+
+/// What an attempt (from 0) makes of the templates' size: what failed may have been theirs.
+double templateFactor(int attempt);
+
+/// Iterations before a small correction may end the run.
+int iterationsNeeded(const LocalizerOptions& options);
+
+}  // namespace boresight

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/localizer/pose_change.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/random_pose.h"
+
+namespace boresight {
+namespace {
+
+using test::randomCameraFromStation;
+using test::randomFor;
+using test::randomOffset;
+
+BoundingBox cube(double half_m) {
+  return {Eigen::Vector3d::Constant(-half_m), Eigen::Vector3d::Constant(half_m)};
+}
+
+Camera pinhole() {
+  Camera camera;
+  camera.width = 640;
+  camera.height = 480;
+  camera.fx = camera.fy = 500.0;
+  camera.cx = 320.0;
+  camera.cy = 240.0;
+  EXPECT_EQ(prepareCamera(camera), Status::kOk);
+  return camera;
+}
+
+TEST(PoseChange, TranslationIsOfTheCameraOrOfTheScene) {
+  const BoundingBox scene{{0.9, -0.1, -0.1}, {1.1, 0.1, 0.1}};  // a metre from the origin
+  const Pose before;
+  Pose turned;
+  turned.rotation = rotationExp(Eigen::Vector3d(0.0, 0.0, kPi / 2.0));
+  EXPECT_NEAR(translationBetween_m(before, turned, scene, CorrectionPoint::kCamera), 0.0, 1e-15);
+  EXPECT_NEAR(translationBetween_m(before, turned, scene, CorrectionPoint::kStation),
+              std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(rotationBetween_rad(before, turned), kPi / 2.0, 1e-12);
+}
+
+TEST(PoseChange, ADisplacementAcrossTheViewIsFocalLengthOverDepth) {
+  // Flat, so that every corner is two metres away.
+  const BoundingBox scene{{-0.1, -0.1, 0.0}, {0.1, 0.1, 0.0}};
+  Pose before;
+  before.translation_m = {0.0, 0.0, 2.0};
+  Pose after = before;
+  after.translation_m.x() += 0.004;
+  EXPECT_NEAR(displacementBetween_px(before, after, scene, pinhole()), 500.0 * 0.004 / 2.0, 1e-12);
+  after.translation_m.z() = -2.0;
+  EXPECT_EQ(displacementBetween_px(before, after, scene, pinhole()), 1e6);
+}
+
+TEST(PoseChange, RollingLeavesTheMiddleOfTheSceneWhereItIs) {
+  Random random = randomFor("PoseChange.Rolling");
+  for (int trial = 0; trial < 100; ++trial) {
+    const Pose before = randomCameraFromStation(random, 0.5, 0.3);
+    const double roll_rad = random.uniform(-3.0, 3.0);
+    const BoundingBox scene = cube(0.05);
+    const Pose rolled = rolledAboutScene(before, roll_rad, scene);
+    EXPECT_LT((rolled * scene.centre() - before * scene.centre()).norm(), 1e-14);
+    EXPECT_NEAR(rotationBetween_rad(before, rolled), std::abs(roll_rad), 1e-12);
+  }
+}
+
+TEST(PoseChange, WhatLiesInsideTheUncertaintyStaysAndTheRestComesToItsEdge) {
+  Random random = randomFor("PoseChange.Uncertainty");
+  LocalizationProblem problem;
+  problem.uncertainty.translation_m = {0.01, 0.02, 0.03};
+  problem.uncertainty.rotation_rad = {0.05, 0.1, 0.15};
+  for (int trial = 0; trial < 200; ++trial) {
+    problem.camera_from_station_seed = randomCameraFromStation(random, 0.5);
+    problem.uncertainty.pivot_in_camera_m =
+        trial % 2 == 0 ? Eigen::Vector3d::Zero()
+                       : problem.camera_from_station_seed.translation_m.eval();
+    const double scale = random.uniform(0.1, 3.0);
+    const Vector6d offset = scale * randomOffset(random, problem.uncertainty);
+    const Pose pose = displacedAboutPivot(problem.camera_from_station_seed, offset,
+                                          problem.uncertainty.pivot_in_camera_m);
+    double most = 0.0;  // in half-widths
+    Vector6d clamped = offset;
+    for (int i = 0; i < 6; ++i) {
+      const double limit =
+          i < 3 ? problem.uncertainty.rotation_rad[i] : problem.uncertainty.translation_m[i - 3];
+      most = std::max(most, std::abs(offset[i]) / limit);
+      clamped[i] = std::clamp(offset[i], -limit, limit);
+    }
+    EXPECT_FALSE(leftUncertainty(problem, pose, most * 1.000001));
+    EXPECT_TRUE(leftUncertainty(problem, pose, most * 0.999999));
+    const Pose back = pulledBack(problem, pose);
+    if (most < 1.0) {
+      EXPECT_EQ(back, pose);
+    } else {
+      EXPECT_FALSE(leftUncertainty(problem, back, 1.000001));
+      const Pose expected = displacedAboutPivot(problem.camera_from_station_seed, clamped,
+                                                problem.uncertainty.pivot_in_camera_m);
+      EXPECT_LT((back.translation_m - expected.translation_m).norm(), 1e-12);
+      EXPECT_LT(rotationBetween_rad(back, expected), 1e-9);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace boresight

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/localizer/schedule.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace boresight {
+namespace {
+
+TEST(Schedule, TheFirstLevelIsTheFinestThatIsSmallEnough) {
+  LoopOptions loop;
+  loop.coarse_size_px = 512;
+  loop.halved_size_px = 400;
+  EXPECT_EQ(coarseLevel(2048, 1536, loop), 2);
+  EXPECT_EQ(coarseLevel(1024, 1024, loop), 1);
+  EXPECT_EQ(coarseLevel(1025, 16, loop), 1);  // 1025 >> 1
+  EXPECT_EQ(coarseLevel(401, 401, loop), 1);
+  EXPECT_EQ(coarseLevel(400, 400, loop), 0);
+  EXPECT_EQ(coarseLevel(1 << 14, 1 << 14, loop), kPyramidLevels - 1);
+}
+
+TEST(Schedule, ThresholdsShrinkWhileMatchingAndAreARadiusWhenRefining) {
+  LocalizerOptions options;
+  options.loop.match_iterations = 4;
+  options.loop.shrink_iterations = 2;
+  options.loop.threshold_shrink = 0.5;
+  options.loop.inlier_threshold_px = 16.0;
+  options.refinement.enabled = true;
+  options.refinement.first_radius_px = 6.0;
+  options.refinement.last_radius_px = 3.0;
+  const double expected_px[] = {16.0, 8.0, 4.0, 4.0, 12.0, 6.0, 6.0};
+  for (int i = 0; i < 7; ++i) EXPECT_EQ(thresholdAt(options, i, 1), expected_px[i]) << i;
+  options.refinement.enabled = false;
+  EXPECT_EQ(thresholdAt(options, 6, 1), 4.0);
+}
+
+TEST(Schedule, RolledRendersCoverTheUncertaintyAboutTheViewAxis) {
+  LoopOptions loop;
+  loop.max_rolled_hypotheses = 9;
+  for (double spacing_rad = 0.05; spacing_rad < 0.5; spacing_rad += 0.03) {
+    loop.roll_spacing_rad = spacing_rad;
+    for (double uncertain_rad = 0.0; uncertain_rad < 4.4 * spacing_rad; uncertain_rad += 0.01) {
+      SeedUncertainty uncertainty;
+      uncertainty.rotation_rad.z() = uncertain_rad;
+      const int count = rolledHypotheses(loop, uncertainty);
+      double most_rad = 0.0;
+      for (int i = 0; i < count; ++i)
+        most_rad = std::max(most_rad, std::abs(rollOf(i, spacing_rad)));
+      EXPECT_GE(most_rad + 0.5 * spacing_rad, uncertain_rad - 1e-12);
+      // One pair less would not do.
+      if (count > 1) {
+        EXPECT_LT(most_rad - 0.5 * spacing_rad, uncertain_rad);
+      }
+    }
+  }
+}
+
+TEST(Schedule, RollsAlternate) {
+  const double expected_rad[] = {0.0, 0.2, -0.2, 0.4, -0.4};
+  for (int i = 0; i < 5; ++i) EXPECT_DOUBLE_EQ(rollOf(i, 0.2), expected_rad[i]);
+}
+
+TEST(Schedule, ThePivotMovesWithTheHypothesis) {
+  LocalizationProblem problem;
+  problem.camera_from_station_seed.translation_m = {0.0, 0.0, 2.0};
+  problem.uncertainty.pivot_in_camera_m = {0.1, 0.0, 2.0};
+  LoopOptions loop;
+  loop.uncertainty_shrink = 0.5;
+  loop.shrink_iterations = 3;
+  Pose moved = problem.camera_from_station_seed;
+  moved.translation_m.x() += 0.5;
+  const SeedUncertainty now = uncertaintyAt(problem, loop, 2, moved);
+  EXPECT_TRUE(now.pivot_in_camera_m.isApprox(Eigen::Vector3d(0.6, 0.0, 2.0)));
+  EXPECT_TRUE(now.translation_m.isApprox(0.25 * problem.uncertainty.translation_m));
+  problem.uncertainty.pivot_in_camera_m.setZero();  // an arm camera turns about itself
+  EXPECT_TRUE(uncertaintyAt(problem, loop, 2, moved).pivot_in_camera_m.isZero());
+}
+
+TEST(Schedule, ARunMayEndAfterTheIterationsThatItNeeds) {
+  LocalizerOptions options;
+  options.loop.match_iterations = 2;
+  options.loop.converged_iterations = 2;
+  options.refinement.min_passes = 3;
+  EXPECT_EQ(iterationsNeeded(options), 5);
+  options.loop.converged_iterations = 7;
+  EXPECT_EQ(iterationsNeeded(options), 7);
+  options.loop.converged_iterations = 2;
+  options.refinement.enabled = false;
+  EXPECT_EQ(iterationsNeeded(options), 2);
+}
+
+}  // namespace
+}  // namespace boresight
