@@ -43,7 +43,8 @@ LayersPanel::LayersPanel(ImagePanel& image, QWidget* parent) : QWidget(parent), 
   grid->setVerticalSpacing(2);
   rows_.resize(kLayerCount);
   for (int i = 0; i < kLayerCount; ++i) buildRow(*grid, static_cast<LayerId>(i));
-  grid->setColumnStretch(3, 1);
+  grid->setColumnStretch(3, 100);  // as wide as a slider may be; the rest stays empty
+  grid->setColumnStretch(4, 1);
   grid->setRowStretch(kLayerCount, 1);
   scroll->setWidget(list);
   connect(&image_, &ImagePanel::stylesChanged, this, &LayersPanel::showStyles);
