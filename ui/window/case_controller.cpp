@@ -48,7 +48,7 @@ void CaseController::documentChanged() {
     return;
   }
   // Another seed, mask or image than the one that is shown.
-  if (state_.currentCase() && !(state_.currentCase()->source == *one)) load(case_id_);
+  if (!(asked_ == *one)) load(case_id_);
   Q_EMIT stalenessChanged();
 }
 
@@ -64,6 +64,7 @@ void CaseController::chooseCase(const QString& id) {
 void CaseController::load(const QString& id) {
   const sessions::SessionCase* one = document_.session().findCase(id.toStdString());
   if (!one) return;
+  asked_ = *one;
   tasks_.start(
       QStringLiteral("load case"),
       [source = *one](const std::stop_token&) { return sessions::loadCase(source); },

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <QObject>
@@ -68,6 +69,7 @@ class CaseController : public QObject {
   RunController& run_;
   TaskRunner& tasks_;
   QString case_id_;
+  std::optional<sessions::SessionCase> asked_;  ///< what was read last, or is being read
   bool run_is_prepared_ = false;
   bool run_when_loaded_ = false;
   std::vector<QString> queue_;

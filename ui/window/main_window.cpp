@@ -13,6 +13,7 @@
 #include <QUrl>
 
 #include "ui/views/image_panel.h"
+#include "ui/window/input_findings.h"
 #include "ui/window/panel_links.h"
 #include "ui/window/session_files.h"
 #include "ui/window/window_docks.h"
@@ -48,7 +49,8 @@ MainWindow::MainWindow(QWidget* parent)
       parts_{document_, state_, tasks_, run_, cases_},
       docks_(std::make_unique<WindowDocks>(*this, parts_)),
       files_(new SessionFiles(*this, parts_)),
-      menus_(new WindowMenus(*this, parts_, *docks_, *files_)) {
+      menus_(new WindowMenus(*this, parts_, *docks_, *files_)),
+      findings_(new InputFindings(parts_, docks_->findings(), *this)) {
   setObjectName(QStringLiteral("mainWindow"));
   setAcceptDrops(true);
   buildStatusBar();
@@ -75,6 +77,7 @@ void MainWindow::buildStatusBar() {
 void MainWindow::connectAll() {
   auto* links = new PanelLinks(parts_, *docks_, this);
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
+  connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);
   connect(files_, &SessionFiles::failed, this, &MainWindow::showMessage);
   connect(files_, &SessionFiles::noted, this,
           [this](const QString& message) { statusBar()->showMessage(message); });
@@ -96,6 +99,8 @@ void MainWindow::showMessage(const QString& message) {
 }
 
 bool MainWindow::openSession(const std::filesystem::path& file) { return files_->open(file); }
+
+void MainWindow::offerLeftSessions() { files_->offerUntitled(); }
 
 void MainWindow::takeFiles(const std::vector<std::filesystem::path>& files) { files_->take(files); }
 
@@ -155,7 +160,7 @@ void MainWindow::showState() {
                            ? QString::fromStdString(document_.file().filename().string())
                            : tr("No session");
   setWindowTitle(tr("%1[*]%2 - Boresight").arg(name, read_only ? tr(" (read only)") : QString()));
-  setWindowModified(document_.isModified());
+  setWindowModified(document_.isModified() || document_.isUntitled());
 }
 
 }  // namespace boresight::ui

@@ -36,7 +36,10 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       configuration_(new ConfigurationPanel(parts.state)),
       inputs_(new InputSheetPanel),
       poses_(new PosePanel(parts.state)),
-      warnings_(new WarningBar(tr("Inputs"), tr("Show all that is known of the inputs"))) {
+      warnings_(new WarningBar(tr("Inputs"), tr("Show all that is known of the inputs"))),
+      findings_(new WarningBar(tr("Mend ..."),
+                               tr("Look for missing files below the session's folder, or take "
+                                  "changed ones as they are"))) {
   window_.setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowNestedDocks |
                          QMainWindow::AllowTabbedDocks);
   // Tables of poses and options are long, the one of iterations is wide.
@@ -58,6 +61,7 @@ void WindowDocks::buildCentre() {
   auto* column = new QVBoxLayout(centre);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
+  column->addWidget(findings_);
   column->addWidget(warnings_);
   column->addWidget(image_, 1);
   window_.setCentralWidget(centre);

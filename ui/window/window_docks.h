@@ -33,6 +33,8 @@ class WindowDocks {
   PosePanel& poses() const { return *poses_; }
   /// Above the image: what looks wrong with the case's inputs.
   WarningBar& warnings() const { return *warnings_; }
+  /// The same for files that are missing or have changed.
+  WarningBar& findings() const { return *findings_; }
   /// Brings a dock to the front.
   void raise(const QString& name) const;
   /// Every dock where it was when the program started for the first time.
@@ -56,6 +58,7 @@ class WindowDocks {
   InputSheetPanel* inputs_;
   PosePanel* poses_;
   WarningBar* warnings_;
+  WarningBar* findings_;
 };
 
 }  // namespace boresight::ui
