@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <QObject>
@@ -54,6 +55,7 @@ class CaseController : public QObject {
  private:
   void documentOpened();
   void documentChanged();
+  bool isLoaded() const;
   void load(const QString& id);
   void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one);
   void loadLatestRun(const QString& id);
@@ -69,7 +71,8 @@ class CaseController : public QObject {
   TaskRunner& tasks_;
   QString case_id_;
   bool run_is_prepared_ = false;
-  bool run_when_loaded_ = false;
+  sessions::Session run_session_;  ///< what the run that is prepared is made from
+  std::optional<sessions::StepUntil> run_when_loaded_;
   std::vector<QString> queue_;
 };
 

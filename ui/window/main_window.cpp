@@ -13,6 +13,7 @@
 #include <QUrl>
 
 #include "ui/views/image_panel.h"
+#include "ui/window/mask_controller.h"
 #include "ui/window/panel_links.h"
 #include "ui/window/session_files.h"
 #include "ui/window/window_docks.h"
@@ -74,6 +75,7 @@ void MainWindow::buildStatusBar() {
 
 void MainWindow::connectAll() {
   auto* links = new PanelLinks(parts_, *docks_, this);
+  new MaskController(parts_, docks_->maskEditor(), docks_->mask(), image(), this);
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
   connect(files_, &SessionFiles::failed, this, &MainWindow::showMessage);
   connect(files_, &SessionFiles::noted, this,

@@ -40,10 +40,15 @@ void collect(const QList<QAction*>& actions, QList<Row>& rows) {
 }
 
 QList<Row> viewRows() {
-  const std::array<const char*, 5> keys = {"Wheel", "Drag", "Double click, 0", "1", "+, -, arrows"};
-  const std::array<const char*, 5> texts = {
-      "Zoom at the cursor", "Move the image", "Show the whole image",
-      "One image pixel on one screen pixel", "Zoom and move by keys"};
+  const std::array<const char*, 7> keys = {
+      "Wheel", "Drag", "Double click, 0", "1", "+, -, arrows", "Enter, Backspace", "Escape"};
+  const std::array<const char*, 7> texts = {"Zoom at the cursor",
+                                            "Move the image (with a mask tool: the middle button)",
+                                            "Show the whole image",
+                                            "One image pixel on one screen pixel",
+                                            "Zoom and move by keys",
+                                            "Close a polygon of the mask, drop its last corner",
+                                            "Drop the polygon; leave the mask tool"};
   QList<Row> rows;
   for (std::size_t i = 0; i < keys.size(); ++i)
     rows.push_back({QObject::tr(keys[i]), QObject::tr(texts[i])});
