@@ -39,6 +39,13 @@ void ViewState::setCase(CasePtr one) {
   Q_EMIT nudgedPoseChanged();
 }
 
+void ViewState::replaceCase(CasePtr one) {
+  case_ = std::move(one);
+  Q_EMIT caseChanged();
+  Q_EMIT cursorChanged();
+  if (nudged_) Q_EMIT nudgedPoseChanged();
+}
+
 void ViewState::setSnapshot(SnapshotPtr snapshot) {
   const bool follows = cursor_.iteration == lastIteration();
   snapshot_ = std::move(snapshot);

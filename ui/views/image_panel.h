@@ -69,6 +69,7 @@ class ImagePanel : public QWidget {
   QSlider* swipe_slider_ = nullptr;
   QLabel* zoom_label_ = nullptr;
   QTimer blink_timer_;
+  ViewState::CasePtr shown_case_;
   std::array<bool, kLayerCount> asked_{};  ///< renders of this case that were asked for
   std::shared_ptr<const sessions::IterationTrace> agreement_of_;
 };

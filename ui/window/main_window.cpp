@@ -14,6 +14,7 @@
 
 #include "ui/views/image_panel.h"
 #include "ui/window/input_findings.h"
+#include "ui/window/mask_controller.h"
 #include "ui/window/panel_links.h"
 #include "ui/window/session_files.h"
 #include "ui/window/window_docks.h"
@@ -76,6 +77,7 @@ void MainWindow::buildStatusBar() {
 
 void MainWindow::connectAll() {
   auto* links = new PanelLinks(parts_, *docks_, this);
+  new MaskController(parts_, docks_->maskEditor(), docks_->mask(), image(), this);
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);
   connect(files_, &SessionFiles::failed, this, &MainWindow::showMessage);

@@ -46,13 +46,17 @@ struct Fixed {
 
 /// Keys that are no actions of a menu: those of the image, the scene, tables and the field for
 /// nudging, each where the pointer or the focus is.
-constexpr std::array<Fixed, 20> kFixed = {{
+constexpr std::array<Fixed, 23> kFixed = {{
     {QT_TR_NOOP("Image: wheel"), QT_TR_NOOP("Zoom at the cursor")},
     {QT_TR_NOOP("Image: drag"), QT_TR_NOOP("Move the image")},
     {QT_TR_NOOP("Image: double click, 0"), QT_TR_NOOP("Show the whole image")},
     {QT_TR_NOOP("Image: 1"), QT_TR_NOOP("One image pixel on one screen pixel")},
     {QT_TR_NOOP("Image: +, -, arrows"), QT_TR_NOOP("Zoom and move")},
     {QT_TR_NOOP("Image: click"), QT_TR_NOOP("Choose a template")},
+    {QT_TR_NOOP("Mask tool: middle drag"), QT_TR_NOOP("Move the image")},
+    {QT_TR_NOOP("Mask tool: Enter, Backspace"),
+     QT_TR_NOOP("Close a polygon of the mask, drop its last corner")},
+    {QT_TR_NOOP("Mask tool: Escape"), QT_TR_NOOP("Drop the polygon; leave the mask tool")},
     {QT_TR_NOOP("Scene: drag"), QT_TR_NOOP("Turn; with Shift or the middle button move")},
     {QT_TR_NOOP("Scene: right drag, wheel"), QT_TR_NOOP("Nearer and farther")},
     {QT_TR_NOOP("Scene: click"), QT_TR_NOOP("Choose a template, or read a point of the mesh")},

@@ -10,11 +10,14 @@
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/input_sheet_panel.h"
 #include "ui/panels/iterations_panel.h"
+#include "ui/panels/mask_panel.h"
 #include "ui/panels/match_inspector_panel.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/warning_bar.h"
 #include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
 #include "ui/views/layers_panel.h"
+#include "ui/views/mask_editor.h"
 #include "ui/vtk/scene_view.h"
 
 namespace boresight::ui {
@@ -36,6 +39,8 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       configuration_(new ConfigurationPanel(parts.state)),
       inputs_(new InputSheetPanel),
       poses_(new PosePanel(parts.state)),
+      mask_editor_(new MaskEditor(image_->view(), image_)),
+      mask_(new MaskPanel(*mask_editor_)),
       warnings_(new WarningBar(tr("Inputs"), tr("Show all that is known of the inputs"))),
       findings_(new WarningBar(tr("Mend ..."),
                                tr("Look for missing files below the session's folder, or take "
@@ -47,6 +52,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   buildCentre();
   add(QStringLiteral("cases"), tr("Cases"), cases_);
   add(QStringLiteral("layers"), tr("Layers"), new LayersPanel(*image_));
+  add(QStringLiteral("mask"), tr("Mask"), mask_);
   add(QStringLiteral("inputs"), tr("Inputs"), inputs_);
   add(QStringLiteral("pose"), tr("Pose"), poses_);
   add(QStringLiteral("configuration"), tr("Configuration"), configuration_);
@@ -92,7 +98,7 @@ void WindowDocks::place() const {
   window_.addDockWidget(Qt::LeftDockWidgetArea, cases);
   window_.addDockWidget(Qt::RightDockWidgetArea, scene);
   window_.addDockWidget(Qt::RightDockWidgetArea, layers);
-  for (const char* name : {"inputs", "pose", "configuration"})
+  for (const char* name : {"mask", "inputs", "pose", "configuration"})
     window_.tabifyDockWidget(layers, dock(QLatin1String(name)));
   window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
   window_.tabifyDockWidget(iterations, dock(QStringLiteral("inspector")));

@@ -16,6 +16,8 @@ class CasesPanel;
 class ConfigurationPanel;
 class ImagePanel;
 class InputSheetPanel;
+class MaskEditor;
+class MaskPanel;
 class PosePanel;
 class WarningBar;
 
@@ -31,6 +33,8 @@ class WindowDocks {
   ConfigurationPanel& configuration() const { return *configuration_; }
   InputSheetPanel& inputs() const { return *inputs_; }
   PosePanel& poses() const { return *poses_; }
+  MaskEditor& maskEditor() const { return *mask_editor_; }
+  MaskPanel& mask() const { return *mask_; }
   /// Above the image: what looks wrong with the case's inputs.
   WarningBar& warnings() const { return *warnings_; }
   /// The same for files that are missing or have changed.
@@ -57,6 +61,8 @@ class WindowDocks {
   ConfigurationPanel* configuration_;
   InputSheetPanel* inputs_;
   PosePanel* poses_;
+  MaskEditor* mask_editor_;
+  MaskPanel* mask_;
   WarningBar* warnings_;
   WarningBar* findings_;
 };
