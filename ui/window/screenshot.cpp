@@ -11,6 +11,7 @@
 #include <QPixmap>
 #include <QTimer>
 
+#include "ui/panels/match_view.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/window/input_findings.h"
@@ -34,8 +35,10 @@ bool waitUntil(const std::function<bool()>& holds) {
   return true;
 }
 
-bool isResting(TaskRunner& tasks, RunController& run) {
-  return !tasks.isBusy() && run.state() != RunState::kWorking;
+bool isResting(MainWindow& window) {
+  const auto* match = window.findChild<MatchView*>();
+  return !window.tasks().isBusy() && !window.findings().isBusy() &&
+         window.run().state() != RunState::kWorking && !(match && match->isComputing());
 }
 
 QWidget* widgetOf(MainWindow& window, const QString& view) {
@@ -78,9 +81,7 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
     dock->show();
     dock->raise();
   }
-  const auto resting = [&window] {
-    return isResting(window.tasks(), window.run()) && !window.findings().isBusy();
-  };
+  const auto resting = [&window] { return isResting(window); };
   // What cannot be shown or run is drawn as the window has it, with its warnings.
   const auto refused = [&window] { return !window.lastMessage().isEmpty(); };
   const bool empty = window.document().session().cases.empty();
