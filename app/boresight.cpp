@@ -7,7 +7,7 @@
 
 #include <QApplication>
 #include <QCommandLineParser>
-#include <QSettings>
+#include <QTemporaryDir>
 
 #include "app/exit_codes.h"
 #include "sessions/version.h"
@@ -86,8 +86,8 @@ bool readArguments(const QCoreApplication& application, Arguments& arguments,
   }
   for (const QString& file : parser.positionalArguments())
     arguments.files.emplace_back(file.toStdString());
-  if (!arguments.screenshot.out.empty() && arguments.files.size() != 1) {
-    problem = "--screenshot needs one session";
+  if (!arguments.screenshot.out.empty() && arguments.files.size() > 1) {
+    problem = "--screenshot takes one session, or none for an empty window";
     return false;
   }
   return true;
@@ -117,16 +117,22 @@ int main(int argc, char** argv) {
   boresight::ui::MainWindow window;
   if (!arguments.screenshot.out.empty()) {
     window.setQuiet(true);
-    if (!window.openSession(arguments.files.front())) {
-      std::cerr << "boresight: " << window.lastMessage().toStdString() << "\n";
-      return kBadInput;
-    }
-    const QString failure = boresight::ui::takeScreenshot(window, arguments.screenshot);
+    const QTemporaryDir folder;
+    QString failure;
+    if (!arguments.files.empty())
+      failure = boresight::ui::openForPictures(window, arguments.files.front(),
+                                               folder.path().toStdString());
+    if (failure.isEmpty()) failure = boresight::ui::takeScreenshot(window, arguments.screenshot);
     if (failure.isEmpty()) return kDone;
     std::cerr << "boresight: " << failure.toStdString() << "\n";
     return kBadInput;
   }
+  window.rememberLayout();
   window.show();
-  if (!arguments.files.empty()) window.takeFiles(arguments.files);
+  if (!arguments.files.empty()) {
+    window.takeFiles(arguments.files);
+  } else {
+    window.offerLeftSessions();
+  }
   return QApplication::exec();
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "sessions/io/errors.h"
 #include "sessions/session/session_file.h"
@@ -34,6 +35,33 @@ std::optional<IgnoreMask> loadMask(const SessionCase& one, const GrayImage& imag
   }
   applyStrokes(one.ignore_strokes, image.view(), mask);
   return mask;
+}
+
+GrayImage loadImage(const ImageInput& input) {
+  GrayImage image = readImage(input.source.file, input.eight_bit);
+  requireSame(input.source.file, "its bytes", image.file_sha256, input.source.sha256);
+  requireSame(input.source.file, "its 8-bit pixels", image.pixels_sha256, input.pixels_sha256);
+  return image;
+}
+
+SceneMesh loadScene(const std::vector<MeshInput>& inputs) {
+  std::vector<PartSource> parts;
+  for (const MeshInput& part : inputs) parts.push_back(part.source);
+  SceneMesh scene = readScene(parts);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    requireSame(parts[i].mesh, "its bytes", scene.infos[i].file_sha256, inputs[i].sha256);
+  return scene;
+}
+
+std::shared_ptr<const LoadedCase> completed(const SessionCase& one, GrayImage image,
+                                            SceneMesh scene) {
+  auto loaded = std::make_shared<LoadedCase>();
+  loaded->source = one;
+  loaded->image = std::move(image);
+  loaded->scene = std::move(scene);
+  loaded->ignore = loadMask(one, loaded->image);
+  if (loaded->ignore) loaded->ignore_bits = loaded->ignore->view();
+  return loaded;
 }
 
 /// What the core refuses although the readers let it pass.
@@ -74,22 +102,15 @@ LocalizationProblem LoadedCase::problem() const {
 }
 
 std::shared_ptr<const LoadedCase> loadCase(const SessionCase& one) {
-  auto loaded = std::make_shared<LoadedCase>();
-  loaded->source = one;
-  loaded->image = readImage(one.image.source.file, one.image.eight_bit);
-  requireSame(one.image.source.file, "its bytes", loaded->image.file_sha256,
-              one.image.source.sha256);
-  requireSame(one.image.source.file, "its 8-bit pixels", loaded->image.pixels_sha256,
-              one.image.pixels_sha256);
-  std::vector<PartSource> parts;
-  for (const MeshInput& part : one.parts) parts.push_back(part.source);
-  loaded->scene = readScene(parts);
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    requireSame(parts[i].mesh, "its bytes", loaded->scene.infos[i].file_sha256,
-                one.parts[i].sha256);
-  loaded->ignore = loadMask(one, loaded->image);
-  if (loaded->ignore) loaded->ignore_bits = loaded->ignore->view();
-  return loaded;
+  GrayImage image = loadImage(one.image);
+  return completed(one, std::move(image), loadScene(one.parts));
+}
+
+std::shared_ptr<const LoadedCase> reloadCase(const LoadedCase& before, const SessionCase& one) {
+  const bool same_image = one.image == before.source.image;
+  const bool same_scene = one.parts == before.source.parts;
+  GrayImage image = same_image ? before.image : loadImage(one.image);
+  return completed(one, std::move(image), same_scene ? before.scene : loadScene(one.parts));
 }
 
 void requireRunnable(const LoadedCase& loaded) {

@@ -35,6 +35,9 @@ struct LoadedCase {
 /// Reads a case's inputs. InputError when one is missing, wrong, or no longer the one that the
 /// session was made with. An image of another size than its camera is loaded all the same.
 std::shared_ptr<const LoadedCase> loadCase(const SessionCase& one);
+/// The same for a case that was edited, where what an edit left alone is taken from what was read
+/// before.
+std::shared_ptr<const LoadedCase> reloadCase(const LoadedCase& before, const SessionCase& one);
 
 /// InputError when a run makes no sense: image and camera differ in size, the station is out of
 /// view, behind the camera, or of a size that only a wrong unit explains.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,6 +25,7 @@ struct MaskStroke {
   double radius_px = 8.0;               ///< of a brush
   int level = 255;                      ///< of a saturation, 0 .. 255
   std::vector<Eigen::Vector2d> points;  ///< px; none for a saturation
+  std::string name = {};                ///< for people, "gripper"; may be empty
 
   bool operator==(const MaskStroke&) const = default;
 };

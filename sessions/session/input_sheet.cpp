@@ -184,7 +184,10 @@ ImageSheet imageSheet(const GrayImage& image) {
       static_cast<double>(std::count(image.pixels.begin(), image.pixels.end(), 255)) /
       static_cast<double>(image.pixels.size());
   if (sheet.saturated_share > 0.02)
-    sheet.flags.push_back({"image_saturated", "much of the image is saturated"});
+    sheet.flags.push_back(
+        {"image_saturated", fixedText(100.0 * sheet.saturated_share, 1) +
+                                " % of the image is saturated: edges are lost there; ignore "
+                                "those pixels, or expose less"});
   if (*high - *low < 64)
     sheet.flags.push_back(
         {"image_few_grays", "the image uses few gray levels: is its bit depth stated right?"});

@@ -88,6 +88,7 @@ ordered_json strokeJson(const MaskStroke& stroke) {
   ordered_json json;
   json["kind"] = kStrokeNames[static_cast<int>(stroke.kind)];
   json["erase"] = stroke.erase;
+  if (!stroke.name.empty()) json["name"] = stroke.name;
   if (stroke.kind == StrokeKind::kBrush) json["radius_px"] = stroke.radius_px;
   if (stroke.kind == StrokeKind::kSaturation) json["level"] = stroke.level;
   if (stroke.kind == StrokeKind::kSaturation) return json;
@@ -256,12 +257,13 @@ MeshInput readMeshInput(const JsonReader& json) {
 }
 
 MaskStroke readStroke(const JsonReader& json) {
-  json.requireKnown({"kind", "erase", "radius_px", "level", "points"});
+  json.requireKnown({"kind", "erase", "name", "radius_px", "level", "points"});
   MaskStroke stroke;
   const std::string kind = json.at("kind").choice({"brush", "polygon", "saturation"});
   while (kind != kStrokeNames[static_cast<int>(stroke.kind)])
     stroke.kind = static_cast<StrokeKind>(static_cast<int>(stroke.kind) + 1);
   stroke.erase = json.at("erase").boolean();
+  if (const auto name = json.find("name")) stroke.name = name->nonEmptyText();
   if (stroke.kind == StrokeKind::kSaturation) {
     stroke.level = static_cast<int>(json.at("level").integer(0, 255));
     return stroke;

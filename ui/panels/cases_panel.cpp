@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/cases_panel.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <QComboBox>
@@ -12,6 +13,7 @@
 #include <QTableView>
 #include <QVBoxLayout>
 
+#include "ui/panels/empty_hint.h"
 #include "ui/panels/table_style.h"
 
 namespace boresight::ui {
@@ -76,6 +78,7 @@ void CasesPanel::buildTable() {
   table_->sortByColumn(CasesModel::kCase, Qt::AscendingOrder);
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &CasesPanel::chooseRow);
+  hint_ = new EmptyHint(*table_);
 }
 
 void CasesPanel::setRows(std::vector<CaseRow> rows) {
@@ -83,6 +86,9 @@ void CasesPanel::setRows(std::vector<CaseRow> rows) {
   model_.setRows(std::move(rows));
   showing_ = false;
   fitColumns(*table_);
+  // A long name must not push the state out of sight; the tooltip has it whole.
+  const int most = kThumbnail_px + table_->fontMetrics().horizontalAdvance(QString(14, u'0'));
+  table_->setColumnWidth(CasesModel::kCase, std::min(table_->columnWidth(CasesModel::kCase), most));
   setCurrent(current_);
 }
 
@@ -121,6 +127,10 @@ void CasesPanel::chooseRow(const QModelIndex& current) {
 
 void CasesPanel::showCount() {
   count_->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
+  hint_->setText(model_.rowCount() > 0
+                     ? tr("No case is called so, or is in this state.")
+                     : tr("No case yet. Open a session (Ctrl+O), or drop an image, a camera, a "
+                          "mesh and a seed, or a dataset.json, anywhere on the window."));
   run_->setEnabled(runnable_ && table_->currentIndex().isValid());
   run_all_->setEnabled(runnable_ && filter_.rowCount() > 0);
 }

@@ -17,6 +17,8 @@ QT_END_NAMESPACE
 
 namespace boresight::ui {
 
+class EmptyHint;
+
 /// The images of the session: filter, sort, open, run one, run those that are listed.
 class CasesPanel : public QWidget {
   Q_OBJECT
@@ -49,6 +51,7 @@ class CasesPanel : public QWidget {
   QLineEdit* text_ = nullptr;
   QComboBox* state_ = nullptr;
   QTableView* table_ = nullptr;
+  EmptyHint* hint_ = nullptr;
   QLabel* count_ = nullptr;
   QPushButton* run_ = nullptr;
   QPushButton* run_all_ = nullptr;

@@ -47,8 +47,12 @@ ConfigurationPanel::ConfigurationPanel(ViewState& view, QWidget* parent)
   setOptions(model_.profile(), model_.options());
 }
 
-QHBoxLayout* ConfigurationPanel::buildTop() {
+QVBoxLayout* ConfigurationPanel::buildTop() {
+  auto* column = new QVBoxLayout;
   auto* row = new QHBoxLayout;
+  auto* search = new QHBoxLayout;
+  column->addLayout(row);
+  column->addLayout(search);
   profile_ = new QComboBox(this);
   profile_->addItems(OptionsModel::profiles());
   profile_->setToolTip(
@@ -63,9 +67,10 @@ QHBoxLayout* ConfigurationPanel::buildTop() {
   reset_all_->setToolTip(tr("Take every option back to the profile's value."));
   row->addWidget(label);
   row->addWidget(profile_);
-  row->addWidget(words_, 1);
-  row->addWidget(changed_only_);
+  row->addStretch(1);
   row->addWidget(reset_all_);
+  search->addWidget(words_, 1);
+  search->addWidget(changed_only_);
   connect(profile_, QOverload<int>::of(&QComboBox::activated), this,
           [this] { model_.setProfile(profile_->currentText()); });
   connect(words_, &QLineEdit::textChanged, this, [this](const QString& text) {
@@ -77,7 +82,7 @@ QHBoxLayout* ConfigurationPanel::buildTop() {
     tree_->expandAll();
   });
   connect(reset_all_, &QPushButton::clicked, this, [this] { model_.resetAll(); });
-  return row;
+  return column;
 }
 
 QFrame* ConfigurationPanel::buildStale() {

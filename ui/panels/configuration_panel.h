@@ -13,7 +13,7 @@ QT_BEGIN_NAMESPACE
 class QCheckBox;
 class QComboBox;
 class QFrame;
-class QHBoxLayout;
+class QVBoxLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
@@ -44,7 +44,7 @@ class ConfigurationPanel : public QWidget {
   void runAgainRequested();
 
  private:
-  QHBoxLayout* buildTop();
+  QVBoxLayout* buildTop();
   QFrame* buildStale();
   void buildTree();
   void fitTree();

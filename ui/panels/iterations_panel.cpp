@@ -9,6 +9,7 @@
 #include <QTableView>
 #include <QVBoxLayout>
 
+#include "ui/panels/empty_hint.h"
 #include "ui/panels/run_banner.h"
 #include "ui/panels/table_style.h"
 #include "ui/plots/double_plot.h"
@@ -25,9 +26,10 @@ IterationsPanel::IterationsPanel(ViewState& view, QWidget* parent) : QWidget(par
   auto* splitter = new QSplitter(Qt::Horizontal, this);
   buildTable();
   splitter->addWidget(table_);
-  splitter->addWidget(buildPlots());
-  splitter->setStretchFactor(0, 3);
-  splitter->setStretchFactor(1, 2);
+  plots_ = buildPlots();
+  splitter->addWidget(plots_);
+  splitter->setStretchFactor(0, 1);
+  splitter->setStretchFactor(1, 1);
   splitter->setChildrenCollapsible(false);
   column->addWidget(splitter, 1);
 
@@ -45,6 +47,10 @@ void IterationsPanel::buildTable() {
   styleTable(*table_);
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &IterationsPanel::chooseRow);
+  auto* hint = new EmptyHint(*table_, IterationsModel::rowOf(0));
+  hint->setText(
+      tr("Run the case to its end (F5), an iteration (F6) or a stage (F7) at a time: each "
+         "iteration becomes a row here, and every view shows the chosen one."));
 }
 
 QWidget* IterationsPanel::buildPlots() {
@@ -85,6 +91,7 @@ void IterationsPanel::showSnapshot() {
   showing_ = false;
   banner_->setSnapshot(view_.snapshot().get());
   fitColumns(*table_);
+  plots_->setVisible(model_.rowCount() > IterationsModel::rowOf(0));
   fillPlots();
 }
 

@@ -46,6 +46,7 @@ class IterationsPanel : public QWidget {
   RunBanner* banner_ = nullptr;
   RunScrubber* scrubber_ = nullptr;
   QTableView* table_ = nullptr;
+  QWidget* plots_ = nullptr;
   DoublePlot* corrections_ = nullptr;
   DoublePlot* fit_ = nullptr;
   bool showing_ = false;  ///< the table follows the cursor, not a person

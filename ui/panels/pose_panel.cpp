@@ -35,6 +35,15 @@ constexpr std::array<FormText, 3> kForms = {{
      QT_TRANSLATE_NOOP("boresight::ui::PosePanel", "Matrix")},
 }};
 
+/// Numbers of one row of a matrix, each right-aligned in its column.
+QString aligned(const QString& row) {
+  QString line;
+  for (const QString& number : row.split(QStringLiteral("  "))) line += number.rightJustified(11);
+  return line;
+}
+
+constexpr int kFrame_px = 22;  // of the table, and room for a scroll bar
+
 }  // namespace
 
 PosePanel::PosePanel(ViewState& state, QWidget* parent)
@@ -88,28 +97,50 @@ QWidget* PosePanel::buildTable() {
   table_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   table_->setContextMenuPolicy(Qt::CustomContextMenu);
   table_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
-  table_->verticalHeader()->setFont(font());
-  table_->horizontalHeader()->setFont(font());
+  QFont heads = font();
+  heads.setFamily(heads.family());  // stated, or the heads would take the table's
+  table_->verticalHeader()->setFont(heads);
+  table_->horizontalHeader()->setFont(heads);
+  // Its rows are too wide to stand side by side; one matrix is shown below.
+  for (int row = PoseTableModel::kMatrixRow1; row <= PoseTableModel::kMatrixRow4; ++row)
+    table_->setRowHidden(row, true);
   const int row = table_->fontMetrics().height() + 5;
   table_->verticalHeader()->setMinimumSectionSize(row);
   table_->verticalHeader()->setDefaultSectionSize(row);
-  table_->setMinimumHeight(row * 9);
-  table_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  table_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
+  table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  table_->setFixedHeight(row * (PoseTableModel::kMatrixRow1 + 1) + kFrame_px);
+  table_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   connect(table_, &QWidget::customContextMenuRequested, this, &PosePanel::showMenu);
   return table_;
 }
 
 QWidget* PosePanel::buildCopyBar() {
   auto* bar = new QWidget(this);
-  auto* layout = new QHBoxLayout(bar);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(new QLabel(tr("Copy"), bar));
+  auto* column = new QVBoxLayout(bar);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto* chooser = new QHBoxLayout;
+  auto* layout = new QHBoxLayout;
+  column->addLayout(chooser);
+  matrix_ = new QLabel(bar);
+  matrix_->setObjectName(QStringLiteral("matrix"));
+  matrix_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+  matrix_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  matrix_->setToolTip(
+      tr("camera_from_station as a 4x4 matrix, row by row; its last column is in metres"));
+  column->addWidget(matrix_);
+  column->addLayout(layout);
+  layout->addWidget(new QLabel(tr("Copy as"), bar));
+  chooser->addWidget(new QLabel(tr("Matrix of"), bar));
   copied_ = new QComboBox(bar);
   copied_->setObjectName(QStringLiteral("copiedRole"));
-  copied_->setToolTip(tr("Which pose is copied"));
+  copied_->setToolTip(tr("Which pose is shown as a matrix, and copied"));
   for (int i = 0; i < kPoseRoles; ++i) copied_->addItem(poseRoleName(static_cast<PoseRole>(i)));
   copied_->setCurrentIndex(static_cast<int>(PoseRole::kEstimate));
-  layout->addWidget(copied_);
+  chooser->addWidget(copied_);
+  chooser->addStretch(1);
+  connect(copied_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+          &PosePanel::showMatrix);
   for (const FormText& form : kForms) {
     auto* button = new QPushButton(tr(form.name), bar);
     button->setObjectName(QString::fromUtf8(form.object));
@@ -123,8 +154,17 @@ QWidget* PosePanel::buildCopyBar() {
   paste->setObjectName(QStringLiteral("pastePose"));
   paste->setToolTip(tr("Nudge to a pose from the clipboard; order, direction and unit are asked"));
   connect(paste, &QPushButton::clicked, this, &PosePanel::pastePose);
-  layout->addWidget(paste);
+  chooser->addWidget(paste);
   return bar;
+}
+
+void PosePanel::showMatrix() {
+  const auto role = static_cast<PoseRole>(copied_->currentIndex());
+  QStringList rows;
+  for (int row = PoseTableModel::kMatrixRow1; row <= PoseTableModel::kMatrixRow4; ++row)
+    rows << aligned(model_.index(row, copied_->currentIndex()).data().toString());
+  matrix_->setText(model_.pose(role) ? rows.join(QLatin1Char('\n'))
+                                     : tr("There is no pose \"%1\".").arg(poseRoleName(role)));
 }
 
 void PosePanel::addCopyActions(QMenu& menu, PoseRole role) {
@@ -171,7 +211,13 @@ void PosePanel::refresh() {
   for (int i = 0; i < kPoseRoles; ++i)
     poses[static_cast<std::size_t>(i)] = poseOf(state_, static_cast<PoseRole>(i));
   model_.setPoses(poses);
+  for (int i = 0; i < kPoseRoles; ++i) {
+    const bool optional = static_cast<PoseRole>(i) != PoseRole::kSeed &&
+                          static_cast<PoseRole>(i) != PoseRole::kEstimate;
+    table_->setColumnHidden(i, optional && !poses[static_cast<std::size_t>(i)]);
+  }
   table_->resizeColumnsToContents();
+  showMatrix();
   comparison_->setPoses(poses);
   comparison_->setCovariance(shownCovariance(state_));
 }

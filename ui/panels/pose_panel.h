@@ -12,6 +12,7 @@
 
 QT_BEGIN_NAMESPACE
 class QComboBox;
+class QLabel;
 class QMenu;
 class QTableView;
 QT_END_NAMESPACE
@@ -50,12 +51,14 @@ class PosePanel : public QWidget {
   void addCopyActions(QMenu& menu, PoseRole role);
   void showMenu(const QPoint& at);
   void refresh();
+  void showMatrix();
 
   ViewState& state_;
   NudgeController controller_;
   PoseTableModel model_;
   QWidget* page_ = nullptr;
   QTableView* table_ = nullptr;
+  QLabel* matrix_ = nullptr;
   QComboBox* copied_ = nullptr;
   PoseComparison* comparison_ = nullptr;
 };

@@ -7,6 +7,7 @@
 
 #include "sessions/report/run_text.h"
 #include "ui/models/number_text.h"
+#include "ui/panels/tint.h"
 #include "ui/plots/plot_colors.h"
 
 namespace boresight::ui {
@@ -45,6 +46,7 @@ void RunBanner::setSnapshot(const sessions::RunSnapshot* snapshot) {
   }
   sign_->setText(kind_ == Kind::kConverged ? QStringLiteral("✓")
                  : kind_ == Kind::kFailed  ? QStringLiteral("✗")
+                 : kind_ == Kind::kNone    ? QStringLiteral("○")
                                            : QStringLiteral("…"));
   applyPalette();
 }
@@ -52,18 +54,11 @@ void RunBanner::setSnapshot(const sessions::RunSnapshot* snapshot) {
 void RunBanner::applyPalette() {
   const QPalette& base = parentWidget() ? parentWidget()->palette() : palette();
   const PlotColors colors = plotColors(base);
-  QColor tint = kind_ == Kind::kConverged ? colors.first
-                : kind_ == Kind::kFailed  ? colors.second
-                                          : base.color(QPalette::Window);
-  const QColor window = base.color(QPalette::Window);
-  // A tint that leaves the text readable.
-  const auto mixed = [&](int a, int b) { return (3 * a + b) / 4; };
-  tint = QColor(mixed(window.red(), tint.red()), mixed(window.green(), tint.green()),
-                mixed(window.blue(), tint.blue()));
-  if (palette().color(QPalette::Window) == tint) return;
-  QPalette tinted = base;
-  tinted.setColor(QPalette::Window, tint);
-  setPalette(tinted);
+  const QPalette look = kind_ == Kind::kConverged ? tinted(base, colors.first)
+                        : kind_ == Kind::kFailed  ? tinted(base, colors.second)
+                                                  : base;
+  if (palette().color(QPalette::Window) == look.color(QPalette::Window)) return;
+  setPalette(look);
 }
 
 void RunBanner::changeEvent(QEvent* event) {

@@ -10,7 +10,6 @@
 #include <QMouseEvent>
 #include <QVBoxLayout>
 
-#include <qwt_legend.h>
 #include <qwt_plot.h>
 #include <qwt_plot_curve.h>
 #include <qwt_plot_grid.h>
@@ -43,11 +42,10 @@ class NamedScale : public QwtScaleDraw {
 
 DoublePlot::DoublePlot(const Series& left, const Series& right, QWidget* parent) : QWidget(parent) {
   plot_ = new QwtPlot(this);
-  plot_->setMinimumSize(200, 140);
+  plot_->setMinimumSize(180, 90);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(plot_);
-  plot_->insertLegend(new QwtLegend, QwtPlot::TopLegend);
   plot_->setAxisMaxMinor(QwtPlot::xBottom, 0);
   if (auto* frame = qobject_cast<QFrame*>(plot_->canvas())) frame->setFrameShape(QFrame::NoFrame);
   plot_->canvas()->installEventFilter(this);
@@ -72,15 +70,13 @@ void DoublePlot::addCurve(Curve& curve, const Series& series, int axis) {
   curve.curve = new QwtPlotCurve(series.title);
   curve.curve->setRenderHint(QwtPlotItem::RenderAntialiased);
   curve.curve->setAxes(QwtPlot::xBottom, axis);
-  curve.curve->setLegendAttribute(QwtPlotCurve::LegendShowLine);
-  curve.curve->setLegendAttribute(QwtPlotCurve::LegendShowSymbol);
-  curve.curve->setLegendIconSize(QSize(30, 12));
   curve.curve->attach(plot_);
   plot_->enableAxis(axis);
   if (series.logarithmic) plot_->setAxisScaleEngine(axis, new QwtLogScaleEngine);
 }
 
 void DoublePlot::setNames(std::function<QString(int)> name_of) {
+  name_of_ = name_of;
   plot_->setAxisScaleDraw(QwtPlot::xBottom, new NamedScale(std::move(name_of)));
 }
 
@@ -89,9 +85,18 @@ void DoublePlot::setPoints(int place_count, const QVector<QPointF>& left,
   place_count_ = place_count;
   fill(left_, left);
   fill(right_, right);
-  const double step = std::max(1.0, std::ceil(place_count / 8.0));
-  plot_->setAxisScale(QwtPlot::xBottom, -0.4, std::max(1, place_count) - 0.6, step);
+  nameIterations();
   plot_->replot();
+}
+
+/// As many names as have room beside each other.
+void DoublePlot::nameIterations() {
+  const int last = std::max(0, place_count_ - 1);
+  const QString widest = (name_of_ ? name_of_(last) : QString::number(last)) + QLatin1Char(' ');
+  const int name_px = fontMetrics().horizontalAdvance(widest);
+  const double most = std::max(1, plot_->canvas()->width() / name_px);
+  const double step = std::max(1.0, std::ceil(place_count_ / most));
+  plot_->setAxisScale(QwtPlot::xBottom, -0.4, std::max(1, place_count_) - 0.6, step);
 }
 
 void DoublePlot::fill(Curve& curve, const QVector<QPointF>& points) {
@@ -120,8 +125,10 @@ QPoint DoublePlot::canvasPoint(int place) const {
           canvas()->height() / 2};
 }
 
+/// The title has the curve's sign and colour, so that no legend takes room.
 void DoublePlot::titleAxis(const Curve& curve, const QColor& color) {
-  QwtText title(curve.series.title);
+  const bool left = curve.axis == QwtPlot::yLeft;
+  QwtText title((left ? QStringLiteral("● ") : QStringLiteral("◆ ")) + curve.series.title);
   title.setFont(font());
   title.setColor(color);
   plot_->setAxisTitle(curve.axis, title);
@@ -152,6 +159,11 @@ void DoublePlot::changeEvent(QEvent* event) {
 }
 
 bool DoublePlot::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == plot_->canvas() && event->type() == QEvent::Resize) {
+    nameIterations();
+    QMetaObject::invokeMethod(
+        plot_, [plot = plot_] { plot->replot(); }, Qt::QueuedConnection);
+  }
   if (watched != plot_->canvas() || event->type() != QEvent::MouseButtonPress)
     return QWidget::eventFilter(watched, event);
   const auto* mouse = static_cast<QMouseEvent*>(event);

@@ -60,6 +60,7 @@ class DoublePlot : public QWidget {
   void addCurve(Curve& curve, const Series& series, int axis);
   void fill(Curve& curve, const QVector<QPointF>& points);
   void applyPalette();
+  void nameIterations();
   void titleAxis(const Curve& curve, const QColor& color);
 
   QwtPlot* plot_ = nullptr;
@@ -68,6 +69,7 @@ class DoublePlot : public QWidget {
   Curve left_;
   Curve right_;
   int place_count_ = 0;
+  std::function<QString(int)> name_of_;
 };
 
 }  // namespace boresight::ui

@@ -36,7 +36,7 @@ HistogramPlot::HistogramPlot(const QString& axis_title, const QString& all_title
                              const QString& part_title, QWidget* parent)
     : QWidget(parent), axis_title_(axis_title) {
   plot_ = new QwtPlot(this);
-  plot_->setMinimumSize(200, 140);
+  plot_->setMinimumSize(180, 110);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(plot_);

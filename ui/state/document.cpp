@@ -1,14 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/document.h"
 
+#include <algorithm>
 #include <exception>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include <QDateTime>
 #include <QDir>
 #include <QStandardPaths>
 
 namespace boresight::ui {
+namespace {
+
+/// A session's file with its journal, lock and runs.
+void removeWithCompanions(const std::filesystem::path& file) {
+  const std::string stem = file.stem().string();  // "untitled-....boresight"
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(file.parent_path(), ignored))
+    if (entry.path().filename().string().starts_with(stem + "."))
+      std::filesystem::remove_all(entry.path(), ignored);
+}
+
+}  // namespace
 
 Document::Document(QObject* parent) : QObject(parent) {}
 Document::~Document() = default;
@@ -83,9 +98,10 @@ bool Document::save() {
 }
 
 bool Document::saveAs(const std::filesystem::path& file) {
+  const std::filesystem::path former = this->file();
   const bool done = document_ && attempt([&] { document_->saveAs(file); });
   if (done) {
-    untitled_ = false;
+    if (std::exchange(untitled_, false) && former != this->file()) removeWithCompanions(former);
     Q_EMIT changed();
   }
   return done;
@@ -96,6 +112,26 @@ void Document::close() {
   document_.reset();
   untitled_ = false;
   Q_EMIT opened();
+}
+
+void Document::discardUntitled() {
+  if (!untitled_) return;
+  const std::filesystem::path discarded = file();
+  close();
+  removeWithCompanions(discarded);
+}
+
+std::optional<std::filesystem::path> Document::leftUntitled() {
+  std::vector<std::filesystem::path> files;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(untitledFolder(), ignored))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  std::sort(files.rbegin(), files.rend());  // names hold the time
+  for (const std::filesystem::path& file : files) try {
+      if (!sessions::SessionDocument::open(file).readOnly()) return file;
+    } catch (const std::exception&) {  // damaged: not offered
+    }
+  return std::nullopt;
 }
 
 bool Document::acceptRecovery() {

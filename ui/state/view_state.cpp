@@ -39,15 +39,21 @@ void ViewState::setCase(CasePtr one) {
   Q_EMIT nudgedPoseChanged();
 }
 
+void ViewState::replaceCase(CasePtr one) {
+  case_ = std::move(one);
+  Q_EMIT caseChanged();
+  Q_EMIT cursorChanged();
+  if (nudged_) Q_EMIT nudgedPoseChanged();
+}
+
 void ViewState::setSnapshot(SnapshotPtr snapshot) {
   const bool follows = cursor_.iteration == lastIteration();
   snapshot_ = std::move(snapshot);
-  Q_EMIT snapshotChanged();
-  RunCursor next = cursor_;
-  next.iteration = follows ? lastIteration() : std::min(cursor_.iteration, lastIteration());
-  if (follows) next.stage = Stage::kFinished;
+  // Before anybody looks: the run may have begun anew and have fewer iterations.
+  cursor_.iteration = follows ? lastIteration() : std::min(cursor_.iteration, lastIteration());
+  if (follows) cursor_.stage = Stage::kFinished;
   selected_template_ = -1;
-  cursor_ = next;
+  Q_EMIT snapshotChanged();
   Q_EMIT cursorChanged();
   Q_EMIT templateSelected(-1);
 }

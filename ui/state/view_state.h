@@ -47,6 +47,9 @@ class ViewState : public QObject {
   Pose shownPose() const;
 
   void setCase(CasePtr one);
+  /// The current case after an edit of its inputs: the shown run, now stale, the place in it and
+  /// the nudged pose stay.
+  void replaceCase(CasePtr one);
   /// Keeps the cursor where it was; at the last iteration it follows the run.
   void setSnapshot(SnapshotPtr snapshot);
   void setCursor(const RunCursor& cursor);

@@ -49,9 +49,7 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
   buildBar(*bar);
   layout->addLayout(bar);
   layout->addWidget(view_, 1);
-  view_->setHint(
-      tr("Drop an image, a mesh, a camera and a seed here, or a dataset.json, or a "
-         "session"));
+  setHint({});
   view_->setObjectName(QStringLiteral("imageView"));
 
   blink_timer_.setInterval(kBlinkMs);
@@ -69,6 +67,14 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
   connect(&state_, &ViewState::caseChanged, this, &ImagePanel::showCase);
   connect(&state_, &ViewState::cursorChanged, this, &ImagePanel::showIteration);
   connect(&state_, &ViewState::templateSelected, this, &ImagePanel::showTemplates);
+}
+
+void ImagePanel::setHint(const QString& hint) {
+  view_->setHint(
+      !hint.isEmpty()
+          ? hint
+          : tr("Drop an image, a mesh, a camera and a seed here, or a dataset.json, or a "
+               "session"));
 }
 
 void ImagePanel::buildBar(QBoxLayout& layout) {
@@ -152,13 +158,26 @@ void ImagePanel::setPoints(std::vector<Mark> marks) {
 }
 
 void ImagePanel::showCase() {
-  asked_.fill(false);
-  agreement_of_.reset();
-  for (const LayerId id :
-       {LayerId::kSeedEdges, LayerId::kTruthEdges, LayerId::kAgreement, LayerId::kNudgedEdges})
+  const ViewState::CasePtr before = std::exchange(shown_case_, state_.currentCase());
+  const ViewState::CasePtr& now = shown_case_;
+  // An edit of the mask leaves the image and the renders as they are.
+  const bool same_scene = before && now && before->source.id == now->source.id &&
+                          before->source.camera == now->source.camera &&
+                          before->source.parts == now->source.parts;
+  const auto forget = [this](LayerId id) {
+    asked_[static_cast<std::size_t>(id)] = false;
     setBits(id, {});
-  setBits(LayerId::kIgnoreMask, ignoreBits(state_.currentCase()));
-  showImage();
+  };
+  if (!same_scene ||
+      !(before->source.camera_from_station_seed == now->source.camera_from_station_seed))
+    forget(LayerId::kSeedEdges);
+  if (!same_scene) {
+    agreement_of_.reset();
+    for (const LayerId id : {LayerId::kTruthEdges, LayerId::kAgreement, LayerId::kNudgedEdges})
+      forget(id);
+  }
+  setBits(LayerId::kIgnoreMask, ignoreBits(now));
+  if (!same_scene || !(before->source.image == now->source.image)) showImage();
   askForRenders();
 }
 
@@ -228,7 +247,9 @@ void ImagePanel::askForRender(LayerId id, const char* key, const Pose& camera_fr
         return status == Status::kOk ? render : nullptr;
       },
       [this, one, id](const RenderPtr& render) {
-        if (one == state_.currentCase()) setBits(id, bitsOf(render, false));
+        const ViewState::CasePtr& now = state_.currentCase();
+        if (now && asked_[static_cast<std::size_t>(id)] && one->source.id == now->source.id)
+          setBits(id, bitsOf(render, false));
       });
 }
 

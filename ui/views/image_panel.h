@@ -35,6 +35,8 @@ class ImagePanel : public QWidget {
   const LayerStyle& style(LayerId id) const;
   /// Edges of the pose being nudged; nullptr takes them away.
   void setNudgedRender(std::shared_ptr<const sessions::RenderTrace> render, int level);
+  /// What is said while there is no image; nothing: what can be dropped here.
+  void setHint(const QString& hint);
   void setPoints(std::vector<Mark> marks);
 
  public Q_SLOTS:
@@ -69,6 +71,7 @@ class ImagePanel : public QWidget {
   QSlider* swipe_slider_ = nullptr;
   QLabel* zoom_label_ = nullptr;
   QTimer blink_timer_;
+  ViewState::CasePtr shown_case_;
   std::array<bool, kLayerCount> asked_{};  ///< renders of this case that were asked for
   std::shared_ptr<const sessions::IterationTrace> agreement_of_;
 };

@@ -106,6 +106,11 @@ void ImageView::setToolActive(bool active, double radius_px) {
   update();
 }
 
+void ImageView::setToolPreviews(std::vector<ToolPreview> previews) {
+  tool_previews_ = std::move(previews);
+  update();
+}
+
 void ImageView::changed() {
   update();
   Q_EMIT transformChanged();
@@ -159,11 +164,19 @@ void ImageView::paintEvent(QPaintEvent*) {
   }
   if (transform_.scale() >= kGridScale) paintGrid(painter);
   if (transform_.scale() >= kValueScale) paintValues(painter);
-  if (tool_active_ && tool_radius_px_ > 0.0 && underMouse()) {
-    const double radius = tool_radius_px_ * transform_.scale();
-    painter.setPen(QPen(palette().color(QPalette::Highlight), 1.5));
+  paintTool(painter);
+}
+
+void ImageView::paintTool(QPainter& painter) const {
+  for (const ToolPreview& preview : tool_previews_) paintPreview(painter, transform_, preview);
+  if (!tool_active_ || tool_radius_px_ <= 0.0 || !underMouse()) return;
+  const double radius = tool_radius_px_ * transform_.scale();
+  painter.setRenderHint(QPainter::Antialiasing, true);
+  for (const QPen& pen : {QPen(QColor(0, 0, 0, 160), 3.0), QPen(QColor(255, 255, 255), 1.2)}) {
+    painter.setPen(pen);
     painter.drawEllipse(last_, radius, radius);
   }
+  painter.setRenderHint(QPainter::Antialiasing, false);
 }
 
 void ImageView::paintImage(QPainter& painter) const {
@@ -246,7 +259,7 @@ void ImageView::wheelEvent(QWheelEvent* event) {
 void ImageView::mousePressEvent(QMouseEvent* event) {
   press_ = last_ = pointerPlace(*event, *this);
   dragging_ = false;
-  if (tool_active_ && event->button() == Qt::LeftButton) {
+  if (tool_active_ && event->button() == Qt::LeftButton && !image_.isNull()) {
     tool_pressed_ = true;
     Q_EMIT toolPressed(transform_.toPixel(last_));
   }
@@ -289,7 +302,11 @@ void ImageView::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void ImageView::mouseDoubleClickEvent(QMouseEvent* event) {
-  if (event->button() == Qt::LeftButton && !tool_active_) fit();
+  if (tool_active_) {
+    mousePressEvent(event);
+  } else if (event->button() == Qt::LeftButton) {
+    fit();
+  }
 }
 
 void ImageView::keyPressEvent(QKeyEvent* event) {

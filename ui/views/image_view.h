@@ -10,6 +10,7 @@
 #include "ui/views/bit_pixmaps.h"
 #include "ui/views/gray_pyramid.h"
 #include "ui/views/layer.h"
+#include "ui/views/tool_preview.h"
 #include "ui/views/view_transform.h"
 
 namespace boresight::ui {
@@ -67,7 +68,8 @@ class ImageView : public QWidget {
   void clicked(const QPointF& pixel, Qt::MouseButton button, Qt::KeyboardModifiers modifiers);
   void itemClicked(boresight::ui::LayerId layer, int item);
   void transformChanged();
-  /// While a tool is set, dragging paints instead of panning.
+  /// While a tool is set, the left button is the tool's (the middle one pans); a double click is
+  /// two presses.
   void toolPressed(const QPointF& pixel);
   void toolMoved(const QPointF& pixel);
   void toolReleased(const QPointF& pixel);
@@ -75,6 +77,8 @@ class ImageView : public QWidget {
  public:
   /// A tool takes the left button; its radius (image px) is shown round the cursor when positive.
   void setToolActive(bool active, double radius_px = 0.0);
+  bool toolActive() const { return tool_active_; }
+  void setToolPreviews(std::vector<ToolPreview> previews);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -96,6 +100,7 @@ class ImageView : public QWidget {
   void paintLayer(QPainter& painter, std::size_t index);
   void paintGrid(QPainter& painter) const;
   void paintValues(QPainter& painter) const;
+  void paintTool(QPainter& painter) const;
   QRect visiblePixels() const;
   void changed();
 
@@ -114,6 +119,7 @@ class ImageView : public QWidget {
   bool tool_active_ = false;
   bool tool_pressed_ = false;
   double tool_radius_px_ = 0.0;
+  std::vector<ToolPreview> tool_previews_;
 };
 
 }  // namespace boresight::ui

@@ -7,9 +7,11 @@
 #include <QColorDialog>
 #include <QGridLayout>
 #include <QLabel>
+#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QToolButton>
+#include <QVBoxLayout>
 
 #include "ui/views/image_panel.h"
 
@@ -17,6 +19,7 @@ namespace boresight::ui {
 namespace {
 
 constexpr int kSwatchPx = 14;
+constexpr int kWidestSlider_px = 240;
 
 QIcon swatch(const QColor& color) {
   QPixmap picture(kSwatchPx, kSwatchPx);
@@ -27,14 +30,23 @@ QIcon swatch(const QColor& color) {
 }  // namespace
 
 LayersPanel::LayersPanel(ImagePanel& image, QWidget* parent) : QWidget(parent), image_(image) {
-  auto* grid = new QGridLayout(this);
+  auto* outer = new QVBoxLayout(this);
+  outer->setContentsMargins(0, 0, 0, 0);
+  auto* scroll = new QScrollArea;
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  outer->addWidget(scroll);
+  auto* list = new QWidget;
+  auto* grid = new QGridLayout(list);
   grid->setContentsMargins(6, 6, 6, 6);
   grid->setHorizontalSpacing(8);
   grid->setVerticalSpacing(2);
   rows_.resize(kLayerCount);
   for (int i = 0; i < kLayerCount; ++i) buildRow(*grid, static_cast<LayerId>(i));
-  grid->setColumnStretch(3, 1);
+  grid->setColumnStretch(3, 100);  // as wide as a slider may be; the rest stays empty
+  grid->setColumnStretch(4, 1);
   grid->setRowStretch(kLayerCount, 1);
+  scroll->setWidget(list);
   connect(&image_, &ImagePanel::stylesChanged, this, &LayersPanel::showStyles);
   showStyles();
 }
@@ -47,7 +59,8 @@ void LayersPanel::buildRow(QGridLayout& grid, LayerId id) {
   row.shown->setObjectName(QStringLiteral("layer%1").arg(index));
   row.shown->setToolTip(tr(info.help));
   auto* key = new QLabel(QString::fromLatin1(info.key));
-  key->setEnabled(false);
+  key->setFrameShape(QFrame::StyledPanel);  // as a key cap
+  key->setAlignment(Qt::AlignCenter);
   key->setToolTip(tr("Key that shows and hides this layer"));
   row.color = new QToolButton;
   row.color->setAutoRaise(true);
@@ -55,6 +68,7 @@ void LayersPanel::buildRow(QGridLayout& grid, LayerId id) {
   row.color->setAccessibleName(row.color->toolTip());
   row.opacity = new QSlider(Qt::Horizontal);
   row.opacity->setRange(0, 100);
+  row.opacity->setMaximumWidth(kWidestSlider_px);
   row.opacity->setToolTip(tr("Opacity, percent"));
   row.opacity->setAccessibleName(tr("Opacity of %1").arg(tr(info.name).toLower()));
   // The uppermost layer stands first, as it lies over the others.

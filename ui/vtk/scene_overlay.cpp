@@ -9,6 +9,8 @@
 namespace boresight::ui {
 namespace {
 
+constexpr int kLegendOfCameras_px = 480;
+
 QString text(const char* source) { return QCoreApplication::translate("SceneOverlay", source); }
 
 /// Readable on any background of the scene.
@@ -21,9 +23,9 @@ struct Entry {
   QString meaning;
 };
 
-std::vector<Entry> entries(const SceneContent& content, const SceneLook& look) {
+std::vector<Entry> entries(const SceneContent& content, const SceneLook& look, bool with_cameras) {
   std::vector<Entry> made;
-  if (look.shown.frusta)
+  if (look.shown.frusta && with_cameras)
     for (const Frustum& frustum : content.frusta)
       made.push_back({Entry::kLine, frustum.role, frustum.label});
   const auto has_part = [&](bool match) {
@@ -210,7 +212,8 @@ void SceneOverlay::paintMark(QPainter& painter) const {
 }
 
 void SceneOverlay::paintLegend(QPainter& painter) const {
-  const std::vector<Entry> lines = entries(*content_, look_);
+  // Cameras have their names beside them in the scene too.
+  const std::vector<Entry> lines = entries(*content_, look_, width() >= kLegendOfCameras_px);
   const bool bar = look_.shown.points && !content_->points.empty();
   if (lines.empty() && !bar) return;
   const QFontMetricsF metrics(painter.font());

@@ -13,6 +13,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <QWheelEvent>
+#include <QWidgetAction>
 #include <array>
 #include <cmath>
 
@@ -96,6 +97,7 @@ void SceneView::build() {
   readout_ = new QLabel(this);
   readout_->setObjectName(QStringLiteral("sceneReadout"));
   readout_->setContentsMargins(6, 2, 6, 2);
+  readout_->setWordWrap(true);
   readout_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   readout_->setText(tr("Click a template or a point of the mesh."));
   layout->addWidget(readout_);
@@ -125,7 +127,7 @@ QWidget* SceneView::buildBar() {
 
   addShowActions(bar, *layout);
 
-  through_action_ = new QAction(tr("Through the camera"), this);
+  through_action_ = new QAction(tr("Camera"), this);
   through_action_->setCheckable(true);
   through_action_->setToolTip(tr("Look through the camera, with its image behind the mesh (V)"));
   connect(through_action_, &QAction::toggled, this, &SceneView::setThroughCamera);
@@ -135,6 +137,8 @@ QWidget* SceneView::buildBar() {
   layout->addWidget(through);
 
   through_role_ = new QComboBox(bar);
+  through_role_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  through_role_->setMinimumContentsLength(7);
   through_role_->setToolTip(tr("Whose pose the camera has while you look through it"));
   through_role_->addItem(tr("shown pose"), static_cast<int>(PoseRole::kEstimate));
   through_role_->addItem(tr("seed"), static_cast<int>(PoseRole::kSeed));
@@ -143,23 +147,13 @@ QWidget* SceneView::buildBar() {
           [this] { setThroughRole(static_cast<PoseRole>(through_role_->currentData().toInt())); });
   layout->addWidget(through_role_);
   layout->addStretch(1);
-
-  opacity_ = new QSlider(Qt::Horizontal, bar);
-  opacity_->setRange(0, 100);
-  opacity_->setMaximumWidth(110);
-  opacity_->setToolTip(tr("Opacity of the mesh, in percent"));
-  opacity_->setAccessibleName(tr("Opacity of the mesh"));
-  connect(opacity_, &QSlider::valueChanged, this,
-          [this](int value) { setMeshOpacity(0.01 * value); });
-  layout->addWidget(new QLabel(tr("Mesh"), bar));
-  layout->addWidget(opacity_);
   return bar;
 }
 
 void SceneView::addShowActions(QWidget* bar, QBoxLayout& layout) {
   auto* show = new QToolButton(bar);
   show->setText(tr("Show"));
-  show->setToolTip(tr("What of the scene is drawn"));
+  show->setToolTip(tr("What of the scene is drawn, and how opaque the mesh is"));
   show->setPopupMode(QToolButton::InstantPopup);
   auto* menu = new QMenu(show);
   for (const ShowEntry& entry : kShowEntries) {
@@ -172,8 +166,27 @@ void SceneView::addShowActions(QWidget* bar, QBoxLayout& layout) {
       setShown(shown);
     });
   }
+  menu->addSeparator();
+  addOpacity(*menu);
   show->setMenu(menu);
   layout.addWidget(show);
+}
+
+void SceneView::addOpacity(QMenu& menu) {
+  auto* line = new QWidget(&menu);
+  auto* row = new QHBoxLayout(line);
+  row->setContentsMargins(28, 2, 8, 2);
+  opacity_ = new QSlider(Qt::Horizontal, line);
+  opacity_->setRange(0, 100);
+  opacity_->setToolTip(tr("Opacity of the mesh, in percent"));
+  opacity_->setAccessibleName(tr("Opacity of the mesh"));
+  connect(opacity_, &QSlider::valueChanged, this,
+          [this](int value) { setMeshOpacity(0.01 * value); });
+  row->addWidget(new QLabel(tr("Opacity of the mesh"), line));
+  row->addWidget(opacity_, 1);
+  auto* action = new QWidgetAction(&menu);
+  action->setDefaultWidget(line);
+  menu.addAction(action);
 }
 
 void SceneView::refreshSoon() {

@@ -17,6 +17,7 @@ class QAction;
 class QBoxLayout;
 class QComboBox;
 class QLabel;
+class QMenu;
 class QSlider;
 
 namespace boresight::ui {
@@ -72,6 +73,7 @@ class SceneView : public QWidget {
  private:
   void build();
   QWidget* buildBar();
+  void addOpacity(QMenu& menu);
   void addShowActions(QWidget* bar, QBoxLayout& layout);
   void refreshSoon();
   void updateLook();

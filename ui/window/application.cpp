@@ -2,13 +2,39 @@
 #include "ui/window/application.h"
 
 #include <QApplication>
+#include <QPainter>
 #include <QPalette>
+#include <QProxyStyle>
 #include <QStyleFactory>
+#include <QStyleOption>
 
 #include "sessions/version.h"
 #include "ui/vtk/scene_backend.h"
 
 namespace boresight::ui {
+
+namespace {
+
+/// Fusion draws the frame of an empty box in a shade that a dark ground swallows.
+class VisibleBoxes : public QProxyStyle {
+ public:
+  VisibleBoxes() : QProxyStyle(QStyleFactory::create(QStringLiteral("Fusion"))) {}
+
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                     const QWidget* widget) const override {
+    QProxyStyle::drawPrimitive(element, option, painter, widget);
+    if (element != PE_IndicatorCheckBox) return;
+    QColor frame = option->palette.color(QPalette::Text);
+    frame.setAlpha(150);
+    painter->save();
+    painter->setPen(frame);
+    painter->setBrush(Qt::NoBrush);
+    painter->drawRect(option->rect.adjusted(0, 0, -1, -1));
+    painter->restore();
+  }
+};
+
+}  // namespace
 
 void prepareApplication(bool without_display) {
 #if QT_VERSION < QT_VERSION_CHECK(6, 0, 0)
@@ -24,7 +50,7 @@ void nameApplication(QApplication& application) {
   QCoreApplication::setOrganizationName(QStringLiteral("Boresight"));
   QCoreApplication::setApplicationName(QStringLiteral("boresight"));
   QCoreApplication::setApplicationVersion(QString::fromUtf8(sessions::kVersion));
-  application.setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+  application.setStyle(new VisibleBoxes);
 }
 
 void useDarkColors(QApplication& application) {

@@ -48,7 +48,7 @@ void CaseController::documentChanged() {
     return;
   }
   // Another seed, mask or image than the one that is shown.
-  if (state_.currentCase() && !(state_.currentCase()->source == *one)) load(case_id_);
+  if (!(asked_ == *one)) load(case_id_);
   Q_EMIT stalenessChanged();
 }
 
@@ -61,12 +61,23 @@ void CaseController::chooseCase(const QString& id) {
   load(id);
 }
 
+/// Whether the case that the views have is the document's as it is now.
+bool CaseController::isLoaded() const {
+  const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
+  return one && state_.currentCase() && state_.currentCase()->source == *one;
+}
+
 void CaseController::load(const QString& id) {
   const sessions::SessionCase* one = document_.session().findCase(id.toStdString());
   if (!one) return;
+  asked_ = *one;
+  const ViewState::CasePtr before = state_.currentCase();
   tasks_.start(
       QStringLiteral("load case"),
-      [source = *one](const std::stop_token&) { return sessions::loadCase(source); },
+      [source = *one, before](const std::stop_token&) {
+        return before && before->source.id == source.id ? sessions::reloadCase(*before, source)
+                                                        : sessions::loadCase(source);
+      },
       [this, id](std::shared_ptr<const sessions::LoadedCase> one_loaded) {
         loaded(id, std::move(one_loaded));
       });
@@ -76,6 +87,15 @@ void CaseController::loaded(const QString& id, std::shared_ptr<const sessions::L
   if (id != case_id_) return;
   run_.reset({});
   run_is_prepared_ = false;
+  const ViewState::CasePtr& before = state_.currentCase();
+  const bool edited = before && before->source.id == one->source.id;
+  // A run that did not end cannot go on with other inputs; one that did stays, as a stale one.
+  if (edited && state_.snapshot() && state_.snapshot()->finished) {
+    state_.replaceCase(std::move(one));
+    Q_EMIT stalenessChanged();
+    runIfWaiting();
+    return;
+  }
   state_.setCase(std::move(one));
   loadLatestRun(id);
 }
@@ -124,11 +144,17 @@ void CaseController::prepareRun() {
   inputs.one = state_.currentCase();
   inputs.options = options();
   run_.reset(std::move(inputs));
+  run_session_ = document_.session();
   run_is_prepared_ = true;
 }
 
 void CaseController::advance(StepUntil until) {
   if (!state_.currentCase()) return;
+  if (!isLoaded()) {
+    run_when_loaded_ = until;
+    load(case_id_);
+    return;
+  }
   try {
     sessions::requireRunnable(*state_.currentCase());
     if (!run_is_prepared_ || run_.state() == RunState::kFinished) prepareRun();
@@ -141,7 +167,7 @@ void CaseController::advance(StepUntil until) {
 
 void CaseController::stop() {
   queue_.clear();
-  run_when_loaded_ = false;
+  run_when_loaded_.reset();
   run_.stop();
 }
 
@@ -167,8 +193,7 @@ void CaseController::storeRun() {
   const std::string id = case_id_.toStdString();
   tasks_.start(
       QStringLiteral("store run"),
-      [session = document_.session(), id, snapshot,
-       file = document_.file()](const std::stop_token&) {
+      [session = run_session_, id, snapshot, file = document_.file()](const std::stop_token&) {
         return sessions::storeRun(session, id, sessions::traceOf(*snapshot), file);
       },
       [this](const sessions::RunRecord& record) {
@@ -192,12 +217,12 @@ void CaseController::runNext() {
     advance(StepUntil::kEnd);
     return;
   }
-  run_when_loaded_ = true;
+  run_when_loaded_ = StepUntil::kEnd;
   chooseCase(next);
 }
 
 void CaseController::runIfWaiting() {
-  if (std::exchange(run_when_loaded_, false)) advance(StepUntil::kEnd);
+  if (const auto until = std::exchange(run_when_loaded_, std::nullopt)) advance(*until);
 }
 
 void CaseController::useAsSeed(const Pose& camera_from_station) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <QObject>
@@ -54,6 +55,7 @@ class CaseController : public QObject {
  private:
   void documentOpened();
   void documentChanged();
+  bool isLoaded() const;
   void load(const QString& id);
   void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one);
   void loadLatestRun(const QString& id);
@@ -68,8 +70,10 @@ class CaseController : public QObject {
   RunController& run_;
   TaskRunner& tasks_;
   QString case_id_;
+  std::optional<sessions::SessionCase> asked_;  ///< what was read last, or is being read
   bool run_is_prepared_ = false;
-  bool run_when_loaded_ = false;
+  sessions::Session run_session_;  ///< what the run that is prepared is made from
+  std::optional<sessions::StepUntil> run_when_loaded_;
   std::vector<QString> queue_;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/main_window.h"
 
+#include <utility>
+
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QLabel>
@@ -11,6 +13,8 @@
 #include <QUrl>
 
 #include "ui/views/image_panel.h"
+#include "ui/window/input_findings.h"
+#include "ui/window/mask_controller.h"
 #include "ui/window/panel_links.h"
 #include "ui/window/session_files.h"
 #include "ui/window/window_docks.h"
@@ -18,6 +22,10 @@
 
 namespace boresight::ui {
 namespace {
+
+constexpr const char* kGeometryKey = "window/geometry";
+constexpr const char* kLayoutKey = "window/state";
+constexpr int kLayoutVersion = 2;  // of another set of panels, a layout is not taken over
 
 QString stateText(RunState state) {
   switch (state) {
@@ -42,15 +50,13 @@ MainWindow::MainWindow(QWidget* parent)
       parts_{document_, state_, tasks_, run_, cases_},
       docks_(std::make_unique<WindowDocks>(*this, parts_)),
       files_(new SessionFiles(*this, parts_)),
-      menus_(new WindowMenus(*this, parts_, *docks_, *files_)) {
+      menus_(new WindowMenus(*this, parts_, *docks_, *files_)),
+      findings_(new InputFindings(parts_, docks_->findings(), *this)) {
   setObjectName(QStringLiteral("mainWindow"));
   setAcceptDrops(true);
   buildStatusBar();
   connectAll();
   resize(1280, 800);
-  const QSettings settings;
-  restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray());
-  restoreState(settings.value(QStringLiteral("window/state")).toByteArray());
   showDocument();
 }
 
@@ -71,10 +77,14 @@ void MainWindow::buildStatusBar() {
 
 void MainWindow::connectAll() {
   auto* links = new PanelLinks(parts_, *docks_, this);
+  new MaskController(parts_, docks_->maskEditor(), docks_->mask(), image(), this);
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
+  connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);
   connect(files_, &SessionFiles::failed, this, &MainWindow::showMessage);
-  connect(files_, &SessionFiles::noted, this,
-          [this](const QString& message) { statusBar()->showMessage(message); });
+  connect(files_, &SessionFiles::noted, this, [this](const QString& message) {
+    statusBar()->showMessage(message);
+    if (!state_.currentCase()) image().setHint(message);  // where people look
+  });
   connect(&document_, &Document::opened, this, &MainWindow::showDocument);
   connect(&document_, &Document::changed, this, &MainWindow::showState);
   connect(&document_, &Document::failed, this, &MainWindow::showMessage);
@@ -86,6 +96,7 @@ void MainWindow::connectAll() {
 
 void MainWindow::showMessage(const QString& message) {
   last_message_ = message;
+  image().setHint({});
   if (quiet_) return;
   QMessageBox box(QMessageBox::Warning, tr("Boresight"), message, QMessageBox::Ok, this);
   box.setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -93,6 +104,8 @@ void MainWindow::showMessage(const QString& message) {
 }
 
 bool MainWindow::openSession(const std::filesystem::path& file) { return files_->open(file); }
+
+void MainWindow::offerLeftSessions() { files_->offerUntitled(); }
 
 void MainWindow::takeFiles(const std::vector<std::filesystem::path>& files) { files_->take(files); }
 
@@ -102,10 +115,26 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     return;
   }
   cases_.stop();
-  QSettings settings;
-  settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
-  settings.setValue(QStringLiteral("window/state"), saveState());
   event->accept();
+  if (!remembers_layout_) return;
+  QSettings settings;
+  settings.setValue(QLatin1String(kGeometryKey), saveGeometry());
+  settings.setValue(QLatin1String(kLayoutKey), saveState(kLayoutVersion));
+}
+
+void MainWindow::rememberLayout() {
+  remembers_layout_ = true;
+  const QSettings settings;
+  restoreGeometry(settings.value(QLatin1String(kGeometryKey)).toByteArray());
+  arranged_ = restoreState(settings.value(QLatin1String(kLayoutKey)).toByteArray(), kLayoutVersion);
+}
+
+/// Panels take sizes only once the window has its own.
+void MainWindow::showEvent(QShowEvent* event) {
+  QMainWindow::showEvent(event);
+  if (!std::exchange(arranged_, true))
+    QMetaObject::invokeMethod(
+        this, [this] { docks_->giveSizes(); }, Qt::QueuedConnection);
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
@@ -136,7 +165,7 @@ void MainWindow::showState() {
                            ? QString::fromStdString(document_.file().filename().string())
                            : tr("No session");
   setWindowTitle(tr("%1[*]%2 - Boresight").arg(name, read_only ? tr(" (read only)") : QString()));
-  setWindowModified(document_.isModified());
+  setWindowModified(document_.isModified() || document_.isUntitled());
 }
 
 }  // namespace boresight::ui

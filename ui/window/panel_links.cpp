@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/panel_links.h"
 
+#include <utility>
+#include <vector>
+
 #include "sessions/session/input_sheet.h"
+#include "ui/models/number_text.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/input_sheet_panel.h"
 #include "ui/panels/pose_panel.h"
+#include "ui/panels/warning_bar.h"
 #include "ui/run/pose_renderer.h"
 #include "ui/run/run_controller.h"
 #include "ui/run/task_runner.h"
@@ -13,17 +18,24 @@
 #include "ui/state/view_state.h"
 #include "ui/views/image_panel.h"
 #include "ui/window/case_controller.h"
+#include "ui/window/case_details.h"
 #include "ui/window/case_rows.h"
 #include "ui/window/window_docks.h"
 
 namespace boresight::ui {
 
 PanelLinks::PanelLinks(const WindowParts& parts, const WindowDocks& docks, QObject* parent)
-    : QObject(parent), parts_(parts), docks_(docks), nudged_(new PoseRenderer(this)) {
+    : QObject(parent),
+      parts_(parts),
+      docks_(docks),
+      details_(new CaseDetails(parts.tasks, this)),
+      nudged_(new PoseRenderer(this)) {
   linkCases();
   linkConfiguration();
   linkPoses();
   connect(&parts_.state, &ViewState::caseChanged, this, &PanelLinks::showInputs);
+  connect(&docks_.warnings(), &WarningBar::actionRequested, this,
+          [this] { docks_.raise(QStringLiteral("inputs")); });
 }
 
 void PanelLinks::linkCases() {
@@ -37,8 +49,13 @@ void PanelLinks::linkCases() {
     showCases();
     docks_.cases().setCurrent(id);
   });
-  connect(&parts_.document, &Document::opened, this, &PanelLinks::showCases);
-  connect(&parts_.document, &Document::changed, this, &PanelLinks::showCases);
+  const auto document_shown = [this] {
+    details_->setSession(parts_.document.session());
+    showCases();
+  };
+  connect(&parts_.document, &Document::opened, this, document_shown);
+  connect(&parts_.document, &Document::changed, this, document_shown);
+  connect(details_, &CaseDetails::changed, this, &PanelLinks::showCases);
   connect(&parts_.run, &RunController::stateChanged, this, &PanelLinks::showCases);
 }
 
@@ -63,12 +80,15 @@ void PanelLinks::linkPoses() {
 
 void PanelLinks::showCases() {
   const bool working = parts_.run.state() == RunState::kWorking;
-  docks_.cases().setRows(
-      caseRows(parts_.document.session(), working ? parts_.cases.caseId() : QString()));
+  std::vector<CaseRow> rows =
+      caseRows(parts_.document.session(), working ? parts_.cases.caseId() : QString());
+  details_->fill(rows);
+  docks_.cases().setRows(std::move(rows));
   docks_.cases().setRunnable(!working);
 }
 
 void PanelLinks::showConfiguration() {
+  docks_.configuration().setEnabled(parts_.document.isOpen());  // options are a session's
   try {
     const sessions::Session& session = parts_.document.session();
     docks_.configuration().setOptions(QString::fromStdString(session.profile),
@@ -84,13 +104,18 @@ void PanelLinks::showConfiguration() {
 void PanelLinks::showInputs() {
   const ViewState::CasePtr one = parts_.state.currentCase();
   docks_.inputs().setSheet(std::nullopt);
+  docks_.warnings().setSentences({});
   showConfiguration();
   if (!one) return;
   parts_.tasks.start(
       QStringLiteral("input sheet"),
       [one](const std::stop_token&) { return sessions::inputSheet(*one); },
       [this, one](sessions::InputSheet sheet) {
-        if (one == parts_.state.currentCase()) docks_.inputs().setSheet(std::move(sheet));
+        if (one != parts_.state.currentCase()) return;
+        QStringList flags;
+        for (const sessions::RedFlag& flag : sheet.flags) flags << fromText(flag.text);
+        docks_.warnings().setSentences(flags);
+        docks_.inputs().setSheet(std::move(sheet));
       });
 }
 

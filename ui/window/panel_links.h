@@ -7,6 +7,7 @@
 
 namespace boresight::ui {
 
+class CaseDetails;
 class PoseRenderer;
 class WindowDocks;
 
@@ -34,6 +35,7 @@ class PanelLinks : public QObject {
 
   WindowParts parts_;
   const WindowDocks& docks_;
+  CaseDetails* details_;
   PoseRenderer* nudged_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/screenshot.h"
 
+#include <exception>
 #include <functional>
 
 #include <QApplication>
@@ -10,8 +11,10 @@
 #include <QPixmap>
 #include <QTimer>
 
+#include "ui/panels/match_view.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
+#include "ui/window/input_findings.h"
 #include "ui/window/main_window.h"
 
 namespace boresight::ui {
@@ -32,19 +35,17 @@ bool waitUntil(const std::function<bool()>& holds) {
   return true;
 }
 
-bool isResting(const MainWindow& window, TaskRunner& tasks, RunController& run) {
-  Q_UNUSED(window);
-  return !tasks.isBusy() && run.state() != RunState::kWorking;
+bool isResting(MainWindow& window) {
+  const auto* match = window.findChild<MatchView*>();
+  return !window.tasks().isBusy() && !window.findings().isBusy() &&
+         window.run().state() != RunState::kWorking && !(match && match->isComputing());
 }
 
 QWidget* widgetOf(MainWindow& window, const QString& view) {
   if (view.isEmpty() || view == QLatin1String("window")) return &window;
   if (view == QLatin1String("image")) return &window.image();
   QDockWidget* dock = window.dock(view);
-  if (!dock) return nullptr;
-  dock->show();
-  dock->raise();
-  return dock->widget();
+  return dock ? dock->widget() : nullptr;
 }
 
 QString knownViews(const MainWindow& window) {
@@ -55,18 +56,41 @@ QString knownViews(const MainWindow& window) {
 
 }  // namespace
 
+QString openForPictures(MainWindow& window, const std::filesystem::path& session,
+                        const std::filesystem::path& folder) {
+  try {
+    const auto document = sessions::SessionDocument::open(session, sessions::Access::kReadOnly);
+    const auto& recovery = document.recovery();
+    if (window.document().create(folder / session.filename(),
+                                 recovery ? recovery->session : document.session()))
+      return {};
+    return window.lastMessage();
+  } catch (const std::exception& error) {
+    return QString::fromUtf8(error.what());
+  }
+}
+
 QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
   QWidget* shown = widgetOf(window, order.view);
   if (!shown)
     return QObject::tr("there is no view '%1'; there are %2").arg(order.view, knownViews(window));
   window.resize(order.size);
   window.show();
-  const auto resting = [&window] { return isResting(window, window.tasks(), window.run()); };
-  if (!waitUntil([&] { return window.state().currentCase() && resting(); }))
+  QApplication::processEvents();  // the panels are arranged
+  if (QDockWidget* dock = window.dock(order.view)) {
+    dock->show();
+    dock->raise();
+  }
+  const auto resting = [&window] { return isResting(window); };
+  // What cannot be shown or run is drawn as the window has it, with its warnings.
+  const auto refused = [&window] { return !window.lastMessage().isEmpty(); };
+  const bool empty = window.document().session().cases.empty();
+  const auto shown_case = [&] { return empty || window.state().currentCase() || refused(); };
+  if (!waitUntil([&] { return shown_case() && resting(); }))
     return QObject::tr("the session's case could not be shown");
-  if (!window.state().snapshot()) {
+  if (window.state().currentCase() && !window.state().snapshot()) {
     window.cases().advance(sessions::StepUntil::kEnd);
-    if (!waitUntil([&] { return window.state().snapshot() && resting(); }))
+    if (!waitUntil([&] { return (window.state().snapshot() || refused()) && resting(); }))
       return QObject::tr("the run did not end");
   }
   if (order.iteration > -2) {
@@ -74,6 +98,9 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
     cursor.iteration = order.iteration;
     window.state().setCursor(cursor);
   }
+  const auto* iteration = window.state().iteration();
+  if (iteration && !iteration->templates.empty() && window.state().selectedTemplate() < 0)
+    window.state().selectTemplate(0);
   window.image().view().fit();
   waitUntil(resting);
   QApplication::processEvents();

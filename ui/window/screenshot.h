@@ -18,8 +18,13 @@ struct ScreenshotOrder {
   int iteration = -2;  ///< index to show; -1: the seed; -2: the last
 };
 
+/// Shows a session and what was not saved of it, without writing anything beside it: it goes on in
+/// `folder`, which must outlive the window's document. Returns "" or why it could not.
+QString openForPictures(MainWindow& window, const std::filesystem::path& session,
+                        const std::filesystem::path& folder);
+
 /// Waits until the session's chosen case is shown, runs it when it has no run yet, and writes a PNG
-/// of the window or of one view. Returns "" or why it could not.
+/// of the window or of one view; an empty window is shown as it is. Returns "" or why it could not.
 QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order);
 
 }  // namespace boresight::ui

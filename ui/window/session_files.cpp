@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/session_files.h"
 
-#include <exception>
+#include <optional>
 #include <utility>
 
 #include <QFileDialog>
@@ -10,6 +10,7 @@
 #include <QPushButton>
 
 #include "sessions/session/session_maker.h"
+#include "ui/run/task_runner.h"
 #include "ui/state/document.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/recent_files.h"
@@ -33,10 +34,9 @@ bool SessionFiles::open(const std::filesystem::path& file) {
 }
 
 void SessionFiles::askForSession() {
-  if (!mayLeave()) return;
   const QString file = QFileDialog::getOpenFileName(&window_, tr("Open a session"), {},
                                                     tr("Sessions (*.json);;All files (*)"));
-  if (!file.isEmpty()) open(path(file));
+  if (!file.isEmpty() && mayLeave()) open(path(file));
 }
 
 void SessionFiles::askForFiles() {
@@ -62,36 +62,50 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
       Q_EMIT noted(tr("Taken. Still missing: %1").arg(QString::fromStdString(dropped.missing())));
     return;
   }
-  try {
-    if (dropped.dataset) {
-      makeFromDataset(*dropped.dataset);
-    } else {
-      addCase();
-    }
-  } catch (const std::exception& error) {
-    collected_ = {};
-    Q_EMIT failed(QString::fromUtf8(error.what()));
+  if (dropped.dataset) {
+    makeFromDataset(*dropped.dataset);
+  } else {
+    addCase();
   }
 }
 
+/// Every image and mesh is read and hashed: off the UI's thread.
 void SessionFiles::makeFromDataset(const std::filesystem::path& dataset) {
   if (!mayLeave()) return;
-  parts_.document.createUntitled(sessions::makeSession(dataset));
   collected_ = {};
+  Q_EMIT noted(tr("Reading %1 and all that it names ...").arg(text(dataset.filename())));
+  parts_.tasks.start(
+      QStringLiteral("make session"),
+      [dataset](const std::stop_token&) { return sessions::makeSession(dataset); },
+      [this](const sessions::Session& session) {
+        Q_EMIT noted({});
+        parts_.document.createUntitled(session);
+      });
 }
 
 void SessionFiles::addCase() {
   if (!askForUnits()) return;
-  sessions::MadeCase made = sessions::makeCase(collected_.one);
-  const QString id = QString::fromStdString(made.made.id);
+  Q_EMIT noted(tr("Reading the files ..."));
+  parts_.tasks.start(
+      QStringLiteral("make session"),
+      [files = std::exchange(collected_, {}).one](const std::stop_token&) {
+        return sessions::makeCase(files).made;
+      },
+      [this](sessions::SessionCase made) {
+        Q_EMIT noted({});
+        takeCase(std::move(made));
+      });
+}
+
+void SessionFiles::takeCase(sessions::SessionCase made) {
+  const QString id = QString::fromStdString(made.id);
   Document& document = parts_.document;
-  const sessions::Session session = sessions::withCase(document.session(), std::move(made.made));
+  const sessions::Session session = sessions::withCase(document.session(), std::move(made));
   if (!document.isOpen() || !document.readOnlyReason().isEmpty()) {
     document.createUntitled(session);
   } else if (document.edit(session, tr("Add %1").arg(id))) {
     parts_.cases.chooseCase(id);
   }
-  collected_ = {};
 }
 
 bool SessionFiles::askForUnits() {
@@ -127,6 +141,7 @@ bool SessionFiles::saveAs() {
 
 bool SessionFiles::mayLeave() {
   const Document& document = parts_.document;
+  if (document.isUntitled()) return mayLeaveUntitled();
   if (!document.isModified()) return true;
   QMessageBox box(QMessageBox::Question, tr("Boresight"),
                   tr("Save the changes of %1?").arg(text(document.file().filename())),
@@ -139,20 +154,48 @@ bool SessionFiles::mayLeave() {
   return answer == QMessageBox::Discard;
 }
 
+bool SessionFiles::mayLeaveUntitled() {
+  QMessageBox box(QMessageBox::Question, tr("Boresight"),
+                  tr("Save this session? It has no name yet."),
+                  QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
+  box.setInformativeText(
+      tr("Discarded, it is gone with its runs; the files that it was made of "
+         "stay."));
+  const int answer = box.exec();
+  if (answer == QMessageBox::Save) return saveAs();
+  if (answer != QMessageBox::Discard) return false;
+  parts_.document.discardUntitled();
+  return true;
+}
+
+void SessionFiles::offerUntitled() {
+  const std::optional<std::filesystem::path> left = Document::leftUntitled();
+  if (!left) return;
+  QMessageBox box(QMessageBox::Question, tr("Boresight"),
+                  tr("A session without a name was left when the program ended last. Go on with "
+                     "it?"),
+                  QMessageBox::Yes | QMessageBox::No, &window_);
+  box.setInformativeText(
+      tr("It lies in %1 and is offered until it is saved or discarded.").arg(text(*left)));
+  if (box.exec() == QMessageBox::Yes) parts_.document.open(*left);
+}
+
 void SessionFiles::offerRecovery() {
   Document& document = parts_.document;
   if (!document.recovery()) return;
   const sessions::Recovery& recovery = **document.recovery();
   QMessageBox box(QMessageBox::Question, tr("Boresight"),
-                  tr("%1 has %n change(s) that were made but not saved, the last one at %2.", "",
-                     static_cast<int>(recovery.edits.size()))
+                  (recovery.edits.size() == 1
+                       ? tr("%1 has a change that was made but not saved, at %2.")
+                       : tr("%1 has %3 changes that were made but not saved, the last one at %2.")
+                             .replace(QLatin1String("%3"), QString::number(recovery.edits.size())))
                       .arg(text(document.file().filename()), QString::fromStdString(recovery.time)),
                   QMessageBox::NoButton, &window_);
   QStringList edits;
   for (const std::string& edit : recovery.edits) edits << QString::fromStdString(edit);
   box.setDetailedText(edits.join(QLatin1Char('\n')));
-  QAbstractButton* accept = box.addButton(tr("Recover them"), QMessageBox::AcceptRole);
-  box.addButton(tr("Set them aside"), QMessageBox::DestructiveRole);
+  QAbstractButton* accept = box.addButton(tr("Recover"), QMessageBox::AcceptRole);
+  box.addButton(tr("Set aside"), QMessageBox::DestructiveRole);
   box.exec();
   if (box.clickedButton() == accept) {
     document.acceptRecovery();

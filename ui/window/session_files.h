@@ -7,6 +7,7 @@
 #include <QObject>
 #include <QString>
 
+#include "sessions/session/session.h"
 #include "ui/window/dropped_files.h"
 #include "ui/window/window_parts.h"
 
@@ -30,6 +31,8 @@ class SessionFiles : public QObject {
   bool mayLeave();
   /// Offers the edits of a program that was killed, if there are any.
   void offerRecovery();
+  /// Offers the newest session without a name that a program has left and that nobody has open.
+  void offerUntitled();
 
  public Q_SLOTS:
   void askForSession();
@@ -46,7 +49,9 @@ class SessionFiles : public QObject {
  private:
   void makeFromDataset(const std::filesystem::path& dataset);
   void addCase();
+  void takeCase(sessions::SessionCase made);
   bool askForUnits();
+  bool mayLeaveUntitled();
 
   QWidget& window_;
   WindowParts parts_;

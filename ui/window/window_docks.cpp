@@ -2,20 +2,31 @@
 #include "ui/window/window_docks.h"
 
 #include <QDockWidget>
+#include <QLayout>
 #include <QMainWindow>
+#include <QVBoxLayout>
 
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/input_sheet_panel.h"
 #include "ui/panels/iterations_panel.h"
+#include "ui/panels/mask_panel.h"
 #include "ui/panels/match_inspector_panel.h"
 #include "ui/panels/pose_panel.h"
+#include "ui/panels/warning_bar.h"
 #include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
 #include "ui/views/layers_panel.h"
+#include "ui/views/mask_editor.h"
 #include "ui/vtk/scene_view.h"
 
 namespace boresight::ui {
 namespace {
+
+constexpr double kCasesShare = 0.20;  // of the window's width
+constexpr double kRightShare = 0.30;
+constexpr double kBottomShare = 0.34;  // of its height
+constexpr double kSceneShare = 0.40;
 
 QString tr(const char* text) { return QMainWindow::tr(text); }
 
@@ -27,39 +38,95 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       cases_(new CasesPanel),
       configuration_(new ConfigurationPanel(parts.state)),
       inputs_(new InputSheetPanel),
-      poses_(new PosePanel(parts.state)) {
+      poses_(new PosePanel(parts.state)),
+      mask_editor_(new MaskEditor(image_->view(), image_)),
+      mask_(new MaskPanel(*mask_editor_)),
+      warnings_(new WarningBar(tr("Inputs"), tr("Show all that is known of the inputs"))),
+      findings_(new WarningBar(tr("Mend ..."),
+                               tr("Look for missing files below the session's folder, or take "
+                                  "changed ones as they are"))) {
   window_.setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowNestedDocks |
                          QMainWindow::AllowTabbedDocks);
-  window_.setCentralWidget(image_);
-  add(QStringLiteral("cases"), tr("Cases"), cases_, Qt::LeftDockWidgetArea);
-  QDockWidget* layers = add(QStringLiteral("layers"), tr("Layers"), new LayersPanel(*image_),
-                            Qt::RightDockWidgetArea);
-  QDockWidget* configuration = add(QStringLiteral("configuration"), tr("Configuration"),
-                                   configuration_, Qt::RightDockWidgetArea);
-  QDockWidget* inputs =
-      add(QStringLiteral("inputs"), tr("Inputs"), inputs_, Qt::RightDockWidgetArea);
-  QDockWidget* poses = add(QStringLiteral("pose"), tr("Pose"), poses_, Qt::RightDockWidgetArea);
-  QDockWidget* scene = add(QStringLiteral("scene"), tr("Scene"), new SceneView(parts.state),
-                           Qt::RightDockWidgetArea);
-  QDockWidget* iterations = add(QStringLiteral("iterations"), tr("Iterations"),
-                                new IterationsPanel(parts.state), Qt::BottomDockWidgetArea);
-  QDockWidget* inspector = add(QStringLiteral("inspector"), tr("Match inspector"),
-                               new MatchInspectorPanel(parts.state), Qt::BottomDockWidgetArea);
-  for (QDockWidget* each : {configuration, inputs, poses, scene})
-    window_.tabifyDockWidget(layers, each);
-  window_.tabifyDockWidget(iterations, inspector);
+  // Tables of poses and options are long, the one of iterations is wide.
+  window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  buildCentre();
+  add(QStringLiteral("cases"), tr("Cases"), cases_);
+  add(QStringLiteral("layers"), tr("Layers"), new LayersPanel(*image_));
+  add(QStringLiteral("mask"), tr("Mask"), mask_);
+  add(QStringLiteral("inputs"), tr("Inputs"), inputs_);
+  add(QStringLiteral("pose"), tr("Pose"), poses_);
+  add(QStringLiteral("configuration"), tr("Configuration"), configuration_);
+  add(QStringLiteral("scene"), tr("Scene"), new SceneView(parts.state));
+  add(QStringLiteral("iterations"), tr("Iterations"), new IterationsPanel(parts.state));
+  add(QStringLiteral("inspector"), tr("Match inspector"), new MatchInspectorPanel(parts.state));
+  place();
+}
+
+void WindowDocks::buildCentre() {
+  auto* centre = new QWidget;
+  auto* column = new QVBoxLayout(centre);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(findings_);
+  column->addWidget(warnings_);
+  column->addWidget(image_, 1);
+  window_.setCentralWidget(centre);
+}
+
+QDockWidget* WindowDocks::dock(const QString& name) const {
+  return window_.findChild<QDockWidget*>(name);
+}
+
+void WindowDocks::raise(const QString& name) const {
+  QDockWidget* found = dock(name);
+  if (!found) return;
+  found->show();
+  found->raise();
+}
+
+void WindowDocks::arrange() const {
+  place();
+  giveSizes();
+}
+
+void WindowDocks::place() const {
+  for (QDockWidget* each : docks_) each->setFloating(false);
+  QDockWidget* cases = dock(QStringLiteral("cases"));
+  QDockWidget* scene = dock(QStringLiteral("scene"));
+  QDockWidget* layers = dock(QStringLiteral("layers"));
+  QDockWidget* iterations = dock(QStringLiteral("iterations"));
+  window_.addDockWidget(Qt::LeftDockWidgetArea, cases);
+  window_.addDockWidget(Qt::RightDockWidgetArea, scene);
+  window_.addDockWidget(Qt::RightDockWidgetArea, layers);
+  for (const char* name : {"mask", "inputs", "pose", "configuration"})
+    window_.tabifyDockWidget(layers, dock(QLatin1String(name)));
+  window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
+  window_.tabifyDockWidget(iterations, dock(QStringLiteral("inspector")));
+  for (QDockWidget* each : docks_) each->show();
   layers->raise();
   iterations->raise();
 }
 
-QDockWidget* WindowDocks::add(const QString& name, const QString& title, QWidget* widget,
-                              Qt::DockWidgetArea area) {
+void WindowDocks::giveSizes() const {
+  window_.layout()->activate();  // as minimum sizes are now
+  QDockWidget* iterations = dock(QStringLiteral("iterations"));
+  const int width = window_.width();
+  const int height = window_.height();
+  window_.resizeDocks(
+      {dock(QStringLiteral("cases")), dock(QStringLiteral("layers"))},
+      {static_cast<int>(kCasesShare * width), static_cast<int>(kRightShare * width)},
+      Qt::Horizontal);
+  window_.resizeDocks(
+      {iterations, dock(QStringLiteral("scene"))},
+      {static_cast<int>(kBottomShare * height), static_cast<int>(kSceneShare * height)},
+      Qt::Vertical);
+}
+
+void WindowDocks::add(const QString& name, const QString& title, QWidget* widget) {
   auto* made = new QDockWidget(title, &window_);
   made->setObjectName(name);
   made->setWidget(widget);
-  window_.addDockWidget(area, made);
   docks_.push_back(made);
-  return made;
 }
 
 }  // namespace boresight::ui

@@ -16,7 +16,10 @@ class CasesPanel;
 class ConfigurationPanel;
 class ImagePanel;
 class InputSheetPanel;
+class MaskEditor;
+class MaskPanel;
 class PosePanel;
+class WarningBar;
 
 /// The panels of the window and the docks that they lie in, as they are when the program starts for
 /// the first time. Each dock has an object name by which its place is remembered and by which
@@ -30,12 +33,26 @@ class WindowDocks {
   ConfigurationPanel& configuration() const { return *configuration_; }
   InputSheetPanel& inputs() const { return *inputs_; }
   PosePanel& poses() const { return *poses_; }
+  MaskEditor& maskEditor() const { return *mask_editor_; }
+  MaskPanel& mask() const { return *mask_; }
+  /// Above the image: what looks wrong with the case's inputs.
+  WarningBar& warnings() const { return *warnings_; }
+  /// The same for files that are missing or have changed.
+  WarningBar& findings() const { return *findings_; }
+  /// Brings a dock to the front.
+  void raise(const QString& name) const;
+  /// Every dock where it was when the program started for the first time.
+  void arrange() const;
+  /// Sizes that suit the window as large as it is now; only once it is shown.
+  void giveSizes() const;
   /// In the order in which menus list them.
   const std::vector<QDockWidget*>& all() const { return docks_; }
 
  private:
-  QDockWidget* add(const QString& name, const QString& title, QWidget* widget,
-                   Qt::DockWidgetArea area);
+  void buildCentre();
+  void place() const;
+  QDockWidget* dock(const QString& name) const;
+  void add(const QString& name, const QString& title, QWidget* widget);
 
   QMainWindow& window_;
   std::vector<QDockWidget*> docks_;
@@ -44,6 +61,10 @@ class WindowDocks {
   ConfigurationPanel* configuration_;
   InputSheetPanel* inputs_;
   PosePanel* poses_;
+  MaskEditor* mask_editor_;
+  MaskPanel* mask_;
+  WarningBar* warnings_;
+  WarningBar* findings_;
 };
 
 }  // namespace boresight::ui

@@ -10,10 +10,12 @@
 #include <QToolBar>
 
 #include "sessions/version.h"
+#include "ui/panels/mask_panel.h"
 #include "ui/run/run_controller.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
 #include "ui/views/image_panel.h"
+#include "ui/views/mask_editor.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/recent_files.h"
 #include "ui/window/session_files.h"
@@ -21,6 +23,11 @@
 #include "ui/window/window_docks.h"
 
 namespace boresight::ui {
+namespace {
+
+constexpr double kBrushStep = 1.25;
+
+}  // namespace
 
 using sessions::StepUntil;
 
@@ -78,6 +85,37 @@ void WindowMenus::buildEditMenu() {
   connect(redo_, &QAction::triggered, &parts_.document, &Document::redo);
   menu->addAction(undo_);
   menu->addAction(redo_);
+  menu->addSeparator();
+  buildMaskMenu(*menu->addMenu(tr("Ignore &mask")));
+}
+
+void WindowMenus::buildMaskMenu(QMenu& menu) {
+  QAction* brush = action(tr("&Brush"), QKeySequence(QStringLiteral("Shift+B")),
+                          tr("Draw on the image what runs shall ignore"));
+  QAction* polygon = action(tr("&Polygon"), QKeySequence(QStringLiteral("Shift+P")),
+                            tr("Click the corners of what runs shall ignore"));
+  QAction* erase = action(tr("&Erase"), QKeySequence(QStringLiteral("Shift+E")),
+                          tr("Trust what is drawn again, or ignore it again"));
+  QAction* smaller = action(tr("&Smaller brush"), Qt::Key_BracketLeft, tr("A smaller brush"));
+  QAction* larger = action(tr("&Larger brush"), Qt::Key_BracketRight, tr("A larger brush"));
+  QAction* saturated = action(tr("Sa&turated pixels"), QKeySequence(QStringLiteral("Shift+S")),
+                              tr("Ignore the pixels of the chosen gray value or more"));
+  QAction* clear = action(tr("&Clear"), {}, tr("Ignore no pixel at all"));
+  MaskEditor& editor = docks_.maskEditor();
+  const auto toggle = [&editor](MaskTool tool) {
+    editor.setTool(editor.tool() == tool ? MaskTool::kNone : tool);
+  };
+  connect(brush, &QAction::triggered, &editor, [toggle] { toggle(MaskTool::kBrush); });
+  connect(polygon, &QAction::triggered, &editor, [toggle] { toggle(MaskTool::kPolygon); });
+  connect(erase, &QAction::triggered, &editor, [&editor] { editor.setErase(!editor.erases()); });
+  connect(smaller, &QAction::triggered, &editor,
+          [&editor] { editor.setRadius(editor.radius_px() / kBrushStep); });
+  connect(larger, &QAction::triggered, &editor,
+          [&editor] { editor.setRadius(editor.radius_px() * kBrushStep); });
+  connect(saturated, &QAction::triggered, &docks_.mask(), &MaskPanel::askForSaturated);
+  connect(clear, &QAction::triggered, &docks_.mask(), &MaskPanel::clearAll);
+  menu.addActions({brush, polygon, erase, smaller, larger, saturated, clear});
+  mask_actions_ = menu.actions();
 }
 
 void WindowMenus::buildRunMenu() {
@@ -127,6 +165,11 @@ void WindowMenus::buildViewMenu() {
   menu->addActions({blink, swipe, core});
   menu->addSeparator();
   for (QDockWidget* each : docks_.all()) menu->addAction(each->toggleViewAction());
+  menu->addSeparator();
+  QAction* arrange = action(tr("A&rrange the panels anew"), {},
+                            tr("Put every panel back where it was at the first start"));
+  connect(arrange, &QAction::triggered, this, [this] { docks_.arrange(); });
+  menu->addAction(arrange);
 }
 
 void WindowMenus::buildLayersMenu(QMenu& menu) {
@@ -188,6 +231,7 @@ void WindowMenus::update() {
     each->setEnabled(has_case && !working);
   stop_->setEnabled(working);
   reset_->setEnabled(has_case && !working && parts_.state.snapshot());
+  for (QAction* each : mask_actions_) each->setEnabled(editable && has_case);
   run_all_->setEnabled(open && !working && !document.session().cases.empty());
 }
 

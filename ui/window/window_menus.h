@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <QList>
 #include <QObject>
 
 #include "ui/window/window_parts.h"
@@ -30,6 +31,7 @@ class WindowMenus : public QObject {
  private:
   void buildFileMenu();
   void buildEditMenu();
+  void buildMaskMenu(QMenu& menu);
   void buildRunMenu();
   void buildViewMenu();
   void buildLayersMenu(QMenu& menu);
@@ -53,6 +55,7 @@ class WindowMenus : public QObject {
   QAction* reset_ = nullptr;
   QAction* run_all_ = nullptr;
   QMenu* recent_menu_ = nullptr;
+  QList<QAction*> mask_actions_;
 };
 
 }  // namespace boresight::ui

@@ -37,6 +37,7 @@ inline sessions::MaskStroke randomStroke(Random& random) {
   sessions::MaskStroke stroke;
   stroke.kind = static_cast<sessions::StrokeKind>(random.below(3));
   stroke.erase = coin(random);
+  if (coin(random)) stroke.name = "gripper \xC3\xBC";
   if (stroke.kind == sessions::StrokeKind::kSaturation) {
     stroke.level = static_cast<int>(random.below(256));
     return stroke;

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/case_details.h"
+
+#include <gtest/gtest.h>
+
+#include <QtTest/QTest>
+
+#include "sessions/session/case_run.h"
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/run/task_runner.h"
+#include "ui/window/case_rows.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kPatienceMs = 120'000;
+
+class CaseDetailsTest : public ::testing::Test {
+ protected:
+  void read() {
+    details_.setSession(session_);
+    ASSERT_TRUE(QTest::qWaitFor([this] { return !tasks_.isBusy(); }, kPatienceMs));
+  }
+  std::vector<CaseRow> rows() const {
+    std::vector<CaseRow> made = caseRows(session_, {});
+    details_.fill(made);
+    return made;
+  }
+
+  TaskRunner tasks_;
+  CaseDetails details_{tasks_};
+  sessions::Session session_ = sessions::makeSession(test::exampleFolder() / "dataset.json");
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(CaseDetailsTest, EveryCaseGetsASmallPicture) {
+  EXPECT_TRUE(rows()[0].thumbnail.isNull());
+  read();
+  for (const CaseRow& row : rows()) {
+    EXPECT_FALSE(row.thumbnail.isNull()) << row.id.toStdString();
+    EXPECT_LE(row.thumbnail.width(), 256);
+  }
+}
+
+TEST_F(CaseDetailsTest, AMissingImageLeavesTheRowWithoutAPicture) {
+  sessions::SessionCase gone = *session_.cases[0];
+  gone.image.source.file = folder_.path() / "gone.png";
+  gone.image.source.sha256 = std::string(64, '0');
+  session_ = sessions::withCase(session_, gone);
+  read();
+  EXPECT_TRUE(rows()[0].thumbnail.isNull());
+  EXPECT_FALSE(rows()[1].thumbnail.isNull());
+}
+
+/// A seed that is called the truth, and a truth moved by a known length, tell what the error is.
+TEST_F(CaseDetailsTest, ErrorsAreThoseOfTheLatestRunAgainstTheTruth) {
+  const std::string id = session_.cases[0]->id;
+  const sessions::LocalizationTrace trace = sessions::runCase(session_, id);
+  ASSERT_TRUE(trace.converged());
+  sessions::SessionCase one = *session_.cases[0];
+  one.camera_from_station_truth = trace.camera_from_station;
+  one.camera_from_station_truth->translation_m.z() += 2e-3;
+  session_ = sessions::withCase(session_, one);
+  session_ = sessions::withRun(
+      session_, sessions::storeRun(session_, id, trace, folder_.path() / "one.boresight.json"));
+  read();
+  const CaseRow row = rows()[0];
+  ASSERT_TRUE(row.normal_mm && row.lateral_mm && row.rotation_deg);
+  EXPECT_NEAR(*row.normal_mm, 2.0, 1e-9);
+  EXPECT_NEAR(*row.lateral_mm, 0.0, 1e-9);
+  EXPECT_NEAR(*row.rotation_deg, 0.0, 1e-6);
+  EXPECT_FALSE(rows()[1].normal_mm.has_value()) << "nothing has run";
+}
+
+TEST_F(CaseDetailsTest, WithoutATruthThereIsNoError) {
+  const std::string id = session_.cases[0]->id;
+  const sessions::LocalizationTrace trace = sessions::runCase(session_, id);
+  session_ = sessions::withRun(
+      session_, sessions::storeRun(session_, id, trace, folder_.path() / "one.boresight.json"));
+  sessions::SessionCase one = *session_.cases[0];
+  one.camera_from_station_truth.reset();
+  session_ = sessions::withCase(session_, one);
+  read();
+  EXPECT_FALSE(rows()[0].normal_mm.has_value());
+  EXPECT_EQ(rows()[0].state, CaseState::kConverged);
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the panels lie, what is remembered of it, and what pictures leave behind.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <QAction>
+#include <QDockWidget>
+#include <QMenu>
+#include <QMenuBar>
+#include <QSettings>
+#include <QStandardPaths>
+#include <QtTest/QTest>
+
+#include "sessions/session/session_document.h"
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/views/image_panel.h"
+#include "ui/window/main_window.h"
+#include "ui/window/recent_files.h"
+#include "ui/window/screenshot.h"
+
+namespace boresight::ui {
+namespace {
+
+QAction* menuAction(MainWindow& window, const QString& text) {
+  for (const QAction* menu : window.menuBar()->actions())
+    for (QAction* action : menu->menu()->actions())
+      if (action->text().remove(QLatin1Char('&')) == text) return action;
+  return nullptr;
+}
+
+class LayoutTest : public ::testing::Test {
+ protected:
+  LayoutTest() {
+    QStandardPaths::setTestModeEnabled(true);
+    QSettings().clear();
+  }
+  ~LayoutTest() override { QSettings().clear(); }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(LayoutTest, FitsASmallScreen) {
+  MainWindow window;
+  window.resize(1280, 720);
+  window.show();
+  QApplication::processEvents();
+  EXPECT_EQ(window.width(), 1280) << "panels need less than this";
+  EXPECT_EQ(window.height(), 720);
+}
+
+TEST_F(LayoutTest, IsRememberedByTheNextWindow) {
+  {
+    MainWindow window;
+    window.rememberLayout();
+    window.show();
+    window.dock(QStringLiteral("scene"))->hide();
+    window.close();
+  }
+  MainWindow next;
+  next.rememberLayout();
+  next.show();
+  EXPECT_TRUE(next.dock(QStringLiteral("scene"))->isHidden());
+  EXPECT_FALSE(next.dock(QStringLiteral("cases"))->isHidden());
+}
+
+TEST_F(LayoutTest, PicturesAndTestsNeitherTakeNorLeaveOne) {
+  {
+    MainWindow window;
+    window.show();
+    window.dock(QStringLiteral("scene"))->hide();
+    window.close();
+  }
+  EXPECT_TRUE(QSettings().allKeys().isEmpty());
+}
+
+TEST_F(LayoutTest, ArrangedAnewEveryPanelIsBack) {
+  MainWindow window;
+  window.resize(1600, 1000);
+  window.show();
+  QApplication::processEvents();
+  window.dock(QStringLiteral("scene"))->hide();
+  window.dock(QStringLiteral("pose"))->setFloating(true);
+  QAction* arrange = menuAction(window, QStringLiteral("Arrange the panels anew"));
+  ASSERT_NE(arrange, nullptr);
+  arrange->trigger();
+  QApplication::processEvents();
+  EXPECT_FALSE(window.dock(QStringLiteral("scene"))->isHidden());
+  EXPECT_FALSE(window.dock(QStringLiteral("pose"))->isFloating());
+  const auto beside = window.tabifiedDockWidgets(window.dock(QStringLiteral("layers")));
+  EXPECT_TRUE(beside.contains(window.dock(QStringLiteral("pose"))));
+  EXPECT_GT(window.image().width(), 400) << "the image has the most room";
+}
+
+TEST_F(LayoutTest, RecentFilesAreTheNewestFirstWithoutThoseThatAreGone) {
+  const auto make = [this](const char* name) {
+    const std::filesystem::path file = folder_.path() / name;
+    std::ofstream(file) << "{}";
+    return file;
+  };
+  noteRecentFile(make("a"));
+  noteRecentFile(make("b"));
+  noteRecentFile(make("a"));
+  noteRecentFile(make("c"));
+  std::filesystem::remove(folder_.path() / "b");
+  const QStringList files = recentFiles();
+  ASSERT_EQ(files.size(), 2);
+  EXPECT_TRUE(files[0].endsWith(QLatin1String("/c")));
+  EXPECT_TRUE(files[1].endsWith(QLatin1String("/a")));
+  for (int i = 0; i < 20; ++i) noteRecentFile(make(std::to_string(i).c_str()));
+  EXPECT_EQ(recentFiles().size(), 10);
+}
+
+/// Beside the session nothing may be written, and what waits in its journal is shown too.
+TEST_F(LayoutTest, APictureShowsWhatIsOnlyInTheJournalAndWritesNothingBesideTheSession) {
+  const std::filesystem::path file = folder_.path() / "one.boresight.json";
+  const sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");
+  {
+    auto document = sessions::SessionDocument::create(file, session);
+    document.apply(sessions::withoutCase(session, session.cases[0]->id), "Remove a case");
+  }
+  const auto listed = [this] {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path()))
+      names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  };
+  const auto before = listed();
+  const test::TemporaryFolder copies;
+  MainWindow window;
+  window.setQuiet(true);
+  EXPECT_EQ(openForPictures(window, file, copies.path()).toStdString(), "");
+  EXPECT_EQ(window.document().session().cases.size(), session.cases.size() - 1);
+  ScreenshotOrder order;
+  order.out = copies.path() / "picture.png";
+  order.size = QSize(1280, 800);
+  EXPECT_EQ(takeScreenshot(window, order).toStdString(), "");
+  EXPECT_TRUE(std::filesystem::exists(order.out));
+  EXPECT_EQ(window.document().session().runs.size(), 1u) << "a case without a run is run";
+  EXPECT_EQ(listed(), before);
+}
+
+TEST_F(LayoutTest, APictureOfAFileThatIsNoSessionSaysWhy) {
+  std::ofstream(folder_.path() / "no.json") << "{";
+  MainWindow window;
+  window.setQuiet(true);
+  const QString why = openForPictures(window, folder_.path() / "no.json", folder_.path());
+  EXPECT_TRUE(why.contains(QStringLiteral("no.json"))) << why.toStdString();
+}
+
+}  // namespace
+}  // namespace boresight::ui

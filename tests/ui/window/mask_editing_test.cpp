@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ignore mask from the pointer to the run: one window, real events.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include <QInputDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMenu>
+#include <QMouseEvent>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QStandardPaths>
+#include <QTimer>
+#include <QtTest/QTest>
+
+#include "sessions/session/case_run.h"
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
+#include "ui/window/main_window.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kPatienceMs = 120'000;
+
+class MaskEditingTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    QStandardPaths::setTestModeEnabled(true);
+    window_.setQuiet(true);
+    window_.resize(1280, 800);
+    window_.show();
+    sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");
+    sessions::SessionCase twin = *session.cases.front();
+    twin.id = "twin";
+    session = withCase(session, twin);
+    ASSERT_TRUE(window_.document().create(folder_.path() / "one.boresight.json", session));
+    ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }));
+    id_ = window_.state().currentCase()->source.id;
+  }
+
+  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
+  bool resting() {
+    return !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking;
+  }
+  ImageView& view() { return window_.image().view(); }
+  const sessions::MaskStrokes& strokes(const std::string& id) {
+    return window_.document().session().findCase(id)->ignore_strokes;
+  }
+  bool ignored(int x, int y) {
+    const auto& one = window_.state().currentCase();
+    return one->ignore && one->ignore_bits.get(x, y);
+  }
+  /// Once the views have the document's mask.
+  bool settled() {
+    return wait([&] {
+      return resting() && window_.state().currentCase()->source.ignore_strokes == strokes(id_);
+    });
+  }
+  void send(QEvent::Type type, const QPointF& pixel) {
+    const QPointF at = view().transform().toWidget(pixel) - QPointF(0.5, 0.5);
+    QMouseEvent event(type, at, view().mapToGlobal(at.toPoint()),
+                      type == QEvent::MouseMove ? Qt::NoButton : Qt::LeftButton,
+                      type == QEvent::MouseButtonRelease ? Qt::NoButton : Qt::LeftButton,
+                      Qt::NoModifier);
+    QCoreApplication::sendEvent(&view(), &event);
+  }
+  void drag(const QPointF& from, const QPointF& to) {
+    send(QEvent::MouseButtonPress, from);
+    send(QEvent::MouseMove, to);
+    send(QEvent::MouseButtonRelease, to);
+  }
+  void click(const QPointF& pixel) {
+    send(QEvent::MouseButtonPress, pixel);
+    send(QEvent::MouseButtonRelease, pixel);
+  }
+  template <class Widget>
+  Widget& find(const char* name) {
+    return *window_.findChild<Widget*>(QString::fromUtf8(name));
+  }
+
+  test::TemporaryFolder folder_;
+  MainWindow window_;
+  std::string id_;
+};
+
+TEST_F(MaskEditingTest, ABrushStrokeIsOneUndoableJournalledEditOfTheMask) {
+  QTest::keyClick(&window_, Qt::Key_B, Qt::ShiftModifier);
+  drag({100.0, 100.0}, {200.0, 100.0});
+  ASSERT_EQ(strokes(id_).size(), 1u);
+  const auto file = folder_.path() / "one.boresight.json";
+  const auto other = sessions::SessionDocument::open(file, sessions::Access::kReadOnly);
+  ASSERT_TRUE(other.recovery()) << "the journal has it already";
+  EXPECT_EQ(other.recovery()->session.findCase(id_)->ignore_strokes, strokes(id_));
+  ASSERT_TRUE(settled());
+  EXPECT_TRUE(ignored(150, 105));
+  EXPECT_FALSE(ignored(150, 120));
+  const auto& bits = view().layer(LayerId::kIgnoreMask).bits;
+  ASSERT_EQ(bits.size(), 1u);
+  EXPECT_TRUE(bits[0].bits.get(150, 105));
+  QTest::keyClick(&window_, Qt::Key_E, Qt::ShiftModifier);
+  drag({150.0, 100.0}, {150.0, 100.0});
+  ASSERT_TRUE(settled());
+  EXPECT_FALSE(ignored(150, 105));
+  EXPECT_TRUE(ignored(110, 100));
+  QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(settled());
+  EXPECT_TRUE(ignored(150, 105));
+  QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(settled());
+  EXPECT_TRUE(strokes(id_).empty());
+  EXPECT_TRUE(view().layer(LayerId::kIgnoreMask).bits.empty());
+}
+
+TEST_F(MaskEditingTest, ARunUsesTheMaskAndStaysShownAsStaleWhenItIsEdited) {
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+  const std::string before = window_.document().session().runs[0].digest;
+  QTest::keyClick(&window_, Qt::Key_P, Qt::ShiftModifier);
+  const auto& image = window_.state().currentCase()->image;
+  const double right = image.width * 0.55, bottom = image.height - 1.0;
+  click({0.0, 0.0});
+  click({right, 0.0});
+  click({right, bottom});
+  click({0.0, bottom});
+  QTest::keyClick(&view(), Qt::Key_Return);
+  // At once: the run waits for the mask.
+  QTest::keyClick(&window_, Qt::Key_F5);
+  EXPECT_TRUE(window_.state().snapshot()) << "the run of before is still shown";
+  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 2 && resting(); }));
+  const auto& session = window_.document().session();
+  EXPECT_NE(session.runs[1].digest, before);
+  EXPECT_FALSE(stalenessOf(session.runs[1], session, {}).stale());
+  EXPECT_TRUE(stalenessOf(session.runs[0], session, {}).inputs_changed);
+  const sessions::LocalizationTrace headless =
+      sessions::runCase(session, id_, sessions::RecordLevel::kSummary);
+  EXPECT_EQ(session.runs[1].digest, headless.digest);
+}
+
+TEST_F(MaskEditingTest, AnEditLeavesTheShownPlaceOfTheRunAlone) {
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+  window_.state().setCursor({0, Stage::kMatch});
+  window_.state().selectTemplate(2);
+  QTest::keyClick(&window_, Qt::Key_B, Qt::ShiftModifier);
+  drag({10.0, 10.0}, {20.0, 10.0});
+  ASSERT_TRUE(settled());
+  EXPECT_EQ(window_.state().cursor(), (RunCursor{0, Stage::kMatch}));
+  EXPECT_EQ(window_.state().selectedTemplate(), 2);
+  EXPECT_FALSE(view().layer(LayerId::kSeedEdges).bits.empty());
+  EXPECT_FALSE(window_.cases().staleness().isEmpty());
+}
+
+TEST_F(MaskEditingTest, SaturatedPixelsAreThoseOfTheLevelOrMore) {
+  find<QSpinBox>("saturationLevel").setValue(200);
+  QTest::mouseClick(&find<QPushButton>("saturated"), Qt::LeftButton);
+  ASSERT_TRUE(settled());
+  const auto& one = *window_.state().currentCase();
+  std::int64_t bright = 0;
+  for (const std::uint8_t gray : one.image.pixels) bright += gray >= 200 ? 1 : 0;
+  ASSERT_GT(bright, 0);
+  EXPECT_EQ(one.ignore->ignored_count, bright);
+  EXPECT_TRUE(
+      find<QLabel>("maskSummary").text().startsWith(QString::number(bright) + QLatin1Char(' ')));
+  QTest::mouseClick(&find<QPushButton>("clearMask"), Qt::LeftButton);
+  ASSERT_TRUE(settled());
+  EXPECT_TRUE(strokes(id_).empty());
+}
+
+TEST_F(MaskEditingTest, ANamedPolygonIsCopiedToTheCamerasOtherCases) {
+  QTest::keyClick(&window_, Qt::Key_P, Qt::ShiftModifier);
+  click({100.0, 100.0});
+  click({300.0, 100.0});
+  click({300.0, 300.0});
+  QTest::keyClick(&view(), Qt::Key_Return);
+  ASSERT_EQ(strokes(id_).size(), 1u);
+  auto& list = find<QListWidget>("strokes");
+  list.setCurrentRow(0);
+  QTimer::singleShot(0, [] {
+    auto* dialog = qobject_cast<QInputDialog*>(QApplication::activeModalWidget());
+    ASSERT_NE(dialog, nullptr);
+    dialog->setTextValue(QStringLiteral("gripper"));
+    dialog->accept();
+  });
+  QTest::mouseClick(&find<QPushButton>("nameStroke"), Qt::LeftButton);
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_)) << "after the dialog";
+  EXPECT_EQ(strokes(id_)[0].name, "gripper");
+  EXPECT_TRUE(list.item(0)->text().startsWith(QStringLiteral("gripper")));
+  QTest::mouseClick(&find<QPushButton>("copyStroke"), Qt::LeftButton);
+  EXPECT_EQ(strokes("twin"), strokes(id_));
+  EXPECT_TRUE(window_.document().session().cases[1]->ignore_strokes.empty()) << "another camera";
+  QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(strokes("twin").empty());
+  ASSERT_TRUE(settled());
+  window_.cases().chooseCase(QStringLiteral("twin"));
+  ASSERT_TRUE(
+      wait([&] { return window_.state().currentCase()->source.id == "twin" && resting(); }));
+  const QList<QAction*> offered = find<QPushButton>("takeStroke").menu()->actions();
+  ASSERT_EQ(offered.size(), 1);
+  offered[0]->trigger();
+  EXPECT_EQ(strokes("twin"), strokes(id_));
+}
+
+TEST_F(MaskEditingTest, NothingIsDrawnInASessionThatCannotBeEdited) {
+  ASSERT_TRUE(window_.document().save());
+  const auto file = folder_.path() / "one.boresight.json";
+  window_.document().close();
+  const auto holder = sessions::SessionDocument::open(file);  // has the lock
+  ASSERT_TRUE(window_.openSession(file));
+  ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }));
+  QTest::keyClick(&window_, Qt::Key_B, Qt::ShiftModifier);
+  EXPECT_FALSE(view().toolActive());
+  EXPECT_FALSE(find<QPushButton>("saturated").isEnabled());
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/case_details.h"
+
+#include <cmath>
+#include <exception>
+
+#include "core/base/math.h"
+#include "sessions/evaluation/pose_error.h"
+#include "sessions/session/case_run.h"
+#include "ui/run/task_runner.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kThumbnail_px = 128;  // also sharp on a screen of double density
+
+/// Null when the file cannot be read: whoever opens the case is told why.
+QImage thumbnailOf(const sessions::ImageInput& input) {
+  try {
+    const sessions::GrayImage image = sessions::readImage(input.source.file, input.eight_bit);
+    const QImage gray(image.pixels.data(), image.width, image.height, image.width,
+                      QImage::Format_Grayscale8);
+    return gray.scaled(kThumbnail_px, kThumbnail_px, Qt::KeepAspectRatio, Qt::SmoothTransformation)
+        .copy();
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+std::optional<Pose> resultOf(const sessions::RunRecord& run) {
+  try {
+    const sessions::LocalizationTrace trace = sessions::loadRun(run);
+    return trace.converged() ? std::optional(trace.camera_from_station) : std::nullopt;
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+CaseDetails::CaseDetails(TaskRunner& tasks, QObject* parent) : QObject(parent), tasks_(tasks) {}
+
+void CaseDetails::setSession(const sessions::Session& session) {
+  session_ = session;
+  if (!reading_) readNext();
+}
+
+void CaseDetails::readNext() {
+  reading_ = true;
+  for (const auto& one : session_.cases)
+    if (readThumbnail(one->image)) return;
+  for (const auto& one : session_.cases) {
+    const sessions::RunRecord* run = session_.lastRunOf(one->id);
+    if (run && one->camera_from_station_truth && readPose(*run)) return;
+  }
+  reading_ = false;
+}
+
+bool CaseDetails::readThumbnail(const sessions::ImageInput& image) {
+  if (thumbnails_.count(image.source.sha256) > 0) return false;
+  tasks_.start(
+      QStringLiteral("case details"),
+      [image](const std::stop_token&) { return thumbnailOf(image); },
+      [this, key = image.source.sha256](QImage picture) {
+        thumbnails_[key] = std::move(picture);
+        Q_EMIT changed();
+        readNext();
+      });
+  return true;
+}
+
+bool CaseDetails::readPose(const sessions::RunRecord& run) {
+  if (poses_.count(run.digest) > 0) return false;
+  tasks_.start(
+      QStringLiteral("case details"), [run](const std::stop_token&) { return resultOf(run); },
+      [this, key = run.digest](const std::optional<Pose>& camera_from_station) {
+        poses_[key] = camera_from_station;
+        Q_EMIT changed();
+        readNext();
+      });
+  return true;
+}
+
+void CaseDetails::fillErrors(const sessions::SessionCase& one, CaseRow& row) const {
+  const sessions::RunRecord* run = session_.lastRunOf(one.id);
+  if (!run || !one.camera_from_station_truth) return;
+  const auto found = poses_.find(run->digest);
+  if (found == poses_.end() || !found->second) return;
+  const sessions::PoseError error = sessions::poseError(
+      *one.camera_from_station_truth, *found->second, one.camera_from_end_effector);
+  row.normal_mm = std::abs(error.normal_mm);
+  row.lateral_mm = error.lateral_mm;
+  row.rotation_deg = 1e-3 * error.rotation_mrad / kDegree_rad;
+}
+
+void CaseDetails::fill(std::vector<CaseRow>& rows) const {
+  for (CaseRow& row : rows) {
+    const sessions::SessionCase* one = session_.findCase(row.id.toStdString());
+    if (!one) continue;
+    const auto picture = thumbnails_.find(one->image.source.sha256);
+    if (picture != thumbnails_.end()) row.thumbnail = picture->second;
+    fillErrors(*one, row);
+  }
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <QImage>
+#include <QObject>
+
+#include "core/geometry/pose.h"
+#include "sessions/session/session.h"
+#include "ui/models/cases_model.h"
+
+namespace boresight::ui {
+
+class TaskRunner;
+
+/// What the list of cases shows and the session does not hold: small pictures of the images, and
+/// how far the results of the latest runs are from the truth. Files are read off the UI's thread,
+/// each once and one at a time, so that whatever a person asks for comes in between.
+class CaseDetails : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit CaseDetails(TaskRunner& tasks, QObject* parent = nullptr);
+
+  /// Takes note of what is to be read; what is known already is kept.
+  void setSession(const sessions::Session& session);
+  /// Adds what is known by now to rows of the session.
+  void fill(std::vector<CaseRow>& rows) const;
+
+ Q_SIGNALS:
+  /// There is more to fill in.
+  void changed();
+
+ private:
+  void readNext();
+  bool readThumbnail(const sessions::ImageInput& image);
+  bool readPose(const sessions::RunRecord& run);
+  void fillErrors(const sessions::SessionCase& one, CaseRow& row) const;
+
+  TaskRunner& tasks_;
+  sessions::Session session_;
+  std::map<std::string, QImage> thumbnails_;          ///< by hash of the file; null: cannot be read
+  std::map<std::string, std::optional<Pose>> poses_;  ///< by digest of the run; nothing: no result
+  bool reading_ = false;
+};
+
+}  // namespace boresight::ui
