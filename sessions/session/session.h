@@ -18,6 +18,7 @@
 #include "sessions/io/option_value.h"
 #include "sessions/io/points_file.h"
 #include "sessions/session/ignore_strokes.h"
+#include "sessions/session/rerun_record.h"
 #include "sessions/session/shared_value.h"
 
 namespace boresight::sessions {
@@ -96,11 +97,12 @@ struct RunRecord {
   std::string case_id;
   std::string digest;  ///< of the trace, which names its file
   std::filesystem::path file;
-  std::string status;          ///< as localizationStatusText says
-  std::string version;         ///< of the program that ran it
-  std::string time;            ///< UTC, when it ended
-  std::string inputs_sha256;   ///< inputsDigest of the case that ran
-  std::string options_sha256;  ///< optionsDigest of what ran
+  std::string status;                ///< as localizationStatusText says
+  std::string version;               ///< of the program that ran it
+  std::string time;                  ///< UTC, when it ended
+  std::string inputs_sha256;         ///< inputsDigest of the case that ran
+  std::string options_sha256;        ///< optionsDigest of what ran, as it was at the end
+  std::optional<RerunRecord> rerun = std::nullopt;  ///< of a run that took up other options on its way
 
   bool operator==(const RunRecord&) const = default;
 };

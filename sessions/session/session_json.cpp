@@ -157,6 +157,7 @@ ordered_json runJson(const RunRecord& run, const PathWriter& path) {
   json["time"] = run.time;
   json["inputs_sha256"] = run.inputs_sha256;
   json["options_sha256"] = run.options_sha256;
+  if (run.rerun) json["rerun"] = toJson(*run.rerun);
   return json;
 }
 
@@ -363,7 +364,7 @@ Decision readDecision(const JsonReader& json, const Session& session) {
 
 RunRecord readRun(const JsonReader& json, const Session& session) {
   requireKnown(json, {"case", "digest", "file", "status", "version", "time", "inputs_sha256",
-                      "options_sha256"});
+                      "options_sha256", "rerun"});
   RunRecord run;
   run.case_id = readCaseReference(json.at("case"), session);
   run.digest = readSha256(json.at("digest"));
@@ -373,6 +374,11 @@ RunRecord readRun(const JsonReader& json, const Session& session) {
   run.time = readTime(json.at("time"));
   run.inputs_sha256 = readSha256(json.at("inputs_sha256"));
   run.options_sha256 = readSha256(json.at("options_sha256"));
+  if (const auto rerun = json.find("rerun")) {
+    requireKnown(*rerun, {"from", "options", "changes"});
+    if (const auto from = rerun->find("from")) (void)readSha256(*from);
+    run.rerun = readRerun(*rerun);
+  }
   return run;
 }
 

@@ -124,6 +124,18 @@ inline LocalizerOptions randomOptions(Random& random) {
   return options;
 }
 
+/// Options are such as may change on the way of a run.
+inline sessions::RerunRecord randomRerun(Random& random) {
+  sessions::RunPlan plan(randomOptions(random));
+  for (std::int32_t i = 1; i < 4; ++i) {
+    LocalizerOptions options = plan.last();
+    options.pnp.seed += 1 + random.below(99);
+    options.loop.inlier_threshold_px = random.uniform(0.1, 200.0);
+    if (i == 1 || coin(random)) plan.changes.push_back({i * 3, options});
+  }
+  return sessions::rerunRecord(coin(random) ? randomSha256(random) : "", plan);
+}
+
 inline sessions::Session randomSession(Random& random) {
   sessions::Session session =
       sessions::withOptions({}, coin(random) ? "default" : "paper", randomOptions(random));
@@ -139,6 +151,7 @@ inline sessions::Session randomSession(Random& random) {
       session.runs.push_back({id, randomSha256(random), randomPath(random, ".trace"), "converged",
                               "0.1.0", "2026-01-31T23:59:59Z", randomSha256(random),
                               randomSha256(random)});
+    if (coin(random) && !session.runs.empty()) session.runs.back().rerun = randomRerun(random);
     if (coin(random)) session.view = {id, "", static_cast<std::int32_t>(random.below(9)) - 1};
   }
   return session;
