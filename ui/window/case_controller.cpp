@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/case_controller.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include <QStringList>
@@ -22,7 +23,10 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
     if (run_.snapshot()) state_.setSnapshot(run_.snapshot());
   });
   connect(&run_, &RunController::finished, this, &CaseController::runEnded);
-  connect(&run_, &RunController::failed, this, &CaseController::failed);
+  connect(&run_, &RunController::failed, this, [this](const QString& message) {
+    run_is_prepared_ = false;
+    Q_EMIT failed(message);
+  });
 }
 
 void CaseController::documentOpened() {
@@ -142,7 +146,7 @@ QString CaseController::staleness() const {
 void CaseController::prepareRun() {
   RunInputs inputs;
   inputs.one = state_.currentCase();
-  inputs.options = options();
+  inputs.plan = options();
   run_.reset(std::move(inputs));
   run_session_ = document_.session();
   run_is_prepared_ = true;
@@ -163,6 +167,47 @@ void CaseController::advance(StepUntil until) {
     return;
   }
   run_.advance(until);
+}
+
+void CaseController::rerunFrom(int iteration) {
+  if (!state_.currentCase() || !state_.snapshot() || run_.state() == RunState::kWorking) return;
+  if (iteration < 1) {
+    reset();
+    advance(StepUntil::kEnd);
+    return;
+  }
+  try {
+    sessions::requireRunnable(*state_.currentCase());
+    prepareRerun(iteration);
+  } catch (const std::exception& error) {
+    Q_EMIT failed(QString::fromUtf8(error.what()));
+    return;
+  }
+  run_.advance(StepUntil::kEnd);
+}
+
+void CaseController::prepareRerun(int iteration) {
+  const sessions::RunSnapshot& shown = *state_.snapshot();
+  const auto kept = static_cast<std::size_t>(iteration);
+  const std::string id = case_id_.toStdString();
+  const sessions::RunRecord* record = document_.session().lastRunOf(id);
+  const bool is_recorded = record && record->digest == shown.digest;
+  if (!isLoaded() || (is_recorded && record->inputs_sha256 !=
+                                         sessions::inputsDigest(*document_.session().findCase(id))))
+    throw std::runtime_error(
+        tr("The shown run was made with other inputs: run anew from the start.").toStdString());
+  if (kept >= shown.iterations.size())
+    throw std::runtime_error(tr("The shown run has no such iteration.").toStdString());
+  RunInputs inputs;
+  inputs.one = state_.currentCase();
+  inputs.plan = sessions::continuedPlan(shown.plan(), iteration, options());
+  inputs.kept.assign(shown.iterations.begin(), shown.iterations.begin() + iteration);
+  inputs.continued = shown.digest;
+  const std::string problem = sessions::planProblem(inputs.plan);
+  if (!problem.empty()) throw std::runtime_error(problem + ".");
+  run_.reset(std::move(inputs));
+  run_session_ = document_.session();
+  run_is_prepared_ = true;
 }
 
 void CaseController::stop() {
@@ -193,8 +238,9 @@ void CaseController::storeRun() {
   const std::string id = case_id_.toStdString();
   tasks_.start(
       QStringLiteral("store run"),
-      [session = run_session_, id, snapshot, file = document_.file()](const std::stop_token&) {
-        return sessions::storeRun(session, id, sessions::traceOf(*snapshot), file);
+      [session = run_session_, id, snapshot, file = document_.file(),
+       continued = run_.inputs().continued](const std::stop_token&) {
+        return sessions::storeRun(session, id, sessions::traceOf(*snapshot), file, continued);
       },
       [this](const sessions::RunRecord& record) {
         if (document_.note(sessions::withRun(document_.session(), record),

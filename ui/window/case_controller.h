@@ -39,6 +39,9 @@ class CaseController : public QObject {
  public Q_SLOTS:
   void chooseCase(const QString& id);
   void advance(boresight::sessions::StepUntil until);
+  /// Keeps the shown run's iterations before this one and computes those from it on with the
+  /// options as they are now.
+  void rerunFrom(int iteration);
   void stop();
   /// Drops the shown run; the next step begins anew.
   void reset();
@@ -60,6 +63,7 @@ class CaseController : public QObject {
   void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one);
   void loadLatestRun(const QString& id);
   void prepareRun();
+  void prepareRerun(int iteration);
   void runEnded();
   void storeRun();
   void runNext();

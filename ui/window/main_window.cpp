@@ -88,6 +88,10 @@ void MainWindow::connectAll() {
   connect(&document_, &Document::opened, this, &MainWindow::showDocument);
   connect(&document_, &Document::changed, this, &MainWindow::showState);
   connect(&document_, &Document::failed, this, &MainWindow::showMessage);
+  connect(&document_, &Document::writeFailed, this, [this](const QString& message) {
+    last_message_ = message;
+    if (!quiet_) files_->offerSavingElsewhere(message);
+  });
   connect(&cases_, &CaseController::failed, this, &MainWindow::showMessage);
   connect(&tasks_, &TaskRunner::failed, this, &MainWindow::showMessage);
   connect(&run_, &RunController::stateChanged, this, &MainWindow::showState);
