@@ -49,12 +49,11 @@ void ViewState::replaceCase(CasePtr one) {
 void ViewState::setSnapshot(SnapshotPtr snapshot) {
   const bool follows = cursor_.iteration == lastIteration();
   snapshot_ = std::move(snapshot);
-  Q_EMIT snapshotChanged();
-  RunCursor next = cursor_;
-  next.iteration = follows ? lastIteration() : std::min(cursor_.iteration, lastIteration());
-  if (follows) next.stage = Stage::kFinished;
+  // A new run is shorter than the one before: the cursor is inside it before anybody looks.
+  cursor_.iteration = follows ? lastIteration() : std::min(cursor_.iteration, lastIteration());
+  if (follows) cursor_.stage = Stage::kFinished;
   selected_template_ = -1;
-  cursor_ = next;
+  Q_EMIT snapshotChanged();
   Q_EMIT cursorChanged();
   Q_EMIT templateSelected(-1);
 }
