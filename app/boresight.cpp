@@ -129,6 +129,10 @@ int main(int argc, char** argv) {
   }
   window.rememberLayout();
   window.show();
-  if (!arguments.files.empty()) window.takeFiles(arguments.files);
+  if (!arguments.files.empty()) {
+    window.takeFiles(arguments.files);
+  } else {
+    window.offerLeftSessions();
+  }
   return QApplication::exec();
 }

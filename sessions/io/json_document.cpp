@@ -129,6 +129,8 @@ class DocumentBuilder : public nlohmann::json_sax<json> {
   /// nlohmann's message without its error number and position.
   static std::string explanation(const json::exception& error) {
     std::string message = error.what();
+    if (message.find("unexpected end of input") != std::string::npos)
+      return "the file ends in the middle; it was cut short, or not written to its end";
     const std::size_t column = message.find("column ");
     const std::size_t colon = message.find(": ", column == std::string::npos ? 0 : column);
     if (colon != std::string::npos) message = message.substr(colon + 2);

@@ -8,6 +8,7 @@
 #include <QCoreApplication>
 
 #include "core/base/math.h"
+#include "ui/models/column_info.h"
 #include "ui/models/number_text.h"
 
 namespace boresight::ui {
@@ -17,12 +18,6 @@ using sessions::IterationTrace;
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-struct ColumnInfo {
-  const char* title;
-  const char* help;
-  int decimals;  ///< of its numbers; -1: text
-};
 
 constexpr const char* kContext = "boresight::ui::IterationsModel";
 
@@ -266,26 +261,15 @@ QVariant IterationsModel::data(const QModelIndex& index, int role) const {
   switch (role) {
     case Qt::DisplayRole:
       return text(shown, column);
-    case Qt::ToolTipRole:
-      return QCoreApplication::translate(kContext, columnInfo(column).help);
-    case Qt::TextAlignmentRole: {
-      const bool number = columnInfo(column).decimals >= 0;
-      return static_cast<int>((number ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
-    }
     case kNumberRole:
       return number(shown, column);
     default:
-      return {};
+      return columnCell(kContext, columnInfo(column), role);
   }
 }
 
 QVariant IterationsModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation != Qt::Horizontal || section < 0 || section >= kColumnCount) return {};
-  if (role == Qt::DisplayRole)
-    return QCoreApplication::translate(kContext, columnInfo(section).title);
-  if (role == Qt::ToolTipRole)
-    return QCoreApplication::translate(kContext, columnInfo(section).help);
-  return {};
+  return columnHeader(kContext, kColumns, section, orientation, role);
 }
 
 }  // namespace boresight::ui

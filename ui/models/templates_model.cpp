@@ -6,6 +6,7 @@
 
 #include <QCoreApplication>
 
+#include "ui/models/column_info.h"
 #include "ui/models/number_text.h"
 
 namespace boresight::ui {
@@ -13,12 +14,6 @@ namespace boresight::ui {
 using sessions::MatchDetails;
 
 namespace {
-
-struct ColumnInfo {
-  const char* title;
-  const char* help;
-  int decimals;  ///< of its numbers; -1: text
-};
 
 constexpr const char* kContext = "boresight::ui::TemplatesModel";
 
@@ -157,25 +152,15 @@ QVariant TemplatesModel::data(const QModelIndex& index, int role) const {
       if (index.column() == kVerdict) return reached_match_ ? verdictOf(one) : QString();
       if (index.column() == kBorder) return one.at_border ? tr("at border") : QString();
       return numberText(numberOf(one, index.column()), info.decimals);
-    case Qt::ToolTipRole:
-      return QCoreApplication::translate(kContext, info.help);
-    case Qt::TextAlignmentRole:
-      return static_cast<int>((info.decimals >= 0 ? Qt::AlignRight : Qt::AlignLeft) |
-                              Qt::AlignVCenter);
     case kNumberRole:
       return numberOf(one, index.column());
     default:
-      return {};
+      return columnCell(kContext, info, role);
   }
 }
 
 QVariant TemplatesModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation != Qt::Horizontal || section < 0 || section >= kColumnCount) return {};
-  if (role == Qt::DisplayRole)
-    return QCoreApplication::translate(kContext, columnInfo(section).title);
-  if (role == Qt::ToolTipRole)
-    return QCoreApplication::translate(kContext, columnInfo(section).help);
-  return {};
+  return columnHeader(kContext, kColumns, section, orientation, role);
 }
 
 }  // namespace boresight::ui

@@ -81,6 +81,7 @@ QLabel* MatchView::addFigures(QHBoxLayout& row, const QString& name) {
 
 void MatchView::showNote(const QString& note) {
   mapper_.cancel();
+  computing_ = false;
   shown_ = {};
   for (PixelPicture* picture : {template_, found_, agreement_}) {
     picture->setPicture({});
@@ -101,17 +102,20 @@ void MatchView::showMatch(const ScoreMapper::Request& request) {
   showFigures(iteration, sessions::matchDetails(iteration)[index]);
   if (!searched) {
     mapper_.cancel();
+    computing_ = false;
     map_->setNote(iteration.reached < Stage::kMatch
                       ? tr("The templates have not been searched yet.")
                       : tr("This template was not searched: no part of its window lies far enough "
                            "inside the image."));
     return;
   }
+  computing_ = true;
   map_->setNote(tr("Computing the score map ..."));
   if (const ScoreMapper::MapPtr known = mapper_.request(request)) showMap(known);
 }
 
 void MatchView::showMap(const ScoreMapper::MapPtr& map) {
+  computing_ = false;
   if (!map) {
     map_->setNote(tr("The run's record does not hold what the score map needs."));
     return;

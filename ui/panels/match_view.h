@@ -26,6 +26,8 @@ class MatchView : public QWidget {
 
   /// template_index of the request chooses; the iteration must hold it.
   void showMatch(const ScoreMapper::Request& request);
+  /// Whether the score map is still to come.
+  bool isComputing() const { return computing_; }
   /// A sentence instead.
   void showNote(const QString& note);
 
@@ -38,6 +40,7 @@ class MatchView : public QWidget {
   void showMap(const ScoreMapper::MapPtr& map);
 
   ScoreMapper mapper_;
+  bool computing_ = false;
   ScoreMapper::Request shown_;
   PixelPicture* template_ = nullptr;
   PixelPicture* found_ = nullptr;

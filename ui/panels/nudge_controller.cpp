@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/nudge_controller.h"
 
+#include <array>
+
 #include <QKeyEvent>
 
 namespace boresight::ui {
@@ -16,43 +18,24 @@ struct KeyAxis {
   double sense = 0.0;
 };
 
-KeyAxis moveOf(int key) {
-  switch (key) {
-    case Qt::Key_Left:
-      return {0, -1.0};
-    case Qt::Key_Right:
-      return {0, 1.0};
-    case Qt::Key_Up:  // the camera's y points down
-      return {1, -1.0};
-    case Qt::Key_Down:
-      return {1, 1.0};
-    case Qt::Key_PageUp:
-      return {2, 1.0};
-    case Qt::Key_PageDown:
-      return {2, -1.0};
-    default:
-      return {};
-  }
-}
+struct KeyNudge {
+  int key;
+  KeyAxis move;
+  KeyAxis turn;  ///< so that what is near the viewer goes where the arrow points
+};
+constexpr std::array<KeyNudge, 6> kKeyNudges = {{
+    {Qt::Key_Left, {0, -1.0}, {1, 1.0}},
+    {Qt::Key_Right, {0, 1.0}, {1, -1.0}},
+    {Qt::Key_Up, {1, -1.0}, {0, -1.0}},  // the camera's y points down
+    {Qt::Key_Down, {1, 1.0}, {0, 1.0}},
+    {Qt::Key_PageUp, {2, 1.0}, {2, 1.0}},
+    {Qt::Key_PageDown, {2, -1.0}, {2, -1.0}},
+}};
 
-/// So that what is near the viewer goes where the arrow points.
-KeyAxis turnOf(int key) {
-  switch (key) {
-    case Qt::Key_Left:
-      return {1, 1.0};
-    case Qt::Key_Right:
-      return {1, -1.0};
-    case Qt::Key_Up:
-      return {0, -1.0};
-    case Qt::Key_Down:
-      return {0, 1.0};
-    case Qt::Key_PageUp:
-      return {2, 1.0};
-    case Qt::Key_PageDown:
-      return {2, -1.0};
-    default:
-      return {};
-  }
+KeyAxis nudgeOf(int key, bool turns) {
+  for (const KeyNudge& each : kKeyNudges)
+    if (each.key == key) return turns ? each.turn : each.move;
+  return {};
 }
 
 }  // namespace
@@ -162,7 +145,7 @@ void NudgeController::finishGesture() {
 }
 
 bool NudgeController::takes(const QKeyEvent& event) const {
-  return state_.currentCase() && moveOf(event.key()).sense != 0.0;
+  return state_.currentCase() && nudgeOf(event.key(), false).sense != 0.0;
 }
 
 bool NudgeController::eventFilter(QObject* watched, QEvent* event) {
@@ -186,7 +169,7 @@ bool NudgeController::eventFilter(QObject* watched, QEvent* event) {
   double factor = 1.0;
   if (modifiers.testFlag(Qt::ShiftModifier)) factor *= kCoarse;
   if (modifiers.testFlag(Qt::AltModifier)) factor *= kFine;
-  const KeyAxis chosen = turns ? turnOf(key.key()) : moveOf(key.key());
+  const KeyAxis chosen = nudgeOf(key.key(), turns);
   Vector6d steps = Vector6d::Zero();
   steps[turns ? chosen.axis : 3 + chosen.axis] =
       chosen.sense * factor * (turns ? step_.rotation_rad : step_.translation_m);

@@ -69,7 +69,6 @@ void PixelPicture::paintEvent(QPaintEvent* /*event*/) {
   painter.drawText(QRect(0, 0, width(), line), Qt::AlignCenter, title_);
   const QRect note_place(0, height() - line, width(), line);
   if (picture_.isNull()) {
-    painter.setPen(palette().color(QPalette::Disabled, QPalette::WindowText));
     painter.drawText(rect().adjusted(4, line, -4, 0), Qt::AlignCenter | Qt::TextWordWrap, note_);
     return;
   }

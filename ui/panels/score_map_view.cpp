@@ -122,7 +122,6 @@ void ScoreMapView::paintEvent(QPaintEvent* /*event*/) {
   painter.setPen(palette().color(QPalette::WindowText));
   if (!map_) {
     painter.drawText(QRect(0, 0, width(), line), Qt::AlignCenter, tr("Score map"));
-    painter.setPen(palette().color(QPalette::Disabled, QPalette::WindowText));
     painter.drawText(rect().adjusted(4, line, -4, 0), Qt::AlignCenter | Qt::TextWordWrap, note_);
     return;
   }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/document.h"
 
+#include <algorithm>
 #include <exception>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include <QDateTime>
 #include <QDir>
@@ -96,6 +99,30 @@ void Document::close() {
   document_.reset();
   untitled_ = false;
   Q_EMIT opened();
+}
+
+void Document::discardUntitled() {
+  if (!untitled_) return;
+  const std::filesystem::path folder = file().parent_path();
+  const std::string stem = file().stem().string();  // "untitled-....boresight"
+  close();
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+    if (entry.path().filename().string().starts_with(stem + "."))
+      std::filesystem::remove_all(entry.path(), ignored);
+}
+
+std::optional<std::filesystem::path> Document::leftUntitled() {
+  std::vector<std::filesystem::path> files;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(untitledFolder(), ignored))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  std::sort(files.rbegin(), files.rend());  // names hold the time
+  for (const std::filesystem::path& file : files) try {
+      if (!sessions::SessionDocument::open(file).readOnly()) return file;
+    } catch (const std::exception&) {  // damaged: not offered
+    }
+  return std::nullopt;
 }
 
 bool Document::acceptRecovery() {

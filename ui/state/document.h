@@ -43,6 +43,8 @@ class Document : public QObject {
   bool save();
   bool saveAs(const std::filesystem::path& file);
   void close();
+  /// Removes an untitled session with its runs; nothing is open afterwards.
+  void discardUntitled();
   bool acceptRecovery();
   bool declineRecovery();
 
@@ -60,6 +62,8 @@ class Document : public QObject {
 
   /// Where sessions without a name are kept.
   static std::filesystem::path untitledFolder();
+  /// The newest session without a name that no program has open, or nothing.
+  static std::optional<std::filesystem::path> leftUntitled();
 
  Q_SIGNALS:
   void opened();   ///< another document, or none

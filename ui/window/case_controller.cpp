@@ -13,6 +13,16 @@ namespace boresight::ui {
 
 using sessions::StepUntil;
 
+namespace {
+
+/// The views have the nudged pose apart from the case that they show.
+bool sameButNudge(sessions::SessionCase a, const sessions::SessionCase& b) {
+  a.camera_from_station_working = b.camera_from_station_working;
+  return a == b;
+}
+
+}  // namespace
+
 CaseController::CaseController(Document& document, ViewState& state, RunController& run,
                                TaskRunner& tasks, QObject* parent)
     : QObject(parent), document_(document), state_(state), run_(run), tasks_(tasks) {
@@ -48,7 +58,7 @@ void CaseController::documentChanged() {
     return;
   }
   // Another seed, mask or image than the one that is shown.
-  if (state_.currentCase() && !isLoaded()) load(case_id_);
+  if (!asked_ || !sameButNudge(*asked_, *one)) load(case_id_);
   if (!(one->camera_from_station_working == working_)) showNudgedPose();
   Q_EMIT stalenessChanged();
 }
@@ -65,10 +75,7 @@ void CaseController::chooseCase(const QString& id) {
 /// Whether the case that the views have is the document's as it is now.
 bool CaseController::isLoaded() const {
   const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
-  if (!one || !state_.currentCase()) return false;
-  sessions::SessionCase shown = state_.currentCase()->source;
-  shown.camera_from_station_working = one->camera_from_station_working;  // the views have it apart
-  return shown == *one;
+  return one && state_.currentCase() && sameButNudge(state_.currentCase()->source, *one);
 }
 
 void CaseController::showNudgedPose() {
@@ -82,6 +89,7 @@ void CaseController::showNudgedPose() {
 void CaseController::load(const QString& id) {
   const sessions::SessionCase* one = document_.session().findCase(id.toStdString());
   if (!one) return;
+  asked_ = *one;
   const ViewState::CasePtr before = state_.currentCase();
   tasks_.start(
       QStringLiteral("load case"),

@@ -74,6 +74,7 @@ class CaseController : public QObject {
   TaskRunner& tasks_;
   QString case_id_;
   std::optional<Pose> working_;  ///< camera_from_station of the document that the views have
+  std::optional<sessions::SessionCase> asked_;  ///< what was read last, or is being read
   bool run_is_prepared_ = false;
   sessions::Session run_session_;  ///< what the run that is prepared is made from
   std::optional<sessions::StepUntil> run_when_loaded_;

@@ -13,6 +13,7 @@
 #include <QUrl>
 
 #include "ui/views/image_panel.h"
+#include "ui/window/input_findings.h"
 #include "ui/window/levels_controller.h"
 #include "ui/window/mask_controller.h"
 #include "ui/window/panel_links.h"
@@ -50,7 +51,8 @@ MainWindow::MainWindow(QWidget* parent)
       parts_{document_, state_, tasks_, run_, cases_},
       docks_(std::make_unique<WindowDocks>(*this, parts_)),
       files_(new SessionFiles(*this, parts_)),
-      menus_(new WindowMenus(*this, parts_, *docks_, *files_)) {
+      menus_(new WindowMenus(*this, parts_, *docks_, *files_)),
+      findings_(new InputFindings(parts_, docks_->findings(), *this)) {
   setObjectName(QStringLiteral("mainWindow"));
   setAcceptDrops(true);
   buildStatusBar();
@@ -81,6 +83,7 @@ void MainWindow::connectAll() {
           [this](const QString& message) { statusBar()->showMessage(message); });
   new MaskController(parts_, docks_->maskEditor(), docks_->mask(), image(), this);
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
+  connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);
   connect(files_, &SessionFiles::failed, this, &MainWindow::showMessage);
   connect(files_, &SessionFiles::noted, this,
           [this](const QString& message) { statusBar()->showMessage(message); });
@@ -102,6 +105,8 @@ void MainWindow::showMessage(const QString& message) {
 }
 
 bool MainWindow::openSession(const std::filesystem::path& file) { return files_->open(file); }
+
+void MainWindow::offerLeftSessions() { files_->offerUntitled(); }
 
 void MainWindow::takeFiles(const std::vector<std::filesystem::path>& files) { files_->take(files); }
 
@@ -161,7 +166,7 @@ void MainWindow::showState() {
                            ? QString::fromStdString(document_.file().filename().string())
                            : tr("No session");
   setWindowTitle(tr("%1[*]%2 - Boresight").arg(name, read_only ? tr(" (read only)") : QString()));
-  setWindowModified(document_.isModified());
+  setWindowModified(document_.isModified() || document_.isUntitled());
 }
 
 }  // namespace boresight::ui

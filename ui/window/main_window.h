@@ -20,6 +20,7 @@ class QLabel;
 namespace boresight::ui {
 
 class ImagePanel;
+class InputFindings;
 class SessionFiles;
 class WindowDocks;
 class WindowMenus;
@@ -40,6 +41,8 @@ class MainWindow : public QMainWindow {
   /// Messages are kept instead of shown, for pictures and tests.
   void setQuiet(bool quiet) { quiet_ = quiet; }
   const QString& lastMessage() const { return last_message_; }
+  /// Offers sessions that never got a name and were left by a program that was killed.
+  void offerLeftSessions();
 
   /// Takes the place, size and panels that the window had when it was last closed, and leaves them
   /// to the next one. Without this the window is as at the first start.
@@ -51,6 +54,7 @@ class MainWindow : public QMainWindow {
   TaskRunner& tasks() { return tasks_; }
   CaseController& cases() { return cases_; }
   ImagePanel& image();
+  InputFindings& findings() { return *findings_; }
   /// The dock of this object name, or nullptr.
   QDockWidget* dock(const QString& name) const;
 
@@ -76,6 +80,7 @@ class MainWindow : public QMainWindow {
   std::unique_ptr<WindowDocks> docks_;
   SessionFiles* files_ = nullptr;
   WindowMenus* menus_ = nullptr;
+  InputFindings* findings_ = nullptr;
   QLabel* run_label_ = nullptr;
   bool quiet_ = false;
   bool arranged_ = false;

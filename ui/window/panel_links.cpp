@@ -90,6 +90,7 @@ void PanelLinks::showCases() {
 }
 
 void PanelLinks::showConfiguration() {
+  docks_.configuration().setEnabled(parts_.document.isOpen());  // options are a session's
   try {
     const sessions::Session& session = parts_.document.session();
     docks_.configuration().setOptions(QString::fromStdString(session.profile),

@@ -11,8 +11,10 @@
 #include <QPixmap>
 #include <QTimer>
 
+#include "ui/panels/match_view.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
+#include "ui/window/input_findings.h"
 #include "ui/window/main_window.h"
 
 namespace boresight::ui {
@@ -33,8 +35,10 @@ bool waitUntil(const std::function<bool()>& holds) {
   return true;
 }
 
-bool isResting(TaskRunner& tasks, RunController& run) {
-  return !tasks.isBusy() && run.state() != RunState::kWorking;
+bool isResting(MainWindow& window) {
+  const auto* match = window.findChild<MatchView*>();
+  return !window.tasks().isBusy() && !window.findings().isBusy() &&
+         window.run().state() != RunState::kWorking && !(match && match->isComputing());
 }
 
 QWidget* widgetOf(MainWindow& window, const QString& view) {
@@ -77,13 +81,16 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
     dock->show();
     dock->raise();
   }
-  const auto resting = [&window] { return isResting(window.tasks(), window.run()); };
+  const auto resting = [&window] { return isResting(window); };
+  // What cannot be shown or run is drawn as the window has it, with its warnings.
+  const auto refused = [&window] { return !window.lastMessage().isEmpty(); };
   const bool empty = window.document().session().cases.empty();
-  if (!waitUntil([&] { return (empty || window.state().currentCase()) && resting(); }))
+  const auto shown_case = [&] { return empty || window.state().currentCase() || refused(); };
+  if (!waitUntil([&] { return shown_case() && resting(); }))
     return QObject::tr("the session's case could not be shown");
-  if (!empty && !window.state().snapshot()) {
+  if (window.state().currentCase() && !window.state().snapshot()) {
     window.cases().advance(sessions::StepUntil::kEnd);
-    if (!waitUntil([&] { return window.state().snapshot() && resting(); }))
+    if (!waitUntil([&] { return (window.state().snapshot() || refused()) && resting(); }))
       return QObject::tr("the run did not end");
   }
   if (order.iteration > -2) {
@@ -91,6 +98,9 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
     cursor.iteration = order.iteration;
     window.state().setCursor(cursor);
   }
+  const auto* iteration = window.state().iteration();
+  if (iteration && !iteration->templates.empty() && window.state().selectedTemplate() < 0)
+    window.state().selectTemplate(0);
   window.image().view().fit();
   waitUntil(resting);
   QApplication::processEvents();

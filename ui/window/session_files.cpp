@@ -2,6 +2,7 @@
 #include "ui/window/session_files.h"
 
 #include <exception>
+#include <optional>
 #include <utility>
 
 #include <QFileDialog>
@@ -33,10 +34,9 @@ bool SessionFiles::open(const std::filesystem::path& file) {
 }
 
 void SessionFiles::askForSession() {
-  if (!mayLeave()) return;
   const QString file = QFileDialog::getOpenFileName(&window_, tr("Open a session"), {},
                                                     tr("Sessions (*.json);;All files (*)"));
-  if (!file.isEmpty()) open(path(file));
+  if (!file.isEmpty() && mayLeave()) open(path(file));
 }
 
 void SessionFiles::askForFiles() {
@@ -127,6 +127,7 @@ bool SessionFiles::saveAs() {
 
 bool SessionFiles::mayLeave() {
   const Document& document = parts_.document;
+  if (document.isUntitled()) return mayLeaveUntitled();
   if (!document.isModified()) return true;
   QMessageBox box(QMessageBox::Question, tr("Boresight"),
                   tr("Save the changes of %1?").arg(text(document.file().filename())),
@@ -139,13 +140,41 @@ bool SessionFiles::mayLeave() {
   return answer == QMessageBox::Discard;
 }
 
+bool SessionFiles::mayLeaveUntitled() {
+  QMessageBox box(QMessageBox::Question, tr("Boresight"),
+                  tr("Save this session? It has no name yet."),
+                  QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
+  box.setInformativeText(
+      tr("Discarded, it is gone with its runs; the files that it was made of "
+         "stay."));
+  const int answer = box.exec();
+  if (answer == QMessageBox::Save) return saveAs();
+  if (answer != QMessageBox::Discard) return false;
+  parts_.document.discardUntitled();
+  return true;
+}
+
+void SessionFiles::offerUntitled() {
+  const std::optional<std::filesystem::path> left = Document::leftUntitled();
+  if (!left) return;
+  QMessageBox box(QMessageBox::Question, tr("Boresight"),
+                  tr("A session without a name was left when the program ended last. Go on with "
+                     "it?"),
+                  QMessageBox::Yes | QMessageBox::No, &window_);
+  box.setInformativeText(
+      tr("It lies in %1 and is offered until it is saved or discarded.").arg(text(*left)));
+  if (box.exec() == QMessageBox::Yes) parts_.document.open(*left);
+}
+
 void SessionFiles::offerRecovery() {
   Document& document = parts_.document;
   if (!document.recovery()) return;
   const sessions::Recovery& recovery = **document.recovery();
   QMessageBox box(QMessageBox::Question, tr("Boresight"),
-                  tr("%1 has %n change(s) that were made but not saved, the last one at %2.", "",
-                     static_cast<int>(recovery.edits.size()))
+                  (recovery.edits.size() == 1
+                       ? tr("%1 has a change that was made but not saved, at %2.")
+                       : tr("%1 has %3 changes that were made but not saved, the last one at %2.")
+                             .replace(QLatin1String("%3"), QString::number(recovery.edits.size())))
                       .arg(text(document.file().filename()), QString::fromStdString(recovery.time)),
                   QMessageBox::NoButton, &window_);
   QStringList edits;

@@ -30,6 +30,8 @@ class SessionFiles : public QObject {
   bool mayLeave();
   /// Offers the edits of a program that was killed, if there are any.
   void offerRecovery();
+  /// Offers the newest session without a name that a program has left and that nobody has open.
+  void offerUntitled();
 
  public Q_SLOTS:
   void askForSession();
@@ -47,6 +49,7 @@ class SessionFiles : public QObject {
   void makeFromDataset(const std::filesystem::path& dataset);
   void addCase();
   bool askForUnits();
+  bool mayLeaveUntitled();
 
   QWidget& window_;
   WindowParts parts_;

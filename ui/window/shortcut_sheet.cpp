@@ -39,19 +39,44 @@ void collect(const QList<QAction*>& actions, QList<Row>& rows) {
   }
 }
 
-QList<Row> viewRows() {
-  const std::array<const char*, 7> keys = {
-      "Wheel", "Drag", "Double click, 0", "1", "+, -, arrows", "Enter, Backspace", "Escape"};
-  const std::array<const char*, 7> texts = {"Zoom at the cursor",
-                                            "Move the image (with a mask tool: the middle button)",
-                                            "Show the whole image",
-                                            "One image pixel on one screen pixel",
-                                            "Zoom and move by keys",
-                                            "Close a polygon of the mask, drop its last corner",
-                                            "Drop the polygon; leave the mask tool"};
+struct Fixed {
+  const char* keys;
+  const char* text;
+};
+
+/// Keys that are no actions of a menu: those of the image, the scene, tables and the field for
+/// nudging, each where the pointer or the focus is.
+constexpr std::array<Fixed, 23> kFixed = {{
+    {QT_TR_NOOP("Image: wheel"), QT_TR_NOOP("Zoom at the cursor")},
+    {QT_TR_NOOP("Image: drag"), QT_TR_NOOP("Move the image")},
+    {QT_TR_NOOP("Image: double click, 0"), QT_TR_NOOP("Show the whole image")},
+    {QT_TR_NOOP("Image: 1"), QT_TR_NOOP("One image pixel on one screen pixel")},
+    {QT_TR_NOOP("Image: +, -, arrows"), QT_TR_NOOP("Zoom and move")},
+    {QT_TR_NOOP("Image: click"), QT_TR_NOOP("Choose a template")},
+    {QT_TR_NOOP("Mask tool: middle drag"), QT_TR_NOOP("Move the image")},
+    {QT_TR_NOOP("Mask tool: Enter, Backspace"),
+     QT_TR_NOOP("Close a polygon of the mask, drop its last corner")},
+    {QT_TR_NOOP("Mask tool: Escape"), QT_TR_NOOP("Drop the polygon; leave the mask tool")},
+    {QT_TR_NOOP("Scene: drag"), QT_TR_NOOP("Turn; with Shift or the middle button move")},
+    {QT_TR_NOOP("Scene: right drag, wheel"), QT_TR_NOOP("Nearer and farther")},
+    {QT_TR_NOOP("Scene: click"), QT_TR_NOOP("Choose a template, or read a point of the mesh")},
+    {QT_TR_NOOP("Scene: Home, double click"), QT_TR_NOOP("Show the whole scene")},
+    {QT_TR_NOOP("Scene: 1 to 7"), QT_TR_NOOP("Look from a fixed direction")},
+    {QT_TR_NOOP("Scene: V"), QT_TR_NOOP("Look through the camera")},
+    {QT_TR_NOOP("Scene: +, -, arrows"), QT_TR_NOOP("Zoom and turn")},
+    {QT_TR_NOOP("Nudging: arrows"), QT_TR_NOOP("Move right, left, up, down")},
+    {QT_TR_NOOP("Nudging: Page Up, Page Down"), QT_TR_NOOP("Move away, nearer")},
+    {QT_TR_NOOP("Nudging: with Ctrl"), QT_TR_NOOP("Turn instead of moving")},
+    {QT_TR_NOOP("Nudging: with Shift, Alt"), QT_TR_NOOP("Ten times, a tenth of the step")},
+    {QT_TR_NOOP("Inputs: Ctrl+C"), QT_TR_NOOP("Copy the chosen lines")},
+    {QT_TR_NOOP("Configuration: F2"), QT_TR_NOOP("Change the option")},
+    {QT_TR_NOOP("Configuration: Del"), QT_TR_NOOP("Take the option back to its default")},
+}};
+
+QList<Row> fixedRows() {
   QList<Row> rows;
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    rows.push_back({QObject::tr(keys[i]), QObject::tr(texts[i])});
+  for (const Fixed& each : kFixed)
+    rows.push_back({ShortcutSheet::tr(each.keys), ShortcutSheet::tr(each.text)});
   return rows;
 }
 
@@ -61,7 +86,7 @@ ShortcutSheet::ShortcutSheet(QWidget& window) : QDialog(&window) {
   setWindowTitle(tr("Keys"));
   QList<Row> rows;
   if (auto* bar = window.findChild<QMenuBar*>()) collect(bar->actions(), rows);
-  rows += viewRows();
+  rows += fixedRows();
   auto* sheet = new QWidget;
   auto* grid = new QGridLayout(sheet);
   grid->setHorizontalSpacing(16);
@@ -81,7 +106,7 @@ ShortcutSheet::ShortcutSheet(QWidget& window) : QDialog(&window) {
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(scroll);
   layout->addWidget(buttons);
-  resize(760, 520);
+  resize(900, 620);
 }
 
 }  // namespace boresight::ui

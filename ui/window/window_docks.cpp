@@ -43,7 +43,10 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       mask_editor_(new MaskEditor(image_->view(), image_)),
       mask_(new MaskPanel(*mask_editor_)),
       levels_(new LevelsPanel(image_->display())),
-      warnings_(new WarningBar(tr("Inputs"), tr("Show all that is known of the inputs"))) {
+      warnings_(new WarningBar(tr("Inputs"), tr("Show all that is known of the inputs"))),
+      findings_(new WarningBar(tr("Mend ..."),
+                               tr("Look for missing files below the session's folder, or take "
+                                  "changed ones as they are"))) {
   window_.setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowNestedDocks |
                          QMainWindow::AllowTabbedDocks);
   // Tables of poses and options are long, the one of iterations is wide.
@@ -67,6 +70,7 @@ void WindowDocks::buildCentre() {
   auto* column = new QVBoxLayout(centre);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
+  column->addWidget(findings_);
   column->addWidget(warnings_);
   column->addWidget(image_, 1);
   window_.setCentralWidget(centre);

@@ -39,6 +39,8 @@ class WindowDocks {
   LevelsPanel& levels() const { return *levels_; }
   /// Above the image: what looks wrong with the case's inputs.
   WarningBar& warnings() const { return *warnings_; }
+  /// The same for files that are missing or have changed.
+  WarningBar& findings() const { return *findings_; }
   /// Brings a dock to the front.
   void raise(const QString& name) const;
   /// Every dock where it was when the program started for the first time.
@@ -65,6 +67,7 @@ class WindowDocks {
   MaskPanel* mask_;
   LevelsPanel* levels_;
   WarningBar* warnings_;
+  WarningBar* findings_;
 };
 
 }  // namespace boresight::ui

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <QSignalSpy>
+#include <QStandardPaths>
 
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
@@ -94,6 +95,35 @@ TEST_F(DocumentTest, WhatCannotBeOpenedIsToldInOneSentence) {
   EXPECT_FALSE(document.isOpen());
   EXPECT_FALSE(document.save());
   EXPECT_FALSE(document.undo());
+}
+
+TEST(UntitledDocument, IsOfferedUntilItIsDiscarded) {
+  QStandardPaths::setTestModeEnabled(true);
+  std::filesystem::remove_all(Document::untitledFolder());
+  EXPECT_FALSE(Document::leftUntitled().has_value());
+  Document document;
+  ASSERT_TRUE(document.createUntitled(sessions::Session()));
+  const std::filesystem::path file = document.file();
+  EXPECT_FALSE(Document::leftUntitled().has_value()) << "somebody has it open";
+  document.close();
+  ASSERT_TRUE(Document::leftUntitled().has_value());
+  EXPECT_EQ(*Document::leftUntitled(), file);
+  ASSERT_TRUE(document.open(file));
+  EXPECT_TRUE(document.isUntitled());
+  document.discardUntitled();
+  EXPECT_FALSE(document.isOpen());
+  EXPECT_FALSE(Document::leftUntitled().has_value());
+  for (const auto& entry : std::filesystem::directory_iterator(Document::untitledFolder()))
+    ADD_FAILURE() << entry.path() << " is left";
+}
+
+TEST(UntitledDocument, OneWithANameIsNeverDiscarded) {
+  const test::TemporaryFolder folder;
+  Document document;
+  ASSERT_TRUE(document.create(folder.path() / "named.boresight.json", sessions::Session()));
+  document.discardUntitled();
+  EXPECT_TRUE(document.isOpen());
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "named.boresight.json"));
 }
 
 }  // namespace

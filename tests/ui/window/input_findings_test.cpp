@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/input_findings.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+
+#include <QStandardPaths>
+#include <QtTest/QTest>
+
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/panels/warning_bar.h"
+#include "ui/window/main_window.h"
+
+namespace boresight::ui {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr int kPatienceMs = 60'000;
+
+/// A session whose inputs lie beside it, so that they can be moved and changed.
+class InputFindingsTest : public ::testing::Test {
+ protected:
+  InputFindingsTest() {
+    QStandardPaths::setTestModeEnabled(true);
+    fs::copy(test::exampleFolder(), inputs_, fs::copy_options::recursive);
+    window_.setQuiet(true);
+    window_.show();
+  }
+
+  void open() {
+    ASSERT_TRUE(window_.document().create(folder_.path() / "one.boresight.json",
+                                          sessions::makeSession(inputs_ / "dataset.json")));
+    settle();
+  }
+  void reopen() {
+    window_.document().close();
+    ASSERT_TRUE(window_.openSession(folder_.path() / "one.boresight.json"));
+    settle();
+  }
+  void settle() {
+    ASSERT_TRUE(QTest::qWaitFor(
+        [this] { return !window_.findings().isBusy() && !window_.tasks().isBusy(); }, kPatienceMs));
+  }
+  fs::path image() const { return inputs_ / "bc" / "image.png"; }
+
+  test::TemporaryFolder folder_;
+  fs::path inputs_ = folder_.path() / "inputs";
+  MainWindow window_;
+};
+
+TEST_F(InputFindingsTest, SaysNothingOfASessionThatIsWhole) {
+  open();
+  EXPECT_TRUE(window_.findings().findings().empty());
+}
+
+TEST_F(InputFindingsTest, AMovedImageIsMissedAtOnceAndFoundAgain) {
+  open();
+  fs::create_directories(inputs_ / "elsewhere");
+  fs::rename(image(), inputs_ / "elsewhere" / "image.png");
+  reopen();
+  ASSERT_EQ(window_.findings().findings().size(), 1u);
+  EXPECT_EQ(window_.findings().findings()[0].kind, sessions::FindingKind::kMissing);
+  EXPECT_EQ(window_.state().currentCase(), nullptr);
+  window_.findings().mend();
+  settle();
+  EXPECT_TRUE(window_.findings().findings().empty());
+  EXPECT_NE(window_.state().currentCase(), nullptr) << "the case that could not be read is read";
+  EXPECT_TRUE(window_.document().canUndo());
+}
+
+TEST_F(InputFindingsTest, AMissingImageThatIsNowhereIsSaidToBe) {
+  open();
+  fs::remove(image());
+  reopen();
+  window_.findings().mend();
+  settle();
+  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("None of the missing files")))
+      << window_.lastMessage().toStdString();
+  EXPECT_EQ(window_.findings().findings().size(), 1u);
+}
+
+TEST_F(InputFindingsTest, AChangedFileIsReportedAndNotUsed) {
+  open();
+  fs::copy_file(inputs_ / "os" / "image.png", image(), fs::copy_options::overwrite_existing);
+  reopen();
+  ASSERT_EQ(window_.findings().findings().size(), 1u);
+  EXPECT_EQ(window_.findings().findings()[0].kind, sessions::FindingKind::kChanged);
+  EXPECT_EQ(window_.state().currentCase(), nullptr);
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/input_findings.h"
+
+#include <set>
+#include <string>
+
+#include <QMessageBox>
+
+#include "ui/models/number_text.h"
+#include "ui/panels/warning_bar.h"
+#include "ui/state/document.h"
+
+namespace boresight::ui {
+
+using sessions::FindingKind;
+
+InputFindings::InputFindings(const WindowParts& parts, WarningBar& bar, QWidget& window)
+    : QObject(&window), parts_(parts), bar_(bar), window_(window) {
+  connect(&parts_.document, &Document::opened, this, &InputFindings::check);
+  connect(&bar_, &WarningBar::actionRequested, this, &InputFindings::mend);
+  connect(&tasks_, &TaskRunner::failed, this, &InputFindings::failed);
+}
+
+void InputFindings::check() {
+  findings_.clear();
+  show();
+  tasks_.cancel(QStringLiteral("mend"));
+  tasks_.start(
+      QStringLiteral("check"),
+      [session = parts_.document.session()](const std::stop_token&) {
+        return sessions::checkInputs(session);
+      },
+      [this](std::vector<sessions::Finding> findings) {
+        findings_ = std::move(findings);
+        show();
+      });
+}
+
+void InputFindings::show() {
+  QStringList sentences;
+  for (const sessions::Finding& finding : findings_) sentences << fromText(finding.text);
+  bar_.setSentences(sentences);
+}
+
+bool InputFindings::has(FindingKind kind) const {
+  for (const sessions::Finding& finding : findings_)
+    if (finding.kind == kind && finding.what != "run") return true;
+  return false;
+}
+
+void InputFindings::mend() {
+  if (has(FindingKind::kMissing)) {
+    findMoved();
+  } else if (has(FindingKind::kChanged)) {
+    const auto answer = QMessageBox::question(
+        &window_, tr("Boresight"),
+        tr("Use the changed files as they are now? Runs that were made with the former ones are "
+           "marked as made with other inputs."));
+    if (answer == QMessageBox::Yes) acceptChanged();
+  } else {
+    check();  // somebody may have put things right
+  }
+}
+
+void InputFindings::findMoved() {
+  const sessions::Session session = parts_.document.session();
+  tasks_.start(
+      QStringLiteral("mend"),
+      [session, file = parts_.document.file()](const std::stop_token&) {
+        return sessions::findMissing(session, file);
+      },
+      [this](const std::vector<sessions::Relink>& relinks) {
+        const Document& document = parts_.document;
+        if (relinks.empty()) {
+          Q_EMIT failed(tr("None of the missing files is in %1 or below it. Put them there, or "
+                           "back where they were, and look again.")
+                            .arg(fromText(document.file().parent_path().string())));
+        } else if (parts_.document.edit(sessions::relinked(document.session(), relinks),
+                                        tr("Find moved files"))) {
+          check();
+        }
+      });
+}
+
+void InputFindings::acceptChanged() {
+  std::set<std::string> ids;
+  for (const sessions::Finding& finding : findings_)
+    if (finding.kind == FindingKind::kChanged) ids.insert(finding.case_id);
+  tasks_.start(
+      QStringLiteral("mend"),
+      [session = parts_.document.session(), ids](const std::stop_token&) {
+        std::vector<sessions::SessionCase> accepted;
+        for (const std::string& id : ids)
+          accepted.push_back(*sessions::acceptingInputs(session, id).findCase(id));
+        return accepted;
+      },
+      [this](const std::vector<sessions::SessionCase>& accepted) {
+        sessions::Session session = parts_.document.session();
+        for (const sessions::SessionCase& one : accepted)
+          session = sessions::withCase(session, one);
+        if (parts_.document.edit(session, tr("Accept changed files"))) check();
+      });
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <QObject>
+
+#include "sessions/session/input_check.h"
+#include "ui/run/task_runner.h"
+#include "ui/window/window_parts.h"
+
+class QWidget;
+
+namespace boresight::ui {
+
+class WarningBar;
+
+/// Compares the files of a session with what the session knows of them as soon as it is opened,
+/// says which are missing or changed, and mends it when asked: looks for moved files below the
+/// session's folder, or takes changed ones as they are. Hashing may take long, so it has a runner
+/// of its own.
+class InputFindings : public QObject {
+  Q_OBJECT
+
+ public:
+  InputFindings(const WindowParts& parts, WarningBar& bar, QWidget& window);
+
+  const std::vector<sessions::Finding>& findings() const { return findings_; }
+  bool isBusy() const { return tasks_.isBusy(); }
+
+ public Q_SLOTS:
+  /// What the bar's button does.
+  void mend();
+
+ Q_SIGNALS:
+  void failed(const QString& message);
+
+ private:
+  void check();
+  void show();
+  bool has(sessions::FindingKind kind) const;
+  void findMoved();
+  void acceptChanged();
+
+  WindowParts parts_;
+  WarningBar& bar_;
+  QWidget& window_;
+  TaskRunner tasks_;
+  std::vector<sessions::Finding> findings_;
+};
+
+}  // namespace boresight::ui
