@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/cases_panel.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <QComboBox>
@@ -85,6 +86,9 @@ void CasesPanel::setRows(std::vector<CaseRow> rows) {
   model_.setRows(std::move(rows));
   showing_ = false;
   fitColumns(*table_);
+  // A long name must not push the state out of sight; the tooltip has it whole.
+  const int most = kThumbnail_px + table_->fontMetrics().horizontalAdvance(QString(14, u'0'));
+  table_->setColumnWidth(CasesModel::kCase, std::min(table_->columnWidth(CasesModel::kCase), most));
   setCurrent(current_);
 }
 

@@ -12,6 +12,18 @@
 #include <QStandardPaths>
 
 namespace boresight::ui {
+namespace {
+
+/// A session's file with its journal, lock and runs.
+void removeWithCompanions(const std::filesystem::path& file) {
+  const std::string stem = file.stem().string();  // "untitled-....boresight"
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(file.parent_path(), ignored))
+    if (entry.path().filename().string().starts_with(stem + "."))
+      std::filesystem::remove_all(entry.path(), ignored);
+}
+
+}  // namespace
 
 Document::Document(QObject* parent) : QObject(parent) {}
 Document::~Document() = default;
@@ -86,9 +98,10 @@ bool Document::save() {
 }
 
 bool Document::saveAs(const std::filesystem::path& file) {
+  const std::filesystem::path former = this->file();
   const bool done = document_ && attempt([&] { document_->saveAs(file); });
   if (done) {
-    untitled_ = false;
+    if (std::exchange(untitled_, false) && former != this->file()) removeWithCompanions(former);
     Q_EMIT changed();
   }
   return done;
@@ -103,13 +116,9 @@ void Document::close() {
 
 void Document::discardUntitled() {
   if (!untitled_) return;
-  const std::filesystem::path folder = file().parent_path();
-  const std::string stem = file().stem().string();  // "untitled-....boresight"
+  const std::filesystem::path discarded = file();
   close();
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-    if (entry.path().filename().string().starts_with(stem + "."))
-      std::filesystem::remove_all(entry.path(), ignored);
+  removeWithCompanions(discarded);
 }
 
 std::optional<std::filesystem::path> Document::leftUntitled() {

@@ -54,9 +54,7 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
   buildBar(*bar);
   layout->addLayout(bar);
   layout->addWidget(view_, 1);
-  view_->setHint(
-      tr("Drop an image, a mesh, a camera and a seed here, or a dataset.json, or a "
-         "session"));
+  setHint({});
   view_->setObjectName(QStringLiteral("imageView"));
 
   blink_timer_.setInterval(kBlinkMs);
@@ -74,6 +72,14 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
   connect(&state_, &ViewState::caseChanged, this, &ImagePanel::showCase);
   connect(&state_, &ViewState::cursorChanged, this, &ImagePanel::showIteration);
   connect(&state_, &ViewState::templateSelected, this, &ImagePanel::showTemplates);
+}
+
+void ImagePanel::setHint(const QString& hint) {
+  view_->setHint(
+      !hint.isEmpty()
+          ? hint
+          : tr("Drop an image, a mesh, a camera and a seed here, or a dataset.json, or a "
+               "session"));
 }
 
 void ImagePanel::buildBar(QBoxLayout& layout) {

@@ -37,6 +37,8 @@ class ImagePanel : public QWidget {
   const LayerStyle& style(LayerId id) const;
   /// Edges of the pose being nudged; nullptr takes them away.
   void setNudgedRender(std::shared_ptr<const sessions::RenderTrace> render, int level);
+  /// What is said while there is no image; nothing: what can be dropped here.
+  void setHint(const QString& hint);
   void setPoints(std::vector<Mark> marks);
 
  public Q_SLOTS:

@@ -85,8 +85,10 @@ void MainWindow::connectAll() {
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);
   connect(files_, &SessionFiles::failed, this, &MainWindow::showMessage);
-  connect(files_, &SessionFiles::noted, this,
-          [this](const QString& message) { statusBar()->showMessage(message); });
+  connect(files_, &SessionFiles::noted, this, [this](const QString& message) {
+    statusBar()->showMessage(message);
+    if (!state_.currentCase()) image().setHint(message);  // where people look
+  });
   connect(&document_, &Document::opened, this, &MainWindow::showDocument);
   connect(&document_, &Document::changed, this, &MainWindow::showState);
   connect(&document_, &Document::failed, this, &MainWindow::showMessage);
@@ -98,6 +100,7 @@ void MainWindow::connectAll() {
 
 void MainWindow::showMessage(const QString& message) {
   last_message_ = message;
+  image().setHint({});
   if (quiet_) return;
   QMessageBox box(QMessageBox::Warning, tr("Boresight"), message, QMessageBox::Ok, this);
   box.setTextInteractionFlags(Qt::TextSelectableByMouse);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/session_files.h"
 
-#include <exception>
 #include <optional>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include <QPushButton>
 
 #include "sessions/session/session_maker.h"
+#include "ui/run/task_runner.h"
 #include "ui/state/document.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/recent_files.h"
@@ -62,36 +62,50 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
       Q_EMIT noted(tr("Taken. Still missing: %1").arg(QString::fromStdString(dropped.missing())));
     return;
   }
-  try {
-    if (dropped.dataset) {
-      makeFromDataset(*dropped.dataset);
-    } else {
-      addCase();
-    }
-  } catch (const std::exception& error) {
-    collected_ = {};
-    Q_EMIT failed(QString::fromUtf8(error.what()));
+  if (dropped.dataset) {
+    makeFromDataset(*dropped.dataset);
+  } else {
+    addCase();
   }
 }
 
+/// Every image and mesh is read and hashed: off the UI's thread.
 void SessionFiles::makeFromDataset(const std::filesystem::path& dataset) {
   if (!mayLeave()) return;
-  parts_.document.createUntitled(sessions::makeSession(dataset));
   collected_ = {};
+  Q_EMIT noted(tr("Reading %1 and all that it names ...").arg(text(dataset.filename())));
+  parts_.tasks.start(
+      QStringLiteral("make session"),
+      [dataset](const std::stop_token&) { return sessions::makeSession(dataset); },
+      [this](const sessions::Session& session) {
+        Q_EMIT noted({});
+        parts_.document.createUntitled(session);
+      });
 }
 
 void SessionFiles::addCase() {
   if (!askForUnits()) return;
-  sessions::MadeCase made = sessions::makeCase(collected_.one);
-  const QString id = QString::fromStdString(made.made.id);
+  Q_EMIT noted(tr("Reading the files ..."));
+  parts_.tasks.start(
+      QStringLiteral("make session"),
+      [files = std::exchange(collected_, {}).one](const std::stop_token&) {
+        return sessions::makeCase(files).made;
+      },
+      [this](sessions::SessionCase made) {
+        Q_EMIT noted({});
+        takeCase(std::move(made));
+      });
+}
+
+void SessionFiles::takeCase(sessions::SessionCase made) {
+  const QString id = QString::fromStdString(made.id);
   Document& document = parts_.document;
-  const sessions::Session session = sessions::withCase(document.session(), std::move(made.made));
+  const sessions::Session session = sessions::withCase(document.session(), std::move(made));
   if (!document.isOpen() || !document.readOnlyReason().isEmpty()) {
     document.createUntitled(session);
   } else if (document.edit(session, tr("Add %1").arg(id))) {
     parts_.cases.chooseCase(id);
   }
-  collected_ = {};
 }
 
 bool SessionFiles::askForUnits() {
@@ -180,8 +194,8 @@ void SessionFiles::offerRecovery() {
   QStringList edits;
   for (const std::string& edit : recovery.edits) edits << QString::fromStdString(edit);
   box.setDetailedText(edits.join(QLatin1Char('\n')));
-  QAbstractButton* accept = box.addButton(tr("Recover them"), QMessageBox::AcceptRole);
-  box.addButton(tr("Set them aside"), QMessageBox::DestructiveRole);
+  QAbstractButton* accept = box.addButton(tr("Recover"), QMessageBox::AcceptRole);
+  box.addButton(tr("Set aside"), QMessageBox::DestructiveRole);
   box.exec();
   if (box.clickedButton() == accept) {
     document.acceptRecovery();

@@ -7,6 +7,7 @@
 #include <QObject>
 #include <QString>
 
+#include "sessions/session/session.h"
 #include "ui/window/dropped_files.h"
 #include "ui/window/window_parts.h"
 
@@ -48,6 +49,7 @@ class SessionFiles : public QObject {
  private:
   void makeFromDataset(const std::filesystem::path& dataset);
   void addCase();
+  void takeCase(sessions::SessionCase made);
   bool askForUnits();
   bool mayLeaveUntitled();
 

@@ -66,6 +66,14 @@ TEST_F(CasesPanelTest, RunsWhatIsListed) {
   EXPECT_FALSE(button("runAll")->isEnabled());
 }
 
+TEST_F(CasesPanelTest, ALongNameLeavesTheStateInSight) {
+  std::vector<CaseRow> rows(1);
+  rows[0].id = QString(60, QLatin1Char('w'));
+  panel_.resize(256, 400);
+  panel_.setRows(rows);
+  EXPECT_LT(table_->columnViewportPosition(CasesModel::kState), table_->viewport()->width());
+}
+
 TEST_F(CasesPanelTest, ListsOneState) {
   panel_.findChild<QComboBox*>()->setCurrentIndex(1 + static_cast<int>(CaseState::kFailed));
   EXPECT_EQ(panel_.listed(), QStringList{QStringLiteral("bc-1")});

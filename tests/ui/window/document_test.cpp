@@ -117,6 +117,20 @@ TEST(UntitledDocument, IsOfferedUntilItIsDiscarded) {
     ADD_FAILURE() << entry.path() << " is left";
 }
 
+TEST(UntitledDocument, GivenANameItIsNotOfferedAgain) {
+  QStandardPaths::setTestModeEnabled(true);
+  std::filesystem::remove_all(Document::untitledFolder());
+  const test::TemporaryFolder folder;
+  Document document;
+  ASSERT_TRUE(document.createUntitled(example()));
+  ASSERT_TRUE(document.saveAs(folder.path() / "named.boresight.json"));
+  EXPECT_FALSE(document.isUntitled());
+  EXPECT_TRUE(std::filesystem::is_empty(Document::untitledFolder()));
+  document.close();
+  ASSERT_TRUE(document.open(folder.path() / "named.boresight.json"));
+  EXPECT_EQ(document.session().cases.size(), example().cases.size());
+}
+
 TEST(UntitledDocument, OneWithANameIsNeverDiscarded) {
   const test::TemporaryFolder folder;
   Document document;
