@@ -97,9 +97,22 @@ TEST_F(DocumentTest, WhatCannotBeOpenedIsToldInOneSentence) {
   EXPECT_FALSE(document.undo());
 }
 
-TEST(UntitledDocument, IsOfferedUntilItIsDiscarded) {
-  QStandardPaths::setTestModeEnabled(true);
-  std::filesystem::remove_all(Document::untitledFolder());
+/// With a folder of its own for sessions without a name: tests run side by side.
+class UntitledDocument : public ::testing::Test {
+ protected:
+  UntitledDocument() {
+    QStandardPaths::setTestModeEnabled(false);
+    qputenv("XDG_DATA_HOME", QByteArray::fromStdString(data_.path().string()));
+  }
+  ~UntitledDocument() override {
+    qunsetenv("XDG_DATA_HOME");
+    QStandardPaths::setTestModeEnabled(true);
+  }
+
+  test::TemporaryFolder data_;
+};
+
+TEST_F(UntitledDocument, IsOfferedUntilItIsDiscarded) {
   EXPECT_FALSE(Document::leftUntitled().has_value());
   Document document;
   ASSERT_TRUE(document.createUntitled(sessions::Session()));
@@ -117,9 +130,7 @@ TEST(UntitledDocument, IsOfferedUntilItIsDiscarded) {
     ADD_FAILURE() << entry.path() << " is left";
 }
 
-TEST(UntitledDocument, GivenANameItIsNotOfferedAgain) {
-  QStandardPaths::setTestModeEnabled(true);
-  std::filesystem::remove_all(Document::untitledFolder());
+TEST_F(UntitledDocument, GivenANameItIsNotOfferedAgain) {
   const test::TemporaryFolder folder;
   Document document;
   ASSERT_TRUE(document.createUntitled(example()));
@@ -131,7 +142,7 @@ TEST(UntitledDocument, GivenANameItIsNotOfferedAgain) {
   EXPECT_EQ(document.session().cases.size(), example().cases.size());
 }
 
-TEST(UntitledDocument, OneWithANameIsNeverDiscarded) {
+TEST_F(UntitledDocument, OneWithANameIsNeverDiscarded) {
   const test::TemporaryFolder folder;
   Document document;
   ASSERT_TRUE(document.create(folder.path() / "named.boresight.json", sessions::Session()));

@@ -38,6 +38,9 @@ class LayoutTest : public ::testing::Test {
  protected:
   LayoutTest() {
     QStandardPaths::setTestModeEnabled(true);
+    // Of its own: tests run side by side.
+    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope,
+                       QString::fromStdString((folder_.path() / "settings").string()));
     QSettings().clear();
   }
   ~LayoutTest() override { QSettings().clear(); }
