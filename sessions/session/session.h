@@ -60,8 +60,9 @@ struct SessionCase {
   Pose camera_from_station_seed;
   DeclaredUncertainty uncertainty;
   std::optional<Pose> camera_from_station_truth;
-  std::optional<InputFile> ignore;  ///< mask image
-  MaskStrokes ignore_strokes;       ///< edits of the mask, applied in their order
+  std::optional<Pose> camera_from_station_working;  ///< nudged by hand; no input of a run
+  std::optional<InputFile> ignore;                  ///< mask image
+  MaskStrokes ignore_strokes;                       ///< edits of the mask, applied in their order
   std::optional<InputFile> onboard_record;
   std::optional<Rig> rig;
   std::vector<std::string> tags;

@@ -62,9 +62,15 @@ ordered_json imageJson(const ImageInput& image, const PathWriter& path) {
   json["width"] = image.width;
   json["height"] = image.height;
   json["pixels_sha256"] = image.pixels_sha256;
-  json["rule"] = image.eight_bit.table.empty() ? "linear" : "table";
+  json["rule"] = image.eight_bit.levels          ? "levels"
+                 : image.eight_bit.table.empty() ? "linear"
+                                                 : "table";
   if (image.eight_bit.bit_depth) json["bit_depth"] = *image.eight_bit.bit_depth;
   if (!image.eight_bit.table.empty()) json["table"] = image.eight_bit.table;
+  if (const auto& levels = image.eight_bit.levels) {
+    json["black"] = levels->black;
+    json["white"] = levels->white;
+  }
   return json;
 }
 
@@ -107,6 +113,7 @@ ordered_json listJson(const List& list, Convert&& convert) {
 
 void addExtras(const SessionCase& one, const PathWriter& path, ordered_json& json) {
   if (one.camera_from_station_truth) json["truth"] = poseJson(*one.camera_from_station_truth);
+  if (one.camera_from_station_working) json["working"] = poseJson(*one.camera_from_station_working);
   if (one.ignore) json["ignore"] = inputJson(*one.ignore, path);
   if (!one.ignore_strokes.empty())
     json["ignore_strokes"] = listJson(one.ignore_strokes, strokeJson);
@@ -213,8 +220,15 @@ ImageReadOptions readEightBit(const JsonReader& json) {
   ImageReadOptions options;
   if (const auto depth = json.find("bit_depth"))
     options.bit_depth = static_cast<int>(depth->integer(1, 16));
-  if (json.at("rule").choice({"linear", "table"}) == "linear") {
-    if (json.has("table")) json.failMember("table", "given although the rule is linear");
+  const std::string rule = json.at("rule").choice({"linear", "levels", "table"});
+  if (rule != "table" && json.has("table"))
+    json.failMember("table", "given although the rule is " + rule);
+  if (rule == "linear") return options;
+  if (rule == "levels") {
+    const std::int64_t largest = (std::int64_t{1} << json.at("bit_depth").integer(1, 16)) - 1;
+    const std::int64_t black = json.at("black").integer(0, largest - 1);
+    const std::int64_t white = json.at("white").integer(black + 1, largest);
+    options.levels = GrayLevels{static_cast<int>(black), static_cast<int>(white)};
     return options;
   }
   const JsonReader table = json.at("table");
@@ -228,8 +242,8 @@ ImageReadOptions readEightBit(const JsonReader& json) {
 }
 
 ImageInput readImageInput(const JsonReader& json) {
-  requireKnown(
-      json, {"file", "sha256", "width", "height", "pixels_sha256", "rule", "bit_depth", "table"});
+  requireKnown(json, {"file", "sha256", "width", "height", "pixels_sha256", "rule", "bit_depth",
+                      "table", "black", "white"});
   ImageInput image;
   image.source = {readPath(json.at("file")), readSha256(json.at("sha256"))};
   image.width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
@@ -287,6 +301,8 @@ MaskStroke readStroke(const JsonReader& json) {
 
 void readExtras(const JsonReader& json, SessionCase& one) {
   if (const auto truth = json.find("truth")) one.camera_from_station_truth = readExactPose(*truth);
+  if (const auto working = json.find("working"))
+    one.camera_from_station_working = readExactPose(*working);
   if (const auto ignore = json.find("ignore")) one.ignore = readInput(*ignore);
   if (const auto strokes = json.find("ignore_strokes"))
     for (const JsonReader& stroke : strokes->elements())
@@ -308,8 +324,8 @@ void readExtras(const JsonReader& json, SessionCase& one) {
 
 SessionCase readSessionCase(const JsonReader& json) {
   requireKnown(json, {"id", "station", "image", "camera", "parts", "feature_size_m", "seed",
-                      "uncertainty", "truth", "ignore", "ignore_strokes", "onboard_record", "rig",
-                      "tags", "requirement", "camera_from_end_effector"});
+                      "uncertainty", "truth", "working", "ignore", "ignore_strokes",
+                      "onboard_record", "rig", "tags", "requirement", "camera_from_end_effector"});
   SessionCase one;
   one.id = json.at("id").nonEmptyText();
   if (const auto station = json.find("station")) one.station = station->nonEmptyText();

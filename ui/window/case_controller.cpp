@@ -14,6 +14,16 @@ namespace boresight::ui {
 
 using sessions::StepUntil;
 
+namespace {
+
+/// The views have the nudged pose apart from the case that they show.
+bool sameButNudge(sessions::SessionCase a, const sessions::SessionCase& b) {
+  a.camera_from_station_working = b.camera_from_station_working;
+  return a == b;
+}
+
+}  // namespace
+
 CaseController::CaseController(Document& document, ViewState& state, RunController& run,
                                TaskRunner& tasks, QObject* parent)
     : QObject(parent), document_(document), state_(state), run_(run), tasks_(tasks) {
@@ -52,7 +62,8 @@ void CaseController::documentChanged() {
     return;
   }
   // Another seed, mask or image than the one that is shown.
-  if (!(asked_ == *one)) load(case_id_);
+  if (!asked_ || !sameButNudge(*asked_, *one)) load(case_id_);
+  if (!(one->camera_from_station_working == working_)) showNudgedPose();
   Q_EMIT stalenessChanged();
 }
 
@@ -68,7 +79,15 @@ void CaseController::chooseCase(const QString& id) {
 /// Whether the case that the views have is the document's as it is now.
 bool CaseController::isLoaded() const {
   const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
-  return one && state_.currentCase() && state_.currentCase()->source == *one;
+  return one && state_.currentCase() && sameButNudge(state_.currentCase()->source, *one);
+}
+
+void CaseController::showNudgedPose() {
+  const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
+  working_ = one ? one->camera_from_station_working : std::nullopt;
+  const ViewState::CasePtr& shown = state_.currentCase();
+  if (shown && one && shown->source.id == one->id && state_.nudgedPose() != working_)
+    state_.setNudgedPose(working_);
 }
 
 void CaseController::load(const QString& id) {
@@ -101,6 +120,7 @@ void CaseController::loaded(const QString& id, std::shared_ptr<const sessions::L
     return;
   }
   state_.setCase(std::move(one));
+  showNudgedPose();
   loadLatestRun(id);
 }
 
@@ -276,8 +296,22 @@ void CaseController::useAsSeed(const Pose& camera_from_station) {
   if (!one) return;
   sessions::SessionCase changed = *one;
   changed.camera_from_station_seed = camera_from_station;
+  changed.camera_from_station_working.reset();
   document_.edit(sessions::withCase(document_.session(), std::move(changed)),
                  tr("Move the seed of %1").arg(case_id_));
+}
+
+void CaseController::keepNudgedPose() {
+  const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
+  const ViewState::CasePtr& shown = state_.currentCase();
+  // In a session that cannot be edited people may nudge to look.
+  if (!one || !shown || shown->source.id != one->id || !document_.readOnlyReason().isEmpty())
+    return;
+  sessions::SessionCase changed = *one;
+  changed.camera_from_station_working = state_.nudgedPose();
+  const QString text =
+      state_.nudgedPose() ? tr("Nudge the pose of %1") : tr("Drop the nudged pose of %1");
+  document_.edit(sessions::withCase(document_.session(), std::move(changed)), text.arg(case_id_));
 }
 
 void CaseController::setOptions(const QString& profile, const LocalizerOptions& options) {

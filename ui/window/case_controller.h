@@ -47,6 +47,8 @@ class CaseController : public QObject {
   void reset();
   void runAll(const QStringList& ids);
   void useAsSeed(const boresight::Pose& camera_from_station);
+  /// A gesture has ended: where the pose is nudged to becomes an edit of the document.
+  void keepNudgedPose();
   void setOptions(const QString& profile, const boresight::LocalizerOptions& options);
 
  Q_SIGNALS:
@@ -68,12 +70,14 @@ class CaseController : public QObject {
   void storeRun();
   void runNext();
   void runIfWaiting();
+  void showNudgedPose();
 
   Document& document_;
   ViewState& state_;
   RunController& run_;
   TaskRunner& tasks_;
   QString case_id_;
+  std::optional<Pose> working_;  ///< camera_from_station of the document that the views have
   std::optional<sessions::SessionCase> asked_;  ///< what was read last, or is being read
   bool run_is_prepared_ = false;
   sessions::Session run_session_;  ///< what the run that is prepared is made from

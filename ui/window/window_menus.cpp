@@ -11,6 +11,7 @@
 
 #include "sessions/version.h"
 #include "ui/panels/mask_panel.h"
+#include "ui/panels/pose_panel.h"
 #include "ui/panels/run_scrubber.h"
 #include "ui/run/run_controller.h"
 #include "ui/state/document.h"
@@ -83,7 +84,10 @@ void WindowMenus::buildEditMenu() {
   QMenu* menu = window_.menuBar()->addMenu(tr("&Edit"));
   undo_ = action(tr("&Undo"), QKeySequence::Undo, tr("Take back the last change"));
   redo_ = action(tr("&Redo"), QKeySequence::Redo, tr("Make the change again"));
-  connect(undo_, &QAction::triggered, &parts_.document, &Document::undo);
+  connect(undo_, &QAction::triggered, this, [this] {
+    docks_.poses().nudgeController().finishGesture();  // what is under way is undone first
+    parts_.document.undo();
+  });
   connect(redo_, &QAction::triggered, &parts_.document, &Document::redo);
   menu->addAction(undo_);
   menu->addAction(redo_);

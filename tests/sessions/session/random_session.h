@@ -60,6 +60,8 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
   if (one.image.eight_bit.bit_depth && coin(random))
     for (int i = 0; i < 1 << *one.image.eight_bit.bit_depth; ++i)
       one.image.eight_bit.table.push_back(static_cast<std::uint8_t>(random.below(256)));
+  if (one.image.eight_bit.bit_depth && one.image.eight_bit.table.empty() && coin(random))
+    one.image.eight_bit.levels = sessions::GrayLevels{0, (1 << *one.image.eight_bit.bit_depth) - 1};
   one.camera = randomCamera(random, static_cast<CameraModel>(random.below(3)));
   for (std::uint32_t i = 1u + random.below(3); i > 0; --i) {
     sessions::MeshInput part;
@@ -78,6 +80,7 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
   one.uncertainty.rotation_deg = randomVector(random, 9.0).cwiseAbs();
   if (coin(random)) one.uncertainty.pivot = sessions::UncertaintyPivot::kStation;
   if (coin(random)) one.camera_from_station_truth = randomPose(random);
+  if (coin(random)) one.camera_from_station_working = randomPose(random);
   if (coin(random)) one.ignore = randomInput(random, ".png");
   for (std::uint32_t i = random.below(3); i > 0; --i)
     one.ignore_strokes.push_back(randomStroke(random));
