@@ -109,6 +109,13 @@ std::string stalenessText(const sessions::Staleness& staleness) {
          (staleness.options_changed ? "options" : "") + " changed since";
 }
 
+std::string rerunText(const sessions::RunRecord& run) {
+  if (!run.rerun) return "";
+  const int from_iteration = run.rerun->changes.back().iteration + 1;
+  return ", with other options from its iteration " + std::to_string(from_iteration) + " on" +
+         (run.rerun->from.empty() ? "" : ", going on from run " + run.rerun->from);
+}
+
 void describeCase(const sessions::Session& session, const sessions::SessionCase& one,
                   const path& file) {
   line("case " + one.id + (one.station.empty() ? "" : ", station " + one.station));
@@ -123,7 +130,7 @@ void describeCase(const sessions::Session& session, const sessions::SessionCase&
   for (const sessions::RunRecord& run : session.runs)
     if (run.case_id == one.id)
       line("  run " + run.digest + ": " + run.status + ", " + run.time + ", whs " + run.version +
-           stalenessText(sessions::stalenessOf(run, session, file)));
+           stalenessText(sessions::stalenessOf(run, session, file)) + rerunText(run));
   if (const sessions::Decision* decision = session.decisionOn(one.id))
     line(std::string("  ") +
          (decision->verdict == sessions::Verdict::kValidated ? "validated" : "rejected") + " by " +

@@ -13,6 +13,7 @@ namespace {
 struct RunArguments {
   std::string session;
   std::vector<std::string> cases;
+  std::string again;
   bool recover = false;
 };
 
@@ -39,6 +40,35 @@ int runOne(sessions::SessionDocument& document, const std::string& id) {
   return trace.converged() ? kDone : kNotConverged;
 }
 
+/// The recorded run whose digest begins like this.
+const sessions::RunRecord& recordedRun(const sessions::SessionDocument& document,
+                                       const std::string& beginning) {
+  const sessions::RunRecord* found = nullptr;
+  for (const sessions::RunRecord& run : document.session().runs) {
+    if (!run.digest.starts_with(beginning)) continue;
+    if (found != nullptr && found->digest != run.digest)
+      throw sessions::InputError(document.file(), "runs",
+                                 "more than one digest begins with " + beginning);
+    found = &run;
+  }
+  if (found == nullptr)
+    throw sessions::InputError(document.file(), "runs", "no digest begins with " + beginning);
+  return *found;
+}
+
+/// Runs a recorded run once more, by the options that it had, and says whether it is the same.
+int runAgain(const sessions::SessionDocument& document, const std::string& beginning) {
+  const sessions::RunRecord& run = recordedRun(document, beginning);
+  const sessions::RunPlan plan = sessions::planOf(run, document.session(), document.file());
+  const auto loaded = sessions::loadCase(*document.session().findCase(run.case_id));
+  const sessions::LocalizationTrace trace =
+      sessions::runCase(*loaded, plan, sessions::RecordLevel::kSummary);
+  const bool same = trace.digest == run.digest;
+  std::cout << run.case_id << ": " << run.status << ", digest " << trace.digest
+            << (same ? ", the same" : ", NOT the same as recorded") << std::endl;
+  return same ? kDone : kNotConverged;
+}
+
 int runSession(const RunArguments& arguments) {
   sessions::SessionDocument document = sessions::SessionDocument::open(arguments.session);
   if (document.readOnly()) throw sessions::OutputError(document.file(), document.readOnlyReason());
@@ -49,6 +79,7 @@ int runSession(const RunArguments& arguments) {
                                    " edits were never saved; take them with --recover, or open "
                                    "the session in the desktop program");
   document.acceptRecovery();
+  if (!arguments.again.empty()) return runAgain(document, arguments.again);
   int exit_code = kDone;
   for (const std::string& id : selectedCases(document, arguments.cases)) {
     try {
@@ -72,6 +103,13 @@ void addRun(CLI::App& app, int& exit_code) {
   command->add_option("session", arguments->session, "Session file")->required()->type_name("FILE");
   command->add_option("--case", arguments->cases, "Only this case; may be repeated")
       ->type_name("ID");
+  command
+      ->add_option(
+          "--again", arguments->again,
+          "Instead: run a recorded run once more, with the options that it had and took up "
+          "on its way, and compare; the beginning of its digest")
+      ->type_name("DIGEST")
+      ->excludes("--case");
   command->add_flag("--recover", arguments->recover,
                     "Take edits that a killed program left in the session's journal");
   command->callback([arguments, &exit_code] { exit_code = runSession(*arguments); });

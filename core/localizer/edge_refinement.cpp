@@ -39,10 +39,14 @@ void addRow(const EdgeSample& sample, const Eigen::Vector3d& point_in_camera_m,
 
 }  // namespace
 
-Status EdgeRefinement::create(const RefinementOptions& options, Arena& arena) {
+void EdgeRefinement::setOptions(const RefinementOptions& options) {
   options_ = options;
-  if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   search_ = EdgeSearch(options.derivative_sigma_px);
+}
+
+Status EdgeRefinement::create(const RefinementOptions& options, Arena& arena) {
+  if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
+  setOptions(options);
   absolute_residuals_ = arena.allocate<float>(static_cast<std::size_t>(options.max_samples));
   found_at_px_ = arena.allocate<double>(static_cast<std::size_t>(options.max_samples));
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;

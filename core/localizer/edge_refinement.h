@@ -114,6 +114,8 @@ struct RefinementResult {
 class EdgeRefinement {
  public:
   Status create(const RefinementOptions& options, Arena& arena);
+  /// Other options from the next begin() on, except the one that sizes the memory (max_samples).
+  void setOptions(const RefinementOptions& options);
   /// Takes the samples from a render of the same pose; `image` is raw, at full resolution, `camera`
   /// its camera; `ignore` may be nullptr. `anchor` and `matched` (each may be nullptr) are what is
   /// known of the pose besides the edges: where these leave a direction open, it stays there.

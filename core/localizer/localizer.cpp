@@ -51,6 +51,19 @@ Status Localizer::restart(const Pose& camera_from_station_seed, const LocalizerO
   return status_;
 }
 
+bool Localizer::changeOptions(const LocalizerOptions& options) {
+  if (!isBetweenIterations() || firstInvalidOption(options) != nullptr ||
+      firstFixedOption(options_, options) != nullptr)
+    return false;
+  if (sameOptions(options_, options)) return true;
+  options_ = options;
+  selector_.setOptions(options.templates);
+  refinement_.setOptions(options.refinement);
+  digest_.tag("changed");
+  digestOptions(options, digest_);
+  return true;
+}
+
 void Localizer::startIteration() {
   iteration_pending_ = false;
   hypothesis_ = 0;

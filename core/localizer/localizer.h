@@ -118,6 +118,14 @@ class Localizer {
   /// it was: kArenaTooSmall when the new options ask for more.
   Status restart(const Pose& camera_from_station_seed, const LocalizerOptions& options);
 
+  /// Whether the run stands before an iteration: its edges are there, the last iteration (or
+  /// attempt) has ended and the next has not begun.
+  bool isBetweenIterations() const { return status_ == Status::kOk && iteration_pending_; }
+  /// The iterations that come have other options; those that were stay what they are. False when
+  /// not between iterations, or when an option is out of range or holds for a whole run
+  /// (firstFixedOption); then nothing has changed. The digest hears of it unless none differs.
+  [[nodiscard]] bool changeOptions(const LocalizerOptions& options);
+
   const Workspace& workspace() const { return workspace_; }
   const LocalizationProblem& problem() const { return problem_; }
   const LocalizerOptions& options() const { return options_; }

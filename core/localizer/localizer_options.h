@@ -152,6 +152,11 @@ struct LocalizerOptions {
   }
 };
 
+bool sameOptions(const LocalizerOptions& one, const LocalizerOptions& other);
+/// The first option in which `after` differs from `before` and that holds for a whole run, or
+/// nullptr: the test edges are made once, and the memory is laid out once.
+const char* firstFixedOption(const LocalizerOptions& before, const LocalizerOptions& after);
+
 /// As published: full resolution from the start, P3P samples, no refinement on edges, no gate.
 LocalizerOptions paperProfile();
 /// Whatever is best.

@@ -82,6 +82,8 @@ int templateSide(const TemplateOptions& options, double feature_size_m, double d
 class TemplateSelector {
  public:
   Status create(int max_width, int max_height, const TemplateOptions& options, Arena& arena);
+  /// Other options from the next select() on, except those that size the memory (count).
+  void setOptions(const TemplateOptions& options) { options_ = options; }
   /// kTooFewTemplates when fewer than options.min_count can be placed; `output` then holds those.
   Status select(const EdgeRender& render, int side_px, const BitImage* ignore, int level,
                 TemplateSet& output);

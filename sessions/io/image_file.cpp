@@ -87,17 +87,30 @@ std::vector<std::uint8_t> sampleTable(const std::filesystem::path& file, int bit
                            std::to_string(bit_depth) + " bits need " + std::to_string(count));
     return options.table;
   }
+  if (options.levels) {
+    if (options.levels->black < 0 || options.levels->black >= options.levels->white ||
+        options.levels->white >= static_cast<int>(count))
+      throw InputError(file, "levels",
+                       "black " + std::to_string(options.levels->black) + " and white " +
+                           std::to_string(options.levels->white) +
+                           " are not 0 <= black < white < " + std::to_string(count));
+    return tableOfLevels(*options.levels, bit_depth);
+  }
   std::vector<std::uint8_t> table(count);
   for (std::size_t v = 0; v < count; ++v)
     table[v] = toEightBit(static_cast<std::uint32_t>(v), bit_depth);
   return table;
 }
 
-std::string ruleText(const GrayImage& gray, bool by_table) {
+std::string ruleText(const GrayImage& gray, const ImageReadOptions& options) {
   std::string text;
   if (gray.channels == 2 || gray.channels == 4) text += "alpha dropped; ";
   if (gray.channels >= 3) text += "luma (9798 R + 19235 G + 3735 B + 16384) >> 15; ";
-  if (by_table)
+  if (options.levels)
+    return text + "linear from " + std::to_string(options.levels->black) + " (0) to " +
+           std::to_string(options.levels->white) + " (255), " + std::to_string(gray.bit_depth) +
+           " bits";
+  if (!options.table.empty())
     return text + "by a given table of " + std::to_string(1 << gray.bit_depth) + " values";
   if (gray.bit_depth == 8) return text + "8-bit values as they are";
   return text + "floor(v * 255 / (2^" + std::to_string(gray.bit_depth) +
@@ -111,9 +124,45 @@ std::uint8_t toEightBit(std::uint32_t v, int n) {
   return static_cast<std::uint8_t>((2u * v * 255u + largest) / (2u * largest));
 }
 
+std::vector<std::uint8_t> tableOfLevels(const GrayLevels& levels, int n) {
+  std::vector<std::uint8_t> table(std::size_t{1} << n);
+  const std::int64_t span = levels.white - levels.black;
+  for (std::size_t v = 0; v < table.size(); ++v) {
+    const std::int64_t above =
+        std::clamp(static_cast<std::int64_t>(v) - levels.black, std::int64_t{0}, span);
+    table[v] = static_cast<std::uint8_t>((2 * above * 255 + span) / (2 * span));
+  }
+  return table;
+}
+
+ImageSamples readSamples(const std::filesystem::path& file) {
+  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxImageFileBytes);
+  const ImageHeader header = checkImageContainer(file, bytes);
+  checkSize(file, header);
+  const cv::Mat image = decode(file, bytes, header);
+  ImageSamples samples;
+  samples.width = image.cols;
+  samples.height = image.rows;
+  samples.sample_bits = image.depth() == CV_16U ? 16 : 8;
+  samples.file_sha256 = sha256Text(bytes);
+  samples.values.reserve(image.total());
+  const int channels = image.channels();
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x) {
+      const std::uint32_t value =
+          samples.sample_bits == 16
+              ? grayValue(image.ptr<std::uint16_t>(y) + x * channels, channels)
+              : grayValue(image.ptr<std::uint8_t>(y) + x * channels, channels);
+      samples.values.push_back(static_cast<std::uint16_t>(value));
+    }
+  return samples;
+}
+
 GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& options) {
   if (options.bit_depth && (*options.bit_depth < 1 || *options.bit_depth > 16))
     throw InputError(file, "bit_depth", std::to_string(*options.bit_depth) + " is outside 1 .. 16");
+  if (options.levels && !options.table.empty())
+    throw InputError(file, "levels", "given beside a table: one of the two");
   const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxImageFileBytes);
   const ImageHeader header = checkImageContainer(file, bytes);
   checkSize(file, header);
@@ -138,7 +187,7 @@ GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& o
     convert<std::uint16_t>(file, image, table, gray);
   else
     convert<std::uint8_t>(file, image, table, gray);
-  gray.rule = ruleText(gray, !options.table.empty());
+  gray.rule = ruleText(gray, options);
   gray.file_sha256 = sha256Text(bytes);
   gray.pixels_sha256 = sha256Text(gray.pixels);
   return gray;

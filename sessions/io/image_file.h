@@ -18,12 +18,22 @@ inline constexpr std::size_t kMaxImageFileBytes = 1024 * kMegabyte;
 /// Sides are bounded by kMaxImageSide_px, so this also bounds memory (134 million pixels).
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 27;
 
+/// Samples that become 0 and 255; those between them linearly, those beyond as these two.
+struct GrayLevels {
+  int black = 0;  ///< less than white
+  int white = 255;
+
+  bool operator==(const GrayLevels&) const = default;
+};
+
 struct ImageReadOptions {
   /// Bits that the samples use, 1 .. 16, from a label or asked for; without it, those of the file
   /// (8 or 16).
   std::optional<int> bit_depth;
   /// Instead of the linear rule: the 8-bit value of every sample 0 .. 2^n - 1; empty: linear.
   std::vector<std::uint8_t> table = {};
+  /// The table given by two numbers; not together with `table`.
+  std::optional<GrayLevels> levels = {};
 
   bool operator==(const ImageReadOptions&) const = default;
 };
@@ -54,6 +64,23 @@ struct GrayImage {
 /// stated depth and is refused. InputError when the file is missing, empty, truncated, damaged, of
 /// another format, or too large.
 GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& options = {});
+
+/// The samples of an image before they become 8 bit, colour by the same luma: to look at, and to
+/// choose levels by. The core never sees them.
+struct ImageSamples {
+  int width = 0;
+  int height = 0;
+  int sample_bits = 8;                ///< of the file: 8 or 16
+  std::vector<std::uint16_t> values;  ///< row-major, width * height
+  std::string file_sha256;
+};
+
+/// Reads what readImage reads and refuses what it refuses, but for the depth.
+ImageSamples readSamples(const std::filesystem::path& file);
+
+/// The 8-bit values of the samples 0 .. 2^n - 1 by levels with 0 <= black < white <= 2^n - 1:
+/// floor((v - black) * 255 / (white - black) + 0.5), in integers.
+std::vector<std::uint8_t> tableOfLevels(const GrayLevels& levels, int n);
 
 /// The rule for one sample, in integers; v <= 2^n - 1, 1 <= n <= 16.
 std::uint8_t toEightBit(std::uint32_t v, int n);

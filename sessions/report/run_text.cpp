@@ -49,7 +49,7 @@ std::string leftUncertaintyText(const LocalizationTrace& trace) {
       worst_ratio = ratio;
     }
   }
-  const double factor = trace.options.loop.leave_factor;
+  const double factor = trace.lastOptions().loop.leave_factor;
   const std::string measured =
       worst < 3 ? format("%.2f deg about %s, allowed %.2f deg (%.2f x %.2f)",
                          toDegrees(std::abs(offset[worst])), kAxes[worst],
@@ -70,13 +70,13 @@ std::string pnpFailedText(const LocalizationTrace& trace, const IterationTrace& 
         "refinement found an image edge at %d of %d places along the rendered edges and used %d, "
         "needed %d within %.1f px; lower refinement.min_gradient if the image is faint",
         last.refinement.found_count, last.refinement.sample_count, last.refinement.used_count,
-        trace.options.refinement.min_found, last.threshold_px);
+        trace.lastOptions().refinement.min_found, last.threshold_px);
   }
   return format(
       "no pose agrees with enough matches: %d matches, at most %d inliers at %.1f px, needed %d; "
       "check seed and uncertainty, or the edges found in the image",
       last.correspondence_count, last.pnp.inlier_count, last.threshold_px,
-      trace.options.pnp.min_inliers);
+      trace.lastOptions().pnp.min_inliers);
 }
 
 std::string faultText(const LocalizationTrace& trace) {
@@ -85,7 +85,7 @@ std::string faultText(const LocalizationTrace& trace) {
     text += format(
         "; the render has more than %d edge pixels: raise render.max_edge_pixels, or "
         "check the mesh",
-        trace.options.render.max_edge_pixels);
+        trace.lastOptions().render.max_edge_pixels);
   if (trace.fault == Status::kArenaTooSmall) {
     text += format(
         "; image, mask and mesh take %zu bytes and the options ask for %zu more, of %zu in all: "
@@ -102,13 +102,13 @@ std::string notSupportedText(const LocalizationTrace& trace) {
       "edge support is %.1f %%, needed %.1f %%: %.1f %% of the rendered edges are seen (%.1f %% by "
       "chance), %.1f %% of the edges seen on the object are rendered (%.1f %% by chance); the pose "
       "is probably wrong: check seed and mesh",
-      100.0 * support.share(), 100.0 * trace.options.support.min_support,
+      100.0 * support.share(), 100.0 * trace.lastOptions().support.min_support,
       100.0 * support.coverage(), 100.0 * support.chanceCoverage(), 100.0 * support.explanation(),
       100.0 * support.chanceExplanation());
 }
 
 std::string iterationLimitText(const LocalizationTrace& trace, const IterationTrace& last) {
-  const LoopOptions& loop = trace.options.loop;
+  const LoopOptions& loop = trace.lastOptions().loop;
   return format(
       "after %d iterations the last correction was %.3f mm and %.3f deg; needed under %.3f mm and "
       "%.3f deg %d times in a row; raise loop.max_iterations if corrections still shrink",
@@ -118,7 +118,7 @@ std::string iterationLimitText(const LocalizationTrace& trace, const IterationTr
 }
 
 std::string tooFewText(const LocalizationTrace& trace, const IterationTrace& last) {
-  const LocalizerOptions& options = trace.options;
+  const LocalizerOptions& options = trace.lastOptions();
   if (trace.status == LocalizationStatus::kTooFewEdges)
     return format(
         "the render shows %d salient edge pixels, needed %d; is the station in view, and "
@@ -162,9 +162,9 @@ std::string convergedText(const RunSnapshot& snapshot) {
       "Converged in " + countText(snapshot.iterations.size(), "iteration", "iterations");
   if (snapshot.attempts > 1) text += format(" and %d attempts", snapshot.attempts);
   text += format(", %.2f s.", snapshot.seconds.total());
-  if (snapshot.options.support.gate)
+  if (snapshot.lastOptions().support.gate)
     text += format(" Edge support is %.1f %%, needed %.1f %%.", 100.0 * snapshot.support.share(),
-                   100.0 * snapshot.options.support.min_support);
+                   100.0 * snapshot.lastOptions().support.min_support);
   return text + format(
                     " 1 sigma along x, y, z of the camera: %.3f, %.3f, %.3f mm; about them: "
                     "%.3f, %.3f, %.3f mrad.",

@@ -124,9 +124,13 @@ void requireRunnable(const LoadedCase& loaded) {
 
 LocalizationTrace runCase(const Session& session, const LoadedCase& loaded, RecordLevel level,
                           const std::stop_token& stop) {
-  const LocalizerOptions options = caseOptions(session, loaded.source, "session");
+  return runCase(loaded, caseOptions(session, loaded.source, "session"), level, stop);
+}
+
+LocalizationTrace runCase(const LoadedCase& loaded, const RunPlan& plan, RecordLevel level,
+                          const std::stop_token& stop) {
   requireRunnable(loaded);
-  LocalizationTrace trace = localize(loaded.problem(), options, level, stop);
+  LocalizationTrace trace = localize(loaded.problem(), plan, level, stop);
   requireAccepted(loaded, trace);
   return trace;
 }
@@ -136,8 +140,21 @@ LocalizationTrace runCase(const Session& session, const std::string& case_id, Re
   return runCase(session, *loadCase(requireCase(session, case_id)), level, stop);
 }
 
+RunPlan planOf(const RunRecord& run, const Session& session, const fs::path& file) {
+  const SessionCase& one = requireCase(session, run.case_id);
+  const std::string place = "run " + run.digest;
+  if (run.inputs_sha256 != inputsDigest(one))
+    throw InputError(file, place, "the inputs of case " + run.case_id + " are no longer its own");
+  if (run.rerun) return planOf(*run.rerun, file);
+  const LocalizerOptions options = caseOptions(session, one, file);
+  if (run.options_sha256 != optionsDigest(options))
+    throw InputError(file, place, "the session's options are no longer its own");
+  return options;
+}
+
 RunRecord storeRun(const Session& session, const std::string& case_id,
-                   const LocalizationTrace& trace, const fs::path& session_file) {
+                   const LocalizationTrace& trace, const fs::path& session_file,
+                   const std::string& from) {
   if (trace.status == LocalizationStatus::kRunning)
     throw std::logic_error("a run that was stopped cannot be stored");
   const SessionCase& one = requireCase(session, case_id);
@@ -149,7 +166,8 @@ RunRecord storeRun(const Session& session, const std::string& case_id,
   run.version = trace.version;
   run.time = utcNowText();
   run.inputs_sha256 = inputsDigest(one);
-  run.options_sha256 = optionsDigest(caseOptions(session, one, session_file));
+  run.options_sha256 = optionsDigest(trace.lastOptions());
+  if (!trace.changes.empty()) run.rerun = rerunRecord(from, trace.plan());
   if (!isSha256Text(run.digest))
     throw OutputError(session_file, "case " + case_id + ": the run ended before it had a digest (" +
                                         statusText(trace.fault) + ")");

@@ -48,15 +48,25 @@ void requireRunnable(const LoadedCase& loaded);
 /// or options that cannot be run.
 LocalizationTrace runCase(const Session& session, const LoadedCase& loaded,
                           RecordLevel level = RecordLevel::kFull, const std::stop_token& stop = {});
+/// The same with a plan of its own instead of the session's options.
+LocalizationTrace runCase(const LoadedCase& loaded, const RunPlan& plan,
+                          RecordLevel level = RecordLevel::kFull, const std::stop_token& stop = {});
 /// The same, with the inputs read first.
 LocalizationTrace runCase(const Session& session, const std::string& case_id,
                           RecordLevel level = RecordLevel::kFull, const std::stop_token& stop = {});
 
+/// The plan by which a recorded run was run: its own when it took up options on its way, else the
+/// session's. InputError when the case's inputs are no longer those of the run, or the session's
+/// options are not.
+RunPlan planOf(const RunRecord& run, const Session& session, const std::filesystem::path& file);
+
 /// Writes the trace into the session's folder of runs, unless a run of the same digest is there
 /// already, and says what to note of it. `session` is the one that ran. OutputError. A run that was
-/// stopped is no run: std::logic_error.
+/// stopped is no run: std::logic_error. `from` is the digest of the run that it went on from, for
+/// one that took up options on its way.
 RunRecord storeRun(const Session& session, const std::string& case_id,
-                   const LocalizationTrace& trace, const std::filesystem::path& session_file);
+                   const LocalizationTrace& trace, const std::filesystem::path& session_file,
+                   const std::string& from = {});
 
 /// Notes a run; one of the same case, digest, inputs and options is moved to the end.
 Session withRun(const Session& session, RunRecord run);

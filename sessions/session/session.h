@@ -18,6 +18,7 @@
 #include "sessions/io/image_file.h"
 #include "sessions/io/option_value.h"
 #include "sessions/session/ignore_strokes.h"
+#include "sessions/session/rerun_record.h"
 #include "sessions/session/shared_value.h"
 
 namespace boresight::sessions {
@@ -59,8 +60,9 @@ struct SessionCase {
   Pose camera_from_station_seed;
   DeclaredUncertainty uncertainty;
   std::optional<Pose> camera_from_station_truth;
-  std::optional<InputFile> ignore;  ///< mask image
-  MaskStrokes ignore_strokes;       ///< edits of the mask, applied in their order
+  std::optional<Pose> camera_from_station_working;  ///< nudged by hand; no input of a run
+  std::optional<InputFile> ignore;                  ///< mask image
+  MaskStrokes ignore_strokes;                       ///< edits of the mask, applied in their order
   std::optional<InputFile> onboard_record;
   std::optional<Rig> rig;
   std::vector<std::string> tags;
@@ -92,11 +94,12 @@ struct RunRecord {
   std::string case_id;
   std::string digest;  ///< of the trace, which names its file
   std::filesystem::path file;
-  std::string status;          ///< as localizationStatusText says
-  std::string version;         ///< of the program that ran it
-  std::string time;            ///< UTC, when it ended
-  std::string inputs_sha256;   ///< inputsDigest of the case that ran
-  std::string options_sha256;  ///< optionsDigest of what ran
+  std::string status;                ///< as localizationStatusText says
+  std::string version;               ///< of the program that ran it
+  std::string time;                  ///< UTC, when it ended
+  std::string inputs_sha256;         ///< inputsDigest of the case that ran
+  std::string options_sha256;        ///< optionsDigest of what ran, as it was at the end
+  std::optional<RerunRecord> rerun = std::nullopt;  ///< of a run that took up other options on its way
 
   bool operator==(const RunRecord&) const = default;
 };

@@ -63,9 +63,15 @@ ordered_json imageJson(const ImageInput& image, const PathWriter& path) {
   json["width"] = image.width;
   json["height"] = image.height;
   json["pixels_sha256"] = image.pixels_sha256;
-  json["rule"] = image.eight_bit.table.empty() ? "linear" : "table";
+  json["rule"] = image.eight_bit.levels          ? "levels"
+                 : image.eight_bit.table.empty() ? "linear"
+                                                 : "table";
   if (image.eight_bit.bit_depth) json["bit_depth"] = *image.eight_bit.bit_depth;
   if (!image.eight_bit.table.empty()) json["table"] = image.eight_bit.table;
+  if (const auto& levels = image.eight_bit.levels) {
+    json["black"] = levels->black;
+    json["white"] = levels->white;
+  }
   return json;
 }
 
@@ -108,6 +114,7 @@ ordered_json listJson(const List& list, Convert&& convert) {
 
 void addExtras(const SessionCase& one, const PathWriter& path, ordered_json& json) {
   if (one.camera_from_station_truth) json["truth"] = poseJson(*one.camera_from_station_truth);
+  if (one.camera_from_station_working) json["working"] = poseJson(*one.camera_from_station_working);
   if (one.ignore) json["ignore"] = inputJson(*one.ignore, path);
   if (!one.ignore_strokes.empty())
     json["ignore_strokes"] = listJson(one.ignore_strokes, strokeJson);
@@ -158,6 +165,7 @@ ordered_json runJson(const RunRecord& run, const PathWriter& path) {
   json["time"] = run.time;
   json["inputs_sha256"] = run.inputs_sha256;
   json["options_sha256"] = run.options_sha256;
+  if (run.rerun) json["rerun"] = toJson(*run.rerun);
   return json;
 }
 
@@ -206,8 +214,15 @@ ImageReadOptions readEightBit(const JsonReader& json) {
   ImageReadOptions options;
   if (const auto depth = json.find("bit_depth"))
     options.bit_depth = static_cast<int>(depth->integer(1, 16));
-  if (json.at("rule").choice({"linear", "table"}) == "linear") {
-    if (json.has("table")) json.failMember("table", "given although the rule is linear");
+  const std::string rule = json.at("rule").choice({"linear", "levels", "table"});
+  if (rule != "table" && json.has("table"))
+    json.failMember("table", "given although the rule is " + rule);
+  if (rule == "linear") return options;
+  if (rule == "levels") {
+    const std::int64_t largest = (std::int64_t{1} << json.at("bit_depth").integer(1, 16)) - 1;
+    const std::int64_t black = json.at("black").integer(0, largest - 1);
+    const std::int64_t white = json.at("white").integer(black + 1, largest);
+    options.levels = GrayLevels{static_cast<int>(black), static_cast<int>(white)};
     return options;
   }
   const JsonReader table = json.at("table");
@@ -221,8 +236,8 @@ ImageReadOptions readEightBit(const JsonReader& json) {
 }
 
 ImageInput readImageInput(const JsonReader& json) {
-  json.requireKnown(
-      {"file", "sha256", "width", "height", "pixels_sha256", "rule", "bit_depth", "table"});
+  json.requireKnown({"file", "sha256", "width", "height", "pixels_sha256", "rule", "bit_depth",
+                     "table", "black", "white"});
   ImageInput image;
   image.source = {readPath(json.at("file")), readSha256(json.at("sha256"))};
   image.width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
@@ -280,6 +295,8 @@ MaskStroke readStroke(const JsonReader& json) {
 
 void readExtras(const JsonReader& json, SessionCase& one) {
   if (const auto truth = json.find("truth")) one.camera_from_station_truth = readExactPose(*truth);
+  if (const auto working = json.find("working"))
+    one.camera_from_station_working = readExactPose(*working);
   if (const auto ignore = json.find("ignore")) one.ignore = readInput(*ignore);
   if (const auto strokes = json.find("ignore_strokes"))
     for (const JsonReader& stroke : strokes->elements())
@@ -301,8 +318,8 @@ void readExtras(const JsonReader& json, SessionCase& one) {
 
 SessionCase readSessionCase(const JsonReader& json) {
   json.requireKnown({"id", "station", "image", "camera", "parts", "feature_size_m", "seed",
-                     "uncertainty", "truth", "ignore", "ignore_strokes", "onboard_record", "rig",
-                     "tags", "requirement", "camera_from_end_effector"});
+                     "uncertainty", "truth", "working", "ignore", "ignore_strokes",
+                     "onboard_record", "rig", "tags", "requirement", "camera_from_end_effector"});
   SessionCase one;
   one.id = json.at("id").nonEmptyText();
   if (const auto station = json.find("station")) one.station = station->nonEmptyText();
@@ -343,8 +360,8 @@ Decision readDecision(const JsonReader& json, const Session& session) {
 }
 
 RunRecord readRun(const JsonReader& json, const Session& session) {
-  json.requireKnown(
-      {"case", "digest", "file", "status", "version", "time", "inputs_sha256", "options_sha256"});
+  json.requireKnown({"case", "digest", "file", "status", "version", "time", "inputs_sha256",
+                     "options_sha256", "rerun"});
   RunRecord run;
   run.case_id = readCaseReference(json.at("case"), session);
   run.digest = readSha256(json.at("digest"));
@@ -354,6 +371,11 @@ RunRecord readRun(const JsonReader& json, const Session& session) {
   run.time = readTime(json.at("time"));
   run.inputs_sha256 = readSha256(json.at("inputs_sha256"));
   run.options_sha256 = readSha256(json.at("options_sha256"));
+  if (const auto rerun = json.find("rerun")) {
+    rerun->requireKnown({"from", "options", "changes"});
+    if (const auto from = rerun->find("from")) (void)readSha256(*from);
+    run.rerun = readRerun(*rerun);
+  }
   return run;
 }
 

@@ -135,8 +135,10 @@ void runSteps(Localizer& localizer, const RunSettings& settings, const std::stop
   };
   Stopwatch watch;
   StageSeconds iteration_seconds;
+  PlannedChanges changes(trace.changes);
   bool finished = false;
   while (!finished && !stop.stop_requested()) {
+    changes.takeUp(localizer, trace.iterations.size());
     if (pool.workers() > 1 && localizer.pieces() > 1) {
       pool.run(localizer.pieces(), work, stop);
       if (stop.stop_requested()) break;
@@ -223,11 +225,13 @@ std::size_t inputBytes(const LocalizationProblem& problem) {
          mesh.part_of_face.size_bytes() + mesh.parts.size_bytes();
 }
 
-LocalizationTrace localize(const LocalizationProblem& problem, const LocalizerOptions& options,
+LocalizationTrace localize(const LocalizationProblem& problem, const RunPlan& plan,
                            const RunSettings& settings, const std::stop_token& stop) {
+  const LocalizerOptions& options = plan.options;
   LocalizationTrace trace;
   trace.version = kVersion;
   trace.options = options;
+  trace.changes = plan.changes;
   trace.camera = problem.camera;
   trace.camera_from_station_seed = problem.camera_from_station_seed;
   trace.camera_from_station = problem.camera_from_station_seed;
@@ -241,6 +245,7 @@ LocalizationTrace localize(const LocalizationProblem& problem, const LocalizerOp
                                            trace.memory.use, kernels);
   if (sized == Status::kOk && limited && trace.memory.total() > settings.memory_limit)
     sized = Status::kArenaTooSmall;
+  if (sized == Status::kOk && !planProblem(plan).empty()) sized = Status::kInvalidOption;
   if (sized != Status::kOk) {
     trace.status = LocalizationStatus::kFault;
     trace.fault = sized;

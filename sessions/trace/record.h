@@ -36,12 +36,11 @@ struct RunSettings {
 /// status at kRunning. A problem that cannot run at all, or not within the limit (kArenaTooSmall),
 /// is a trace with kFault and without iterations. With a limit the localizer gets all that the
 /// inputs leave of it. Throws std::bad_alloc when there is no memory for the arena.
-LocalizationTrace localize(const LocalizationProblem& problem, const LocalizerOptions& options,
+LocalizationTrace localize(const LocalizationProblem& problem, const RunPlan& plan,
                            const RunSettings& settings, const std::stop_token& stop = {});
-inline LocalizationTrace localize(const LocalizationProblem& problem,
-                                  const LocalizerOptions& options, RecordLevel level,
-                                  const std::stop_token& stop = {}) {
-  return localize(problem, options, RunSettings{.level = level}, stop);
+inline LocalizationTrace localize(const LocalizationProblem& problem, const RunPlan& plan,
+                                  RecordLevel level, const std::stop_token& stop = {}) {
+  return localize(problem, plan, RunSettings{.level = level}, stop);
 }
 
 }  // namespace boresight::sessions

@@ -11,6 +11,7 @@ template <class From, class To>
 void copyHead(const From& from, To& to) {
   to.version = from.version;
   to.options = from.options;
+  to.changes = from.changes;
   to.camera = from.camera;
   to.camera_from_station_seed = from.camera_from_station_seed;
   to.uncertainty = from.uncertainty;

@@ -13,7 +13,8 @@ namespace boresight::sessions {
 /// LocalizationTrace is the same as one value, for files and for runs that nobody watches.
 struct RunSnapshot {
   std::string version;
-  LocalizerOptions options;
+  LocalizerOptions options;  ///< that it started with
+  std::vector<OptionChange> changes;
   Camera camera;
   Pose camera_from_station_seed;
   SeedUncertainty uncertainty;
@@ -36,6 +37,10 @@ struct RunSnapshot {
   MemoryTrace memory;
 
   bool converged() const { return status == LocalizationStatus::kConverged; }
+  RunPlan plan() const { return {options, changes}; }
+  const LocalizerOptions& lastOptions() const {
+    return changes.empty() ? options : changes.back().options;
+  }
 };
 
 /// Of a run that was read from a file.

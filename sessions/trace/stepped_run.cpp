@@ -6,18 +6,22 @@
 
 namespace boresight::sessions {
 
-SteppedRun::SteppedRun(const LocalizationProblem& problem, const LocalizerOptions& options) {
+SteppedRun::SteppedRun(const LocalizationProblem& problem, const RunPlan& plan)
+    : changes_(plan.changes) {
+  const LocalizerOptions& options = plan.options;
   const Clock::time_point start = Clock::now();
   snapshot_.version = kVersion;
   snapshot_.options = options;
+  snapshot_.changes = plan.changes;
   snapshot_.camera = problem.camera;
   snapshot_.camera_from_station_seed = problem.camera_from_station_seed;
   snapshot_.camera_from_station = problem.camera_from_station_seed;
   snapshot_.uncertainty = problem.uncertainty;
   snapshot_.memory.inputs = inputBytes(problem);
   const Kernels kernels = bestKernels();
-  const Status sized =
+  Status sized =
       Localizer::requiredMemory(sizeOf(problem), options, 1, snapshot_.memory.use, kernels);
+  if (sized == Status::kOk && !planProblem(plan).empty()) sized = Status::kInvalidOption;
   if (sized != Status::kOk) {
     snapshot_.status = LocalizationStatus::kFault;
     snapshot_.fault = sized;
@@ -33,6 +37,7 @@ SteppedRun::SteppedRun(const LocalizationProblem& problem, const LocalizerOption
 
 void SteppedRun::advance(StepUntil until, const std::stop_token& stop) {
   while (!snapshot_.finished && !stop.stop_requested()) {
+    changes_.takeUp(*localizer_, complete());
     const Clock::time_point start = Clock::now();
     const StepReport report = localizer_->step();
     note(report, std::chrono::duration<double>(Clock::now() - start).count());

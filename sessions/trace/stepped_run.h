@@ -20,8 +20,8 @@ enum class StepUntil { kStage, kIteration, kEnd };
 class SteppedRun {
  public:
   /// Takes memory for the whole run; what `problem` points to must outlive the object. A problem
-  /// that cannot run is a snapshot with kFault that is finished. Throws std::bad_alloc.
-  SteppedRun(const LocalizationProblem& problem, const LocalizerOptions& options);
+  /// or plan that cannot run is a snapshot with kFault that is finished. Throws std::bad_alloc.
+  SteppedRun(const LocalizationProblem& problem, const RunPlan& plan);
 
   SteppedRun(const SteppedRun&) = delete;
   SteppedRun& operator=(const SteppedRun&) = delete;
@@ -30,6 +30,10 @@ class SteppedRun {
   void advance(StepUntil until, const std::stop_token& stop = {});
 
   bool finished() const { return snapshot_.finished; }
+  /// Iterations that are complete.
+  std::size_t complete() const {
+    return snapshot_.iterations.size() - (snapshot_.last_under_way ? 1 : 0);
+  }
   /// Everything up to now. The iteration under way is copied here when a stage of it was completed.
   const RunSnapshot& snapshot() const { return snapshot_; }
 
@@ -43,6 +47,7 @@ class SteppedRun {
   RunSnapshot snapshot_;
   std::unique_ptr<std::byte[]> memory_;
   std::unique_ptr<Localizer> localizer_;
+  PlannedChanges changes_;
   StageSeconds iteration_seconds_;
 };
 

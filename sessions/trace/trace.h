@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/localizer/localizer.h"
+#include "sessions/trace/run_plan.h"
 
 namespace boresight::sessions {
 
@@ -133,8 +134,9 @@ struct IterationTrace {
 
 /// A whole run: what it was given, everything in between, and how it ended.
 struct LocalizationTrace {
-  std::string version;  ///< of the program that made it
-  LocalizerOptions options;
+  std::string version;       ///< of the program that made it
+  LocalizerOptions options;  ///< that it started with
+  std::vector<OptionChange> changes;
   Camera camera;
   Pose camera_from_station_seed;
   SeedUncertainty uncertainty;
@@ -153,6 +155,10 @@ struct LocalizationTrace {
   MemoryTrace memory;
 
   bool converged() const { return status == LocalizationStatus::kConverged; }
+  RunPlan plan() const { return {options, changes}; }
+  const LocalizerOptions& lastOptions() const {
+    return changes.empty() ? options : changes.back().options;
+  }
 };
 
 }  // namespace boresight::sessions

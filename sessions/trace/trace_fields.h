@@ -240,6 +240,13 @@ void fields(Archive& archive, Self& options) {
   });
 }
 
+template <class Archive, Is<OptionChange> Self>
+void fields(Archive& archive, Self& change) {
+  archive.number(change.iteration);
+  archive.require(change.iteration > 0, "options that change before the run");
+  fields(archive, change.options);
+}
+
 template <class Archive, Is<MemoryTrace> Self>
 void fields(Archive& archive, Self& memory) {
   auto& [kept, construction, stage] = memory.use;
@@ -267,6 +274,12 @@ void fields(Archive& archive, Self& trace) {
   fields(archive, trace.seconds);
   archive.number(trace.arena_bytes);
   fields(archive, trace.memory);
+}
+
+/// What version 3 has besides.
+template <class Archive, Is<LocalizationTrace> Self>
+void changeFields(Archive& archive, Self& trace) {
+  archive.list(trace.changes, [&](auto& change) { fields(archive, change); });
 }
 
 }  // namespace boresight::sessions

@@ -15,7 +15,8 @@ namespace boresight::sessions {
 namespace {
 
 constexpr std::string_view kMagic = "BSTRACE\n";
-constexpr std::uint32_t kFormatVersion = 2;
+constexpr std::uint32_t kFormatVersion = 3;
+constexpr std::uint32_t kVersionWithoutChanges = 2;
 constexpr std::size_t kHeaderBytes = 8 + 4 + 8;
 constexpr std::size_t kChecksumBytes = 32;
 constexpr std::size_t kMaxTraceBytes = 2048 * kMegabyte;
@@ -31,6 +32,7 @@ std::array<std::uint8_t, kChecksumBytes> checksum(std::span<const std::uint8_t> 
 void saveTrace(const std::filesystem::path& file, const LocalizationTrace& trace) {
   ArchiveWriter payload;
   fields(payload, trace);
+  changeFields(payload, trace);
   ArchiveWriter whole;
   whole.bytes().assign(kMagic.begin(), kMagic.end());
   whole.number(kFormatVersion);
@@ -53,7 +55,7 @@ LocalizationTrace loadTrace(const std::filesystem::path& file) {
   std::uint64_t length = 0;
   header.number(version);
   header.number(length);
-  if (version != kFormatVersion)
+  if (version != kFormatVersion && version != kVersionWithoutChanges)
     throw InputError(file, "version",
                      std::to_string(version) + ", but this program reads version " +
                          std::to_string(kFormatVersion));
@@ -65,6 +67,7 @@ LocalizationTrace loadTrace(const std::filesystem::path& file) {
   ArchiveReader payload(file, all.subspan(kHeaderBytes, static_cast<std::size_t>(length)));
   LocalizationTrace trace;
   fields(payload, trace);
+  if (version != kVersionWithoutChanges) changeFields(payload, trace);
   payload.require(payload.atEnd(), "more bytes than the record has fields");
   return trace;
 }

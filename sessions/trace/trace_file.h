@@ -12,10 +12,10 @@ namespace boresight::sessions {
 /// The file, all numbers big-endian:
 ///
 ///     8 bytes    "BSTRACE\n"
-///     u32        version of the format (1)
+///     u32        version of the format (3; 2 is read, too, and has no changes)
 ///     u64        length of the payload
-///     payload    the fields of LocalizationTrace in the order of trace_fields.h
-///     32 bytes   SHA-256 of everything before
+///     payload    the fields of LocalizationTrace in the order of trace_fields.h, then its changes
+///     of options 32 bytes   SHA-256 of everything before
 ///
 /// Integers have the width of their field, a double or float its IEEE bits, an enumeration is an
 /// i32, a text or list is a u32 count and its elements, an option its name and its value as a

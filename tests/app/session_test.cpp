@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sessions/session/case_run.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
 #include "tests/app/run_whs.h"
@@ -79,6 +80,35 @@ TEST(WhsRun, RecordsTheRunOfLocalizeAndInfoTellsIt) {
   }
   info = runWhs({"info", file});
   EXPECT_THAT(info.out, HasSubstr("stale: options changed since"));
+}
+
+TEST(WhsRun, RunsARecordedRunAgainWithTheOptionsThatItTookUp) {
+  const TemporaryFolder folder;
+  const std::string file = newSession(folder);
+  ASSERT_EQ(runWhs({"run", file}).exit_code, 0);
+  Session session = sessions::readSessionFile(file).session;
+  const std::string plain = session.runs[0].digest;
+  {
+    SessionDocument document = SessionDocument::open(file);
+    const auto loaded = sessions::loadCase(*session.cases[0]);
+    const sessions::LocalizationTrace first = sessions::loadRun(session.runs[0]);
+    LocalizerOptions other = first.options;
+    other.refinement.last_radius_px = 5.0;
+    const auto trace = sessions::runCase(*loaded, continuedPlan(first.plan(), 2, other));
+    session =
+        withRun(session, sessions::storeRun(session, session.cases[0]->id, trace, file, plain));
+    document.apply(session, "Run from an iteration");
+    document.save();
+  }
+  const std::string rerun = session.runs[1].digest;
+  const ProgramRun again = runWhs({"run", file, "--again", rerun.substr(0, 12)});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("digest " + rerun + ", the same"));
+  EXPECT_THAT(runWhs({"run", file, "--again", plain}).out, HasSubstr(plain + ", the same"));
+  EXPECT_EQ(runWhs({"run", file, "--again", "xyz"}).exit_code, 3);
+  EXPECT_THAT(runWhs({"run", file, "--again", ""}).out, HasSubstr("converged"));
+  EXPECT_THAT(runWhs({"info", file}).out,
+              HasSubstr("other options from its iteration 3 on, going on from run " + plain));
 }
 
 TEST(WhsRun, RefusesWhatItMustNotTouch) {

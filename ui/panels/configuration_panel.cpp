@@ -173,8 +173,8 @@ QStringList ConfigurationPanel::differences() const {
   LocalizerOptions now = model_.options();
   if (!(now.templates.feature_size_m > 0.0)) now.templates.feature_size_m = case_feature_size_m_;
   QStringList names;
-  for (const auto& option : sessions::listOptions(run->options)) {
-    for (const auto& [name, value] : sessions::changedOptions(run->options, now)) {
+  for (const auto& option : sessions::listOptions(run->lastOptions())) {
+    for (const auto& [name, value] : sessions::changedOptions(run->lastOptions(), now)) {
       if (name != option.name) continue;
       names.append(tr("%1 (was %2)").arg(fromText(name), fromText(valueText(option, value))));
     }

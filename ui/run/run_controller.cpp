@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/run/run_controller.h"
 
+#include <stdexcept>
 #include <utility>
 
 namespace boresight::ui {
@@ -19,9 +20,42 @@ struct RunController::Job {
   RunInputs inputs;
   std::unique_ptr<SteppedRun> run;  ///< points into the inputs
 
-  void advance(StepUntil until, const std::stop_token& stop) {
-    if (!run) run = std::make_unique<SteppedRun>(inputs.one->problem(), inputs.options);
+  /// False when it was stopped before it was where the run goes on from.
+  bool advance(StepUntil until, const std::stop_token& stop) {
+    if (!run) run = std::make_unique<SteppedRun>(inputs.one->problem(), inputs.plan);
+    if (!catchUp(stop)) return false;
     run->advance(until, stop);
+    return true;
+  }
+
+  /// Runs what is kept of another run once more; false when it was stopped on the way.
+  bool catchUp(const std::stop_token& stop) {
+    const std::size_t kept = inputs.kept.size();
+    if (run->complete() >= kept) return true;
+    while (run->complete() < kept && !run->finished() && !stop.stop_requested())
+      run->advance(StepUntil::kIteration, stop);
+    if (run->complete() < kept && !run->finished()) return false;
+    if (!hasKept()) throw std::runtime_error(notAsKept().toStdString());
+    return true;
+  }
+
+  bool hasKept() const {
+    const auto& made = run->snapshot().iterations;
+    for (std::size_t i = 0; i < inputs.kept.size(); ++i) {
+      if (i >= made.size()) return false;
+      const Pose& now = made[i]->camera_from_station;
+      const Pose& then = inputs.kept[i]->camera_from_station;
+      if (now.rotation.coeffs() != then.rotation.coeffs() ||
+          now.translation_m != then.translation_m)
+        return false;
+    }
+    return true;
+  }
+
+  static QString notAsKept() {
+    return RunController::tr(
+        "The iterations before the chosen one do not come out as they were recorded: they were "
+        "made by another version of the program. Run anew from the start.");
   }
 };
 
@@ -49,9 +83,10 @@ void RunController::advance(StepUntil until) {
   runner_.run(taskKey(), [this, until, stride, job = job_](const std::stop_token& stop,
                                                            const TaskRunner::Report& report) {
     for (bool halted = false; !halted;) {
-      job->advance(stride, stop);
+      SnapshotPtr snapshot;
+      if (job->advance(stride, stop))
+        snapshot = std::make_shared<const sessions::RunSnapshot>(job->run->snapshot());
       halted = job->run->finished() || until != StepUntil::kEnd || stop.stop_requested();
-      auto snapshot = std::make_shared<const sessions::RunSnapshot>(job->run->snapshot());
       report([this, snapshot, halted] { takeResult(snapshot, halted); });
     }
   });
@@ -60,6 +95,10 @@ void RunController::advance(StepUntil until) {
 void RunController::stop() { runner_.stop(taskKey()); }
 
 void RunController::takeResult(SnapshotPtr snapshot, bool halted) {
+  if (!snapshot) {
+    setState(RunState::kHalted);
+    return;
+  }
   snapshot_ = std::move(snapshot);
   const bool ended = snapshot_->finished;
   Q_EMIT snapshotChanged();

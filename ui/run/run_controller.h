@@ -2,11 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <QObject>
 #include <QString>
 
-#include "core/localizer/localizer_options.h"
 #include "sessions/session/case_run.h"
 #include "sessions/trace/run_snapshot.h"
 #include "sessions/trace/stepped_run.h"
@@ -25,7 +26,11 @@ enum class RunState {
 /// What one run works on; immutable, shared with the worker.
 struct RunInputs {
   std::shared_ptr<const sessions::LoadedCase> one;
-  LocalizerOptions options;
+  sessions::RunPlan plan;
+  /// Of the run that is gone on from: its first iterations, which are run again without being shown
+  /// and must come out as they are here; and its digest, empty when it was halted.
+  std::vector<std::shared_ptr<const sessions::IterationTrace>> kept;
+  std::string continued;
 };
 
 /// Runs one localization off the UI's thread. Inputs go in as a snapshot, records that never change

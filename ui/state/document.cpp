@@ -11,6 +11,8 @@
 #include <QDir>
 #include <QStandardPaths>
 
+#include "sessions/io/errors.h"
+
 namespace boresight::ui {
 namespace {
 
@@ -49,13 +51,18 @@ bool Document::attempt(Action&& action) {
   try {
     action();
     return true;
+  } catch (const sessions::OutputError& error) {
+    Q_EMIT writeFailed(QString::fromUtf8(error.what()));
+    return false;
   } catch (const std::exception& error) {
+    refused_.reset();
     Q_EMIT failed(QString::fromUtf8(error.what()));
     return false;
   }
 }
 
 void Document::become(sessions::SessionDocument&& document, bool untitled) {
+  refused_.reset();
   history_.reset();  // it points to the document
   document_.emplace(std::move(document));
   history_.emplace(*document_);
@@ -100,11 +107,11 @@ bool Document::save() {
 bool Document::saveAs(const std::filesystem::path& file) {
   const std::filesystem::path former = this->file();
   const bool done = document_ && attempt([&] { document_->saveAs(file); });
-  if (done) {
-    if (std::exchange(untitled_, false) && former != this->file()) removeWithCompanions(former);
-    Q_EMIT changed();
-  }
-  return done;
+  if (!done) return false;
+  if (std::exchange(untitled_, false) && former != this->file()) removeWithCompanions(former);
+  Q_EMIT changed();
+  const std::optional<Refused> refused = std::exchange(refused_, std::nullopt);
+  return !refused || (edit(refused->after, refused->text) && save());
 }
 
 void Document::close() {
@@ -147,7 +154,11 @@ bool Document::declineRecovery() {
 }
 
 bool Document::edit(const sessions::Session& after, const QString& text) {
-  const bool done = history_ && attempt([&] { history_->perform(after, text.toStdString()); });
+  // Before the attempt: its failure is told at once, and answered by saving elsewhere.
+  if (!history_) return false;
+  refused_ = Refused{after, text};
+  const bool done = attempt([&] { history_->perform(after, text.toStdString()); });
+  if (done) refused_.reset();
   if (done) Q_EMIT changed();
   return done;
 }

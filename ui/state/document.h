@@ -41,6 +41,7 @@ class Document : public QObject {
   /// In the folder for sessions without a name; `saveAs` gives it one.
   bool createUntitled(const sessions::Session& session);
   bool save();
+  /// Also makes the edit that could not be written last, if any.
   bool saveAs(const std::filesystem::path& file);
   void close();
   /// Removes an untitled session with its runs; nothing is open afterwards.
@@ -69,8 +70,17 @@ class Document : public QObject {
   void opened();   ///< another document, or none
   void changed();  ///< its value, or whether it is saved
   void failed(const QString& message);
+  /// Nothing could be written where the session lies (a full disk, a read-only folder); one
+  /// sentence. What was to be written is not lost: `saveAs` takes it elsewhere.
+  void writeFailed(const QString& message);
 
  private:
+  /// An edit that the journal could not take; the next `saveAs` makes it.
+  struct Refused {
+    sessions::Session after;
+    QString text;
+  };
+
   template <class Action>
   bool attempt(Action&& action);
   void become(sessions::SessionDocument&& document, bool untitled);
@@ -79,6 +89,7 @@ class Document : public QObject {
   std::optional<sessions::SessionHistory> history_;
   sessions::Session empty_;
   bool untitled_ = false;
+  std::optional<Refused> refused_;
 };
 
 }  // namespace boresight::ui

@@ -49,7 +49,7 @@ void ViewState::replaceCase(CasePtr one) {
 void ViewState::setSnapshot(SnapshotPtr snapshot) {
   const bool follows = cursor_.iteration == lastIteration();
   snapshot_ = std::move(snapshot);
-  // Before anybody looks: the run may have begun anew and have fewer iterations.
+  // A new run is shorter than the one before: the cursor is inside it before anybody looks.
   cursor_.iteration = follows ? lastIteration() : std::min(cursor_.iteration, lastIteration());
   if (follows) cursor_.stage = Stage::kFinished;
   selected_template_ = -1;

@@ -13,6 +13,7 @@
 #include "sessions/trace/scene_render.h"
 #include "sessions/trace/surface_point.h"
 #include "ui/run/task_runner.h"
+#include "ui/views/display_image.h"
 #include "ui/views/image_view.h"
 #include "ui/views/layer_content.h"
 
@@ -40,7 +41,11 @@ QToolButton* barButton(const QString& text, const QString& tip, bool checkable) 
 }  // namespace
 
 ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
-    : QWidget(parent), state_(state), tasks_(tasks), view_(new ImageView) {
+    : QWidget(parent),
+      state_(state),
+      tasks_(tasks),
+      view_(new ImageView),
+      display_(new DisplayImage(state, tasks, this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
@@ -104,7 +109,10 @@ void ImagePanel::buildBar(QBoxLayout& layout) {
   layout.addWidget(zoom_label_);
   connect(fit, &QToolButton::clicked, view_, &ImageView::fit);
   connect(one, &QToolButton::clicked, view_, &ImageView::showOneToOne);
-  connect(core_button_, &QToolButton::toggled, this, &ImagePanel::showImage);
+  connect(core_button_, &QToolButton::toggled, display_, &DisplayImage::setShowsCore);
+  connect(display_, &DisplayImage::levelsChanged, this,
+          [this] { core_button_->setChecked(display_->showsCore()); });
+  connect(display_, &DisplayImage::pictureChanged, this, &ImagePanel::showImage);
   connect(blink_button_, &QToolButton::toggled, this, [this](bool on) {
     view_->setLayersHidden(false);
     if (on) {
@@ -177,20 +185,12 @@ void ImagePanel::showCase() {
       forget(id);
   }
   setBits(LayerId::kIgnoreMask, ignoreBits(now));
-  if (!same_scene || !(before->source.image == now->source.image)) showImage();
   askForRenders();
 }
 
 void ImagePanel::showImage() {
-  const ViewState::CasePtr& one = state_.currentCase();
-  if (!one) {
-    view_->setImage(QImage());
-    return;
-  }
-  // The wrapper only reads; the copy that the view makes is its own.
-  const QImage gray(one->image.pixels.data(), one->image.width, one->image.height, one->image.width,
-                    QImage::Format_Grayscale8);
-  view_->setImage(gray.copy());
+  view_->setImage(display_->picture());
+  if (!display_->picture().isNull()) view_->setValues(display_->corePicture());
 }
 
 void ImagePanel::showIteration() {
@@ -278,6 +278,11 @@ void ImagePanel::showPlace(const QPointF& pixel) {
   const int y = static_cast<int>(std::floor(pixel.y() + 0.5));
   if (x >= 0 && y >= 0 && x < one->image.width && y < one->image.height) {
     text += tr("  gray %1").arg(one->image.view().at(x, y));
+    if (const auto& samples = display_->samples(); samples && samples->sample_bits > 8)
+      text += tr(" (sample %1)")
+                  .arg(samples->values[static_cast<std::size_t>(y) *
+                                           static_cast<std::size_t>(samples->width) +
+                                       static_cast<std::size_t>(x)]);
     const auto point = sessions::surfacePointAt(one->source.camera, one->scene.view(),
                                                 state_.shownPose(), {pixel.x(), pixel.y()});
     if (point) {

@@ -18,6 +18,7 @@ class QToolButton;
 
 namespace boresight::ui {
 
+class DisplayImage;
 class ImageView;
 class TaskRunner;
 
@@ -31,6 +32,7 @@ class ImagePanel : public QWidget {
   ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent = nullptr);
 
   ImageView& view() { return *view_; }
+  DisplayImage& display() { return *display_; }
   void setStyle(LayerId id, const LayerStyle& style);
   const LayerStyle& style(LayerId id) const;
   /// Edges of the pose being nudged; nullptr takes them away.
@@ -65,6 +67,7 @@ class ImagePanel : public QWidget {
   ViewState& state_;
   TaskRunner& tasks_;
   ImageView* view_ = nullptr;
+  DisplayImage* display_ = nullptr;
   QToolButton* core_button_ = nullptr;
   QToolButton* blink_button_ = nullptr;
   QToolButton* swipe_button_ = nullptr;

@@ -236,7 +236,8 @@ void ImageView::paintValues(QPainter& painter) const {
   for (int y = seen.top(); y <= seen.bottom(); ++y) {
     for (int x = seen.left(); x <= seen.right(); ++x) {
       const int gray = values_.constScanLine(y)[x];
-      painter.setPen(gray < 128 ? QColor(255, 255, 255, 190) : QColor(0, 0, 0, 190));
+      const int shown = image_.full().constScanLine(y)[x];  // perhaps stretched
+      painter.setPen(shown < 128 ? QColor(255, 255, 255, 190) : QColor(0, 0, 0, 190));
       painter.drawText(transform_.toWidget(QRectF(x - 0.5, y - 0.5, 1.0, 1.0)), Qt::AlignCenter,
                        QString::number(gray));
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/case_controller.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include <QStringList>
@@ -13,6 +14,16 @@ namespace boresight::ui {
 
 using sessions::StepUntil;
 
+namespace {
+
+/// The views have the nudged pose apart from the case that they show.
+bool sameButNudge(sessions::SessionCase a, const sessions::SessionCase& b) {
+  a.camera_from_station_working = b.camera_from_station_working;
+  return a == b;
+}
+
+}  // namespace
+
 CaseController::CaseController(Document& document, ViewState& state, RunController& run,
                                TaskRunner& tasks, QObject* parent)
     : QObject(parent), document_(document), state_(state), run_(run), tasks_(tasks) {
@@ -22,7 +33,10 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
     if (run_.snapshot()) state_.setSnapshot(run_.snapshot());
   });
   connect(&run_, &RunController::finished, this, &CaseController::runEnded);
-  connect(&run_, &RunController::failed, this, &CaseController::failed);
+  connect(&run_, &RunController::failed, this, [this](const QString& message) {
+    run_is_prepared_ = false;
+    Q_EMIT failed(message);
+  });
 }
 
 void CaseController::documentOpened() {
@@ -48,7 +62,8 @@ void CaseController::documentChanged() {
     return;
   }
   // Another seed, mask or image than the one that is shown.
-  if (!(asked_ == *one)) load(case_id_);
+  if (!asked_ || !sameButNudge(*asked_, *one)) load(case_id_);
+  if (!(one->camera_from_station_working == working_)) showNudgedPose();
   Q_EMIT stalenessChanged();
 }
 
@@ -64,7 +79,15 @@ void CaseController::chooseCase(const QString& id) {
 /// Whether the case that the views have is the document's as it is now.
 bool CaseController::isLoaded() const {
   const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
-  return one && state_.currentCase() && state_.currentCase()->source == *one;
+  return one && state_.currentCase() && sameButNudge(state_.currentCase()->source, *one);
+}
+
+void CaseController::showNudgedPose() {
+  const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
+  working_ = one ? one->camera_from_station_working : std::nullopt;
+  const ViewState::CasePtr& shown = state_.currentCase();
+  if (shown && one && shown->source.id == one->id && state_.nudgedPose() != working_)
+    state_.setNudgedPose(working_);
 }
 
 void CaseController::load(const QString& id) {
@@ -97,6 +120,7 @@ void CaseController::loaded(const QString& id, std::shared_ptr<const sessions::L
     return;
   }
   state_.setCase(std::move(one));
+  showNudgedPose();
   loadLatestRun(id);
 }
 
@@ -142,7 +166,7 @@ QString CaseController::staleness() const {
 void CaseController::prepareRun() {
   RunInputs inputs;
   inputs.one = state_.currentCase();
-  inputs.options = options();
+  inputs.plan = options();
   run_.reset(std::move(inputs));
   run_session_ = document_.session();
   run_is_prepared_ = true;
@@ -163,6 +187,47 @@ void CaseController::advance(StepUntil until) {
     return;
   }
   run_.advance(until);
+}
+
+void CaseController::rerunFrom(int iteration) {
+  if (!state_.currentCase() || !state_.snapshot() || run_.state() == RunState::kWorking) return;
+  if (iteration < 1) {
+    reset();
+    advance(StepUntil::kEnd);
+    return;
+  }
+  try {
+    sessions::requireRunnable(*state_.currentCase());
+    prepareRerun(iteration);
+  } catch (const std::exception& error) {
+    Q_EMIT failed(QString::fromUtf8(error.what()));
+    return;
+  }
+  run_.advance(StepUntil::kEnd);
+}
+
+void CaseController::prepareRerun(int iteration) {
+  const sessions::RunSnapshot& shown = *state_.snapshot();
+  const auto kept = static_cast<std::size_t>(iteration);
+  const std::string id = case_id_.toStdString();
+  const sessions::RunRecord* record = document_.session().lastRunOf(id);
+  const bool is_recorded = record && record->digest == shown.digest;
+  if (!isLoaded() || (is_recorded && record->inputs_sha256 !=
+                                         sessions::inputsDigest(*document_.session().findCase(id))))
+    throw std::runtime_error(
+        tr("The shown run was made with other inputs: run anew from the start.").toStdString());
+  if (kept >= shown.iterations.size())
+    throw std::runtime_error(tr("The shown run has no such iteration.").toStdString());
+  RunInputs inputs;
+  inputs.one = state_.currentCase();
+  inputs.plan = sessions::continuedPlan(shown.plan(), iteration, options());
+  inputs.kept.assign(shown.iterations.begin(), shown.iterations.begin() + iteration);
+  inputs.continued = shown.digest;
+  const std::string problem = sessions::planProblem(inputs.plan);
+  if (!problem.empty()) throw std::runtime_error(problem + ".");
+  run_.reset(std::move(inputs));
+  run_session_ = document_.session();
+  run_is_prepared_ = true;
 }
 
 void CaseController::stop() {
@@ -193,8 +258,9 @@ void CaseController::storeRun() {
   const std::string id = case_id_.toStdString();
   tasks_.start(
       QStringLiteral("store run"),
-      [session = run_session_, id, snapshot, file = document_.file()](const std::stop_token&) {
-        return sessions::storeRun(session, id, sessions::traceOf(*snapshot), file);
+      [session = run_session_, id, snapshot, file = document_.file(),
+       continued = run_.inputs().continued](const std::stop_token&) {
+        return sessions::storeRun(session, id, sessions::traceOf(*snapshot), file, continued);
       },
       [this](const sessions::RunRecord& record) {
         if (document_.note(sessions::withRun(document_.session(), record),
@@ -230,8 +296,22 @@ void CaseController::useAsSeed(const Pose& camera_from_station) {
   if (!one) return;
   sessions::SessionCase changed = *one;
   changed.camera_from_station_seed = camera_from_station;
+  changed.camera_from_station_working.reset();
   document_.edit(sessions::withCase(document_.session(), std::move(changed)),
                  tr("Move the seed of %1").arg(case_id_));
+}
+
+void CaseController::keepNudgedPose() {
+  const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
+  const ViewState::CasePtr& shown = state_.currentCase();
+  // In a session that cannot be edited people may nudge to look.
+  if (!one || !shown || shown->source.id != one->id || !document_.readOnlyReason().isEmpty())
+    return;
+  sessions::SessionCase changed = *one;
+  changed.camera_from_station_working = state_.nudgedPose();
+  const QString text =
+      state_.nudgedPose() ? tr("Nudge the pose of %1") : tr("Drop the nudged pose of %1");
+  document_.edit(sessions::withCase(document_.session(), std::move(changed)), text.arg(case_id_));
 }
 
 void CaseController::setOptions(const QString& profile, const LocalizerOptions& options) {

@@ -39,11 +39,16 @@ class CaseController : public QObject {
  public Q_SLOTS:
   void chooseCase(const QString& id);
   void advance(boresight::sessions::StepUntil until);
+  /// Keeps the shown run's iterations before this one and computes those from it on with the
+  /// options as they are now.
+  void rerunFrom(int iteration);
   void stop();
   /// Drops the shown run; the next step begins anew.
   void reset();
   void runAll(const QStringList& ids);
   void useAsSeed(const boresight::Pose& camera_from_station);
+  /// A gesture has ended: where the pose is nudged to becomes an edit of the document.
+  void keepNudgedPose();
   void setOptions(const QString& profile, const boresight::LocalizerOptions& options);
 
  Q_SIGNALS:
@@ -60,16 +65,19 @@ class CaseController : public QObject {
   void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one);
   void loadLatestRun(const QString& id);
   void prepareRun();
+  void prepareRerun(int iteration);
   void runEnded();
   void storeRun();
   void runNext();
   void runIfWaiting();
+  void showNudgedPose();
 
   Document& document_;
   ViewState& state_;
   RunController& run_;
   TaskRunner& tasks_;
   QString case_id_;
+  std::optional<Pose> working_;  ///< camera_from_station of the document that the views have
   std::optional<sessions::SessionCase> asked_;  ///< what was read last, or is being read
   bool run_is_prepared_ = false;
   sessions::Session run_session_;  ///< what the run that is prepared is made from

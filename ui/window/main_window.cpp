@@ -14,6 +14,7 @@
 
 #include "ui/views/image_panel.h"
 #include "ui/window/input_findings.h"
+#include "ui/window/levels_controller.h"
 #include "ui/window/mask_controller.h"
 #include "ui/window/panel_links.h"
 #include "ui/window/session_files.h"
@@ -77,6 +78,9 @@ void MainWindow::buildStatusBar() {
 
 void MainWindow::connectAll() {
   auto* links = new PanelLinks(parts_, *docks_, this);
+  auto* levels = new LevelsController(parts_, docks_->levels(), this);
+  connect(levels, &LevelsController::noted, this,
+          [this](const QString& message) { statusBar()->showMessage(message); });
   new MaskController(parts_, docks_->maskEditor(), docks_->mask(), image(), this);
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);
@@ -88,6 +92,10 @@ void MainWindow::connectAll() {
   connect(&document_, &Document::opened, this, &MainWindow::showDocument);
   connect(&document_, &Document::changed, this, &MainWindow::showState);
   connect(&document_, &Document::failed, this, &MainWindow::showMessage);
+  connect(&document_, &Document::writeFailed, this, [this](const QString& message) {
+    last_message_ = message;
+    if (!quiet_) files_->offerSavingElsewhere(message);
+  });
   connect(&cases_, &CaseController::failed, this, &MainWindow::showMessage);
   connect(&tasks_, &TaskRunner::failed, this, &MainWindow::showMessage);
   connect(&run_, &RunController::stateChanged, this, &MainWindow::showState);

@@ -73,6 +73,8 @@ void PanelLinks::linkConfiguration() {
 void PanelLinks::linkPoses() {
   connect(&docks_.poses(), &PosePanel::useAsSeedRequested, &parts_.cases,
           &CaseController::useAsSeed);
+  connect(&docks_.poses(), &PosePanel::gestureFinished, &parts_.cases,
+          &CaseController::keepNudgedPose);
   connect(&parts_.state, &ViewState::caseChanged, this, &PanelLinks::showJudgement);
   connect(&parts_.state, &ViewState::nudgedPoseChanged, this, &PanelLinks::showNudgedPose);
   connect(nudged_, &PoseRenderer::rendered, &docks_.image(), &ImagePanel::setNudgedRender);

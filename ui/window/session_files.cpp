@@ -139,6 +139,18 @@ bool SessionFiles::saveAs() {
   return true;
 }
 
+void SessionFiles::offerSavingElsewhere(const QString& reason) {
+  QMessageBox box(QMessageBox::Warning, tr("Boresight"), reason, QMessageBox::NoButton, &window_);
+  box.setTextInteractionFlags(Qt::TextSelectableByMouse);
+  box.setInformativeText(
+      tr("The file is as it was saved last, and nothing is lost yet: everything is still in this "
+         "window. Make room or allow writing there, or save the session elsewhere."));
+  QAbstractButton* elsewhere = box.addButton(tr("Save elsewhere..."), QMessageBox::AcceptRole);
+  box.addButton(QMessageBox::Close);
+  box.exec();
+  if (box.clickedButton() == elsewhere) saveAs();
+}
+
 bool SessionFiles::mayLeave() {
   const Document& document = parts_.document;
   if (document.isUntitled()) return mayLeaveUntitled();

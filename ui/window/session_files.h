@@ -39,6 +39,8 @@ class SessionFiles : public QObject {
   void askForFiles();
   bool save();
   bool saveAs();
+  /// Says why nothing can be written where the session lies, and offers to save it elsewhere.
+  void offerSavingElsewhere(const QString& reason);
 
  Q_SIGNALS:
   /// Something could not be done; one sentence.

@@ -10,6 +10,7 @@
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/input_sheet_panel.h"
 #include "ui/panels/iterations_panel.h"
+#include "ui/panels/levels_panel.h"
 #include "ui/panels/mask_panel.h"
 #include "ui/panels/match_inspector_panel.h"
 #include "ui/panels/pose_panel.h"
@@ -41,6 +42,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       poses_(new PosePanel(parts.state)),
       mask_editor_(new MaskEditor(image_->view(), image_)),
       mask_(new MaskPanel(*mask_editor_)),
+      levels_(new LevelsPanel(image_->display())),
       warnings_(new WarningBar(tr("Inputs"), tr("Show all that is known of the inputs"))),
       findings_(new WarningBar(tr("Mend ..."),
                                tr("Look for missing files below the session's folder, or take "
@@ -53,6 +55,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   add(QStringLiteral("cases"), tr("Cases"), cases_);
   add(QStringLiteral("layers"), tr("Layers"), new LayersPanel(*image_));
   add(QStringLiteral("mask"), tr("Mask"), mask_);
+  add(QStringLiteral("levels"), tr("Levels"), levels_);
   add(QStringLiteral("inputs"), tr("Inputs"), inputs_);
   add(QStringLiteral("pose"), tr("Pose"), poses_);
   add(QStringLiteral("configuration"), tr("Configuration"), configuration_);
@@ -98,7 +101,7 @@ void WindowDocks::place() const {
   window_.addDockWidget(Qt::LeftDockWidgetArea, cases);
   window_.addDockWidget(Qt::RightDockWidgetArea, scene);
   window_.addDockWidget(Qt::RightDockWidgetArea, layers);
-  for (const char* name : {"mask", "inputs", "pose", "configuration"})
+  for (const char* name : {"mask", "levels", "inputs", "pose", "configuration"})
     window_.tabifyDockWidget(layers, dock(QLatin1String(name)));
   window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
   window_.tabifyDockWidget(iterations, dock(QStringLiteral("inspector")));

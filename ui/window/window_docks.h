@@ -16,6 +16,7 @@ class CasesPanel;
 class ConfigurationPanel;
 class ImagePanel;
 class InputSheetPanel;
+class LevelsPanel;
 class MaskEditor;
 class MaskPanel;
 class PosePanel;
@@ -35,6 +36,7 @@ class WindowDocks {
   PosePanel& poses() const { return *poses_; }
   MaskEditor& maskEditor() const { return *mask_editor_; }
   MaskPanel& mask() const { return *mask_; }
+  LevelsPanel& levels() const { return *levels_; }
   /// Above the image: what looks wrong with the case's inputs.
   WarningBar& warnings() const { return *warnings_; }
   /// The same for files that are missing or have changed.
@@ -63,6 +65,7 @@ class WindowDocks {
   PosePanel* poses_;
   MaskEditor* mask_editor_;
   MaskPanel* mask_;
+  LevelsPanel* levels_;
   WarningBar* warnings_;
   WarningBar* findings_;
 };

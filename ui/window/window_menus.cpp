@@ -11,6 +11,8 @@
 
 #include "sessions/version.h"
 #include "ui/panels/mask_panel.h"
+#include "ui/panels/pose_panel.h"
+#include "ui/panels/run_scrubber.h"
 #include "ui/run/run_controller.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
@@ -37,6 +39,7 @@ WindowMenus::WindowMenus(QMainWindow& window, const WindowParts& parts, const Wi
   buildFileMenu();
   buildEditMenu();
   buildRunMenu();
+  buildGoMenu();
   buildViewMenu();
   buildHelpMenu();
 }
@@ -81,7 +84,10 @@ void WindowMenus::buildEditMenu() {
   QMenu* menu = window_.menuBar()->addMenu(tr("&Edit"));
   undo_ = action(tr("&Undo"), QKeySequence::Undo, tr("Take back the last change"));
   redo_ = action(tr("&Redo"), QKeySequence::Redo, tr("Make the change again"));
-  connect(undo_, &QAction::triggered, &parts_.document, &Document::undo);
+  connect(undo_, &QAction::triggered, this, [this] {
+    docks_.poses().nudgeController().finishGesture();  // what is under way is undone first
+    parts_.document.undo();
+  });
   connect(redo_, &QAction::triggered, &parts_.document, &Document::redo);
   menu->addAction(undo_);
   menu->addAction(redo_);
@@ -129,7 +135,13 @@ void WindowMenus::buildRunMenu() {
                   tr("Drop the run and begin anew"));
   run_all_ = action(tr("Run &all cases"), QKeySequence(QStringLiteral("Ctrl+F5")),
                     tr("Run every case to its end"));
+  rerun_ = action(tr("Re-run &from here"), QKeySequence(QStringLiteral("Shift+F5")),
+                  tr("Keep the iterations before the shown one and compute it and those after it "
+                     "anew, with the options as they are now"));
   CaseController& cases = parts_.cases;
+  connect(rerun_, &QAction::triggered, this,
+          [this] { parts_.cases.rerunFrom(parts_.state.cursor().iteration); });
+  connect(&parts_.state, &ViewState::cursorChanged, this, &WindowMenus::update);
   connect(run_to_end_, &QAction::triggered, this, [&cases] { cases.advance(StepUntil::kEnd); });
   connect(step_iteration_, &QAction::triggered, this,
           [&cases] { cases.advance(StepUntil::kIteration); });
@@ -144,12 +156,39 @@ void WindowMenus::buildRunMenu() {
   QToolBar* bar = window_.addToolBar(tr("Run"));
   bar->setObjectName(QStringLiteral("runBar"));
   bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
-  for (QAction* each : {run_to_end_, step_iteration_, step_stage_, stop_, reset_}) {
+  for (QAction* each : {run_to_end_, step_iteration_, step_stage_, rerun_, stop_, reset_}) {
     menu->addAction(each);
     bar->addAction(each);
   }
   menu->addSeparator();
   menu->addAction(run_all_);
+}
+
+/// The steps of the scrubber: its buttons name and enable them, the menu gives them their keys.
+void WindowMenus::buildGoMenu() {
+  using Step = RunScrubber::Step;
+  struct Key {
+    Step step;
+    const char* keys;
+  };
+  static constexpr Key kKeys[] = {
+      {Step::kPrevious, "Ctrl+Left"},
+      {Step::kNext, "Ctrl+Right"},
+      {Step::kPreviousStage, "Ctrl+Shift+Left"},
+      {Step::kNextStage, "Ctrl+Shift+Right"},
+      {Step::kFirst, "Ctrl+Home"},
+      {Step::kLast, "Ctrl+End"},
+  };
+  const auto* scrubber = window_.findChild<RunScrubber*>();
+  if (!scrubber) return;
+  QMenu* menu = window_.menuBar()->addMenu(tr("&Go"));
+  for (const Key& each : kKeys) {
+    QAction* go = scrubber->action(each.step);
+    go->setShortcut(QKeySequence(QString::fromLatin1(each.keys)));
+    go->setToolTip(QStringLiteral("%1 (%2)").arg(
+        go->toolTip(), go->shortcut().toString(QKeySequence::NativeText)));
+    menu->addAction(go);
+  }
 }
 
 void WindowMenus::buildViewMenu() {
@@ -229,6 +268,7 @@ void WindowMenus::update() {
   redo_->setText(document.canRedo() ? tr("&Redo: %1").arg(document.redoText()) : tr("&Redo"));
   for (QAction* each : {run_to_end_, step_iteration_, step_stage_})
     each->setEnabled(has_case && !working);
+  rerun_->setEnabled(has_case && !working && parts_.state.snapshot());
   stop_->setEnabled(working);
   reset_->setEnabled(has_case && !working && parts_.state.snapshot());
   for (QAction* each : mask_actions_) each->setEnabled(editable && has_case);

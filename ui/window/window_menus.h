@@ -33,6 +33,7 @@ class WindowMenus : public QObject {
   void buildEditMenu();
   void buildMaskMenu(QMenu& menu);
   void buildRunMenu();
+  void buildGoMenu();
   void buildViewMenu();
   void buildLayersMenu(QMenu& menu);
   void buildHelpMenu();
@@ -53,6 +54,7 @@ class WindowMenus : public QObject {
   QAction* step_iteration_ = nullptr;
   QAction* stop_ = nullptr;
   QAction* reset_ = nullptr;
+  QAction* rerun_ = nullptr;
   QAction* run_all_ = nullptr;
   QMenu* recent_menu_ = nullptr;
   QList<QAction*> mask_actions_;

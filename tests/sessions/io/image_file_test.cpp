@@ -132,6 +132,43 @@ TEST_F(ReadImage, ScalesSixteenBits) {
   }
 }
 
+TEST_F(ReadImage, ScalesBetweenLevels) {
+  cv::Mat source = randomImage(CV_16UC1);
+  for (int y = 0; y < source.rows; ++y)
+    for (int x = 0; x < source.cols; ++x) source.at<std::uint16_t>(y, x) &= 0x0fff;
+  ImageReadOptions options{12};
+  options.levels = GrayLevels{300, 1500};
+  const GrayImage image = read(encoded(source, ".png"), options);
+  EXPECT_EQ(image.rule, "linear from 300 (0) to 1500 (255), 12 bits");
+  for (int y = 0; y < source.rows; ++y)
+    for (int x = 0; x < source.cols; ++x) {
+      const double v = std::clamp<double>(source.at<std::uint16_t>(y, x), 300.0, 1500.0);
+      ASSERT_EQ(image.view().at(x, y), std::floor((v - 300.0) * 255.0 / 1200.0 + 0.5));
+    }
+  for (const GrayLevels wrong : {GrayLevels{5, 5}, GrayLevels{-1, 5}, GrayLevels{0, 4096}}) {
+    options.levels = wrong;
+    EXPECT_THAT(error(encoded(source, ".png"), options), HasSubstr("black < white"));
+  }
+  options.levels = GrayLevels{0, 4095};
+  EXPECT_EQ(read(encoded(source, ".png"), options).pixels,
+            read(encoded(source, ".png"), {12}).pixels);
+  options.table.resize(4096);
+  EXPECT_THAT(error(encoded(source, ".png"), options), HasSubstr("one of the two"));
+}
+
+TEST_F(ReadImage, GivesTheSamplesThatBecomeEightBit) {
+  for (const int type : {CV_8UC1, CV_16UC1, CV_8UC3, CV_16UC3, CV_16UC4}) {
+    const auto file = folder_.write("image", encoded(randomImage(type), ".png"));
+    const GrayImage image = readImage(file);
+    const ImageSamples samples = readSamples(file);
+    EXPECT_EQ(samples.sample_bits, image.sample_bits);
+    EXPECT_EQ(samples.file_sha256, image.file_sha256);
+    ASSERT_EQ(samples.values.size(), image.pixels.size());
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+      ASSERT_EQ(toEightBit(samples.values[i], samples.sample_bits), image.pixels[i]) << type;
+  }
+}
+
 TEST_F(ReadImage, TakesLumaOfSixteenBitColourBeforeScaling) {
   const cv::Mat source = randomImage(CV_16UC3);
   cv::Mat luma;

@@ -71,6 +71,45 @@ TEST(CaseRun, StrokesAndMaskFileTogetherAreTheMask) {
               HasSubstr("m.png: its bytes are not those"));
 }
 
+TEST(CaseRun, ARunThatTookUpOptionsIsRunAgainFromItsRecordAlone) {
+  const TemporaryFolder folder;
+  Session session = sessionOfOs(exampleFolder());
+  const std::string id = session.cases[0]->id;
+  const std::filesystem::path file = folder / "s.json";
+  const auto loaded = sessions::loadCase(*session.cases[0]);
+  const sessions::LocalizationTrace first = sessions::runCase(session, *loaded);
+  const RunRecord plain = sessions::storeRun(session, id, first, file);
+  EXPECT_FALSE(plain.rerun.has_value());
+
+  LocalizerOptions other = first.options;
+  other.refinement.last_radius_px = 5.0;
+  const sessions::RunPlan plan = continuedPlan(first.plan(), 2, other);
+  const sessions::LocalizationTrace again = sessions::runCase(*loaded, plan);
+  const Session changed = withOptions(session, "default", other);
+  RunRecord record = sessions::storeRun(changed, id, again, file, first.digest);
+  ASSERT_TRUE(record.rerun.has_value());
+  EXPECT_EQ(record.rerun->from, first.digest);
+  EXPECT_NE(record.digest, first.digest);
+
+  // Only the session file is left.
+  session = withRun(withRun(changed, plain), record);
+  sessions::writeSessionFile(file, session);
+  const Session reread = sessions::readSessionFile(file).session;
+  EXPECT_EQ(reread, session);
+  ASSERT_EQ(reread.runs.size(), 2u);
+  EXPECT_FALSE(sessions::stalenessOf(reread.runs[1], reread, file).stale());
+  EXPECT_TRUE(sessions::stalenessOf(reread.runs[0], reread, file).options_changed);
+  const sessions::RunPlan read = sessions::planOf(reread.runs[1], reread, file);
+  EXPECT_EQ(sessions::runCase(*loaded, read).digest, record.digest);
+  EXPECT_THAT(folder.message([&] { (void)sessions::planOf(reread.runs[0], reread, file); }),
+              HasSubstr("the session's options are no longer its own"));
+  SessionCase moved = *reread.cases[0];
+  moved.camera_from_station_seed.translation_m.x() += 1e-6;
+  const Session elsewhere = withCase(reread, moved);
+  EXPECT_THAT(folder.message([&] { (void)sessions::planOf(reread.runs[1], elsewhere, file); }),
+              HasSubstr("are no longer its own"));
+}
+
 TEST(CaseRun, IsTheRunOfItsInputsAndIsKeptByItsDigest) {
   const TemporaryFolder folder;
   const Session session = sessionOfOs(exampleFolder());

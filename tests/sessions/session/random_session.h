@@ -60,6 +60,8 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
   if (one.image.eight_bit.bit_depth && coin(random))
     for (int i = 0; i < 1 << *one.image.eight_bit.bit_depth; ++i)
       one.image.eight_bit.table.push_back(static_cast<std::uint8_t>(random.below(256)));
+  if (one.image.eight_bit.bit_depth && one.image.eight_bit.table.empty() && coin(random))
+    one.image.eight_bit.levels = sessions::GrayLevels{0, (1 << *one.image.eight_bit.bit_depth) - 1};
   one.camera = randomCamera(random, static_cast<CameraModel>(random.below(3)));
   for (std::uint32_t i = 1u + random.below(3); i > 0; --i) {
     sessions::MeshInput part;
@@ -78,6 +80,7 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
   one.uncertainty.rotation_deg = randomVector(random, 9.0).cwiseAbs();
   if (coin(random)) one.uncertainty.pivot = sessions::UncertaintyPivot::kStation;
   if (coin(random)) one.camera_from_station_truth = randomPose(random);
+  if (coin(random)) one.camera_from_station_working = randomPose(random);
   if (coin(random)) one.ignore = randomInput(random, ".png");
   for (std::uint32_t i = random.below(3); i > 0; --i)
     one.ignore_strokes.push_back(randomStroke(random));
@@ -132,6 +135,18 @@ inline LocalizerOptions randomOptions(Random& random) {
   return options;
 }
 
+/// Options are such as may change on the way of a run.
+inline sessions::RerunRecord randomRerun(Random& random) {
+  sessions::RunPlan plan(randomOptions(random));
+  for (std::int32_t i = 1; i < 4; ++i) {
+    LocalizerOptions options = plan.last();
+    options.pnp.seed += 1 + random.below(99);
+    options.loop.inlier_threshold_px = random.uniform(0.1, 200.0);
+    if (i == 1 || coin(random)) plan.changes.push_back({i * 3, options});
+  }
+  return sessions::rerunRecord(coin(random) ? randomSha256(random) : "", plan);
+}
+
 inline sessions::Session randomSession(Random& random) {
   sessions::Session session =
       sessions::withOptions({}, coin(random) ? "default" : "paper", randomOptions(random));
@@ -147,6 +162,7 @@ inline sessions::Session randomSession(Random& random) {
       session.runs.push_back({id, randomSha256(random), randomPath(random, ".trace"), "converged",
                               "0.1.0", "2026-01-31T23:59:59Z", randomSha256(random),
                               randomSha256(random)});
+    if (coin(random) && !session.runs.empty()) session.runs.back().rerun = randomRerun(random);
     if (coin(random)) session.view = {id, "", static_cast<std::int32_t>(random.below(9)) - 1};
   }
   return session;

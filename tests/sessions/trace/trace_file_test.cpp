@@ -51,6 +51,33 @@ std::string sealed(std::string without_checksum) {
   return without_checksum + std::string(sum.begin(), sum.end());
 }
 
+TEST(TraceFile, GivesBackTheOptionsTakenUpOnTheWay) {
+  const test::TemporaryFolder folder;
+  LocalizationTrace trace = exampleTrace();
+  LocalizerOptions other;
+  other.pnp.seed = 77;
+  trace.changes = {{2, LocalizerOptions()}, {5, other}};
+  saveTrace(folder / "run.trace", trace);
+  const LocalizationTrace loaded = loadTrace(folder / "run.trace");
+  ASSERT_EQ(loaded.changes.size(), 2u);
+  EXPECT_EQ(loaded.changes[0].iteration, 2);
+  EXPECT_EQ(loaded.changes[1].iteration, 5);
+  EXPECT_TRUE(sameOptions(loaded.changes[0].options, LocalizerOptions()));
+  EXPECT_TRUE(sameOptions(loaded.lastOptions(), other));
+}
+
+TEST(TraceFile, ReadsTheVersionBeforeTheChanges) {
+  const test::TemporaryFolder folder;
+  saveTrace(folder / "run.trace", exampleTrace());
+  std::string bytes = folder.read("run.trace");
+  bytes.resize(bytes.size() - kChecksumBytes - 4);  // without the count of changes
+  bytes[11] = 2;
+  folder.write("old.trace", sealed(bytes));
+  const LocalizationTrace loaded = loadTrace(folder / "old.trace");
+  EXPECT_EQ(bytesOf(loaded), bytesOf(exampleTrace()));
+  EXPECT_TRUE(loaded.changes.empty());
+}
+
 TEST(TraceFile, GivesBackEveryFieldExactly) {
   const test::TemporaryFolder folder;
   saveTrace(folder / "run.trace", exampleTrace());

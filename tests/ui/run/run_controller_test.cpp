@@ -23,7 +23,7 @@ class RunControllerTest : public testing::Test {
       if (run_.snapshot()) counts_.push_back(run_.snapshot()->iterations.size());
     });
   }
-  RunInputs inputs() const { return {case_, defaultProfile()}; }
+  RunInputs inputs() const { return {case_, defaultProfile(), {}, {}}; }
   bool arrives(RunState state) {
     return QTest::qWaitFor([this, state] { return run_.state() == state; }, kPatienceMs);
   }

@@ -80,7 +80,7 @@ TEST_F(DocumentTest, ASecondOpenerMayOnlyLook) {
   Document second;
   ASSERT_TRUE(second.open(file_));
   EXPECT_FALSE(second.readOnlyReason().isEmpty());
-  QSignalSpy failures(&second, &Document::failed);
+  QSignalSpy failures(&second, &Document::writeFailed);
   EXPECT_FALSE(second.edit(withoutFirst(example()), QStringLiteral("Remove a case")));
   EXPECT_EQ(failures.size(), 1);
   EXPECT_EQ(second.session(), example());

@@ -106,6 +106,17 @@ TEST_F(MainWindowTest, StopsWithinATenthOfASecondAndGoesOn) {
   EXPECT_TRUE(window_.run().snapshot()->converged());
 }
 
+TEST_F(MainWindowTest, RunsAgainWhileTheLastIterationIsShown) {
+  openExample();
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kFinished && resting(); }));
+  const auto first = window_.state().snapshot();
+  ASSERT_GT(window_.state().cursor().iteration, 0);
+  QTest::keyClick(&window_, Qt::Key_F5);  // shows fewer iterations than the cursor knows
+  ASSERT_TRUE(wait([&] { return window_.state().snapshot() != first && resting(); }));
+  EXPECT_EQ(window_.state().snapshot()->digest, first->digest);
+}
+
 TEST_F(MainWindowTest, KeysShowAndHideLayers) {
   openExample();
   const bool before = window_.image().style(LayerId::kTestEdges).visible;

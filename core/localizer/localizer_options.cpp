@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/localizer/localizer_options.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <string_view>
+
+namespace boresight {
+namespace {
+
+/// Values of all options in the order of the visitor.
+struct OptionValues {
+  static constexpr std::size_t kMost = 128;
+  std::array<double, kMost> value{};
+  std::size_t count = 0;
+
+  explicit OptionValues(const LocalizerOptions& options) {
+    LocalizerOptions::visitFields(options, [this](const OptionInfo&, const auto& field) {
+      if (count < kMost) value[count] = static_cast<double>(field);
+      ++count;
+    });
+  }
+};
+
+/// Whether an option makes the test edges or the rendered ones, or sizes the memory.
+bool holdsForWholeRun(std::string_view name) {
+  constexpr std::string_view kNames[] = {"templates.count",           "templates.max_side_px",
+                                         "refinement.enabled",        "refinement.max_samples",
+                                         "loop.coarse_size_px",       "loop.halved_size_px",
+                                         "loop.max_rolled_hypotheses"};
+  return name.starts_with("edges.") || name.starts_with("render.") ||
+         std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
+/// Calls `visit` with the name of every option in which two differ.
+template <class Visitor>
+void visitDifferences(const LocalizerOptions& before, const LocalizerOptions& after,
+                      Visitor&& visit) {
+  const OptionValues values(before);
+  std::size_t at = 0;
+  LocalizerOptions::visitFields(after, [&](const OptionInfo& info, const auto& field) {
+    const bool known = at < OptionValues::kMost;
+    if (!known || values.value[at] != static_cast<double>(field)) visit(info.name);
+    ++at;
+  });
+}
+
+}  // namespace
+
+bool sameOptions(const LocalizerOptions& one, const LocalizerOptions& other) {
+  bool same = true;
+  visitDifferences(one, other, [&same](const char*) { same = false; });
+  return same;
+}
+
+const char* firstFixedOption(const LocalizerOptions& before, const LocalizerOptions& after) {
+  const char* fixed = nullptr;
+  visitDifferences(before, after, [&fixed](const char* name) {
+    if (fixed == nullptr && holdsForWholeRun(name)) fixed = name;
+  });
+  return fixed;
+}
+
+}  // namespace boresight

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/image_conversion.h"
+
+#include <utility>
+
+#include "sessions/io/errors.h"
+
+namespace boresight::sessions {
+
+ImageInput converted(const ImageInput& image, const ImageReadOptions& eight_bit) {
+  const GrayImage read = readImage(image.source.file, eight_bit);
+  if (read.file_sha256 != image.source.sha256)
+    throw InputError(image.source.file,
+                     "its bytes are not those that the session was made with: relink the file, or "
+                     "accept it as it is now");
+  ImageInput made = image;
+  made.eight_bit = eight_bit;
+  made.pixels_sha256 = read.pixels_sha256;
+  return made;
+}
+
+Session withConversions(const Session& session, const std::vector<Conversion>& conversions) {
+  Session next = session;
+  for (const Conversion& conversion : conversions) {
+    const SessionCase* one = next.findCase(conversion.case_id);
+    if (one == nullptr || !(one->image.source == conversion.image.source)) continue;
+    SessionCase changed = *one;
+    changed.image = conversion.image;
+    next = withCase(next, std::move(changed));
+  }
+  return next;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// Other options from one iteration on.
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/localizer/localizer.h"
+#include "core/localizer/run_digest.h"
+#include "tests/core/localizer/random_options.h"
+#include "tests/core/localizer/scene.h"
+
+namespace boresight::test {
+namespace {
+
+using Digest = std::array<std::uint8_t, 32>;
+
+/// What a run came to, iteration by iteration.
+struct Course {
+  std::vector<Digest> poses;  ///< after each iteration
+  Digest digest{};
+  LocalizationStatus status = LocalizationStatus::kRunning;
+  Status fault = Status::kOk;
+  Pose camera_from_station;
+  std::size_t used_bytes = 0;
+};
+
+Digest poseDigest(const Pose& pose) {
+  DigestWriter writer;
+  digestPose(pose, writer);
+  return writer.digest();
+}
+
+/// Runs, and calls `between` with the number of iterations done whenever it is between two.
+Course courseOf(const LocalizationProblem& problem, const LocalizerOptions& options,
+                const std::function<void(Localizer&, int)>& between) {
+  OwnedRun run(problem, options);
+  EXPECT_EQ(run.localizer.status(), Status::kOk);
+  Course course;
+  for (bool finished = false; !finished;) {
+    if (run.localizer.isBetweenIterations())
+      between(run.localizer, static_cast<int>(course.poses.size()));
+    const StepReport report = run.localizer.step();
+    finished = report.finished;
+    if (report.iteration_complete)
+      course.poses.push_back(poseDigest(run.localizer.workspace().iteration->camera_from_station));
+  }
+  course.digest = run.localizer.digest();
+  course.status = run.localizer.workspace().status;
+  course.fault = run.localizer.workspace().fault;
+  course.camera_from_station = run.localizer.workspace().camera_from_station;
+  course.used_bytes = run.localizer.highWaterBytes();
+  return course;
+}
+
+Course courseWithChange(const LocalizationProblem& problem, const LocalizerOptions& before,
+                        const LocalizerOptions& after, int at) {
+  return courseOf(problem, before, [&](Localizer& localizer, int done) {
+    if (done != at) return;
+    EXPECT_TRUE(localizer.changeOptions(after));
+    EXPECT_TRUE(sameOptions(localizer.options(), after));
+  });
+}
+
+Course plainCourse(const LocalizationProblem& problem, const LocalizerOptions& options) {
+  return courseOf(problem, options, [](Localizer&, int) {});
+}
+
+/// `wanted`, with what holds for a whole run as in `base`.
+LocalizerOptions changeable(const LocalizerOptions& base, LocalizerOptions wanted) {
+  wanted.edges = base.edges;
+  wanted.render = base.render;
+  wanted.templates.count = base.templates.count;
+  wanted.templates.max_side_px = base.templates.max_side_px;
+  wanted.refinement.enabled = base.refinement.enabled;
+  wanted.refinement.max_samples = base.refinement.max_samples;
+  wanted.loop.coarse_size_px = base.loop.coarse_size_px;
+  wanted.loop.halved_size_px = base.loop.halved_size_px;
+  wanted.loop.max_rolled_hypotheses = base.loop.max_rolled_hypotheses;
+  return wanted;
+}
+
+TEST(LocalizerChange, TheSameOptionsChangeNoBit) {
+  const Case scene = stationCase(4);
+  int asked = 0;
+  const Course course =
+      courseOf(scene.problem(), defaultProfile(), [&asked](Localizer& localizer, int) {
+        EXPECT_TRUE(localizer.changeOptions(defaultProfile()));
+        ++asked;
+      });
+  EXPECT_GT(asked, 3);
+  EXPECT_EQ(course.digest, plainCourse(scene.problem(), defaultProfile()).digest);
+}
+
+TEST(LocalizerChange, KeepsWhatWasAndHearsOfWhatChangesAndWhen) {
+  const Case scene = stationCase(4);
+  LocalizerOptions other = defaultProfile();
+  other.refinement.last_radius_px *= 2.0;
+  other.loop.match_inflation *= 2.0;
+  const Course plain = plainCourse(scene.problem(), defaultProfile());
+  std::set<Digest> digests = {plain.digest};
+  for (int at = 0; at < static_cast<int>(plain.poses.size()); ++at) {
+    const Course course = courseWithChange(scene.problem(), defaultProfile(), other, at);
+    for (int i = 0; i < at; ++i)
+      EXPECT_EQ(course.poses[static_cast<std::size_t>(i)],
+                plain.poses[static_cast<std::size_t>(i)]);
+    EXPECT_TRUE(digests.insert(course.digest).second) << "at " << at;
+    EXPECT_EQ(courseWithChange(scene.problem(), defaultProfile(), other, at).digest, course.digest);
+  }
+}
+
+/// The oracle of what a change does: before the first iteration it must be as if the run had had
+/// the new options from the start.
+TEST(LocalizerChange, BeforeTheFirstIterationItIsARunWithTheNewOptions) {
+  const Camera camera = smallCamera();
+  const Picture picture = takePicture(stationMesh(), camera, truthPose());
+  Random random(5);
+  int changed = 0;
+  for (int i = 0; i < 40; ++i) {
+    SCOPED_TRACE(i);
+    const Case scene = smallCase(picture, camera, static_cast<std::uint64_t>(i));
+    const LocalizerOptions before = randomOptions(random);
+    const LocalizerOptions after = changeable(before, randomOptions(random));
+    const Course course = courseWithChange(scene.problem(), before, after, 0);
+    const Course expected = plainCourse(scene.problem(), after);
+    EXPECT_EQ(course.poses, expected.poses);
+    EXPECT_EQ(course.status, expected.status);
+    if (plainCourse(scene.problem(), before).poses != expected.poses) ++changed;
+  }
+  EXPECT_GT(changed, 20) << "the changes must be such as show";
+}
+
+TEST(LocalizerChange, WheneverAndWhateverItEndsWithinItsMemory) {
+  const Camera camera = smallCamera();
+  const Picture picture = takePicture(stationMesh(), camera, truthPose());
+  Random random(6);
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    const Case scene = smallCase(picture, camera, static_cast<std::uint64_t>(i));
+    const LocalizerOptions before = randomOptions(random);
+    const Course course = courseOf(scene.problem(), before, [&](Localizer& localizer, int) {
+      if (random.below(2) != 0) return;
+      EXPECT_TRUE(localizer.changeOptions(changeable(before, randomOptions(random))));
+    });
+    EXPECT_NE(course.status, LocalizationStatus::kRunning);
+    EXPECT_NE(course.status, LocalizationStatus::kFault);
+    EXPECT_TRUE(course.camera_from_station.isFinite());
+    EXPECT_EQ(course.used_bytes, blockFor(scene.problem(), before).size());
+  }
+}
+
+TEST(LocalizerChange, RefusesWhatHoldsForAWholeRun) {
+  const Case scene = stationCase(4);
+  const Course plain = plainCourse(scene.problem(), defaultProfile());
+  int refused = 0;
+  int accepted = 0;
+  const Course course =
+      courseOf(scene.problem(), defaultProfile(), [&](Localizer& localizer, int done) {
+        if (done != 1) return;
+        LocalizerOptions options = defaultProfile();
+        LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
+          using Field = std::remove_reference_t<decltype(field)>;
+          const Field kept = field;
+          const bool at_most = static_cast<double>(field) >= info.maximum;
+          field = static_cast<Field>(at_most ? info.minimum : info.maximum);
+          const LocalizerOptions expected = changeable(defaultProfile(), options);
+          const bool fixed = !sameOptions(expected, options);
+          const char* named = firstFixedOption(defaultProfile(), options);
+          EXPECT_EQ(named != nullptr, fixed) << info.name;
+          if (fixed) {
+            EXPECT_STREQ(named, info.name);
+            EXPECT_FALSE(localizer.changeOptions(options)) << info.name;
+            ++refused;
+          } else {
+            ++accepted;
+          }
+          field = kept;
+        });
+        options.loop.inlier_threshold_px = -1.0;
+        EXPECT_FALSE(localizer.changeOptions(options)) << "out of range";
+      });
+  EXPECT_EQ(course.digest, plain.digest) << "what is refused leaves no trace";
+  EXPECT_EQ(refused, 21);
+  EXPECT_GT(accepted, 40);
+}
+
+TEST(LocalizerChange, OnlyBetweenIterations) {
+  const Case scene = stationCase(4);
+  LocalizerOptions other = defaultProfile();
+  other.pnp.seed = 99;
+  OwnedRun run(scene.problem(), defaultProfile());
+  for (bool finished = false; !finished;) {
+    if (!run.localizer.isBetweenIterations()) {
+      EXPECT_FALSE(run.localizer.changeOptions(other));
+    }
+    finished = run.localizer.step().finished;
+  }
+  EXPECT_FALSE(run.localizer.changeOptions(other));
+  EXPECT_EQ(run.localizer.digest(), plainCourse(scene.problem(), defaultProfile()).digest);
+}
+
+}  // namespace
+}  // namespace boresight::test

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// How long the window keeps people waiting: event_gaps [DATASET CASE] opens a case, runs it to the
+// end, walks through its iterations, runs it again and stops it at once. It prints the longest
+// times that the event loop was kept by one event, and how soon a stop was answered. Without
+// arguments: a 2048 x 2048 case of BORESIGHT_DATA, else the shipped example enlarged to that.
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+
+#include <QDockWidget>
+#include <QStandardPaths>
+#include <QTemporaryDir>
+#include <QTimer>
+
+#include "sessions/io/camera_file.h"
+#include "sessions/io/image_file.h"
+#include "sessions/session/session_maker.h"
+#include "tests/ui/window/event_clock.h"
+#include "ui/window/main_window.h"
+
+using namespace boresight;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Each pixel of the shipped example becomes four.
+sessions::Session enlargedExample(const fs::path& folder) {
+  const fs::path station = fs::path(BORESIGHT_EXAMPLES) / "stations" / "bc";
+  const sessions::GrayImage image = sessions::readImage(station / "image.png");
+  const int width = 2 * image.width;
+  const int height = 2 * image.height;
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width) *
+                                   static_cast<std::size_t>(height));
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+             static_cast<std::size_t>(x)] = image.view().at(x / 2, y / 2);
+  Camera camera = sessions::readCamera(station / "camera.json");
+  camera.width = width;
+  camera.height = height;
+  camera.fx *= 2.0;
+  camera.fy *= 2.0;
+  camera.cx = 2.0 * camera.cx + 0.5;
+  camera.cy = 2.0 * camera.cy + 0.5;
+  sessions::CaseFiles files;
+  files.image = folder / "image.png";
+  files.camera = folder / "camera.json";
+  files.seed = station / "seed.json";
+  files.parts.emplace_back();
+  files.parts.back().mesh = station / "model.ply";
+  files.parts.back().mesh_unit = "m";
+  sessions::writePng(files.image, pixels, width, height, 1);
+  sessions::writeCamera(files.camera, camera);
+  return sessions::withCase({}, sessions::makeCase(files).made);
+}
+
+/// The first case whose image is large enough.
+sessions::Session largeCase(const fs::path& dataset) {
+  sessions::Session all = sessions::makeSession(dataset);
+  for (const auto& one : all.cases)
+    if (one->image.width >= 2048 && one->image.height >= 2048) return sessions::withCase({}, *one);
+  return all;
+}
+
+sessions::Session sessionToRun(int argc, char** argv, const fs::path& folder) {
+  if (argc == 3) return sessions::makeSession(argv[1], {argv[2]});
+  const char* data = std::getenv("BORESIGHT_DATA");
+  if (data != nullptr && *data != '\0') return largeCase(fs::path(data) / "synthetic/dataset.json");
+  return enlargedExample(folder);
+}
+
+void waitFor(const std::function<bool()>& holds) {
+  while (!holds()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+}
+
+void print(ui::EventClock& clock, const char* what) {
+  std::printf("%s\n", what);
+  for (const ui::EventGap& gap : clock.longest(5))
+    std::printf("  %7.1f ms  %s\n", gap.ms, qPrintable(gap.where));
+  clock.begin();
+}
+
+/// What a person does with one case, and what each part of it kept the window from.
+class Walk {
+ public:
+  Walk(ui::EventClock& clock, ui::MainWindow& window) : clock_(clock), window_(window) {}
+
+  void open(const fs::path& file, const sessions::Session& session) {
+    window_.document().create(file, session);
+    waitFor([this] { return window_.state().currentCase() != nullptr && rests(); });
+    const auto& image = window_.state().currentCase()->image;
+    std::printf("%s, %d x %d\n", session.cases.front()->id.c_str(), image.width, image.height);
+    print(clock_, "opening");
+  }
+
+  void run() {
+    window_.cases().advance(sessions::StepUntil::kEnd);
+    waitFor([this] { return rests(); });
+    print(clock_, "running, all docks in sight in their tabs");
+  }
+
+  void runInFrontOf(const QString& dock) {
+    if (QDockWidget* shown = window_.dock(dock)) shown->raise();
+    waitFor([this] { return rests(); });
+    QCoreApplication::processEvents();
+    clock_.begin();
+    window_.cases().advance(sessions::StepUntil::kEnd);
+    waitFor([this] { return rests(); });
+    print(clock_, qPrintable(QStringLiteral("running with %1 in front").arg(dock)));
+  }
+
+  void scrub() {
+    const int count = static_cast<int>(window_.state().snapshot()->iterations.size());
+    for (int i = -1; i < count; ++i) {
+      // By an event, as from a key.
+      QTimer::singleShot(0, &window_, [this, i] {
+        window_.state().setCursor({i, Stage::kFinished});
+      });
+      QCoreApplication::processEvents();
+      waitFor([this] { return rests(); });
+    }
+    print(clock_, "going through the iterations");
+  }
+
+  void stop() {
+    double worst_ms = 0.0;
+    for (int i = 0; i < 10; ++i) {
+      window_.cases().reset();
+      window_.cases().advance(sessions::StepUntil::kEnd);
+      QElapsedTimer running;
+      running.start();
+      waitFor([&] { return running.elapsed() > 40 * i || !working(); });
+      if (!working()) continue;
+      QElapsedTimer asked;
+      asked.start();
+      window_.cases().stop();
+      waitFor([this] { return !working(); });
+      worst_ms = std::max(worst_ms, static_cast<double>(asked.nsecsElapsed()) * 1e-6);
+    }
+    std::printf("a stop was answered within %.1f ms\n", worst_ms);
+    print(clock_, "stopping");
+  }
+
+ private:
+  bool working() { return window_.run().state() == ui::RunState::kWorking; }
+  bool rests() { return !window_.tasks().isBusy() && !working(); }
+
+  ui::EventClock& clock_;
+  ui::MainWindow& window_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (!qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
+  ui::EventClock clock(argc, argv);
+  QStandardPaths::setTestModeEnabled(true);
+  const QTemporaryDir made;
+  const fs::path folder = made.path().toStdString();
+  QTimer wake;  // so that waiting ends although nothing happens
+  wake.start(5);
+  ui::MainWindow window;
+  window.setQuiet(true);
+  window.resize(1920, 1200);
+  window.show();
+  Walk walk(clock, window);
+  walk.open(folder / "gaps.boresight.json", sessionToRun(argc, argv, folder));
+  walk.run();
+  for (const QDockWidget* dock : window.findChildren<QDockWidget*>())
+    walk.runInFrontOf(dock->objectName());
+  walk.scrub();
+  walk.stop();
+  return 0;
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole program killed while somebody edits: nothing that it had shown as done is lost, and
+// the session always opens. A handful of moments; fifty with BORESIGHT_ALL set.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+#include <vector>
+
+#include <QProcess>
+
+#include "core/base/random.h"
+#include "sessions/io/file_bytes.h"
+#include "sessions/session/journal.h"
+#include "sessions/session/session_document.h"
+#include "sessions/session/session_file.h"
+#include "sessions/session/session_json.h"
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kPatienceMs = 120'000;
+
+std::string textSha256(const std::string& text) {
+  return sessions::sha256Text({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+/// The states that the disk has, the latest last: the saved one and those of the journal's edits.
+std::vector<std::string> statesOnDisk(const std::filesystem::path& file) {
+  std::vector<std::string> states = {sessions::sha256Text(sessions::readFileBytes(file, SIZE_MAX))};
+  const std::filesystem::path journal = sessions::journalFileOf(file);
+  if (!std::filesystem::exists(journal)) return states;
+  for (const sessions::JournalEntry& entry : sessions::readJournal(journal).entries)
+    states.push_back(entry.after_sha256);
+  return states;
+}
+
+/// Starts the program, kills it after some confirmed actions and a moment, and returns what it had
+/// confirmed last: "" when it had not come so far.
+std::string lastConfirmed(const std::filesystem::path& file, int round, Random& random) {
+  QProcess program;
+  program.setProcessChannelMode(QProcess::ForwardedErrorChannel);
+  program.start(QStringLiteral(BORESIGHT_SCRIPTED_EDITS),
+                {QString::fromStdString(file.string()), QString::number(round)});
+  EXPECT_TRUE(program.waitForStarted(kPatienceMs));
+  std::string confirmed;
+  const auto readLines = [&] {
+    while (program.canReadLine()) confirmed = program.readLine().trimmed().toStdString();
+  };
+  int left = static_cast<int>(random.below(40));
+  while (left > 0 && program.state() == QProcess::Running) {
+    if (!program.canReadLine()) program.waitForReadyRead(kPatienceMs);
+    while (left > 0 && program.canReadLine()) {
+      confirmed = program.readLine().trimmed().toStdString();
+      --left;
+    }
+  }
+  std::this_thread::sleep_for(std::chrono::microseconds(random.below(30000)));
+  EXPECT_EQ(program.state(), QProcess::Running) << "it ended by itself";
+  program.kill();  // SIGKILL
+  EXPECT_TRUE(program.waitForFinished(kPatienceMs));
+  readLines();
+  EXPECT_EQ(program.exitStatus(), QProcess::CrashExit);
+  return confirmed;
+}
+
+TEST(KillProgram, NothingConfirmedIsLost) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder / "one.boresight.json";
+  sessions::SessionDocument::create(file,
+                                    sessions::makeSession(test::exampleFolder() / "dataset.json"));
+  const int rounds = std::getenv("BORESIGHT_ALL") != nullptr ? 50 : 5;
+  Random random(2026);
+  int confirmed_rounds = 0;
+  for (int round = 0; round < rounds; ++round) {
+    SCOPED_TRACE(round);
+    const std::string confirmed = lastConfirmed(file, round, random);
+    const std::vector<std::string> states = statesOnDisk(file);
+    if (!confirmed.empty()) {
+      ++confirmed_rounds;
+      // One more action may have come to the disk without being confirmed.
+      const auto found = std::find(states.rbegin(), states.rend(), confirmed);
+      ASSERT_NE(found, states.rend()) << "a confirmed state is not on the disk";
+      EXPECT_LE(found - states.rbegin(), 1);
+    }
+    const auto document = sessions::SessionDocument::open(file);
+    ASSERT_FALSE(document.readOnly()) << document.readOnlyReason();
+    for (const std::string& notice : document.notices())
+      EXPECT_EQ(notice.find("set aside"), std::string::npos) << notice;
+    const sessions::Session& session =
+        document.recovery() ? document.recovery()->session : document.session();
+    EXPECT_EQ(textSha256(sessions::sessionText(session, file)), states.back())
+        << "what is offered is the latest that the disk has";
+  }
+  EXPECT_GT(confirmed_rounds, rounds / 2);
+}
+
+}  // namespace
+}  // namespace boresight::ui

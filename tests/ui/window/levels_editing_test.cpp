@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// An image of 12 bits in a file of 16: how it is shown, and what the core is given.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include <QComboBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QStandardPaths>
+#include <QtTest/QTest>
+
+#include "sessions/session/case_run.h"
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/views/display_image.h"
+#include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
+#include "ui/window/main_window.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kPatienceMs = 120'000;
+constexpr int kFactor = 16;  ///< from the example's 8 bits to 12
+
+class LevelsEditingTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    QStandardPaths::setTestModeEnabled(true);
+    window_.setQuiet(true);
+    window_.resize(1280, 800);
+    window_.show();
+    sessions::CaseFiles files;
+    const auto station = test::exampleFolder() / "os";
+    files.id = "os";
+    files.image = folder_.path() / "image.png";
+    writeDeepImage(station / "image.png", files.image);
+    files.camera = station / "camera.json";
+    files.parts.resize(1);
+    files.parts[0].mesh = station / "model.ply";
+    files.parts[0].mesh_unit = "m";
+    files.seed = station / "seed.json";
+    const sessions::Session session = withCase({}, sessions::makeCase(files).made);
+    ASSERT_TRUE(window_.document().create(folder_.path() / "one.boresight.json", session));
+    ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }));
+  }
+
+  void writeDeepImage(const std::filesystem::path& from, const std::filesystem::path& to) {
+    original_ = sessions::readImage(from);
+    QImage deep(original_.width, original_.height, QImage::Format_Grayscale16);
+    for (int y = 0; y < deep.height(); ++y) {
+      auto* line = reinterpret_cast<quint16*>(deep.scanLine(y));
+      for (int x = 0; x < deep.width(); ++x)
+        line[x] = static_cast<quint16>(kFactor * original_.view().at(x, y));
+    }
+    ASSERT_TRUE(deep.save(QString::fromStdString(to.string())));
+    ASSERT_EQ(sessions::readImage(to).sample_bits, 16);
+  }
+
+  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
+  bool resting() {
+    return !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking;
+  }
+  const sessions::SessionCase& edited() { return *window_.document().session().findCase("os"); }
+  DisplayImage& display() { return window_.image().display(); }
+  /// What is drawn of a pixel of the image, from the screen.
+  int shownGray(int x, int y) {
+    ImageView& view = window_.image().view();
+    for (int i = 0; i < kLayerCount; ++i) {
+      LayerStyle style = view.layer(static_cast<LayerId>(i)).style;
+      style.visible = false;
+      view.setStyle(static_cast<LayerId>(i), style);
+    }
+    view.centreOn(QPointF(x, y), 6.0);
+    const QImage picture = view.grab().toImage();
+    return qRed(picture.pixel(view.transform().toWidget(QPointF(x, y)).toPoint()));
+  }
+  template <class Widget>
+  Widget& find(const char* name) {
+    return *window_.findChild<Widget*>(QString::fromUtf8(name));
+  }
+  void apply(int bits) {
+    find<QSpinBox>("conversionBits").setValue(bits);
+    QTest::mouseClick(&find<QPushButton>("applyConversion"), Qt::LeftButton);
+  }
+
+  test::TemporaryFolder folder_;
+  sessions::GrayImage original_;
+  MainWindow window_;
+};
+
+TEST_F(LevelsEditingTest, ADeepImageIsShownStretchedAndTheCoresViewIsNot) {
+  const auto& core = window_.state().currentCase()->image;
+  const auto brightest = std::max_element(original_.pixels.begin(), original_.pixels.end());
+  const auto index = static_cast<int>(brightest - original_.pixels.begin());
+  const int x = index % original_.width, y = index / original_.width;
+  EXPECT_LE(core.view().at(x, y), 16) << "12 of 16 bits";
+  EXPECT_EQ(shownGray(x, y), 255);
+  QTest::keyClick(&window_, Qt::Key_C);
+  ASSERT_TRUE(wait([&] { return resting(); }));
+  EXPECT_EQ(shownGray(x, y), core.view().at(x, y));
+  QTest::keyClick(&window_, Qt::Key_C);
+  ASSERT_TRUE(wait([&] { return resting(); }));
+  EXPECT_EQ(shownGray(x, y), 255);
+  auto& place = find<QLabel>("place");
+  const QPoint at = window_.image().view().transform().toWidget(QPointF(x, y)).toPoint();
+  QTest::mouseMove(&window_.image().view(), at);
+  EXPECT_TRUE(place.text().contains(QStringLiteral("gray ")));
+  EXPECT_TRUE(place.text().contains(QStringLiteral("(sample ")));
+}
+
+TEST_F(LevelsEditingTest, TheDisplaysLevelsChangeThePictureAndNothingElse) {
+  const std::string digest = sessions::inputsDigest(edited());
+  const auto before = window_.state().currentCase();
+  find<QSpinBox>("displayBlack").setValue(1000);
+  find<QSpinBox>("displayWhite").setValue(1100);
+  ASSERT_TRUE(wait([&] { return resting(); }));
+  EXPECT_EQ(display().levels(), (sessions::GrayLevels{1000, 1100}));
+  const QImage& picture = display().picture();
+  for (int y = 0; y < picture.height(); y += 37)
+    for (int x = 0; x < picture.width(); x += 31) {
+      const int v = std::clamp(kFactor * original_.view().at(x, y), 1000, 1100);
+      ASSERT_EQ(picture.constScanLine(y)[x], (2 * (v - 1000) * 255 + 100) / 200);
+    }
+  EXPECT_FALSE(window_.document().isModified());
+  EXPECT_FALSE(window_.document().canUndo());
+  EXPECT_EQ(window_.state().currentCase(), before);
+  EXPECT_EQ(sessions::inputsDigest(edited()), digest);
+}
+
+TEST_F(LevelsEditingTest, TheConversionIsAnEditThatMakesRunsStale) {
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+  apply(12);
+  ASSERT_TRUE(wait([&] {
+    return resting() && window_.state().currentCase()->source.image.eight_bit.bit_depth == 12;
+  }));
+  const auto& session = window_.document().session();
+  EXPECT_TRUE(stalenessOf(session.runs[0], session, {}).inputs_changed);
+  EXPECT_FALSE(window_.cases().staleness().isEmpty());
+  EXPECT_GT(*std::max_element(window_.state().currentCase()->image.pixels.begin(),
+                              window_.state().currentCase()->image.pixels.end()),
+            200);
+  EXPECT_TRUE(find<QLabel>("conversionRule").text().contains(QStringLiteral("2^12")));
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 2 && resting(); }));
+  EXPECT_EQ(session.runs[1].digest,
+            sessions::runCase(session, "os", sessions::RecordLevel::kSummary).digest);
+  QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_FALSE(edited().image.eight_bit.bit_depth);
+  EXPECT_FALSE(stalenessOf(session.runs[0], session, {}).stale());
+}
+
+TEST_F(LevelsEditingTest, WhatTheDisplayShowsCanBeGivenToTheCore) {
+  find<QSpinBox>("displayBlack").setValue(160);
+  find<QSpinBox>("displayWhite").setValue(3000);
+  ASSERT_TRUE(wait([&] { return resting(); }));
+  QTest::mouseClick(&find<QPushButton>("conversionFromDisplay"), Qt::LeftButton);
+  QTest::mouseClick(&find<QPushButton>("applyConversion"), Qt::LeftButton);
+  ASSERT_TRUE(wait([&] { return resting() && edited().image.eight_bit.levels; }));
+  EXPECT_EQ(*edited().image.eight_bit.levels, (sessions::GrayLevels{160, 3000}));
+  ASSERT_TRUE(wait([&] { return resting(); }));
+  EXPECT_EQ(display().corePicture(), display().picture());
+}
+
+TEST_F(LevelsEditingTest, TooFewBitsAreRefusedInASentence) {
+  apply(8);
+  ASSERT_TRUE(wait([&] { return resting(); }));
+  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("more than 8 bits")));
+  EXPECT_FALSE(window_.document().isModified());
+}
+
+}  // namespace
+}  // namespace boresight::ui

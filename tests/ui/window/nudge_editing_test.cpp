@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// Nudging by keys as edits of the document: one window, real events.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QStandardPaths>
+#include <QtTest/QTest>
+
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/window/main_window.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kPatienceMs = 120'000;
+
+class NudgeEditingTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    QStandardPaths::setTestModeEnabled(true);
+    window_.setQuiet(true);
+    window_.resize(1280, 800);
+    window_.show();
+    window_.dock(QStringLiteral("pose"))->raise();
+    const auto session = sessions::makeSession(test::exampleFolder() / "dataset.json");
+    ASSERT_TRUE(window_.document().create(file_, session));
+    ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }));
+    id_ = window_.state().currentCase()->source.id;
+  }
+
+  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
+  bool resting() {
+    return !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking;
+  }
+  const sessions::SessionCase& edited() { return *window_.document().session().findCase(id_); }
+  const std::optional<Pose>& nudged() { return window_.state().nudgedPose(); }
+  void nudge(Qt::Key key) {
+    auto* pad = window_.findChild<QLabel*>(QStringLiteral("nudgePad"));
+    pad->setFocus();
+    QTest::keyClick(pad, key);
+  }
+  void undo() { QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier); }
+  void redo() { ASSERT_TRUE(window_.document().redo()); }
+
+  test::TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_.path() / "one.boresight.json";
+  MainWindow window_;
+  std::string id_;
+};
+
+TEST_F(NudgeEditingTest, EachGestureIsOneEntryThatUndoAndRedoWalkThrough) {
+  nudge(Qt::Key_Right);
+  const Pose first = nudged().value();
+  nudge(Qt::Key_Up);
+  const Pose second = nudged().value();
+  EXPECT_EQ(edited().camera_from_station_working, second);
+  const auto other = sessions::SessionDocument::open(file_, sessions::Access::kReadOnly);
+  ASSERT_TRUE(other.recovery());
+  EXPECT_EQ(other.recovery()->edits.size(), 2u);
+  EXPECT_EQ(other.recovery()->session.findCase(id_)->camera_from_station_working, second);
+  undo();
+  EXPECT_EQ(nudged(), first);
+  undo();
+  EXPECT_FALSE(nudged());
+  EXPECT_FALSE(window_.document().canUndo());
+  redo();
+  EXPECT_EQ(nudged(), first);
+  redo();
+  EXPECT_EQ(nudged(), second);
+}
+
+TEST_F(NudgeEditingTest, DroppingTheNudgedPoseCanBeUndone) {
+  nudge(Qt::Key_Right);
+  const Pose first = nudged().value();
+  QTest::mouseClick(window_.findChild<QPushButton*>(QStringLiteral("dropNudged")), Qt::LeftButton);
+  EXPECT_FALSE(nudged());
+  EXPECT_FALSE(edited().camera_from_station_working);
+  undo();
+  EXPECT_EQ(nudged(), first);
+}
+
+TEST_F(NudgeEditingTest, AGestureUnderWayIsWhatUndoTakesBack) {
+  nudge(Qt::Key_Right);
+  const Pose first = nudged().value();
+  auto* box = window_.findChild<QDoubleSpinBox*>(QStringLiteral("moveX"));
+  box->stepUp();
+  EXPECT_NE(nudged(), first);
+  EXPECT_EQ(edited().camera_from_station_working, first) << "not yet ended";
+  undo();
+  EXPECT_EQ(nudged(), first);
+}
+
+TEST_F(NudgeEditingTest, NudgingReadsNothingAnewAndMakesNoRunStale) {
+  const auto before = window_.state().currentCase();
+  const std::string digest = sessions::inputsDigest(edited());
+  nudge(Qt::Key_Right);
+  EXPECT_TRUE(wait([&] { return resting(); }));
+  EXPECT_EQ(window_.state().currentCase(), before);
+  EXPECT_EQ(sessions::inputsDigest(edited()), digest);
+  // A run ends in the middle of it: the document changes, the nudged pose stays.
+  const auto pose = nudged();
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+  EXPECT_EQ(nudged(), pose);
+}
+
+TEST_F(NudgeEditingTest, UsedAsSeedItIsOneEntryThatUndoTakesBackWhole) {
+  nudge(Qt::Key_Right);
+  const Pose first = nudged().value();
+  const Pose seed = edited().camera_from_station_seed;
+  QTest::mouseClick(window_.findChild<QPushButton*>(QStringLiteral("useAsSeed")), Qt::LeftButton);
+  EXPECT_EQ(edited().camera_from_station_seed, first);
+  EXPECT_FALSE(nudged());
+  ASSERT_TRUE(wait([&] {
+    return resting() && window_.state().currentCase()->source.camera_from_station_seed == first;
+  }));
+  undo();
+  ASSERT_TRUE(wait([&] {
+    return resting() && window_.state().currentCase()->source.camera_from_station_seed == seed;
+  }));
+  EXPECT_EQ(nudged(), first);
+}
+
+TEST_F(NudgeEditingTest, ReopenedItIsWhereItWas) {
+  nudge(Qt::Key_PageUp);
+  const Pose pose = nudged().value();
+  ASSERT_TRUE(window_.document().save());
+  window_.document().close();
+  EXPECT_FALSE(nudged());
+  ASSERT_TRUE(window_.openSession(file_));
+  ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }));
+  EXPECT_EQ(nudged(), pose);
+}
+
+TEST_F(NudgeEditingTest, EachCaseKeepsItsOwn) {
+  nudge(Qt::Key_Right);
+  const auto pose = nudged();
+  const std::string other = window_.document().session().cases[1]->id;
+  window_.cases().chooseCase(QString::fromStdString(other));
+  ASSERT_TRUE(wait([&] { return window_.state().currentCase()->source.id == other && resting(); }));
+  EXPECT_FALSE(nudged());
+  window_.cases().chooseCase(QString::fromStdString(id_));
+  ASSERT_TRUE(wait([&] { return window_.state().currentCase()->source.id == id_ && resting(); }));
+  EXPECT_EQ(nudged(), pose);
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Another option, and the run from the shown iteration on anew.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include <QAction>
+#include <QStandardPaths>
+#include <QtTest/QTest>
+
+#include "sessions/session/case_run.h"
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/window/main_window.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kPatienceMs = 120'000;
+constexpr int kFrom = 2;
+
+class RerunTest : public ::testing::Test {
+ protected:
+  RerunTest() {
+    QStandardPaths::setTestModeEnabled(true);
+    window_.setQuiet(true);
+    window_.show();
+  }
+
+  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
+  bool rests() {
+    return wait(
+        [&] { return !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking; });
+  }
+
+  /// A session of one case with its whole run; the cursor stands on an iteration of it.
+  void openAndRun() {
+    ASSERT_TRUE(
+        window_.document().create(folder_.path() / "one.boresight.json",
+                                  sessions::makeSession(test::exampleFolder() / "dataset.json")));
+    ASSERT_TRUE(wait([&] { return window_.state().currentCase() != nullptr; }));
+    QTest::keyClick(&window_, Qt::Key_F5);
+    ASSERT_TRUE(wait([&] { return runs().size() == 1; }));
+    ASSERT_TRUE(rests());
+    first_ = window_.state().snapshot();
+    window_.state().setCursor({kFrom, Stage::kFinished});
+  }
+
+  const std::vector<sessions::RunRecord>& runs() { return window_.document().session().runs; }
+
+  LocalizerOptions otherOptions() {
+    LocalizerOptions options = first_->options;
+    options.templates.feature_size_m = 0.0;  // the case's own
+    options.refinement.last_radius_px = 5.0;
+    return options;
+  }
+
+  void rerun() {
+    QTest::keyClick(&window_, Qt::Key_F5, Qt::ShiftModifier);
+    ASSERT_TRUE(rests());
+  }
+
+  test::TemporaryFolder folder_;
+  MainWindow window_;
+  ViewState::SnapshotPtr first_;
+};
+
+TEST_F(RerunTest, KeepsWhatWasBeforeAndRecordsARunThatIsTheSameHeadless) {
+  openAndRun();
+  window_.cases().setOptions(QStringLiteral("default"), otherOptions());
+  rerun();
+  ASSERT_EQ(runs().size(), 2u);
+  const ViewState::SnapshotPtr now = window_.state().snapshot();
+  ASSERT_TRUE(now->finished);
+  for (int i = 0; i < kFrom; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    EXPECT_EQ(now->iterations[at]->camera_from_station.translation_m,
+              first_->iterations[at]->camera_from_station.translation_m);
+  }
+  EXPECT_NE(now->iterations[kFrom + 1]->threshold_px, first_->iterations[kFrom + 1]->threshold_px);
+  EXPECT_EQ(window_.cases().staleness(), QString());
+
+  const sessions::RunRecord& record = runs()[1];
+  ASSERT_TRUE(record.rerun.has_value());
+  EXPECT_EQ(record.rerun->from, first_->digest);
+  EXPECT_EQ(record.rerun->changes.front().iteration, kFrom);
+  EXPECT_EQ(record.digest, now->digest);
+  const auto plan = sessions::planOf(record, window_.document().session(), "session");
+  EXPECT_EQ(sessions::runCase(*window_.state().currentCase(), plan).digest, record.digest);
+}
+
+TEST_F(RerunTest, WithTheSameOptionsItIsTheSameRun) {
+  openAndRun();
+  rerun();
+  ASSERT_EQ(runs().size(), 1u);
+  EXPECT_EQ(window_.state().snapshot()->digest, first_->digest);
+  EXPECT_NE(window_.state().snapshot(), first_);
+}
+
+TEST_F(RerunTest, OnTheSeedItIsANewRun) {
+  openAndRun();
+  window_.cases().setOptions(QStringLiteral("default"), otherOptions());
+  window_.state().setCursor({-1, Stage::kFinished});
+  rerun();
+  ASSERT_EQ(runs().size(), 2u);
+  EXPECT_FALSE(runs()[1].rerun.has_value());
+  EXPECT_EQ(runs()[1].digest,
+            sessions::runCase(window_.document().session(), runs()[1].case_id).digest);
+}
+
+TEST_F(RerunTest, SaysWhichOptionHoldsForAWholeRun) {
+  openAndRun();
+  LocalizerOptions options = otherOptions();
+  options.edges.gaussian_sigma_px += 0.5;
+  window_.cases().setOptions(QStringLiteral("default"), options);
+  rerun();
+  EXPECT_EQ(runs().size(), 1u);
+  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("edges.gaussian_sigma_px")))
+      << window_.lastMessage().toStdString();
+  EXPECT_EQ(window_.state().snapshot(), first_) << "what was shown stays";
+}
+
+TEST_F(RerunTest, GoesOnFromARunThatWasReadFromItsFile) {
+  openAndRun();
+  ASSERT_TRUE(window_.document().save());
+  const auto file = window_.document().file();
+  window_.document().close();
+  ASSERT_TRUE(window_.openSession(file));
+  ASSERT_TRUE(wait([&] { return window_.state().snapshot() != nullptr; }));
+  window_.cases().setOptions(QStringLiteral("default"), otherOptions());
+  window_.state().setCursor({kFrom, Stage::kFinished});
+  rerun();
+  ASSERT_EQ(runs().size(), 2u);
+  EXPECT_EQ(runs()[1].rerun->from, first_->digest);
+  // And on from that one, which leaves the first change in place.
+  LocalizerOptions options = otherOptions();
+  options.refinement.last_radius_px = 2.0;
+  window_.cases().setOptions(QStringLiteral("default"), options);
+  window_.state().setCursor({kFrom + 1, Stage::kFinished});
+  rerun();
+  ASSERT_EQ(runs().size(), 3u);
+  EXPECT_EQ(runs()[2].rerun->changes.size(), 2u);
+}
+
+TEST_F(RerunTest, RefusesIterationsThatAreNotThoseOfTheRecord) {
+  openAndRun();
+  auto other = std::make_shared<sessions::RunSnapshot>(*first_);
+  auto moved = std::make_shared<sessions::IterationTrace>(*first_->iterations[0]);
+  moved->camera_from_station.translation_m.x() += 1e-9;
+  other->iterations[0] = moved;
+  window_.state().setSnapshot(other);
+  window_.state().setCursor({kFrom, Stage::kFinished});
+  rerun();
+  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("another version")))
+      << window_.lastMessage().toStdString();
+  EXPECT_EQ(runs().size(), 1u);
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kFinished; }));
+  EXPECT_EQ(window_.state().snapshot()->digest, first_->digest)
+      << "a run from the start still goes";
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// A person at work, for the test that kills them: scripted_edits SESSION SEED opens the session in
+// the whole window, takes what an earlier one left, and then edits, undoes, runs and saves without
+// end. After each action, when it is in the journal and drawn, it prints the SHA-256 of the session
+// that the window shows.
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include <QApplication>
+#include <QKeyEvent>
+#include <QStandardPaths>
+
+#include "core/base/random.h"
+#include "sessions/io/file_bytes.h"
+#include "sessions/session/session_json.h"
+#include "ui/window/main_window.h"
+
+using namespace boresight;
+
+namespace {
+
+class Operator {
+ public:
+  Operator(ui::MainWindow& window, std::uint64_t seed) : window_(window), random_(seed) {}
+
+  /// One action of a person; false when there was nothing to do.
+  bool act() {
+    switch (random_.below(12)) {
+      case 0:
+        return window_.document().undo();
+      case 1:
+        return window_.document().redo();
+      case 2:
+        return window_.document().save();
+      case 3:
+        return changeOptions();
+      case 4:
+        return paintMask();
+      case 5:
+        return random_.below(4) == 0 && run();
+      default:
+        return moveSeed();
+    }
+  }
+
+  /// The window is drawn as it is now before anything is confirmed.
+  void confirm() {
+    QCoreApplication::processEvents();
+    window_.repaint();
+    const std::string text =
+        sessions::sessionText(window_.document().session(), window_.document().file());
+    std::puts(
+        sessions::sha256Text({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()})
+            .c_str());
+    std::fflush(stdout);
+  }
+
+ private:
+  const sessions::SessionCase& shownCase() {
+    return *window_.document().session().findCase(window_.cases().caseId().toStdString());
+  }
+
+  bool moveSeed() {
+    Pose pose = shownCase().camera_from_station_seed;
+    pose.translation_m.x() += random_.uniform(-1e-3, 1e-3);
+    window_.cases().useAsSeed(pose);
+    return true;
+  }
+
+  bool changeOptions() {
+    LocalizerOptions options;
+    options.pnp.seed = 1 + random_.below(1000);
+    window_.cases().setOptions(QStringLiteral("default"), options);
+    return true;
+  }
+
+  bool paintMask() {
+    sessions::SessionCase one = shownCase();
+    sessions::MaskStroke stroke;
+    stroke.radius_px = random_.uniform(1.0, 9.0);
+    stroke.points.emplace_back(random_.uniform(0.0, 900.0), random_.uniform(0.0, 900.0));
+    one.ignore_strokes.push_back(stroke);
+    return window_.document().edit(sessions::withCase(window_.document().session(), std::move(one)),
+                                   QStringLiteral("Paint"));
+  }
+
+  /// A run that ends is an action, too: it is in the session when it is confirmed.
+  bool run() {
+    const auto rests = [this] {
+      return !window_.tasks().isBusy() && window_.run().state() != ui::RunState::kWorking &&
+             window_.state().currentCase();
+    };
+    while (!rests()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+    window_.cases().advance(sessions::StepUntil::kEnd);
+    while (!rests()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+    return true;
+  }
+
+  ui::MainWindow& window_;
+  Random random_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  const QApplication application(argc, argv);
+  QStandardPaths::setTestModeEnabled(true);
+  ui::MainWindow window;
+  window.setQuiet(true);
+  window.show();
+  if (!window.openSession(argv[1])) {
+    std::fprintf(stderr, "%s\n", qPrintable(window.lastMessage()));
+    return 3;
+  }
+  if (window.document().recovery()) window.document().acceptRecovery();
+  Operator person(window, std::strtoull(argv[2], nullptr, 10));
+  person.confirm();
+  while (window.lastMessage().isEmpty()) {
+    if (person.act()) person.confirm();
+  }
+  std::fprintf(stderr, "%s\n", qPrintable(window.lastMessage()));
+  return 4;
+}

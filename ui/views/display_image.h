@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <QImage>
+#include <QObject>
+
+#include "sessions/io/image_file.h"
+#include "ui/state/view_state.h"
+
+namespace boresight::ui {
+
+class TaskRunner;
+
+/// The current case's image as people see it: the 8-bit pixels that the core sees, or the file's
+/// samples stretched between two levels. At first images of more than 8 bits are stretched
+/// automatically and others are not. Reading and stretching happen in the task runner; until a
+/// picture is made the one before, or the core's, is shown.
+class DisplayImage : public QObject {
+  Q_OBJECT
+
+ public:
+  using SamplesPtr = std::shared_ptr<const sessions::ImageSamples>;
+
+  DisplayImage(ViewState& state, TaskRunner& tasks, QObject* parent = nullptr);
+
+  /// Null without a case.
+  const QImage& picture() const { return picture_; }
+  /// The core's 8-bit gray values.
+  const QImage& corePicture() const { return core_; }
+  /// nullptr until they are read.
+  const SamplesPtr& samples() const { return samples_; }
+  const sessions::GrayLevels& levels() const { return levels_; }
+  bool showsCore() const { return shows_core_; }
+
+  void setShowsCore(bool shows_core);
+  /// Black and white are brought into the range of the samples, black below white.
+  void setLevels(const sessions::GrayLevels& levels);
+  void setAutomaticLevels();
+  void setFullLevels();
+
+ Q_SIGNALS:
+  void pictureChanged();
+  /// Levels, samples, or what is shown.
+  void levelsChanged();
+
+ private:
+  void showCase();
+  void takeSamples(SamplesPtr samples);
+  void makePicture();
+  void setPicture(const QImage& picture);
+
+  ViewState& state_;
+  TaskRunner& tasks_;
+  ViewState::CasePtr case_;
+  QImage core_;
+  QImage picture_;
+  SamplesPtr samples_;
+  sessions::GrayLevels automatic_;
+  sessions::GrayLevels levels_;
+  bool shows_core_ = false;
+};
+
+}  // namespace boresight::ui
