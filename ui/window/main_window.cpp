@@ -26,7 +26,7 @@ namespace {
 
 constexpr const char* kGeometryKey = "window/geometry";
 constexpr const char* kLayoutKey = "window/state";
-constexpr int kLayoutVersion = 2;  // of another set of panels, a layout is not taken over
+constexpr int kLayoutVersion = 3;  // of another set of panels, a layout is not taken over
 
 QString stateText(RunState state) {
   switch (state) {

@@ -56,12 +56,12 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   add(QStringLiteral("layers"), tr("Layers"), new LayersPanel(*image_));
   add(QStringLiteral("mask"), tr("Mask"), mask_);
   add(QStringLiteral("levels"), tr("Levels"), levels_);
-  add(QStringLiteral("inputs"), tr("Inputs"), inputs_);
   add(QStringLiteral("pose"), tr("Pose"), poses_);
   add(QStringLiteral("configuration"), tr("Configuration"), configuration_);
   add(QStringLiteral("scene"), tr("Scene"), new SceneView(parts.state));
   add(QStringLiteral("iterations"), tr("Iterations"), new IterationsPanel(parts.state));
   add(QStringLiteral("inspector"), tr("Match inspector"), new MatchInspectorPanel(parts.state));
+  add(QStringLiteral("inputs"), tr("Inputs"), inputs_);
   place();
 }
 
@@ -101,10 +101,12 @@ void WindowDocks::place() const {
   window_.addDockWidget(Qt::LeftDockWidgetArea, cases);
   window_.addDockWidget(Qt::RightDockWidgetArea, scene);
   window_.addDockWidget(Qt::RightDockWidgetArea, layers);
-  for (const char* name : {"mask", "levels", "inputs", "pose", "configuration"})
+  // As many as can be named at 1280 pixels.
+  for (const char* name : {"mask", "levels", "pose", "configuration"})
     window_.tabifyDockWidget(layers, dock(QLatin1String(name)));
   window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
-  window_.tabifyDockWidget(iterations, dock(QStringLiteral("inspector")));
+  for (const char* name : {"inspector", "inputs"})
+    window_.tabifyDockWidget(iterations, dock(QLatin1String(name)));
   for (QDockWidget* each : docks_) each->show();
   layers->raise();
   iterations->raise();
