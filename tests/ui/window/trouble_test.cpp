@@ -68,6 +68,7 @@ class Answers {
         QTest::mouseClick(each, Qt::LeftButton);
         return;
       }
+      ADD_FAILURE() << "no button " << button_.toStdString();
       box->reject();
     } else if (auto* dialog = qobject_cast<QFileDialog*>(modal)) {
       auto* name = dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
@@ -182,7 +183,7 @@ TEST_F(TroubleTest, EditsOfAKilledProgramAreOfferedAndTaken) {
   open();
   moveSeed(0.25);
   window_.document().close();  // as a kill does it: nothing is saved
-  Answers answers(QStringLiteral("Recover them"), {});
+  Answers answers(QStringLiteral("Recover"), {});
   ASSERT_TRUE(window_.openSession(file()));
   EXPECT_TRUE(answers.text().contains(QStringLiteral("one.boresight.json")))
       << answers.text().toStdString();
@@ -198,7 +199,7 @@ TEST_F(TroubleTest, EditsOfAKilledProgramCanBeSetAside) {
   open();
   moveSeed(0.25);
   window_.document().close();
-  Answers answers(QStringLiteral("Set them aside"), {});
+  Answers answers(QStringLiteral("Set aside"), {});
   ASSERT_TRUE(window_.openSession(file()));
   EXPECT_FALSE(answers.text().isEmpty());
   ASSERT_TRUE(QTest::qWaitFor([this] { return !window_.tasks().isBusy(); }, kPatienceMs));
