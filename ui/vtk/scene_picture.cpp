@@ -4,8 +4,10 @@
 #include <QPainter>
 #include <QWidget>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sessions/trace/scene_render.h"
@@ -50,19 +52,60 @@ struct Surfaces {
   }
 };
 
+/// Dots ready to be copied: of edge places there are ten thousand, and an ellipse takes Qt as long
+/// as a hundred copies.
+class DotStamps {
+ public:
+  DotStamps(double radius_px, double ratio) : radius_px_(radius_px), ratio_(ratio) {}
+
+  /// Drawn to whole device pixels; `at` is in device pixels, 0 the left edge.
+  void draw(QPainter& painter, const QPointF& at, bool inlier, double share) {
+    const int shade =
+        inlier ? static_cast<int>(std::lround(kShades * std::clamp(share, 0.0, 1.0))) : kShades + 1;
+    QImage& stamp = stamps_[static_cast<std::size_t>(shade)];
+    if (stamp.isNull()) stamp = make(inlier, static_cast<double>(shade) / kShades);
+    const int half = stamp.width() / 2;
+    painter.drawImage(QPoint(static_cast<int>(std::floor(at.x())) - half,
+                             static_cast<int>(std::floor(at.y())) - half),
+                      stamp);
+  }
+
+ private:
+  static constexpr int kShades = 32;
+
+  QImage make(bool inlier, double share) const {
+    const double radius = (inlier ? radius_px_ : 0.5 * radius_px_) * ratio_;
+    const int side = 2 * static_cast<int>(std::ceil(radius + ratio_)) + 1;
+    QImage stamp(side, side, QImage::Format_ARGB32_Premultiplied);
+    stamp.fill(Qt::transparent);
+    QPainter painter(&stamp);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(Qt::black, 0.8 * ratio_));
+    painter.setBrush(inlier ? residualColor(share) : QColor(150, 150, 150));
+    painter.drawEllipse(QPointF(0.5 * side, 0.5 * side), radius, radius);
+    return stamp;
+  }
+
+  double radius_px_;
+  double ratio_;
+  std::array<QImage, kShades + 2> stamps_;
+};
+
 /// Painting in the view's pixels (0, 0 the centre of the top-left one) with the surfaces' depth.
 struct Brush {
   QPainter& painter;
   const SceneContent& content;
   const Viewpoint& view;
   const Surfaces& surfaces;
+  DotStamps& dots;
   bool occludes = true;
+
+  double ratio() const { return static_cast<double>(surfaces.camera.width) / view.camera.width; }
 
   bool hidden(const QPointF& pixel, double depth_m) const {
     if (!occludes || !surfaces.drawn) return false;
-    const double ratio = static_cast<double>(surfaces.camera.width) / view.camera.width;
-    const int x = static_cast<int>(std::floor((pixel.x() + 0.5) * ratio));
-    const int y = static_cast<int>(std::floor((pixel.y() + 0.5) * ratio));
+    const int x = static_cast<int>(std::floor((pixel.x() + 0.5) * ratio()));
+    const int y = static_cast<int>(std::floor((pixel.y() + 0.5) * ratio()));
     if (x < 0 || y < 0 || x >= surfaces.camera.width || y >= surfaces.camera.height) return false;
     const auto surface_m = static_cast<double>(surfaces.depth_m[surfaces.index(x, y)]);
     return surface_m > 0.0 && surface_m < depth_m - 2e-3 * content.bounds.diagonal();
@@ -97,8 +140,9 @@ struct Brush {
     QPointF at;
     if (!visible(point.at_m, at)) return;
     const double radius_px = content.point_radius_px;
-    const QColor color = residualColor(point.residual_px / content.residual_limit_px);
+    const double share = point.residual_px / content.residual_limit_px;
     if (point.kind == ScenePointKind::kOutlier) {
+      const QColor color = residualColor(share);
       const double r = 1.2 * radius_px;
       for (const auto& [pen_color, width] : {std::pair(QColor(Qt::black), 4.0), {color, 2.2}}) {
         painter.setPen(QPen(pen_color, width));
@@ -106,11 +150,11 @@ struct Brush {
         painter.drawLine(at - QPointF(r, -r), at + QPointF(r, -r));
       }
     } else {
-      const bool inlier = point.kind == ScenePointKind::kInlier;
-      const double r = inlier ? radius_px : 0.5 * radius_px;
-      painter.setPen(QPen(Qt::black, 0.8));
-      painter.setBrush(inlier ? color : QColor(150, 150, 150));
-      painter.drawEllipse(at, r, r);
+      const QTransform scaled = painter.transform();
+      painter.resetTransform();
+      dots.draw(painter, (at + QPointF(0.5, 0.5)) * ratio(), point.kind == ScenePointKind::kInlier,
+                share);
+      painter.setTransform(scaled);
     }
     painter.setBrush(Qt::NoBrush);
     if (point.template_index >= 0 && point.template_index == content.selected_template) {
@@ -177,15 +221,43 @@ void paintThings(const Brush& brush, const SceneContent& content, const SceneLoo
     for (const ScenePoint& point : content.points) brush.point(point);
 }
 
+QImage drawPicture(const SceneContent& content, const SceneLook& look, const Viewpoint& view,
+                   const std::optional<Backdrop>& backdrop, double ratio,
+                   const Surfaces& surfaces) {
+  QImage picture(surfaces.camera.width, surfaces.camera.height,
+                 QImage::Format_ARGB32_Premultiplied);
+  picture.fill(look.background);
+  QPainter painter(&picture);
+  painter.setRenderHint(QPainter::SmoothPixmapTransform);
+  if (backdrop) {
+    const QRectF& where = backdrop->where;
+    painter.drawImage(QRectF(where.topLeft() * ratio, where.size() * ratio), backdrop->gray);
+  }
+  if (content.empty()) return picture;
+  painter.drawImage(0, 0, meshPicture(content, look, surfaces));
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.scale(ratio, ratio);
+  painter.translate(0.5, 0.5);
+  const bool occludes = look.shown.mesh && look.mesh_opacity >= 1.0;
+  DotStamps dots(content.point_radius_px, ratio);
+  paintThings({painter, content, view, surfaces, dots, occludes}, content, look);
+  painter.end();
+  picture.setDevicePixelRatio(ratio);
+  return picture;
+}
+
 class PictureWidget final : public QWidget {
  public:
   using QWidget::QWidget;
   void setContent(std::shared_ptr<const SceneContent> content, const SceneLook& look) {
+    if (!content || !content_ || content->one != content_->one) surfaces_.reset();
     content_ = std::move(content);
     look_ = look;
     changed();
   }
   void setView(const Viewpoint& view, const std::optional<Backdrop>& backdrop) {
+    if (view.camera != view_.camera || view.view_from_station != view_.view_from_station)
+      surfaces_.reset();
     view_ = view;
     backdrop_ = backdrop;
     changed();
@@ -196,8 +268,7 @@ class PictureWidget final : public QWidget {
     QPainter painter(this);
     painter.fillRect(rect(), look_.background);
     if (!content_ || view_.camera.width <= 0) return;
-    if (picture_.isNull())
-      picture_ = drawScenePicture(*content_, look_, view_, backdrop_, devicePixelRatioF());
+    if (picture_.isNull()) draw(devicePixelRatioF());
     painter.drawImage(0, 0, picture_);
   }
 
@@ -207,10 +278,19 @@ class PictureWidget final : public QWidget {
     update();
   }
 
+  /// Surfaces take longest, and stay what they are while a run goes on.
+  void draw(double ratio) {
+    if (!surfaces_ || ratio != ratio_) surfaces_.emplace(*content_, view_, ratio);
+    ratio_ = ratio;
+    picture_ = drawPicture(*content_, look_, view_, backdrop_, ratio, *surfaces_);
+  }
+
   std::shared_ptr<const SceneContent> content_;
   SceneLook look_;
   Viewpoint view_;
   std::optional<Backdrop> backdrop_;
+  std::optional<Surfaces> surfaces_;  ///< of this content's mesh, view and ratio
+  double ratio_ = 0.0;
   QImage picture_;
 };
 
@@ -233,26 +313,7 @@ class PictureCanvas final : public SceneCanvas {
 
 QImage drawScenePicture(const SceneContent& content, const SceneLook& look, const Viewpoint& view,
                         const std::optional<Backdrop>& backdrop, double ratio) {
-  const Surfaces surfaces(content, view, ratio);
-  QImage picture(surfaces.camera.width, surfaces.camera.height,
-                 QImage::Format_ARGB32_Premultiplied);
-  picture.fill(look.background);
-  QPainter painter(&picture);
-  painter.setRenderHint(QPainter::SmoothPixmapTransform);
-  if (backdrop) {
-    const QRectF& where = backdrop->where;
-    painter.drawImage(QRectF(where.topLeft() * ratio, where.size() * ratio), backdrop->gray);
-  }
-  if (content.empty()) return picture;
-  painter.drawImage(0, 0, meshPicture(content, look, surfaces));
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.scale(ratio, ratio);
-  painter.translate(0.5, 0.5);
-  const bool occludes = look.shown.mesh && look.mesh_opacity >= 1.0;
-  paintThings({painter, content, view, surfaces, occludes}, content, look);
-  painter.end();
-  picture.setDevicePixelRatio(ratio);
-  return picture;
+  return drawPicture(content, look, view, backdrop, ratio, Surfaces(content, view, ratio));
 }
 
 std::unique_ptr<SceneCanvas> makePictureCanvas(QWidget* parent) {
