@@ -87,11 +87,17 @@ vtkNew<vtkPolyData> crossShape() {
   return shape;
 }
 
-vtkNew<vtkPolyData> sphereShape(double radius) {
+/// Round enough for a template's point, or for one of ten thousand places on edges.
+enum class Roundness { kFew, kMany };
+constexpr vtkIdType kManyPoints = 1000;
+constexpr double kUnmatchedRadius = 0.45;  ///< of an inlier's
+
+vtkNew<vtkPolyData> sphereShape(double radius, Roundness roundness = Roundness::kFew) {
+  const bool few = roundness == Roundness::kFew;
   vtkNew<vtkSphereSource> sphere;
   sphere->SetRadius(radius);
-  sphere->SetThetaResolution(10);  // thousands of them may be there
-  sphere->SetPhiResolution(6);
+  sphere->SetThetaResolution(few ? 10 : 4);
+  sphere->SetPhiResolution(few ? 6 : 3);
   sphere->Update();
   vtkNew<vtkPolyData> shape;
   shape->ShallowCopy(sphere->GetOutput());
@@ -243,9 +249,7 @@ class VtkCanvas final : public SceneCanvas {
       const QColor color = residualColor(static_cast<double>(i) / (kColors - 1));
       table_->SetTableValue(i, color.redF(), color.greenF(), color.blueF());
     }
-    inliers_.mapper->SetSourceData(sphereShape(1.0));
     outliers_.mapper->SetSourceData(crossShape());
-    unmatched_.mapper->SetSourceData(sphereShape(0.45));
     unmatched_.setColor(QColor(150, 150, 150));
     selected_.mapper->SetSourceData(sphereShape(2.1));
     selected_.setColor(QColor(255, 235, 60));
@@ -344,6 +348,11 @@ class VtkCanvas final : public SceneCanvas {
       cloud->changed();
     for (Cloud* cloud : {&inliers_, &outliers_})
       cloud->mapper->SetScalarRange(0.0, content_->residual_limit_px);
+    const auto roundness = [](const Cloud& cloud) {
+      return cloud.points->GetNumberOfPoints() > kManyPoints ? Roundness::kMany : Roundness::kFew;
+    };
+    inliers_.mapper->SetSourceData(sphereShape(1.0, roundness(inliers_)));
+    unmatched_.mapper->SetSourceData(sphereShape(kUnmatchedRadius, roundness(unmatched_)));
   }
 
   void applyLook() {
