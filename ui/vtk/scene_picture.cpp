@@ -80,7 +80,12 @@ class DotStamps {
     stamp.fill(Qt::transparent);
     QPainter painter(&stamp);
     painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(QPen(Qt::black, 0.8 * ratio_));
+    // Around dots this small a rim would be most of what is seen.
+    if (radius < 2.5 * ratio_) {
+      painter.setPen(Qt::NoPen);
+    } else {
+      painter.setPen(QPen(Qt::black, 0.8 * ratio_));
+    }
     painter.setBrush(inlier ? residualColor(share) : QColor(150, 150, 150));
     painter.drawEllipse(QPointF(0.5 * side, 0.5 * side), radius, radius);
     return stamp;

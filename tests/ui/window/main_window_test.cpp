@@ -5,8 +5,13 @@
 
 #include <functional>
 
+#include <QCoreApplication>
+#include <QDragEnterEvent>
+#include <QDropEvent>
 #include <QElapsedTimer>
+#include <QMimeData>
 #include <QStandardPaths>
+#include <QUrl>
 #include <QtTest/QTest>
 
 #include "sessions/session/case_run.h"
@@ -54,7 +59,15 @@ TEST_F(MainWindowTest, OpensEmptyAndOffersNothingThatCannotBeDone) {
 }
 
 TEST_F(MainWindowTest, ADroppedDatasetIsShown) {
-  window_.takeFiles({test::exampleFolder() / "dataset.json"});
+  QMimeData data;
+  data.setUrls({QUrl::fromLocalFile(
+      QString::fromStdString((test::exampleFolder() / "dataset.json").string()))});
+  QDragEnterEvent enter(QPoint(600, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(&window_, &enter);
+  EXPECT_TRUE(enter.isAccepted());
+  QDropEvent drop(QPointF(600, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(&window_, &drop);
+  EXPECT_TRUE(drop.isAccepted());
   ASSERT_TRUE(wait([&] { return window_.state().currentCase() != nullptr; }));
   EXPECT_TRUE(window_.document().isUntitled());
   EXPECT_EQ(window_.document().session().cases.size(), 2u);
