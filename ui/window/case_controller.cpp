@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include <QCoreApplication>
 #include <QStringList>
 
 #include "sessions/session/case_run.h"
@@ -15,6 +16,8 @@ namespace boresight::ui {
 using sessions::StepUntil;
 
 namespace {
+
+constexpr int kPatience_ms = 100;  ///< between looks whether a store has failed
 
 /// The views have the nudged pose apart from the case that they show.
 bool sameButNudge(sessions::SessionCase a, const sessions::SessionCase& b) {
@@ -256,6 +259,7 @@ void CaseController::storeRun() {
     return;
   }
   const std::string id = case_id_.toStdString();
+  storing_ = true;
   tasks_.start(
       QStringLiteral("store run"),
       [session = run_session_, id, snapshot, file = document_.file(),
@@ -263,11 +267,19 @@ void CaseController::storeRun() {
         return sessions::storeRun(session, id, sessions::traceOf(*snapshot), file, continued);
       },
       [this](const sessions::RunRecord& record) {
+        storing_ = false;
         if (document_.note(sessions::withRun(document_.session(), record),
                            tr("Run %1").arg(QString::fromStdString(record.case_id))))
           Q_EMIT stalenessChanged();
         runNext();
       });
+}
+
+void CaseController::finishStoring() {
+  // A store that fails leaves nobody busy.
+  while (storing_ && tasks_.isBusy())
+    QCoreApplication::processEvents(
+        QEventLoop::ExcludeUserInputEvents | QEventLoop::WaitForMoreEvents, kPatience_ms);
 }
 
 void CaseController::runAll(const QStringList& ids) {

@@ -46,6 +46,8 @@ class CaseController : public QObject {
   /// Drops the shown run; the next step begins anew.
   void reset();
   void runAll(const QStringList& ids);
+  /// Waits until a run that has ended is in the session: what was shown as done is not lost.
+  void finishStoring();
   void useAsSeed(const boresight::Pose& camera_from_station);
   /// A gesture has ended: where the pose is nudged to becomes an edit of the document.
   void keepNudgedPose();
@@ -80,6 +82,7 @@ class CaseController : public QObject {
   std::optional<Pose> working_;  ///< camera_from_station of the document that the views have
   std::optional<sessions::SessionCase> asked_;  ///< what was read last, or is being read
   bool run_is_prepared_ = false;
+  bool storing_ = false;
   sessions::Session run_session_;  ///< what the run that is prepared is made from
   std::optional<sessions::StepUntil> run_when_loaded_;
   std::vector<QString> queue_;

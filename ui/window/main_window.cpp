@@ -118,6 +118,7 @@ void MainWindow::offerLeftSessions() { files_->offerUntitled(); }
 void MainWindow::takeFiles(const std::vector<std::filesystem::path>& files) { files_->take(files); }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  cases_.finishStoring();
   if (!files_->mayLeave()) {
     event->ignore();
     return;

@@ -5,12 +5,15 @@
 
 #include <functional>
 
-#include <QCoreApplication>
+#include <QApplication>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QElapsedTimer>
+#include <QMessageBox>
 #include <QMimeData>
+#include <QPushButton>
 #include <QStandardPaths>
+#include <QTimer>
 #include <QUrl>
 #include <QtTest/QTest>
 
@@ -86,6 +89,25 @@ TEST_F(MainWindowTest, RunsToTheEndWithTheDigestOfAHeadlessRun) {
       sessions::runCase(session, session.runs[0].case_id, sessions::RecordLevel::kSummary);
   EXPECT_EQ(session.runs[0].digest, headless.digest);
   EXPECT_EQ(window_.state().snapshot()->iterations.size(), headless.iterations.size());
+}
+
+TEST_F(MainWindowTest, ClosingItKeepsARunThatHasJustEnded) {
+  openExample();
+  QTest::keyClick(&window_, Qt::Key_F5);
+  // Its question whether to save.
+  QTimer answer;
+  QObject::connect(&answer, &QTimer::timeout, &window_, [] {
+    if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
+      box->button(QMessageBox::Save)->click();
+  });
+  answer.start(20);
+  bool closed = false;
+  // At once, before the run can have been stored.
+  QObject::connect(&window_.run(), &RunController::finished, &window_,
+                   [&] { closed = window_.close(); });
+  ASSERT_TRUE(wait([&] { return closed; }));
+  EXPECT_EQ(window_.document().session().runs.size(), 1u);
+  EXPECT_FALSE(window_.document().isModified());
 }
 
 TEST_F(MainWindowTest, StepsAStageAndAnIteration) {
