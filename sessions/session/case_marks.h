@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The marks of a session's case, together with those of the cameras that it is linked to.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sessions/annotation/geometry_meter.h"
+#include "sessions/annotation/landmarks.h"
+#include "sessions/annotation/solve_marks.h"
+#include "sessions/session/session.h"
+
+namespace boresight::sessions {
+
+/// The views that are solved with a case: itself first, then the other cases of its rig that have
+/// marks, in the order of the session.
+struct CaseMarks {
+  std::vector<std::string> case_ids;  ///< by view
+  std::vector<MarkedView> views;      ///< cameras prepared; `name` is the case's id
+  bool rigid = false;                 ///< several: the pose is the rig's
+};
+
+/// `together` false leaves the other cases of the rig out. A case alone is its own rig
+/// (camera_from_rig is the identity). InputError when there is no such case or its camera cannot be
+/// used.
+CaseMarks caseMarks(const Session& session, const std::string& case_id, bool together = true);
+
+/// Everything that an annotator is told of a case's marks.
+struct CaseMarksSolution {
+  CaseMarks marks;                        ///< what was solved
+  std::vector<GeometryWarning> warnings;  ///< said before and without solving
+  MarksResult result;
+  std::vector<LeftOut> left_out;  ///< of a solution, by its marks
+
+  /// The pose of the case itself (of view 0), or nothing.
+  std::optional<Pose> camera_from_station() const;
+};
+
+/// Solves what `caseMarks` gives: the one function behind the desktop program and `whs solve`, so
+/// that both show the same digits. `camera_from_station_guess` is the case's seed or working pose;
+/// `station_m` spans the station (corners of its box), or is empty.
+CaseMarksSolution solveCaseMarks(CaseMarks marks, const Pose& camera_from_station_guess,
+                                 std::span<const Eigen::Vector3d> station_m, bool robust);
+
+}  // namespace boresight::sessions
