@@ -9,15 +9,14 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "sessions/annotation/predicted_place.h"
 #include "sessions/io/errors.h"
-#include "sessions/trace/surface_point.h"
 
 namespace boresight::sessions {
 namespace {
 
 constexpr double kSmallestCircle = 8;       ///< corners
 constexpr double kCircleDeviation = 0.03;   ///< of the radius
-constexpr double kOcclusion = 0.005;        ///< of the depth
 constexpr std::size_t kMostSeenTests = 12;  ///< candidates that are tested for being seen
 
 Eigen::Vector3d faceNormal(const MeshView& mesh, const Face& face) {
@@ -164,16 +163,6 @@ void MeshSnapper::addLoop(const std::vector<std::int32_t>& loop) {
   circles_.push_back(circle);
 }
 
-/// Nothing of the mesh is clearly nearer on the same ray.
-bool MeshSnapper::isSeen(const Camera& camera, const Pose& camera_from_station,
-                         const Eigen::Vector3d& point_in_station_m) const {
-  const Eigen::Vector3d point = camera_from_station * point_in_station_m;
-  Eigen::Vector2d pixel;
-  if (!project(camera, point, pixel)) return false;
-  const auto surface = surfacePointAt(camera, mesh_, camera_from_station, pixel);
-  return !surface || surface->depth_m > point.z() * (1.0 - kOcclusion);
-}
-
 std::vector<MeshSnap> MeshSnapper::near(const Camera& camera, const Pose& camera_from_station,
                                         const Eigen::Vector2d& pixel, double radius_px) const {
   std::vector<MeshSnap> found;
@@ -192,7 +181,7 @@ std::vector<MeshSnap> MeshSnapper::near(const Camera& camera, const Pose& camera
     }
   };
   const auto itself = [&](const MeshSnap& snap) {
-    return isSeen(camera, camera_from_station, snap.point_in_station_m);
+    return isSeen(camera, mesh_, camera_from_station, snap.point_in_station_m);
   };
   std::vector<MeshSnap> vertices;
   for (const std::int32_t corner : corners_)
@@ -213,7 +202,7 @@ std::vector<MeshSnap> MeshSnapper::near(const Camera& camera, const Pose& camera
       return one.centre_in_station_m == snap.point_in_station_m;
     });
     return std::any_of(circle->vertices.begin(), circle->vertices.end(), [&](std::int32_t index) {
-      return isSeen(camera, camera_from_station, vertex(index));
+      return isSeen(camera, mesh_, camera_from_station, vertex(index));
     });
   });
   return found;

@@ -43,6 +43,7 @@ class MeshSnapper {
   /// `mesh` must outlive it. InputError for a mesh that core refuses.
   explicit MeshSnapper(const MeshView& mesh);
 
+  const MeshView& mesh() const { return mesh_; }
   const std::vector<ModelEdge>& edges() const { return edges_; }
   const std::vector<MeshCircle>& circles() const { return circles_; }
 
@@ -57,8 +58,6 @@ class MeshSnapper {
   void collectEdges();
   void collectCircles();
   void addLoop(const std::vector<std::int32_t>& loop);
-  bool isSeen(const Camera& camera, const Pose& camera_from_station,
-              const Eigen::Vector3d& point_in_station_m) const;
 
   MeshView mesh_;
   std::vector<Ends> ends_;  ///< of `edges_`
