@@ -70,8 +70,9 @@ SceneView::SceneView(ViewState& state, QWidget* parent, SceneBackend backend)
       content_(std::make_shared<const SceneContent>()) {
   build();
   updateLook();
-  for (auto signal : {&ViewState::caseChanged, &ViewState::snapshotChanged,
-                      &ViewState::cursorChanged, &ViewState::nudgedPoseChanged})
+  for (auto signal :
+       {&ViewState::caseChanged, &ViewState::snapshotChanged, &ViewState::cursorChanged,
+        &ViewState::nudgedPoseChanged, &ViewState::annotatedPoseChanged})
     connect(&state_, signal, this, &SceneView::refreshSoon);
   connect(&state_, &ViewState::templateSelected, this, &SceneView::refreshSoon);
   refreshSoon();
@@ -143,6 +144,7 @@ QWidget* SceneView::buildBar() {
   through_role_->addItem(tr("shown pose"), static_cast<int>(PoseRole::kEstimate));
   through_role_->addItem(tr("seed"), static_cast<int>(PoseRole::kSeed));
   through_role_->addItem(tr("truth"), static_cast<int>(PoseRole::kTruth));
+  through_role_->addItem(tr("annotated"), static_cast<int>(PoseRole::kAnnotated));
   connect(through_role_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
           [this] { setThroughRole(static_cast<PoseRole>(through_role_->currentData().toInt())); });
   layout->addWidget(through_role_);
