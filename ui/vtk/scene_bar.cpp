@@ -136,6 +136,7 @@ void SceneBar::addThroughCamera() {
   through_role_->addItem(tr("shown pose"), static_cast<int>(PoseRole::kEstimate));
   through_role_->addItem(tr("seed"), static_cast<int>(PoseRole::kSeed));
   through_role_->addItem(tr("truth"), static_cast<int>(PoseRole::kTruth));
+  through_role_->addItem(tr("annotated"), static_cast<int>(PoseRole::kAnnotated));
   connect(through_role_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] {
     Q_EMIT throughRoleAsked(static_cast<PoseRole>(through_role_->currentData().toInt()));
   });

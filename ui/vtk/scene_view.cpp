@@ -19,8 +19,9 @@ SceneView::SceneView(ViewState& state, QWidget* parent, SceneBackend backend)
       content_(std::make_shared<const SceneContent>()) {
   build();
   updateLook();
-  for (auto signal : {&ViewState::caseChanged, &ViewState::snapshotChanged,
-                      &ViewState::cursorChanged, &ViewState::nudgedPoseChanged})
+  for (auto signal :
+       {&ViewState::caseChanged, &ViewState::snapshotChanged, &ViewState::cursorChanged,
+        &ViewState::nudgedPoseChanged, &ViewState::annotatedPoseChanged})
     connect(&state_, signal, this, &SceneView::refreshSoon);
   connect(&state_, &ViewState::templateSelected, this, &SceneView::refreshSoon);
   connect(&backdrop_, &SceneBackdrop::ready, this, &SceneView::updateView);
