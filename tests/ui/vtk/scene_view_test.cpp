@@ -114,7 +114,8 @@ TEST_F(SceneViewTest, ADoubleClickPicksOnceAndShowsTheWholeScene) {
   click(at);
   ASSERT_EQ(picks, 1);
   QTest::mouseDClick(view_.canvas(), Qt::LeftButton, Qt::NoModifier, at);
-  EXPECT_EQ(picks, 2) << "its second release is no click";
+  QTest::mouseRelease(view_.canvas(), Qt::LeftButton, Qt::NoModifier, at);
+  EXPECT_EQ(picks, 1) << "the second release is no click";
   EXPECT_GT(view_.orbitCamera().distance_m(), near_m);
 }
 
