@@ -18,6 +18,7 @@ namespace {
 constexpr double kSmallestCircle = 8;       ///< corners
 constexpr double kCircleDeviation = 0.03;   ///< of the radius
 constexpr std::size_t kMostSeenTests = 12;  ///< candidates that are tested for being seen
+constexpr std::size_t kRimTests = 16;       ///< places of a circle's rim
 
 Eigen::Vector3d faceNormal(const MeshView& mesh, const Face& face) {
   const auto at = [&](int i) {
@@ -27,6 +28,27 @@ Eigen::Vector3d faceNormal(const MeshView& mesh, const Face& face) {
         .eval();
   };
   return (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+}
+
+double distanceToChord(const Eigen::Vector2d& start, const Eigen::Vector2d& end,
+                       const Eigen::Vector2d& pixel) {
+  const Eigen::Vector2d way = end - start;
+  const double squared = way.squaredNorm();
+  const double share =
+      squared > 0.0 ? std::clamp((pixel - start).dot(way) / squared, 0.0, 1.0) : 0.0;
+  return (start + share * way - pixel).norm();
+}
+
+/// False where an edge surely stays farther away: no camera bends one by more than this share of
+/// its length. An edge that projects in part only may be anywhere.
+bool mayPass(const Camera& camera, const Pose& camera_from_station, const ModelEdge& edge,
+             const Eigen::Vector2d& pixel, double radius_px) {
+  constexpr double kMostBent = 0.25;
+  Eigen::Vector2d start, end;
+  if (!project(camera, camera_from_station * edge.start_in_station_m, start) ||
+      !project(camera, camera_from_station * edge.end_in_station_m, end))
+    return true;
+  return distanceToChord(start, end, pixel) <= radius_px + kMostBent * (end - start).norm();
 }
 
 /// Place of a segment that is nearest to a pixel once projected; sections are searched, then the
@@ -188,9 +210,11 @@ std::vector<MeshSnap> MeshSnapper::near(const Camera& camera, const Pose& camera
     offer(vertices, {MeshSnapKind::kVertex, vertex(corner), {}, 0.0, {}, 0.0});
   keepNearest(vertices, itself);
   std::vector<MeshSnap> edges;
-  for (const ModelEdge& edge : edges_)
+  for (const ModelEdge& edge : edges_) {
+    if (!mayPass(camera, camera_from_station, edge, pixel, radius_px)) continue;
     if (const auto point = nearestOnEdge(camera, camera_from_station, edge, pixel))
       offer(edges, {MeshSnapKind::kEdge, *point, {}, 0.0, edge, 0.0});
+  }
   keepNearest(edges, itself);
   std::vector<MeshSnap> circles;
   for (const MeshCircle& circle : circles_)
@@ -201,9 +225,10 @@ std::vector<MeshSnap> MeshSnapper::near(const Camera& camera, const Pose& camera
     const auto circle = std::find_if(circles_.begin(), circles_.end(), [&](const MeshCircle& one) {
       return one.centre_in_station_m == snap.point_in_station_m;
     });
-    return std::any_of(circle->vertices.begin(), circle->vertices.end(), [&](std::int32_t index) {
-      return isSeen(camera, mesh_, camera_from_station, vertex(index));
-    });
+    const std::size_t step = std::max<std::size_t>(1, circle->vertices.size() / kRimTests);
+    for (std::size_t i = 0; i < circle->vertices.size(); i += step)
+      if (isSeen(camera, mesh_, camera_from_station, vertex(circle->vertices[i]))) return true;
+    return false;
   });
   return found;
 }

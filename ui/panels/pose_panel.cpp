@@ -78,8 +78,9 @@ PosePanel::PosePanel(ViewState& state, QWidget* parent)
 
   connect(box, &NudgeBox::useAsSeedRequested, this, &PosePanel::useAsSeedRequested);
   connect(&controller_, &NudgeController::gestureFinished, this, &PosePanel::gestureFinished);
-  for (auto signal : {&ViewState::caseChanged, &ViewState::snapshotChanged,
-                      &ViewState::cursorChanged, &ViewState::nudgedPoseChanged})
+  for (auto signal :
+       {&ViewState::caseChanged, &ViewState::snapshotChanged, &ViewState::cursorChanged,
+        &ViewState::nudgedPoseChanged, &ViewState::annotatedPoseChanged})
     connect(&state_, signal, this, &PosePanel::refresh);
   refresh();
 }

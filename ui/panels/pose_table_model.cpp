@@ -75,7 +75,8 @@ constexpr std::array<RowText, PoseTableModel::kRowCount> kRows = {{
 QString poseRoleName(PoseRole role) {
   constexpr std::array<const char*, kPoseRoles> kNames = {
       QT_TRANSLATE_NOOP("PoseTable", "seed"), QT_TRANSLATE_NOOP("PoseTable", "current"),
-      QT_TRANSLATE_NOOP("PoseTable", "nudged"), QT_TRANSLATE_NOOP("PoseTable", "truth")};
+      QT_TRANSLATE_NOOP("PoseTable", "nudged"), QT_TRANSLATE_NOOP("PoseTable", "truth"),
+      QT_TRANSLATE_NOOP("PoseTable", "annotated")};
   return QCoreApplication::translate(kContext, kNames[static_cast<std::size_t>(role)]);
 }
 

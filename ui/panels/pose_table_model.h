@@ -51,7 +51,7 @@ class PoseTableModel : public QAbstractTableModel {
   std::array<std::optional<Pose>, kPoseRoles> poses_;
 };
 
-/// "seed", "current", "nudged", "truth", for people.
+/// "seed", "current", "nudged", "truth", "annotated", for people.
 QString poseRoleName(PoseRole role);
 
 }  // namespace boresight::ui

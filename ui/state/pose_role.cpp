@@ -19,6 +19,8 @@ std::optional<Pose> poseOf(const ViewState& state, PoseRole role) {
       return state.nudgedPose();
     case PoseRole::kTruth:
       return state.currentCase()->source.camera_from_station_truth;
+    case PoseRole::kAnnotated:
+      return state.annotatedPose();
   }
   return std::nullopt;
 }

@@ -32,11 +32,13 @@ void ViewState::setCase(CasePtr one) {
   cursor_ = {};
   selected_template_ = -1;
   nudged_.reset();
+  annotated_.reset();
   Q_EMIT caseChanged();
   Q_EMIT snapshotChanged();
   Q_EMIT cursorChanged();
   Q_EMIT templateSelected(-1);
   Q_EMIT nudgedPoseChanged();
+  Q_EMIT annotatedPoseChanged();
 }
 
 void ViewState::replaceCase(CasePtr one) {
@@ -81,6 +83,11 @@ void ViewState::selectTemplate(int index) {
 void ViewState::setNudgedPose(const std::optional<Pose>& camera_from_station) {
   nudged_ = camera_from_station;
   Q_EMIT nudgedPoseChanged();
+}
+
+void ViewState::setAnnotatedPose(const std::optional<Pose>& camera_from_station) {
+  annotated_ = camera_from_station;
+  Q_EMIT annotatedPoseChanged();
 }
 
 }  // namespace boresight::ui

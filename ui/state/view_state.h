@@ -42,6 +42,8 @@ class ViewState : public QObject {
   int selectedTemplate() const { return selected_template_; }
   /// The pose that is being nudged, if any.
   const std::optional<Pose>& nudgedPose() const { return nudged_; }
+  /// The pose that solves the case's annotated marks, if any.
+  const std::optional<Pose>& annotatedPose() const { return annotated_; }
   /// The pose that the views show: the nudged one, else that after the cursor's iteration (before
   /// it where the shown stage is earlier), else the seed. Identity without a case.
   Pose shownPose() const;
@@ -56,6 +58,7 @@ class ViewState : public QObject {
   /// -1 selects none.
   void selectTemplate(int index);
   void setNudgedPose(const std::optional<Pose>& camera_from_station);
+  void setAnnotatedPose(const std::optional<Pose>& camera_from_station);
 
  Q_SIGNALS:
   void caseChanged();
@@ -63,6 +66,7 @@ class ViewState : public QObject {
   void cursorChanged();
   void templateSelected(int index);
   void nudgedPoseChanged();
+  void annotatedPoseChanged();
 
  private:
   int lastIteration() const;
@@ -72,6 +76,7 @@ class ViewState : public QObject {
   RunCursor cursor_;
   int selected_template_ = -1;
   std::optional<Pose> nudged_;
+  std::optional<Pose> annotated_;
 };
 
 }  // namespace boresight::ui

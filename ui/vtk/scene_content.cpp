@@ -77,7 +77,7 @@ Frustum frustum(PoseRole role, const QString& label, const Camera& camera,
   addDashed(made.lines, {roof_m, right_m}, role);
   // The frusta of a good run nearly coincide, so each role has its label in a place of its own.
   const std::array<Eigen::Vector3d, kPoseRoles> places = {left_m, made.apex_m, made.corner_m[3],
-                                                          right_m};
+                                                          right_m, made.corner_m[2]};
   made.label_at_m = places[static_cast<std::size_t>(role)];
   return made;
 }
@@ -87,7 +87,7 @@ void addFrusta(const ViewState& state, SceneContent& content) {
   const Eigen::Vector3d centre_m = content.bounds.centre();
   const std::array<QString, kPoseRoles> labels = {
       text("seed"), text("iteration %1").arg(state.cursor().iteration + 1), text("nudged"),
-      text("truth")};
+      text("truth"), text("annotated")};
   for (int i = 0; i < kPoseRoles; ++i) {
     const auto role = static_cast<PoseRole>(i);
     const std::optional<Pose> pose = poseOf(state, role);
@@ -156,6 +156,7 @@ const PoseRoleStyle& poseRoleStyle(PoseRole role) {
       {"estimate", layerInfo(LayerId::kIterationEdges).style.color, {}, 3.0},
       {"nudged", layerInfo(LayerId::kNudgedEdges).style.color, {0.5, 0.2, 0.1, 0.2}, 2.5},
       {"truth", layerInfo(LayerId::kTruthEdges).style.color, {0.25, 0.25}, 2.0},
+      {"annotated", kAnnotatedColor, {0.7, 0.1, 0.1, 0.1}, 2.5},
   }};
   return styles[static_cast<std::size_t>(role)];
 }

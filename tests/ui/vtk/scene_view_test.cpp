@@ -102,6 +102,23 @@ TEST_F(SceneViewTest, AClickOnTheMeshTellsItsPlaceInTheStation) {
                   .startsWith(QStringLiteral("Nothing")));
 }
 
+TEST_F(SceneViewTest, ADoubleClickPicksOnceAndShowsTheWholeScene) {
+  int picks = 0;
+  QObject::connect(&view_, &SceneView::meshPointPicked, [&picks] { ++picks; });
+  SceneShown shown;
+  shown.points = false;
+  view_.setShown(shown);
+  wheel({300, 240}, 2);
+  const double near_m = view_.orbitCamera().distance_m();
+  const QPoint at = onCanvas(view_.content().bounds.centre());
+  click(at);
+  ASSERT_EQ(picks, 1);
+  QTest::mouseDClick(view_.canvas(), Qt::LeftButton, Qt::NoModifier, at);
+  QTest::mouseRelease(view_.canvas(), Qt::LeftButton, Qt::NoModifier, at);
+  EXPECT_EQ(picks, 1) << "the second release is no click";
+  EXPECT_GT(view_.orbitCamera().distance_m(), near_m);
+}
+
 TEST_F(SceneViewTest, DraggingOrbitsAndPicksNothing) {
   const double azimuth_rad = view_.orbitCamera().azimuth_rad();
   const int selected = state_.selectedTemplate();
