@@ -25,7 +25,8 @@ struct BandPiece {
 
 /// The 95 % band of the model's seen edges on the image under a pose's covariance (camera frame,
 /// left perturbation, rotation rad and translation m): each place's image moves by J xi, and what
-/// counts is its part across the edge. Places are about `step_px` apart.
+/// counts is its part across the edge. Places are about `step_px` apart. The scene is rendered once
+/// to tell what is seen; nothing comes out where it cannot be.
 std::vector<BandPiece> edgeBand(const MeshSnapper& mesh, const Camera& camera,
                                 const Pose& camera_from_station, const Matrix6d& covariance,
                                 double step_px = 12.0);

@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include "sessions/annotation/predicted_place.h"
+
 namespace boresight::sessions {
 namespace {
 
@@ -17,15 +19,13 @@ Row6 rowOf(const Eigen::Vector3d& point, const Eigen::RowVector3d& c) {
 
 MarkResidual pointResidual(const Camera& camera, const PointPair& pair,
                            const Pose& camera_from_station) {
+  const PredictedPlace place = predictPlace(camera, camera_from_station, *pair.point_in_station_m);
   MarkResidual made;
-  const Eigen::Vector3d point = camera_from_station * *pair.point_in_station_m;
-  Eigen::Vector2d predicted;
-  Eigen::Matrix<double, 2, 3> jacobian;
-  made.valid = projectWithJacobian(camera, point, predicted, jacobian);
+  made.valid = place.valid;
   if (!made.valid) return made;
-  made.residual_px = *pair.pixel - predicted;
-  for (int i = 0; i < 2; ++i) made.predicted_by_xi.row(i) = rowOf(point, jacobian.row(i));
-  made.depth_m = point.z();
+  made.residual_px = *pair.pixel - place.pixel;
+  made.predicted_by_xi = place.pixel_by_xi;
+  made.depth_m = place.depth_m;
   return made;
 }
 

@@ -44,6 +44,7 @@ class MeshSnapper {
   /// `mesh` must outlive it. InputError for a mesh that core refuses.
   explicit MeshSnapper(const MeshView& mesh);
 
+  const MeshView& mesh() const { return mesh_; }
   const std::vector<ModelEdge>& edges() const { return edges_; }
   const std::vector<MeshCircle>& circles() const { return circles_; }
 

@@ -2,9 +2,14 @@
 // The marks of a session's case, together with those of the cameras that it is linked to.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
+#include "core/geometry/mesh.h"
 #include "sessions/annotation/geometry_meter.h"
 #include "sessions/annotation/landmarks.h"
 #include "sessions/annotation/solve_marks.h"
@@ -41,5 +46,12 @@ struct CaseMarksSolution {
 /// `station_m` spans the station (corners of its box), or is empty.
 CaseMarksSolution solveCaseMarks(CaseMarks marks, const Pose& camera_from_station_guess,
                                  std::span<const Eigen::Vector3d> station_m, bool robust);
+
+/// Where solving a case's marks begins: its working pose, else its seed. The last bits of a
+/// solution depend on it, so everybody begins here.
+const Pose& marksGuess(const SessionCase& one);
+
+/// The eight corners of a station's box, as `solveCaseMarks` asks for them.
+std::vector<Eigen::Vector3d> boxCorners(const BoundingBox& box);
 
 }  // namespace boresight::sessions

@@ -100,6 +100,7 @@ Session withoutCase(const Session& session, const std::string& case_id) {
   Session next = session;
   std::erase_if(next.cases, [&](const auto& one) { return one->id == case_id; });
   next.annotations.erase(case_id);
+  next.passes.erase(case_id);
   std::erase_if(next.decisions, [&](const Decision& one) { return one.case_id == case_id; });
   std::erase_if(next.runs, [&](const RunRecord& run) { return run.case_id == case_id; });
   if (next.view.case_id == case_id) next.view = {};
@@ -112,6 +113,15 @@ Session withAnnotation(const Session& session, const std::string& case_id, Annot
     next.annotations.erase(case_id);
   else
     next.annotations.insert_or_assign(case_id, std::move(annotation));
+  return next;
+}
+
+Session withPasses(const Session& session, const std::string& case_id, AnnotationPasses passes) {
+  Session next = session;
+  if (passes.empty())
+    next.passes.erase(case_id);
+  else
+    next.passes.insert_or_assign(case_id, std::move(passes));
   return next;
 }
 

@@ -13,6 +13,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "core/localizer/localizer_options.h"
+#include "sessions/annotation/annotation_pass.h"
 #include "sessions/annotation/marks.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/image_file.h"
@@ -68,6 +69,9 @@ struct SessionCase {
   std::vector<std::string> tags;
   std::optional<Requirement> requirement;
   std::optional<Pose> camera_from_end_effector;
+  /// landmarks.json with the station's named points, absolute; may not be there yet. No input of a
+  /// run, and people add to it as they annotate: its bytes are not known to the session.
+  std::optional<std::filesystem::path> landmarks;
 
   bool operator==(const SessionCase&) const = default;
 };
@@ -94,12 +98,13 @@ struct RunRecord {
   std::string case_id;
   std::string digest;  ///< of the trace, which names its file
   std::filesystem::path file;
-  std::string status;                ///< as localizationStatusText says
-  std::string version;               ///< of the program that ran it
-  std::string time;                  ///< UTC, when it ended
-  std::string inputs_sha256;         ///< inputsDigest of the case that ran
-  std::string options_sha256;        ///< optionsDigest of what ran, as it was at the end
-  std::optional<RerunRecord> rerun = std::nullopt;  ///< of a run that took up other options on its way
+  std::string status;          ///< as localizationStatusText says
+  std::string version;         ///< of the program that ran it
+  std::string time;            ///< UTC, when it ended
+  std::string inputs_sha256;   ///< inputsDigest of the case that ran
+  std::string options_sha256;  ///< optionsDigest of what ran, as it was at the end
+  std::optional<RerunRecord> rerun =
+      std::nullopt;  ///< of a run that took up other options on its way
 
   bool operator==(const RunRecord&) const = default;
 };
@@ -118,6 +123,8 @@ struct Session {
   OptionList options;  ///< what differs from the profile, by name in the order of the alphabet
   std::vector<SharedValue<SessionCase>> cases;
   std::map<std::string, SharedValue<Annotation>> annotations;  ///< by case; none is empty
+  /// By case: what people marked who are done, in that order; none is empty.
+  std::map<std::string, SharedValue<AnnotationPasses>> passes;
   std::vector<Decision> decisions;
   std::vector<RunRecord> runs;  ///< in the order in which they were made
   DocumentView view;
@@ -138,6 +145,8 @@ Session withCase(const Session& session, SessionCase changed);
 Session withoutCase(const Session& session, const std::string& case_id);
 /// The same session with a case's annotation; an empty one is taken away.
 Session withAnnotation(const Session& session, const std::string& case_id, Annotation annotation);
+/// The same session with the marks that people ended with in a case; no passes are taken away.
+Session withPasses(const Session& session, const std::string& case_id, AnnotationPasses passes);
 
 /// The same session with these options, kept as what differs from a profile that exists.
 Session withOptions(const Session& session, const std::string& profile,

@@ -127,6 +127,7 @@ void addExtras(const SessionCase& one, const PathWriter& path, ordered_json& jso
   if (one.requirement) json["requirement"] = toJson(*one.requirement);
   if (one.camera_from_end_effector)
     json["camera_from_end_effector"] = poseJson(*one.camera_from_end_effector);
+  if (one.landmarks) json["landmarks"] = path(*one.landmarks);
 }
 
 ordered_json caseJson(const SessionCase& one, const PathWriter& path) {
@@ -141,6 +142,14 @@ ordered_json caseJson(const SessionCase& one, const PathWriter& path) {
   json["seed"] = poseJson(one.camera_from_station_seed);
   json["uncertainty"] = toJson(one.uncertainty);
   addExtras(one, path, json);
+  return json;
+}
+
+ordered_json passJson(const AnnotationPass& pass) {
+  ordered_json json;
+  json["by"] = pass.by;
+  json["time"] = pass.time;
+  json.update(toJson(pass.marks));
   return json;
 }
 
@@ -314,12 +323,14 @@ void readExtras(const JsonReader& json, SessionCase& one) {
   }
   if (const auto pose = json.find("camera_from_end_effector"))
     one.camera_from_end_effector = readExactPose(*pose);
+  if (const auto landmarks = json.find("landmarks")) one.landmarks = readPath(*landmarks);
 }
 
 SessionCase readSessionCase(const JsonReader& json) {
   json.requireKnown({"id", "station", "image", "camera", "parts", "feature_size_m", "seed",
                      "uncertainty", "truth", "working", "ignore", "ignore_strokes",
-                     "onboard_record", "rig", "tags", "requirement", "camera_from_end_effector"});
+                     "onboard_record", "rig", "tags", "requirement", "camera_from_end_effector",
+                     "landmarks"});
   SessionCase one;
   one.id = json.at("id").nonEmptyText();
   if (const auto station = json.find("station")) one.station = station->nonEmptyText();
@@ -343,6 +354,32 @@ std::string readCaseReference(const JsonReader& json, const Session& session) {
   std::string id = json.text();
   if (session.findCase(id) == nullptr) json.fail("there is no case '" + id + "'");
   return id;
+}
+
+AnnotationPass readPass(const JsonReader& json) {
+  json.requireKnown({"by", "time", "points", "lines"});
+  return {json.at("by").nonEmptyText(), readTime(json.at("time")), readMarks(json)};
+}
+
+/// What people marked, by case.
+void readMarksOf(const JsonReader& json, Session& session) {
+  const auto requireCase = [&session](const std::string& id, const JsonReader& at) {
+    if (session.findCase(id) == nullptr) at.fail("there is no case '" + id + "'");
+  };
+  for (const auto& [id, annotation] : json.at("annotations").members()) {
+    requireCase(id, annotation);
+    annotation.requireKnown({"points", "lines"});
+    session.annotations.insert_or_assign(id, readMarks(annotation));
+  }
+  const auto passes = json.find("passes");
+  if (!passes) return;
+  for (const auto& [id, list] : passes->members()) {
+    requireCase(id, list);
+    AnnotationPasses all;
+    for (const JsonReader& pass : list.elements()) all.push_back(readPass(pass));
+    if (all.empty()) list.fail("there is none: leave the case out");
+    session.passes.insert_or_assign(id, std::move(all));
+  }
 }
 
 Decision readDecision(const JsonReader& json, const Session& session) {
@@ -423,6 +460,7 @@ ordered_json toJson(const Session& session, const fs::path& file) {
   json["annotations"] = ordered_json::object();
   for (const auto& [id, annotation] : session.annotations)
     json["annotations"][id] = toJson(*annotation);
+  for (const auto& [id, passes] : session.passes) json["passes"][id] = listJson(*passes, passJson);
   json["decisions"] = listJson(session.decisions, decisionJson);
   json["runs"] = listJson(session.runs, [&](const RunRecord& run) { return runJson(run, path); });
   json["view"] = viewJson(session.view);
@@ -441,8 +479,8 @@ std::string sessionText(const Session& session, const fs::path& file) {
 
 Session readSession(const JsonReader& json) {
   requireVersion(json);
-  json.requireKnown({"format", "version", "profile", "options", "cases", "annotations", "decisions",
-                     "runs", "view"});
+  json.requireKnown({"format", "version", "profile", "options", "cases", "annotations", "passes",
+                     "decisions", "runs", "view"});
   Session session;
   readOptionsOf(json, session);
   std::set<std::string> ids;
@@ -451,11 +489,7 @@ Session readSession(const JsonReader& json) {
     if (!ids.insert(session.cases.back()->id).second)
       one.failMember("id", "'" + session.cases.back()->id + "' is given twice");
   }
-  for (const auto& [id, annotation] : json.at("annotations").members()) {
-    if (!ids.contains(id)) annotation.fail("there is no case '" + id + "'");
-    annotation.requireKnown({"points", "lines"});
-    session.annotations.insert_or_assign(id, readMarks(annotation));
-  }
+  readMarksOf(json, session);
   for (const JsonReader& decision : json.at("decisions").elements())
     session.decisions.push_back(readDecision(decision, session));
   for (const JsonReader& run : json.at("runs").elements())

@@ -57,6 +57,14 @@ class Packer {
     file = place(name);
   }
 
+  /// Takes a file along as it is now; false when it is not there.
+  bool packIfThere(fs::path& file) {
+    std::error_code error;
+    if (!fs::exists(file, error)) return false;
+    pack(file, inputSha256(file));
+    return true;
+  }
+
   void packMesh(MeshInput& part) {
     fs::path& file = part.source.mesh;
     if (knownMeshFormat(file) != MeshFormat::kGltf) return pack(file, part.sha256);
@@ -116,6 +124,7 @@ std::vector<std::string> packSession(const Session& session, const fs::path& ses
                                      const fs::path& archive) {
   Packer packer(session_file, archive);
   Session packed = session;
+  std::vector<std::string> notes;
   for (auto& one : packed.cases) {
     SessionCase changed = *one;
     packer.pack(changed.image.source.file, changed.image.source.sha256);
@@ -123,9 +132,13 @@ std::vector<std::string> packSession(const Session& session, const fs::path& ses
     if (changed.ignore) packer.pack(changed.ignore->file, changed.ignore->sha256);
     if (changed.onboard_record)
       packer.pack(changed.onboard_record->file, changed.onboard_record->sha256);
+    if (changed.landmarks && !packer.packIfThere(*changed.landmarks)) {
+      notes.push_back("the landmarks of case " + changed.id +
+                      " are missing and were left out: " + changed.landmarks->string());
+      changed.landmarks.reset();
+    }
     one = std::move(changed);
   }
-  std::vector<std::string> notes;
   std::vector<RunRecord> runs;
   for (RunRecord& run : packed.runs) {
     const fs::path file = run.file;

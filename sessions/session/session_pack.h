@@ -13,8 +13,8 @@ namespace boresight::sessions {
 /// `inputs/` with every file that it names (once, under the beginning of its hash, so that files of
 /// the same name do not meet), and the traces of its runs. The session in it names its files
 /// relatively. The archive is read again before it gets its name. Returns what people should know:
-/// traces that are missing and were left out. InputError when an input is missing or not the one
-/// that the session was made with; OutputError.
+/// traces and landmarks that are missing and were left out. InputError when an input is missing or
+/// not the one that the session was made with; OutputError.
 std::vector<std::string> packSession(const Session& session,
                                      const std::filesystem::path& session_file,
                                      const std::filesystem::path& archive);

@@ -93,6 +93,7 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
     if (coin(random)) one.requirement->projection_px = random.uniform(0.1, 2.0);
   }
   if (coin(random)) one.camera_from_end_effector = randomPose(random);
+  if (coin(random)) one.landmarks = randomPath(random, ".json");
   return one;
 }
 
@@ -117,6 +118,13 @@ inline sessions::Annotation randomAnnotation(Random& random) {
     annotation.lines.push_back(line);
   }
   return annotation;
+}
+
+inline sessions::AnnotationPasses randomPasses(Random& random) {
+  sessions::AnnotationPasses passes;
+  for (std::uint32_t i = 1u + random.below(3); i > 0; --i)
+    passes.push_back({"Ada \xC3\x9C", "2026-01-31T23:59:59Z", randomAnnotation(random)});
+  return passes;
 }
 
 inline LocalizerOptions randomOptions(Random& random) {
@@ -154,6 +162,7 @@ inline sessions::Session randomSession(Random& random) {
     const std::string id = "case " + std::to_string(i);
     session.cases.emplace_back(randomCase(random, id));
     if (coin(random)) session = withAnnotation(session, id, randomAnnotation(random));
+    if (coin(random)) session = withPasses(session, id, randomPasses(random));
     if (coin(random))
       session.decisions.push_back(
           {id, coin(random) ? sessions::Verdict::kValidated : sessions::Verdict::kRejected, "Ada",
@@ -173,7 +182,10 @@ inline sessions::Session randomEdit(Random& random, const sessions::Session& ses
   if (session.cases.empty() || random.below(6) == 0)
     return withCase(session, randomCase(random, "new " + std::to_string(random.below(1000000))));
   const sessions::SessionCase& one = *session.cases[indexBelow(random, session.cases.size())];
-  switch (random.below(6)) {
+  switch (random.below(7)) {
+    case 5:
+      return withPasses(session, one.id,
+                        coin(random) ? randomPasses(random) : sessions::AnnotationPasses());
     case 0:
       return withoutCase(session, one.id);
     case 1:

@@ -81,6 +81,7 @@ json goodSession() {
   one.image.eight_bit = {};
   Session session = withCase({}, one);
   session = withAnnotation(session, "bc", randomAnnotation(random));
+  session = withPasses(session, "bc", randomPasses(random));
   session.decisions.push_back(
       {"bc", sessions::Verdict::kValidated, "Ada", "", "2026-01-31T23:59:59Z", ""});
   session.runs.push_back({"bc", std::string(64, 'a'), "/x", "converged", "0.1.0",
@@ -151,6 +152,12 @@ TEST(SessionFile, SaysWhatIsWrongAndWhere) {
          points.push_back(points[0]);
        },
        "is given twice"},
+      {[](json& s) { s["passes"]["os"] = s["passes"]["bc"]; }, "passes.os: there is no case 'os'"},
+      {[](json& s) { s["passes"]["bc"] = json::array(); }, "passes.bc: there is none"},
+      {[](json& s) { s["passes"]["bc"][0]["by"] = ""; }, "passes.bc[0].by: is empty"},
+      {[](json& s) { s["passes"]["bc"][0]["time"] = "now"; }, "passes.bc[0].time: not a time"},
+      {[](json& s) { s["passes"]["bc"][0]["sigma"] = 1; }, "passes.bc[0].sigma: is not known"},
+      {[](json& s) { s["cases"][0]["landmarks"] = 3; }, "cases[0].landmarks: not "},
       {[](json& s) { s["decisions"][0]["case"] = "os"; }, "decisions[0].case: there is no case"},
       {[](json& s) { s["decisions"][0]["by"] = ""; }, "decisions[0].by: is empty"},
       {[](json& s) { s["decisions"][0]["time"] = "today"; }, "decisions[0].time: not a time"},
@@ -160,6 +167,31 @@ TEST(SessionFile, SaysWhatIsWrongAndWhere) {
       {[](json& s) { s["view"]["iteration"] = -2; }, "view.iteration: "},
   };
   for (const auto& [spoil, expected] : spoilt) EXPECT_THAT(message(spoil), HasSubstr(expected));
+}
+
+TEST(SessionFile, ReadsFilesFromBeforePassesAndLandmarks) {
+  const TemporaryFolder folder;
+  json old = goodSession();
+  old.erase("passes");
+  old["cases"][0].erase("landmarks");
+  const Session session = sessions::readSessionFile(folder.write("s.json", old.dump())).session;
+  EXPECT_TRUE(session.passes.empty());
+  EXPECT_FALSE(session.cases[0]->landmarks);
+  // What has none is written as it was before.
+  EXPECT_EQ(json::parse(sessions::sessionText(session, folder / "s.json")).contains("passes"),
+            false);
+}
+
+TEST(SessionFile, LandmarksAreNoInputOfARun) {
+  Random random = randomFor("landmarks");
+  sessions::SessionCase one = randomCase(random, "a");
+  one.landmarks.reset();
+  const std::string digest = sessions::inputsDigest(one);
+  one.landmarks = "/station/landmarks.json";
+  EXPECT_EQ(sessions::inputsDigest(one), digest);
+  Session session = withPasses(withCase({}, one), "a", randomPasses(random));
+  EXPECT_TRUE(withoutCase(session, "a").passes.empty());
+  EXPECT_TRUE(withPasses(session, "a", {}).passes.empty());
 }
 
 TEST(SessionFile, SurvivesAnyByteLostOrChanged) {

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/annotation/annotation_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace boresight::sessions {
+namespace {
+
+/// Pairs of both lists that have the same id and both sides.
+template <class Pair, class Compare>
+void compareAll(const std::vector<Pair>& first, const std::vector<Pair>& second, Compare&& compare,
+                std::vector<MarkDifference>& differences) {
+  for (const Pair& one : first) {
+    const auto other = std::find_if(second.begin(), second.end(),
+                                    [&one](const Pair& pair) { return pair.id == one.id; });
+    if (other == second.end() || !one.complete() || !other->complete()) continue;
+    differences.push_back({one.id, compare(one, *other)});
+  }
+}
+
+/// How far the ends of the second line lie across the first one, to the side where y points when
+/// the first one's direction is x. The end near the first one's start comes first.
+Eigen::Vector2d acrossLine(const ImageLine& first, const ImageLine& second) {
+  const Eigen::Vector2d direction = (first.end - first.start).normalized();
+  const Eigen::Vector2d across(-direction.y(), direction.x());
+  const auto distance = [&](const Eigen::Vector2d& end) { return across.dot(end - first.start); };
+  const bool same_way = direction.dot(second.end - second.start) >= 0.0;
+  return same_way ? Eigen::Vector2d(distance(second.start), distance(second.end))
+                  : Eigen::Vector2d(distance(second.end), distance(second.start));
+}
+
+/// What the next person begins with, of a pair.
+template <class Pair>
+Pair blindPair(const Pair& pair) {
+  Pair blind;
+  blind.id = pair.id;
+  blind.sigma_px = pair.sigma_px;
+  blind.comment = pair.comment;
+  return blind;
+}
+
+}  // namespace
+
+Marks blindMarks(const Marks& marks) {
+  Marks blind;
+  for (const PointPair& point : marks.points) {
+    if (!point.point_in_station_m) continue;
+    blind.points.push_back(blindPair(point));
+    blind.points.back().point_in_station_m = point.point_in_station_m;
+  }
+  for (const LinePair& line : marks.lines) {
+    if (!line.edge) continue;
+    blind.lines.push_back(blindPair(line));
+    blind.lines.back().edge = line.edge;
+  }
+  return blind;
+}
+
+Repeatability repeatability(const Marks& first, const Marks& second) {
+  Repeatability made;
+  compareAll(
+      first.points, second.points,
+      [](const PointPair& a, const PointPair& b) { return (*b.pixel - *a.pixel).eval(); },
+      made.marks);
+  compareAll(
+      first.lines, second.lines,
+      [](const LinePair& a, const LinePair& b) { return acrossLine(*a.line, *b.line); },
+      made.marks);
+  std::sort(made.marks.begin(), made.marks.end(),
+            [](const MarkDifference& a, const MarkDifference& b) { return a.id < b.id; });
+  double squares = 0.0;
+  for (const MarkDifference& mark : made.marks) squares += mark.difference_px.squaredNorm();
+  // Two values a mark; a difference has twice the variance of either person's mark.
+  if (!made.marks.empty())
+    made.sigma_px = std::sqrt(squares / (2.0 * static_cast<double>(made.marks.size())) / 2.0);
+  return made;
+}
+
+}  // namespace boresight::sessions

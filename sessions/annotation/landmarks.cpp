@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/annotation/landmarks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <Eigen/Eigenvalues>
+#include <nlohmann/json.hpp>
+
+#include "sessions/annotation/predicted_place.h"
+#include "sessions/io/json_document.h"
+#include "sessions/io/json_writer.h"
+
+namespace boresight::sessions {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kFormat = "boresight-landmarks";
+constexpr int kVersion = 1;
+constexpr double kMaxCoordinate_m = 1e6;
+
+Landmark readLandmark(const JsonReader& json) {
+  json.requireKnown({"name", "point_in_station_m", "comment"});
+  Landmark landmark;
+  landmark.name = json.at("name").nonEmptyText();
+  landmark.point_in_station_m =
+      json.at("point_in_station_m").vector3(-kMaxCoordinate_m, kMaxCoordinate_m);
+  if (const auto comment = json.find("comment")) landmark.comment = comment->text();
+  return landmark;
+}
+
+ordered_json landmarkJson(const Landmark& landmark) {
+  ordered_json json;
+  json["name"] = landmark.name;
+  json["point_in_station_m"] = toJson(landmark.point_in_station_m);
+  json["comment"] = landmark.comment;
+  return json;
+}
+
+bool isMarked(const Marks& marks, const std::string& name) {
+  const auto named = [&name](const auto& pair) { return pair.id == name; };
+  return std::any_of(marks.points.begin(), marks.points.end(), named) ||
+         std::any_of(marks.lines.begin(), marks.lines.end(), named);
+}
+
+/// Standard deviation along the direction in which it is largest.
+double largestSigma_px(const PredictedPlace& place, const Matrix6d& covariance) {
+  const Eigen::Matrix2d spread = place.pixel_by_xi * covariance * place.pixel_by_xi.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
+}
+
+}  // namespace
+
+std::vector<Landmark> readLandmarks(const std::filesystem::path& file) {
+  const JsonDocument document(file);
+  const JsonReader root = document.root(kFormat, kVersion);
+  root.requireKnown({"format", "version", "landmarks"});
+  std::vector<Landmark> landmarks;
+  std::set<std::string> names;
+  for (const JsonReader& json : root.at("landmarks").elements()) {
+    landmarks.push_back(readLandmark(json));
+    const std::string& name = landmarks.back().name;
+    if (!names.insert(name).second) json.failMember("name", "'" + name + "' is given twice");
+  }
+  return landmarks;
+}
+
+void writeLandmarks(const std::filesystem::path& file, const std::vector<Landmark>& landmarks) {
+  ordered_json json;
+  json["format"] = kFormat;
+  json["version"] = kVersion;
+  json["landmarks"] = ordered_json::array();
+  for (const Landmark& landmark : landmarks) json["landmarks"].push_back(landmarkJson(landmark));
+  writeJsonFile(file, json);
+}
+
+std::vector<Landmark> withMarks(std::vector<Landmark> landmarks, const Marks& marks) {
+  for (const PointPair& point : marks.points) {
+    if (!point.point_in_station_m) continue;
+    const Landmark landmark{point.id, *point.point_in_station_m, point.comment};
+    const auto same = std::find_if(landmarks.begin(), landmarks.end(),
+                                   [&](const Landmark& one) { return one.name == point.id; });
+    if (same == landmarks.end())
+      landmarks.push_back(landmark);
+    else
+      *same = landmark;
+  }
+  return landmarks;
+}
+
+std::vector<Proposal> proposeMarks(const std::vector<Landmark>& landmarks, const Marks& marks,
+                                   const MeshView& mesh, const Camera& camera,
+                                   const Pose& camera_from_station, const Matrix6d* covariance) {
+  std::vector<Proposal> proposals;
+  for (const Landmark& landmark : landmarks) {
+    if (isMarked(marks, landmark.name)) continue;
+    const PredictedPlace place =
+        predictPlace(camera, camera_from_station, landmark.point_in_station_m);
+    if (!place.valid || !isInImage(camera, place.pixel)) continue;
+    Proposal proposal;
+    proposal.landmark = landmark;
+    proposal.pixel = place.pixel;
+    if (covariance != nullptr) proposal.sigma_px = largestSigma_px(place, *covariance);
+    proposal.seen = isSeen(camera, mesh, camera_from_station, landmark.point_in_station_m);
+    proposals.push_back(proposal);
+  }
+  std::sort(proposals.begin(), proposals.end(), [](const Proposal& a, const Proposal& b) {
+    return a.seen != b.seen ? a.seen : a.landmark.name < b.landmark.name;
+  });
+  return proposals;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/case_marks.h"
+
+#include <utility>
+
+#include "sessions/io/errors.h"
+
+namespace boresight::sessions {
+namespace {
+
+Marks marksOf(const Session& session, const std::string& case_id) {
+  const auto found = session.annotations.find(case_id);
+  return found == session.annotations.end() ? Marks() : *found->second;
+}
+
+MarkedView viewOf(const Session& session, const SessionCase& one, const Pose& camera_from_rig) {
+  MarkedView view;
+  view.name = one.id;
+  view.camera = one.camera;
+  if (prepareCamera(view.camera) != Status::kOk)
+    throw InputError("case " + one.id, "camera", "its parameters are not those of a camera");
+  view.camera_from_rig = camera_from_rig;
+  view.marks = marksOf(session, one.id);
+  return view;
+}
+
+}  // namespace
+
+CaseMarks caseMarks(const Session& session, const std::string& case_id, bool together) {
+  const SessionCase* chosen = session.findCase(case_id);
+  if (chosen == nullptr) throw InputError("session", "cases", "there is no case '" + case_id + "'");
+  CaseMarks made;
+  const auto add = [&](const SessionCase& one, const Pose& camera_from_rig) {
+    made.case_ids.push_back(one.id);
+    made.views.push_back(viewOf(session, one, camera_from_rig));
+  };
+  add(*chosen, Pose());
+  if (!together || !chosen->rig) return made;
+  for (const auto& other : session.cases) {
+    if (other->id == case_id || !other->rig || other->rig->id != chosen->rig->id) continue;
+    if (session.annotations.contains(other->id)) add(*other, other->rig->camera_from_rig);
+  }
+  made.rigid = made.views.size() > 1;
+  if (made.rigid) made.views[0].camera_from_rig = chosen->rig->camera_from_rig;
+  return made;
+}
+
+std::optional<Pose> CaseMarksSolution::camera_from_station() const {
+  if (!result.solution) return {};
+  return result.solution->camera_from_station[0];
+}
+
+CaseMarksSolution solveCaseMarks(CaseMarks marks, const Pose& camera_from_station_guess,
+                                 std::span<const Eigen::Vector3d> station_m, bool robust) {
+  CaseMarksSolution made;
+  made.marks = std::move(marks);
+  const std::vector<MarkedView>& views = made.marks.views;
+  SolveMarksOptions options;
+  options.robust = robust;
+  options.rig_from_station_guess = views[0].camera_from_rig.inverse() * camera_from_station_guess;
+  made.warnings = geometryWarnings(views, &*options.rig_from_station_guess, station_m);
+  made.result = solveMarks(views, options);
+  if (made.result.solution) made.left_out = leaveOneOut(views, *made.result.solution);
+  return made;
+}
+
+const Pose& marksGuess(const SessionCase& one) {
+  return one.camera_from_station_working ? *one.camera_from_station_working
+                                         : one.camera_from_station_seed;
+}
+
+std::vector<Eigen::Vector3d> boxCorners(const BoundingBox& box) {
+  std::vector<Eigen::Vector3d> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners.emplace_back((i & 1) != 0 ? box.maximum_m.x() : box.minimum_m.x(),
+                         (i & 2) != 0 ? box.maximum_m.y() : box.minimum_m.y(),
+                         (i & 4) != 0 ? box.maximum_m.z() : box.minimum_m.z());
+  }
+  return corners;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/annotation/landmarks.h"
+
+#include <gmock/gmock.h>
+
+#include "sessions/io/errors.h"
+#include "tests/sessions/annotation/box_scene.h"
+#include "tests/sessions/annotation/random_marks.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::randomFor;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+TEST(Landmarks, ReadBackAsTheSameBits) {
+  const TemporaryFolder folder;
+  Random random = randomFor("Landmarks.RoundTrip");
+  std::vector<Landmark> landmarks;
+  for (int i = 0; i < 50; ++i)
+    landmarks.push_back({"screw \"" + std::to_string(i) + "\" \xC3\xBC",
+                         test::randomVector(random, 1.0), i % 2 == 0 ? "left\nof it" : ""});
+  writeLandmarks(folder / "landmarks.json", landmarks);
+  EXPECT_EQ(readLandmarks(folder / "landmarks.json"), landmarks);
+  writeLandmarks(folder / "landmarks.json", {});
+  EXPECT_TRUE(readLandmarks(folder / "landmarks.json").empty());
+}
+
+TEST(Landmarks, SaysWhatIsWrongAndWhere) {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::string& landmarks) {
+    const auto file =
+        folder.write("l.json", R"({"format": "boresight-landmarks", "version": 1, "landmarks": )" +
+                                   landmarks + "}");
+    return folder.message([&] { (void)readLandmarks(file); });
+  };
+  const std::string good = R"({"name": "a", "point_in_station_m": [0, 0, 1]})";
+  EXPECT_EQ(message("[" + good + "]"), "(nothing)");
+  EXPECT_THAT(message("[" + good + "," + good + "]"), HasSubstr("[1].name: 'a' is given twice"));
+  EXPECT_THAT(message("3"), HasSubstr("l.json: landmarks: "));
+  EXPECT_THAT(message(R"([{"name": ""}])"), HasSubstr("landmarks[0].name: is empty"));
+  EXPECT_THAT(message(R"([{"name": "a"}])"), HasSubstr("point_in_station_m: missing"));
+  EXPECT_THAT(message(R"([{"name": "a", "point_in_station_m": [0, 0, 1e9]}])"),
+              HasSubstr("point_in_station_m[2]"));
+  EXPECT_THAT(message(R"([{"names": "a"}])"), HasSubstr("names: is not known"));
+}
+
+TEST(Landmarks, TakeTheStationsSideOfPairs) {
+  Marks marks;
+  marks.points.push_back({"a", Eigen::Vector3d(1, 2, 3), {}, 1.0, false, false, "new"});
+  marks.points.push_back({"b", {}, Eigen::Vector2d(5, 6), 1.0, true, false, ""});
+  marks.points.push_back(
+      {"c", Eigen::Vector3d(4, 5, 6), Eigen::Vector2d(7, 8), 1.0, true, false, ""});
+  const std::vector<Landmark> before = {{"z", {0, 0, 0}, "kept"}, {"a", {9, 9, 9}, "old"}};
+  const std::vector<Landmark> expected = {
+      {"z", {0, 0, 0}, "kept"}, {"a", {1, 2, 3}, "new"}, {"c", {4, 5, 6}, ""}};
+  EXPECT_EQ(withMarks(before, marks), expected);
+}
+
+class Proposals : public testing::Test, protected test::BoxScene {
+ protected:
+  std::vector<Landmark> landmarks_ = {
+      {"under", {0.0, 0.0, -0.04}, ""},  {"corner", {-0.1, 0.1, 0.0}, "its comment"},
+      {"above", {0.03, 0.02, 0.02}, ""}, {"away", {5.0, 0.0, 0.0}, ""},
+      {"behind", {0.0, 0.0, 3.0}, ""},   {"marked", {0.1, 0.1, 0.0}, ""}};
+};
+
+TEST_F(Proposals, LieWhereTheCameraSeesThem) {
+  Marks marks;
+  marks.points.push_back({"marked", {}, {}, 1.0, true, false, ""});
+  const auto proposals =
+      proposeMarks(landmarks_, marks, scene_.view(), camera_, camera_from_station_, nullptr);
+  ASSERT_EQ(proposals.size(), 3u);
+  const std::vector<std::string> names = {"above", "corner", "under"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(proposals[i].landmark.name, names[i]);
+    EXPECT_EQ(proposals[i].pixel, pixelOf(proposals[i].landmark.point_in_station_m));
+    EXPECT_EQ(proposals[i].sigma_px, 0.0);
+    EXPECT_EQ(proposals[i].seen, names[i] != "under");
+  }
+  EXPECT_EQ(proposals[1].landmark.comment, "its comment");
+}
+
+TEST_F(Proposals, SigmaIsThatOfDrawnPoses) {
+  Random random = randomFor("Proposals.Sigma");
+  Vector6d sigma;
+  sigma << 0.002, 0.001, 0.003, 5e-4, 2e-4, 1e-3;
+  const Matrix6d covariance = sigma.cwiseAbs2().asDiagonal();
+  const auto proposals =
+      proposeMarks(landmarks_, {}, scene_.view(), camera_, camera_from_station_, &covariance);
+  ASSERT_FALSE(proposals.empty());
+  for (const Proposal& proposal : proposals) {
+    constexpr int kDraws = 20000;
+    Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+    for (int i = 0; i < kDraws; ++i) {
+      Vector6d xi;
+      for (int k = 0; k < 6; ++k) xi[k] = sigma[k] * random.normal();
+      Eigen::Vector2d pixel;
+      ASSERT_TRUE(project(
+          camera_, perturbed(xi, camera_from_station_) * proposal.landmark.point_in_station_m,
+          pixel));
+      spread += (pixel - proposal.pixel) * (pixel - proposal.pixel).transpose() / kDraws;
+    }
+    const double trace = spread.trace();
+    const double largest = 0.5 * (trace + std::sqrt(trace * trace - 4.0 * spread.determinant()));
+    // The deviation of a deviation over 20000 draws is 0.5 %.
+    EXPECT_NEAR(proposal.sigma_px / std::sqrt(largest), 1.0, 0.02) << proposal.landmark.name;
+  }
+}
+
+}  // namespace
+}  // namespace boresight::sessions

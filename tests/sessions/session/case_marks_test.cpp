@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/case_marks.h"
+
+#include <gmock/gmock.h>
+
+#include "sessions/io/errors.h"
+#include "tests/sessions/annotation/marked_scene.h"
+#include "tests/sessions/session/random_session.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::caseMarks;
+using sessions::MarkedView;
+using sessions::Session;
+
+/// Two cameras of a rig that see one station, a camera elsewhere, and a session of them.
+struct RigSession {
+  Session session;
+  std::vector<MarkedView> views;  ///< left, right
+  Pose rig_from_station;
+
+  explicit RigSession(double noise_px = 0.3) {
+    Random random = randomFor("RigSession");
+    const MarkedScene scene = randomScene(random, CameraModel::kBrownConrady, 6, 2, noise_px);
+    Pose left_from_rig, right_from_rig;
+    left_from_rig.rotation = rotationExp({0.01, -0.02, 0.03});
+    left_from_rig.translation_m = {0.05, 0.01, 0.0};
+    right_from_rig.rotation = rotationExp({-0.01, 0.04, 0.0});
+    right_from_rig.translation_m = {-0.05, 0.0, 0.01};
+    rig_from_station = left_from_rig.inverse() * scene.camera_from_station;
+    views = {scene.view, scene.view};
+    views[0].name = "left";
+    views[0].camera_from_rig = left_from_rig;
+    views[1].name = "right";
+    views[1].camera = annotatedCamera(CameraModel::kKannalaBrandt);
+    views[1].camera_from_rig = right_from_rig;
+    views[1].marks = {};
+    while (views[1].marks.points.size() < 5)
+      addPoint(views[1], right_from_rig * rig_from_station, randomVector(random, 0.1), noise_px,
+               0.3, random);
+    for (const char* id : {"right", "other", "left", "unmarked"}) addCase(random, id);
+    session = withAnnotation(session, "left", views[0].marks);
+    session = withAnnotation(session, "right", views[1].marks);
+    session = withAnnotation(session, "other", randomAnnotation(random));
+  }
+
+  void addCase(Random& random, const std::string& id) {
+    sessions::SessionCase one = randomCase(random, id);
+    one.rig = sessions::Rig{id == "other" ? "another rig" : "rig", Pose()};
+    if (id == "left" || id == "right") {
+      const MarkedView& view = views[id == "left" ? 0 : 1];
+      one.camera = view.camera;
+      one.rig->camera_from_rig = view.camera_from_rig;
+    }
+    session = withCase(session, one);
+  }
+};
+
+TEST(CaseMarks, PutsTheCaseFirstAndLeavesOutUnmarkedAndOtherRigs) {
+  const RigSession rig;
+  const auto together = caseMarks(rig.session, "left");
+  EXPECT_EQ(together.case_ids, (std::vector<std::string>{"left", "right"}));
+  EXPECT_TRUE(together.rigid);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(together.views[i].name, rig.views[i].name);
+    EXPECT_EQ(together.views[i].marks, rig.views[i].marks);
+    EXPECT_EQ(together.views[i].camera, rig.views[i].camera);
+    EXPECT_EQ(together.views[i].camera_from_rig, rig.views[i].camera_from_rig);
+  }
+  const auto alone = caseMarks(rig.session, "left", false);
+  EXPECT_EQ(alone.case_ids, std::vector<std::string>{"left"});
+  EXPECT_FALSE(alone.rigid);
+  EXPECT_EQ(alone.views[0].camera_from_rig, Pose());
+  EXPECT_EQ(caseMarks(rig.session, "unmarked").case_ids,
+            (std::vector<std::string>{"unmarked", "right", "left"}));
+  EXPECT_FALSE(caseMarks(rig.session, "other").rigid);
+  EXPECT_THROW((void)caseMarks(rig.session, "nobody"), sessions::InputError);
+}
+
+TEST(CaseMarks, SolvesWithTheDigitsOfTheViewsThemselves) {
+  const RigSession rig;
+  const Pose guess = rig.views[0].camera_from_rig * rig.rig_from_station;
+  for (const bool robust : {false, true}) {
+    sessions::SolveMarksOptions options;
+    options.robust = robust;
+    options.rig_from_station_guess = rig.views[0].camera_from_rig.inverse() * guess;
+    const auto direct = sessions::solveMarks(rig.views, options);
+    const auto made = sessions::solveCaseMarks(caseMarks(rig.session, "left"), guess, {}, robust);
+    ASSERT_TRUE(direct.solution && made.result.solution) << made.result.reason;
+    EXPECT_EQ(made.result.solution->rig_from_station, direct.solution->rig_from_station);
+    EXPECT_EQ(made.result.solution->covariance, direct.solution->covariance);
+    EXPECT_EQ(made.camera_from_station(), direct.solution->camera_from_station[0]);
+    EXPECT_EQ(made.result.solution->rms_px, direct.solution->rms_px);
+    const auto left_out = sessions::leaveOneOut(rig.views, *direct.solution);
+    ASSERT_EQ(made.left_out.size(), left_out.size());
+    for (std::size_t i = 0; i < left_out.size(); ++i)
+      EXPECT_EQ(made.left_out[i].translation_mm, left_out[i].translation_mm);
+    // Together they know the pose to a millimetre.
+    EXPECT_LT((made.camera_from_station()->translation_m - guess.translation_m).norm(), 1e-3);
+  }
+}
+
+TEST(CaseMarks, AnUnmarkedCaseGetsItsPoseFromTheRig) {
+  const RigSession rig(0.0);
+  Session session = withAnnotation(rig.session, "left", {});
+  const auto made = sessions::solveCaseMarks(caseMarks(session, "left"), Pose(), {}, false);
+  ASSERT_TRUE(made.camera_from_station()) << made.result.reason;
+  const Pose truth = rig.views[0].camera_from_rig * rig.rig_from_station;
+  EXPECT_LT(perturbationBetween(truth, *made.camera_from_station()).norm(), 1e-6);
+}
+
+TEST(CaseMarks, SaysWhyThereIsNoPose) {
+  const RigSession rig;
+  const auto made = sessions::solveCaseMarks(caseMarks(rig.session, "other"), Pose(), {}, false);
+  if (!made.result.solution) {
+    EXPECT_FALSE(made.result.reason.empty());
+    EXPECT_FALSE(made.camera_from_station());
+    EXPECT_TRUE(made.left_out.empty());
+  }
+  const auto none = sessions::solveCaseMarks(
+      caseMarks(withAnnotation(rig.session, "other", {}), "other"), Pose(), {}, false);
+  EXPECT_FALSE(none.camera_from_station());
+  ASSERT_FALSE(none.warnings.empty());
+  EXPECT_TRUE(none.warnings[0].prevents);
+  EXPECT_EQ(none.result.reason, none.warnings[0].text);
+}
+
+TEST(CaseMarks, NamesTheCornersOfABox) {
+  const auto corners = sessions::boxCorners({{-1, -2, -3}, {1, 2, 3}});
+  ASSERT_EQ(corners.size(), 8u);
+  EXPECT_EQ(corners.front(), Eigen::Vector3d(-1, -2, -3));
+  EXPECT_EQ(corners[1], Eigen::Vector3d(1, -2, -3));
+  EXPECT_EQ(corners.back(), Eigen::Vector3d(1, 2, 3));
+}
+
+}  // namespace
+}  // namespace boresight::test
