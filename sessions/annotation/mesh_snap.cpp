@@ -9,16 +9,15 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-#include "sessions/annotation/predicted_place.h"
 #include "sessions/io/errors.h"
 
 namespace boresight::sessions {
 namespace {
 
-constexpr double kSmallestCircle = 8;       ///< corners
-constexpr double kCircleDeviation = 0.03;   ///< of the radius
-constexpr std::size_t kMostSeenTests = 12;  ///< candidates that are tested for being seen
-constexpr std::size_t kRimTests = 16;       ///< places of a circle's rim
+constexpr double kSmallestCircle = 8;        ///< corners
+constexpr double kCircleDeviation = 0.03;    ///< of the radius
+constexpr double kOcclusion = 1e-4;          ///< of the mesh's diagonal
+constexpr std::size_t kMostSeenTests = 200;  ///< candidates that are tested for being seen
 
 Eigen::Vector3d faceNormal(const MeshView& mesh, const Face& face) {
   const auto at = [&](int i) {
@@ -86,6 +85,7 @@ std::optional<Eigen::Vector3d> nearestOnEdge(const Camera& camera, const Pose& c
 
 MeshSnapper::MeshSnapper(const MeshView& mesh) : mesh_(mesh) {
   if (validateMesh(mesh) != Status::kOk) throw InputError("mesh", "", "is not valid");
+  faces_.emplace(mesh_);
   collectEdges();
   collectCircles();
 }
@@ -185,6 +185,25 @@ void MeshSnapper::addLoop(const std::vector<std::int32_t>& loop) {
   circles_.push_back(circle);
 }
 
+bool MeshSnapper::seenFrom(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& place_m) const {
+  const Eigen::Vector3d ray = place_m - eye_m;
+  const double below_m = kOcclusion * faces_->bounds_m().sizes().norm();
+  return !faces_->firstHit(eye_m, ray, 1.0 - below_m / std::max(ray.norm(), below_m));
+}
+
+std::optional<Eigen::Vector3d> MeshSnapper::surfaceAt(const Camera& camera,
+                                                      const Pose& camera_from_station,
+                                                      const Eigen::Vector2d& pixel) const {
+  Eigen::Vector3d ray;
+  if (!unproject(camera, pixel, ray)) return std::nullopt;
+  const Pose station_from_camera = camera_from_station.inverse();
+  const Eigen::Vector3d eye_m = station_from_camera.translation_m;
+  const Eigen::Vector3d direction = station_from_camera.rotation * ray;
+  const auto hit = faces_->firstHit(eye_m, direction);
+  if (!hit) return std::nullopt;
+  return eye_m + hit->distance * direction;
+}
+
 std::vector<MeshSnap> MeshSnapper::near(const Camera& camera, const Pose& camera_from_station,
                                         const Eigen::Vector2d& pixel, double radius_px) const {
   std::vector<MeshSnap> found;
@@ -202,8 +221,9 @@ std::vector<MeshSnap> MeshSnapper::near(const Camera& camera, const Pose& camera
       return;
     }
   };
+  const Eigen::Vector3d eye_m = camera_from_station.inverse().translation_m;
   const auto itself = [&](const MeshSnap& snap) {
-    return isSeen(camera, mesh_, camera_from_station, snap.point_in_station_m);
+    return seenFrom(eye_m, snap.point_in_station_m);
   };
   std::vector<MeshSnap> vertices;
   for (const std::int32_t corner : corners_)
@@ -220,15 +240,15 @@ std::vector<MeshSnap> MeshSnapper::near(const Camera& camera, const Pose& camera
   for (const MeshCircle& circle : circles_)
     offer(circles,
           {MeshSnapKind::kCircle, circle.centre_in_station_m, {}, 0.0, {}, circle.radius_m});
-  // A hole's centre lies in the air: some of its rim must be seen.
+  // A hole's centre lies in the air: half of its rim must be seen.
   keepNearest(circles, [&](const MeshSnap& snap) {
     const auto circle = std::find_if(circles_.begin(), circles_.end(), [&](const MeshCircle& one) {
       return one.centre_in_station_m == snap.point_in_station_m;
     });
-    const std::size_t step = std::max<std::size_t>(1, circle->vertices.size() / kRimTests);
-    for (std::size_t i = 0; i < circle->vertices.size(); i += step)
-      if (isSeen(camera, mesh_, camera_from_station, vertex(circle->vertices[i]))) return true;
-    return false;
+    const auto seen =
+        std::count_if(circle->vertices.begin(), circle->vertices.end(),
+                      [&](std::int32_t index) { return seenFrom(eye_m, vertex(index)); });
+    return 2 * static_cast<std::size_t>(seen) >= circle->vertices.size();
   });
   return found;
 }

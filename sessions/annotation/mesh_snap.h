@@ -12,6 +12,7 @@
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
 #include "sessions/annotation/marks.h"
+#include "sessions/trace/face_tree.h"
 
 namespace boresight::sessions {
 
@@ -51,6 +52,14 @@ class MeshSnapper {
   std::vector<MeshSnap> near(const Camera& camera, const Pose& camera_from_station,
                              const Eigen::Vector2d& pixel, double radius_px) const;
 
+  /// The surface that a pixel shows; nothing beside the station.
+  std::optional<Eigen::Vector3d> surfaceAt(const Camera& camera, const Pose& camera_from_station,
+                                           const Eigen::Vector2d& pixel) const;
+
+  /// Whether no face hides a place from an eye, both in the station frame. A place may lie a ten
+  /// thousandth of the mesh's diagonal below a face: parts are not modelled to touch exactly.
+  bool seenFrom(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& place_m) const;
+
  private:
   using Ends = std::array<std::int32_t, 2>;
 
@@ -60,6 +69,7 @@ class MeshSnapper {
   void addLoop(const std::vector<std::int32_t>& loop);
 
   MeshView mesh_;
+  std::optional<FaceTree> faces_;
   std::vector<Ends> ends_;  ///< of `edges_`
   std::vector<ModelEdge> edges_;
   std::vector<std::int32_t> corners_;  ///< vertices of salient edges
