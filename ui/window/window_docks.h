@@ -12,14 +12,17 @@ class QMainWindow;
 
 namespace boresight::ui {
 
+class AnnotationPanel;
 class CasesPanel;
 class ConfigurationPanel;
+class ImageAnnotation;
 class ImagePanel;
 class InputSheetPanel;
 class LevelsPanel;
 class MaskEditor;
 class MaskPanel;
 class PosePanel;
+class StationSnapper;
 class WarningBar;
 
 /// The panels of the window and the docks that they lie in, as they are when the program starts for
@@ -37,6 +40,10 @@ class WindowDocks {
   MaskEditor& maskEditor() const { return *mask_editor_; }
   MaskPanel& mask() const { return *mask_; }
   LevelsPanel& levels() const { return *levels_; }
+  AnnotationPanel& annotation() const { return *annotation_; }
+  ImageAnnotation& imageAnnotation() const { return *image_annotation_; }
+  /// What of the current case's mesh can be snapped to, for every view.
+  StationSnapper& snapper() const { return *snapper_; }
   /// Above the image: what looks wrong with the case's inputs.
   WarningBar& warnings() const { return *warnings_; }
   /// The same for files that are missing or have changed.
@@ -66,6 +73,9 @@ class WindowDocks {
   MaskEditor* mask_editor_;
   MaskPanel* mask_;
   LevelsPanel* levels_;
+  AnnotationPanel* annotation_;
+  StationSnapper* snapper_;
+  ImageAnnotation* image_annotation_;
   WarningBar* warnings_;
   WarningBar* findings_;
 };
