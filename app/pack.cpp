@@ -3,20 +3,14 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "sessions/io/errors.h"
-#include "sessions/session/session_document.h"
+#include "app/open_session.h"
 #include "sessions/session/session_pack.h"
 
 namespace boresight::app {
 namespace {
 
 int pack(const std::string& session, const std::string& out) {
-  const auto document = sessions::SessionDocument::open(session, sessions::Access::kReadOnly);
-  for (const std::string& text : document.notices()) note(text);
-  if (document.recovery())
-    throw sessions::InputError(document.file(),
-                               std::to_string(document.recovery()->edits.size()) +
-                                   " edits are not saved yet; save the session first");
+  const sessions::SessionDocument document = openToRead(session);
   for (const std::string& text : packSession(document.session(), document.file(), out)) note(text);
   std::cout << out << std::endl;
   return kDone;

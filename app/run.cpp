@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/open_session.h"
 #include "sessions/io/errors.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_document.h"
@@ -20,9 +21,7 @@ struct RunArguments {
 /// The cases to run: those asked for, or all.
 std::vector<std::string> selectedCases(const sessions::SessionDocument& document,
                                        const std::vector<std::string>& asked) {
-  for (const std::string& id : asked)
-    if (document.session().findCase(id) == nullptr)
-      throw sessions::InputError(document.file(), "cases", "there is no case '" + id + "'");
+  for (const std::string& id : asked) (void)requireCase(document, id);
   if (!asked.empty()) return asked;
   std::vector<std::string> all;
   for (const auto& one : document.session().cases) all.push_back(one->id);
@@ -70,15 +69,7 @@ int runAgain(const sessions::SessionDocument& document, const std::string& begin
 }
 
 int runSession(const RunArguments& arguments) {
-  sessions::SessionDocument document = sessions::SessionDocument::open(arguments.session);
-  if (document.readOnly()) throw sessions::OutputError(document.file(), document.readOnlyReason());
-  for (const std::string& text : document.notices()) note(text);
-  if (document.recovery() && !arguments.recover)
-    throw sessions::InputError(document.file(),
-                               std::to_string(document.recovery()->edits.size()) +
-                                   " edits were never saved; take them with --recover, or open "
-                                   "the session in the desktop program");
-  document.acceptRecovery();
+  sessions::SessionDocument document = openToEdit(arguments.session, arguments.recover);
   if (!arguments.again.empty()) return runAgain(document, arguments.again);
   int exit_code = kDone;
   for (const std::string& id : selectedCases(document, arguments.cases)) {

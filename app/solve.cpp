@@ -4,13 +4,15 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/open_session.h"
 #include "sessions/annotation/marks_file.h"
 #include "sessions/annotation/rig_file.h"
+#include "sessions/annotation/solution_file.h"
 #include "sessions/annotation/solution_text.h"
-#include "sessions/annotation/solve_marks.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/pose_file.h"
+#include "sessions/session/case_marks.h"
 
 namespace boresight::app {
 namespace {
@@ -19,8 +21,12 @@ struct SolveArguments {
   std::string points;
   std::string camera;
   std::string rig;
+  std::string session;
+  std::string case_id;
   std::string seed;
   std::string out;
+  std::string json;
+  bool alone = false;
   bool robust = false;
 };
 
@@ -33,22 +39,80 @@ std::vector<sessions::MarkedView> readViews(const SolveArguments& arguments) {
   return {view};
 }
 
-int solve(const SolveArguments& arguments) {
-  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
-  const std::vector<sessions::MarkedView> views = readViews(arguments);
+/// Marks in files of their own: nothing but they says where the station is.
+sessions::CaseMarksSolution solveFiles(const SolveArguments& arguments) {
+  sessions::CaseMarksSolution made;
+  made.marks.views = readViews(arguments);
+  made.marks.rigid = !arguments.rig.empty();
   sessions::SolveMarksOptions options;
   options.robust = arguments.robust;
   if (!arguments.seed.empty())
     options.rig_from_station_guess =
         sessions::readPose(std::filesystem::path(arguments.seed)).camera_from_station;
-  const sessions::MarksResult result = sessions::solveMarks(views, options);
-  if (!result.solution) {
-    note("no pose: " + result.reason);
+  const auto& views = made.marks.views;
+  made.result = sessions::solveMarks(views, options);
+  const Pose* known = options.rig_from_station_guess ? &*options.rig_from_station_guess : nullptr;
+  if (made.result.solution) known = &made.result.solution->rig_from_station;
+  made.warnings = sessions::geometryWarnings(views, known, {});
+  if (made.result.solution) made.left_out = sessions::leaveOneOut(views, *made.result.solution);
+  return made;
+}
+
+/// A case of a session, as the desktop program solves it.
+sessions::CaseMarksSolution solveSession(const SolveArguments& arguments) {
+  const sessions::SessionDocument document = openToRead(arguments.session);
+  requireCase(document, arguments.case_id);
+  return sessions::solveCaseMarks(document.session(), arguments.case_id, !arguments.alone,
+                                  arguments.robust);
+}
+
+int solve(const SolveArguments& arguments) {
+  for (const std::string& file : {arguments.out, arguments.json})
+    if (!file.empty()) sessions::requireWritable(file);
+  const bool of_session = !arguments.session.empty();
+  const sessions::CaseMarksSolution made =
+      of_session ? solveSession(arguments) : solveFiles(arguments);
+  const auto& views = made.marks.views;
+  if (!arguments.json.empty())
+    sessions::writeSolution(arguments.json, views, made.result, made.left_out, made.warnings,
+                            arguments.robust);
+  if (!made.result.solution) {
+    note("no pose: " + made.result.reason);
     return kNotConverged;
   }
-  std::cout << sessions::solutionText(views, *result.solution);
-  if (!arguments.out.empty()) sessions::writePose(arguments.out, result.solution->rig_from_station);
+  std::cout << sessions::solutionText(views, *made.result.solution, made.left_out, made.warnings);
+  if (!arguments.out.empty())
+    sessions::writePose(arguments.out, of_session ? *made.camera_from_station()
+                                                  : made.result.solution->rig_from_station);
   return kDone;
+}
+
+/// Three ways to say what is solved, each of which excludes the others.
+void addSources(CLI::App& command, SolveArguments& arguments) {
+  CLI::Option* points =
+      command.add_option("--points", arguments.points, "points.json or points.csv");
+  CLI::Option* camera = command.add_option("--camera", arguments.camera, "camera.json");
+  CLI::Option* rig = command.add_option("--rig", arguments.rig,
+                                        "rig.json: cameras that moved as one, with their points; "
+                                        "the pose is the rig's");
+  CLI::Option* session = command.add_option(
+      "--session", arguments.session,
+      "Session whose case is solved, as the desktop program does: together with the marks of its "
+      "rig's other cases, from its working pose or seed");
+  CLI::Option* one = command.add_option("--case", arguments.case_id, "The case");
+  CLI::Option* alone =
+      command.add_flag("--alone", arguments.alone, "Without the other cases of its rig");
+  CLI::Option* seed = command.add_option("--seed", arguments.seed,
+                                         "pose.json to start from, where no image has four points");
+  for (CLI::Option* file : {points, camera, rig, session, seed}) file->type_name("FILE");
+  one->type_name("ID");
+  rig->excludes(points)->excludes(camera);
+  session->excludes(points)->excludes(camera)->excludes(rig)->excludes(seed);
+  session->needs(one);
+  one->needs(session);
+  alone->needs(session);
+  points->needs(camera);
+  camera->needs(points);
 }
 
 }  // namespace
@@ -57,25 +121,17 @@ void addSolve(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "solve", "Finds the pose from points and lines that somebody marked in the image");
   auto arguments = std::make_shared<SolveArguments>();
-  CLI::Option* points =
-      command->add_option("--points", arguments->points, "points.json")->type_name("FILE");
-  CLI::Option* camera =
-      command->add_option("--camera", arguments->camera, "camera.json")->type_name("FILE");
-  CLI::Option* rig = command->add_option("--rig", arguments->rig,
-                                         "rig.json: cameras that moved as one, with their points; "
-                                         "the pose is the rig's");
-  rig->type_name("FILE")->excludes(points)->excludes(camera);
-  points->needs(camera);
-  camera->needs(points);
-  command
-      ->add_option("--seed", arguments->seed,
-                   "pose.json to start from, where no image has four points")
-      ->type_name("FILE");
-  command->add_flag("--robust", arguments->robust, "Points far from their projection count less");
+  addSources(*command, *arguments);
+  command->add_flag("--robust", arguments->robust, "Marks far from their projection count less");
   command->add_option("--out", arguments->out, "Writes the pose as pose.json")->type_name("FILE");
+  command
+      ->add_option("--json", arguments->json,
+                   "Writes everything that came out: poses, covariances, residuals, what each mark "
+                   "moves, warnings (sessions/annotation/solution_file.h)")
+      ->type_name("FILE");
   command->callback([arguments, &exit_code] {
-    if (arguments->rig.empty() && arguments->points.empty())
-      throw CLI::RequiredError("--points and --camera, or --rig");
+    if (arguments->rig.empty() && arguments->points.empty() && arguments->session.empty())
+      throw CLI::RequiredError("--points and --camera, or --rig, or --session and --case");
     exit_code = solve(*arguments);
   });
 }

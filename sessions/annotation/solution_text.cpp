@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/annotation/solution_text.h"
 
-#include "sessions/annotation/geometry_meter.h"
 #include "sessions/report/run_text.h"
 #include "sessions/report/text_table.h"
 
@@ -10,10 +9,10 @@ namespace {
 
 constexpr double kStandsOut = 3.0;  ///< standard deviations
 
-TextTable markTable(std::span<const MarkedView> views, const MarksSolution& solution) {
+TextTable markTable(std::span<const MarkedView> views, const MarksSolution& solution,
+                    std::span<const LeftOut> left_out) {
   TextTable table({"view", "mark", "kind", "dx px", "dy px", "dx mm", "dy mm", "sigmas", "weight",
                    "without: mm", "mrad"});
-  const std::vector<LeftOut> left_out = leaveOneOut(views, solution);
   for (std::size_t i = 0; i < solution.marks.size(); ++i) {
     const SolvedMark& mark = solution.marks[i];
     const LeftOut& without = left_out[i];
@@ -37,19 +36,34 @@ std::string summaryLine(const MarksSolution& solution) {
          std::to_string(solution.degrees_of_freedom) + " degrees of freedom)";
 }
 
+/// The poses that came out: the camera's, or of several views the rig's and then each camera's.
+std::string posesText(std::span<const MarkedView> views, const MarksSolution& solution) {
+  const auto ofView = [&](std::size_t i) {
+    return poseText(solution.camera_from_station[i], cameraCovariance(solution, views[i]));
+  };
+  if (views.size() == 1) return ofView(0);
+  std::string text = "the rig's pose, as that of a camera:\n" +
+                     poseText(solution.rig_from_station, solution.covariance);
+  for (std::size_t i = 0; i < views.size(); ++i) text += "\n" + views[i].name + ":\n" + ofView(i);
+  return text;
+}
+
 }  // namespace
 
-std::string solutionText(std::span<const MarkedView> views, const MarksSolution& solution) {
-  std::string text = markTable(views, solution).text();
+std::string solutionText(std::span<const MarkedView> views, const MarksSolution& solution,
+                         std::span<const LeftOut> left_out,
+                         std::span<const GeometryWarning> warnings) {
+  std::string text = markTable(views, solution, left_out).text();
   text += "(dx, dy: seen minus predicted; of a line, both ends across the edge; !: stands out)\n\n";
   text += summaryLine(solution) + "\n";
-  for (const GeometryWarning& warning : geometryWarnings(views, &solution.rig_from_station, {}))
-    text += "weak: " + warning.text + "\n";
-  text += "\n" + poseText(solution.rig_from_station, solution.covariance);
+  for (const GeometryWarning& warning : warnings) text += "weak: " + warning.text + "\n";
+  text += "\n" + posesText(views, solution);
   if (!solution.twin) return text;
   text += "\nanother pose explains these marks with rms " + fixedText(solution.twin->rms_px, 3) +
           " px:\n";
-  return text + poseText(solution.twin->rig_from_station, Matrix6d::Zero());
+  const Pose twin = views.size() == 1 ? views[0].camera_from_rig * solution.twin->rig_from_station
+                                      : solution.twin->rig_from_station;
+  return text + poseText(twin, Matrix6d::Zero());
 }
 
 }  // namespace boresight::sessions

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sessions/io/errors.h"
+#include "sessions/io/scene_mesh.h"
 
 namespace boresight::sessions {
 namespace {
@@ -62,6 +63,17 @@ CaseMarksSolution solveCaseMarks(CaseMarks marks, const Pose& camera_from_statio
   made.result = solveMarks(views, options);
   if (made.result.solution) made.left_out = leaveOneOut(views, *made.result.solution);
   return made;
+}
+
+CaseMarksSolution solveCaseMarks(const Session& session, const std::string& case_id, bool together,
+                                 bool robust) {
+  CaseMarks marks = caseMarks(session, case_id, together);
+  const SessionCase& one = *session.findCase(case_id);
+  std::vector<PartSource> parts;
+  for (const MeshInput& part : one.parts) parts.push_back(part.source);
+  const SceneMesh scene = readScene(parts);
+  return solveCaseMarks(std::move(marks), marksGuess(one), boxCorners(matchedBounds(scene.view())),
+                        robust);
 }
 
 const Pose& marksGuess(const SessionCase& one) {

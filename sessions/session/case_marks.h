@@ -47,6 +47,11 @@ struct CaseMarksSolution {
 CaseMarksSolution solveCaseMarks(CaseMarks marks, const Pose& camera_from_station_guess,
                                  std::span<const Eigen::Vector3d> station_m, bool robust);
 
+/// The same with what the session says of the case: the guess, and the box of the station's matched
+/// parts, which are read. InputError also for a part that cannot be read.
+CaseMarksSolution solveCaseMarks(const Session& session, const std::string& case_id, bool together,
+                                 bool robust);
+
 /// Where solving a case's marks begins: its working pose, else its seed. The last bits of a
 /// solution depend on it, so everybody begins here.
 const Pose& marksGuess(const SessionCase& one);

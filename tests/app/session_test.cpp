@@ -155,5 +155,23 @@ TEST(WhsPack, MakesAnArchiveAndRefusesChangedInputs) {
   EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("! "));
 }
 
+TEST(WhsPack, TakesLandmarksAlongWhereTheyAre) {
+  const TemporaryFolder folder;
+  const std::string file = newSession(folder);
+  sessions::Session session = sessions::readSessionFile(file).session;
+  sessions::SessionCase one = *session.cases[0];
+  one.landmarks = folder.write("named points.json", "{}");
+  sessions::writeSessionFile(file, withCase(session, one));
+  const ProgramRun packed = runWhs({"pack", file, "--out", folder / "s.zip"});
+  EXPECT_EQ(packed.exit_code, 0) << packed.err;
+  EXPECT_EQ(packed.errorLines(), 0);
+  EXPECT_THAT(folder.read("s.zip"), HasSubstr("/named points.json"));
+  std::filesystem::remove(*one.landmarks);
+  const ProgramRun without = runWhs({"pack", file, "--out", folder / "t.zip"});
+  EXPECT_EQ(without.exit_code, 0);
+  EXPECT_THAT(without.err, HasSubstr("the landmarks of case " + one.id + " are missing"));
+  EXPECT_THAT(folder.read("t.zip"), Not(HasSubstr("/named points.json")));
+}
+
 }  // namespace
 }  // namespace boresight::test

@@ -3,7 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
 #include "sessions/annotation/marks_file.h"
+#include "sessions/annotation/solution_text.h"
+#include "sessions/session/case_marks.h"
+#include "sessions/session/session_file.h"
+#include "sessions/session/session_maker.h"
 #include "sessions/trace/scene_render.h"
 #include "tests/app/run_whs.h"
 
@@ -132,6 +140,68 @@ TEST(WhsSolve, SolvesTwoCamerasOfARigAsOne) {
   EXPECT_THAT(run.out, HasSubstr("12 marks"));
   EXPECT_EQ(runWhs({"solve"}).exit_code, 2);
   EXPECT_EQ(runWhs({"solve", "--points", folder / "points.json"}).exit_code, 2);
+}
+
+/// A session of the example's cases with marks of one of them.
+std::string markedSession(const TemporaryFolder& folder, const sessions::Marks& marks) {
+  sessions::Session session = sessions::makeSession(exampleFolder() / "dataset.json");
+  for (const auto& one : session.cases)
+    if (one->station == "os") session = withAnnotation(session, one->id, marks);
+  sessions::writeSessionFile(folder / "s.json", session);
+  return folder / "s.json";
+}
+
+TEST(WhsSolve, SolvesACaseOfASessionAsTheDesktopDoes) {
+  const TemporaryFolder folder;
+  sessions::Marks marks = trueMarks(8);
+  *marks.points[2].pixel += Eigen::Vector2d(0.4, -0.3);
+  const std::string file = markedSession(folder, marks);
+  const sessions::Session session = sessions::readSessionFile(file).session;
+  const std::string id = session.annotations.begin()->first;
+  const ProgramRun run = runWhs({"solve", "--session", file, "--case", id, "--json",
+                                 folder / "s.solution.json", "--out", folder / "pose.json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto solved = sessions::solveCaseMarks(session, id, true, false);
+  const sessions::MarksSolution& solution = *solved.result.solution;
+  EXPECT_EQ(run.out,
+            sessions::solutionText(solved.marks.views, solution, solved.left_out, solved.warnings));
+  const auto json = nlohmann::json::parse(folder.read("s.solution.json"));
+  EXPECT_EQ(json["solved"], true);
+  EXPECT_EQ(json["rms_px"], solution.rms_px);
+  EXPECT_EQ(json["marks"].size(), 8u);
+  EXPECT_EQ(json["marks"][2]["id"], marks.points[2].id);
+  EXPECT_EQ(json["marks"][2]["residual_px"][0], solution.marks[2].residual_px.x());
+  EXPECT_EQ(json["marks"][2]["residual_mm"][1], solution.marks[2].residual_mm.y());
+  EXPECT_EQ(json["marks"][7]["without"]["translation_mm"], solved.left_out[7].translation_mm);
+  const Matrix6d covariance = cameraCovariance(solution, solved.marks.views[0]);
+  EXPECT_EQ(json["views"][0]["name"], id);
+  EXPECT_EQ(json["views"][0]["covariance"][1][4], covariance(1, 4));
+  EXPECT_EQ(json["views"][0]["sigma_mm"][2], 1000.0 * std::sqrt(covariance(5, 5)));
+  EXPECT_EQ(json["views"][0]["camera_from_station"][1][3],
+            solved.camera_from_station()->translation_m.y());
+  EXPECT_EQ(json["warnings"].size(), solved.warnings.size());
+  EXPECT_LT(perturbationBetween(*solved.camera_from_station(),
+                                sessions::readPose(folder / "pose.json").camera_from_station)
+                .norm(),
+            1e-12);
+}
+
+TEST(WhsSolve, SaysWhyACaseHasNoPose) {
+  const TemporaryFolder folder;
+  const std::string file = markedSession(folder, trueMarks(2));
+  const std::string id = sessions::readSessionFile(file).session.annotations.begin()->first;
+  const ProgramRun run =
+      runWhs({"solve", "--session", file, "--case", id, "--json", folder / "out.json"});
+  EXPECT_EQ(run.exit_code, 4);
+  EXPECT_EQ(run.errorLines(), 1) << run.err;
+  const auto json = nlohmann::json::parse(folder.read("out.json"));
+  EXPECT_EQ(json["solved"], false);
+  EXPECT_THAT(run.err, HasSubstr(json["reason"].get<std::string>()));
+  EXPECT_EQ(json["warnings"][0]["kind"], "too_few");
+  EXPECT_EQ(runWhs({"solve", "--session", file, "--case", "nobody"}).exit_code, 3);
+  EXPECT_EQ(runWhs({"solve", "--session", file}).exit_code, 2);
+  EXPECT_EQ(runWhs({"solve", "--session", file, "--case", id, "--seed", "x.json"}).exit_code, 2);
+  EXPECT_EQ(runWhs({"solve", "--alone"}).exit_code, 2);
 }
 
 TEST(WhsInfo, DescribesEveryKindOfFile) {

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <QObject>
 #include <QString>
 #include <QTimer>
 
-#include "sessions/session/case_marks.h"
-#include "ui/run/task_runner.h"
+#include "sessions/annotation/annotation_pass.h"
+#include "ui/annotation/annotation_solver.h"
 #include "ui/state/view_state.h"
 
 namespace boresight::ui {
@@ -32,6 +35,8 @@ class AnnotationController : public QObject {
 
  public:
   using SolutionPtr = std::shared_ptr<const sessions::CaseMarksSolution>;
+  static constexpr double kSigma_px = 0.3;  ///< of a place clicked with care under the loupe
+  static constexpr int kPause_ms = 800;     ///< nudges within this are one step of Undo
 
   AnnotationController(Document& document, ViewState& state, QObject* parent = nullptr);
   ~AnnotationController() override;
@@ -44,20 +49,30 @@ class AnnotationController : public QObject {
   const sessions::PointPair* selectedPoint() const;
   const sessions::LinePair* selectedLine() const;
   /// The latest solution of this case, or nullptr before the first.
-  const SolutionPtr& solution() const { return solution_; }
+  const SolutionPtr& solution() const { return answer_.solution; }
   /// The marks have changed since that solution was asked for.
   bool stale() const { return stale_; }
   /// The solved pose of the current case, stale or not; nothing where there is none.
   std::optional<Pose> solvedPose() const;
+  /// Of the solved pose, in the camera's frame.
+  const std::optional<Matrix6d>& covariance() const { return answer_.covariance; }
+  const AnnotationSolver::Answer& answer() const { return answer_; }
+  /// The other people's passes over this case, and how the marks at work differ from each.
+  const std::vector<AnnotationSolver::PassAnswer>& passes() const { return answer_.passes; }
   bool robust() const { return robust_; }
+  /// The other cases of the rig are solved with this one.
+  bool together() const { return together_; }
   /// Standard deviation that new marks get, px per axis.
   double sigma_px() const { return sigma_px_; }
-  /// Places that named points of the station should have in this image, to be confirmed.
-  const std::vector<sessions::Proposal>& proposals() const { return proposals_; }
+  /// Named points of the station, from the case's file of landmarks.
+  const std::vector<sessions::Landmark>& landmarks() const { return landmarks_; }
+  /// Where they should be in this image, to be confirmed.
+  const std::vector<sessions::Proposal>& proposals() const { return answer_.proposals; }
 
-  void setMode(PlaceMode mode);
+  void setMode(boresight::ui::PlaceMode mode);
   void select(const std::string& id);
   void setRobust(bool robust);
+  void setTogether(bool together);
   void setSigma(double sigma_px);
 
   /// A place of the image, pixel centres at whole numbers: completes the chosen half-made pair if
@@ -71,27 +86,71 @@ class AnnotationController : public QObject {
   /// until `finishMove` makes it one. Locked marks do not move: false.
   bool dragInImage(const std::string& id, const Eigen::Vector2d& pixel, int end = 0);
   void finishMove();
-  /// The chosen mark by so much, several within a second being one step of Undo.
+  /// The chosen mark by so much; nudges in one go are one step of Undo.
   bool nudge(const Eigen::Vector2d& by_px, int end = 0);
-  /// Replaces a mark as a whole (table edits); `text` is what Undo says.
-  void replacePoint(const sessions::PointPair& point, const QString& text);
-  void replaceLine(const sessions::LinePair& line, const QString& text);
+  /// Replaces the mark of id `replaced` (edits of the table; the id may change); `text` is what
+  /// Undo says. False when it was refused.
+  bool replacePoint(const std::string& replaced, const sessions::PointPair& point,
+                    const QString& text);
+  bool replaceLine(const std::string& replaced, const sessions::LinePair& line,
+                   const QString& text);
   void remove(const std::string& id);
   void setMarks(const sessions::Marks& marks, const QString& text);
   /// Takes a proposal as a pair whose place in the image is where it was predicted.
   void confirm(const sessions::Proposal& proposal);
   /// Gives a proposal's station side to a new half-made pair, whose place in the image is clicked
   /// next.
-  void begin(const sessions::Proposal& proposal);
+  void begin(const sessions::Landmark& landmark);
+
+  /// Keeps the marks as this person's pass and begins a blind one: the same places of the station,
+  /// nothing on the image.
+  void putAside(const QString& by);
+  /// The marks at work become those of a pass; nothing is lost, Undo brings them back.
+  void takeUp(int pass);
+  void removePass(int pass);
+  /// The solved pose becomes the case's truth.
+  void useAsTruth();
+  /// Named points from a file, for all cases of this station.
+  void setLandmarksFile(const std::filesystem::path& file);
 
  Q_SIGNALS:
   void modeChanged();
   void marksChanged();  ///< any of them, also during a gesture
   void selectionChanged();
-  void solutionChanged();  ///< also when it goes stale
-  void proposalsChanged();
+  void solutionChanged();  ///< also when it goes stale; proposals and passes with it
   /// One sentence for people: what was refused, and what to do.
   void told(const QString& sentence);
+
+ private:
+  std::string caseId() const;
+  void showDocument();
+  void showLandmarks();
+  void askIfChanged(bool anyway);
+  void take(const AnnotationSolver::Answer& answer);
+  bool commit(const sessions::Marks& marks, const QString& text);
+  bool mayChange(const std::string& id);
+  bool mayReplace(const std::string& replaced, const std::string& id);
+  sessions::AnnotationPasses passesOfCase() const;
+  void setPasses(sessions::AnnotationPasses passes, const sessions::Marks& marks,
+                 const QString& text);
+
+  Document& document_;
+  ViewState& state_;
+  AnnotationSolver solver_;
+  PlaceMode mode_ = PlaceMode::kOff;
+  std::string case_id_;
+  sessions::Marks marks_;
+  std::string selected_;
+  bool moving_ = false;  ///< a gesture whose edit has not been made
+  QTimer pause_;         ///< ends a row of nudges
+  AnnotationSolver::Answer answer_;
+  std::optional<AnnotationSolver::Question> asked_;
+  bool stale_ = false;
+  bool robust_ = false;
+  bool together_ = true;
+  double sigma_px_ = kSigma_px;
+  std::optional<std::filesystem::path> landmarks_file_;
+  std::vector<sessions::Landmark> landmarks_;
 };
 
 }  // namespace boresight::ui

@@ -33,7 +33,7 @@ enum class LayerId : std::uint8_t {
 inline constexpr int kLayerCount = 13;
 
 /// Of the pose that solves the annotated marks, wherever it is drawn.
-inline const QColor kAnnotatedColor(255, 140, 0);
+inline const QColor kAnnotatedColor(178, 120, 255);
 
 struct LayerStyle {
   bool visible = false;

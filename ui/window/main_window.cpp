@@ -13,6 +13,7 @@
 #include <QUrl>
 
 #include "ui/views/image_panel.h"
+#include "ui/window/annotation_files.h"
 #include "ui/window/input_findings.h"
 #include "ui/window/levels_controller.h"
 #include "ui/window/mask_controller.h"
@@ -26,7 +27,7 @@ namespace {
 
 constexpr const char* kGeometryKey = "window/geometry";
 constexpr const char* kLayoutKey = "window/state";
-constexpr int kLayoutVersion = 3;  // of another set of panels, a layout is not taken over
+constexpr int kLayoutVersion = 4;  // of another set of panels, a layout is not taken over
 
 QString stateText(RunState state) {
   switch (state) {
@@ -48,7 +49,8 @@ QString stateText(RunState state) {
 MainWindow::MainWindow(QWidget* parent)
     : QMainWindow(parent),
       cases_(document_, state_, run_, tasks_),
-      parts_{document_, state_, tasks_, run_, cases_},
+      annotation_(document_, state_),
+      parts_{document_, state_, tasks_, run_, cases_, annotation_},
       docks_(std::make_unique<WindowDocks>(*this, parts_)),
       files_(new SessionFiles(*this, parts_)),
       menus_(new WindowMenus(*this, parts_, *docks_, *files_)),
@@ -82,6 +84,12 @@ void MainWindow::connectAll() {
   connect(levels, &LevelsController::noted, this,
           [this](const QString& message) { statusBar()->showMessage(message); });
   new MaskController(parts_, docks_->maskEditor(), docks_->mask(), image(), this);
+  auto* annotation_files = new AnnotationFiles(*this, parts_, docks_->annotation());
+  connect(annotation_files, &AnnotationFiles::failed, this, &MainWindow::showMessage);
+  connect(annotation_files, &AnnotationFiles::noted, this,
+          [this](const QString& message) { statusBar()->showMessage(message); });
+  connect(&annotation_, &AnnotationController::told, this,
+          [this](const QString& message) { statusBar()->showMessage(message); });
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);
   connect(files_, &SessionFiles::failed, this, &MainWindow::showMessage);
@@ -118,6 +126,7 @@ void MainWindow::offerLeftSessions() { files_->offerUntitled(); }
 void MainWindow::takeFiles(const std::vector<std::filesystem::path>& files) { files_->take(files); }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  annotation_.finishMove();
   cases_.finishStoring();
   if (!files_->mayLeave()) {
     event->ignore();

@@ -7,6 +7,7 @@
 
 #include <QMainWindow>
 
+#include "ui/annotation/annotation_controller.h"
 #include "ui/run/run_controller.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
@@ -53,6 +54,7 @@ class MainWindow : public QMainWindow {
   RunController& run() { return run_; }
   TaskRunner& tasks() { return tasks_; }
   CaseController& cases() { return cases_; }
+  AnnotationController& annotation() { return annotation_; }
   ImagePanel& image();
   InputFindings& findings() { return *findings_; }
   /// The dock of this object name, or nullptr.
@@ -76,6 +78,7 @@ class MainWindow : public QMainWindow {
   TaskRunner tasks_;
   RunController run_;
   CaseController cases_;
+  AnnotationController annotation_;
   WindowParts parts_;
   std::unique_ptr<WindowDocks> docks_;
   SessionFiles* files_ = nullptr;

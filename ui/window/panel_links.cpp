@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sessions/session/input_sheet.h"
+#include "ui/annotation/annotation_panel.h"
 #include "ui/models/number_text.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
@@ -72,6 +73,8 @@ void PanelLinks::linkConfiguration() {
 
 void PanelLinks::linkPoses() {
   connect(&docks_.poses(), &PosePanel::useAsSeedRequested, &parts_.cases,
+          &CaseController::useAsSeed);
+  connect(&docks_.annotation(), &AnnotationPanel::useAsSeedRequested, &parts_.cases,
           &CaseController::useAsSeed);
   connect(&docks_.poses(), &PosePanel::gestureFinished, &parts_.cases,
           &CaseController::keepNudgedPose);

@@ -6,6 +6,7 @@
 #include <QMainWindow>
 #include <QVBoxLayout>
 
+#include "ui/annotation/annotation_panel.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/input_sheet_panel.h"
@@ -43,6 +44,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       mask_editor_(new MaskEditor(image_->view(), image_)),
       mask_(new MaskPanel(*mask_editor_)),
       levels_(new LevelsPanel(image_->display())),
+      annotation_(new AnnotationPanel(parts.annotation, parts.state)),
       warnings_(new WarningBar(tr("Inputs"), tr("Show all that is known of the inputs"))),
       findings_(new WarningBar(tr("Mend ..."),
                                tr("Look for missing files below the session's folder, or take "
@@ -61,6 +63,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   add(QStringLiteral("scene"), tr("Scene"), new SceneView(parts.state));
   add(QStringLiteral("iterations"), tr("Iterations"), new IterationsPanel(parts.state));
   add(QStringLiteral("inspector"), tr("Match inspector"), new MatchInspectorPanel(parts.state));
+  add(QStringLiteral("annotation"), tr("Annotation"), annotation_);
   add(QStringLiteral("inputs"), tr("Inputs"), inputs_);
   place();
 }
@@ -105,7 +108,7 @@ void WindowDocks::place() const {
   for (const char* name : {"mask", "levels", "pose", "configuration"})
     window_.tabifyDockWidget(layers, dock(QLatin1String(name)));
   window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
-  for (const char* name : {"inspector", "inputs"})
+  for (const char* name : {"inspector", "annotation", "inputs"})
     window_.tabifyDockWidget(iterations, dock(QLatin1String(name)));
   for (QDockWidget* each : docks_) each->show();
   layers->raise();

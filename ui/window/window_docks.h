@@ -12,6 +12,7 @@ class QMainWindow;
 
 namespace boresight::ui {
 
+class AnnotationPanel;
 class CasesPanel;
 class ConfigurationPanel;
 class ImagePanel;
@@ -37,6 +38,7 @@ class WindowDocks {
   MaskEditor& maskEditor() const { return *mask_editor_; }
   MaskPanel& mask() const { return *mask_; }
   LevelsPanel& levels() const { return *levels_; }
+  AnnotationPanel& annotation() const { return *annotation_; }
   /// Above the image: what looks wrong with the case's inputs.
   WarningBar& warnings() const { return *warnings_; }
   /// The same for files that are missing or have changed.
@@ -66,6 +68,7 @@ class WindowDocks {
   MaskEditor* mask_editor_;
   MaskPanel* mask_;
   LevelsPanel* levels_;
+  AnnotationPanel* annotation_;
   WarningBar* warnings_;
   WarningBar* findings_;
 };

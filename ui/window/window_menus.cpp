@@ -10,6 +10,7 @@
 #include <QToolBar>
 
 #include "sessions/version.h"
+#include "ui/annotation/annotation_panel.h"
 #include "ui/panels/mask_panel.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/run_scrubber.h"
@@ -38,6 +39,7 @@ WindowMenus::WindowMenus(QMainWindow& window, const WindowParts& parts, const Wi
     : QObject(&window), window_(window), parts_(parts), docks_(docks), files_(files) {
   buildFileMenu();
   buildEditMenu();
+  buildAnnotateMenu();
   buildRunMenu();
   buildGoMenu();
   buildViewMenu();
@@ -86,6 +88,7 @@ void WindowMenus::buildEditMenu() {
   redo_ = action(tr("&Redo"), QKeySequence::Redo, tr("Make the change again"));
   connect(undo_, &QAction::triggered, this, [this] {
     docks_.poses().nudgeController().finishGesture();  // what is under way is undone first
+    parts_.annotation.finishMove();
     parts_.document.undo();
   });
   connect(redo_, &QAction::triggered, &parts_.document, &Document::redo);
@@ -122,6 +125,53 @@ void WindowMenus::buildMaskMenu(QMenu& menu) {
   connect(clear, &QAction::triggered, &docks_.mask(), &MaskPanel::clearAll);
   menu.addActions({brush, polygon, erase, smaller, larger, saturated, clear});
   mask_actions_ = menu.actions();
+}
+
+QAction* WindowMenus::modeAction(const QString& text, const QKeySequence& keys, const QString& tip,
+                                 PlaceMode mode) {
+  QAction* made = action(text, keys, tip);
+  made->setCheckable(true);
+  AnnotationController& annotation = parts_.annotation;
+  connect(made, &QAction::triggered, this, [this, mode](bool on) {
+    docks_.maskEditor().setTool(MaskTool::kNone);  // one tool at a time
+    parts_.annotation.setMode(on ? mode : PlaceMode::kOff);
+    if (on) docks_.raise(QStringLiteral("annotation"));
+  });
+  connect(&annotation, &AnnotationController::modeChanged, made,
+          [made, mode, &annotation] { made->setChecked(annotation.mode() == mode); });
+  return made;
+}
+
+void WindowMenus::buildAnnotateMenu() {
+  QMenu* menu = window_.menuBar()->addMenu(tr("&Annotate"));
+  AnnotationController& annotation = parts_.annotation;
+  AnnotationPanel& panel = docks_.annotation();
+  QAction* points = modeAction(tr("&Points"), Qt::Key_F2,
+                               tr("Mark points on the image and the station, in either order"),
+                               PlaceMode::kPoint);
+  QAction* lines = modeAction(tr("&Lines"), Qt::Key_F3,
+                              tr("Mark an edge by two places of the image and an edge of the "
+                                 "station"),
+                              PlaceMode::kLine);
+  QAction* remove = action(tr("&Remove the chosen mark"), QKeySequence(QStringLiteral("Ctrl+Del")),
+                           tr("Take the chosen mark away"));
+  QAction* truth = action(tr("Use as &truth"), {}, tr("The annotated pose becomes the truth"));
+  QAction* aside = action(tr("Put aside, begin a &blind pass..."), {},
+                          tr("Keep these marks and begin anew without seeing them"));
+  connect(remove, &QAction::triggered, this,
+          [this] { parts_.annotation.remove(parts_.annotation.selected()); });
+  connect(truth, &QAction::triggered, &annotation, &AnnotationController::useAsTruth);
+  connect(aside, &QAction::triggered, &panel, &AnnotationPanel::askForName);
+  connect(&docks_.maskEditor(), &MaskEditor::changed, this, [this] {
+    if (docks_.maskEditor().tool() != MaskTool::kNone) parts_.annotation.setMode(PlaceMode::kOff);
+  });
+  menu->addActions({points, lines, remove});
+  menu->addSeparator();
+  menu->addActions({truth, aside});
+  menu->addSeparator();
+  menu->addAction(tr("&Import marks..."), &panel, &AnnotationPanel::importRequested);
+  menu->addAction(tr("&Export marks..."), &panel, &AnnotationPanel::exportRequested);
+  annotation_actions_ = menu->actions();
 }
 
 void WindowMenus::buildRunMenu() {
@@ -272,6 +322,7 @@ void WindowMenus::update() {
   stop_->setEnabled(working);
   reset_->setEnabled(has_case && !working && parts_.state.snapshot());
   for (QAction* each : mask_actions_) each->setEnabled(editable && has_case);
+  for (QAction* each : annotation_actions_) each->setEnabled(editable && has_case);
   run_all_->setEnabled(open && !working && !document.session().cases.empty());
 }
 

@@ -4,6 +4,7 @@
 #include <QList>
 #include <QObject>
 
+#include "ui/annotation/annotation_controller.h"
 #include "ui/window/window_parts.h"
 
 class QAction;
@@ -32,6 +33,9 @@ class WindowMenus : public QObject {
   void buildFileMenu();
   void buildEditMenu();
   void buildMaskMenu(QMenu& menu);
+  void buildAnnotateMenu();
+  QAction* modeAction(const QString& text, const QKeySequence& keys, const QString& tip,
+                      PlaceMode mode);
   void buildRunMenu();
   void buildGoMenu();
   void buildViewMenu();
@@ -58,6 +62,7 @@ class WindowMenus : public QObject {
   QAction* run_all_ = nullptr;
   QMenu* recent_menu_ = nullptr;
   QList<QAction*> mask_actions_;
+  QList<QAction*> annotation_actions_;
 };
 
 }  // namespace boresight::ui

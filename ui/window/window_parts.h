@@ -3,6 +3,7 @@
 
 namespace boresight::ui {
 
+class AnnotationController;
 class CaseController;
 class Document;
 class RunController;
@@ -16,6 +17,7 @@ struct WindowParts {
   TaskRunner& tasks;
   RunController& run;
   CaseController& cases;
+  AnnotationController& annotation;
 };
 
 }  // namespace boresight::ui

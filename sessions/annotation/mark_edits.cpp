@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/annotation/mark_edits.h"
+
+#include <algorithm>
+
+namespace boresight::sessions {
+namespace {
+
+template <class Mark>
+auto findIn(std::vector<Mark>& marks, const std::string& id) {
+  return std::find_if(marks.begin(), marks.end(), [&](const Mark& mark) { return mark.id == id; });
+}
+
+template <class Mark>
+const Mark* find(const std::vector<Mark>& marks, const std::string& id) {
+  const auto found =
+      std::find_if(marks.begin(), marks.end(), [&](const Mark& mark) { return mark.id == id; });
+  return found == marks.end() ? nullptr : &*found;
+}
+
+template <class Mark>
+void put(std::vector<Mark>& marks, const std::string& replaced, const Mark& mark) {
+  const auto found = findIn(marks, replaced);
+  if (found == marks.end())
+    marks.push_back(mark);
+  else
+    *found = mark;
+}
+
+}  // namespace
+
+const PointPair* findPoint(const Marks& marks, const std::string& id) {
+  return find(marks.points, id);
+}
+
+const LinePair* findLine(const Marks& marks, const std::string& id) {
+  return find(marks.lines, id);
+}
+
+Marks withPoint(Marks marks, const std::string& replaced, const PointPair& point) {
+  put(marks.points, replaced, point);
+  return marks;
+}
+
+Marks withLine(Marks marks, const std::string& replaced, const LinePair& line) {
+  put(marks.lines, replaced, line);
+  return marks;
+}
+
+Marks withoutMark(Marks marks, const std::string& id) {
+  std::erase_if(marks.points, [&](const PointPair& point) { return point.id == id; });
+  std::erase_if(marks.lines, [&](const LinePair& line) { return line.id == id; });
+  return marks;
+}
+
+bool isInImage(const Eigen::Vector2d& pixel, int width, int height) {
+  return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() <= width - 0.5 &&
+         pixel.y() <= height - 0.5;
+}
+
+Marks withMoved(Marks marks, const std::string& id, int end, const Eigen::Vector2d& to_px) {
+  const auto point = findIn(marks.points, id);
+  if (point != marks.points.end() && point->pixel) point->pixel = to_px;
+  const auto line = findIn(marks.lines, id);
+  if (line != marks.lines.end() && line->line)
+    (end == 0 ? line->line->start : line->line->end) = to_px;
+  return marks;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/annotation/annotation_controller.h"
+
+#include "sessions/evaluation/pose_error.h"
+#include "tests/ui/annotation/annotation_fixture.h"
+
+namespace boresight::ui {
+namespace {
+
+class AnnotationControllerTest : public AnnotationTest {};
+
+TEST_F(AnnotationControllerTest, APairIsMadeInEitherOrderAndStaysHalfMadeUntilThen) {
+  const Eigen::Vector3d corner_m = corners_m(1).front();
+  const std::string first = controller_.placeInImage({10.25, 20.5});
+  EXPECT_EQ(first, "p1");
+  ASSERT_EQ(controller_.marks().points.size(), 1u);
+  EXPECT_FALSE(controller_.marks().points[0].complete());
+  EXPECT_EQ(controller_.placeOnStation(corner_m), first)
+      << "the chosen half-made pair is completed";
+  EXPECT_TRUE(controller_.marks().points[0].complete());
+  const std::string second = controller_.placeOnStation(corner_m);
+  EXPECT_EQ(second, "p2") << "a complete pair is not overwritten";
+  EXPECT_EQ(controller_.placeInImage({30.0, 40.0}), second);
+  EXPECT_EQ(controller_.marks().points[1].pixel, Eigen::Vector2d(30.0, 40.0));
+  EXPECT_EQ(document_.undoText(), QStringLiteral("Place p2 on the image"));
+  ASSERT_TRUE(document_.undo());
+  EXPECT_FALSE(controller_.marks().points[1].pixel);
+  ASSERT_TRUE(document_.undo());
+  EXPECT_EQ(controller_.marks().points.size(), 1u);
+  ASSERT_TRUE(document_.redo());
+  ASSERT_TRUE(document_.redo());
+  EXPECT_TRUE(controller_.marks().points[1].complete());
+}
+
+TEST_F(AnnotationControllerTest, LinesArePairedLikewise) {
+  const sessions::ModelEdge edge{{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}};
+  const std::string id = controller_.placeEdgeOnStation(edge);
+  EXPECT_EQ(id, "l1");
+  EXPECT_EQ(controller_.placeLineInImage({{10.0, 10.0}, {50.0, 10.0}}), id);
+  ASSERT_EQ(controller_.marks().lines.size(), 1u);
+  EXPECT_TRUE(controller_.marks().lines[0].complete());
+  QSignalSpy told(&controller_, &AnnotationController::told);
+  EXPECT_EQ(controller_.placeLineInImage({{10.0, 10.0}, {10.2, 10.0}}), "");
+  EXPECT_EQ(told.count(), 1);
+}
+
+TEST_F(AnnotationControllerTest, SolvesAsSoonAsTheGeometryAllowsAndFollowsEveryEdit) {
+  const auto ids = markCorners(8);
+  ASSERT_EQ(ids.size(), 8u);
+  EXPECT_TRUE(controller_.stale()) << "until it has been solved anew";
+  ASSERT_TRUE(solved());
+  const auto pose = controller_.solvedPose();
+  ASSERT_TRUE(pose);
+  const auto error = sessions::poseError(truth(), *pose, std::nullopt);
+  EXPECT_LT(std::abs(error.normal_mm), 1e-3);
+  EXPECT_LT(error.lateral_mm, 1e-3);
+  EXPECT_LT(error.geodesic_mrad, 1e-3);
+  EXPECT_EQ(state_.annotatedPose(), pose) << "the views have it";
+  ASSERT_TRUE(controller_.dragInImage(ids[2], pixelOf(corners_m(8)[2]) + Eigen::Vector2d(5, 0)));
+  EXPECT_TRUE(controller_.stale());
+  ASSERT_TRUE(solved()) << "also before the gesture has ended";
+  EXPECT_NE(*controller_.solvedPose(), *pose);
+}
+
+TEST_F(AnnotationControllerTest, AGestureIsOneStepOfUndo) {
+  const std::string id = controller_.placeInImage({100.0, 100.0});
+  const QString before = document_.undoText();
+  for (int i = 0; i < 20; ++i) controller_.dragInImage(id, {100.0 + i, 100.0});
+  EXPECT_EQ(document_.undoText(), before) << "nothing is done before the gesture ends";
+  controller_.finishMove();
+  EXPECT_EQ(document_.undoText(), QStringLiteral("Move p1"));
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(controller_.nudge({0.1, 0.0}));
+  controller_.finishMove();
+  EXPECT_NEAR(controller_.marks().points[0].pixel->x(), 119.5, 1e-9);
+  ASSERT_TRUE(document_.undo());
+  EXPECT_NEAR(controller_.marks().points[0].pixel->x(), 119.0, 1e-9);
+  ASSERT_TRUE(document_.undo());
+  EXPECT_NEAR(controller_.marks().points[0].pixel->x(), 100.0, 1e-9);
+}
+
+TEST_F(AnnotationControllerTest, LockedMarksAndPlacesOutsideAreRefusedWithAReason) {
+  const std::string id = controller_.placeInImage({100.0, 100.0});
+  sessions::PointPair locked = *controller_.selectedPoint();
+  locked.locked = true;
+  ASSERT_TRUE(controller_.replacePoint(id, locked, QStringLiteral("Lock")));
+  QSignalSpy told(&controller_, &AnnotationController::told);
+  EXPECT_FALSE(controller_.dragInImage(id, {1.0, 1.0}));
+  EXPECT_FALSE(controller_.nudge({1.0, 0.0}));
+  controller_.remove(id);
+  EXPECT_EQ(controller_.marks().points.size(), 1u);
+  EXPECT_EQ(controller_.placeInImage({-3.0, 10.0}), "");
+  EXPECT_EQ(controller_.placeInImage({std::nan(""), 10.0}), "");
+  EXPECT_EQ(told.count(), 5);
+  sessions::PointPair twin = *controller_.selectedPoint();
+  twin.id = "";
+  EXPECT_FALSE(controller_.replacePoint(id, twin, QStringLiteral("Rename")));
+}
+
+TEST_F(AnnotationControllerTest, ABlindPassKeepsThePlacesOfTheStationAndTellsHowPeopleDiffer) {
+  const auto ids = markCorners(6);
+  const sessions::Marks first = controller_.marks();
+  controller_.putAside(QStringLiteral(" Ada "));
+  for (const sessions::PointPair& point : controller_.marks().points) {
+    EXPECT_TRUE(point.point_in_station_m);
+    EXPECT_FALSE(point.pixel);
+  }
+  for (const std::string& id : ids) {
+    controller_.select(id);
+    controller_.placeInImage(*sessions::findPoint(first, id)->pixel + Eigen::Vector2d(0.5, -0.5));
+  }
+  ASSERT_TRUE(solved());
+  ASSERT_EQ(controller_.passes().size(), 1u);
+  EXPECT_EQ(controller_.passes()[0].by, "Ada");
+  EXPECT_TRUE(controller_.passes()[0].camera_from_station);
+  EXPECT_EQ(controller_.passes()[0].repeatability.marks.size(), ids.size());
+  EXPECT_NEAR(controller_.passes()[0].repeatability.sigma_px, 0.5 / std::sqrt(2.0), 1e-9);
+  controller_.takeUp(0);
+  EXPECT_EQ(controller_.marks(), first);
+  ASSERT_TRUE(document_.undo()) << "the second pass is not lost";
+  EXPECT_TRUE(controller_.marks().points[0].complete());
+  controller_.removePass(0);
+  EXPECT_TRUE(document_.session().passes.empty());
+}
+
+TEST_F(AnnotationControllerTest, LandmarksAreProposedWhereTheyShouldBeOnceThreeArePlaced) {
+  const auto places_m = corners_m(8);
+  std::vector<sessions::Landmark> landmarks;
+  for (std::size_t i = 0; i < places_m.size(); ++i)
+    landmarks.push_back({"corner " + std::to_string(i), places_m[i], ""});
+  const auto file = folder_.path() / "landmarks.json";
+  sessions::writeLandmarks(file, landmarks);
+  controller_.setLandmarksFile(file);
+  for (const std::size_t i : {0u, 3u, 7u}) {
+    controller_.begin(landmarks[i]);
+    EXPECT_EQ(controller_.placeInImage(pixelOf(places_m[i])), landmarks[i].name);
+  }
+  ASSERT_TRUE(solved());
+  ASSERT_EQ(controller_.proposals().size(), 5u);
+  for (const sessions::Proposal& proposal : controller_.proposals())
+    EXPECT_LT((proposal.pixel - pixelOf(proposal.landmark.point_in_station_m)).norm(), 0.5);
+  const sessions::Proposal taken = controller_.proposals().front();
+  controller_.confirm(taken);
+  ASSERT_TRUE(solved());
+  EXPECT_EQ(controller_.proposals().size(), 4u);
+  EXPECT_EQ(controller_.selected(), taken.landmark.name);
+}
+
+TEST_F(AnnotationControllerTest, TheSolvedPoseBecomesTheTruthAndUndoTakesItBack) {
+  const Pose before = truth();
+  controller_.useAsTruth();
+  EXPECT_EQ(document_.session().findCase(source().id)->camera_from_station_truth, before);
+  markCorners(6);
+  ASSERT_TRUE(solved());
+  const Pose solved_pose = *controller_.solvedPose();
+  controller_.useAsTruth();
+  EXPECT_EQ(document_.session().findCase(source().id)->camera_from_station_truth, solved_pose);
+  ASSERT_TRUE(document_.undo());
+  EXPECT_EQ(document_.session().findCase(source().id)->camera_from_station_truth, before);
+}
+
+TEST_F(AnnotationControllerTest, MarksBelongToTheirCaseAndSurviveTheProgram) {
+  controller_.placeInImage({12.0, 34.0});
+  const std::string id = source().id;
+  const auto other = document_.session().cases.back()->id;
+  ASSERT_NE(other, id);
+  open(other);
+  EXPECT_TRUE(controller_.marks().empty());
+  open(id);
+  EXPECT_EQ(controller_.marks().points.size(), 1u);
+  const auto killed =
+      sessions::SessionDocument::open(document_.file(), sessions::Access::kReadOnly);
+  ASSERT_TRUE(killed.recovery());
+  EXPECT_EQ(killed.recovery()->session.annotations, document_.session().annotations);
+}
+
+}  // namespace
+}  // namespace boresight::ui

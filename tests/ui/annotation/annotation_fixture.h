@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// An annotator's desk without a window: a session of the shipped examples, one case open.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include <QSignalSpy>
+#include <QtTest/QTest>
+
+#include "sessions/annotation/mark_edits.h"
+#include "sessions/annotation/mesh_snap.h"
+#include "sessions/session/case_run.h"
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/annotation/annotation_controller.h"
+#include "ui/state/document.h"
+
+namespace boresight::ui {
+
+class AnnotationTest : public ::testing::Test {
+ protected:
+  static constexpr int kPatience_ms = 60000;
+
+  void SetUp() override {
+    const auto session = sessions::makeSession(test::exampleFolder() / "dataset.json");
+    ASSERT_TRUE(document_.create(folder_.path() / "one.boresight.json", session));
+    open(session.cases.front()->id);
+  }
+
+  void open(const std::string& id) {
+    state_.setCase(sessions::loadCase(*document_.session().findCase(id)));
+    ASSERT_TRUE(solved());
+  }
+
+  const sessions::SessionCase& source() const { return state_.currentCase()->source; }
+  const Pose& truth() const { return *source().camera_from_station_truth; }
+  const Camera& camera() const { return source().camera; }
+
+  /// Waits until what is marked now has been solved.
+  bool solved() {
+    return QTest::qWaitFor([this] { return !controller_.stale(); }, kPatience_ms);
+  }
+
+  /// Corners of salient edges, spread over the station, that the true pose projects into the image.
+  std::vector<Eigen::Vector3d> corners_m(std::size_t count) const {
+    const sessions::MeshSnapper snapper(state_.currentCase()->scene.view());
+    std::vector<Eigen::Vector3d> seen;
+    const std::size_t stride = std::max<std::size_t>(snapper.edges().size() / 60, 1);
+    for (std::size_t i = 0; i < snapper.edges().size(); i += stride) {
+      const Eigen::Vector3d& corner_m = snapper.edges()[i].start_in_station_m;
+      const Eigen::Vector2d pixel = pixelOf(corner_m);
+      if (!sessions::isInImage(pixel, camera().width, camera().height)) continue;
+      for (const sessions::MeshSnap& snap : snapper.near(camera(), truth(), pixel, 2.0))
+        if (snap.kind == sessions::MeshSnapKind::kVertex && snap.point_in_station_m == corner_m)
+          seen.push_back(corner_m);
+    }
+    std::vector<Eigen::Vector3d> spread;
+    for (std::size_t i = 0; i < count && seen.size() >= count; ++i)
+      spread.push_back(seen[i * (seen.size() - 1) / std::max<std::size_t>(count - 1, 1)]);
+    return spread;
+  }
+
+  Eigen::Vector2d pixelOf(const Eigen::Vector3d& point_in_station_m) const {
+    Eigen::Vector2d pixel = Eigen::Vector2d::Constant(-1e9);
+    (void)project(camera(), truth() * point_in_station_m, pixel);
+    return pixel;
+  }
+
+  /// Marks corners exactly where the true pose shows them; their ids.
+  std::vector<std::string> markCorners(std::size_t count) {
+    std::vector<std::string> ids;
+    for (const Eigen::Vector3d& corner_m : corners_m(count)) {
+      ids.push_back(controller_.placeInImage(pixelOf(corner_m)));
+      EXPECT_EQ(controller_.placeOnStation(corner_m), ids.back());
+    }
+    return ids;
+  }
+
+  test::TemporaryFolder folder_;
+  Document document_;
+  ViewState state_;
+  AnnotationController controller_{document_, state_};
+};
+
+}  // namespace boresight::ui

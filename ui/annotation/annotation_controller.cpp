@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/annotation/annotation_controller.h"
+
+#include <exception>
+#include <utility>
+
+#include "sessions/annotation/mark_edits.h"
+#include "ui/models/number_text.h"
+#include "ui/state/document.h"
+
+namespace boresight::ui {
+namespace {
+
+using sessions::LinePair;
+using sessions::Marks;
+using sessions::PointPair;
+
+bool sameViews(const sessions::CaseMarks& a, const sessions::CaseMarks& b) {
+  if (a.case_ids != b.case_ids || a.views.size() != b.views.size()) return false;
+  for (std::size_t i = 0; i < a.views.size(); ++i)
+    if (!(a.views[i].marks == b.views[i].marks && a.views[i].camera == b.views[i].camera &&
+          a.views[i].camera_from_rig == b.views[i].camera_from_rig))
+      return false;
+  return true;
+}
+
+bool sameQuestion(const AnnotationSolver::Question& a, const AnnotationSolver::Question& b) {
+  return sameViews(a.marks, b.marks) && a.one == b.one && a.landmarks == b.landmarks &&
+         a.passes == b.passes && a.robust == b.robust &&
+         a.camera_from_station_guess == b.camera_from_station_guess;
+}
+
+}  // namespace
+
+AnnotationController::AnnotationController(Document& document, ViewState& state, QObject* parent)
+    : QObject(parent), document_(document), state_(state) {
+  pause_.setSingleShot(true);
+  pause_.setInterval(kPause_ms);
+  connect(&pause_, &QTimer::timeout, this, &AnnotationController::finishMove);
+  connect(&solver_, &AnnotationSolver::solved, this, &AnnotationController::take);
+  connect(&solver_, &AnnotationSolver::failed, this, &AnnotationController::told);
+  connect(&document_, &Document::opened, this, &AnnotationController::showDocument);
+  connect(&document_, &Document::changed, this, &AnnotationController::showDocument);
+  connect(&state_, &ViewState::caseChanged, this, &AnnotationController::showDocument);
+  showDocument();
+}
+
+AnnotationController::~AnnotationController() = default;
+
+std::string AnnotationController::caseId() const {
+  const ViewState::CasePtr& one = state_.currentCase();
+  const bool known = one && document_.session().findCase(one->source.id);
+  return known ? one->source.id : std::string();
+}
+
+const PointPair* AnnotationController::selectedPoint() const {
+  return sessions::findPoint(marks_, selected_);
+}
+
+const LinePair* AnnotationController::selectedLine() const {
+  return sessions::findLine(marks_, selected_);
+}
+
+std::optional<Pose> AnnotationController::solvedPose() const {
+  return answer_.solution ? answer_.solution->camera_from_station() : std::nullopt;
+}
+
+/// The document's marks are shown, unless a gesture is about to replace them.
+void AnnotationController::showDocument() {
+  const std::string id = caseId();
+  const bool other_case = id != case_id_;
+  if (other_case) {
+    case_id_ = id;
+    moving_ = false;
+    pause_.stop();
+    selected_.clear();
+    answer_ = {};
+    asked_.reset();
+    solver_.drop();
+  }
+  const auto& annotations = document_.session().annotations;
+  const auto found = annotations.find(id);
+  const Marks now = found == annotations.end() ? Marks() : *found->second;
+  const bool differs = !moving_ && !(now == marks_);
+  if (differs) marks_ = now;
+  if (!selected_.empty() && !selectedPoint() && !selectedLine()) selected_.clear();
+  showLandmarks();
+  if (other_case || differs) {
+    Q_EMIT marksChanged();
+    Q_EMIT selectionChanged();
+  }
+  if (other_case) Q_EMIT solutionChanged();
+  askIfChanged(other_case);
+}
+
+void AnnotationController::showLandmarks() {
+  const sessions::SessionCase* one = document_.session().findCase(case_id_);
+  const auto file = one ? one->landmarks : std::nullopt;
+  if (file == landmarks_file_) return;
+  landmarks_file_ = file;
+  landmarks_.clear();
+  try {
+    if (file) landmarks_ = sessions::readLandmarks(*file);
+  } catch (const std::exception& error) {
+    Q_EMIT told(QString::fromUtf8(error.what()));
+  }
+}
+
+/// Solves what the marks, the rig, the landmarks and the passes are now, if that is news.
+void AnnotationController::askIfChanged(bool anyway) {
+  if (case_id_.empty()) return;
+  AnnotationSolver::Question now;
+  try {
+    now.marks = sessions::caseMarks(document_.session(), case_id_, together_);
+  } catch (const std::exception& error) {
+    Q_EMIT told(QString::fromUtf8(error.what()));
+    return;
+  }
+  now.marks.views.front().marks = marks_;
+  now.one = state_.currentCase();
+  const sessions::SessionCase& source = *document_.session().findCase(case_id_);
+  now.camera_from_station_guess =
+      source.camera_from_station_working.value_or(source.camera_from_station_seed);
+  now.landmarks = landmarks_;
+  now.passes = passesOfCase();
+  now.robust = robust_;
+  if (!anyway && asked_ && sameQuestion(*asked_, now)) return;
+  asked_ = now;
+  stale_ = true;
+  Q_EMIT solutionChanged();
+  solver_.ask(std::move(now));
+}
+
+void AnnotationController::take(const AnnotationSolver::Answer& answer) {
+  answer_ = answer;
+  stale_ = false;
+  state_.setAnnotatedPose(solvedPose());
+  Q_EMIT solutionChanged();
+}
+
+void AnnotationController::setMode(PlaceMode mode) {
+  if (mode == mode_) return;
+  finishMove();
+  mode_ = mode;
+  Q_EMIT modeChanged();
+}
+
+void AnnotationController::select(const std::string& id) {
+  if (id == selected_) return;
+  finishMove();
+  selected_ = id;
+  if (!selectedPoint() && !selectedLine()) selected_.clear();
+  Q_EMIT selectionChanged();
+}
+
+void AnnotationController::setRobust(bool robust) {
+  robust_ = robust;
+  askIfChanged(false);
+}
+
+void AnnotationController::setTogether(bool together) {
+  together_ = together;
+  askIfChanged(false);
+}
+
+void AnnotationController::setSigma(double sigma_px) {
+  if (sigma_px > 0.0) sigma_px_ = sigma_px;
+}
+
+bool AnnotationController::commit(const Marks& marks, const QString& text) {
+  if (case_id_.empty()) return false;
+  moving_ = false;
+  pause_.stop();
+  return document_.edit(sessions::withAnnotation(document_.session(), case_id_, marks), text);
+}
+
+}  // namespace boresight::ui

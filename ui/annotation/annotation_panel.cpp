@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/annotation/annotation_panel.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QInputDialog>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QScrollBar>
+#include <QSignalBlocker>
+#include <QSplitter>
+#include <QTableView>
+#include <QTextBrowser>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "ui/models/number_text.h"
+#include "ui/panels/table_style.h"
+#include "ui/state/pose_role.h"
+
+namespace boresight::ui {
+
+AnnotationPanel::AnnotationPanel(AnnotationController& controller, ViewState& state,
+                                 QWidget* parent)
+    : QWidget(parent), controller_(controller), state_(state) {
+  filter_.setSourceModel(&model_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(4, 4, 4, 4);
+  buildTools(*column);
+  auto* splitter = new QSplitter(Qt::Horizontal, this);
+  splitter->addWidget(buildTable());
+  splitter->addWidget(buildSummary());
+  splitter->setStretchFactor(0, 3);
+  splitter->setStretchFactor(1, 2);
+  splitter->setChildrenCollapsible(false);
+  column->addWidget(splitter, 1);
+  connect(&controller_, &AnnotationController::modeChanged, this, &AnnotationPanel::showMode);
+  connect(&controller_, &AnnotationController::marksChanged, this, &AnnotationPanel::showMarks);
+  connect(&controller_, &AnnotationController::selectionChanged, this,
+          &AnnotationPanel::showSelection);
+  connect(&controller_, &AnnotationController::solutionChanged, this,
+          &AnnotationPanel::showSolution);
+  for (auto signal : {&ViewState::caseChanged, &ViewState::snapshotChanged,
+                      &ViewState::cursorChanged, &ViewState::nudgedPoseChanged})
+    connect(&state_, signal, this, &AnnotationPanel::showSolution);
+  connect(&model_, &MarksModel::pointEdited, &controller_, &AnnotationController::replacePoint);
+  connect(&model_, &MarksModel::lineEdited, &controller_, &AnnotationController::replaceLine);
+  showMode();
+  showMarks();
+  showSolution();
+}
+
+QToolButton* AnnotationPanel::modeButton(const QString& name, const QString& text,
+                                         const QString& tip, PlaceMode mode) {
+  auto* button = new QToolButton(this);
+  button->setObjectName(name);
+  button->setText(text);
+  button->setToolTip(tip);
+  button->setCheckable(true);
+  connect(button, &QToolButton::clicked, this, [this, mode](bool on) {
+    controller_.setMode(on ? mode : PlaceMode::kOff);
+    showMode();
+  });
+  return button;
+}
+
+void AnnotationPanel::buildTools(QBoxLayout& layout) {
+  auto* row = new QHBoxLayout;
+  points_ = modeButton(QStringLiteral("placePoints"), tr("Points"),
+                       tr("Click a place on the image and the same place on the station, in either "
+                          "order (F2). Ctrl and a click on the rendered edges also marks the "
+                          "station."),
+                       PlaceMode::kPoint);
+  lines_ = modeButton(QStringLiteral("placeLines"), tr("Lines"),
+                      tr("Click two places along an edge in the image, and the edge of the station "
+                         "(F3)"),
+                      PlaceMode::kLine);
+  sigma_ = new QDoubleSpinBox(this);
+  sigma_->setObjectName(QStringLiteral("newSigma"));
+  sigma_->setRange(0.01, 100.0);
+  sigma_->setDecimals(2);
+  sigma_->setSingleStep(0.1);
+  sigma_->setValue(controller_.sigma_px());
+  sigma_->setPrefix(tr("sigma "));
+  sigma_->setSuffix(tr(" px"));
+  sigma_->setToolTip(tr("Standard deviation that new marks are given, pixels per axis"));
+  robust_ = new QCheckBox(tr("Robust"), this);
+  robust_->setObjectName(QStringLiteral("robust"));
+  robust_->setToolTip(tr("Marks far from where the pose puts them count little or nothing"));
+  together_ = new QCheckBox(tr("Whole rig"), this);
+  together_->setObjectName(QStringLiteral("together"));
+  together_->setChecked(controller_.together());
+  together_->setToolTip(tr("Solve with the other cameras of this case's rig, as one"));
+  auto* files = new QToolButton(this);
+  files->setObjectName(QStringLiteral("markFiles"));
+  files->setText(tr("Files"));
+  files->setToolTip(tr("Marks, poses and landmarks from and to files"));
+  buildFileMenu(*files);
+  passes_ = new QToolButton(this);
+  passes_->setObjectName(QStringLiteral("passes"));
+  passes_->setText(tr("Passes"));
+  passes_->setToolTip(tr("What several people marked without seeing each other's marks"));
+  passes_->setPopupMode(QToolButton::InstantPopup);
+  passes_->setMenu(new QMenu(passes_));
+  connect(passes_->menu(), &QMenu::aboutToShow, this, &AnnotationPanel::showPasses);
+  for (QWidget* each : {static_cast<QWidget*>(points_), static_cast<QWidget*>(lines_),
+                        static_cast<QWidget*>(sigma_), static_cast<QWidget*>(robust_),
+                        static_cast<QWidget*>(together_), static_cast<QWidget*>(files),
+                        static_cast<QWidget*>(passes_)})
+    row->addWidget(each);
+  row->addStretch(1);
+  layout.addLayout(row);
+  connect(sigma_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), &controller_,
+          &AnnotationController::setSigma);
+  connect(robust_, &QCheckBox::toggled, &controller_, &AnnotationController::setRobust);
+  connect(together_, &QCheckBox::toggled, &controller_, &AnnotationController::setTogether);
+}
+
+void AnnotationPanel::buildFileMenu(QToolButton& button) {
+  auto* menu = new QMenu(&button);
+  menu->addAction(tr("Import marks ..."), this, &AnnotationPanel::importRequested);
+  menu->addAction(tr("Export marks ..."), this, &AnnotationPanel::exportRequested);
+  menu->addSeparator();
+  menu->addAction(tr("Open landmarks ..."), this, &AnnotationPanel::openLandmarksRequested);
+  menu->addAction(tr("Save the marks as landmarks ..."), this,
+                  &AnnotationPanel::saveLandmarksRequested);
+  button.setPopupMode(QToolButton::InstantPopup);
+  button.setMenu(menu);
+}
+
+QWidget* AnnotationPanel::buildTable() {
+  auto* part = new QWidget(this);
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto* row = new QHBoxLayout;
+  show_ = new QComboBox(part);
+  show_->setObjectName(QStringLiteral("showMarks"));
+  show_->setAccessibleName(tr("Which marks are listed"));
+  for (int i = 0; i < MarksFilter::kShowCount; ++i)
+    show_->addItem(MarksFilter::nameOf(static_cast<MarksFilter::Show>(i)));
+  count_ = new QLabel(part);
+  row->addWidget(show_);
+  row->addWidget(count_, 1);
+  column->addLayout(row);
+  table_ = new QTableView(part);
+  table_->setObjectName(QStringLiteral("marks"));
+  table_->setAccessibleName(tr("Marks"));
+  table_->setModel(&filter_);
+  styleTable(*table_);
+  table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
+  table_->setSortingEnabled(true);
+  table_->sortByColumn(-1, Qt::AscendingOrder);
+  column->addWidget(table_, 1);
+  connect(show_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
+    filter_.setShow(static_cast<MarksFilter::Show>(index));
+    showMarks();
+  });
+  connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          &AnnotationPanel::chooseRow);
+  return part;
+}
+
+QWidget* AnnotationPanel::buildSummary() {
+  auto* part = new QWidget(this);
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  headline_ = new QLabel(part);
+  headline_->setObjectName(QStringLiteral("headline"));
+  headline_->setWordWrap(true);
+  summary_ = new QTextBrowser(part);
+  summary_->setObjectName(QStringLiteral("solution"));
+  summary_->setAccessibleName(tr("What the solved pose is worth"));
+  use_as_truth_ = new QPushButton(tr("Use as truth"), part);
+  use_as_truth_->setObjectName(QStringLiteral("annotationAsTruth"));
+  use_as_truth_->setToolTip(
+      tr("This pose becomes the case's true pose, which results are compared "
+         "with"));
+  use_as_seed_ = new QPushButton(tr("Use as seed"), part);
+  use_as_seed_->setObjectName(QStringLiteral("annotationAsSeed"));
+  use_as_seed_->setToolTip(tr("Runs of the case start from this pose"));
+  auto* row = new QHBoxLayout;
+  row->addWidget(use_as_truth_);
+  row->addWidget(use_as_seed_);
+  row->addStretch(1);
+  column->addWidget(headline_);
+  column->addWidget(summary_, 1);
+  column->addLayout(row);
+  connect(use_as_truth_, &QPushButton::clicked, &controller_, &AnnotationController::useAsTruth);
+  connect(use_as_seed_, &QPushButton::clicked, this, [this] {
+    if (const auto pose = controller_.solvedPose()) Q_EMIT useAsSeedRequested(*pose);
+  });
+  return part;
+}
+
+void AnnotationPanel::showMode() {
+  points_->setChecked(controller_.mode() == PlaceMode::kPoint);
+  lines_->setChecked(controller_.mode() == PlaceMode::kLine);
+}
+
+void AnnotationPanel::showMarks() {
+  const int before = model_.rowCount();
+  showing_ = true;
+  model_.setMarks(controller_.marks());
+  showing_ = false;
+  if (model_.rowCount() != before) fitColumns(*table_);
+  count_->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
+  showSelection();
+}
+
+void AnnotationPanel::showSelection() {
+  const int row = model_.rowOf(controller_.selected());
+  const QModelIndex shown = filter_.mapFromSource(model_.index(row, 0));
+  showing_ = true;
+  const int column = std::max(table_->currentIndex().column(), 0);
+  const QModelIndex current = shown.isValid() ? shown.siblingAtColumn(column) : shown;
+  if (current != table_->currentIndex()) table_->setCurrentIndex(current);
+  if (shown.isValid()) table_->scrollTo(current);
+  showing_ = false;
+}
+
+void AnnotationPanel::chooseRow(const QModelIndex& current) {
+  if (showing_ || !current.isValid()) return;
+  controller_.select(model_.idOf(filter_.mapToSource(current).row()));
+}
+
+SolutionContext AnnotationPanel::context() const {
+  SolutionContext made;
+  const ViewState::CasePtr& one = state_.currentCase();
+  if (!one) return made;
+  made.requirement = one->source.requirement;
+  made.camera_from_end_effector = one->source.camera_from_end_effector;
+  const auto add = [&](const QString& name, PoseRole role) {
+    if (const auto pose = poseOf(state_, role)) made.others.push_back({name, *pose});
+  };
+  add(tr("seed"), PoseRole::kSeed);
+  add(tr("run, iteration %1").arg(state_.cursor().iteration + 1), PoseRole::kEstimate);
+  add(tr("nudged"), PoseRole::kNudged);
+  add(tr("truth"), PoseRole::kTruth);
+  return made;
+}
+
+void AnnotationPanel::showSolution() {
+  const AnnotationSolver::Answer& answer = controller_.answer();
+  model_.setSolution(answer.solution, controller_.stale());
+  headline_->setText(solutionHeadline(answer, controller_.stale()));
+  summary_->setEnabled(!controller_.stale());  // dimmed until it is true again
+  const int place = summary_->verticalScrollBar()->value();
+  summary_->setHtml(solutionHtml(answer, context()));
+  summary_->verticalScrollBar()->setValue(place);
+  const bool solved = controller_.solvedPose().has_value();
+  use_as_truth_->setEnabled(solved && !controller_.stale());
+  use_as_seed_->setEnabled(solved && !controller_.stale());
+  const ViewState::CasePtr& one = state_.currentCase();
+  together_->setVisible(one && one->source.rig);
+}
+
+void AnnotationPanel::showPasses() {
+  QMenu& menu = *passes_->menu();
+  menu.clear();
+  QAction* aside = menu.addAction(tr("Put these marks aside, begin a blind pass ..."), this,
+                                  &AnnotationPanel::askForName);
+  aside->setEnabled(!controller_.marks().empty());
+  menu.addSeparator();
+  for (int i = 0; i < static_cast<int>(controller_.passes().size()); ++i) {
+    const auto& pass = controller_.passes()[static_cast<std::size_t>(i)];
+    QMenu* one = menu.addMenu(QStringLiteral("%1, %2").arg(fromText(pass.by), fromText(pass.time)));
+    one->addAction(tr("Take up"), this, [this, i] { controller_.takeUp(i); });
+    one->addAction(tr("Remove"), this, [this, i] { controller_.removePass(i); });
+  }
+}
+
+void AnnotationPanel::askForName() {
+  bool accepted = false;
+  const QString name =
+      QInputDialog::getText(this, tr("Put these marks aside"), tr("Who placed them?"),
+                            QLineEdit::Normal, qEnvironmentVariable("USER"), &accepted);
+  if (accepted) controller_.putAside(name);
+}
+
+void AnnotationPanel::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Delete && !controller_.selected().empty()) {
+    controller_.remove(controller_.selected());
+    return;
+  }
+  if (event->key() == Qt::Key_Space && !controller_.selected().empty()) {
+    const int row = model_.rowOf(controller_.selected());
+    const QModelIndex on = model_.index(row, MarksModel::kOn);
+    const bool is_on = on.data(Qt::CheckStateRole).toInt() == Qt::Checked;
+    model_.setData(on, is_on ? Qt::Unchecked : Qt::Checked, Qt::CheckStateRole);
+    return;
+  }
+  QWidget::keyPressEvent(event);
+}
+
+}  // namespace boresight::ui

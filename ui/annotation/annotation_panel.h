@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QString>
+#include <QWidget>
+
+#include "ui/annotation/annotation_controller.h"
+#include "ui/annotation/solution_html.h"
+#include "ui/models/marks_filter.h"
+#include "ui/models/marks_model.h"
+
+QT_BEGIN_NAMESPACE
+class QBoxLayout;
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QPushButton;
+class QTableView;
+class QTextBrowser;
+class QToolButton;
+QT_END_NAMESPACE
+
+namespace boresight::ui {
+
+/// The annotator's desk: tools, the table of marks, and what the pose that solves them is worth.
+class AnnotationPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  AnnotationPanel(AnnotationController& controller, ViewState& state, QWidget* parent = nullptr);
+
+  QTableView& table() { return *table_; }
+  /// Asks whose marks these are, and puts them aside.
+  void askForName();
+
+ Q_SIGNALS:
+  void useAsSeedRequested(const boresight::Pose& camera_from_station);
+  void importRequested();
+  void exportRequested();
+  void openLandmarksRequested();
+  void saveLandmarksRequested();
+
+ protected:
+  void keyPressEvent(QKeyEvent* event) override;
+
+ private:
+  void buildTools(QBoxLayout& layout);
+  QWidget* buildTable();
+  QWidget* buildSummary();
+  QToolButton* modeButton(const QString& name, const QString& text, const QString& tip,
+                          PlaceMode mode);
+  void buildFileMenu(QToolButton& button);
+  void showMode();
+  void showMarks();
+  void showSelection();
+  void showSolution();
+  void showPasses();
+  void chooseRow(const QModelIndex& current);
+  SolutionContext context() const;
+
+  AnnotationController& controller_;
+  ViewState& state_;
+  MarksModel model_;
+  MarksFilter filter_;
+  bool showing_ = false;
+  QToolButton* points_ = nullptr;
+  QToolButton* lines_ = nullptr;
+  QDoubleSpinBox* sigma_ = nullptr;
+  QCheckBox* robust_ = nullptr;
+  QCheckBox* together_ = nullptr;
+  QToolButton* passes_ = nullptr;
+  QComboBox* show_ = nullptr;
+  QLabel* count_ = nullptr;
+  QTableView* table_ = nullptr;
+  QLabel* headline_ = nullptr;
+  QTextBrowser* summary_ = nullptr;
+  QPushButton* use_as_truth_ = nullptr;
+  QPushButton* use_as_seed_ = nullptr;
+};
+
+}  // namespace boresight::ui

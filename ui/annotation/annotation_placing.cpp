@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// Places and moves of marks, each an edit of the document.
+#include "ui/annotation/annotation_controller.h"
+
+#include <utility>
+
+#include "sessions/annotation/mark_edits.h"
+#include "ui/models/number_text.h"
+
+namespace boresight::ui {
+
+using sessions::LinePair;
+using sessions::Marks;
+using sessions::PointPair;
+
+std::string AnnotationController::placeInImage(const Eigen::Vector2d& pixel) {
+  finishMove();
+  const ViewState::CasePtr& one = state_.currentCase();
+  if (case_id_.empty() || !one) return {};
+  if (!sessions::isInImage(pixel, one->image.width, one->image.height)) {
+    Q_EMIT told(tr("This place lies outside the image; click on the image itself."));
+    return {};
+  }
+  const PointPair* chosen = selectedPoint();
+  const bool completes = chosen && !chosen->pixel && !chosen->locked;
+  PointPair point = completes ? *chosen : PointPair();
+  if (!completes) {
+    point.id = sessions::unusedId(marks_, 'p');
+    point.sigma_px = sigma_px_;
+  }
+  point.pixel = pixel;
+  const std::string id = point.id;
+  if (!commit(sessions::withPoint(marks_, id, point),
+              tr("Place %1 on the image").arg(fromText(id))))
+    return {};
+  select(id);
+  return id;
+}
+
+std::string AnnotationController::placeOnStation(const Eigen::Vector3d& point_in_station_m) {
+  finishMove();
+  if (case_id_.empty() || !point_in_station_m.allFinite()) return {};
+  const PointPair* chosen = selectedPoint();
+  const bool completes = chosen && !chosen->point_in_station_m && !chosen->locked;
+  PointPair point = completes ? *chosen : PointPair();
+  if (!completes) {
+    point.id = sessions::unusedId(marks_, 'p');
+    point.sigma_px = sigma_px_;
+  }
+  point.point_in_station_m = point_in_station_m;
+  const std::string id = point.id;
+  if (!commit(sessions::withPoint(marks_, id, point),
+              tr("Place %1 on the station").arg(fromText(id))))
+    return {};
+  select(id);
+  return id;
+}
+
+std::string AnnotationController::placeLineInImage(const sessions::ImageLine& line) {
+  finishMove();
+  if (case_id_.empty()) return {};
+  if ((line.end - line.start).norm() < 1.0) {
+    Q_EMIT told(tr("A line needs two places at least a pixel apart."));
+    return {};
+  }
+  const LinePair* chosen = selectedLine();
+  const bool completes = chosen && !chosen->line && !chosen->locked;
+  LinePair made = completes ? *chosen : LinePair();
+  if (!completes) {
+    made.id = sessions::unusedId(marks_, 'l');
+    made.sigma_px = sigma_px_;
+  }
+  made.line = line;
+  const std::string id = made.id;
+  if (!commit(sessions::withLine(marks_, id, made), tr("Place %1 on the image").arg(fromText(id))))
+    return {};
+  select(id);
+  return id;
+}
+
+std::string AnnotationController::placeEdgeOnStation(const sessions::ModelEdge& edge) {
+  finishMove();
+  if (case_id_.empty()) return {};
+  const LinePair* chosen = selectedLine();
+  const bool completes = chosen && !chosen->edge && !chosen->locked;
+  LinePair made = completes ? *chosen : LinePair();
+  if (!completes) {
+    made.id = sessions::unusedId(marks_, 'l');
+    made.sigma_px = sigma_px_;
+  }
+  made.edge = edge;
+  const std::string id = made.id;
+  if (!commit(sessions::withLine(marks_, id, made),
+              tr("Place %1 on the station").arg(fromText(id))))
+    return {};
+  select(id);
+  return id;
+}
+
+/// Whether a mark exists and is not locked.
+bool AnnotationController::mayChange(const std::string& id) {
+  const PointPair* point = sessions::findPoint(marks_, id);
+  const LinePair* line = sessions::findLine(marks_, id);
+  if (!point && !line) return false;
+  if (!(point ? point->locked : line->locked)) return true;
+  Q_EMIT told(tr("%1 is locked; unlock it in the table to change it.").arg(fromText(id)));
+  return false;
+}
+
+bool AnnotationController::dragInImage(const std::string& id, const Eigen::Vector2d& pixel,
+                                       int end) {
+  if (!mayChange(id)) return false;
+  const ViewState::CasePtr& one = state_.currentCase();
+  if (!one || !sessions::isInImage(pixel, one->image.width, one->image.height)) return false;
+  select(id);
+  marks_ = sessions::withMoved(marks_, id, end, pixel);
+  moving_ = true;
+  Q_EMIT marksChanged();
+  askIfChanged(false);
+  return true;
+}
+
+void AnnotationController::finishMove() {
+  pause_.stop();
+  if (!std::exchange(moving_, false)) return;
+  if (!commit(marks_, tr("Move %1").arg(fromText(selected_)))) showDocument();
+}
+
+bool AnnotationController::nudge(const Eigen::Vector2d& by_px, int end) {
+  const PointPair* point = selectedPoint();
+  const LinePair* line = selectedLine();
+  std::optional<Eigen::Vector2d> from;
+  if (point) from = point->pixel;
+  if (line && line->line) from = end == 0 ? line->line->start : line->line->end;
+  if (!from || !dragInImage(selected_, *from + by_px, end)) return false;
+  pause_.start();
+  return true;
+}
+
+/// Whether an edit of the table may give a mark this id.
+bool AnnotationController::mayReplace(const std::string& replaced, const std::string& id) {
+  if (id.empty()) {
+    Q_EMIT told(tr("A mark needs a name."));
+    return false;
+  }
+  if (id != replaced && (sessions::findPoint(marks_, id) || sessions::findLine(marks_, id))) {
+    Q_EMIT told(tr("There is a mark \"%1\" already; take another name.").arg(fromText(id)));
+    return false;
+  }
+  return true;
+}
+
+bool AnnotationController::replacePoint(const std::string& replaced, const PointPair& point,
+                                        const QString& text) {
+  finishMove();
+  if (!sessions::findPoint(marks_, replaced) || !mayReplace(replaced, point.id)) return false;
+  const bool chosen = selected_ == replaced;
+  const std::string id = point.id;
+  if (!commit(sessions::withPoint(marks_, replaced, point), text)) return false;
+  if (chosen) select(id);
+  return true;
+}
+
+bool AnnotationController::replaceLine(const std::string& replaced, const LinePair& line,
+                                       const QString& text) {
+  finishMove();
+  if (!sessions::findLine(marks_, replaced) || !mayReplace(replaced, line.id)) return false;
+  const bool chosen = selected_ == replaced;
+  const std::string id = line.id;
+  if (!commit(sessions::withLine(marks_, replaced, line), text)) return false;
+  if (chosen) select(id);
+  return true;
+}
+
+void AnnotationController::remove(const std::string& id) {
+  finishMove();
+  if (mayChange(id)) commit(sessions::withoutMark(marks_, id), tr("Remove %1").arg(fromText(id)));
+}
+
+void AnnotationController::setMarks(const Marks& marks, const QString& text) {
+  finishMove();
+  commit(marks, text);
+}
+
+void AnnotationController::confirm(const sessions::Proposal& proposal) {
+  finishMove();
+  PointPair point;
+  point.id = proposal.landmark.name;
+  point.point_in_station_m = proposal.landmark.point_in_station_m;
+  point.pixel = proposal.pixel;
+  point.sigma_px = sigma_px_;
+  point.comment = proposal.landmark.comment;
+  if (commit(sessions::withPoint(marks_, point.id, point),
+             tr("Confirm %1").arg(fromText(point.id))))
+    select(proposal.landmark.name);
+}
+
+void AnnotationController::begin(const sessions::Landmark& landmark) {
+  finishMove();
+  PointPair point;
+  point.id = landmark.name;
+  point.point_in_station_m = landmark.point_in_station_m;
+  point.sigma_px = sigma_px_;
+  point.comment = landmark.comment;
+  if (sessions::findPoint(marks_, point.id)) return;
+  if (commit(sessions::withPoint(marks_, point.id, point), tr("Begin %1").arg(fromText(point.id))))
+    select(landmark.name);
+}
+
+}  // namespace boresight::ui

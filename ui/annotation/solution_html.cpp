@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/annotation/solution_html.h"
+
+#include <cmath>
+
+#include <QCoreApplication>
+#include <QStringList>
+
+#include "core/base/math.h"
+#include "sessions/evaluation/pose_error.h"
+#include "sessions/evaluation/pose_sigma.h"
+#include "ui/models/number_text.h"
+
+namespace boresight::ui {
+namespace {
+
+using sessions::MarksSolution;
+
+constexpr double kDegree_mrad = 1e3 * kDegree_rad;
+
+QString tr(const char* text) { return QCoreApplication::translate("SolutionHtml", text); }
+
+QString cell(const QString& text, bool number = false) {
+  return QStringLiteral("<td%1>%2&nbsp;&nbsp;</td>")
+      .arg(number ? QStringLiteral(" align='right'") : QString(), text);
+}
+
+QString rowOf(const QStringList& cells) {
+  return QStringLiteral("<tr>%1</tr>").arg(cells.join(QString()));
+}
+
+QString table(const QString& title, const QStringList& rows) {
+  if (rows.isEmpty()) return {};
+  return QStringLiteral("<p><b>%1</b></p><table cellspacing='0' cellpadding='1'>%2</table>")
+      .arg(title, rows.join(QString()));
+}
+
+QString judged(double value, const std::optional<double>& limit, const QString& unit) {
+  if (!limit) return {};
+  const QString text = QStringLiteral("%1 %2").arg(QString::number(*limit, 'g', 4), unit);
+  return std::abs(value) <= *limit ? tr("within %1").arg(text) : tr("<b>beyond %1</b>").arg(text);
+}
+
+QString warningsHtml(const sessions::CaseMarksSolution& solution) {
+  QStringList items;
+  for (const sessions::GeometryWarning& warning : solution.warnings)
+    items << QStringLiteral("<li>%1%2</li>")
+                 .arg(warning.prevents ? tr("<b>No pose:</b> ") : QString(),
+                      fromText(warning.text).toHtmlEscaped());
+  if (items.isEmpty()) return {};
+  return QStringLiteral("<p><b>%1</b></p><ul style='margin-left:14px;-qt-list-indent:0'>%2</ul>")
+      .arg(tr("Geometry"), items.join(QString()));
+}
+
+QString sigmaHtml(const AnnotationSolver::Answer& answer, const SolutionContext& context) {
+  const MarksSolution& solution = *answer.solution->result.solution;
+  const auto sigma = answer.covariance
+                         ? sessions::poseSigma(*answer.covariance, context.camera_from_end_effector)
+                         : std::nullopt;
+  if (!sigma) return {};
+  std::optional<double> normal_mm;
+  std::optional<double> lateral_mm;
+  std::optional<double> rotation_mrad;
+  if (context.requirement) {
+    normal_mm = context.requirement->normal_mm;
+    lateral_mm = context.requirement->lateral_mm;
+    if (context.requirement->rotation_deg)
+      rotation_mrad = *context.requirement->rotation_deg * kDegree_mrad;
+  }
+  const QString mm = tr("mm");
+  const QString mrad = tr("mrad");
+  const auto line = [](const QString& name, double value, const QString& unit,
+                       const QString& verdict) {
+    return rowOf(
+        {cell(name), cell(QString::number(value, 'f', 4), true), cell(unit), cell(verdict)});
+  };
+  const auto axes = [](const QString& name, const Eigen::Vector3d& values, const QString& unit) {
+    return QStringLiteral("<tr>%1<td colspan='3'>%2, %3, %4 %5</td></tr>")
+        .arg(cell(name), QString::number(values.x(), 'f', 4), QString::number(values.y(), 'f', 4),
+             QString::number(values.z(), 'f', 4), unit);
+  };
+  const QString title = tr("One sigma (noise %1 times what the marks' sigmas say)")
+                            .arg(QString::number(solution.noise_factor, 'f', 2));
+  return table(
+      title, {line(tr("normal"), sigma->normal_mm, mm, judged(sigma->normal_mm, normal_mm, mm)),
+              line(tr("lateral"), sigma->lateral_mm, mm, judged(sigma->lateral_mm, lateral_mm, mm)),
+              line(tr("rotation"), sigma->out_of_plane_mrad, mrad,
+                   judged(sigma->out_of_plane_mrad, rotation_mrad, mrad)),
+              axes(tr("along x, y, z"), sigma->translation_mm, mm),
+              axes(tr("about x, y, z"), sigma->rotation_mrad, mrad)});
+}
+
+QStringList poseCells(const Pose& pose) {
+  const Eigen::Vector3d turn_deg = rotationLog(pose.rotation) / kDegree_rad;
+  QStringList cells;
+  for (int i = 0; i < 3; ++i) cells << QString::number(1e3 * pose.translation_m[i], 'f', 3);
+  for (int i = 0; i < 3; ++i) cells << QString::number(turn_deg[i], 'f', 4);
+  return cells;
+}
+
+QString twinHtml(const sessions::CaseMarksSolution& solved) {
+  const MarksSolution& solution = *solved.result.solution;
+  if (!solution.twin) return {};
+  const sessions::MarkedView& view = solved.marks.views.front();
+  const QStringList ours = poseCells(solution.camera_from_station.front());
+  const QStringList other = poseCells(view.camera_from_rig * solution.twin->rig_from_station);
+  const QStringList names = {tr("x, mm"),       tr("y, mm"),       tr("z, mm"),
+                             tr("turn x, deg"), tr("turn y, deg"), tr("turn z, deg")};
+  QStringList rows = {
+      rowOf({cell(QString()), cell(tr("this pose"), true), cell(tr("the other pose"), true)})};
+  for (int i = 0; i < names.size(); ++i)
+    rows << rowOf({cell(names[i]), cell(ours[i], true), cell(other[i], true)});
+  rows << rowOf({cell(tr("rms, px")), cell(QString::number(solution.rms_px, 'f', 3), true),
+                 cell(QString::number(solution.twin->rms_px, 'f', 3), true)});
+  return table(tr("Two poses explain marks in a plane"), rows);
+}
+
+QString viewsHtml(const sessions::CaseMarksSolution& solved) {
+  const auto& views = solved.marks.views;
+  if (views.size() < 2) return {};
+  QStringList rows;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    double squares_px2 = 0.0;
+    int count = 0;
+    for (const sessions::SolvedMark& mark : solved.result.solution->marks) {
+      if (mark.address.view != i || !mark.projected) continue;
+      squares_px2 += mark.residual_px.squaredNorm();
+      ++count;
+    }
+    const double rms_px = count > 0 ? std::sqrt(squares_px2 / (2.0 * count)) : 0.0;
+    rows << rowOf({cell(fromText(views[i].name).toHtmlEscaped()), cell(tr("%1 marks").arg(count)),
+                   cell(tr("%1 px rms").arg(QString::number(rms_px, 'f', 3)), true)});
+  }
+  return table(tr("Cameras solved together"), rows);
+}
+
+QString differenceRow(const QString& name, const Pose& other, const Pose& annotated,
+                      const SolutionContext& context, const QString& more) {
+  const sessions::PoseError error =
+      sessions::poseError(other, annotated, context.camera_from_end_effector);
+  return rowOf({cell(name.toHtmlEscaped()), cell(QString::number(error.normal_mm, 'f', 3), true),
+                cell(QString::number(error.lateral_mm, 'f', 3), true),
+                cell(QString::number(error.geodesic_mrad / kDegree_mrad, 'f', 4), true),
+                cell(more)});
+}
+
+QString comparedHtml(const AnnotationSolver::Answer& answer, const SolutionContext& context,
+                     const Pose& annotated) {
+  QStringList rows;
+  for (const ComparedPose& other : context.others)
+    rows << differenceRow(other.name, other.camera_from_station, annotated, context, {});
+  for (const AnnotationSolver::PassAnswer& pass : answer.passes) {
+    const int shared = static_cast<int>(pass.repeatability.marks.size());
+    const QString repeated = shared > 0
+                                 ? tr("%1 marks, %2 px per mark and axis")
+                                       .arg(shared)
+                                       .arg(QString::number(pass.repeatability.sigma_px, 'f', 3))
+                                 : tr("no mark in common");
+    const QString name = tr("pass of %1").arg(fromText(pass.by));
+    if (pass.camera_from_station)
+      rows << differenceRow(name, *pass.camera_from_station, annotated, context, repeated);
+    else
+      rows << rowOf(
+          {cell(name.toHtmlEscaped()), cell(tr("no pose")), cell({}), cell({}), cell(repeated)});
+  }
+  if (rows.isEmpty()) return {};
+  rows.prepend(rowOf({cell(QString()), cell(tr("normal, mm"), true), cell(tr("lateral, mm"), true),
+                      cell(tr("angle, deg"), true), cell(QString())}));
+  return table(tr("The annotated pose is from"), rows);
+}
+
+}  // namespace
+
+QString solutionHeadline(const AnnotationSolver::Answer& answer, bool stale) {
+  if (!answer.solution) return stale ? tr("Solving ...") : tr("Nothing is marked yet.");
+  const sessions::MarksResult& result = answer.solution->result;
+  QString text = fromText(result.reason);
+  if (result.solution)
+    text = tr("Solved from %1 marks, %2 px rms.")
+               .arg(result.solution->marks.size())
+               .arg(QString::number(result.solution->rms_px, 'f', 3));
+  else if (text.isEmpty())
+    text = tr("Nothing is marked yet.");
+  return stale ? tr("Stale, solving anew: %1").arg(text) : text;
+}
+
+QString solutionHtml(const AnnotationSolver::Answer& answer, const SolutionContext& context) {
+  if (!answer.solution) return {};
+  QString html = warningsHtml(*answer.solution);
+  const auto annotated = answer.solution->camera_from_station();
+  if (!annotated) return html;
+  html += sigmaHtml(answer, context);
+  html += twinHtml(*answer.solution);
+  html += viewsHtml(*answer.solution);
+  html += comparedHtml(answer, context, *annotated);
+  return html;
+}
+
+}  // namespace boresight::ui

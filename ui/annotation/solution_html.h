@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <QString>
+
+#include "sessions/io/dataset_file.h"
+#include "ui/annotation/annotation_solver.h"
+
+namespace boresight::ui {
+
+/// A pose that the annotated one is compared with.
+struct ComparedPose {
+  QString name;
+  Pose camera_from_station;
+};
+
+/// What the annotated pose is judged by.
+struct SolutionContext {
+  std::optional<sessions::Requirement> requirement;
+  std::optional<Pose> camera_from_end_effector;
+  std::vector<ComparedPose> others;  ///< seed, run, truth
+};
+
+/// "Solved from 8 marks, 0.21 px rms.", or why there is no pose.
+QString solutionHeadline(const AnnotationSolver::Answer& answer, bool stale);
+
+/// Everything else that an annotator reads of a solution: what is weak in the marks, one sigma
+/// against the requirement, the second pose of a plane beside the first, residuals per camera, and
+/// how far the other poses and passes are. Colour never says anything alone.
+QString solutionHtml(const AnnotationSolver::Answer& answer, const SolutionContext& context);
+
+}  // namespace boresight::ui

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <QAbstractTableModel>
+
+#include "sessions/session/case_marks.h"
+
+namespace boresight::ui {
+
+/// The marks of one image, points before lines, one row each, with what the solved pose says of
+/// them. What a person edits is told, not done: who owns the marks answers by setting them anew.
+class MarksModel : public QAbstractTableModel {
+  Q_OBJECT
+
+ public:
+  enum Column {
+    kOn,
+    kName,
+    kLocked,
+    kU_px,
+    kV_px,
+    kX_mm,
+    kY_mm,
+    kZ_mm,
+    kSigma_px,
+    kResidualX_px,
+    kResidualY_px,
+    kResidualX_mm,
+    kResidualY_mm,
+    kNormalized,
+    kWithout_mm,
+    kWithout_mrad,
+    kComment,
+    kColumnCount,
+  };
+  /// A cell as a number to sort by (texts sort by themselves); NaN where there is none.
+  static constexpr int kNumberRole = Qt::UserRole;
+  static constexpr double kStandsOut = 3.0;  ///< sigmas from which a mark stands out
+
+  using SolutionPtr = std::shared_ptr<const sessions::CaseMarksSolution>;
+
+  explicit MarksModel(QObject* parent = nullptr);
+
+  void setMarks(const sessions::Marks& marks);
+  /// Of these marks; residuals of marks that moved since are shown dimmed. nullptr: none.
+  void setSolution(SolutionPtr solution, bool stale);
+
+  const sessions::Marks& marks() const { return marks_; }
+  const std::string& idOf(int row) const;
+  int rowOf(const std::string& id) const;  ///< -1 when there is none
+  bool isLine(int row) const { return row >= static_cast<int>(marks_.points.size()); }
+
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex& parent = {}) const override;
+  QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
+  bool setData(const QModelIndex& index, const QVariant& value, int role = Qt::EditRole) override;
+  Qt::ItemFlags flags(const QModelIndex& index) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+ Q_SIGNALS:
+  /// What the mark of this id should become, and what to call it.
+  void pointEdited(const std::string& replaced, const boresight::sessions::PointPair& point,
+                   const QString& text);
+  void lineEdited(const std::string& replaced, const boresight::sessions::LinePair& line,
+                  const QString& text);
+
+ private:
+  struct Judged {
+    std::optional<sessions::SolvedMark> solved;
+    std::optional<sessions::LeftOut> left_out;
+  };
+
+  double numberOf(int row, int column) const;
+  QVariant display(int row, int column) const;
+  QVariant state(int row, int column) const;
+  void judge();
+
+  sessions::Marks marks_;
+  SolutionPtr solution_;
+  bool stale_ = false;
+  std::vector<Judged> judged_;  ///< by row
+};
+
+}  // namespace boresight::ui
