@@ -55,6 +55,7 @@ void SceneAnnotator::setShot(const SceneShot& shot) {
 
 void SceneAnnotator::showMode() {
   canvas_.setMouseTracking(places());
+  if (places() && canvas_.underMouse()) canvas_.setFocus(Qt::MouseFocusReason);  // for the keys
   turn_ = 0;
   updateAim();
 }

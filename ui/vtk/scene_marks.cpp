@@ -93,13 +93,14 @@ std::vector<SceneMark> sceneMarks(const AnnotationController& annotation) {
 std::string pickMark(const std::vector<SceneMark>& marks, const Viewpoint& view,
                      const sessions::MeshSnapper& mesh, const QPointF& pixel) {
   std::string picked;
-  double least_px = kPick_px;
+  double least_px = 2.0 * kPick_px;
   for (const SceneMark& mark : marks) {
     if (mark.proposed) continue;
     const auto distance_px = distanceTo(mark, view, pixel);
-    if (!distance_px || *distance_px > least_px) continue;
-    if (!mesh.seenFrom(view.eyeInStation_m(), mark.at_m)) continue;
-    least_px = *distance_px;
+    if (!distance_px || *distance_px > kPick_px) continue;
+    const double rank_px = *distance_px + (mark.edge ? kPick_px : 0.0);  // points lie upon lines
+    if (rank_px > least_px || !mesh.seenFrom(view.eyeInStation_m(), mark.at_m)) continue;
+    least_px = rank_px;
     picked = mark.id;
   }
   return picked;
