@@ -35,9 +35,10 @@ AnnotationPanel::AnnotationPanel(AnnotationController& controller, ViewState& st
   auto* splitter = new QSplitter(Qt::Horizontal, this);
   splitter->addWidget(buildTable());
   splitter->addWidget(buildSummary());
-  splitter->setStretchFactor(0, 3);
-  splitter->setStretchFactor(1, 2);
+  splitter->setStretchFactor(0, 1);
+  splitter->setStretchFactor(1, 1);
   splitter->setChildrenCollapsible(false);
+  splitter->setSizes({500, 400});
   column->addWidget(splitter, 1);
   connect(&controller_, &AnnotationController::modeChanged, this, &AnnotationPanel::showMode);
   connect(&controller_, &AnnotationController::marksChanged, this, &AnnotationPanel::showMarks);
@@ -114,6 +115,14 @@ void AnnotationPanel::buildTools(QBoxLayout& layout) {
                         static_cast<QWidget*>(passes_)})
     row->addWidget(each);
   row->addStretch(1);
+  show_ = new QComboBox(this);
+  show_->setObjectName(QStringLiteral("showMarks"));
+  show_->setAccessibleName(tr("Which marks are listed"));
+  for (int i = 0; i < MarksFilter::kShowCount; ++i)
+    show_->addItem(MarksFilter::nameOf(static_cast<MarksFilter::Show>(i)));
+  count_ = new QLabel(this);
+  row->addWidget(count_);
+  row->addWidget(show_);
   layout.addLayout(row);
   connect(sigma_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), &controller_,
           &AnnotationController::setSigma);
@@ -134,20 +143,7 @@ void AnnotationPanel::buildFileMenu(QToolButton& button) {
 }
 
 QWidget* AnnotationPanel::buildTable() {
-  auto* part = new QWidget(this);
-  auto* column = new QVBoxLayout(part);
-  column->setContentsMargins(0, 0, 0, 0);
-  auto* row = new QHBoxLayout;
-  show_ = new QComboBox(part);
-  show_->setObjectName(QStringLiteral("showMarks"));
-  show_->setAccessibleName(tr("Which marks are listed"));
-  for (int i = 0; i < MarksFilter::kShowCount; ++i)
-    show_->addItem(MarksFilter::nameOf(static_cast<MarksFilter::Show>(i)));
-  count_ = new QLabel(part);
-  row->addWidget(show_);
-  row->addWidget(count_, 1);
-  column->addLayout(row);
-  table_ = new QTableView(part);
+  table_ = new QTableView(this);
   table_->setObjectName(QStringLiteral("marks"));
   table_->setAccessibleName(tr("Marks"));
   table_->setModel(&filter_);
@@ -155,14 +151,13 @@ QWidget* AnnotationPanel::buildTable() {
   table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
   table_->setSortingEnabled(true);
   table_->sortByColumn(-1, Qt::AscendingOrder);
-  column->addWidget(table_, 1);
   connect(show_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
     filter_.setShow(static_cast<MarksFilter::Show>(index));
     showMarks();
   });
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &AnnotationPanel::chooseRow);
-  return part;
+  return table_;
 }
 
 QWidget* AnnotationPanel::buildSummary() {
@@ -172,6 +167,9 @@ QWidget* AnnotationPanel::buildSummary() {
   headline_ = new QLabel(part);
   headline_->setObjectName(QStringLiteral("headline"));
   headline_->setWordWrap(true);
+  meter_ = new QLabel(part);
+  meter_->setObjectName(QStringLiteral("geometryMeter"));
+  meter_->setWordWrap(true);
   summary_ = new QTextBrowser(part);
   summary_->setObjectName(QStringLiteral("solution"));
   summary_->setAccessibleName(tr("What the solved pose is worth"));
@@ -184,12 +182,12 @@ QWidget* AnnotationPanel::buildSummary() {
   use_as_seed_->setObjectName(QStringLiteral("annotationAsSeed"));
   use_as_seed_->setToolTip(tr("Runs of the case start from this pose"));
   auto* row = new QHBoxLayout;
+  row->addWidget(headline_, 1);
   row->addWidget(use_as_truth_);
   row->addWidget(use_as_seed_);
-  row->addStretch(1);
-  column->addWidget(headline_);
-  column->addWidget(summary_, 1);
   column->addLayout(row);
+  column->addWidget(meter_);
+  column->addWidget(summary_, 1);
   connect(use_as_truth_, &QPushButton::clicked, &controller_, &AnnotationController::useAsTruth);
   connect(use_as_seed_, &QPushButton::clicked, this, [this] {
     if (const auto pose = controller_.solvedPose()) Q_EMIT useAsSeedRequested(*pose);
@@ -248,6 +246,7 @@ void AnnotationPanel::showSolution() {
   const AnnotationSolver::Answer& answer = controller_.answer();
   model_.setSolution(answer.solution, controller_.stale());
   headline_->setText(solutionHeadline(answer, controller_.stale()));
+  meter_->setText(geometryMeterText(answer));
   summary_->setEnabled(!controller_.stale());  // dimmed until it is true again
   const int place = summary_->verticalScrollBar()->value();
   summary_->setHtml(solutionHtml(answer, context()));

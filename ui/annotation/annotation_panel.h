@@ -74,6 +74,7 @@ class AnnotationPanel : public QWidget {
   QLabel* count_ = nullptr;
   QTableView* table_ = nullptr;
   QLabel* headline_ = nullptr;
+  QLabel* meter_ = nullptr;
   QTextBrowser* summary_ = nullptr;
   QPushButton* use_as_truth_ = nullptr;
   QPushButton* use_as_seed_ = nullptr;

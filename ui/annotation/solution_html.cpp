@@ -41,6 +41,25 @@ QString judged(double value, const std::optional<double>& limit, const QString& 
   return std::abs(value) <= *limit ? tr("within %1").arg(text) : tr("<b>beyond %1</b>").arg(text);
 }
 
+QString weaknessText(sessions::GeometryWeakness weakness) {
+  using sessions::GeometryWeakness;
+  switch (weakness) {
+    case GeometryWeakness::kTooFew:
+      return tr("too few marks");
+    case GeometryWeakness::kFew:
+      return tr("no mark to spare");
+    case GeometryWeakness::kCollinear:
+      return tr("all on one line");
+    case GeometryWeakness::kCoplanar:
+      return tr("all in one plane");
+    case GeometryWeakness::kClustered:
+      return tr("all in one corner of the station");
+    case GeometryWeakness::kOneDepth:
+      return tr("all at one depth");
+  }
+  return {};
+}
+
 QString warningsHtml(const sessions::CaseMarksSolution& solution) {
   QStringList items;
   for (const sessions::GeometryWarning& warning : solution.warnings)
@@ -182,6 +201,17 @@ QString solutionHeadline(const AnnotationSolver::Answer& answer, bool stale) {
   else if (text.isEmpty())
     text = tr("Nothing is marked yet.");
   return stale ? tr("Stale, solving anew: %1").arg(text) : text;
+}
+
+QString geometryMeterText(const AnnotationSolver::Answer& answer) {
+  if (!answer.solution) return {};
+  QStringList weak;
+  for (const sessions::GeometryWarning& warning : answer.solution->warnings)
+    weak << weaknessText(warning.weakness);
+  const QChar sign(weak.isEmpty() ? 0x2713 : 0x26a0);
+  return tr("Geometry: %1 %2")
+      .arg(sign)
+      .arg(weak.isEmpty() ? tr("nothing weak") : weak.join(QStringLiteral(", ")));
 }
 
 QString solutionHtml(const AnnotationSolver::Answer& answer, const SolutionContext& context) {

@@ -27,6 +27,10 @@ struct SolutionContext {
 /// "Solved from 8 marks, 0.21 px rms.", or why there is no pose.
 QString solutionHeadline(const AnnotationSolver::Answer& answer, bool stale);
 
+/// "Geometry: all in one plane, all at one depth.": what of the marks is weak, in a few words that
+/// stand there before and after solving.
+QString geometryMeterText(const AnnotationSolver::Answer& answer);
+
 /// Everything else that an annotator reads of a solution: what is weak in the marks, one sigma
 /// against the requirement, the second pose of a plane beside the first, residuals per camera, and
 /// how far the other poses and passes are. Colour never says anything alone.

@@ -135,7 +135,7 @@ void MarksModel::setSolution(SolutionPtr solution, bool stale) {
   stale_ = stale;
   judge();
   if (rowCount() > 0)
-    Q_EMIT dataChanged(index(0, kResidualX_px), index(rowCount() - 1, kWithout_mrad));
+    Q_EMIT dataChanged(index(0, kResidualX_px), index(rowCount() - 1, kResidualY_mm));
 }
 
 /// What the solution says of each row; by name, since rows may have come and gone.
@@ -245,7 +245,7 @@ QVariant MarksModel::data(const QModelIndex& index, int role) const {
     case Qt::FontRole:
       return state(row, column);
     case Qt::ForegroundRole: {
-      const bool judged = column >= kResidualX_px && column <= kWithout_mrad;
+      const bool judged = column >= kResidualX_px && column <= kResidualY_mm;
       if (!(judged && stale_)) return {};
       return QGuiApplication::palette().brush(QPalette::Disabled, QPalette::Text);
     }
@@ -266,8 +266,9 @@ Qt::ItemFlags MarksModel::flags(const QModelIndex& index) const {
   const std::size_t at = static_cast<std::size_t>(index.row()) - (line ? marks_.points.size() : 0);
   const bool locked = line ? marks_.lines[at].locked : marks_.points[at].locked;
   const bool text = column == kName || column == kComment || column == kSigma_px;
-  const bool place =
-      !line && column >= kU_px && column <= kZ_mm && std::isfinite(numberOf(index.row(), column));
+  const bool coordinate =
+      column == kU_px || column == kV_px || (column >= kX_mm && column <= kZ_mm);
+  const bool place = !line && coordinate && std::isfinite(numberOf(index.row(), column));
   return (text || place) && !locked ? flags | Qt::ItemIsEditable : flags;
 }
 

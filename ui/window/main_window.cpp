@@ -12,6 +12,7 @@
 #include <QStatusBar>
 #include <QUrl>
 
+#include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/views/image_panel.h"
 #include "ui/vtk/scene_view.h"
@@ -95,6 +96,8 @@ void MainWindow::connectAll() {
   connect(&docks_->scene(), &SceneView::told, this,
           [this](const QString& message) { statusBar()->showMessage(message); });
   connect(&docks_->snapper(), &StationSnapper::failed, this, &MainWindow::showMessage);
+  connect(&docks_->imageAnnotation(), &ImageAnnotation::told, this,
+          [this](const QString& message) { statusBar()->showMessage(message); });
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);
   connect(files_, &SessionFiles::failed, this, &MainWindow::showMessage);

@@ -7,6 +7,7 @@
 #include <QVBoxLayout>
 
 #include "ui/annotation/annotation_panel.h"
+#include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
@@ -48,6 +49,8 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       annotation_(new AnnotationPanel(parts.annotation, parts.state)),
       snapper_(new StationSnapper(parts.state, &window)),
       scene_(new SceneView(parts.state)),
+      image_annotation_(
+          new ImageAnnotation(*image_, parts.annotation, parts.state, *snapper_, image_)),
       warnings_(new WarningBar(tr("Inputs"), tr("Show all that is known of the inputs"))),
       findings_(new WarningBar(tr("Mend ..."),
                                tr("Look for missing files below the session's folder, or take "

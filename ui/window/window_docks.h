@@ -15,6 +15,7 @@ namespace boresight::ui {
 class AnnotationPanel;
 class CasesPanel;
 class ConfigurationPanel;
+class ImageAnnotation;
 class ImagePanel;
 class InputSheetPanel;
 class LevelsPanel;
@@ -44,6 +45,7 @@ class WindowDocks {
   /// What of the current case's mesh can be snapped to, for every view.
   StationSnapper& snapper() const { return *snapper_; }
   SceneView& scene() const { return *scene_; }
+  ImageAnnotation& imageAnnotation() const { return *image_annotation_; }
   /// Above the image: what looks wrong with the case's inputs.
   WarningBar& warnings() const { return *warnings_; }
   /// The same for files that are missing or have changed.
@@ -76,6 +78,7 @@ class WindowDocks {
   AnnotationPanel* annotation_;
   StationSnapper* snapper_;
   SceneView* scene_;
+  ImageAnnotation* image_annotation_;
   WarningBar* warnings_;
   WarningBar* findings_;
 };
