@@ -48,6 +48,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       levels_(new LevelsPanel(image_->display())),
       annotation_(new AnnotationPanel(parts.annotation, parts.state)),
       snapper_(new StationSnapper(parts.state, &window)),
+      scene_(new SceneView(parts.state)),
       image_annotation_(
           new ImageAnnotation(*image_, parts.annotation, parts.state, *snapper_, image_)),
       warnings_(new WarningBar(tr("Inputs"), tr("Show all that is known of the inputs"))),
@@ -58,6 +59,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
                          QMainWindow::AllowTabbedDocks);
   // Tables of poses and options are long, the one of iterations is wide.
   window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  scene_->setAnnotation(parts.annotation, *snapper_);
   buildCentre();
   add(QStringLiteral("cases"), tr("Cases"), cases_);
   add(QStringLiteral("layers"), tr("Layers"), new LayersPanel(*image_));
@@ -65,7 +67,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   add(QStringLiteral("levels"), tr("Levels"), levels_);
   add(QStringLiteral("pose"), tr("Pose"), poses_);
   add(QStringLiteral("configuration"), tr("Configuration"), configuration_);
-  add(QStringLiteral("scene"), tr("Scene"), new SceneView(parts.state));
+  add(QStringLiteral("scene"), tr("Scene"), scene_);
   add(QStringLiteral("iterations"), tr("Iterations"), new IterationsPanel(parts.state));
   add(QStringLiteral("inspector"), tr("Match inspector"), new MatchInspectorPanel(parts.state));
   add(QStringLiteral("annotation"), tr("Annotation"), annotation_);
