@@ -44,7 +44,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       mask_editor_(new MaskEditor(image_->view(), image_)),
       mask_(new MaskPanel(*mask_editor_)),
       levels_(new LevelsPanel(image_->display())),
-      annotation_(new AnnotationPanel(parts.annotation, parts.state)),
+      annotation_(new AnnotationPanel(parts.document, parts.annotation, parts.state)),
       warnings_(new WarningBar(tr("Inputs"), tr("Show all that is known of the inputs"))),
       findings_(new WarningBar(tr("Mend ..."),
                                tr("Look for missing files below the session's folder, or take "
