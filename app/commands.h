@@ -27,6 +27,8 @@ void addBench(CLI::App& app, int& exit_code);
 void addNew(CLI::App& app, int& exit_code);
 void addRun(CLI::App& app, int& exit_code);
 void addPack(CLI::App& app, int& exit_code);
+void addExport(CLI::App& app, int& exit_code);
+void addImport(CLI::App& app, int& exit_code);
 void addProblem(CLI::App& app, int& exit_code);
 
 /// A line to stderr for people.

@@ -29,6 +29,8 @@ int run(int argc, char** argv) {
   addNew(app, exit_code);
   addRun(app, exit_code);
   addPack(app, exit_code);
+  addExport(app, exit_code);
+  addImport(app, exit_code);
   addProblem(app, exit_code);
   addBench(app, exit_code);
   for (CLI::App* command : app.get_subcommands({}))

@@ -94,19 +94,18 @@ void requireWritableAsBop(const std::filesystem::path& folder, const PosedImage&
 
 }  // namespace
 
-void writeBopScene(const std::filesystem::path& folder, std::span<const PosedImage> images,
-                   int object_id) {
+void writeBopScene(const std::filesystem::path& folder, std::span<const BopObject> objects) {
   ordered_json cameras = ordered_json::object();
-  ordered_json objects = ordered_json::object();
+  ordered_json truth = ordered_json::object();
   std::set<int> ids;
-  for (const PosedImage& image : images) {
+  for (const auto& [image, object_id] : objects) {
     requireWritableAsBop(folder, image, ids);
     const std::string key = std::to_string(image.id);
     cameras[key] = cameraEntry(image.camera);
-    objects[key] = ordered_json::array({objectEntry(image.camera_from_station, object_id)});
+    truth[key] = ordered_json::array({objectEntry(image.camera_from_station, object_id)});
   }
   writeJsonFile(folder / "scene_camera.json", cameras);
-  writeJsonFile(folder / "scene_gt.json", objects);
+  writeJsonFile(folder / "scene_gt.json", truth);
 }
 
 std::vector<BopObject> readBopScene(const std::filesystem::path& folder) {

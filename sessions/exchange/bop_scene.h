@@ -9,18 +9,18 @@
 
 namespace boresight::sessions {
 
+struct BopObject {
+  PosedImage image;  ///< without a name; its camera has no size: BOP does not state it
+  int object_id = 0;
+};
+
 /// Writes scene_gt.json and scene_camera.json of a BOP scene (bop_toolkit, bop_datasets_format.md)
 /// into a folder, one object an image: rotations row by row, millimetres, pixels as OpenCV counts
 /// them. BOP knows no Brown-Conrady distortion: OutputError for a camera that has some (undistort
 /// the image, the pose stays), for an id that is given twice or negative, and for what cannot be
 /// written.
-void writeBopScene(const std::filesystem::path& folder, std::span<const PosedImage> images,
-                   int object_id);
+void writeBopScene(const std::filesystem::path& folder, std::span<const BopObject> objects);
 
-struct BopObject {
-  PosedImage image;  ///< without a name; its camera has no size: BOP does not state it
-  int object_id = 0;
-};
 /// Reads them back, several objects an image allowed; poses come back to 1e-12. InputError.
 std::vector<BopObject> readBopScene(const std::filesystem::path& folder);
 

@@ -216,6 +216,8 @@ void writeColmapText(const std::filesystem::path& folder, std::span<const PosedI
     camera_text += cameraLine(static_cast<int>(i) + 1, cameras[i]);
   writeFileAtomically(folder / "cameras.txt", camera_text);
   writeFileAtomically(folder / "images.txt", image_text);
+  // COLMAP does not open a model without this file.
+  writeFileAtomically(folder / "points3D.txt", "# no points\n");
 }
 
 std::vector<PosedImage> readColmapText(const std::filesystem::path& folder) {

@@ -9,7 +9,7 @@
 
 namespace boresight::sessions {
 
-/// Writes cameras.txt and images.txt of a COLMAP text model (colmap.github.io/format.html) into a
+/// Writes cameras.txt, images.txt and a points3D.txt without points of a COLMAP text model (colmap.github.io/format.html) into a
 /// folder: PINHOLE, OPENCV, FULL_OPENCV or OPENCV_FISHEYE, one camera for all images that share its
 /// numbers. COLMAP's top-left pixel has its centre at (0.5, 0.5): cx and cy are written half a
 /// pixel larger. Its world is our station. OutputError; also for an id that is given twice or is

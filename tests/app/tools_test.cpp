@@ -28,7 +28,7 @@ TEST(Whs, ExplainsItself) {
   const ProgramRun help = runWhs({"--help"});
   EXPECT_EQ(help.exit_code, 0);
   for (const char* command : {"localize", "evaluate", "solve", "render", "info", "options",
-                              "problem", "new", "run", "pack"}) {
+                              "problem", "new", "run", "pack", "export", "import"}) {
     EXPECT_THAT(help.out, HasSubstr(command));
     EXPECT_EQ(runWhs({command, "--help"}).exit_code, 0) << command;
     EXPECT_THAT(runWhs({command, "--version"}).out, HasSubstr("whs ")) << command;

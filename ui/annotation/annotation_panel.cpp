@@ -148,6 +148,15 @@ QMenu* AnnotationPanel::fileMenu() {
   menu->addAction(tr("Import marks ..."), this, &AnnotationPanel::importRequested);
   menu->addAction(tr("Export marks ..."), this, &AnnotationPanel::exportRequested);
   menu->addSeparator();
+  menu->addAction(tr("Export all poses for COLMAP ..."), this,
+                  &AnnotationPanel::exportColmapRequested);
+  menu->addAction(tr("Export all poses as a BOP scene ..."), this,
+                  &AnnotationPanel::exportBopRequested);
+  menu->addAction(tr("Import truths from COLMAP ..."), this,
+                  &AnnotationPanel::importColmapRequested);
+  menu->addAction(tr("Import truths from a BOP scene ..."), this,
+                  &AnnotationPanel::importBopRequested);
+  menu->addSeparator();
   menu->addAction(tr("Open landmarks ..."), this, &AnnotationPanel::openLandmarksRequested);
   menu->addAction(tr("Save the marks as landmarks ..."), this,
                   &AnnotationPanel::saveLandmarksRequested);

@@ -47,6 +47,10 @@ class AnnotationPanel : public QWidget {
   void useAsSeedRequested(const boresight::Pose& camera_from_station);
   void importRequested();
   void exportRequested();
+  void exportColmapRequested();
+  void exportBopRequested();
+  void importColmapRequested();
+  void importBopRequested();
   void openLandmarksRequested();
   void saveLandmarksRequested();
 

@@ -161,10 +161,6 @@ void ImagePanel::setNudgedRender(RenderPtr render, int level) {
   setBits(LayerId::kNudgedEdges, std::move(bits));
 }
 
-void ImagePanel::setPoints(std::vector<Mark> marks) {
-  setMarks(LayerId::kPoints, std::move(marks));
-}
-
 void ImagePanel::showCase() {
   const ViewState::CasePtr before = std::exchange(shown_case_, state_.currentCase());
   const ViewState::CasePtr& now = shown_case_;

@@ -39,7 +39,9 @@ class ImagePanel : public QWidget {
   void setNudgedRender(std::shared_ptr<const sessions::RenderTrace> render, int level);
   /// What is said while there is no image; nothing: what can be dropped here.
   void setHint(const QString& hint);
-  void setPoints(std::vector<Mark> marks);
+  /// Marks of a layer that no run fills.
+  void setMarks(LayerId id, std::vector<Mark> marks);
+  void setBits(LayerId id, std::vector<LayerBits> bits);
 
  public Q_SLOTS:
   void toggleBlink();
@@ -61,8 +63,6 @@ class ImagePanel : public QWidget {
   void askForRender(LayerId id, const char* key, const Pose& camera_from_station);
   void askForAgreement();
   void showImage();
-  void setBits(LayerId id, std::vector<LayerBits> bits);
-  void setMarks(LayerId id, std::vector<Mark> marks);
 
   ViewState& state_;
   TaskRunner& tasks_;

@@ -111,6 +111,11 @@ void ImageView::setToolPreviews(std::vector<ToolPreview> previews) {
   update();
 }
 
+void ImageView::setOverlay(Overlay overlay) {
+  overlay_ = std::move(overlay);
+  update();
+}
+
 void ImageView::changed() {
   update();
   Q_EMIT transformChanged();
@@ -165,6 +170,7 @@ void ImageView::paintEvent(QPaintEvent*) {
   if (transform_.scale() >= kGridScale) paintGrid(painter);
   if (transform_.scale() >= kValueScale) paintValues(painter);
   paintTool(painter);
+  if (overlay_) overlay_(painter);
 }
 
 void ImageView::paintTool(QPainter& painter) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -79,6 +80,9 @@ class ImageView : public QWidget {
   void setToolActive(bool active, double radius_px = 0.0);
   bool toolActive() const { return tool_active_; }
   void setToolPreviews(std::vector<ToolPreview> previews);
+  /// What is painted over everything else, in the widget's coordinates; empty: nothing.
+  using Overlay = std::function<void(QPainter&)>;
+  void setOverlay(Overlay overlay);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -120,6 +124,7 @@ class ImageView : public QWidget {
   bool tool_pressed_ = false;
   double tool_radius_px_ = 0.0;
   std::vector<ToolPreview> tool_previews_;
+  Overlay overlay_;
 };
 
 }  // namespace boresight::ui

@@ -7,6 +7,7 @@
 
 #include <QColor>
 #include <QPointF>
+#include <QPolygonF>
 #include <QRectF>
 #include <QString>
 
@@ -24,13 +25,17 @@ enum class LayerId : std::uint8_t {
   kIterationEdges,
   kAgreement,
   kNudgedEdges,
+  kAnnotationBand,
+  kAnnotationEdges,
   kWindows,
   kTemplates,
   kMatches,
   kResiduals,
+  kMarkResiduals,
+  kProposals,
   kPoints,
 };
-inline constexpr int kLayerCount = 13;
+inline constexpr int kLayerCount = 17;
 
 /// Of the pose that solves the annotated marks, wherever it is drawn.
 inline const QColor kAnnotatedColor(178, 120, 255);
@@ -61,18 +66,33 @@ struct LayerBits {
   QColor color;   ///< instead of the layer's, where valid
 };
 
-enum class MarkShape : std::uint8_t { kCross, kCircle, kSquare, kDiamond, kArrow, kRectangle };
+enum class MarkShape : std::uint8_t {
+  kCross,
+  kCircle,
+  kSquare,
+  kDiamond,
+  kTriangle,
+  kTarget,  ///< a cross that leaves its middle free, in a ring
+  kStruck,  ///< a circle struck through
+  kArrow,
+  kSegment,
+  kRectangle,
+  kOutline,  ///< a closed line, lightly filled
+};
 
 /// Something drawn with lines of constant width. Coordinates are pixels of the full image; the
 /// centre of the top-left pixel is (0, 0).
 struct Mark {
   MarkShape shape = MarkShape::kCross;
-  QPointF at;            ///< centre, or where an arrow begins
-  QPointF to;            ///< where an arrow ends
-  QRectF area;           ///< of a rectangle
+  QPointF at;   ///< centre, or where an arrow or a segment begins
+  QPointF to;   ///< where it ends
+  QRectF area;  ///< of a rectangle
+  QPolygonF outline;
   double size_px = 9.0;  ///< on the screen, whatever the zoom
   QColor color;          ///< instead of the layer's, where valid
   bool dashed = false;   ///< a second difference besides the colour
+  bool cased = false;    ///< with a dark rim, to be seen on any image
+  double width = 1.5;    ///< of its lines, on the screen
   int item = -1;         ///< what it belongs to (a template, a point), or -1: cannot be picked
   QString label;
 };

@@ -9,6 +9,8 @@
 namespace boresight::ui {
 namespace {
 
+const QColor kCasing(0, 0, 0, 170);
+
 double length(const QPointF& vector) { return std::hypot(vector.x(), vector.y()); }
 
 void paintArrow(QPainter& painter, const QPointF& from, const QPointF& to) {
@@ -34,16 +36,16 @@ double distanceToSegment(const QPointF& from, const QPointF& to, const QPointF& 
   return length(place - (from + way * share));
 }
 
-}  // namespace
+/// A cross with a free middle: what was marked stays to be seen.
+void paintTarget(QPainter& painter, const QPointF& at, double half) {
+  const double gap = 0.35 * half;
+  for (const QPointF& way :
+       {QPointF(1.0, 0.0), QPointF(-1.0, 0.0), QPointF(0.0, 1.0), QPointF(0.0, -1.0)})
+    painter.drawLine(at + gap * way, at + 1.35 * half * way);
+  painter.drawEllipse(at, half, half);
+}
 
-void paintMark(QPainter& painter, const ViewTransform& transform, const Mark& mark,
-               const QColor& layer_color) {
-  QPen pen(mark.color.isValid() ? mark.color : layer_color);
-  pen.setWidthF(1.5);
-  pen.setCosmetic(true);
-  if (mark.dashed) pen.setDashPattern({3.0, 3.0});
-  painter.setPen(pen);
-  painter.setBrush(Qt::NoBrush);
+void paintShape(QPainter& painter, const ViewTransform& transform, const Mark& mark) {
   const QPointF at = transform.toWidget(mark.at);
   const double half = 0.5 * mark.size_px;
   switch (mark.shape) {
@@ -61,19 +63,78 @@ void paintMark(QPainter& painter, const ViewTransform& transform, const Mark& ma
       painter.drawPolygon(QPolygonF({at + QPointF(0.0, -half), at + QPointF(half, 0.0),
                                      at + QPointF(0.0, half), at + QPointF(-half, 0.0)}));
       break;
+    case MarkShape::kTriangle:
+      painter.drawPolygon(
+          QPolygonF({at + QPointF(0.0, -half), at + QPointF(0.87 * half, 0.5 * half),
+                     at + QPointF(-0.87 * half, 0.5 * half)}));
+      break;
+    case MarkShape::kTarget:
+      paintTarget(painter, at, half);
+      break;
+    case MarkShape::kStruck:
+      painter.drawEllipse(at, half, half);
+      painter.drawLine(at + QPointF(-half, half), at + QPointF(half, -half));
+      break;
     case MarkShape::kArrow:
       paintArrow(painter, at, transform.toWidget(mark.to));
+      break;
+    case MarkShape::kSegment:
+      painter.drawLine(at, transform.toWidget(mark.to));
       break;
     case MarkShape::kRectangle:
       painter.drawRect(transform.toWidget(mark.area));
       break;
+    case MarkShape::kOutline: {
+      QPolygonF outline;
+      for (const QPointF& pixel : mark.outline) outline << transform.toWidget(pixel);
+      painter.drawPolygon(outline);
+      break;
+    }
   }
-  if (!mark.label.isEmpty()) painter.drawText(at + QPointF(half + 3.0, -half), mark.label);
+}
+
+void paintLabel(QPainter& painter, const QPointF& at, const Mark& mark) {
+  if (mark.label.isEmpty()) return;
+  if (mark.cased) {
+    const QPen bright = painter.pen();
+    painter.setPen(kCasing);
+    for (const QPointF& off :
+         {QPointF(1.0, 0.0), QPointF(-1.0, 0.0), QPointF(0.0, 1.0), QPointF(0.0, -1.0)})
+      painter.drawText(at + off, mark.label);
+    painter.setPen(bright);
+  }
+  painter.drawText(at, mark.label);
+}
+
+}  // namespace
+
+void paintMark(QPainter& painter, const ViewTransform& transform, const Mark& mark,
+               const QColor& layer_color) {
+  const QColor color = mark.color.isValid() ? mark.color : layer_color;
+  painter.setBrush(Qt::NoBrush);
+  if (mark.cased) {
+    painter.setPen(QPen(kCasing, mark.width + 2.0));
+    paintShape(painter, transform, mark);
+  }
+  QPen pen(color);
+  pen.setWidthF(mark.width);
+  pen.setCosmetic(true);
+  if (mark.dashed) pen.setDashPattern({3.0, 3.0});
+  painter.setPen(pen);
+  if (mark.shape == MarkShape::kOutline) {
+    QColor fill = color;
+    fill.setAlphaF(0.35);
+    painter.setBrush(fill);
+  }
+  paintShape(painter, transform, mark);
+  painter.setBrush(Qt::NoBrush);
+  const double half = 0.5 * mark.size_px;
+  paintLabel(painter, transform.toWidget(mark.at) + QPointF(half + 3.0, -half), mark);
 }
 
 double distanceTo(const ViewTransform& transform, const Mark& mark, const QPointF& widget) {
   const QPointF at = transform.toWidget(mark.at);
-  if (mark.shape == MarkShape::kArrow)
+  if (mark.shape == MarkShape::kArrow || mark.shape == MarkShape::kSegment)
     return distanceToSegment(at, transform.toWidget(mark.to), widget);
   if (mark.shape == MarkShape::kRectangle) {
     const QRectF area = transform.toWidget(mark.area);

@@ -12,6 +12,7 @@
 #include <QStatusBar>
 #include <QUrl>
 
+#include "ui/annotation/image_annotation.h"
 #include "ui/views/image_panel.h"
 #include "ui/window/annotation_files.h"
 #include "ui/window/input_findings.h"
@@ -89,6 +90,8 @@ void MainWindow::connectAll() {
   connect(annotation_files, &AnnotationFiles::noted, this,
           [this](const QString& message) { statusBar()->showMessage(message); });
   connect(&annotation_, &AnnotationController::told, this,
+          [this](const QString& message) { statusBar()->showMessage(message); });
+  connect(&docks_->imageAnnotation(), &ImageAnnotation::told, this,
           [this](const QString& message) { statusBar()->showMessage(message); });
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);

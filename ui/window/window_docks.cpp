@@ -7,6 +7,9 @@
 #include <QVBoxLayout>
 
 #include "ui/annotation/annotation_panel.h"
+#include "ui/annotation/image_annotation.h"
+#include "ui/annotation/station_snapper.h"
+#include "ui/annotation/twin_view.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/input_sheet_panel.h"
@@ -45,6 +48,9 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       mask_(new MaskPanel(*mask_editor_)),
       levels_(new LevelsPanel(image_->display())),
       annotation_(new AnnotationPanel(parts.document, parts.annotation, parts.state)),
+      snapper_(new StationSnapper(parts.state, &window)),
+      image_annotation_(
+          new ImageAnnotation(*image_, parts.annotation, parts.state, *snapper_, image_)),
       warnings_(new WarningBar(tr("Inputs"), tr("Show all that is known of the inputs"))),
       findings_(new WarningBar(tr("Mend ..."),
                                tr("Look for missing files below the session's folder, or take "
@@ -53,6 +59,10 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
                          QMainWindow::AllowTabbedDocks);
   // Tables of poses and options are long, the one of iterations is wide.
   window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  auto* twins = new TwinView(parts.annotation, parts.state, *snapper_);
+  QObject::connect(twins, &TwinView::otherRequested, &poses_->nudgeController(),
+                   &NudgeController::setPose);
+  annotation_->addBeside(twins);
   buildCentre();
   add(QStringLiteral("cases"), tr("Cases"), cases_);
   add(QStringLiteral("layers"), tr("Layers"), new LayersPanel(*image_));

@@ -15,12 +15,14 @@ namespace boresight::ui {
 class AnnotationPanel;
 class CasesPanel;
 class ConfigurationPanel;
+class ImageAnnotation;
 class ImagePanel;
 class InputSheetPanel;
 class LevelsPanel;
 class MaskEditor;
 class MaskPanel;
 class PosePanel;
+class StationSnapper;
 class WarningBar;
 
 /// The panels of the window and the docks that they lie in, as they are when the program starts for
@@ -39,6 +41,9 @@ class WindowDocks {
   MaskPanel& mask() const { return *mask_; }
   LevelsPanel& levels() const { return *levels_; }
   AnnotationPanel& annotation() const { return *annotation_; }
+  ImageAnnotation& imageAnnotation() const { return *image_annotation_; }
+  /// What of the current case's mesh can be snapped to, for every view.
+  StationSnapper& snapper() const { return *snapper_; }
   /// Above the image: what looks wrong with the case's inputs.
   WarningBar& warnings() const { return *warnings_; }
   /// The same for files that are missing or have changed.
@@ -69,6 +74,8 @@ class WindowDocks {
   MaskPanel* mask_;
   LevelsPanel* levels_;
   AnnotationPanel* annotation_;
+  StationSnapper* snapper_;
+  ImageAnnotation* image_annotation_;
   WarningBar* warnings_;
   WarningBar* findings_;
 };

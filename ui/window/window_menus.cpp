@@ -20,6 +20,7 @@
 #include "ui/views/image_panel.h"
 #include "ui/views/mask_editor.h"
 #include "ui/window/case_controller.h"
+#include "ui/window/loupe_menu.h"
 #include "ui/window/recent_files.h"
 #include "ui/window/session_files.h"
 #include "ui/window/shortcut_sheet.h"
@@ -172,6 +173,8 @@ void WindowMenus::buildAnnotateMenu() {
   menu->addAction(tr("&Import marks..."), &panel, &AnnotationPanel::importRequested);
   menu->addAction(tr("&Export marks..."), &panel, &AnnotationPanel::exportRequested);
   annotation_actions_ = menu->actions();
+  menu->addSeparator();
+  addLoupeActions(*menu, docks_.imageAnnotation());
 }
 
 void WindowMenus::buildRunMenu() {

@@ -17,16 +17,24 @@ using test::randomFor;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
+/// With the ids 1, 2, ...
+std::vector<BopObject> objectsOf(const std::vector<PosedImage>& images) {
+  std::vector<BopObject> objects;
+  for (const PosedImage& image : images)
+    objects.push_back({image, static_cast<int>(objects.size()) + 1});
+  return objects;
+}
+
 TEST(BopScene, ComesBack) {
   const TemporaryFolder folder;
   Random random = randomFor("BopScene.ComesBack");
   const std::vector<PosedImage> images =
       test::randomImages(random, {preparedCamera(CameraModel::kPinhole, {})}, 8);
-  writeBopScene(folder / "", images, 5);
+  writeBopScene(folder / "", objectsOf(images));
   const std::vector<BopObject> read = readBopScene(folder / "");
   ASSERT_EQ(read.size(), images.size());
   for (std::size_t i = 0; i < images.size(); ++i) {
-    EXPECT_EQ(read[i].object_id, 5);
+    EXPECT_EQ(read[i].object_id, static_cast<int>(i) + 1);
     EXPECT_EQ(read[i].image.id, images[i].id);
     EXPECT_EQ(read[i].image.camera.fx, images[i].camera.fx);
     EXPECT_EQ(read[i].image.camera.cy, images[i].camera.cy);
@@ -43,7 +51,7 @@ TEST(BopScene, IsWhatItsToolsRead) {
   image.camera = preparedCamera(CameraModel::kPinhole, {});
   image.camera_from_station.translation_m = {0.0625, -0.125, 0.5};
   image.camera_from_station.rotation = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
-  writeBopScene(folder / "", {&image, 1}, 1);
+  writeBopScene(folder / "", objectsOf({image}));
   const auto gt = nlohmann::json::parse(folder.read("scene_gt.json"));
   const auto cameras = nlohmann::json::parse(folder.read("scene_camera.json"));
   EXPECT_EQ(gt["3"][0]["cam_t_m2c"], nlohmann::json({62.5, -125.0, 500.0}));
@@ -59,13 +67,10 @@ TEST(BopScene, RefusesWhatTheFormatCannotSay) {
   const TemporaryFolder folder;
   PosedImage image;
   image.camera = preparedCamera(CameraModel::kBrownConrady, {-0.1});
-  EXPECT_THAT(folder.message([&] {
-    writeBopScene(folder / "", {&image, 1}, 1);
-  }),
+  EXPECT_THAT(folder.message([&] { writeBopScene(folder / "", objectsOf({image})); }),
               HasSubstr("undistort"));
   image.camera = preparedCamera(CameraModel::kPinhole, {});
-  const PosedImage twice[] = {image, image};
-  EXPECT_THROW(writeBopScene(folder / "", twice, 1), OutputError);
+  EXPECT_THROW(writeBopScene(folder / "", objectsOf({image, image})), OutputError);
 }
 
 TEST(BopScene, NamesWhatIsWrong) {

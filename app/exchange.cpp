@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/open_session.h"
+#include "sessions/session/annotation_exchange.h"
+
+namespace boresight::app {
+namespace {
+
+/// What export and import have in common.
+struct ExchangeArguments {
+  std::string session;
+  std::string colmap;
+  std::string bop;
+  std::string points;
+  std::string landmarks;
+  std::vector<std::string> cases;
+  bool robust = false;
+  bool replace = false;
+  bool recover = false;
+
+  /// Marks are those of one case.
+  const std::string& onlyCase() const {
+    if (cases.size() != 1) throw CLI::ValidationError("--case", "name the one case of the marks");
+    return cases.front();
+  }
+};
+
+void tell(const std::vector<std::string>& case_ids, const std::vector<std::string>& notes) {
+  for (const std::string& id : case_ids) std::cout << id << "\n";
+  std::cout << std::flush;
+  for (const std::string& text : notes) note(text);
+}
+
+int exportFrom(const ExchangeArguments& arguments) {
+  const sessions::SessionDocument document = openToRead(arguments.session);
+  const sessions::Session& session = document.session();
+  for (const std::string& id : arguments.cases) (void)requireCase(document, id);
+  if (!arguments.points.empty()) {
+    sessions::exportMarks(session, arguments.onlyCase(), arguments.points);
+    tell(arguments.cases, {});
+  } else if (!arguments.landmarks.empty()) {
+    sessions::exportLandmarks(session, arguments.onlyCase(), arguments.landmarks);
+    tell(arguments.cases, {});
+  } else {
+    const sessions::ExportReport report =
+        arguments.colmap.empty()
+            ? sessions::exportBop(session, arguments.bop, arguments.cases, arguments.robust)
+            : sessions::exportColmap(session, arguments.colmap, arguments.cases, arguments.robust);
+    tell(report.case_ids, report.notes);
+  }
+  return kDone;
+}
+
+int importInto(const ExchangeArguments& arguments) {
+  sessions::SessionDocument document = openToEdit(arguments.session, arguments.recover);
+  const sessions::Session& session = document.session();
+  for (const std::string& id : arguments.cases) (void)requireCase(document, id);
+  sessions::ImportReport report;
+  std::string text = "Import poses";
+  if (!arguments.points.empty()) {
+    text = "Import marks of " + arguments.onlyCase();
+    report =
+        sessions::importMarks(session, arguments.onlyCase(), arguments.points, arguments.replace);
+  } else if (!arguments.colmap.empty()) {
+    report = sessions::importColmap(session, arguments.colmap, arguments.replace);
+  } else {
+    report = sessions::importBop(session, arguments.bop, arguments.replace);
+  }
+  document.apply(report.session, text);
+  document.save();
+  tell(report.case_ids, report.notes);
+  return kDone;
+}
+
+}  // namespace
+
+void addExport(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "export", "Writes what people marked in a session, for other programs; says which cases");
+  auto arguments = std::make_shared<ExchangeArguments>();
+  command->add_option("session", arguments->session, "Session file")->required()->type_name("FILE");
+  CLI::Option_group* what = command->add_option_group("What");
+  what->add_option("--colmap", arguments->colmap,
+                   "New folder with the poses as a COLMAP text model: cameras.txt, images.txt")
+      ->type_name("DIR");
+  what->add_option(
+          "--bop", arguments->bop,
+          "New folder with the poses as a BOP scene: scene_gt.json, scene_camera.json, and "
+          "undistorted images in gray/")
+      ->type_name("DIR");
+  what->add_option("--points", arguments->points, "Marks of one case as points.json or points.csv")
+      ->type_name("FILE");
+  what->add_option("--landmarks", arguments->landmarks,
+                   "Points of one case as landmarks.json; added to those that the file has")
+      ->type_name("FILE");
+  what->require_option(1);
+  command
+      ->add_option("--case", arguments->cases,
+                   "This case; may be repeated for poses, which else are of all that solve")
+      ->type_name("ID");
+  command->add_flag("--robust", arguments->robust, "Marks far from their projection count less");
+  command->callback([arguments, &exit_code] { exit_code = exportFrom(*arguments); });
+}
+
+void addImport(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "import", "Takes marks, or poses as the cases' truth, into a session; says which cases");
+  auto arguments = std::make_shared<ExchangeArguments>();
+  command->add_option("session", arguments->session, "Session file")->required()->type_name("FILE");
+  CLI::Option_group* what = command->add_option_group("What");
+  what->add_option("--points", arguments->points, "points.json or points.csv of one case")
+      ->type_name("FILE");
+  what->add_option("--colmap", arguments->colmap,
+                   "Folder with a COLMAP text model; images are known by their names")
+      ->type_name("DIR");
+  what->add_option("--bop", arguments->bop,
+                   "Folder with a BOP scene; images are known by their numbers")
+      ->type_name("DIR");
+  what->require_option(1);
+  command->add_option("--case", arguments->cases, "The case of the marks")->type_name("ID");
+  command->add_flag("--replace", arguments->replace,
+                    "Marks or truths that a case has already are replaced");
+  command->add_flag("--recover", arguments->recover,
+                    "Take edits that a killed program left in the session's journal");
+  command->callback([arguments, &exit_code] { exit_code = importInto(*arguments); });
+}
+
+}  // namespace boresight::app

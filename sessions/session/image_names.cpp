@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/image_names.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <set>
+
+namespace boresight::sessions {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder that two folders are in.
+fs::path commonFolder(const fs::path& a, const fs::path& b) {
+  fs::path common;
+  auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  for (auto part = a.begin(); part != in_a; ++part) common /= *part;
+  return common;
+}
+
+std::optional<int> numberOf(const fs::path& image) {
+  const std::string stem = image.stem().string();
+  int number = -1;
+  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
+  if (error != std::errc() || end != stem.data() + stem.size() || number < 0) return {};
+  return number;
+}
+
+bool samePart(const MeshInput& a, const MeshInput& b) {
+  return a.sha256 == b.sha256 && a.source.mesh_unit == b.source.mesh_unit &&
+         a.source.station_from_mesh == b.source.station_from_mesh;
+}
+
+bool sameStation(const SessionCase& a, const SessionCase& b) {
+  return std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(), samePart);
+}
+
+}  // namespace
+
+std::vector<std::string> imageNames(const Session& session) {
+  if (session.cases.empty()) return {};
+  fs::path folder = session.cases[0]->image.source.file.parent_path();
+  for (const auto& one : session.cases)
+    folder = commonFolder(folder, one->image.source.file.parent_path());
+  std::vector<std::string> names;
+  for (const auto& one : session.cases)
+    names.push_back(one->image.source.file.lexically_relative(folder).generic_string());
+  return names;
+}
+
+std::vector<int> imageNumbers(const Session& session) {
+  std::vector<int> numbers;
+  std::set<int> seen;
+  for (const auto& one : session.cases)
+    if (const auto number = numberOf(one->image.source.file); number && seen.insert(*number).second)
+      numbers.push_back(*number);
+  if (numbers.size() == session.cases.size()) return numbers;
+  for (numbers.clear(); numbers.size() < session.cases.size();)
+    numbers.push_back(static_cast<int>(numbers.size()) + 1);
+  return numbers;
+}
+
+std::vector<int> stationNumbers(const Session& session) {
+  std::vector<const SessionCase*> stations;
+  std::vector<int> numbers;
+  for (const auto& one : session.cases) {
+    const auto same =
+        std::find_if(stations.begin(), stations.end(),
+                     [&one](const SessionCase* other) { return sameStation(*one, *other); });
+    numbers.push_back(static_cast<int>(same - stations.begin()) + 1);
+    if (same == stations.end()) stations.push_back(&*one);
+  }
+  return numbers;
+}
+
+bool isEndOf(const std::string& name, const fs::path& file) {
+  const fs::path end = fs::path(name).lexically_normal();
+  std::vector<fs::path> parts(end.begin(), end.end());
+  std::vector<fs::path> whole(file.begin(), file.end());
+  return !parts.empty() && parts.size() <= whole.size() &&
+         std::equal(parts.rbegin(), parts.rend(), whole.rbegin());
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+// Run at a screen scaling of one and of one and a half.
+#include "ui/annotation/mark_tool.h"
+
+#include "tests/ui/annotation/image_annotation_fixture.h"
+
+namespace boresight::ui {
+namespace {
+
+const Eigen::Vector2d kMiddle(200.3, 150.7);
+
+class MarkToolTest : public ImageAnnotationTest {
+ protected:
+  void SetUp() override {
+    ImageAnnotationTest::SetUp();
+    controller_.setMode(PlaceMode::kPoint);
+  }
+  Eigen::Vector2d place(const std::string& id) {
+    const sessions::PointPair* point = sessions::findPoint(marks(), id);
+    return point && point->pixel ? *point->pixel : Eigen::Vector2d(-1e9, -1e9);
+  }
+};
+
+/// Gray of a picture with soft borders: its mean over each pixel.
+template <class Inside>
+double covered(int x, int y, const Inside& inside) {
+  constexpr int kParts = 8;
+  int count = 0;
+  for (int j = 0; j < kParts; ++j)
+    for (int i = 0; i < kParts; ++i)
+      if (inside(Eigen::Vector2d(x - 0.5 + (i + 0.5) / kParts, y - 0.5 + (j + 0.5) / kParts)))
+        ++count;
+  return 40.0 + 160.0 * count / (kParts * kParts);
+}
+
+class PlacingTest : public MarkToolTest, public testing::WithParamInterface<double> {};
+
+TEST_P(PlacingTest, AClickMarksThePlaceUnderThePointer) {
+  tool().setSnaps(false);
+  int count = 0;
+  for (const Eigen::Vector2d& off :
+       {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(0.31, 0.47), Eigen::Vector2d(-0.27, 0.05)}) {
+    const Eigen::Vector2d wanted = kMiddle + off + Eigen::Vector2d(count * 60.0 / GetParam(), 0.0);
+    zoom(kMiddle, GetParam());
+    click(wanted);
+    ASSERT_EQ(marks().points.size(), static_cast<std::size_t>(++count));
+    const Eigen::Vector2d error = *marks().points.back().pixel - wanted;
+    EXPECT_LE(error.cwiseAbs().maxCoeff(), (0.5 + 1e-6) * screenPixel_px());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Zooms, PlacingTest, testing::Values(1.0, 3.7, 16.0));
+
+TEST_F(MarkToolTest, SnapsToACornerAnEllipseAndAnEdgeAndIsRefused) {
+  const Eigen::Vector2d corner(120.25, 90.6), centre(260.4, 150.3);
+  const double edge_x = 60.35;
+  paintImage([&](int x, int y) {
+    return covered(x, y, [&](const Eigen::Vector2d& p) {
+      const Eigen::Vector2d q = (p - centre).cwiseQuotient(Eigen::Vector2d(11.0, 8.0));
+      const bool in_corner = p.x() > corner.x() && p.y() > corner.y() && p.x() < corner.x() + 70.0;
+      return in_corner || q.squaredNorm() < 1.0 || p.x() < edge_x;
+    });
+  });
+  zoom({160.0, 120.0}, 2.0);
+  const auto aimed = [&](const Eigen::Vector2d& pixel) -> const MarkAim& {
+    moveTo(pixel);
+    return tool().aim();
+  };
+  const MarkAim at_corner = aimed(corner + Eigen::Vector2d(1.5, 1.0));
+  ASSERT_TRUE(at_corner.snap);
+  EXPECT_EQ(at_corner.snap->kind, sessions::ImageSnapKind::kCorner);
+  EXPECT_LT((at_corner.pixel - corner).norm(), 0.35) << "blur rounds a corner";
+  EXPECT_EQ(at_corner.text, QStringLiteral("corner"));
+  const MarkAim at_ellipse = aimed(centre + Eigen::Vector2d(-2.0, 1.0));
+  ASSERT_TRUE(at_ellipse.snap);
+  EXPECT_EQ(at_ellipse.snap->kind, sessions::ImageSnapKind::kEllipse);
+  EXPECT_LT((at_ellipse.pixel - centre).norm(), 0.1);
+  const MarkAim at_edge = aimed({edge_x + 3.0, 200.0});
+  ASSERT_TRUE(at_edge.snap);
+  EXPECT_EQ(at_edge.snap->kind, sessions::ImageSnapKind::kEdge);
+  EXPECT_NEAR(at_edge.pixel.x(), edge_x, 0.1);
+  EXPECT_NEAR(at_edge.pixel.y(), 200.0, 0.6);
+
+  const Eigen::Vector2d near = centre + Eigen::Vector2d(-2.0, 1.0);
+  click(near);
+  EXPECT_LT((place("p1") - centre).norm(), 0.1);
+  click(near + Eigen::Vector2d(8.0, 8.0), Qt::AltModifier);
+  EXPECT_LT((place("p2") - near - Eigen::Vector2d(8.0, 8.0)).norm(), screenPixel_px());
+  tool().setSnaps(false);
+  click({edge_x + 3.0, 200.0});
+  EXPECT_NEAR(place("p3").x(), edge_x + 3.0, screenPixel_px());
+}
+
+TEST_F(MarkToolTest, TabGoesOnToTheNextThingFound) {
+  const Eigen::Vector2d corner(120.25, 90.6);
+  paintImage([&](int x, int y) {
+    return covered(
+        x, y, [&](const Eigen::Vector2d& p) { return p.x() > corner.x() && p.y() > corner.y(); });
+  });
+  zoom(corner, 4.0);
+  const Eigen::Vector2d near = corner + Eigen::Vector2d(0.4, 1.2);
+  moveTo(near);
+  ASSERT_EQ(tool().aim().found, 2);
+  EXPECT_EQ(tool().aim().snap->kind, sessions::ImageSnapKind::kCorner);
+  QTest::keyClick(&view(), Qt::Key_Tab);
+  EXPECT_EQ(tool().aim().snap->kind, sessions::ImageSnapKind::kEdge);
+  click(near);
+  EXPECT_GT(place("p1").y(), corner.y() + 0.9);
+  controller_.remove("p1");
+  moveTo(near);
+  EXPECT_EQ(tool().aim().snap->kind, sessions::ImageSnapKind::kCorner) << "a mark begins anew";
+}
+
+TEST_F(MarkToolTest, ADragMovesAMarkWithoutAJumpAndIsUndoneByName) {
+  tool().setSnaps(false);
+  zoom(kMiddle, 3.7);
+  click(kMiddle);
+  const Eigen::Vector2d before = place("p1");
+  // Taken hold of beside its middle.
+  drag(before + Eigen::Vector2d(1.0, -0.7), before + Eigen::Vector2d(9.0, 3.3));
+  EXPECT_LT((place("p1") - before - Eigen::Vector2d(8.0, 4.0)).norm(), 2.0 * screenPixel_px());
+  EXPECT_EQ(marks().points.size(), 1u);
+  EXPECT_EQ(document_.undoText(), QStringLiteral("Move p1"));
+  ASSERT_TRUE(document_.undo());
+  EXPECT_EQ(place("p1"), before);
+  EXPECT_EQ(document_.undoText(), QStringLiteral("Place p1 on the image"));
+  ASSERT_TRUE(document_.undo());
+  EXPECT_TRUE(marks().empty());
+  ASSERT_TRUE(document_.redo());
+  EXPECT_EQ(place("p1"), before);
+}
+
+TEST_F(MarkToolTest, EscapeWhileDraggingPutsTheMarkBack) {
+  tool().setSnaps(false);
+  zoom(kMiddle, 3.7);
+  click(kMiddle);
+  const Eigen::Vector2d before = place("p1");
+  send(QEvent::MouseButtonPress, before);
+  send(QEvent::MouseMove, before + Eigen::Vector2d(20.0, 0.0), Qt::NoModifier, Qt::LeftButton,
+       true);
+  EXPECT_GT(place("p1").x(), before.x() + 19.0);
+  QTest::keyClick(&view(), Qt::Key_Escape);
+  send(QEvent::MouseButtonRelease, before + Eigen::Vector2d(20.0, 0.0));
+  EXPECT_EQ(place("p1"), before);
+  EXPECT_EQ(marks().points.size(), 1u);
+}
+
+TEST_F(MarkToolTest, ALockedMarkStaysAndSaysSo) {
+  tool().setSnaps(false);
+  zoom(kMiddle, 3.7);
+  click(kMiddle);
+  const Eigen::Vector2d before = place("p1");
+  sessions::PointPair locked = *sessions::findPoint(marks(), "p1");
+  locked.locked = true;
+  ASSERT_TRUE(controller_.replacePoint("p1", locked, QStringLiteral("Lock p1")));
+  drag(before, before + Eigen::Vector2d(20.0, 0.0));
+  EXPECT_EQ(place("p1"), before);
+  EXPECT_TRUE(told_.contains(QStringLiteral("p1"))) << told_.toStdString();
+  EXPECT_EQ(document_.undoText(), QStringLiteral("Lock p1"));
+}
+
+TEST_F(MarkToolTest, ADragElsewherePansAndMarksNothing) {
+  zoom(kMiddle, 3.7);
+  const QPointF before = view().transform().toWidget(QPointF(0.0, 0.0));
+  drag(kMiddle, kMiddle + Eigen::Vector2d(30.0, 10.0));
+  EXPECT_TRUE(marks().empty());
+  const QPointF by = view().transform().toWidget(QPointF(0.0, 0.0)) - before;
+  EXPECT_GT(by.x(), 50.0);
+  click(kMiddle);
+  EXPECT_EQ(marks().points.size(), 1u);
+}
+
+TEST_F(MarkToolTest, ArrowsMoveTheChosenMarkByATenthOrAWholePixel) {
+  tool().setSnaps(false);
+  zoom(kMiddle, 3.7);
+  click(kMiddle);
+  const Eigen::Vector2d before = place("p1");
+  for (const int key : {Qt::Key_Right, Qt::Key_Right, Qt::Key_Down})
+    QTest::keyClick(&view(), static_cast<Qt::Key>(key));
+  EXPECT_LT((place("p1") - before - Eigen::Vector2d(0.2, 0.1)).norm(), 1e-9);
+  QTest::keyClick(&view(), Qt::Key_Left, Qt::ShiftModifier);
+  EXPECT_LT((place("p1") - before - Eigen::Vector2d(-0.8, 0.1)).norm(), 1e-9);
+  ASSERT_TRUE(annotation_.loupe().place());
+  EXPECT_NEAR(annotation_.loupe().place()->x(), place("p1").x(), 1e-9) << "the loupe looks at it";
+  controller_.select({});
+  const QPointF shown = view().transform().toWidget(QPointF(0.0, 0.0));
+  QTest::keyClick(&view(), Qt::Key_Left);
+  EXPECT_NE(view().transform().toWidget(QPointF(0.0, 0.0)), shown)
+      << "without a chosen mark the arrows pan";
+}
+
+TEST_F(MarkToolTest, PairsAreMadeInBothOrders) {
+  state_.setNudgedPose(truth());  // what the views show
+  const auto corners = corners_m(6);
+  ASSERT_GE(corners.size(), 2u);
+  const auto stationClick = [&](const Eigen::Vector3d& corner_m) {
+    zoom(pixelOf(corner_m), 6.0);
+    click(pixelOf(corner_m), Qt::ControlModifier);
+  };
+  tool().setSnaps(true);
+  click(pixelOf(corners[0]), Qt::AltModifier);
+  ASSERT_EQ(marks().points.size(), 1u) << told_.toStdString();
+  EXPECT_FALSE(marks().points[0].complete());
+  stationClick(corners[0]);
+  ASSERT_EQ(marks().points.size(), 1u);
+  ASSERT_TRUE(marks().points[0].complete());
+  EXPECT_EQ(*marks().points[0].point_in_station_m, corners[0]) << "snapped to the vertex";
+
+  stationClick(corners[3]);
+  ASSERT_EQ(marks().points.size(), 2u);
+  EXPECT_FALSE(marks().points[1].pixel);
+  EXPECT_EQ(*marks().points[1].point_in_station_m, corners[3]);
+  click(pixelOf(corners[3]), Qt::AltModifier);
+  ASSERT_EQ(marks().points.size(), 2u);
+  EXPECT_TRUE(marks().points[1].complete());
+  EXPECT_LT((*marks().points[1].pixel - pixelOf(corners[3])).norm(), screenPixel_px());
+}
+
+TEST_F(MarkToolTest, WithoutSnappingTheStationsSurfaceIsMarked) {
+  state_.setNudgedPose(truth());
+  const auto corners = corners_m(3);
+  const Eigen::Vector2d beside = pixelOf(corners[1]);
+  zoom(beside, 6.0);
+  tool().setSnaps(false);
+  for (const Eigen::Vector2d& off : {Eigen::Vector2d(1, 1), Eigen::Vector2d(-1, 1),
+                                     Eigen::Vector2d(1, -1), Eigen::Vector2d(-1, -1)}) {
+    click(beside + off, Qt::ControlModifier);
+    if (!marks().empty()) break;
+  }
+  ASSERT_EQ(marks().points.size(), 1u);
+  const Eigen::Vector3d placed = *marks().points[0].point_in_station_m;
+  EXPECT_NE(placed, corners[1]);
+  EXPECT_LT((pixelOf(placed) - beside).norm(), 2.0);
+}
+
+TEST_F(MarkToolTest, CtrlClickBesideTheStationIsRefusedWithASentence) {
+  click({1.0, 1.0}, Qt::ControlModifier);
+  EXPECT_TRUE(marks().empty());
+  EXPECT_TRUE(told_.contains(QStringLiteral("no station"))) << told_.toStdString();
+}
+
+TEST_F(MarkToolTest, TwoClicksMakeALineAndCtrlClickItsEdge) {
+  state_.setNudgedPose(truth());
+  const auto corners = corners_m(5);
+  controller_.setMode(PlaceMode::kLine);
+  tool().setSnaps(false);
+  zoom(kMiddle, 3.7);
+  click(kMiddle);
+  EXPECT_TRUE(marks().lines.empty()) << "half drawn";
+  QTest::keyClick(&view(), Qt::Key_Escape);
+  EXPECT_EQ(controller_.mode(), PlaceMode::kLine);
+  click(kMiddle + Eigen::Vector2d(5.0, 0.0));
+  click(kMiddle + Eigen::Vector2d(25.0, 7.0));
+  ASSERT_EQ(marks().lines.size(), 1u);
+  const sessions::ImageLine line = *marks().lines[0].line;
+  EXPECT_LT((line.start - kMiddle - Eigen::Vector2d(5.0, 0.0)).norm(), screenPixel_px());
+  EXPECT_LT((line.end - kMiddle - Eigen::Vector2d(25.0, 7.0)).norm(), screenPixel_px());
+  zoom(pixelOf(corners[2]), 6.0);
+  click(pixelOf(corners[2]), Qt::ControlModifier);
+  ASSERT_TRUE(marks().lines[0].complete());
+  const sessions::ModelEdge edge = *marks().lines[0].edge;
+  EXPECT_LT(std::min((edge.start_in_station_m - corners[2]).norm(),
+                     (edge.end_in_station_m - corners[2]).norm()),
+            1e-9);
+  // Its second end is dragged.
+  zoom(line.end, 3.7);
+  drag(line.end, line.end + Eigen::Vector2d(6.0, 0.0));
+  EXPECT_EQ(marks().lines[0].line->start, line.start);
+  EXPECT_NEAR(marks().lines[0].line->end.x(), line.end.x() + 6.0, 2.0 * screenPixel_px());
+}
+
+TEST_F(MarkToolTest, DeleteRemovesAndEscapeLeavesStepByStep) {
+  tool().setSnaps(false);
+  zoom(kMiddle, 3.7);
+  click(kMiddle);
+  click(kMiddle + Eigen::Vector2d(30.0, 0.0));
+  QTest::keyClick(&view(), Qt::Key_Delete);
+  ASSERT_EQ(marks().points.size(), 1u);
+  EXPECT_EQ(document_.undoText(), QStringLiteral("Remove p2"));
+  controller_.select("p1");
+  QTest::keyClick(&view(), Qt::Key_Escape);
+  EXPECT_TRUE(controller_.selected().empty());
+  EXPECT_EQ(controller_.mode(), PlaceMode::kPoint);
+  QTest::keyClick(&view(), Qt::Key_Escape);
+  EXPECT_EQ(controller_.mode(), PlaceMode::kOff);
+  click(kMiddle + Eigen::Vector2d(50.0, 20.0));
+  EXPECT_EQ(marks().points.size(), 1u) << "nobody annotates";
+}
+
+TEST_F(MarkToolTest, APressOnAMarkChoosesItAndADoubleClickDoesNotFit) {
+  tool().setSnaps(false);
+  zoom(kMiddle, 3.7);
+  click(kMiddle);
+  click(kMiddle + Eigen::Vector2d(30.0, 0.0));
+  EXPECT_EQ(controller_.selected(), "p2");
+  click(place("p1"));
+  EXPECT_EQ(controller_.selected(), "p1");
+  EXPECT_EQ(marks().points.size(), 2u);
+  const ViewTransform before = view().transform();
+  send(QEvent::MouseButtonDblClick, place("p1"));
+  send(QEvent::MouseButtonRelease, place("p1"));
+  EXPECT_EQ(view().transform(), before);
+}
+
+}  // namespace
+}  // namespace boresight::ui

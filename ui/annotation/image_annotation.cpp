@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/annotation/image_annotation.h"
+
+#include <cmath>
+#include <utility>
+
+#include <QPainter>
+
+#include "ui/annotation/aim_painter.h"
+#include "ui/annotation/loupe.h"
+#include "ui/annotation/loupe_picture.h"
+#include "ui/annotation/mark_tool.h"
+#include "ui/annotation/station_snapper.h"
+#include "ui/run/pose_renderer.h"
+#include "ui/views/display_image.h"
+#include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
+#include "ui/views/layer_content.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr double kShortestScale = 50.0;  ///< on the screen
+constexpr int kMargin = 8;
+
+/// 1, 2 or 5 times a power of ten.
+double roundValue(double least) {
+  const double decade = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * decade >= least) return factor * decade;
+  return 10.0 * decade;
+}
+
+std::optional<QPointF> placeOf(const AnnotationController& controller) {
+  const sessions::PointPair* point = controller.selectedPoint();
+  if (point && point->pixel) return QPointF(point->pixel->x(), point->pixel->y());
+  const sessions::LinePair* line = controller.selectedLine();
+  if (line && line->line) return QPointF(line->line->start.x(), line->line->start.y());
+  return std::nullopt;
+}
+
+}  // namespace
+
+ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& controller,
+                                 ViewState& state, StationSnapper& snapper, QObject* parent)
+    : QObject(parent),
+      image_(image),
+      controller_(controller),
+      state_(state),
+      snapper_(snapper),
+      view_(&image.view()),
+      tool_(new MarkTool(image.view(), controller, state, snapper, this)),
+      loupe_(new Loupe(image.view())),
+      edges_(new PoseRenderer(this)) {
+  image_.view().setOverlay([this](QPainter& painter) { paint(painter); });
+  connect(tool_, &MarkTool::told, this, &ImageAnnotation::told);
+  connect(tool_, &MarkTool::aimChanged, this, &ImageAnnotation::lookThroughLoupe);
+  connect(&image_.display(), &DisplayImage::pictureChanged, this, &ImageAnnotation::showSamples);
+  connect(&image_.display(), &DisplayImage::levelsChanged, this, &ImageAnnotation::showSamples);
+  connect(&image_.view(), &ImageView::itemClicked, this, [this](LayerId layer, int item) {
+    if (layer == LayerId::kPoints) controller_.select(idOfSign(controller_.marks(), item));
+  });
+  for (auto signal : {&AnnotationController::marksChanged, &AnnotationController::selectionChanged,
+                      &AnnotationController::modeChanged})
+    connect(&controller_, signal, this, &ImageAnnotation::showMarks);
+  for (auto signal :
+       {&ViewState::caseChanged, &ViewState::cursorChanged, &ViewState::nudgedPoseChanged})
+    connect(&state_, signal, this, &ImageAnnotation::showMarks);
+  connect(&controller_, &AnnotationController::solutionChanged, this,
+          &ImageAnnotation::showSolution);
+  connect(&state_, &ViewState::caseChanged, this, &ImageAnnotation::showSolution);
+  connect(&image_, &ImagePanel::stylesChanged, this, &ImageAnnotation::showSolution);
+  connect(&snapper_, &StationSnapper::meshChanged, this, &ImageAnnotation::askForBand);
+  connect(edges_, &PoseRenderer::rendered, this,
+          [this](const std::shared_ptr<const sessions::RenderTrace>& render, int level) {
+            std::vector<LayerBits> bits = bitsOf(render, false);
+            for (LayerBits& one : bits) one.level = level;
+            image_.setBits(LayerId::kAnnotationEdges, std::move(bits));
+            loupe_->update();
+          });
+  showSamples();
+  showSolution();
+}
+
+ImageAnnotation::~ImageAnnotation() {
+  if (view_) view_->setOverlay({});
+}
+
+void ImageAnnotation::setMagnification(double magnification) {
+  if (magnification == magnification_) return;
+  magnification_ = magnification;
+  showMarks();
+  Q_EMIT magnificationChanged();
+}
+
+/// The file's samples where they are read, else what the core sees.
+void ImageAnnotation::showSamples() {
+  const DisplayImage& display = image_.display();
+  if (display.samples() && !display.showsCore()) {
+    loupe_->setSamples(display.samples());
+  } else if (!display.corePicture().isNull()) {
+    loupe_->setSamples(
+        std::make_shared<const sessions::ImageSamples>(samplesOf(display.corePicture())));
+  } else {
+    loupe_->setSamples(nullptr);
+  }
+}
+
+MarkLook ImageAnnotation::look() const {
+  MarkLook made;
+  made.selected = controller_.selected();
+  made.camera = state_.currentCase()->source.camera;
+  made.camera_from_station = tool_->stationPose();
+  const AnnotationController::SolutionPtr& solution = controller_.solution();
+  if (solution && solution->result.solution)
+    for (const sessions::SolvedMark& mark : solution->result.solution->marks)
+      if (mark.address.view == 0 && mark.projected && mark.normalized > kOutlierSigmas)
+        made.outliers[sessions::markId(solution->marks.views, mark.address)] = mark.normalized;
+  return made;
+}
+
+void ImageAnnotation::showMarks() {
+  if (!state_.currentCase()) {
+    for (const LayerId id : {LayerId::kPoints, LayerId::kProposals, LayerId::kMarkResiduals})
+      image_.setMarks(id, {});
+    return;
+  }
+  const MarkLook shown = look();
+  const sessions::Marks& marks = controller_.marks();
+  image_.setMarks(LayerId::kPoints, markSigns(marks, shown));
+  image_.setMarks(LayerId::kProposals, proposalSigns(controller_.proposals()));
+  std::vector<Mark> residuals;
+  if (const std::optional<Pose> solved = controller_.solvedPose()) {
+    const sessions::MarkedView view{{}, shown.camera, {}, marks};
+    residuals = residualSigns(sessions::markVectors(view, *solved), shown, magnification_,
+                              controller_.stale());
+  }
+  image_.setMarks(LayerId::kMarkResiduals, std::move(residuals));
+  lookThroughLoupe();
+}
+
+void ImageAnnotation::showSolution() {
+  if (rendered_case_ != state_.currentCase()) {
+    rendered_case_ = state_.currentCase();
+    rendered_pose_.reset();
+    edges_->setCase(rendered_case_);
+    image_.setBits(LayerId::kAnnotationEdges, {});
+  }
+  const bool shown = image_.style(LayerId::kAnnotationEdges).visible;
+  const std::optional<Pose> solved = shown ? controller_.solvedPose() : std::nullopt;
+  if (solved != rendered_pose_) {
+    rendered_pose_ = solved;
+    if (solved) {
+      edges_->setPose(*solved);
+    } else {
+      edges_->clear();
+      image_.setBits(LayerId::kAnnotationEdges, {});
+    }
+  }
+  askForBand();
+  showMarks();
+}
+
+/// A band of old marks would be a wrong answer: a stale one is taken away.
+void ImageAnnotation::askForBand() {
+  const AnnotationController::SolutionPtr& solution = controller_.solution();
+  const bool wanted = image_.style(LayerId::kAnnotationBand).visible && solution &&
+                      solution->result.solution && !controller_.stale() && snapper_.mesh();
+  if (!wanted) {
+    band_of_.reset();
+    runner_.cancel(QStringLiteral("band"));
+    image_.setMarks(LayerId::kAnnotationBand, {});
+    return;
+  }
+  if (band_of_ == solution) return;
+  band_of_ = solution;
+  runner_.start(
+      QStringLiteral("band"),
+      [solution, mesh = snapper_.mesh()](const std::stop_token&) {
+        const sessions::MarksSolution& solved = *solution->result.solution;
+        const sessions::MarkedView& view = solution->marks.views.front();
+        return sessions::edgeBand(*mesh, view.camera, solved.camera_from_station.front(),
+                                  sessions::cameraCovariance(solved, view));
+      },
+      [this, solution](const Band& band) {
+        if (band_of_ == solution) image_.setMarks(LayerId::kAnnotationBand, bandSigns(band));
+      });
+}
+
+void ImageAnnotation::lookThroughLoupe() {
+  const bool annotates = controller_.mode() != PlaceMode::kOff && state_.currentCase();
+  loupe_->lookAt(!annotates       ? std::nullopt
+                 : tool_->focus() ? tool_->focus()
+                                  : placeOf(controller_),
+                 tool_->aim());
+}
+
+/// What somebody does next, for the pair at work.
+QString ImageAnnotation::nextStep() const {
+  const QString id = QString::fromStdString(controller_.selected());
+  if (controller_.mode() == PlaceMode::kLine) {
+    const sessions::LinePair* line = controller_.selectedLine();
+    if (line && !line->line) return tr("%1: click two places of the line in the image").arg(id);
+    if (line && !line->edge) return tr("%1: Ctrl+click its edge of the station").arg(id);
+    return tr("Lines: click two places of an edge in the image, or Ctrl+click one of the station");
+  }
+  const sessions::PointPair* point = controller_.selectedPoint();
+  if (point && !point->pixel) return tr("%1: click its place in the image").arg(id);
+  if (point && !point->point_in_station_m)
+    return tr("%1: Ctrl+click its place on the station, or pick it in the scene").arg(id);
+  return tr("Points: click a place in the image, or Ctrl+click one of the station");
+}
+
+void ImageAnnotation::paint(QPainter& painter) const {
+  if (!state_.currentCase()) return;
+  const QRect area = image_.view().rect();
+  const int line = painter.fontMetrics().height() + 6;
+  QPointF at(area.left() + kMargin, area.bottom() - kMargin - line);
+  if (controller_.mode() != PlaceMode::kOff) {
+    paintBox(painter, at, nextStep());
+    at.ry() -= line + 2;
+  }
+  const Layer& residuals = image_.view().layer(LayerId::kMarkResiduals);
+  if (residuals.style.visible && !residuals.marks.empty()) paintResidualScale(painter, at);
+  tool_->paint(painter);
+}
+
+void ImageAnnotation::paintResidualScale(QPainter& painter, const QPointF& at) const {
+  const double screen_per_px = magnification_ * image_.view().transform().scale();
+  const double value_px = roundValue(kShortestScale / screen_per_px);
+  const double length = value_px * screen_per_px;
+  const QString text = tr("residuals x %1:  %2 px").arg(magnification_).arg(value_px);
+  const QRectF box = paintBox(painter, at, text, length + 10.0);
+  const QColor color = image_.style(LayerId::kMarkResiduals).color;
+  painter.setPen(QPen(color, 2.0));
+  const double x = box.right() - length - 6.0;
+  const double y = box.center().y();
+  painter.drawLine(QPointF(x, y), QPointF(x + length, y));
+  for (const double end : {x, x + length})
+    painter.drawLine(QPointF(end, y - 4.0), QPointF(end, y + 4.0));
+}
+
+}  // namespace boresight::ui

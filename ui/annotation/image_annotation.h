@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include <QObject>
+#include <QPointer>
+
+#include "sessions/annotation/edge_band.h"
+#include "ui/annotation/annotation_controller.h"
+#include "ui/annotation/mark_content.h"
+
+class QPainter;
+
+namespace boresight::ui {
+
+class ImagePanel;
+class ImageView;
+class Loupe;
+class MarkTool;
+class PoseRenderer;
+class StationSnapper;
+
+/// Annotating on the image: the tool that marks with the pointer, the loupe, and the layers that
+/// show marks, residuals, proposals, the solved pose's edges and their band.
+class ImageAnnotation : public QObject {
+  Q_OBJECT
+
+ public:
+  ImageAnnotation(ImagePanel& image, AnnotationController& controller, ViewState& state,
+                  StationSnapper& snapper, QObject* parent = nullptr);
+  ~ImageAnnotation() override;
+
+  MarkTool& tool() { return *tool_; }
+  Loupe& loupe() { return *loupe_; }
+
+  /// How much residuals are magnified on the image.
+  double magnification() const { return magnification_; }
+  void setMagnification(double magnification);
+
+ Q_SIGNALS:
+  void magnificationChanged();
+  /// One sentence for people.
+  void told(const QString& sentence);
+
+ private:
+  using Band = std::vector<sessions::BandPiece>;
+
+  void showSamples();
+  void showMarks();
+  void showSolution();
+  void askForBand();
+  void lookThroughLoupe();
+  MarkLook look() const;
+  void paint(QPainter& painter) const;
+  QString nextStep() const;
+  void paintResidualScale(QPainter& painter, const QPointF& at) const;
+
+  ImagePanel& image_;
+  AnnotationController& controller_;
+  ViewState& state_;
+  StationSnapper& snapper_;
+  QPointer<ImageView> view_;  ///< may go before this does
+  MarkTool* tool_;
+  Loupe* loupe_;
+  PoseRenderer* edges_;
+  ViewState::CasePtr rendered_case_;
+  std::optional<Pose> rendered_pose_;
+  AnnotationController::SolutionPtr band_of_;
+  double magnification_ = 40.0;
+  TaskRunner runner_;
+};
+
+}  // namespace boresight::ui

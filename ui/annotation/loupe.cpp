@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/annotation/loupe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <QPainter>
+#include <QWheelEvent>
+
+#include "ui/annotation/aim_painter.h"
+#include "ui/annotation/loupe_picture.h"
+#include "ui/views/image_view.h"
+#include "ui/views/mark_painter.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr double kShare = 0.42;  ///< of the view's shorter side
+constexpr int kLeastSide = 140;
+constexpr int kMostSide = 320;
+/// Whole screen pixels at ratios of quarters.
+constexpr int kRaster = 4;
+constexpr int kMargin = 8;
+constexpr int kShyness = 40;  ///< how near the pointer may come
+constexpr double kGap = 9.0;
+constexpr double kEdgeDot = 0.16;  ///< of an image pixel
+const QColor kCross(255, 255, 255, 210);
+const QColor kRim(0, 0, 0, 150);
+const LayerId kEdgeLayers[] = {LayerId::kSeedEdges, LayerId::kTruthEdges, LayerId::kIterationEdges,
+                               LayerId::kNudgedEdges, LayerId::kAnnotationEdges};
+const LayerId kMarkLayers[] = {LayerId::kAnnotationBand, LayerId::kProposals, LayerId::kPoints};
+
+int onRaster(double length) { return kRaster * static_cast<int>(std::floor(length / kRaster)); }
+
+}  // namespace
+
+Loupe::Loupe(ImageView& view) : QWidget(&view), view_(view) {
+  setObjectName(QStringLiteral("loupe"));
+  setAttribute(Qt::WA_TransparentForMouseEvents);  // the view takes them
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  view_.installEventFilter(this);
+  hide();
+}
+
+void Loupe::setSamples(std::shared_ptr<const sessions::ImageSamples> samples) {
+  samples_ = std::move(samples);
+  showOrHide();
+}
+
+void Loupe::setMagnification(double magnification) {
+  const double next = std::clamp(magnification, kLeastMagnification, kMostMagnification);
+  if (next == magnification_) return;
+  magnification_ = next;
+  update();
+  Q_EMIT changed();
+}
+
+void Loupe::setSwitchedOn(bool on) {
+  if (on == on_) return;
+  on_ = on;
+  showOrHide();
+  Q_EMIT changed();
+}
+
+void Loupe::lookAt(const std::optional<QPointF>& pixel, const MarkAim& aim) {
+  pixel_ = pixel;
+  aim_ = aim;
+  showOrHide();
+}
+
+void Loupe::showOrHide() {
+  const bool shown = on_ && pixel_ && samples_;
+  if (shown) putAside();
+  setVisible(shown);
+  update();
+}
+
+/// Into the corner that the place is not in.
+void Loupe::putAside() {
+  const double shorter = std::min(view_.width(), view_.height());
+  const int side = onRaster(std::clamp(kShare * shorter, double{kLeastSide}, double{kMostSide}));
+  const QRect right(onRaster(view_.width() - side - kMargin), kMargin, side, side);
+  const QRect left(kMargin, kMargin, side, side);
+  const QPoint place = view_.transform().toWidget(*pixel_).toPoint();
+  const QRect& now = left_ ? left : right;
+  if (now.adjusted(-kShyness, -kShyness, kShyness, kShyness).contains(place)) left_ = !left_;
+  setGeometry(left_ ? left : right);
+}
+
+ViewTransform Loupe::transform() const {
+  ViewTransform made;
+  made.zoomAt(QPointF(0.0, 0.0), magnification_ / devicePixelRatioF());
+  if (pixel_) made.centreOn(*pixel_, size());
+  return made;
+}
+
+bool Loupe::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize && isVisible()) putAside();
+  if (event->type() == QEvent::Wheel && isVisible()) {
+    const auto& wheel = *static_cast<QWheelEvent*>(event);
+    const double notches = wheel.angleDelta().y() / 120.0;
+    if ((wheel.modifiers() & Qt::ControlModifier) != 0 && notches != 0.0) {
+      setMagnification(magnification_ * std::pow(kStep, notches));
+      return true;
+    }
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+void Loupe::paintEvent(QPaintEvent*) {
+  if (!pixel_ || !samples_) return;
+  QPainter painter(this);
+  const double ratio = devicePixelRatioF();
+  const QSize device(static_cast<int>(std::lround(width() * ratio)),
+                     static_cast<int>(std::lround(height() * ratio)));
+  const ViewTransform shown = transform();
+  painter.drawImage(QPointF(0.0, 0.0), loupePicture(*samples_, shown, device, ratio));
+  painter.setRenderHint(QPainter::Antialiasing, true);
+  if (!view_.layersHidden()) {
+    paintEdges(painter, shown);
+    paintMarks(painter, shown);
+  }
+  paintAim(painter, shown, aim_, *pixel_);
+  paintCross(painter);
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  paintText(painter);
+  painter.setPen(QPen(palette().color(QPalette::Highlight), 2.0));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawRect(rect().adjusted(1, 1, -1, -1));
+}
+
+/// Dots in the middle of edge pixels: what lies under them stays to be seen.
+void Loupe::paintEdges(QPainter& painter, const ViewTransform& transform) const {
+  const QPointF first = transform.toPixel(QPointF(0.0, 0.0));
+  const QPointF last = transform.toPixel(QPointF(width(), height()));
+  painter.setPen(Qt::NoPen);
+  for (const LayerId id : kEdgeLayers) {
+    const Layer& layer = view_.layer(id);
+    if (!layer.style.visible) continue;
+    QColor color = layer.style.color;
+    color.setAlphaF(0.6 * layer.style.opacity);
+    painter.setBrush(color);
+    for (const LayerBits& bits : layer.bits) {
+      const double step = static_cast<double>(1 << bits.level);
+      const double radius = std::max(1.2, kEdgeDot * step * transform.scale());
+      const auto from = [step](double pixel) { return static_cast<int>(std::floor(pixel / step)); };
+      for (int y = from(first.y()); y <= from(last.y()) + 1; ++y)
+        for (int x = from(first.x()); x <= from(last.x()) + 1; ++x)
+          if (bits.bits.contains(x, y) && bits.bits.get(x, y))
+            painter.drawEllipse(
+                transform.toWidget(QPointF((x + 0.5) * step, (y + 0.5) * step) - QPointF(0.5, 0.5)),
+                radius, radius);
+    }
+  }
+  painter.setBrush(Qt::NoBrush);
+}
+
+void Loupe::paintMarks(QPainter& painter, const ViewTransform& transform) const {
+  for (const LayerId id : kMarkLayers) {
+    const Layer& layer = view_.layer(id);
+    if (!layer.style.visible) continue;
+    painter.setOpacity(layer.style.opacity);
+    for (const Mark& mark : layer.marks) paintMark(painter, transform, mark, layer.style.color);
+  }
+  painter.setOpacity(1.0);
+}
+
+void Loupe::paintCross(QPainter& painter) const {
+  const QPointF middle(0.5 * width(), 0.5 * height());
+  painter.setBrush(Qt::NoBrush);
+  for (const QPen& pen : {QPen(kRim, 3.0), QPen(kCross, 1.0)}) {
+    painter.setPen(pen);
+    painter.drawLine(QPointF(0.0, middle.y()), middle - QPointF(kGap, 0.0));
+    painter.drawLine(middle + QPointF(kGap, 0.0), QPointF(width(), middle.y()));
+    painter.drawLine(QPointF(middle.x(), 0.0), middle - QPointF(0.0, kGap));
+    painter.drawLine(middle + QPointF(0.0, kGap), QPointF(middle.x(), height()));
+  }
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(kCross);
+  painter.drawEllipse(middle, 1.0, 1.0);
+}
+
+/// Where the mark would go, else what the cross is on.
+void Loupe::paintText(QPainter& painter) const {
+  const QPointF at =
+      aim_.side == AimSide::kNone ? *pixel_ : QPointF(aim_.pixel.x(), aim_.pixel.y());
+  const QString text = tr("x %1  y %2   %3x")
+                           .arg(at.x(), 0, 'f', 2)
+                           .arg(at.y(), 0, 'f', 2)
+                           .arg(magnification_, 0, 'g', 3);
+  const QRect line(0, height() - painter.fontMetrics().height() - 4, width(),
+                   painter.fontMetrics().height() + 4);
+  painter.fillRect(line, QColor(0, 0, 0, 170));
+  painter.setPen(QColor(255, 255, 255));
+  painter.drawText(line, Qt::AlignCenter, text);
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <QPointF>
+#include <QWidget>
+
+#include "sessions/io/image_file.h"
+#include "ui/annotation/mark_aim.h"
+#include "ui/views/view_transform.h"
+
+namespace boresight::ui {
+
+class ImageView;
+
+/// A piece of the image, magnified, in a corner of the image view away from the pointer: image
+/// pixels as squares, in their own contrast, under a cross that stands at a fraction of a pixel,
+/// with marks and rendered edges as the view shows them. The magnification counts screen pixels per
+/// image pixel; Ctrl+wheel over the view changes it.
+class Loupe : public QWidget {
+  Q_OBJECT
+
+ public:
+  static constexpr double kLeastMagnification = 4.0;
+  static constexpr double kMostMagnification = 64.0;
+  static constexpr double kStep = 1.4142135623730951;  ///< of magnifications
+
+  explicit Loupe(ImageView& view);
+
+  /// nullptr: there is no image.
+  void setSamples(std::shared_ptr<const sessions::ImageSamples> samples);
+  double magnification() const { return magnification_; }
+  void setMagnification(double magnification);
+  bool isSwitchedOn() const { return on_; }
+  void setSwitchedOn(bool on);
+
+  /// Puts a place (px) under the cross; `aim` is where a click there would go. Nothing: nowhere,
+  /// and the loupe hides.
+  void lookAt(const std::optional<QPointF>& pixel, const MarkAim& aim);
+  const std::optional<QPointF>& place() const { return pixel_; }
+  /// Between image pixels and this widget's coordinates.
+  ViewTransform transform() const;
+
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ Q_SIGNALS:
+  void changed();  ///< its magnification, or whether it is on
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  void showOrHide();
+  void putAside();
+  void paintEdges(QPainter& painter, const ViewTransform& transform) const;
+  void paintMarks(QPainter& painter, const ViewTransform& transform) const;
+  void paintCross(QPainter& painter) const;
+  void paintText(QPainter& painter) const;
+
+  ImageView& view_;
+  std::shared_ptr<const sessions::ImageSamples> samples_;
+  double magnification_ = 8.0;
+  bool on_ = true;
+  std::optional<QPointF> pixel_;
+  MarkAim aim_;
+  bool left_ = false;  ///< in the left corner
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <QString>
+
+#include "sessions/annotation/snap_choice.h"
+#include "sessions/session/case_run.h"
+
+namespace boresight::ui {
+
+/// Which side of a pair a click gives.
+enum class AimSide : std::uint8_t { kNone, kImage, kStation };
+
+/// What a click would mark: a place of the image, or a place (or an edge) of the station.
+struct MarkAim {
+  AimSide side = AimSide::kNone;
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< of the station: where the pose puts it
+  std::optional<Eigen::Vector3d> point_in_station_m;
+  std::optional<sessions::ModelEdge> edge;     ///< of the station
+  std::vector<Eigen::Vector2d> edge_on_image;  ///< where the pose puts it
+  std::optional<sessions::ImageSnap> snap;     ///< of the image; nothing: the pointer's own place
+  QString text;                                ///< what it snaps to, for people
+  int found = 0;                               ///< how many things there were to snap to
+  int chosen = 0;                              ///< which of these it is; by turns
+};
+
+/// How an aim may snap.
+struct AimRules {
+  bool snaps = true;
+  bool line = false;       ///< aims for lines: edges first
+  double radius_px = 4.0;  ///< image pixels
+  int turn = 0;            ///< how often somebody asked for another one
+};
+
+/// Image pixels within which things are snapped to, at so many screen pixels to an image pixel.
+double snapRadius_px(double scale);
+
+MarkAim aimAtImage(const sessions::LoadedCase& one, const Eigen::Vector2d& pointer,
+                   const AimRules& rules);
+
+/// `snaps`: what of the mesh is near the pointer under the pose, the likeliest first. Without one
+/// (or refused) it is the surface under the pointer; lines need an edge.
+MarkAim aimAtStation(const sessions::LoadedCase& one, const Pose& camera_from_station,
+                     const Eigen::Vector2d& pointer, std::vector<sessions::MeshSnap> snaps,
+                     const AimRules& rules);
+
+}  // namespace boresight::ui

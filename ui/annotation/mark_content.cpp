@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/annotation/mark_content.h"
+
+#include <utility>
+
+#include <QCoreApplication>
+
+#include "sessions/annotation/predicted_place.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr double kSize = 15.0;  ///< on the screen
+constexpr double kEndSize = 7.0;
+constexpr double kChosenSize = 27.0;
+const QColor kChosen(255, 255, 255);
+const QColor kOff(175, 175, 175);
+const QColor kOutlier(255, 130, 60);
+
+QString tr(const char* text) { return QCoreApplication::translate("MarkContent", text); }
+
+QPointF pointOf(const Eigen::Vector2d& pixel) { return {pixel.x(), pixel.y()}; }
+
+Mark sign(MarkShape shape, const Eigen::Vector2d& pixel, int item) {
+  Mark mark;
+  mark.shape = shape;
+  mark.at = pointOf(pixel);
+  mark.size_px = kSize;
+  mark.cased = true;
+  mark.item = item;
+  return mark;
+}
+
+/// Collects the signs of one case's marks.
+class Signs {
+ public:
+  explicit Signs(const MarkLook& look) : look_(look) {}
+
+  void addPoint(const sessions::PointPair& point, int item) {
+    if (point.pixel) {
+      Mark mark = sign(shapeOf(point), *point.pixel, item);
+      mark.label = labelOf(point, !point.point_in_station_m);
+      finish(std::move(mark), point);
+    } else if (point.point_in_station_m) {
+      const auto place = sessions::predictPlace(look_.camera, look_.camera_from_station,
+                                                *point.point_in_station_m);
+      if (!place.valid) return;
+      Mark mark = sign(MarkShape::kDiamond, place.pixel, item);
+      mark.dashed = true;
+      mark.label = tr("%1: not in the image yet").arg(QString::fromStdString(point.id));
+      finish(std::move(mark), point);
+    }
+  }
+
+  void addLine(const sessions::LinePair& line, int item) {
+    if (line.line) {
+      Mark mark = segment(line.line->start, line.line->end, item);
+      mark.label = labelOf(line, !line.edge);
+      mark.dashed = !line.edge;
+      finish(std::move(mark), line);
+      for (const Eigen::Vector2d& end : {line.line->start, line.line->end}) {
+        Mark handle = sign(line.locked ? MarkShape::kSquare : MarkShape::kCircle, end, item);
+        handle.size_px = kEndSize;
+        if (!line.enabled) handle.color = kOff;
+        signs_.push_back(std::move(handle));
+      }
+    } else if (line.edge) {
+      addPredictedEdge(line, item);
+    }
+  }
+
+  std::vector<Mark> take() { return std::move(signs_); }
+
+ private:
+  template <class Pair>
+  bool standsOut(const Pair& pair) const {
+    return pair.used() && look_.outliers.contains(pair.id);
+  }
+
+  static Mark segment(const Eigen::Vector2d& start, const Eigen::Vector2d& end, int item) {
+    Mark mark = sign(MarkShape::kSegment, start, item);
+    mark.to = pointOf(end);
+    return mark;
+  }
+
+  /// As the camera bends it; each piece is a sign of its own.
+  void addPredictedEdge(const sessions::LinePair& line, int item) {
+    const auto places = sessions::edgeOnImage(look_.camera, look_.camera_from_station, *line.edge);
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      Mark mark = segment(places[i - 1], places[i], item);
+      mark.dashed = true;
+      if (2 * i == places.size() + 1)
+        mark.label = tr("%1: not in the image yet").arg(QString::fromStdString(line.id));
+      if (line.id == look_.selected) mark.color = kChosen;
+      signs_.push_back(std::move(mark));
+    }
+  }
+
+  static MarkShape shapeOf(const sessions::PointPair& point) {
+    if (!point.enabled) return MarkShape::kStruck;
+    if (!point.point_in_station_m) return MarkShape::kCircle;
+    return point.locked ? MarkShape::kSquare : MarkShape::kTarget;
+  }
+
+  template <class Pair>
+  QString labelOf(const Pair& pair, bool half_made) const {
+    const QString id = QString::fromStdString(pair.id);
+    if (half_made) return tr("%1 ?").arg(id);
+    if (!pair.enabled) return tr("%1 (off)").arg(id);
+    if (standsOut(pair))
+      return tr("%1 ! %2 sigma").arg(id).arg(look_.outliers.at(pair.id), 0, 'f', 1);
+    return id;
+  }
+
+  template <class Pair>
+  void finish(Mark mark, const Pair& pair) {
+    if (!pair.enabled) mark.color = kOff;
+    if (standsOut(pair)) {
+      mark.color = kOutlier;
+      Mark round = mark;
+      round.shape = MarkShape::kTriangle;
+      round.size_px = 2.0 * kSize;
+      round.label.clear();
+      signs_.push_back(std::move(round));
+    }
+    if (pair.id == look_.selected) {
+      mark.width = 2.4;
+      if (!standsOut(pair)) mark.color = kChosen;
+      Mark ring = mark;
+      ring.shape = MarkShape::kCircle;
+      ring.size_px = kChosenSize;
+      ring.label.clear();
+      signs_.push_back(std::move(ring));
+    }
+    signs_.push_back(std::move(mark));
+  }
+
+  const MarkLook& look_;
+  std::vector<Mark> signs_;
+};
+
+}  // namespace
+
+std::vector<Mark> markSigns(const sessions::Marks& marks, const MarkLook& look) {
+  Signs signs(look);
+  int item = 0;
+  for (const sessions::PointPair& point : marks.points) signs.addPoint(point, item++);
+  for (const sessions::LinePair& line : marks.lines) signs.addLine(line, item++);
+  return signs.take();
+}
+
+std::vector<Mark> residualSigns(const std::vector<sessions::MarkVector>& vectors,
+                                const MarkLook& look, double magnification, bool stale) {
+  std::vector<Mark> signs;
+  for (const sessions::MarkVector& vector : vectors) {
+    Mark mark = sign(MarkShape::kArrow, vector.predicted, -1);
+    mark.to = pointOf(vector.predicted + magnification * (vector.seen - vector.predicted));
+    mark.dashed = stale;
+    if (look.outliers.contains(vector.id)) mark.color = kOutlier;
+    signs.push_back(std::move(mark));
+  }
+  return signs;
+}
+
+std::vector<Mark> proposalSigns(const std::vector<sessions::Proposal>& proposals) {
+  std::vector<Mark> signs;
+  for (const sessions::Proposal& proposal : proposals) {
+    Mark mark = sign(proposal.seen ? MarkShape::kCircle : MarkShape::kDiamond, proposal.pixel, -1);
+    mark.dashed = true;
+    const QString name = QString::fromStdString(proposal.landmark.name);
+    mark.label = proposal.seen ? tr("%1 ?").arg(name) : tr("%1 ? (hidden)").arg(name);
+    signs.push_back(std::move(mark));
+  }
+  return signs;
+}
+
+std::vector<Mark> bandSigns(const std::vector<sessions::BandPiece>& band) {
+  std::vector<Mark> signs;
+  for (const sessions::BandPiece& piece : band) {
+    if (piece.places.size() < 2) continue;
+    Mark mark;
+    mark.shape = MarkShape::kOutline;
+    mark.width = 1.0;
+    for (const sessions::BandPlace& place : piece.places)
+      mark.outline << pointOf(place.pixel + place.half_width_px * place.normal);
+    for (auto place = piece.places.rbegin(); place != piece.places.rend(); ++place)
+      mark.outline << pointOf(place->pixel - place->half_width_px * place->normal);
+    signs.push_back(std::move(mark));
+  }
+  return signs;
+}
+
+std::string idOfSign(const sessions::Marks& marks, int item) {
+  if (item < 0) return {};
+  const auto index = static_cast<std::size_t>(item);
+  if (index < marks.points.size()) return marks.points[index].id;
+  const std::size_t line = index - marks.points.size();
+  return line < marks.lines.size() ? marks.lines[line].id : std::string();
+}
+
+}  // namespace boresight::ui

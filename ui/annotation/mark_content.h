@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What marks look like as layers of the image.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sessions/annotation/edge_band.h"
+#include "sessions/annotation/landmarks.h"
+#include "sessions/annotation/marks_on_image.h"
+#include "ui/views/layer.h"
+
+namespace boresight::ui {
+
+/// From here on a residual stands out, in units of its own deviation.
+inline constexpr double kOutlierSigmas = 3.0;
+
+/// What the signs of marks say besides the marks.
+struct MarkLook {
+  std::string selected;
+  std::map<std::string, double> outliers;  ///< normalized residual by id
+  Camera camera;
+  Pose camera_from_station;  ///< predicts what has no place in the image yet
+};
+
+/// One sign for each mark, its item being the index of the point, or the number of points plus the
+/// index of the line. A complete pair is a target, a locked one a square, one without its station
+/// side a circle with "?", one without its place in the image a dashed diamond where the pose
+/// predicts it, one that is off is struck through, one that stands out has a triangle round it.
+std::vector<Mark> markSigns(const sessions::Marks& marks, const MarkLook& look);
+
+/// From where the pose puts each mark to where it was marked, magnified. `stale`: dashed.
+std::vector<Mark> residualSigns(const std::vector<sessions::MarkVector>& vectors,
+                                const MarkLook& look, double magnification, bool stale);
+
+std::vector<Mark> proposalSigns(const std::vector<sessions::Proposal>& proposals);
+
+/// Strips along the edges.
+std::vector<Mark> bandSigns(const std::vector<sessions::BandPiece>& band);
+
+/// The mark that an item of `markSigns` is of, or nothing.
+std::string idOfSign(const sessions::Marks& marks, int item);
+
+}  // namespace boresight::ui

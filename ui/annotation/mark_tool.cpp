@@ -1,0 +1,440 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/annotation/mark_tool.h"
+
+#include <cmath>
+#include <utility>
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+
+#include "sessions/annotation/predicted_place.h"
+#include "ui/annotation/aim_painter.h"
+#include "ui/annotation/station_snapper.h"
+#include "ui/views/image_view.h"
+#include "ui/views/pointer_place.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr double kHandle = 8.0;        ///< on the screen
+constexpr double kClickSlack = 3.0;    ///< on the screen
+constexpr double kShortestLine = 6.0;  ///< on the screen
+constexpr double kSmallStep_px = 0.1;
+constexpr double kLargeStep_px = 1.0;
+/// Those that change what a click does.
+constexpr Qt::KeyboardModifiers kAimModifiers = Qt::ControlModifier | Qt::AltModifier;
+
+Eigen::Vector2d vectorOf(const QPointF& point) { return {point.x(), point.y()}; }
+QPointF pointOf(const Eigen::Vector2d& pixel) { return {pixel.x(), pixel.y()}; }
+
+Eigen::Vector2d directionOf(int key) {
+  switch (key) {
+    case Qt::Key_Left:
+      return {-1.0, 0.0};
+    case Qt::Key_Right:
+      return {1.0, 0.0};
+    case Qt::Key_Up:
+      return {0.0, -1.0};
+    case Qt::Key_Down:
+      return {0.0, 1.0};
+    default:
+      return Eigen::Vector2d::Zero();
+  }
+}
+
+bool isArrow(int key) { return !directionOf(key).isZero(); }
+
+/// Keys that a shortcut of the window must not take away while somebody annotates.
+bool isOwnKey(const QKeyEvent& event) {
+  const int key = event.key();
+  if ((event.modifiers() & (Qt::ControlModifier | Qt::AltModifier)) != 0) return key == Qt::Key_Alt;
+  return isArrow(key) || key == Qt::Key_Delete || key == Qt::Key_Escape || key == Qt::Key_Tab;
+}
+
+}  // namespace
+
+MarkTool::MarkTool(ImageView& view, AnnotationController& controller, ViewState& state,
+                   StationSnapper& snapper, QObject* parent)
+    : QObject(parent), view_(view), controller_(controller), state_(state), snapper_(snapper) {
+  view_.installEventFilter(this);
+  connect(&controller_, &AnnotationController::modeChanged, this, &MarkTool::showMode);
+  connect(&controller_, &AnnotationController::marksChanged, this, [this] { view_.update(); });
+  connect(&controller_, &AnnotationController::selectionChanged, this, [this] {
+    if (!drag_) end_ = 0;
+    view_.update();
+  });
+  connect(&state_, &ViewState::caseChanged, this, &MarkTool::clearAim);
+  connect(&snapper_, &StationSnapper::meshChanged, this, &MarkTool::updateAim);
+}
+
+void MarkTool::setSnaps(bool snaps) {
+  if (snaps == snaps_) return;
+  snaps_ = snaps;
+  updateAim();
+  Q_EMIT snapsChanged();
+}
+
+Pose MarkTool::stationPose() const {
+  const std::optional<Pose> solved = controller_.solvedPose();
+  return solved && view_.layer(LayerId::kAnnotationEdges).style.visible ? *solved
+                                                                        : state_.shownPose();
+}
+
+void MarkTool::showMode() {
+  view_.setCursor(active() ? Qt::CrossCursor : Qt::ArrowCursor);
+  press_.reset();
+  line_start_.reset();
+  turn_ = 0;
+  if (active()) {
+    view_.setFocus();  // for the keys
+    updateAim();
+  } else {
+    clearAim();
+  }
+}
+
+AimRules MarkTool::rules() const {
+  AimRules made;
+  made.snaps = snaps_ && (modifiers_ & Qt::AltModifier) == 0;
+  made.line = marksLines();
+  made.radius_px = snapRadius_px(view_.transform().scale());
+  made.turn = turn_;
+  return made;
+}
+
+void MarkTool::clearAim() {
+  aim_ = {};
+  pointer_.reset();
+  focus_.reset();
+  line_start_.reset();
+  view_.update();
+  Q_EMIT aimChanged();
+}
+
+void MarkTool::updateAim() {
+  const ViewState::CasePtr& one = state_.currentCase();
+  if (!active() || !one || !pointer_ || drag_) return;
+  const Eigen::Vector2d pixel = vectorOf(*pointer_);
+  const QPointF place = view_.transform().toWidget(*pointer_);
+  aim_ = {};
+  if ((modifiers_ & Qt::ControlModifier) != 0) {
+    const Pose pose = stationPose();
+    const AimRules how = rules();
+    aim_ = aimAtStation(*one, pose, pixel,
+                        snapper_.near(one->source.camera, pose, pixel, how.radius_px), how);
+  } else if (const auto handle = line_start_ ? std::nullopt : handleAt(place)) {
+    aim_.text = tr("%1: drag to move").arg(QString::fromStdString(handle->id));
+  } else if (const auto* proposal = proposalAt(place)) {
+    aim_.text = tr("%1: click takes it as it is, right click to place it by hand")
+                    .arg(QString::fromStdString(proposal->landmark.name));
+  } else {
+    aim_ = aimAtImage(*one, pixel, rules());
+  }
+  focus_ = pointer_;
+  view_.update();
+  Q_EMIT aimChanged();
+}
+
+double MarkTool::screenDistance(const Eigen::Vector2d& pixel, const QPointF& place) const {
+  const QPointF away = view_.transform().toWidget(pointOf(pixel)) - place;
+  return std::hypot(away.x(), away.y());
+}
+
+/// The chosen pair waits for its place in the image.
+bool MarkTool::lacksImageSide() const {
+  if (marksLines()) {
+    const sessions::LinePair* line = controller_.selectedLine();
+    return line && line->edge && !line->line;
+  }
+  const sessions::PointPair* point = controller_.selectedPoint();
+  return point && point->point_in_station_m && !point->pixel;
+}
+
+std::optional<MarkTool::Handle> MarkTool::handleAt(const QPointF& place) const {
+  std::optional<Handle> found;
+  double nearest = kHandle;
+  const auto offer = [&](const std::string& id, int end, const Eigen::Vector2d& pixel) {
+    const double distance = screenDistance(pixel, place);
+    if (distance > nearest) return;
+    nearest = distance;
+    found = Handle{id, end, pixel};
+  };
+  for (const sessions::PointPair& point : controller_.marks().points)
+    if (point.pixel) offer(point.id, 0, *point.pixel);
+  for (const sessions::LinePair& line : controller_.marks().lines) {
+    if (!line.line) continue;
+    offer(line.id, 0, line.line->start);
+    offer(line.id, 1, line.line->end);
+  }
+  return found;
+}
+
+/// While a chosen pair waits for its place, a click is that place.
+const sessions::Proposal* MarkTool::proposalAt(const QPointF& place) const {
+  if (marksLines() || lacksImageSide()) return nullptr;
+  if (!view_.layer(LayerId::kProposals).style.visible) return nullptr;
+  const sessions::Proposal* found = nullptr;
+  double nearest = kHandle;
+  for (const sessions::Proposal& proposal : controller_.proposals()) {
+    const double distance = screenDistance(proposal.pixel, place);
+    if (distance > nearest) continue;
+    nearest = distance;
+    found = &proposal;
+  }
+  return found;
+}
+
+/// A half-made pair that is drawn where the pose predicts it.
+std::string MarkTool::stationOnlyAt(const QPointF& place) const {
+  const ViewState::CasePtr& one = state_.currentCase();
+  if (!one || lacksImageSide()) return {};
+  const Pose pose = stationPose();
+  for (const sessions::PointPair& point : controller_.marks().points) {
+    if (point.pixel || !point.point_in_station_m) continue;
+    const auto at = sessions::predictPlace(one->source.camera, pose, *point.point_in_station_m);
+    if (at.valid && screenDistance(at.pixel, place) <= kHandle) return point.id;
+  }
+  return {};
+}
+
+bool MarkTool::eventFilter(QObject* watched, QEvent* event) {
+  if (!active() || view_.toolActive() || !state_.currentCase())
+    return QObject::eventFilter(watched, event);
+  switch (event->type()) {
+    case QEvent::MouseButtonPress:
+    case QEvent::MouseButtonDblClick:
+    case QEvent::MouseButtonRelease:
+    case QEvent::MouseMove:
+      return mouseEvent(event->type(), *static_cast<QMouseEvent*>(event));
+    case QEvent::ShortcutOverride:
+      if (!isOwnKey(*static_cast<QKeyEvent*>(event))) return false;
+      event->accept();
+      return true;
+    case QEvent::KeyPress:
+    case QEvent::KeyRelease: {
+      const auto& key = *static_cast<QKeyEvent*>(event);
+      const Qt::KeyboardModifiers before = std::exchange(modifiers_, key.modifiers());
+      if (((before ^ modifiers_) & kAimModifiers) != 0) updateAim();
+      return event->type() == QEvent::KeyPress && keyPress(key);
+    }
+    case QEvent::Leave:
+      if (!drag_ && !line_start_) clearAim();
+      return false;
+    default:
+      return false;
+  }
+}
+
+bool MarkTool::mouseEvent(QEvent::Type type, const QMouseEvent& event) {
+  const QPointF place = pointerPlace(event, view_);
+  if (type == QEvent::MouseMove) return move(place, event.modifiers());
+  if (type == QEvent::MouseButtonRelease) return event.button() == Qt::LeftButton && release(event);
+  return press(event, place);
+}
+
+bool MarkTool::press(const QMouseEvent& event, const QPointF& place) {
+  modifiers_ = event.modifiers();
+  if (event.button() == Qt::RightButton) return takeProposal(event, place);
+  if (event.button() != Qt::LeftButton) return false;
+  pointer_ = view_.transform().toPixel(place);
+  if (!line_start_ && takeProposal(event, place)) return true;
+  press_ = last_ = place;
+  panning_ = false;
+  if (line_start_ || (modifiers_ & Qt::ControlModifier) != 0) return true;
+  if (const std::optional<Handle> handle = handleAt(place)) {
+    drag_ = Drag{*handle, false};
+    end_ = handle->end;
+    controller_.select(handle->id);
+  } else if (const std::string id = stationOnlyAt(place); !id.empty()) {
+    controller_.select(id);
+    press_.reset();
+  }
+  return true;
+}
+
+/// A proposal is confirmed by a click; by another button or with Ctrl it is begun.
+bool MarkTool::takeProposal(const QMouseEvent& event, const QPointF& place) {
+  const sessions::Proposal* proposal = proposalAt(place);
+  if (!proposal || (event.button() == Qt::LeftButton && handleAt(place))) return false;
+  const sessions::Proposal taken = *proposal;  // the controller forgets it
+  const bool begins =
+      event.button() != Qt::LeftButton || (event.modifiers() & Qt::ControlModifier) != 0;
+  if (begins) {
+    controller_.begin(taken.landmark);
+  } else {
+    controller_.confirm(taken);
+  }
+  updateAim();
+  return true;
+}
+
+bool MarkTool::move(const QPointF& place, Qt::KeyboardModifiers modifiers) {
+  modifiers_ = modifiers;
+  const QPointF delta = place - std::exchange(last_, place);
+  pointer_ = view_.transform().toPixel(place);
+  const bool beyond_slack = press_ && (place - *press_).manhattanLength() > kClickSlack;
+  if (drag_) {
+    if (beyond_slack || drag_->moved) dragTo(*pointer_);
+    return true;
+  }
+  if (press_) {
+    panning_ = panning_ || beyond_slack;
+    if (!panning_) return true;
+    ViewTransform transform = view_.transform();
+    transform.pan(delta);
+    view_.setTransform(transform);
+    return true;
+  }
+  updateAim();
+  return false;
+}
+
+/// The mark keeps its distance from the pointer, so that taking hold of it moves nothing.
+void MarkTool::dragTo(const QPointF& pixel) {
+  Handle& handle = drag_->handle;
+  const Eigen::Vector2d by = vectorOf(pixel - view_.transform().toPixel(*press_));
+  aim_ = aimAtImage(*state_.currentCase(), handle.pixel + by, rules());
+  if (!sessions::isInImage(state_.currentCase()->source.camera, aim_.pixel)) return;
+  if (!controller_.dragInImage(handle.id, aim_.pixel, handle.end)) {
+    drag_.reset();
+    press_.reset();
+    aim_ = {};
+    return;
+  }
+  drag_->moved = true;
+  focus_ = pointOf(handle.pixel + by);
+  view_.update();
+  Q_EMIT aimChanged();
+}
+
+bool MarkTool::release(const QMouseEvent&) {
+  const std::optional<QPointF> pressed = std::exchange(press_, std::nullopt);
+  if (const std::optional<Drag> drag = std::exchange(drag_, std::nullopt)) {
+    if (drag->moved) controller_.finishMove();
+    updateAim();
+    return true;
+  }
+  if (pressed && !std::exchange(panning_, false)) {
+    pointer_ = view_.transform().toPixel(*pressed);
+    updateAim();
+    this->place();
+  }
+  return true;
+}
+
+void MarkTool::place() {
+  turn_ = 0;
+  if (aim_.side == AimSide::kImage) {
+    placeImage();
+  } else if (aim_.side == AimSide::kStation) {
+    placeStation();
+  } else if ((modifiers_ & Qt::ControlModifier) != 0) {
+    Q_EMIT told(marksLines()
+                    ? tr("There is no edge of the station within reach of the pointer; point at "
+                         "one of the drawn edges with Ctrl held.")
+                    : tr("There is no station under the pointer in the shown pose; point at its "
+                         "drawn edges with Ctrl held, or pick the place in the scene."));
+  }
+  updateAim();
+}
+
+void MarkTool::placeImage() {
+  if (!sessions::isInImage(state_.currentCase()->source.camera, aim_.pixel)) {
+    Q_EMIT told(tr("That place is outside of the image."));
+    return;
+  }
+  if (!marksLines()) {
+    controller_.placeInImage(aim_.pixel);
+  } else if (!line_start_) {
+    line_start_ = aim_.pixel;
+  } else if ((aim_.pixel - *line_start_).norm() * view_.transform().scale() < kShortestLine) {
+    Q_EMIT told(tr("The two places of a line must lie apart; click farther along the edge."));
+  } else {
+    controller_.placeLineInImage({*std::exchange(line_start_, std::nullopt), aim_.pixel});
+  }
+}
+
+void MarkTool::placeStation() {
+  if (marksLines()) {
+    controller_.placeEdgeOnStation(*aim_.edge);
+  } else {
+    controller_.placeOnStation(*aim_.point_in_station_m);
+  }
+}
+
+bool MarkTool::keyPress(const QKeyEvent& event) {
+  if (!isOwnKey(event)) return false;
+  switch (event.key()) {
+    case Qt::Key_Escape:
+      escape();
+      return true;
+    case Qt::Key_Tab:
+      ++turn_;
+      updateAim();
+      return true;
+    case Qt::Key_Delete:
+      if (!controller_.selected().empty()) controller_.remove(controller_.selected());
+      return true;
+    case Qt::Key_Alt:
+      return true;  // not for the menu bar
+    default:
+      return nudge(event);
+  }
+}
+
+/// Without a chosen mark the arrows are the view's.
+bool MarkTool::nudge(const QKeyEvent& event) {
+  if (controller_.selected().empty()) return false;
+  const bool large = (event.modifiers() & Qt::ShiftModifier) != 0;
+  const Eigen::Vector2d by = (large ? kLargeStep_px : kSmallStep_px) * directionOf(event.key());
+  if (!controller_.nudge(by, end_)) return true;
+  const sessions::PointPair* point = controller_.selectedPoint();
+  const sessions::LinePair* line = controller_.selectedLine();
+  aim_ = {};
+  if (point && point->pixel) focus_ = pointOf(*point->pixel);
+  if (line && line->line) focus_ = pointOf(end_ == 0 ? line->line->start : line->line->end);
+  view_.update();
+  Q_EMIT aimChanged();
+  return true;
+}
+
+void MarkTool::escape() {
+  turn_ = 0;
+  if (const std::optional<Drag> drag = std::exchange(drag_, std::nullopt)) {
+    press_.reset();
+    if (drag->moved) {
+      controller_.dragInImage(drag->handle.id, drag->handle.pixel, drag->handle.end);
+      controller_.finishMove();
+    }
+  } else if (line_start_) {
+    line_start_.reset();
+  } else if (!controller_.selected().empty()) {
+    controller_.select({});
+  } else {
+    controller_.setMode(PlaceMode::kOff);
+  }
+  updateAim();
+}
+
+void MarkTool::paint(QPainter& painter) const {
+  if (!active() || !pointer_) return;
+  if (line_start_) {
+    painter.setRenderHint(QPainter::Antialiasing, true);
+    const QPointF from = view_.transform().toWidget(pointOf(*line_start_));
+    const QPointF to = view_.transform().toWidget(pointOf(aim_.pixel));
+    for (const QPen& pen : {QPen(QColor(0, 0, 0, 170), 3.2), QPen(QColor(255, 255, 255), 1.4)}) {
+      painter.setPen(pen);
+      if (aim_.side == AimSide::kImage) painter.drawLine(from, to);
+      painter.drawEllipse(from, 4.0, 4.0);
+    }
+  }
+  paintAim(painter, view_.transform(), aim_, *pointer_);
+  QString text = aim_.text;
+  if (aim_.side == AimSide::kStation) text = tr("station: %1").arg(text);
+  if (aim_.found > 1) text += tr("  (%1 of %2, Tab)").arg(aim_.chosen + 1).arg(aim_.found);
+  if (!snaps_ && aim_.side != AimSide::kNone) text += tr("  (snapping is off)");
+  paintNote(painter, view_.rect(), view_.transform().toWidget(*pointer_), text);
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <QEvent>
+#include <QObject>
+#include <QPointF>
+
+#include "ui/annotation/annotation_controller.h"
+#include "ui/annotation/mark_aim.h"
+
+class QKeyEvent;
+class QMouseEvent;
+class QPainter;
+
+namespace boresight::ui {
+
+class ImageView;
+class StationSnapper;
+
+/// Marks with the pointer on the image while somebody annotates. A click marks a place of the
+/// image, Ctrl+click the place of the station that is drawn there (on the edges of the annotation
+/// while these show, else of the shown pose); in line mode two clicks mark a line, Ctrl+click an
+/// edge. Before the click it shows where the mark would go and what it snaps to; Tab goes on to
+/// another thing to snap to, Alt held refuses it. A press on a mark chooses it, and drags it; a
+/// drag elsewhere pans. Arrows move the chosen mark by 0.1 px, with Shift by 1 px; Delete removes
+/// it; Escape drops the half-made gesture, then the choice, then the mode.
+class MarkTool : public QObject {
+  Q_OBJECT
+
+ public:
+  MarkTool(ImageView& view, AnnotationController& controller, ViewState& state,
+           StationSnapper& snapper, QObject* parent = nullptr);
+
+  bool snaps() const { return snaps_; }
+  void setSnaps(bool snaps);
+
+  /// Where a click would go now; side kNone where it would do nothing.
+  const MarkAim& aim() const { return aim_; }
+  /// What the pointer, or somebody who moves a mark by keys, looks at; px. Nothing: nowhere.
+  const std::optional<QPointF>& focus() const { return focus_; }
+  /// camera_from_station of the edges on which the station is picked.
+  Pose stationPose() const;
+
+  void paint(QPainter& painter) const;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ Q_SIGNALS:
+  void aimChanged();  ///< or the focus
+  void snapsChanged();
+  /// One sentence for people.
+  void told(const QString& sentence);
+
+ private:
+  /// A mark's place in the image under the pointer.
+  struct Handle {
+    std::string id;
+    int end = 0;  ///< of a line
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  };
+  struct Drag {
+    Handle handle;
+    bool moved = false;
+  };
+
+  bool active() const { return controller_.mode() != PlaceMode::kOff; }
+  bool marksLines() const { return controller_.mode() == PlaceMode::kLine; }
+  bool mouseEvent(QEvent::Type type, const QMouseEvent& event);
+  bool press(const QMouseEvent& event, const QPointF& place);
+  bool move(const QPointF& place, Qt::KeyboardModifiers modifiers);
+  bool release(const QMouseEvent& event);
+  void dragTo(const QPointF& pixel);
+  bool keyPress(const QKeyEvent& event);
+  bool nudge(const QKeyEvent& event);
+  void escape();
+  void showMode();
+
+  bool lacksImageSide() const;
+  std::optional<Handle> handleAt(const QPointF& place) const;
+  const sessions::Proposal* proposalAt(const QPointF& place) const;
+  std::string stationOnlyAt(const QPointF& place) const;
+  bool takeProposal(const QMouseEvent& event, const QPointF& place);
+  void place();
+  void placeImage();
+  void placeStation();
+  void updateAim();
+  void clearAim();
+  double screenDistance(const Eigen::Vector2d& pixel, const QPointF& place) const;
+  AimRules rules() const;
+
+  ImageView& view_;
+  AnnotationController& controller_;
+  ViewState& state_;
+  StationSnapper& snapper_;
+  bool snaps_ = true;
+  MarkAim aim_;
+  std::optional<QPointF> pointer_;  ///< px
+  std::optional<QPointF> focus_;    ///< px
+  Qt::KeyboardModifiers modifiers_;
+  int turn_ = 0;
+  std::optional<QPointF> press_;  ///< on the widget, of a click that may become a pan
+  QPointF last_;
+  bool panning_ = false;
+  std::optional<Drag> drag_;
+  std::optional<Eigen::Vector2d> line_start_;  ///< px, of a line half drawn
+  int end_ = 0;                                ///< of the chosen line
+};
+
+}  // namespace boresight::ui
