@@ -84,7 +84,11 @@ QToolButton* AnnotationPanel::menuButton(const QString& name, const QString& tex
   return button;
 }
 
-void AnnotationPanel::addBeside(QWidget* widget) { splitter_->addWidget(widget); }
+void AnnotationPanel::addBeside(QWidget* widget) {
+  splitter_->addWidget(widget);
+  splitter_->setStretchFactor(splitter_->count() - 1, 1);
+  splitter_->setCollapsible(splitter_->count() - 1, false);
+}
 
 void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
   auto* row = new QHBoxLayout;

@@ -87,24 +87,27 @@ TwinView::TwinView(AnnotationController& controller, ViewState& state, StationSn
                    QWidget* parent)
     : QWidget(parent), controller_(controller), state_(state), snapper_(snapper) {
   setObjectName(QStringLiteral("twinView"));
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
   ours_ = half(QStringLiteral("twinOurs"));
   other_ = half(QStringLiteral("twinOther"));
-  auto* look = new QPushButton(tr("Look at it"), this);
+  auto* pictures = new QHBoxLayout;
+  auto* captions = new QHBoxLayout;
+  for (Half* each : {&ours_, &other_}) {
+    pictures->addWidget(each->picture, 1);
+    captions->addWidget(each->caption, 1);
+  }
+  auto* look = new QPushButton(tr("Look at the other"), this);
   look->setObjectName(QStringLiteral("lookAtTwin"));
   look->setToolTip(
       tr("Nudge the shown pose to the other one: all views show it, and it can become "
          "the seed"));
-  for (Half* each : {&ours_, &other_}) {
-    auto* column = new QVBoxLayout;
-    column->addWidget(each->picture, 1);
-    auto* foot = new QHBoxLayout;
-    foot->addWidget(each->caption, 1);
-    if (each == &other_) foot->addWidget(look);
-    column->addLayout(foot);
-    row->addLayout(column, 1);
-  }
+  auto* foot = new QHBoxLayout;
+  foot->addStretch(1);
+  foot->addWidget(look);
+  column->addLayout(pictures, 1);
+  column->addLayout(captions);
+  column->addLayout(foot);
   connect(look, &QPushButton::clicked, this, [this] {
     if (const auto pose = other()) Q_EMIT otherRequested(*pose);
   });
@@ -117,10 +120,11 @@ TwinView::Half TwinView::half(const QString& name) {
   Half made;
   made.picture = new QLabel(this);
   made.picture->setObjectName(name);
-  made.picture->setMinimumSize(96, 96);
+  made.picture->setMinimumSize(130, 96);
+  made.picture->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);
   made.picture->setAlignment(Qt::AlignCenter);
   made.caption = new QLabel(this);
-  made.caption->setWordWrap(true);
+  made.caption->setAlignment(Qt::AlignCenter);
   return made;
 }
 
@@ -135,9 +139,9 @@ void TwinView::showSolution() {
   setVisible(pose && twin);
   if (!pose || !twin) return;
   const sessions::MarksSolution& solution = *controller_.solution()->result.solution;
-  ours_.caption->setText(tr("this pose, %1 px rms").arg(QString::number(solution.rms_px, 'f', 3)));
+  ours_.caption->setText(tr("this: %1 px rms").arg(QString::number(solution.rms_px, 'f', 3)));
   other_.caption->setText(
-      tr("the other, %1 px rms").arg(QString::number(solution.twin->rms_px, 'f', 3)));
+      tr("other: %1 px rms").arg(QString::number(solution.twin->rms_px, 'f', 3)));
   if (!snapper_.mesh() || !state_.currentCase()) return;
   const sessions::MarkedView& view = controller_.solution()->marks.views.front();
   const Drawing drawing = {

@@ -49,6 +49,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       levels_(new LevelsPanel(image_->display())),
       annotation_(new AnnotationPanel(parts.document, parts.annotation, parts.state)),
       snapper_(new StationSnapper(parts.state, &window)),
+      scene_(new SceneView(parts.state)),
       image_annotation_(
           new ImageAnnotation(*image_, parts.annotation, parts.state, *snapper_, image_)),
       warnings_(new WarningBar(tr("Inputs"), tr("Show all that is known of the inputs"))),
@@ -63,6 +64,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   QObject::connect(twins, &TwinView::otherRequested, &poses_->nudgeController(),
                    &NudgeController::setPose);
   annotation_->addBeside(twins);
+  scene_->setAnnotation(parts.annotation, *snapper_);
   buildCentre();
   add(QStringLiteral("cases"), tr("Cases"), cases_);
   add(QStringLiteral("layers"), tr("Layers"), new LayersPanel(*image_));
@@ -70,7 +72,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   add(QStringLiteral("levels"), tr("Levels"), levels_);
   add(QStringLiteral("pose"), tr("Pose"), poses_);
   add(QStringLiteral("configuration"), tr("Configuration"), configuration_);
-  add(QStringLiteral("scene"), tr("Scene"), new SceneView(parts.state));
+  add(QStringLiteral("scene"), tr("Scene"), scene_);
   add(QStringLiteral("iterations"), tr("Iterations"), new IterationsPanel(parts.state));
   add(QStringLiteral("inspector"), tr("Match inspector"), new MatchInspectorPanel(parts.state));
   add(QStringLiteral("annotation"), tr("Annotation"), annotation_);
