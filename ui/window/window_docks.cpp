@@ -9,6 +9,7 @@
 #include "ui/annotation/annotation_panel.h"
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
+#include "ui/annotation/twin_view.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/input_sheet_panel.h"
@@ -46,7 +47,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       mask_editor_(new MaskEditor(image_->view(), image_)),
       mask_(new MaskPanel(*mask_editor_)),
       levels_(new LevelsPanel(image_->display())),
-      annotation_(new AnnotationPanel(parts.annotation, parts.state)),
+      annotation_(new AnnotationPanel(parts.document, parts.annotation, parts.state)),
       snapper_(new StationSnapper(parts.state, &window)),
       scene_(new SceneView(parts.state)),
       image_annotation_(
@@ -59,6 +60,10 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
                          QMainWindow::AllowTabbedDocks);
   // Tables of poses and options are long, the one of iterations is wide.
   window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  auto* twins = new TwinView(parts.annotation, parts.state, *snapper_);
+  QObject::connect(twins, &TwinView::otherRequested, &poses_->nudgeController(),
+                   &NudgeController::setPose);
+  annotation_->addBeside(twins);
   scene_->setAnnotation(parts.annotation, *snapper_);
   buildCentre();
   add(QStringLiteral("cases"), tr("Cases"), cases_);
