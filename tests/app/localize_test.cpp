@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/image_file.h"
+#include "sessions/record/onboard_record.h"
 #include "sessions/trace/trace_file.h"
 #include "tests/app/run_whs.h"
 
@@ -64,6 +65,20 @@ TEST(WhsLocalize, GivesTheSameDigestWithAndWithoutRecording) {
   EXPECT_EQ(plain.size(), std::string("digest ").size() + 64 + 1);
   EXPECT_EQ(digestOf(runWhs(localizeArguments({{"--trace", (folder / "t").string()}}))), plain);
   EXPECT_NE(digestOf(runWhs(localizeArguments({{"--set", "pnp.seed=2"}}))), plain);
+}
+
+TEST(WhsLocalize, WritesTheOnboardRecord) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runWhs(localizeArguments({{"--record", (folder / "run.whsr").string()}}));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const sessions::OnboardRecord record = sessions::readRecord(folder / "run.whsr");
+  EXPECT_TRUE(record.whole());
+  ASSERT_TRUE(record.end && record.inputs);
+  EXPECT_THAT(run.out, HasSubstr("digest " + record.end->digest));
+  // The hash of the pixels is the one that sessions and results name.
+  EXPECT_EQ(hexText(record.inputs->sha256.pixels).data(),
+            sessions::readImage(exampleFolder() / "os/image.png").pixels_sha256);
+  EXPECT_LT(folder.read("run.whsr").size(), 64000u);
 }
 
 TEST(WhsLocalize, GivesTheSameDigestInTheMemoryOfFlight) {
