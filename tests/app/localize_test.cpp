@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/image_file.h"
@@ -79,6 +81,31 @@ TEST(WhsLocalize, WritesTheOnboardRecord) {
   EXPECT_EQ(hexText(record.inputs->sha256.pixels).data(),
             sessions::readImage(exampleFolder() / "os/image.png").pixels_sha256);
   EXPECT_LT(folder.read("run.whsr").size(), 64000u);
+}
+
+TEST(WhsCompare, SaysByItsExitCodeWhetherTwoRunsWereTheSame) {
+  const TemporaryFolder folder;
+  const std::string first = (folder / "a.whsr").string();
+  const std::string second = (folder / "b.whsr").string();
+  ASSERT_EQ(runWhs(localizeArguments({{"--record", first}})).exit_code, 0);
+  ASSERT_EQ(runWhs(localizeArguments({{"--record", second}})).exit_code, 0);
+  const ProgramRun equal = runWhs({"compare", first, second});
+  EXPECT_EQ(equal.exit_code, 0) << equal.out;
+  EXPECT_THAT(equal.out, HasSubstr("equal to the bit"));
+  ASSERT_EQ(runWhs(localizeArguments({{"--record", second}, {"--set", "pnp.seed=2"}})).exit_code,
+            0);
+  const ProgramRun other = runWhs({"compare", first, second});
+  EXPECT_EQ(other.exit_code, 6);
+  EXPECT_THAT(other.out, HasSubstr("options: the option pnp.seed"));
+  const auto write = [&](const char* name, const std::string& bytes) {
+    std::ofstream(folder / name, std::ios::binary) << bytes;
+  };
+  write("cut.whsr", folder.read("a.whsr").substr(0, 4000));
+  EXPECT_EQ(runWhs({"compare", first, (folder / "cut.whsr").string()}).exit_code, 5);
+  write("no.whsr", "no record");
+  const ProgramRun none = runWhs({"compare", first, (folder / "no.whsr").string()});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_THAT(none.err, HasSubstr("no.whsr"));
 }
 
 TEST(WhsLocalize, GivesTheSameDigestInTheMemoryOfFlight) {
