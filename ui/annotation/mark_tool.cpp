@@ -417,7 +417,7 @@ void MarkTool::escape() {
   updateAim();
 }
 
-void MarkTool::paint(QPainter& painter) const {
+void MarkTool::paint(QPainter& painter, const QRectF& taken) const {
   if (!active() || !pointer_) return;
   if (line_start_) {
     painter.setRenderHint(QPainter::Antialiasing, true);
@@ -434,7 +434,7 @@ void MarkTool::paint(QPainter& painter) const {
   if (aim_.side == AimSide::kStation) text = tr("station: %1").arg(text);
   if (aim_.found > 1) text += tr("  (%1 of %2, Tab)").arg(aim_.chosen + 1).arg(aim_.found);
   if (!snaps_ && aim_.side != AimSide::kNone) text += tr("  (snapping is off)");
-  paintNote(painter, view_.rect(), view_.transform().toWidget(*pointer_), text);
+  paintNote(painter, view_.rect(), taken, view_.transform().toWidget(*pointer_), text);
 }
 
 }  // namespace boresight::ui

@@ -44,7 +44,8 @@ class MarkTool : public QObject {
   /// camera_from_station of the edges on which the station is picked.
   Pose stationPose() const;
 
-  void paint(QPainter& painter) const;
+  /// Words stay clear of `taken` (widget).
+  void paint(QPainter& painter, const QRectF& taken) const;
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  Q_SIGNALS:

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include <QApplication>
 #include <QDir>
 #include <QDockWidget>
 #include <QStandardPaths>
@@ -25,6 +26,7 @@
 #include "ui/annotation/mark_tool.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/views/image_panel.h"
+#include "ui/window/application.h"
 #include "ui/window/main_window.h"
 #include "ui/window/window_docks.h"
 
@@ -216,9 +218,30 @@ class AnnotatingPictures : public ScriptedAnnotator {
   void take(const QSize& size, const QString& name) {
     window_.resize(size);
     ASSERT_TRUE(wait([&] { return !window_.annotation().stale() && !window_.tasks().isBusy(); }));
-    QTest::qWait(1500);  // the edges at full resolution, the band
+    QTest::qWait(1000);  // the edges at full resolution, the band
     const QString folder = QString::fromUtf8(std::getenv("BORESIGHT_PICTURES"));
     EXPECT_TRUE(window_.grab().save(QDir(folder).filePath(name)));
+  }
+  void takeAll(const QString& colors, const Eigen::Vector3d& unmarked_m) {
+    ImagePointer pointer(window_.image().view());
+    const Eigen::Vector2d at = pixelOf(truth(), unmarked_m);
+    for (const QSize& size : {QSize(1280, 800), QSize(2560, 1440)}) {
+      const QString name = QStringLiteral("annotating-%1-%2-%3.png").arg(colors).arg(size.width());
+      window_.resize(size);
+      QCoreApplication::processEvents();
+      window_.image().view().fit();
+      pointer.moveTo(at + Eigen::Vector2d(1.2, 0.8));
+      take(size, name.arg(QStringLiteral("fit")));
+      for (const bool station : {false, true}) {
+        pointer.zoom(at, GetParam());
+        pointer.moveTo(at + Eigen::Vector2d(1.2, 0.8),
+                       station ? Qt::ControlModifier : Qt::NoModifier);
+        take(size,
+             name.arg(QStringLiteral("%1-%2")
+                          .arg(GetParam())
+                          .arg(station ? QStringLiteral("station") : QStringLiteral("image"))));
+      }
+    }
   }
 };
 
@@ -228,25 +251,13 @@ TEST_P(AnnotatingPictures, OfTheWholeWindow) {
   const auto corners_m = chooseCorners(11);
   annotate({corners_m.begin(), corners_m.begin() + 10});
   window_.dock(QStringLiteral("annotation"))->raise();
+  window_.annotation().setRobust(true);
   show(LayerId::kAnnotationBand, true);
   show(LayerId::kSeedEdges, false);
   vary(corners_m[10]);
-  ImagePointer pointer(window_.image().view());
-  const QString zoom = QString::number(GetParam());
-  window_.image().view().fit();
-  pointer.moveTo(pixelOf(truth(), corners_m[5]) + Eigen::Vector2d(3.0, 2.0));
-  take({1280, 800}, QStringLiteral("small-fit.png"));
-  window_.image().view().fit();
-  take({2560, 1440}, QStringLiteral("large-fit.png"));
-  for (const bool station : {false, true}) {
-    const Eigen::Vector2d at = pixelOf(truth(), corners_m[10]);
-    pointer.zoom(at, GetParam());
-    pointer.moveTo(at + Eigen::Vector2d(1.2, 0.8), station ? Qt::ControlModifier : Qt::NoModifier);
-    take({1280, 800}, QStringLiteral("small-%1-%2.png").arg(zoom).arg(station));
-    pointer.zoom(at, GetParam());
-    pointer.moveTo(at + Eigen::Vector2d(1.2, 0.8), station ? Qt::ControlModifier : Qt::NoModifier);
-    take({2560, 1440}, QStringLiteral("large-%1-%2.png").arg(zoom).arg(station));
-  }
+  takeAll(QStringLiteral("light"), corners_m[10]);
+  useDarkColors(*qobject_cast<QApplication*>(QCoreApplication::instance()));
+  takeAll(QStringLiteral("dark"), corners_m[10]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Zooms, AnnotatingPictures, testing::Values(3.0, 12.0));
