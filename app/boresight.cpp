@@ -62,12 +62,17 @@ bool readArguments(const QCoreApplication& application, Arguments& arguments,
       QStringLiteral("Iteration that the picture shows, from 0; -1: the seed"),
       QStringLiteral("N"));
   const QCommandLineOption dark(QStringLiteral("dark"), QStringLiteral("Dark colours"));
-  parser.addOptions({self_test, screenshot, view, size, iteration, dark});
+  const QCommandLineOption mark(
+      QStringLiteral("mark"),
+      QStringLiteral("Mark that somebody works on in the picture, as when placing it"),
+      QStringLiteral("ID"));
+  parser.addOptions({self_test, screenshot, view, size, iteration, mark, dark});
   parser.process(application);
   arguments.self_test = parser.isSet(self_test);
   arguments.dark = parser.isSet(dark);
   arguments.screenshot.out = parser.value(screenshot).toStdString();
   arguments.screenshot.view = parser.value(view);
+  arguments.screenshot.mark = parser.value(mark);
   const QStringList sides = parser.value(size).split(QLatin1Char('x'));
   bool fine = sides.size() == 2;
   const int width = fine ? sides[0].toInt(&fine) : 0;

@@ -10,6 +10,7 @@
 
 #include "core/base/bytes.h"
 #include "core/base/digest.h"
+#include "core/localizer/option_bytes.h"
 #include "core/pnp/correspondence.h"
 
 namespace boresight {
@@ -18,17 +19,6 @@ namespace {
 constexpr std::array<std::uint8_t, 8> kMagic = {'B', 'O', 'R', 'S', 'I', 'G', 'H', 'T'};
 constexpr std::size_t kHeaderBytes = kMagic.size() + 8;
 constexpr std::size_t kChecksumBytes = 32;
-
-/// As in the file.
-enum class OptionKind : std::uint8_t { kBoolean = 0, kInteger = 1, kReal = 2, kChoice = 3 };
-
-template <class Field>
-constexpr OptionKind kindOf() {
-  if constexpr (std::is_same_v<Field, bool>) return OptionKind::kBoolean;
-  if constexpr (std::is_enum_v<Field>) return OptionKind::kChoice;
-  if constexpr (std::is_floating_point_v<Field>) return OptionKind::kReal;
-  return OptionKind::kInteger;
-}
 
 std::string_view bytesAsText(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -41,24 +31,6 @@ std::array<std::uint8_t, kChecksumBytes> checksumOf(std::span<const std::uint8_t
 }
 
 // -- Writing --
-
-void writeOptions(const LocalizerOptions& options, ByteWriter& writer) {
-  std::uint32_t count = 0;
-  LocalizerOptions::visitFields(options, [&count](const OptionInfo&, const auto&) { ++count; });
-  writer.u32(count);
-  LocalizerOptions::visitFields(options, [&writer](const OptionInfo& info, const auto& field) {
-    using Field = std::remove_cvref_t<decltype(field)>;
-    const std::size_t length = std::strlen(info.name);
-    writer.u8(static_cast<std::uint8_t>(length));
-    writer.bytes({reinterpret_cast<const std::uint8_t*>(info.name), length});
-    writer.u8(static_cast<std::uint8_t>(kindOf<Field>()));
-    if constexpr (std::is_floating_point_v<Field>) {
-      writer.f64(field);
-    } else {
-      writer.u64(static_cast<std::uint64_t>(static_cast<std::int64_t>(field)));
-    }
-  });
-}
 
 void writeVector(const Eigen::Vector3d& vector, ByteWriter& writer) {
   for (int i = 0; i < 3; ++i) writer.f64(vector[i]);
@@ -128,7 +100,7 @@ void writeProblem(const LocalizationProblem& problem, const LocalizerOptions& op
 
 template <class Field>
 bool readOption(OptionKind kind, std::uint64_t bits, Field& field) {
-  if (kind != kindOf<Field>()) return false;
+  if (kind != optionKindOf<Field>()) return false;
   if constexpr (std::is_floating_point_v<Field>) {
     field = std::bit_cast<double>(bits);
     return true;

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <span>
+#include "core/base/crc32.h"
 
 namespace boresight::sessions {
 
-/// CRC-32 of ISO/IEC 15948 (PNG), zip and many others: finds damage, not malice.
-std::uint32_t crc32(std::span<const std::uint8_t> bytes);
+using boresight::crc32;
 
 }  // namespace boresight::sessions

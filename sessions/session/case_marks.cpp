@@ -51,6 +51,11 @@ std::optional<Pose> CaseMarksSolution::camera_from_station() const {
   return result.solution->camera_from_station[0];
 }
 
+std::optional<Pose> CaseMarksSolution::twin_camera_from_station() const {
+  if (!result.solution || !result.solution->twin) return {};
+  return marks.views[0].camera_from_rig * result.solution->twin->rig_from_station;
+}
+
 CaseMarksSolution solveCaseMarks(CaseMarks marks, const Pose& camera_from_station_guess,
                                  std::span<const Eigen::Vector3d> station_m, bool robust) {
   CaseMarksSolution made;

@@ -39,6 +39,8 @@ struct CaseMarksSolution {
 
   /// The pose of the case itself (of view 0), or nothing.
   std::optional<Pose> camera_from_station() const;
+  /// The other one that explains coplanar marks, or nothing.
+  std::optional<Pose> twin_camera_from_station() const;
 };
 
 /// Solves what `caseMarks` gives: the one function behind the desktop program and `whs solve`, so

@@ -118,9 +118,7 @@ void AnnotationController::askIfChanged(bool anyway) {
   }
   now.marks.views.front().marks = marks_;
   now.one = state_.currentCase();
-  const sessions::SessionCase& source = *document_.session().findCase(case_id_);
-  now.camera_from_station_guess =
-      source.camera_from_station_working.value_or(source.camera_from_station_seed);
+  now.camera_from_station_guess = sessions::marksGuess(*document_.session().findCase(case_id_));
   now.landmarks = landmarks_;
   now.passes = passesOfCase();
   now.robust = robust_;

@@ -110,6 +110,9 @@ class AnnotationController : public QObject {
   void removePass(int pass);
   /// The solved pose becomes the case's truth.
   void useAsTruth();
+  /// Solves another case with this one from now on, as images of cameras that are rigidly linked.
+  void linkCase(const std::string& other_id, const Pose& other_from_case);
+  void unlinkCase();
   /// Named points from a file, for all cases of this station.
   void setLandmarksFile(const std::filesystem::path& file);
 

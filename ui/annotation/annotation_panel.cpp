@@ -19,27 +19,30 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "ui/annotation/rig_menu.h"
 #include "ui/models/number_text.h"
 #include "ui/panels/table_style.h"
 #include "ui/state/pose_role.h"
 
 namespace boresight::ui {
 
-AnnotationPanel::AnnotationPanel(AnnotationController& controller, ViewState& state,
-                                 QWidget* parent)
+AnnotationPanel::AnnotationPanel(Document& document, AnnotationController& controller,
+                                 ViewState& state, QWidget* parent)
     : QWidget(parent), controller_(controller), state_(state) {
   filter_.setSourceModel(&model_);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(4, 4, 4, 4);
-  buildTools(*column);
-  auto* splitter = new QSplitter(Qt::Horizontal, this);
-  splitter->addWidget(buildTable());
-  splitter->addWidget(buildSummary());
-  splitter->setStretchFactor(0, 1);
-  splitter->setStretchFactor(1, 1);
-  splitter->setChildrenCollapsible(false);
-  splitter->setSizes({500, 400});
-  column->addWidget(splitter, 1);
+  auto* rig = new RigMenu(document, state, controller, this);
+  connect(rig, &RigMenu::openRequested, this, &AnnotationPanel::openCaseRequested);
+  buildTools(*column, rig);
+  splitter_ = new QSplitter(Qt::Horizontal, this);
+  splitter_->addWidget(buildTable());
+  splitter_->addWidget(buildSummary());
+  splitter_->setStretchFactor(0, 1);
+  splitter_->setStretchFactor(1, 1);
+  splitter_->setChildrenCollapsible(false);
+  splitter_->setSizes({500, 400});
+  column->addWidget(splitter_, 1);
   connect(&controller_, &AnnotationController::modeChanged, this, &AnnotationPanel::showMode);
   connect(&controller_, &AnnotationController::marksChanged, this, &AnnotationPanel::showMarks);
   connect(&controller_, &AnnotationController::selectionChanged, this,
@@ -70,7 +73,24 @@ QToolButton* AnnotationPanel::modeButton(const QString& name, const QString& tex
   return button;
 }
 
-void AnnotationPanel::buildTools(QBoxLayout& layout) {
+QToolButton* AnnotationPanel::menuButton(const QString& name, const QString& text,
+                                         const QString& tip, QMenu* menu) {
+  auto* button = new QToolButton(this);
+  button->setObjectName(name);
+  button->setText(text);
+  button->setToolTip(tip);
+  button->setPopupMode(QToolButton::InstantPopup);
+  button->setMenu(menu);
+  return button;
+}
+
+void AnnotationPanel::addBeside(QWidget* widget) {
+  splitter_->addWidget(widget);
+  splitter_->setStretchFactor(splitter_->count() - 1, 1);
+  splitter_->setCollapsible(splitter_->count() - 1, false);
+}
+
+void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
   auto* row = new QHBoxLayout;
   points_ = modeButton(QStringLiteral("placePoints"), tr("Points"),
                        tr("Click a place on the image and the same place on the station, in either "
@@ -97,22 +117,19 @@ void AnnotationPanel::buildTools(QBoxLayout& layout) {
   together_->setObjectName(QStringLiteral("together"));
   together_->setChecked(controller_.together());
   together_->setToolTip(tr("Solve with the other cameras of this case's rig, as one"));
-  auto* files = new QToolButton(this);
-  files->setObjectName(QStringLiteral("markFiles"));
-  files->setText(tr("Files"));
-  files->setToolTip(tr("Marks, poses and landmarks from and to files"));
-  buildFileMenu(*files);
-  passes_ = new QToolButton(this);
-  passes_->setObjectName(QStringLiteral("passes"));
-  passes_->setText(tr("Passes"));
-  passes_->setToolTip(tr("What several people marked without seeing each other's marks"));
-  passes_->setPopupMode(QToolButton::InstantPopup);
-  passes_->setMenu(new QMenu(passes_));
+  QToolButton* files = menuButton(QStringLiteral("markFiles"), tr("Files"),
+                                  tr("Marks, poses and landmarks from and to files"), fileMenu());
+  passes_ = menuButton(QStringLiteral("passes"), tr("Passes"),
+                       tr("What several people marked without seeing each other's marks"),
+                       new QMenu(this));
+  QToolButton* rigs =
+      menuButton(QStringLiteral("rig"), tr("Rig"),
+                 tr("Which images are of rigidly linked cameras, solved as one"), rig);
   connect(passes_->menu(), &QMenu::aboutToShow, this, &AnnotationPanel::showPasses);
   for (QWidget* each : {static_cast<QWidget*>(points_), static_cast<QWidget*>(lines_),
                         static_cast<QWidget*>(sigma_), static_cast<QWidget*>(robust_),
                         static_cast<QWidget*>(together_), static_cast<QWidget*>(files),
-                        static_cast<QWidget*>(passes_)})
+                        static_cast<QWidget*>(passes_), static_cast<QWidget*>(rigs)})
     row->addWidget(each);
   row->addStretch(1);
   show_ = new QComboBox(this);
@@ -130,16 +147,24 @@ void AnnotationPanel::buildTools(QBoxLayout& layout) {
   connect(together_, &QCheckBox::toggled, &controller_, &AnnotationController::setTogether);
 }
 
-void AnnotationPanel::buildFileMenu(QToolButton& button) {
-  auto* menu = new QMenu(&button);
+QMenu* AnnotationPanel::fileMenu() {
+  auto* menu = new QMenu(this);
   menu->addAction(tr("Import marks ..."), this, &AnnotationPanel::importRequested);
   menu->addAction(tr("Export marks ..."), this, &AnnotationPanel::exportRequested);
+  menu->addSeparator();
+  menu->addAction(tr("Export all poses for COLMAP ..."), this,
+                  &AnnotationPanel::exportColmapRequested);
+  menu->addAction(tr("Export all poses as a BOP scene ..."), this,
+                  &AnnotationPanel::exportBopRequested);
+  menu->addAction(tr("Import truths from COLMAP ..."), this,
+                  &AnnotationPanel::importColmapRequested);
+  menu->addAction(tr("Import truths from a BOP scene ..."), this,
+                  &AnnotationPanel::importBopRequested);
   menu->addSeparator();
   menu->addAction(tr("Open landmarks ..."), this, &AnnotationPanel::openLandmarksRequested);
   menu->addAction(tr("Save the marks as landmarks ..."), this,
                   &AnnotationPanel::saveLandmarksRequested);
-  button.setPopupMode(QToolButton::InstantPopup);
-  button.setMenu(menu);
+  return menu;
 }
 
 QWidget* AnnotationPanel::buildTable() {

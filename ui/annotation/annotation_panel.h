@@ -15,7 +15,9 @@ class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
+class QMenu;
 class QPushButton;
+class QSplitter;
 class QTableView;
 class QTextBrowser;
 class QToolButton;
@@ -23,21 +25,32 @@ QT_END_NAMESPACE
 
 namespace boresight::ui {
 
+class Document;
+class RigMenu;
+
 /// The annotator's desk: tools, the table of marks, and what the pose that solves them is worth.
 class AnnotationPanel : public QWidget {
   Q_OBJECT
 
  public:
-  AnnotationPanel(AnnotationController& controller, ViewState& state, QWidget* parent = nullptr);
+  AnnotationPanel(Document& document, AnnotationController& controller, ViewState& state,
+                  QWidget* parent = nullptr);
 
   QTableView& table() { return *table_; }
+  /// Something beside the summary that shows itself when it has something to show.
+  void addBeside(QWidget* widget);
   /// Asks whose marks these are, and puts them aside.
   void askForName();
 
  Q_SIGNALS:
+  void openCaseRequested(const QString& case_id);
   void useAsSeedRequested(const boresight::Pose& camera_from_station);
   void importRequested();
   void exportRequested();
+  void exportColmapRequested();
+  void exportBopRequested();
+  void importColmapRequested();
+  void importBopRequested();
   void openLandmarksRequested();
   void saveLandmarksRequested();
 
@@ -45,12 +58,14 @@ class AnnotationPanel : public QWidget {
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
-  void buildTools(QBoxLayout& layout);
+  void buildTools(QBoxLayout& layout, RigMenu* rig);
+  QToolButton* menuButton(const QString& name, const QString& text, const QString& tip,
+                          QMenu* menu);
   QWidget* buildTable();
   QWidget* buildSummary();
   QToolButton* modeButton(const QString& name, const QString& text, const QString& tip,
                           PlaceMode mode);
-  void buildFileMenu(QToolButton& button);
+  QMenu* fileMenu();
   void showMode();
   void showMarks();
   void showSelection();
@@ -64,6 +79,7 @@ class AnnotationPanel : public QWidget {
   MarksModel model_;
   MarksFilter filter_;
   bool showing_ = false;
+  QSplitter* splitter_ = nullptr;
   QToolButton* points_ = nullptr;
   QToolButton* lines_ = nullptr;
   QDoubleSpinBox* sigma_ = nullptr;

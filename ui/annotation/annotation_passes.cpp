@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "sessions/session/rig_links.h"
 #include "ui/models/number_text.h"
 #include "ui/state/document.h"
 
@@ -63,6 +64,20 @@ void AnnotationController::useAsTruth() {
   changed.camera_from_station_truth = solved;
   document_.edit(sessions::withCase(document_.session(), std::move(changed)),
                  tr("Take the annotated pose of %1 as its truth").arg(fromText(case_id_)));
+}
+
+void AnnotationController::linkCase(const std::string& other_id, const Pose& other_from_case) {
+  finishMove();
+  const sessions::Session& session = document_.session();
+  if (!session.findCase(case_id_) || !session.findCase(other_id)) return;
+  document_.edit(sessions::withRigLink(session, case_id_, other_id, other_from_case),
+                 tr("Link %1 with %2").arg(fromText(other_id), fromText(case_id_)));
+}
+
+void AnnotationController::unlinkCase() {
+  finishMove();
+  document_.edit(sessions::withoutRigLink(document_.session(), case_id_),
+                 tr("Take %1 out of its rig").arg(fromText(case_id_)));
 }
 
 void AnnotationController::setLandmarksFile(const std::filesystem::path& file) {

@@ -10,16 +10,6 @@ namespace {
 
 const QString kKey = QStringLiteral("solve marks");
 
-std::vector<Eigen::Vector3d> boxCorners(const MeshView& mesh) {
-  const BoundingBox box = matchedBounds(mesh);
-  std::vector<Eigen::Vector3d> corners;
-  for (int i = 0; i < 8; ++i)
-    corners.emplace_back((i & 1) ? box.maximum_m.x() : box.minimum_m.x(),
-                         (i & 2) ? box.maximum_m.y() : box.minimum_m.y(),
-                         (i & 4) ? box.maximum_m.z() : box.minimum_m.z());
-  return corners;
-}
-
 AnnotationSolver::PassAnswer answerOf(const sessions::AnnotationPass& pass,
                                       const AnnotationSolver::Question& asked) {
   AnnotationSolver::PassAnswer made;
@@ -41,8 +31,9 @@ AnnotationSolver::PassAnswer answerOf(const sessions::AnnotationPass& pass,
 AnnotationSolver::Answer answer(const AnnotationSolver::Question& asked) {
   AnnotationSolver::Answer made;
   const MeshView mesh = asked.one->scene.view();
-  auto solution = std::make_shared<sessions::CaseMarksSolution>(sessions::solveCaseMarks(
-      asked.marks, asked.camera_from_station_guess, boxCorners(mesh), asked.robust));
+  auto solution = std::make_shared<sessions::CaseMarksSolution>(
+      sessions::solveCaseMarks(asked.marks, asked.camera_from_station_guess,
+                               sessions::boxCorners(matchedBounds(mesh)), asked.robust));
   if (const auto pose = solution->camera_from_station()) {
     const sessions::MarkedView& view = solution->marks.views.front();
     made.covariance = sessions::cameraCovariance(*solution->result.solution, view);

@@ -119,10 +119,10 @@ QStringList poseCells(const Pose& pose) {
 
 QString twinHtml(const sessions::CaseMarksSolution& solved) {
   const MarksSolution& solution = *solved.result.solution;
-  if (!solution.twin) return {};
-  const sessions::MarkedView& view = solved.marks.views.front();
+  const auto twin = solved.twin_camera_from_station();
+  if (!twin) return {};
   const QStringList ours = poseCells(solution.camera_from_station.front());
-  const QStringList other = poseCells(view.camera_from_rig * solution.twin->rig_from_station);
+  const QStringList other = poseCells(*twin);
   const QStringList names = {tr("x, mm"),       tr("y, mm"),       tr("z, mm"),
                              tr("turn x, deg"), tr("turn y, deg"), tr("turn z, deg")};
   QStringList rows = {

@@ -48,40 +48,6 @@ void addDashed(std::vector<SceneLine>& lines, const SceneLine& line, PoseRole ro
   for (const SceneLine& dash : dashed(line, poseRoleStyle(role).dashes)) lines.push_back(dash);
 }
 
-Frustum frustum(PoseRole role, const QString& label, const Camera& camera,
-                const Pose& camera_from_station, const Eigen::Vector3d& centre_m) {
-  Frustum made;
-  made.role = role;
-  made.label = label;
-  made.color = poseRoleStyle(role).color;
-  const Pose station_from_camera = camera_from_station.inverse();
-  made.apex_m = station_from_camera.translation_m;
-  const double depth_m = std::max(kFrustumShare * (centre_m - made.apex_m).norm(), 1e-6);
-  const double right = camera.width - 0.5;
-  const double bottom = camera.height - 0.5;
-  const std::array<Eigen::Vector2d, 4> corners = {
-      {{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}}};
-  for (std::size_t i = 0; i < 4; ++i)
-    made.corner_m[i] =
-        station_from_camera * (depth_m * rayOf(camera, corners[i].x(), corners[i].y()));
-  for (std::size_t i = 0; i < 4; ++i) {
-    addDashed(made.lines, {made.apex_m, made.corner_m[i]}, role);
-    addDashed(made.lines, {made.corner_m[i], made.corner_m[(i + 1) % 4]}, role);
-  }
-  const Eigen::Vector3d& left_m = made.corner_m[0];
-  const Eigen::Vector3d& right_m = made.corner_m[1];
-  const Eigen::Vector3d roof_m =
-      0.5 * (left_m + right_m) +
-      0.15 * (0.5 * (left_m + right_m) - 0.5 * (made.corner_m[2] + made.corner_m[3]));
-  addDashed(made.lines, {left_m, roof_m}, role);
-  addDashed(made.lines, {roof_m, right_m}, role);
-  // The frusta of a good run nearly coincide, so each role has its label in a place of its own.
-  const std::array<Eigen::Vector3d, kPoseRoles> places = {left_m, made.apex_m, made.corner_m[3],
-                                                          right_m, made.corner_m[2]};
-  made.label_at_m = places[static_cast<std::size_t>(role)];
-  return made;
-}
-
 void addFrusta(const ViewState& state, SceneContent& content) {
   const sessions::LoadedCase& one = *content.one;
   const Eigen::Vector3d centre_m = content.bounds.centre();
@@ -93,7 +59,7 @@ void addFrusta(const ViewState& state, SceneContent& content) {
     const std::optional<Pose> pose = poseOf(state, role);
     if (pose && pose->isFinite())
       content.frusta.push_back(
-          frustum(role, labels[static_cast<std::size_t>(i)], one.source.camera, *pose, centre_m));
+          frustumOf(role, labels[static_cast<std::size_t>(i)], one.source.camera, *pose, centre_m));
   }
 }
 
@@ -175,6 +141,40 @@ std::vector<SceneLine> dashed(const SceneLine& line, const std::vector<double>& 
                         line.first + to / kDashesPerLine * along);
     from = to;
   }
+  return made;
+}
+
+Frustum frustumOf(PoseRole role, const QString& label, const Camera& camera,
+                  const Pose& camera_from_station, const Eigen::Vector3d& centre_m) {
+  Frustum made;
+  made.role = role;
+  made.label = label;
+  made.color = poseRoleStyle(role).color;
+  const Pose station_from_camera = camera_from_station.inverse();
+  made.apex_m = station_from_camera.translation_m;
+  const double depth_m = std::max(kFrustumShare * (centre_m - made.apex_m).norm(), 1e-6);
+  const double right = camera.width - 0.5;
+  const double bottom = camera.height - 0.5;
+  const std::array<Eigen::Vector2d, 4> corners = {
+      {{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}}};
+  for (std::size_t i = 0; i < 4; ++i)
+    made.corner_m[i] =
+        station_from_camera * (depth_m * rayOf(camera, corners[i].x(), corners[i].y()));
+  for (std::size_t i = 0; i < 4; ++i) {
+    addDashed(made.lines, {made.apex_m, made.corner_m[i]}, role);
+    addDashed(made.lines, {made.corner_m[i], made.corner_m[(i + 1) % 4]}, role);
+  }
+  const Eigen::Vector3d& left_m = made.corner_m[0];
+  const Eigen::Vector3d& right_m = made.corner_m[1];
+  const Eigen::Vector3d roof_m =
+      0.5 * (left_m + right_m) +
+      0.15 * (0.5 * (left_m + right_m) - 0.5 * (made.corner_m[2] + made.corner_m[3]));
+  addDashed(made.lines, {left_m, roof_m}, role);
+  addDashed(made.lines, {roof_m, right_m}, role);
+  // The frusta of a good run nearly coincide, so each role has its label in a place of its own.
+  const std::array<Eigen::Vector3d, kPoseRoles> places = {left_m, made.apex_m, made.corner_m[3],
+                                                          right_m, made.corner_m[2]};
+  made.label_at_m = places[static_cast<std::size_t>(role)];
   return made;
 }
 

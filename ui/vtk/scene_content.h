@@ -46,6 +46,10 @@ struct Frustum {
   Eigen::Vector3d label_at_m = Eigen::Vector3d::Zero();
 };
 
+/// `centre_m`: of the scene, towards which a share of the way is drawn.
+Frustum frustumOf(PoseRole role, const QString& label, const Camera& camera,
+                  const Pose& camera_from_station, const Eigen::Vector3d& centre_m);
+
 enum class ScenePointKind : std::uint8_t {
   kInlier,
   kOutlier,

@@ -144,6 +144,11 @@ void SceneOverlay::setMark(const std::optional<Eigen::Vector3d>& at_m) {
   update();
 }
 
+void SceneOverlay::setOver(std::function<void(QPainter&)> over) {
+  over_ = std::move(over);
+  update();
+}
+
 void SceneOverlay::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
@@ -157,6 +162,7 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
   paintNames(painter);
   paintMark(painter);
   paintLegend(painter);
+  if (over_) over_(painter);
   if (!note_.isEmpty()) {
     const QFontMetricsF metrics(font());
     paintText(painter, {8.0, 6.0 + metrics.ascent()}, note_, ink);

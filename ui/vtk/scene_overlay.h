@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include <QWidget>
@@ -21,6 +22,8 @@ class SceneOverlay : public QWidget {
   void setNote(const QString& note);
   /// The place that was pointed at last; none after another case.
   void setMark(const std::optional<Eigen::Vector3d>& at_m);
+  /// Drawn over the scene's names, below notes.
+  void setOver(std::function<void(QPainter&)> over);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -37,6 +40,7 @@ class SceneOverlay : public QWidget {
   Viewpoint view_;
   QString note_;
   std::optional<Eigen::Vector3d> mark_;
+  std::function<void(QPainter&)> over_;
 };
 
 }  // namespace boresight::ui

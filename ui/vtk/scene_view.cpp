@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QVBoxLayout>
 
+#include "ui/vtk/scene_annotator.h"
 #include "ui/vtk/scene_bar.h"
 #include "ui/vtk/scene_input.h"
 #include "ui/vtk/scene_overlay.h"
@@ -89,6 +90,18 @@ void SceneView::connectInput(const SceneInput& input) {
   connect(&input, &SceneInput::resized, this, &SceneView::updateView, Qt::QueuedConnection);
 }
 
+void SceneView::setAnnotation(AnnotationController& annotation, StationSnapper& snapper) {
+  annotator_ = new SceneAnnotator(*canvas(), annotation, snapper);
+  overlay_->setOver(
+      [this](QPainter& painter) { annotator_->paint(painter, QRectF(overlay_->rect())); });
+  connect(annotator_, &SceneAnnotator::changed, this, [this] {
+    overlay_->update();
+    updateNote();
+  });
+  connect(annotator_, &SceneAnnotator::told, this, &SceneView::told);
+  refreshSoon();
+}
+
 void SceneView::refreshSoon() {
   if (refresh_pending_) return;
   refresh_pending_ = true;
@@ -103,7 +116,11 @@ void SceneView::refreshSoon() {
 void SceneView::refresh() {
   refresh_pending_ = false;
   const std::shared_ptr<const SceneContent> before = content_;
-  content_ = std::make_shared<const SceneContent>(sceneContent(state_));
+  SceneContent now = sceneContent(state_);
+  if (annotator_ && !now.empty())
+    for (Frustum& frustum : annotator_->rigFrusta(now.bounds.centre()))
+      now.frusta.push_back(std::move(frustum));
+  content_ = std::make_shared<const SceneContent>(std::move(now));
   if (content_->one != before->one) {
     overlay_->setMark(std::nullopt);
     backdrop_.clear();
@@ -189,6 +206,7 @@ void SceneView::updateView() {
   }
   canvas_->setView(view, backdrop);
   overlay_->setView(view);
+  if (annotator_) annotator_->setShot({content_, look_, view, backdrop});
   updateNote();
 }
 
@@ -204,6 +222,8 @@ void SceneView::updateNote() {
   } else if (backend_ == SceneBackend::kPicture && !content_->empty()) {
     note = tr("Drawn without OpenGL");
   }
+  const QString step = annotator_ && !content_->empty() ? annotator_->nextStep() : QString();
+  if (!step.isEmpty()) note = step;
   overlay_->setNote(note);
 }
 
@@ -217,16 +237,21 @@ void SceneView::changeEvent(QEvent* event) {
   if (event->type() == QEvent::PaletteChange) updateLook();
 }
 
-void SceneView::pick(const QPointF& at) {
+void SceneView::pick(const QPointF& at, Qt::KeyboardModifiers modifiers) {
   if (content_->empty()) return;
+  if (annotator_ && annotator_->click(at, modifiers)) return;
+  pickInScene(at - QPointF(0.5, 0.5));  // the centre of the top-left pixel is (0, 0)
+}
+
+void SceneView::pickInScene(const QPointF& pixel) {
   const Viewpoint view = viewpoint();
-  const int picked = look_.shown.points ? pickTemplate(*content_, view, at) : -1;
+  const int picked = look_.shown.points ? pickTemplate(*content_, view, pixel) : -1;
   if (picked >= 0) {
     readout_->setText(tr("Template %1").arg(picked));
     state_.selectTemplate(picked);
     return;
   }
-  const std::optional<MeshPick> place = pickMesh(*content_, view, at);
+  const std::optional<MeshPick> place = pickMesh(*content_, view, pixel);
   overlay_->setMark(place ? std::optional(place->at_m) : std::nullopt);
   if (!place) {
     readout_->setText(tr("Nothing there: click a template or a point of the mesh."));

@@ -18,9 +18,12 @@ class QLabel;
 
 namespace boresight::ui {
 
+class AnnotationController;
+class SceneAnnotator;
 class SceneBar;
 class SceneInput;
 class SceneOverlay;
+class StationSnapper;
 
 /// The station with its cameras in space. It follows the view state; dragging orbits (the station's
 /// z axis stays upright), the middle button or Shift pans, the wheel zooms, a click picks a
@@ -33,6 +36,11 @@ class SceneView : public QWidget {
   explicit SceneView(ViewState& state, QWidget* parent = nullptr,
                      SceneBackend backend = sceneBackend());
   ~SceneView() override;
+
+  /// Lets somebody annotate in it; both must outlive it.
+  void setAnnotation(AnnotationController& annotation, StationSnapper& snapper);
+  /// nullptr before.
+  SceneAnnotator* annotator() const { return annotator_; }
 
   SceneBackend backend() const { return backend_; }
   QWidget* canvas() const { return canvas_->widget(); }
@@ -62,6 +70,8 @@ class SceneView : public QWidget {
   /// A click on the mesh: the place in the station frame, and its vertex when it snapped to one.
   void meshPointPicked(const Eigen::Vector3d& point_in_station_m, int vertex);
   void throughCameraChanged(bool through);
+  /// One sentence for people.
+  void told(const QString& sentence);
 
  protected:
   void showEvent(QShowEvent* event) override;
@@ -76,13 +86,15 @@ class SceneView : public QWidget {
   void updateView();
   void updateNote();
   Pose throughPose() const;
-  void pick(const QPointF& at);
+  void pick(const QPointF& at, Qt::KeyboardModifiers modifiers);
+  void pickInScene(const QPointF& pixel);
 
   ViewState& state_;
   SceneBackend backend_;
   std::unique_ptr<SceneCanvas> canvas_;
   SceneBar* bar_ = nullptr;
   SceneOverlay* overlay_ = nullptr;
+  SceneAnnotator* annotator_ = nullptr;
   QLabel* readout_ = nullptr;
 
   std::shared_ptr<const SceneContent> content_;

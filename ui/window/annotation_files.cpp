@@ -5,11 +5,14 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QStringList>
 
 #include "sessions/annotation/landmarks.h"
 #include "sessions/annotation/marks_file.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/annotation_panel.h"
+#include "ui/models/number_text.h"
+#include "ui/run/task_runner.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
 
@@ -30,6 +33,12 @@ AnnotationFiles::AnnotationFiles(QWidget& window, const WindowParts& parts, Anno
     : QObject(&window), window_(window), parts_(parts) {
   connect(&panel, &AnnotationPanel::importRequested, this, &AnnotationFiles::askForImport);
   connect(&panel, &AnnotationPanel::exportRequested, this, &AnnotationFiles::askForExport);
+  connect(&panel, &AnnotationPanel::exportColmapRequested, this,
+          &AnnotationFiles::askForColmapExport);
+  connect(&panel, &AnnotationPanel::exportBopRequested, this, &AnnotationFiles::askForBopExport);
+  connect(&panel, &AnnotationPanel::importColmapRequested, this,
+          &AnnotationFiles::askForColmapImport);
+  connect(&panel, &AnnotationPanel::importBopRequested, this, &AnnotationFiles::askForBopImport);
   connect(&panel, &AnnotationPanel::openLandmarksRequested, this,
           &AnnotationFiles::askForLandmarks);
   connect(&panel, &AnnotationPanel::saveLandmarksRequested, this,
@@ -62,6 +71,51 @@ bool AnnotationFiles::exportMarks(const std::filesystem::path& file) {
   });
 }
 
+/// Images may have to be undistorted: off this thread.
+void AnnotationFiles::exportPoses(Exporter exporter, const std::filesystem::path& folder) {
+  parts_.annotation.finishMove();
+  parts_.tasks.start(
+      QStringLiteral("export poses"),
+      [exporter, folder, session = parts_.document.session(), robust = parts_.annotation.robust()](
+          const std::stop_token&) { return exporter(session, folder, {}, robust); },
+      [this, folder](const sessions::ExportReport& report) {
+        QStringList notes;
+        for (const std::string& note : report.notes) notes << fromText(note);
+        Q_EMIT noted(tr("%1 poses written to %2. %3")
+                         .arg(report.case_ids.size())
+                         .arg(nameOf(folder), notes.join(QLatin1Char(' '))));
+      });
+}
+
+bool AnnotationFiles::importPoses(Importer importer, const std::filesystem::path& folder) {
+  return attempt([&] {
+    parts_.annotation.finishMove();
+    const sessions::ImportReport report = importer(parts_.document.session(), folder, true);
+    QStringList notes;
+    for (const std::string& note : report.notes) notes << fromText(note);
+    if (!parts_.document.edit(report.session, tr("Import poses of %1").arg(nameOf(folder)))) return;
+    Q_EMIT noted(tr("%1 cases have their truth from %2 now. %3")
+                     .arg(report.case_ids.size())
+                     .arg(nameOf(folder), notes.join(QLatin1Char(' '))));
+  });
+}
+
+void AnnotationFiles::exportColmap(const std::filesystem::path& folder) {
+  exportPoses(&sessions::exportColmap, folder);
+}
+
+void AnnotationFiles::exportBop(const std::filesystem::path& folder) {
+  exportPoses(&sessions::exportBop, folder);
+}
+
+bool AnnotationFiles::importColmap(const std::filesystem::path& folder) {
+  return importPoses(&sessions::importColmap, folder);
+}
+
+bool AnnotationFiles::importBop(const std::filesystem::path& folder) {
+  return importPoses(&sessions::importBop, folder);
+}
+
 bool AnnotationFiles::openLandmarks(const std::filesystem::path& file) {
   return attempt([&] {
     const auto landmarks = sessions::readLandmarks(file);  // before the session names it
@@ -91,6 +145,33 @@ void AnnotationFiles::askForExport() {
   if (file.isEmpty()) return;
   if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".json");
   exportMarks(file.toStdString());
+}
+
+QString AnnotationFiles::newFolder(const QString& title, const QString& name) {
+  return QFileDialog::getSaveFileName(&window_, title, name);
+}
+
+void AnnotationFiles::askForColmapExport() {
+  const QString folder =
+      newFolder(tr("New folder for a COLMAP text model"), QStringLiteral("colmap"));
+  if (!folder.isEmpty()) exportColmap(folder.toStdString());
+}
+
+void AnnotationFiles::askForBopExport() {
+  const QString folder = newFolder(tr("New folder for a BOP scene"), QStringLiteral("000001"));
+  if (!folder.isEmpty()) exportBop(folder.toStdString());
+}
+
+void AnnotationFiles::askForColmapImport() {
+  const QString folder = QFileDialog::getExistingDirectory(
+      &window_, tr("Folder of a COLMAP text model (cameras.txt, images.txt)"));
+  if (!folder.isEmpty()) importColmap(folder.toStdString());
+}
+
+void AnnotationFiles::askForBopImport() {
+  const QString folder = QFileDialog::getExistingDirectory(
+      &window_, tr("Folder of a BOP scene (scene_gt.json, scene_camera.json)"));
+  if (!folder.isEmpty()) importBop(folder.toStdString());
 }
 
 void AnnotationFiles::askForLandmarks() {

@@ -13,7 +13,9 @@
 #include <QUrl>
 
 #include "ui/annotation/image_annotation.h"
+#include "ui/annotation/station_snapper.h"
 #include "ui/views/image_panel.h"
+#include "ui/vtk/scene_view.h"
 #include "ui/window/annotation_files.h"
 #include "ui/window/input_findings.h"
 #include "ui/window/levels_controller.h"
@@ -91,6 +93,9 @@ void MainWindow::connectAll() {
           [this](const QString& message) { statusBar()->showMessage(message); });
   connect(&annotation_, &AnnotationController::told, this,
           [this](const QString& message) { statusBar()->showMessage(message); });
+  connect(&docks_->scene(), &SceneView::told, this,
+          [this](const QString& message) { statusBar()->showMessage(message); });
+  connect(&docks_->snapper(), &StationSnapper::failed, this, &MainWindow::showMessage);
   connect(&docks_->imageAnnotation(), &ImageAnnotation::told, this,
           [this](const QString& message) { statusBar()->showMessage(message); });
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);

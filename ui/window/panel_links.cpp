@@ -74,6 +74,8 @@ void PanelLinks::linkConfiguration() {
 void PanelLinks::linkPoses() {
   connect(&docks_.poses(), &PosePanel::useAsSeedRequested, &parts_.cases,
           &CaseController::useAsSeed);
+  connect(&docks_.annotation(), &AnnotationPanel::openCaseRequested, &parts_.cases,
+          &CaseController::chooseCase);
   connect(&docks_.annotation(), &AnnotationPanel::useAsSeedRequested, &parts_.cases,
           &CaseController::useAsSeed);
   connect(&docks_.poses(), &PosePanel::gestureFinished, &parts_.cases,

@@ -21,6 +21,7 @@ namespace boresight::ui {
 namespace {
 
 constexpr int kPatienceMs = 120'000;
+constexpr double kMarkScale = 2.0;  // of the image round a mark that somebody works on
 
 /// Lets the event loop run until something holds; false when it takes too long.
 bool waitUntil(const std::function<bool()>& holds) {
@@ -37,7 +38,7 @@ bool waitUntil(const std::function<bool()>& holds) {
 
 bool isResting(MainWindow& window) {
   const auto* match = window.findChild<MatchView*>();
-  return !window.tasks().isBusy() && !window.findings().isBusy() &&
+  return !window.tasks().isBusy() && !window.annotation().stale() && !window.findings().isBusy() &&
          window.run().state() != RunState::kWorking && !(match && match->isComputing());
 }
 
@@ -52,6 +53,19 @@ QString knownViews(const MainWindow& window) {
   QStringList names = {QStringLiteral("window"), QStringLiteral("image")};
   for (const QDockWidget* dock : window.findChildren<QDockWidget*>()) names << dock->objectName();
   return names.join(QStringLiteral(", "));
+}
+
+/// As somebody has it who places this mark: the desk in front, the mark magnified. False when there
+/// is no such mark.
+bool workOn(MainWindow& window, const QString& mark) {
+  AnnotationController& annotation = window.annotation();
+  annotation.setMode(PlaceMode::kPoint);
+  annotation.select(mark.toStdString());
+  if (QDockWidget* dock = window.dock(QStringLiteral("annotation"))) dock->raise();
+  const sessions::PointPair* point = annotation.selectedPoint();
+  if (point && point->pixel)
+    window.image().view().centreOn({point->pixel->x(), point->pixel->y()}, kMarkScale);
+  return !annotation.selected().empty();
 }
 
 }  // namespace
@@ -102,6 +116,8 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
   if (iteration && !iteration->templates.empty() && window.state().selectedTemplate() < 0)
     window.state().selectTemplate(0);
   window.image().view().fit();
+  if (!order.mark.isEmpty() && !workOn(window, order.mark))
+    return QObject::tr("the shown case has no mark '%1'").arg(order.mark);
   waitUntil(resting);
   QApplication::processEvents();
   const QPixmap picture = shown->grab();

@@ -15,6 +15,7 @@ struct ScreenshotOrder {
   std::filesystem::path out;
   QString view;  ///< object name of a dock, "image", or "" for the whole window
   QSize size = QSize(1600, 1000);
+  QString mark;  ///< id of a mark that somebody works on, in the middle of the image; "": none
   int iteration = -2;  ///< index to show; -1: the seed; -2: the last
 };
 

@@ -46,7 +46,7 @@ struct Fixed {
 
 /// Keys that are no actions of a menu: those of the image, the scene, tables and the field for
 /// nudging, each where the pointer or the focus is.
-constexpr std::array<Fixed, 23> kFixed = {{
+constexpr std::array<Fixed, 27> kFixed = {{
     {QT_TR_NOOP("Image: wheel"), QT_TR_NOOP("Zoom at the cursor")},
     {QT_TR_NOOP("Image: drag"), QT_TR_NOOP("Move the image")},
     {QT_TR_NOOP("Image: double click, 0"), QT_TR_NOOP("Show the whole image")},
@@ -64,6 +64,12 @@ constexpr std::array<Fixed, 23> kFixed = {{
     {QT_TR_NOOP("Scene: 1 to 7"), QT_TR_NOOP("Look from a fixed direction")},
     {QT_TR_NOOP("Scene: V"), QT_TR_NOOP("Look through the camera")},
     {QT_TR_NOOP("Scene: +, -, arrows"), QT_TR_NOOP("Zoom and turn")},
+    {QT_TR_NOOP("Scene, marking: click"), QT_TR_NOOP("Mark a place, in line mode an edge")},
+    {QT_TR_NOOP("Scene, marking: Tab, Alt held"),
+     QT_TR_NOOP("Snap to another thing, to nothing but the surface")},
+    {QT_TR_NOOP("Scene, marking: Ctrl+wheel"), QT_TR_NOOP("Magnification of the loupe")},
+    {QT_TR_NOOP("Scene, marking: Escape, Del"),
+     QT_TR_NOOP("Drop the choice, then the mode; remove the mark")},
     {QT_TR_NOOP("Nudging: arrows"), QT_TR_NOOP("Move right, left, up, down")},
     {QT_TR_NOOP("Nudging: Page Up, Page Down"), QT_TR_NOOP("Move away, nearer")},
     {QT_TR_NOOP("Nudging: with Ctrl"), QT_TR_NOOP("Turn instead of moving")},

@@ -9,6 +9,7 @@
 #include "ui/annotation/annotation_panel.h"
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
+#include "ui/annotation/twin_view.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/input_sheet_panel.h"
@@ -46,8 +47,9 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       mask_editor_(new MaskEditor(image_->view(), image_)),
       mask_(new MaskPanel(*mask_editor_)),
       levels_(new LevelsPanel(image_->display())),
-      annotation_(new AnnotationPanel(parts.annotation, parts.state)),
+      annotation_(new AnnotationPanel(parts.document, parts.annotation, parts.state)),
       snapper_(new StationSnapper(parts.state, &window)),
+      scene_(new SceneView(parts.state)),
       image_annotation_(
           new ImageAnnotation(*image_, parts.annotation, parts.state, *snapper_, image_)),
       warnings_(new WarningBar(tr("Inputs"), tr("Show all that is known of the inputs"))),
@@ -58,6 +60,11 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
                          QMainWindow::AllowTabbedDocks);
   // Tables of poses and options are long, the one of iterations is wide.
   window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  auto* twins = new TwinView(parts.annotation, parts.state, *snapper_);
+  QObject::connect(twins, &TwinView::otherRequested, &poses_->nudgeController(),
+                   &NudgeController::setPose);
+  annotation_->addBeside(twins);
+  scene_->setAnnotation(parts.annotation, *snapper_);
   buildCentre();
   add(QStringLiteral("cases"), tr("Cases"), cases_);
   add(QStringLiteral("layers"), tr("Layers"), new LayersPanel(*image_));
@@ -65,7 +72,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   add(QStringLiteral("levels"), tr("Levels"), levels_);
   add(QStringLiteral("pose"), tr("Pose"), poses_);
   add(QStringLiteral("configuration"), tr("Configuration"), configuration_);
-  add(QStringLiteral("scene"), tr("Scene"), new SceneView(parts.state));
+  add(QStringLiteral("scene"), tr("Scene"), scene_);
   add(QStringLiteral("iterations"), tr("Iterations"), new IterationsPanel(parts.state));
   add(QStringLiteral("inspector"), tr("Match inspector"), new MatchInspectorPanel(parts.state));
   add(QStringLiteral("annotation"), tr("Annotation"), annotation_);

@@ -22,6 +22,7 @@ class LevelsPanel;
 class MaskEditor;
 class MaskPanel;
 class PosePanel;
+class SceneView;
 class StationSnapper;
 class WarningBar;
 
@@ -41,9 +42,10 @@ class WindowDocks {
   MaskPanel& mask() const { return *mask_; }
   LevelsPanel& levels() const { return *levels_; }
   AnnotationPanel& annotation() const { return *annotation_; }
-  ImageAnnotation& imageAnnotation() const { return *image_annotation_; }
   /// What of the current case's mesh can be snapped to, for every view.
   StationSnapper& snapper() const { return *snapper_; }
+  SceneView& scene() const { return *scene_; }
+  ImageAnnotation& imageAnnotation() const { return *image_annotation_; }
   /// Above the image: what looks wrong with the case's inputs.
   WarningBar& warnings() const { return *warnings_; }
   /// The same for files that are missing or have changed.
@@ -75,6 +77,7 @@ class WindowDocks {
   LevelsPanel* levels_;
   AnnotationPanel* annotation_;
   StationSnapper* snapper_;
+  SceneView* scene_;
   ImageAnnotation* image_annotation_;
   WarningBar* warnings_;
   WarningBar* findings_;

@@ -33,8 +33,8 @@ class SceneViewTest : public ::testing::Test {
     EXPECT_TRUE(view_.viewpoint().toCanvas(at_m, pixel, depth_m));
     return pixel.toPoint();
   }
-  /// What is under the pointer after a click there: the middle of that screen pixel.
-  static QPointF middle(const QPoint& at) { return QPointF(at) + QPointF(0.5, 0.5); }
+  /// The canvas' pixel under the pointer after a click there; centres are at whole numbers.
+  static QPointF middle(const QPoint& at) { return QPointF(at); }
   void click(const QPoint& at) {
     QTest::mouseClick(view_.canvas(), Qt::LeftButton, Qt::NoModifier, at);
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/io/crc32.h"
+#include "core/base/crc32.h"
 
 #include <array>
 
-namespace boresight::sessions {
+namespace boresight {
 namespace {
 
 constexpr std::array<std::uint32_t, 256> crcTable() {
@@ -25,4 +25,4 @@ std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
   return c ^ 0xffffffffu;
 }
 
-}  // namespace boresight::sessions
+}  // namespace boresight

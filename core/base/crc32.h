@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace boresight {
+
+/// CRC-32 of ISO/IEC 15948 (PNG), zip and many others: finds damage, not malice.
+std::uint32_t crc32(std::span<const std::uint8_t> bytes);
+
+}  // namespace boresight

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/bytes.h"
+#include "core/localizer/localizer.h"
+#include "core/record/record_format.h"
+
+namespace boresight {
+
+/// What a run was given, by SHA-256. The caller knows the bytes that it was made of.
+struct RecordInputs {
+  using Hash = std::array<std::uint8_t, 32>;
+  Hash pixels{};  ///< the decoded 8-bit pixels that the core saw, row by row
+  Hash ignore{};  ///< of the mask's words; zeros without a mask
+  Hash scene{};   ///< of the parts, vertices and faces
+  Hash camera{};
+};
+
+/// Writes the onboard record of a run into memory of the caller's, without allocation:
+///
+///     RecordWriter record(bytes);
+///     record.begin(inputs, problem, options);
+///     while (!finished) { report = localizer.step(); record.note(localizer, report); }
+///     record.end(localizer);
+///     downlink(record.bytes());
+///
+/// A block that does not fit is left out, and a reader learns that it is missing; room for the end
+/// is kept from the start. A default run takes some 20 kB.
+class RecordWriter {
+ public:
+  /// `out` must outlive the writer. Fewer than kMinimumBytes hold nothing: bytes() stays empty.
+  explicit RecordWriter(std::span<std::uint8_t> out);
+  static constexpr std::size_t kMinimumBytes = kRecordHeaderBytes + kBlockBytes + kEndBytes;
+
+  void begin(const RecordInputs& inputs, const LocalizationProblem& problem,
+             const LocalizerOptions& options);
+  /// Options that hold from the next iteration on (Localizer::changeOptions).
+  void changeOptions(const LocalizerOptions& options, std::int32_t first_iteration);
+  /// After every step; most of them leave nothing to write.
+  void note(const Localizer& localizer, const StepReport& report);
+  void end(const Localizer& localizer);
+
+  std::span<const std::uint8_t> bytes() const { return out_.first(used_); }
+  /// Every block has found room.
+  bool complete() const { return complete_; }
+
+ private:
+  template <class Fill>
+  void add(RecordBlock type, const Fill& fill);
+
+  std::span<std::uint8_t> out_;
+  std::size_t used_ = 0;
+  std::size_t kept_free_ = kBlockBytes + kEndBytes;
+  std::uint32_t blocks_ = 0;  ///< those that found no room included
+  std::int32_t iterations_ = 0;
+  bool complete_ = true;
+};
+
+}  // namespace boresight

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// The record that the flight side downlinks (core/record/FORMAT.md), read on the ground.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/localizer/localizer.h"
+#include "core/localizer/option_bytes.h"
+#include "core/record/record_writer.h"
+
+namespace boresight::sessions {
+
+/// An option as the record has it, whether this program knows it or not.
+struct RecordedOption {
+  std::string name;
+  OptionKind kind = OptionKind::kReal;
+  std::uint64_t bits = 0;  ///< a real's bits; a signed integer else
+
+  double value() const;
+  bool operator==(const RecordedOption&) const = default;
+};
+
+struct RecordedOptions {
+  std::int32_t first_iteration = 0;  ///< they hold from here on
+  std::vector<RecordedOption> options;
+
+  bool operator==(const RecordedOptions&) const = default;
+};
+
+struct RecordedInputs {
+  RecordInputs sha256;
+  std::int32_t width = 0;  ///< px
+  std::int32_t height = 0;
+  Pose camera_from_station_seed;
+  SeedUncertainty uncertainty;
+};
+
+struct RecordedTemplate {
+  int x = 0, y = 0;  ///< centre, px at the iteration's level
+  bool searched = false;
+  bool at_border = false;
+  bool inlier = false;
+  float found_x = 0.0F, found_y = 0.0F;  ///< px at the level
+  float score = 0.0F;                    ///< WHS in [0, 2]
+  std::optional<float> second_score;
+};
+
+/// Figures of stages that the iteration did not reach are 0.
+struct RecordedIteration {
+  std::int32_t index = 0;
+  std::int32_t attempt = 0;
+  IterationKind kind = IterationKind::kMatch;
+  int level = 0;
+  Stage reached = Stage::kRender;
+  LocalizationStatus status = LocalizationStatus::kRunning;
+  double threshold_px = 0.0;
+  Pose camera_from_station_before;
+  Pose camera_from_station;  ///< after; as before when no pose came out
+  std::int32_t edge_pixels = 0;
+  std::int32_t template_side_px = 0;
+  std::int32_t templates_count = 0;
+  std::int32_t searched = 0;
+  std::int32_t correspondences = 0;
+  std::int32_t inliers = 0;
+  std::int32_t samples = 0;
+  std::int32_t refinement_samples = 0;
+  std::int32_t refinement_found = 0;
+  std::int32_t refinement_used = 0;
+  double rms_px = 0.0;
+  std::int32_t hypotheses = 0;
+  std::int32_t chosen_hypothesis = 0;
+  double roll_rad = 0.0;
+  double correction_translation_m = 0.0;
+  double correction_rotation_rad = 0.0;
+  double correction_image_px = 0.0;
+  std::optional<std::vector<RecordedTemplate>> templates;  ///< nothing: none, or not in the record
+  std::optional<EdgeSupport> support;  ///< of an iteration whose pose was judged by it
+};
+
+struct RecordedEnd {
+  LocalizationStatus status = LocalizationStatus::kRunning;
+  Status fault = Status::kOk;
+  std::int32_t iterations = 0;
+  std::int32_t attempts = 0;
+  Pose camera_from_station;
+  Matrix6d covariance = Matrix6d::Zero();
+  std::string digest;  ///< 64 hexadecimal digits
+};
+
+/// Everything of a record before its first damage.
+struct OnboardRecord {
+  std::optional<RecordedInputs> inputs;
+  std::vector<RecordedOptions> options;  ///< those that it started with, then changes
+  std::vector<RecordedIteration> iterations;
+  std::optional<RecordedEnd> end;
+  std::vector<std::string> missing;  ///< what is not there and why, for people; empty: it is whole
+
+  bool whole() const { return missing.empty(); }
+};
+
+/// Reads a record, whatever the bytes are. InputError (`file` names them) when they do not begin as
+/// a record of this version does.
+OnboardRecord parseRecord(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+/// The same of a file; InputError.
+OnboardRecord readRecord(const std::filesystem::path& file);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/rig_links.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace boresight::sessions {
+namespace {
+
+Session withRig(const Session& session, const std::string& case_id, std::optional<Rig> rig) {
+  SessionCase changed = *session.findCase(case_id);
+  changed.rig = std::move(rig);
+  return withCase(session, std::move(changed));
+}
+
+/// A rig's name that no other rig has.
+std::string unusedRigId(const Session& session, const std::string& wanted) {
+  const auto taken = [&](const std::string& id) {
+    for (const auto& one : session.cases)
+      if (one->rig && one->rig->id == id) return true;
+    return false;
+  };
+  std::string id = wanted;
+  for (int i = 2; taken(id); ++i) id = wanted + "-" + std::to_string(i);
+  return id;
+}
+
+}  // namespace
+
+std::vector<std::string> casesOfRig(const Session& session, const std::string& case_id) {
+  std::vector<std::string> ids;
+  const SessionCase* chosen = session.findCase(case_id);
+  if (chosen == nullptr || !chosen->rig) return ids;
+  for (const auto& one : session.cases)
+    if (one->id != case_id && one->rig && one->rig->id == chosen->rig->id) ids.push_back(one->id);
+  return ids;
+}
+
+std::optional<Pose> linkOfTruths(const SessionCase& one, const SessionCase& other) {
+  if (!one.camera_from_station_truth || !other.camera_from_station_truth) return {};
+  return *other.camera_from_station_truth * one.camera_from_station_truth->inverse();
+}
+
+Session withRigLink(const Session& session, const std::string& case_id, const std::string& other_id,
+                    const Pose& other_from_case) {
+  if (session.findCase(case_id) == nullptr || session.findCase(other_id) == nullptr ||
+      case_id == other_id)
+    throw std::invalid_argument("withRigLink: two different cases of the session are linked");
+  if (!other_from_case.isFinite())
+    throw std::invalid_argument("withRigLink: the pose between the cameras is not finite");
+  Session linked = withoutRigLink(session, other_id);
+  if (!linked.findCase(case_id)->rig)
+    linked = withRig(linked, case_id, Rig{unusedRigId(linked, case_id), Pose()});
+  const Rig& rig = *linked.findCase(case_id)->rig;
+  return withRig(linked, other_id, Rig{rig.id, other_from_case * rig.camera_from_rig});
+}
+
+Session withoutRigLink(const Session& session, const std::string& case_id) {
+  const SessionCase* chosen = session.findCase(case_id);
+  if (chosen == nullptr || !chosen->rig) return session;
+  const std::vector<std::string> others = casesOfRig(session, case_id);
+  Session unlinked = withRig(session, case_id, std::nullopt);
+  if (others.size() == 1) unlinked = withRig(unlinked, others.front(), std::nullopt);
+  return unlinked;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which cases of a session are images of cameras that are rigidly linked.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sessions/session/session.h"
+
+namespace boresight::sessions {
+
+/// Ids of the other cases of a case's rig, in the order of the session.
+std::vector<std::string> casesOfRig(const Session& session, const std::string& case_id);
+
+/// How one case's camera lies from another's as the true poses of both say; nothing where one of
+/// them has none.
+std::optional<Pose> linkOfTruths(const SessionCase& one, const SessionCase& other);
+
+/// The same session with `other_id` linked to the rig of `case_id`; a case without one becomes the
+/// reference of a new rig that has its name. `other_from_case` maps points of the case's camera
+/// frame into the other's: the identity for a second image by a camera that did not move. Any
+/// former link of the other case is dropped. std::invalid_argument when a case does not exist, both
+/// are the same, or the pose is not finite.
+Session withRigLink(const Session& session, const std::string& case_id, const std::string& other_id,
+                    const Pose& other_from_case);
+
+/// The same session with this case linked to no other; a rig of one case that remains is dissolved.
+Session withoutRigLink(const Session& session, const std::string& case_id);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/record/onboard_record.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "sessions/io/errors.h"
+#include "sessions/trace/record.h"
+#include "tests/support/example_case.h"
+#include "tests/support/random_pose.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::OnboardRecord;
+using sessions::parseRecord;
+using testing::HasSubstr;
+using Bytes = std::vector<std::uint8_t>;
+
+/// The example's run, once recorded on board and once traced on the ground.
+struct RecordedRun {
+  ExampleCase example{"os"};
+  LocalizerOptions options = defaultProfile();
+  Bytes bytes;
+  sessions::LocalizationTrace trace;
+
+  explicit RecordedRun(std::size_t room = 65536) {
+    options.templates.feature_size_m = 0.018;
+    const LocalizationProblem problem = example.problem();
+    std::size_t size = 0;
+    EXPECT_EQ(Localizer::requiredBytes(sizeOf(problem), options, size), Status::kOk);
+    std::vector<std::byte> memory(size);
+    Localizer localizer(problem, options, memory);
+    bytes.resize(room);
+    RecordWriter record(bytes);
+    RecordInputs inputs;
+    inputs.pixels.fill(7);
+    record.begin(inputs, problem, options);
+    StepReport report;
+    while (!report.finished) {
+      report = localizer.step();
+      record.note(localizer, report);
+    }
+    record.end(localizer);
+    bytes.resize(record.bytes().size());
+    trace = sessions::localize(problem, sessions::RunPlan(options), sessions::RecordLevel::kFull);
+  }
+};
+
+const RecordedRun& recordedRun() {
+  static const RecordedRun run;
+  return run;
+}
+
+void expectSame(const sessions::RecordedIteration& read, const sessions::IterationTrace& traced) {
+  EXPECT_EQ(read.index, traced.index);
+  EXPECT_EQ(read.attempt, traced.attempt);
+  EXPECT_EQ(read.kind, traced.kind);
+  EXPECT_EQ(read.level, traced.level);
+  EXPECT_EQ(read.reached, traced.reached);
+  EXPECT_EQ(read.status, traced.status);
+  EXPECT_EQ(read.threshold_px, traced.threshold_px);
+  EXPECT_EQ(read.camera_from_station_before, traced.camera_from_station_before);
+  EXPECT_EQ(read.camera_from_station, traced.camera_from_station);
+  EXPECT_EQ(read.edge_pixels, traced.edge_pixel_count);
+  EXPECT_EQ(read.templates_count, traced.template_count);
+  EXPECT_EQ(read.template_side_px, traced.template_side_px);
+  EXPECT_EQ(read.searched, traced.searched_count);
+  EXPECT_EQ(read.correspondences, traced.correspondence_count);
+  EXPECT_EQ(read.inliers, traced.pnp.inlier_count);
+  EXPECT_EQ(read.samples, traced.pnp.samples);
+  EXPECT_EQ(read.refinement_samples, traced.refinement.sample_count);
+  EXPECT_EQ(read.refinement_found, traced.refinement.found_count);
+  EXPECT_EQ(read.refinement_used, traced.refinement.used_count);
+  EXPECT_EQ(read.rms_px, traced.rms_px());
+  EXPECT_EQ(read.hypotheses, static_cast<int>(traced.hypotheses.size()));
+  EXPECT_EQ(read.chosen_hypothesis, traced.chosen_hypothesis);
+  EXPECT_EQ(read.correction_translation_m, traced.correction_translation_m);
+  EXPECT_EQ(read.correction_rotation_rad, traced.correction_rotation_rad);
+  EXPECT_EQ(read.correction_image_px, traced.correction_image_px);
+}
+
+void expectSameTemplates(const sessions::RecordedIteration& read,
+                         const sessions::IterationTrace& traced) {
+  ASSERT_EQ(read.templates.has_value(), !traced.templates.empty());
+  if (!read.templates) return;
+  ASSERT_EQ(read.templates->size(), traced.templates.size());
+  for (std::size_t i = 0; i < traced.templates.size(); ++i) {
+    const sessions::RecordedTemplate& one = (*read.templates)[i];
+    EXPECT_EQ(one.x, traced.templates[i].center_x);
+    EXPECT_EQ(one.y, traced.templates[i].center_y);
+    const Match& match = traced.matches[i];
+    ASSERT_EQ(one.searched, match.searched);
+    if (!match.searched) continue;
+    EXPECT_EQ(one.found_x, static_cast<float>(match.x));
+    EXPECT_EQ(one.found_y, static_cast<float>(match.y));
+    EXPECT_EQ(one.score, static_cast<float>(whsScore(match.peak.counts, match.norms)));
+    EXPECT_EQ(one.at_border, match.at_border);
+    EXPECT_EQ(one.second_score.has_value(), match.peak.has_second);
+    if (one.second_score) {
+      EXPECT_EQ(*one.second_score,
+                static_cast<float>(whsScore(match.peak.second_counts, match.norms)));
+    }
+  }
+  for (std::size_t c = 0; c < traced.template_of.size() && c < traced.pnp.inlier.size(); ++c)
+    EXPECT_EQ((*read.templates)[static_cast<std::size_t>(traced.template_of[c])].inlier,
+              traced.pnp.inlier[c] != 0);
+}
+
+TEST(OnboardRecord, SaysWhatTheRunDid) {
+  const RecordedRun& run = recordedRun();
+  const OnboardRecord read = parseRecord("r.whsr", run.bytes);
+  EXPECT_TRUE(read.whole()) << read.missing.front();
+  EXPECT_LT(run.bytes.size(), 65536u);
+  ASSERT_TRUE(read.inputs && read.end);
+  EXPECT_EQ(read.inputs->sha256.pixels[31], 7);
+  EXPECT_EQ(read.inputs->width, run.example.camera.width);
+  EXPECT_EQ(read.inputs->camera_from_station_seed, run.trace.camera_from_station_seed);
+  EXPECT_EQ(read.inputs->uncertainty.rotation_rad, run.trace.uncertainty.rotation_rad);
+  ASSERT_EQ(read.iterations.size(), run.trace.iterations.size());
+  for (std::size_t i = 0; i < read.iterations.size(); ++i) {
+    expectSame(read.iterations[i], run.trace.iterations[i]);
+    expectSameTemplates(read.iterations[i], run.trace.iterations[i]);
+  }
+  ASSERT_TRUE(read.iterations.back().support);
+  EXPECT_EQ(read.iterations.back().support->share(), run.trace.support.share());
+  EXPECT_EQ(read.end->status, run.trace.status);
+  EXPECT_EQ(read.end->digest, run.trace.digest);
+  EXPECT_EQ(read.end->camera_from_station, run.trace.camera_from_station);
+  EXPECT_EQ(read.end->covariance, run.trace.covariance);
+  EXPECT_EQ(read.end->attempts, run.trace.attempts);
+}
+
+TEST(OnboardRecord, HasEveryOption) {
+  const RecordedRun& run = recordedRun();
+  const OnboardRecord read = parseRecord("r.whsr", run.bytes);
+  ASSERT_EQ(read.options.size(), 1u);
+  std::size_t i = 0;
+  LocalizerOptions::visitFields(run.options, [&](const OptionInfo& info, const auto& field) {
+    ASSERT_LT(i, read.options[0].options.size());
+    const sessions::RecordedOption& option = read.options[0].options[i++];
+    EXPECT_EQ(option.name, info.name);
+    EXPECT_EQ(option.value(), static_cast<double>(field));
+  });
+  EXPECT_EQ(i, read.options[0].options.size());
+}
+
+/// What there is of `part` is as it is in `whole`.
+void expectBeginningOf(const OnboardRecord& part, const OnboardRecord& whole) {
+  ASSERT_LE(part.iterations.size(), whole.iterations.size());
+  for (std::size_t i = 0; i < part.iterations.size(); ++i) {
+    ASSERT_EQ(part.iterations[i].index, whole.iterations[i].index);
+    ASSERT_EQ(part.iterations[i].camera_from_station, whole.iterations[i].camera_from_station);
+    if (part.iterations[i].templates) {
+      ASSERT_EQ(part.iterations[i].templates->size(), whole.iterations[i].templates->size());
+    }
+  }
+  ASSERT_LE(part.options.size(), whole.options.size());
+  if (!part.options.empty()) {
+    ASSERT_EQ(part.options[0], whole.options[0]);
+  }
+  if (part.end) {
+    ASSERT_EQ(part.end->digest, whole.end->digest);
+  }
+}
+
+/// Where blocks end, by the format alone.
+std::vector<std::size_t> blockEnds(const Bytes& bytes) {
+  std::vector<std::size_t> ends = {12};
+  while (ends.back() < bytes.size()) {
+    const std::size_t at = ends.back() + 8;
+    const std::size_t length = (std::size_t{bytes[at]} << 24) | (std::size_t{bytes[at + 1]} << 16) |
+                               (std::size_t{bytes[at + 2]} << 8) | bytes[at + 3];
+    ends.push_back(ends.back() + 16 + length);
+  }
+  return ends;
+}
+
+TEST(OnboardRecord, CutOffAnywhereYieldsAllBefore) {
+  const RecordedRun& run = recordedRun();
+  const OnboardRecord whole = parseRecord("r.whsr", run.bytes);
+  const std::vector<std::size_t> ends = blockEnds(run.bytes);
+  ASSERT_EQ(ends.back(), run.bytes.size());
+  std::size_t blocks = 0;  // that are whole
+  std::size_t iterations = 0;
+  for (std::size_t size = 0; size < run.bytes.size(); ++size) {
+    // A block of its own size, so that a sanitizer sees every read beyond it.
+    const Bytes cut(run.bytes.begin(), run.bytes.begin() + static_cast<std::ptrdiff_t>(size));
+    if (size < 12) {
+      EXPECT_THROW((void)parseRecord("r.whsr", cut), sessions::InputError);
+      continue;
+    }
+    if (blocks + 1 < ends.size() && size == ends[blocks + 1]) {
+      const std::size_t begin = ends[blocks++];
+      iterations += run.bytes[begin] == 'I' && run.bytes[begin + 1] == 'T';
+    }
+    const OnboardRecord read = parseRecord("r.whsr", cut);
+    ASSERT_EQ(read.iterations.size(), iterations) << size;
+    ASSERT_EQ(read.inputs.has_value(), blocks >= 1);
+    ASSERT_EQ(read.options.size(), blocks >= 2 ? 1u : 0u);
+    ASSERT_FALSE(read.whole());
+    ASSERT_FALSE(read.end);
+    expectBeginningOf(read, whole);
+  }
+}
+
+TEST(OnboardRecord, FlippedBitsAreNeverTaken) {
+  const RecordedRun& run = recordedRun();
+  const OnboardRecord whole = parseRecord("r.whsr", run.bytes);
+  const std::vector<std::size_t> ends = blockEnds(run.bytes);
+  Random random = randomFor("OnboardRecord.Flips");
+  for (int trial = 0; trial < 3000; ++trial) {
+    Bytes bad = run.bytes;
+    const std::size_t at = random.below(static_cast<std::uint32_t>(bad.size()));
+    bad[at] = static_cast<std::uint8_t>(bad[at] ^ (1u << random.below(8)));
+    if (at < 12) {
+      EXPECT_THROW((void)parseRecord("r.whsr", bad), sessions::InputError);
+      continue;
+    }
+    const OnboardRecord read = parseRecord("r.whsr", bad);
+    ASSERT_FALSE(read.whole()) << at;
+    expectBeginningOf(read, whole);
+    // Everything up to the damaged block, and nothing of it or after it.
+    std::size_t before = 0;
+    for (std::size_t i = 0; ends[i + 1] <= at; ++i)
+      before += run.bytes[ends[i]] == 'I' && run.bytes[ends[i] + 1] == 'T';
+    ASSERT_EQ(read.iterations.size(), before) << at;
+  }
+  // Many bits at once: no crash, and nothing that was not written.
+  for (int trial = 0; trial < 1000; ++trial) {
+    Bytes bad = run.bytes;
+    for (std::uint32_t i = 1 + random.below(40); i > 0; --i) {
+      const std::size_t at = 12 + random.below(static_cast<std::uint32_t>(bad.size() - 12));
+      bad[at] = static_cast<std::uint8_t>(random.below(256));
+    }
+    expectBeginningOf(parseRecord("r.whsr", bad), whole);
+  }
+}
+
+TEST(OnboardRecord, SaysWhatFoundNoRoom) {
+  const RecordedRun& whole = recordedRun();
+  const RecordedRun small(whole.bytes.size() / 2);
+  const OnboardRecord read = parseRecord("r.whsr", small.bytes);
+  EXPECT_FALSE(read.whole());
+  ASSERT_TRUE(read.end);
+  EXPECT_EQ(read.end->digest, whole.trace.digest);
+  EXPECT_THAT(read.missing, testing::Contains(HasSubstr("found no room on board")));
+}
+
+TEST(OnboardRecord, RefusesOtherFiles) {
+  const TemporaryFolder folder;
+  const RecordedRun& run = recordedRun();
+  const auto message = [&](const Bytes& bytes) {
+    const auto file = folder.write("r.whsr", bytes);
+    return folder.message([&] { (void)sessions::readRecord(file); });
+  };
+  EXPECT_EQ(message(run.bytes), "(nothing)");
+  EXPECT_THAT(message({}), HasSubstr("r.whsr"));
+  EXPECT_THAT(message({'P', 'K'}), HasSubstr("is not an onboard record"));
+  Bytes newer = run.bytes;
+  newer[11] = 2;
+  EXPECT_THAT(message(newer), HasSubstr("is a record of version 2"));
+  Bytes longer = run.bytes;
+  longer.push_back(0);
+  EXPECT_THAT(parseRecord("r", longer).missing, testing::ElementsAre(HasSubstr("1 bytes follow")));
+}
+
+}  // namespace
+}  // namespace boresight::test

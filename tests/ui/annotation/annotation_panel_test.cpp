@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/annotation/annotation_panel.h"
+
+#include <QCheckBox>
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QTableView>
+#include <QTextBrowser>
+#include <QToolButton>
+
+#include "sessions/session/rig_links.h"
+#include "tests/ui/annotation/annotation_fixture.h"
+#include "ui/annotation/rig_menu.h"
+#include "ui/annotation/twin_view.h"
+
+namespace boresight::ui {
+namespace {
+
+class AnnotationPanelTest : public AnnotationTest {
+ protected:
+  void SetUp() override {
+    AnnotationTest::SetUp();
+    panel_ = std::make_unique<AnnotationPanel>(document_, controller_, state_);
+    panel_->resize(1100, 400);
+    panel_->show();
+  }
+
+  template <class Widget>
+  Widget& find(const char* name) {
+    auto* found = panel_->findChild<Widget*>(QString::fromLatin1(name));
+    EXPECT_NE(found, nullptr) << name;
+    return *found;
+  }
+  QString headline() { return find<QLabel>("headline").text(); }
+  QString summary() { return find<QTextBrowser>("solution").toPlainText(); }
+  void clickCell(int row, int column) {
+    QTableView& table = panel_->table();
+    QTest::mouseClick(table.viewport(), Qt::LeftButton, {},
+                      table.visualRect(table.model()->index(row, column)).center());
+  }
+
+  /// Four points of a small square far away: two poses explain them when they are seen with noise.
+  sessions::Marks smallSquare() const {
+    sessions::Marks marks;
+    for (int i = 0; i < 4; ++i) {
+      sessions::PointPair point;
+      point.id = "s" + std::to_string(i);
+      point.point_in_station_m = Eigen::Vector3d((i & 1) * 0.008, (i >> 1) * 0.008, 0.0);
+      point.pixel = pixelOf(*point.point_in_station_m) + Eigen::Vector2d(0.2 * (i - 1.5), 0.0);
+      point.sigma_px = 0.5;
+      marks.points.push_back(point);
+    }
+    return marks;
+  }
+
+  std::unique_ptr<AnnotationPanel> panel_;
+};
+
+TEST_F(AnnotationPanelTest, SaysWhatIsMissingThenWhatWasSolvedAndWhenThatIsOutOfDate) {
+  EXPECT_FALSE(headline().isEmpty());
+  controller_.placeInImage({100.0, 100.0});
+  ASSERT_TRUE(solved());
+  EXPECT_TRUE(find<QLabel>("geometryMeter").text().contains(QStringLiteral("too few")));
+  EXPECT_FALSE(find<QPushButton>("annotationAsTruth").isEnabled());
+  controller_.remove("p1");
+  const auto ids = markCorners(8);
+  EXPECT_TRUE(headline().contains(QStringLiteral("Stale"))) << headline().toStdString();
+  EXPECT_FALSE(find<QTextBrowser>("solution").isEnabled());
+  ASSERT_TRUE(solved());
+  EXPECT_TRUE(headline().startsWith(QStringLiteral("Solved from 8 marks")));
+  for (const char* said : {"normal", "lateral", "rotation", "seed", "truth"})
+    EXPECT_TRUE(summary().contains(QString::fromLatin1(said))) << said;
+}
+
+TEST_F(AnnotationPanelTest, TheTableChoosesTurnsOffAndRemoves) {
+  const auto ids = markCorners(5);
+  clickCell(2, MarksModel::kName);
+  EXPECT_EQ(controller_.selected(), ids[2]);
+  QTest::keyClick(panel_.get(), Qt::Key_Space);
+  EXPECT_FALSE(controller_.marks().points[2].enabled);
+  EXPECT_EQ(document_.undoText(), QStringLiteral("Turn p3 off"));
+  QTest::keyClick(panel_.get(), Qt::Key_Delete);
+  EXPECT_EQ(controller_.marks().points.size(), 4u);
+  ASSERT_TRUE(document_.undo());
+  ASSERT_TRUE(document_.undo());
+  EXPECT_TRUE(controller_.marks().points[2].enabled);
+  controller_.select(ids[4]);
+  EXPECT_EQ(panel_->table().currentIndex().row(), 4) << "the table follows the other views";
+  QAbstractItemModel& model = *panel_->table().model();
+  ASSERT_TRUE(model.setData(model.index(1, MarksModel::kComment), QStringLiteral("rim")));
+  EXPECT_EQ(controller_.marks().points[1].comment, "rim");
+}
+
+TEST_F(AnnotationPanelTest, ButtonsSetModeWeightsAndTruth) {
+  QTest::mouseClick(&find<QToolButton>("placePoints"), Qt::LeftButton);
+  EXPECT_EQ(controller_.mode(), PlaceMode::kPoint);
+  QTest::mouseClick(&find<QToolButton>("placeLines"), Qt::LeftButton);
+  EXPECT_EQ(controller_.mode(), PlaceMode::kLine);
+  EXPECT_FALSE(find<QToolButton>("placePoints").isChecked());
+  QTest::mouseClick(&find<QToolButton>("placeLines"), Qt::LeftButton);
+  EXPECT_EQ(controller_.mode(), PlaceMode::kOff);
+  const auto ids = markCorners(8);
+  ASSERT_TRUE(solved());
+  const Pose before = *controller_.solvedPose();
+  controller_.dragInImage(ids[0], pixelOf(corners_m(8)[0]) + Eigen::Vector2d(0.0, 20.0));
+  controller_.finishMove();
+  ASSERT_TRUE(solved());
+  const auto far_off = (controller_.solvedPose()->translation_m - before.translation_m).norm();
+  find<QCheckBox>("robust").click();
+  ASSERT_TRUE(controller_.robust() && solved());
+  EXPECT_LT((controller_.solvedPose()->translation_m - before.translation_m).norm(), 0.1 * far_off);
+  QTest::mouseClick(&find<QPushButton>("annotationAsTruth"), Qt::LeftButton);
+  EXPECT_EQ(document_.session().findCase(source().id)->camera_from_station_truth,
+            controller_.solvedPose());
+}
+
+TEST_F(AnnotationPanelTest, BothPosesOfAPlaneStandSideBySide) {
+  StationSnapper snapper(state_);
+  auto* twins = new TwinView(controller_, state_, snapper);
+  panel_->addBeside(twins);
+  EXPECT_FALSE(twins->isVisibleTo(panel_.get()));
+  controller_.setMarks(smallSquare(), QStringLiteral("Import"));
+  ASSERT_TRUE(solved());
+  ASSERT_TRUE(controller_.solution()->twin_camera_from_station()) << "the case is not ambiguous";
+  EXPECT_TRUE(twins->isVisibleTo(panel_.get()));
+  EXPECT_TRUE(summary().contains(QStringLiteral("Two poses explain")));
+  auto& theirs = find<QLabel>("twinOther");
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return !theirs.pixmap(Qt::ReturnByValue).isNull(); }, kPatience_ms));
+  EXPECT_NE(theirs.pixmap(Qt::ReturnByValue).toImage(),
+            find<QLabel>("twinOurs").pixmap(Qt::ReturnByValue).toImage());
+  Pose asked;
+  QObject::connect(twins, &TwinView::otherRequested, twins,
+                   [&](const Pose& pose) { asked = pose; });
+  QTest::mouseClick(&find<QPushButton>("lookAtTwin"), Qt::LeftButton);
+  EXPECT_EQ(asked, *controller_.solution()->twin_camera_from_station());
+}
+
+TEST_F(AnnotationPanelTest, CasesThatAreLinkedAreSolvedAsOne) {
+  const std::string first = source().id;
+  sessions::SessionCase second = source();
+  second.id = "second image";
+  ASSERT_TRUE(document_.edit(sessions::withCase(document_.session(), second),
+                             QStringLiteral("Add a case")));
+  auto& menu = static_cast<RigMenu&>(*find<QToolButton>("rig").menu());
+  const auto action = [&](const QString& text) -> QAction* {
+    Q_EMIT menu.aboutToShow();
+    for (QAction* each : menu.findChildren<QAction*>())
+      if (each->text().contains(text)) return each;
+    return nullptr;
+  };
+  QAction* link = action(QStringLiteral("not moved"));
+  ASSERT_NE(link, nullptr);
+  link->trigger();
+  EXPECT_EQ(sessions::casesOfRig(document_.session(), first),
+            std::vector<std::string>{"second image"});
+  // Three marks in either image: one alone would not do without its seed.
+  const auto places_m = corners_m(6);
+  for (std::size_t i = 0; i < 3; ++i) {
+    controller_.placeInImage(pixelOf(places_m[i]));
+    controller_.placeOnStation(places_m[i]);
+  }
+  open("second image");
+  for (std::size_t i = 3; i < 6; ++i) {
+    controller_.placeInImage(pixelOf(places_m[i]));
+    controller_.placeOnStation(places_m[i]);
+  }
+  ASSERT_TRUE(solved());
+  ASSERT_TRUE(controller_.solvedPose());
+  EXPECT_EQ(controller_.solution()->result.solution->marks.size(), 6u);
+  EXPECT_LT((controller_.solvedPose()->translation_m - truth().translation_m).norm(), 1e-6);
+  EXPECT_TRUE(summary().contains(QStringLiteral("Cameras solved together")));
+  find<QCheckBox>("together").click();
+  ASSERT_TRUE(solved());
+  EXPECT_EQ(controller_.solution()->marks.views.size(), 1u);
+  QAction* unlink = action(QStringLiteral("out of this rig"));
+  ASSERT_NE(unlink, nullptr);
+  unlink->trigger();
+  EXPECT_FALSE(document_.session().findCase(first)->rig);
+}
+
+}  // namespace
+}  // namespace boresight::ui

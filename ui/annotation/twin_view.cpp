@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/annotation/twin_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QPainterPath>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "sessions/annotation/edge_band.h"
+#include "ui/views/layer.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr double kMargin = 0.35;   // of the marks' box, round it
+constexpr double kLeastSide = 64;  // px of the image
+constexpr int kDrawn_px = 480;     // side of a picture before it is scaled to its place
+constexpr double kStep_px = 4.0;
+
+struct Drawing {
+  ViewState::CasePtr one;
+  StationSnapper::MeshPtr mesh;
+  sessions::Marks marks;
+  Camera camera;
+  std::array<Pose, 2> camera_from_station;
+};
+
+/// A square round the marks in the image, px.
+QRectF areaOf(const Drawing& drawing) {
+  QRectF box;
+  for (const sessions::PointPair& point : drawing.marks.points)
+    if (point.used()) box |= QRectF(point.pixel->x() - 0.5, point.pixel->y() - 0.5, 1.0, 1.0);
+  const double side =
+      std::max((1.0 + 2.0 * kMargin) * std::max(box.width(), box.height()), kLeastSide);
+  return {box.center().x() - 0.5 * side, box.center().y() - 0.5 * side, side, side};
+}
+
+QImage backdrop(const boresight::ImageView& image, const QRectF& area) {
+  QImage drawn(kDrawn_px, kDrawn_px, QImage::Format_RGB32);
+  drawn.fill(Qt::darkGray);
+  for (int y = 0; y < kDrawn_px; ++y)
+    for (int x = 0; x < kDrawn_px; ++x) {
+      const int column =
+          static_cast<int>(std::lround(area.x() + (x + 0.5) / kDrawn_px * area.width()));
+      const int row =
+          static_cast<int>(std::lround(area.y() + (y + 0.5) / kDrawn_px * area.height()));
+      if (column < 0 || row < 0 || column >= image.width || row >= image.height) continue;
+      const int gray = image.at(column, row);
+      drawn.setPixel(x, y, qRgb(gray, gray, gray));
+    }
+  return drawn;
+}
+
+QImage draw(const Drawing& drawing, std::size_t which) {
+  const QRectF area = areaOf(drawing);
+  QImage drawn = backdrop(drawing.one->image.view(), area);
+  QPainter painter(&drawn);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const double scale = kDrawn_px / area.width();
+  const auto place = [&](const Eigen::Vector2d& pixel) {
+    return QPointF((pixel.x() - area.x()) * scale, (pixel.y() - area.y()) * scale);
+  };
+  painter.setPen(QPen(kAnnotatedColor, 2.0));
+  const auto pieces =
+      sessions::edgeBand(*drawing.mesh, drawing.camera, drawing.camera_from_station[which],
+                         Matrix6d::Zero(), kStep_px);
+  for (const sessions::BandPiece& piece : pieces) {
+    QPolygonF line;
+    for (const sessions::BandPlace& each : piece.places) line << place(each.pixel);
+    painter.drawPolyline(line);
+  }
+  painter.setPen(QPen(QColor(255, 210, 0), 2.0));
+  for (const sessions::PointPair& point : drawing.marks.points)
+    if (point.used()) painter.drawEllipse(place(*point.pixel), 6.0, 6.0);
+  return drawn;
+}
+
+}  // namespace
+
+TwinView::TwinView(AnnotationController& controller, ViewState& state, StationSnapper& snapper,
+                   QWidget* parent)
+    : QWidget(parent), controller_(controller), state_(state), snapper_(snapper) {
+  setObjectName(QStringLiteral("twinView"));
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  ours_ = half(QStringLiteral("twinOurs"));
+  other_ = half(QStringLiteral("twinOther"));
+  auto* pictures = new QHBoxLayout;
+  auto* captions = new QHBoxLayout;
+  for (Half* each : {&ours_, &other_}) {
+    pictures->addWidget(each->picture, 1);
+    captions->addWidget(each->caption, 1);
+  }
+  auto* look = new QPushButton(tr("Look at the other"), this);
+  look->setObjectName(QStringLiteral("lookAtTwin"));
+  look->setToolTip(
+      tr("Nudge the shown pose to the other one: all views show it, and it can become "
+         "the seed"));
+  auto* foot = new QHBoxLayout;
+  foot->addStretch(1);
+  foot->addWidget(look);
+  column->addLayout(pictures, 1);
+  column->addLayout(captions);
+  column->addLayout(foot);
+  connect(look, &QPushButton::clicked, this, [this] {
+    if (const auto pose = other()) Q_EMIT otherRequested(*pose);
+  });
+  connect(&controller_, &AnnotationController::solutionChanged, this, &TwinView::showSolution);
+  connect(&snapper_, &StationSnapper::meshChanged, this, &TwinView::showSolution);
+  showSolution();
+}
+
+TwinView::Half TwinView::half(const QString& name) {
+  Half made;
+  made.picture = new QLabel(this);
+  made.picture->setObjectName(name);
+  made.picture->setMinimumSize(130, 96);
+  made.picture->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);
+  made.picture->setAlignment(Qt::AlignCenter);
+  made.caption = new QLabel(this);
+  made.caption->setAlignment(Qt::AlignCenter);
+  return made;
+}
+
+std::optional<Pose> TwinView::other() const {
+  const auto& solution = controller_.solution();
+  return solution ? solution->twin_camera_from_station() : std::nullopt;
+}
+
+void TwinView::showSolution() {
+  const auto pose = controller_.solvedPose();
+  const auto twin = other();
+  setVisible(pose && twin);
+  if (!pose || !twin) return;
+  const sessions::MarksSolution& solution = *controller_.solution()->result.solution;
+  ours_.caption->setText(tr("this: %1 px rms").arg(QString::number(solution.rms_px, 'f', 3)));
+  other_.caption->setText(
+      tr("other: %1 px rms").arg(QString::number(solution.twin->rms_px, 'f', 3)));
+  if (!snapper_.mesh() || !state_.currentCase()) return;
+  const sessions::MarkedView& view = controller_.solution()->marks.views.front();
+  const Drawing drawing = {
+      state_.currentCase(), snapper_.mesh(), view.marks, view.camera, {*pose, *twin}};
+  runner_.start(
+      QStringLiteral("draw twins"),
+      [drawing](const std::stop_token&) {
+        return std::array<QImage, 2>{draw(drawing, 0), draw(drawing, 1)};
+      },
+      [this](const std::array<QImage, 2>& drawn) {
+        ours_.drawn = drawn[0];
+        other_.drawn = drawn[1];
+        showPictures();
+      });
+}
+
+void TwinView::showPictures() {
+  for (Half* each : {&ours_, &other_}) {
+    if (each->drawn.isNull()) continue;
+    const double ratio = devicePixelRatioF();
+    QPixmap scaled = QPixmap::fromImage(each->drawn.scaled(
+        each->picture->size() * ratio, Qt::KeepAspectRatio, Qt::SmoothTransformation));
+    scaled.setDevicePixelRatio(ratio);
+    each->picture->setPixmap(scaled);
+  }
+}
+
+void TwinView::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  showPictures();
+}
+
+}  // namespace boresight::ui
