@@ -168,7 +168,10 @@ void Loupe::paintMarks(QPainter& painter, const ViewTransform& transform) const 
     const Layer& layer = view_.layer(id);
     if (!layer.style.visible) continue;
     painter.setOpacity(layer.style.opacity);
-    for (const Mark& mark : layer.marks) paintMark(painter, transform, mark, layer.style.color);
+    for (Mark mark : layer.marks) {
+      mark.label.clear();  // words would hide what is looked at
+      paintMark(painter, transform, mark, layer.style.color);
+    }
   }
   painter.setOpacity(1.0);
 }
