@@ -98,6 +98,10 @@ class AnnotationController : public QObject {
   void setMarks(const sessions::Marks& marks, const QString& text);
   /// Takes a proposal as a pair whose place in the image is where it was predicted.
   void confirm(const sessions::Proposal& proposal);
+  /// Proposals that nothing of the station hides.
+  int seenProposals() const;
+  /// Takes all of them, as one step of Undo.
+  void confirmSeen();
   /// Gives a proposal's station side to a new half-made pair, whose place in the image is clicked
   /// next.
   void begin(const sessions::Landmark& landmark);
@@ -133,6 +137,7 @@ class AnnotationController : public QObject {
   bool commit(const sessions::Marks& marks, const QString& text);
   bool mayChange(const std::string& id);
   bool mayReplace(const std::string& replaced, const std::string& id);
+  sessions::PointPair markOf(const sessions::Landmark& landmark) const;
   sessions::AnnotationPasses passesOfCase() const;
   void setPasses(sessions::AnnotationPasses passes, const sessions::Marks& marks,
                  const QString& text);

@@ -19,6 +19,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "ui/annotation/landmarks_menu.h"
 #include "ui/annotation/rig_menu.h"
 #include "ui/models/number_text.h"
 #include "ui/panels/table_style.h"
@@ -118,7 +119,15 @@ void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
   together_->setChecked(controller_.together());
   together_->setToolTip(tr("Solve with the other cameras of this case's rig, as one"));
   QToolButton* files = menuButton(QStringLiteral("markFiles"), tr("Files"),
-                                  tr("Marks, poses and landmarks from and to files"), fileMenu());
+                                  tr("Marks and poses from and to files"), fileMenu());
+  auto* landmarks_menu = new LandmarksMenu(controller_, this);
+  connect(landmarks_menu, &LandmarksMenu::openRequested, this,
+          &AnnotationPanel::openLandmarksRequested);
+  connect(landmarks_menu, &LandmarksMenu::saveRequested, this,
+          &AnnotationPanel::saveLandmarksRequested);
+  QToolButton* landmarks =
+      menuButton(QStringLiteral("landmarks"), tr("Landmarks"),
+                 tr("Named points of the station, used over all its images"), landmarks_menu);
   passes_ = menuButton(QStringLiteral("passes"), tr("Passes"),
                        tr("What several people marked without seeing each other's marks"),
                        new QMenu(this));
@@ -129,7 +138,8 @@ void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
   for (QWidget* each : {static_cast<QWidget*>(points_), static_cast<QWidget*>(lines_),
                         static_cast<QWidget*>(sigma_), static_cast<QWidget*>(robust_),
                         static_cast<QWidget*>(together_), static_cast<QWidget*>(files),
-                        static_cast<QWidget*>(passes_), static_cast<QWidget*>(rigs)})
+                        static_cast<QWidget*>(landmarks), static_cast<QWidget*>(passes_),
+                        static_cast<QWidget*>(rigs)})
     row->addWidget(each);
   row->addStretch(1);
   show_ = new QComboBox(this);
@@ -160,10 +170,6 @@ QMenu* AnnotationPanel::fileMenu() {
                   &AnnotationPanel::importColmapRequested);
   menu->addAction(tr("Import truths from a BOP scene ..."), this,
                   &AnnotationPanel::importBopRequested);
-  menu->addSeparator();
-  menu->addAction(tr("Open landmarks ..."), this, &AnnotationPanel::openLandmarksRequested);
-  menu->addAction(tr("Save the marks as landmarks ..."), this,
-                  &AnnotationPanel::saveLandmarksRequested);
   return menu;
 }
 

@@ -2,6 +2,7 @@
 // Places and moves of marks, each an edit of the document.
 #include "ui/annotation/annotation_controller.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "sessions/annotation/mark_edits.h"
@@ -182,27 +183,45 @@ void AnnotationController::setMarks(const Marks& marks, const QString& text) {
   commit(marks, text);
 }
 
-void AnnotationController::confirm(const sessions::Proposal& proposal) {
-  finishMove();
-  PointPair point;
-  point.id = proposal.landmark.name;
-  point.point_in_station_m = proposal.landmark.point_in_station_m;
-  point.pixel = proposal.pixel;
-  point.sigma_px = sigma_px_;
-  point.comment = proposal.landmark.comment;
-  if (commit(sessions::withPoint(marks_, point.id, point),
-             tr("Confirm %1").arg(fromText(point.id))))
-    select(proposal.landmark.name);
-}
-
-void AnnotationController::begin(const sessions::Landmark& landmark) {
-  finishMove();
+PointPair AnnotationController::markOf(const sessions::Landmark& landmark) const {
   PointPair point;
   point.id = landmark.name;
   point.point_in_station_m = landmark.point_in_station_m;
   point.sigma_px = sigma_px_;
   point.comment = landmark.comment;
-  if (sessions::findPoint(marks_, point.id)) return;
+  return point;
+}
+
+void AnnotationController::confirm(const sessions::Proposal& proposal) {
+  finishMove();
+  PointPair point = markOf(proposal.landmark);
+  point.pixel = proposal.pixel;
+  const std::string id = point.id;
+  if (commit(sessions::withPoint(marks_, id, point), tr("Confirm %1").arg(fromText(id))))
+    select(id);
+}
+
+int AnnotationController::seenProposals() const {
+  return static_cast<int>(std::count_if(proposals().begin(), proposals().end(),
+                                        [](const auto& proposal) { return proposal.seen; }));
+}
+
+void AnnotationController::confirmSeen() {
+  finishMove();
+  Marks confirmed = marks_;
+  for (const sessions::Proposal& proposal : proposals()) {
+    if (!proposal.seen || sessions::findPoint(marks_, proposal.landmark.name)) continue;
+    PointPair point = markOf(proposal.landmark);
+    point.pixel = proposal.pixel;
+    confirmed = sessions::withPoint(std::move(confirmed), point.id, point);
+  }
+  if (!(confirmed == marks_)) commit(confirmed, tr("Confirm %1 landmarks").arg(seenProposals()));
+}
+
+void AnnotationController::begin(const sessions::Landmark& landmark) {
+  finishMove();
+  const PointPair point = markOf(landmark);
+  if (sessions::findPoint(marks_, point.id) || sessions::findLine(marks_, point.id)) return;
   if (commit(sessions::withPoint(marks_, point.id, point), tr("Begin %1").arg(fromText(point.id))))
     select(landmark.name);
 }

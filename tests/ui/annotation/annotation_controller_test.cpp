@@ -143,6 +143,14 @@ TEST_F(AnnotationControllerTest, LandmarksAreProposedWhereTheyShouldBeOnceThreeA
   ASSERT_TRUE(solved());
   EXPECT_EQ(controller_.proposals().size(), 4u);
   EXPECT_EQ(controller_.selected(), taken.landmark.name);
+  EXPECT_EQ(controller_.seenProposals(), 4) << "all are corners that are seen";
+  controller_.confirmSeen();
+  EXPECT_EQ(controller_.marks().points.size(), 8u);
+  EXPECT_EQ(document_.undoText(), QStringLiteral("Confirm 4 landmarks"));
+  ASSERT_TRUE(solved());
+  EXPECT_TRUE(controller_.proposals().empty());
+  ASSERT_TRUE(document_.undo());
+  EXPECT_EQ(controller_.marks().points.size(), 4u);
 }
 
 TEST_F(AnnotationControllerTest, TheSolvedPoseBecomesTheTruthAndUndoTakesItBack) {

@@ -26,7 +26,7 @@ class Operator {
 
   /// One action of a person; false when there was nothing to do.
   bool act() {
-    switch (random_.below(12)) {
+    switch (random_.below(15)) {
       case 0:
         return window_.document().undo();
       case 1:
@@ -39,6 +39,10 @@ class Operator {
         return paintMask();
       case 5:
         return random_.below(4) == 0 && run();
+      case 6:
+      case 7:
+      case 8:
+        return mark();
       default:
         return moveSeed();
     }
@@ -83,6 +87,28 @@ class Operator {
     one.ignore_strokes.push_back(stroke);
     return window_.document().edit(sessions::withCase(window_.document().session(), std::move(one)),
                                    QStringLiteral("Paint"));
+  }
+
+  /// Half-made pairs, whole ones, moves by keys, and now and then a pass that is put aside.
+  bool mark() {
+    ui::AnnotationController& annotation = window_.annotation();
+    const Eigen::Vector2d pixel(random_.uniform(0.0, 900.0), random_.uniform(0.0, 900.0));
+    switch (random_.below(5)) {
+      case 0:
+        return !annotation.placeOnStation(1e-4 * Eigen::Vector3d(pixel.x(), pixel.y(), 10.0))
+                    .empty();
+      case 1: {
+        const bool moved = annotation.nudge({0.1, 0.0});
+        annotation.finishMove();
+        return moved;
+      }
+      case 2:
+        if (random_.below(4) != 0 || annotation.marks().empty()) return false;
+        annotation.putAside(QStringLiteral("Ada"));
+        return true;
+      default:
+        return !annotation.placeInImage(pixel).empty();
+    }
   }
 
   /// A run that ends is an action, too: it is in the session when it is confirmed.
