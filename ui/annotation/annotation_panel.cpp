@@ -110,6 +110,8 @@ void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
   sigma_->setValue(controller_.sigma_px());
   sigma_->setPrefix(tr("sigma "));
   sigma_->setSuffix(tr(" px"));
+  sigma_->setMinimumWidth(
+      sigma_->fontMetrics().horizontalAdvance(QStringLiteral("sigma 00.00 px")) + 30);
   sigma_->setToolTip(tr("Standard deviation that new marks are given, pixels per axis"));
   robust_ = new QCheckBox(tr("Robust"), this);
   robust_->setObjectName(QStringLiteral("robust"));
@@ -147,7 +149,11 @@ void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
   show_->setAccessibleName(tr("Which marks are listed"));
   for (int i = 0; i < MarksFilter::kShowCount; ++i)
     show_->addItem(MarksFilter::nameOf(static_cast<MarksFilter::Show>(i)));
+  // On a narrow window the row gives way here.
+  show_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  show_->setMinimumContentsLength(3);
   count_ = new QLabel(this);
+  count_->setMinimumWidth(1);
   row->addWidget(count_);
   row->addWidget(show_);
   layout.addLayout(row);
