@@ -108,10 +108,10 @@ void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
   sigma_->setDecimals(2);
   sigma_->setSingleStep(0.1);
   sigma_->setValue(controller_.sigma_px());
-  sigma_->setPrefix(tr("sigma "));
+  sigma_->setPrefix(QStringLiteral("\u00b1 "));
   sigma_->setSuffix(tr(" px"));
   sigma_->setMinimumWidth(
-      sigma_->fontMetrics().horizontalAdvance(QStringLiteral("sigma 00.00 px")) + 30);
+      sigma_->fontMetrics().horizontalAdvance(QStringLiteral("\u00b1 00.00 px")) + 30);
   sigma_->setToolTip(tr("Standard deviation that new marks are given, pixels per axis"));
   robust_ = new QCheckBox(tr("Robust"), this);
   robust_->setObjectName(QStringLiteral("robust"));
@@ -153,7 +153,6 @@ void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
   show_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   show_->setMinimumContentsLength(3);
   count_ = new QLabel(this);
-  count_->setMinimumWidth(1);
   row->addWidget(count_);
   row->addWidget(show_);
   layout.addLayout(row);

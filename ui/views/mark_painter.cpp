@@ -59,7 +59,7 @@ void paintStrip(QPainter& painter, const QPolygonF& outline) {
   painter.drawPolygon(outline);
   painter.setPen(sides);
   painter.setBrush(Qt::NoBrush);
-  const int half = outline.size() / 2;
+  const auto half = outline.size() / 2;
   painter.drawPolyline(outline.mid(0, half));
   painter.drawPolyline(outline.mid(half));
 }
