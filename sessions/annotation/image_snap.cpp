@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include <Eigen/LU>
 #include <opencv2/imgproc.hpp>
 
 namespace boresight::sessions {
@@ -18,6 +19,7 @@ constexpr double kRayStep_px = 0.25;
 constexpr double kSmallestEllipse_px = 2.0;
 constexpr double kLeastSupport = 0.6;
 constexpr double kOnEllipse_px = 1.0;
+constexpr double kLeastDirections = 0.15;  ///< of a corner; a disc of 8 px has 0.06
 
 /// A piece of the image about a place, smoothed, and its gradient. Coordinates are the image's.
 class Patch {
@@ -104,6 +106,23 @@ std::optional<EdgeSnap> climb(const Patch& patch, const Eigen::Vector2d& start) 
     at += (after > before ? 0.5 : -0.5) * normal;
   }
   return {};
+}
+
+/// How much of the gradient about a place goes the second way: 0 on a straight edge, 1 where two
+/// edges meet at right angles (ratio of the structure tensor's eigenvalues).
+double directions(const Patch& patch, const Eigen::Vector2d& about) {
+  constexpr int kHalf = 4;
+  Eigen::Matrix2d tensor = Eigen::Matrix2d::Zero();
+  for (int y = -kHalf; y <= kHalf; ++y)
+    for (int x = -kHalf; x <= kHalf; ++x) {
+      const Eigen::Vector2d at = about + Eigen::Vector2d(x, y);
+      if (!patch.contains(at)) continue;
+      const Eigen::Vector2d gradient = patch.gradient(at);
+      tensor += gradient * gradient.transpose();
+    }
+  const double mean = 0.5 * tensor.trace();
+  const double spread = std::sqrt(std::max(0.0, mean * mean - tensor.determinant()));
+  return mean + spread > 0.0 ? (mean - spread) / (mean + spread) : 0.0;
 }
 
 /// Farthest steep place inward of which nothing steeper lies: the first maximum of the gradient
@@ -205,6 +224,7 @@ std::optional<Eigen::Vector2d> snapToCorner(const ImageView& image, const Eigen:
   // It wanders off where there is no corner after all.
   if (cv::norm(corner[0] - best) > 3.0) return {};
   const Eigen::Vector2d found = patch.origin() + Eigen::Vector2d(corner[0].x, corner[0].y);
+  if (directions(patch, found) < kLeastDirections) return {};
   if ((found - near).norm() > radius_px + 1.0) return {};
   return found;
 }

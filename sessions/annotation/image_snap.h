@@ -24,7 +24,7 @@ std::optional<EdgeSnap> snapToEdge(const ImageView& image, const Eigen::Vector2d
                                    double radius_px);
 
 /// The corner nearby where edges in two directions meet, refined until every gradient around it
-/// points past it (Foerstner; cv::cornerSubPix).
+/// points past it (Foerstner; cv::cornerSubPix). An edge that only bends, or a noisy one, is none.
 std::optional<Eigen::Vector2d> snapToCorner(const ImageView& image, const Eigen::Vector2d& near,
                                             double radius_px);
 

@@ -116,12 +116,13 @@ std::optional<PoseTwin> twinOf(std::span<const MarkedView> views,
 }
 
 /// Residual scaled by its own deviation: what a mark pulls on the pose makes its residual smaller
-/// (studentized; Cook and Weisberg 1982).
+/// (studentized; Cook and Weisberg 1982). Of a weight of 0 it pulls nothing, and the pose's own
+/// deviation adds to its noise.
 double normalizedResidual(const MarkResidual& mark, const Matrix6d& camera_covariance,
-                          double noise_px) {
-  Eigen::Matrix2d variance =
-      noise_px * noise_px * Eigen::Matrix2d::Identity() -
-      mark.predicted_by_xi * camera_covariance * mark.predicted_by_xi.transpose();
+                          double noise_px, double weight) {
+  Eigen::Matrix2d variance = noise_px * noise_px * Eigen::Matrix2d::Identity() +
+                             (1.0 - 2.0 * weight) * mark.predicted_by_xi * camera_covariance *
+                                 mark.predicted_by_xi.transpose();
   // A mark that alone holds the pose has no residual to speak of.
   for (int i = 0; i < 2; ++i) variance(i, i) = std::max(variance(i, i), 1e-4 * noise_px * noise_px);
   double largest = 0.0;
@@ -146,7 +147,8 @@ void describeMarks(std::span<const MarkedView> views, std::span<const MarkAddres
       made.residual_px = mark.residual_px;
       made.residual_mm = mark.residual_px * (1000.0 * mark.depth_m / pixelsPerRadian(view.camera));
       const double noise_px = markSigma_px(views, marks[i]) * std::max(solution.noise_factor, 1e-6);
-      made.normalized = normalizedResidual(mark, cameraCovariance(solution, view), noise_px);
+      made.normalized =
+          normalizedResidual(mark, cameraCovariance(solution, view), noise_px, made.weight);
     }
     solution.marks.push_back(made);
   }

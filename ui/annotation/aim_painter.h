@@ -16,7 +16,9 @@ void paintAim(QPainter& painter, const ViewTransform& transform, const MarkAim& 
 /// A sentence on a dark ground with room at its right; where it was drawn.
 QRectF paintBox(QPainter& painter, const QPointF& top_left, const QString& text, double room = 0.0);
 
-/// A sentence beside a place of the widget, on a dark ground, kept inside `area`.
-void paintNote(QPainter& painter, const QRectF& area, const QPointF& beside, const QString& text);
+/// A sentence beside a place of the widget, on a dark ground, kept inside `area` and clear of
+/// `taken`.
+void paintNote(QPainter& painter, const QRectF& area, const QRectF& taken, const QPointF& beside,
+               const QString& text);
 
 }  // namespace boresight::ui

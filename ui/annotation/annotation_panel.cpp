@@ -108,8 +108,10 @@ void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
   sigma_->setDecimals(2);
   sigma_->setSingleStep(0.1);
   sigma_->setValue(controller_.sigma_px());
-  sigma_->setPrefix(tr("sigma "));
+  sigma_->setPrefix(QStringLiteral("\u00b1 "));
   sigma_->setSuffix(tr(" px"));
+  sigma_->setMinimumWidth(
+      sigma_->fontMetrics().horizontalAdvance(QStringLiteral("\u00b1 00.00 px")) + 30);
   sigma_->setToolTip(tr("Standard deviation that new marks are given, pixels per axis"));
   robust_ = new QCheckBox(tr("Robust"), this);
   robust_->setObjectName(QStringLiteral("robust"));
@@ -147,6 +149,9 @@ void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
   show_->setAccessibleName(tr("Which marks are listed"));
   for (int i = 0; i < MarksFilter::kShowCount; ++i)
     show_->addItem(MarksFilter::nameOf(static_cast<MarksFilter::Show>(i)));
+  // On a narrow window the row gives way here.
+  show_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  show_->setMinimumContentsLength(3);
   count_ = new QLabel(this);
   row->addWidget(count_);
   row->addWidget(show_);

@@ -222,7 +222,7 @@ void ImageAnnotation::paint(QPainter& painter) const {
   }
   const Layer& residuals = image_.view().layer(LayerId::kMarkResiduals);
   if (residuals.style.visible && !residuals.marks.empty()) paintResidualScale(painter, at);
-  tool_->paint(painter);
+  tool_->paint(painter, loupe_->isVisible() ? QRectF(loupe_->geometry()) : QRectF());
 }
 
 void ImageAnnotation::paintResidualScale(QPainter& painter, const QPointF& at) const {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include <QFontInfo>
 #include <QPainter>
 #include <QWheelEvent>
 
@@ -16,13 +17,14 @@
 namespace boresight::ui {
 namespace {
 
-constexpr double kShare = 0.42;  ///< of the view's shorter side
-constexpr int kLeastSide = 140;
+constexpr double kShare = 0.5;  ///< of the view's shorter side
+constexpr int kLeastSide = 168;
 constexpr int kMostSide = 320;
 /// Whole screen pixels at ratios of quarters.
 constexpr int kRaster = 4;
 constexpr int kMargin = 8;
 constexpr int kShyness = 40;  ///< how near the pointer may come
+constexpr int kSmallestText = 9;
 constexpr double kGap = 9.0;
 constexpr double kEdgeDot = 0.16;  ///< of an image pixel
 const QColor kCross(255, 255, 255, 210);
@@ -46,6 +48,11 @@ Loupe::Loupe(ImageView& view) : QWidget(&view), view_(view) {
 void Loupe::setSamples(std::shared_ptr<const sessions::ImageSamples> samples) {
   samples_ = std::move(samples);
   showOrHide();
+}
+
+double Loupe::magnification() const {
+  const double of_view = view_.transform().scale() * view_.devicePixelRatioF();
+  return std::clamp(2.0 * of_view, magnification_, std::max(kMostMagnification, magnification_));
 }
 
 void Loupe::setMagnification(double magnification) {
@@ -90,7 +97,7 @@ void Loupe::putAside() {
 
 ViewTransform Loupe::transform() const {
   ViewTransform made;
-  made.zoomAt(QPointF(0.0, 0.0), magnification_ / devicePixelRatioF());
+  made.zoomAt(QPointF(0.0, 0.0), magnification() / devicePixelRatioF());
   if (pixel_) made.centreOn(*pixel_, size());
   return made;
 }
@@ -101,7 +108,7 @@ bool Loupe::eventFilter(QObject* watched, QEvent* event) {
     const auto& wheel = *static_cast<QWheelEvent*>(event);
     const double notches = wheel.angleDelta().y() / 120.0;
     if ((wheel.modifiers() & Qt::ControlModifier) != 0 && notches != 0.0) {
-      setMagnification(magnification_ * std::pow(kStep, notches));
+      setMagnification(magnification() * std::pow(kStep, notches));
       return true;
     }
   }
@@ -161,7 +168,10 @@ void Loupe::paintMarks(QPainter& painter, const ViewTransform& transform) const 
     const Layer& layer = view_.layer(id);
     if (!layer.style.visible) continue;
     painter.setOpacity(layer.style.opacity);
-    for (const Mark& mark : layer.marks) paintMark(painter, transform, mark, layer.style.color);
+    for (Mark mark : layer.marks) {
+      mark.label.clear();  // words would hide what is looked at
+      paintMark(painter, transform, mark, layer.style.color);
+    }
   }
   painter.setOpacity(1.0);
 }
@@ -185,10 +195,15 @@ void Loupe::paintCross(QPainter& painter) const {
 void Loupe::paintText(QPainter& painter) const {
   const QPointF at =
       aim_.side == AimSide::kNone ? *pixel_ : QPointF(aim_.pixel.x(), aim_.pixel.y());
-  const QString text = tr("x %1  y %2   %3x")
+  const QString text = tr("x %1  y %2  %3x")
                            .arg(at.x(), 0, 'f', 2)
                            .arg(at.y(), 0, 'f', 2)
-                           .arg(magnification_, 0, 'g', 3);
+                           .arg(magnification(), 0, 'g', 3);
+  QFont fitting = font();
+  while (QFontMetrics(fitting).horizontalAdvance(text) > width() - 8 &&
+         QFontInfo(fitting).pixelSize() > kSmallestText)
+    fitting.setPixelSize(QFontInfo(fitting).pixelSize() - 1);
+  painter.setFont(fitting);
   const QRect line(0, height() - painter.fontMetrics().height() - 4, width(),
                    painter.fontMetrics().height() + 4);
   painter.fillRect(line, QColor(0, 0, 0, 170));

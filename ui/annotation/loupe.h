@@ -31,7 +31,8 @@ class Loupe : public QWidget {
 
   /// nullptr: there is no image.
   void setSamples(std::shared_ptr<const sessions::ImageSamples> samples);
-  double magnification() const { return magnification_; }
+  /// At least twice what the view shows: a loupe that shows less would be none.
+  double magnification() const;
   void setMagnification(double magnification);
   bool isSwitchedOn() const { return on_; }
   void setSwitchedOn(bool on);

@@ -47,7 +47,7 @@ class Signs {
       if (!place.valid) return;
       Mark mark = sign(MarkShape::kDiamond, place.pixel, item);
       mark.dashed = true;
-      mark.label = tr("%1: not in the image yet").arg(QString::fromStdString(point.id));
+      mark.label = tr("%1 (not placed)").arg(QString::fromStdString(point.id));
       finish(std::move(mark), point);
     }
   }
@@ -90,7 +90,7 @@ class Signs {
       Mark mark = segment(places[i - 1], places[i], item);
       mark.dashed = true;
       if (2 * i == places.size() + 1)
-        mark.label = tr("%1: not in the image yet").arg(QString::fromStdString(line.id));
+        mark.label = tr("%1 (not placed)").arg(QString::fromStdString(line.id));
       if (line.id == look_.selected) mark.color = kChosen;
       signs_.push_back(std::move(mark));
     }
@@ -179,7 +179,7 @@ std::vector<Mark> bandSigns(const std::vector<sessions::BandPiece>& band) {
   for (const sessions::BandPiece& piece : band) {
     if (piece.places.size() < 2) continue;
     Mark mark;
-    mark.shape = MarkShape::kOutline;
+    mark.shape = MarkShape::kStrip;
     mark.width = 1.0;
     for (const sessions::BandPlace& place : piece.places)
       mark.outline << pointOf(place.pixel + place.half_width_px * place.normal);

@@ -17,40 +17,13 @@
 namespace boresight::ui {
 namespace {
 
-constexpr double kHandle = 8.0;        ///< on the screen
 constexpr double kClickSlack = 3.0;    ///< on the screen
 constexpr double kShortestLine = 6.0;  ///< on the screen
-constexpr double kSmallStep_px = 0.1;
-constexpr double kLargeStep_px = 1.0;
 /// Those that change what a click does.
 constexpr Qt::KeyboardModifiers kAimModifiers = Qt::ControlModifier | Qt::AltModifier;
 
 Eigen::Vector2d vectorOf(const QPointF& point) { return {point.x(), point.y()}; }
 QPointF pointOf(const Eigen::Vector2d& pixel) { return {pixel.x(), pixel.y()}; }
-
-Eigen::Vector2d directionOf(int key) {
-  switch (key) {
-    case Qt::Key_Left:
-      return {-1.0, 0.0};
-    case Qt::Key_Right:
-      return {1.0, 0.0};
-    case Qt::Key_Up:
-      return {0.0, -1.0};
-    case Qt::Key_Down:
-      return {0.0, 1.0};
-    default:
-      return Eigen::Vector2d::Zero();
-  }
-}
-
-bool isArrow(int key) { return !directionOf(key).isZero(); }
-
-/// Keys that a shortcut of the window must not take away while somebody annotates.
-bool isOwnKey(const QKeyEvent& event) {
-  const int key = event.key();
-  if ((event.modifiers() & (Qt::ControlModifier | Qt::AltModifier)) != 0) return key == Qt::Key_Alt;
-  return isArrow(key) || key == Qt::Key_Delete || key == Qt::Key_Escape || key == Qt::Key_Tab;
-}
 
 }  // namespace
 
@@ -123,9 +96,9 @@ void MarkTool::updateAim() {
     const AimRules how = rules();
     aim_ = aimAtStation(*one, pose, pixel,
                         snapper_.near(one->source.camera, pose, pixel, how.radius_px), how);
-  } else if (const auto handle = line_start_ ? std::nullopt : handleAt(place)) {
+  } else if (const auto handle = line_start_ ? std::nullopt : handleUnder(place)) {
     aim_.text = tr("%1: drag to move").arg(QString::fromStdString(handle->id));
-  } else if (const auto* proposal = proposalAt(place)) {
+  } else if (const auto* proposal = proposalUnder(place)) {
     aim_.text = tr("%1: click takes it as it is, right click to place it by hand")
                     .arg(QString::fromStdString(proposal->landmark.name));
   } else {
@@ -134,11 +107,6 @@ void MarkTool::updateAim() {
   focus_ = pointer_;
   view_.update();
   Q_EMIT aimChanged();
-}
-
-double MarkTool::screenDistance(const Eigen::Vector2d& pixel, const QPointF& place) const {
-  const QPointF away = view_.transform().toWidget(pointOf(pixel)) - place;
-  return std::hypot(away.x(), away.y());
 }
 
 /// The chosen pair waits for its place in the image.
@@ -151,51 +119,23 @@ bool MarkTool::lacksImageSide() const {
   return point && point->point_in_station_m && !point->pixel;
 }
 
-std::optional<MarkTool::Handle> MarkTool::handleAt(const QPointF& place) const {
-  std::optional<Handle> found;
-  double nearest = kHandle;
-  const auto offer = [&](const std::string& id, int end, const Eigen::Vector2d& pixel) {
-    const double distance = screenDistance(pixel, place);
-    if (distance > nearest) return;
-    nearest = distance;
-    found = Handle{id, end, pixel};
-  };
-  for (const sessions::PointPair& point : controller_.marks().points)
-    if (point.pixel) offer(point.id, 0, *point.pixel);
-  for (const sessions::LinePair& line : controller_.marks().lines) {
-    if (!line.line) continue;
-    offer(line.id, 0, line.line->start);
-    offer(line.id, 1, line.line->end);
-  }
-  return found;
-}
-
 /// While a chosen pair waits for its place, a click is that place.
-const sessions::Proposal* MarkTool::proposalAt(const QPointF& place) const {
+const sessions::Proposal* MarkTool::proposalUnder(const QPointF& place) const {
   if (marksLines() || lacksImageSide()) return nullptr;
   if (!view_.layer(LayerId::kProposals).style.visible) return nullptr;
-  const sessions::Proposal* found = nullptr;
-  double nearest = kHandle;
-  for (const sessions::Proposal& proposal : controller_.proposals()) {
-    const double distance = screenDistance(proposal.pixel, place);
-    if (distance > nearest) continue;
-    nearest = distance;
-    found = &proposal;
-  }
-  return found;
+  return proposalAt(controller_.proposals(), view_.transform(), place);
+}
+
+std::optional<MarkHandle> MarkTool::handleUnder(const QPointF& place) const {
+  return handleAt(controller_.marks(), view_.transform(), place);
 }
 
 /// A half-made pair that is drawn where the pose predicts it.
-std::string MarkTool::stationOnlyAt(const QPointF& place) const {
+std::string MarkTool::stationOnlyUnder(const QPointF& place) const {
   const ViewState::CasePtr& one = state_.currentCase();
   if (!one || lacksImageSide()) return {};
-  const Pose pose = stationPose();
-  for (const sessions::PointPair& point : controller_.marks().points) {
-    if (point.pixel || !point.point_in_station_m) continue;
-    const auto at = sessions::predictPlace(one->source.camera, pose, *point.point_in_station_m);
-    if (at.valid && screenDistance(at.pixel, place) <= kHandle) return point.id;
-  }
-  return {};
+  return stationOnlyAt(controller_.marks(), one->source.camera, stationPose(), view_.transform(),
+                       place);
 }
 
 bool MarkTool::eventFilter(QObject* watched, QEvent* event) {
@@ -242,11 +182,11 @@ bool MarkTool::press(const QMouseEvent& event, const QPointF& place) {
   press_ = last_ = place;
   panning_ = false;
   if (line_start_ || (modifiers_ & Qt::ControlModifier) != 0) return true;
-  if (const std::optional<Handle> handle = handleAt(place)) {
+  if (const std::optional<MarkHandle> handle = handleUnder(place)) {
     drag_ = Drag{*handle, false};
     end_ = handle->end;
     controller_.select(handle->id);
-  } else if (const std::string id = stationOnlyAt(place); !id.empty()) {
+  } else if (const std::string id = stationOnlyUnder(place); !id.empty()) {
     controller_.select(id);
     press_.reset();
   }
@@ -255,8 +195,8 @@ bool MarkTool::press(const QMouseEvent& event, const QPointF& place) {
 
 /// A proposal is confirmed by a click; by another button or with Ctrl it is begun.
 bool MarkTool::takeProposal(const QMouseEvent& event, const QPointF& place) {
-  const sessions::Proposal* proposal = proposalAt(place);
-  if (!proposal || (event.button() == Qt::LeftButton && handleAt(place))) return false;
+  const sessions::Proposal* proposal = proposalUnder(place);
+  if (!proposal || (event.button() == Qt::LeftButton && handleUnder(place))) return false;
   const sessions::Proposal taken = *proposal;  // the controller forgets it
   const bool begins =
       event.button() != Qt::LeftButton || (event.modifiers() & Qt::ControlModifier) != 0;
@@ -292,7 +232,7 @@ bool MarkTool::move(const QPointF& place, Qt::KeyboardModifiers modifiers) {
 
 /// The mark keeps its distance from the pointer, so that taking hold of it moves nothing.
 void MarkTool::dragTo(const QPointF& pixel) {
-  Handle& handle = drag_->handle;
+  MarkHandle& handle = drag_->handle;
   const Eigen::Vector2d by = vectorOf(pixel - view_.transform().toPixel(*press_));
   aim_ = aimAtImage(*state_.currentCase(), handle.pixel + by, rules());
   if (!sessions::isInImage(state_.currentCase()->source.camera, aim_.pixel)) return;
@@ -363,61 +303,7 @@ void MarkTool::placeStation() {
   }
 }
 
-bool MarkTool::keyPress(const QKeyEvent& event) {
-  if (!isOwnKey(event)) return false;
-  switch (event.key()) {
-    case Qt::Key_Escape:
-      escape();
-      return true;
-    case Qt::Key_Tab:
-      ++turn_;
-      updateAim();
-      return true;
-    case Qt::Key_Delete:
-      if (!controller_.selected().empty()) controller_.remove(controller_.selected());
-      return true;
-    case Qt::Key_Alt:
-      return true;  // not for the menu bar
-    default:
-      return nudge(event);
-  }
-}
-
-/// Without a chosen mark the arrows are the view's.
-bool MarkTool::nudge(const QKeyEvent& event) {
-  if (controller_.selected().empty()) return false;
-  const bool large = (event.modifiers() & Qt::ShiftModifier) != 0;
-  const Eigen::Vector2d by = (large ? kLargeStep_px : kSmallStep_px) * directionOf(event.key());
-  if (!controller_.nudge(by, end_)) return true;
-  const sessions::PointPair* point = controller_.selectedPoint();
-  const sessions::LinePair* line = controller_.selectedLine();
-  aim_ = {};
-  if (point && point->pixel) focus_ = pointOf(*point->pixel);
-  if (line && line->line) focus_ = pointOf(end_ == 0 ? line->line->start : line->line->end);
-  view_.update();
-  Q_EMIT aimChanged();
-  return true;
-}
-
-void MarkTool::escape() {
-  turn_ = 0;
-  if (const std::optional<Drag> drag = std::exchange(drag_, std::nullopt)) {
-    press_.reset();
-    if (drag->moved) {
-      controller_.dragInImage(drag->handle.id, drag->handle.pixel, drag->handle.end);
-      controller_.finishMove();
-    }
-  } else if (line_start_) {
-    line_start_.reset();
-  } else if (!controller_.selected().empty()) {
-    controller_.select({});
-  } else {
-    controller_.setMode(PlaceMode::kOff);
-  }
-  updateAim();
-}
-
-void MarkTool::paint(QPainter& painter) const {
+void MarkTool::paint(QPainter& painter, const QRectF& taken) const {
   if (!active() || !pointer_) return;
   if (line_start_) {
     painter.setRenderHint(QPainter::Antialiasing, true);
@@ -434,7 +320,7 @@ void MarkTool::paint(QPainter& painter) const {
   if (aim_.side == AimSide::kStation) text = tr("station: %1").arg(text);
   if (aim_.found > 1) text += tr("  (%1 of %2, Tab)").arg(aim_.chosen + 1).arg(aim_.found);
   if (!snaps_ && aim_.side != AimSide::kNone) text += tr("  (snapping is off)");
-  paintNote(painter, view_.rect(), view_.transform().toWidget(*pointer_), text);
+  paintNote(painter, view_.rect(), taken, view_.transform().toWidget(*pointer_), text);
 }
 
 }  // namespace boresight::ui

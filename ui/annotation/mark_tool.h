@@ -10,6 +10,7 @@
 
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/mark_aim.h"
+#include "ui/annotation/mark_handles.h"
 
 class QKeyEvent;
 class QMouseEvent;
@@ -44,7 +45,8 @@ class MarkTool : public QObject {
   /// camera_from_station of the edges on which the station is picked.
   Pose stationPose() const;
 
-  void paint(QPainter& painter) const;
+  /// Words stay clear of `taken` (widget).
+  void paint(QPainter& painter, const QRectF& taken) const;
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  Q_SIGNALS:
@@ -54,14 +56,8 @@ class MarkTool : public QObject {
   void told(const QString& sentence);
 
  private:
-  /// A mark's place in the image under the pointer.
-  struct Handle {
-    std::string id;
-    int end = 0;  ///< of a line
-    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  };
   struct Drag {
-    Handle handle;
+    MarkHandle handle;
     bool moved = false;
   };
 
@@ -72,22 +68,23 @@ class MarkTool : public QObject {
   bool move(const QPointF& place, Qt::KeyboardModifiers modifiers);
   bool release(const QMouseEvent& event);
   void dragTo(const QPointF& pixel);
+  /// Keys that a shortcut of the window must not take away while somebody annotates.
+  static bool isOwnKey(const QKeyEvent& event);
   bool keyPress(const QKeyEvent& event);
   bool nudge(const QKeyEvent& event);
   void escape();
   void showMode();
 
   bool lacksImageSide() const;
-  std::optional<Handle> handleAt(const QPointF& place) const;
-  const sessions::Proposal* proposalAt(const QPointF& place) const;
-  std::string stationOnlyAt(const QPointF& place) const;
+  std::optional<MarkHandle> handleUnder(const QPointF& place) const;
+  const sessions::Proposal* proposalUnder(const QPointF& place) const;
+  std::string stationOnlyUnder(const QPointF& place) const;
   bool takeProposal(const QMouseEvent& event, const QPointF& place);
   void place();
   void placeImage();
   void placeStation();
   void updateAim();
   void clearAim();
-  double screenDistance(const Eigen::Vector2d& pixel, const QPointF& place) const;
   AimRules rules() const;
 
   ImageView& view_;

@@ -60,7 +60,7 @@ const std::array<LayerInfo, kLayerCount>& infos() {
        "Salient edges rendered from the pose that the marks give; while they show, Ctrl+click "
        "picks "
        "the station on them",
-       {true, kAnnotatedColor, 0.9}},
+       {true, kAnnotatedColor, 0.6}},
       {LayerId::kWindows,
        "Search windows",
        "W",

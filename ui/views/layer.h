@@ -77,17 +77,17 @@ enum class MarkShape : std::uint8_t {
   kArrow,
   kSegment,
   kRectangle,
-  kOutline,  ///< a closed line, lightly filled
+  kStrip,  ///< between two lines, lightly filled
 };
 
 /// Something drawn with lines of constant width. Coordinates are pixels of the full image; the
 /// centre of the top-left pixel is (0, 0).
 struct Mark {
   MarkShape shape = MarkShape::kCross;
-  QPointF at;   ///< centre, or where an arrow or a segment begins
-  QPointF to;   ///< where it ends
-  QRectF area;  ///< of a rectangle
-  QPolygonF outline;
+  QPointF at;            ///< centre, or where an arrow or a segment begins
+  QPointF to;            ///< where it ends
+  QRectF area;           ///< of a rectangle
+  QPolygonF outline;     ///< of a strip: along one side and back along the other
   double size_px = 9.0;  ///< on the screen, whatever the zoom
   QColor color;          ///< instead of the layer's, where valid
   bool dashed = false;   ///< a second difference besides the colour

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include <QFontMetricsF>
 #include <QLineF>
 
 namespace boresight::ui {
 namespace {
 
 const QColor kCasing(0, 0, 0, 170);
+const QColor kLabelGround(0, 0, 0, 130);
+constexpr double kStripFill = 0.45;
 
 double length(const QPointF& vector) { return std::hypot(vector.x(), vector.y()); }
 
@@ -43,6 +46,22 @@ void paintTarget(QPainter& painter, const QPointF& at, double half) {
        {QPointF(1.0, 0.0), QPointF(-1.0, 0.0), QPointF(0.0, 1.0), QPointF(0.0, -1.0)})
     painter.drawLine(at + gap * way, at + 1.35 * half * way);
   painter.drawEllipse(at, half, half);
+}
+
+/// A strip whose outline goes along one side and back along the other: its ends stay open, as it
+/// goes on in the next one.
+void paintStrip(QPainter& painter, const QPolygonF& outline) {
+  QColor fill = painter.pen().color();
+  fill.setAlphaF(kStripFill);
+  const QPen sides = painter.pen();
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(fill);
+  painter.drawPolygon(outline);
+  painter.setPen(sides);
+  painter.setBrush(Qt::NoBrush);
+  const auto half = outline.size() / 2;
+  painter.drawPolyline(outline.mid(0, half));
+  painter.drawPolyline(outline.mid(half));
 }
 
 void paintShape(QPainter& painter, const ViewTransform& transform, const Mark& mark) {
@@ -84,10 +103,10 @@ void paintShape(QPainter& painter, const ViewTransform& transform, const Mark& m
     case MarkShape::kRectangle:
       painter.drawRect(transform.toWidget(mark.area));
       break;
-    case MarkShape::kOutline: {
+    case MarkShape::kStrip: {
       QPolygonF outline;
       for (const QPointF& pixel : mark.outline) outline << transform.toWidget(pixel);
-      painter.drawPolygon(outline);
+      paintStrip(painter, outline);
       break;
     }
   }
@@ -96,12 +115,10 @@ void paintShape(QPainter& painter, const ViewTransform& transform, const Mark& m
 void paintLabel(QPainter& painter, const QPointF& at, const Mark& mark) {
   if (mark.label.isEmpty()) return;
   if (mark.cased) {
-    const QPen bright = painter.pen();
-    painter.setPen(kCasing);
-    for (const QPointF& off :
-         {QPointF(1.0, 0.0), QPointF(-1.0, 0.0), QPointF(0.0, 1.0), QPointF(0.0, -1.0)})
-      painter.drawText(at + off, mark.label);
-    painter.setPen(bright);
+    const QFontMetricsF metrics(painter.font());
+    painter.fillRect(QRectF(at.x() - 2.0, at.y() - metrics.ascent(),
+                            metrics.horizontalAdvance(mark.label) + 4.0, metrics.height()),
+                     kLabelGround);
   }
   painter.drawText(at, mark.label);
 }
@@ -121,11 +138,6 @@ void paintMark(QPainter& painter, const ViewTransform& transform, const Mark& ma
   pen.setCosmetic(true);
   if (mark.dashed) pen.setDashPattern({3.0, 3.0});
   painter.setPen(pen);
-  if (mark.shape == MarkShape::kOutline) {
-    QColor fill = color;
-    fill.setAlphaF(0.35);
-    painter.setBrush(fill);
-  }
   paintShape(painter, transform, mark);
   painter.setBrush(Qt::NoBrush);
   const double half = 0.5 * mark.size_px;

@@ -96,6 +96,23 @@ TEST(SnapToCorner, FindsARightAngle) {
   }
 }
 
+/// The rim of a hole bends, but has no corner; noise is no corner either.
+TEST(SnapToCorner, ARimIsNone) {
+  Random random = randomFor("SnapToCorner.Rim");
+  int found = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const double radius = random.uniform(8.0, 16.0);
+    const Scene scene(
+        61, [&](const Eigen::Vector2d& p) { return (p - Eigen::Vector2d(30, 30)).norm() < radius; },
+        2.0, random);
+    const double angle = random.uniform(-kPi, kPi);
+    const Eigen::Vector2d near =
+        Eigen::Vector2d(30, 30) + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    if (snapToCorner(scene.view(), near, 5.0)) ++found;
+  }
+  EXPECT_LE(found, 3);
+}
+
 TEST(SnapToEllipse, FindsTheCentreToATenthOfAPixel) {
   Random random = randomFor("SnapToEllipse");
   for (int trial = 0; trial < 40; ++trial) {

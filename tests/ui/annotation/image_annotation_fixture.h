@@ -4,9 +4,8 @@
 
 #include <cmath>
 
-#include <QMouseEvent>
-
 #include "tests/ui/annotation/annotation_fixture.h"
+#include "tests/ui/annotation/image_pointer.h"
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/loupe.h"
 #include "ui/annotation/mark_tool.h"
@@ -54,55 +53,27 @@ class ImageAnnotationTest : public AnnotationTest {
   ImageView& view() { return panel_.view(); }
   MarkTool& tool() { return annotation_.tool(); }
   const sessions::Marks& marks() const { return controller_.marks(); }
-  double ratio() { return view().devicePixelRatioF(); }
-  /// Length of a screen pixel in image pixels.
-  double screenPixel_px() { return 1.0 / (view().transform().scale() * ratio()); }
-
-  /// So many coordinates of the widget to an image pixel, with this pixel in the middle.
-  void zoom(const Eigen::Vector2d& pixel, double scale) {
-    ViewTransform transform = view().transform();
-    transform.zoomAt(QPointF(0.0, 0.0), scale);
-    transform.centreOn(QPointF(pixel.x(), pixel.y()), view().size());
-    view().setTransform(transform);
-  }
-
-  /// What the windowing system tells when the pointer's tip is on the screen pixel of this place.
-  QPointF pointer(const Eigen::Vector2d& pixel) {
-    const QPointF at = view().transform().toWidget(QPointF(pixel.x(), pixel.y()));
-    return QPointF(std::floor(at.x() * ratio()), std::floor(at.y() * ratio())) / ratio();
-  }
+  double screenPixel_px() const { return pointer_.screenPixel_px(); }
+  void zoom(const Eigen::Vector2d& pixel, double scale) { pointer_.zoom(pixel, scale); }
   void send(QEvent::Type type, const Eigen::Vector2d& pixel,
             Qt::KeyboardModifiers modifiers = Qt::NoModifier,
             Qt::MouseButton button = Qt::LeftButton, bool held = false) {
-    const QPointF at = pointer(pixel);
-    const bool moves = type == QEvent::MouseMove;
-    QMouseEvent event(type, at, QPointF(view().mapToGlobal(QPoint(0, 0))) + at,
-                      moves ? Qt::NoButton : button,
-                      type == QEvent::MouseButtonPress || held ? button : Qt::NoButton, modifiers);
-    QCoreApplication::sendEvent(&view(), &event);
+    pointer_.send(type, pixel, modifiers, button, held);
   }
   void moveTo(const Eigen::Vector2d& pixel, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
-    send(QEvent::MouseMove, pixel, modifiers);
+    pointer_.moveTo(pixel, modifiers);
   }
   void click(const Eigen::Vector2d& pixel, Qt::KeyboardModifiers modifiers = Qt::NoModifier,
              Qt::MouseButton button = Qt::LeftButton) {
-    moveTo(pixel, modifiers);
-    send(QEvent::MouseButtonPress, pixel, modifiers, button);
-    send(QEvent::MouseButtonRelease, pixel, modifiers, button);
+    pointer_.click(pixel, modifiers, button);
   }
-  void drag(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
-            Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
-    moveTo(from);
-    send(QEvent::MouseButtonPress, from, modifiers);
-    send(QEvent::MouseMove, 0.5 * (from + to), modifiers, Qt::LeftButton, true);
-    send(QEvent::MouseMove, to, modifiers, Qt::LeftButton, true);
-    send(QEvent::MouseButtonRelease, to, modifiers);
-  }
+  void drag(const Eigen::Vector2d& from, const Eigen::Vector2d& to) { pointer_.drag(from, to); }
 
   TaskRunner tasks_;
   ImagePanel panel_{state_, tasks_};
   StationSnapper snapper_{state_};
   ImageAnnotation annotation_{panel_, controller_, state_, snapper_};
+  ImagePointer pointer_{panel_.view()};
   QString told_;
 };
 

@@ -302,5 +302,44 @@ TEST_F(MarkToolTest, APressOnAMarkChoosesItAndADoubleClickDoesNotFit) {
   EXPECT_EQ(view().transform(), before);
 }
 
+/// With three named points marked, the others are proposed: a click takes one as it is, the right
+/// button begins it and the next click is its place.
+TEST_F(MarkToolTest, ProposalsAreConfirmedOrBegun) {
+  const auto corners = corners_m(8);
+  ASSERT_GE(corners.size(), 6u);
+  std::vector<sessions::Landmark> landmarks;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    landmarks.push_back({"corner " + std::to_string(i), corners[i], ""});
+  sessions::writeLandmarks(folder_.path() / "landmarks.json", landmarks);
+  controller_.setLandmarksFile(folder_.path() / "landmarks.json");
+  for (const std::size_t i : {0u, 2u, 5u}) {
+    controller_.begin(landmarks[i]);
+    controller_.placeInImage(pixelOf(corners[i]));
+  }
+  ASSERT_TRUE(solved());
+  ASSERT_GE(controller_.proposals().size(), 2u);
+  const auto far = [&](const sessions::Proposal& proposal) {
+    zoom(proposal.pixel, 8.0);
+    return proposal;
+  };
+  const sessions::Proposal first = far(controller_.proposals()[0]);
+  click(first.pixel);
+  const sessions::PointPair* taken = sessions::findPoint(marks(), first.landmark.name);
+  ASSERT_TRUE(taken);
+  EXPECT_EQ(*taken->pixel, first.pixel) << "as it was proposed";
+  ASSERT_TRUE(solved());
+  ASSERT_FALSE(controller_.proposals().empty());
+  const sessions::Proposal second = far(controller_.proposals()[0]);
+  click(second.pixel, Qt::NoModifier, Qt::RightButton);
+  const sessions::PointPair* begun = sessions::findPoint(marks(), second.landmark.name);
+  ASSERT_TRUE(begun);
+  EXPECT_FALSE(begun->pixel);
+  const Eigen::Vector2d by_hand = second.pixel + Eigen::Vector2d(0.5, 0.25);
+  click(by_hand, Qt::AltModifier);
+  begun = sessions::findPoint(marks(), second.landmark.name);
+  ASSERT_TRUE(begun && begun->pixel);
+  EXPECT_LT((*begun->pixel - by_hand).norm(), screenPixel_px());
+}
+
 }  // namespace
 }  // namespace boresight::ui

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// Somebody who annotates with care, in the whole window: clicks on the image where corners of the
+// station are truly seen, give or take what a hand and an eye miss, and Ctrl+clicks on the drawn
+// edges. Run at a screen scaling of one and of one and a half. BORESIGHT_PICTURES names a folder
+// for pictures of it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include <QApplication>
+#include <QDir>
+#include <QDockWidget>
+#include <QStandardPaths>
+#include <QtTest/QTest>
+
+#include "sessions/annotation/predicted_place.h"
+#include "sessions/evaluation/pose_error.h"
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/random_pose.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/ui/annotation/image_pointer.h"
+#include "ui/annotation/image_annotation.h"
+#include "ui/annotation/mark_tool.h"
+#include "ui/annotation/station_snapper.h"
+#include "ui/views/image_panel.h"
+#include "ui/window/application.h"
+#include "ui/window/main_window.h"
+#include "ui/window/window_docks.h"
+
+namespace boresight::ui {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kPatience_ms = 120'000;
+constexpr double kHand_px = 0.3;  ///< root mean square distance by which a click misses
+constexpr double kMargin_px = 12.0;
+constexpr std::size_t kCandidates = 400;
+
+class ScriptedAnnotator : public testing::TestWithParam<double> {
+ protected:
+  void openCase(const fs::path& dataset, const std::string& station) {
+    QStandardPaths::setTestModeEnabled(true);
+    window_.setQuiet(true);
+    window_.resize(1280, 800);
+    window_.show();
+    sessions::Session session = sessions::makeSession(dataset);
+    std::erase_if(session.cases, [&](const auto& one) { return one->station != station; });
+    ASSERT_FALSE(session.cases.empty());
+    session.cases.resize(1);
+    ASSERT_TRUE(window_.document().create(folder_.path() / "one.boresight.json", session));
+    tool_ = &window_.findChild<ImageAnnotation*>()->tool();
+    snapper_ = window_.findChild<StationSnapper*>();
+    ASSERT_TRUE(wait([&] { return window_.state().currentCase() && snapper_->mesh(); }));
+    ASSERT_TRUE(wait([&] { return !window_.tasks().isBusy(); }));
+    window_.annotation().setMode(PlaceMode::kPoint);
+  }
+
+  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatience_ms); }
+  const sessions::SessionCase& source() { return window_.state().currentCase()->source; }
+  const Pose& truth() { return *source().camera_from_station_truth; }
+  Eigen::Vector2d pixelOf(const Pose& pose, const Eigen::Vector3d& point_m) {
+    return sessions::predictPlace(source().camera, pose, point_m).pixel;
+  }
+
+  /// Under this pose the corner is in the image, seen, and what a click on it snaps to.
+  bool isClear(const Pose& pose, const Eigen::Vector3d& corner_m) {
+    const auto place = sessions::predictPlace(source().camera, pose, corner_m);
+    const Eigen::Vector2d size(source().camera.width, source().camera.height);
+    if (!place.valid || place.pixel.minCoeff() < kMargin_px ||
+        (size - place.pixel).minCoeff() < kMargin_px)
+      return false;
+    const auto snaps = snapper_->near(source().camera, pose, place.pixel, 2.5);
+    return !snaps.empty() && snaps[0].kind == sessions::MeshSnapKind::kVertex &&
+           (snaps[0].point_in_station_m - corner_m).norm() < 1e-9;
+  }
+
+  /// Corners that can be told both in the image and on the drawn edges, the next one always as far
+  /// as can be from those before.
+  std::vector<Eigen::Vector3d> chooseCorners(std::size_t count) {
+    const Pose drawn = tool_->stationPose();
+    const auto& edges = snapper_->mesh()->edges();
+    const std::size_t step = std::max<std::size_t>(1, edges.size() / kCandidates);
+    std::vector<Eigen::Vector3d> clear_m;
+    for (std::size_t i = 0; i < edges.size(); i += step)
+      for (const Eigen::Vector3d& corner_m :
+           {edges[i].start_in_station_m, edges[i].end_in_station_m})
+        if (std::find(clear_m.begin(), clear_m.end(), corner_m) == clear_m.end() &&
+            isClear(truth(), corner_m) && isClear(drawn, corner_m))
+          clear_m.push_back(corner_m);
+    std::vector<Eigen::Vector3d> chosen_m;
+    while (chosen_m.size() < std::min(count, clear_m.size())) {
+      const auto apart = [&](const Eigen::Vector3d& corner_m) {
+        double least = 1e9;
+        for (const Eigen::Vector3d& other_m : chosen_m)
+          least = std::min(least, (other_m - corner_m).norm());
+        return least;
+      };
+      chosen_m.push_back(
+          *std::max_element(clear_m.begin(), clear_m.end(),
+                            [&](const auto& a, const auto& b) { return apart(a) < apart(b); }));
+    }
+    return chosen_m;
+  }
+
+  /// One side after the other, the order changing from pair to pair.
+  void annotate(const std::vector<Eigen::Vector3d>& corners_m) {
+    Random random = test::randomFor("ScriptedAnnotator");
+    ImagePointer pointer(window_.image().view());
+    for (std::size_t i = 0; i < corners_m.size(); ++i) {
+      const auto image = [&] {
+        const double x = random.normal();
+        const double y = random.normal();
+        const Eigen::Vector2d seen = pixelOf(truth(), corners_m[i]);
+        pointer.zoom(seen, GetParam());
+        pointer.click(seen + kHand_px / std::sqrt(2.0) * Eigen::Vector2d(x, y), Qt::AltModifier);
+      };
+      const auto station = [&] {
+        const Eigen::Vector2d drawn = pixelOf(tool_->stationPose(), corners_m[i]);
+        pointer.zoom(drawn, GetParam());
+        pointer.click(drawn, Qt::ControlModifier);
+      };
+      if (i % 2 == 0) {
+        image();
+        station();
+      } else {
+        station();
+        image();
+      }
+      ASSERT_TRUE(wait([&] { return !window_.annotation().stale(); }));
+      const auto& points = window_.annotation().marks().points;
+      ASSERT_EQ(points.size(), i + 1);
+      ASSERT_TRUE(points.back().complete());
+      EXPECT_LT((*points.back().point_in_station_m - corners_m[i]).norm(), 1e-9);
+    }
+  }
+
+  sessions::PoseError error() {
+    const std::optional<Pose> solved = window_.annotation().solvedPose();
+    EXPECT_TRUE(solved);
+    sessions::PoseError made =
+        sessions::poseError(truth(), solved.value_or(Pose()), source().camera_from_end_effector);
+    const auto vertices = sessions::matchedVertices(window_.state().currentCase()->scene.view());
+    made.projection_px =
+        sessions::projectionError(source().camera, truth(), solved.value_or(Pose()), vertices);
+    return made;
+  }
+
+  /// A photograph of BORESIGHT_DATA is solved to its dataset's tolerance.
+  void annotatePhotograph(const std::string& station) {
+    const char* data = std::getenv("BORESIGHT_DATA");
+    const fs::path dataset = fs::path(data ? data : "") / "real" / "dataset.json";
+    if (!data || !fs::is_regular_file(dataset))
+      GTEST_SKIP() << "BORESIGHT_DATA names no folder with photographs";
+    openCase(dataset, station);
+    annotate(chooseCorners(10));
+    ASSERT_GE(window_.annotation().marks().points.size(), 5u);
+    const sessions::PoseError off = error();
+    RecordProperty("projection_px", std::to_string(*off.projection_px));
+    ASSERT_TRUE(source().requirement);
+    EXPECT_TRUE(meetsRequirement(off, *source().requirement)) << *off.projection_px << " px";
+  }
+
+  test::TemporaryFolder folder_;
+  MainWindow window_;
+  MarkTool* tool_ = nullptr;
+  StationSnapper* snapper_ = nullptr;
+};
+
+TEST_P(ScriptedAnnotator, FindsTheTruePoseOfTheBitCarousel) {
+  openCase(test::exampleFolder() / "dataset.json", "bc");
+  annotate(chooseCorners(10));
+  ASSERT_EQ(window_.annotation().marks().points.size(), 10u);
+  const sessions::PoseError off = error();
+  const std::string text = "normal " + std::to_string(off.normal_mm) + " mm, lateral " +
+                           std::to_string(off.lateral_mm) + " mm, rotation " +
+                           std::to_string(off.geodesic_mrad) + " mrad";
+  RecordProperty("error", text);
+  EXPECT_LT(std::hypot(off.normal_mm, off.lateral_mm), 0.15) << text;
+  EXPECT_LT(1e-3 * off.geodesic_mrad / kDegree_rad, 0.1) << text;
+}
+
+TEST_P(ScriptedAnnotator, FindsThePoseOfABoxOnAPhotograph) { annotatePhotograph("visp_teabox"); }
+
+TEST_P(ScriptedAnnotator, FindsThePoseOfAMachinedPartOnAPhotograph) {
+  annotatePhotograph("metal_obj18");
+}
+
+/// All kinds of marks, for people to look at.
+class AnnotatingPictures : public ScriptedAnnotator {
+ protected:
+  void show(LayerId id, bool visible) {
+    LayerStyle style = window_.image().style(id);
+    style.visible = visible;
+    window_.image().setStyle(id, style);
+  }
+  /// Spoils some of the marks: one out, one off, one locked, one half made on either side.
+  void vary(const Eigen::Vector3d& unmarked_m) {
+    AnnotationController& annotation = window_.annotation();
+    const auto points = annotation.marks().points;
+    sessions::PointPair out = points[2];
+    *out.pixel += Eigen::Vector2d(4.0, -3.0);
+    annotation.replacePoint(out.id, out, QStringLiteral("Spoil"));
+    sessions::PointPair off = points[3];
+    off.enabled = false;
+    annotation.replacePoint(off.id, off, QStringLiteral("Off"));
+    sessions::PointPair locked = points[4];
+    locked.locked = true;
+    annotation.replacePoint(locked.id, locked, QStringLiteral("Lock"));
+    annotation.select({});
+    annotation.placeOnStation(unmarked_m);
+    annotation.select({});
+    annotation.placeInImage(pixelOf(truth(), unmarked_m) + Eigen::Vector2d(40.0, 30.0));
+  }
+  void take(const QSize& size, const QString& name) {
+    window_.resize(size);
+    ASSERT_TRUE(wait([&] { return !window_.annotation().stale() && !window_.tasks().isBusy(); }));
+    QTest::qWait(1000);  // the edges at full resolution, the band
+    const QString folder = QString::fromUtf8(std::getenv("BORESIGHT_PICTURES"));
+    EXPECT_TRUE(window_.grab().save(QDir(folder).filePath(name)));
+  }
+  void takeAll(const QString& colors, const Eigen::Vector3d& unmarked_m) {
+    ImagePointer pointer(window_.image().view());
+    const Eigen::Vector2d at = pixelOf(truth(), unmarked_m);
+    for (const QSize& size : {QSize(1280, 800), QSize(2560, 1440)}) {
+      const QString name = QStringLiteral("annotating-%1-%2-%3.png").arg(colors).arg(size.width());
+      window_.resize(size);
+      QCoreApplication::processEvents();
+      window_.image().view().fit();
+      pointer.moveTo(at + Eigen::Vector2d(1.2, 0.8));
+      take(size, name.arg(QStringLiteral("fit")));
+      for (const bool station : {false, true}) {
+        pointer.zoom(at, GetParam());
+        pointer.moveTo(at + Eigen::Vector2d(1.2, 0.8),
+                       station ? Qt::ControlModifier : Qt::NoModifier);
+        take(size,
+             name.arg(QStringLiteral("%1-%2")
+                          .arg(GetParam())
+                          .arg(station ? QStringLiteral("station") : QStringLiteral("image"))));
+      }
+    }
+  }
+};
+
+TEST_P(AnnotatingPictures, OfTheWholeWindow) {
+  if (std::getenv("BORESIGHT_PICTURES") == nullptr) GTEST_SKIP() << "BORESIGHT_PICTURES is not set";
+  openCase(test::exampleFolder() / "dataset.json", "bc");
+  const auto corners_m = chooseCorners(11);
+  annotate({corners_m.begin(), corners_m.begin() + 10});
+  window_.dock(QStringLiteral("annotation"))->raise();
+  window_.annotation().setRobust(true);
+  show(LayerId::kAnnotationBand, true);
+  show(LayerId::kSeedEdges, false);
+  vary(corners_m[10]);
+  takeAll(QStringLiteral("light"), corners_m[10]);
+  useDarkColors(*qobject_cast<QApplication*>(QCoreApplication::instance()));
+  takeAll(QStringLiteral("dark"), corners_m[10]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Zooms, AnnotatingPictures, testing::Values(3.0, 12.0));
+INSTANTIATE_TEST_SUITE_P(Zooms, ScriptedAnnotator, testing::Values(3.0, 12.0));
+
+}  // namespace
+}  // namespace boresight::ui
