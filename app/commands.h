@@ -19,6 +19,7 @@ namespace boresight::app {
 /// Each adds its subcommand; what that returns when it was called goes to `exit_code`.
 void addLocalize(CLI::App& app, int& exit_code);
 void addEvaluate(CLI::App& app, int& exit_code);
+void addCompare(CLI::App& app, int& exit_code);
 void addSolve(CLI::App& app, int& exit_code);
 void addRender(CLI::App& app, int& exit_code);
 void addInfo(CLI::App& app, int& exit_code);

@@ -10,6 +10,8 @@ enum ExitCode : int {
   kUsage = 2,
   kBadInput = 3,
   kNotConverged = 4,
+  kWithinLimits = 5,  ///< compare: not the same, but within the limits
+  kDifferent = 6,     ///< compare
 };
 
 }  // namespace boresight::app

@@ -23,7 +23,7 @@ struct LocalizeArguments : InputArguments {
   std::string method = "whs";
   int threads = 1;
   Kernels kernels = bestKernels();
-  std::string out, trace, overlay;
+  std::string out, trace, record, overlay;
 
   void addTo(CLI::App& command);
 };
@@ -43,6 +43,8 @@ void LocalizeArguments::addTo(CLI::App& command) {
   addKernels(command, kernels);
   file("--out", out, "Writes the result as JSON");
   file("--trace", trace, "Writes everything in between (binary)");
+  file("--record", record,
+       "Writes the onboard record of the run, run.whsr (core/record/FORMAT.md)");
   file("--overlay", overlay, "Writes a PNG: seed red, result green, truth blue over the image");
 }
 
@@ -145,8 +147,18 @@ void requireAccepted(const LocalizeArguments& arguments, const sessions::Localiz
   }
 }
 
+/// Most that is downlinked of a run.
+constexpr std::size_t kRecordRoomBytes = 64000;
+
+void writeRecord(const std::string& file, const RecordWriter& record) {
+  if (!record.complete())
+    note("the onboard record has no room for some of the run; it says what is missing");
+  sessions::writeFileAtomically(file, record.bytes());
+}
+
 int localizeImage(const LocalizeArguments& arguments) {
-  for (const std::string& file : {arguments.out, arguments.trace, arguments.overlay})
+  for (const std::string& file :
+       {arguments.out, arguments.trace, arguments.record, arguments.overlay})
     if (!file.empty()) sessions::requireWritable(file);
   const Inputs inputs = readInputs(arguments);
   requireSensibleSeed(inputs, arguments.seed);
@@ -157,6 +169,9 @@ int localizeImage(const LocalizeArguments& arguments) {
   settings.memory_limit = arguments.options.memoryLimit();
   settings.threads = arguments.threads;
   settings.kernels = arguments.kernels;
+  std::vector<std::uint8_t> onboard(arguments.record.empty() ? 0 : kRecordRoomBytes);
+  RecordWriter record(onboard);
+  if (!arguments.record.empty()) settings.onboard_record = &record;
   const sessions::LocalizationTrace trace =
       sessions::localize(inputs.problem(), inputs.options, settings);
   requireAccepted(arguments, trace);
@@ -166,6 +181,7 @@ int localizeImage(const LocalizeArguments& arguments) {
   if (!arguments.out.empty())
     sessions::writeResult(arguments.out, trace, error, provenance(arguments, inputs));
   if (!arguments.trace.empty()) sessions::saveTrace(arguments.trace, trace);
+  if (!arguments.record.empty()) writeRecord(arguments.record, record);
   if (!arguments.overlay.empty()) writeOverlay(arguments.overlay, inputs, trace);
   if (!trace.converged())
     note(std::string(localizationStatusText(trace.status)) + ": " + sessions::explanation(trace));

@@ -22,6 +22,7 @@ int run(int argc, char** argv) {
   int exit_code = kDone;
   addLocalize(app, exit_code);
   addEvaluate(app, exit_code);
+  addCompare(app, exit_code);
   addSolve(app, exit_code);
   addRender(app, exit_code);
   addInfo(app, exit_code);

@@ -30,7 +30,7 @@ struct RecordInputs {
 ///     downlink(record.bytes());
 ///
 /// A block that does not fit is left out, and a reader learns that it is missing; room for the end
-/// is kept from the start. A default run takes some 20 kB.
+/// is kept from the start. A default run of the shipped example takes 8 kB.
 class RecordWriter {
  public:
   /// `out` must outlive the writer. Fewer than kMinimumBytes hold nothing: bytes() stays empty.

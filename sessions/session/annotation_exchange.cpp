@@ -101,7 +101,8 @@ void setTruth(ImportReport& report, const std::string& case_id, const Pose& trut
     throw InputError("session", "cases", "two of the poses are of case '" + case_id + "'");
   if (known && !(*known == truth) && !replace)
     throw InputError("session", "cases",
-                     "case '" + case_id + "' has another truth already: say that it is replaced");
+                     "case '" + case_id +
+                         "' has another truth already; ask for it to be replaced (whs: --replace)");
   changed.camera_from_station_truth = truth;
   report.session = withCase(report.session, std::move(changed));
   report.case_ids.push_back(case_id);
@@ -226,7 +227,8 @@ ImportReport importMarks(const Session& session, const std::string& case_id, con
   if (marks.empty()) throw InputError(file, "has no marks");
   if (known != session.annotations.end() && !(*known->second == marks) && !replace)
     throw InputError("session", "annotations",
-                     "case '" + case_id + "' has other marks already: say that they are replaced");
+                     "case '" + case_id +
+                         "' has other marks already; ask for them to be replaced (whs: --replace)");
   return {withAnnotation(session, case_id, marks), {case_id}, {}};
 }
 

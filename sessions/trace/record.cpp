@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 
+#include "sessions/record/record_inputs.h"
 #include "sessions/trace/worker_pool.h"
 #include "sessions/version.h"
 
@@ -138,7 +139,8 @@ void runSteps(Localizer& localizer, const RunSettings& settings, const std::stop
   PlannedChanges changes(trace.changes);
   bool finished = false;
   while (!finished && !stop.stop_requested()) {
-    changes.takeUp(localizer, trace.iterations.size());
+    if (changes.takeUp(localizer, trace.iterations.size()) && settings.onboard_record != nullptr)
+      settings.onboard_record->changeOptions(localizer.options(), localizer.workspace().iterations);
     if (pool.workers() > 1 && localizer.pieces() > 1) {
       pool.run(localizer.pieces(), work, stop);
       if (stop.stop_requested()) break;
@@ -150,6 +152,7 @@ void runSteps(Localizer& localizer, const RunSettings& settings, const std::stop
     if (report.stage == Stage::kEdges && report.stage_complete && level == RecordLevel::kFull)
       trace.edges = recordEdgeMap(localizer.workspace().edges);
     noteIteration(localizer, report, level, iteration_seconds, trace);
+    if (settings.onboard_record != nullptr) settings.onboard_record->note(localizer, report);
     finished = report.finished;
     watch.lap();  // copying is the recorder's time, not the run's
   }
@@ -256,7 +259,10 @@ LocalizationTrace localize(const LocalizationProblem& problem, const RunPlan& pl
   const auto memory = std::make_unique_for_overwrite<std::byte[]>(bytes);
   Localizer localizer(problem, options, {memory.get(), bytes}, settings.threads, kernels);
   trace.seconds.initialization = watch.lap();
+  if (settings.onboard_record != nullptr)
+    settings.onboard_record->begin(recordInputs(problem), problem, options);
   runSteps(localizer, settings, stop, trace);
+  if (settings.onboard_record != nullptr) settings.onboard_record->end(localizer);
   recordEnd(localizer, trace);
   return trace;
 }

@@ -4,6 +4,7 @@
 #include <stop_token>
 
 #include "core/base/kernels.h"
+#include "core/record/record_writer.h"
 #include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
@@ -29,6 +30,8 @@ struct RunSettings {
   /// What the inner loops use of the processor. Within a limit always the portable ones: wide
   /// registers need more memory, and the limit is that of a machine without them.
   Kernels kernels = bestKernels();
+  /// Notes the run as the flight side would, if given: from its first block to its last.
+  RecordWriter* onboard_record = nullptr;
 };
 
 /// Runs a whole localization with memory of its own: a loop around Localizer::step(). What is

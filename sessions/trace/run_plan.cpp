@@ -36,12 +36,13 @@ std::string planProblem(const RunPlan& plan) {
   return "";
 }
 
-void PlannedChanges::takeUp(Localizer& localizer, std::size_t complete) {
-  if (next_ >= changes_.size() || !localizer.isBetweenIterations()) return;
+bool PlannedChanges::takeUp(Localizer& localizer, std::size_t complete) {
+  if (next_ >= changes_.size() || !localizer.isBetweenIterations()) return false;
   const OptionChange& due = changes_[next_];
-  if (static_cast<std::size_t>(due.iteration) != complete) return;
+  if (static_cast<std::size_t>(due.iteration) != complete) return false;
   ++next_;
   if (!localizer.changeOptions(due.options)) throw std::logic_error("a plan that was not checked");
+  return true;
 }
 
 }  // namespace boresight::sessions

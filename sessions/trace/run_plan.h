@@ -49,8 +49,9 @@ class PlannedChanges {
  public:
   explicit PlannedChanges(std::vector<OptionChange> changes) : changes_(std::move(changes)) {}
 
-  /// Before every step, with the number of iterations that are complete.
-  void takeUp(Localizer& localizer, std::size_t complete);
+  /// Before every step, with the number of iterations that are complete. True when the localizer
+  /// has other options now.
+  bool takeUp(Localizer& localizer, std::size_t complete);
 
  private:
   std::vector<OptionChange> changes_;

@@ -2,9 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/image_file.h"
+#include "sessions/record/onboard_record.h"
 #include "sessions/trace/trace_file.h"
 #include "tests/app/run_whs.h"
 
@@ -64,6 +67,45 @@ TEST(WhsLocalize, GivesTheSameDigestWithAndWithoutRecording) {
   EXPECT_EQ(plain.size(), std::string("digest ").size() + 64 + 1);
   EXPECT_EQ(digestOf(runWhs(localizeArguments({{"--trace", (folder / "t").string()}}))), plain);
   EXPECT_NE(digestOf(runWhs(localizeArguments({{"--set", "pnp.seed=2"}}))), plain);
+}
+
+TEST(WhsLocalize, WritesTheOnboardRecord) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runWhs(localizeArguments({{"--record", (folder / "run.whsr").string()}}));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const sessions::OnboardRecord record = sessions::readRecord(folder / "run.whsr");
+  EXPECT_TRUE(record.whole());
+  ASSERT_TRUE(record.end && record.inputs);
+  EXPECT_THAT(run.out, HasSubstr("digest " + record.end->digest));
+  // The hash of the pixels is the one that sessions and results name.
+  EXPECT_EQ(hexText(record.inputs->sha256.pixels).data(),
+            sessions::readImage(exampleFolder() / "os/image.png").pixels_sha256);
+  EXPECT_LT(folder.read("run.whsr").size(), 64000u);
+}
+
+TEST(WhsCompare, SaysByItsExitCodeWhetherTwoRunsWereTheSame) {
+  const TemporaryFolder folder;
+  const std::string first = (folder / "a.whsr").string();
+  const std::string second = (folder / "b.whsr").string();
+  ASSERT_EQ(runWhs(localizeArguments({{"--record", first}})).exit_code, 0);
+  ASSERT_EQ(runWhs(localizeArguments({{"--record", second}})).exit_code, 0);
+  const ProgramRun equal = runWhs({"compare", first, second});
+  EXPECT_EQ(equal.exit_code, 0) << equal.out;
+  EXPECT_THAT(equal.out, HasSubstr("equal to the bit"));
+  ASSERT_EQ(runWhs(localizeArguments({{"--record", second}, {"--set", "pnp.seed=2"}})).exit_code,
+            0);
+  const ProgramRun other = runWhs({"compare", first, second});
+  EXPECT_EQ(other.exit_code, 6);
+  EXPECT_THAT(other.out, HasSubstr("options: the option pnp.seed"));
+  const auto write = [&](const char* name, const std::string& bytes) {
+    std::ofstream(folder / name, std::ios::binary) << bytes;
+  };
+  write("cut.whsr", folder.read("a.whsr").substr(0, 4000));
+  EXPECT_EQ(runWhs({"compare", first, (folder / "cut.whsr").string()}).exit_code, 5);
+  write("no.whsr", "no record");
+  const ProgramRun none = runWhs({"compare", first, (folder / "no.whsr").string()});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_THAT(none.err, HasSubstr("no.whsr"));
 }
 
 TEST(WhsLocalize, GivesTheSameDigestInTheMemoryOfFlight) {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <memory>
+#include <algorithm>
 
 #include "sessions/io/errors.h"
 #include "sessions/trace/record.h"
@@ -248,6 +248,32 @@ TEST(OnboardRecord, SaysWhatFoundNoRoom) {
   ASSERT_TRUE(read.end);
   EXPECT_EQ(read.end->digest, whole.trace.digest);
   EXPECT_THAT(read.missing, testing::Contains(HasSubstr("found no room on board")));
+}
+
+TEST(OnboardRecord, SaysWhichOptionsWereTakenUpOnTheWay) {
+  const RecordedRun& run = recordedRun();
+  const LocalizationProblem problem = run.example.problem();
+  sessions::RunPlan plan(run.options);
+  LocalizerOptions other = run.options;
+  other.refinement.last_radius_px = 5.0;
+  plan.changes.push_back({2, other});
+  Bytes bytes(65536);
+  RecordWriter record(bytes);
+  sessions::RunSettings settings;
+  settings.onboard_record = &record;
+  const auto trace = sessions::localize(problem, plan, settings);
+  const OnboardRecord read = parseRecord("r.whsr", record.bytes());
+  EXPECT_TRUE(read.whole());
+  ASSERT_EQ(read.options.size(), 2u);
+  EXPECT_EQ(read.options[1].first_iteration, 2);
+  const auto& options = read.options[1].options;
+  const auto changed = std::find_if(options.begin(), options.end(), [](const auto& one) {
+    return one.name == "refinement.last_radius_px";
+  });
+  ASSERT_NE(changed, options.end());
+  EXPECT_EQ(changed->value(), 5.0);
+  EXPECT_EQ(read.end->digest, trace.digest);
+  EXPECT_EQ(read.iterations.size(), trace.iterations.size());
 }
 
 TEST(OnboardRecord, RefusesOtherFiles) {

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether two runs were the same: one on board and one on the ground, or two of either.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sessions/record/onboard_record.h"
+
+namespace boresight::sessions {
+
+/// What of a run, in the order in which a run comes upon it.
+enum class RunPart {
+  kPixels,
+  kMask,
+  kScene,
+  kCamera,
+  kSeed,
+  kOptions,
+  kRender,
+  kTemplates,
+  kMatches,
+  kInliers,
+  kPose,
+  kSupport,
+  kEnd,
+  kDigest,
+};
+/// "pixels", "mask", ... for people.
+const char* runPartText(RunPart part);
+
+/// The first thing that is not the same, to the bit.
+struct FirstDifference {
+  RunPart part = RunPart::kPixels;
+  int iteration = -1;       ///< index over all attempts, or -1
+  int template_index = -1;  ///< of the iteration, or -1
+  std::string text;         ///< one sentence: what the one has and what the other
+};
+
+/// How far two runs on different pixels (a compressed downlink) may differ and still tell the same.
+struct ComparisonLimits {
+  double found_px = 1.0;  ///< a template found within this counts as found alike, px at its level
+  double found_share = 0.8;   ///< of the templates that both searched at one place
+  double inlier_share = 0.7;  ///< of the inliers of either among these, those that both have
+  double pose_sigmas = 3.0;   ///< final poses apart, in sigmas of the first one's covariance
+};
+
+/// One iteration of both runs. Templates are compared where both took one at the same pixel.
+struct IterationComparison {
+  int index = 0;
+  int templates = 0;    ///< at the same pixel, searched by both
+  int found_alike = 0;  ///< of these
+  int inliers_either = 0;
+  int inliers_both = 0;
+  double translation_mm = 0.0;  ///< between the poses after it, at the camera
+  double rotation_mrad = 0.0;
+};
+
+enum class RunVerdict {
+  kEqual,         ///< every bit that the records have, and they are whole
+  kWithinLimits,  ///< other pixels or a cut record, and nothing beyond the limits
+  kDifferent,
+};
+
+struct RecordComparison {
+  RunVerdict verdict = RunVerdict::kDifferent;
+  std::optional<FirstDifference> first;
+  std::vector<IterationComparison> iterations;  ///< those that both have
+  double translation_mm = 0.0;                  ///< between the final poses
+  double rotation_mrad = 0.0;
+  std::optional<double> pose_sigmas;  ///< nothing when one has no final pose or no covariance
+  std::vector<std::string> beyond;    ///< which limits are exceeded, sentences
+  std::vector<std::string> missing;   ///< what either record lacks
+};
+
+/// Compares what both records have. Runs given the same must be the same to the bit: then any
+/// difference makes them different. Runs on other pixels are held to the limits.
+RecordComparison compareRecords(const OnboardRecord& one, const OnboardRecord& other,
+                                const ComparisonLimits& limits = {});
+
+/// The comparison for people.
+std::string comparisonText(const RecordComparison& comparison);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/record/compare_records.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "sessions/record/record_inputs.h"
+#include "sessions/trace/record.h"
+#include "tests/support/example_case.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::compareRecords;
+using sessions::OnboardRecord;
+using sessions::RecordComparison;
+using sessions::RunPart;
+using sessions::RunVerdict;
+
+/// The record of a run of the example, as a change makes it.
+OnboardRecord recordOf(ExampleCase& example, const LocalizerOptions& options,
+                       std::size_t bytes_kept = SIZE_MAX) {
+  std::vector<std::uint8_t> bytes(65536);
+  RecordWriter record(bytes);
+  sessions::RunSettings settings;
+  settings.onboard_record = &record;
+  const LocalizationProblem problem = example.problem();
+  (void)sessions::localize(problem, sessions::RunPlan(options), settings);
+  const auto written = record.bytes();
+  return sessions::parseRecord("run.whsr", written.first(std::min(written.size(), bytes_kept)));
+}
+
+LocalizerOptions exampleOptions() {
+  LocalizerOptions options = defaultProfile();
+  options.templates.feature_size_m = 0.018;
+  return options;
+}
+
+const OnboardRecord& reference() {
+  static const OnboardRecord made = [] {
+    ExampleCase example("os");
+    return recordOf(example, exampleOptions());
+  }();
+  return made;
+}
+
+TEST(CompareRecords, ARunIsEqualToItself) {
+  const RecordComparison found = compareRecords(reference(), reference());
+  EXPECT_EQ(found.verdict, RunVerdict::kEqual);
+  EXPECT_FALSE(found.first);
+  EXPECT_EQ(found.translation_mm, 0.0);
+  EXPECT_THAT(comparisonText(found), testing::HasSubstr("equal to the bit"));
+  ExampleCase again("os");
+  EXPECT_EQ(compareRecords(reference(), recordOf(again, exampleOptions())).verdict,
+            RunVerdict::kEqual);
+}
+
+/// Whatever one thing is changed in a copy is what is found first.
+TEST(CompareRecords, NamesTheFirstThingThatDiffers) {
+  struct Change {
+    RunPart part;
+    std::function<void(OnboardRecord&)> make;
+  };
+  const std::vector<Change> changes = {
+      {RunPart::kMask, [](auto& run) { run.inputs->sha256.ignore[3] ^= 1; }},
+      {RunPart::kScene, [](auto& run) { run.inputs->sha256.scene[31] ^= 128; }},
+      {RunPart::kCamera, [](auto& run) { run.inputs->sha256.camera[0] ^= 1; }},
+      {RunPart::kSeed,
+       [](auto& run) { run.inputs->camera_from_station_seed.translation_m.z() += 1e-15; }},
+      {RunPart::kSeed, [](auto& run) { run.inputs->uncertainty.rotation_rad.x() *= 2.0; }},
+      {RunPart::kOptions, [](auto& run) { run.options.front().options[5].bits ^= 1; }},
+      {RunPart::kOptions, [](auto& run) { run.options.front().options.pop_back(); }},
+      {RunPart::kRender, [](auto& run) { ++run.iterations[0].edge_pixels; }},
+      {RunPart::kTemplates, [](auto& run) { ++(*run.iterations[0].templates)[7].x; }},
+      {RunPart::kMatches, [](auto& run) { (*run.iterations[0].templates)[2].score += 1e-6F; }},
+      {RunPart::kInliers,
+       [](auto& run) {
+         auto& one = (*run.iterations[0].templates)[4];
+         one.inlier = !one.inlier;
+       }},
+      {RunPart::kPose,
+       [](auto& run) { run.iterations[0].camera_from_station.translation_m.x() += 1e-16; }},
+      {RunPart::kEnd, [](auto& run) { run.end->covariance(0, 0) *= 1.0 + 1e-15; }},
+      {RunPart::kDigest,
+       [](auto& run) { run.end->digest[0] = run.end->digest[0] == 'a' ? 'b' : 'a'; }},
+  };
+  for (const Change& change : changes) {
+    OnboardRecord changed = reference();
+    change.make(changed);
+    for (const auto& found :
+         {compareRecords(reference(), changed), compareRecords(changed, reference())}) {
+      ASSERT_TRUE(found.first) << runPartText(change.part);
+      EXPECT_EQ(found.first->part, change.part) << found.first->text;
+      EXPECT_EQ(found.verdict, RunVerdict::kDifferent)
+          << "runs given the same pixels must be the same to the bit";
+    }
+  }
+}
+
+TEST(CompareRecords, OtherPixelsAreHeldToTheLimits) {
+  ExampleCase noisy("os");
+  for (std::size_t i = 0; i < noisy.image.pixels.size(); i += 7)
+    noisy.image.pixels[i] = static_cast<std::uint8_t>(
+        std::clamp(noisy.image.pixels[i] + (i % 2 == 0 ? 2 : -2), 0, 255));
+  const OnboardRecord other = recordOf(noisy, exampleOptions());
+  const RecordComparison found = compareRecords(reference(), other);
+  ASSERT_TRUE(found.first);
+  EXPECT_EQ(found.first->part, RunPart::kPixels);
+  EXPECT_EQ(found.verdict, RunVerdict::kWithinLimits) << comparisonText(found);
+  ASSERT_TRUE(found.pose_sigmas);
+  EXPECT_GT(*found.pose_sigmas, 0.0);
+  EXPECT_GT(found.iterations.front().templates, 20);
+  sessions::ComparisonLimits strict;
+  strict.pose_sigmas = 1e-9;
+  EXPECT_EQ(compareRecords(reference(), other, strict).verdict, RunVerdict::kDifferent);
+  OnboardRecord astray = other;
+  astray.end->camera_from_station.translation_m.x() += 0.005;
+  EXPECT_EQ(compareRecords(reference(), astray).verdict, RunVerdict::kDifferent);
+}
+
+TEST(CompareRecords, ACutRecordIsComparedAsFarAsItGoes) {
+  ExampleCase example("os");
+  const OnboardRecord cut = recordOf(example, exampleOptions(), 4000);
+  ASSERT_FALSE(cut.whole());
+  const RecordComparison found = compareRecords(reference(), cut);
+  EXPECT_FALSE(found.first) << found.first->text;
+  EXPECT_EQ(found.verdict, RunVerdict::kWithinLimits);
+  EXPECT_FALSE(found.missing.empty());
+  OnboardRecord changed = cut;
+  ASSERT_FALSE(changed.options.empty());
+  changed.options.front().options[0].bits ^= 1;
+  EXPECT_EQ(compareRecords(reference(), changed).verdict, RunVerdict::kDifferent);
+}
+
+}  // namespace
+}  // namespace boresight::test
