@@ -112,8 +112,8 @@ QVariant CasesModel::data(const QModelIndex& index, int role) const {
 
 QVariant CasesModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || section < 0 || section >= kColumnCount) return {};
-  const QString titles[] = {tr("Case"), tr("State"), tr("Normal, mm"), tr("Lateral, mm"),
-                            tr("Turned, deg")};
+  const QString titles[] = {tr("Case"), tr("State"), tr("Normal,\nmm"), tr("Lateral,\nmm"),
+                            tr("Turned,\ndeg")};
   const QString help[] = {
       tr("The image's name."),
       tr("What has become of the case: new, running, converged, failed, annotated, validated."),

@@ -10,6 +10,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QStyledItemDelegate>
 #include <QTableView>
 #include <QVBoxLayout>
 
@@ -19,7 +20,20 @@
 namespace boresight::ui {
 namespace {
 
-constexpr int kThumbnail_px = 48;
+constexpr int kThumbnail_px = 40;
+
+/// A case's name with its state below it: both stay in sight in a narrow list.
+class NameAndState final : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+ protected:
+  void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
+    QStyledItemDelegate::initStyleOption(option, index);
+    option->text +=
+        QChar(QChar::LineSeparator) + index.siblingAtColumn(CasesModel::kState).data().toString();
+  }
+};
 
 }  // namespace
 
@@ -74,6 +88,9 @@ void CasesPanel::buildTable() {
   styleTable(*table_);
   table_->setIconSize({kThumbnail_px, kThumbnail_px});
   table_->verticalHeader()->setDefaultSectionSize(kThumbnail_px + 4);
+  table_->setItemDelegateForColumn(CasesModel::kCase, new NameAndState(table_));
+  // The state is in the first column too; its own one is there to sort by.
+  table_->horizontalHeader()->moveSection(CasesModel::kState, CasesModel::kColumnCount - 1);
   table_->setSortingEnabled(true);
   table_->sortByColumn(CasesModel::kCase, Qt::AscendingOrder);
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
@@ -86,9 +103,20 @@ void CasesPanel::setRows(std::vector<CaseRow> rows) {
   model_.setRows(std::move(rows));
   showing_ = false;
   fitColumns(*table_);
-  // A long name must not push the state out of sight; the tooltip has it whole.
-  const int most = kThumbnail_px + table_->fontMetrics().horizontalAdvance(QString(14, u'0'));
+  // A long name must not push the first error out of sight; the tooltip has it whole. Headers
+  // would keep room for the sign of the order in every column.
+  const QFontMetrics metrics = table_->fontMetrics();
+  int most = 0;
+  for (int i = 0; i < kCaseStateCount; ++i)
+    most =
+        std::max(most, metrics.horizontalAdvance(CasesModel::stateText(static_cast<CaseState>(i))));
+  most += kThumbnail_px + 10;
   table_->setColumnWidth(CasesModel::kCase, std::min(table_->columnWidth(CasesModel::kCase), most));
+  for (const int error :
+       {CasesModel::kNormal_mm, CasesModel::kLateral_mm, CasesModel::kRotation_deg})
+    table_->setColumnWidth(error, std::max(metrics.horizontalAdvance(QStringLiteral("Normal,")),
+                                           metrics.horizontalAdvance(QStringLiteral("-00.000"))) +
+                                      8);
   setCurrent(current_);
 }
 

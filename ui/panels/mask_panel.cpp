@@ -14,6 +14,7 @@
 #include <QVBoxLayout>
 
 #include "sessions/session/mask_edits.h"
+#include "ui/panels/empty_hint.h"
 
 namespace boresight::ui {
 namespace {
@@ -115,6 +116,8 @@ void MaskPanel::buildStrokes(QBoxLayout& layout) {
   strokes_->setAccessibleName(tr("Strokes of the mask"));
   strokes_->setToolTip(tr("What the mask is made of, the first stroke first"));
   layout.addWidget(strokes_, 1);
+  (new EmptyHint(*strokes_))
+      ->setText(tr("Nothing yet: paint with the brush, draw a polygon, or ignore bright pixels."));
   name_ = pushButton(QStringLiteral("nameStroke"), tr("Name..."),
                      tr("Name the chosen stroke, \"gripper\" for one; other cases of the camera "
                         "can then take it"));

@@ -41,10 +41,10 @@ QWidget* MatchInspectorPanel::buildMatches() {
   splitter->addWidget(buildTable());
   match_ = new MatchView(this);
   splitter->addWidget(match_);
-  splitter->setStretchFactor(0, 2);
+  splitter->setStretchFactor(0, 1);
   splitter->setStretchFactor(1, 3);
   splitter->setChildrenCollapsible(false);
-  splitter->setSizes({380, 900});
+  splitter->setSizes({360, 1000});
   return splitter;
 }
 
@@ -55,6 +55,8 @@ QWidget* MatchInspectorPanel::buildTable() {
   auto* row = new QHBoxLayout;
   show_ = new QComboBox(part);
   show_->setAccessibleName(tr("Which templates are listed"));
+  show_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  show_->setMinimumContentsLength(8);
   for (int i = 0; i < TemplatesFilter::kShowCount; ++i)
     show_->addItem(TemplatesFilter::nameOf(static_cast<TemplatesFilter::Show>(i)));
   count_ = new QLabel(part);

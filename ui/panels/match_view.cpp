@@ -50,14 +50,15 @@ MatchView::MatchView(QWidget* parent) : QWidget(parent) {
   column->setContentsMargins(0, 0, 0, 0);
   auto* pictures = new QHBoxLayout;
   template_ = new PixelPicture(tr("Template"), this);
-  found_ = new PixelPicture(tr("Found in the image"), this);
+  found_ = new PixelPicture(tr("Found"), this);
   agreement_ = new PixelPicture(tr("Agreement"), this);
   template_->setToolTip(tr("Rendered edges (white) on the station's surface (gray)."));
   found_->setToolTip(tr("The image's edges where the template was found."));
   agreement_->setToolTip(
       tr("White: rendered and seen. Orange: rendered, not seen (lowers S+). "
          "Blue: seen, not rendered (lowers S-)."));
-  for (PixelPicture* picture : {template_, found_, agreement_}) pictures->addWidget(picture, 3);
+  for (PixelPicture* picture : {template_, found_}) pictures->addWidget(picture, 3);
+  pictures->addWidget(agreement_, 4);  // its legend is long
   map_ = new ScoreMapView(this);
   pictures->addWidget(map_, 4);
   column->addLayout(pictures, 1);

@@ -49,36 +49,48 @@ void PixelPicture::setLegend(const QVector<QPair<QRgb, QString>>& legend) {
   update();
 }
 
-void PixelPicture::paintLegend(QPainter& painter, const QRect& place) const {
-  const int sample = place.height() / 2;
-  int x = place.left();
+int PixelPicture::layOutLegend(QPainter* painter, int top) const {
+  const int line = fontMetrics().height();
+  const int sample = line / 2;
+  int x = 0;
+  int lines = legend_.isEmpty() ? 0 : 1;
   for (const auto& [color, text] : legend_) {
-    painter.fillRect(x, place.center().y() - sample / 2, sample, sample, QColor(color));
-    painter.drawRect(x, place.center().y() - sample / 2, sample, sample);
-    x += sample + 4;
-    painter.drawText(QRect(x, place.top(), place.right() - x, place.height()),
-                     Qt::AlignLeft | Qt::AlignVCenter, text);
-    x += fontMetrics().horizontalAdvance(text) + 8;
+    const int wide = sample + 4 + fontMetrics().horizontalAdvance(text);
+    if (x > 0 && x + wide > width()) {
+      x = 0;
+      ++lines;
+    }
+    if (painter) {
+      const int y = top + (lines - 1) * line;
+      const QRect box(x, y + (line - sample) / 2, sample, sample);
+      painter->fillRect(box, QColor(color));
+      painter->drawRect(box);
+      painter->drawText(QRect(x + sample + 4, y, wide, line), Qt::AlignLeft | Qt::AlignVCenter,
+                        text);
+    }
+    x += wide + 8;
   }
+  return lines;
 }
 
 void PixelPicture::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
   const int line = fontMetrics().height();
   painter.setPen(palette().color(QPalette::WindowText));
-  painter.drawText(QRect(0, 0, width(), line), Qt::AlignCenter, title_);
-  const QRect note_place(0, height() - line, width(), line);
+  painter.drawText(QRect(0, 0, width(), line), Qt::AlignCenter,
+                   fontMetrics().elidedText(title_, Qt::ElideRight, width()));
   if (picture_.isNull()) {
     painter.drawText(rect().adjusted(4, line, -4, 0), Qt::AlignCenter | Qt::TextWordWrap, note_);
     return;
   }
+  const int below = std::max(1, layOutLegend(nullptr, 0)) * line;
   if (legend_.isEmpty()) {
-    painter.drawText(note_place, Qt::AlignCenter,
+    painter.drawText(QRect(0, height() - line, width(), line), Qt::AlignCenter,
                      fontMetrics().elidedText(note_, Qt::ElideRight, width()));
   } else {
-    paintLegend(painter, note_place);
+    layOutLegend(&painter, height() - below);
   }
-  const QRectF room(0, line + 2, width(), height() - 2 * line - 4);
+  const QRectF room(0, line + 2, width(), height() - line - below - 4);
   painter.drawImage(pixelPlace(picture_.size(), room, devicePixelRatioF()), picture_);
 }
 

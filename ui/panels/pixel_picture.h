@@ -35,7 +35,9 @@ class PixelPicture : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  void paintLegend(QPainter& painter, const QRect& place) const;
+  /// Its entries, in as many lines as the width asks for; returns how many. A null painter only
+  /// counts.
+  int layOutLegend(QPainter* painter, int top) const;
 
   QString title_;
   QString note_;

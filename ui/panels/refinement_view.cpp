@@ -13,10 +13,15 @@ namespace boresight::ui {
 namespace {
 
 constexpr int kBins = 41;
-constexpr int kColumns = 6;
+constexpr int kColumns = 4;
 
 QVector<int> asVector(const std::vector<std::int32_t>& counts) {
   return QVector<int>(counts.begin(), counts.end());
+}
+
+/// Places and their share of all.
+QString countText(int count, double share) {
+  return RefinementView::tr("%1 (%2 %)").arg(count).arg(numberText(100.0 * share, 0));
 }
 
 }  // namespace
@@ -28,33 +33,27 @@ RefinementView::RefinementView(QWidget* parent) : QWidget(parent) {
   styleTable(*table_);
   table_->setSelectionMode(QAbstractItemView::NoSelection);
   table_->setFocusPolicy(Qt::NoFocus);
-  table_->setHorizontalHeaderLabels(
-      {tr("Edges"), tr("Places"), tr("Found"), tr("Found, %"), tr("Used"), tr("Used, %")});
+  table_->setHorizontalHeaderLabels({tr("Edges"), tr("Places"), tr("Found"), tr("Used")});
   const QStringList help = {
-      tr("Kind of rendered edge."),
-      tr("Places along rendered edges where the image was searched."),
-      tr("Places with an image edge within the search radius."),
-      tr("Places with an image edge, in per cent."),
-      tr("Places whose edge agrees with the others: weight above one half in the last round."),
-      tr("Places used, in per cent.")};
+      tr("Kind of rendered edge."), tr("Places along rendered edges where the image was searched."),
+      tr("Places with an image edge within the search radius, and their share."),
+      tr("Places whose edge agrees with the others (weight above one half in the last round), and "
+         "their share.")};
   for (int column = 0; column < kColumns; ++column)
     table_->horizontalHeaderItem(column)->setToolTip(help[column]);
-  row->addWidget(table_, 1);
+  row->addWidget(table_);
   histogram_ =
       new HistogramPlot(tr("residual along the edge's normal, px"), tr("found"), tr("used"), this);
   histogram_->setToolTip(tr(
       "Where the image's edges lie, seen from the rendered ones after this refinement, in pixels "
       "of the full image. A good pose has a narrow heap at 0."));
-  row->addWidget(histogram_, 2);
+  row->addWidget(histogram_, 1);
 }
 
 void RefinementView::fillRow(int row, const QString& name, const sessions::SampleCounts& counts) {
-  const QStringList texts = {name,
-                             QString::number(counts.places),
-                             QString::number(counts.found),
-                             numberText(100.0 * counts.foundShare(), 1),
-                             QString::number(counts.used),
-                             numberText(100.0 * counts.usedShare(), 1)};
+  const QStringList texts = {name, QString::number(counts.places),
+                             countText(counts.found, counts.foundShare()),
+                             countText(counts.used, counts.usedShare())};
   for (int column = 0; column < kColumns; ++column) {
     auto* item = new QTableWidgetItem(texts[column]);
     item->setTextAlignment((column > 0 ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
@@ -69,6 +68,7 @@ void RefinementView::setIteration(const sessions::IterationTrace& iteration) {
   fillRow(2, tr("occluding"), statistics.occluding);
   fillRow(3, tr("creases"), statistics.creases);
   fitColumns(*table_);
+  table_->setFixedWidth(table_->horizontalHeader()->length() + 2 * table_->frameWidth());
   histogram_->setCounts(statistics.radius_px, asVector(statistics.found_in_bin),
                         asVector(statistics.used_in_bin));
 }

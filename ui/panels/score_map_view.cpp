@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <QHelpEvent>
 #include <QPainter>
@@ -78,7 +79,8 @@ void ScoreMapView::setNote(const QString& note) {
 QRectF ScoreMapView::mapPlace() const {
   const int line = fontMetrics().height();
   const int scale = fontMetrics().horizontalAdvance(QStringLiteral("0.000")) + 28;
-  const QRectF room(0, line + 4, width() - scale, height() - 2 * line - 8);
+  const int below = layOutLegend(nullptr) * line;
+  const QRectF room(0, line + 4, width() - scale, height() - line - below - 8);
   return pixelPlace(picture_.size(), room, devicePixelRatioF());
 }
 
@@ -126,18 +128,21 @@ void ScoreMapView::paintEvent(QPaintEvent* /*event*/) {
     return;
   }
   painter.drawText(QRect(0, 0, width(), line), Qt::AlignCenter,
-                   tr("Score map, %1 x %2 px").arg(picture_.width()).arg(picture_.height()));
+                   fontMetrics().elidedText(
+                       tr("Score map, %1 x %2 px").arg(picture_.width()).arg(picture_.height()),
+                       Qt::ElideRight, width()));
   const QRectF place = mapPlace();
   painter.drawImage(place, picture_);
   paintScale(painter, place);
   painter.setRenderHint(QPainter::Antialiasing);
   paintMarks(painter);
-  paintLegend(painter);
+  layOutLegend(&painter);
 }
 
 void ScoreMapView::paintScale(QPainter& painter, const QRectF& beside) const {
   const int line = fontMetrics().height();
-  const QRectF bar(beside.right() + 8, line + 4, 12, height() - 2 * line - 8);
+  const QRectF bar(beside.right() + 8, line + 4, 12,
+                   height() - (1 + layOutLegend(nullptr)) * line - 8);
   const int steps = static_cast<int>(bar.height());
   for (int i = 0; i < steps; ++i) {
     const QColor color(heatColor(1.0 - static_cast<double>(i) / std::max(1, steps - 1)));
@@ -163,21 +168,33 @@ void ScoreMapView::paintMarks(QPainter& painter) const {
   painter.restore();
 }
 
-void ScoreMapView::paintLegend(QPainter& painter) const {
+int ScoreMapView::layOutLegend(QPainter* painter) const {
+  std::vector<std::pair<Shape, QString>> entries = {
+      {Shape::kCross, tr("predicted") + outsideText()}, {Shape::kCircle, tr("peak")}};
+  if (marks_.peak.has_second) entries.emplace_back(Shape::kSquare, tr("second"));
   const int line = fontMetrics().height();
-  double x = 8.0;
-  const double y = height() - 0.5 * line;
-  const auto entry = [&](Shape shape, const QString& text) {
-    drawMark(painter, shape, {x, y}, 4.0);
-    painter.setPen(palette().color(QPalette::WindowText));
-    const int advance = fontMetrics().horizontalAdvance(text);
-    painter.drawText(QRectF(x + 8, height() - line, advance + 4, line),
-                     Qt::AlignLeft | Qt::AlignVCenter, text);
-    x += advance + 24;
-  };
-  entry(Shape::kCross, tr("predicted") + outsideText());
-  entry(Shape::kCircle, tr("peak"));
-  if (marks_.peak.has_second) entry(Shape::kSquare, tr("second"));
+  std::vector<QPoint> places;
+  int x = 0;
+  int lines = 1;
+  for (const auto& [shape, text] : entries) {
+    const int wide = 16 + fontMetrics().horizontalAdvance(text);
+    if (x > 0 && x + wide > width()) {
+      x = 0;
+      ++lines;
+    }
+    places.emplace_back(x, (lines - 1) * line);
+    x += wide + 8;
+  }
+  if (!painter) return lines;
+  const QPoint top(0, height() - lines * line);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const QPoint at = top + places[i];
+    drawMark(*painter, entries[i].first, at + QPointF(8.0, 0.5 * line), 4.0);
+    painter->setPen(palette().color(QPalette::WindowText));
+    painter->drawText(QRect(at + QPoint(16, 0), QSize(width(), line)),
+                      Qt::AlignLeft | Qt::AlignVCenter, entries[i].second);
+  }
+  return lines;
 }
 
 /// The window is about the hypothesis without its roll, a template may come from a rolled render.

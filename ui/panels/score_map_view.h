@@ -50,7 +50,8 @@ class ScoreMapView : public QWidget {
   QRectF mapPlace() const;
   void paintScale(QPainter& painter, const QRectF& beside) const;
   void paintMarks(QPainter& painter) const;
-  void paintLegend(QPainter& painter) const;
+  /// In as many lines as the width asks for; returns how many. A null painter only counts.
+  int layOutLegend(QPainter* painter) const;
   QString outsideText() const;
 
   MapPtr map_;

@@ -59,6 +59,7 @@ class ImageView : public QWidget {
   std::optional<Pick> pickAt(const QPointF& widget) const;
 
   /// What is shown when there is no image.
+  const QString& hint() const { return hint_; }
   void setHint(const QString& hint);
 
   QSize sizeHint() const override { return {640, 640}; }

@@ -17,6 +17,17 @@ void paintTrack(QPainter& painter, const QPolygonF& track, double width, const Q
   }
 }
 
+/// How large the brush is: dark under bright, seen on any image.
+void paintRim(QPainter& painter, const QPointF& at, double radius, const QColor& color) {
+  QColor line = color;
+  line.setAlphaF(1.0);
+  painter.setBrush(Qt::NoBrush);
+  for (const QPen& pen : {QPen(QColor(0, 0, 0, 160), 3.0), QPen(line, 1.5)}) {
+    painter.setPen(pen);
+    painter.drawEllipse(at, radius, radius);
+  }
+}
+
 void paintOutline(QPainter& painter, const QPolygonF& outline, const QColor& color, bool filled) {
   QColor line = color;
   line.setAlphaF(1.0);
@@ -46,7 +57,9 @@ void paintPreview(QPainter& painter, const ViewTransform& transform, const ToolP
   for (const QPointF& pixel : preview.points) points << transform.toWidget(pixel);
   painter.setRenderHint(QPainter::Antialiasing, true);
   if (preview.radius_px > 0.0) {
-    paintTrack(painter, points, 2.0 * preview.radius_px * transform.scale(), preview.color);
+    const double radius = preview.radius_px * transform.scale();
+    paintTrack(painter, points, 2.0 * radius, preview.color);
+    paintRim(painter, points.back(), radius, preview.color);
   } else {
     paintOutline(painter, points, preview.color, preview.filled);
   }

@@ -93,4 +93,13 @@ std::optional<SceneAim> sceneAim(const MeshSnapper& mesh,
   return aim;
 }
 
+QString stationPlaceText(const Eigen::Vector3d& place_m, const QString& what) {
+  const Eigen::Vector3d mm = 1e3 * place_m;
+  return tr("Station x %1, y %2, z %3 mm (%4)")
+      .arg(mm.x(), 0, 'f', 2)
+      .arg(mm.y(), 0, 'f', 2)
+      .arg(mm.z(), 0, 'f', 2)
+      .arg(what);
+}
+
 }  // namespace boresight::ui

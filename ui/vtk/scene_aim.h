@@ -40,4 +40,7 @@ std::optional<SceneAim> sceneAim(const sessions::MeshSnapper& mesh,
                                  const Viewpoint& view, const QPointF& pixel,
                                  const SceneAimRules& rules);
 
+/// A place of the station in millimetres, and what is there.
+QString stationPlaceText(const Eigen::Vector3d& place_m, const QString& what);
+
 }  // namespace boresight::ui

@@ -178,7 +178,7 @@ bool SceneAnnotator::click(const QPointF& at, Qt::KeyboardModifiers modifiers) {
   pointer_ = pixelAt(at);
   modifiers_ = modifiers;
   updateAim();
-  place();
+  placeAim();
   return true;
 }
 
@@ -187,7 +187,7 @@ bool SceneAnnotator::completesPoint() const {
   return point && !point->point_in_station_m;
 }
 
-void SceneAnnotator::place() {
+void SceneAnnotator::placeAim() {
   if (!snapper_.mesh()) {
     Q_EMIT told(
         tr("The station's corners and edges are still being looked for; click again in a "
@@ -216,6 +216,11 @@ std::vector<Frustum> SceneAnnotator::rigFrusta(const Eigen::Vector3d& centre_m) 
     made.push_back(frustumOf(PoseRole::kAnnotated, QString::fromStdString(views[i].name),
                              views[i].camera, poses[i], centre_m));
   return made;
+}
+
+QString SceneAnnotator::place() const {
+  if (!aim_) return tr("Point at the station: Tab snaps to another thing, Alt to none.");
+  return stationPlaceText(aim_->point_in_station_m, aim_->text);
 }
 
 QString SceneAnnotator::nextStep() const {

@@ -40,6 +40,8 @@ class SceneAnnotator : public QObject {
   SceneLoupe& loupe() const { return *loupe_; }
   /// Cameras of the rig that are solved with this one, as the solved poses put them.
   std::vector<Frustum> rigFrusta(const Eigen::Vector3d& centre_m) const;
+  /// The place that a click would mark, in words and figures.
+  QString place() const;
   /// What is to be done next, or empty.
   QString nextStep() const;
   void paint(QPainter& painter, const QRectF& area) const;
@@ -63,7 +65,7 @@ class SceneAnnotator : public QObject {
   void setModifiers(Qt::KeyboardModifiers modifiers);
   void updateAim();
   bool completesPoint() const;
-  void place();
+  void placeAim();
   const sessions::MeshSnapper* mesh() const;
 
   QWidget& canvas_;

@@ -33,7 +33,7 @@ QString nameOf(const SceneMark& mark) {
   const QString id = QString::fromStdString(mark.id);
   if (mark.proposed) return tr("%1 ?").arg(id);
   if (!mark.enabled) return tr("%1 (off)").arg(id);
-  if (!mark.complete) return tr("%1: not in the image yet").arg(id);
+  if (!mark.complete) return (mark.chosen ? tr("%1: not in the image yet") : tr("%1 ?")).arg(id);
   if (mark.outlier > 0.0) return tr("%1 ! %2 sigma").arg(id).arg(mark.outlier, 0, 'f', 1);
   return id;
 }

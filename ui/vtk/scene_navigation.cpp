@@ -15,6 +15,12 @@ void SceneNavigation::setThroughCamera(bool through) {
   image_fitted_ = true;
 }
 
+void SceneNavigation::setStationAlone(bool alone, const SceneContent& content) {
+  if (alone == station_alone_) return;
+  station_alone_ = alone;
+  if (framed_ && !content.empty()) frame(content);
+}
+
 void SceneNavigation::startOver(const SceneContent& content) {
   orbit_ = OrbitCamera();
   frame(content);
@@ -26,8 +32,10 @@ void SceneNavigation::reset(const SceneContent& content) {
 }
 
 void SceneNavigation::frame(const SceneContent& content) {
+  framed_ = true;
   BoundingBox all = content.bounds;
   for (const Frustum& frustum : content.frusta) {
+    if (station_alone_) break;
     all.minimum_m = all.minimum_m.cwiseMin(frustum.apex_m);
     all.maximum_m = all.maximum_m.cwiseMax(frustum.apex_m);
   }
@@ -42,6 +50,7 @@ void SceneNavigation::fitImage(const SceneContent& content, const QSizeF& canvas
 
 void SceneNavigation::drag(const QPointF& moved, Qt::MouseButtons buttons,
                            Qt::KeyboardModifiers modifiers, double canvas_height) {
+  framed_ = framed_ && through_;
   const bool pans = (buttons & Qt::MiddleButton) != 0 || modifiers.testFlag(Qt::ShiftModifier);
   if (through_) {
     turn(moved, canvas_height);
@@ -59,6 +68,7 @@ void SceneNavigation::turn(const QPointF& by, double canvas_height) {
     image_.pan(by);
     image_fitted_ = false;
   } else {
+    framed_ = false;
     orbit_.orbit(by, canvas_height);
   }
 }
@@ -68,6 +78,7 @@ void SceneNavigation::zoom(const QPointF& at, double notches) {
     image_.zoomAt(at, image_.scale() * std::pow(kZoomPerNotch, notches));
     image_fitted_ = false;
   } else {
+    framed_ = false;
     orbit_.dolly(std::pow(kZoomPerNotch, -notches));
   }
 }

@@ -20,6 +20,9 @@ class SceneNavigation {
   /// Shows the whole image at first.
   void setThroughCamera(bool through);
 
+  /// What "the whole scene" is: the station alone, or with the cameras. A view that nobody has
+  /// changed follows.
+  void setStationAlone(bool alone, const SceneContent& content);
   /// Another station: the whole of it, from the side that is looked from at first.
   void startOver(const SceneContent& content);
   /// The whole scene again (through the camera: the whole image).
@@ -46,6 +49,8 @@ class SceneNavigation {
   ViewTransform image_;
   bool image_fitted_ = true;  ///< follows the canvas' size
   bool through_ = false;
+  bool station_alone_ = false;
+  bool framed_ = true;  ///< nobody has turned or moved since the whole scene was shown
 };
 
 }  // namespace boresight::ui

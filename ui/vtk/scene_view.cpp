@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QVBoxLayout>
 
+#include "ui/annotation/annotation_controller.h"
 #include "ui/vtk/scene_annotator.h"
 #include "ui/vtk/scene_bar.h"
 #include "ui/vtk/scene_input.h"
@@ -97,6 +98,12 @@ void SceneView::setAnnotation(AnnotationController& annotation, StationSnapper& 
   connect(annotator_, &SceneAnnotator::changed, this, [this] {
     overlay_->update();
     updateNote();
+    if (annotator_->places()) readout_->setText(annotator_->place());
+  });
+  connect(&annotation, &AnnotationController::modeChanged, this, [this] {
+    navigation_.setStationAlone(annotator_->places(), *content_);
+    readout_->setText(tr("Click a template, a mark or a point of the mesh."));
+    updateView();
   });
   connect(annotator_, &SceneAnnotator::told, this, &SceneView::told);
   refreshSoon();
@@ -257,13 +264,8 @@ void SceneView::pickInScene(const QPointF& pixel) {
     readout_->setText(tr("Nothing there: click a template or a point of the mesh."));
     return;
   }
-  const Eigen::Vector3d mm = 1e3 * place->at_m;
   const QString where = place->vertex >= 0 ? tr("vertex %1").arg(place->vertex) : tr("on a face");
-  readout_->setText(tr("Station x %1, y %2, z %3 mm (%4)")
-                        .arg(mm.x(), 0, 'f', 2)
-                        .arg(mm.y(), 0, 'f', 2)
-                        .arg(mm.z(), 0, 'f', 2)
-                        .arg(where));
+  readout_->setText(stationPlaceText(place->at_m, where));
   Q_EMIT meshPointPicked(place->at_m, place->vertex);
 }
 

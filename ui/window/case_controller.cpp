@@ -7,6 +7,7 @@
 #include <QCoreApplication>
 #include <QStringList>
 
+#include "sessions/io/errors.h"
 #include "sessions/session/case_run.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
@@ -45,6 +46,7 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
 void CaseController::documentOpened() {
   case_id_.clear();
   queue_.clear();
+  unstored_.clear();
   const sessions::Session& session = document_.session();
   QString first = QString::fromStdString(session.view.case_id);
   if (!session.findCase(session.view.case_id))
@@ -59,6 +61,8 @@ void CaseController::documentOpened() {
 }
 
 void CaseController::documentChanged() {
+  if (!unstored_.empty() && (document_.file() != unstored_file_ || !document_.isModified()))
+    storeAgain();
   const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
   if (!one) {
     documentOpened();
@@ -97,16 +101,40 @@ void CaseController::load(const QString& id) {
   const sessions::SessionCase* one = document_.session().findCase(id.toStdString());
   if (!one) return;
   asked_ = *one;
+  load_problem_.clear();
   const ViewState::CasePtr before = state_.currentCase();
+  struct Read {
+    std::shared_ptr<const sessions::LoadedCase> one;
+    QString problem;
+  };
   tasks_.start(
       QStringLiteral("load case"),
       [source = *one, before](const std::stop_token&) {
-        return before && before->source.id == source.id ? sessions::reloadCase(*before, source)
-                                                        : sessions::loadCase(source);
+        try {
+          return before && before->source.id == source.id
+                     ? Read{sessions::reloadCase(*before, source), {}}
+                     : Read{sessions::loadCase(source), {}};
+        } catch (const std::exception& error) {
+          return Read{nullptr, QString::fromUtf8(error.what())};
+        }
       },
-      [this, id](std::shared_ptr<const sessions::LoadedCase> one_loaded) {
-        loaded(id, std::move(one_loaded));
+      [this, id](const Read& read) {
+        if (read.one)
+          loaded(id, read.one);
+        else
+          loadFailed(id, read.problem);
       });
+}
+
+/// The case that was shown before is not shown under this one's name.
+void CaseController::loadFailed(const QString& id, const QString& message) {
+  if (id != case_id_) return;
+  run_when_loaded_.reset();
+  load_problem_ = message;
+  const ViewState::CasePtr& shown = state_.currentCase();
+  if (shown && QString::fromStdString(shown->source.id) != id) state_.setCase(nullptr);
+  Q_EMIT failed(message);
+  runNext();
 }
 
 void CaseController::loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one) {
@@ -253,26 +281,58 @@ void CaseController::runEnded() {
 }
 
 void CaseController::storeRun() {
-  const auto snapshot = run_.snapshot();
-  if (!snapshot) {
+  if (const auto snapshot = run_.snapshot())
+    store({run_session_, case_id_.toStdString(), snapshot, run_.inputs().continued});
+  else
     runNext();
-    return;
-  }
-  const std::string id = case_id_.toStdString();
-  storing_ = true;
+}
+
+void CaseController::store(const EndedRun& ended) {
+  struct Stored {
+    std::optional<sessions::RunRecord> record;
+    QString problem;
+  };
+  ++storing_;
+  // Of a key of its own: no run's storing replaces another's.
   tasks_.start(
-      QStringLiteral("store run"),
-      [session = run_session_, id, snapshot, file = document_.file(),
-       continued = run_.inputs().continued](const std::stop_token&) {
-        return sessions::storeRun(session, id, sessions::traceOf(*snapshot), file, continued);
+      QStringLiteral("store run %1").arg(QString::fromStdString(ended.snapshot->digest)),
+      [ended, file = document_.file()](const std::stop_token&) {
+        try {
+          return Stored{
+              sessions::storeRun(ended.session, ended.case_id, sessions::traceOf(*ended.snapshot),
+                                 file, ended.continued),
+              {}};
+        } catch (const sessions::OutputError& error) {
+          return Stored{std::nullopt, QString::fromUtf8(error.what())};
+        }
       },
-      [this](const sessions::RunRecord& record) {
-        storing_ = false;
-        if (document_.note(sessions::withRun(document_.session(), record),
-                           tr("Run %1").arg(QString::fromStdString(record.case_id))))
+      [this, ended, file = document_.file()](const Stored& stored) {
+        --storing_;
+        // Before it is noted: a failure is told at once, and answered by saving elsewhere.
+        unstored_file_ = file;
+        unstored_.push_back(ended);
+        if (!stored.record) {
+          Q_EMIT storeFailed(stored.problem);
+          if (!unstored_.empty()) queue_.clear();  // nor is there room for the next
+        } else if (document_.note(sessions::withRun(document_.session(), *stored.record),
+                                  tr("Run %1").arg(QString::fromStdString(ended.case_id)))) {
+          std::erase_if(unstored_,
+                        [&](const EndedRun& one) { return one.snapshot == ended.snapshot; });
           Q_EMIT stalenessChanged();
+        }
         runNext();
       });
+}
+
+/// The session was saved: perhaps there is room now.
+void CaseController::storeAgain() {
+  for (const EndedRun& ended : std::exchange(unstored_, {})) store(ended);
+}
+
+QStringList CaseController::unstoredRuns() const {
+  QStringList ids;
+  for (const EndedRun& ended : unstored_) ids << QString::fromStdString(ended.case_id);
+  return ids;
 }
 
 void CaseController::finishStoring() {
@@ -296,7 +356,10 @@ void CaseController::runNext() {
     return;
   }
   run_when_loaded_ = StepUntil::kEnd;
-  chooseCase(next);
+  if (next == case_id_)
+    load(next);
+  else
+    chooseCase(next);
 }
 
 void CaseController::runIfWaiting() {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <QObject>
@@ -29,6 +31,8 @@ class CaseController : public QObject {
                  QObject* parent = nullptr);
 
   const QString& caseId() const { return case_id_; }
+  /// Why the case could not be read, or empty.
+  const QString& loadProblem() const { return load_problem_; }
   /// The options that the next run of the case has.
   LocalizerOptions options() const;
   /// Whether the shown run was made with other options or inputs; then `stale` names what.
@@ -46,6 +50,9 @@ class CaseController : public QObject {
   /// Drops the shown run; the next step begins anew.
   void reset();
   void runAll(const QStringList& ids);
+  /// Of runs that have ended and for which there was no room where the session lies; they are
+  /// stored as soon as it is saved, there or elsewhere.
+  QStringList unstoredRuns() const;
   /// Waits until a run that has ended is in the session: what was shown as done is not lost.
   void finishStoring();
   void useAsSeed(const boresight::Pose& camera_from_station);
@@ -57,19 +64,32 @@ class CaseController : public QObject {
   void caseChosen(const QString& id);
   /// Reading, running or storing something failed; one sentence.
   void failed(const QString& message);
+  /// There is no room for a run where the session lies; one sentence.
+  void storeFailed(const QString& message);
   void stalenessChanged();
 
  private:
+  /// All that is needed to store a run.
+  struct EndedRun {
+    sessions::Session session;  ///< as it was made from
+    std::string case_id;
+    ViewState::SnapshotPtr snapshot;
+    std::string continued;  ///< digest of the run that it goes on from, or empty
+  };
+
   void documentOpened();
   void documentChanged();
   bool isLoaded() const;
   void load(const QString& id);
   void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one);
+  void loadFailed(const QString& id, const QString& message);
   void loadLatestRun(const QString& id);
   void prepareRun();
   void prepareRerun(int iteration);
   void runEnded();
   void storeRun();
+  void store(const EndedRun& ended);
+  void storeAgain();
   void runNext();
   void runIfWaiting();
   void showNudgedPose();
@@ -79,11 +99,14 @@ class CaseController : public QObject {
   RunController& run_;
   TaskRunner& tasks_;
   QString case_id_;
+  QString load_problem_;
   std::optional<Pose> working_;  ///< camera_from_station of the document that the views have
   std::optional<sessions::SessionCase> asked_;  ///< what was read last, or is being read
   bool run_is_prepared_ = false;
-  bool storing_ = false;
-  sessions::Session run_session_;  ///< what the run that is prepared is made from
+  int storing_ = 0;
+  std::vector<EndedRun> unstored_;
+  std::filesystem::path unstored_file_;  ///< where there was no room
+  sessions::Session run_session_;        ///< what the run that is prepared is made from
   std::optional<sessions::StepUntil> run_when_loaded_;
   std::vector<QString> queue_;
 };

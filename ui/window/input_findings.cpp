@@ -40,6 +40,23 @@ void InputFindings::show() {
   QStringList sentences;
   for (const sessions::Finding& finding : findings_) sentences << fromText(finding.text);
   bar_.setSentences(sentences);
+  Q_EMIT changed();
+}
+
+QString InputFindings::adviceFor(const QString& case_id) const {
+  QStringList lines;
+  bool missing = false;
+  for (const sessions::Finding& finding : findings_) {
+    if (finding.case_id != case_id.toStdString() || finding.what == "run") continue;
+    lines << fromText(finding.text);
+    missing |= finding.kind == FindingKind::kMissing;
+  }
+  if (lines.isEmpty()) return {};
+  lines << (missing ? tr("Put the file back where it was, or have \"Mend ...\" above look for it "
+                         "below the session's folder.")
+                    : tr("Put the former file back, or have \"Mend ...\" above take it as it is "
+                         "now."));
+  return lines.join(QStringLiteral("\n\n"));
 }
 
 bool InputFindings::has(FindingKind kind) const {

@@ -27,12 +27,15 @@ class InputFindings : public QObject {
 
   const std::vector<sessions::Finding>& findings() const { return findings_; }
   bool isBusy() const { return tasks_.isBusy(); }
+  /// Which files of a case are not as they should be and what to do; empty when all are.
+  QString adviceFor(const QString& case_id) const;
 
  public Q_SLOTS:
   /// What the bar's button does.
   void mend();
 
  Q_SIGNALS:
+  void changed();
   void failed(const QString& message);
 
  private:

@@ -100,6 +100,7 @@ void MainWindow::connectAll() {
           [this](const QString& message) { statusBar()->showMessage(message); });
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);
+  connect(findings_, &InputFindings::changed, this, &MainWindow::showHint);
   connect(files_, &SessionFiles::failed, this, &MainWindow::showMessage);
   connect(files_, &SessionFiles::noted, this, [this](const QString& message) {
     statusBar()->showMessage(message);
@@ -108,19 +109,36 @@ void MainWindow::connectAll() {
   connect(&document_, &Document::opened, this, &MainWindow::showDocument);
   connect(&document_, &Document::changed, this, &MainWindow::showState);
   connect(&document_, &Document::failed, this, &MainWindow::showMessage);
-  connect(&document_, &Document::writeFailed, this, [this](const QString& message) {
+  const auto offer_elsewhere = [this](const QString& message) {
     last_message_ = message;
     if (!quiet_) files_->offerSavingElsewhere(message);
+  };
+  connect(&document_, &Document::writeFailed, this, offer_elsewhere);
+  connect(&cases_, &CaseController::storeFailed, this, [this, offer_elsewhere](const QString& m) {
+    showState();  // it can be saved now
+    offer_elsewhere(m);
   });
   connect(&cases_, &CaseController::failed, this, &MainWindow::showMessage);
   connect(&tasks_, &TaskRunner::failed, this, &MainWindow::showMessage);
   connect(&run_, &RunController::stateChanged, this, &MainWindow::showState);
   connect(&state_, &ViewState::caseChanged, this, &MainWindow::showState);
+  connect(&state_, &ViewState::caseChanged, this, &MainWindow::showHint);
+}
+
+/// In the middle, where people look for the image: why it is not there, and what to do.
+void MainWindow::showHint() {
+  QString hint;
+  if (document_.isOpen() && !cases_.caseId().isEmpty()) {
+    hint = findings_->adviceFor(cases_.caseId());
+    if (hint.isEmpty()) hint = cases_.loadProblem();
+    if (hint.isEmpty()) hint = tr("Reading the files of %1 ...").arg(cases_.caseId());
+  }
+  image().setHint(hint);
 }
 
 void MainWindow::showMessage(const QString& message) {
   last_message_ = message;
-  image().setHint({});
+  showHint();
   if (quiet_) return;
   QMessageBox box(QMessageBox::Warning, tr("Boresight"), message, QMessageBox::Ok, this);
   box.setTextInteractionFlags(Qt::TextSelectableByMouse);

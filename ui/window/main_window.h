@@ -71,6 +71,7 @@ class MainWindow : public QMainWindow {
   void connectAll();
   void showDocument();
   void showState();
+  void showHint();
   void showMessage(const QString& message);
 
   Document document_;

@@ -151,7 +151,21 @@ void SessionFiles::offerSavingElsewhere(const QString& reason) {
   if (box.clickedButton() == elsewhere) saveAs();
 }
 
+bool SessionFiles::mayLoseRuns() {
+  const QStringList runs = parts_.cases.unstoredRuns();
+  if (runs.isEmpty()) return true;
+  QMessageBox box(QMessageBox::Warning, tr("Boresight"),
+                  tr("There was no room for runs of %1; they are in this window only.")
+                      .arg(runs.join(QStringLiteral(", "))),
+                  QMessageBox::Discard | QMessageBox::Cancel, &window_);
+  QAbstractButton* elsewhere = box.addButton(tr("Save elsewhere..."), QMessageBox::AcceptRole);
+  const int answer = box.exec();
+  if (box.clickedButton() == elsewhere && saveAs()) parts_.cases.finishStoring();
+  return answer == QMessageBox::Discard || parts_.cases.unstoredRuns().isEmpty();
+}
+
 bool SessionFiles::mayLeave() {
+  if (!mayLoseRuns()) return false;
   const Document& document = parts_.document;
   if (document.isUntitled()) return mayLeaveUntitled();
   if (!document.isModified()) return true;

@@ -53,6 +53,7 @@ class SessionFiles : public QObject {
   void addCase();
   void takeCase(sessions::SessionCase made);
   bool askForUnits();
+  bool mayLoseRuns();
   bool mayLeaveUntitled();
 
   QWidget& window_;

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/window_menus.h"
 
+#include <algorithm>
+
 #include <QAction>
 #include <QDockWidget>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QStatusBar>
 #include <QToolBar>
 
+#include "sessions/session/changed_cases.h"
 #include "sessions/version.h"
 #include "ui/annotation/annotation_panel.h"
 #include "ui/panels/mask_panel.h"
@@ -87,12 +91,8 @@ void WindowMenus::buildEditMenu() {
   QMenu* menu = window_.menuBar()->addMenu(tr("&Edit"));
   undo_ = action(tr("&Undo"), QKeySequence::Undo, tr("Take back the last change"));
   redo_ = action(tr("&Redo"), QKeySequence::Redo, tr("Make the change again"));
-  connect(undo_, &QAction::triggered, this, [this] {
-    docks_.poses().nudgeController().finishGesture();  // what is under way is undone first
-    parts_.annotation.finishMove();
-    parts_.document.undo();
-  });
-  connect(redo_, &QAction::triggered, &parts_.document, &Document::redo);
+  connect(undo_, &QAction::triggered, this, &WindowMenus::undo);
+  connect(redo_, &QAction::triggered, this, &WindowMenus::redo);
   menu->addAction(undo_);
   menu->addAction(redo_);
   menu->addSeparator();
@@ -295,6 +295,32 @@ void WindowMenus::showAbout() {
                          .arg(QString::fromUtf8(sessions::kVersion)));
 }
 
+void WindowMenus::undo() {
+  docks_.poses().nudgeController().finishGesture();  // what is under way is undone first
+  parts_.annotation.finishMove();
+  const sessions::Session before = parts_.document.session();
+  const QString text = parts_.document.undoText();
+  if (parts_.document.undo()) showChange(before, tr("Undone: %1").arg(text));
+}
+
+void WindowMenus::redo() {
+  const sessions::Session before = parts_.document.session();
+  const QString text = parts_.document.redoText();
+  if (parts_.document.redo()) showChange(before, tr("Done again: %1").arg(text));
+}
+
+void WindowMenus::showChange(const sessions::Session& before, const QString& told) {
+  const auto changed = sessions::changedCases(before, parts_.document.session());
+  const std::string shown = parts_.cases.caseId().toStdString();
+  QString message = told;
+  if (!changed.empty() && std::find(changed.begin(), changed.end(), shown) == changed.end()) {
+    const QString other = QString::fromStdString(changed.front());
+    message = tr("%1, in %2, which is shown now").arg(told, other);
+    parts_.cases.chooseCase(other);
+  }
+  window_.statusBar()->showMessage(message);
+}
+
 void WindowMenus::showRecent() {
   recent_menu_->clear();
   const QStringList files = recentFiles();
@@ -313,7 +339,8 @@ void WindowMenus::update() {
   const bool editable = open && document.readOnlyReason().isEmpty();
   const bool working = parts_.run.state() == RunState::kWorking;
   const bool has_case = parts_.state.currentCase() != nullptr;
-  save_->setEnabled(editable && (document.isModified() || document.isUntitled()));
+  save_->setEnabled(editable && (document.isModified() || document.isUntitled() ||
+                                 !parts_.cases.unstoredRuns().isEmpty()));
   save_as_->setEnabled(open);
   undo_->setEnabled(editable && document.canUndo());
   redo_->setEnabled(editable && document.canRedo());

@@ -4,6 +4,7 @@
 #include <QList>
 #include <QObject>
 
+#include "sessions/session/session.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/window/window_parts.h"
 
@@ -41,6 +42,10 @@ class WindowMenus : public QObject {
   void buildViewMenu();
   void buildLayersMenu(QMenu& menu);
   void buildHelpMenu();
+  /// Of an edit of another case than the shown one: that case is shown, and said to be.
+  void undo();
+  void redo();
+  void showChange(const sessions::Session& before, const QString& told);
   void showRecent();
   void showAbout();
   QAction* action(const QString& text, const QKeySequence& keys, const QString& tip);

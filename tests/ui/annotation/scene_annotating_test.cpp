@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include <QLabel>
 #include <QWheelEvent>
 
 #include "tests/sessions/annotation/box_scene.h"
@@ -271,6 +272,21 @@ TEST_F(SceneAnnotatingTest, DraggingTurnsTheViewAndMarksNothing) {
   EXPECT_TRUE(controller_.marks().empty());
 }
 
+TEST_F(SceneAnnotatingTest, WhoAnnotatesSeesTheStationLargeUntilTheViewIsTurned) {
+  const double all_m = view_.orbitCamera().distance_m();
+  controller_.setMode(PlaceMode::kPoint);
+  EXPECT_LT(view_.orbitCamera().distance_m(), all_m) << "without the cameras";
+  controller_.setMode(PlaceMode::kOff);
+  EXPECT_EQ(view_.orbitCamera().distance_m(), all_m);
+  QTest::keyClick(view_.canvas(), Qt::Key_Left);
+  controller_.setMode(PlaceMode::kPoint);
+  EXPECT_EQ(view_.orbitCamera().distance_m(), all_m) << "somebody has put it there";
+  hover(pixelOf(kCorner_m));
+  const QString figures = view_.findChild<QLabel*>(QStringLiteral("sceneReadout"))->text();
+  EXPECT_TRUE(figures.contains(QStringLiteral("x 100.00, y -100.00, z 0.00 mm")))
+      << figures.toStdString();
+}
+
 TEST_F(SceneAnnotatingTest, TheLoupeShowsThePlaceMagnifiedWhileSomebodyPlaces) {
   SceneLoupe& loupe = view_.annotator()->loupe();
   hover(pixelOf(kCorner_m));
@@ -306,6 +322,50 @@ TEST_F(SceneAnnotatingTest, TheLoupesPictureIsTheGeometryMagnifiedAboutThePointe
       EXPECT_NEAR(at.y(), expected.y(), 1e-9);
     }
   }
+}
+
+/// Two cases of one rig: the other camera stands where the rig puts it.
+class SceneOfARigTest : public AnnotationTest {};
+
+TEST_F(SceneOfARigTest, ShowsTheOtherCamerasWhereTheSolvedRigPutsThem) {
+  const std::string own = source().id;
+  sessions::Session session = document_.session();
+  Pose other_from_own;
+  other_from_own.rotation = rotationExp({0.0, 0.1, 0.0});
+  other_from_own.translation_m = {0.2, 0.0, 0.0};
+  const std::string other = session.cases.back()->id;
+  ASSERT_NE(own, other);
+  for (const std::string& id : {own, other}) {
+    sessions::SessionCase one = *session.findCase(id);
+    one.rig = sessions::Rig{"rig", id == own ? Pose() : other_from_own};
+    session = withCase(session, one);
+  }
+  sessions::Marks marks;  // of the other camera: one place, exactly where it is seen
+  sessions::PointPair point;
+  point.id = "p1";
+  point.point_in_station_m = corners_m(1).front();
+  Eigen::Vector2d pixel;
+  const Pose other_from_station = other_from_own * truth();
+  ASSERT_TRUE(project(session.findCase(other)->camera,
+                      other_from_station * *point.point_in_station_m, pixel));
+  point.pixel = pixel;
+  marks.points = {point};
+  session = sessions::withAnnotation(session, other, marks);
+  ASSERT_TRUE(document_.edit(session, QStringLiteral("Rig")));
+  open(own);
+  ASSERT_EQ(markCorners(8).size(), 8u);
+  ASSERT_TRUE(solved());
+  StationSnapper snapper(state_);
+  SceneView view(state_, nullptr, SceneBackend::kPicture);
+  view.setAnnotation(controller_, snapper);
+  view.refresh();
+  int shown = 0;
+  for (const Frustum& frustum : view.content().frusta) {
+    if (frustum.label != QString::fromStdString(other)) continue;
+    ++shown;
+    EXPECT_LT((frustum.apex_m - other_from_station.inverse().translation_m).norm(), 1e-5);
+  }
+  EXPECT_EQ(shown, 1);
 }
 
 TEST_F(SceneAnnotatingTest, MarksAreDrawnByWhatTheyAre) {

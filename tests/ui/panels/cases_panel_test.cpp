@@ -66,12 +66,24 @@ TEST_F(CasesPanelTest, RunsWhatIsListed) {
   EXPECT_FALSE(button("runAll")->isEnabled());
 }
 
-TEST_F(CasesPanelTest, ALongNameLeavesTheStateInSight) {
+TEST_F(CasesPanelTest, NameStateAndTheFirstErrorAreInSightInANarrowList) {
   std::vector<CaseRow> rows(1);
   rows[0].id = QString(60, QLatin1Char('w'));
-  panel_.resize(256, 400);
+  rows[0].state = CaseState::kAnnotated;
+  rows[0].normal_mm = -0.123;
+  rows[0].lateral_mm = 10.456;
+  panel_.resize(252, 400);  // of a window 1280 wide
   panel_.setRows(rows);
-  EXPECT_LT(table_->columnViewportPosition(CasesModel::kState), table_->viewport()->width());
+  const auto right = [this](int column) {
+    return table_->columnViewportPosition(column) + table_->columnWidth(column);
+  };
+  EXPECT_LE(right(CasesModel::kNormal_mm), table_->viewport()->width());
+  const QImage annotated = table_->viewport()->grab().toImage();
+  rows[0].state = CaseState::kFailed;
+  panel_.setRows(rows);
+  EXPECT_NE(table_->viewport()->grab(QRect(0, 0, right(CasesModel::kCase), 44)).toImage(),
+            annotated.copy(0, 0, right(CasesModel::kCase), 44))
+      << "the state is told beside the name";
 }
 
 TEST_F(CasesPanelTest, ListsOneState) {

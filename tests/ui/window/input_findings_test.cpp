@@ -6,13 +6,20 @@
 #include <fstream>
 #include <functional>
 
+#include <QApplication>
+#include <QMessageBox>
 #include <QStandardPaths>
+#include <QTimer>
+#include <QToolButton>
 #include <QtTest/QTest>
 
+#include "sessions/session/input_check.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/panels/warning_bar.h"
+#include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
 #include "ui/window/main_window.h"
 
 namespace boresight::ui {
@@ -90,6 +97,61 @@ TEST_F(InputFindingsTest, AChangedFileIsReportedAndNotUsed) {
   ASSERT_EQ(window_.findings().findings().size(), 1u);
   EXPECT_EQ(window_.findings().findings()[0].kind, sessions::FindingKind::kChanged);
   EXPECT_EQ(window_.state().currentCase(), nullptr);
+}
+
+TEST_F(InputFindingsTest, TheMiddleSaysWhichFileIsMissingAndWhatToDo) {
+  open();
+  fs::remove(image());
+  reopen();
+  const QString hint = window_.image().view().hint();
+  EXPECT_TRUE(hint.contains(QString::fromStdString(image().string()))) << hint.toStdString();
+  EXPECT_TRUE(hint.contains(QStringLiteral("Mend"))) << hint.toStdString();
+  EXPECT_FALSE(hint.contains(QStringLiteral("Drop")));
+}
+
+TEST_F(InputFindingsTest, AnotherCasesImageIsNotShownUnderTheNameOfOneThatIsMissing) {
+  open();
+  const QString first = window_.cases().caseId();
+  fs::remove(inputs_ / "os" / "image.png");
+  const std::string other = window_.document().session().cases.back()->id;
+  ASSERT_NE(other, first.toStdString());
+  window_.cases().chooseCase(QString::fromStdString(other));
+  settle();
+  EXPECT_EQ(window_.state().currentCase(), nullptr);
+  EXPECT_TRUE(window_.image().view().hint().contains(QStringLiteral("image.png")));
+  window_.cases().chooseCase(first);
+  settle();
+  EXPECT_NE(window_.state().currentCase(), nullptr);
+}
+
+TEST_F(InputFindingsTest, AChangedFileIsTakenAsItIsWhenSomebodySaysSo) {
+  open();
+  const std::string id = window_.cases().caseId().toStdString();
+  const auto hash = [&] { return window_.document().session().findCase(id)->image.source.sha256; };
+  const std::string before = hash();
+  fs::copy_file(inputs_ / "os" / "image.png", image(), fs::copy_options::overwrite_existing);
+  reopen();
+  ASSERT_EQ(window_.state().currentCase(), nullptr);
+  EXPECT_TRUE(window_.image().view().hint().contains(QStringLiteral("take it as it is")));
+  QTimer yes;
+  QObject::connect(&yes, &QTimer::timeout, &yes, [] {
+    if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
+      QTest::mouseClick(box->button(QMessageBox::Yes), Qt::LeftButton);
+  });
+  yes.start(10);
+  for (auto* button : window_.findChildren<QToolButton*>(QStringLiteral("warningAction")))
+    if (button->isVisible() && button->text().startsWith(QStringLiteral("Mend")))
+      QTest::mouseClick(button, Qt::LeftButton);
+  settle();
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return window_.state().currentCase() != nullptr; }, kPatienceMs));
+  EXPECT_TRUE(window_.findings().findings().empty());
+  EXPECT_NE(hash(), before);
+  EXPECT_EQ(hash(), sessions::inputSha256(image()));
+  EXPECT_EQ(window_.document().undoText(), QStringLiteral("Accept changed files"));
+  ASSERT_TRUE(window_.document().undo());
+  EXPECT_EQ(hash(), before) << "and it can be taken back";
+  settle();
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <QMimeData>
 #include <QPushButton>
 #include <QStandardPaths>
+#include <QStatusBar>
 #include <QTimer>
 #include <QUrl>
 #include <QtTest/QTest>
@@ -77,6 +78,28 @@ TEST_F(MainWindowTest, ADroppedDatasetIsShown) {
   const auto file = window_.document().file();
   window_.document().close();
   std::filesystem::remove(file);
+}
+
+TEST_F(MainWindowTest, UndoOfAnotherCasesEditShowsThatCase) {
+  openExample();
+  const QString first = window_.cases().caseId();
+  Pose moved = window_.state().currentCase()->source.camera_from_station_seed;
+  moved.translation_m.x() += 0.01;
+  window_.cases().useAsSeed(moved);
+  const QString other = QString::fromStdString(window_.document().session().cases.back()->id);
+  ASSERT_NE(other, first);
+  window_.cases().chooseCase(other);
+  ASSERT_TRUE(wait([&] { return resting() && window_.state().currentCase() != nullptr; }));
+  QTest::keySequence(&window_, QKeySequence::Undo);
+  EXPECT_EQ(window_.cases().caseId(), first);
+  EXPECT_TRUE(window_.statusBar()->currentMessage().contains(first))
+      << window_.statusBar()->currentMessage().toStdString();
+  ASSERT_TRUE(wait([&] { return resting(); }));
+  window_.cases().chooseCase(other);
+  ASSERT_TRUE(wait([&] { return resting(); }));
+  QTest::keySequence(&window_, QKeySequence::Redo);
+  EXPECT_EQ(window_.cases().caseId(), first);
+  ASSERT_TRUE(wait([&] { return resting(); }));
 }
 
 TEST_F(MainWindowTest, RunsToTheEndWithTheDigestOfAHeadlessRun) {

@@ -17,6 +17,7 @@
 #include <QTimer>
 #include <QtTest/QTest>
 
+#include "sessions/session/case_run.h"
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
@@ -137,6 +138,56 @@ TEST_F(TroubleTest, AFullDiskIsToldAndTheEditIsSavedElsewhere) {
   EXPECT_EQ(seedIn(window_.document().session()), 0.123) << "the edit that did not fit is there";
   EXPECT_EQ(seedIn(sessions::readSessionFile(elsewhere).session), 0.123);
   EXPECT_FALSE(window_.document().isModified());
+}
+
+TEST_F(TroubleTest, ARunThatDoesNotFitIsKeptAndStoredElsewhere) {
+  open();
+  const test::TemporaryFolder other;
+  const std::filesystem::path elsewhere = other / "elsewhere.boresight.json";
+  FullDisk disk(64);
+  Answers answers(QStringLiteral("Save elsewhere..."), QString::fromStdString(elsewhere.string()));
+  QTimer room;
+  QObject::connect(&room, &QTimer::timeout, &room, [&] {
+    if (qobject_cast<QFileDialog*>(QApplication::activeModalWidget())) disk.end();
+  });
+  room.start(1);
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(QTest::qWaitFor(
+      [this] { return !window_.document().session().runs.empty() && !window_.tasks().isBusy(); },
+      kPatienceMs))
+      << answers.text().toStdString();
+  EXPECT_FALSE(answers.text().isEmpty());
+  EXPECT_TRUE(window_.cases().unstoredRuns().isEmpty());
+  const sessions::RunRecord& record = window_.document().session().runs.front();
+  EXPECT_EQ(record.digest, window_.state().snapshot()->digest);
+  EXPECT_TRUE(std::filesystem::exists(record.file));
+  EXPECT_EQ(record.file.string().rfind(other.path().string(), 0), 0u) << record.file;
+  EXPECT_EQ(sessions::snapshotOf(sessions::loadRun(record)).digest, record.digest);
+}
+
+TEST_F(TroubleTest, ARunThatDidNotFitIsStoredWhenThereIsRoomAgain) {
+  open();
+  {
+    const FullDisk disk(64);
+    Answers answers(QStringLiteral("Close"), {});
+    QTest::keyClick(&window_, Qt::Key_F5);
+    ASSERT_TRUE(
+        QTest::qWaitFor([this] { return !window_.cases().unstoredRuns().isEmpty(); }, kPatienceMs));
+    EXPECT_TRUE(answers.text().contains(QStringLiteral("nothing is lost")));
+    EXPECT_TRUE(window_.document().session().runs.empty());
+  }
+  {
+    Answers answers(QStringLiteral("Cancel"), {});
+    EXPECT_FALSE(window_.close()) << "the run would be lost";
+    EXPECT_TRUE(answers.text().contains(QStringLiteral("no room")));
+  }
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  QTest::keySequence(&window_, QKeySequence::Save);
+  ASSERT_TRUE(QTest::qWaitFor([this] { return window_.document().session().runs.size() == 1; },
+                              kPatienceMs));
+  EXPECT_TRUE(window_.cases().unstoredRuns().isEmpty());
+  ASSERT_TRUE(window_.document().save());
 }
 
 TEST_F(TroubleTest, AFullDiskWhileSavingLeavesTheOldFileAndTheEdits) {
