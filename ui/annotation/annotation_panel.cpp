@@ -93,6 +93,7 @@ void AnnotationPanel::addBeside(QWidget* widget) {
 
 void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
   auto* row = new QHBoxLayout;
+  row->setSpacing(3);
   points_ = modeButton(QStringLiteral("placePoints"), tr("Points"),
                        tr("Click a place on the image and the same place on the station, in either "
                           "order (F2). Ctrl and a click on the rendered edges also marks the "
@@ -153,6 +154,7 @@ void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
   show_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   show_->setMinimumContentsLength(3);
   count_ = new QLabel(this);
+  count_->setMinimumWidth(1);
   row->addWidget(count_);
   row->addWidget(show_);
   layout.addLayout(row);
