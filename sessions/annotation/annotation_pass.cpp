@@ -37,6 +37,7 @@ Pair blindPair(const Pair& pair) {
   Pair blind;
   blind.id = pair.id;
   blind.sigma_px = pair.sigma_px;
+  blind.enabled = pair.enabled;
   blind.comment = pair.comment;
   return blind;
 }
@@ -56,6 +57,19 @@ Marks blindMarks(const Marks& marks) {
     blind.lines.back().edge = line.edge;
   }
   return blind;
+}
+
+AnnotationPasses keepingMarks(AnnotationPasses passes, const Marks& marks,
+                              const std::string& time) {
+  const bool on_image =
+      std::any_of(marks.points.begin(), marks.points.end(),
+                  [](const PointPair& point) { return point.pixel.has_value(); }) ||
+      std::any_of(marks.lines.begin(), marks.lines.end(),
+                  [](const LinePair& line) { return line.line.has_value(); });
+  const bool kept = std::any_of(passes.begin(), passes.end(),
+                                [&](const AnnotationPass& pass) { return pass.marks == marks; });
+  if (on_image && !kept) passes.push_back({"marks at work", time, marks});
+  return passes;
 }
 
 Repeatability repeatability(const Marks& first, const Marks& second) {

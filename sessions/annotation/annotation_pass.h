@@ -25,6 +25,10 @@ using AnnotationPasses = std::vector<AnnotationPass>;
 /// the image.
 Marks blindMarks(const Marks& marks);
 
+/// The passes with these marks put aside as well, under a name of their own, unless nothing of them
+/// is on the image or a pass has the same: what another pass is taken up over is not lost.
+AnnotationPasses keepingMarks(AnnotationPasses passes, const Marks& marks, const std::string& time);
+
 /// How far two passes over one image differ in one mark.
 struct MarkDifference {
   std::string id;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sessions/annotation/landmarks.h"
+#include "sessions/annotation/mark_edits.h"
 #include "sessions/annotation/marks_file.h"
 #include "sessions/exchange/bop_scene.h"
 #include "sessions/exchange/colmap_text.h"
@@ -221,8 +222,14 @@ void exportLandmarks(const Session& session, const std::string& case_id, const f
 
 ImportReport importMarks(const Session& session, const std::string& case_id, const fs::path& file,
                          bool replace) {
-  (void)requireCase(session, case_id);
+  const SessionCase& one = requireCase(session, case_id);
   const Marks marks = readMarks(file);
+  for (const PointPair& point : marks.points)
+    if (point.pixel && !isInImage(*point.pixel, one.image.width, one.image.height))
+      throw InputError(file, point.id,
+                       "lies outside of the image of case '" + case_id + "', which has " +
+                           std::to_string(one.image.width) + " x " +
+                           std::to_string(one.image.height) + " pixels; are these its marks?");
   const auto known = session.annotations.find(case_id);
   if (marks.empty()) throw InputError(file, "has no marks");
   if (known != session.annotations.end() && !(*known->second == marks) && !replace)

@@ -71,6 +71,12 @@ TEST_F(WhsExchange, RefusesWhatIsIncompleteOrWrong) {
   const ProgramRun missing = runWhs({"import", file_, "--points", points, "--case", bc_});
   EXPECT_EQ(missing.exit_code, 3);
   EXPECT_EQ(missing.errorLines(), 1);
+  folder_.write("points.json", std::string_view(R"({"format": "boresight-points", "version": 1,
+      "points": [{"id": "far", "pixel": [99373, 2]}]})"));
+  const ProgramRun outside =
+      runWhs({"import", file_, "--points", points, "--case", bc_, "--replace"});
+  EXPECT_EQ(outside.exit_code, 3);
+  EXPECT_THAT(outside.err, HasSubstr("far"));
   {
     const auto open = sessions::SessionDocument::open(file_);
     folder_.write("points.json", std::string_view(R"({"format": "boresight-points", "version": 1,

@@ -96,11 +96,13 @@ class AnnotationController : public QObject {
                    const QString& text);
   void remove(const std::string& id);
   void setMarks(const sessions::Marks& marks, const QString& text);
-  /// Takes a proposal as a pair whose place in the image is where it was predicted.
-  void confirm(const sessions::Proposal& proposal);
+  /// Marks a proposal at the place of the image where somebody sees it: the prediction alone
+  /// would be no measurement.
+  void confirm(const sessions::Proposal& proposal, const Eigen::Vector2d& pixel);
   /// Proposals that nothing of the station hides.
   int seenProposals() const;
-  /// Takes all of them, as one step of Undo.
+  /// Marks those of them that the image shows a corner or an ellipse of where they should be, as
+  /// one step of Undo, and tells how many are left to be placed by hand.
   void confirmSeen();
   /// Gives a proposal's station side to a new half-made pair, whose place in the image is clicked
   /// next.

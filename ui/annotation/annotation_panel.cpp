@@ -186,6 +186,7 @@ QWidget* AnnotationPanel::buildTable() {
   table_->setAccessibleName(tr("Marks"));
   table_->setModel(&filter_);
   styleTable(*table_);
+  table_->installEventFilter(this);
   table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
   table_->setSortingEnabled(true);
   table_->sortByColumn(-1, Qt::AscendingOrder);
@@ -317,6 +318,16 @@ void AnnotationPanel::askForName() {
       QInputDialog::getText(this, tr("Put these marks aside"), tr("Who placed them?"),
                             QLineEdit::Normal, qEnvironmentVariable("USER"), &accepted);
   if (accepted) controller_.putAside(name);
+}
+
+/// Letters typed at the table look for a row; they do not switch layers.
+bool AnnotationPanel::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == table_ && event->type() == QEvent::ShortcutOverride) {
+    const auto& key = *static_cast<QKeyEvent*>(event);
+    const bool plain = (key.modifiers() & ~Qt::ShiftModifier) == Qt::NoModifier;
+    if (plain && !key.text().isEmpty() && key.text().front().isLetterOrNumber()) event->accept();
+  }
+  return QWidget::eventFilter(watched, event);
 }
 
 void AnnotationPanel::keyPressEvent(QKeyEvent* event) {

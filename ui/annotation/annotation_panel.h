@@ -56,6 +56,7 @@ class AnnotationPanel : public QWidget {
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void buildTools(QBoxLayout& layout, RigMenu* rig);

@@ -39,7 +39,8 @@ void AnnotationController::takeUp(int pass) {
   const sessions::AnnotationPasses passes = passesOfCase();
   if (pass < 0 || pass >= static_cast<int>(passes.size())) return;
   const sessions::AnnotationPass& taken = passes[static_cast<std::size_t>(pass)];
-  commit(taken.marks, tr("Take up the marks of %1").arg(fromText(taken.by)));
+  setPasses(sessions::keepingMarks(passes, marks_, sessions::utcNowText()), taken.marks,
+            tr("Take up the marks of %1").arg(fromText(taken.by)));
 }
 
 void AnnotationController::removePass(int pass) {
@@ -60,10 +61,16 @@ void AnnotationController::useAsTruth() {
     Q_EMIT told(tr("The pose is being solved anew; try again in a moment."));
     return;
   }
+  const bool replaces = one->camera_from_station_truth.has_value();
   sessions::SessionCase changed = *one;
   changed.camera_from_station_truth = solved;
   document_.edit(sessions::withCase(document_.session(), std::move(changed)),
                  tr("Take the annotated pose of %1 as its truth").arg(fromText(case_id_)));
+  Q_EMIT told((replaces
+                   ? tr("The annotated pose has replaced the truth that %1 had; Undo brings it "
+                        "back.")
+                   : tr("The annotated pose is the truth of %1 now."))
+                  .arg(fromText(case_id_)));
 }
 
 void AnnotationController::linkCase(const std::string& other_id, const Pose& other_from_case) {

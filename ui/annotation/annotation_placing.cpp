@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sessions/annotation/mark_edits.h"
+#include "sessions/annotation/proposal_feature.h"
 #include "ui/models/number_text.h"
 
 namespace boresight::ui {
@@ -192,10 +193,11 @@ PointPair AnnotationController::markOf(const sessions::Landmark& landmark) const
   return point;
 }
 
-void AnnotationController::confirm(const sessions::Proposal& proposal) {
+void AnnotationController::confirm(const sessions::Proposal& proposal,
+                                   const Eigen::Vector2d& pixel) {
   finishMove();
   PointPair point = markOf(proposal.landmark);
-  point.pixel = proposal.pixel;
+  point.pixel = pixel;
   const std::string id = point.id;
   if (commit(sessions::withPoint(marks_, id, point), tr("Confirm %1").arg(fromText(id))))
     select(id);
@@ -208,14 +210,25 @@ int AnnotationController::seenProposals() const {
 
 void AnnotationController::confirmSeen() {
   finishMove();
+  const ViewState::CasePtr& one = state_.currentCase();
+  if (!one) return;
   Marks confirmed = marks_;
+  int found = 0;
+  const int seen = seenProposals();
   for (const sessions::Proposal& proposal : proposals()) {
     if (!proposal.seen || sessions::findPoint(marks_, proposal.landmark.name)) continue;
+    const auto pixel = sessions::featureOf(proposal, one->image.view());
+    if (!pixel) continue;
+    ++found;
     PointPair point = markOf(proposal.landmark);
-    point.pixel = proposal.pixel;
+    point.pixel = *pixel;
     confirmed = sessions::withPoint(std::move(confirmed), point.id, point);
   }
-  if (!(confirmed == marks_)) commit(confirmed, tr("Confirm %1 landmarks").arg(seenProposals()));
+  if (found > 0) commit(confirmed, tr("Confirm %1 landmarks").arg(found));
+  Q_EMIT told(tr("%1 of %2 landmarks show as a corner or an ellipse where they should be; place "
+                 "the others by hand.")
+                  .arg(found)
+                  .arg(seen));
 }
 
 void AnnotationController::begin(const sessions::Landmark& landmark) {

@@ -19,16 +19,18 @@ void LandmarksMenu::fill() {
   addAction(tr("Save the marks as landmarks ..."), this, &LandmarksMenu::saveRequested);
   addSeparator();
   QAction* confirm =
-      addAction(tr("Confirm all that are seen (%1)").arg(controller_.seenProposals()), &controller_,
-                &AnnotationController::confirmSeen);
+      addAction(tr("Mark all that the image shows (%1)").arg(controller_.seenProposals()),
+                &controller_, &AnnotationController::confirmSeen);
   confirm->setEnabled(controller_.seenProposals() > 0);
   addSeparator();
   bool any = false;
   for (const sessions::Landmark& landmark : controller_.landmarks()) {
     if (sessions::findPoint(controller_.marks(), landmark.name)) continue;
     any = true;
-    QAction* begin = addAction(tr("Begin %1").arg(fromText(landmark.name)), this,
-                               [this, landmark] { controller_.begin(landmark); });
+    QAction* begin = addAction(tr("Begin %1").arg(fromText(landmark.name)), this, [this, landmark] {
+      controller_.setMode(PlaceMode::kPoint);
+      controller_.begin(landmark);
+    });
     begin->setToolTip(fromText(landmark.comment));
   }
   if (!any)

@@ -99,8 +99,9 @@ void MarkTool::updateAim() {
   } else if (const auto handle = line_start_ ? std::nullopt : handleUnder(place)) {
     aim_.text = tr("%1: drag to move").arg(QString::fromStdString(handle->id));
   } else if (const auto* proposal = proposalUnder(place)) {
-    aim_.text = tr("%1: click takes it as it is, right click to place it by hand")
-                    .arg(QString::fromStdString(proposal->landmark.name));
+    aim_ = aimAtImage(*one, pixel, rules());
+    aim_.text = tr("%1, %2: click marks it here, right click to place it later")
+                    .arg(QString::fromStdString(proposal->landmark.name), aim_.text);
   } else {
     aim_ = aimAtImage(*one, pixel, rules());
   }
@@ -193,7 +194,8 @@ bool MarkTool::press(const QMouseEvent& event, const QPointF& place) {
   return true;
 }
 
-/// A proposal is confirmed by a click; by another button or with Ctrl it is begun.
+/// A proposal is marked where somebody clicks, or on what that snaps to; by another button or with
+/// Ctrl it is begun.
 bool MarkTool::takeProposal(const QMouseEvent& event, const QPointF& place) {
   const sessions::Proposal* proposal = proposalUnder(place);
   if (!proposal || (event.button() == Qt::LeftButton && handleUnder(place))) return false;
@@ -203,7 +205,8 @@ bool MarkTool::takeProposal(const QMouseEvent& event, const QPointF& place) {
   if (begins) {
     controller_.begin(taken.landmark);
   } else {
-    controller_.confirm(taken);
+    const Eigen::Vector2d pixel = vectorOf(view_.transform().toPixel(place));
+    controller_.confirm(taken, aimAtImage(*state_.currentCase(), pixel, rules()).pixel);
   }
   updateAim();
   return true;

@@ -98,14 +98,18 @@ QString sigmaHtml(const AnnotationSolver::Answer& answer, const SolutionContext&
         .arg(cell(name), QString::number(values.x(), 'f', 4), QString::number(values.y(), 'f', 4),
              QString::number(values.z(), 'f', 4), unit);
   };
-  const QString title = tr("One sigma (noise %1 times what the marks' sigmas say)")
+  const bool at_effector = context.camera_from_end_effector.has_value();
+  const QString title = tr("One sigma at the %1 (noise %2 times what the marks' sigmas say)")
+                            .arg(at_effector ? tr("end effector") : tr("camera"))
                             .arg(QString::number(solution.noise_factor, 'f', 2));
+  const auto at_camera = sessions::poseSigma(*answer.covariance, std::nullopt);
   return table(
       title, {line(tr("normal"), sigma->normal_mm, mm, judged(sigma->normal_mm, normal_mm, mm)),
               line(tr("lateral"), sigma->lateral_mm, mm, judged(sigma->lateral_mm, lateral_mm, mm)),
               line(tr("rotation"), sigma->out_of_plane_mrad, mrad,
                    judged(sigma->out_of_plane_mrad, rotation_mrad, mrad)),
               axes(tr("along x, y, z"), sigma->translation_mm, mm),
+              axes(tr("camera's own"), at_camera->translation_mm, mm),
               axes(tr("about x, y, z"), sigma->rotation_mrad, mrad)});
 }
 

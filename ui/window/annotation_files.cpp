@@ -5,6 +5,7 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QMessageBox>
 #include <QStringList>
 
 #include "sessions/annotation/landmarks.h"
@@ -58,8 +59,11 @@ bool AnnotationFiles::attempt(Action&& action) {
 
 bool AnnotationFiles::importMarks(const std::filesystem::path& file) {
   return attempt([&] {
-    parts_.annotation.setMarks(sessions::readMarks(file),
-                               tr("Import marks of %1").arg(nameOf(file)));
+    parts_.annotation.finishMove();
+    const std::string id = caseId();
+    const sessions::ImportReport report =
+        sessions::importMarks(parts_.document.session(), id, file, true);
+    parts_.document.edit(report.session, tr("Import marks of %1").arg(nameOf(file)));
     Q_EMIT noted(tr("Marks taken from %1.").arg(nameOf(file)));
   });
 }
@@ -133,22 +137,45 @@ bool AnnotationFiles::saveLandmarks(const std::filesystem::path& file) {
   });
 }
 
+std::string AnnotationFiles::caseId() const {
+  const ViewState::CasePtr& one = parts_.state.currentCase();
+  return one ? one->source.id : std::string();
+}
+
+/// Where people look for what belongs to the session.
+QString AnnotationFiles::sessionFolder() const {
+  return QString::fromStdString(parts_.document.file().parent_path().string());
+}
+
+bool AnnotationFiles::mayReplaceMarks() {
+  const sessions::Marks& marks = parts_.annotation.marks();
+  if (marks.empty()) return true;
+  const std::size_t count = marks.points.size() + marks.lines.size();
+  return QMessageBox::question(
+             &window_, tr("Import marks"),
+             tr("%1 has %2 marks. Replace them? Undo brings them back; to keep both, put them "
+                "aside first (Passes).")
+                 .arg(fromText(caseId()))
+                 .arg(count)) == QMessageBox::Yes;
+}
+
 void AnnotationFiles::askForImport() {
   const QString file =
-      QFileDialog::getOpenFileName(&window_, tr("Import marks"), {}, marksFilter());
-  if (!file.isEmpty()) importMarks(file.toStdString());
+      QFileDialog::getOpenFileName(&window_, tr("Import marks"), sessionFolder(), marksFilter());
+  if (!file.isEmpty() && mayReplaceMarks()) importMarks(file.toStdString());
 }
 
 void AnnotationFiles::askForExport() {
-  QString file = QFileDialog::getSaveFileName(&window_, tr("Export the marks of this case"),
-                                              QStringLiteral("points.json"), marksFilter());
+  QString file =
+      QFileDialog::getSaveFileName(&window_, tr("Export the marks of this case"),
+                                   sessionFolder() + QStringLiteral("/points.json"), marksFilter());
   if (file.isEmpty()) return;
   if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".json");
   exportMarks(file.toStdString());
 }
 
 QString AnnotationFiles::newFolder(const QString& title, const QString& name) {
-  return QFileDialog::getSaveFileName(&window_, title, name);
+  return QFileDialog::getSaveFileName(&window_, title, sessionFolder() + QLatin1Char('/') + name);
 }
 
 void AnnotationFiles::askForColmapExport() {
@@ -164,27 +191,26 @@ void AnnotationFiles::askForBopExport() {
 
 void AnnotationFiles::askForColmapImport() {
   const QString folder = QFileDialog::getExistingDirectory(
-      &window_, tr("Folder of a COLMAP text model (cameras.txt, images.txt)"));
+      &window_, tr("Folder of a COLMAP text model (cameras.txt, images.txt)"), sessionFolder());
   if (!folder.isEmpty()) importColmap(folder.toStdString());
 }
 
 void AnnotationFiles::askForBopImport() {
   const QString folder = QFileDialog::getExistingDirectory(
-      &window_, tr("Folder of a BOP scene (scene_gt.json, scene_camera.json)"));
+      &window_, tr("Folder of a BOP scene (scene_gt.json, scene_camera.json)"), sessionFolder());
   if (!folder.isEmpty()) importBop(folder.toStdString());
 }
 
 void AnnotationFiles::askForLandmarks() {
   const QString file = QFileDialog::getOpenFileName(&window_, tr("Open landmarks of the station"),
-                                                    {}, tr("Landmarks (*.json)"));
+                                                    sessionFolder(), tr("Landmarks (*.json)"));
   if (!file.isEmpty()) openLandmarks(file.toStdString());
 }
 
 void AnnotationFiles::askWhereToSaveLandmarks() {
-  const sessions::SessionCase* one = parts_.document.session().findCase(
-      parts_.state.currentCase() ? parts_.state.currentCase()->source.id : std::string());
+  const sessions::SessionCase* one = parts_.document.session().findCase(caseId());
   const QString known = one && one->landmarks ? QString::fromStdString(one->landmarks->string())
-                                              : QStringLiteral("landmarks.json");
+                                              : sessionFolder() + QStringLiteral("/landmarks.json");
   QString file = QFileDialog::getSaveFileName(&window_, tr("Save the marks as landmarks"), known,
                                               tr("Landmarks (*.json)"));
   if (file.isEmpty()) return;

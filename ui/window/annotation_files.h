@@ -62,6 +62,9 @@ class AnnotationFiles : public QObject {
                                               const std::filesystem::path&, bool);
   void exportPoses(Exporter exporter, const std::filesystem::path& folder);
   bool importPoses(Importer importer, const std::filesystem::path& folder);
+  std::string caseId() const;
+  QString sessionFolder() const;
+  bool mayReplaceMarks();
   QString newFolder(const QString& title, const QString& name);
   template <class Action>
   bool attempt(Action&& action);

@@ -56,6 +56,7 @@ void CaseController::documentOpened() {
     state_.setCase(nullptr);
     Q_EMIT caseChosen(QString());
   } else {
+    state_.setCase(nullptr);  // nothing of another document, or of this one before its recovery
     chooseCase(first);
   }
 }

@@ -30,6 +30,7 @@ namespace {
 
 constexpr const char* kGeometryKey = "window/geometry";
 constexpr const char* kLayoutKey = "window/state";
+constexpr int kNote_ms = 15'000;   // that a remark stays in the status bar
 constexpr int kLayoutVersion = 4;  // of another set of panels, a layout is not taken over
 
 QString stateText(RunState state) {
@@ -85,25 +86,25 @@ void MainWindow::connectAll() {
   auto* links = new PanelLinks(parts_, *docks_, this);
   auto* levels = new LevelsController(parts_, docks_->levels(), this);
   connect(levels, &LevelsController::noted, this,
-          [this](const QString& message) { statusBar()->showMessage(message); });
+          [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); });
   new MaskController(parts_, docks_->maskEditor(), docks_->mask(), image(), this);
   auto* annotation_files = new AnnotationFiles(*this, parts_, docks_->annotation());
   connect(annotation_files, &AnnotationFiles::failed, this, &MainWindow::showMessage);
   connect(annotation_files, &AnnotationFiles::noted, this,
-          [this](const QString& message) { statusBar()->showMessage(message); });
+          [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); });
   connect(&annotation_, &AnnotationController::told, this,
-          [this](const QString& message) { statusBar()->showMessage(message); });
+          [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); });
   connect(&docks_->scene(), &SceneView::told, this,
-          [this](const QString& message) { statusBar()->showMessage(message); });
+          [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); });
   connect(&docks_->snapper(), &StationSnapper::failed, this, &MainWindow::showMessage);
   connect(&docks_->imageAnnotation(), &ImageAnnotation::told, this,
-          [this](const QString& message) { statusBar()->showMessage(message); });
+          [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); });
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::changed, this, &MainWindow::showHint);
   connect(files_, &SessionFiles::failed, this, &MainWindow::showMessage);
   connect(files_, &SessionFiles::noted, this, [this](const QString& message) {
-    statusBar()->showMessage(message);
+    statusBar()->showMessage(message, kNote_ms);
     if (!state_.currentCase()) image().setHint(message);  // where people look
   });
   connect(&document_, &Document::opened, this, &MainWindow::showDocument);

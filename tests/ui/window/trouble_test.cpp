@@ -246,6 +246,39 @@ TEST_F(TroubleTest, EditsOfAKilledProgramAreOfferedAndTaken) {
   EXPECT_TRUE(window_.document().isModified());
 }
 
+TEST_F(TroubleTest, TheNewestRunIsShownAfterARecovery) {
+  open();
+  const auto run = [this](std::uint32_t seed) {
+    LocalizerOptions options;
+    options.pnp.seed = seed;
+    window_.cases().setOptions(QStringLiteral("default"), options);
+    window_.cases().reset();
+    window_.cases().advance(sessions::StepUntil::kEnd);
+    EXPECT_TRUE(QTest::qWaitFor(
+        [this] {
+          return window_.run().state() != RunState::kWorking && !window_.tasks().isBusy() &&
+                 window_.state().snapshot() && window_.state().snapshot()->finished;
+        },
+        kPatienceMs));
+    return window_.state().snapshot()->digest;
+  };
+  const auto shown = [this](const std::string& digest) {
+    return QTest::qWaitFor(
+        [&] { return window_.state().snapshot() && window_.state().snapshot()->digest == digest; },
+        kPatienceMs);
+  };
+  const std::string first = run(1);
+  ASSERT_TRUE(window_.document().save());
+  const std::string second = run(2);
+  ASSERT_NE(first, second);
+  window_.document().close();  // as a kill does it
+  window_.setQuiet(true);      // nobody answers yet
+  ASSERT_TRUE(window_.openSession(file()));
+  ASSERT_TRUE(shown(first));
+  ASSERT_TRUE(window_.document().acceptRecovery());
+  EXPECT_TRUE(shown(second));
+}
+
 TEST_F(TroubleTest, EditsOfAKilledProgramCanBeSetAside) {
   open();
   moveSeed(0.25);
