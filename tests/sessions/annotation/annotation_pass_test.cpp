@@ -27,7 +27,7 @@ TEST(BlindMarks, KeepTheStationAndNothingOfTheImage) {
     EXPECT_EQ(made.id, point.id);
     EXPECT_EQ(made.point_in_station_m, point.point_in_station_m);
     EXPECT_FALSE(made.pixel);
-    EXPECT_TRUE(made.enabled);
+    EXPECT_EQ(made.enabled, point.enabled);
     EXPECT_FALSE(made.locked);
   }
   for (const LinePair& line : blind.lines) EXPECT_TRUE(line.edge && !line.line);
