@@ -39,6 +39,7 @@ struct Sigmas {
 /// "3", "2.5".
 std::string sigmasText(double sigmas) {
   std::string text = sentenceNumber(sigmas);
+  if (text.find('.') == std::string::npos) return text;
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();
   return text;
@@ -60,8 +61,8 @@ Check sigmaCheck(const CheckName& name, const std::optional<Sigmas>& sigma,
   const double figure = limits.sigmas * sigma->with_calibration;
   const bool calibration_only = limits.sigmas * sigma->alone <= *required;
   return measuredCheck(name, unit, figure, *required, LimitSide::kAtMost,
-                       sigmasText(limits.sigmas) + " sigma are " + sentenceNumber(figure) +
-                           " " + unit + "." + shareText(*sigma, limits, unit),
+                       sigmasText(limits.sigmas) + " sigma are " + sentenceNumber(figure) + " " +
+                           unit + "." + shareText(*sigma, limits, unit),
                        calibration_only ? kCalibrationRemedy : kRemedy);
 }
 
