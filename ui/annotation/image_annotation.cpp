@@ -111,11 +111,7 @@ MarkLook ImageAnnotation::look() const {
   made.selected = controller_.selected();
   made.camera = state_.currentCase()->source.camera;
   made.camera_from_station = tool_->stationPose();
-  const AnnotationController::SolutionPtr& solution = controller_.solution();
-  if (solution && solution->result.solution)
-    for (const sessions::SolvedMark& mark : solution->result.solution->marks)
-      if (mark.address.view == 0 && mark.projected && mark.normalized > kOutlierSigmas)
-        made.outliers[sessions::markId(solution->marks.views, mark.address)] = mark.normalized;
+  if (controller_.solution()) made.outliers = controller_.solution()->standingOut();
   return made;
 }
 

@@ -50,8 +50,7 @@ bool MarksFilter::filterAcceptsRow(int row, const QModelIndex& /*parent*/) const
     case Show::kHalfMade:
       return !complete;
     case Show::kStandOut:
-      return model->index(row, MarksModel::kNormalized).data(sortRole()).toDouble() >
-             MarksModel::kStandsOut;
+      return model->standsOut(row);
     case Show::kLines:
       return line;
     case Show::kAll:

@@ -114,6 +114,11 @@ int MarksModel::rowOf(const std::string& id) const {
   return -1;
 }
 
+bool MarksModel::standsOut(int row) const {
+  const auto& solved = judged_[static_cast<std::size_t>(row)].solved;
+  return solved && solved->standsOut();
+}
+
 void MarksModel::setMarks(const sessions::Marks& marks) {
   bool same_rows =
       marks.points.size() == marks_.points.size() && marks.lines.size() == marks_.lines.size();
@@ -204,7 +209,7 @@ QVariant MarksModel::display(int row, int column) const {
   if (column == kComment)
     return fromText(line ? marks_.lines[at].comment : marks_.points[at].comment);
   const double value = numberOf(row, column);
-  if (column == kNormalized && value > kStandsOut)
+  if (column == kNormalized && standsOut(row))
     return tr("%1 !").arg(numberText(value, kMarksColumns[kNormalized].decimals));
   const Judged& judged = judged_[static_cast<std::size_t>(row)];
   if (column == kWithout_mm && judged.left_out && !judged.left_out->determined)
@@ -219,11 +224,9 @@ QVariant MarksModel::state(int row, int column) const {
   const std::size_t at = static_cast<std::size_t>(row) - (line ? marks_.points.size() : 0);
   const bool complete = line ? marks_.lines[at].complete() : marks_.points[at].complete();
   const bool on = line ? marks_.lines[at].enabled : marks_.points[at].enabled;
-  const auto& solved = judged_[static_cast<std::size_t>(row)].solved;
   QFont font;
   font.setItalic(!complete);
-  font.setBold(column >= kResidualX_px && column <= kNormalized && solved &&
-               solved->normalized > kStandsOut);
+  font.setBold(column >= kResidualX_px && column <= kNormalized && standsOut(row));
   font.setStrikeOut(!on && column == kName);
   return font;
 }

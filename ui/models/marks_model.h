@@ -40,7 +40,6 @@ class MarksModel : public QAbstractTableModel {
   };
   /// A cell as a number to sort by (texts sort by themselves); NaN where there is none.
   static constexpr int kNumberRole = Qt::UserRole;
-  static constexpr double kStandsOut = 3.0;  ///< sigmas from which a mark stands out
 
   using SolutionPtr = std::shared_ptr<const sessions::CaseMarksSolution>;
 
@@ -53,6 +52,7 @@ class MarksModel : public QAbstractTableModel {
   const sessions::Marks& marks() const { return marks_; }
   const std::string& idOf(int row) const;
   int rowOf(const std::string& id) const;  ///< -1 when there is none
+  bool standsOut(int row) const;           ///< of the solution, stale or not
   bool isLine(int row) const { return row >= static_cast<int>(marks_.points.size()); }
 
   int rowCount(const QModelIndex& parent = {}) const override;
