@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sessions/annotation/mark_edits.h"
+#include "sessions/annotation/predicted_place.h"
 #include "sessions/annotation/proposal_feature.h"
 #include "ui/models/number_text.h"
 
@@ -19,7 +20,7 @@ std::string AnnotationController::placeInImage(const Eigen::Vector2d& pixel) {
   finishMove();
   const ViewState::CasePtr& one = state_.currentCase();
   if (case_id_.empty() || !one) return {};
-  if (!sessions::isInImage(pixel, one->image.width, one->image.height)) {
+  if (!sessions::isInImage(one->source.camera, pixel)) {
     Q_EMIT told(tr("This place lies outside the image; click on the image itself."));
     return {};
   }
@@ -113,7 +114,7 @@ bool AnnotationController::dragInImage(const std::string& id, const Eigen::Vecto
                                        int end) {
   if (!mayChange(id)) return false;
   const ViewState::CasePtr& one = state_.currentCase();
-  if (!one || !sessions::isInImage(pixel, one->image.width, one->image.height)) return false;
+  if (!one || !sessions::isInImage(one->source.camera, pixel)) return false;
   select(id);
   marks_ = sessions::withMoved(marks_, id, end, pixel);
   moving_ = true;
