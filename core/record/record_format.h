@@ -17,6 +17,7 @@ inline constexpr std::size_t kRecordHeaderBytes = kRecordMagic.size() + 4;
 enum class RecordBlock : std::uint32_t {
   kInputs = 0x494e5054,     ///< "INPT"
   kOptions = 0x4f505453,    ///< "OPTS"
+  kEdges = 0x45444745,      ///< "EDGE"
   kIteration = 0x49544552,  ///< "ITER"
   kTemplates = 0x544d504c,  ///< "TMPL"
   kSupport = 0x53555050,    ///< "SUPP"

@@ -3,6 +3,7 @@
 
 #include "core/base/crc32.h"
 #include "core/localizer/option_bytes.h"
+#include "core/record/record_hashes.h"
 
 namespace boresight {
 namespace {
@@ -36,6 +37,10 @@ struct Reached {
   Stage stage;
 
   bool refines() const { return iteration.kind == IterationKind::kRefine; }
+  /// A render that failed leaves whatever was there before.
+  bool rendered() const {
+    return stage > Stage::kRender || iteration.status != LocalizationStatus::kFault;
+  }
   bool selected() const { return !refines() && stage >= Stage::kTemplates; }
   bool matched() const { return !refines() && stage >= Stage::kMatch; }
   bool posed() const { return !refines() && stage >= Stage::kPose; }
@@ -62,7 +67,14 @@ void writeCounts(const Reached& at, ByteWriter& writer) {
   writer.f64(at.posed() ? now.pnp.rms_px : at.refined() ? now.refinement.rms_px : 0.0);
 }
 
-void writeIteration(const Reached& at, ByteWriter& writer) {
+void writeEdges(const EdgeMap& edges, const RecordHash& hash, ByteWriter& writer) {
+  writer.bytes(hash);
+  writer.f64(edges.low_threshold);
+  writer.f64(edges.high_threshold);
+  writer.i32(edges.edge_count);
+}
+
+void writeIteration(const Reached& at, const RecordHash& render_hash, ByteWriter& writer) {
   const Iteration& now = at.iteration;
   writer.i32(now.index);
   writer.i32(now.attempt);
@@ -82,6 +94,7 @@ void writeIteration(const Reached& at, ByteWriter& writer) {
   writer.f64(at.solved() ? now.correction_translation_m : 0.0);
   writer.f64(at.solved() ? now.correction_rotation_rad : 0.0);
   writer.f64(at.solved() ? now.correction_image_px : 0.0);
+  writer.bytes(render_hash);
 }
 
 void writeTemplate(const Template& item, const Match* match, bool inlier, ByteWriter& writer) {
@@ -192,11 +205,17 @@ void RecordWriter::changeOptions(const LocalizerOptions& options, std::int32_t f
 
 void RecordWriter::note(const Localizer& localizer, const StepReport& report) {
   const Workspace& workspace = localizer.workspace();
+  if (report.stage == Stage::kEdges && report.stage_complete) {
+    const RecordHash hash = edgeMapHash(workspace.edges);
+    add(RecordBlock::kEdges,
+        [&](ByteWriter& writer) { writeEdges(workspace.edges, hash, writer); });
+  }
   if (workspace.iteration == nullptr) return;
   if (report.iteration_complete) {
     const Reached at{*workspace.iteration, report.stage};
     ++iterations_;
-    add(RecordBlock::kIteration, [&](ByteWriter& writer) { writeIteration(at, writer); });
+    const RecordHash hash = at.rendered() ? renderHash(at.iteration.render) : RecordHash{};
+    add(RecordBlock::kIteration, [&](ByteWriter& writer) { writeIteration(at, hash, writer); });
     if (at.selected())
       add(RecordBlock::kTemplates, [&](ByteWriter& writer) { writeTemplates(at, writer); });
   } else if (report.stage == Stage::kSupport && report.stage_complete && iterations_ > 0) {

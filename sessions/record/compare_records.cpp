@@ -49,12 +49,20 @@ bool isSame(const EdgeSupport& a, const EdgeSupport& b) {
   return counts(a) == counts(b);
 }
 
-Difference inputsDifference(const OnboardRecord& one, const OnboardRecord& other) {
+Difference pixelsDifference(const OnboardRecord& one, const OnboardRecord& other) {
   if (!one.inputs || !other.inputs) return {};
   const RecordedInputs& a = *one.inputs;
   const RecordedInputs& b = *other.inputs;
   if (a.width != b.width || a.height != b.height || a.sha256.pixels != b.sha256.pixels)
     return differs(RunPart::kPixels, "the runs saw different pixels");
+  return {};
+}
+
+/// Of everything but the pixels.
+Difference inputsDifference(const OnboardRecord& one, const OnboardRecord& other) {
+  if (!one.inputs || !other.inputs) return {};
+  const RecordedInputs& a = *one.inputs;
+  const RecordedInputs& b = *other.inputs;
   if (a.sha256.ignore != b.sha256.ignore)
     return differs(RunPart::kMask, "the runs ignored different pixels");
   if (a.sha256.scene != b.sha256.scene)
@@ -93,6 +101,21 @@ Difference optionsDifference(const OnboardRecord& one, const OnboardRecord& othe
   return {};
 }
 
+Difference edgesDifference(const OnboardRecord& one, const OnboardRecord& other) {
+  if (!one.edges || !other.edges) return {};
+  const RecordedEdges& a = *one.edges;
+  const RecordedEdges& b = *other.edges;
+  if (a.low_threshold != b.low_threshold || a.high_threshold != b.high_threshold)
+    return differs(RunPart::kEdges, "the upper thresholds of the image's edges are " +
+                                        versus(a.high_threshold, b.high_threshold));
+  if (a.edge_count != b.edge_count)
+    return differs(RunPart::kEdges,
+                   "the image's edge pixels are " + versus(a.edge_count, b.edge_count));
+  if (a.sha256 != b.sha256)
+    return differs(RunPart::kEdges, "the image's edges lie at different pixels");
+  return {};
+}
+
 Difference renderDifference(const RecordedIteration& a, const RecordedIteration& b) {
   if (!(a.camera_from_station_before == b.camera_from_station_before))
     return differs(RunPart::kPose, "the poses before it differ " + inIteration(a.index), a.index);
@@ -103,6 +126,8 @@ Difference renderDifference(const RecordedIteration& a, const RecordedIteration&
                    "the rendered edge pixels are " + versus(a.edge_pixels, b.edge_pixels) + ' ' +
                        inIteration(a.index),
                    a.index);
+  if (a.render_sha256 != b.render_sha256)
+    return differs(RunPart::kRender, "the renders differ " + inIteration(a.index), a.index);
   return {};
 }
 
@@ -188,13 +213,15 @@ Difference endDifference(const OnboardRecord& one, const OnboardRecord& other) {
   if (a.digest != b.digest)
     return differs(RunPart::kDigest,
                    "the digests differ although the records do not: something that records leave "
-                   "out, like the edge map, differs");
+                   "out differs");
   return {};
 }
 
 Difference firstDifference(const OnboardRecord& one, const OnboardRecord& other) {
+  if (Difference found = pixelsDifference(one, other)) return found;
   if (Difference found = inputsDifference(one, other)) return found;
   if (Difference found = optionsDifference(one, other)) return found;
+  if (Difference found = edgesDifference(one, other)) return found;
   const std::size_t both = std::min(one.iterations.size(), other.iterations.size());
   for (std::size_t i = 0; i < both; ++i)
     if (Difference found = iterationDifference(one.iterations[i], other.iterations[i]))
@@ -295,8 +322,26 @@ void holdToLimits(const OnboardRecord& one, const OnboardRecord& other,
                           " of the first iteration's inliers are inliers of both");
 }
 
-RunVerdict verdictOf(const RecordComparison& made) {
-  if (!made.first) return made.missing.empty() ? RunVerdict::kEqual : RunVerdict::kWithinLimits;
+/// Other pixels excuse other results, but not other options or another mesh.
+void holdToSameInputs(const OnboardRecord& one, const OnboardRecord& other,
+                      RecordComparison& made) {
+  Difference found = inputsDifference(one, other);
+  if (!found) found = optionsDifference(one, other);
+  if (!found) return;
+  if (one.inputs && other.inputs &&
+      (one.inputs->width != other.inputs->width || one.inputs->height != other.inputs->height))
+    made.beyond.push_back("the images are of different sizes");
+  made.beyond.push_back(std::string("not the pixels alone differ: ") + found->text);
+}
+
+/// A digest is over everything that a run was given and all that it came upon.
+bool haveSameDigest(const OnboardRecord& one, const OnboardRecord& other) {
+  return one.end && other.end && !one.end->digest.empty() && one.end->digest == other.end->digest;
+}
+
+RunVerdict verdictOf(const RecordComparison& made, bool same_digest) {
+  if (!made.first)
+    return made.missing.empty() || same_digest ? RunVerdict::kEqual : RunVerdict::kWithinLimits;
   const bool other_pixels = made.first->part == RunPart::kPixels;
   return other_pixels && made.beyond.empty() ? RunVerdict::kWithinLimits : RunVerdict::kDifferent;
 }
@@ -312,7 +357,8 @@ RecordComparison compareRecords(const OnboardRecord& one, const OnboardRecord& o
   compareIterations(one, other, limits, made);
   compareEnds(one, other, made);
   holdToLimits(one, other, limits, made);
-  made.verdict = verdictOf(made);
+  if (made.first && made.first->part == RunPart::kPixels) holdToSameInputs(one, other, made);
+  made.verdict = verdictOf(made, haveSameDigest(one, other));
   return made;
 }
 

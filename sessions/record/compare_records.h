@@ -18,6 +18,7 @@ enum class RunPart {
   kCamera,
   kSeed,
   kOptions,
+  kEdges,
   kRender,
   kTemplates,
   kMatches,
@@ -58,7 +59,7 @@ struct IterationComparison {
 };
 
 enum class RunVerdict {
-  kEqual,         ///< every bit that the records have, and they are whole
+  kEqual,         ///< every bit that the records have, and they are whole or have one digest
   kWithinLimits,  ///< other pixels or a cut record, and nothing beyond the limits
   kDifferent,
 };

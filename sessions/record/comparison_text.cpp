@@ -20,6 +20,8 @@ const char* runPartText(RunPart part) {
       return "seed";
     case RunPart::kOptions:
       return "options";
+    case RunPart::kEdges:
+      return "edge map";
     case RunPart::kRender:
       return "render";
     case RunPart::kTemplates:

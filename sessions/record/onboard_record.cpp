@@ -62,6 +62,15 @@ RecordedOptions readOptions(ByteReader& reader) {
   return made;
 }
 
+RecordedEdges readEdges(ByteReader& reader) {
+  RecordedEdges edges;
+  readBytes(reader, edges.sha256);
+  edges.low_threshold = reader.f64();
+  edges.high_threshold = reader.f64();
+  edges.edge_count = reader.i32();
+  return edges;
+}
+
 RecordedIteration readIteration(ByteReader& reader) {
   RecordedIteration made;
   made.index = reader.i32();
@@ -85,6 +94,7 @@ RecordedIteration readIteration(ByteReader& reader) {
   made.correction_translation_m = reader.f64();
   made.correction_rotation_rad = reader.f64();
   made.correction_image_px = reader.f64();
+  readBytes(reader, made.render_sha256);
   return made;
 }
 
@@ -155,6 +165,9 @@ bool readBlock(RecordBlock type, std::span<const std::uint8_t> content, OnboardR
       break;
     case RecordBlock::kOptions:
       record.options.push_back(readOptions(reader));
+      break;
+    case RecordBlock::kEdges:
+      record.edges = readEdges(reader);
       break;
     case RecordBlock::kIteration:
       record.iterations.push_back(readIteration(reader));
@@ -238,6 +251,7 @@ void requireHeader(const std::filesystem::path& file, std::span<const std::uint8
 void noteWhatIsMissing(OnboardRecord& record) {
   if (!record.inputs) record.missing.push_back("the hashes of the inputs and the seed");
   if (record.options.empty()) record.missing.push_back("the options");
+  if (!record.edges) record.missing.push_back("the hash of the image's edges");
   if (!record.end) {
     record.missing.push_back("how the run ended, its pose and its digest");
     record.missing.push_back("every iteration after the first " +

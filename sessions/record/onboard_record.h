@@ -12,6 +12,7 @@
 
 #include "core/localizer/localizer.h"
 #include "core/localizer/option_bytes.h"
+#include "core/record/record_hashes.h"
 #include "core/record/record_writer.h"
 
 namespace boresight::sessions {
@@ -51,6 +52,14 @@ struct RecordedTemplate {
   std::optional<float> second_score;
 };
 
+/// The image's edges, by what tells them apart.
+struct RecordedEdges {
+  RecordHash sha256{};  ///< of every level (core/record/record_hashes.h)
+  double low_threshold = 0.0;
+  double high_threshold = 0.0;
+  std::int32_t edge_count = 0;  ///< of the full image
+};
+
 /// Figures of stages that the iteration did not reach are 0.
 struct RecordedIteration {
   std::int32_t index = 0;
@@ -79,6 +88,7 @@ struct RecordedIteration {
   double correction_translation_m = 0.0;
   double correction_rotation_rad = 0.0;
   double correction_image_px = 0.0;
+  RecordHash render_sha256{};                              ///< zeros: it failed
   std::optional<std::vector<RecordedTemplate>> templates;  ///< nothing: none, or not in the record
   std::optional<EdgeSupport> support;  ///< of an iteration whose pose was judged by it
 };
@@ -97,6 +107,7 @@ struct RecordedEnd {
 struct OnboardRecord {
   std::optional<RecordedInputs> inputs;
   std::vector<RecordedOptions> options;  ///< those that it started with, then changes
+  std::optional<RecordedEdges> edges;
   std::vector<RecordedIteration> iterations;
   std::optional<RecordedEnd> end;
   std::vector<std::string> missing;  ///< what is not there and why, for people; empty: it is whole

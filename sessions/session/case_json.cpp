@@ -18,6 +18,12 @@ namespace boresight::sessions {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
+namespace {
+
+constexpr double kMaxLength_m = 1e6;
+
+}  // namespace
+
 PathWriter::PathWriter(const fs::path& file) : folder_(fs::absolute(file).parent_path()) {}
 
 std::string PathWriter::operator()(const fs::path& file) const {
@@ -34,20 +40,31 @@ std::string readSha256(const JsonReader& json) {
 
 fs::path readPath(const JsonReader& json) { return fs::absolute(json.path()).lexically_normal(); }
 
-namespace {
-
-constexpr double kMaxCoordinate_px = 1e6;
-constexpr double kMaxLength_m = 1e6;
-
-// ---- writing
-
-ordered_json poseJson(const Pose& pose) {
+ordered_json exactPoseJson(const Pose& pose) {
   const Eigen::Quaterniond& q = pose.rotation;
   ordered_json json;
   json["rotation_wxyz"] = ordered_json::array({q.w(), q.x(), q.y(), q.z()});
   json["translation_m"] = toJson(pose.translation_m);
   return json;
 }
+
+Pose readExactPose(const JsonReader& json) {
+  json.requireKnown({"rotation_wxyz", "translation_m"});
+  const JsonReader rotation = json.at("rotation_wxyz");
+  const std::vector<JsonReader> q = rotation.elements(4);
+  Pose pose;
+  pose.rotation = Eigen::Quaterniond(q[0].number(), q[1].number(), q[2].number(), q[3].number());
+  if (!(std::abs(pose.rotation.squaredNorm() - 1.0) <= 1e-9))
+    rotation.fail("not a unit quaternion: its length is " + numberText(pose.rotation.norm()));
+  pose.translation_m = json.at("translation_m").vector3(-kMaxLength_m, kMaxLength_m);
+  return pose;
+}
+
+namespace {
+
+constexpr double kMaxCoordinate_px = 1e6;
+
+// ---- writing
 
 ordered_json inputJson(const InputFile& input, const PathWriter& path) {
   ordered_json json;
@@ -79,7 +96,7 @@ ordered_json partJson(const MeshInput& part, const PathWriter& path) {
   json["sha256"] = part.sha256;
   if (!part.source.mesh_unit.empty()) json["mesh_unit"] = part.source.mesh_unit;
   if (part.source.station_from_mesh != Pose())
-    json["station_from_mesh"] = poseJson(part.source.station_from_mesh);
+    json["station_from_mesh"] = exactPoseJson(part.source.station_from_mesh);
   json["normal_threshold_rad"] = part.source.part.normal_threshold_rad;
   json["depth_threshold_m"] = part.source.part.depth_threshold_m;
   json["match"] = part.source.part.match;
@@ -111,36 +128,25 @@ ordered_json listJson(const List& list, Convert&& convert) {
 }
 
 void addExtras(const SessionCase& one, const PathWriter& path, ordered_json& json) {
-  if (one.camera_from_station_truth) json["truth"] = poseJson(*one.camera_from_station_truth);
-  if (one.camera_from_station_working) json["working"] = poseJson(*one.camera_from_station_working);
+  if (one.camera_from_station_truth) json["truth"] = exactPoseJson(*one.camera_from_station_truth);
+  if (one.camera_from_station_working)
+    json["working"] = exactPoseJson(*one.camera_from_station_working);
   if (one.ignore) json["ignore"] = inputJson(*one.ignore, path);
   if (!one.ignore_strokes.empty())
     json["ignore_strokes"] = listJson(one.ignore_strokes, strokeJson);
   if (one.onboard_record) json["onboard_record"] = inputJson(*one.onboard_record, path);
   if (one.rig) {
     json["rig"]["id"] = one.rig->id;
-    json["rig"]["camera_from_rig"] = poseJson(one.rig->camera_from_rig);
+    json["rig"]["camera_from_rig"] = exactPoseJson(one.rig->camera_from_rig);
   }
   if (!one.tags.empty()) json["tags"] = one.tags;
   if (one.requirement) json["requirement"] = toJson(*one.requirement);
   if (one.camera_from_end_effector)
-    json["camera_from_end_effector"] = poseJson(*one.camera_from_end_effector);
+    json["camera_from_end_effector"] = exactPoseJson(*one.camera_from_end_effector);
   if (one.landmarks) json["landmarks"] = path(*one.landmarks);
 }
 
 // ---- reading
-
-Pose readExactPose(const JsonReader& json) {
-  json.requireKnown({"rotation_wxyz", "translation_m"});
-  const JsonReader rotation = json.at("rotation_wxyz");
-  const std::vector<JsonReader> q = rotation.elements(4);
-  Pose pose;
-  pose.rotation = Eigen::Quaterniond(q[0].number(), q[1].number(), q[2].number(), q[3].number());
-  if (!(std::abs(pose.rotation.squaredNorm() - 1.0) <= 1e-9))
-    rotation.fail("not a unit quaternion: its length is " + numberText(pose.rotation.norm()));
-  pose.translation_m = json.at("translation_m").vector3(-kMaxLength_m, kMaxLength_m);
-  return pose;
-}
 
 InputFile readInput(const JsonReader& json) {
   json.requireKnown({"file", "sha256"});
@@ -265,7 +271,7 @@ ordered_json toJson(const SessionCase& one, const PathWriter& path) {
   json["parts"] =
       listJson(one.parts, [&path](const MeshInput& part) { return partJson(part, path); });
   if (one.feature_size_m) json["feature_size_m"] = *one.feature_size_m;
-  json["seed"] = poseJson(one.camera_from_station_seed);
+  json["seed"] = exactPoseJson(one.camera_from_station_seed);
   json["uncertainty"] = toJson(one.uncertainty);
   addExtras(one, path, json);
   return json;

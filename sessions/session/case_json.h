@@ -28,6 +28,11 @@ nlohmann::ordered_json toJson(const SessionCase& one, const PathWriter& path);
 /// The reverse, without whether its id is given twice. InputError.
 SessionCase readSessionCase(const JsonReader& json);
 
+/// {rotation_wxyz, translation_m}: reads back as the same bits.
+nlohmann::ordered_json exactPoseJson(const Pose& pose);
+/// The reverse. InputError.
+Pose readExactPose(const JsonReader& json);
+
 /// 64 lower-case hexadecimal digits. InputError.
 std::string readSha256(const JsonReader& json);
 /// Absolute and without detours. InputError.

@@ -18,6 +18,7 @@
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/image_file.h"
 #include "sessions/io/option_value.h"
+#include "sessions/session/decision.h"
 #include "sessions/session/ignore_strokes.h"
 #include "sessions/session/rerun_record.h"
 #include "sessions/session/shared_value.h"
@@ -79,20 +80,6 @@ struct SessionCase {
 /// What a person marked in one case.
 using Annotation = Marks;
 
-enum class Verdict { kValidated, kRejected };
-
-/// What an operator decided about a case's result; the last one of a case holds.
-struct Decision {
-  std::string case_id;
-  Verdict verdict = Verdict::kRejected;
-  std::string by;  ///< who, not empty
-  std::string comment;
-  std::string time;    ///< UTC, "2026-01-31T23:59:59Z"
-  std::string digest;  ///< of the run that was judged, or empty
-
-  bool operator==(const Decision&) const = default;
-};
-
 /// A run whose trace is a file of its own beside the session.
 struct RunRecord {
   std::string case_id;
@@ -125,8 +112,9 @@ struct Session {
   std::map<std::string, SharedValue<Annotation>> annotations;  ///< by case; none is empty
   /// By case: what people marked who are done, in that order; none is empty.
   std::map<std::string, SharedValue<AnnotationPasses>> passes;
-  std::vector<Decision> decisions;
-  std::vector<RunRecord> runs;  ///< in the order in which they were made
+  ReviewSettings review;
+  std::vector<Decision> decisions;  ///< in the order in which they were made
+  std::vector<RunRecord> runs;      ///< in the order in which they were made
   DocumentView view;
 
   /// nullptr when there is none of this id.

@@ -16,6 +16,7 @@
 #include "sessions/io/json_writer.h"
 #include "sessions/io/mesh_container.h"
 #include "sessions/session/case_json.h"
+#include "sessions/session/decision_json.h"
 #include "sessions/version.h"
 
 namespace boresight::sessions {
@@ -38,17 +39,6 @@ ordered_json passJson(const AnnotationPass& pass) {
   json["by"] = pass.by;
   json["time"] = pass.time;
   json.update(toJson(pass.marks));
-  return json;
-}
-
-ordered_json decisionJson(const Decision& decision) {
-  ordered_json json;
-  json["case"] = decision.case_id;
-  json["verdict"] = decision.verdict == Verdict::kValidated ? "validated" : "rejected";
-  json["by"] = decision.by;
-  json["comment"] = decision.comment;
-  json["time"] = decision.time;
-  if (!decision.digest.empty()) json["run"] = decision.digest;
   return json;
 }
 
@@ -75,12 +65,6 @@ ordered_json viewJson(const DocumentView& view) {
 }
 
 // ---- reading
-
-std::string readTime(const JsonReader& json) {
-  std::string text = json.text();
-  if (!isUtcText(text)) json.fail("not a time like 2026-01-31T23:59:59Z");
-  return text;
-}
 
 /// A member that names one of the session's cases.
 std::string readCaseReference(const JsonReader& json, const Session& session) {
@@ -113,20 +97,6 @@ void readMarksOf(const JsonReader& json, Session& session) {
     if (all.empty()) list.fail("there is none: leave the case out");
     session.passes.insert_or_assign(id, std::move(all));
   }
-}
-
-Decision readDecision(const JsonReader& json, const Session& session) {
-  json.requireKnown({"case", "verdict", "by", "comment", "time", "run"});
-  Decision decision;
-  decision.case_id = readCaseReference(json.at("case"), session);
-  decision.verdict = json.at("verdict").choice({"validated", "rejected"}) == "validated"
-                         ? Verdict::kValidated
-                         : Verdict::kRejected;
-  decision.by = json.at("by").nonEmptyText();
-  decision.comment = json.at("comment").text();
-  decision.time = readTime(json.at("time"));
-  if (const auto run = json.find("run")) decision.digest = readSha256(*run);
-  return decision;
 }
 
 RunRecord readRun(const JsonReader& json, const Session& session) {
@@ -194,7 +164,8 @@ ordered_json toJson(const Session& session, const fs::path& file) {
   for (const auto& [id, annotation] : session.annotations)
     json["annotations"][id] = toJson(*annotation);
   for (const auto& [id, passes] : session.passes) json["passes"][id] = listJson(*passes, passJson);
-  json["decisions"] = listJson(session.decisions, decisionJson);
+  if (session.review != ReviewSettings()) json["review"] = toJson(session.review);
+  json["decisions"] = listJson(session.decisions, [](const Decision& one) { return toJson(one); });
   json["runs"] = listJson(session.runs, [&](const RunRecord& run) { return runJson(run, path); });
   json["view"] = viewJson(session.view);
   return json;
@@ -213,7 +184,7 @@ std::string sessionText(const Session& session, const fs::path& file) {
 Session readSession(const JsonReader& json) {
   requireVersion(json);
   json.requireKnown({"format", "version", "profile", "options", "cases", "annotations", "passes",
-                     "decisions", "runs", "view"});
+                     "review", "decisions", "runs", "view"});
   Session session;
   readOptionsOf(json, session);
   std::set<std::string> ids;
@@ -223,8 +194,11 @@ Session readSession(const JsonReader& json) {
       one.failMember("id", "'" + session.cases.back()->id + "' is given twice");
   }
   readMarksOf(json, session);
-  for (const JsonReader& decision : json.at("decisions").elements())
-    session.decisions.push_back(readDecision(decision, session));
+  if (const auto review = json.find("review")) session.review = readReviewSettings(*review);
+  for (const JsonReader& decision : json.at("decisions").elements()) {
+    session.decisions.push_back(readDecision(decision));
+    (void)readCaseReference(decision.at("case"), session);
+  }
   for (const JsonReader& run : json.at("runs").elements())
     session.runs.push_back(readRun(run, session));
   session.view = readView(json.at("view"), session);

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/crc32.h"
+#include "core/base/sha256.h"
+#include "core/record/record_hashes.h"
 #include "tests/core/localizer/heap_count.h"
 #include "tests/core/localizer/scene.h"
 
@@ -64,8 +66,9 @@ TEST(RecordWriter, WritesBlocksAsTheFormatSays) {
     (void)reader.take(length);
     EXPECT_EQ(reader.u32(), crc32(whole.first(12 + length)));
     ASSERT_FALSE(reader.failed());
-    for (const auto& [type, content] : {std::pair{RecordBlock::kIteration, std::size_t{220}},
+    for (const auto& [type, content] : {std::pair{RecordBlock::kIteration, std::size_t{252}},
                                         {RecordBlock::kInputs, 264},
+                                        {RecordBlock::kEdges, 52},
                                         {RecordBlock::kSupport, 33},
                                         {RecordBlock::kEnd, kEndBytes}}) {
       if (types.back() == static_cast<std::uint32_t>(type)) {
@@ -75,6 +78,74 @@ TEST(RecordWriter, WritesBlocksAsTheFormatSays) {
   }
   EXPECT_EQ(types.front(), static_cast<std::uint32_t>(RecordBlock::kInputs));
   EXPECT_EQ(types.back(), static_cast<std::uint32_t>(RecordBlock::kEnd));
+}
+
+/// The bytes that FORMAT.md says a level of the edge map to be.
+void appendBits(const BitImage& image, std::vector<std::uint8_t>& bytes) {
+  const auto append = [&bytes](std::uint64_t value, int count) {
+    for (int i = count - 1; i >= 0; --i)
+      bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+  };
+  append(static_cast<std::uint64_t>(image.width), 4);
+  append(static_cast<std::uint64_t>(image.height), 4);
+  for (int y = 0; y < image.height; ++y) {
+    for (int first = 0; first < image.width; first += 64) {
+      std::uint64_t word = 0;
+      for (int x = first; x < std::min(first + 64, image.width); ++x)
+        word |= std::uint64_t{image.get(x, y)} << (x - first);
+      append(word, 8);
+    }
+  }
+}
+
+RecordHash hashOf(std::span<const std::uint8_t> bytes) {
+  Sha256 sha(sha256Plain);
+  sha.update(bytes);
+  return sha.digest();
+}
+
+TEST(RecordWriter, HashesEdgesAndRendersPixelByPixel) {
+  const Case scene = stationCase(3);
+  OwnedRun run(scene.problem(), LocalizerOptions());
+  std::vector<std::uint8_t> memory(65536);
+  RecordWriter record(memory);
+  record.begin({}, scene.problem(), LocalizerOptions());
+  const std::size_t begun = record.bytes().size();
+  StepReport report;
+  while (!(report.stage == Stage::kEdges && report.stage_complete)) {
+    report = run.localizer.step();
+    record.note(run.localizer, report);
+  }
+  const EdgeMap& edges = run.localizer.workspace().edges;
+  std::vector<std::uint8_t> bytes;
+  for (const BitImage& level : edges.level) appendBits(level, bytes);
+  const RecordHash expected = hashOf(bytes);
+  ByteReader block(record.bytes().subspan(begun));
+  EXPECT_EQ(block.u32(), static_cast<std::uint32_t>(RecordBlock::kEdges));
+  EXPECT_EQ(block.u32(), 2u);
+  EXPECT_EQ(block.u32(), 52u);
+  const auto written = block.take(32);
+  EXPECT_TRUE(std::equal(written.begin(), written.end(), expected.begin()));
+  EXPECT_EQ(block.f64(), edges.low_threshold);
+  EXPECT_EQ(block.f64(), edges.high_threshold);
+  EXPECT_EQ(block.i32(), edges.edge_count);
+
+  while (!report.iteration_complete) report = run.localizer.step();
+  EdgeRender render = run.localizer.workspace().iteration->render;
+  const RecordHash whole = renderHash(render);
+  const auto differs = [&](auto& value) {
+    const auto before = value;
+    ++value;
+    const bool other = renderHash(render) != whole;
+    value = before;
+    return other;
+  };
+  EdgePixel& pixel = render.pixels[static_cast<std::size_t>(render.pixel_count / 2)];
+  EXPECT_TRUE(differs(pixel.face));
+  EXPECT_TRUE(differs(pixel.depth_m));
+  EXPECT_TRUE(differs(pixel.offset));
+  EXPECT_TRUE(differs(render.mask.row(render.mask.height / 2)[1]));
+  EXPECT_EQ(renderHash(render), whole);
 }
 
 TEST(RecordWriter, NeverWritesBeyondItsMemory) {

@@ -155,18 +155,50 @@ inline sessions::RerunRecord randomRerun(Random& random) {
   return sessions::rerunRecord(coin(random) ? randomSha256(random) : "", plan);
 }
 
+inline sessions::Check randomCheck(Random& random) {
+  sessions::Check check;
+  check.id = "check_" + std::to_string(random.below(100));
+  check.title = "A check";
+  check.state = static_cast<sessions::CheckState>(random.below(3));
+  check.sentence = "what was found";
+  if (coin(random)) check.figure = random.uniform(-1.0, 1.0);
+  if (coin(random)) check.limit = random.uniform(-1.0, 1.0);
+  if (check.limit && coin(random)) check.side = sessions::LimitSide::kAtLeast;
+  if (coin(random)) check.unit = "mm";
+  return check;
+}
+
+inline sessions::Decision randomDecision(Random& random, const std::string& case_id) {
+  sessions::Decision decision{case_id,
+                              static_cast<sessions::Verdict>(random.below(3)),
+                              "Ada",
+                              "looks right",
+                              "2026-01-31T23:59:59Z",
+                              coin(random) ? randomSha256(random) : ""};
+  for (std::uint32_t i = random.below(4); i > 0; --i)
+    decision.checks.push_back({randomCheck(random), coin(random) ? "a reason" : ""});
+  if (coin(random)) {
+    decision.pose.emplace();
+    decision.pose->source = static_cast<sessions::PoseSource>(random.below(2));
+    decision.pose->camera_from_station = randomPose(random);
+    decision.pose->covariance(1, 2) = random.uniform(-1.0, 1.0);
+    decision.pose->rests_on_sha256 = randomSha256(random);
+  }
+  if (coin(random)) decision.approval = {"Bob", "", "2026-01-31T23:59:59Z"};
+  return decision;
+}
+
 inline sessions::Session randomSession(Random& random) {
   sessions::Session session =
       sessions::withOptions({}, coin(random) ? "default" : "paper", randomOptions(random));
+  session.review.second_person = coin(random);
+  if (coin(random)) session.review.preset = "photographs";
   for (std::uint32_t i = random.below(5); i > 0; --i) {
     const std::string id = "case " + std::to_string(i);
     session.cases.emplace_back(randomCase(random, id));
     if (coin(random)) session = withAnnotation(session, id, randomAnnotation(random));
     if (coin(random)) session = withPasses(session, id, randomPasses(random));
-    if (coin(random))
-      session.decisions.push_back(
-          {id, coin(random) ? sessions::Verdict::kValidated : sessions::Verdict::kRejected, "Ada",
-           "looks right", "2026-01-31T23:59:59Z", coin(random) ? randomSha256(random) : ""});
+    if (coin(random)) session.decisions.push_back(randomDecision(random, id));
     if (coin(random))
       session.runs.push_back({id, randomSha256(random), randomPath(random, ".trace"), "converged",
                               "0.1.0", "2026-01-31T23:59:59Z", randomSha256(random),

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/review/check_limits.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace boresight::sessions {
+namespace {
+
+CheckPreset sampleTransfer() {
+  CheckPreset preset;
+  preset.name = kDefaultCheckPreset;
+  preset.help = "Putting a tube into its place: 0.4 mm and 0.25 deg.";
+  preset.requirement.normal_mm = 0.4;
+  preset.requirement.lateral_mm = 0.4;
+  preset.requirement.rotation_deg = 0.25;
+  return preset;
+}
+
+CheckPreset photographs() {
+  CheckPreset preset;
+  preset.name = "photographs";
+  preset.help = "Photographs whose truth and calibration are good to some pixels only.";
+  preset.requirement.projection_px = 5.0;
+  return preset;
+}
+
+}  // namespace
+
+const std::vector<CheckPreset>& checkPresets() {
+  static const std::vector<CheckPreset> presets = {sampleTransfer(), photographs()};
+  return presets;
+}
+
+const CheckPreset* findCheckPreset(const std::string& name) {
+  const auto& all = checkPresets();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&name](const CheckPreset& one) { return one.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+CheckLimits checkLimits(const std::string& preset, const OptionList& changed) {
+  const CheckPreset* found = findCheckPreset(preset);
+  if (found == nullptr) throw std::invalid_argument("there is no preset '" + preset + "'");
+  CheckLimits limits = found->limits;
+  for (const auto& [name, value] : changed) applyOption(limits, name, value);
+  return limits;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/pose.h"
+#include "sessions/session/case_run.h"
+#include "sessions/session/session.h"
+#include "sessions/trace/run_snapshot.h"
+
+namespace boresight::sessions {
+
+/// A pose of the same camera that somebody or something else came to.
+struct OtherPose {
+  std::string from;  ///< for people: "the annotation", "bc-right"
+  Pose camera_from_station;
+  Matrix6d covariance = Matrix6d::Zero();  ///< left perturbation, camera frame; zero: not known
+};
+
+/// A pose of a case, and all that it can be checked by. A value: it may be checked on any thread.
+struct ReviewSubject {
+  std::shared_ptr<const LoadedCase> loaded;
+  Requirement requirement;  ///< the case's own, else the preset's
+  PoseSource source = PoseSource::kRun;
+  Pose camera_from_station;
+  Matrix6d covariance = Matrix6d::Zero();
+  std::optional<RunSnapshot> run;        ///< that the pose came from; nothing of annotated ones
+  std::optional<OtherPose> annotated;    ///< by the case's marks, unless these are the source
+  std::vector<OtherPose> other_cameras;  ///< as the other cameras of the rig see the station
+};
+
+/// What there is to check of a case: its last run (or this one), or the pose of its marks. Reads
+/// the traces of the rig's other cameras. InputError when there is no pose of this source, or
+/// something cannot be read.
+ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const LoadedCase> loaded,
+                            PoseSource source, const std::string& digest = {});
+
+}  // namespace boresight::sessions

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/check.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace boresight::sessions {
+namespace {
+
+std::string numberText(double value, const std::string& unit) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return unit.empty() ? std::string(text) : text + (" " + unit);
+}
+
+bool hasState(std::span<const Check> checks, CheckState state) {
+  return std::any_of(checks.begin(), checks.end(),
+                     [state](const Check& check) { return check.state == state; });
+}
+
+}  // namespace
+
+const char* checkStateText(CheckState state) {
+  switch (state) {
+    case CheckState::kPassed:
+      return "passed";
+    case CheckState::kFailed:
+      return "failed";
+    case CheckState::kNotApplicable:
+      break;
+  }
+  return "not applicable";
+}
+
+std::string figureText(const Check& check) {
+  if (!check.figure) return "";
+  const std::string figure = numberText(*check.figure, check.unit);
+  if (!check.limit) return figure;
+  const char* side = check.side == LimitSide::kAtMost ? "at most " : "at least ";
+  return figure + " (" + side + numberText(*check.limit, check.unit) + ")";
+}
+
+bool allPassed(std::span<const Check> checks) {
+  return hasState(checks, CheckState::kPassed) && !hasState(checks, CheckState::kFailed);
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is checked of a pose before somebody vouches for it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace boresight::sessions {
+
+enum class CheckState {
+  kPassed,
+  kFailed,
+  kNotApplicable,  ///< there is nothing to check it by (no truth, no annotation, not measured)
+};
+/// "passed", "failed", "not applicable".
+const char* checkStateText(CheckState state);
+
+/// On which side of its limit a figure is good.
+enum class LimitSide { kAtMost, kAtLeast };
+
+struct Check {
+  std::string id;     ///< stable, as files name it: "converged", "covariance_normal"
+  std::string title;  ///< for people: "Sigma along the view axis"
+  CheckState state = CheckState::kNotApplicable;
+  std::optional<double> figure;  ///< in `unit`; nothing where it is not a number
+  std::optional<double> limit;   ///< in `unit`
+  LimitSide side = LimitSide::kAtMost;
+  std::string unit;      ///< "mm", "mrad", "px", "%", or empty
+  std::string sentence;  ///< what was found and what that means; of a failed one, what to do
+
+  bool operator==(const Check&) const = default;
+};
+
+/// "0.12 mm (at most 0.40 mm)", "12 of 12" where the sentence alone tells: "".
+std::string figureText(const Check& check);
+
+/// None has failed, and one at least has passed.
+bool allPassed(std::span<const Check> checks);
+
+}  // namespace boresight::sessions

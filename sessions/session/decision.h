@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/pose.h"
+#include "sessions/io/option_value.h"
+#include "sessions/session/check.h"
+
+namespace boresight::sessions {
+
+/// kReopened takes an earlier decision back.
+enum class Verdict { kValidated, kRejected, kReopened };
+
+/// Where a pose comes from that is checked, decided on or exported.
+enum class PoseSource { kRun, kAnnotation };
+
+/// A check as it was when somebody decided.
+struct JudgedCheck {
+  Check check;
+  std::string override_reason;  ///< why a failed one does not stand in the way, or empty
+
+  bool operator==(const JudgedCheck&) const = default;
+};
+
+/// A second person's yes.
+struct Approval {
+  std::string by;
+  std::string comment;
+  std::string time;  ///< UTC, "2026-01-31T23:59:59Z"
+
+  bool operator==(const Approval&) const = default;
+};
+
+/// What was judged: a pose with what it rests on.
+struct JudgedPose {
+  PoseSource source = PoseSource::kRun;
+  Pose camera_from_station;
+  Matrix6d covariance = Matrix6d::Zero();  ///< left perturbation, camera frame; zero: none
+  std::string rests_on_sha256;             ///< judgedSha256 (sessions/review/decide.h)
+
+  bool operator==(const JudgedPose&) const = default;
+};
+
+/// What an operator decided about a case's result; the last one of a case holds.
+struct Decision {
+  std::string case_id;
+  Verdict verdict = Verdict::kRejected;
+  std::string by;  ///< who, not empty
+  std::string comment;
+  std::string time;                               ///< UTC, "2026-01-31T23:59:59Z"
+  std::string digest;                             ///< of the run that was judged, or empty
+  std::optional<JudgedPose> pose = std::nullopt;  ///< always there of a validation that can hold
+  std::vector<JudgedCheck> checks = {};
+  std::optional<Approval> approval = std::nullopt;
+
+  bool operator==(const Decision&) const = default;
+};
+
+/// By what the poses of a session are judged.
+struct ReviewSettings {
+  std::string preset = "sample_transfer";  ///< of limits (sessions/review/check_limits.h)
+  OptionList limits;  ///< what differs from the preset, by name in the order of the alphabet
+  bool second_person = false;  ///< a validation counts once somebody else has approved it
+
+  bool operator==(const ReviewSettings&) const = default;
+};
+
+}  // namespace boresight::sessions

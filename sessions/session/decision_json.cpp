@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/decision_json.h"
+
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/config_file.h"
+#include "sessions/review/check_limits.h"
+#include "sessions/session/case_json.h"
+#include "sessions/session/session.h"
+
+namespace boresight::sessions {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char* kVerdictNames[] = {"validated", "rejected", "reopened"};
+constexpr const char* kStateNames[] = {"passed", "failed", "not_applicable"};
+constexpr const char* kSourceNames[] = {"run", "annotation"};
+constexpr const char* kSideNames[] = {"at_most", "at_least"};
+
+template <class Enum, std::size_t N>
+const char* nameOf(const char* const (&names)[N], Enum value) {
+  return names[static_cast<std::size_t>(value)];
+}
+
+template <class Enum, std::size_t N>
+Enum valueOf(const char* const (&names)[N], const std::string& name) {
+  std::size_t i = 0;
+  while (i + 1 < N && name != names[i]) ++i;
+  return static_cast<Enum>(i);
+}
+
+ordered_json approvalJson(const Approval& approval) {
+  return {{"by", approval.by}, {"comment", approval.comment}, {"time", approval.time}};
+}
+
+Approval readApproval(const JsonReader& json) {
+  json.requireKnown({"by", "comment", "time"});
+  return {json.at("by").nonEmptyText(), json.at("comment").text(), readTime(json.at("time"))};
+}
+
+ordered_json judgedPoseJson(const JudgedPose& pose) {
+  ordered_json json;
+  json["source"] = nameOf(kSourceNames, pose.source);
+  json["camera_from_station"] = exactPoseJson(pose.camera_from_station);
+  json["covariance"] = toJson(pose.covariance);
+  json["rests_on_sha256"] = pose.rests_on_sha256;
+  return json;
+}
+
+JudgedPose readJudgedPose(const JsonReader& json) {
+  json.requireKnown({"source", "camera_from_station", "covariance", "rests_on_sha256"});
+  JudgedPose pose;
+  pose.source = valueOf<PoseSource>(kSourceNames, json.at("source").choice({"run", "annotation"}));
+  pose.camera_from_station = readExactPose(json.at("camera_from_station"));
+  pose.covariance = readMatrix6(json.at("covariance"));
+  pose.rests_on_sha256 = readSha256(json.at("rests_on_sha256"));
+  return pose;
+}
+
+}  // namespace
+
+ordered_json toJson(const Matrix6d& matrix) {
+  ordered_json json = ordered_json::array();
+  for (int row = 0; row < 6; ++row) {
+    ordered_json numbers = ordered_json::array();
+    for (int column = 0; column < 6; ++column) numbers.push_back(matrix(row, column));
+    json.push_back(std::move(numbers));
+  }
+  return json;
+}
+
+Matrix6d readMatrix6(const JsonReader& json) {
+  Matrix6d matrix;
+  const auto rows = json.elements(6);
+  for (int row = 0; row < 6; ++row) {
+    const auto numbers = rows[static_cast<std::size_t>(row)].elements(6);
+    for (int column = 0; column < 6; ++column)
+      matrix(row, column) = numbers[static_cast<std::size_t>(column)].number();
+  }
+  return matrix;
+}
+
+std::string readTime(const JsonReader& json) {
+  std::string text = json.text();
+  if (!isUtcText(text)) json.fail("not a time like 2026-01-31T23:59:59Z");
+  return text;
+}
+
+ordered_json toJson(const JudgedCheck& judged) {
+  const Check& check = judged.check;
+  ordered_json json;
+  json["id"] = check.id;
+  json["title"] = check.title;
+  json["state"] = nameOf(kStateNames, check.state);
+  if (check.figure) json["figure"] = *check.figure;
+  if (check.limit) {
+    json["limit"] = *check.limit;
+    json["side"] = nameOf(kSideNames, check.side);
+  }
+  if (!check.unit.empty()) json["unit"] = check.unit;
+  json["sentence"] = check.sentence;
+  if (!judged.override_reason.empty()) json["override_reason"] = judged.override_reason;
+  return json;
+}
+
+JudgedCheck readJudgedCheck(const JsonReader& json) {
+  json.requireKnown(
+      {"id", "title", "state", "figure", "limit", "side", "unit", "sentence", "override_reason"});
+  JudgedCheck judged;
+  Check& check = judged.check;
+  check.id = json.at("id").nonEmptyText();
+  check.title = json.at("title").text();
+  check.state = valueOf<CheckState>(
+      kStateNames, json.at("state").choice({"passed", "failed", "not_applicable"}));
+  if (const auto figure = json.find("figure")) check.figure = figure->number();
+  if (const auto limit = json.find("limit")) {
+    check.limit = limit->number();
+    check.side = valueOf<LimitSide>(kSideNames, json.at("side").choice({"at_most", "at_least"}));
+  }
+  if (const auto unit = json.find("unit")) check.unit = unit->text();
+  check.sentence = json.at("sentence").text();
+  if (const auto reason = json.find("override_reason")) judged.override_reason = reason->text();
+  return judged;
+}
+
+ordered_json toJson(const Decision& decision) {
+  ordered_json json;
+  json["case"] = decision.case_id;
+  json["verdict"] = nameOf(kVerdictNames, decision.verdict);
+  json["by"] = decision.by;
+  json["comment"] = decision.comment;
+  json["time"] = decision.time;
+  if (!decision.digest.empty()) json["run"] = decision.digest;
+  if (decision.pose) json["pose"] = judgedPoseJson(*decision.pose);
+  for (const JudgedCheck& judged : decision.checks) json["checks"].push_back(toJson(judged));
+  if (decision.approval) json["approval"] = approvalJson(*decision.approval);
+  return json;
+}
+
+Decision readDecision(const JsonReader& json) {
+  json.requireKnown(
+      {"case", "verdict", "by", "comment", "time", "run", "pose", "checks", "approval"});
+  Decision decision;
+  decision.case_id = json.at("case").text();
+  decision.verdict = valueOf<Verdict>(
+      kVerdictNames, json.at("verdict").choice({"validated", "rejected", "reopened"}));
+  decision.by = json.at("by").nonEmptyText();
+  decision.comment = json.at("comment").text();
+  decision.time = readTime(json.at("time"));
+  if (const auto run = json.find("run")) decision.digest = readSha256(*run);
+  if (const auto pose = json.find("pose")) decision.pose = readJudgedPose(*pose);
+  if (const auto checks = json.find("checks"))
+    for (const JsonReader& check : checks->elements())
+      decision.checks.push_back(readJudgedCheck(check));
+  if (const auto approval = json.find("approval")) decision.approval = readApproval(*approval);
+  return decision;
+}
+
+ordered_json toJson(const ReviewSettings& settings) {
+  ordered_json json;
+  json["preset"] = settings.preset;
+  json["limits"] = toJson(settings.limits);
+  json["second_person"] = settings.second_person;
+  return json;
+}
+
+ReviewSettings readReviewSettings(const JsonReader& json) {
+  json.requireKnown({"preset", "limits", "second_person"});
+  ReviewSettings settings;
+  settings.preset = json.at("preset").text();
+  settings.limits = readOptions(json.at("limits"));
+  settings.second_person = json.at("second_person").boolean();
+  try {
+    (void)checkLimits(settings.preset, settings.limits);
+  } catch (const OptionError& error) {
+    json.failMember("limits", error.what());
+  } catch (const std::invalid_argument& error) {
+    json.failMember("preset", error.what());
+  }
+  return settings;
+}
+
+}  // namespace boresight::sessions
