@@ -1,23 +1,134 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <fstream>
 #include <iostream>
 #include <memory>
 
 #include "app/commands.h"
+#include "app/open_session.h"
+#include "sessions/io/errors.h"
 #include "sessions/record/compare_records.h"
+#include "sessions/record/record_of_run.h"
+#include "sessions/record/recorded_plan.h"
+#include "sessions/session/case_run.h"
+#include "sessions/trace/trace_file.h"
 
 namespace boresight::app {
 namespace {
 
+using sessions::InputError;
+using sessions::OnboardRecord;
+
 struct CompareArguments {
   std::string one;
   std::string other;
+  std::string case_id;
+  std::string digest;
+  bool rerun = false;
   sessions::ComparisonLimits limits;
 };
 
+enum class SideKind { kRecord, kTrace, kSession };
+
+/// By its first bytes. What is none of the three is refused by whoever reads it as a record.
+SideKind kindOf(const std::string& file) {
+  std::array<char, 8> begin{};
+  std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
+  const std::string_view text(begin.data(), begin.size());
+  if (text.starts_with("BSTRACE\n")) return SideKind::kTrace;
+  return text.starts_with("{") ? SideKind::kSession : SideKind::kRecord;
+}
+
+OnboardRecord readSide(const std::string& file) {
+  return kindOf(file) == SideKind::kTrace ? sessions::recordOf(sessions::loadTrace(file), nullptr)
+                                          : sessions::readRecord(file);
+}
+
+/// A case of the session, and the run of it that is asked for.
+class GroundSide {
+ public:
+  GroundSide(const std::string& session, const CompareArguments& arguments)
+      : document_(openToRead(session)), arguments_(arguments) {
+    if (arguments.case_id.empty())
+      throw CLI::RequiredError("--case (which case of " + session + ")");
+    (void)requireCase(document_, arguments.case_id);
+  }
+
+  /// What is attached to the case.
+  OnboardRecord attached() const {
+    const auto& file = one().onboard_record;
+    if (!file)
+      throw InputError(document_.file(), "case " + one().id,
+                       "no onboard record is attached: name one, or attach it in the desktop "
+                       "program");
+    return sessions::readRecord(file->file);
+  }
+
+  /// The run that was stored; run anew by the record's options when that is asked for.
+  OnboardRecord run(const OnboardRecord& onboard) const {
+    const auto loaded = sessions::loadCase(one());
+    const LocalizationProblem given = loaded->problem();
+    return sessions::recordOf(arguments_.rerun ? runAnew(onboard, *loaded) : stored(), &given);
+  }
+
+ private:
+  const sessions::SessionCase& one() const { return requireCase(document_, arguments_.case_id); }
+
+  static sessions::LocalizationTrace runAnew(const OnboardRecord& onboard,
+                                             const sessions::LoadedCase& loaded) {
+    const sessions::RecordedPlan recorded = sessions::planOf(onboard);
+    for (const std::string& remark : recorded.remarks) note(remark);
+    return sessions::runCase(loaded, recorded.plan);
+  }
+
+  const sessions::RunRecord& chosen() const {
+    if (!arguments_.digest.empty()) return recordedRun(document_, arguments_.digest);
+    const sessions::RunRecord* last = document_.session().lastRunOf(one().id);
+    if (last == nullptr)
+      throw InputError(document_.file(), "case " + one().id,
+                       "it has no run: run it, or run it by the record's options with --rerun");
+    return *last;
+  }
+
+  sessions::LocalizationTrace stored() const {
+    const sessions::RunRecord& run = chosen();
+    if (run.case_id != one().id)
+      throw InputError(document_.file(), "run " + run.digest,
+                       "it is a run of case " + run.case_id + ", not of " + one().id);
+    if (run.inputs_sha256 != sessions::inputsDigest(one()))
+      throw InputError(document_.file(), "run " + run.digest,
+                       "the inputs of case " + one().id +
+                           " are no longer its own: run it anew, or by the record's options with "
+                           "--rerun");
+    return sessions::loadRun(run);
+  }
+
+  sessions::SessionDocument document_;
+  const CompareArguments& arguments_;
+};
+
+sessions::RecordComparison compareSides(const CompareArguments& arguments) {
+  const bool session_first = kindOf(arguments.one) == SideKind::kSession;
+  const bool session_second =
+      !arguments.other.empty() && kindOf(arguments.other) == SideKind::kSession;
+  if (session_first && session_second)
+    throw CLI::ValidationError("A, B", "only one of the two can be a session");
+  if (!session_first && arguments.other.empty()) throw CLI::RequiredError("B");
+  if (!session_first && !session_second)
+    return sessions::compareRecords(readSide(arguments.one), readSide(arguments.other),
+                                    arguments.limits);
+  const GroundSide ground(session_first ? arguments.one : arguments.other, arguments);
+  const OnboardRecord onboard = !session_first            ? readSide(arguments.one)
+                                : arguments.other.empty() ? ground.attached()
+                                                          : readSide(arguments.other);
+  const OnboardRecord run = ground.run(onboard);
+  const bool onboard_first = !session_first || arguments.other.empty();
+  return sessions::compareRecords(onboard_first ? onboard : run, onboard_first ? run : onboard,
+                                  arguments.limits);
+}
+
 int compare(const CompareArguments& arguments) {
-  const sessions::OnboardRecord one = sessions::readRecord(arguments.one);
-  const sessions::OnboardRecord other = sessions::readRecord(arguments.other);
-  const sessions::RecordComparison found = sessions::compareRecords(one, other, arguments.limits);
+  const sessions::RecordComparison found = compareSides(arguments);
   std::cout << sessions::comparisonText(found);
   switch (found.verdict) {
     case sessions::RunVerdict::kEqual:
@@ -30,31 +141,50 @@ int compare(const CompareArguments& arguments) {
   return kDifferent;
 }
 
+void addLimits(CLI::App& command, sessions::ComparisonLimits& limits) {
+  command
+      .add_option("--found-px", limits.found_px,
+                  "Templates found this near each other count as found alike, px at their level")
+      ->capture_default_str();
+  command.add_option("--found-share", limits.found_share, "Least share of these, 0 to 1")
+      ->capture_default_str();
+  command
+      .add_option("--inlier-share", limits.inlier_share,
+                  "Least share of the inliers of either that both have, 0 to 1")
+      ->capture_default_str();
+  command
+      .add_option("--sigmas", limits.pose_sigmas,
+                  "Most that the final poses may be apart, in sigmas of A's covariance")
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void addCompare(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "compare",
-      "Compares two onboard records (run.whsr): equal to the bit (exit 0), within limits where the "
-      "pixels differ or a record was cut (5), or different (6), and where they differ first");
+      "Compares two runs: equal to the bit (exit 0), within limits where the pixels differ or a "
+      "record was cut (5), or different (6), and where they differ first. Each is an onboard "
+      "record (run.whsr), a trace, or a run of a case of a session (with --case)");
   auto arguments = std::make_shared<CompareArguments>();
-  command->add_option("A", arguments->one, "run.whsr")->required()->type_name("FILE");
-  command->add_option("B", arguments->other, "run.whsr")->required()->type_name("FILE");
-  sessions::ComparisonLimits& limits = arguments->limits;
+  command->add_option("A", arguments->one, "Record, trace or session")
+      ->required()
+      ->type_name("FILE");
   command
-      ->add_option("--found-px", limits.found_px,
-                   "Templates found this near each other count as found alike, px at their level")
-      ->capture_default_str();
-  command->add_option("--found-share", limits.found_share, "Least share of these, 0 to 1")
-      ->capture_default_str();
+      ->add_option("B", arguments->other,
+                   "The same; without it, A is a session, whose case's onboard record is compared "
+                   "with the case's run")
+      ->type_name("FILE");
+  command->add_option("--case", arguments->case_id, "Case of the session")->type_name("ID");
+  auto* run = command->add_option("--run", arguments->digest,
+                                  "Run of the case whose digest begins like this; without it the "
+                                  "last one");
+  run->type_name("DIGEST");
   command
-      ->add_option("--inlier-share", limits.inlier_share,
-                   "Least share of the inliers of either that both have, 0 to 1")
-      ->capture_default_str();
-  command
-      ->add_option("--sigmas", limits.pose_sigmas,
-                   "Most that the final poses may be apart, in sigmas of A's covariance")
-      ->capture_default_str();
+      ->add_flag("--rerun", arguments->rerun,
+                 "Run the case now by the options of the onboard record, without storing the run")
+      ->excludes(run);
+  addLimits(*command, arguments->limits);
   command->callback([arguments, &exit_code] { exit_code = compare(*arguments); });
 }
 

@@ -45,4 +45,19 @@ const sessions::SessionCase& requireCase(const sessions::SessionDocument& docume
   return *found;
 }
 
+const sessions::RunRecord& recordedRun(const sessions::SessionDocument& document,
+                                       const std::string& beginning) {
+  const sessions::RunRecord* found = nullptr;
+  for (const sessions::RunRecord& run : document.session().runs) {
+    if (!run.digest.starts_with(beginning)) continue;
+    if (found != nullptr && found->digest != run.digest)
+      throw sessions::InputError(document.file(), "runs",
+                                 "more than one digest begins with " + beginning);
+    found = &run;
+  }
+  if (found == nullptr)
+    throw sessions::InputError(document.file(), "runs", "no digest begins with " + beginning);
+  return *found;
+}
+
 }  // namespace boresight::app

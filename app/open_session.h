@@ -19,4 +19,8 @@ sessions::SessionDocument openToEdit(const std::string& file, bool recover = fal
 const sessions::SessionCase& requireCase(const sessions::SessionDocument& document,
                                          const std::string& case_id);
 
+/// The recorded run whose digest begins like this; InputError when there is none, or more than one.
+const sessions::RunRecord& recordedRun(const sessions::SessionDocument& document,
+                                       const std::string& beginning);
+
 }  // namespace boresight::app

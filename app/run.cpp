@@ -39,22 +39,6 @@ int runOne(sessions::SessionDocument& document, const std::string& id) {
   return trace.converged() ? kDone : kNotConverged;
 }
 
-/// The recorded run whose digest begins like this.
-const sessions::RunRecord& recordedRun(const sessions::SessionDocument& document,
-                                       const std::string& beginning) {
-  const sessions::RunRecord* found = nullptr;
-  for (const sessions::RunRecord& run : document.session().runs) {
-    if (!run.digest.starts_with(beginning)) continue;
-    if (found != nullptr && found->digest != run.digest)
-      throw sessions::InputError(document.file(), "runs",
-                                 "more than one digest begins with " + beginning);
-    found = &run;
-  }
-  if (found == nullptr)
-    throw sessions::InputError(document.file(), "runs", "no digest begins with " + beginning);
-  return *found;
-}
-
 /// Runs a recorded run once more, by the options that it had, and says whether it is the same.
 int runAgain(const sessions::SessionDocument& document, const std::string& beginning) {
   const sessions::RunRecord& run = recordedRun(document, beginning);

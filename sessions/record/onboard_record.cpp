@@ -94,7 +94,7 @@ RecordedIteration readIteration(ByteReader& reader) {
   made.correction_translation_m = reader.f64();
   made.correction_rotation_rad = reader.f64();
   made.correction_image_px = reader.f64();
-  readBytes(reader, made.render_sha256);
+  readBytes(reader, made.render_sha256.emplace());
   return made;
 }
 
@@ -264,7 +264,7 @@ void noteWhatIsMissing(OnboardRecord& record) {
   }
   for (const RecordedIteration& one : record.iterations)
     if (one.templates_count > 0 && !one.templates)
-      record.missing.push_back("the templates of iteration " + std::to_string(one.index));
+      record.missing.push_back("the templates of iteration " + std::to_string(one.index + 1));
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ struct RecordedIteration {
   double correction_translation_m = 0.0;
   double correction_rotation_rad = 0.0;
   double correction_image_px = 0.0;
-  RecordHash render_sha256{};                              ///< zeros: it failed
+  std::optional<RecordHash> render_sha256;                 ///< zeros: it failed; nothing: not known
   std::optional<std::vector<RecordedTemplate>> templates;  ///< nothing: none, or not in the record
   std::optional<EdgeSupport> support;  ///< of an iteration whose pose was judged by it
 };

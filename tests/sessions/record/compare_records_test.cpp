@@ -76,7 +76,7 @@ TEST(CompareRecords, NamesTheFirstThingThatDiffers) {
       {RunPart::kEdges, [](auto& run) { run.edges->high_threshold += 1.0; }},
       {RunPart::kEdges, [](auto& run) { --run.edges->edge_count; }},
       {RunPart::kRender, [](auto& run) { ++run.iterations[0].edge_pixels; }},
-      {RunPart::kRender, [](auto& run) { run.iterations[0].render_sha256[0] ^= 1; }},
+      {RunPart::kRender, [](auto& run) { (*run.iterations[0].render_sha256)[0] ^= 1; }},
       {RunPart::kTemplates, [](auto& run) { ++(*run.iterations[0].templates)[7].x; }},
       {RunPart::kMatches, [](auto& run) { (*run.iterations[0].templates)[2].score += 1e-6F; }},
       {RunPart::kInliers,

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/record/record_of_run.h"
+
+#include <algorithm>
+#include <bit>
+#include <type_traits>
+
+#include "core/record/record_hashes.h"
+#include "sessions/record/record_inputs.h"
+
+namespace boresight::sessions {
+namespace {
+
+RecordedInputs inputsOf(const LocalizationProblem& given) {
+  RecordedInputs made;
+  made.sha256 = recordInputs(given);
+  made.width = given.image.width;
+  made.height = given.image.height;
+  made.camera_from_station_seed = given.camera_from_station_seed;
+  made.uncertainty = given.uncertainty;
+  return made;
+}
+
+RecordedOptions optionsOf(const LocalizerOptions& options, std::int32_t first_iteration) {
+  RecordedOptions made;
+  made.first_iteration = first_iteration;
+  LocalizerOptions::visitFields(options, [&made](const OptionInfo& info, const auto& field) {
+    using Field = std::remove_cvref_t<decltype(field)>;
+    RecordedOption option;
+    option.name = info.name;
+    option.kind = optionKindOf<Field>();
+    if constexpr (std::is_floating_point_v<Field>) {
+      option.bits = std::bit_cast<std::uint64_t>(static_cast<double>(field));
+    } else {
+      option.bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(field));
+    }
+    made.options.push_back(std::move(option));
+  });
+  return made;
+}
+
+std::optional<RecordedEdges> edgesOf(const EdgeMapTrace& edges) {
+  if (edges.level.front().words.empty()) return std::nullopt;
+  EdgeMap map;
+  for (std::size_t i = 0; i < map.level.size(); ++i) map.level[i] = edges.level[i].view();
+  return RecordedEdges{edgeMapHash(map), edges.low_threshold, edges.high_threshold,
+                       edges.edge_count};
+}
+
+std::optional<RecordHash> renderHashOf(const IterationTrace& run) {
+  if (run.reached == Stage::kRender && run.status == LocalizationStatus::kFault)
+    return RecordHash{};
+  if (run.render.edges.words.empty()) return std::nullopt;
+  return renderHash(run.render.view());
+}
+
+RecordedTemplate templateOf(const Template& item, const Match* match) {
+  RecordedTemplate made;
+  made.x = item.center_x;
+  made.y = item.center_y;
+  if (match == nullptr || !match->searched) return made;
+  made.searched = true;
+  made.at_border = match->at_border;
+  made.found_x = static_cast<float>(match->x);
+  made.found_y = static_cast<float>(match->y);
+  made.score = static_cast<float>(whsScore(match->peak.counts, match->norms));
+  if (match->peak.has_second)
+    made.second_score = static_cast<float>(whsScore(match->peak.second_counts, match->norms));
+  return made;
+}
+
+std::optional<std::vector<RecordedTemplate>> templatesOf(const IterationTrace& run) {
+  const bool selected = run.kind == IterationKind::kMatch && run.reached >= Stage::kTemplates;
+  if (!selected || (run.template_count > 0 && run.templates.empty())) return std::nullopt;
+  std::vector<RecordedTemplate> made;
+  for (std::size_t i = 0; i < run.templates.size(); ++i)
+    made.push_back(
+        templateOf(run.templates[i], i < run.matches.size() ? &run.matches[i] : nullptr));
+  if (run.reached < Stage::kPose) return made;
+  for (std::size_t c = 0; c < run.template_of.size() && c < run.pnp.inlier.size(); ++c)
+    made[static_cast<std::size_t>(run.template_of[c])].inlier = run.pnp.inlier[c] != 0;
+  return made;
+}
+
+void takeCounts(const IterationTrace& run, RecordedIteration& made) {
+  made.edge_pixels = run.edge_pixel_count;
+  made.template_side_px = run.template_side_px;
+  made.templates_count = run.template_count;
+  made.searched = run.searched_count;
+  made.correspondences = run.correspondence_count;
+  made.inliers = run.pnp.inlier_count;
+  made.samples = run.pnp.samples;
+  made.refinement_samples = run.refinement.sample_count;
+  made.refinement_found = run.refinement.found_count;
+  made.refinement_used = run.refinement.used_count;
+  made.rms_px = run.rms_px();
+  made.hypotheses = static_cast<std::int32_t>(run.hypotheses.size());
+  if (run.hypotheses.empty()) return;
+  made.chosen_hypothesis = run.chosen_hypothesis;
+  made.roll_rad = run.hypotheses[static_cast<std::size_t>(run.chosen_hypothesis)].roll_rad;
+}
+
+RecordedIteration iterationOf(const IterationTrace& run) {
+  RecordedIteration made;
+  made.index = run.index;
+  made.attempt = run.attempt;
+  made.kind = run.kind;
+  made.level = run.level;
+  made.reached = run.reached;
+  made.status = run.status;
+  made.threshold_px = run.threshold_px;
+  made.camera_from_station_before = run.camera_from_station_before;
+  made.camera_from_station = run.camera_from_station;
+  takeCounts(run, made);
+  made.correction_translation_m = run.correction_translation_m;
+  made.correction_rotation_rad = run.correction_rotation_rad;
+  made.correction_image_px = run.correction_image_px;
+  made.render_sha256 = renderHashOf(run);
+  made.templates = templatesOf(run);
+  return made;
+}
+
+/// A trace has the support of the pose that was judged last.
+void takeSupport(const EdgeSupport& support, LocalizationStatus status, OnboardRecord& record) {
+  bool taken = false;
+  for (auto one = record.iterations.rbegin(); one != record.iterations.rend(); ++one) {
+    const bool converged =
+        one == record.iterations.rbegin() && status == LocalizationStatus::kConverged;
+    if (!converged && one->status != LocalizationStatus::kNotSupported) continue;
+    if (taken)
+      record.missing.push_back("the edge support of iteration " + std::to_string(one->index + 1));
+    else
+      one->support = support;
+    taken = true;
+  }
+}
+
+/// Of a trace or a snapshot.
+template <class Run>
+RecordedEnd endOf(const Run& run, std::size_t iterations) {
+  RecordedEnd end;
+  end.status = run.status;
+  end.fault = run.fault;
+  end.iterations = static_cast<std::int32_t>(iterations);
+  end.attempts = run.attempts;
+  end.camera_from_station = run.camera_from_station;
+  end.covariance = run.covariance;
+  end.digest = run.digest;
+  return end;
+}
+
+void noteWhatIsMissing(OnboardRecord& record) {
+  if (!record.inputs)
+    record.missing.push_back("the hashes of the inputs, which only the digest covers");
+  if (!record.edges) record.missing.push_back("the edges of the image");
+  for (const RecordedIteration& one : record.iterations) {
+    const std::string of = " of iteration " + std::to_string(one.index + 1);
+    if (!one.render_sha256) record.missing.push_back("the render" + of);
+    if (one.templates_count > 0 && !one.templates) record.missing.push_back("the templates" + of);
+  }
+  if (!record.end) record.missing.push_back("how the run ended: it was halted");
+}
+
+template <class Run>
+OnboardRecord recordOfRun(const Run& run, const EdgeMapTrace* edges,
+                          const std::vector<const IterationTrace*>& iterations,
+                          const LocalizationProblem* given) {
+  OnboardRecord record;
+  if (given != nullptr) record.inputs = inputsOf(*given);
+  record.options.push_back(optionsOf(run.options, 0));
+  for (const OptionChange& change : run.changes)
+    if (static_cast<std::size_t>(change.iteration) < iterations.size())
+      record.options.push_back(optionsOf(change.options, change.iteration));
+  if (edges != nullptr) record.edges = edgesOf(*edges);
+  for (const IterationTrace* one : iterations) record.iterations.push_back(iterationOf(*one));
+  takeSupport(run.support, run.status, record);
+  if (run.status != LocalizationStatus::kRunning) record.end = endOf(run, iterations.size());
+  noteWhatIsMissing(record);
+  return record;
+}
+
+}  // namespace
+
+OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* given) {
+  std::vector<const IterationTrace*> iterations;
+  for (const IterationTrace& one : run.iterations) iterations.push_back(&one);
+  return recordOfRun(run, &run.edges, iterations, given);
+}
+
+OnboardRecord recordOf(const RunSnapshot& run, const LocalizationProblem* given) {
+  std::vector<const IterationTrace*> iterations;
+  for (const auto& one : run.iterations) iterations.push_back(one.get());
+  if (run.last_under_way) iterations.pop_back();
+  return recordOfRun(run, run.edges.get(), iterations, given);
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "sessions/record/onboard_record.h"
+#include "sessions/record/record_of_run.h"
+#include "sessions/trace/record.h"
+#include "tests/support/example_case.h"
+
+namespace boresight::test {
+
+/// A run of an example's station, noted as the flight side does and traced at once.
+struct RecordedRun {
+  std::vector<std::uint8_t> bytes;  ///< of the record
+  sessions::OnboardRecord record;
+  sessions::LocalizationTrace trace;
+};
+
+inline RecordedRun recordRun(const LocalizationProblem& problem, const sessions::RunPlan& plan,
+                             std::size_t room = 65536) {
+  RecordedRun made;
+  made.bytes.resize(room);
+  RecordWriter writer(made.bytes);
+  sessions::RunSettings settings;
+  settings.onboard_record = &writer;
+  made.trace = sessions::localize(problem, plan, settings);
+  made.bytes.resize(writer.bytes().size());
+  made.record = sessions::parseRecord("run.whsr", made.bytes);
+  return made;
+}
+
+/// The station's features are small; otherwise as the program has them.
+inline LocalizerOptions recordedOptions() {
+  LocalizerOptions options = defaultProfile();
+  options.templates.feature_size_m = 0.018;
+  return options;
+}
+
+}  // namespace boresight::test
