@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/cases_panel.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <QComboBox>
 #include <QLineEdit>
@@ -100,12 +102,15 @@ TEST_F(CasesPanelTest, TheEndOfALongNameIsSeenInANarrowList) {
 TEST_F(CasesPanelTest, TheWholeStateIsSeenInTheNarrowestList) {
   std::vector<CaseRow> rows(1);
   rows[0].id = QStringLiteral("x");
-  rows[0].state = CaseState::kAnnotated;
   rows[0].thumbnail = QImage(64, 64, QImage::Format_Grayscale8);
   rows[0].thumbnail.fill(Qt::gray);
-  panel_.setRows(rows);
-  table_->resizeColumnToContents(CasesModel::kCase);
-  const int needed = table_->columnWidth(CasesModel::kCase);
+  int needed = 0;
+  for (int i = 0; i < kCaseStateCount; ++i) {
+    rows[0].state = static_cast<CaseState>(i);
+    panel_.setRows(rows);
+    table_->resizeColumnToContents(CasesModel::kCase);
+    needed = std::max(needed, table_->columnWidth(CasesModel::kCase));
+  }
   panel_.resize(panel_.minimumSizeHint().width(), 400);
   rows[0].id = QString(60, QLatin1Char('w'));
   panel_.setRows(rows);
