@@ -53,11 +53,6 @@ Marks withoutMark(Marks marks, const std::string& id) {
   return marks;
 }
 
-bool isInImage(const Eigen::Vector2d& pixel, int width, int height) {
-  return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() <= width - 0.5 &&
-         pixel.y() <= height - 0.5;
-}
-
 Marks withMoved(Marks marks, const std::string& id, int end, const Eigen::Vector2d& to_px) {
   const auto point = findIn(marks.points, id);
   if (point != marks.points.end() && point->pixel) point->pixel = to_px;

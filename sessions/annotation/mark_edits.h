@@ -18,9 +18,6 @@ Marks withLine(Marks marks, const std::string& replaced, const LinePair& line);
 /// The same marks without one.
 Marks withoutMark(Marks marks, const std::string& id);
 
-/// Whether a place lies on the image: pixel centres are whole numbers, so from -0.5 to width - 0.5.
-bool isInImage(const Eigen::Vector2d& pixel, int width, int height);
-
 /// A mark moved in the image as a whole, or by one end of its line (0 or 1). What has no place in
 /// the image stays as it is.
 Marks withMoved(Marks marks, const std::string& id, int end, const Eigen::Vector2d& to_px);

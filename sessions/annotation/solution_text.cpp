@@ -7,8 +7,6 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr double kStandsOut = 3.0;  ///< standard deviations
-
 TextTable markTable(std::span<const MarkedView> views, const MarksSolution& solution,
                     std::span<const LeftOut> left_out) {
   TextTable table({"view", "mark", "kind", "dx px", "dy px", "dx mm", "dy mm", "sigmas", "weight",
@@ -16,12 +14,12 @@ TextTable markTable(std::span<const MarkedView> views, const MarksSolution& solu
   for (std::size_t i = 0; i < solution.marks.size(); ++i) {
     const SolvedMark& mark = solution.marks[i];
     const LeftOut& without = left_out[i];
-    const bool stands_out = mark.normalized > kStandsOut;
     table.add({views[mark.address.view].name, markId(views, mark.address),
                mark.address.kind == MarkKind::kPoint ? "point" : "line",
                fixedText(mark.residual_px.x(), 3), fixedText(mark.residual_px.y(), 3),
                fixedText(mark.residual_mm.x(), 3), fixedText(mark.residual_mm.y(), 3),
-               fixedText(mark.normalized, 1) + (stands_out ? " !" : ""), fixedText(mark.weight, 2),
+               fixedText(mark.normalized, 1) + (mark.standsOut() ? " !" : ""),
+               fixedText(mark.weight, 2),
                without.determined ? fixedText(without.translation_mm, 3) : "no pose",
                without.determined ? fixedText(without.rotation_mrad, 3) : "-"});
   }

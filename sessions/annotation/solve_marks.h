@@ -18,6 +18,9 @@ struct SolveMarksOptions {
   std::optional<Pose> rig_from_station_guess;
 };
 
+/// Standard deviations from which a residual stands out.
+inline constexpr double kStandsOutSigmas = 3.0;
+
 /// How well the pose explains a mark.
 struct SolvedMark {
   MarkAddress address;
@@ -27,8 +30,11 @@ struct SolvedMark {
   Eigen::Vector2d residual_mm = Eigen::Vector2d::Zero();  ///< the same at the mark's distance
   double weight = 1.0;                                    ///< 0 ... 1; 1 unless robust
   /// Norm of the residual in units of its own standard deviation, sigma_px times the noise factor
-  /// reduced by what the mark itself pulls; above 3 it stands out.
+  /// reduced by what the mark itself pulls.
   double normalized = 0.0;
+
+  /// The pose explains it so badly that somebody should look at it again.
+  bool standsOut() const { return projected && normalized > kStandsOutSigmas; }
 };
 
 /// How far the pose moves without a mark.

@@ -49,10 +49,4 @@ Session rejected(const Session& session, const std::string& case_id,
 /// Takes the decision back, with a name and a reason; both stay in the session's history.
 Session reopened(const Session& session, const std::string& case_id, const Signature& who);
 
-/// SHA-256 over everything that a judgement of the case rests on: inputs of runs, the pose's
-/// source, run or marks, truth, requirement, end effector, rig, onboard record, limits. Not the
-/// options: those of a run are part of its digest.
-std::string judgedSha256(const Session& session, const std::string& case_id, PoseSource source,
-                         const std::string& run_digest);
-
 }  // namespace boresight::sessions

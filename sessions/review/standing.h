@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "sessions/session/session.h"
 
@@ -11,24 +10,26 @@ namespace boresight::sessions {
 
 enum class CaseStanding { kNew, kConverged, kFailed, kAnnotated, kValidated, kRejected };
 /// "new", "converged", "failed", "annotated", "validated", "rejected".
-const char* caseStandingText(CaseStanding standing);
+const char* caseStandingText(CaseStanding state);
 
 struct Standing {
   CaseStanding state = CaseStanding::kNew;
-  /// The last decision, also when it does not hold; nullptr: there is none. Points into the
-  /// session.
+  /// The last decision, also when it does not hold; nullptr: there is none, or it was taken back.
+  /// Points into the session.
   const Decision* decision = nullptr;
-  bool holds = false;   ///< the decision does
-  std::string dropped;  ///< why it does not: "the image or another input of runs has changed"
+  std::string dropped;           ///< why it does not hold: "the marks have changed"; "": it does
   bool awaits_approval = false;  ///< validated by one person where two are asked for
+
+  bool holds() const { return decision != nullptr && dropped.empty(); }
 };
 
-/// A decision holds while everything that was judged is what it was then; a validation that awaits
-/// its second person does not make a case validated.
+/// A decision holds while everything that was judged is what it was then, and no other run has
+/// come after. A validation that awaits its second person holds, but the case is not validated yet.
 Standing standingOf(const Session& session, const std::string& case_id);
 
-/// The standing in words: "validated by A, approved by B", "not validated: converged", "not
-/// validated: converged; A's validation no longer holds, as ...".
+/// The standing in words, never less than the truth: "validated by A, approved by B", "NOT
+/// VALIDATED: converged", "NOT VALIDATED: converged; the validation by A no longer holds, as the
+/// marks have changed".
 std::string standingText(const Standing& standing);
 
 }  // namespace boresight::sessions

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "sessions/annotation/landmarks.h"
-#include "sessions/annotation/mark_edits.h"
 #include "sessions/annotation/marks_file.h"
+#include "sessions/annotation/predicted_place.h"
 #include "sessions/exchange/bop_scene.h"
 #include "sessions/exchange/colmap_text.h"
 #include "sessions/io/atomic_folder.h"
@@ -225,11 +225,11 @@ ImportReport importMarks(const Session& session, const std::string& case_id, con
   const SessionCase& one = requireCase(session, case_id);
   const Marks marks = readMarks(file);
   for (const PointPair& point : marks.points)
-    if (point.pixel && !isInImage(*point.pixel, one.image.width, one.image.height))
+    if (point.pixel && !isInImage(one.camera, *point.pixel))
       throw InputError(file, point.id,
                        "lies outside of the image of case '" + case_id + "', which has " +
-                           std::to_string(one.image.width) + " x " +
-                           std::to_string(one.image.height) + " pixels; are these its marks?");
+                           std::to_string(one.camera.width) + " x " +
+                           std::to_string(one.camera.height) + " pixels; are these its marks?");
   const auto known = session.annotations.find(case_id);
   if (marks.empty()) throw InputError(file, "has no marks");
   if (known != session.annotations.end() && !(*known->second == marks) && !replace)

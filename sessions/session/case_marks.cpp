@@ -56,6 +56,15 @@ std::optional<Pose> CaseMarksSolution::twin_camera_from_station() const {
   return marks.views[0].camera_from_rig * result.solution->twin->rig_from_station;
 }
 
+std::map<std::string, double> CaseMarksSolution::standingOut() const {
+  std::map<std::string, double> found;
+  if (!result.solution) return found;
+  for (const SolvedMark& mark : result.solution->marks)
+    if (mark.address.view == 0 && mark.standsOut())
+      found[markId(marks.views, mark.address)] = mark.normalized;
+  return found;
+}
+
 CaseMarksSolution solveCaseMarks(CaseMarks marks, const Pose& camera_from_station_guess,
                                  std::span<const Eigen::Vector3d> station_m, bool robust) {
   CaseMarksSolution made;

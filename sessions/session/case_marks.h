@@ -2,6 +2,7 @@
 // The marks of a session's case, together with those of the cameras that it is linked to.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,6 +42,9 @@ struct CaseMarksSolution {
   std::optional<Pose> camera_from_station() const;
   /// The other one that explains coplanar marks, or nothing.
   std::optional<Pose> twin_camera_from_station() const;
+  /// Normalized residuals (in standard deviations) of those marks of the case itself that stand
+  /// out, by id; none without a solution.
+  std::map<std::string, double> standingOut() const;
 };
 
 /// Solves what `caseMarks` gives: the one function behind the desktop program and `whs solve`, so

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,12 +35,11 @@ struct Approval {
   bool operator==(const Approval&) const = default;
 };
 
-/// What was judged: a pose with what it rests on.
+/// The pose that was judged.
 struct JudgedPose {
   PoseSource source = PoseSource::kRun;
   Pose camera_from_station;
   Matrix6d covariance = Matrix6d::Zero();  ///< left perturbation, camera frame; zero: none
-  std::string rests_on_sha256;             ///< judgedSha256 (sessions/review/decide.h)
 
   bool operator==(const JudgedPose&) const = default;
 };
@@ -53,6 +53,8 @@ struct Decision {
   std::string time;                               ///< UTC, "2026-01-31T23:59:59Z"
   std::string digest;                             ///< of the run that was judged, or empty
   std::optional<JudgedPose> pose = std::nullopt;  ///< always there of a validation that can hold
+  /// SHA-256 of each thing that the judgement rests on, by its name (sessions/review/grounds.h).
+  std::map<std::string, std::string> grounds = {};
   std::vector<JudgedCheck> checks = {};
   std::optional<Approval> approval = std::nullopt;
 

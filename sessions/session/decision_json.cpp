@@ -47,17 +47,15 @@ ordered_json judgedPoseJson(const JudgedPose& pose) {
   json["source"] = nameOf(kSourceNames, pose.source);
   json["camera_from_station"] = exactPoseJson(pose.camera_from_station);
   json["covariance"] = toJson(pose.covariance);
-  json["rests_on_sha256"] = pose.rests_on_sha256;
   return json;
 }
 
 JudgedPose readJudgedPose(const JsonReader& json) {
-  json.requireKnown({"source", "camera_from_station", "covariance", "rests_on_sha256"});
+  json.requireKnown({"source", "camera_from_station", "covariance"});
   JudgedPose pose;
   pose.source = valueOf<PoseSource>(kSourceNames, json.at("source").choice({"run", "annotation"}));
   pose.camera_from_station = readExactPose(json.at("camera_from_station"));
   pose.covariance = readMatrix6(json.at("covariance"));
-  pose.rests_on_sha256 = readSha256(json.at("rests_on_sha256"));
   return pose;
 }
 
@@ -136,6 +134,7 @@ ordered_json toJson(const Decision& decision) {
   json["time"] = decision.time;
   if (!decision.digest.empty()) json["run"] = decision.digest;
   if (decision.pose) json["pose"] = judgedPoseJson(*decision.pose);
+  if (!decision.grounds.empty()) json["grounds"] = decision.grounds;
   for (const JudgedCheck& judged : decision.checks) json["checks"].push_back(toJson(judged));
   if (decision.approval) json["approval"] = approvalJson(*decision.approval);
   return json;
@@ -143,7 +142,7 @@ ordered_json toJson(const Decision& decision) {
 
 Decision readDecision(const JsonReader& json) {
   json.requireKnown(
-      {"case", "verdict", "by", "comment", "time", "run", "pose", "checks", "approval"});
+      {"case", "verdict", "by", "comment", "time", "run", "pose", "grounds", "checks", "approval"});
   Decision decision;
   decision.case_id = json.at("case").text();
   decision.verdict = valueOf<Verdict>(
@@ -153,6 +152,9 @@ Decision readDecision(const JsonReader& json) {
   decision.time = readTime(json.at("time"));
   if (const auto run = json.find("run")) decision.digest = readSha256(*run);
   if (const auto pose = json.find("pose")) decision.pose = readJudgedPose(*pose);
+  if (const auto grounds = json.find("grounds"))
+    for (const auto& [name, sha256] : grounds->members())
+      decision.grounds[name] = readSha256(sha256);
   if (const auto checks = json.find("checks"))
     for (const JsonReader& check : checks->elements())
       decision.checks.push_back(readJudgedCheck(check));

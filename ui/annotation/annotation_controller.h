@@ -137,6 +137,9 @@ class AnnotationController : public QObject {
   void askIfChanged(bool anyway);
   void take(const AnnotationSolver::Answer& answer);
   bool commit(const sessions::Marks& marks, const QString& text);
+  template <class Pair, class Side>
+  std::string place(const Pair* chosen, std::optional<Side> Pair::*side, const Side& value,
+                    const QString& text);
   bool mayChange(const std::string& id);
   bool mayReplace(const std::string& replaced, const std::string& id);
   sessions::PointPair markOf(const sessions::Landmark& landmark) const;

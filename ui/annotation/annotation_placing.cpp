@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sessions/annotation/mark_edits.h"
+#include "sessions/annotation/predicted_place.h"
 #include "sessions/annotation/proposal_feature.h"
 #include "ui/models/number_text.h"
 
@@ -15,47 +16,53 @@ using sessions::LinePair;
 using sessions::Marks;
 using sessions::PointPair;
 
+namespace {
+
+Marks withPair(const Marks& marks, const PointPair& point) {
+  return sessions::withPoint(marks, point.id, point);
+}
+
+Marks withPair(const Marks& marks, const LinePair& line) {
+  return sessions::withLine(marks, line.id, line);
+}
+
+char letterOf(const PointPair& /*kind*/) { return 'p'; }
+char letterOf(const LinePair& /*kind*/) { return 'l'; }
+
+}  // namespace
+
+/// Completes the chosen pair where it lacks this side and is not locked, else begins a new one.
+template <class Pair, class Side>
+std::string AnnotationController::place(const Pair* chosen, std::optional<Side> Pair::*side,
+                                        const Side& value, const QString& text) {
+  const bool completes = chosen && !(chosen->*side) && !chosen->locked;
+  Pair made = completes ? *chosen : Pair();
+  if (!completes) {
+    made.id = sessions::unusedId(marks_, letterOf(made));
+    made.sigma_px = sigma_px_;
+  }
+  made.*side = value;
+  if (!commit(withPair(marks_, made), text.arg(fromText(made.id)))) return {};
+  select(made.id);
+  return made.id;
+}
+
 std::string AnnotationController::placeInImage(const Eigen::Vector2d& pixel) {
   finishMove();
   const ViewState::CasePtr& one = state_.currentCase();
   if (case_id_.empty() || !one) return {};
-  if (!sessions::isInImage(pixel, one->image.width, one->image.height)) {
+  if (!sessions::isInImage(one->source.camera, pixel)) {
     Q_EMIT told(tr("This place lies outside the image; click on the image itself."));
     return {};
   }
-  const PointPair* chosen = selectedPoint();
-  const bool completes = chosen && !chosen->pixel && !chosen->locked;
-  PointPair point = completes ? *chosen : PointPair();
-  if (!completes) {
-    point.id = sessions::unusedId(marks_, 'p');
-    point.sigma_px = sigma_px_;
-  }
-  point.pixel = pixel;
-  const std::string id = point.id;
-  if (!commit(sessions::withPoint(marks_, id, point),
-              tr("Place %1 on the image").arg(fromText(id))))
-    return {};
-  select(id);
-  return id;
+  return place(selectedPoint(), &PointPair::pixel, pixel, tr("Place %1 on the image"));
 }
 
 std::string AnnotationController::placeOnStation(const Eigen::Vector3d& point_in_station_m) {
   finishMove();
   if (case_id_.empty() || !point_in_station_m.allFinite()) return {};
-  const PointPair* chosen = selectedPoint();
-  const bool completes = chosen && !chosen->point_in_station_m && !chosen->locked;
-  PointPair point = completes ? *chosen : PointPair();
-  if (!completes) {
-    point.id = sessions::unusedId(marks_, 'p');
-    point.sigma_px = sigma_px_;
-  }
-  point.point_in_station_m = point_in_station_m;
-  const std::string id = point.id;
-  if (!commit(sessions::withPoint(marks_, id, point),
-              tr("Place %1 on the station").arg(fromText(id))))
-    return {};
-  select(id);
-  return id;
+  return place(selectedPoint(), &PointPair::point_in_station_m, point_in_station_m,
+               tr("Place %1 on the station"));
 }
 
 std::string AnnotationController::placeLineInImage(const sessions::ImageLine& line) {
@@ -65,38 +72,13 @@ std::string AnnotationController::placeLineInImage(const sessions::ImageLine& li
     Q_EMIT told(tr("A line needs two places at least a pixel apart."));
     return {};
   }
-  const LinePair* chosen = selectedLine();
-  const bool completes = chosen && !chosen->line && !chosen->locked;
-  LinePair made = completes ? *chosen : LinePair();
-  if (!completes) {
-    made.id = sessions::unusedId(marks_, 'l');
-    made.sigma_px = sigma_px_;
-  }
-  made.line = line;
-  const std::string id = made.id;
-  if (!commit(sessions::withLine(marks_, id, made), tr("Place %1 on the image").arg(fromText(id))))
-    return {};
-  select(id);
-  return id;
+  return place(selectedLine(), &LinePair::line, line, tr("Place %1 on the image"));
 }
 
 std::string AnnotationController::placeEdgeOnStation(const sessions::ModelEdge& edge) {
   finishMove();
   if (case_id_.empty()) return {};
-  const LinePair* chosen = selectedLine();
-  const bool completes = chosen && !chosen->edge && !chosen->locked;
-  LinePair made = completes ? *chosen : LinePair();
-  if (!completes) {
-    made.id = sessions::unusedId(marks_, 'l');
-    made.sigma_px = sigma_px_;
-  }
-  made.edge = edge;
-  const std::string id = made.id;
-  if (!commit(sessions::withLine(marks_, id, made),
-              tr("Place %1 on the station").arg(fromText(id))))
-    return {};
-  select(id);
-  return id;
+  return place(selectedLine(), &LinePair::edge, edge, tr("Place %1 on the station"));
 }
 
 /// Whether a mark exists and is not locked.
@@ -113,7 +95,7 @@ bool AnnotationController::dragInImage(const std::string& id, const Eigen::Vecto
                                        int end) {
   if (!mayChange(id)) return false;
   const ViewState::CasePtr& one = state_.currentCase();
-  if (!one || !sessions::isInImage(pixel, one->image.width, one->image.height)) return false;
+  if (!one || !sessions::isInImage(one->source.camera, pixel)) return false;
   select(id);
   marks_ = sessions::withMoved(marks_, id, end, pixel);
   moving_ = true;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/annotation/image_annotation.h"
 
-#include <cmath>
 #include <utility>
 
 #include <QPainter>
@@ -11,6 +10,7 @@
 #include "ui/annotation/loupe_picture.h"
 #include "ui/annotation/mark_tool.h"
 #include "ui/annotation/station_snapper.h"
+#include "ui/models/number_text.h"
 #include "ui/run/pose_renderer.h"
 #include "ui/views/display_image.h"
 #include "ui/views/image_panel.h"
@@ -22,14 +22,6 @@ namespace {
 
 constexpr double kShortestScale = 50.0;  ///< on the screen
 constexpr int kMargin = 8;
-
-/// 1, 2 or 5 times a power of ten.
-double roundValue(double least) {
-  const double decade = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * decade >= least) return factor * decade;
-  return 10.0 * decade;
-}
 
 std::optional<QPointF> placeOf(const AnnotationController& controller) {
   const sessions::PointPair* point = controller.selectedPoint();
@@ -111,11 +103,7 @@ MarkLook ImageAnnotation::look() const {
   made.selected = controller_.selected();
   made.camera = state_.currentCase()->source.camera;
   made.camera_from_station = tool_->stationPose();
-  const AnnotationController::SolutionPtr& solution = controller_.solution();
-  if (solution && solution->result.solution)
-    for (const sessions::SolvedMark& mark : solution->result.solution->marks)
-      if (mark.address.view == 0 && mark.projected && mark.normalized > kOutlierSigmas)
-        made.outliers[sessions::markId(solution->marks.views, mark.address)] = mark.normalized;
+  if (controller_.solution()) made.outliers = controller_.solution()->standingOut();
   return made;
 }
 
@@ -227,7 +215,7 @@ void ImageAnnotation::paint(QPainter& painter) const {
 
 void ImageAnnotation::paintResidualScale(QPainter& painter, const QPointF& at) const {
   const double screen_per_px = magnification_ * image_.view().transform().scale();
-  const double value_px = roundValue(kShortestScale / screen_per_px);
+  const double value_px = roundedUp(kShortestScale / screen_per_px);
   const double length = value_px * screen_per_px;
   const QString text = tr("residuals x %1:  %2 px").arg(magnification_).arg(value_px);
   const QRectF box = paintBox(painter, at, text, length + 10.0);

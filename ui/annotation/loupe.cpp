@@ -12,6 +12,7 @@
 #include "ui/annotation/aim_painter.h"
 #include "ui/annotation/loupe_picture.h"
 #include "ui/views/image_view.h"
+#include "ui/views/loupe_cross.h"
 #include "ui/views/mark_painter.h"
 
 namespace boresight::ui {
@@ -25,10 +26,7 @@ constexpr int kRaster = 4;
 constexpr int kMargin = 8;
 constexpr int kShyness = 40;  ///< how near the pointer may come
 constexpr int kSmallestText = 9;
-constexpr double kGap = 9.0;
 constexpr double kEdgeDot = 0.16;  ///< of an image pixel
-const QColor kCross(255, 255, 255, 210);
-const QColor kRim(0, 0, 0, 150);
 const LayerId kEdgeLayers[] = {LayerId::kSeedEdges, LayerId::kTruthEdges, LayerId::kIterationEdges,
                                LayerId::kNudgedEdges, LayerId::kAnnotationEdges};
 const LayerId kMarkLayers[] = {LayerId::kAnnotationBand, LayerId::kProposals, LayerId::kPoints};
@@ -129,7 +127,10 @@ void Loupe::paintEvent(QPaintEvent*) {
     paintMarks(painter, shown);
   }
   paintAim(painter, shown, aim_, *pixel_);
-  paintCross(painter);
+  paintLoupeCross(painter, size());
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(kLoupeCrossColor);
+  painter.drawEllipse(QPointF(0.5 * width(), 0.5 * height()), 1.0, 1.0);
   painter.setRenderHint(QPainter::Antialiasing, false);
   paintText(painter);
   painter.setPen(QPen(palette().color(QPalette::Highlight), 2.0));
@@ -174,21 +175,6 @@ void Loupe::paintMarks(QPainter& painter, const ViewTransform& transform) const 
     }
   }
   painter.setOpacity(1.0);
-}
-
-void Loupe::paintCross(QPainter& painter) const {
-  const QPointF middle(0.5 * width(), 0.5 * height());
-  painter.setBrush(Qt::NoBrush);
-  for (const QPen& pen : {QPen(kRim, 3.0), QPen(kCross, 1.0)}) {
-    painter.setPen(pen);
-    painter.drawLine(QPointF(0.0, middle.y()), middle - QPointF(kGap, 0.0));
-    painter.drawLine(middle + QPointF(kGap, 0.0), QPointF(width(), middle.y()));
-    painter.drawLine(QPointF(middle.x(), 0.0), middle - QPointF(0.0, kGap));
-    painter.drawLine(middle + QPointF(0.0, kGap), QPointF(middle.x(), height()));
-  }
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(kCross);
-  painter.drawEllipse(middle, 1.0, 1.0);
 }
 
 /// Where the mark would go, else what the cross is on.

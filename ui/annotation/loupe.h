@@ -57,7 +57,6 @@ class Loupe : public QWidget {
   void putAside();
   void paintEdges(QPainter& painter, const ViewTransform& transform) const;
   void paintMarks(QPainter& painter, const ViewTransform& transform) const;
-  void paintCross(QPainter& painter) const;
   void paintText(QPainter& painter) const;
 
   ImageView& view_;

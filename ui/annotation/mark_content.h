@@ -14,9 +14,6 @@
 
 namespace boresight::ui {
 
-/// From here on a residual stands out, in units of its own deviation.
-inline constexpr double kOutlierSigmas = 3.0;
-
 /// What the signs of marks say besides the marks.
 struct MarkLook {
   std::string selected;

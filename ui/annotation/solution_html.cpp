@@ -102,15 +102,18 @@ QString sigmaHtml(const AnnotationSolver::Answer& answer, const SolutionContext&
   const QString title = tr("One sigma at the %1 (noise %2 times what the marks' sigmas say)")
                             .arg(at_effector ? tr("end effector") : tr("camera"))
                             .arg(QString::number(solution.noise_factor, 'f', 2));
-  const auto at_camera = sessions::poseSigma(*answer.covariance, std::nullopt);
-  return table(
-      title, {line(tr("normal"), sigma->normal_mm, mm, judged(sigma->normal_mm, normal_mm, mm)),
-              line(tr("lateral"), sigma->lateral_mm, mm, judged(sigma->lateral_mm, lateral_mm, mm)),
-              line(tr("rotation"), sigma->out_of_plane_mrad, mrad,
-                   judged(sigma->out_of_plane_mrad, rotation_mrad, mrad)),
-              axes(tr("along x, y, z"), sigma->translation_mm, mm),
-              axes(tr("camera's own"), at_camera->translation_mm, mm),
-              axes(tr("about x, y, z"), sigma->rotation_mrad, mrad)});
+  QStringList rows = {
+      line(tr("normal"), sigma->normal_mm, mm, judged(sigma->normal_mm, normal_mm, mm)),
+      line(tr("lateral"), sigma->lateral_mm, mm, judged(sigma->lateral_mm, lateral_mm, mm)),
+      line(tr("rotation"), sigma->out_of_plane_mrad, mrad,
+           judged(sigma->out_of_plane_mrad, rotation_mrad, mrad)),
+      axes(tr("along x, y, z"), sigma->translation_mm, mm)};
+  // Without an end effector the row above is the camera's own already.
+  const auto at_camera =
+      at_effector ? sessions::poseSigma(*answer.covariance, std::nullopt) : std::nullopt;
+  if (at_camera) rows << axes(tr("camera's own"), at_camera->translation_mm, mm);
+  rows << axes(tr("about x, y, z"), sigma->rotation_mrad, mrad);
+  return table(title, rows);
 }
 
 QStringList poseCells(const Pose& pose) {

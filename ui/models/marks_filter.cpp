@@ -37,23 +37,18 @@ QString MarksFilter::nameOf(Show show) {
 bool MarksFilter::filterAcceptsRow(int row, const QModelIndex& /*parent*/) const {
   const auto* model = qobject_cast<const MarksModel*>(sourceModel());
   if (model == nullptr || show_ == Show::kAll) return true;
-  const sessions::Marks& marks = model->marks();
-  const bool line = model->isLine(row);
-  const std::size_t at = static_cast<std::size_t>(row) - (line ? marks.points.size() : 0);
-  const bool on = line ? marks.lines[at].enabled : marks.points[at].enabled;
-  const bool complete = line ? marks.lines[at].complete() : marks.points[at].complete();
+  const MarkFacts facts = model->factsOf(row);
   switch (show_) {
     case Show::kUsed:
-      return on && complete;
+      return facts.enabled && facts.complete;
     case Show::kOff:
-      return !on;
+      return !facts.enabled;
     case Show::kHalfMade:
-      return !complete;
+      return !facts.complete;
     case Show::kStandOut:
-      return model->index(row, MarksModel::kNormalized).data(sortRole()).toDouble() >
-             MarksModel::kStandsOut;
+      return model->standsOut(row);
     case Show::kLines:
-      return line;
+      return facts.line != nullptr;
     case Show::kAll:
       break;
   }

@@ -24,18 +24,10 @@ using sessions::PointPair;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMillimetres = 1e3;
 
-std::optional<Eigen::Vector2d> placeInImage(const sessions::Marks& marks, int row) {
-  const auto index = static_cast<std::size_t>(row);
-  if (index < marks.points.size()) return marks.points[index].pixel;
-  const LinePair& line = marks.lines[index - marks.points.size()];
-  return line.line ? std::optional(line.line->start) : std::nullopt;
-}
-
-std::optional<Eigen::Vector3d> placeOnStation_m(const sessions::Marks& marks, int row) {
-  const auto index = static_cast<std::size_t>(row);
-  if (index < marks.points.size()) return marks.points[index].point_in_station_m;
-  const LinePair& line = marks.lines[index - marks.points.size()];
-  return line.edge ? std::optional(line.edge->start_in_station_m) : std::nullopt;
+template <class Pair>
+MarkFacts commonFacts(const Pair& pair) {
+  return {nullptr,      nullptr,     pair.id,         pair.comment, pair.sigma_px,
+          pair.enabled, pair.locked, pair.complete(), {},           {}};
 }
 
 /// What points and lines have in common.
@@ -102,16 +94,33 @@ QString editText(int column, const std::string& id, bool on) {
 
 MarksModel::MarksModel(QObject* parent) : QAbstractTableModel(parent) {}
 
-const std::string& MarksModel::idOf(int row) const {
+MarkFacts MarksModel::factsOf(int row) const {
   const auto index = static_cast<std::size_t>(row);
-  return index < marks_.points.size() ? marks_.points[index].id
-                                      : marks_.lines[index - marks_.points.size()].id;
+  if (index < marks_.points.size()) {
+    const PointPair& point = marks_.points[index];
+    MarkFacts facts = commonFacts(point);
+    facts.point = &point;
+    facts.pixel = point.pixel;
+    facts.point_in_station_m = point.point_in_station_m;
+    return facts;
+  }
+  const LinePair& line = marks_.lines[index - marks_.points.size()];
+  MarkFacts facts = commonFacts(line);
+  facts.line = &line;
+  if (line.line) facts.pixel = line.line->start;
+  if (line.edge) facts.point_in_station_m = line.edge->start_in_station_m;
+  return facts;
 }
 
 int MarksModel::rowOf(const std::string& id) const {
   for (int row = 0; row < rowCount(); ++row)
     if (idOf(row) == id) return row;
   return -1;
+}
+
+bool MarksModel::standsOut(int row) const {
+  const auto& solved = judged_[static_cast<std::size_t>(row)].solved;
+  return solved && solved->standsOut();
 }
 
 void MarksModel::setMarks(const sessions::Marks& marks) {
@@ -164,19 +173,15 @@ int MarksModel::columnCount(const QModelIndex& parent) const {
 
 double MarksModel::numberOf(int row, int column) const {
   const Judged& judged = judged_[static_cast<std::size_t>(row)];
-  const bool line = isLine(row);
-  const std::size_t at = static_cast<std::size_t>(row) - (line ? marks_.points.size() : 0);
-  if (column == kU_px || column == kV_px) {
-    const auto pixel = placeInImage(marks_, row);
-    return pixel ? (*pixel)[column - kU_px] : kNone;
-  }
-  if (column >= kX_mm && column <= kZ_mm) {
-    const auto place_m = placeOnStation_m(marks_, row);
-    return place_m ? kMillimetres * (*place_m)[column - kX_mm] : kNone;
-  }
-  if (column == kSigma_px) return line ? marks_.lines[at].sigma_px : marks_.points[at].sigma_px;
-  if (column == kOn) return (line ? marks_.lines[at].enabled : marks_.points[at].enabled) ? 0 : 1;
-  if (column == kLocked) return (line ? marks_.lines[at].locked : marks_.points[at].locked) ? 0 : 1;
+  const MarkFacts facts = factsOf(row);
+  if (column == kU_px || column == kV_px)
+    return facts.pixel ? (*facts.pixel)[column - kU_px] : kNone;
+  if (column >= kX_mm && column <= kZ_mm)
+    return facts.point_in_station_m ? kMillimetres * (*facts.point_in_station_m)[column - kX_mm]
+                                    : kNone;
+  if (column == kSigma_px) return facts.sigma_px;
+  if (column == kOn) return facts.enabled ? 0 : 1;
+  if (column == kLocked) return facts.locked ? 0 : 1;
   if (column == kWithout_mm || column == kWithout_mrad) {
     if (!judged.left_out || !judged.left_out->determined) return kNone;
     return column == kWithout_mm ? judged.left_out->translation_mm : judged.left_out->rotation_mrad;
@@ -199,12 +204,9 @@ double MarksModel::numberOf(int row, int column) const {
 QVariant MarksModel::display(int row, int column) const {
   if (column == kOn || column == kLocked) return {};
   if (column == kName) return fromText(idOf(row));
-  const bool line = isLine(row);
-  const std::size_t at = static_cast<std::size_t>(row) - (line ? marks_.points.size() : 0);
-  if (column == kComment)
-    return fromText(line ? marks_.lines[at].comment : marks_.points[at].comment);
+  if (column == kComment) return fromText(factsOf(row).comment);
   const double value = numberOf(row, column);
-  if (column == kNormalized && value > kStandsOut)
+  if (column == kNormalized && standsOut(row))
     return tr("%1 !").arg(numberText(value, kMarksColumns[kNormalized].decimals));
   const Judged& judged = judged_[static_cast<std::size_t>(row)];
   if (column == kWithout_mm && judged.left_out && !judged.left_out->determined)
@@ -215,16 +217,11 @@ QVariant MarksModel::display(int row, int column) const {
 
 /// How a row looks: half-made pairs slanted, outliers bold, what is off or out of date dimmed.
 QVariant MarksModel::state(int row, int column) const {
-  const bool line = isLine(row);
-  const std::size_t at = static_cast<std::size_t>(row) - (line ? marks_.points.size() : 0);
-  const bool complete = line ? marks_.lines[at].complete() : marks_.points[at].complete();
-  const bool on = line ? marks_.lines[at].enabled : marks_.points[at].enabled;
-  const auto& solved = judged_[static_cast<std::size_t>(row)].solved;
+  const MarkFacts facts = factsOf(row);
   QFont font;
-  font.setItalic(!complete);
-  font.setBold(column >= kResidualX_px && column <= kNormalized && solved &&
-               solved->normalized > kStandsOut);
-  font.setStrikeOut(!on && column == kName);
+  font.setItalic(!facts.complete);
+  font.setBold(column >= kResidualX_px && column <= kNormalized && standsOut(row));
+  font.setStrikeOut(!facts.enabled && column == kName);
   return font;
 }
 
@@ -262,37 +259,35 @@ Qt::ItemFlags MarksModel::flags(const QModelIndex& index) const {
   if (!index.isValid()) return flags;
   const int column = index.column();
   if (column == kOn || column == kLocked) return flags | Qt::ItemIsUserCheckable;
-  const bool line = isLine(index.row());
-  const std::size_t at = static_cast<std::size_t>(index.row()) - (line ? marks_.points.size() : 0);
-  const bool locked = line ? marks_.lines[at].locked : marks_.points[at].locked;
+  const MarkFacts facts = factsOf(index.row());
   const bool text = column == kName || column == kComment || column == kSigma_px;
   const bool coordinate =
       column == kU_px || column == kV_px || (column >= kX_mm && column <= kZ_mm);
-  const bool place = !line && coordinate && std::isfinite(numberOf(index.row(), column));
-  return (text || place) && !locked ? flags | Qt::ItemIsEditable : flags;
+  const bool place = facts.point && coordinate && std::isfinite(numberOf(index.row(), column));
+  return (text || place) && !facts.locked ? flags | Qt::ItemIsEditable : flags;
 }
 
 bool MarksModel::setData(const QModelIndex& index, const QVariant& value, int role) {
   const bool check = role == Qt::CheckStateRole;
   if (!index.isValid() || !(check || role == Qt::EditRole)) return false;
   if (check != (index.column() == kOn || index.column() == kLocked)) return false;
-  const std::string id = idOf(index.row());
+  const MarkFacts facts = factsOf(index.row());
+  const std::string id = facts.id;  // the facts may go while the edit is told
   const bool on = value.toInt() == Qt::Checked;
   const QString text = editText(index.column(), id, on);
-  const auto row = static_cast<std::size_t>(index.row());
-  if (isLine(index.row())) {
-    LinePair line = marks_.lines[row - marks_.points.size()];
+  if (facts.line) {
+    LinePair line = *facts.line;
     if (!change(line, index.column(), value)) return false;
-    if (!(line == marks_.lines[row - marks_.points.size()])) Q_EMIT lineEdited(id, line, text);
+    if (!(line == *facts.line)) Q_EMIT lineEdited(id, line, text);
     return true;
   }
-  PointPair point = marks_.points[row];
+  PointPair point = *facts.point;
   bool number = false;
   const double typed = value.toDouble(&number);
   if (!change(point, index.column(), value) &&
       !(number && changeCoordinate(point, index.column(), typed)))
     return false;
-  if (!(point == marks_.points[row])) Q_EMIT pointEdited(id, point, text);
+  if (!(point == *facts.point)) Q_EMIT pointEdited(id, point, text);
   return true;
 }
 

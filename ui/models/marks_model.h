@@ -12,6 +12,21 @@
 
 namespace boresight::ui {
 
+/// A row's mark and what points and lines have in common. Refers to the marks; valid until these
+/// change.
+struct MarkFacts {
+  const sessions::PointPair* point;  ///< nullptr where it is a line
+  const sessions::LinePair* line;    ///< nullptr where it is a point
+  const std::string& id;
+  const std::string& comment;
+  double sigma_px;
+  bool enabled;
+  bool locked;
+  bool complete;
+  std::optional<Eigen::Vector2d> pixel;               ///< of a line its first place
+  std::optional<Eigen::Vector3d> point_in_station_m;  ///< of a line the edge's start
+};
+
 /// The marks of one image, points before lines, one row each, with what the solved pose says of
 /// them. What a person edits is told, not done: who owns the marks answers by setting them anew.
 class MarksModel : public QAbstractTableModel {
@@ -40,7 +55,6 @@ class MarksModel : public QAbstractTableModel {
   };
   /// A cell as a number to sort by (texts sort by themselves); NaN where there is none.
   static constexpr int kNumberRole = Qt::UserRole;
-  static constexpr double kStandsOut = 3.0;  ///< sigmas from which a mark stands out
 
   using SolutionPtr = std::shared_ptr<const sessions::CaseMarksSolution>;
 
@@ -51,9 +65,10 @@ class MarksModel : public QAbstractTableModel {
   void setSolution(SolutionPtr solution, bool stale);
 
   const sessions::Marks& marks() const { return marks_; }
-  const std::string& idOf(int row) const;
+  MarkFacts factsOf(int row) const;
+  const std::string& idOf(int row) const { return factsOf(row).id; }
   int rowOf(const std::string& id) const;  ///< -1 when there is none
-  bool isLine(int row) const { return row >= static_cast<int>(marks_.points.size()); }
+  bool standsOut(int row) const;           ///< of the solution, stale or not
 
   int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& parent = {}) const override;

@@ -10,6 +10,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QStyle>
 #include <QStyledItemDelegate>
 #include <QTableView>
 #include <QVBoxLayout>
@@ -21,8 +22,10 @@ namespace boresight::ui {
 namespace {
 
 constexpr int kThumbnail_px = 40;
+constexpr int kUsualName = 20;  ///< letters
 
-/// A case's name with its state below it: both stay in sight in a narrow list.
+/// A case's name with its state below it: both stay in sight in a narrow list. Names of one dataset
+/// begin alike and end in what tells them apart.
 class NameAndState final : public QStyledItemDelegate {
  public:
   using QStyledItemDelegate::QStyledItemDelegate;
@@ -30,6 +33,7 @@ class NameAndState final : public QStyledItemDelegate {
  protected:
   void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
     QStyledItemDelegate::initStyleOption(option, index);
+    option->textElideMode = Qt::ElideMiddle;
     option->text +=
         QChar(QChar::LineSeparator) + index.siblingAtColumn(CasesModel::kState).data().toString();
   }
@@ -103,21 +107,40 @@ void CasesPanel::setRows(std::vector<CaseRow> rows) {
   model_.setRows(std::move(rows));
   showing_ = false;
   fitColumns(*table_);
-  // A long name must not push the first error out of sight; the tooltip has it whole. Headers
-  // would keep room for the sign of the order in every column.
+  whole_case_ = table_->columnWidth(CasesModel::kCase);
+  // Headers would keep room for the sign of the order in every column.
   const QFontMetrics metrics = table_->fontMetrics();
-  int most = 0;
-  for (int i = 0; i < kCaseStateCount; ++i)
-    most =
-        std::max(most, metrics.horizontalAdvance(CasesModel::stateText(static_cast<CaseState>(i))));
-  most += kThumbnail_px + 10;
-  table_->setColumnWidth(CasesModel::kCase, std::min(table_->columnWidth(CasesModel::kCase), most));
   for (const int error :
        {CasesModel::kNormal_mm, CasesModel::kLateral_mm, CasesModel::kRotation_deg})
     table_->setColumnWidth(error, std::max(metrics.horizontalAdvance(QStringLiteral("Normal,")),
                                            metrics.horizontalAdvance(QStringLiteral("-00.000"))) +
                                       8);
+  fitCaseColumn();
   setCurrent(current_);
+}
+
+/// States are told whole; a usual name may push all errors but the first out of sight, a longer one
+/// none (the tooltip has it whole).
+void CasesPanel::fitCaseColumn() {
+  const QFontMetrics metrics = table_->fontMetrics();
+  int state = 0;
+  for (int i = 0; i < kCaseStateCount; ++i)
+    state = std::max(state,
+                     metrics.horizontalAdvance(CasesModel::stateText(static_cast<CaseState>(i))));
+  // The style keeps this margin on both sides of picture and text.
+  const int margin = style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, table_) + 1;
+  const int beside_text = kThumbnail_px + 4 * margin + 1;
+  const int view = table_->width() - 2 * table_->frameWidth() -
+                   style()->pixelMetric(QStyle::PM_ScrollBarExtent, nullptr, table_);
+  const int error = table_->columnWidth(CasesModel::kNormal_mm);
+  const int usual = beside_text + kUsualName * metrics.averageCharWidth();
+  const int most = std::max({beside_text + state, std::min(view - error, usual), view - 3 * error});
+  table_->setColumnWidth(CasesModel::kCase, std::min(whole_case_, most));
+}
+
+void CasesPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  if (whole_case_ > 0) fitCaseColumn();
 }
 
 void CasesPanel::setCurrent(const QString& id) {

@@ -40,8 +40,12 @@ class CasesPanel : public QWidget {
   void runRequested(const QString& id);
   void runAllRequested(const QStringList& ids);
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   void buildTable();
+  void fitCaseColumn();
   QString chosen() const;
   void chooseRow(const QModelIndex& current);
   void showCount();
@@ -56,6 +60,7 @@ class CasesPanel : public QWidget {
   QPushButton* run_ = nullptr;
   QPushButton* run_all_ = nullptr;
   QString current_;
+  int whole_case_ = 0;  ///< width in which the longest name would be shown whole, 0 before any
   bool runnable_ = true;
   bool showing_ = false;  ///< the table follows the window, not a person
 };

@@ -8,6 +8,7 @@
 #include <QCoreApplication>
 
 #include "core/base/math.h"
+#include "ui/models/number_text.h"
 #include "ui/views/layer.h"
 
 namespace boresight::ui {
@@ -27,15 +28,6 @@ BoundingBox boundsOf(const MeshView& mesh) {
     box.maximum_m = box.maximum_m.cwiseMax(vertex.cast<double>());
   }
   return box;
-}
-
-/// 1, 2 or 5 times a power of ten, not below the value.
-double roundedUp(double value) {
-  if (!(value > 0.0)) return 1.0;
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (value <= factor * power * (1.0 + 1e-9)) return factor * power;
-  return 10.0 * power;
 }
 
 Eigen::Vector3d rayOf(const Camera& camera, double x, double y) {

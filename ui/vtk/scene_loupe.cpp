@@ -7,6 +7,7 @@
 
 #include <QPainter>
 
+#include "ui/views/loupe_cross.h"
 #include "ui/vtk/scene_picture.h"
 
 namespace boresight::ui {
@@ -18,9 +19,6 @@ constexpr int kMostSide = 280;
 constexpr int kRaster = 4;  ///< whole screen pixels at ratios of quarters
 constexpr int kMargin = 8;
 constexpr int kShyness = 40;  ///< how near the pointer may come
-constexpr double kGap = 9.0;
-const QColor kCross(255, 255, 255, 210);
-const QColor kRim(0, 0, 0, 150);
 
 int onRaster(double length) { return kRaster * static_cast<int>(std::floor(length / kRaster)); }
 
@@ -123,24 +121,12 @@ void SceneLoupe::paintEvent(QPaintEvent*) {
     over_(painter, picture_view_);
   }
   painter.setRenderHint(QPainter::Antialiasing, true);
-  paintCross(painter);
+  paintLoupeCross(painter, size());
   painter.setRenderHint(QPainter::Antialiasing, false);
   paintText(painter);
   painter.setPen(QPen(palette().color(QPalette::Highlight), 2.0));
   painter.setBrush(Qt::NoBrush);
   painter.drawRect(rect().adjusted(1, 1, -1, -1));
-}
-
-void SceneLoupe::paintCross(QPainter& painter) const {
-  const QPointF middle(0.5 * width(), 0.5 * height());
-  painter.setBrush(Qt::NoBrush);
-  for (const QPen& pen : {QPen(kRim, 3.0), QPen(kCross, 1.0)}) {
-    painter.setPen(pen);
-    painter.drawLine(QPointF(0.0, middle.y()), middle - QPointF(kGap, 0.0));
-    painter.drawLine(middle + QPointF(kGap, 0.0), QPointF(width(), middle.y()));
-    painter.drawLine(QPointF(middle.x(), 0.0), middle - QPointF(0.0, kGap));
-    painter.drawLine(middle + QPointF(0.0, kGap), QPointF(middle.x(), height()));
-  }
 }
 
 void SceneLoupe::paintText(QPainter& painter) const {

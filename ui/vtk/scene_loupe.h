@@ -65,7 +65,6 @@ class SceneLoupe : public QWidget {
  private:
   void putAside();
   void order();
-  void paintCross(QPainter& painter) const;
   void paintText(QPainter& painter) const;
 
   Over over_;

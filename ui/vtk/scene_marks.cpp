@@ -10,19 +10,7 @@
 namespace boresight::ui {
 namespace {
 
-constexpr double kOutlierSigmas = 3.0;
 constexpr double kPick_px = 10.0;
-
-/// Normalized residuals of the marks of the case itself that stand out, by id.
-std::map<std::string, double> outliers(const AnnotationController& annotation) {
-  std::map<std::string, double> found;
-  const auto& solution = annotation.solution();
-  if (!solution || !solution->result.solution) return found;
-  for (const sessions::SolvedMark& mark : solution->result.solution->marks)
-    if (mark.address.view == 0 && mark.normalized > kOutlierSigmas)
-      found[sessions::markId(solution->marks.views, mark.address)] = mark.normalized;
-  return found;
-}
 
 template <class Pair>
 SceneMark markOf(const Pair& pair, const AnnotationController& annotation,
@@ -73,7 +61,8 @@ std::vector<SceneMark> sceneMarks(const AnnotationController& annotation) {
     mark.proposed = true;
     marks.push_back(mark);
   }
-  const auto outlying = outliers(annotation);
+  std::map<std::string, double> outlying;
+  if (annotation.solution()) outlying = annotation.solution()->standingOut();
   for (const sessions::PointPair& point : annotation.marks().points) {
     if (!point.point_in_station_m) continue;
     marks.push_back(markOf(point, annotation, outlying));

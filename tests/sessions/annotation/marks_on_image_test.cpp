@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sessions/annotation/predicted_place.h"
 #include "tests/sessions/annotation/marked_scene.h"
 
 namespace boresight::sessions {
@@ -22,6 +23,18 @@ double distanceToEdge(const Camera& camera, const Pose& pose, const ModelEdge& e
     nearest = seen;
   }
   return least;
+}
+
+TEST(IsInImage, EachPixelIsOneWideAboutItsCentre) {
+  Camera camera;
+  camera.width = 4;
+  camera.height = 3;
+  for (const Eigen::Vector2d& inside :
+       {Eigen::Vector2d(-0.5, -0.5), Eigen::Vector2d(3.49, 2.49), Eigen::Vector2d(1.0, 2.0)})
+    EXPECT_TRUE(isInImage(camera, inside)) << inside.transpose();
+  for (const Eigen::Vector2d& outside : {Eigen::Vector2d(-0.51, 1.0), Eigen::Vector2d(1.0, -0.51),
+                                         Eigen::Vector2d(3.5, 1.0), Eigen::Vector2d(1.0, 2.5)})
+    EXPECT_FALSE(isInImage(camera, outside)) << outside.transpose();
 }
 
 class MarksOnImageTest : public testing::TestWithParam<CameraModel> {};

@@ -101,6 +101,28 @@ TEST(CaseMarks, SolvesWithTheDigitsOfTheViewsThemselves) {
   }
 }
 
+TEST(CaseMarks, NamesItsOwnMarksThatStandOut) {
+  using sessions::MarkKind;
+  sessions::CaseMarksSolution made;
+  EXPECT_TRUE(made.standingOut().empty()) << "without a solution";
+  made.marks.views = RigSession().views;
+  made.result.solution.emplace();
+  const auto add = [&](const sessions::MarkAddress& address, bool projected, double normalized) {
+    sessions::SolvedMark& mark = made.result.solution->marks.emplace_back();
+    mark.address = address;
+    mark.projected = projected;
+    mark.normalized = normalized;
+  };
+  add({0, MarkKind::kPoint, 0}, true, 2.9);
+  add({0, MarkKind::kPoint, 1}, true, 4.2);
+  add({0, MarkKind::kPoint, 2}, false, 9.0);
+  add({0, MarkKind::kLine, 1}, true, 3.1);
+  add({1, MarkKind::kPoint, 3}, true, 8.0);
+  const sessions::Marks& own = made.marks.views[0].marks;
+  const std::map<std::string, double> expected = {{own.points[1].id, 4.2}, {own.lines[1].id, 3.1}};
+  EXPECT_EQ(made.standingOut(), expected);
+}
+
 TEST(CaseMarks, AnUnmarkedCaseGetsItsPoseFromTheRig) {
   const RigSession rig(0.0);
   Session session = withAnnotation(rig.session, "left", {});

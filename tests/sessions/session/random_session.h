@@ -182,8 +182,8 @@ inline sessions::Decision randomDecision(Random& random, const std::string& case
     decision.pose->source = static_cast<sessions::PoseSource>(random.below(2));
     decision.pose->camera_from_station = randomPose(random);
     decision.pose->covariance(1, 2) = random.uniform(-1.0, 1.0);
-    decision.pose->rests_on_sha256 = randomSha256(random);
   }
+  if (coin(random)) decision.grounds["truth"] = randomSha256(random);
   if (coin(random)) decision.approval = {"Bob", "", "2026-01-31T23:59:59Z"};
   return decision;
 }

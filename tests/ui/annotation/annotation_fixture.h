@@ -12,6 +12,7 @@
 
 #include "sessions/annotation/mark_edits.h"
 #include "sessions/annotation/mesh_snap.h"
+#include "sessions/annotation/predicted_place.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
@@ -53,7 +54,7 @@ class AnnotationTest : public ::testing::Test {
     for (std::size_t i = 0; i < snapper.edges().size(); i += stride) {
       const Eigen::Vector3d& corner_m = snapper.edges()[i].start_in_station_m;
       const Eigen::Vector2d pixel = pixelOf(corner_m);
-      if (!sessions::isInImage(pixel, camera().width, camera().height)) continue;
+      if (!sessions::isInImage(camera(), pixel)) continue;
       for (const sessions::MeshSnap& snap : snapper.near(camera(), truth(), pixel, 2.0))
         if (snap.kind == sessions::MeshSnapKind::kVertex && snap.point_in_station_m == corner_m)
           seen.push_back(corner_m);

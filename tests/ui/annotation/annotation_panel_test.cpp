@@ -12,6 +12,7 @@
 #include "sessions/session/rig_links.h"
 #include "tests/ui/annotation/annotation_fixture.h"
 #include "ui/annotation/rig_menu.h"
+#include "ui/annotation/solution_html.h"
 #include "ui/annotation/twin_view.h"
 
 namespace boresight::ui {
@@ -71,6 +72,17 @@ TEST_F(AnnotationPanelTest, SaysWhatIsMissingThenWhatWasSolvedAndWhenThatIsOutOf
   EXPECT_TRUE(headline().startsWith(QStringLiteral("Solved from 8 marks")));
   for (const char* said : {"normal", "lateral", "rotation", "seed", "truth"})
     EXPECT_TRUE(summary().contains(QString::fromLatin1(said))) << said;
+}
+
+TEST_F(AnnotationPanelTest, TellsTheCamerasOwnSigmaOnlyBesideTheEndEffectors) {
+  markCorners(8);
+  ASSERT_TRUE(solved());
+  SolutionContext context;
+  const QString own = QStringLiteral("camera's own");
+  EXPECT_FALSE(solutionHtml(controller_.answer(), context).contains(own)) << "said once";
+  context.camera_from_end_effector = Pose();
+  context.camera_from_end_effector->translation_m = {0.0, 0.1, 0.2};
+  EXPECT_TRUE(solutionHtml(controller_.answer(), context).contains(own));
 }
 
 TEST_F(AnnotationPanelTest, TheTableChoosesTurnsOffAndRemoves) {

@@ -38,7 +38,7 @@ class ScenePictures : public ::testing::Test {
     for (const sessions::ModelEdge& edge : mesh.edges()) {
       Eigen::Vector2d pixel;
       if (project(source.camera, pose * edge.start_in_station_m, pixel) &&
-          sessions::isInImage(pixel, source.camera.width, source.camera.height) &&
+          sessions::isInImage(source.camera, pixel) &&
           mesh.seenFrom(eye_m, edge.start_in_station_m))
         seen.push_back(edge.start_in_station_m);
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/cases_panel.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <QComboBox>
 #include <QLineEdit>
@@ -84,6 +86,45 @@ TEST_F(CasesPanelTest, NameStateAndTheFirstErrorAreInSightInANarrowList) {
   EXPECT_NE(table_->viewport()->grab(QRect(0, 0, right(CasesModel::kCase), 44)).toImage(),
             annotated.copy(0, 0, right(CasesModel::kCase), 44))
       << "the state is told beside the name";
+}
+
+TEST_F(CasesPanelTest, TheEndOfALongNameIsSeenInANarrowList) {
+  panel_.resize(252, 400);
+  std::vector<CaseRow> rows(1);
+  const auto painted = [&](int number) {
+    rows[0].id = QStringLiteral("a_dataset_of_a_long_name-s%1").arg(number);
+    panel_.setRows(rows);
+    return table_->viewport()->grab().toImage();
+  };
+  EXPECT_NE(painted(1), painted(4)) << "the end is what tells a case from the next";
+}
+
+TEST_F(CasesPanelTest, TheWholeStateIsSeenInTheNarrowestList) {
+  std::vector<CaseRow> rows(1);
+  rows[0].id = QStringLiteral("x");
+  rows[0].thumbnail = QImage(64, 64, QImage::Format_Grayscale8);
+  rows[0].thumbnail.fill(Qt::gray);
+  int needed = 0;
+  for (int i = 0; i < kCaseStateCount; ++i) {
+    rows[0].state = static_cast<CaseState>(i);
+    panel_.setRows(rows);
+    table_->resizeColumnToContents(CasesModel::kCase);
+    needed = std::max(needed, table_->columnWidth(CasesModel::kCase));
+  }
+  panel_.resize(panel_.minimumSizeHint().width(), 400);
+  rows[0].id = QString(60, QLatin1Char('w'));
+  panel_.setRows(rows);
+  EXPECT_GE(table_->columnWidth(CasesModel::kCase), needed);
+}
+
+TEST_F(CasesPanelTest, AWiderListGivesALongNameItsRoom) {
+  std::vector<CaseRow> rows(1);
+  rows[0].id = QStringLiteral("a_dataset_of_a_long_name-s1");
+  panel_.resize(252, 400);
+  panel_.setRows(rows);
+  const int narrow = table_->columnWidth(CasesModel::kCase);
+  panel_.resize(600, 400);
+  EXPECT_GT(table_->columnWidth(CasesModel::kCase), narrow);
 }
 
 TEST_F(CasesPanelTest, ListsOneState) {

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/review/grounds.h"
+
+#include <span>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/annotation/marks_file.h"
+#include "sessions/io/file_bytes.h"
+#include "sessions/session/case_json.h"
+#include "sessions/session/decision_json.h"
+#include "sessions/session/rig_links.h"
+
+namespace boresight::sessions {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string sha256Of(const std::string& text) {
+  return sha256Text(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+std::string sha256Of(const ordered_json& json) { return sha256Of(json.dump()); }
+
+ordered_json poseJson(const std::optional<Pose>& pose) {
+  return pose ? exactPoseJson(*pose) : ordered_json();
+}
+
+ordered_json marksJson(const Session& session, const std::string& case_id) {
+  std::vector<std::string> ids = casesOfRig(session, case_id);
+  ids.insert(ids.begin(), case_id);
+  ordered_json json = ordered_json::object();
+  for (const std::string& id : ids)
+    if (const auto found = session.annotations.find(id); found != session.annotations.end())
+      json[id] = toJson(*found->second);
+  return json;
+}
+
+/// The rig's cameras as they lie to each other; its name is only a name.
+ordered_json rigJson(const Session& session, const SessionCase& one) {
+  ordered_json json = ordered_json::object();
+  if (!one.rig) return json;
+  json[one.id] = exactPoseJson(one.rig->camera_from_rig);
+  for (const std::string& id : casesOfRig(session, one.id))
+    json[id] = exactPoseJson(session.findCase(id)->rig->camera_from_rig);
+  return json;
+}
+
+const char* groundText(const std::string& name) {
+  static const std::map<std::string, const char*> kTexts = {
+      {"inputs", "the image, camera, mesh, seed or mask"},
+      {"run", "the run"},
+      {"marks", "the marks"},
+      {"truth", "the truth"},
+      {"requirement", "the requirement"},
+      {"end_effector", "the end effector"},
+      {"rig", "the rig"},
+      {"onboard_record", "the onboard record"},
+      {"limits", "the limits of the checks"}};
+  const auto found = kTexts.find(name);
+  return found == kTexts.end() ? name.c_str() : found->second;
+}
+
+std::string listText(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> judgedGrounds(const Session& session, const std::string& case_id,
+                                                 const std::string& run_digest) {
+  const SessionCase* one = session.findCase(case_id);
+  if (one == nullptr) return {};
+  std::map<std::string, std::string> grounds;
+  grounds["inputs"] = inputsDigest(*one);
+  grounds["marks"] = sha256Of(marksJson(session, case_id));
+  grounds["truth"] = sha256Of(poseJson(one->camera_from_station_truth));
+  grounds["requirement"] = sha256Of(one->requirement ? toJson(*one->requirement) : ordered_json());
+  grounds["end_effector"] = sha256Of(poseJson(one->camera_from_end_effector));
+  grounds["rig"] = sha256Of(rigJson(session, *one));
+  grounds["onboard_record"] = sha256Of(one->onboard_record ? one->onboard_record->sha256 : "");
+  ReviewSettings limits = session.review;
+  limits.second_person = false;  // who has to sign does not change what was measured
+  grounds["limits"] = sha256Of(toJson(limits));
+  if (!run_digest.empty()) grounds["run"] = sha256Of(run_digest);
+  return grounds;
+}
+
+std::string changedGroundsText(const std::map<std::string, std::string>& before,
+                               const std::map<std::string, std::string>& now) {
+  std::vector<std::string> changed;
+  for (const auto& [name, sha256] : before) {
+    const auto found = now.find(name);
+    if (found == now.end() || found->second != sha256) changed.emplace_back(groundText(name));
+  }
+  for (const auto& [name, sha256] : now)
+    if (before.count(name) == 0) changed.emplace_back(groundText(name));
+  if (changed.empty()) return "";
+  return listText(changed) + (changed.size() == 1 && changed.front() != "the marks" &&
+                                      changed.front() != "the limits of the checks"
+                                  ? " has changed"
+                                  : " have changed");
+}
+
+}  // namespace boresight::sessions

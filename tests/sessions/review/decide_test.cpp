@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/review/decide.h"
+
+#include <functional>
+#include <map>
+
+#include <gmock/gmock.h>
+
+#include "sessions/review/standing.h"
+#include "tests/sessions/review/judged_case.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::CaseStanding;
+using sessions::CheckState;
+using sessions::DecisionError;
+using sessions::Session;
+using sessions::standingOf;
+using sessions::standingText;
+using testing::HasSubstr;
+
+std::string refusal(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const DecisionError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Decide, AValidationNeedsANameACommentAndAnswersToAllChecks) {
+  Random random = randomFor("Decide.Validation");
+  JudgedCase judged(random);
+  const auto refused = [&judged](const sessions::CheckOverrides& overrides,
+                                 const sessions::Signature& who) {
+    return refusal(
+        [&] { validated(judged.session, judged.subject, judged.checks, overrides, who); });
+  };
+  EXPECT_EQ(refused({}, {"Ada", "right"}), "");
+  EXPECT_THAT(refused({}, {" \t", "right"}), HasSubstr("give a name"));
+  EXPECT_THAT(refused({}, {"Ada", " \n"}), HasSubstr("give a comment"));
+  EXPECT_THAT(refused({{"converged", "so"}}, {"Ada", "right"}), HasSubstr("has not failed"));
+  EXPECT_THAT(refused({{"nothing", "so"}}, {"Ada", "right"}), HasSubstr("no check 'nothing'"));
+
+  judged.checks[0].state = CheckState::kFailed;
+  judged.checks[1].state = CheckState::kFailed;
+  EXPECT_THAT(refused({}, {"Ada", "right"}), HasSubstr("Check of converged, Check of coverage"));
+  EXPECT_THAT(refused({{"converged", "seen"}}, {"Ada", "right"}), HasSubstr("Check of coverage"));
+  EXPECT_THAT(refused({{"converged", "seen"}, {"coverage", " "}}, {"Ada", "right"}),
+              HasSubstr("give a reason"));
+  EXPECT_EQ(refused({{"converged", "seen"}, {"coverage", "a shadow"}}, {"Ada", "right"}), "");
+}
+
+TEST(Decide, NothingIsValidatedWithoutAnyCheck) {
+  Random random = randomFor("Decide.NoChecks");
+  JudgedCase judged(random);
+  judged.checks.clear();
+  EXPECT_THAT(refusal([&] { judged.validatedBy("Ada"); }), HasSubstr("no check has been made"));
+  judged.checks = {JudgedCase::check("truth", CheckState::kNotApplicable)};
+  EXPECT_THAT(refusal([&] { judged.validatedBy("Ada"); }), HasSubstr("no check has been made"));
+}
+
+TEST(Decide, AValidationHoldsItsPoseItsChecksAndTheirReasons) {
+  Random random = randomFor("Decide.Holds");
+  JudgedCase judged(random);
+  judged.checks[1].state = CheckState::kFailed;
+  const Session next = validated(judged.session, judged.subject, judged.checks,
+                                 {{"coverage", "  half of it is dark "}}, {" Ada ", "right"});
+  ASSERT_EQ(next.decisions.size(), 1u);
+  const sessions::Decision& decision = next.decisions.front();
+  EXPECT_EQ(decision.by, "Ada");
+  EXPECT_EQ(decision.digest, judged.subject.run->digest);
+  EXPECT_EQ(decision.pose->camera_from_station, judged.subject.camera_from_station);
+  EXPECT_EQ(decision.pose->covariance, judged.subject.covariance);
+  ASSERT_EQ(decision.checks.size(), 3u);
+  EXPECT_EQ(decision.checks[0].override_reason, "");
+  EXPECT_EQ(decision.checks[1].override_reason, "half of it is dark");
+  EXPECT_EQ(standingOf(next, "a").state, CaseStanding::kValidated);
+  EXPECT_EQ(standingText(standingOf(next, "a")), "validated by Ada");
+}
+
+TEST(Decide, OnlyTheLastConvergedRunOfTheseInputsCanBeValidated) {
+  Random random = randomFor("Decide.Concern");
+  JudgedCase judged(random);
+  const auto refused = [&judged] { return refusal([&judged] { judged.validatedBy("Ada"); }); };
+
+  JudgedCase other = judged;
+  other.subject.run->status = LocalizationStatus::kNotSupported;
+  EXPECT_THAT(refusal([&] { other.validatedBy("Ada"); }), HasSubstr("did not converge"));
+
+  sessions::SessionCase moved = *judged.session.findCase("a");
+  moved.camera_from_station_seed.translation_m.x() += 1e-9;
+  other = judged;
+  other.session = withCase(judged.session, moved);
+  EXPECT_THAT(refusal([&] { other.validatedBy("Ada"); }), HasSubstr("inputs have changed"));
+
+  judged.noteRun(randomSha256(random), "converged", random);
+  EXPECT_THAT(refused(), HasSubstr("not the last run"));
+  judged.session = withoutCase(judged.session, "a");
+  EXPECT_THAT(refused(), HasSubstr("no case 'a'"));
+}
+
+TEST(Decide, ALaterChangeDropsADecisionAndSaysWhichOne) {
+  Random random = randomFor("Decide.Dropped");
+  const JudgedCase judged(random);
+  const Session before = judged.validatedBy("Ada");
+  using Edit = std::function<void(Session&, sessions::SessionCase&)>;
+  const std::map<std::string, Edit> edits = {
+      {"the image, camera, mesh, seed or mask has",
+       [](Session&, auto& one) { one.camera_from_station_seed.translation_m.x() += 1e-12; }},
+      {"the truth has", [&](Session&, auto& one) { one.camera_from_station_truth = Pose(); }},
+      {"the requirement has",
+       [](Session&, auto& one) {
+         one.requirement = {1.0, {}, {}, {}};
+       }},
+      {"the end effector has", [](Session&, auto& one) { one.camera_from_end_effector = Pose(); }},
+      {"the rig has",
+       [](Session&, auto& one) {
+         one.rig = sessions::Rig{"r", Pose()};
+       }},
+      {"the onboard record has",
+       [&](Session&, auto& one) { one.onboard_record = randomInput(random, ".whsr"); }},
+      {"the limits of the checks have",
+       [](Session& session, auto&) { session.review.preset = "photographs"; }},
+      {"there is a later run",
+       [&](Session& session, auto&) {
+         sessions::RunRecord run = session.runs.back();
+         run.digest = randomSha256(random);
+         session.runs.push_back(run);
+       }},
+      {"its run is no longer there", [](Session& session, auto&) { session.runs.clear(); }},
+      {"the marks have", [&](Session& session, auto& one) {
+         sessions::Marks marks;
+         while (marks == sessions::Marks()) marks = randomAnnotation(random);
+         session = withAnnotation(session, one.id, marks);
+       }}};
+  for (const auto& [text, edit] : edits) {
+    Session after = before;
+    sessions::SessionCase one = *before.findCase("a");
+    edit(after, one);
+    after = withCase(after, one);
+    const sessions::Standing standing = standingOf(after, "a");
+    EXPECT_NE(standing.state, CaseStanding::kValidated) << text;
+    EXPECT_FALSE(standing.holds()) << text;
+    EXPECT_THAT(standing.dropped, HasSubstr(text));
+    EXPECT_THAT(standingText(standing), testing::StartsWith("NOT VALIDATED: "));
+  }
+}
+
+TEST(Decide, WhatIsNoInputChangesNothing) {
+  Random random = randomFor("Decide.Stands");
+  const JudgedCase judged(random);
+  Session after = judged.validatedBy("Ada");
+  sessions::SessionCase one = *after.findCase("a");
+  one.tags.push_back("looked at");
+  one.camera_from_station_working = randomPose(random);
+  after = withCase(after, one);
+  after.review.second_person = false;
+  after.options = {{"pnp.seed", std::int64_t{7}}};  // the run's own are part of its digest
+  after.runs.push_back(after.runs.back());          // the same run once more
+  EXPECT_EQ(standingOf(after, "a").state, CaseStanding::kValidated);
+}
+
+TEST(Decide, ASecondPersonIsSomebodyElse) {
+  Random random = randomFor("Decide.Approval");
+  JudgedCase judged(random);
+  judged.session.review.second_person = true;
+  EXPECT_THAT(refusal([&] {
+                approved(judged.session, "a", {"Bob", "yes"});
+              }),
+              HasSubstr("no validation"));
+  const Session first = judged.validatedBy("Ada L");
+  EXPECT_EQ(standingOf(first, "a").state, CaseStanding::kConverged);
+  EXPECT_TRUE(standingOf(first, "a").awaits_approval);
+  EXPECT_THAT(standingText(standingOf(first, "a")), HasSubstr("second person"));
+  EXPECT_THAT(refusal([&] {
+                approved(first, "a", {"ada  l ", "yes"});
+              }),
+              HasSubstr("somebody else"));
+  EXPECT_THAT(refusal([&] { approved(first, "a", {"Bob", ""}); }), HasSubstr("comment"));
+
+  const Session second = approved(first, "a", {"Bob", "yes"});
+  EXPECT_EQ(standingOf(second, "a").state, CaseStanding::kValidated);
+  EXPECT_EQ(standingText(standingOf(second, "a")), "validated by Ada L, approved by Bob");
+  EXPECT_THAT(refusal([&] { approved(second, "a", {"Eve", "yes"}); }), HasSubstr("already"));
+  Session other = first;
+  other.runs.clear();
+  EXPECT_THAT(refusal([&] { approved(other, "a", {"Bob", "yes"}); }), HasSubstr("no longer holds"));
+}
+
+TEST(Decide, ARejectionNeedsNoPoseAndIsTakenBackByName) {
+  Random random = randomFor("Decide.Rejection");
+  JudgedCase judged(random);
+  judged.session.runs.clear();
+  const Session rejected = sessions::rejected(judged.session, "a", {}, {"Ada", "blurred"});
+  EXPECT_EQ(standingOf(rejected, "a").state, CaseStanding::kRejected);
+  EXPECT_EQ(standingText(standingOf(rejected, "a")), "NOT VALIDATED: rejected by Ada");
+  EXPECT_THAT(refusal([&] {
+                sessions::rejected(judged.session, "a", {}, {"Ada", ""});
+              }),
+              HasSubstr("comment"));
+  const Session again = reopened(rejected, "a", {"Bob", "another image came down"});
+  EXPECT_EQ(standingOf(again, "a").state, CaseStanding::kNew);
+  EXPECT_EQ(again.decisions.size(), 2u);
+  EXPECT_THAT(refusal([&] {
+                reopened(again, "a", {"Bob", "once more"});
+              }),
+              HasSubstr("no decision"));
+}
+
+}  // namespace
+}  // namespace boresight::test
