@@ -5,7 +5,6 @@
 #include "app/commands.h"
 #include "app/open_session.h"
 #include "sessions/io/atomic_file.h"
-#include "sessions/review/checks.h"
 #include "sessions/review/handed_pose.h"
 #include "sessions/review/pose_exchange.h"
 #include "sessions/review/validated_pose_file.h"
@@ -48,11 +47,8 @@ void exportPose(const sessions::Session& session, const ExchangeArguments& argum
   sessions::requireWritable(arguments.pose);
   sessions::HandedPose pose = sessions::handedPose(session, arguments.onlyCase());
   if (pose.checks.empty()) {
-    const auto subject = sessions::reviewSubject(
-        session, sessions::loadCase(*session.findCase(pose.case_id)), pose.source);
-    const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
-    for (const sessions::Check& check : sessions::checkPose(subject, limits))
-      pose.checks.push_back({check, ""});
+    const auto loaded = sessions::loadCase(*session.findCase(pose.case_id));
+    pose.checks = sessions::checksNow(session, loaded, pose);
   }
   sessions::writeValidatedPose(arguments.pose, session, pose);
   std::cout << pose.case_id << ": " << pose.standing << std::endl;
