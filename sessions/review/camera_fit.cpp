@@ -19,7 +19,11 @@ using Matrix9d = Eigen::Matrix<double, 9, 9>;
 
 constexpr std::size_t kLeastFound = 60;
 constexpr int kRounds = 10;
-constexpr double kTukey = 4.685;
+/// Tighter than the usual 4.685: shadows and bevels beside an edge are many and off to one side,
+/// and precision is to spare.
+constexpr double kTukey = 2.0;
+/// Farther ones are mostly another edge.
+constexpr double kFarthest_px = 2.5;
 constexpr double kDeviationOfMedian = 1.4826;
 constexpr double kLeastScale_px = 0.05;
 /// Tiles along the longer side of what is looked at.
@@ -45,7 +49,7 @@ std::vector<Row> rowsOf(std::span<const LookedPlace> looked, const Camera& camer
   const double tile_px = std::max((most - least).maxCoeff() / kTiles, 1.0);
   for (const LookedPlace& one : looked) {
     PlaceDerivative by;
-    if (!one.found ||
+    if (!one.found || std::abs(one.found->offset_px) > kFarthest_px ||
         !placeDerivative(camera, camera_from_station, one.place.point_in_station_m, by))
       continue;
     Row row;

@@ -23,11 +23,11 @@ struct CheckLimits {
   double sigmas = 3.0;
   double focal_sigma_px = 0.0;
   double centre_sigma_px = 0.0;
-  double coverage_percent = 40.0;
+  double coverage_percent = 30.0;
   double clutter_percent = 95.0;
-  double fall_off_percent = 25.0;
+  double fall_off_percent = 15.0;
   double focal_percent = 1.0;
-  double centre_px = 15.0;
+  double centre_px = 10.0;
   double agreement_percent = 100.0;
   double basin_percent = 90.0;
 
