@@ -96,11 +96,13 @@ struct CheckLimits {
           self.fall_off_percent);
     visit(OptionInfo{"check.focal_percent", "%", 0.0, 100.0,
                      "Most that the focal length may change, beyond chance, when the edges may "
-                     "choose it."},
+                     "choose it; and most that they may leave open where the calibration is not "
+                     "known."},
           self.focal_percent);
     visit(OptionInfo{"check.centre_px", "px", 0.0, 10000.0,
                      "Most that the principal point may move, beyond chance, when the edges may "
-                     "choose it."},
+                     "choose it; and most that they may leave open where the calibration is not "
+                     "known."},
           self.centre_px);
   }
   template <class Self, class Visitor>

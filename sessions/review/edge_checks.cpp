@@ -23,6 +23,10 @@ constexpr const char* kCameraRemedy =
     "Camera, mesh and image do not fit together: make sure that the calibration is this camera's, "
     "of this focus setting and image size, and that the mesh is this station's.";
 
+constexpr const char* kUndecidedRemedy =
+    "The image cannot vouch for the camera: state how well it is calibrated (check.focal_sigma_px, "
+    "check.centre_sigma_px), or use a nearer image.";
+
 std::string percentText(double share) {
   return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
 }
@@ -63,9 +67,31 @@ Check fallOffCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
       "The image hardly tells this pose from others that way: use marks or a second camera.");
 }
 
-/// What is asked for beyond what may be chance.
-double beyondChance(double change, double sigma, double sigmas) {
-  return std::max(0.0, std::abs(change) - sigmas * sigma);
+/// One of the camera's parameters as the edges would have it.
+struct AskedChange {
+  double change = 0.0;
+  double sigma = 0.0;
+  double calibrated_sigma = 0.0;  ///< 0: not known
+  std::string unit;
+};
+
+/// What exceeds chance. Where nothing is known of the calibration the image must vouch for it: then
+/// what the image cannot exclude counts as well.
+double unexplained(const AskedChange& asked, double sigmas) {
+  const double chance = sigmas * std::hypot(asked.sigma, asked.calibrated_sigma);
+  const double beyond = std::max(0.0, std::abs(asked.change) - chance);
+  return asked.calibrated_sigma > 0.0 ? beyond : std::max(beyond, sigmas * asked.sigma);
+}
+
+Check cameraCheck(const CheckName& name, const std::string& what, const AskedChange& asked,
+                  double limit, double sigmas) {
+  const double figure = unexplained(asked, sigmas);
+  const bool known = asked.calibrated_sigma > 0.0;
+  const bool undecided = !known && std::abs(asked.change) <= limit + sigmas * asked.sigma;
+  return measuredCheck(name, asked.unit, figure, limit, LimitSide::kAtMost,
+                       "Left free, the " + what + sentenceNumber(asked.change) + " " + asked.unit +
+                           " (one sigma " + sentenceNumber(asked.sigma) + " " + asked.unit + ").",
+                       undecided ? kUndecidedRemedy : kCameraRemedy);
 }
 
 void addCameraChecks(const std::optional<CameraFit>& fit, const Camera& camera,
@@ -76,21 +102,19 @@ void addCameraChecks(const std::optional<CameraFit>& fit, const Camera& camera,
     checks.push_back(notAskedCheck(kCentre, why));
     return;
   }
-  const double focal_percent = 100.0 * fit->focal_px / camera.fx;
-  const double focal_sigma_percent = 100.0 * fit->focal_sigma_px / camera.fx;
-  checks.push_back(measuredCheck(
-      kFocal, "%", beyondChance(focal_percent, focal_sigma_percent, limits.sigmas),
-      limits.focal_percent, LimitSide::kAtMost,
-      "Left free, the focal length changes by " + sentenceNumber(focal_percent) + " % (one sigma " +
-          sentenceNumber(focal_sigma_percent) + " %); what exceeds chance counts.",
-      kCameraRemedy));
-  checks.push_back(measuredCheck(
-      kCentre, "px", beyondChance(fit->centre_px, fit->centre_sigma_px, limits.sigmas),
-      limits.centre_px, LimitSide::kAtMost,
-      "Left free, the principal point moves by " + sentenceNumber(fit->centre_px) +
-          " px (one sigma " + sentenceNumber(fit->centre_sigma_px) +
-          " px); what exceeds chance counts.",
-      kCameraRemedy));
+  const double percent = 100.0 / camera.fx;
+  checks.push_back(cameraCheck(kFocal, "focal length changes by ",
+                               {percent * fit->focal_px, percent * fit->focal_sigma_px,
+                                percent * limits.focal_sigma_px, "%"},
+                               limits.focal_percent, limits.sigmas));
+  checks.push_back(cameraCheck(kCentre, "principal point moves by ",
+                               {fit->centre_px, fit->centre_sigma_px, limits.centre_sigma_px, "px"},
+                               limits.centre_px, limits.sigmas));
+}
+
+/// A requirement in pixels says nothing of millimetres, and a wrong camera hardly moves the image.
+bool asksForMetric(const Requirement& requirement) {
+  return requirement.normal_mm || requirement.lateral_mm || requirement.rotation_deg;
 }
 
 bool canBeMeasured(const ReviewSubject& subject) {
@@ -133,8 +157,14 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
   checks.push_back(coverageCheck(evidence, limits));
   checks.push_back(clutterCheck(evidence, limits));
   checks.push_back(fallOffCheck(evidence, limits));
-  addCameraChecks(fitCamera(looked, loaded.source.camera, subject.camera_from_station),
-                  loaded.source.camera, limits, checks);
+  if (asksForMetric(subject.requirement)) {
+    addCameraChecks(fitCamera(looked, loaded.source.camera, subject.camera_from_station),
+                    loaded.source.camera, limits, checks);
+    return;
+  }
+  for (const CheckName& name : {kFocal, kCentre})
+    checks.push_back(notAskedCheck(
+        name, "The requirement is one in the image, where a wrong camera hardly shows."));
 }
 
 }  // namespace boresight::sessions
