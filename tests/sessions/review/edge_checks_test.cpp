@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sessions/review/calibration_share.h"
 #include "sessions/review/camera_fit.h"
 #include "sessions/review/edge_evidence.h"
 #include "tests/sessions/review/drawn_box.h"
@@ -153,8 +154,12 @@ TEST(EdgeChecks, AWrongFocalLengthIsFoundByItsPerspective) {
   wrong.fx *= 1.03;
   wrong.fy *= 1.03;
   ASSERT_EQ(prepareCamera(wrong), Status::kOk);
-  Pose farther = box.camera_from_station_;
-  farther.translation_m *= 1.03;
+  const auto follow =
+      poseByCamera(predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_).places,
+                   box.camera_, box.camera_from_station_);
+  ASSERT_TRUE(follow);
+  const Pose farther = perturbed(Vector6d(30.0 * follow->col(0)), box.camera_from_station_);
+  EXPECT_NEAR(farther.translation_m.z(), 1.03 * 0.5, 0.003);
   const PredictedEdges edges = predictEdges(wrong, box.scene_.view(), farther);
   const auto subject = box.subject(farther);
   const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges, settings));
@@ -162,6 +167,25 @@ TEST(EdgeChecks, AWrongFocalLengthIsFoundByItsPerspective) {
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->focal_px, -30.0, 6.0);
   EXPECT_LT(fit->focal_sigma_px, 5.0);
+}
+
+TEST(EdgeChecks, ACameraThatNeitherItsCalibrationNorTheImageVouchesForFails) {
+  const DrawnBox box;
+  ReviewSubject subject = box.subject(box.camera_from_station_);
+  const PredictedEdges edges =
+      predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
+  const auto focalCheck = [&](const CheckLimits& limits) {
+    std::vector<Check> checks;
+    addEdgeChecks(subject, limits, edges, checks);
+    return findCheck(checks, "camera_focal");
+  };
+  CheckLimits limits;
+  limits.focal_percent = 0.001;
+  EXPECT_EQ(focalCheck(limits).state, CheckState::kFailed);
+  limits.focal_sigma_px = 50.0;  // known, to five percent: what the edges ask for is within that
+  EXPECT_EQ(focalCheck(limits).state, CheckState::kPassed);
+  subject.requirement = {{}, {}, {}, 3.0};
+  EXPECT_EQ(focalCheck(limits).state, CheckState::kNotApplicable);
 }
 
 TEST(EdgeChecks, APoseThatShowsNothingFailsAndAnImageOfAnotherSizeIsNotAsked) {
