@@ -109,8 +109,8 @@ std::string limitsText(const ComparisonLimits& limits) {
   return "Limits for other pixels: in the first iteration at least " + percent(limits.found_share) +
          " of the templates at one place found within " + fixed(limits.found_px, 1) +
          " px of each other, at least " + percent(limits.inlier_share) +
-         " of the inliers of either inliers of both; final poses " + fixed(limits.pose_sigmas, 1) +
-         " sigmas apart at most.";
+         " of the inliers of either inliers of both (shares of ten or more); final poses " +
+         fixed(limits.pose_sigmas, 1) + " sigmas apart at most.";
 }
 
 }  // namespace boresight::sessions
