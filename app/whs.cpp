@@ -23,6 +23,7 @@ int run(int argc, char** argv) {
   addLocalize(app, exit_code);
   addEvaluate(app, exit_code);
   addCompare(app, exit_code);
+  addCheck(app, exit_code);
   addSolve(app, exit_code);
   addRender(app, exit_code);
   addInfo(app, exit_code);

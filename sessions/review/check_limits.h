@@ -10,15 +10,77 @@
 
 namespace boresight::sessions {
 
-/// Limits of the checks, declared once for the panel, the session's file and the command line.
+/// Limits of the checks, declared once for the panel, the session's file and the command line. What
+/// each is for, and where its value comes from: checks.md.
 struct CheckLimits {
+  double last_correction_percent = 25.0;
   double inlier_count = 12.0;
+  double inlier_ratio_percent = 40.0;
+  double inlier_spread_percent = 40.0;
+  double inlier_depth_percent = 25.0;
+  double border_percent = 40.0;
+  double peak_margin_percent = 2.0;
+  double sigmas = 3.0;
+  double focal_sigma_px = 0.0;
+  double centre_sigma_px = 0.0;
+  double agreement_percent = 100.0;
+  double basin_percent = 90.0;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
+    matchingFields(self, visit);
+    precisionFields(self, visit);
+  }
+
+ private:
+  template <class Self, class Visitor>
+  static void matchingFields(Self& self, Visitor&& visit) {
+    visit(OptionInfo{"check.last_correction_percent", "%", 0.0, 1000.0,
+                     "Most that the last correction may be of the first one, in the image; a first "
+                     "one below a pixel counts as a pixel."},
+          self.last_correction_percent);
     visit(OptionInfo{"check.inlier_count", "", 0.0, 10000.0,
                      "Inliers that the last matching iteration must have at least."},
           self.inlier_count);
+    visit(OptionInfo{"check.inlier_ratio_percent", "%", 0.0, 100.0,
+                     "Least share of inliers among the matches of that iteration."},
+          self.inlier_ratio_percent);
+    visit(OptionInfo{"check.inlier_spread_percent", "%", 0.0, 1000.0,
+                     "Least spread of the inliers over the image of the station, in the direction "
+                     "in which they spread least; 100: as wide as its edges."},
+          self.inlier_spread_percent);
+    visit(OptionInfo{"check.inlier_depth_percent", "%", 0.0, 1000.0,
+                     "The same along the view axis, of a station that has depth."},
+          self.inlier_depth_percent);
+    visit(OptionInfo{"check.border_percent", "%", 0.0, 100.0,
+                     "Most matches that may lie on the border of their search window: what they "
+                     "look for may lie beyond."},
+          self.border_percent);
+    visit(OptionInfo{"check.peak_margin_percent", "%", 0.0, 100.0,
+                     "Least median, over the inliers, by which the best score exceeds the second."},
+          self.peak_margin_percent);
+  }
+  template <class Self, class Visitor>
+  static void precisionFields(Self& self, Visitor&& visit) {
+    visit(OptionInfo{"check.sigmas", "", 0.0, 100.0,
+                     "So many standard deviations of the pose must fit into the requirement."},
+          self.sigmas);
+    visit(OptionInfo{"check.focal_sigma_px", "px", 0.0, 1000.0,
+                     "Standard deviation of the calibrated focal length; 0: not known, and left "
+                     "out of the pose's."},
+          self.focal_sigma_px);
+    visit(
+        OptionInfo{"check.centre_sigma_px", "px", 0.0, 1000.0,
+                   "Standard deviation of the calibrated principal point, per axis; 0: not known, "
+                   "and left out."},
+        self.centre_sigma_px);
+    visit(OptionInfo{"check.agreement_percent", "%", 0.0, 10000.0,
+                     "Most that this pose and another (annotation, truth, second camera) may be "
+                     "apart, of what the requirement and both covariances allow."},
+          self.agreement_percent);
+    visit(OptionInfo{"check.basin_percent", "%", 0.0, 100.0,
+                     "Least share of further seeds that lead back to the same pose."},
+          self.basin_percent);
   }
 };
 

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/open_session.h"
+#include "sessions/io/atomic_file.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/json_writer.h"
+#include "sessions/review/checks.h"
+#include "sessions/review/checks_text.h"
+#include "sessions/session/case_run.h"
+#include "sessions/session/decision_json.h"
+#include "sessions/session/session_document.h"
+
+namespace boresight::app {
+namespace {
+
+using sessions::PoseSource;
+
+struct CheckArguments {
+  std::string session;
+  std::vector<std::string> cases;
+  std::string source = "run";
+  std::string preset;
+  std::string json;
+  int basin = 0;
+  bool sentences = false;
+
+  PoseSource poseSource() const {
+    return source == "annotation" ? PoseSource::kAnnotation : PoseSource::kRun;
+  }
+};
+
+/// A case's checks, or why there is no pose to check.
+struct CheckedCase {
+  std::string id;
+  std::vector<sessions::Check> checks;
+  std::string reason;
+};
+
+/// The session as it is judged: by its own preset and limits, or by another preset as it is.
+sessions::Session judgedBy(const sessions::Session& session, const std::string& preset) {
+  sessions::Session judged = session;
+  if (!preset.empty()) judged.review = {preset, {}, session.review.second_person};
+  return judged;
+}
+
+CheckedCase checkCase(const sessions::Session& session, const std::string& id,
+                      const CheckArguments& arguments) {
+  const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
+  const auto subject = sessions::reviewSubject(session, sessions::loadCase(*session.findCase(id)),
+                                               arguments.poseSource());
+  std::optional<sessions::BasinResult> basin;
+  if (arguments.basin > 0) basin = sessions::basinTest(subject, arguments.basin);
+  return {id, sessions::checkPose(subject, limits, basin), ""};
+}
+
+void writeJson(const CheckArguments& arguments, const std::string& preset,
+               const std::vector<CheckedCase>& cases) {
+  nlohmann::ordered_json json = {{"format", "boresight-checks"}, {"version", 1}};
+  json["preset"] = preset;
+  json["source"] = arguments.source;
+  json["cases"] = nlohmann::ordered_json::array();
+  for (const CheckedCase& one : cases) {
+    nlohmann::ordered_json made = {{"id", one.id}, {"passed", sessions::allPassed(one.checks)}};
+    if (!one.reason.empty()) made["reason"] = one.reason;
+    made["checks"] = nlohmann::ordered_json::array();
+    for (const sessions::Check& check : one.checks)
+      made["checks"].push_back(sessions::toJson(sessions::JudgedCheck{check, ""}));
+    json["cases"].push_back(std::move(made));
+  }
+  sessions::writeJsonFile(arguments.json, json);
+}
+
+int checkSession(const CheckArguments& arguments) {
+  if (!arguments.json.empty()) sessions::requireWritable(arguments.json);
+  const sessions::SessionDocument document = openToRead(arguments.session);
+  const sessions::Session session = judgedBy(document.session(), arguments.preset);
+  std::vector<std::string> ids = arguments.cases;
+  for (const std::string& id : ids) (void)requireCase(document, id);
+  if (ids.empty())
+    for (const auto& one : session.cases) ids.push_back(one->id);
+  int exit_code = kDone;
+  std::vector<CheckedCase> checked;
+  for (const std::string& id : ids) {
+    try {
+      checked.push_back(checkCase(session, id, arguments));
+      const CheckedCase& one = checked.back();
+      std::cout << id << "\n" << sessions::checksText(one.checks, arguments.sentences) << std::endl;
+      if (exit_code == kDone && !sessions::allPassed(one.checks)) exit_code = kNotConverged;
+    } catch (const sessions::InputError& error) {
+      std::cerr << error.what() << std::endl;
+      checked.push_back({id, {}, error.what()});
+      exit_code = kBadInput;
+    }
+  }
+  if (!arguments.json.empty()) writeJson(arguments, session.review.preset, checked);
+  return exit_code;
+}
+
+std::vector<std::string> presetNames() {
+  std::vector<std::string> names;
+  for (const sessions::CheckPreset& preset : sessions::checkPresets()) names.push_back(preset.name);
+  return names;
+}
+
+}  // namespace
+
+void addCheck(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "check",
+      "Checks the poses of a session before somebody vouches for them; runs no localization, but "
+      "for --basin. Exit status 0 when all checks pass, 4 when some fail, 3 where there is no pose "
+      "to check");
+  auto arguments = std::make_shared<CheckArguments>();
+  command->add_option("session", arguments->session, "Session file")->required()->type_name("FILE");
+  command->add_option("--case", arguments->cases, "Only this case; may be repeated")
+      ->type_name("ID");
+  command->add_option("--source", arguments->source, "Which pose: of the last run, or of the marks")
+      ->check(CLI::IsMember({"run", "annotation"}))
+      ->capture_default_str();
+  command
+      ->add_option("--basin", arguments->basin,
+                   "Run so many further seeds and see whether they lead back")
+      ->check(CLI::Range(0, 1000))
+      ->type_name("N");
+  command
+      ->add_option("--preset", arguments->preset,
+                   "Limits and requirement instead of the session's own")
+      ->check(CLI::IsMember(presetNames()))
+      ->type_name("NAME");
+  command->add_option("--json", arguments->json, "Write the checks to this file")
+      ->type_name("FILE");
+  command->add_flag("--sentences", arguments->sentences,
+                    "Say of every check what was found, not of failed ones alone");
+  command->callback([arguments, &exit_code] { exit_code = checkSession(*arguments); });
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "sessions/review/check_limits.h"
+#include "sessions/review/review_subject.h"
+#include "sessions/session/check.h"
+
+namespace boresight::sessions {
+
+/// How far the pose is from what else is known: the case's marks, its truth, the other cameras of
+/// its rig (the one that is farthest off).
+void addAgreementChecks(const ReviewSubject& subject, const CheckLimits& limits,
+                        std::vector<Check>& checks);
+
+/// Whether a pose lies within everything that a requirement names of another one.
+bool withinRequirement(const ReviewSubject& subject, const Pose& camera_from_station);
+
+}  // namespace boresight::sessions

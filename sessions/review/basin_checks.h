@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sessions/review/check_limits.h"
+#include "sessions/review/checks.h"
+#include "sessions/session/check.h"
+
+namespace boresight::sessions {
+
+/// What became of other seeds: enough lead back, and none to another pose.
+void addBasinChecks(const std::optional<BasinResult>& basin, const CheckLimits& limits,
+                    std::vector<Check>& checks);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/review/review_subject.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/localizer/localizer.h"
+#include "sessions/annotation/mark_equations.h"
+#include "sessions/io/errors.h"
+#include "sessions/review/check_limits.h"
+#include "sessions/session/case_marks.h"
+#include "sessions/session/rig_links.h"
+
+namespace boresight::sessions {
+namespace {
+
+/// The run of this digest, or the last one.
+const RunRecord& runToReview(const Session& session, const std::string& case_id,
+                             const std::string& digest) {
+  const RunRecord* found = nullptr;
+  for (const RunRecord& run : session.runs)
+    if (run.case_id == case_id && (digest.empty() || run.digest == digest)) found = &run;
+  if (found != nullptr) return *found;
+  throw InputError("case " + case_id, "runs",
+                   digest.empty() ? "it was not run yet: run it first"
+                                  : "there is no run of the digest " + digest);
+}
+
+Requirement requirementFor(const Session& session, const SessionCase& one) {
+  if (one.requirement) return *one.requirement;
+  const CheckPreset* preset = findCheckPreset(session.review.preset);
+  if (preset == nullptr)
+    throw InputError("session", "review.preset",
+                     "there is no preset '" + session.review.preset + "'");
+  return preset->requirement;
+}
+
+std::optional<OtherPose> poseOfMarks(const Session& session, const LoadedCase& loaded,
+                                     std::string& reason) {
+  const std::string& id = loaded.source.id;
+  reason = "it has no marks";
+  if (!session.annotations.contains(id)) return {};
+  const CaseMarksSolution solved =
+      solveCaseMarks(caseMarks(session, id), marksGuess(loaded.source),
+                     boxCorners(matchedBounds(loaded.scene.view())), false);
+  reason = solved.result.reason;
+  if (!solved.result.solution) return {};
+  return OtherPose{"the annotation", *solved.camera_from_station(),
+                   cameraCovariance(*solved.result.solution, solved.marks.views.front())};
+}
+
+/// Another camera's pose as this camera sees the station. Nothing unless its last run converged
+/// with the inputs that it has now.
+std::optional<OtherPose> seenByOther(const Session& session, const SessionCase& one,
+                                     const SessionCase& other) {
+  const RunRecord* run = session.lastRunOf(other.id);
+  if (run == nullptr || run->inputs_sha256 != inputsDigest(other) ||
+      run->status != localizationStatusText(LocalizationStatus::kConverged))
+    return {};
+  const LocalizationTrace trace = loadRun(*run);
+  const Pose one_from_other = one.rig->camera_from_rig * other.rig->camera_from_rig.inverse();
+  const Matrix6d turned = adjoint(one_from_other);
+  return OtherPose{other.id, one_from_other * trace.camera_from_station,
+                   Matrix6d(turned * trace.covariance * turned.transpose())};
+}
+
+std::vector<OtherPose> otherCameras(const Session& session, const SessionCase& one) {
+  std::vector<OtherPose> found;
+  for (const std::string& id : casesOfRig(session, one.id)) {
+    auto other = seenByOther(session, one, *session.findCase(id));
+    if (other) found.push_back(std::move(*other));
+  }
+  return found;
+}
+
+void takeRun(const RunRecord& record, ReviewSubject& subject) {
+  subject.run = snapshotOf(loadRun(record));
+  subject.camera_from_station = subject.run->camera_from_station;
+  subject.covariance = subject.run->covariance;
+}
+
+}  // namespace
+
+ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const LoadedCase> loaded,
+                            PoseSource source, const std::string& digest) {
+  ReviewSubject subject;
+  const SessionCase& one = loaded->source;
+  subject.requirement = requirementFor(session, one);
+  subject.source = source;
+  std::string reason;
+  auto marked = poseOfMarks(session, *loaded, reason);
+  if (source == PoseSource::kRun) {
+    takeRun(runToReview(session, one.id, digest), subject);
+    subject.annotated = std::move(marked);
+  } else {
+    if (!marked) throw InputError("case " + one.id, "marks", "they give no pose: " + reason);
+    subject.camera_from_station = marked->camera_from_station;
+    subject.covariance = marked->covariance;
+  }
+  if (one.rig) subject.other_cameras = otherCameras(session, one);
+  subject.loaded = std::move(loaded);
+  return subject;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/review/run_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "sessions/review/check_making.h"
+#include "sessions/review/inlier_spread.h"
+#include "sessions/trace/match_details.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr CheckName kConverged{"converged", "Converged"};
+constexpr CheckName kCorrections{"corrections_shrink", "Corrections shrink"};
+constexpr CheckName kCount{"inlier_count", "Inliers"};
+constexpr CheckName kRatio{"inlier_ratio", "Inliers among the matches"};
+constexpr CheckName kSpread{"inlier_spread", "Spread of the inliers over the station"};
+constexpr CheckName kDepth{"inlier_depth", "Spread of the inliers in depth"};
+constexpr CheckName kBorder{"matches_at_border", "Matches on window borders"};
+constexpr CheckName kMargin{"peak_margin", "Best against second-best place"};
+
+constexpr const char* kFromMarks = "The pose comes from marks, not from a run.";
+constexpr const char* kNoMatching = "The run has no iteration that matched.";
+/// Half the width of a pixel tells a line of edges from a plane of them.
+constexpr double kSpreadFloor_px = 1.0;
+/// A station whose edges lie within so small a part of their distance has no depth to speak of.
+constexpr double kLeastDepthShare = 0.01;
+
+std::string count(double value) { return std::to_string(static_cast<long>(std::lround(value))); }
+
+Check convergedCheck(const RunSnapshot& run) {
+  const std::string found =
+      run.converged()
+          ? "The run converged after " + std::to_string(run.iterations.size()) + " iterations."
+          : std::string("The run ended as ") + localizationStatusText(run.status) + ".";
+  return statedCheck(
+      kConverged, run.converged(), found,
+      "Look at the iteration in which it failed; begin nearer, or mark what cannot be trusted.");
+}
+
+/// Of the last attempt, those iterations that came to a pose.
+std::vector<const IterationTrace*> lastAttempt(const RunSnapshot& run) {
+  std::vector<const IterationTrace*> found;
+  for (const auto& one : run.iterations) {
+    if (!found.empty() && found.back()->attempt != one->attempt) found.clear();
+    if (one->status == LocalizationStatus::kRunning ||
+        one->status == LocalizationStatus::kConverged)
+      found.push_back(one.get());
+  }
+  return found;
+}
+
+Check correctionsCheck(const RunSnapshot& run, const CheckLimits& limits) {
+  const auto iterations = lastAttempt(run);
+  if (iterations.size() < 2)
+    return notAskedCheck(kCorrections, "Fewer than two iterations came to a pose.");
+  const double first_px = iterations.front()->correction_image_px;
+  const double last_px = iterations.back()->correction_image_px;
+  const std::string found = "The first iteration moved the station by " + sentenceNumber(first_px) +
+                            " px in the image, the last one by " + sentenceNumber(last_px) + " px.";
+  return measuredCheck(kCorrections, "%", 100.0 * last_px / std::max(first_px, 1.0),
+                       limits.last_correction_percent, LimitSide::kAtMost, found,
+                       "The pose has not settled: run with more iterations, or look at what the "
+                       "last ones matched.");
+}
+
+const IterationTrace* lastMatching(const RunSnapshot& run) {
+  const IterationTrace* found = nullptr;
+  for (const auto& one : run.iterations)
+    if (one->kind == IterationKind::kMatch && one->reached > Stage::kRender) found = one.get();
+  return found;
+}
+
+void addCounts(const IterationTrace& iteration, const CheckLimits& limits,
+               std::vector<Check>& checks) {
+  const double inliers = iteration.pnp.inlier_count;
+  const double matches = iteration.correspondence_count;
+  const std::string found = count(inliers) + " of " + count(matches) +
+                            " matches of the last matching iteration agree on the pose.";
+  checks.push_back(measuredCheck(
+      kCount, "", inliers, limits.inlier_count, LimitSide::kAtLeast, found,
+      "So few may agree by chance: look at the templates that were not matched, and at the mesh."));
+  checks.push_back(measuredCheck(
+      kRatio, "%", matches > 0.0 ? 100.0 * inliers / matches : 0.0, limits.inlier_ratio_percent,
+      LimitSide::kAtLeast, found,
+      "Many matches contradict the pose: look at where they lie; mask what does not belong to the "
+      "station."));
+}
+
+struct InlierPlaces {
+  std::vector<Eigen::Vector2d> inliers_px;
+  std::vector<double> inlier_depths_m;
+  std::vector<Eigen::Vector2d> edges_px;
+  std::vector<double> edge_depths_m;
+};
+
+InlierPlaces inlierPlaces(const IterationTrace& iteration) {
+  InlierPlaces made;
+  for (const MatchDetails& match : matchDetails(iteration)) {
+    if (!match.inlier) continue;
+    made.inliers_px.push_back(match.found_px);
+    made.inlier_depths_m.push_back(match.depth_m);
+  }
+  for (const EdgePixel& pixel : iteration.render.pixels) {
+    made.edges_px.push_back(fullImagePixel(pixel.x, pixel.y, iteration.level));
+    made.edge_depths_m.push_back(static_cast<double>(pixel.depth_m));
+  }
+  return made;
+}
+
+Check spreadCheck(const InlierPlaces& places, const CheckLimits& limits) {
+  const auto spread = leastSpread(places.inliers_px, places.edges_px, kSpreadFloor_px);
+  if (!spread) return notAskedCheck(kSpread, "The run did not keep where its inliers lie.");
+  const std::string percent = count(100.0 * *spread);
+  return measuredCheck(
+      kSpread, "%", 100.0 * *spread, limits.inlier_spread_percent, LimitSide::kAtLeast,
+      "In the direction in which they spread least, the inliers spread " + percent +
+          " % as wide as the station's edges.",
+      "A part of the station holds the pose alone, and errors grow away from it: look for what "
+      "hides the rest, or for another station there.");
+}
+
+Check depthCheck(const InlierPlaces& places, const CheckLimits& limits) {
+  const auto& depths = places.edge_depths_m;
+  if (depths.size() < 2 || places.inliers_px.size() < 2)
+    return notAskedCheck(kDepth, "The run did not keep where its inliers lie.");
+  const double edges_m = deviationOf(depths);
+  if (edges_m < kLeastDepthShare * medianOf(depths))
+    return notAskedCheck(kDepth, "The station's edges lie at nearly the same distance.");
+  const double inliers_m = deviationOf(places.inlier_depths_m);
+  return measuredCheck(
+      kDepth, "%", 100.0 * inliers_m / edges_m, limits.inlier_depth_percent, LimitSide::kAtLeast,
+      "Along the view axis the inliers spread by " + sentenceNumber(1e3 * inliers_m) +
+          " mm, the station's edges by " + sentenceNumber(1e3 * edges_m) +
+          " mm (standard deviations).",
+      "Inliers at one depth leave distance and tilt loose: look at the templates nearer and "
+      "farther.");
+}
+
+Check borderCheck(const IterationTrace& iteration, const CheckLimits& limits) {
+  double searched = 0.0;
+  double at_border = 0.0;
+  for (const Match& match : iteration.matches) {
+    searched += match.searched ? 1.0 : 0.0;
+    at_border += match.searched && match.at_border ? 1.0 : 0.0;
+  }
+  if (searched == 0.0)
+    return notAskedCheck(kBorder, "The run did not keep where its templates were found.");
+  return measuredCheck(kBorder, "%", 100.0 * at_border / searched, limits.border_percent,
+                       LimitSide::kAtMost,
+                       count(at_border) + " of " + count(searched) +
+                           " templates were found on the border of their search window.",
+                       "The station may lie beyond the windows: begin nearer, or declare a larger "
+                       "uncertainty.");
+}
+
+Check marginCheck(const IterationTrace& iteration, const CheckLimits& limits) {
+  std::vector<double> margins;
+  for (const MatchDetails& match : matchDetails(iteration))
+    if (match.inlier && std::isfinite(match.margin)) margins.push_back(100.0 * match.margin);
+  if (margins.empty())
+    return notAskedCheck(kMargin, "No inlier has a second-best place to compare with.");
+  const double median = medianOf(margins);
+  return measuredCheck(kMargin, "%", median, limits.peak_margin_percent, LimitSide::kAtLeast,
+                       "Half of the inliers score at least " + sentenceNumber(median) +
+                           " % above their second-best place.",
+                       "The templates could as well lie elsewhere: look at the score maps for a "
+                       "pattern that repeats.");
+}
+
+void addMatchingChecks(const RunSnapshot& run, const CheckLimits& limits,
+                       std::vector<Check>& checks) {
+  const IterationTrace* iteration = lastMatching(run);
+  if (iteration == nullptr) {
+    for (const CheckName& name : {kCount, kRatio, kSpread, kDepth, kBorder, kMargin})
+      checks.push_back(notAskedCheck(name, kNoMatching));
+    return;
+  }
+  addCounts(*iteration, limits, checks);
+  const InlierPlaces places = inlierPlaces(*iteration);
+  checks.push_back(spreadCheck(places, limits));
+  checks.push_back(depthCheck(places, limits));
+  checks.push_back(borderCheck(*iteration, limits));
+  checks.push_back(marginCheck(*iteration, limits));
+}
+
+}  // namespace
+
+void addRunChecks(const ReviewSubject& subject, const CheckLimits& limits,
+                  std::vector<Check>& checks) {
+  if (!subject.run) {
+    for (const CheckName& name :
+         {kConverged, kCorrections, kCount, kRatio, kSpread, kDepth, kBorder, kMargin})
+      checks.push_back(notAskedCheck(name, kFromMarks));
+    return;
+  }
+  checks.push_back(convergedCheck(*subject.run));
+  checks.push_back(correctionsCheck(*subject.run, limits));
+  addMatchingChecks(*subject.run, limits, checks);
+}
+
+}  // namespace boresight::sessions
