@@ -25,6 +25,8 @@ namespace {
 using sessions::IterationComparison;
 using sessions::RunVerdict;
 
+constexpr int kShownWidth_px = 120;  // the least; it has as many lines as it takes
+
 enum Column { kIteration, kAlike, kInliers, kTranslation, kRotation, kColumns };
 
 QLabel* wrapped(const char* name, QWidget* parent) {
@@ -92,11 +94,13 @@ QWidget* OnboardPanel::buildButtons() {
   row->setContentsMargins(8, 3, 4, 3);
   shown_ = new QLabel(banner_);
   shown_->setObjectName(QStringLiteral("shownRun"));
-  show_onboard_ = button("showOnboard", tr("Show onboard run"),
+  shown_->setWordWrap(true);
+  shown_->setMinimumWidth(kShownWidth_px);
+  show_onboard_ = button("showOnboard", tr("Show onboard"),
                          tr("Every view shows the run as its record has it"));
   show_ground_ =
-      button("showGround", tr("Show ground run"), tr("Every view shows the run on the ground"));
-  rerun_ = button("rerunOnGround", tr("Re-run on the ground"),
+      button("showGround", tr("Show ground"), tr("Every view shows the run on the ground"));
+  rerun_ = button("rerunOnGround", tr("Re-run"),
                   tr("Run the case here by the options of the record; the run is stored"));
   load_ = button("loadRecord", tr("Load..."),
                  tr("Attach the onboard record of this case (.whsr); it can be dropped on the "
@@ -186,8 +190,8 @@ void OnboardPanel::updateButtons() {
   rerun_->setEnabled(has && idle && onboard_.review()->plan.has_options);
   load_->setEnabled(state_.currentCase() != nullptr);
   remove_->setEnabled(!onboard_.file().empty());
-  shown_->setText(onboard ? tr("▲ The views show the ONBOARD run, replayed from its record.")
-                  : state_.snapshot() ? tr("▼ The views show the run on the ground.")
+  shown_->setText(onboard             ? tr("▲ ONBOARD run in every view, replayed")
+                  : state_.snapshot() ? tr("▼ Ground run in every view")
                                       : tr("No run is shown."));
   const QPalette base = palette();
   banner_->setPalette(onboard ? tinted(base, plotColors(base).second) : base);
@@ -210,14 +214,18 @@ void OnboardPanel::showRecord() {
   }
   QString html = QStringLiteral("<table>");
   const auto line = [&html](const QString& label, const QString& value) {
-    html += QStringLiteral("<tr><td style='padding-right:10px'>%1</td><td>%2</td></tr>")
+    html += QStringLiteral(
+                "<tr><td style='padding-right:10px; white-space:nowrap'>%1</td><td>%2</td></tr>")
                 .arg(label.toHtmlEscaped(), value.toHtmlEscaped());
   };
   line(tr("File"), QString::fromStdString(file.filename().string()));
   for (const auto& [label, value] : sessions::recordSheet(onboard_.review()->record))
     line(fromText(label), fromText(value).replace(QLatin1Char('_'), QLatin1Char(' ')));
   sheet_->setText(html + QStringLiteral("</table>"));
-  sheet_->setToolTip(QString::fromStdString(file.string()));
+  QString whole = QString::fromStdString(file.string());
+  if (const auto& end = onboard_.review()->record.end)
+    whole += QLatin1Char('\n') + tr("Digest %1").arg(fromText(end->digest));
+  sheet_->setToolTip(whole);
   QStringList remarks;
   for (const std::string& text : onboard_.review()->replay->remarks)
     remarks << QStringLiteral("• ") + fromText(text);
