@@ -101,9 +101,11 @@ QueueController::Compared QueueController::compare(const sessions::Session& sess
 void QueueController::setLookedAt(List list) {
   if (looked_at_ == list) return;
   looked_at_ = list;
+  rows_.setActive(false);
+  differences_.setActive(false);
+  follow();  // before anything is made of what was looked at last
   rows_.setActive(list == List::kTrouble);
   differences_.setActive(list == List::kDifferences);
-  follow();
 }
 
 void QueueController::follow() {
