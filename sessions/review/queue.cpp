@@ -52,7 +52,6 @@ void takeChecks(std::vector<Check> checks, QueueRow& row) {
     row.passed += check.state == CheckState::kPassed ? 1 : 0;
     row.failed += check.state == CheckState::kFailed ? 1 : 0;
   }
-  takeMargin(row);
 }
 
 void takeRun(const ReviewSubject& subject, QueueRow& row) {
@@ -80,6 +79,7 @@ void checkRun(const Session& session, std::shared_ptr<const LoadedCase> loaded, 
   takeRun(subject, row);
   const CheckLimits limits = checkLimits(session.review.preset, session.review.limits);
   takeChecks(checkPose(subject, limits), row);
+  if (subject.run->converged()) takeMargin(row);  // else the seed stands in for the pose
   row.subject = withoutData(subject);
   row.trouble = subject.run->converged() ? validationConcern(session, subject)
                                          : "the run failed: " + explanation(traceOf(*subject.run));

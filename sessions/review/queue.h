@@ -52,7 +52,7 @@ struct QueueRow {
   int passed = 0;
   int failed = 0;
   /// Of the failed check that is farthest beyond its limit; when none failed, of the passed one
-  /// that is nearest to its own. Nothing when none of them has a margin.
+  /// that is nearest to its own. Nothing when none of them has a margin, or the run failed.
   std::optional<double> margin;
   std::string margin_of;  ///< the title of that check
   std::optional<SeedDistance> from_seed;

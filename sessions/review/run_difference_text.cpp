@@ -58,9 +58,11 @@ std::string differenceText(const RunDifference& made) {
   TextTable table({made.case_id, "before", "now"});
   for (const DifferenceLine& line : differenceLines(made))
     table.add({line.label, line.before, line.after});
-  return table.text() + "Final poses " + fixedText(made.comparison.translation_mm, 3) + " mm and " +
-         fixedText(made.comparison.rotation_mrad, 3) + " mrad apart at the camera.\n" +
-         changeText(made) + "\n";
+  std::string apart;
+  if (made.before.converged && made.after.converged)
+    apart = "Final poses " + fixedText(made.comparison.translation_mm, 3) + " mm and " +
+            fixedText(made.comparison.rotation_mrad, 3) + " mrad apart at the camera.\n";
+  return table.text() + apart + changeText(made) + "\n";
 }
 
 }  // namespace boresight::sessions

@@ -68,6 +68,7 @@ QString textOf(const RunDifference& made, int column) {
     case DifferencesModel::kInliers:
       return beforeAndNow(made.before.inliers, made.after.inliers);
     case DifferencesModel::kApart:
+      if (!made.before.converged || !made.after.converged) return {};
       return DifferencesModel::tr("%1 mm, %2 mrad")
           .arg(numberText(made.comparison.translation_mm, 3),
                numberText(made.comparison.rotation_mrad, 3));

@@ -181,7 +181,7 @@ void QueuePanel::showDifferences(bool shown) {
 void QueuePanel::lookAt() {
   lists_->setCurrentWidget(table());
   const bool differences = table() == differences_table_;
-  controller_.setLookedAt(!isVisible()  ? QueueController::List::kNone
+  controller_.setLookedAt(!in_sight_    ? QueueController::List::kNone
                           : differences ? QueueController::List::kDifferences
                                         : QueueController::List::kTrouble);
   showEntries();
@@ -191,11 +191,10 @@ void QueuePanel::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
   if (name_->text().isEmpty())
     name_->setText(QSettings().value(QLatin1String(kNameKey)).toString());
-  lookAt();
 }
 
-void QueuePanel::hideEvent(QHideEvent* event) {
-  QWidget::hideEvent(event);
+void QueuePanel::setInSight(bool in_sight) {
+  in_sight_ = in_sight;
   lookAt();
 }
 

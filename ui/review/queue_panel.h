@@ -32,6 +32,9 @@ class QueuePanel : public QWidget {
   explicit QueuePanel(Document& document, QWidget* parent = nullptr);
 
   QueueController& controller() { return controller_; }
+  /// Whether somebody can see it: behind another panel's tab nobody does, though Qt calls it
+  /// visible. Nothing is checked out of sight.
+  void setInSight(bool in_sight);
   /// Of the chosen row of the list that is shown, or empty.
   QString chosenCase() const;
   /// What was said last: why something cannot be done, what is asked for, what was done.
@@ -54,7 +57,6 @@ class QueuePanel : public QWidget {
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
   void showEvent(QShowEvent* event) override;
-  void hideEvent(QHideEvent* event) override;
 
  private:
   using Act = QueueController::Act;
@@ -96,6 +98,7 @@ class QueuePanel : public QWidget {
   QLabel* message_ = nullptr;
   std::optional<Act> pending_;  ///< waits for name and comment
   QString pending_case_;
+  bool in_sight_ = false;
   bool fitted_ = false;
 };
 

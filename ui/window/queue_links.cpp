@@ -4,6 +4,7 @@
 #include <string>
 
 #include <QAction>
+#include <QDockWidget>
 #include <QMenu>
 
 #include "ui/models/number_text.h"
@@ -25,6 +26,8 @@ QueueLinks::QueueLinks(const WindowParts& parts, const WindowDocks& docks, QObje
           [this](const QString& id, const QString& digest, int iteration) {
             open({id, digest.toStdString(), iteration});
           });
+  auto* dock = qobject_cast<QDockWidget*>(docks.queue().parentWidget());
+  connect(dock, &QDockWidget::visibilityChanged, &docks.queue(), &QueuePanel::setInSight);
   connect(&parts_.state, &ViewState::snapshotChanged, this, &QueueLinks::goThere);
   connect(&parts_.cases, &CaseController::caseChosen, this, [this](const QString& id) {
     if (wanted_ && wanted_->case_id != id) wanted_.reset();  // somebody went elsewhere
