@@ -24,7 +24,8 @@ namespace boresight::ui {
 namespace {
 
 constexpr const char* kNameKey = "review/name";
-constexpr QSize kThumbnail_px{84, 63};  // of a screen without scaling
+constexpr QSize kThumbnail_px{76, 57};  // of a screen without scaling
+constexpr int kUsualName = 18;          // letters
 constexpr int kTroubleTab = 0;
 constexpr int kDifferencesTab = 1;
 
@@ -224,7 +225,7 @@ void QueuePanel::fitColumns() {
     queue_table_->resizeColumnToContents(column);
   queue_table_->setColumnWidth(
       QueueModel::kCase,
-      kThumbnail_px.width() + 16 + fontMetrics().horizontalAdvance(QStringLiteral("m")) * 14);
+      kThumbnail_px.width() + 16 + kUsualName * fontMetrics().averageCharWidth());
   ui::fitColumns(*differences_table_);
 }
 
