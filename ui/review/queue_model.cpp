@@ -38,12 +38,12 @@ constexpr ColumnInfo kColumns[] = {
                        "What to look at. Sorted by it: failed runs, then failed checks, then the "
                        "margin, then the distance from the seed; what is decided comes last."),
      -1},
-    {QT_TRANSLATE_NOOP("boresight::ui::QueueModel", "Margin, %"),
+    {QT_TRANSLATE_NOOP("boresight::ui::QueueModel", "Margin,\n%"),
      QT_TRANSLATE_NOOP("boresight::ui::QueueModel",
                        "How far the worst check's figure is on the good side of its limit, in "
                        "percent of the limit; negative: beyond it."),
      0},
-    {QT_TRANSLATE_NOOP("boresight::ui::QueueModel", "From seed"),
+    {QT_TRANSLATE_NOOP("boresight::ui::QueueModel", "From\nseed"),
      QT_TRANSLATE_NOOP("boresight::ui::QueueModel",
                        "How far the result is from the seed, in mm and mrad, and as a part of the "
                        "seed's stated uncertainty (100 %: on its border)."),
@@ -76,10 +76,10 @@ QString troubleOf(const QueueEntry& entry) {
 
 QString fromSeedText(const QueueRow& row) {
   if (!row.from_seed) return {};
-  return QueueModel::tr("%1 mm, %2 mrad (%3 %)")
-      .arg(numberText(row.from_seed->translation_mm, 1),
-           numberText(row.from_seed->rotation_mrad, 1),
-           numberText(kPercent * row.from_seed->share, 0));
+  return QueueModel::tr("%1 %\n%2 mm\n%3 mrad")
+      .arg(numberText(kPercent * row.from_seed->share, 0),
+           numberText(row.from_seed->translation_mm, 1),
+           numberText(row.from_seed->rotation_mrad, 1));
 }
 
 QString tooltipOf(const QueueEntry& entry, int column) {

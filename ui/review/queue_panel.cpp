@@ -84,7 +84,8 @@ void QueuePanel::buildTables() {
   queue_table_->setModel(&filter_);
   styleTable(*queue_table_);
   queue_table_->setIconSize(kThumbnail_px);
-  queue_table_->verticalHeader()->setDefaultSectionSize(kThumbnail_px.height() + 4);
+  queue_table_->verticalHeader()->setDefaultSectionSize(
+      std::max(kThumbnail_px.height(), 3 * fontMetrics().lineSpacing()) + 4);
   queue_table_->setWordWrap(true);
   queue_table_->setSortingEnabled(true);
   queue_table_->sortByColumn(QueueModel::kTrouble, Qt::AscendingOrder);
@@ -220,9 +221,14 @@ void QueuePanel::showEntries() {
 void QueuePanel::fitColumns() {
   if (fitted_ || model_.rowCount() == 0) return;
   fitted_ = controller_.doneCount() > 0;
-  for (const int column :
-       {QueueModel::kStanding, QueueModel::kMargin, QueueModel::kFromSeed, QueueModel::kInliers})
-    queue_table_->resizeColumnToContents(column);
+  // Headers would keep room for the sign of the order in every column.
+  const auto fit = [this](int column, const QString& widest) {
+    queue_table_->setColumnWidth(column, fontMetrics().horizontalAdvance(widest) + 14);
+  };
+  fit(QueueModel::kStanding, QStringLiteral("✓ converged"));
+  fit(QueueModel::kMargin, QStringLiteral("Margin,"));
+  fit(QueueModel::kFromSeed, QStringLiteral("000.0 mrad"));
+  fit(QueueModel::kInliers, QStringLiteral("Inliers"));
   queue_table_->setColumnWidth(
       QueueModel::kCase,
       kThumbnail_px.width() + 16 + kUsualName * fontMetrics().averageCharWidth());
