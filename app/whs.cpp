@@ -27,6 +27,7 @@ int run(int argc, char** argv) {
   addDecide(app, exit_code);
   addVerify(app, exit_code);
   addReport(app, exit_code);
+  addQueue(app, exit_code);
   addSolve(app, exit_code);
   addRender(app, exit_code);
   addInfo(app, exit_code);

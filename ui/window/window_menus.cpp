@@ -26,6 +26,7 @@
 #include "ui/views/mask_editor.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/loupe_menu.h"
+#include "ui/window/queue_links.h"
 #include "ui/window/recent_files.h"
 #include "ui/window/session_files.h"
 #include "ui/window/shortcut_sheet.h"
@@ -281,6 +282,7 @@ void WindowMenus::buildViewMenu() {
   connect(swipe, &QAction::triggered, image, &ImagePanel::toggleSwipe);
   connect(core, &QAction::triggered, image, &ImagePanel::toggleCoreView);
   menu->addActions({blink, swipe, core});
+  QueueLinks::addActions(*menu->addMenu(tr("&Queue")), docks_);
   menu->addSeparator();
   for (QDockWidget* each : docks_.all()) menu->addAction(each->toggleViewAction());
   menu->addSeparator();
