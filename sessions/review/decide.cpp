@@ -97,6 +97,10 @@ Session withDecision(const Session& session, Decision decision) {
 
 }  // namespace
 
+bool samePerson(const std::string& one, const std::string& other) {
+  return comparableName(one) == comparableName(other);
+}
+
 std::string validationConcern(const Session& session, const ReviewSubject& subject) {
   const std::string& id = subject.loaded->source.id;
   const SessionCase* one = session.findCase(id);
@@ -142,7 +146,7 @@ Session approved(const Session& session, const std::string& case_id, const Signa
   if (!standing.holds()) throw DecisionError("the validation no longer holds: " + standing.dropped);
   if (standing.decision->approval)
     throw DecisionError("it has been approved already, by " + standing.decision->approval->by);
-  if (comparableName(standing.decision->by) == comparableName(signature.by))
+  if (samePerson(standing.decision->by, signature.by))
     throw DecisionError(signature.by + " validated it: somebody else has to approve");
   Decision decision = *standing.decision;
   decision.approval = Approval{signature.by, signature.comment, utcNowText()};

@@ -24,6 +24,9 @@ struct Signature {
   std::string comment;
 };
 
+/// Whether two names are one person's, whatever the case of their letters and their blanks.
+bool samePerson(const std::string& one, const std::string& other);
+
 /// Reasons for passing over failed checks, by their ids.
 using CheckOverrides = std::map<std::string, std::string>;
 

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sessions/session/session.h"
+
+namespace boresight::sessions {
+
+/// The pose with which a case is handed over, and what is to be said of it everywhere.
+struct HandedPose {
+  std::string case_id;
+  PoseSource source = PoseSource::kRun;
+  Pose camera_from_station;
+  Matrix6d covariance = Matrix6d::Zero();  ///< left perturbation, camera frame; zero: none
+  std::string run_digest;                  ///< empty: the pose is the marks'
+  bool validated = false;
+  std::string standing;             ///< standingText: who validated it, or NOT VALIDATED and why
+  std::vector<JudgedCheck> checks;  ///< as they were judged; none without a decision that holds
+};
+
+/// The pose of a decision that holds, else that of the last run if it converged, else the marks'.
+/// InputError when there is none, or a run's trace cannot be read.
+HandedPose handedPose(const Session& session, const std::string& case_id);
+
+/// The same for several cases (all of them when none is named), in the order of the session; those
+/// without a pose are told in `notes`.
+struct HandedPoses {
+  std::vector<HandedPose> poses;
+  std::vector<std::string> notes;
+};
+HandedPoses handedPoses(const Session& session, const std::vector<std::string>& case_ids);
+
+}  // namespace boresight::sessions

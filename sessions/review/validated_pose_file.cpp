@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/review/validated_pose_file.h"
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/math.h"
+#include "sessions/annotation/marks_file.h"
+#include "sessions/evaluation/pose_sigma.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
+#include "sessions/io/json_writer.h"
+#include "sessions/review/end_effector_pose.h"
+#include "sessions/review/standing.h"
+#include "sessions/session/case_run.h"
+#include "sessions/session/decision_json.h"
+#include "sessions/session/rig_links.h"
+#include "sessions/session/session_json.h"
+#include "sessions/version.h"
+
+namespace boresight::sessions {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// What every number in the file means.
+ordered_json conventionsJson() {
+  return {{"a_from_b", "maps points of b into a: p_a = a_from_b * p_b; 4x4, row by row"},
+          {"length", "metre"},
+          {"angle", "radian, unless a name says deg or mrad"},
+          {"station", "the frame in which the station's parts are placed"},
+          {"camera", "x right, y down, z forward, origin at the projection centre"},
+          {"pixel_origin", "the centre of the top-left pixel is (0, 0); x right, y down"},
+          {"quaternion", "w x y z, unit length, w >= 0"},
+          {"covariance",
+           "6x6 over (rotation rad, translation m); of camera_from_station: left "
+           "perturbation in the camera frame, Exp(xi) * camera_from_station"}};
+}
+
+ordered_json quaternionJson(const Pose& pose) {
+  Eigen::Quaterniond q = pose.rotation;
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  return ordered_json::array({q.w(), q.x(), q.y(), q.z()});
+}
+
+ordered_json sigmaJson(const Matrix6d& covariance, const std::optional<Pose>& end_effector) {
+  const auto sigma = poseSigma(covariance, end_effector);
+  if (!sigma) return nullptr;
+  return {{"normal_mm", sigma->normal_mm},
+          {"lateral_mm", sigma->lateral_mm},
+          {"out_of_plane_mrad", sigma->out_of_plane_mrad},
+          {"translation_mm", toJson(sigma->translation_mm)},
+          {"rotation_mrad", toJson(sigma->rotation_mrad)},
+          {"of", end_effector ? "end effector" : "camera centre"}};
+}
+
+ordered_json poseJson(const HandedPose& pose, const SessionCase& one) {
+  ordered_json json;
+  json["source"] = pose.source == PoseSource::kRun ? "run" : "annotation";
+  json["camera_from_station"] = toJson(pose.camera_from_station);
+  json["station_from_camera"] = toJson(pose.camera_from_station.inverse());
+  json["camera_from_station_quaternion_wxyz"] = quaternionJson(pose.camera_from_station);
+  if (!pose.covariance.isZero()) {
+    json["covariance"] = toJson(pose.covariance);
+    json["one_sigma"] = sigmaJson(pose.covariance, one.camera_from_end_effector);
+  }
+  return json;
+}
+
+ordered_json endEffectorJson(const HandedPose& pose, const SessionCase& one) {
+  const EndEffectorPose made =
+      endEffectorPose(one.camera_from_station_seed, pose.camera_from_station,
+                      *one.camera_from_end_effector, pose.covariance);
+  const Pose& correction = made.end_effector_seed_from_end_effector_estimated;
+  ordered_json json;
+  json["station_from_end_effector"] = toJson(made.station_from_end_effector);
+  json["end_effector_seed_from_end_effector_estimated"] = toJson(correction);
+  json["correction_translation_m"] = toJson(correction.translation_m);
+  json["correction_rotation_deg"] =
+      toJson(Eigen::Vector3d(rotationLog(correction.rotation) / kDegree_rad));
+  if (!pose.covariance.isZero()) {
+    json["covariance"] = toJson(made.covariance);
+    json["covariance_is_of"] =
+        "(rotation rad, translation m), right perturbation in the end effector's frame";
+  }
+  return json;
+}
+
+ordered_json linkJson(const std::string& name, const Pose& pose, const std::string& from) {
+  return {{"name", name}, {"matrix", toJson(pose)}, {"from", from}};
+}
+
+/// Every transform that was used, and where it came from.
+ordered_json chainJson(const HandedPose& pose, const SessionCase& one) {
+  ordered_json chain = ordered_json::array();
+  chain.push_back(linkJson("camera_from_station_seed", one.camera_from_station_seed,
+                           "the case's seed, as it was given"));
+  for (const MeshInput& part : one.parts)
+    chain.push_back(
+        linkJson("station_from_mesh", part.source.station_from_mesh,
+                 part.source.mesh.filename().string() + ", sha256 " + part.sha256 +
+                     (part.source.mesh_unit.empty() ? ", in its own unit"
+                                                    : ", in " + part.source.mesh_unit)));
+  if (one.rig)
+    chain.push_back(
+        linkJson("camera_from_rig", one.rig->camera_from_rig, "rig '" + one.rig->id + "'"));
+  if (one.camera_from_end_effector)
+    chain.push_back(linkJson("camera_from_end_effector", *one.camera_from_end_effector,
+                             "the case's, as it was given"));
+  chain.push_back(linkJson(
+      "camera_from_station", pose.camera_from_station,
+      pose.source == PoseSource::kRun ? "run " + pose.run_digest : "the marks of the case"));
+  return chain;
+}
+
+ordered_json pixelJson(const Eigen::Vector2d& pixel) {
+  return ordered_json::array({pixel.x(), pixel.y()});
+}
+
+/// Of the last iteration that matched templates.
+ordered_json matchesJson(const LocalizationTrace& trace) {
+  const auto last =
+      std::find_if(trace.iterations.rbegin(), trace.iterations.rend(),
+                   [](const IterationTrace& one) { return one.kind == IterationKind::kMatch; });
+  ordered_json list = ordered_json::array();
+  if (last == trace.iterations.rend()) return list;
+  for (std::size_t i = 0; i < last->correspondences.size(); ++i) {
+    const Correspondence& one = last->correspondences[i];
+    ordered_json json;
+    json["point_in_station_m"] = toJson(one.point_in_station_m);
+    json["pixel"] = pixelJson(one.pixel);
+    if (i < last->pnp.inlier.size()) {
+      json["inlier"] = last->pnp.inlier[i] != 0;
+      json["residual_px"] = last->pnp.residual_px[i];
+    }
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+ordered_json runJson(const LocalizationTrace& trace) {
+  ordered_json json;
+  json["digest"] = trace.digest;
+  json["status"] = localizationStatusText(trace.status);
+  json["version"] = trace.version;
+  json["iterations"] = trace.iterations.size();
+  json["edge_support"] = trace.support.share();
+  json["edge_coverage"] = trace.support.coverage();
+  ordered_json options;
+  for (const OptionDescription& option : listOptions(trace.lastOptions()))
+    std::visit([&](const auto& value) { options[option.name] = value; }, option.value);
+  json["options"] = options;
+  json["matches"] = matchesJson(trace);
+  return json;
+}
+
+ordered_json decisionJson(const HandedPose& pose, const Standing& standing) {
+  ordered_json json;
+  json["verdict"] = pose.validated ? "validated" : "not validated";
+  if (!standing.holds()) return json;
+  const Decision& decision = *standing.decision;
+  json["by"] = decision.by;
+  json["comment"] = decision.comment;
+  json["time"] = decision.time;
+  if (const auto& approval = decision.approval)
+    json["approval"] = {
+        {"by", approval->by}, {"comment", approval->comment}, {"time", approval->time}};
+  return json;
+}
+
+ordered_json hashesJson(const SessionCase& one) {
+  ordered_json json;
+  json["image_file"] = one.image.source.sha256;
+  json["image_pixels"] = one.image.pixels_sha256;
+  for (const MeshInput& part : one.parts) json["meshes"].push_back(part.sha256);
+  if (one.ignore) json["ignore"] = one.ignore->sha256;
+  if (one.onboard_record) json["onboard_record"] = one.onboard_record->sha256;
+  json["inputs"] = inputsDigest(one);
+  return json;
+}
+
+}  // namespace
+
+Session sessionOfCase(const Session& session, const std::string& case_id,
+                      const std::string& run_digest) {
+  const std::vector<std::string> linked = casesOfRig(session, case_id);
+  Session made = session;
+  for (const auto& one : session.cases)
+    if (one->id != case_id && std::find(linked.begin(), linked.end(), one->id) == linked.end())
+      made = withoutCase(made, one->id);
+  std::erase_if(made.runs, [&](const RunRecord& run) {
+    return run.case_id != case_id || run.digest != run_digest;
+  });
+  std::erase_if(made.decisions, [&](const Decision& one) { return one.case_id != case_id; });
+  made.passes.clear();
+  made.view = {};
+  return made;
+}
+
+ordered_json signatureOf(const ordered_json& json) {
+  ordered_json rest = json;
+  rest.erase("signature");
+  const std::string text = rest.dump();
+  const std::string digest =
+      sha256Text(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+  return {{"algorithm", "SHA-256"},
+          {"over", "this document without its member signature, as compact JSON"},
+          {"digest", digest}};
+}
+
+ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
+                               const std::optional<LocalizationTrace>& trace,
+                               const std::filesystem::path& file) {
+  const SessionCase& one = *session.findCase(pose.case_id);
+  const Session alone = sessionOfCase(session, pose.case_id, pose.run_digest);
+  ordered_json json;
+  json["format"] = kValidatedPoseFormat;
+  json["version"] = kValidatedPoseVersion;
+  json["state"] = pose.validated ? "validated" : "NOT VALIDATED";
+  json["standing"] = pose.standing;
+  json["case"] = one.id;
+  json["station"] = one.station;
+  json["conventions"] = conventionsJson();
+  json["pose"] = poseJson(pose, one);
+  if (one.camera_from_end_effector) json["end_effector"] = endEffectorJson(pose, one);
+  json["chain"] = chainJson(pose, one);
+  json["decision"] = decisionJson(pose, standingOf(alone, one.id));
+  json["checks"] = ordered_json::array();
+  for (const JudgedCheck& judged : pose.checks) json["checks"].push_back(toJson(judged));
+  if (one.requirement) json["requirement"] = toJson(*one.requirement);
+  json["sha256"] = hashesJson(one);
+  if (trace) json["run"] = runJson(*trace);
+  if (const auto marks = session.annotations.find(one.id);
+      pose.source == PoseSource::kAnnotation && marks != session.annotations.end())
+    json["marks"] = toJson(*marks->second);
+  json["session"] = toJson(alone, file);
+  json["written"] = {{"by", std::string("Boresight ") + kVersion}, {"time", utcNowText()}};
+  json["signature"] = signatureOf(ordered_json::parse(prettyJson(json)));
+  return json;
+}
+
+void writeValidatedPose(const std::filesystem::path& file, const Session& session,
+                        const HandedPose& pose) {
+  std::optional<LocalizationTrace> trace;
+  const auto run = std::find_if(session.runs.begin(), session.runs.end(), [&](const auto& one) {
+    return one.case_id == pose.case_id && one.digest == pose.run_digest;
+  });
+  if (run != session.runs.end()) {
+    try {
+      trace = loadRun(*run);
+    } catch (const InputError&) {  // the pose does not need it: its matches are left out
+    }
+  }
+  writeJsonFile(file, validatedPoseJson(session, pose, trace, file));
+}
+
+}  // namespace boresight::sessions
