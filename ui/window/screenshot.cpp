@@ -12,6 +12,7 @@
 #include <QTimer>
 
 #include "ui/panels/match_view.h"
+#include "ui/review/review_panel.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/window/input_findings.h"
@@ -38,7 +39,9 @@ bool waitUntil(const std::function<bool()>& holds) {
 
 bool isResting(MainWindow& window) {
   const auto* match = window.findChild<MatchView*>();
-  return !window.tasks().isBusy() && !window.annotation().stale() && !window.findings().isBusy() &&
+  auto* review = window.findChild<ReviewPanel*>();
+  return !window.tasks().isBusy() && !(review && review->controller().isBusy()) &&
+         !window.annotation().stale() && !window.findings().isBusy() &&
          window.run().state() != RunState::kWorking && !(match && match->isComputing());
 }
 

@@ -19,6 +19,7 @@
 #include "ui/panels/match_inspector_panel.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/warning_bar.h"
+#include "ui/review/review_panel.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/views/layers_panel.h"
@@ -48,6 +49,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       mask_(new MaskPanel(*mask_editor_)),
       levels_(new LevelsPanel(image_->display())),
       annotation_(new AnnotationPanel(parts.document, parts.annotation, parts.state)),
+      review_(new ReviewPanel(parts.document, parts.state)),
       snapper_(new StationSnapper(parts.state, &window)),
       scene_(new SceneView(parts.state)),
       image_annotation_(
@@ -76,6 +78,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   add(QStringLiteral("iterations"), tr("Iterations"), new IterationsPanel(parts.state));
   add(QStringLiteral("inspector"), tr("Match inspector"), new MatchInspectorPanel(parts.state));
   add(QStringLiteral("annotation"), tr("Annotation"), annotation_);
+  add(QStringLiteral("review"), tr("Review"), review_);
   add(QStringLiteral("inputs"), tr("Inputs"), inputs_);
   place();
 }
@@ -120,7 +123,7 @@ void WindowDocks::place() const {
   for (const char* name : {"mask", "levels", "pose", "configuration"})
     window_.tabifyDockWidget(layers, dock(QLatin1String(name)));
   window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
-  for (const char* name : {"inspector", "annotation", "inputs"})
+  for (const char* name : {"inspector", "annotation", "review", "inputs"})
     window_.tabifyDockWidget(iterations, dock(QLatin1String(name)));
   for (QDockWidget* each : docks_) each->show();
   layers->raise();

@@ -22,6 +22,7 @@ class LevelsPanel;
 class MaskEditor;
 class MaskPanel;
 class PosePanel;
+class ReviewPanel;
 class SceneView;
 class StationSnapper;
 class WarningBar;
@@ -42,6 +43,7 @@ class WindowDocks {
   MaskPanel& mask() const { return *mask_; }
   LevelsPanel& levels() const { return *levels_; }
   AnnotationPanel& annotation() const { return *annotation_; }
+  ReviewPanel& review() const { return *review_; }
   /// What of the current case's mesh can be snapped to, for every view.
   StationSnapper& snapper() const { return *snapper_; }
   SceneView& scene() const { return *scene_; }
@@ -76,6 +78,7 @@ class WindowDocks {
   MaskPanel* mask_;
   LevelsPanel* levels_;
   AnnotationPanel* annotation_;
+  ReviewPanel* review_;
   StationSnapper* snapper_;
   SceneView* scene_;
   ImageAnnotation* image_annotation_;
