@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
+#include <utility>
 
 #include "core/base/crc32.h"
 #include "sessions/io/errors.h"
@@ -35,6 +37,14 @@ void readBytes(ByteReader& reader, std::array<std::uint8_t, count>& bytes) {
   std::copy(taken.begin(), taken.end(), bytes.begin());
 }
 
+/// A choice of `last` + 1; the block is refused when it is none.
+template <class Enum>
+Enum readChoice(ByteReader& reader, Enum last) {
+  const std::uint8_t value = reader.u8();
+  if (value > static_cast<std::uint8_t>(last)) (void)reader.take(SIZE_MAX);  // fails
+  return static_cast<Enum>(std::min(value, static_cast<std::uint8_t>(last)));
+}
+
 RecordedInputs readInputs(ByteReader& reader) {
   RecordedInputs inputs;
   for (RecordInputs::Hash* hash :
@@ -55,7 +65,7 @@ RecordedOptions readOptions(ByteReader& reader) {
   for (std::uint32_t left = reader.u32(); left > 0 && !reader.failed(); --left) {
     RecordedOption option;
     option.name = asText(reader.take(reader.u8()));
-    option.kind = static_cast<OptionKind>(reader.u8());
+    option.kind = readChoice(reader, OptionKind::kChoice);
     option.bits = reader.u64();
     made.options.push_back(option);
   }
@@ -75,10 +85,11 @@ RecordedIteration readIteration(ByteReader& reader) {
   RecordedIteration made;
   made.index = reader.i32();
   made.attempt = reader.i32();
-  made.kind = static_cast<IterationKind>(reader.u8());
+  made.kind = readChoice(reader, IterationKind::kRefine);
   made.level = reader.u8();
-  made.reached = static_cast<Stage>(reader.u8());
-  made.status = static_cast<LocalizationStatus>(reader.u8());
+  if (made.level >= kPyramidLevels) (void)reader.take(SIZE_MAX);  // fails
+  made.reached = readChoice(reader, Stage::kFinished);
+  made.status = readChoice(reader, LocalizationStatus::kFault);
   made.threshold_px = reader.f64();
   made.camera_from_station_before = readPose(reader);
   made.camera_from_station = readPose(reader);
@@ -115,34 +126,37 @@ RecordedTemplate readTemplate(ByteReader& reader) {
 }
 
 /// Of the iteration just before; an iteration that has found no room has no templates either.
-void readTemplates(ByteReader& reader, OnboardRecord& record) {
+bool readTemplates(ByteReader& reader, OnboardRecord& record) {
   const std::int32_t index = reader.i32();
   std::vector<RecordedTemplate> made;
   for (std::uint32_t left = reader.u32(); left > 0 && !reader.failed(); --left)
     made.push_back(readTemplate(reader));
-  if (!record.iterations.empty() && record.iterations.back().index == index && !reader.failed())
+  if (reader.failed() || reader.left() > 0) return false;
+  if (!record.iterations.empty() && record.iterations.back().index == index)
     record.iterations.back().templates = std::move(made);
+  return true;
 }
 
 /// It may change how its iteration ended.
-void readSupport(ByteReader& reader, OnboardRecord& record) {
+bool readSupport(ByteReader& reader, OnboardRecord& record) {
   const std::int32_t index = reader.i32();
-  const auto status = static_cast<LocalizationStatus>(reader.u8());
+  const auto status = readChoice(reader, LocalizationStatus::kFault);
   EdgeSupport support;
   for (std::int32_t* count :
        {&support.rendered, &support.covered, &support.displaced, &support.displaced_covered,
         &support.seen, &support.explained, &support.displaced_explained})
     *count = reader.i32();
-  if (record.iterations.empty() || record.iterations.back().index != index || reader.failed())
-    return;
+  if (reader.failed() || reader.left() > 0) return false;
+  if (record.iterations.empty() || record.iterations.back().index != index) return true;
   record.iterations.back().status = status;
   record.iterations.back().support = support;
+  return true;
 }
 
 RecordedEnd readEnd(ByteReader& reader) {
   RecordedEnd end;
-  end.status = static_cast<LocalizationStatus>(reader.u8());
-  end.fault = static_cast<Status>(reader.u8());
+  end.status = readChoice(reader, LocalizationStatus::kFault);
+  end.fault = readChoice(reader, Status::kNoConsensus);
   end.iterations = reader.i32();
   end.attempts = reader.i32();
   end.camera_from_station = readPose(reader);
@@ -156,35 +170,38 @@ RecordedEnd readEnd(ByteReader& reader) {
   return end;
 }
 
-/// False when the content is not what its type says.
+/// False when the content is not what its type says; then nothing of it is taken.
 bool readBlock(RecordBlock type, std::span<const std::uint8_t> content, OnboardRecord& record) {
   ByteReader reader(content);
+  // The value is read before it is asked whether there was all of it.
+  const auto keep = [&reader](auto&& value, auto&& where) {
+    if (reader.failed() || reader.left() > 0) return false;
+    where(std::forward<decltype(value)>(value));
+    return true;
+  };
+  const auto append = [](auto& list) {
+    return [&list](auto&& value) { list.push_back(std::forward<decltype(value)>(value)); };
+  };
+  const auto assign = [](auto& field) {
+    return [&field](auto&& value) { field = std::forward<decltype(value)>(value); };
+  };
   switch (type) {
     case RecordBlock::kInputs:
-      record.inputs = readInputs(reader);
-      break;
+      return keep(readInputs(reader), assign(record.inputs));
     case RecordBlock::kOptions:
-      record.options.push_back(readOptions(reader));
-      break;
+      return keep(readOptions(reader), append(record.options));
     case RecordBlock::kEdges:
-      record.edges = readEdges(reader);
-      break;
+      return keep(readEdges(reader), assign(record.edges));
     case RecordBlock::kIteration:
-      record.iterations.push_back(readIteration(reader));
-      break;
+      return keep(readIteration(reader), append(record.iterations));
     case RecordBlock::kTemplates:
-      readTemplates(reader, record);
-      break;
+      return readTemplates(reader, record);
     case RecordBlock::kSupport:
-      readSupport(reader, record);
-      break;
+      return readSupport(reader, record);
     case RecordBlock::kEnd:
-      record.end = readEnd(reader);
-      break;
-    default:
-      return false;
+      return keep(readEnd(reader), assign(record.end));
   }
-  return !reader.failed() && reader.left() == 0;
+  return false;
 }
 
 /// The blocks one after the other, up to the first that is cut off or damaged.

@@ -161,7 +161,7 @@ std::string convergedText(const RunSnapshot& snapshot) {
   std::string text =
       "Converged in " + countText(snapshot.iterations.size(), "iteration", "iterations");
   if (snapshot.attempts > 1) text += format(" and %d attempts", snapshot.attempts);
-  text += format(", %.2f s.", snapshot.seconds.total());
+  text += snapshot.replayed ? "." : format(", %.2f s.", snapshot.seconds.total());
   if (snapshot.lastOptions().support.gate)
     text += format(" Edge support is %.1f %%, needed %.1f %%.", 100.0 * snapshot.support.share(),
                    100.0 * snapshot.lastOptions().support.min_support);
@@ -170,6 +170,20 @@ std::string convergedText(const RunSnapshot& snapshot) {
                     "%.3f, %.3f, %.3f mrad.",
                     toMillimetres(sigma(3)), toMillimetres(sigma(4)), toMillimetres(sigma(5)),
                     1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2));
+}
+
+/// An onboard run, so that nobody takes it for one of the ground.
+std::string replayedText(const RunSnapshot& snapshot) {
+  const std::string begin = "Onboard record, replayed. ";
+  if (snapshot.converged()) return begin + convergedText(snapshot);
+  if (snapshot.finished && snapshot.iterations.empty())
+    return begin + "It ended as " + localizationStatusText(snapshot.status) +
+           "; none of its iterations is known.";
+  if (snapshot.finished)
+    return begin + "Did not converge. " + sentence(explanation(endOf(snapshot)));
+  return begin + "It ends after " +
+         countText(snapshot.iterations.size(), "iteration", "iterations") +
+         ": how the run ended is not known.";
 }
 
 }  // namespace
@@ -264,6 +278,7 @@ std::string memoryTable(const LocalizationTrace& trace) {
 }
 
 std::string standingText(const RunSnapshot& snapshot) {
+  if (snapshot.replayed) return replayedText(snapshot);
   if (snapshot.converged()) return convergedText(snapshot);
   if (snapshot.finished) return "Did not converge. " + sentence(explanation(endOf(snapshot)));
   if (snapshot.iterations.empty())

@@ -24,7 +24,8 @@ std::string explanation(const LocalizationTrace& trace);
 std::string memoryTable(const LocalizationTrace& trace);
 
 /// Where a run stands, for a line that is always in view: how it ended with what speaks for the
-/// pose, why it failed (as `explanation` says), or what it is at. Whole sentences.
+/// pose, why it failed (as `explanation` says), or what it is at. Whole sentences. Of a replayed
+/// run it begins with that.
 std::string standingText(const RunSnapshot& snapshot);
 
 }  // namespace boresight::sessions

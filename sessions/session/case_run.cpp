@@ -167,7 +167,8 @@ RunRecord storeRun(const Session& session, const std::string& case_id,
   run.time = utcNowText();
   run.inputs_sha256 = inputsDigest(one);
   run.options_sha256 = optionsDigest(trace.lastOptions());
-  if (!trace.changes.empty()) run.rerun = rerunRecord(from, trace.plan());
+  const bool own_options = !sameOptions(trace.options, caseOptions(session, one, session_file));
+  if (own_options || !trace.changes.empty()) run.rerun = rerunRecord(from, trace.plan());
   if (!isSha256Text(run.digest))
     throw OutputError(session_file, "case " + case_id + ": the run ended before it had a digest (" +
                                         statusText(trace.fault) + ")");

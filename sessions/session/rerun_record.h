@@ -22,13 +22,14 @@ struct RecordedChange {
   bool operator==(const RecordedChange&) const = default;
 };
 
-/// What a session notes of a run that went on from an iteration of another one with other options:
-/// enough to run it again, even when the other one is gone.
+/// What a session notes of a run that went on from an iteration of another one with other options,
+/// or had other options than the session from its start (those of an onboard record): enough to run
+/// it again, even when the other one is gone.
 struct RerunRecord {
   std::string
       from;  ///< digest of the run whose first iterations it has; empty: one that was halted
   OptionList options;
-  std::vector<RecordedChange> changes;  ///< at least one
+  std::vector<RecordedChange> changes;  ///< none: the options held from start to end
 
   bool operator==(const RerunRecord&) const = default;
 };

@@ -42,6 +42,15 @@ void describeMatch(const Match& match, int level, MatchDetails& made) {
   made.margin = best > 0 ? static_cast<double>(best - second) / static_cast<double>(best) : 0.0;
 }
 
+/// An onboard record has scores without what they are made of.
+void describeScore(const RecordedScore& recorded, MatchDetails& made) {
+  made.edge_share = made.empty_share = made.second_score = made.margin = kUnknown;
+  made.score = recorded.score;
+  if (!recorded.second_score) return;
+  made.second_score = *recorded.second_score;
+  made.margin = made.score > 0.0 ? (made.score - made.second_score) / made.score : 0.0;
+}
+
 }  // namespace
 
 Eigen::Vector2d fullImagePixel(double x, double y, int level) {
@@ -57,6 +66,8 @@ std::vector<MatchDetails> matchDetails(const IterationTrace& iteration) {
         describeTemplate(iteration.templates[i], static_cast<std::int32_t>(i), iteration.level));
     if (i < iteration.matches.size())
       describeMatch(iteration.matches[i], iteration.level, all.back());
+    if (all.back().searched && i < iteration.recorded_scores.size())
+      describeScore(iteration.recorded_scores[i], all.back());
   }
   if (iteration.reached < Stage::kPose) return all;
   const std::size_t solved = std::min({iteration.template_of.size(), iteration.pnp.inlier.size(),

@@ -35,6 +35,10 @@ struct RunSnapshot {
   StageSeconds seconds;
   std::uint64_t arena_bytes = 0;
   MemoryTrace memory;
+  /// Shown from an onboard record (sessions/record/replay_record.h): a run that was not made here.
+  bool replayed = false;
+  /// Of a replayed run, sentences: what is not known, and what on the ground is not as on board.
+  std::vector<std::string> remarks;
 
   bool converged() const { return status == LocalizationStatus::kConverged; }
   RunPlan plan() const { return {options, changes}; }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,12 @@ struct MemoryTrace {
   std::size_t total() const { return inputs + use.total(); }
 };
 
+/// What an onboard record has of a match in place of the counts that scores are made of.
+struct RecordedScore {
+  double score = 0.0;  ///< WHS in [0, 2]
+  std::optional<double> second_score;
+};
+
 /// How much of an iteration is copied.
 enum class RecordLevel { kSummary, kFull };
 
@@ -110,6 +117,9 @@ struct IterationTrace {
   std::int32_t template_count = 0;
   std::int32_t template_side_px = 0;
   std::vector<Match> matches;  ///< one per template
+  /// Of a replayed onboard record, whose matches have no counts: one per match, else empty. Not in
+  /// files of traces.
+  std::vector<RecordedScore> recorded_scores;
   std::int32_t searched_count = 0;
   double best_score = 0.0;  ///< WHS in [0, 2], over the searched templates
   double mean_score = 0.0;

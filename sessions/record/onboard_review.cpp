@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/record/onboard_review.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+#include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
+#include "sessions/record/record_of_run.h"
+#include "sessions/record/replay_record.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kMillimetres = 1e3;
+constexpr double kMilliradians = 1e3;
+
+std::string fixed(double value, int decimals) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(decimals) << value;
+  return text.str();
+}
+
+std::string triple(const Eigen::Vector3d& value, int decimals) {
+  return fixed(value.x(), decimals) + ", " + fixed(value.y(), decimals) + ", " +
+         fixed(value.z(), decimals);
+}
+
+/// Largest of three sigmas.
+double largestSigma(const Matrix6d& covariance, int first) {
+  return std::sqrt(std::max(0.0, covariance.diagonal().segment<3>(first).maxCoeff()));
+}
+
+std::string poseLine(const Pose& pose) {
+  const Eigen::Vector3d turn_deg = rotationLog(pose.rotation) * (180.0 / 3.14159265358979323846);
+  return triple(kMillimetres * pose.translation_m, 2) + " mm; rotation vector " +
+         triple(turn_deg, 3) + " deg";
+}
+
+std::string percent(double share) {
+  return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
+}
+
+}  // namespace
+
+std::shared_ptr<const OnboardReview> reviewRecord(const std::filesystem::path& file,
+                                                  const std::string& sha256,
+                                                  const LocalizationProblem& ground,
+                                                  const std::stop_token& stop) {
+  const std::vector<std::uint8_t> bytes = readFileBytes(file, 64 * kMegabyte);
+  if (sha256Text(bytes) != sha256)
+    throw InputError(file,
+                     "its bytes are not those of the record that was attached: take it as it is "
+                     "now, or attach the right one");
+  auto made = std::make_shared<OnboardReview>();
+  made->record = parseRecord(file, bytes);
+  made->plan = planOf(made->record);
+  made->replay = std::make_shared<const RunSnapshot>(replayRecord(made->record, ground, stop));
+  return made;
+}
+
+RecordComparison compareWithGround(const OnboardReview& review, const RunSnapshot& run,
+                                   const LocalizationProblem& ground,
+                                   const ComparisonLimits& limits) {
+  return compareRecords(review.record, recordOf(run, &ground), limits);
+}
+
+std::vector<std::pair<std::string, std::string>> recordSheet(const OnboardRecord& record) {
+  std::vector<std::pair<std::string, std::string>> lines;
+  const std::size_t known = record.iterations.size();
+  if (record.end) {
+    const RecordedEnd& end = *record.end;
+    const bool all = static_cast<std::size_t>(std::max(0, end.iterations)) == known;
+    lines.emplace_back("Ended as", localizationStatusText(end.status));
+    lines.emplace_back("Iterations", std::to_string(end.iterations) + " in " +
+                                         std::to_string(end.attempts) +
+                                         (end.attempts == 1 ? " attempt" : " attempts") +
+                                         (all ? "" : ", " + std::to_string(known) + " known"));
+    lines.emplace_back("Camera from station", poseLine(end.camera_from_station));
+    if (!end.covariance.isZero())
+      lines.emplace_back("One sigma, at most",
+                         fixed(kMillimetres * largestSigma(end.covariance, 3), 3) + " mm, " +
+                             fixed(kMilliradians * largestSigma(end.covariance, 0), 3) + " mrad");
+    lines.emplace_back("Digest", end.digest);
+  } else {
+    lines.emplace_back("Ended as", "not known");
+    lines.emplace_back("Iterations", std::to_string(known) + " known");
+  }
+  lines.emplace_back("Record", record.whole() ? "whole" : "incomplete, see below");
+  return lines;
+}
+
+std::string verdictText(const RecordComparison& comparison) {
+  switch (comparison.verdict) {
+    case RunVerdict::kEqual:
+      return "Agrees with the run on the ground bit for bit.";
+    case RunVerdict::kWithinLimits:
+      return comparison.first ? "Not the same pixels, but within the limits."
+                              : "Agrees with the run on the ground bit for bit as far as it goes.";
+    case RunVerdict::kDifferent:
+      break;
+  }
+  return "Differs from the run on the ground.";
+}
+
+std::string limitsText(const ComparisonLimits& limits) {
+  return "Limits for other pixels: in the first iteration at least " + percent(limits.found_share) +
+         " of the templates at one place found within " + fixed(limits.found_px, 1) +
+         " px of each other, at least " + percent(limits.inlier_share) +
+         " of the inliers of either inliers of both; final poses " + fixed(limits.pose_sigmas, 1) +
+         " sigmas apart at most.";
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What people who look at an onboard record of a case are shown.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/localizer/problem.h"
+#include "sessions/record/compare_records.h"
+#include "sessions/record/onboard_record.h"
+#include "sessions/record/recorded_plan.h"
+#include "sessions/trace/run_snapshot.h"
+
+namespace boresight::sessions {
+
+/// A record that was read, and the run that it shows. Immutable; shared with those who show it.
+struct OnboardReview {
+  OnboardRecord record;
+  RecordedPlan plan;
+  std::shared_ptr<const RunSnapshot> replay;
+};
+
+/// Reads a record and replays it. InputError as readRecord, and when the bytes are not those of
+/// `sha256`.
+std::shared_ptr<const OnboardReview> reviewRecord(const std::filesystem::path& file,
+                                                  const std::string& sha256,
+                                                  const LocalizationProblem& ground,
+                                                  const std::stop_token& stop = {});
+
+/// The onboard run first, then one of the ground that was given `ground`.
+RecordComparison compareWithGround(const OnboardReview& review, const RunSnapshot& run,
+                                   const LocalizationProblem& ground,
+                                   const ComparisonLimits& limits = {});
+
+/// What the record says, as pairs of label and value: how the run ended, iterations, pose, one
+/// sigma, digest, and whether it is whole.
+std::vector<std::pair<std::string, std::string>> recordSheet(const OnboardRecord& record);
+
+/// "Agrees with the run on the ground bit for bit.", ...: one sentence.
+std::string verdictText(const RecordComparison& comparison);
+/// "At least 80 % of ...": the limits, for other pixels.
+std::string limitsText(const ComparisonLimits& limits);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/record/replay_record.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "core/localizer/pose_change.h"
+#include "core/localizer/schedule.h"
+#include "core/match/search_window.h"
+#include "core/pnp/correspondence.h"
+#include "core/record/record_hashes.h"
+#include "sessions/record/record_inputs.h"
+#include "sessions/record/recorded_plan.h"
+#include "sessions/record/replay_scene.h"
+#include "sessions/trace/edge_detection.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+std::string inIteration(const RecordedIteration& one) {
+  return " in iteration " + std::to_string(one.index + 1);
+}
+
+Template templateAt(const RecordedTemplate& recorded, const RenderTrace& render,
+                    const std::vector<Template>& chosen) {
+  for (const Template& one : chosen)
+    if (one.center_x == recorded.x && one.center_y == recorded.y) return one;
+  Template made;
+  made.center_x = recorded.x;
+  made.center_y = recorded.y;
+  made.depth_m = made.distinctness = std::numeric_limits<float>::quiet_NaN();
+  made.point_in_station_m.setConstant(kUnknown);
+  if (render.row_begin.empty() || recorded.x >= render.edges.width ||
+      recorded.y >= render.edges.height)
+    return made;
+  const EdgeRender view = render.view();
+  const std::int32_t pixel = findEdgePixel(view, recorded.x, recorded.y);
+  if (pixel < 0) return made;
+  const EdgePixel& edge = render.pixels[static_cast<std::size_t>(pixel)];
+  Eigen::Vector3d point_in_station_m;
+  if (!edgePointInStation(view, edge, point_in_station_m)) return made;
+  made.depth_m = edge.depth_m;
+  made.point_in_station_m = point_in_station_m;
+  return made;
+}
+
+bool liesInside(const Template& item, int side_px, const RenderTrace& render) {
+  const int half = side_px / 2;
+  return side_px >= 2 && item.center_x >= half && item.center_y >= half &&
+         item.center_x + half <= render.edges.width && item.center_y + half <= render.edges.height;
+}
+
+/// Iterations one after the other: what an iteration is depends on those before it.
+class Replayer {
+ public:
+  Replayer(const OnboardRecord& record, const LocalizationProblem& ground)
+      : record_(record), given_(ground), scene_(given_), recorded_plan_(planOf(record)) {
+    if (record.inputs) {
+      given_.camera_from_station_seed = record.inputs->camera_from_station_seed;
+      given_.uncertainty = record.inputs->uncertainty;
+    }
+    bounds_ = matchedBounds(ground.mesh);
+    run_.replayed = true;
+    run_.version = "onboard";
+    run_.options = recorded_plan_.plan.options;
+    run_.changes = recorded_plan_.plan.changes;
+    run_.camera = ground.camera;
+    run_.camera_from_station_seed = run_.camera_from_station = given_.camera_from_station_seed;
+    run_.uncertainty = given_.uncertainty;
+  }
+
+  RunSnapshot replay(const std::stop_token& stop) {
+    noteInputs();
+    detect();
+    for (const RecordedIteration& one : record_.iterations) {
+      if (stop.stop_requested()) break;
+      run_.iterations.push_back(std::make_shared<const IterationTrace>(iterationOf(one)));
+    }
+    finish();
+    return std::move(run_);
+  }
+
+ private:
+  void remark(const std::string& text) { run_.remarks.push_back(text); }
+
+  void noteInputs();
+  void detect();
+  void finish();
+  void startAttempt(const RecordedIteration& one);
+  IterationTrace iterationOf(const RecordedIteration& one);
+  IterationTrace headOf(const RecordedIteration& one) const;
+  void fillRefinement(const RecordedIteration& one, IterationTrace& made);
+  Pose renderedPose(const RecordedIteration& one);
+  void renderAgain(const RecordedIteration& one, IterationTrace& made);
+  void fillHypotheses(const RecordedIteration& one, IterationTrace& made) const;
+  void fillTemplates(const RecordedIteration& one, IterationTrace& made);
+  Match matchOf(const RecordedTemplate& recorded, const Template& item,
+                const IterationTrace& made) const;
+  void fillPairs(const RecordedIteration& one, IterationTrace& made) const;
+
+  const LocalizerOptions& optionsAt(std::int32_t index) const {
+    const LocalizerOptions* options = &run_.options;
+    for (const OptionChange& change : run_.changes)
+      if (change.iteration <= index) options = &change.options;
+    return *options;
+  }
+
+  const OnboardRecord& record_;
+  LocalizationProblem given_;  ///< the ground's, with the record's seed
+  ReplayScene scene_;
+  RecordedPlan recorded_plan_;
+  BoundingBox bounds_;
+  RunSnapshot run_;
+  bool same_size_ = true;
+  std::int32_t attempt_ = -1;
+  std::optional<std::int32_t> attempt_begin_;  ///< index of its first iteration, if known
+  std::optional<Pose> refined_render_;         ///< pose of the last refinement's render
+  bool noted_render_ = false;
+  bool noted_refinement_ = false;
+};
+
+void Replayer::noteInputs() {
+  for (const std::string& text : record_.missing)
+    remark("The record lacks something: " + text + ".");
+  for (const std::string& text : recorded_plan_.remarks) remark(text);
+  if (!record_.inputs) return;
+  const RecordedInputs& onboard = *record_.inputs;
+  const RecordInputs here = recordInputs(given_);
+  same_size_ = onboard.width == given_.camera.width && onboard.height == given_.camera.height;
+  if (!same_size_)
+    remark("The run saw an image of " + std::to_string(onboard.width) + " x " +
+           std::to_string(onboard.height) + " px, the camera here has " +
+           std::to_string(given_.camera.width) + " x " + std::to_string(given_.camera.height) +
+           ": this may be the record of another case; only its poses are shown.");
+  else if (onboard.sha256.pixels != here.pixels)
+    remark(
+        "The run saw other pixels than the image here has (its downlink was compressed, or it is "
+        "another image): edges, score maps and agreement are those of the image here.");
+  if (onboard.sha256.ignore != here.ignore)
+    remark("The run ignored other pixels than the mask here has.");
+  if (onboard.sha256.scene != here.scene)
+    remark(
+        "The run had another mesh than this case: renders and points are those of the mesh here.");
+  if (onboard.sha256.camera != here.camera)
+    remark(
+        "The run had another camera than this case: renders and points are those of the camera "
+        "here.");
+}
+
+void Replayer::detect() {
+  auto edges = std::make_shared<EdgeMapTrace>();
+  const Status status = detectEdges(given_.image, given_.ignore, run_.options.edges, *edges);
+  if (status != Status::kOk) {
+    remark(std::string("The image's edges cannot be found here: ") + statusText(status) + ".");
+    if (record_.edges) edges->edge_count = record_.edges->edge_count;
+  } else if (record_.edges && record_.inputs && same_size_) {
+    EdgeMap map;
+    for (std::size_t i = 0; i < map.level.size(); ++i) map.level[i] = edges->level[i].view();
+    if (edgeMapHash(map) != record_.edges->sha256)
+      remark("The image's edges here are not those that the run found on board: " +
+             std::to_string(edges->edge_count) + " edge pixels here, " +
+             std::to_string(record_.edges->edge_count) + " on board.");
+  }
+  run_.edges = std::move(edges);
+}
+
+void Replayer::startAttempt(const RecordedIteration& one) {
+  if (one.attempt == attempt_) return;
+  const bool follows = !run_.iterations.empty() && run_.iterations.back()->index == one.index - 1;
+  attempt_ = one.attempt;
+  refined_render_.reset();
+  attempt_begin_.reset();
+  if (one.attempt == 0) attempt_begin_ = 0;
+  if (one.attempt > 0 && follows) attempt_begin_ = one.index;
+}
+
+/// Of a match the pose before it, rolled; of a refinement perhaps that of the last render.
+Pose Replayer::renderedPose(const RecordedIteration& one) {
+  const Pose& before = one.camera_from_station_before;
+  if (one.kind == IterationKind::kMatch) {
+    refined_render_.reset();
+    return one.chosen_hypothesis == 0 ? before : rolledAboutScene(before, one.roll_rad, bounds_);
+  }
+  const double again_px = optionsAt(one.index).loop.render_again_px;
+  const bool reuse = refined_render_ && displacementBetween_px(*refined_render_, before, bounds_,
+                                                               given_.camera) < again_px;
+  if (!reuse) refined_render_ = before;
+  return *refined_render_;
+}
+
+void Replayer::renderAgain(const RecordedIteration& one, IterationTrace& made) {
+  const bool failed = one.reached == Stage::kRender && one.status == LocalizationStatus::kFault;
+  if (!same_size_ || failed || !isUsable(one.camera_from_station_before)) return;
+  const bool rendered = scene_.render(renderedPose(one), one.level,
+                                      optionsAt(one.index).render.near_plane_m, made.render);
+  const bool same =
+      rendered && (!one.render_sha256 || renderHash(made.render.view()) == *one.render_sha256);
+  if (same || std::exchange(noted_render_, true)) return;
+  remark((rendered ? "The station is not rendered here as it was on board"
+                   : "The station cannot be rendered here") +
+         inIteration(one) + ", perhaps in others: points of templates may be missing or others.");
+}
+
+/// Of the hypotheses a record has the chosen one; of the others their rolls follow.
+void Replayer::fillHypotheses(const RecordedIteration& one, IterationTrace& made) const {
+  if (one.hypotheses < 1 || one.hypotheses > kMaxHypotheses || one.chosen_hypothesis < 0 ||
+      one.chosen_hypothesis >= one.hypotheses)
+    return;
+  made.hypotheses.resize(static_cast<std::size_t>(one.hypotheses));
+  for (int i = 0; i < one.hypotheses; ++i)
+    made.hypotheses[static_cast<std::size_t>(i)].roll_rad =
+        rollOf(i, optionsAt(one.index).loop.roll_spacing_rad);
+  made.chosen_hypothesis = one.chosen_hypothesis;
+  HypothesisSummary& chosen = made.hypotheses[static_cast<std::size_t>(one.chosen_hypothesis)];
+  chosen.roll_rad = one.roll_rad;
+  chosen.templates = one.templates_count;
+  chosen.matches = one.correspondences;
+  chosen.inliers = one.inliers;
+  chosen.camera_from_station = one.camera_from_station;
+  chosen.solved = one.inliers > 0;
+}
+
+Match Replayer::matchOf(const RecordedTemplate& recorded, const Template& item,
+                        const IterationTrace& made) const {
+  Match match;
+  if (liesInside(item, made.template_side_px, made.render)) {
+    const BitImage edges = made.render.edges.view();
+    const BitImage mask = made.render.mask.view();
+    match.norms = whsNorms({&edges, &mask, item.center_x, item.center_y, made.template_side_px});
+    if (item.point_in_station_m.allFinite() && attempt_begin_)
+      match.window = searchWindow(made.render.camera,
+                                  made.camera_from_station_before * item.point_in_station_m,
+                                  made.uncertainty, made.template_side_px);
+  }
+  if (!recorded.searched) return match;
+  match.searched = true;
+  match.at_border = recorded.at_border;
+  match.x = static_cast<double>(recorded.found_x);
+  match.y = static_cast<double>(recorded.found_y);
+  match.peak.x = static_cast<int>(std::lround(std::clamp(match.x, -1e6, 1e6)));
+  match.peak.y = static_cast<int>(std::lround(std::clamp(match.y, -1e6, 1e6)));
+  return match;
+}
+
+void Replayer::fillTemplates(const RecordedIteration& one, IterationTrace& made) {
+  if (!one.templates || !same_size_) return;
+  const std::vector<Template> chosen =
+      scene_.choose(made.render, one.level, one.template_side_px, optionsAt(one.index).templates);
+  int unknown = 0;
+  double sum = 0.0;
+  for (const RecordedTemplate& recorded : *one.templates) {
+    made.templates.push_back(templateAt(recorded, made.render, chosen));
+    const Template& item = made.templates.back();
+    if (!item.point_in_station_m.allFinite()) ++unknown;
+    if (one.reached < Stage::kMatch) continue;
+    made.matches.push_back(matchOf(recorded, item, made));
+    RecordedScore score{static_cast<double>(recorded.score), std::nullopt};
+    if (recorded.second_score) score.second_score = static_cast<double>(*recorded.second_score);
+    made.recorded_scores.push_back(score);
+    if (!recorded.searched) continue;
+    made.best_score = std::max(made.best_score, score.score);
+    sum += score.score;
+  }
+  if (one.searched > 0) made.mean_score = sum / one.searched;
+  if (unknown > 0)
+    remark(std::to_string(unknown) + " of " + std::to_string(one.templates->size()) +
+           " templates lie on no rendered edge here" + inIteration(one) +
+           ": their points are not known.");
+}
+
+/// Pairs of points and places, in the order of the templates; residuals are the recorded pose's.
+void Replayer::fillPairs(const RecordedIteration& one, IterationTrace& made) const {
+  const double scale = static_cast<double>(1 << std::clamp(one.level, 0, 15));
+  const bool solved = one.reached >= Stage::kPose && one.status != LocalizationStatus::kPnpFailed;
+  for (std::size_t i = 0; i < made.matches.size(); ++i) {
+    const Template& item = made.templates[i];
+    const Match& match = made.matches[i];
+    if (!match.searched || !item.point_in_station_m.allFinite()) continue;
+    Correspondence pair;
+    pair.point_in_station_m = item.point_in_station_m;
+    pair.pixel = {(match.x + 0.5) * scale - 0.5, (match.y + 0.5) * scale - 0.5};
+    pair.sigma_px = optionsAt(one.index).loop.match_sigma_px * scale;
+    made.correspondences.push_back(pair);
+    made.template_of.push_back(static_cast<std::int32_t>(i));
+    if (!solved) continue;
+    Eigen::Vector2d projected;
+    const bool seen =
+        project(run_.camera, one.camera_from_station * pair.point_in_station_m, projected);
+    made.pnp.inlier.push_back((*one.templates)[i].inlier ? 1 : 0);
+    made.pnp.residual_px.push_back(seen ? (projected - pair.pixel).norm() : kUnknown);
+  }
+}
+
+IterationTrace Replayer::headOf(const RecordedIteration& one) const {
+  IterationTrace made;
+  made.index = one.index;
+  made.attempt = one.attempt;
+  made.kind = one.kind;
+  made.level = one.level;
+  made.reached = one.reached;
+  made.status = one.status;
+  made.threshold_px = one.threshold_px;
+  made.camera_from_station_before = one.camera_from_station_before;
+  made.camera_from_station = one.camera_from_station;
+  if (attempt_begin_)
+    made.uncertainty =
+        uncertaintyAt(given_, optionsAt(one.index).loop, std::max(0, one.index - *attempt_begin_),
+                      one.camera_from_station_before);
+  made.edge_pixel_count = one.edge_pixels;
+  made.template_count = one.templates_count;
+  made.template_side_px = one.template_side_px;
+  made.searched_count = one.searched;
+  made.correspondence_count = one.correspondences;
+  made.correction_translation_m = one.correction_translation_m;
+  made.correction_rotation_rad = one.correction_rotation_rad;
+  made.correction_image_px = one.correction_image_px;
+  return made;
+}
+
+void Replayer::fillRefinement(const RecordedIteration& one, IterationTrace& made) {
+  made.refinement.camera_from_station = one.camera_from_station;
+  made.refinement.sample_count = one.refinement_samples;
+  made.refinement.found_count = one.refinement_found;
+  made.refinement.used_count = one.refinement_used;
+  made.refinement.rms_px = one.rms_px;
+  if (!std::exchange(noted_refinement_, true))
+    remark(
+        "A record does not have the edge places of refinements: run it again on the ground to "
+        "see them.");
+}
+
+IterationTrace Replayer::iterationOf(const RecordedIteration& one) {
+  startAttempt(one);
+  IterationTrace made = headOf(one);
+  renderAgain(one, made);
+  if (one.kind == IterationKind::kRefine) {
+    fillRefinement(one, made);
+    return made;
+  }
+  made.pnp.camera_from_station = one.camera_from_station;
+  made.pnp.inlier_count = one.inliers;
+  made.pnp.samples = one.samples;
+  made.pnp.rms_px = one.rms_px;
+  fillHypotheses(one, made);
+  fillTemplates(one, made);
+  fillPairs(one, made);
+  return made;
+}
+
+void Replayer::finish() {
+  for (const RecordedIteration& one : record_.iterations) {
+    if (one.support) run_.support = *one.support;
+    run_.attempts = std::max(run_.attempts, one.attempt + 1);
+  }
+  if (!record_.end) return;
+  const RecordedEnd& end = *record_.end;
+  run_.finished = end.status != LocalizationStatus::kRunning;
+  run_.stage = Stage::kFinished;
+  run_.attempts = end.attempts;
+  run_.status = end.status;
+  run_.fault = end.fault;
+  run_.camera_from_station = end.camera_from_station;
+  run_.covariance = end.covariance;
+  run_.digest = end.digest;
+}
+
+}  // namespace
+
+RunSnapshot replayRecord(const OnboardRecord& record, const LocalizationProblem& ground,
+                         const std::stop_token& stop) {
+  return Replayer(record, ground).replay(stop);
+}
+
+}  // namespace boresight::sessions

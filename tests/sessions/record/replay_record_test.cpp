@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/record/replay_record.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sessions/record/recorded_plan.h"
+#include "sessions/report/run_text.h"
+#include "sessions/trace/match_details.h"
+#include "tests/sessions/record/recorded_run.h"
+#include "tests/support/random_pose.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::IterationTrace;
+using sessions::OnboardRecord;
+using sessions::replayRecord;
+using sessions::RunSnapshot;
+using testing::Contains;
+using testing::HasSubstr;
+
+/// Numbers of 32 bits near those of 64 that they were made of.
+constexpr double kFloat_px = 1e-4;
+
+struct Replayed {
+  ExampleCase example{"os"};
+  LocalizationProblem problem = example.problem();
+  RecordedRun run = recordRun(problem, recordedOptions());
+  RunSnapshot replay = replayRecord(run.record, problem);
+};
+
+const Replayed& replayed() {
+  static const Replayed made;
+  return made;
+}
+
+void expectSameRender(const sessions::RenderTrace& a, const sessions::RenderTrace& b) {
+  EXPECT_EQ(a.camera_from_station, b.camera_from_station);
+  EXPECT_EQ(a.edges.words, b.edges.words);
+  EXPECT_EQ(a.mask.words, b.mask.words);
+  EXPECT_EQ(a.row_begin, b.row_begin);
+  ASSERT_EQ(a.pixels.size(), b.pixels.size());
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    ASSERT_EQ(a.pixels[i].depth_m, b.pixels[i].depth_m);
+    ASSERT_EQ(a.pixels[i].face, b.pixels[i].face);
+  }
+}
+
+void expectSameTemplates(const IterationTrace& a, const IterationTrace& b) {
+  ASSERT_EQ(a.templates.size(), b.templates.size());
+  ASSERT_EQ(a.matches.size(), b.matches.size());
+  for (std::size_t i = 0; i < a.templates.size(); ++i) {
+    EXPECT_EQ(a.templates[i].center_x, b.templates[i].center_x);
+    EXPECT_EQ(a.templates[i].center_y, b.templates[i].center_y);
+    EXPECT_EQ(a.templates[i].depth_m, b.templates[i].depth_m);
+    EXPECT_EQ(a.templates[i].distinctness, b.templates[i].distinctness);
+    EXPECT_EQ(a.templates[i].point_in_station_m, b.templates[i].point_in_station_m);
+  }
+  for (std::size_t i = 0; i < a.matches.size(); ++i) {
+    const Match& m = a.matches[i];
+    const Match& n = b.matches[i];
+    ASSERT_EQ(m.searched, n.searched);
+    EXPECT_EQ(m.window.x_min, n.window.x_min);
+    EXPECT_EQ(m.window.y_max, n.window.y_max);
+    if (!m.searched) continue;
+    EXPECT_EQ(m.norms, n.norms);
+    EXPECT_EQ(m.at_border, n.at_border);
+    EXPECT_NEAR(m.x, n.x, kFloat_px);
+    EXPECT_NEAR(m.y, n.y, kFloat_px);
+  }
+}
+
+void expectSamePairs(const IterationTrace& a, const IterationTrace& b) {
+  EXPECT_EQ(a.template_of, b.template_of);
+  EXPECT_EQ(a.pnp.inlier, b.pnp.inlier);
+  ASSERT_EQ(a.correspondences.size(), b.correspondences.size());
+  for (std::size_t i = 0; i < a.correspondences.size(); ++i) {
+    EXPECT_EQ(a.correspondences[i].point_in_station_m, b.correspondences[i].point_in_station_m);
+    EXPECT_NEAR((a.correspondences[i].pixel - b.correspondences[i].pixel).norm(), 0.0, 1e-3);
+    EXPECT_EQ(a.correspondences[i].sigma_px, b.correspondences[i].sigma_px);
+  }
+  if (!(b.pnp.camera_from_station == b.camera_from_station)) return;
+  for (std::size_t i = 0; i < a.pnp.residual_px.size(); ++i)
+    EXPECT_NEAR(a.pnp.residual_px[i], b.pnp.residual_px[i], 1e-3);
+}
+
+void expectSameScores(const IterationTrace& a, const IterationTrace& b) {
+  const auto replayed_details = matchDetails(a);
+  const auto traced_details = matchDetails(b);
+  ASSERT_EQ(replayed_details.size(), traced_details.size());
+  for (std::size_t i = 0; i < traced_details.size(); ++i) {
+    if (!traced_details[i].searched) continue;
+    EXPECT_NEAR(replayed_details[i].score, traced_details[i].score, 1e-6);
+    EXPECT_EQ(std::isnan(replayed_details[i].second_score),
+              std::isnan(traced_details[i].second_score));
+    if (!std::isnan(traced_details[i].second_score)) {
+      EXPECT_NEAR(replayed_details[i].second_score, traced_details[i].second_score, 1e-6);
+      EXPECT_NEAR(replayed_details[i].margin, traced_details[i].margin, 1e-6);
+    }
+    EXPECT_TRUE(std::isnan(replayed_details[i].edge_share)) << "a record does not have it";
+  }
+}
+
+TEST(ReplayRecord, IsTheGroundsRunInAllThatBothHave) {
+  const RunSnapshot& a = replayed().replay;
+  const sessions::LocalizationTrace& b = replayed().run.trace;
+  EXPECT_TRUE(a.replayed && a.finished);
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.digest, b.digest);
+  EXPECT_EQ(a.camera_from_station, b.camera_from_station);
+  EXPECT_EQ(a.camera_from_station_seed, b.camera_from_station_seed);
+  EXPECT_EQ(a.covariance, b.covariance);
+  EXPECT_EQ(a.support.share(), b.support.share());
+  EXPECT_TRUE(sameOptions(a.options, b.options));
+  for (std::size_t i = 0; i < b.edges.level.size(); ++i)
+    EXPECT_EQ(a.edges->level[i].words, b.edges.level[i].words);
+  EXPECT_EQ(a.edges->high_threshold, b.edges.high_threshold);
+  ASSERT_EQ(a.iterations.size(), b.iterations.size());
+  for (std::size_t i = 0; i < b.iterations.size(); ++i) {
+    SCOPED_TRACE(i);
+    const IterationTrace& one = *a.iterations[i];
+    EXPECT_EQ(one.camera_from_station, b.iterations[i].camera_from_station);
+    EXPECT_EQ(one.camera_from_station_before, b.iterations[i].camera_from_station_before);
+    EXPECT_EQ(one.uncertainty.rotation_rad, b.iterations[i].uncertainty.rotation_rad);
+    EXPECT_EQ(one.uncertainty.pivot_in_camera_m, b.iterations[i].uncertainty.pivot_in_camera_m);
+    EXPECT_EQ(one.support(), b.iterations[i].support());
+    EXPECT_EQ(one.rms_px(), b.iterations[i].rms_px());
+    EXPECT_NEAR(one.mean_score, b.iterations[i].mean_score, 1e-6);
+    expectSameRender(one.render, b.iterations[i].render);
+    expectSameTemplates(one, b.iterations[i]);
+    expectSamePairs(one, b.iterations[i]);
+    expectSameScores(one, b.iterations[i]);
+  }
+  EXPECT_THAT(a.remarks, testing::ElementsAre(HasSubstr("edge places of refinements")));
+  EXPECT_THAT(standingText(a), testing::StartsWith("Onboard record, replayed. Converged"));
+}
+
+TEST(ReplayRecord, FollowsRollsAttemptsAndOptionsTakenUpOnTheWay) {
+  const ExampleCase example("os");
+  LocalizationProblem problem = example.problem();
+  problem.uncertainty.rotation_rad.z() = 0.4;
+  problem.camera_from_station_seed = perturbed(
+      (Vector6d() << 0.0, 0.0, 0.3, 0.0, 0.0, 0.0).finished(), problem.camera_from_station_seed);
+  LocalizerOptions later = recordedOptions();
+  later.support.min_support = 1.0;
+  const RecordedRun run = recordRun(problem, {recordedOptions(), {{2, later}}});
+  ASSERT_GT(run.trace.attempts, 1);
+  EXPECT_TRUE(std::any_of(run.trace.iterations.begin(), run.trace.iterations.end(),
+                          [](const auto& one) { return one.chosen_hypothesis > 0; }));
+  const RunSnapshot replay = replayRecord(run.record, problem);
+  ASSERT_EQ(replay.iterations.size(), run.trace.iterations.size());
+  for (std::size_t i = 0; i < replay.iterations.size(); ++i) {
+    SCOPED_TRACE(i);
+    expectSameRender(replay.iterations[i]->render, run.trace.iterations[i].render);
+    expectSameTemplates(*replay.iterations[i], run.trace.iterations[i]);
+  }
+  EXPECT_THAT(replay.remarks, testing::ElementsAre(HasSubstr("edge places of refinements")));
+}
+
+/// What a replay shows is the whole record's, as far as it goes.
+void expectBeginning(const RunSnapshot& part, const RunSnapshot& whole) {
+  ASSERT_LE(part.iterations.size(), whole.iterations.size());
+  for (std::size_t i = 0; i < part.iterations.size(); ++i) {
+    EXPECT_EQ(part.iterations[i]->camera_from_station, whole.iterations[i]->camera_from_station);
+    if (!part.iterations[i]->templates.empty()) {
+      EXPECT_EQ(part.iterations[i]->templates.size(), whole.iterations[i]->templates.size());
+    }
+  }
+  if (part.finished) {
+    EXPECT_EQ(part.digest, whole.digest);
+  } else {
+    EXPECT_FALSE(part.converged());
+    EXPECT_TRUE(part.digest.empty());
+    EXPECT_THAT(part.remarks, Contains(HasSubstr("The record lacks something")));
+  }
+}
+
+TEST(ReplayRecord, ShowsWhatIsLeftOfACutOrDamagedRecord) {
+  const Replayed& whole = replayed();
+  Random random = randomFor("ReplayRecord.Damage");
+  const std::size_t size = whole.run.bytes.size();
+  for (int trial = 0; trial < 40; ++trial) {
+    std::vector<std::uint8_t> bytes = whole.run.bytes;
+    if (trial % 2 == 0)
+      bytes.resize(12 + size * static_cast<std::size_t>(trial) / 45);
+    else
+      bytes[12 + random.below(static_cast<std::uint32_t>(size - 12))] ^=
+          static_cast<std::uint8_t>(1u << random.below(8));
+    const OnboardRecord record = sessions::parseRecord("cut.whsr", bytes);
+    EXPECT_FALSE(record.whole());
+    expectBeginning(replayRecord(record, whole.problem), whole.replay);
+  }
+}
+
+/// Contents that nobody wrote, under checksums that hold: nothing crashes.
+TEST(ReplayRecord, SurvivesContentsThatMakeNoSense) {
+  const Replayed& whole = replayed();
+  Random random = randomFor("ReplayRecord.Nonsense");
+  for (int trial = 0; trial < 30; ++trial) {
+    OnboardRecord record = whole.run.record;
+    auto& one = record.iterations[random.below(2)];
+    const auto number = [&random] {
+      return static_cast<std::int32_t>(random.below(2'000'000'000));
+    };
+    one.template_side_px = trial % 3 == 0 ? -number() : number();
+    one.index = trial % 5 == 0 ? -number() : number();
+    one.hypotheses = number();
+    one.chosen_hypothesis = -number();
+    one.camera_from_station_before.translation_m.z() = trial % 2 == 0 ? NAN : 1e300;
+    for (auto& item : one.templates.value()) {
+      item.x = static_cast<int>(random.below(65536));
+      item.found_x = trial % 4 == 0 ? NAN : 1e30F;
+    }
+    const RunSnapshot replay = replayRecord(record, whole.problem);
+    EXPECT_EQ(replay.iterations.size(), record.iterations.size());
+    for (const auto& each : replay.iterations) (void)matchDetails(*each);
+  }
+}
+
+TEST(ReplayRecord, SaysWhatIsNotAsItWasOnBoard) {
+  const Replayed& whole = replayed();
+  const auto remarks = [&](const OnboardRecord& record, const LocalizationProblem& ground) {
+    return replayRecord(record, ground).remarks;
+  };
+  ExampleCase other("os");
+  for (auto& value : other.image.pixels) value = static_cast<std::uint8_t>(255 - value / 2);
+  EXPECT_THAT(remarks(whole.run.record, other.problem()),
+              testing::AllOf(Contains(HasSubstr("other pixels")),
+                             Contains(HasSubstr("edges here are not those"))));
+  const ExampleCase bc("bc");
+  EXPECT_THAT(
+      remarks(whole.run.record, bc.problem()),
+      testing::AllOf(Contains(HasSubstr("another mesh")),
+                     Contains(HasSubstr("not rendered here as it was on board in iteration 1")),
+                     Contains(HasSubstr("their points are not known"))));
+  OnboardRecord larger = whole.run.record;
+  larger.inputs->width *= 2;
+  const RunSnapshot poses = replayRecord(larger, whole.problem);
+  EXPECT_THAT(poses.remarks, Contains(HasSubstr("only its poses are shown")));
+  EXPECT_TRUE(poses.iterations.front()->templates.empty());
+  EXPECT_EQ(poses.iterations.front()->camera_from_station,
+            whole.replay.iterations.front()->camera_from_station);
+}
+
+TEST(RecordedPlan, SaysWhichOptionsItDoesNotKnow) {
+  OnboardRecord record = replayed().run.record;
+  EXPECT_TRUE(planOf(record).remarks.empty());
+  EXPECT_TRUE(sameOptions(planOf(record).plan.options, recordedOptions()));
+  auto& options = record.options.front().options;
+  options.push_back({"later.option", OptionKind::kInteger, 5});
+  std::erase_if(options, [](const auto& one) { return one.name == "pnp.seed"; });
+  for (auto& one : options)
+    if (one.name == "loop.max_attempts") one.bits = 99;
+  const sessions::RecordedPlan plan = planOf(record);
+  EXPECT_TRUE(plan.has_options);
+  EXPECT_THAT(plan.remarks, testing::UnorderedElementsAre(HasSubstr("later.option (5 on board)"),
+                                                          HasSubstr("no option pnp.seed"),
+                                                          HasSubstr("loop.max_attempts was 99")));
+  record.options.clear();
+  EXPECT_FALSE(planOf(record).has_options);
+}
+
+}  // namespace
+}  // namespace boresight::test
