@@ -95,6 +95,7 @@ class ReviewHands {
     QTest::keyClicks(editor, text);
     QTest::keyClick(editor, Qt::Key_Return);
     QApplication::processEvents();
+    QApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);  // the editor
   }
   /// A reason for every check that failed.
   void passOverAll(const QString& reason) const {
