@@ -3,6 +3,8 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "sessions/record/onboard_record.h"
+#include "sessions/session/input_check.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_maker.h"
 
@@ -12,7 +14,7 @@ namespace {
 struct NewArguments {
   std::string dataset;
   std::vector<std::string> cases;
-  std::string image, camera, mesh, mesh_unit, seed, truth, ignore, id, out;
+  std::string image, camera, mesh, mesh_unit, seed, truth, ignore, id, record, out;
   int bit_depth = 0;
   double feature_size_m = 0.0;
   OptionArguments options;
@@ -41,6 +43,7 @@ void NewArguments::addTo(CLI::App& command) {
   file("--truth", truth, "pose.json with the true pose")->needs(from_image);
   file("--ignore", ignore, "Mask image of the same size: nonzero pixels are not trusted")
       ->needs(from_image);
+  file("--record", record, "Onboard record (run.whsr) of the session's one case");
   command.add_option("--id", id, "Name of the case (else the image's)")->needs(from_image);
   command.add_option("--bit-depth", bit_depth, "Bits that the image's samples use")
       ->check(CLI::Range(1, 16))
@@ -77,8 +80,20 @@ sessions::Session sessionOf(const NewArguments& arguments) {
   return withCase({}, made.made);
 }
 
+/// The session with the record attached to its case.
+sessions::Session withRecord(const sessions::Session& session, const std::string& file) {
+  if (session.cases.size() != 1)
+    throw CLI::ValidationError("--record", "is of one case: choose it with --case");
+  (void)sessions::readRecord(file);  // that it is one
+  sessions::SessionCase one = *session.cases.front();
+  one.onboard_record = sessions::InputFile{std::filesystem::absolute(file).lexically_normal(),
+                                           sessions::inputSha256(file)};
+  return withCase(session, std::move(one));
+}
+
 int makeNew(const NewArguments& arguments) {
   sessions::Session session = sessionOf(arguments);
+  if (!arguments.record.empty()) session = withRecord(session, arguments.record);
   session = withOptions(session, arguments.options.profileName(), arguments.options.read());
   const auto document = sessions::SessionDocument::create(arguments.out, session);
   std::cout << document.file().string() << ": " << session.cases.size() << " cases" << std::endl;

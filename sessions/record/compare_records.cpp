@@ -19,6 +19,8 @@ using Difference = std::optional<FirstDifference>;
 
 constexpr double kMillimetres = 1e3;
 constexpr double kMilliradians = 1e3;
+/// A share of fewer than these says little.
+constexpr int kLeastCounted = 10;
 
 Difference differs(RunPart part, const std::string& text, int iteration = -1,
                    int template_index = -1) {
@@ -314,10 +316,11 @@ void holdToLimits(const OnboardRecord& one, const OnboardRecord& other,
                           " sigmas apart");
   if (made.iterations.empty()) return;
   const IterationComparison& first = made.iterations.front();
-  if (first.templates > 0 && first.found_alike < limits.found_share * first.templates)
+  if (first.templates >= kLeastCounted && first.found_alike < limits.found_share * first.templates)
     made.beyond.push_back("only " + percent(first.found_alike, first.templates) +
                           " of the first iteration's templates were found alike");
-  if (first.inliers_either > 0 && first.inliers_both < limits.inlier_share * first.inliers_either)
+  if (first.inliers_either >= kLeastCounted &&
+      first.inliers_both < limits.inlier_share * first.inliers_either)
     made.beyond.push_back("only " + percent(first.inliers_both, first.inliers_either) +
                           " of the first iteration's inliers are inliers of both");
 }

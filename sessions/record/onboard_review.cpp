@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kMillimetres = 1e3;
 constexpr double kMilliradians = 1e3;
+constexpr std::size_t kDigestShown = 16;  ///< digits; enough to tell runs apart
 
 std::string fixed(double value, int decimals) {
   std::ostringstream text;
@@ -33,10 +34,9 @@ double largestSigma(const Matrix6d& covariance, int first) {
   return std::sqrt(std::max(0.0, covariance.diagonal().segment<3>(first).maxCoeff()));
 }
 
-std::string poseLine(const Pose& pose) {
+std::string turnText(const Pose& pose) {
   const Eigen::Vector3d turn_deg = rotationLog(pose.rotation) * (180.0 / 3.14159265358979323846);
-  return triple(kMillimetres * pose.translation_m, 2) + " mm; rotation vector " +
-         triple(turn_deg, 3) + " deg";
+  return triple(turn_deg, 3) + " deg";
 }
 
 std::string percent(double share) {
@@ -78,12 +78,14 @@ std::vector<std::pair<std::string, std::string>> recordSheet(const OnboardRecord
                                          std::to_string(end.attempts) +
                                          (end.attempts == 1 ? " attempt" : " attempts") +
                                          (all ? "" : ", " + std::to_string(known) + " known"));
-    lines.emplace_back("Camera from station", poseLine(end.camera_from_station));
+    lines.emplace_back("Camera from station",
+                       triple(kMillimetres * end.camera_from_station.translation_m, 2) + " mm");
+    lines.emplace_back("Rotation vector", turnText(end.camera_from_station));
     if (!end.covariance.isZero())
       lines.emplace_back("One sigma, at most",
                          fixed(kMillimetres * largestSigma(end.covariance, 3), 3) + " mm, " +
                              fixed(kMilliradians * largestSigma(end.covariance, 0), 3) + " mrad");
-    lines.emplace_back("Digest", end.digest);
+    lines.emplace_back("Digest", end.digest.substr(0, kDigestShown) + " ...");
   } else {
     lines.emplace_back("Ended as", "not known");
     lines.emplace_back("Iterations", std::to_string(known) + " known");
@@ -109,8 +111,8 @@ std::string limitsText(const ComparisonLimits& limits) {
   return "Limits for other pixels: in the first iteration at least " + percent(limits.found_share) +
          " of the templates at one place found within " + fixed(limits.found_px, 1) +
          " px of each other, at least " + percent(limits.inlier_share) +
-         " of the inliers of either inliers of both; final poses " + fixed(limits.pose_sigmas, 1) +
-         " sigmas apart at most.";
+         " of the inliers of either inliers of both (shares of ten or more); final poses " +
+         fixed(limits.pose_sigmas, 1) + " sigmas apart at most.";
 }
 
 }  // namespace boresight::sessions

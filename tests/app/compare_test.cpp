@@ -70,6 +70,24 @@ TEST(WhsCompare, TakesRecordsTracesAndRunsOfSessions) {
   EXPECT_EQ(exitOf({runs.record, runs.session, "--case", "none"}), 3);
 }
 
+TEST(WhsNew, AttachesAnOnboardRecordToItsOneCase) {
+  const Runs runs;
+  const std::string made = runs.folder / "made.boresight.json";
+  const std::string dataset = exampleFolder() / "dataset.json";
+  EXPECT_EQ(runWhs({"new", "--dataset", dataset, "--record", runs.record, "--out", made}).exit_code,
+            2);
+  EXPECT_EQ(
+      runWhs({"new", "--dataset", dataset, "--case", kCase, "--record", runs.trace, "--out", made})
+          .exit_code,
+      3);
+  ASSERT_EQ(
+      runWhs({"new", "--dataset", dataset, "--case", kCase, "--record", runs.record, "--out", made})
+          .exit_code,
+      0);
+  const ProgramRun anew = runWhs({"compare", made, "--case", kCase, "--rerun"});
+  EXPECT_EQ(anew.exit_code, 0) << anew.out;
+}
+
 TEST(WhsCompare, DoesNotTakeARunOfOtherInputsForTheCases) {
   const Runs runs;
   runs.edit([](sessions::SessionCase& one, const Runs&) {

@@ -171,10 +171,15 @@ void MatchView::showFigures(const sessions::IterationTrace& iteration,
                       tr("%1 px, moved by %2 px")
                           .arg(pairText(details.found_px, 2), pairText(details.moved_px(), 2)));
     scores += rowText(tr("Score S"), scoreText(details));
-    scores += rowText(tr("S+/c+, edges"), countText(match.peak.counts.edge_hits, match.norms.edges,
-                                                    details.edge_share));
-    scores += rowText(tr("S-/c-, empty"), countText(match.peak.counts.empty_hits,
-                                                    match.norms.empties, details.empty_share));
+    const bool counted = iteration.recorded_scores.empty();
+    const QString unknown = tr("not in the onboard record");
+    scores += rowText(tr("S+/c+, edges"), counted ? countText(match.peak.counts.edge_hits,
+                                                              match.norms.edges, details.edge_share)
+                                                  : unknown);
+    scores += rowText(
+        tr("S-/c-, empty"),
+        counted ? countText(match.peak.counts.empty_hits, match.norms.empties, details.empty_share)
+                : unknown);
   }
   if (details.solved)
     scores += rowText(tr("Residual"), tr("%1 px, threshold %2 px")

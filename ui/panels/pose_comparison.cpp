@@ -63,6 +63,7 @@ std::optional<Matrix6d> shownCovariance(const ViewState& state) {
   const sessions::RunSnapshot& run = *state.snapshot();
   const bool last = shown == run.iterations.back().get();
   if (last && run.finished && run.converged()) return run.covariance;
+  if (run.replayed) return std::nullopt;  // a record has the last one alone
   return shown->kind == IterationKind::kRefine ? shown->refinement.covariance
                                                : shown->pnp.covariance;
 }

@@ -66,16 +66,19 @@ void addTrail(const ViewState& state, SceneContent& content) {
 }
 
 void addTemplates(const sessions::IterationTrace& iteration, SceneContent& content) {
+  std::vector<std::size_t> place_of(iteration.templates.size(), SIZE_MAX);
   for (std::size_t i = 0; i < iteration.templates.size(); ++i) {
     ScenePoint point;
     point.at_m = iteration.templates[i].point_in_station_m;
+    if (!point.at_m.allFinite()) continue;  // an onboard record's, on another mesh
+    place_of[i] = content.points.size();
     point.template_index = static_cast<int>(i);
     content.points.push_back(point);
   }
   const std::size_t solved = std::min({iteration.template_of.size(), iteration.pnp.inlier.size(),
                                        iteration.pnp.residual_px.size()});
   for (std::size_t i = 0; i < solved; ++i) {
-    const auto of = static_cast<std::size_t>(iteration.template_of[i]);
+    const auto of = place_of.at(static_cast<std::size_t>(iteration.template_of[i]));
     if (of >= content.points.size()) continue;
     content.points[of].kind =
         iteration.pnp.inlier[i] != 0 ? ScenePointKind::kInlier : ScenePointKind::kOutlier;

@@ -185,7 +185,7 @@ LocalizerOptions CaseController::options() const {
 
 QString CaseController::staleness() const {
   const sessions::RunRecord* record = document_.session().lastRunOf(case_id_.toStdString());
-  if (!record || !state_.snapshot()) return {};
+  if (!record || !state_.snapshot() || state_.snapshot()->replayed) return {};
   const sessions::Staleness stale =
       sessions::stalenessOf(*record, document_.session(), document_.file());
   if (stale.inputs_changed && stale.options_changed)
@@ -195,10 +195,10 @@ QString CaseController::staleness() const {
   return {};
 }
 
-void CaseController::prepareRun() {
+void CaseController::prepareRun(const sessions::RunPlan& plan) {
   RunInputs inputs;
   inputs.one = state_.currentCase();
-  inputs.plan = options();
+  inputs.plan = plan;
   run_.reset(std::move(inputs));
   run_session_ = document_.session();
   run_is_prepared_ = true;
@@ -213,12 +213,27 @@ void CaseController::advance(StepUntil until) {
   }
   try {
     sessions::requireRunnable(*state_.currentCase());
-    if (!run_is_prepared_ || run_.state() == RunState::kFinished) prepareRun();
+    if (!run_is_prepared_ || run_.state() == RunState::kFinished) prepareRun(options());
   } catch (const std::exception& error) {
     Q_EMIT failed(QString::fromUtf8(error.what()));
     return;
   }
   run_.advance(until);
+}
+
+void CaseController::runPlan(const sessions::RunPlan& plan) {
+  if (!state_.currentCase() || run_.state() == RunState::kWorking) return;
+  try {
+    if (!isLoaded()) throw std::runtime_error(tr("The case is still being read.").toStdString());
+    sessions::requireRunnable(*state_.currentCase());
+    const std::string problem = sessions::planProblem(plan);
+    if (!problem.empty()) throw std::runtime_error(problem + ".");
+  } catch (const std::exception& error) {
+    Q_EMIT failed(QString::fromUtf8(error.what()));
+    return;
+  }
+  prepareRun(plan);
+  run_.advance(StepUntil::kEnd);
 }
 
 void CaseController::rerunFrom(int iteration) {
@@ -240,6 +255,9 @@ void CaseController::rerunFrom(int iteration) {
 
 void CaseController::prepareRerun(int iteration) {
   const sessions::RunSnapshot& shown = *state_.snapshot();
+  if (shown.replayed)
+    throw std::runtime_error(
+        tr("The onboard run is shown: run it again on the ground first.").toStdString());
   const auto kept = static_cast<std::size_t>(iteration);
   const std::string id = case_id_.toStdString();
   const sessions::RunRecord* record = document_.session().lastRunOf(id);

@@ -46,6 +46,8 @@ class CaseController : public QObject {
   /// Keeps the shown run's iterations before this one and computes those from it on with the
   /// options as they are now.
   void rerunFrom(int iteration);
+  /// Runs the case by a plan of its own instead of the session's options.
+  void runPlan(const boresight::sessions::RunPlan& plan);
   void stop();
   /// Drops the shown run; the next step begins anew.
   void reset();
@@ -84,7 +86,7 @@ class CaseController : public QObject {
   void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one);
   void loadFailed(const QString& id, const QString& message);
   void loadLatestRun(const QString& id);
-  void prepareRun();
+  void prepareRun(const sessions::RunPlan& plan);
   void prepareRerun(int iteration);
   void runEnded();
   void storeRun();

@@ -11,7 +11,7 @@
 namespace boresight::ui {
 namespace {
 
-enum class Kind { kImage, kMesh, kCamera, kPose, kDataset, kSession, kUnknown };
+enum class Kind { kImage, kMesh, kCamera, kPose, kDataset, kSession, kRecord, kUnknown };
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -45,9 +45,11 @@ Kind kindOf(const std::filesystem::path& file, std::string& problem) {
   const std::string extension = lower(file.extension().string());
   if (isOneOf(extension, std::array{".png", ".jpg", ".jpeg", ".tif", ".tiff"})) return Kind::kImage;
   if (isOneOf(extension, std::array{".ply", ".obj", ".stl", ".gltf", ".glb"})) return Kind::kMesh;
+  if (extension == ".whsr") return Kind::kRecord;
   if (extension == ".json") return kindOfJson(file, problem);
   problem = file.string() +
-            ": not an image (png, jpg, tif), a mesh (ply, obj, stl, gltf, glb) or a json file";
+            ": not an image (png, jpg, tif), a mesh (ply, obj, stl, gltf, glb), an onboard record "
+            "(whsr) or a json file";
   return Kind::kUnknown;
 }
 
@@ -59,6 +61,11 @@ bool isNamedTruth(const std::filesystem::path& file) {
 
 bool DroppedFiles::isCase() const {
   return !one.image.empty() && !one.camera.empty() && !one.seed.empty() && !one.parts.empty();
+}
+
+bool DroppedFiles::isRecordAlone() const {
+  return record && !dataset && one.image.empty() && one.camera.empty() && one.seed.empty() &&
+         one.parts.empty() && !one.truth;
 }
 
 std::string DroppedFiles::missing() const {
@@ -79,6 +86,7 @@ DroppedFiles classify(const std::vector<std::filesystem::path>& files,
                       const DroppedFiles& earlier) {
   DroppedFiles made;
   made.one = earlier.one;
+  made.record = earlier.record;
   bool new_mesh = true;
   for (const std::filesystem::path& file : files) {
     std::string problem;
@@ -109,6 +117,9 @@ DroppedFiles classify(const std::vector<std::filesystem::path>& files,
         break;
       case Kind::kSession:
         made.session = file;
+        break;
+      case Kind::kRecord:
+        made.record = file;
         break;
       case Kind::kUnknown:
         made.problems.push_back(problem);

@@ -14,17 +14,20 @@ namespace boresight::ui {
 struct DroppedFiles {
   std::optional<std::filesystem::path> session;
   std::optional<std::filesystem::path> dataset;
-  sessions::CaseFiles one;            ///< as far as it goes
+  std::optional<std::filesystem::path> record;  ///< of an onboard run
+  sessions::CaseFiles one;                      ///< as far as it goes
   std::vector<std::string> problems;  ///< one sentence each: files that are nothing known, twice
                                       ///< the same kind
 
   /// What of a case is still missing, for people: "a camera and a seed", or "".
   std::string missing() const;
-  bool isCase() const;  ///< an image, a camera, a mesh and a seed
+  bool isCase() const;         ///< an image, a camera, a mesh and a seed
+  bool isRecordAlone() const;  ///< an onboard record, and nothing of a case
 };
 
-/// Tells files by their content (JSON by its `format`) and by their extension. Files of an earlier
-/// drop are completed by `earlier`. Two poses are the seed and, if its name says so, the truth.
+/// Tells files by their content (JSON by its `format`) and by their extension (".whsr" is a
+/// record). Files of an earlier drop are completed by `earlier`. Two poses are the seed and, if its
+/// name says so, the truth.
 DroppedFiles classify(const std::vector<std::filesystem::path>& files,
                       const DroppedFiles& earlier = {});
 

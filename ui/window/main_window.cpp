@@ -54,7 +54,8 @@ MainWindow::MainWindow(QWidget* parent)
     : QMainWindow(parent),
       cases_(document_, state_, run_, tasks_),
       annotation_(document_, state_),
-      parts_{document_, state_, tasks_, run_, cases_, annotation_},
+      onboard_(document_, state_, tasks_),
+      parts_{document_, state_, tasks_, run_, cases_, annotation_, onboard_},
       docks_(std::make_unique<WindowDocks>(*this, parts_)),
       files_(new SessionFiles(*this, parts_)),
       menus_(new WindowMenus(*this, parts_, *docks_, *files_)),
@@ -91,6 +92,10 @@ void MainWindow::connectAll() {
   auto* annotation_files = new AnnotationFiles(*this, parts_, docks_->annotation());
   connect(annotation_files, &AnnotationFiles::failed, this, &MainWindow::showMessage);
   connect(annotation_files, &AnnotationFiles::noted, this,
+          [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); });
+  connect(&onboard_, &OnboardController::rerunRequested, &cases_, &CaseController::runPlan);
+  connect(&onboard_, &OnboardController::failed, this, &MainWindow::showMessage);
+  connect(&onboard_, &OnboardController::told, this,
           [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); });
   connect(&annotation_, &AnnotationController::told, this,
           [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); });

@@ -8,6 +8,7 @@
 #include <QMainWindow>
 
 #include "ui/annotation/annotation_controller.h"
+#include "ui/review/onboard_controller.h"
 #include "ui/run/run_controller.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
@@ -55,6 +56,7 @@ class MainWindow : public QMainWindow {
   TaskRunner& tasks() { return tasks_; }
   CaseController& cases() { return cases_; }
   AnnotationController& annotation() { return annotation_; }
+  OnboardController& onboard() { return onboard_; }
   ImagePanel& image();
   InputFindings& findings() { return *findings_; }
   /// The dock of this object name, or nullptr.
@@ -80,6 +82,7 @@ class MainWindow : public QMainWindow {
   RunController run_;
   CaseController cases_;
   AnnotationController annotation_;
+  OnboardController onboard_;
   WindowParts parts_;
   std::unique_ptr<WindowDocks> docks_;
   SessionFiles* files_ = nullptr;

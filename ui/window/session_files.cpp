@@ -9,9 +9,12 @@
 #include <QMessageBox>
 #include <QPushButton>
 
+#include "sessions/session/input_check.h"
 #include "sessions/session/session_maker.h"
+#include "ui/review/onboard_controller.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
+#include "ui/state/view_state.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/recent_files.h"
 
@@ -42,7 +45,7 @@ void SessionFiles::askForSession() {
 void SessionFiles::askForFiles() {
   const QStringList files = QFileDialog::getOpenFileNames(
       &window_, tr("A dataset, or an image, a camera, a mesh and a seed"), {},
-      tr("All (*.json *.png *.jpg *.jpeg *.tif *.tiff *.ply *.obj *.stl *.gltf *.glb)"));
+      tr("All (*.json *.whsr *.png *.jpg *.jpeg *.tif *.tiff *.ply *.obj *.stl *.gltf *.glb)"));
   std::vector<std::filesystem::path> paths;
   for (const QString& file : files) paths.push_back(path(file));
   if (!paths.empty()) take(paths);
@@ -57,12 +60,21 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
     return;
   }
   collected_ = dropped;
+  // Of the case that is open, unless it comes with the files of another.
+  if (dropped.isRecordAlone() && parts_.state.currentCase()) {
+    parts_.onboard.attach(*std::exchange(collected_, {}).record);
+    return;
+  }
   if (!dropped.dataset && !dropped.isCase()) {
     if (dropped.problems.empty())
       Q_EMIT noted(tr("Taken. Still missing: %1").arg(QString::fromStdString(dropped.missing())));
     return;
   }
   if (dropped.dataset) {
+    if (dropped.record)
+      Q_EMIT failed(tr("A dataset has many cases: open the one that %1 belongs to, and drop the "
+                       "record again.")
+                        .arg(text(dropped.record->filename())));
     makeFromDataset(*dropped.dataset);
   } else {
     addCase();
@@ -88,8 +100,11 @@ void SessionFiles::addCase() {
   Q_EMIT noted(tr("Reading the files ..."));
   parts_.tasks.start(
       QStringLiteral("make session"),
-      [files = std::exchange(collected_, {}).one](const std::stop_token&) {
-        return sessions::makeCase(files).made;
+      [files = std::exchange(collected_, {})](const std::stop_token&) {
+        sessions::SessionCase made = sessions::makeCase(files.one).made;
+        if (files.record)
+          made.onboard_record = {*files.record, sessions::inputSha256(*files.record)};
+        return made;
       },
       [this](sessions::SessionCase made) {
         Q_EMIT noted({});

@@ -19,6 +19,7 @@
 #include "ui/panels/match_inspector_panel.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/warning_bar.h"
+#include "ui/review/onboard_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
@@ -80,6 +81,8 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   add(QStringLiteral("annotation"), tr("Annotation"), annotation_);
   add(QStringLiteral("review"), tr("Review"), review_);
   add(QStringLiteral("inputs"), tr("Inputs"), inputs_);
+  add(QStringLiteral("onboard"), tr("Onboard"),
+      new OnboardPanel(parts.onboard, parts.state, parts.run));
   place();
 }
 
@@ -123,7 +126,7 @@ void WindowDocks::place() const {
   for (const char* name : {"mask", "levels", "pose", "configuration"})
     window_.tabifyDockWidget(layers, dock(QLatin1String(name)));
   window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
-  for (const char* name : {"inspector", "annotation", "review", "inputs"})
+  for (const char* name : {"inspector", "annotation", "review", "onboard", "inputs"})
     window_.tabifyDockWidget(iterations, dock(QLatin1String(name)));
   for (QDockWidget* each : docks_) each->show();
   layers->raise();

@@ -18,6 +18,7 @@
 #include "ui/panels/mask_panel.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/run_scrubber.h"
+#include "ui/review/onboard_panel.h"
 #include "ui/review/pose_export.h"
 #include "ui/run/run_controller.h"
 #include "ui/state/document.h"
@@ -221,6 +222,31 @@ void WindowMenus::buildRunMenu() {
   }
   menu->addSeparator();
   menu->addAction(run_all_);
+  buildOnboardMenu(*menu->addMenu(tr("&Onboard record")));
+}
+
+void WindowMenus::buildOnboardMenu(QMenu& menu) {
+  load_record_ = action(tr("&Load onboard record..."), QKeySequence(QStringLiteral("Ctrl+Shift+O")),
+                        tr("Attach the record that the flight side sent down to the shown case"));
+  show_other_run_ = action(tr("&Onboard or ground run"), QKeySequence(QStringLiteral("Ctrl+B")),
+                           tr("Show the run of the onboard record in every view, or that on the "
+                              "ground again"));
+  rerun_record_ = action(tr("&Re-run on the ground"), QKeySequence(QStringLiteral("Ctrl+Shift+F5")),
+                         tr("Run the case here by the options of the onboard record"));
+  first_difference_ =
+      action(tr("Go to the first &difference"), QKeySequence(QStringLiteral("Ctrl+Shift+B")),
+             tr("Show where the onboard run and that on the ground differ first"));
+  OnboardController& onboard = parts_.onboard;
+  connect(load_record_, &QAction::triggered, this,
+          [this] { askForOnboardRecord(parts_.onboard, &window_); });
+  connect(show_other_run_, &QAction::triggered, this,
+          [&onboard] { onboard.showsOnboard() ? onboard.showGround() : onboard.showOnboard(); });
+  connect(rerun_record_, &QAction::triggered, &onboard, &OnboardController::rerun);
+  connect(first_difference_, &QAction::triggered, &onboard,
+          &OnboardController::goToFirstDifference);
+  connect(&onboard, &OnboardController::changed, this, &WindowMenus::update);
+  for (QAction* each : {load_record_, show_other_run_, rerun_record_, first_difference_})
+    menu.addAction(each);
 }
 
 /// The steps of the scrubber: its buttons name and enable them, the menu gives them their keys.
@@ -363,6 +389,13 @@ void WindowMenus::update() {
   reset_->setEnabled(has_case && !working && parts_.state.snapshot());
   for (QAction* each : mask_actions_) each->setEnabled(editable && has_case);
   for (QAction* each : annotation_actions_) each->setEnabled(editable && has_case);
+  const bool replayed = parts_.onboard.showsOnboard();
+  load_record_->setEnabled(editable && has_case);
+  show_other_run_->setEnabled(parts_.onboard.review() && !working);
+  rerun_record_->setEnabled(parts_.onboard.review() && !working);
+  first_difference_->setEnabled(parts_.onboard.comparison() &&
+                                parts_.onboard.comparison()->first.has_value());
+  rerun_->setEnabled(rerun_->isEnabled() && !replayed);
   run_all_->setEnabled(open && !working && !document.session().cases.empty());
 }
 

@@ -38,6 +38,7 @@ class WindowMenus : public QObject {
   QAction* modeAction(const QString& text, const QKeySequence& keys, const QString& tip,
                       PlaceMode mode);
   void buildRunMenu();
+  void buildOnboardMenu(QMenu& menu);
   void buildGoMenu();
   void buildViewMenu();
   void buildLayersMenu(QMenu& menu);
@@ -65,6 +66,10 @@ class WindowMenus : public QObject {
   QAction* reset_ = nullptr;
   QAction* rerun_ = nullptr;
   QAction* run_all_ = nullptr;
+  QAction* load_record_ = nullptr;
+  QAction* show_other_run_ = nullptr;
+  QAction* rerun_record_ = nullptr;
+  QAction* first_difference_ = nullptr;
   QMenu* recent_menu_ = nullptr;
   QList<QAction*> mask_actions_;
   QList<QAction*> annotation_actions_;

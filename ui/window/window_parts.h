@@ -6,6 +6,7 @@ namespace boresight::ui {
 class AnnotationController;
 class CaseController;
 class Document;
+class OnboardController;
 class RunController;
 class TaskRunner;
 class ViewState;
@@ -18,6 +19,7 @@ struct WindowParts {
   RunController& run;
   CaseController& cases;
   AnnotationController& annotation;
+  OnboardController& onboard;
 };
 
 }  // namespace boresight::ui

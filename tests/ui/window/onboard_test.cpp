@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+// An onboard record dropped on the window: shown, run again on the ground, compared.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+
+#include <QBuffer>
+#include <QDockWidget>
+#include <QDropEvent>
+#include <QImage>
+#include <QLabel>
+#include <QMimeData>
+#include <QPushButton>
+#include <QStandardPaths>
+#include <QTableWidget>
+#include <QUrl>
+#include <QtTest/QTest>
+
+#include "core/base/bytes.h"
+#include "core/base/crc32.h"
+#include "sessions/record/compare_records.h"
+#include "sessions/session/case_run.h"
+#include "sessions/session/session_maker.h"
+#include "sessions/trace/record.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/panels/run_banner.h"
+#include "ui/window/main_window.h"
+
+namespace boresight::ui {
+namespace {
+
+using sessions::RunPart;
+using sessions::RunVerdict;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr int kPatienceMs = 120'000;
+constexpr std::size_t kAltered = 5;  ///< template of the first iteration
+
+/// The image as a compressed downlink brings it.
+Bytes compressed(const ImageView& image, int quality) {
+  const QImage whole(image.data, image.width, image.height, static_cast<int>(image.stride),
+                     QImage::Format_Grayscale8);
+  QBuffer buffer;
+  buffer.open(QIODevice::ReadWrite);
+  EXPECT_TRUE(whole.save(&buffer, "JPG", quality));
+  const QImage read = QImage::fromData(buffer.data()).convertToFormat(QImage::Format_Grayscale8);
+  Bytes pixels;
+  for (int y = 0; y < read.height(); ++y)
+    pixels.insert(pixels.end(), read.constScanLine(y), read.constScanLine(y) + read.width());
+  return pixels;
+}
+
+/// Moves where a template of the first iteration was found by a pixel, under a right checksum.
+void alterTemplate(Bytes& bytes) {
+  std::size_t at = 12;
+  const auto number = [&](std::size_t place) {
+    return ByteReader(std::span(bytes).subspan(place, 4)).u32();
+  };
+  while (number(at) != static_cast<std::uint32_t>(RecordBlock::kTemplates))
+    at += kBlockBytes + number(at + 8);
+  const std::size_t length = number(at + 8);
+  const std::size_t found = at + kBlockHeadBytes + 8 + kAltered * kTemplateBytes + 5;
+  const float x = ByteReader(std::span(bytes).subspan(found, 4)).f32();
+  ByteWriter(std::span(bytes).subspan(found, 4)).f32(x + 1.0F);
+  const auto block = std::span(bytes).subspan(at, kBlockHeadBytes + length);
+  ByteWriter(std::span(bytes).subspan(at + block.size(), 4)).u32(crc32(block));
+}
+
+class OnboardTest : public ::testing::Test {
+ protected:
+  OnboardTest() {
+    QStandardPaths::setTestModeEnabled(true);
+    window_.setQuiet(true);
+    window_.show();
+  }
+
+  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
+  bool rests() {
+    return wait(
+        [&] { return !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking; });
+  }
+
+  void openSession() {
+    ASSERT_TRUE(
+        window_.document().create(folder_.path() / "one.boresight.json",
+                                  sessions::makeSession(test::exampleFolder() / "dataset.json")));
+    ASSERT_TRUE(wait([&] { return window_.state().currentCase() != nullptr; }));
+    ASSERT_TRUE(rests());
+  }
+
+  /// What the flight side would send down of the shown case; nullptr: of its image as it is.
+  Bytes onboardRecord(const Bytes* pixels = nullptr) {
+    Bytes bytes(65536);
+    RecordWriter writer(bytes);
+    sessions::RunSettings settings;
+    settings.level = sessions::RecordLevel::kSummary;
+    settings.onboard_record = &writer;
+    LocalizationProblem problem = window_.state().currentCase()->problem();
+    if (pixels) {
+      problem.image.data = pixels->data();
+      problem.image.stride = problem.image.width;
+    }
+    (void)sessions::localize(problem, sessions::RunPlan(window_.cases().options()), settings);
+    bytes.resize(writer.bytes().size());
+    return bytes;
+  }
+
+  std::filesystem::path write(const Bytes& bytes) { return folder_.write("run.whsr", bytes); }
+
+  void drop(const std::filesystem::path& file) {
+    QMimeData mime;
+    mime.setUrls({QUrl::fromLocalFile(QString::fromStdString(file.string()))});
+    QDragEnterEvent enter(QPoint(600, 300), Qt::CopyAction, &mime, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&window_, &enter);
+    QDropEvent event(QPointF(600.0, 300.0), Qt::CopyAction, &mime, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&window_, &event);
+    ASSERT_TRUE(rests());
+  }
+
+  void click(const char* name) {
+    auto* button = window_.findChild<QPushButton*>(QLatin1String(name));
+    ASSERT_NE(button, nullptr);
+    ASSERT_TRUE(button->isEnabled()) << name;
+    window_.dock(QStringLiteral("onboard"))->raise();
+    QTest::mouseClick(button, Qt::LeftButton);
+    ASSERT_TRUE(rests());
+  }
+
+  QString label(const char* name) {
+    return window_.findChild<QLabel*>(QLatin1String(name))->text();
+  }
+  const sessions::SessionCase& one() {
+    return *window_.document().session().findCase(window_.cases().caseId().toStdString());
+  }
+  void runOnTheGround() {
+    QTest::keyClick(&window_, Qt::Key_F5);
+    ASSERT_TRUE(wait([&] { return !window_.document().session().runs.empty(); }));
+    ASSERT_TRUE(rests());
+  }
+
+  test::TemporaryFolder folder_;
+  MainWindow window_;
+};
+
+TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
+  openSession();
+  drop(write(onboardRecord()));
+  ASSERT_TRUE(one().onboard_record);
+  ASSERT_NE(window_.onboard().review(), nullptr) << window_.onboard().problem().toStdString();
+  EXPECT_TRUE(label("recordSheet").contains(QStringLiteral("converged")));
+  EXPECT_TRUE(label("verdict").contains(QStringLiteral("no run on the ground")));
+
+  click("showOnboard");
+  ASSERT_TRUE(window_.state().snapshot() && window_.state().snapshot()->replayed);
+  EXPECT_TRUE(window_.findChild<RunBanner*>()->text().startsWith(QStringLiteral("Onboard record")));
+  EXPECT_TRUE(label("shownRun").contains(QStringLiteral("ONBOARD")));
+  EXPECT_FALSE(window_.state().snapshot()->iterations.front()->templates.empty());
+  EXPECT_TRUE(window_.document().session().runs.empty()) << "a replay is no run";
+
+  click("rerunOnGround");
+  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1; }));
+  ASSERT_TRUE(rests());
+  EXPECT_FALSE(window_.state().snapshot()->replayed);
+  ASSERT_NE(window_.onboard().comparison(), nullptr);
+  EXPECT_EQ(window_.onboard().comparison()->verdict, RunVerdict::kEqual);
+  EXPECT_TRUE(label("verdict").contains(QStringLiteral("bit for bit")));
+  EXPECT_EQ(window_.document().session().runs.front().digest,
+            window_.onboard().review()->record.end->digest);
+
+  QTest::keyClick(&window_, Qt::Key_B, Qt::ControlModifier);
+  EXPECT_TRUE(window_.state().snapshot()->replayed);
+  QTest::keyClick(&window_, Qt::Key_B, Qt::ControlModifier);
+  EXPECT_FALSE(window_.state().snapshot()->replayed);
+
+  QTest::keyClick(&window_, Qt::Key_B, Qt::ControlModifier);
+  QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(rests());
+  EXPECT_FALSE(one().onboard_record);
+  EXPECT_EQ(window_.onboard().review(), nullptr);
+  EXPECT_FALSE(window_.state().snapshot()->replayed) << "nobody looks at a record that is gone";
+}
+
+TEST_F(OnboardTest, AnAlteredTemplateIsFoundAndGoneTo) {
+  openSession();
+  runOnTheGround();
+  Bytes bytes = onboardRecord();
+  alterTemplate(bytes);
+  drop(write(bytes));
+  ASSERT_NE(window_.onboard().comparison(), nullptr);
+  const auto& found = *window_.onboard().comparison();
+  EXPECT_EQ(found.verdict, RunVerdict::kDifferent);
+  ASSERT_TRUE(found.first);
+  EXPECT_EQ(found.first->part, RunPart::kMatches);
+  EXPECT_EQ(found.first->template_index, static_cast<int>(kAltered));
+  EXPECT_TRUE(label("firstDifference").contains(QStringLiteral("template 6 was found")));
+  QTest::keyClick(&window_, Qt::Key_B, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_EQ(window_.state().cursor().iteration, 0);
+  EXPECT_EQ(window_.state().selectedTemplate(), static_cast<int>(kAltered));
+}
+
+TEST_F(OnboardTest, ACompressedImageIsHeldToTheLimits) {
+  openSession();
+  runOnTheGround();
+  const Bytes pixels = compressed(window_.state().currentCase()->problem().image, 90);
+  drop(write(onboardRecord(&pixels)));
+  ASSERT_NE(window_.onboard().comparison(), nullptr);
+  const auto& found = *window_.onboard().comparison();
+  EXPECT_EQ(found.verdict, RunVerdict::kWithinLimits) << sessions::comparisonText(found);
+  EXPECT_EQ(found.first->part, RunPart::kPixels);
+  EXPECT_TRUE(label("verdict").contains(QStringLiteral("within the limits")));
+  EXPECT_TRUE(label("recordRemarks").contains(QStringLiteral("other pixels")));
+  const auto* table = window_.findChild<QTableWidget*>(QStringLiteral("comparison"));
+  ASSERT_EQ(table->rowCount(), static_cast<int>(found.iterations.size()) + 1);
+  EXPECT_TRUE(table->item(0, 1)->text().contains(QStringLiteral(" of ")));
+  EXPECT_TRUE(table->item(table->rowCount() - 1, 1)->text().contains(QStringLiteral("sigmas")));
+}
+
+TEST_F(OnboardTest, WhatCannotBeReadIsTold) {
+  openSession();
+  drop(folder_.write("not.whsr", "something else"));
+  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("is not an onboard record")));
+  EXPECT_FALSE(one().onboard_record);
+  const Bytes bytes = onboardRecord();
+  const auto file = write(bytes);
+  drop(file);
+  ASSERT_NE(window_.onboard().review(), nullptr);
+  click("showOnboard");
+  // A record that was cut is shown as far as it goes.
+  Bytes cut = bytes;
+  cut.resize(bytes.size() / 2);
+  drop(folder_.write("cut.whsr", cut));
+  ASSERT_NE(window_.onboard().review(), nullptr);
+  EXPECT_FALSE(window_.onboard().review()->record.whole());
+  EXPECT_TRUE(label("recordRemarks").contains(QStringLiteral("lacks something")));
+  // One that is another than it was attached as is not shown.
+  folder_.write("cut.whsr", bytes);
+  window_.document().save();
+  ASSERT_TRUE(window_.openSession(folder_.path() / "one.boresight.json"));
+  ASSERT_TRUE(wait([&] { return !window_.onboard().problem().isEmpty(); }));
+  EXPECT_EQ(window_.onboard().review(), nullptr);
+  EXPECT_TRUE(label("recordSheet").contains(QStringLiteral("not those of the record")));
+}
+
+}  // namespace
+}  // namespace boresight::ui

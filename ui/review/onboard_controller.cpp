@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/review/onboard_controller.h"
+
+#include <exception>
+#include <utility>
+
+#include "sessions/session/case_run.h"
+#include "sessions/session/input_check.h"
+#include "ui/run/task_runner.h"
+#include "ui/state/document.h"
+
+namespace boresight::ui {
+namespace {
+
+QString reviewKey() { return QStringLiteral("onboard record"); }
+QString compareKey() { return QStringLiteral("compare with onboard record"); }
+
+}  // namespace
+
+OnboardController::OnboardController(Document& document, ViewState& state, TaskRunner& tasks,
+                                     QObject* parent)
+    : QObject(parent), document_(document), state_(state), tasks_(tasks) {
+  connect(&state_, &ViewState::caseChanged, this, &OnboardController::caseChanged);
+  connect(&state_, &ViewState::snapshotChanged, this, &OnboardController::snapshotChanged);
+}
+
+std::filesystem::path OnboardController::file() const {
+  const ViewState::CasePtr& one = state_.currentCase();
+  return one && one->source.onboard_record ? one->source.onboard_record->file
+                                           : std::filesystem::path();
+}
+
+bool OnboardController::showsOnboard() const {
+  return state_.snapshot() && state_.snapshot()->replayed;
+}
+
+void OnboardController::caseChanged() {
+  const ViewState::CasePtr& one = state_.currentCase();
+  const std::string id = one ? one->source.id : std::string();
+  if (std::exchange(case_id_, id) != id) {
+    ground_.reset();
+    ground_case_.reset();
+  }
+  readAgain();
+}
+
+/// Whatever of the case was edited: what is shown is made of all of it.
+void OnboardController::readAgain() {
+  const ViewState::CasePtr one = state_.currentCase();
+  tasks_.cancel(compareKey());
+  comparison_.reset();
+  const auto attached = one ? one->source.onboard_record : std::nullopt;
+  const bool another = read_ != attached;
+  read_ = attached;
+  if (another || !attached) {
+    review_.reset();
+    problem_.clear();
+    if (showsOnboard()) showGround();
+  }
+  Q_EMIT changed();
+  if (!attached) {
+    tasks_.cancel(reviewKey());
+    return;
+  }
+  struct Read {
+    ReviewPtr review;
+    QString problem;
+  };
+  tasks_.start(
+      reviewKey(),
+      [one, file = *attached](const std::stop_token& stop) {
+        try {
+          return Read{sessions::reviewRecord(file.file, file.sha256, one->problem(), stop), {}};
+        } catch (const std::exception& error) {
+          return Read{nullptr, QString::fromUtf8(error.what())};
+        }
+      },
+      [this, one](const Read& read) { takeReview(one, read.review, read.problem); });
+}
+
+void OnboardController::takeReview(const ViewState::CasePtr& one, ReviewPtr review,
+                                   const QString& problem) {
+  if (one != state_.currentCase()) return;
+  review_ = std::move(review);
+  problem_ = problem;
+  if (showsOnboard()) {
+    if (review_)
+      state_.setSnapshot(review_->replay);
+    else
+      showGround();
+  }
+  Q_EMIT changed();
+  compareAgain();
+}
+
+void OnboardController::snapshotChanged() {
+  const ViewState::SnapshotPtr& shown = state_.snapshot();
+  if (!shown || !shown->replayed) {
+    ground_ = shown;
+    ground_case_ = state_.currentCase();
+    compareAgain();
+  }
+  Q_EMIT changed();
+}
+
+/// A run that is noted says so by the hash of its inputs; one that has just ended was made with the
+/// case as it was then.
+bool OnboardController::groundIsOfTheCase() const {
+  const ViewState::CasePtr& one = state_.currentCase();
+  if (!one || !ground_) return false;
+  const std::string inputs = sessions::inputsDigest(one->source);
+  for (const sessions::RunRecord& run : document_.session().runs)
+    if (run.case_id == one->source.id && run.digest == ground_->digest)
+      return run.inputs_sha256 == inputs;
+  return ground_case_ && sessions::inputsDigest(ground_case_->source) == inputs;
+}
+
+QString OnboardController::whyNotCompared() const {
+  if (!review_ || comparison_) return {};
+  if (!ground_) return tr("Nothing to compare with: the case has no run on the ground yet.");
+  if (!ground_->finished) return tr("The run on the ground has not ended.");
+  if (!groundIsOfTheCase())
+    return tr(
+        "The run on the ground was made with other inputs than the case has now: run it "
+        "again.");
+  return tr("Comparing ...");
+}
+
+void OnboardController::compareAgain() {
+  tasks_.cancel(compareKey());
+  comparison_.reset();
+  if (!review_ || !ground_ || !ground_->finished || !groundIsOfTheCase()) return;
+  tasks_.start(
+      compareKey(),
+      [review = review_, run = ground_, one = state_.currentCase()](const std::stop_token&) {
+        return std::make_shared<const sessions::RecordComparison>(
+            sessions::compareWithGround(*review, *run, one->problem()));
+      },
+      [this](ComparisonPtr made) {
+        comparison_ = std::move(made);
+        Q_EMIT changed();
+      });
+}
+
+void OnboardController::attachAs(std::optional<sessions::InputFile> record, const QString& text) {
+  const ViewState::CasePtr& shown = state_.currentCase();
+  const sessions::SessionCase* one =
+      shown ? document_.session().findCase(shown->source.id) : nullptr;
+  if (!one) {
+    Q_EMIT failed(tr("Open the case that the record belongs to first."));
+    return;
+  }
+  sessions::SessionCase next = *one;
+  next.onboard_record = std::move(record);
+  document_.edit(sessions::withCase(document_.session(), std::move(next)),
+                 text.arg(QString::fromStdString(one->id)));
+}
+
+void OnboardController::attach(const std::filesystem::path& file) {
+  try {
+    const std::filesystem::path absolute = std::filesystem::absolute(file).lexically_normal();
+    (void)sessions::readRecord(absolute);  // that it is one
+    attachAs(sessions::InputFile{absolute, sessions::inputSha256(absolute)},
+             tr("Attach an onboard record to %1"));
+  } catch (const std::exception& error) {
+    Q_EMIT failed(QString::fromUtf8(error.what()));
+  }
+}
+
+void OnboardController::detach() { attachAs(std::nullopt, tr("Take the onboard record from %1")); }
+
+void OnboardController::showOnboard() {
+  if (!review_) return;
+  state_.setSnapshot(review_->replay);
+  Q_EMIT told(tr("Every view shows the onboard run, replayed from its record."));
+}
+
+void OnboardController::showGround() {
+  state_.setSnapshot(ground_);
+  Q_EMIT told(ground_ ? tr("Every view shows the run on the ground.")
+                      : tr("The case has no run on the ground."));
+}
+
+void OnboardController::rerun() {
+  if (!review_) return;
+  if (!review_->plan.has_options) {
+    Q_EMIT failed(tr("The record has no options: it cannot be run again as it was."));
+    return;
+  }
+  Q_EMIT rerunRequested(review_->plan.plan);
+}
+
+void OnboardController::goToFirstDifference() {
+  if (!comparison_ || !comparison_->first) return;
+  const sessions::FirstDifference& first = *comparison_->first;
+  if (first.iteration < 0) return;
+  if (!state_.snapshot()) showOnboard();
+  const auto& iterations = state_.snapshot()->iterations;
+  for (std::size_t i = 0; i < iterations.size(); ++i) {
+    if (iterations[i]->index != first.iteration) continue;
+    state_.setCursor({static_cast<int>(i), Stage::kFinished});
+    if (first.template_index >= 0) state_.selectTemplate(first.template_index);
+    return;
+  }
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <QObject>
+#include <QString>
+
+#include "sessions/record/onboard_review.h"
+#include "ui/state/view_state.h"
+
+namespace boresight::ui {
+
+class Document;
+class TaskRunner;
+
+/// The current case's onboard record: attached by an edit of the document, read and replayed off
+/// the UI's thread, shown instead of the ground's run when that is asked for, and compared with it
+/// whenever either is another.
+class OnboardController : public QObject {
+  Q_OBJECT
+
+ public:
+  using ReviewPtr = std::shared_ptr<const sessions::OnboardReview>;
+  using ComparisonPtr = std::shared_ptr<const sessions::RecordComparison>;
+
+  OnboardController(Document& document, ViewState& state, TaskRunner& tasks,
+                    QObject* parent = nullptr);
+
+  /// The file that is attached to the current case, or empty.
+  std::filesystem::path file() const;
+  /// nullptr until it is read, or when it cannot be.
+  const ReviewPtr& review() const { return review_; }
+  /// Why it cannot be shown, or empty.
+  const QString& problem() const { return problem_; }
+  /// nullptr until both are there; then `whyNotCompared` is empty.
+  const ComparisonPtr& comparison() const { return comparison_; }
+  /// What stands in the way of a comparison; a sentence, or empty.
+  QString whyNotCompared() const;
+  /// Whether the views show the onboard run.
+  bool showsOnboard() const;
+  /// The run of the ground that can be shown and compared with, or nullptr.
+  const ViewState::SnapshotPtr& groundRun() const { return ground_; }
+
+ public Q_SLOTS:
+  /// Attaches a record to the current case; an edit that can be undone.
+  void attach(const std::filesystem::path& file);
+  void detach();
+  void showOnboard();
+  void showGround();
+  /// Runs the case on the ground by the record's options.
+  void rerun();
+  /// Moves every view to where the runs differ first.
+  void goToFirstDifference();
+
+ Q_SIGNALS:
+  /// Anything of the above.
+  void changed();
+  void rerunRequested(const boresight::sessions::RunPlan& plan);
+  void failed(const QString& message);
+  /// A remark for people.
+  void told(const QString& message);
+
+ private:
+  void caseChanged();
+  void snapshotChanged();
+  void readAgain();
+  void takeReview(const ViewState::CasePtr& one, ReviewPtr review, const QString& problem);
+  bool groundIsOfTheCase() const;
+  void compareAgain();
+  void attachAs(std::optional<sessions::InputFile> record, const QString& text);
+
+  Document& document_;
+  ViewState& state_;
+  TaskRunner& tasks_;
+  ReviewPtr review_;
+  QString problem_;
+  ViewState::SnapshotPtr ground_;
+  std::shared_ptr<const sessions::LoadedCase> ground_case_;  ///< as it was when the run came
+  ComparisonPtr comparison_;
+  std::string case_id_;
+  std::optional<sessions::InputFile> read_;  ///< what `review_` or `problem_` is of
+};
+
+}  // namespace boresight::ui
