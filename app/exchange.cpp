@@ -4,6 +4,11 @@
 
 #include "app/commands.h"
 #include "app/open_session.h"
+#include "sessions/io/atomic_file.h"
+#include "sessions/review/checks.h"
+#include "sessions/review/handed_pose.h"
+#include "sessions/review/pose_exchange.h"
+#include "sessions/review/validated_pose_file.h"
 #include "sessions/session/annotation_exchange.h"
 
 namespace boresight::app {
@@ -16,6 +21,10 @@ struct ExchangeArguments {
   std::string bop;
   std::string points;
   std::string landmarks;
+  std::string pose;
+  std::string bop_results;
+  std::string poses = "marks";
+  int scene = 1;
   std::vector<std::string> cases;
   bool robust = false;
   bool replace = false;
@@ -23,7 +32,7 @@ struct ExchangeArguments {
 
   /// Marks are those of one case.
   const std::string& onlyCase() const {
-    if (cases.size() != 1) throw CLI::ValidationError("--case", "name the one case of the marks");
+    if (cases.size() != 1) throw CLI::ValidationError("--case", "name the one case");
     return cases.front();
   }
 };
@@ -32,6 +41,35 @@ void tell(const std::vector<std::string>& case_ids, const std::vector<std::strin
   for (const std::string& id : case_ids) std::cout << id << "\n";
   std::cout << std::flush;
   for (const std::string& text : notes) note(text);
+}
+
+/// A pose that nobody judged is handed over with its checks as they are now.
+void exportPose(const sessions::Session& session, const ExchangeArguments& arguments) {
+  sessions::requireWritable(arguments.pose);
+  sessions::HandedPose pose = sessions::handedPose(session, arguments.onlyCase());
+  if (pose.checks.empty()) {
+    const auto subject = sessions::reviewSubject(
+        session, sessions::loadCase(*session.findCase(pose.case_id)), pose.source);
+    const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
+    for (const sessions::Check& check : sessions::checkPose(subject, limits))
+      pose.checks.push_back({check, ""});
+  }
+  sessions::writeValidatedPose(arguments.pose, session, pose);
+  std::cout << pose.case_id << ": " << pose.standing << std::endl;
+}
+
+sessions::ExportReport exportPoses(const sessions::Session& session,
+                                   const ExchangeArguments& arguments) {
+  if (!arguments.bop_results.empty())
+    return sessions::exportBopResults(session, arguments.bop_results, arguments.cases,
+                                      arguments.scene);
+  const bool colmap = !arguments.colmap.empty();
+  const std::string& folder = colmap ? arguments.colmap : arguments.bop;
+  if (arguments.poses == "marks")
+    return (colmap ? sessions::exportColmap : sessions::exportBop)(session, folder, arguments.cases,
+                                                                   arguments.robust);
+  return (colmap ? sessions::writeColmapOf : sessions::writeBopOf)(
+      session, folder, sessions::posesToHandOver(session, arguments.cases));
 }
 
 int exportFrom(const ExchangeArguments& arguments) {
@@ -44,11 +82,10 @@ int exportFrom(const ExchangeArguments& arguments) {
   } else if (!arguments.landmarks.empty()) {
     sessions::exportLandmarks(session, arguments.onlyCase(), arguments.landmarks);
     tell(arguments.cases, {});
+  } else if (!arguments.pose.empty()) {
+    exportPose(session, arguments);
   } else {
-    const sessions::ExportReport report =
-        arguments.colmap.empty()
-            ? sessions::exportBop(session, arguments.bop, arguments.cases, arguments.robust)
-            : sessions::exportColmap(session, arguments.colmap, arguments.cases, arguments.robust);
+    const sessions::ExportReport report = exportPoses(session, arguments);
     tell(report.case_ids, report.notes);
   }
   return kDone;
@@ -79,7 +116,8 @@ int importInto(const ExchangeArguments& arguments) {
 
 void addExport(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "export", "Writes what people marked in a session, for other programs; says which cases");
+      "export",
+      "Writes poses of a session, or what people marked, for other programs; says which cases");
   auto arguments = std::make_shared<ExchangeArguments>();
   command->add_option("session", arguments->session, "Session file")->required()->type_name("FILE");
   CLI::Option_group* what = command->add_option_group("What");
@@ -91,6 +129,12 @@ void addExport(CLI::App& app, int& exit_code) {
           "New folder with the poses as a BOP scene: scene_gt.json, scene_camera.json, and "
           "undistorted images in gray/")
       ->type_name("DIR");
+  what->add_option("--pose", arguments->pose,
+                   "The pose of one case with its checks, hashes and decision: validated_pose.json")
+      ->type_name("FILE");
+  what->add_option("--bop-results", arguments->bop_results,
+                   "The poses that cases are handed over with, as a BOP19 results file")
+      ->type_name("CSV");
   what->add_option("--points", arguments->points, "Marks of one case as points.json or points.csv")
       ->type_name("FILE");
   what->add_option("--landmarks", arguments->landmarks,
@@ -101,6 +145,15 @@ void addExport(CLI::App& app, int& exit_code) {
       ->add_option("--case", arguments->cases,
                    "This case; may be repeated for poses, which else are of all that solve")
       ->type_name("ID");
+  command
+      ->add_option("--poses", arguments->poses,
+                   "Which poses --colmap and --bop write: those of the marks, or those that cases "
+                   "are handed over with (validated, else of the last run, else of the marks)")
+      ->check(CLI::IsMember({"marks", "handed-over"}))
+      ->capture_default_str();
+  command->add_option("--scene", arguments->scene, "Number of the scene in --bop-results")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
   command->add_flag("--robust", arguments->robust, "Marks far from their projection count less");
   command->callback([arguments, &exit_code] { exit_code = exportFrom(*arguments); });
 }

@@ -17,6 +17,7 @@
 #include "sessions/io/mesh_container.h"
 #include "sessions/report/run_text.h"
 #include "sessions/report/text_table.h"
+#include "sessions/review/standing.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/input_sheet.h"
 #include "sessions/session/session_document.h"
@@ -131,11 +132,10 @@ void describeCase(const sessions::Session& session, const sessions::SessionCase&
     if (run.case_id == one.id)
       line("  run " + run.digest + ": " + run.status + ", " + run.time + ", whs " + run.version +
            stalenessText(sessions::stalenessOf(run, session, file)) + rerunText(run));
-  if (const sessions::Decision* decision = session.decisionOn(one.id))
-    line(std::string("  ") +
-         (decision->verdict == sessions::Verdict::kValidated ? "validated" : "rejected") + " by " +
-         decision->by + ", " + decision->time +
-         (decision->comment.empty() ? "" : ": " + decision->comment));
+  const sessions::Standing standing = sessions::standingOf(session, one.id);
+  if (standing.decision != nullptr)
+    line("  " + standingText(standing) + ", " + standing.decision->time +
+         (standing.decision->comment.empty() ? "" : ": " + standing.decision->comment));
 }
 
 void describeSession(const path& file) {

@@ -24,6 +24,8 @@ int run(int argc, char** argv) {
   addEvaluate(app, exit_code);
   addCompare(app, exit_code);
   addCheck(app, exit_code);
+  addDecide(app, exit_code);
+  addVerify(app, exit_code);
   addSolve(app, exit_code);
   addRender(app, exit_code);
   addInfo(app, exit_code);

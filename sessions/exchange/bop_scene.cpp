@@ -27,7 +27,8 @@ ordered_json cameraEntry(const Camera& camera) {
   return json;
 }
 
-ordered_json objectEntry(const Pose& camera_from_station, int object_id) {
+ordered_json objectEntry(const PosedImage& image, int object_id) {
+  const Pose& camera_from_station = image.camera_from_station;
   ordered_json rotation = ordered_json::array();
   ordered_json translation = ordered_json::array();
   const Eigen::Matrix3d matrix = camera_from_station.matrix();
@@ -39,6 +40,7 @@ ordered_json objectEntry(const Pose& camera_from_station, int object_id) {
   json["cam_R_m2c"] = rotation;
   json["cam_t_m2c"] = translation;
   json["obj_id"] = object_id;
+  if (!image.remark.empty()) json["remark"] = image.remark;  // readers take what they know
   return json;
 }
 
@@ -102,7 +104,7 @@ void writeBopScene(const std::filesystem::path& folder, std::span<const BopObjec
     requireWritableAsBop(folder, image, ids);
     const std::string key = std::to_string(image.id);
     cameras[key] = cameraEntry(image.camera);
-    truth[key] = ordered_json::array({objectEntry(image.camera_from_station, object_id)});
+    truth[key] = ordered_json::array({objectEntry(image, object_id)});
   }
   writeJsonFile(folder / "scene_camera.json", cameras);
   writeJsonFile(folder / "scene_gt.json", truth);

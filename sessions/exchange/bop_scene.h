@@ -16,9 +16,9 @@ struct BopObject {
 
 /// Writes scene_gt.json and scene_camera.json of a BOP scene (bop_toolkit, bop_datasets_format.md)
 /// into a folder, one object an image: rotations row by row, millimetres, pixels as OpenCV counts
-/// them. BOP knows no Brown-Conrady distortion: OutputError for a camera that has some (undistort
-/// the image, the pose stays), for an id that is given twice or negative, and for what cannot be
-/// written.
+/// them; a remark is a further member of its object. BOP knows no Brown-Conrady distortion:
+/// OutputError for a camera that has some (undistort the image, the pose stays), for an id that is
+/// given twice or negative, and for what cannot be written.
 void writeBopScene(const std::filesystem::path& folder, std::span<const BopObject> objects);
 
 /// Reads them back, several objects an image allowed; poses come back to 1e-12. InputError.

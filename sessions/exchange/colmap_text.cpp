@@ -201,6 +201,9 @@ void writeColmapText(const std::filesystem::path& folder, std::span<const PosedI
   std::vector<Camera> cameras;
   std::set<int> ids;
   std::string image_text = "# IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, then its points\n";
+  for (const PosedImage& image : images)
+    if (!image.remark.empty())
+      image_text += "# " + oneLine(image.name + ": " + image.remark) + "\n";
   for (const PosedImage& image : images) {
     const bool named = !image.name.empty() && image.name.find_first_of("\r\n") == std::string::npos;
     if (image.id < 1 || !ids.insert(image.id).second || !named)

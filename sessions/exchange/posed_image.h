@@ -14,6 +14,8 @@ struct PosedImage {
   std::string name;  ///< its file; where the format has one
   Camera camera;     ///< after prepareCamera
   Pose camera_from_station;
+  /// Said of the pose where the format has room: who validated it, or that nobody has. One line.
+  std::string remark = {};
 };
 
 }  // namespace boresight::sessions

@@ -29,6 +29,8 @@ void takeRun(const SessionCase& one, const RunRecord& run, HandedPose& pose) {
   pose.camera_from_station = trace.camera_from_station;
   pose.covariance = trace.covariance;
   pose.run_digest = run.digest;
+  pose.score = trace.support.share();
+  pose.seconds = trace.seconds.total();
 }
 
 void takeMarks(const Session& session, const SessionCase& one, HandedPose& pose) {

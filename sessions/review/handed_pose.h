@@ -16,7 +16,9 @@ struct HandedPose {
   Matrix6d covariance = Matrix6d::Zero();  ///< left perturbation, camera frame; zero: none
   std::string run_digest;                  ///< empty: the pose is the marks'
   bool validated = false;
-  std::string standing;             ///< standingText: who validated it, or NOT VALIDATED and why
+  std::string standing;   ///< standingText: who validated it, or NOT VALIDATED and why
+  double score = 1.0;     ///< 1 of a decided or annotated one, else the edge support of its run
+  double seconds = -1.0;  ///< that its run took; -1: not known
   std::vector<JudgedCheck> checks;  ///< as they were judged; none without a decision that holds
 };
 

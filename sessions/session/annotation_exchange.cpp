@@ -17,6 +17,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/image_file.h"
 #include "sessions/report/undistort.h"
+#include "sessions/review/standing.h"
 #include "sessions/session/case_marks.h"
 #include "sessions/session/image_names.h"
 
@@ -46,9 +47,9 @@ std::size_t placeOf(const Session& session, const std::string& case_id) {
 }
 
 /// Poses to write; there must be one.
-AnnotatedPoses posesToExport(const Session& session, const std::vector<std::string>& case_ids,
-                             bool robust) {
-  AnnotatedPoses made = annotatedPoses(session, case_ids, robust);
+CasePoses posesToExport(const Session& session, const std::vector<std::string>& case_ids,
+                        bool robust) {
+  CasePoses made = annotatedPoses(session, case_ids, robust);
   if (made.poses.empty())
     throw InputError("session", "annotations",
                      made.notes.empty() ? "no case has marks to make a pose of"
@@ -56,22 +57,32 @@ AnnotatedPoses posesToExport(const Session& session, const std::vector<std::stri
   return made;
 }
 
-ExportReport reportOf(const AnnotatedPoses& made) {
+ExportReport reportOf(const CasePoses& made) {
   ExportReport report;
-  for (const AnnotatedPose& pose : made.poses) report.case_ids.push_back(pose.case_id);
+  for (const CasePose& pose : made.poses) report.case_ids.push_back(pose.case_id);
   report.notes = made.notes;
   return report;
 }
 
-void requireOneStation(const Session& session, const AnnotatedPoses& made) {
+void requireOneStation(const Session& session, const CasePoses& made) {
   const std::vector<int> stations = stationNumbers(session);
   const int first = stations[placeOf(session, made.poses[0].case_id)];
-  for (const AnnotatedPose& pose : made.poses)
+  for (const CasePose& pose : made.poses)
     if (stations[placeOf(session, pose.case_id)] != first)
       throw InputError("session", "cases",
                        "'" + made.poses[0].case_id + "' and '" + pose.case_id +
                            "' are of different stations, and a COLMAP model has one world: choose "
                            "the cases of one station");
+}
+
+/// Who validated this very pose, or that nobody has.
+std::string remarkOf(const Session& session, const CasePose& pose) {
+  const Standing standing = standingOf(session, pose.case_id);
+  const bool judged = standing.holds() && standing.decision->pose &&
+                      standing.decision->pose->camera_from_station == pose.camera_from_station;
+  if (standing.state == CaseStanding::kValidated && !judged)
+    return "NOT VALIDATED: another pose of the case was";
+  return standingText(standing);
 }
 
 Camera prepared(const SessionCase& one) {
@@ -148,10 +159,10 @@ const SessionCase* caseOfImage(const Session& session, const fs::path& file,
 
 }  // namespace
 
-AnnotatedPoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids,
-                              bool robust) {
+CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids,
+                         bool robust) {
   for (const std::string& id : case_ids) (void)requireCase(session, id);
-  AnnotatedPoses made;
+  CasePoses made;
   for (const auto& one : session.cases) {
     const bool asked = std::find(case_ids.begin(), case_ids.end(), one->id) != case_ids.end();
     if (!case_ids.empty() && !asked) continue;
@@ -170,38 +181,45 @@ AnnotatedPoses annotatedPoses(const Session& session, const std::vector<std::str
 
 ExportReport exportColmap(const Session& session, const fs::path& folder,
                           const std::vector<std::string>& case_ids, bool robust) {
-  const AnnotatedPoses made = posesToExport(session, case_ids, robust);
-  requireOneStation(session, made);
-  const std::vector<std::string> names = imageNames(session);
-  std::vector<PosedImage> images;
-  for (const AnnotatedPose& pose : made.poses) {
-    const std::size_t place = placeOf(session, pose.case_id);
-    images.push_back({static_cast<int>(place) + 1, names[place], prepared(*session.cases[place]),
-                      pose.camera_from_station});
-  }
-  writeFolderAtomically(folder, [&](const fs::path& to) { writeColmapText(to, images); });
-  return reportOf(made);
+  return writeColmapOf(session, folder, posesToExport(session, case_ids, robust));
 }
 
 ExportReport exportBop(const Session& session, const fs::path& folder,
                        const std::vector<std::string>& case_ids, bool robust) {
-  const AnnotatedPoses made = posesToExport(session, case_ids, robust);
+  return writeBopOf(session, folder, posesToExport(session, case_ids, robust));
+}
+
+ExportReport writeColmapOf(const Session& session, const fs::path& folder, const CasePoses& poses) {
+  requireOneStation(session, poses);
+  const std::vector<std::string> names = imageNames(session);
+  std::vector<PosedImage> images;
+  for (const CasePose& pose : poses.poses) {
+    const std::size_t place = placeOf(session, pose.case_id);
+    images.push_back({static_cast<int>(place) + 1, names[place], prepared(*session.cases[place]),
+                      pose.camera_from_station, remarkOf(session, pose)});
+  }
+  writeFolderAtomically(folder, [&](const fs::path& to) { writeColmapText(to, images); });
+  return reportOf(poses);
+}
+
+ExportReport writeBopOf(const Session& session, const fs::path& folder, const CasePoses& poses) {
   const std::vector<int> numbers = imageNumbers(session);
   const std::vector<int> stations = stationNumbers(session);
   writeFolderAtomically(folder, [&](const fs::path& to) {
     std::error_code error;
     if (!fs::create_directory(to / "gray", error)) throw OutputError(to / "gray", error.message());
     std::vector<BopObject> objects;
-    for (const AnnotatedPose& pose : made.poses) {
+    for (const CasePose& pose : poses.poses) {
       const std::size_t place = placeOf(session, pose.case_id);
       const SessionCase& one = *session.cases[place];
-      objects.push_back({{numbers[place], "", pinholeOf(prepared(one)), pose.camera_from_station},
+      objects.push_back({{numbers[place], "", pinholeOf(prepared(one)), pose.camera_from_station,
+                          remarkOf(session, pose)},
                          stations[place]});
       writeBopImage(to / "gray", one, numbers[place]);
     }
     writeBopScene(to, objects);
   });
-  return reportOf(made);
+  return reportOf(poses);
 }
 
 void exportMarks(const Session& session, const std::string& case_id, const fs::path& file) {

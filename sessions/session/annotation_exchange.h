@@ -12,26 +12,26 @@
 
 namespace boresight::sessions {
 
-/// The pose that a case's marks give, solved as `solveCaseMarks` does, together with its rig.
-struct AnnotatedPose {
+struct CasePose {
   std::string case_id;
   Pose camera_from_station;
 };
 
-struct AnnotatedPoses {
-  std::vector<AnnotatedPose> poses;  ///< in the order of the session
-  std::vector<std::string> notes;    ///< cases with marks that give no pose, and why
+struct CasePoses {
+  std::vector<CasePose> poses;     ///< in the order of the session
+  std::vector<std::string> notes;  ///< cases without a pose that one might expect, and why
 };
 
+/// The poses that cases' marks give, solved as `solveCaseMarks` does, each together with its rig.
 /// Of these cases, or of all that have marks (or whose rig has). InputError for an id that does not
 /// exist.
-AnnotatedPoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids,
-                              bool robust);
+CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids,
+                         bool robust);
 
 /// What came of an export, for people.
 struct ExportReport {
   std::vector<std::string> case_ids;  ///< that were written
-  std::vector<std::string> notes;     ///< as in AnnotatedPoses
+  std::vector<std::string> notes;     ///< as in CasePoses
 };
 
 /// Writes a new folder with a COLMAP text model (colmap_text.h) of the cases' poses: whole or not
@@ -49,6 +49,13 @@ ExportReport exportColmap(const Session& session, const std::filesystem::path& f
 /// be read; OutputError.
 ExportReport exportBop(const Session& session, const std::filesystem::path& folder,
                        const std::vector<std::string>& case_ids, bool robust);
+
+/// The same two for poses that the caller chose. Every pose is written with who validated it, or
+/// that nobody has: as a comment in images.txt, as a `remark` in scene_gt.json.
+ExportReport writeColmapOf(const Session& session, const std::filesystem::path& folder,
+                           const CasePoses& poses);
+ExportReport writeBopOf(const Session& session, const std::filesystem::path& folder,
+                        const CasePoses& poses);
 
 /// Writes a case's marks as points.json, or points.csv where the name ends so. InputError when the
 /// case does not exist or has none; OutputError.

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/open_session.h"
+#include "sessions/review/checks.h"
+#include "sessions/review/decide.h"
+#include "sessions/review/standing.h"
+#include "sessions/session/case_run.h"
+
+namespace boresight::app {
+namespace {
+
+using sessions::PoseSource;
+using sessions::Session;
+
+struct DecideArguments {
+  std::string session;
+  std::string case_id;
+  std::string by;
+  std::string comment;
+  std::string source = "run";
+  std::vector<std::string> overrides;
+  bool validate = false;
+  bool reject = false;
+  bool approve = false;
+  bool reopen = false;
+  bool recover = false;
+
+  sessions::Signature signature() const { return {by, comment}; }
+};
+
+/// "coverage=half of it is dark" and the like.
+sessions::CheckOverrides readOverrides(const DecideArguments& arguments) {
+  sessions::CheckOverrides made;
+  for (const std::string& text : arguments.overrides) {
+    const std::size_t sign = text.find('=');
+    if (sign == std::string::npos || sign == 0)
+      throw CLI::ValidationError("--pass-over", "'" + text + "' is not CHECK=REASON");
+    made[text.substr(0, sign)] = text.substr(sign + 1);
+  }
+  return made;
+}
+
+Session validatedCase(const Session& session, const DecideArguments& arguments) {
+  const auto source = arguments.source == "annotation" ? PoseSource::kAnnotation : PoseSource::kRun;
+  const auto subject = sessions::reviewSubject(
+      session, sessions::loadCase(*session.findCase(arguments.case_id)), source);
+  const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
+  return sessions::validated(session, subject, sessions::checkPose(subject, limits),
+                             readOverrides(arguments), arguments.signature());
+}
+
+Session decided(const Session& session, const DecideArguments& arguments) {
+  if (arguments.validate) return validatedCase(session, arguments);
+  if (arguments.approve)
+    return sessions::approved(session, arguments.case_id, arguments.signature());
+  if (arguments.reject)
+    return sessions::rejected(session, arguments.case_id, {}, arguments.signature());
+  return sessions::reopened(session, arguments.case_id, arguments.signature());
+}
+
+int decide(const DecideArguments& arguments) {
+  sessions::SessionDocument document = openToEdit(arguments.session, arguments.recover);
+  (void)requireCase(document, arguments.case_id);
+  try {
+    document.apply(decided(document.session(), arguments), "Decide on " + arguments.case_id);
+  } catch (const sessions::DecisionError& error) {
+    note(arguments.case_id + ": " + error.what());
+    return kNotConverged;
+  }
+  document.save();
+  std::cout << arguments.case_id << ": "
+            << standingText(standingOf(document.session(), arguments.case_id)) << std::endl;
+  return kDone;
+}
+
+}  // namespace
+
+void addDecide(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "decide",
+      "Validates, rejects or approves the pose of a case, by name and with a comment. Exit status "
+      "4 when the pose cannot be validated: a check failed that is not passed over");
+  auto arguments = std::make_shared<DecideArguments>();
+  command->add_option("session", arguments->session, "Session file")->required()->type_name("FILE");
+  command->add_option("--case", arguments->case_id, "The case")->required()->type_name("ID");
+  CLI::Option_group* what = command->add_option_group("What");
+  what->add_flag("--validate", arguments->validate, "Vouch for its pose");
+  what->add_flag("--reject", arguments->reject, "Refuse its result");
+  what->add_flag("--approve", arguments->approve,
+                 "Approve, as a second person, what was validated");
+  what->add_flag("--reopen", arguments->reopen, "Take the last decision back");
+  what->require_option(1);
+  command->add_option("--by", arguments->by, "Who decides")->required()->type_name("NAME");
+  command->add_option("--comment", arguments->comment, "On what grounds")
+      ->required()
+      ->type_name("TEXT");
+  command
+      ->add_option("--pass-over", arguments->overrides,
+                   "A failed check that does not stand in the way, and why; may be repeated. `whs "
+                   "check --json` names the checks")
+      ->type_name("CHECK=REASON");
+  command
+      ->add_option("--source", arguments->source,
+                   "Which pose is validated: of the last run, or of the marks")
+      ->check(CLI::IsMember({"run", "annotation"}))
+      ->capture_default_str();
+  command->add_flag("--recover", arguments->recover,
+                    "Take edits that a killed program left in the session's journal");
+  command->callback([arguments, &exit_code] { exit_code = decide(*arguments); });
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/report/pdf_plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kLabelSize = 6.5;
+
+/// From values to the page.
+struct Axes {
+  PdfBox box;  ///< of the area within the axes
+  double x_low = 0.0, x_high = 1.0, y_low = 0.0, y_high = 1.0;
+  bool log_y = false;
+
+  double scaledY(double y) const { return log_y ? std::log10(y) : y; }
+  double pageX(double x) const { return box.x + box.width * (x - x_low) / (x_high - x_low); }
+  double pageY(double y) const {
+    return box.bottom() - box.height * (scaledY(y) - y_low) / (y_high - y_low);
+  }
+};
+
+std::string tickText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", std::abs(value) < 1e-12 ? 0.0 : value);
+  return text;
+}
+
+bool isDrawn(const PdfPlot& plot, const std::array<double, 2>& point) {
+  return std::isfinite(point[0]) && std::isfinite(point[1]) && (!plot.log_y || point[1] > 0.0);
+}
+
+void widen(double& low, double& high, double share) {
+  if (!(low <= high)) {
+    low = 0.0;
+    high = 1.0;
+  }
+  if (low == high) {
+    low -= 0.5;
+    high += 0.5;
+  }
+  const double room = share * (high - low);
+  low -= room;
+  high += room;
+}
+
+Axes axesOf(const PdfBox& area, const PdfPlot& plot) {
+  Axes axes;
+  axes.box = area;
+  axes.log_y = plot.log_y;
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  axes.x_low = axes.y_low = kFar;
+  axes.x_high = axes.y_high = -kFar;
+  for (const PdfSeries& series : plot.series) {
+    for (const auto& point : series.points) {
+      if (!isDrawn(plot, point)) continue;
+      axes.x_low = std::min(axes.x_low, point[0]);
+      axes.x_high = std::max(axes.x_high, point[0]);
+      axes.y_low = std::min(axes.y_low, axes.scaledY(point[1]));
+      axes.y_high = std::max(axes.y_high, axes.scaledY(point[1]));
+    }
+  }
+  if (!plot.log_y) axes.y_low = std::min(axes.y_low, 0.0);
+  widen(axes.x_low, axes.x_high, 0.04);
+  widen(axes.y_low, axes.y_high, 0.06);
+  return axes;
+}
+
+void drawTickX(PdfCanvas& canvas, const Axes& axes, double value) {
+  const double x = axes.pageX(value);
+  canvas.line(x, axes.box.y, x, axes.box.bottom(), kPaperGrid, 0.4);
+  canvas.text(x - 20.0, axes.box.bottom() + 1.5, 40.0, tickText(value),
+              {kLabelSize, false, false, kFaintInk, 1, PdfTextStyle::Align::kCentre});
+}
+
+void drawTickY(PdfCanvas& canvas, const Axes& axes, double value, const std::string& text) {
+  const double y = axes.pageY(value);
+  canvas.line(axes.box.x, y, axes.box.right(), y, kPaperGrid, 0.4);
+  canvas.text(axes.box.x - 34.0, y - 4.0, 32.0, text,
+              {kLabelSize, false, false, kFaintInk, 1, PdfTextStyle::Align::kRight});
+}
+
+void drawTicks(PdfCanvas& canvas, const Axes& axes, const PdfPlot& plot) {
+  for (const double value : roundTicks(axes.x_low, axes.x_high, 7))
+    if (!plot.whole_x || value == std::floor(value)) drawTickX(canvas, axes, value);
+  for (const double value : roundTicks(axes.y_low, axes.y_high, 5)) {
+    if (plot.log_y && value != std::floor(value)) continue;
+    const double y = plot.log_y ? std::pow(10.0, value) : value;
+    drawTickY(canvas, axes, y, tickText(y));
+  }
+}
+
+void drawSeries(PdfCanvas& canvas, const Axes& axes, const PdfPlot& plot,
+                const PdfSeries& series) {
+  std::vector<std::array<double, 2>> page;
+  for (const auto& point : series.points)
+    if (isDrawn(plot, point)) page.push_back({axes.pageX(point[0]), axes.pageY(point[1])});
+  canvas.polyline(page, series.color, 0.9);
+  for (const auto& point : page)
+    series.crosses ? canvas.cross(point[0], point[1], 1.8, series.color)
+                   : canvas.circle(point[0], point[1], 1.7, series.color, true);
+}
+
+/// Title above, labels around; the area within the axes is what remains.
+PdfBox drawSurroundings(PdfCanvas& canvas, const PdfBox& box, const std::string& title,
+                        const std::string& x_label, const std::string& y_label) {
+  canvas.text(box.x, box.y, box.width, title, {8.0, true, false, kInk, 1});
+  canvas.text(box.x, box.y + 10.5, box.width, y_label, {kLabelSize, false, false, kFaintInk, 1});
+  const PdfBox area = {box.x + 34.0, box.y + 21.0, box.width - 40.0, box.height - 42.0};
+  canvas.text(area.x, area.bottom() + 10.0, area.width, x_label,
+              {kLabelSize, false, false, kFaintInk, 1, PdfTextStyle::Align::kCentre});
+  return area;
+}
+
+void drawNames(PdfCanvas& canvas, const PdfBox& area, const PdfPlot& plot) {
+  if (plot.series.size() < 2) return;
+  double y = area.y + 2.0;
+  for (const PdfSeries& series : plot.series) {
+    const std::string sign = series.crosses ? "\xC3\x97 " : "\xE2\x97\x8F ";
+    y += canvas.text(area.x, y, area.width - 3.0, sign + series.name,
+                     {kLabelSize, false, false, series.color, 1, PdfTextStyle::Align::kRight});
+  }
+}
+
+}  // namespace
+
+std::vector<double> roundTicks(double low, double high, int most) {
+  std::vector<double> ticks;
+  if (!(low < high) || most < 1 || !std::isfinite(high - low)) return ticks;
+  const double rough = (high - low) / most;
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10.0 * power;
+  for (const double factor : {5.0, 2.0, 1.0})
+    if (factor * power >= rough) step = factor * power;
+  for (double i = std::ceil(low / step); i * step <= high; i += 1.0) ticks.push_back(i * step);
+  return ticks;
+}
+
+void drawPlot(PdfCanvas& canvas, const PdfBox& box, const PdfPlot& plot) {
+  const PdfBox area = drawSurroundings(canvas, box, plot.title, plot.x_label, plot.y_label);
+  const Axes axes = axesOf(area, plot);
+  drawTicks(canvas, axes, plot);
+  canvas.frame(area, kFaintInk);
+  canvas.clip(area);
+  for (const PdfSeries& series : plot.series) drawSeries(canvas, axes, plot, series);
+  canvas.unclip();
+  drawNames(canvas, area, plot);
+}
+
+void drawHistogram(PdfCanvas& canvas, const PdfBox& box, const std::string& title,
+                   const std::string& x_label, const std::vector<double>& values, double low,
+                   double high, int bins) {
+  const PdfBox area = drawSurroundings(canvas, box, title, x_label, "count");
+  std::vector<double> counts(static_cast<std::size_t>(bins), 0.0);
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    const double place = std::floor((value - low) / (high - low) * bins);
+    counts[static_cast<std::size_t>(std::clamp(place, 0.0, bins - 1.0))] += 1.0;
+  }
+  Axes axes{area, low, high, 0.0, 1.05 * std::max(1.0, *std::max_element(counts.begin(),
+                                                                        counts.end()))};
+  for (const double value : roundTicks(low, high, 6)) drawTickX(canvas, axes, value);
+  for (const double value : roundTicks(0.0, axes.y_high, 4))
+    drawTickY(canvas, axes, value, tickText(value));
+  const double width = area.width / bins;
+  for (int i = 0; i < bins; ++i) {
+    const double top = axes.pageY(counts[static_cast<std::size_t>(i)]);
+    canvas.fill({area.x + i * width + 0.3, top, width - 0.6, area.bottom() - top}, kPdfBlue);
+  }
+  canvas.frame(area, kFaintInk);
+}
+
+}  // namespace boresight::sessions
