@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include <QObject>
 #include <QString>
@@ -32,9 +33,16 @@ class PoseExport : public QObject {
   void exportPose(const std::filesystem::path& file);
   /// Proposed for it: says in its name when the case is not validated.
   QString poseFileName() const;
+  /// The poses of all cases that have one: a BOP19 results file, whose name has to say when one of
+  /// them is not validated, and a COLMAP text model in a new folder.
+  void exportBopResults(const std::filesystem::path& file, int scene_id);
+  void exportColmap(const std::filesystem::path& folder);
+  QString bopResultsFileName() const;
 
  public Q_SLOTS:
   void askForPose();
+  void askForBopResults();
+  void askForColmap();
 
  Q_SIGNALS:
   /// What happened, for the status bar.
@@ -42,7 +50,9 @@ class PoseExport : public QObject {
 
  private:
   std::string caseId() const;
-  bool isValidated() const;
+  bool isValidated(const std::string& case_id) const;
+  template <class Write>
+  void exportAll(const std::filesystem::path& path, Write write);
   /// "NOT VALIDATED: converged", for titles.
   QString standing() const;
   QString inSessionFolder(const QString& name) const;

@@ -337,5 +337,22 @@ TEST_F(ReviewPanelTest, WhatIsNotValidatedIsCalledSoInTheFile) {
   EXPECT_EQ(exporter.poseFileName(), QStringLiteral("validated_pose.json"));
 }
 
+TEST_F(ReviewPanelTest, AResultsFileOfPosesThatNobodyValidatedHasToSaySo) {
+  openRun();
+  TaskRunner tasks;
+  PoseExport exporter(*panel_, document_, state_, tasks);
+  QString failure;
+  QObject::connect(&tasks, &TaskRunner::failed, panel_.get(),
+                   [&failure](const QString& text) { failure = text; });
+  exporter.exportBopResults(folder_.path() / "results.csv", 1);
+  ASSERT_TRUE(QTest::qWaitFor([&tasks] { return !tasks.isBusy(); }, kPatienceMs));
+  EXPECT_TRUE(failure.contains(QStringLiteral("NOT-VALIDATED"))) << failure.toStdString();
+  const std::filesystem::path honest = folder_.path() / exporter.bopResultsFileName().toStdString();
+  exporter.exportBopResults(honest, 1);
+  ASSERT_TRUE(QTest::qWaitFor([&tasks] { return !tasks.isBusy(); }, kPatienceMs));
+  EXPECT_TRUE(std::filesystem::exists(honest));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "results.csv"));
+}
+
 }  // namespace
 }  // namespace boresight::ui
