@@ -19,7 +19,13 @@ using Matrix9d = Eigen::Matrix<double, 9, 9>;
 
 constexpr std::size_t kLeastFound = 60;
 constexpr int kRounds = 10;
-constexpr double kTukey = 4.685;
+/// First the usual constant, so that what a wrong camera leaves does not count as outlying; then a
+/// tighter one: shadows and bevels beside an edge are many and off to one side, and precision is to
+/// spare.
+constexpr double kWideTukey = 4.685;
+constexpr double kTightTukey = 2.0;
+/// Farther ones are mostly another edge.
+constexpr double kFarthest_px = 2.5;
 constexpr double kDeviationOfMedian = 1.4826;
 constexpr double kLeastScale_px = 0.05;
 /// Tiles along the longer side of what is looked at.
@@ -45,7 +51,7 @@ std::vector<Row> rowsOf(std::span<const LookedPlace> looked, const Camera& camer
   const double tile_px = std::max((most - least).maxCoeff() / kTiles, 1.0);
   for (const LookedPlace& one : looked) {
     PlaceDerivative by;
-    if (!one.found ||
+    if (!one.found || std::abs(one.found->offset_px) > kFarthest_px ||
         !placeDerivative(camera, camera_from_station, one.place.point_in_station_m, by))
       continue;
     Row row;
@@ -59,8 +65,8 @@ std::vector<Row> rowsOf(std::span<const LookedPlace> looked, const Camera& camer
   return rows;
 }
 
-double tukeyWeight(double residual_px, double scale_px) {
-  const double u = residual_px / (kTukey * scale_px);
+double tukeyWeight(double residual_px, double cut_px) {
+  const double u = residual_px / cut_px;
   return std::abs(u) < 1.0 ? (1.0 - u * u) * (1.0 - u * u) : 0.0;
 }
 
@@ -73,18 +79,19 @@ double scaleOf(const std::vector<Row>& rows, const Vector9d& solution) {
 struct Solved {
   Vector9d solution = Vector9d::Zero();
   Matrix9d inverse = Matrix9d::Zero();
-  double scale_px = 0.0;
+  double cut_px = 0.0;  ///< beyond, a residual weighs nothing
 };
 
 std::optional<Solved> solveRobustly(const std::vector<Row>& rows) {
   Solved solved;
   for (int round = 0; round < kRounds; ++round) {
-    solved.scale_px = scaleOf(rows, solved.solution);
+    solved.cut_px =
+        (round < kRounds / 2 ? kWideTukey : kTightTukey) * scaleOf(rows, solved.solution);
     Matrix9d information = Matrix9d::Zero();
     Vector9d right = Vector9d::Zero();
     for (const Row& row : rows) {
       const double weight =
-          tukeyWeight(row.residual_px - row.by.dot(solved.solution), solved.scale_px);
+          tukeyWeight(row.residual_px - row.by.dot(solved.solution), solved.cut_px);
       information += weight * row.by * row.by.transpose();
       right += weight * row.residual_px * row.by;
     }
@@ -106,7 +113,7 @@ Matrix9d clusteredCovariance(const std::vector<Row>& rows, const Solved& solved)
   for (const Row& row : rows) {
     const double residual_px = row.residual_px - row.by.dot(solved.solution);
     const auto place = scores.try_emplace(row.tile, Vector9d::Zero()).first;
-    place->second += tukeyWeight(residual_px, solved.scale_px) * residual_px * row.by;
+    place->second += tukeyWeight(residual_px, solved.cut_px) * residual_px * row.by;
   }
   Matrix9d middle = Matrix9d::Zero();
   for (const auto& [tile, score] : scores) middle += score * score.transpose();

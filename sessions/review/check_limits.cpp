@@ -22,6 +22,11 @@ CheckPreset photographs() {
   preset.name = "photographs";
   preset.help = "Photographs whose truth and calibration are good to some pixels only.";
   preset.requirement.projection_px = 5.0;
+  // Meshes of toys and castings, glossy or printed surfaces: less is seen, more is not predicted.
+  preset.limits.inlier_ratio_percent = 14.0;
+  preset.limits.coverage_percent = 25.0;
+  preset.limits.clutter_percent = 90.0;
+  preset.limits.fall_off_percent = 8.0;
   return preset;
 }
 

@@ -23,6 +23,11 @@ struct CheckLimits {
   double sigmas = 3.0;
   double focal_sigma_px = 0.0;
   double centre_sigma_px = 0.0;
+  double coverage_percent = 30.0;
+  double clutter_percent = 95.0;
+  double fall_off_percent = 15.0;
+  double focal_percent = 1.0;
+  double centre_px = 10.0;
   double agreement_percent = 100.0;
   double basin_percent = 90.0;
 
@@ -30,6 +35,8 @@ struct CheckLimits {
   static void visitFields(Self& self, Visitor&& visit) {
     matchingFields(self, visit);
     precisionFields(self, visit);
+    edgeFields(self, visit);
+    comparisonFields(self, visit);
   }
 
  private:
@@ -74,6 +81,32 @@ struct CheckLimits {
                    "Standard deviation of the calibrated principal point, per axis; 0: not known, "
                    "and left out."},
         self.centre_sigma_px);
+  }
+  template <class Self, class Visitor>
+  static void edgeFields(Self& self, Visitor&& visit) {
+    visit(OptionInfo{"check.coverage_percent", "%", 0.0, 100.0,
+                     "Least share of the predicted edges that the image shows."},
+          self.coverage_percent);
+    visit(OptionInfo{"check.clutter_percent", "%", 0.0, 100.0,
+                     "Most of the image's edges on the station that the pose may not predict."},
+          self.clutter_percent);
+    visit(OptionInfo{"check.fall_off_percent", "%", 0.0, 100.0,
+                     "Least part of the edges seen that must be lost when the pose is displaced, "
+                     "whichever way."},
+          self.fall_off_percent);
+    visit(OptionInfo{"check.focal_percent", "%", 0.0, 100.0,
+                     "Most that the focal length may change, beyond chance, when the edges may "
+                     "choose it; and most that they may leave open where the calibration is not "
+                     "known."},
+          self.focal_percent);
+    visit(OptionInfo{"check.centre_px", "px", 0.0, 10000.0,
+                     "Most that the principal point may move, beyond chance, when the edges may "
+                     "choose it; and most that they may leave open where the calibration is not "
+                     "known."},
+          self.centre_px);
+  }
+  template <class Self, class Visitor>
+  static void comparisonFields(Self& self, Visitor&& visit) {
     visit(OptionInfo{"check.agreement_percent", "%", 0.0, 10000.0,
                      "Most that this pose and another (annotation, truth, second camera) may be "
                      "apart, of what the requirement and both covariances allow."},

@@ -3,6 +3,8 @@
 
 #include "sessions/review/agreement_checks.h"
 #include "sessions/review/basin_checks.h"
+#include "sessions/review/edge_checks.h"
+#include "sessions/review/onboard_check.h"
 #include "sessions/review/precision_checks.h"
 #include "sessions/review/predicted_edges.h"
 #include "sessions/review/run_checks.h"
@@ -18,8 +20,10 @@ std::vector<Check> checkPose(const ReviewSubject& subject, const CheckLimits& li
                          subject.camera_from_station);
   addRunChecks(subject, limits, checks);
   addPrecisionChecks(subject, limits, edges, checks);
+  addEdgeChecks(subject, limits, edges, checks);
   addBasinChecks(basin, limits, checks);
   addAgreementChecks(subject, limits, checks);
+  addOnboardCheck(subject, checks);
   return checks;
 }
 

@@ -82,8 +82,8 @@ std::vector<LookedPlace> lookAt(const ImageEdges& image, const std::vector<Predi
 Share coverageOf(const std::vector<LookedPlace>& looked, double near_px) {
   Share share;
   for (const LookedPlace& one : looked) {
-    share.whole += 1.0;
-    if (one.found && std::abs(one.found->offset_px) <= near_px) share.part += 1.0;
+    share.whole += one.place.length_px;
+    if (one.found && std::abs(one.found->offset_px) <= near_px) share.part += one.place.length_px;
   }
   return share;
 }

@@ -39,7 +39,7 @@ struct FallOff {
 /// What the image's edges say of a pose, measured anew: with filters of their own, on the raw
 /// image, from a render of the final pose.
 struct EdgeEvidence {
-  Share coverage;  ///< places with the image's edge near, of those that could be seen
+  Share coverage;  ///< predicted length with the image's edge near, of what could be seen
   Share clutter;   ///< image edges on the station that no predicted edge explains
   std::vector<FallOff> fall_off;  ///< the six axes at the station, and the least determined way
 };

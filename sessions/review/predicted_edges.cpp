@@ -20,7 +20,10 @@ PredictedEdges predictEdges(const Camera& camera, const MeshView& mesh,
     if (!edgeLinePoint(view, mesh, pixel, place.pixel, place.point_in_station_m)) continue;
     place.normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y).normalized();
     place.kind = pixel.kind;
-    if (place.normal.allFinite()) made.places.push_back(place);
+    if (!place.normal.allFinite()) continue;
+    // A thin line has a pixel per column or per row, whichever it crosses more of.
+    place.length_px = 1.0 / place.normal.cwiseAbs().maxCoeff();
+    made.places.push_back(place);
   }
   made.mask = std::move(render.mask);
   return made;

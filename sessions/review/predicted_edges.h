@@ -13,16 +13,16 @@
 
 namespace boresight::sessions {
 
-/// One pixel's length of an edge that a pose predicts to be seen.
+/// A piece of an edge that a pose predicts to be seen, in one pixel.
 struct PredictedPlace {
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();   ///< on the line, sub-pixel
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< of the line, unit
-  std::uint8_t kind = 0;                             ///< EdgeKind bits
+  double length_px = 1.0;  ///< of the line that the pixel stands for: up to sqrt(2) on a diagonal
+  std::uint8_t kind = 0;   ///< EdgeKind bits
 };
 
-/// The station's visible edges at full resolution. The renderer marks every pixel whose centre
-/// lies within half a pixel of the line, so places are as dense along all lines.
+/// The station's visible edges at full resolution, in raster order.
 struct PredictedEdges {
   std::vector<PredictedPlace> places;
   BitMap mask;  ///< the station's silhouette with its edges

@@ -7,6 +7,8 @@
 #include "core/localizer/localizer.h"
 #include "sessions/annotation/mark_equations.h"
 #include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
+#include "sessions/record/record_of_run.h"
 #include "sessions/review/check_limits.h"
 #include "sessions/session/case_marks.h"
 #include "sessions/session/rig_links.h"
@@ -79,6 +81,19 @@ void takeRun(const RunRecord& record, ReviewSubject& subject) {
   subject.covariance = subject.run->covariance;
 }
 
+/// InputError when the record cannot be read, or is no longer the one that the session knows.
+std::optional<RecordComparison> againstOnboard(const LoadedCase& loaded, const RunSnapshot& run) {
+  const auto& known = loaded.source.onboard_record;
+  if (!known) return {};
+  const std::vector<std::uint8_t> bytes = readFileBytes(known->file, 64 * kMegabyte);
+  if (sha256Text(bytes) != known->sha256)
+    throw InputError(known->file,
+                     "its bytes are not those that the session knows: accept the file as it is "
+                     "now, or relink it");
+  const LocalizationProblem given = loaded.problem();
+  return compareRecords(parseRecord(known->file, bytes), recordOf(run, &given));
+}
+
 }  // namespace
 
 ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const LoadedCase> loaded,
@@ -91,6 +106,7 @@ ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const Loaded
   auto marked = poseOfMarks(session, *loaded, reason);
   if (source == PoseSource::kRun) {
     takeRun(runToReview(session, one.id, digest), subject);
+    subject.onboard = againstOnboard(*loaded, *subject.run);
     subject.annotated = std::move(marked);
   } else {
     if (!marked) throw InputError("case " + one.id, "marks", "they give no pose: " + reason);

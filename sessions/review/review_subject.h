@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/geometry/pose.h"
+#include "sessions/record/compare_records.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session.h"
 #include "sessions/trace/run_snapshot.h"
@@ -30,6 +31,8 @@ struct ReviewSubject {
   std::optional<RunSnapshot> run;        ///< that the pose came from; nothing of annotated ones
   std::optional<OtherPose> annotated;    ///< by the case's marks, unless these are the source
   std::vector<OtherPose> other_cameras;  ///< as the other cameras of the rig see the station
+  std::optional<RecordComparison>
+      onboard;  ///< the case's onboard record with the run, if it has one
 };
 
 /// What there is to check of a case: its last run (or this one), or the pose of its marks. Reads

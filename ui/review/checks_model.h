@@ -33,6 +33,7 @@ class ChecksModel : public QAbstractTableModel {
   /// the same checks change in place, so that selections and editors stay.
   void setRows(std::vector<CheckRow> rows, bool current);
   const CheckRow& checkAt(int row) const { return rows_[static_cast<std::size_t>(row)]; }
+  bool isFailed(int row) const { return checkAt(row).check.state == sessions::CheckState::kFailed; }
   /// "✓", "✗" or "–": each state has a shape of its own.
   static QString sign(sessions::CheckState state);
 

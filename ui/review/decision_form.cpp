@@ -25,7 +25,8 @@ constexpr int kDigestDigits = 12;
 QString sentence(QString clause) {
   if (clause.isEmpty()) return clause;
   clause[0] = clause[0].toUpper();
-  return clause.endsWith(QLatin1Char('.')) ? clause : clause + QLatin1Char('.');
+  const bool ended = clause.endsWith(QLatin1Char('.')) || clause.endsWith(QLatin1Char('?'));
+  return ended ? clause : clause + QLatin1Char('.');
 }
 
 QString entry(const QString& time, const QString& what, const std::string& by,

@@ -63,6 +63,7 @@ QHBoxLayout* ReviewPanel::buildTop() {
   source_ = new QComboBox(this);
   source_->setObjectName(QStringLiteral("judged"));
   source_->setAccessibleName(tr("What is judged"));
+  source_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   limits_ = new QPushButton(this);
   limits_->setObjectName(QStringLiteral("openLimits"));
   seeds_ = new QSpinBox(this);
@@ -112,7 +113,10 @@ void ReviewPanel::buildTable(QWidget& parent) {
   table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::SelectedClicked |
                           QAbstractItemView::EditKeyPressed);
   table_->setMinimumHeight(4 * table_->verticalHeader()->defaultSectionSize());
-  table_->horizontalHeader()->setStretchLastSection(true);
+  QHeaderView& header = *table_->horizontalHeader();
+  header.setSectionResizeMode(QHeaderView::ResizeToContents);
+  for (const int column : {ChecksModel::kCheck, ChecksModel::kReason})
+    header.setSectionResizeMode(column, QHeaderView::Stretch);
   hint_ = new EmptyHint(*table_);
   connect(table_->selectionModel(), &QItemSelectionModel::currentChanged, this,
           &ReviewPanel::showChosen);
@@ -170,10 +174,9 @@ void ReviewPanel::showChecks() {
     rows.push_back({check, controller_.reasonFor(check)});
   hint_->setText(hint());
   model_.setRows(std::move(rows), controller_.isCurrent());
-  if (!had_rows && model_.rowCount() > 0) {
-    fitColumns(*table_);
-    table_->setCurrentIndex(model_.index(0, 0));
-  }
+  if (!had_rows && model_.rowCount() > 0) table_->setCurrentIndex(model_.index(0, 0));
+  // Failed ones come first; without any there is nothing to give a reason for.
+  table_->setColumnHidden(ChecksModel::kReason, model_.rowCount() > 0 && !model_.isFailed(0));
   showChosen();
   showBasin();
 }

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// Measures the checks of right and deliberately wrong poses, and judges limits by them.
+//
+//   check_calibration measure DATASET OUT.jsonl [EVERY]   runs what OUT does not have yet; what is
+//   made wrong
+//                                                   only of every so many cases
+//   check_calibration recheck DATASET OUT.jsonl NEW.jsonl  measures the edges of the poses anew
+//   check_calibration judge OUT.jsonl ...                 by the limits as they are now
+#include <algorithm>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/evaluation/pose_error.h"
+#include "sessions/evaluation/run_result.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/json_reader.h"
+#include "sessions/io/json_writer.h"
+#include "sessions/io/pose_file.h"
+#include "sessions/review/checks.h"
+#include "sessions/session/case_json.h"
+#include "sessions/session/decision_json.h"
+#include "sessions/session/session_maker.h"
+#include "sessions/trace/record.h"
+#include "tests/benchmarks/check_cases.h"
+#include "tests/benchmarks/check_judgement.h"
+
+namespace boresight::test {
+namespace {
+
+using nlohmann::ordered_json;
+using sessions::Session;
+using sessions::SessionCase;
+
+const SessionCase& lender(const Session& session, const SessionCase& one) {
+  const SessionCase* first = nullptr;
+  bool passed = false;
+  for (const auto& other : session.cases) {
+    passed = passed || other->id == one.id;
+    if (other->station == one.station) continue;
+    if (first == nullptr) first = &*other;
+    if (passed) return *other;
+  }
+  return *first;
+}
+
+ordered_json errorJson(const CheckedVariant& variant, const Pose& camera_from_station,
+                       bool& meets) {
+  const SessionCase& one = variant.loaded->source;
+  sessions::PoseError error = sessions::poseError(
+      variant.camera_from_station_true, camera_from_station, one.camera_from_end_effector);
+  if (one.requirement->projection_px)
+    error.projection_px = sessions::projectionError(
+        variant.true_camera, variant.camera_from_station_true, camera_from_station,
+        sessions::matchedVertices(variant.loaded->scene.view()));
+  meets = sessions::meetsRequirement(error, *one.requirement);
+  return sessions::toJson(error);
+}
+
+sessions::ReviewSubject subjectOf(const CheckedVariant& variant, const Pose& camera_from_station) {
+  sessions::ReviewSubject subject;
+  subject.loaded = variant.loaded;
+  subject.requirement = *variant.loaded->source.requirement;
+  subject.camera_from_station = camera_from_station;
+  return subject;
+}
+
+ordered_json checksJson(const sessions::ReviewSubject& subject) {
+  ordered_json json = ordered_json::array();
+  for (const sessions::Check& check : checkPose(subject, sessions::CheckLimits()))
+    json.push_back(sessions::toJson(sessions::JudgedCheck{check, ""}));
+  return json;
+}
+
+ordered_json measured(const CheckedVariant& variant) {
+  ordered_json json;
+  try {
+    sessions::LocalizationTrace trace = runCase(*variant.loaded, variant.options);
+    json["status"] = boresight::localizationStatusText(trace.status);
+    if (!trace.converged()) return json;
+    bool meets = false;
+    json["error"] = errorJson(variant, trace.camera_from_station, meets);
+    json["right"] = meets && !variant.wrong_mesh;
+    json["pose"] = sessions::exactPoseJson(trace.camera_from_station);
+    sessions::ReviewSubject subject = subjectOf(variant, trace.camera_from_station);
+    subject.covariance = trace.covariance;
+    subject.run = sessions::snapshotOf(std::move(trace));
+    json["checks"] = checksJson(subject);
+  } catch (const sessions::FileError& error) {
+    json["status"] = "refused";
+  }
+  return json;
+}
+
+std::vector<ordered_json> linesOf(const std::string& file) {
+  std::vector<ordered_json> lines;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) lines.push_back(ordered_json::parse(line));
+  return lines;
+}
+
+std::string keyOf(const ordered_json& json) {
+  return json["case"].get<std::string>() + "|" + json["variant"].get<std::string>();
+}
+
+Session sessionOf(const std::string& dataset) { return sessions::makeSession(dataset); }
+
+bool isPhotograph(const SessionCase& one) {
+  return std::find(one.tags.begin(), one.tags.end(), "real") != one.tags.end();
+}
+
+int measure(const std::string& dataset, const std::string& out, std::size_t every) {
+  const Session session = sessionOf(dataset);
+  std::set<std::string> done;
+  for (const ordered_json& line : linesOf(out)) done.insert(keyOf(line));
+  std::ofstream stream(out, std::ios::app);
+  for (std::size_t i = 0; i < session.cases.size(); ++i) {
+    const SessionCase& one = *session.cases[i];
+    for (const std::string& name : variantNames(isPhotograph(one))) {
+      const bool may_be_right = name == "right" || name.starts_with("reseed");
+      if (!may_be_right && i % every != 0) continue;
+      ordered_json json = {{"case", one.id}, {"station", one.station}, {"variant", name}};
+      json["set"] = isPhotograph(one) ? "photographs" : "synthetic";
+      if (done.contains(keyOf(json))) continue;
+      json.update(measured(makeVariant(session, one, lender(session, one), name)));
+      stream << json.dump() << std::endl;
+      std::cerr << keyOf(json) << " " << json["status"] << std::endl;
+    }
+  }
+  return 0;
+}
+
+bool isOfEdges(const std::string& id) {
+  return id.starts_with("edge_") || id.starts_with("camera_");
+}
+
+int recheck(const std::string& dataset, const std::string& from, const std::string& to) {
+  const Session session = sessionOf(dataset);
+  std::ofstream stream(to, std::ios::app);
+  for (ordered_json line : linesOf(from)) {
+    const SessionCase* one = session.findCase(line["case"].get<std::string>());
+    if (one == nullptr) continue;
+    if (line.contains("pose")) {
+      const CheckedVariant variant =
+          makeVariant(session, *one, lender(session, *one), line["variant"].get<std::string>());
+      const auto pose_json = nlohmann::json::parse(line["pose"].dump());
+      const Pose pose = sessions::readExactPose(sessions::JsonReader(from, pose_json, "pose"));
+      ordered_json kept = ordered_json::array();
+      for (const ordered_json& check : line["checks"])
+        if (!isOfEdges(check["id"].get<std::string>())) kept.push_back(check);
+      for (const ordered_json& check : checksJson(subjectOf(variant, pose)))
+        if (isOfEdges(check["id"].get<std::string>())) kept.push_back(check);
+      line["checks"] = kept;
+    }
+    stream << line.dump() << std::endl;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace boresight::test
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  try {
+    if (arguments.size() >= 3 && arguments[0] == "measure")
+      return boresight::test::measure(arguments[1], arguments[2],
+                                      arguments.size() > 3 ? std::stoul(arguments[3]) : 1);
+    if (arguments.size() == 4 && arguments[0] == "recheck")
+      return boresight::test::recheck(arguments[1], arguments[2], arguments[3]);
+    if (arguments.size() >= 2 && arguments[0] == "judge")
+      return boresight::test::judge({arguments.begin() + 1, arguments.end()});
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << std::endl;
+    return 1;
+  }
+  std::cerr
+      << "check_calibration measure DATASET OUT [EVERY] | recheck DATASET FROM TO | judge OUT ..."
+      << std::endl;
+  return 2;
+}

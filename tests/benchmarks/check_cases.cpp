@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/benchmarks/check_cases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "sessions/evaluation/reseed.h"
+#include "sessions/io/scene_mesh.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::LoadedCase;
+using sessions::SessionCase;
+
+/// What a variant is made from: a copy of a case as it was read, with changes.
+std::shared_ptr<LoadedCase> copyOf(const LoadedCase& loaded) {
+  auto made = std::make_shared<LoadedCase>();
+  made->source = loaded.source;
+  made->image = loaded.image;
+  made->scene = loaded.scene;
+  made->ignore = loaded.ignore;
+  if (made->ignore) made->ignore_bits = made->ignore->view();
+  return made;
+}
+
+/// Mirrored through the station's origin, or through the middle of its box.
+void mirrorMesh(sessions::SceneMesh& scene, int axis, bool about_origin) {
+  const double middle_m = about_origin ? 0.0 : matchedBounds(scene.view()).centre()(axis);
+  for (Eigen::Vector3f& vertex : scene.vertices_in_station_m)
+    vertex(axis) = static_cast<float>(2.0 * middle_m) - vertex(axis);
+  for (Face& face : scene.faces) std::swap(face.vertex[1], face.vertex[2]);
+}
+
+void scaleFocal(Camera& camera, double factor) {
+  camera.fx *= factor;
+  camera.fy *= factor;
+  if (prepareCamera(camera) != Status::kOk) throw std::runtime_error("camera");
+}
+
+void moveCentre(Camera& camera, double share) {
+  camera.cx += share * camera.fx;
+  camera.cy -= 0.6 * share * camera.fx;
+  if (prepareCamera(camera) != Status::kOk) throw std::runtime_error("camera");
+}
+
+/// A gray patch over a part of the station's box in the image, from its left.
+void occlude(LoadedCase& loaded, const Pose& camera_from_station, double share) {
+  const BoundingBox box = matchedBounds(loaded.scene.view());
+  Eigen::Vector2d least = Eigen::Vector2d::Constant(1e9);
+  Eigen::Vector2d most = -least;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d corner((i & 1) != 0 ? box.maximum_m.x() : box.minimum_m.x(),
+                                 (i & 2) != 0 ? box.maximum_m.y() : box.minimum_m.y(),
+                                 (i & 4) != 0 ? box.maximum_m.z() : box.minimum_m.z());
+    Eigen::Vector2d pixel;
+    if (!project(loaded.source.camera, camera_from_station * corner, pixel)) continue;
+    least = least.cwiseMin(pixel);
+    most = most.cwiseMax(pixel);
+  }
+  const auto clamped = [](double value, int size) {
+    return std::clamp(static_cast<int>(value), 0, size);
+  };
+  const int x_end = clamped(least.x() + share * (most.x() - least.x()), loaded.image.width);
+  const int y_end = clamped(most.y(), loaded.image.height);
+  for (int y = clamped(least.y(), loaded.image.height); y < y_end; ++y)
+    for (int x = clamped(least.x(), loaded.image.width); x < x_end; ++x)
+      loaded.image.pixels[static_cast<std::size_t>(y * loaded.image.width + x)] = 90;
+}
+
+void reseed(LoadedCase& loaded, const Pose& camera_from_station_true, double scale, int number) {
+  SessionCase& one = loaded.source;
+  one.camera_from_station_seed = sessions::seedForOffset(
+      camera_from_station_true, sessions::drawOffset(one.uncertainty, scale, one.id, number),
+      one.uncertainty.pivot, matchedBounds(loaded.scene.view()).centre());
+}
+
+void change(LoadedCase& loaded, const SessionCase& other, const Pose& truth,
+            const std::string& variant, bool photograph) {
+  if (variant == "reseed 1") reseed(loaded, truth, 1.0, 1);
+  if (variant == "reseed 2") reseed(loaded, truth, 1.0, 2);
+  if (variant == "seed 2x") reseed(loaded, truth, 2.0, 3);
+  if (variant == "seed 3x") reseed(loaded, truth, 3.0, 4);
+  if (variant == "seed 4x") reseed(loaded, truth, 4.0, 5);
+  if (variant == "focal +3 %") scaleFocal(loaded.source.camera, 1.03);
+  if (variant == "focal -3 %") scaleFocal(loaded.source.camera, 0.97);
+  if (variant == "focal +8 %") scaleFocal(loaded.source.camera, 1.08);
+  if (variant == "centre +1 %") moveCentre(loaded.source.camera, 0.01);
+  if (variant == "centre +4 %") moveCentre(loaded.source.camera, 0.04);
+  if (variant == "mirrored in x") mirrorMesh(loaded.scene, 0, !photograph);
+  if (variant == "mirrored in y") mirrorMesh(loaded.scene, 1, !photograph);
+  if (variant == "hidden 50 %") occlude(loaded, truth, 0.5);
+  if (variant == "hidden 75 %") occlude(loaded, truth, 0.75);
+  if (variant != "other mesh") return;
+  std::vector<sessions::PartSource> parts;
+  for (const sessions::MeshInput& part : other.parts) parts.push_back(part.source);
+  loaded.scene = sessions::readScene(parts);
+}
+
+}  // namespace
+
+std::vector<std::string> variantNames(bool photographs) {
+  std::vector<std::string> names = {"right"};
+  if (!photographs) names.insert(names.end(), {"reseed 1", "reseed 2"});
+  names.insert(names.end(), {"other mesh", "mirrored in x", "mirrored in y", "focal +3 %",
+                             "focal -3 %", "focal +8 %", "centre +1 %", "centre +4 %", "seed 2x",
+                             "seed 3x", "seed 4x", "hidden 50 %", "hidden 75 %"});
+  return names;
+}
+
+CheckedVariant makeVariant(const sessions::Session& session, const SessionCase& one,
+                           const SessionCase& other, const std::string& variant) {
+  const auto read = sessions::loadCase(one);
+  auto loaded = copyOf(*read);
+  const bool photograph = std::find(one.tags.begin(), one.tags.end(), "real") != one.tags.end();
+  CheckedVariant made;
+  made.variant = variant;
+  made.camera_from_station_true = one.camera_from_station_truth.value();
+  made.true_camera = one.camera;
+  change(*loaded, other, made.camera_from_station_true, variant, photograph);
+  loaded->source.camera_from_station_truth.reset();
+  made.wrong_mesh = variant == "other mesh";
+  made.options = sessions::caseOptions(session, one, "session");
+  made.options.support.gate = variant == "right" || variant.starts_with("reseed");
+  made.loaded = std::move(loaded);
+  return made;
+}
+
+}  // namespace boresight::test

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace boresight::test {
+
+/// Judges measured checks by the presets' limits as they are now and prints, for either half of the
+/// cases (by a hash of the case's id), how many wrong poses pass and how many right ones are
+/// refused, which these are, and by which checks. 1 when a wrong one passes.
+int judge(const std::vector<std::string>& files);
+
+}  // namespace boresight::test

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/review/agreement_checks.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "sessions/review/basin_checks.h"
+#include "sessions/review/onboard_check.h"
+#include "tests/sessions/review/find_check.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::findCheck;
+
+/// At half a metre, with 0.4 mm asked for along and across the view axis.
+ReviewSubject someSubject() {
+  ReviewSubject subject;
+  subject.loaded = std::make_shared<LoadedCase>();
+  subject.camera_from_station.translation_m = {0.0, 0.0, 0.5};
+  subject.requirement = {0.4, 0.4, 0.25, {}};
+  return subject;
+}
+
+Pose movedBy(const ReviewSubject& subject, double x_mm, double z_mm) {
+  Pose moved = subject.camera_from_station;
+  moved.translation_m += 1e-3 * Eigen::Vector3d(x_mm, 0.0, z_mm);
+  return moved;
+}
+
+Check checkOf(const ReviewSubject& subject, const std::string& id) {
+  std::vector<Check> checks;
+  addAgreementChecks(subject, CheckLimits(), checks);
+  return findCheck(checks, id);
+}
+
+TEST(AgreementChecks, NothingToCompareWithIsNotApplicable) {
+  for (const char* id : {"agreement_annotation", "agreement_truth", "agreement_camera"})
+    EXPECT_EQ(checkOf(someSubject(), id).state, CheckState::kNotApplicable) << id;
+}
+
+TEST(AgreementChecks, TheTruthIsHeldToTheRequirement) {
+  ReviewSubject subject = someSubject();
+  auto loaded = std::make_shared<LoadedCase>();
+  loaded->source.camera_from_station_truth = movedBy(subject, 0.1, -0.3);
+  subject.loaded = loaded;
+  EXPECT_NEAR(checkOf(subject, "agreement_truth").figure.value(), 75.0, 1e-6);
+  EXPECT_EQ(checkOf(subject, "agreement_truth").state, CheckState::kPassed);
+  loaded->source.camera_from_station_truth = movedBy(subject, 0.6, 0.0);
+  EXPECT_NEAR(checkOf(subject, "agreement_truth").figure.value(), 150.0, 1e-6);
+  EXPECT_EQ(checkOf(subject, "agreement_truth").state, CheckState::kFailed);
+}
+
+TEST(AgreementChecks, ACoarseAnnotationAllowsItsOwnSigmasAndSaysThatItTellsLittle) {
+  ReviewSubject subject = someSubject();
+  subject.annotated.emplace();
+  subject.annotated->camera_from_station = movedBy(subject, 0.6, 0.0);
+  EXPECT_EQ(checkOf(subject, "agreement_annotation").state, CheckState::kFailed);
+  // 3 sigma of 0.4 mm per axis: across the axis 3 sqrt(2) 0.4 mm and the requirement together.
+  subject.annotated->covariance = 1.6e-7 * Matrix6d::Identity();
+  const Check check = checkOf(subject, "agreement_annotation");
+  EXPECT_NEAR(check.figure.value(), 100.0 * 0.6 / std::hypot(0.4, 1.2 * std::sqrt(2.0)), 1e-6);
+  EXPECT_EQ(check.state, CheckState::kPassed);
+  EXPECT_NE(check.sentence.find("says little"), std::string::npos) << check.sentence;
+}
+
+TEST(AgreementChecks, OfSeveralCamerasTheFarthestCounts) {
+  ReviewSubject subject = someSubject();
+  const Matrix6d unknown = Matrix6d::Zero();
+  subject.other_cameras = {{"left", movedBy(subject, 0.1, 0.0), unknown},
+                           {"top", movedBy(subject, 0.0, 0.8), unknown},
+                           {"right", movedBy(subject, 0.2, 0.0), unknown}};
+  const Check check = checkOf(subject, "agreement_camera");
+  EXPECT_NEAR(check.figure.value(), 200.0, 1e-6);
+  EXPECT_NE(check.sentence.find("top"), std::string::npos) << check.sentence;
+}
+
+TEST(AgreementChecks, WithinTheRequirementIsWithinAllOfIt) {
+  const ReviewSubject subject = someSubject();
+  EXPECT_TRUE(withinRequirement(subject, movedBy(subject, 0.3, 0.3)));
+  EXPECT_FALSE(withinRequirement(subject, movedBy(subject, 0.3, 0.5)));
+  Pose turned = subject.camera_from_station;
+  turned.rotation = rotationExp({0.005, 0.0, 0.0}) * turned.rotation;
+  EXPECT_FALSE(withinRequirement(subject, turned));
+}
+
+std::vector<Check> basinChecks(const std::optional<BasinResult>& basin) {
+  std::vector<Check> checks;
+  addBasinChecks(basin, CheckLimits(), checks);
+  return checks;
+}
+
+TEST(BasinChecks, SeedsThatStayAwayAndSeedsThatLeadElsewhereAreTwoThings) {
+  EXPECT_EQ(findCheck(basinChecks({}), "basin_returned").state, CheckState::kNotApplicable);
+  BasinResult basin{20, 19, 19, {}};
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").figure, 95.0);
+  EXPECT_TRUE(allPassed(basinChecks(basin)));
+  basin.converged = 20;
+  basin.elsewhere.emplace_back();
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").state, CheckState::kPassed);
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_elsewhere").state, CheckState::kFailed);
+  basin = {20, 10, 10, {}};
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").state, CheckState::kFailed);
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_elsewhere").state, CheckState::kPassed);
+}
+
+Check onboardCheck(const ReviewSubject& subject) {
+  std::vector<Check> checks;
+  addOnboardCheck(subject, checks);
+  return findCheck(checks, "agreement_onboard");
+}
+
+TEST(OnboardCheck, SaysWhatTheComparisonFound) {
+  ReviewSubject subject = someSubject();
+  EXPECT_EQ(onboardCheck(subject).state, CheckState::kNotApplicable);
+  subject.onboard.emplace();
+  subject.onboard->verdict = RunVerdict::kEqual;
+  EXPECT_EQ(onboardCheck(subject).state, CheckState::kPassed);
+  subject.onboard->first.emplace();
+  subject.onboard->first->text = "The pixels differ.";
+  subject.onboard->verdict = RunVerdict::kWithinLimits;
+  EXPECT_EQ(onboardCheck(subject).state, CheckState::kPassed);
+  EXPECT_NE(onboardCheck(subject).sentence.find("The pixels differ."), std::string::npos);
+  subject.onboard->verdict = RunVerdict::kDifferent;
+  EXPECT_EQ(onboardCheck(subject).state, CheckState::kFailed);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole checks of the examples that ship: right ones pass, wrong ones do not.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "sessions/io/errors.h"
+#include "sessions/review/checks.h"
+#include "sessions/review/checks_text.h"
+#include "tests/sessions/review/find_check.h"
+#include "tests/support/loaded_example.h"
+#include "tests/support/marked_example.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::exampleFolder;
+using test::findCheck;
+
+struct ExampleReview {
+  Session session;
+  std::string case_id;
+  ReviewSubject subject;
+};
+
+/// A station's case, run, stored and read again.
+ExampleReview runExample(const std::string& station) {
+  static const test::TemporaryFolder folder;
+  ExampleReview made;
+  made.session = makeSession(exampleFolder() / "dataset.json");
+  made.case_id = test::caseOfStation(made.session, station);
+  const auto loaded = loadCase(*made.session.findCase(made.case_id));
+  const LocalizationTrace trace = runCase(made.session, *loaded);
+  made.session = withRun(made.session,
+                         storeRun(made.session, made.case_id, trace, folder / "a.boresight.json"));
+  made.subject = reviewSubject(made.session, loaded, PoseSource::kRun);
+  return made;
+}
+
+const ExampleReview& example(const std::string& station) {
+  static const ExampleReview bc = runExample("bc");
+  static const ExampleReview os = runExample("os");
+  return station == "bc" ? bc : os;
+}
+
+CheckLimits presetLimits() { return checkLimits(kDefaultCheckPreset, {}); }
+
+ReviewSubject displaced(const ReviewSubject& subject, const Vector6d& xi) {
+  ReviewSubject moved = subject;
+  moved.camera_from_station = perturbed(xi, subject.camera_from_station);
+  auto loaded = std::make_shared<LoadedCase>();  // without the truth, which would tell at once
+  loaded->source = subject.loaded->source;
+  loaded->source.camera_from_station_truth.reset();
+  loaded->image = subject.loaded->image;
+  loaded->scene = subject.loaded->scene;
+  moved.loaded = loaded;
+  return moved;
+}
+
+TEST(CheckPose, TheExamplesPassAll) {
+  for (const char* station : {"bc", "os"}) {
+    const auto checks = checkPose(example(station).subject, presetLimits());
+    EXPECT_TRUE(allPassed(checks)) << station << "\n" << checksText(checks, true);
+    EXPECT_EQ(findCheck(checks, "agreement_truth").state, CheckState::kPassed);
+    EXPECT_EQ(findCheck(checks, "edge_coverage").state, CheckState::kPassed);
+  }
+}
+
+TEST(CheckPose, APoseThatIsOffByThreeMillimetresFails) {
+  const ReviewSubject& subject = example("bc").subject;
+  for (int axis : {3, 4}) {
+    const auto moved = displaced(subject, 0.003 * Vector6d::Unit(axis));
+    const auto checks = checkPose(moved, presetLimits());
+    EXPECT_FALSE(allPassed(checks)) << axis << "\n" << checksText(checks, true);
+  }
+}
+
+TEST(CheckPose, AMeshOfAnotherStationFails) {
+  ReviewSubject subject = displaced(example("bc").subject, Vector6d::Zero());
+  auto loaded = std::make_shared<LoadedCase>();
+  loaded->source = subject.loaded->source;
+  loaded->image = subject.loaded->image;
+  loaded->scene = example("os").subject.loaded->scene;
+  subject.loaded = loaded;
+  const auto checks = checkPose(subject, presetLimits());
+  EXPECT_EQ(findCheck(checks, "edge_coverage").state, CheckState::kFailed)
+      << checksText(checks, true);
+}
+
+TEST(CheckPose, FiguresAreTheSameEveryTimeAndIdsAreTheSameForEveryPose) {
+  const auto once = checkPose(example("os").subject, presetLimits());
+  EXPECT_EQ(once, checkPose(example("os").subject, presetLimits()));
+  const auto bare = checkPose(ReviewSubject(), CheckLimits());
+  ASSERT_EQ(once.size(), bare.size());
+  std::set<std::string> ids;
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    EXPECT_EQ(once[i].id, bare[i].id);
+    EXPECT_FALSE(once[i].sentence.empty()) << once[i].id;
+    ids.insert(once[i].id);
+  }
+  EXPECT_EQ(ids.size(), once.size());
+}
+
+TEST(CheckPose, MarksOfThePoseAgreeAndArePosesOfTheirOwn) {
+  ExampleReview review = example("bc");
+  review.session.annotations = test::markedExample(0.0).annotations;
+  const auto loaded = review.subject.loaded;
+  const auto run = reviewSubject(review.session, loaded, PoseSource::kRun);
+  ASSERT_TRUE(run.annotated);
+  EXPECT_EQ(findCheck(checkPose(run, presetLimits()), "agreement_annotation").state,
+            CheckState::kPassed);
+  const auto marked = reviewSubject(review.session, loaded, PoseSource::kAnnotation);
+  EXPECT_FALSE(marked.run);
+  EXPECT_EQ(marked.camera_from_station, run.annotated->camera_from_station);
+  const auto checks = checkPose(marked, presetLimits());
+  EXPECT_EQ(findCheck(checks, "edge_coverage").state, CheckState::kPassed);
+  EXPECT_EQ(findCheck(checks, "converged").state, CheckState::kNotApplicable);
+}
+
+TEST(CheckPose, AnotherCamerasPoseIsTakenThroughTheRig) {
+  ExampleReview review = example("bc");
+  // The same image again, said to be taken by a camera 10 cm beside and turned by 0.1 rad: the pose
+  // that it finds disagrees by as much.
+  SessionCase twin = *review.session.findCase(review.case_id);
+  twin.id = "twin";
+  review.session = withCase(review.session, twin);
+  RunRecord run = *review.session.lastRunOf(review.case_id);
+  run.case_id = "twin";
+  review.session.runs.push_back(run);
+  SessionCase one = *review.session.findCase(review.case_id);
+  Pose camera_from_rig;
+  camera_from_rig.rotation = rotationExp({0.1, 0.0, 0.0});
+  camera_from_rig.translation_m = {0.1, 0.0, 0.0};
+  one.rig = Rig{"rig", camera_from_rig};
+  twin.rig = Rig{"rig", camera_from_rig};
+  review.session = withCase(withCase(review.session, one), twin);
+  const auto agrees = reviewSubject(review.session, review.subject.loaded, PoseSource::kRun);
+  EXPECT_TRUE(agrees.other_cameras.empty()) << "the loaded case is in no rig yet";
+  const auto loaded = reloadCase(*review.subject.loaded, one);
+  const auto same = reviewSubject(review.session, loaded, PoseSource::kRun);
+  ASSERT_EQ(same.other_cameras.size(), 1U);
+  EXPECT_LT(perturbationBetween(same.other_cameras[0].camera_from_station, same.camera_from_station)
+                .norm(),
+            1e-9);
+  EXPECT_LT((same.other_cameras[0].covariance - same.covariance).norm(),
+            1e-6 * same.covariance.norm());
+  twin.rig->camera_from_rig.translation_m.x() += 0.002;
+  review.session = withCase(review.session, twin);
+  const auto apart = reviewSubject(review.session, loaded, PoseSource::kRun);
+  EXPECT_EQ(findCheck(checkPose(apart, presetLimits()), "agreement_camera").state,
+            CheckState::kFailed);
+}
+
+TEST(CheckPose, WithoutAPoseThereIsASentence) {
+  const Session session = makeSession(exampleFolder() / "dataset.json");
+  const auto loaded = loadCase(*session.cases.front());
+  EXPECT_THROW(reviewSubject(session, loaded, PoseSource::kRun), InputError);
+  EXPECT_THROW(reviewSubject(session, loaded, PoseSource::kAnnotation), InputError);
+}
+
+TEST(CheckPose, OtherSeedsLeadBackAndAStopLeavesWhatWasDone) {
+  const ReviewSubject& subject = example("os").subject;
+  const BasinResult basin = basinTest(subject, 2);
+  EXPECT_EQ(basin.seeds, 2);
+  EXPECT_EQ(basin.returned, 2);
+  EXPECT_TRUE(basin.elsewhere.empty());
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_EQ(basinTest(subject, 2, stop.get_token()).seeds, 0);
+  const auto checks = checkPose(subject, presetLimits(), basin);
+  EXPECT_EQ(findCheck(checks, "basin_returned").figure, 100.0);
+}
+
+TEST(ChecksText, FailedOnesSayWhy) {
+  const auto moved = displaced(example("bc").subject, 0.02 * Vector6d::Unit(3));
+  const std::string text = checksText(checkPose(moved, presetLimits()));
+  EXPECT_NE(text.find("FAIL  Predicted edges that are seen"), std::string::npos) << text;
+  EXPECT_NE(text.find("Look at the overlay"), std::string::npos) << text;
+  EXPECT_NE(text.find(" failed, "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// Edges of a box that OpenCV drew, asked at the pose that it was drawn from and at others.
+#include "sessions/review/edge_checks.h"
+
+#include <gtest/gtest.h>
+
+#include "sessions/review/calibration_share.h"
+#include "sessions/review/camera_fit.h"
+#include "sessions/review/edge_evidence.h"
+#include "tests/sessions/review/drawn_box.h"
+#include "tests/sessions/review/find_check.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::DrawnBox;
+using test::findCheck;
+
+std::vector<Check> checksOf(const ReviewSubject& subject) {
+  std::vector<Check> checks;
+  const PredictedEdges edges = predictEdges(
+      subject.loaded->source.camera, subject.loaded->scene.view(), subject.camera_from_station);
+  addEdgeChecks(subject, CheckLimits(), edges, checks);
+  return checks;
+}
+
+double figureOf(const std::vector<Check>& checks, const std::string& id) {
+  return findCheck(checks, id).figure.value_or(-1.0);
+}
+
+/// The box's pose moved across the view so that the image moves by so many pixels.
+Pose movedBy(const DrawnBox& box, double x_px, double y_px) {
+  Pose moved = box.camera_from_station_;
+  moved.translation_m.x() += x_px * 0.5 / 1000.0;
+  moved.translation_m.y() += y_px * 0.5 / 1000.0;
+  return moved;
+}
+
+TEST(EdgeChecks, AtThePoseThatWasDrawnAllIsSeenAndExplained) {
+  const DrawnBox box;
+  const auto checks = checksOf(box.subject(box.camera_from_station_));
+  EXPECT_GT(figureOf(checks, "edge_coverage"), 96.0);
+  EXPECT_LT(figureOf(checks, "edge_clutter"), 4.0);
+  EXPECT_GT(figureOf(checks, "edge_fall_off"), 40.0);
+  EXPECT_LT(figureOf(checks, "camera_focal"), 0.6);
+  EXPECT_LT(figureOf(checks, "camera_centre"), 5.0);
+  for (const Check& check : checks)
+    EXPECT_EQ(check.state, CheckState::kPassed) << check.id << ": " << check.sentence;
+}
+
+TEST(EdgeChecks, PlacesAreOnTheDrawnLinesToATenthOfAPixel) {
+  const DrawnBox box;
+  const EvidenceSettings settings;
+  const PredictedEdges edges =
+      predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
+  double length_px = 0.0;
+  for (const PredictedPlace& place : edges.places) length_px += place.length_px;
+  EXPECT_NEAR(length_px, box.visibleLength_px(), 0.02 * box.visibleLength_px());
+  const auto subject = box.subject(box.camera_from_station_);
+  const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges, settings));
+  double sum = 0.0;
+  double squares = 0.0;
+  double count = 0.0;
+  for (const LookedPlace& one : lookAt(image, edges.places, settings)) {
+    if (!one.found || std::abs(one.found->offset_px) > 1.0) continue;
+    sum += one.found->offset_px;
+    squares += one.found->offset_px * one.found->offset_px;
+    count += 1.0;
+  }
+  ASSERT_GT(count, 500.0);
+  EXPECT_LT(std::abs(sum / count), 0.05);
+  EXPECT_LT(std::sqrt(squares / count), 0.2);
+}
+
+TEST(EdgeChecks, CoverageFallsWithTheDistanceFromThePose) {
+  const DrawnBox box;
+  const double near = figureOf(checksOf(box.subject(movedBy(box, 0.7, 0.5))), "edge_coverage");
+  const auto away = checksOf(box.subject(movedBy(box, 6.0, 5.0)));
+  EXPECT_GT(near, 90.0);
+  EXPECT_LT(figureOf(away, "edge_coverage"), 35.0);
+  EXPECT_EQ(findCheck(away, "edge_coverage").state, CheckState::kFailed);
+  EXPECT_GT(figureOf(away, "edge_clutter"), 60.0);
+}
+
+TEST(EdgeChecks, LinesThatTheBoxDoesNotHaveAreClutterByTheirLength) {
+  DrawnBox box;
+  const double added_px = box.addPatch(0.6, 230);
+  const auto subject = box.subject(box.camera_from_station_);
+  const auto checks = checksOf(subject);
+  // Of the predicted edges, those on the silhouette count where Canny puts them inside it.
+  const double least = 100.0 * added_px / (added_px + box.visibleLength_px());
+  EXPECT_GT(figureOf(checks, "edge_clutter"), 0.85 * least);
+  EXPECT_LT(figureOf(checks, "edge_clutter"), 2.0 * least);
+  EXPECT_GT(figureOf(checks, "edge_coverage"), 96.0);
+}
+
+TEST(EdgeChecks, WhatIsHiddenIsNotSeen) {
+  DrawnBox box;
+  const double middle_px = box.pixelOf({0.0, 0.0, 0.025}).x();
+  box.fill({{0.0, 0.0}, {middle_px, 0.0}, {middle_px, 599.0}, {0.0, 599.0}}, 40);
+  const double seen = figureOf(checksOf(box.subject(box.camera_from_station_)), "edge_coverage");
+  EXPECT_GT(seen, 35.0);
+  EXPECT_LT(seen, 65.0);
+}
+
+TEST(EdgeChecks, IgnoredPixelsCountNeitherWay) {
+  DrawnBox box;
+  const double middle_px = box.pixelOf({0.0, 0.0, 0.025}).x();
+  box.fill({{0.0, 0.0}, {middle_px, 0.0}, {middle_px, 599.0}, {0.0, 599.0}}, 40);
+  ReviewSubject subject = box.subject(box.camera_from_station_);
+  auto masked = std::make_shared<LoadedCase>();
+  masked->source = subject.loaded->source;
+  masked->scene = subject.loaded->scene;
+  masked->image = subject.loaded->image;
+  masked->ignore.emplace();
+  masked->ignore->width = 800;
+  masked->ignore->height = 600;
+  masked->ignore->words.assign(static_cast<std::size_t>(BitImage::wordsPerRow(800)) * 600, 0);
+  masked->ignore_bits = masked->ignore->view();
+  for (int y = 0; y < 600; ++y)
+    for (int x = 0; x < static_cast<int>(middle_px) + 4; ++x) masked->ignore_bits.set(x, y);
+  subject.loaded = masked;
+  const auto checks = checksOf(subject);
+  EXPECT_GT(figureOf(checks, "edge_coverage"), 96.0);
+  EXPECT_LT(figureOf(checks, "edge_clutter"), 4.0);
+}
+
+TEST(EdgeChecks, AWayThatTheEdgesDoNotDetermineIsFound) {
+  // Half of the image hidden so that parallel lines of one edge remain: it slides along itself.
+  DrawnBox box;
+  const PredictedEdges edges =
+      predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
+  std::vector<PredictedPlace> parallel;
+  const Eigen::Vector2d along =
+      (box.pixelOf({0.06, 0.04, 0.025}) - box.pixelOf({-0.06, 0.04, 0.025})).normalized();
+  for (const PredictedPlace& place : edges.places)
+    if (std::abs(place.normal.dot(along)) < 0.1) parallel.push_back(place);
+  ASSERT_GT(parallel.size(), 200U);
+  const EvidenceSettings settings;
+  const auto subject = box.subject(box.camera_from_station_);
+  const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges, settings));
+  double most = 0.0;
+  for (const FallOff& one :
+       fallOffOf(image, parallel, box.camera_, box.camera_from_station_, settings))
+    most = std::max(most, one.coverage);
+  EXPECT_GT(most, 0.85);
+}
+
+/// The pose that explains the drawn image best with a wrong focal length: farther away.
+TEST(EdgeChecks, AWrongFocalLengthIsFoundByItsPerspective) {
+  const DrawnBox box;
+  const EvidenceSettings settings;
+  Camera wrong = box.camera_;
+  wrong.fx *= 1.03;
+  wrong.fy *= 1.03;
+  ASSERT_EQ(prepareCamera(wrong), Status::kOk);
+  const auto follow =
+      poseByCamera(predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_).places,
+                   box.camera_, box.camera_from_station_);
+  ASSERT_TRUE(follow);
+  const Pose farther = perturbed(Vector6d(30.0 * follow->col(0)), box.camera_from_station_);
+  EXPECT_NEAR(farther.translation_m.z(), 1.03 * 0.5, 0.003);
+  const PredictedEdges edges = predictEdges(wrong, box.scene_.view(), farther);
+  const auto subject = box.subject(farther);
+  const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges, settings));
+  const auto fit = fitCamera(lookAt(image, edges.places, settings), wrong, farther);
+  ASSERT_TRUE(fit);
+  // Half a pixel of perspective is all that tells on so small a box.
+  EXPECT_LT(fit->focal_px, -10.0);
+  EXPECT_GT(fit->focal_px, -36.0);
+  EXPECT_LT(fit->focal_sigma_px, 5.0);
+}
+
+TEST(EdgeChecks, ACameraThatNeitherItsCalibrationNorTheImageVouchesForFails) {
+  const DrawnBox box;
+  ReviewSubject subject = box.subject(box.camera_from_station_);
+  const PredictedEdges edges =
+      predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
+  const auto focalCheck = [&](const CheckLimits& limits) {
+    std::vector<Check> checks;
+    addEdgeChecks(subject, limits, edges, checks);
+    return findCheck(checks, "camera_focal");
+  };
+  CheckLimits limits;
+  limits.focal_percent = 0.001;
+  EXPECT_EQ(focalCheck(limits).state, CheckState::kFailed);
+  limits.focal_sigma_px = 50.0;  // known, to five percent: what the edges ask for is within that
+  EXPECT_EQ(focalCheck(limits).state, CheckState::kPassed);
+  subject.requirement = {{}, {}, {}, 3.0};
+  EXPECT_EQ(focalCheck(limits).state, CheckState::kNotApplicable);
+}
+
+TEST(EdgeChecks, APoseThatShowsNothingFailsAndAnImageOfAnotherSizeIsNotAsked) {
+  const DrawnBox box;
+  Pose behind = box.camera_from_station_;
+  behind.translation_m.z() = -1.0;
+  EXPECT_EQ(findCheck(checksOf(box.subject(behind)), "edge_coverage").state, CheckState::kFailed);
+  ReviewSubject subject = box.subject(box.camera_from_station_);
+  auto other = std::make_shared<LoadedCase>();
+  other->source = subject.loaded->source;
+  other->scene = subject.loaded->scene;
+  subject.loaded = other;
+  for (const Check& check : checksOf(subject))
+    EXPECT_EQ(check.state, CheckState::kNotApplicable) << check.id;
+}
+
+TEST(EdgeChecks, TheSameImageGivesTheSameFigures) {
+  const DrawnBox box;
+  const auto subject = box.subject(movedBy(box, 0.4, 0.2));
+  EXPECT_EQ(checksOf(subject), checksOf(subject));
+}
+
+}  // namespace
+}  // namespace boresight::sessions
