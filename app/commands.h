@@ -23,6 +23,7 @@ void addCompare(CLI::App& app, int& exit_code);
 void addCheck(CLI::App& app, int& exit_code);
 void addDecide(CLI::App& app, int& exit_code);
 void addVerify(CLI::App& app, int& exit_code);
+void addQueue(CLI::App& app, int& exit_code);
 void addSolve(CLI::App& app, int& exit_code);
 void addRender(CLI::App& app, int& exit_code);
 void addInfo(CLI::App& app, int& exit_code);

@@ -76,7 +76,9 @@ ColorImage drawOverlay(const ImageView& image, const Camera& camera, const MeshV
     if (visible) drawEdges(render, layer.color, layer.thin ? radius_px - 1 : radius_px, canvas);
     labels.push_back(layer.label + (visible ? "" : " (no edges in view)"));
   }
-  if (!layers.empty()) drawLegend(layers, labels, canvas);
+  const bool named = std::any_of(layers.begin(), layers.end(),
+                                 [](const OverlayLayer& layer) { return !layer.label.empty(); });
+  if (named) drawLegend(layers, labels, canvas);
   ColorImage made;
   made.width = canvas.cols;
   made.height = canvas.rows;

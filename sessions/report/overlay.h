@@ -37,8 +37,8 @@ struct OverlayLayer {
 };
 
 /// The image in gray with the layers drawn over it in their order, each rendered by the core at
-/// full resolution, and a legend in the upper left corner. A layer that cannot be rendered (its
-/// pose behind the camera) is named so in the legend.
+/// full resolution, and a legend in the upper left corner if any of them has a label. A layer that
+/// cannot be rendered (its pose behind the camera) is named so in the legend.
 ColorImage drawOverlay(const ImageView& image, const Camera& camera, const MeshView& mesh,
                        std::span<const OverlayLayer> layers);
 

@@ -21,6 +21,7 @@
 #include "ui/window/levels_controller.h"
 #include "ui/window/mask_controller.h"
 #include "ui/window/panel_links.h"
+#include "ui/window/queue_links.h"
 #include "ui/window/session_files.h"
 #include "ui/window/window_docks.h"
 #include "ui/window/window_menus.h"
@@ -31,7 +32,7 @@ namespace {
 constexpr const char* kGeometryKey = "window/geometry";
 constexpr const char* kLayoutKey = "window/state";
 constexpr int kNote_ms = 15'000;   // that a remark stays in the status bar
-constexpr int kLayoutVersion = 6;  // of another set of panels, a layout is not taken over
+constexpr int kLayoutVersion = 7;  // of another set of panels, a layout is not taken over
 
 QString stateText(RunState state) {
   switch (state) {
@@ -85,6 +86,7 @@ void MainWindow::buildStatusBar() {
 
 void MainWindow::connectAll() {
   auto* links = new PanelLinks(parts_, *docks_, this);
+  new QueueLinks(parts_, *docks_, this);
   auto* levels = new LevelsController(parts_, docks_->levels(), this);
   connect(levels, &LevelsController::noted, this,
           [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); });

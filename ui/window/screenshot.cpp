@@ -12,6 +12,7 @@
 #include <QTimer>
 
 #include "ui/panels/match_view.h"
+#include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
@@ -39,8 +40,10 @@ bool waitUntil(const std::function<bool()>& holds) {
 
 bool isResting(MainWindow& window) {
   const auto* match = window.findChild<MatchView*>();
+  auto* queue = window.findChild<QueuePanel*>();
   auto* review = window.findChild<ReviewPanel*>();
-  return !window.tasks().isBusy() && !(review && review->controller().isBusy()) &&
+  return !window.tasks().isBusy() && !(queue && queue->controller().isBusy()) &&
+         !(review && review->controller().isBusy()) &&
          !window.annotation().stale() && !window.findings().isBusy() &&
          window.run().state() != RunState::kWorking && !(match && match->isComputing());
 }

@@ -46,7 +46,7 @@ struct Fixed {
 
 /// Keys that are no actions of a menu: those of the image, the scene, tables and the field for
 /// nudging, each where the pointer or the focus is.
-constexpr std::array<Fixed, 27> kFixed = {{
+constexpr std::array<Fixed, 31> kFixed = {{
     {QT_TR_NOOP("Image: wheel"), QT_TR_NOOP("Zoom at the cursor")},
     {QT_TR_NOOP("Image: drag"), QT_TR_NOOP("Move the image")},
     {QT_TR_NOOP("Image: double click, 0"), QT_TR_NOOP("Show the whole image")},
@@ -74,6 +74,10 @@ constexpr std::array<Fixed, 27> kFixed = {{
     {QT_TR_NOOP("Nudging: Page Up, Page Down"), QT_TR_NOOP("Move away, nearer")},
     {QT_TR_NOOP("Nudging: with Ctrl"), QT_TR_NOOP("Turn instead of moving")},
     {QT_TR_NOOP("Nudging: with Shift, Alt"), QT_TR_NOOP("Ten times, a tenth of the step")},
+    {QT_TR_NOOP("Queue: Enter"), QT_TR_NOOP("Show the case at the iteration that failed")},
+    {QT_TR_NOOP("Queue: A, R"), QT_TR_NOOP("Accept the result, reject it; go on to the next")},
+    {QT_TR_NOOP("Queue: J, K, arrows"), QT_TR_NOOP("The next case, the one before")},
+    {QT_TR_NOOP("Queue: D"), QT_TR_NOOP("Compare each case's last two runs")},
     {QT_TR_NOOP("Inputs: Ctrl+C"), QT_TR_NOOP("Copy the chosen lines")},
     {QT_TR_NOOP("Configuration: F2"), QT_TR_NOOP("Change the option")},
     {QT_TR_NOOP("Configuration: Del"), QT_TR_NOOP("Take the option back to its default")},

@@ -20,6 +20,7 @@
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/warning_bar.h"
 #include "ui/review/onboard_panel.h"
+#include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
@@ -50,6 +51,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       mask_(new MaskPanel(*mask_editor_)),
       levels_(new LevelsPanel(image_->display())),
       annotation_(new AnnotationPanel(parts.document, parts.annotation, parts.state)),
+      queue_(new QueuePanel(parts.document)),
       review_(new ReviewPanel(parts.document, parts.state)),
       snapper_(new StationSnapper(parts.state, &window)),
       scene_(new SceneView(parts.state)),
@@ -80,6 +82,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   add(QStringLiteral("inspector"), tr("Match inspector"), new MatchInspectorPanel(parts.state));
   add(QStringLiteral("annotation"), tr("Annotation"), annotation_);
   add(QStringLiteral("review"), tr("Review"), review_);
+  add(QStringLiteral("queue"), tr("Queue"), queue_);
   add(QStringLiteral("inputs"), tr("Inputs"), inputs_);
   add(QStringLiteral("onboard"), tr("Onboard"),
       new OnboardPanel(parts.onboard, parts.state, parts.run));
@@ -126,7 +129,7 @@ void WindowDocks::place() const {
   for (const char* name : {"mask", "levels", "pose", "configuration"})
     window_.tabifyDockWidget(layers, dock(QLatin1String(name)));
   window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
-  for (const char* name : {"inspector", "annotation", "review", "onboard", "inputs"})
+  for (const char* name : {"inspector", "annotation", "review", "queue", "onboard", "inputs"})
     window_.tabifyDockWidget(iterations, dock(QLatin1String(name)));
   for (QDockWidget* each : docks_) each->show();
   layers->raise();

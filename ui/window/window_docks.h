@@ -22,6 +22,7 @@ class LevelsPanel;
 class MaskEditor;
 class MaskPanel;
 class PosePanel;
+class QueuePanel;
 class ReviewPanel;
 class SceneView;
 class StationSnapper;
@@ -43,6 +44,7 @@ class WindowDocks {
   MaskPanel& mask() const { return *mask_; }
   LevelsPanel& levels() const { return *levels_; }
   AnnotationPanel& annotation() const { return *annotation_; }
+  QueuePanel& queue() const { return *queue_; }
   ReviewPanel& review() const { return *review_; }
   /// What of the current case's mesh can be snapped to, for every view.
   StationSnapper& snapper() const { return *snapper_; }
@@ -78,6 +80,7 @@ class WindowDocks {
   MaskPanel* mask_;
   LevelsPanel* levels_;
   AnnotationPanel* annotation_;
+  QueuePanel* queue_;
   ReviewPanel* review_;
   StationSnapper* snapper_;
   SceneView* scene_;

@@ -27,6 +27,7 @@
 #include "ui/views/mask_editor.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/loupe_menu.h"
+#include "ui/window/queue_links.h"
 #include "ui/window/recent_files.h"
 #include "ui/window/session_files.h"
 #include "ui/window/shortcut_sheet.h"
@@ -291,6 +292,7 @@ void WindowMenus::buildViewMenu() {
                            tr("Where the shown case stands, the checks of its pose, the decision"));
   connect(review, &QAction::triggered, this, [this] { docks_.raise(QStringLiteral("review")); });
   menu->addAction(review);
+  QueueLinks::addActions(*menu->addMenu(tr("&Queue")), docks_);
   menu->addSeparator();
   for (QDockWidget* each : docks_.all()) menu->addAction(each->toggleViewAction());
   menu->addSeparator();

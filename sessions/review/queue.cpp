@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/review/queue.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <tuple>
+#include <utility>
+
+#include "core/localizer/localizer.h"
+#include "sessions/io/errors.h"
+#include "sessions/report/run_text.h"
+#include "sessions/review/check_limits.h"
+#include "sessions/review/checks.h"
+#include "sessions/review/decide.h"
+#include "sessions/review/grounds.h"
+#include "sessions/review/run_figures.h"
+#include "sessions/session/rig_links.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kMillimetres = 1e3;
+constexpr double kMilliradians = 1e3;
+
+QueueGroup groupOf(const Standing& standing, const QueueRow& row) {
+  if (standing.awaits_approval) return QueueGroup::kAwaits;
+  if (standing.holds()) return QueueGroup::kDecided;
+  if (!row.trouble.empty()) return QueueGroup::kNoPose;
+  return row.run_digest.empty() ? QueueGroup::kNotRun : QueueGroup::kOpen;
+}
+
+/// Of the failed checks when there are any, else of the passed ones.
+void takeMargin(QueueRow& row) {
+  const CheckState state = row.failed > 0 ? CheckState::kFailed : CheckState::kPassed;
+  for (const Check& check : row.checks) {
+    const std::optional<double> margin = check.state == state ? checkMargin(check) : std::nullopt;
+    if (!margin || (row.margin && *row.margin <= *margin)) continue;
+    row.margin = margin;
+    row.margin_of = check.title;
+  }
+}
+
+void takeChecks(std::vector<Check> checks, QueueRow& row) {
+  row.checks = std::move(checks);
+  for (const Check& check : row.checks) {
+    row.passed += check.state == CheckState::kPassed ? 1 : 0;
+    row.failed += check.state == CheckState::kFailed ? 1 : 0;
+  }
+}
+
+void takeRun(const ReviewSubject& subject, QueueRow& row) {
+  const RunSnapshot& run = *subject.run;
+  row.iterations = static_cast<int>(run.iterations.size());
+  row.inliers = lastInliers(run);
+  row.opens_at = iterationToOpen(run);
+  if (run.converged())
+    row.from_seed =
+        seedDistance(run.camera_from_station_seed, run.camera_from_station, run.uncertainty);
+}
+
+std::shared_ptr<const ReviewSubject> withoutData(const ReviewSubject& subject) {
+  auto made = std::make_shared<ReviewSubject>(subject);
+  auto source = std::make_shared<LoadedCase>();
+  source->source = subject.loaded->source;
+  made->loaded = std::move(source);
+  made->run->iterations.clear();
+  made->run->edges.reset();
+  return made;
+}
+
+void checkRun(const Session& session, std::shared_ptr<const LoadedCase> loaded, QueueRow& row) {
+  const ReviewSubject subject = reviewSubject(session, std::move(loaded), PoseSource::kRun);
+  takeRun(subject, row);
+  const CheckLimits limits = checkLimits(session.review.preset, session.review.limits);
+  takeChecks(checkPose(subject, limits), row);
+  if (subject.run->converged()) takeMargin(row);  // else the seed stands in for the pose
+  row.subject = withoutData(subject);
+  row.trouble = subject.run->converged() ? validationConcern(session, subject)
+                                         : "the run failed: " + explanation(traceOf(*subject.run));
+}
+
+/// For comparing: no margin is the worst where checks failed, and the best where none did.
+double comparableMargin(const QueueRow& row) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return row.margin.value_or(row.failed > 0 ? -kInfinity : kInfinity);
+}
+
+std::string failedTitles(const QueueRow& row) {
+  std::string titles;
+  for (const Check& check : row.checks)
+    if (check.state == CheckState::kFailed) titles += (titles.empty() ? "" : ", ") + check.title;
+  return titles;
+}
+
+}  // namespace
+
+SeedDistance seedDistance(const Pose& camera_from_station_seed, const Pose& camera_from_station,
+                          const SeedUncertainty& uncertainty) {
+  const Vector6d offset = offsetAboutPivot(camera_from_station_seed, camera_from_station,
+                                           uncertainty.pivot_in_camera_m);
+  SeedDistance made;
+  made.rotation_mrad = kMilliradians * offset.head<3>().norm();
+  made.translation_mm = kMillimetres * offset.tail<3>().norm();
+  for (int i = 0; i < 3; ++i) {
+    const std::array parts{std::pair(std::abs(offset[i]), uncertainty.rotation_rad[i]),
+                           std::pair(std::abs(offset[i + 3]), uncertainty.translation_m[i])};
+    for (const auto& [moved, allowed] : parts)
+      if (allowed > 0.0) made.share = std::max(made.share, moved / allowed);
+  }
+  return made;
+}
+
+std::optional<double> checkMargin(const Check& check) {
+  if (!check.figure || !check.limit || *check.limit == 0.0) return {};
+  const double beyond = (*check.figure - *check.limit) / std::abs(*check.limit);
+  const double margin = check.side == LimitSide::kAtMost ? -beyond : beyond;
+  return std::isfinite(margin) ? std::optional(margin) : std::nullopt;
+}
+
+QueueRow queueRow(const Session& session, const std::string& case_id) {
+  const SessionCase* one = session.findCase(case_id);
+  if (one == nullptr) throw std::invalid_argument("there is no case '" + case_id + "'");
+  if (session.lastRunOf(case_id) == nullptr) return queueRow(session, case_id, nullptr);
+  try {
+    return queueRow(session, case_id, loadCase(*one));
+  } catch (const FileError& error) {
+    return queueRow(session, case_id, nullptr, error.what());
+  }
+}
+
+QueueRow queueRow(const Session& session, const std::string& case_id,
+                  std::shared_ptr<const LoadedCase> loaded, const std::string& reason) {
+  QueueRow row;
+  row.case_id = case_id;
+  row.trouble = reason;
+  if (const RunRecord* run = session.lastRunOf(case_id)) {
+    row.run_digest = run->digest;
+    try {
+      if (loaded != nullptr) checkRun(session, std::move(loaded), row);
+    } catch (const FileError& error) {
+      row.trouble = error.what();
+    }
+  }
+  takeStanding(session, row);
+  return row;
+}
+
+void takeStanding(const Session& session, QueueRow& row) {
+  const Standing standing = standingOf(session, row.case_id);
+  row.standing = standing.state;
+  row.standing_text = standingText(standing);
+  row.group = groupOf(standing, row);
+}
+
+std::string queueKey(const Session& session, const std::string& case_id) {
+  const RunRecord* run = session.lastRunOf(case_id);
+  std::string key = run == nullptr ? std::string() : run->digest + run->inputs_sha256;
+  for (const auto& [name, sha256] : judgedGrounds(session, case_id, run ? run->digest : ""))
+    key += ' ' + name + ' ' + sha256;
+  for (const std::string& other : casesOfRig(session, case_id))
+    if (const RunRecord* theirs = session.lastRunOf(other)) key += ' ' + theirs->digest;
+  return key;
+}
+
+bool moreTrouble(const QueueRow& a, const QueueRow& b) {
+  const auto key = [](const QueueRow& row) {
+    const double share = row.from_seed ? row.from_seed->share : 0.0;
+    return std::tuple(row.group, -row.failed, comparableMargin(row), -share);
+  };
+  if (key(a) != key(b)) return key(a) < key(b);
+  return a.case_id < b.case_id;
+}
+
+std::string troubleText(const QueueRow& row) {
+  if (row.group == QueueGroup::kAwaits) return "a second person has to approve";
+  if (row.group == QueueGroup::kDecided) return row.standing_text;
+  if (!row.trouble.empty()) return row.trouble;
+  if (row.group == QueueGroup::kNotRun) return "not run yet";
+  if (row.failed > 0)
+    return std::to_string(row.failed) + (row.failed == 1 ? " check failed: " : " checks failed: ") +
+           failedTitles(row);
+  std::string text = "all " + std::to_string(row.passed) + " checks passed";
+  if (!row.margin_of.empty()) text += "; nearest to its limit: " + row.margin_of;
+  return text;
+}
+
+std::vector<QueueRow> queueRows(const Session& session, int jobs, const std::stop_token& stop,
+                                const QueueProgress& progress) {
+  std::vector<std::optional<QueueRow>> made(session.cases.size());
+  std::atomic<std::size_t> next = 0;
+  std::size_t done = 0;
+  std::mutex mutex;
+  std::exception_ptr fault;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < made.size() && !stop.stop_requested(); i = next++) {
+      try {
+        made[i] = queueRow(session, session.cases[i]->id);
+        const std::lock_guard lock(mutex);
+        if (progress) progress(*made[i], ++done, made.size());
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        fault = std::current_exception();
+        next = made.size();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    for (int i = 1; i < jobs; ++i) helpers.emplace_back(work);
+    work();
+  }
+  if (fault) std::rethrow_exception(fault);
+  std::vector<QueueRow> rows;
+  for (std::optional<QueueRow>& row : made)
+    if (row) rows.push_back(std::move(*row));
+  std::sort(rows.begin(), rows.end(), moreTrouble);
+  return rows;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// A session's cases in the order in which they deserve a look.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "sessions/review/review_subject.h"
+#include "sessions/review/standing.h"
+#include "sessions/session/check.h"
+#include "sessions/session/session.h"
+
+namespace boresight::sessions {
+
+/// What there is to do about a case; the order of the queue begins with it.
+enum class QueueGroup {
+  kNoPose,   ///< the last run failed, is of other inputs, or cannot be read: nothing to accept
+  kOpen,     ///< a pose that waits for a decision
+  kNotRun,   ///< there is no run yet
+  kAwaits,   ///< validated by one person where two are asked for
+  kDecided,  ///< validated or rejected, and that holds
+};
+
+/// How far a pose is from its seed, about the pivot of the seed's uncertainty.
+struct SeedDistance {
+  double translation_mm = 0.0;
+  double rotation_mrad = 0.0;
+  /// The largest part of the uncertainty over the axes that it allows to move; 1: on its border.
+  double share = 0.0;
+};
+SeedDistance seedDistance(const Pose& camera_from_station_seed, const Pose& camera_from_station,
+                          const SeedUncertainty& uncertainty);
+
+/// How far a check's figure is on the good side of its limit, as a part of the limit; negative
+/// beyond it. Nothing where figure or limit are not numbers, or the limit is zero.
+std::optional<double> checkMargin(const Check& check);
+
+/// One case as the queue lists it: its last run, checked.
+struct QueueRow {
+  std::string case_id;
+  QueueGroup group = QueueGroup::kNotRun;
+  CaseStanding standing = CaseStanding::kNew;
+  std::string standing_text;  ///< as standingText says
+  std::string run_digest;     ///< empty without a run
+  std::vector<Check> checks;  ///< of the last run, as checkPose orders them
+  int passed = 0;
+  int failed = 0;
+  /// Of the failed check that is farthest beyond its limit; when none failed, of the passed one
+  /// that is nearest to its own. Nothing when none of them has a margin, or the run failed.
+  std::optional<double> margin;
+  std::string margin_of;  ///< the title of that check
+  std::optional<SeedDistance> from_seed;
+  std::int32_t inliers = 0;  ///< of the last matching iteration
+  int iterations = 0;
+  /// Index of the iteration to look at first: the one that failed, else the last; -1: none.
+  int opens_at = -1;
+  std::string trouble;  ///< why there is no pose to accept; empty otherwise
+  /// What a decision takes: the pose and how its run ended, without pixels, mesh and iterations.
+  std::shared_ptr<const ReviewSubject> subject;
+};
+
+/// Checks a case's last run with the inputs as they are now. Reads its files and its trace; what
+/// goes wrong with that is told in `trouble`. std::invalid_argument when there is no such case.
+QueueRow queueRow(const Session& session, const std::string& case_id);
+/// The same for inputs that were read already (nullptr: they could not be, for `reason`).
+QueueRow queueRow(const Session& session, const std::string& case_id,
+                  std::shared_ptr<const LoadedCase> loaded, const std::string& reason = {});
+
+/// Takes up what was decided since: group, standing and its text.
+void takeStanding(const Session& session, QueueRow& row);
+
+/// Everything that a row rests on but decisions, as a key: a row of another key is stale.
+std::string queueKey(const Session& session, const std::string& case_id);
+
+/// Whether `a` comes before `b`. A strict total order over rows of different cases: by group; more
+/// failed checks first; then the smaller margin (no margin counts as the worst where checks failed,
+/// as the best where none did); then the farther from the seed; last by the case's id.
+bool moreTrouble(const QueueRow& a, const QueueRow& b);
+
+/// "2 checks failed: Coverage, Clutter", "the run failed: ...", "all 20 checks passed; nearest to
+/// its limit: Inliers".
+std::string troubleText(const QueueRow& row);
+
+/// Called after each case, one call at a time, from any thread.
+using QueueProgress = std::function<void(const QueueRow& row, std::size_t done, std::size_t of)>;
+
+/// All cases, sorted. `jobs` are checked at a time. A stop leaves out those not begun.
+std::vector<QueueRow> queueRows(const Session& session, int jobs = 1,
+                                const std::stop_token& stop = {},
+                                const QueueProgress& progress = {});
+
+/// A table for people, in the order of the rows.
+std::string queueText(const std::vector<QueueRow>& rows);
+/// The same for programs: a header and one line per case (RFC 4180), with a dot as decimal point
+/// and empty fields for what is not known.
+std::string queueCsv(const std::vector<QueueRow>& rows);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/review/run_difference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "sessions/io/option_value.h"
+#include "sessions/record/record_of_run.h"
+#include "sessions/report/text_table.h"
+#include "sessions/review/checks.h"
+#include "sessions/review/run_figures.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kMradPerDegree = 1e3 * std::numbers::pi / 180.0;
+constexpr double kTelling = 0.1;  // of the requirement: a change of the error that counts
+
+/// A run as it was read, with its checks.
+struct ReadRun {
+  const RunRecord* record = nullptr;
+  ReviewSubject subject;
+  std::vector<Check> checks;
+};
+
+const RunRecord& requireRun(const Session& session, const std::string& case_id,
+                            const std::string& digest) {
+  const RunRecord* found = nullptr;
+  for (const RunRecord& run : session.runs)
+    if (run.case_id == case_id && run.digest == digest) found = &run;
+  if (found == nullptr)
+    throw std::invalid_argument("case " + case_id + " has no run of the digest " + digest);
+  return *found;
+}
+
+ReadRun readRun(const Session& session, const std::string& digest,
+                const std::shared_ptr<const LoadedCase>& loaded) {
+  ReadRun made;
+  made.record = &requireRun(session, loaded->source.id, digest);
+  made.subject = reviewSubject(session, loaded, PoseSource::kRun, digest);
+  made.checks = checkPose(made.subject, checkLimits(session.review.preset, session.review.limits));
+  return made;
+}
+
+double shareOf(const PoseError& error, const Requirement& required) {
+  double share = 0.0;
+  const auto note = [&share](double value, std::optional<double> allowed) {
+    if (!allowed) return;
+    const double infinite = std::numeric_limits<double>::infinity();
+    share = std::max(share, *allowed > 0.0 ? value / *allowed : infinite);
+  };
+  note(std::abs(error.normal_mm), required.normal_mm);
+  note(error.lateral_mm, required.lateral_mm);
+  if (required.rotation_deg) note(error.rotation_mrad, *required.rotation_deg * kMradPerDegree);
+  if (required.projection_px && error.projection_px)
+    note(*error.projection_px, required.projection_px);
+  return share;
+}
+
+void takeError(const ReviewSubject& subject, RunSide& side) {
+  const SessionCase& one = subject.loaded->source;
+  if (!one.camera_from_station_truth || !side.converged) return;
+  side.error = poseError(*one.camera_from_station_truth, subject.camera_from_station,
+                         one.camera_from_end_effector);
+  if (subject.requirement.projection_px)
+    side.error->projection_px =
+        projectionError(one.camera, *one.camera_from_station_truth, subject.camera_from_station,
+                        matchedVertices(subject.loaded->scene.view()));
+  side.error_share = shareOf(*side.error, subject.requirement);
+}
+
+RunSide sideOf(const ReadRun& run) {
+  RunSide side;
+  side.digest = run.record->digest;
+  side.time = run.record->time;
+  side.status = run.record->status;
+  side.converged = run.subject.run->converged();
+  side.iterations = static_cast<int>(run.subject.run->iterations.size());
+  side.inliers = lastInliers(*run.subject.run);
+  for (const Check& check : run.checks) {
+    side.checks_passed += check.state == CheckState::kPassed ? 1 : 0;
+    side.checks_failed += check.state == CheckState::kFailed ? 1 : 0;
+  }
+  takeError(run.subject, side);
+  return side;
+}
+
+std::vector<CheckChange> changedChecks(const std::vector<Check>& before,
+                                       const std::vector<Check>& after) {
+  std::vector<CheckChange> changed;
+  for (const Check& check : before) {
+    const auto found = std::find_if(after.begin(), after.end(),
+                                    [&](const Check& other) { return other.id == check.id; });
+    if (found != after.end() && found->state != check.state)
+      changed.push_back({check.title, check.state, found->state});
+  }
+  return changed;
+}
+
+std::vector<OptionChangeText> changedOptions(const LocalizerOptions& before,
+                                             const LocalizerOptions& after) {
+  const auto one = listOptions(before);
+  const auto other = listOptions(after);
+  std::vector<OptionChangeText> changed;
+  for (std::size_t i = 0; i < one.size(); ++i)
+    if (!(one[i].value == other[i].value))
+      changed.push_back(
+          {one[i].name, valueText(one[i], one[i].value), valueText(other[i], other[i].value)});
+  return changed;
+}
+
+/// The hashes of a run's inputs are known where these are what the case has now.
+OnboardRecord recordOfRun(const ReadRun& run) {
+  const LoadedCase& loaded = *run.subject.loaded;
+  const bool as_now = run.record->inputs_sha256 == inputsDigest(loaded.source);
+  const LocalizationProblem given = loaded.problem();
+  return recordOf(*run.subject.run, as_now ? &given : nullptr);
+}
+
+/// Smaller is better.
+int rankByTruth(const RunSide& side) {
+  if (!side.converged) return 1;
+  return side.error_share.value_or(0.0) <= 1.0 ? 0 : 2;
+}
+
+std::string truthText(const RunSide& side) {
+  if (!side.converged) return "failed";
+  return fixedText(100.0 * side.error_share.value_or(0.0), 0) + " % of the requirement off";
+}
+
+std::string checksText(const RunSide& side) {
+  if (!side.converged) return "the run failed";
+  if (side.checks_failed == 0) return "all checks passed";
+  return std::to_string(side.checks_failed) +
+         (side.checks_failed == 1 ? " check failed" : " checks failed");
+}
+
+RunChange changeOf(double before, double after) {
+  if (after < before) return RunChange::kBetter;
+  return after > before ? RunChange::kWorse : RunChange::kSame;
+}
+
+RunChange judgedByTruth(const RunDifference& made) {
+  const int before = rankByTruth(made.before);
+  const int after = rankByTruth(made.after);
+  if (before != after || before != 2) return changeOf(before, after);
+  const double nearer = *made.before.error_share - *made.after.error_share;
+  if (std::abs(nearer) < kTelling) return RunChange::kSame;
+  return nearer > 0.0 ? RunChange::kBetter : RunChange::kWorse;
+}
+
+RunChange judgedByChecks(const RunDifference& made) {
+  const auto rank = [](const RunSide& side) {
+    return side.converged ? static_cast<double>(side.checks_failed) : 1e9;
+  };
+  return changeOf(rank(made.before), rank(made.after));
+}
+
+}  // namespace
+
+const char* runChangeText(RunChange change) {
+  constexpr const char* kTexts[] = {"better", "worse", "same"};
+  return kTexts[static_cast<std::size_t>(change)];
+}
+
+std::optional<RunPair> lastTwoRuns(const Session& session, const std::string& case_id) {
+  RunPair pair;
+  for (auto run = session.runs.rbegin(); run != session.runs.rend() && !pair.before; ++run)
+    if (run->case_id == case_id) (pair.after ? pair.before : pair.after) = &*run;
+  return pair.before ? std::optional(pair) : std::nullopt;
+}
+
+void judgeChange(RunDifference& made) {
+  const bool truth = made.before.error_share || made.after.error_share;
+  const std::string before = truth ? truthText(made.before) : checksText(made.before);
+  const std::string after = truth ? truthText(made.after) : checksText(made.after);
+  made.change = truth ? judgedByTruth(made) : judgedByChecks(made);
+  if (made.before.digest == made.after.digest)
+    made.why = "bit for bit";
+  else
+    made.why = before == after ? after + " before and now" : before + " before, now " + after;
+}
+
+RunDifference compareRuns(const Session& session, const std::string& before_digest,
+                          const std::string& after_digest,
+                          std::shared_ptr<const LoadedCase> loaded) {
+  const ReadRun before = readRun(session, before_digest, loaded);
+  const ReadRun after = readRun(session, after_digest, loaded);
+  RunDifference made;
+  made.case_id = loaded->source.id;
+  made.before = sideOf(before);
+  made.after = sideOf(after);
+  made.inputs_differ = before.record->inputs_sha256 != after.record->inputs_sha256;
+  made.options = changedOptions(before.subject.run->options, after.subject.run->options);
+  made.checks = changedChecks(before.checks, after.checks);
+  made.comparison = compareRecords(recordOfRun(before), recordOfRun(after));
+  judgeChange(made);
+  return made;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/review/thumbnail.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "sessions/session/case_marks.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kMargin = 1.15;      // of the station's size in the image
+constexpr double kLeastPart = 0.125;  // of the image's width, that is shown
+
+/// Where the corners of the station's box fall; empty when none is in sight.
+cv::Rect2d stationBox(const Camera& camera, const MeshView& mesh, const Pose& camera_from_station) {
+  double low[2] = {1e9, 1e9};
+  double high[2] = {-1e9, -1e9};
+  for (const Eigen::Vector3d& corner : boxCorners(matchedBounds(mesh))) {
+    Eigen::Vector2d pixel;
+    if (!project(camera, camera_from_station * corner, pixel)) continue;
+    for (int i = 0; i < 2; ++i) {
+      low[i] = std::min(low[i], pixel[i]);
+      high[i] = std::max(high[i], pixel[i]);
+    }
+  }
+  const cv::Rect2d box(low[0], low[1], high[0] - low[0], high[1] - low[1]);
+  const cv::Rect2d image(0.0, 0.0, camera.width, camera.height);
+  return box.width > 0.0 && box.height > 0.0 ? box & image : cv::Rect2d();
+}
+
+/// Of the picture's shape where the image allows it, inside the image.
+cv::Rect partToShow(const Camera& camera, const cv::Rect2d& box, double aspect) {
+  const cv::Rect image(0, 0, camera.width, camera.height);
+  if (box.area() <= 0.0) return image;
+  double width =
+      std::max({kMargin * box.width, kMargin * box.height * aspect, kLeastPart * camera.width});
+  width = std::min(width, std::max<double>(camera.width, camera.height * aspect));
+  const double height = width / aspect;
+  const auto start = [](double centre, double size, int limit) {
+    return std::clamp(centre - size / 2.0, 0.0, std::max(0.0, limit - size));
+  };
+  const cv::Rect part(static_cast<int>(start(box.x + box.width / 2.0, width, camera.width)),
+                      static_cast<int>(start(box.y + box.height / 2.0, height, camera.height)),
+                      static_cast<int>(std::ceil(width)), static_cast<int>(std::ceil(height)));
+  return part & image;
+}
+
+/// The camera of a part of its image, scaled; pixel centres at integers.
+Camera cameraOfPart(Camera camera, const cv::Rect& part, const cv::Size& size) {
+  const double sx = static_cast<double>(size.width) / part.width;
+  const double sy = static_cast<double>(size.height) / part.height;
+  camera.fx *= sx;
+  camera.fy *= sy;
+  camera.cx = (camera.cx - part.x + 0.5) * sx - 0.5;
+  camera.cy = (camera.cy - part.y + 0.5) * sy - 0.5;
+  camera.width = size.width;
+  camera.height = size.height;
+  return camera;
+}
+
+/// As large as fits into the picture without another shape.
+cv::Size sizeWithin(const cv::Rect& part, int width_px, int height_px) {
+  const double scale = std::min(static_cast<double>(width_px) / part.width,
+                                static_cast<double>(height_px) / part.height);
+  return {std::max(1, static_cast<int>(std::lround(scale * part.width))),
+          std::max(1, static_cast<int>(std::lround(scale * part.height)))};
+}
+
+}  // namespace
+
+ColorImage poseThumbnail(const ImageView& image, const Camera& camera, const MeshView& mesh,
+                         const Pose& camera_from_station, int width_px, int height_px,
+                         const ColorBgr& color) {
+  const cv::Mat whole(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),
+                      static_cast<std::size_t>(image.stride));
+  const cv::Rect part = partToShow(camera, stationBox(camera, mesh, camera_from_station),
+                                   static_cast<double>(width_px) / height_px);
+  const cv::Size size = sizeWithin(part, width_px, height_px);
+  cv::Mat small;
+  const bool shrinks = size.width < part.width;
+  cv::resize(whole(part & cv::Rect(0, 0, image.width, image.height)), small, size, 0.0, 0.0,
+             shrinks ? cv::INTER_AREA : cv::INTER_LINEAR);
+  Camera scaled = cameraOfPart(camera, part, size);
+  const ImageView view{small.data, small.cols, small.rows, static_cast<std::ptrdiff_t>(small.step)};
+  if (prepareCamera(scaled) != Status::kOk) return drawOverlay(view, camera, mesh, {});
+  const OverlayLayer layer{"", camera_from_station, color, true};
+  return drawOverlay(view, scaled, mesh, {&layer, 1});
+}
+
+}  // namespace boresight::sessions

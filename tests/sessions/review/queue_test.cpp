@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/review/queue.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+
+#include "sessions/review/check_limits.h"
+#include "sessions/review/thumbnail.h"
+#include "sessions/session/session_maker.h"
+#include "tests/sessions/review/judged_case.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+/// Few values each, so that ties are common.
+QueueRow randomRow(Random& random, int number) {
+  const auto pick = [&random](unsigned count) { return static_cast<int>(random.below(count)); };
+  QueueRow row;
+  row.case_id = "case " + std::to_string(number);
+  row.group = static_cast<QueueGroup>(pick(5));
+  row.failed = pick(3);
+  if (pick(3) > 0) row.margin = (row.failed > 0 ? -1.0 : 1.0) * pick(3);
+  if (pick(3) > 0) row.from_seed = SeedDistance{0.0, 0.0, 0.5 * pick(3)};
+  return row;
+}
+
+/// The documented order, said once more without tuples.
+bool comesFirst(const QueueRow& a, const QueueRow& b) {
+  if (a.group != b.group) return a.group < b.group;
+  if (a.failed != b.failed) return a.failed > b.failed;
+  if (a.margin.has_value() != b.margin.has_value())
+    return a.failed > 0 ? !a.margin.has_value() : a.margin.has_value();
+  if (a.margin && *a.margin != *b.margin) return *a.margin < *b.margin;
+  const double one = a.from_seed ? a.from_seed->share : 0.0;
+  const double other = b.from_seed ? b.from_seed->share : 0.0;
+  return one != other ? one > other : a.case_id < b.case_id;
+}
+
+TEST(QueueOrder, IsTheDocumentedOneAndTotal) {
+  Random random(11);
+  std::vector<QueueRow> rows;
+  for (int i = 0; i < 120; ++i) rows.push_back(randomRow(random, i));
+  for (const QueueRow& a : rows)
+    for (const QueueRow& b : rows) {
+      EXPECT_EQ(moreTrouble(a, b), comesFirst(a, b)) << a.case_id << ", " << b.case_id;
+      EXPECT_EQ(moreTrouble(a, b) + moreTrouble(b, a), &a == &b ? 0 : 1);
+    }
+  for (const QueueRow& a : rows)
+    for (const QueueRow& b : rows)
+      for (const QueueRow& c : rows)
+        EXPECT_FALSE(moreTrouble(a, b) && moreTrouble(b, c) && !moreTrouble(a, c));
+}
+
+TEST(QueueOrder, FailedRunsComeFirstAndDecidedOnesLast) {
+  QueueRow failed, checks, near, far, decided;
+  failed.group = QueueGroup::kNoPose;
+  checks.group = near.group = far.group = QueueGroup::kOpen;
+  checks.failed = 1;
+  near.margin = 0.1;
+  far.margin = 0.5;
+  decided.group = QueueGroup::kDecided;
+  decided.failed = 9;
+  const std::array order{&failed, &checks, &near, &far, &decided};
+  for (std::size_t i = 0; i + 1 < order.size(); ++i)
+    EXPECT_TRUE(moreTrouble(*order[i], *order[i + 1])) << i;
+}
+
+Check figure(double value, double limit, LimitSide side) {
+  Check check;
+  check.figure = value;
+  check.limit = limit;
+  check.side = side;
+  return check;
+}
+
+TEST(CheckMargin, IsAPartOfTheLimitAndNegativeBeyondIt) {
+  EXPECT_DOUBLE_EQ(*checkMargin(figure(3.0, 4.0, LimitSide::kAtMost)), 0.25);
+  EXPECT_DOUBLE_EQ(*checkMargin(figure(6.0, 4.0, LimitSide::kAtMost)), -0.5);
+  EXPECT_DOUBLE_EQ(*checkMargin(figure(6.0, 4.0, LimitSide::kAtLeast)), 0.5);
+  EXPECT_DOUBLE_EQ(*checkMargin(figure(0.0, 4.0, LimitSide::kAtLeast)), -1.0);
+  EXPECT_FALSE(checkMargin(figure(0.0, 0.0, LimitSide::kAtMost)));
+  EXPECT_FALSE(checkMargin(Check()));
+}
+
+TEST(SeedDistanceTest, IsWhatThePoseWasDisplacedByAboutThePivot) {
+  Random random(3);
+  for (int i = 0; i < 50; ++i) {
+    const Pose seed = test::randomPose(random);
+    SeedUncertainty uncertainty;
+    uncertainty.pivot_in_camera_m = Eigen::Vector3d(0.1, -0.2, 1.5);
+    uncertainty.translation_m = {0.01, 0.02, 0.0};  // the third axis is not allowed to move
+    uncertainty.rotation_rad = {0.1, 0.2, 0.3};
+    Vector6d offset;
+    offset << 0.05, -0.02, 0.03, 0.004, 0.016, -0.002;
+    const Pose pose = displacedAboutPivot(seed, offset, uncertainty.pivot_in_camera_m);
+    const SeedDistance made = seedDistance(seed, pose, uncertainty);
+    EXPECT_NEAR(made.rotation_mrad, 1e3 * std::sqrt(0.05 * 0.05 + 0.02 * 0.02 + 0.03 * 0.03), 1e-6);
+    EXPECT_NEAR(made.translation_mm, std::sqrt(16.0 + 256.0 + 4.0), 1e-6);
+    EXPECT_NEAR(made.share, 0.8, 1e-9);
+  }
+}
+
+TEST(QueueRowTest, TellsADecisionThatHoldsAndOneThatDoesNot) {
+  Random random(5);
+  test::JudgedCase judged(random);
+  QueueRow row;
+  row.case_id = "a";
+  row.run_digest = judged.subject.run->digest;
+  takeStanding(judged.session, row);
+  EXPECT_EQ(row.group, QueueGroup::kOpen);
+  Session decided = judged.validatedBy("Ada");
+  takeStanding(decided, row);
+  EXPECT_EQ(row.group, QueueGroup::kDecided);
+  EXPECT_THAT(troubleText(row), ::testing::HasSubstr("Ada"));
+  decided.review.second_person = true;
+  takeStanding(decided, row);
+  EXPECT_EQ(row.group, QueueGroup::kAwaits);
+  judged.session = judged.validatedBy("Ada");
+  judged.noteRun(test::randomSha256(random), "converged", random);
+  takeStanding(judged.session, row);
+  EXPECT_EQ(row.group, QueueGroup::kOpen) << "there is a later run";
+}
+
+TEST(QueueRowTest, HasAnotherKeyAfterWhateverItRestsOn) {
+  Random random(6);
+  test::JudgedCase judged(random);
+  const std::string before = queueKey(judged.session, "a");
+  EXPECT_EQ(queueKey(judged.validatedBy("Ada"), "a"), before) << "a decision changes no check";
+  Session other = judged.session;
+  other.review.preset = checkPresets().back().name;
+  other.review.limits = {{"check.inlier_count", 99.0}};
+  EXPECT_NE(queueKey(other, "a"), before);
+  judged.noteRun(test::randomSha256(random), "converged", random);
+  EXPECT_NE(queueKey(judged.session, "a"), before);
+}
+
+/// The example's cases: one run as it is, one that cannot converge, one whose image is gone.
+class QueueOfExample : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new test::TemporaryFolder;
+    session_ = new Session(makeSession(test::exampleFolder() / "dataset.json"));
+    SessionCase lost = *session_->cases[0];
+    lost.id = "lost";
+    run(session_->cases[0]->id, *session_);
+    Session strict = *session_;
+    strict.options = {{"pnp.min_inliers", std::int64_t{100}}};
+    run(session_->cases[1]->id, strict);
+    *session_ = withCase(*session_, lost);
+    run("lost", *session_);
+    lost.image.source.file = folder_->path() / "gone.png";
+    *session_ = withCase(*session_, lost);
+    lost.id = "new";
+    *session_ = withCase(*session_, lost);
+  }
+  static void TearDownTestSuite() {
+    delete session_;
+    delete folder_;
+  }
+  static void run(const std::string& id, const Session& with) {
+    const LocalizationTrace trace = runCase(with, id);
+    *session_ = withRun(*session_, storeRun(with, id, trace, folder_->path() / "s.boresight.json"));
+  }
+  static const QueueRow& rowOf(const std::vector<QueueRow>& rows, const std::string& id) {
+    return *std::find_if(rows.begin(), rows.end(),
+                         [&](const QueueRow& row) { return row.case_id == id; });
+  }
+
+  static test::TemporaryFolder* folder_;
+  static Session* session_;
+};
+test::TemporaryFolder* QueueOfExample::folder_ = nullptr;
+Session* QueueOfExample::session_ = nullptr;
+
+TEST_F(QueueOfExample, ListsTroubleFirstWithItsReason) {
+  std::size_t told = 0;
+  const auto rows =
+      queueRows(*session_, 2, {}, [&](const QueueRow&, std::size_t done, std::size_t of) {
+        EXPECT_EQ(done, ++told);
+        EXPECT_EQ(of, 4u);
+      });
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(told, 4u);
+  EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end(), moreTrouble));
+  EXPECT_EQ(rows.back().case_id, "new");
+  EXPECT_EQ(rows[2].case_id, session_->cases[0]->id) << "what converged comes after what did not";
+  const QueueRow& failed = rowOf(rows, session_->cases[1]->id);
+  const LocalizationTrace trace = loadRun(*session_->lastRunOf(failed.case_id));
+  ASSERT_FALSE(trace.converged());
+  EXPECT_EQ(failed.group, QueueGroup::kNoPose);
+  EXPECT_THAT(troubleText(failed), ::testing::HasSubstr("100"));
+  ASSERT_GE(failed.opens_at, 0);
+  EXPECT_NE(trace.iterations[static_cast<std::size_t>(failed.opens_at)].status,
+            LocalizationStatus::kRunning);
+  EXPECT_FALSE(failed.from_seed) << "the seed stands in for a pose that there is not";
+  EXPECT_THAT(troubleText(rowOf(rows, "lost")), ::testing::HasSubstr("gone.png"));
+  EXPECT_EQ(troubleText(rowOf(rows, "new")), "not run yet");
+}
+
+TEST_F(QueueOfExample, ARowSufficesToDecide) {
+  const std::string id = session_->cases[0]->id;
+  const QueueRow row = queueRow(*session_, id);
+  EXPECT_EQ(row.failed + row.passed,
+            std::count_if(row.checks.begin(), row.checks.end(), [](const Check& check) {
+              return check.state != CheckState::kNotApplicable;
+            }));
+  ASSERT_EQ(row.failed, 0) << troubleText(row);
+  const Session after = validated(*session_, *row.subject, row.checks, {}, {"Ada", "as drawn"});
+  EXPECT_EQ(standingOf(after, id).state, CaseStanding::kValidated);
+  EXPECT_EQ(after.decisions.back().pose->camera_from_station,
+            loadRun(*session_->lastRunOf(id)).camera_from_station);
+}
+
+TEST_F(QueueOfExample, AStopLeavesOutWhatHasNotBegun) {
+  std::stop_source stop;
+  const auto rows =
+      queueRows(*session_, 1, stop.get_token(),
+                [&](const QueueRow&, std::size_t, std::size_t) { stop.request_stop(); });
+  EXPECT_EQ(rows.size(), 1u);
+}
+
+TEST_F(QueueOfExample, TheCsvHasALinePerCaseWhateverItHolds) {
+  QueueRow row;
+  row.case_id = "a,\"b\"";
+  const std::string text = queueCsv({row, row});
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
+  EXPECT_THAT(text, ::testing::HasSubstr("\"a,\"\"b\"\"\",new,0,0,,,,,,0,0,,,not run yet"));
+}
+
+TEST_F(QueueOfExample, AThumbnailShowsTheStationsEdgesWhereTheImageHasThem) {
+  const auto loaded = loadCase(*session_->cases[0]);
+  const ColorImage picture =
+      poseThumbnail(loaded->image.view(), loaded->source.camera, loaded->scene.view(),
+                    *loaded->source.camera_from_station_truth, 144, 108);
+  EXPECT_LE(picture.width, 144);
+  EXPECT_LE(picture.height, 108);
+  EXPECT_TRUE(picture.width == 144 || picture.height == 108);
+  int green = 0;
+  for (std::size_t i = 0; i < picture.bgr.size(); i += 3)
+    green += ColorBgr{picture.bgr[i], picture.bgr[i + 1], picture.bgr[i + 2]} == kResultColor;
+  EXPECT_GT(green, picture.width) << "the station fills the picture";
+  Pose behind = *loaded->source.camera_from_station_truth;
+  behind.translation_m.z() = -behind.translation_m.z();
+  const ColorImage none = poseThumbnail(loaded->image.view(), loaded->source.camera,
+                                        loaded->scene.view(), behind, 144, 108);
+  EXPECT_GT(none.width, 0) << "the whole image";
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/review/run_difference.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+RunSide converged(int failed, std::optional<double> error_share = {}) {
+  RunSide side;
+  side.digest = "of " + std::to_string(failed) + " " + std::to_string(error_share.value_or(-1.0));
+  side.converged = true;
+  side.checks_failed = failed;
+  side.error_share = error_share;
+  return side;
+}
+
+RunSide failedRun() {
+  RunSide side = converged(5);
+  side.digest = "failed";
+  side.converged = false;
+  return side;
+}
+
+RunChange changeBetween(const RunSide& before, const RunSide& after) {
+  RunDifference made;
+  made.before = before;
+  made.after = after;
+  judgeChange(made);
+  EXPECT_FALSE(made.why.empty());
+  return made.change;
+}
+
+/// Each of a list from the best to the worst is better than every later one.
+void expectOrdered(const std::vector<RunSide>& sides) {
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    for (std::size_t j = 0; j < sides.size(); ++j) {
+      const RunChange expected = i < j   ? RunChange::kWorse
+                                 : j < i ? RunChange::kBetter
+                                         : RunChange::kSame;
+      EXPECT_EQ(changeBetween(sides[i], sides[j]), expected) << i << " to " << j;
+    }
+}
+
+TEST(RunChangeTest, JudgesByTheTruthWhereItIsKnown) {
+  // The checks say otherwise: the truth decides.
+  expectOrdered({converged(9, 0.4), failedRun(), converged(0, 1.5), converged(0, 4.0)});
+}
+
+TEST(RunChangeTest, JudgesByTheChecksElsewhere) {
+  expectOrdered({converged(0), converged(1), converged(3), failedRun()});
+}
+
+TEST(RunChangeTest, WhatIsRightBothTimesIsTheSame) {
+  EXPECT_EQ(changeBetween(converged(0, 0.1), converged(2, 0.9)), RunChange::kSame);
+  EXPECT_EQ(changeBetween(converged(0, 2.00), converged(0, 2.05)), RunChange::kSame)
+      << "less than a tenth of the requirement";
+}
+
+class RunDifferenceTest : public ::testing::Test {
+ protected:
+  std::string run(const OptionList& options) {
+    Session with = session_;
+    with.options = options;
+    const LocalizationTrace trace = runCase(with, id_);
+    session_ = withRun(session_, storeRun(with, id_, trace, folder_.path() / "s.boresight.json"));
+    return trace.digest;
+  }
+  RunDifference compare() const {
+    const auto pair = lastTwoRuns(session_, id_);
+    return compareRuns(session_, pair->before->digest, pair->after->digest,
+                       loadCase(*session_.findCase(id_)));
+  }
+
+  test::TemporaryFolder folder_;
+  Session session_ = makeSession(test::exampleFolder() / "dataset.json");
+  std::string id_ = session_.cases[0]->id;
+};
+
+TEST_F(RunDifferenceTest, NamesTheOptionTheFirstDifferenceAndWhoIsBetter) {
+  const std::string first = run({});
+  EXPECT_FALSE(lastTwoRuns(session_, id_)) << "one run has none before it";
+  const std::string second = run({{"pnp.min_inliers", std::int64_t{100}}});
+  const RunDifference made = compare();
+  EXPECT_EQ(made.before.digest, first);
+  EXPECT_EQ(made.after.digest, second);
+  ASSERT_EQ(made.options.size(), 1u);
+  EXPECT_EQ(made.options[0].name, "pnp.min_inliers");
+  EXPECT_EQ(made.options[0].after, "100");
+  ASSERT_TRUE(made.comparison.first);
+  EXPECT_EQ(made.comparison.first->part, RunPart::kOptions);
+  EXPECT_TRUE(made.before.converged);
+  EXPECT_FALSE(made.after.converged);
+  EXPECT_EQ(made.change, RunChange::kWorse);
+  ASSERT_TRUE(made.before.error);
+  const SessionCase& one = *session_.findCase(id_);
+  const PoseError error =
+      poseError(*one.camera_from_station_truth, loadRun(session_.runs[0]).camera_from_station,
+                one.camera_from_end_effector);
+  EXPECT_DOUBLE_EQ(made.before.error->lateral_mm, error.lateral_mm);
+  EXPECT_FALSE(made.after.error);
+  bool has_converged = false;
+  for (const CheckChange& check : made.checks) {
+    EXPECT_NE(check.before, check.after) << check.title;
+    has_converged = has_converged ||
+                    (check.before == CheckState::kPassed && check.after == CheckState::kFailed);
+  }
+  EXPECT_TRUE(has_converged) << "a check that failed for the second run alone";
+  EXPECT_THAT(differenceText(made), ::testing::HasSubstr("pnp.min_inliers"));
+  EXPECT_THAT(changeText(made), ::testing::StartsWith("Worse"));
+}
+
+TEST_F(RunDifferenceTest, ARunWithOtherInputsSaysSo) {
+  run({});
+  SessionCase moved = *session_.findCase(id_);
+  moved.camera_from_station_seed.translation_m.z() += 0.001;
+  session_ = withCase(session_, moved);
+  run({});
+  const RunDifference made = compare();
+  EXPECT_TRUE(made.inputs_differ);
+  EXPECT_TRUE(made.options.empty());
+  EXPECT_THAT(changeText(made), ::testing::HasSubstr("other inputs"));
+}
+
+TEST_F(RunDifferenceTest, RefusesRunsThatTheCaseDoesNotHave) {
+  const std::string digest = run({});
+  const auto loaded = loadCase(*session_.findCase(id_));
+  EXPECT_THROW(compareRuns(session_, digest, std::string(64, '0'), loaded), std::invalid_argument);
+  const RunDifference same = compareRuns(session_, digest, digest, loaded);
+  EXPECT_EQ(same.change, RunChange::kSame);
+  EXPECT_EQ(same.why, "bit for bit");
+  EXPECT_EQ(same.comparison.verdict, RunVerdict::kEqual);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+// The queue in the window, by the keys that people press.
+#include "ui/review/queue_panel.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+
+#include <QApplication>
+#include <QDockWidget>
+#include <QLineEdit>
+#include <QSettings>
+#include <QStandardPaths>
+#include <QTableView>
+#include <QtTest/QTest>
+
+#include "sessions/session/case_run.h"
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/window/main_window.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kPatienceMs = 60'000;
+
+/// The example's two cases with their runs, and one of the second that could not converge.
+struct RunExample {
+  sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");
+  std::string good = session.cases[0]->id;
+  std::string bad = session.cases[1]->id;
+  sessions::LocalizationTrace of_good = sessions::runCase(session, good);
+  sessions::LocalizationTrace of_bad = sessions::runCase(session, bad);
+  sessions::Session strict = strictSession();
+  sessions::LocalizationTrace failed = sessions::runCase(strict, bad);
+
+  static const RunExample& get() {
+    static const RunExample example;
+    return example;
+  }
+  sessions::Session strictSession() const {
+    sessions::Session made = session;
+    made.options = {{"pnp.min_inliers", std::int64_t{100}}};
+    return made;
+  }
+  sessions::Session withRuns(const std::filesystem::path& file) const {
+    sessions::Session made = withRun(session, storeRun(session, good, of_good, file));
+    made = withRun(made, storeRun(made, bad, of_bad, file));
+    return withRun(made, storeRun(strict, bad, failed, file));
+  }
+};
+
+class QueuePanelTest : public ::testing::Test {
+ protected:
+  QueuePanelTest() {
+    QStandardPaths::setTestModeEnabled(true);
+    // Of its own: tests run side by side.
+    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope,
+                       QString::fromStdString((folder_.path() / "settings").string()));
+    QSettings().clear();
+    window_ = std::make_unique<MainWindow>();
+    window_->setQuiet(true);
+    window_->resize(1280, 800);
+    window_->show();
+    window_->activateWindow();
+    EXPECT_TRUE(QTest::qWaitForWindowActive(window_.get()));
+    const std::filesystem::path file = folder_.path() / "q.boresight.json";
+    EXPECT_TRUE(window_->document().create(file, RunExample::get().withRuns(file)));
+    panel_ = window_->findChild<QueuePanel*>();
+    table_ = panel_->findChild<QTableView*>(QStringLiteral("queue"));
+    QTest::keySequence(window_.get(), QKeySequence(QStringLiteral("Shift+F9")));
+  }
+  ~QueuePanelTest() override { QSettings().clear(); }
+
+  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
+  bool filled() {
+    return wait([&] {
+      const QueueController& queue = panel_->controller();
+      return queue.count() == 2 && queue.doneCount() == 2 && !window_->tasks().isBusy();
+    });
+  }
+  bool inSight() const {
+    return !window_->dock(QStringLiteral("queue"))->visibleRegion().isEmpty();
+  }
+  QStringList listed() const {
+    QStringList ids;
+    for (int row = 0; row < table_->model()->rowCount(); ++row)
+      ids << table_->model()->index(row, QueueModel::kCase).data().toString();
+    return ids;
+  }
+  QLineEdit& field(const char* name) const {
+    return *panel_->findChild<QLineEdit*>(QLatin1String(name));
+  }
+  /// On whatever has the focus.
+  void press(Qt::Key key) { QTest::keyClick(QApplication::focusWidget(), key); }
+  void type(const QString& text) { QTest::keyClicks(QApplication::focusWidget(), text); }
+  const std::vector<sessions::Decision>& decisions() const {
+    return window_->document().session().decisions;
+  }
+
+  test::TemporaryFolder folder_;
+  std::unique_ptr<MainWindow> window_;
+  QueuePanel* panel_ = nullptr;
+  QTableView* table_ = nullptr;
+  QString good_ = QString::fromStdString(RunExample::get().good);
+  QString bad_ = QString::fromStdString(RunExample::get().bad);
+};
+
+TEST_F(QueuePanelTest, IsFilledInTheBackgroundWithTheMostTroubledFirst) {
+  ASSERT_TRUE(table_->hasFocus()) << "the key leads into the list";
+  ASSERT_TRUE(filled());
+  EXPECT_EQ(listed(), QStringList({bad_, good_}));
+  const QModelIndex first = table_->model()->index(0, 0);
+  EXPECT_TRUE(
+      first.siblingAtColumn(QueueModel::kTrouble).data().toString().contains(QStringLiteral("100")))
+      << first.siblingAtColumn(QueueModel::kTrouble).data().toString().toStdString();
+  EXPECT_FALSE(first.data(Qt::DecorationRole).isNull()) << "a picture";
+  const QModelIndex second = table_->model()->index(1, 0);
+  EXPECT_FALSE(second.siblingAtColumn(QueueModel::kMargin).data().toString().isEmpty());
+  EXPECT_FALSE(second.siblingAtColumn(QueueModel::kFromSeed).data().toString().isEmpty());
+  field("queueFilter").setText(QStringLiteral("failed"));
+  EXPECT_EQ(listed(), QStringList({bad_}));
+}
+
+TEST_F(QueuePanelTest, EnterOpensTheIterationThatFailed) {
+  ASSERT_TRUE(filled());
+  EXPECT_EQ(panel_->chosenCase(), bad_);
+  press(Qt::Key_Return);
+  ASSERT_TRUE(wait([&] {
+    return window_->cases().caseId() == bad_ && window_->state().snapshot() &&
+           !window_->tasks().isBusy();
+  }));
+  ASSERT_NE(window_->state().iteration(), nullptr);
+  EXPECT_NE(window_->state().iteration()->status, LocalizationStatus::kRunning);
+  EXPECT_NE(window_->state().iteration()->status, LocalizationStatus::kConverged);
+  window_->state().setCursor({0, Stage::kRender});
+  press(Qt::Key_Return);
+  EXPECT_NE(window_->state().iteration()->status, LocalizationStatus::kRunning)
+      << "also when the case is shown already";
+}
+
+TEST_F(QueuePanelTest, AcceptAsksWhoAndWhyValidatesAndGoesOn) {
+  ASSERT_TRUE(filled());
+  press(Qt::Key_J);
+  ASSERT_EQ(panel_->chosenCase(), good_);
+  press(Qt::Key_A);
+  EXPECT_TRUE(decisions().empty());
+  ASSERT_TRUE(field("queueName").hasFocus()) << panel_->message().toStdString();
+  type(QStringLiteral("Ada A."));  // letters that are keys in the list
+  press(Qt::Key_Return);
+  ASSERT_TRUE(field("queueComment").hasFocus());
+  type(QStringLiteral("Rather good"));
+  press(Qt::Key_Return);
+  ASSERT_EQ(decisions().size(), 1u) << panel_->message().toStdString();
+  EXPECT_EQ(decisions()[0].verdict, sessions::Verdict::kValidated);
+  EXPECT_EQ(decisions()[0].case_id, good_.toStdString());
+  EXPECT_EQ(decisions()[0].by, "Ada A.");
+  EXPECT_EQ(decisions()[0].comment, "Rather good");
+  EXPECT_EQ(QSettings().value(QStringLiteral("review/name")).toString(), QStringLiteral("Ada A."));
+  EXPECT_EQ(panel_->chosenCase(), bad_) << "the next that is open";
+  EXPECT_TRUE(table_->hasFocus());
+  press(Qt::Key_A);
+  EXPECT_EQ(decisions().size(), 1u) << "a run that failed is not accepted";
+  EXPECT_TRUE(panel_->message().contains(bad_)) << panel_->message().toStdString();
+}
+
+TEST_F(QueuePanelTest, RejectTakesTheCommentAndIsUndoneAtOnce) {
+  ASSERT_TRUE(filled());
+  field("queueName").setText(QStringLiteral("Ada"));
+  field("queueComment").setText(QStringLiteral("blurred"));
+  table_->setFocus();
+  press(Qt::Key_R);
+  ASSERT_EQ(decisions().size(), 1u);
+  EXPECT_EQ(decisions()[0].verdict, sessions::Verdict::kRejected);
+  EXPECT_EQ(decisions()[0].case_id, bad_.toStdString());
+  EXPECT_EQ(decisions()[0].comment, "blurred");
+  EXPECT_FALSE(decisions()[0].checks.empty()) << "what was checked is kept";
+  EXPECT_TRUE(field("queueComment").text().isEmpty());
+  EXPECT_EQ(panel_->chosenCase(), good_);
+  EXPECT_EQ(listed(), QStringList({good_, bad_})) << "what is decided comes last";
+  QTest::keySequence(window_.get(), QKeySequence::Undo);
+  EXPECT_TRUE(decisions().empty());
+  EXPECT_EQ(listed(), QStringList({bad_, good_}));
+}
+
+TEST_F(QueuePanelTest, EscapeLeavesTheQuestion) {
+  ASSERT_TRUE(filled());
+  press(Qt::Key_R);
+  ASSERT_TRUE(field("queueName").hasFocus());
+  press(Qt::Key_Escape);
+  EXPECT_TRUE(table_->hasFocus());
+  EXPECT_TRUE(panel_->message().isEmpty());
+  field("queueName").setFocus();
+  type(QStringLiteral("Ada"));
+  press(Qt::Key_Return);
+  EXPECT_TRUE(decisions().empty()) << "nothing was asked";
+}
+
+TEST_F(QueuePanelTest, ChecksAnewWhatARowRestsOn) {
+  ASSERT_TRUE(filled());
+  sessions::Session changed = window_->document().session();
+  changed.review.limits = {{"check.inlier_count", 9999.0}};
+  ASSERT_TRUE(window_->document().edit(changed, QStringLiteral("limits")));
+  EXPECT_EQ(panel_->controller().doneCount(), 0);
+  field("queueName").setText(QStringLiteral("Ada"));
+  field("queueComment").setText(QStringLiteral("too early"));
+  table_->setFocus();
+  press(Qt::Key_J);
+  ASSERT_EQ(panel_->chosenCase(), good_);
+  press(Qt::Key_A);
+  EXPECT_TRUE(decisions().empty()) << "what was checked by other limits is not accepted";
+  ASSERT_TRUE(filled());
+  press(Qt::Key_A);
+  EXPECT_TRUE(decisions().empty());
+  EXPECT_TRUE(panel_->message().contains(QStringLiteral("nlier")))
+      << panel_->message().toStdString();
+}
+
+TEST_F(QueuePanelTest, IsNotFilledWhileHaltedOrOutOfSight) {
+  ASSERT_TRUE(filled());
+  panel_->controller().setHalted(true);
+  sessions::Session changed = window_->document().session();
+  changed.review.limits = {{"check.inlier_count", 13.0}};
+  ASSERT_TRUE(window_->document().edit(changed, QStringLiteral("limits")));
+  EXPECT_FALSE(panel_->controller().isBusy());
+  window_->dock(QStringLiteral("iterations"))->raise();
+  ASSERT_TRUE(wait([&] { return !inSight(); }));
+  panel_->controller().setHalted(false);
+  EXPECT_FALSE(panel_->controller().isBusy());
+  window_->dock(QStringLiteral("queue"))->raise();
+  EXPECT_TRUE(filled());
+}
+
+TEST_F(QueuePanelTest, ComparesTheLastTwoRuns) {
+  ASSERT_TRUE(filled());
+  press(Qt::Key_D);
+  auto* table = panel_->findChild<QTableView*>(QStringLiteral("differences"));
+  ASSERT_TRUE(table->hasFocus());
+  ASSERT_TRUE(wait([&] { return panel_->controller().doneCount() == 1; }));
+  ASSERT_EQ(table->model()->rowCount(), 1) << "the other case has one run";
+  const QModelIndex row = table->model()->index(0, DifferencesModel::kCase);
+  EXPECT_EQ(row.data().toString(), bad_);
+  EXPECT_TRUE(row.siblingAtColumn(DifferencesModel::kChange)
+                  .data()
+                  .toString()
+                  .contains(QStringLiteral("worse")));
+  EXPECT_TRUE(row.siblingAtColumn(DifferencesModel::kWhy)
+                  .data()
+                  .toString()
+                  .contains(QStringLiteral("pnp.min_inliers")));
+  press(Qt::Key_D);
+  EXPECT_TRUE(table_->hasFocus());
+}
+
+}  // namespace
+}  // namespace boresight::ui

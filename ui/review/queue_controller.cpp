@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/review/queue_controller.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "sessions/io/errors.h"
+#include "sessions/review/thumbnail.h"
+#include "sessions/session/case_run.h"
+#include "ui/models/number_text.h"
+#include "ui/state/document.h"
+
+namespace boresight::ui {
+
+using sessions::QueueGroup;
+using sessions::QueueRow;
+
+namespace {
+
+QImage toImage(const sessions::ColorImage& picture) {
+  return QImage(picture.bgr.data(), picture.width, picture.height, 3 * picture.width,
+                QImage::Format_BGR888)
+      .copy();
+}
+
+/// The last run's pose if it has one, else the seed in its own colour.
+QImage pictureOf(const sessions::LoadedCase& loaded, const QueueRow& row, const QSize& size_px) {
+  const bool converged = row.subject && row.subject->run->converged();
+  return toImage(sessions::poseThumbnail(
+      loaded.image.view(), loaded.source.camera, loaded.scene.view(),
+      converged ? row.subject->camera_from_station : loaded.source.camera_from_station_seed,
+      size_px.width(), size_px.height(),
+      converged ? sessions::kResultColor : sessions::kSeedColor));
+}
+
+/// What the session alone tells of a case.
+QueueRow plainRow(const sessions::Session& session, const std::string& id) {
+  QueueRow row;
+  row.case_id = id;
+  if (const sessions::RunRecord* run = session.lastRunOf(id)) {
+    row.run_digest = run->digest;
+    if (run->status != "converged") row.trouble = "the run failed: " + run->status;
+  }
+  sessions::takeStanding(session, row);
+  return row;
+}
+
+}  // namespace
+
+QueueController::QueueController(Document& document, const QSize& thumbnail_px, QObject* parent)
+    : QObject(parent),
+      document_(document),
+      rows_([thumbnail_px](const sessions::Session& session,
+                           const std::string& id) { return make(session, id, thumbnail_px); },
+            [](const std::string& id, const std::string& message) {
+              Made made;
+              made.row.case_id = id;
+              made.row.trouble = message;
+              return made;
+            },
+            [this] { Q_EMIT changed(); }),
+      differences_(
+          &QueueController::compare,
+          [](const std::string&, const std::string& message) {
+            return Compared{std::nullopt, fromText(message)};
+          },
+          [this] { Q_EMIT changed(); }) {
+  rows_.setOrder([this](const Rows::Entry& a, const Rows::Entry& b) {
+    return sessions::moreTrouble(rowOf(a), rowOf(b));
+  });
+  connect(&document_, &Document::opened, this, &QueueController::follow);
+  connect(&document_, &Document::changed, this, &QueueController::follow);
+}
+
+QueueController::~QueueController() = default;
+
+QueueController::Made QueueController::make(const sessions::Session& session, const std::string& id,
+                                            const QSize& size_px) {
+  std::shared_ptr<const sessions::LoadedCase> loaded;
+  std::string reason;
+  try {
+    loaded = sessions::loadCase(*session.findCase(id));
+  } catch (const sessions::FileError& error) {
+    reason = error.what();
+  }
+  Made made;
+  made.row = sessions::queueRow(session, id, loaded, reason);
+  if (loaded) made.thumbnail = pictureOf(*loaded, made.row, size_px);
+  return made;
+}
+
+QueueController::Compared QueueController::compare(const sessions::Session& session,
+                                                   const std::string& id) {
+  const auto pair = sessions::lastTwoRuns(session, id);
+  return {sessions::compareRuns(session, pair->before->digest, pair->after->digest,
+                                sessions::loadCase(*session.findCase(id))),
+          {}};
+}
+
+void QueueController::setLookedAt(List list) {
+  if (looked_at_ == list) return;
+  looked_at_ = list;
+  rows_.setActive(false);
+  differences_.setActive(false);
+  follow();  // before anything is made of what was looked at last
+  rows_.setActive(list == List::kTrouble);
+  differences_.setActive(list == List::kDifferences);
+}
+
+void QueueController::follow() {
+  if (looked_at_ == List::kNone) return;
+  const sessions::Session& session = document_.session();
+  Rows::Keys rows;
+  Differences::Keys pairs;
+  for (const auto& one : session.cases) {
+    const std::string key = sessions::queueKey(session, one->id);
+    rows.emplace_back(one->id, key);
+    if (const auto pair = sessions::lastTwoRuns(session, one->id))
+      pairs.emplace_back(one->id, key + ' ' + pair->before->digest);
+  }
+  rows_.follow(session, rows);
+  differences_.follow(session, pairs);
+}
+
+QueueRow QueueController::rowOf(const Rows::Entry& entry) const {
+  if (!entry.value) return plainRow(document_.session(), entry.id);
+  QueueRow row = entry.value->row;
+  sessions::takeStanding(document_.session(), row);
+  return row;
+}
+
+std::vector<QueueEntry> QueueController::queue() const {
+  std::vector<QueueEntry> made;
+  for (const Rows::Entry& entry : rows_.entries())
+    made.push_back({rowOf(entry), entry.value ? entry.value->thumbnail : QImage(), entry.current});
+  return made;
+}
+
+std::vector<DifferenceEntry> QueueController::differences() const {
+  std::vector<DifferenceEntry> made;
+  for (const Differences::Entry& entry : differences_.entries()) {
+    DifferenceEntry one{entry.id, {}, {}, entry.current};
+    if (entry.value) {
+      one.difference = entry.value->difference;
+      one.problem = entry.value->problem;
+    }
+    made.push_back(std::move(one));
+  }
+  return made;
+}
+
+int QueueController::doneCount() const {
+  return looked_at_ == List::kDifferences ? differences_.currentCount() : rows_.currentCount();
+}
+
+int QueueController::count() const {
+  return static_cast<int>(looked_at_ == List::kDifferences ? differences_.entries().size()
+                                                           : rows_.entries().size());
+}
+
+bool QueueController::isBusy() const { return rows_.isBusy() || differences_.isBusy(); }
+
+void QueueController::setHalted(bool halted) {
+  halted_ = halted;
+  rows_.setHalted(halted);
+  differences_.setHalted(halted);
+}
+
+sessions::Session QueueController::after(Act act, const QueueRow& row,
+                                         const sessions::Signature& who) const {
+  const sessions::Session& session = document_.session();
+  if (act == Act::kReject) return sessions::rejected(session, row.case_id, row.checks, who);
+  return sessions::validated(session, *row.subject, row.checks, {}, who);
+}
+
+QString QueueController::obstacle(Act act, const QString& id) const {
+  const std::string case_id = id.toStdString();
+  const auto& entries = rows_.entries();
+  const auto found = std::find_if(entries.begin(), entries.end(),
+                                  [&](const Rows::Entry& one) { return one.id == case_id; });
+  if (id.isEmpty() || found == entries.end()) return tr("Choose a case of the list.");
+  if (!document_.readOnlyReason().isEmpty()) return document_.readOnlyReason();
+  const QueueRow row = rowOf(*found);
+  if (row.group == QueueGroup::kDecided || row.group == QueueGroup::kAwaits)
+    return tr("%1 is decided already: %2. Review (F9) takes a decision back, or approves it.")
+        .arg(id, fromText(row.standing_text));
+  if (act == Act::kReject) return {};
+  if (!found->current) return tr("%1 is not checked yet; wait, or review it (F9).").arg(id);
+  if (!row.trouble.empty() || !row.subject)
+    return tr("%1 cannot be accepted: %2").arg(id, fromText(sessions::troubleText(row)));
+  if (row.failed > 0)
+    return tr("%1 cannot be accepted here: %2. Review (F9) is where checks are passed over.")
+        .arg(id, fromText(sessions::troubleText(row)));
+  return {};
+}
+
+QString QueueController::decide(Act act, const QString& id, const sessions::Signature& who) {
+  const QString reason = obstacle(act, id);
+  if (!reason.isEmpty()) return reason;
+  Rows::Entry* entry = rows_.find(id.toStdString());
+  QueueRow row = rowOf(*entry);
+  if (!entry->current) row.checks.clear();  // they are of something else
+  const QString text = act == Act::kAccept ? tr("Validate %1").arg(id) : tr("Reject %1").arg(id);
+  try {
+    return document_.edit(after(act, row, who), text) ? QString() : tr("Nothing was decided.");
+  } catch (const std::exception& error) {
+    return QString::fromUtf8(error.what());
+  }
+}
+
+}  // namespace boresight::ui
