@@ -43,9 +43,9 @@ bool isResting(MainWindow& window) {
   auto* queue = window.findChild<QueuePanel*>();
   auto* review = window.findChild<ReviewPanel*>();
   return !window.tasks().isBusy() && !(queue && queue->controller().isBusy()) &&
-         !(review && review->controller().isBusy()) &&
-         !window.annotation().stale() && !window.findings().isBusy() &&
-         window.run().state() != RunState::kWorking && !(match && match->isComputing());
+         !(review && review->controller().isBusy()) && !window.annotation().stale() &&
+         !window.findings().isBusy() && window.run().state() != RunState::kWorking &&
+         !(match && match->isComputing());
 }
 
 QWidget* widgetOf(MainWindow& window, const QString& view) {
