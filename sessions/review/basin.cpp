@@ -28,9 +28,20 @@ LocalizationProblem problemFrom(const ReviewSubject& subject, int number) {
   return problem;
 }
 
+void count(const ReviewSubject& subject, const LocalizationTrace& trace, BasinResult& result) {
+  ++result.seeds;
+  if (!trace.converged()) return;
+  ++result.converged;
+  if (withinRequirement(subject, trace.camera_from_station))
+    ++result.returned;
+  else
+    result.elsewhere.push_back(trace.camera_from_station);
+}
+
 }  // namespace
 
-BasinResult basinTest(const ReviewSubject& subject, int seeds, const std::stop_token& stop) {
+BasinResult basinTest(const ReviewSubject& subject, int seeds, const std::stop_token& stop,
+                      const std::function<void(const BasinResult&)>& after_each) {
   BasinResult result;
   if (subject.loaded == nullptr) return result;
   const RunPlan plan = planFor(subject);
@@ -38,13 +49,8 @@ BasinResult basinTest(const ReviewSubject& subject, int seeds, const std::stop_t
     const LocalizationTrace trace =
         localize(problemFrom(subject, number), plan, RecordLevel::kSummary, stop);
     if (trace.status == LocalizationStatus::kRunning) break;
-    ++result.seeds;
-    if (!trace.converged()) continue;
-    ++result.converged;
-    if (withinRequirement(subject, trace.camera_from_station))
-      ++result.returned;
-    else
-      result.elsewhere.push_back(trace.camera_from_station);
+    count(subject, trace, result);
+    if (after_each) after_each(result);
   }
   return result;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -20,8 +21,9 @@ struct BasinResult {
 };
 
 /// Runs the case's localization from `seeds` further seeds, drawn evenly in its uncertainty.
-/// Deterministic. A stop leaves what was done by then.
-BasinResult basinTest(const ReviewSubject& subject, int seeds, const std::stop_token& stop = {});
+/// Deterministic. A stop leaves what was done by then. `after_each` is told what was found so far.
+BasinResult basinTest(const ReviewSubject& subject, int seeds, const std::stop_token& stop = {},
+                      const std::function<void(const BasinResult&)>& after_each = {});
 
 /// All checks of a pose, always the same ones in the same order; what cannot be asked is not
 /// applicable. `basin` is what was measured of it, if it was.

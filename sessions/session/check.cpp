@@ -32,12 +32,19 @@ const char* checkStateText(CheckState state) {
   return "not applicable";
 }
 
-std::string figureText(const Check& check) {
-  if (!check.figure) return "";
-  const std::string figure = numberText(*check.figure, check.unit);
-  if (!check.limit) return figure;
+std::string foundText(const Check& check) {
+  return check.figure ? numberText(*check.figure, check.unit) : "";
+}
+
+std::string limitText(const Check& check) {
+  if (!check.limit) return "";
   const char* side = check.side == LimitSide::kAtMost ? "at most " : "at least ";
-  return figure + " (" + side + numberText(*check.limit, check.unit) + ")";
+  return side + numberText(*check.limit, check.unit);
+}
+
+std::string figureText(const Check& check) {
+  if (!check.figure || !check.limit) return foundText(check);
+  return foundText(check) + " (" + limitText(check) + ")";
 }
 
 bool allPassed(std::span<const Check> checks) {

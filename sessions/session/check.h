@@ -32,6 +32,10 @@ struct Check {
   bool operator==(const Check&) const = default;
 };
 
+/// The figure with its unit: "0.12 mm"; "" where there is none.
+std::string foundText(const Check& check);
+/// "at most 0.40 mm"; "" where there is no limit.
+std::string limitText(const Check& check);
 /// "0.12 mm (at most 0.40 mm)", "12 of 12" where the sentence alone tells: "".
 std::string figureText(const Check& check);
 

@@ -32,6 +32,25 @@ QString tooltipOf(const CaseRow& row) {
 
 }  // namespace
 
+CaseState caseStateOf(sessions::CaseStanding standing) {
+  using sessions::CaseStanding;
+  switch (standing) {
+    case CaseStanding::kConverged:
+      return CaseState::kConverged;
+    case CaseStanding::kFailed:
+      return CaseState::kFailed;
+    case CaseStanding::kAnnotated:
+      return CaseState::kAnnotated;
+    case CaseStanding::kValidated:
+      return CaseState::kValidated;
+    case CaseStanding::kRejected:
+      return CaseState::kRejected;
+    case CaseStanding::kNew:
+      break;
+  }
+  return CaseState::kNew;
+}
+
 CasesModel::CasesModel(QObject* parent) : QAbstractTableModel(parent) {}
 
 bool CasesModel::hasSameIds(const std::vector<CaseRow>& rows) const {
@@ -74,6 +93,8 @@ QString CasesModel::stateText(CaseState state) {
       return tr("✎ annotated");
     case CaseState::kValidated:
       return tr("★ validated");
+    case CaseState::kRejected:
+      return tr("⊘ rejected");
   }
   return {};
 }
@@ -116,7 +137,8 @@ QVariant CasesModel::headerData(int section, Qt::Orientation orientation, int ro
                             tr("Turned,\ndeg")};
   const QString help[] = {
       tr("The image's name."),
-      tr("What has become of the case: new, running, converged, failed, annotated, validated."),
+      tr("What has become of the case: new, running, converged, failed, annotated, validated, "
+         "rejected."),
       tr("Error of the result along the station's normal, in mm, where the truth is known."),
       tr("Error of the result across the station's normal, in mm, where the truth is known."),
       tr("Error of the result's rotation, in degrees, where the truth is known.")};

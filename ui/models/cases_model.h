@@ -8,10 +8,15 @@
 #include <QImage>
 #include <QString>
 
+#include "sessions/review/standing.h"
+
 namespace boresight::ui {
 
-enum class CaseState { kNew, kRunning, kConverged, kFailed, kAnnotated, kValidated };
-inline constexpr int kCaseStateCount = 6;
+enum class CaseState { kNew, kRunning, kConverged, kFailed, kAnnotated, kValidated, kRejected };
+inline constexpr int kCaseStateCount = 7;
+
+/// How the list names where a case stands.
+CaseState caseStateOf(sessions::CaseStanding standing);
 
 /// One case as the list shows it.
 struct CaseRow {

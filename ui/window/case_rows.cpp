@@ -3,15 +3,19 @@
 
 #include <QCoreApplication>
 
+#include "sessions/review/standing.h"
+#include "ui/models/number_text.h"
+
 namespace boresight::ui {
 namespace {
 
-CaseState stateOf(const sessions::Session& session, const std::string& id) {
-  const sessions::Decision* decision = session.decisionOn(id);
-  if (decision && decision->verdict == sessions::Verdict::kValidated) return CaseState::kValidated;
+QString detailOf(const sessions::Session& session, const std::string& id,
+                 const sessions::Standing& standing) {
+  QString text = fromText(sessions::standingText(standing));
   if (const sessions::RunRecord* run = session.lastRunOf(id))
-    return run->status == "converged" ? CaseState::kConverged : CaseState::kFailed;
-  return session.annotations.count(id) > 0 ? CaseState::kAnnotated : CaseState::kNew;
+    text += QCoreApplication::translate("CaseRows", "\nLast run %1: %2")
+                .arg(fromText(run->time), fromText(run->status));
+  return text;
 }
 
 }  // namespace
@@ -22,10 +26,9 @@ std::vector<CaseRow> caseRows(const sessions::Session& session, const QString& r
     CaseRow row;
     row.id = QString::fromStdString(one->id);
     row.station = QString::fromStdString(one->station);
-    row.state = row.id == running ? CaseState::kRunning : stateOf(session, one->id);
-    if (const sessions::RunRecord* run = session.lastRunOf(one->id))
-      row.detail = QCoreApplication::translate("CaseRows", "Last run %1: %2")
-                       .arg(QString::fromStdString(run->time), QString::fromStdString(run->status));
+    const sessions::Standing standing = sessions::standingOf(session, one->id);
+    row.state = row.id == running ? CaseState::kRunning : caseStateOf(standing.state);
+    row.detail = detailOf(session, one->id, standing);
     rows.push_back(std::move(row));
   }
   return rows;

@@ -13,6 +13,7 @@
 
 #include "ui/panels/match_view.h"
 #include "ui/review/queue_panel.h"
+#include "ui/review/review_panel.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/window/input_findings.h"
@@ -40,9 +41,11 @@ bool waitUntil(const std::function<bool()>& holds) {
 bool isResting(MainWindow& window) {
   const auto* match = window.findChild<MatchView*>();
   auto* queue = window.findChild<QueuePanel*>();
+  auto* review = window.findChild<ReviewPanel*>();
   return !window.tasks().isBusy() && !(queue && queue->controller().isBusy()) &&
-         !window.annotation().stale() && !window.findings().isBusy() &&
-         window.run().state() != RunState::kWorking && !(match && match->isComputing());
+         !(review && review->controller().isBusy()) && !window.annotation().stale() &&
+         !window.findings().isBusy() && window.run().state() != RunState::kWorking &&
+         !(match && match->isComputing());
 }
 
 QWidget* widgetOf(MainWindow& window, const QString& view) {

@@ -21,6 +21,7 @@
 #include "ui/panels/warning_bar.h"
 #include "ui/review/onboard_panel.h"
 #include "ui/review/queue_panel.h"
+#include "ui/review/review_panel.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/views/layers_panel.h"
@@ -51,6 +52,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       levels_(new LevelsPanel(image_->display())),
       annotation_(new AnnotationPanel(parts.document, parts.annotation, parts.state)),
       queue_(new QueuePanel(parts.document)),
+      review_(new ReviewPanel(parts.document, parts.state)),
       snapper_(new StationSnapper(parts.state, &window)),
       scene_(new SceneView(parts.state)),
       image_annotation_(
@@ -79,6 +81,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   add(QStringLiteral("iterations"), tr("Iterations"), new IterationsPanel(parts.state));
   add(QStringLiteral("inspector"), tr("Match inspector"), new MatchInspectorPanel(parts.state));
   add(QStringLiteral("annotation"), tr("Annotation"), annotation_);
+  add(QStringLiteral("review"), tr("Review"), review_);
   add(QStringLiteral("queue"), tr("Queue"), queue_);
   add(QStringLiteral("inputs"), tr("Inputs"), inputs_);
   add(QStringLiteral("onboard"), tr("Onboard"),
@@ -126,7 +129,7 @@ void WindowDocks::place() const {
   for (const char* name : {"mask", "levels", "pose", "configuration"})
     window_.tabifyDockWidget(layers, dock(QLatin1String(name)));
   window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
-  for (const char* name : {"inspector", "annotation", "queue", "inputs", "onboard"})
+  for (const char* name : {"inspector", "annotation", "review", "queue", "onboard", "inputs"})
     window_.tabifyDockWidget(iterations, dock(QLatin1String(name)));
   for (QDockWidget* each : docks_) each->show();
   layers->raise();

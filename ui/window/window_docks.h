@@ -23,6 +23,7 @@ class MaskEditor;
 class MaskPanel;
 class PosePanel;
 class QueuePanel;
+class ReviewPanel;
 class SceneView;
 class StationSnapper;
 class WarningBar;
@@ -44,6 +45,7 @@ class WindowDocks {
   LevelsPanel& levels() const { return *levels_; }
   AnnotationPanel& annotation() const { return *annotation_; }
   QueuePanel& queue() const { return *queue_; }
+  ReviewPanel& review() const { return *review_; }
   /// What of the current case's mesh can be snapped to, for every view.
   StationSnapper& snapper() const { return *snapper_; }
   SceneView& scene() const { return *scene_; }
@@ -79,6 +81,7 @@ class WindowDocks {
   LevelsPanel* levels_;
   AnnotationPanel* annotation_;
   QueuePanel* queue_;
+  ReviewPanel* review_;
   StationSnapper* snapper_;
   SceneView* scene_;
   ImageAnnotation* image_annotation_;

@@ -19,6 +19,7 @@
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/run_scrubber.h"
 #include "ui/review/onboard_panel.h"
+#include "ui/review/pose_export.h"
 #include "ui/run/run_controller.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
@@ -85,6 +86,11 @@ void WindowMenus::buildFileMenu() {
   menu->addSeparator();
   menu->addAction(save_);
   menu->addAction(save_as_);
+  menu->addSeparator();
+  auto* poses = new PoseExport(window_, parts_.document, parts_.state, parts_.tasks);
+  poses->addTo(*menu->addMenu(tr("&Export")));
+  connect(poses, &PoseExport::noted, this,
+          [this](const QString& message) { window_.statusBar()->showMessage(message); });
   menu->addSeparator();
   menu->addAction(quit);
 }
@@ -282,6 +288,10 @@ void WindowMenus::buildViewMenu() {
   connect(swipe, &QAction::triggered, image, &ImagePanel::toggleSwipe);
   connect(core, &QAction::triggered, image, &ImagePanel::toggleCoreView);
   menu->addActions({blink, swipe, core});
+  QAction* review = action(tr("Re&view the pose"), Qt::Key_F9,
+                           tr("Where the shown case stands, the checks of its pose, the decision"));
+  connect(review, &QAction::triggered, this, [this] { docks_.raise(QStringLiteral("review")); });
+  menu->addAction(review);
   QueueLinks::addActions(*menu->addMenu(tr("&Queue")), docks_);
   menu->addSeparator();
   for (QDockWidget* each : docks_.all()) menu->addAction(each->toggleViewAction());

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+
+#include <QApplication>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSettings>
+#include <QTableView>
+#include <QtTest/QTest>
+
+#include "sessions/session/case_run.h"
+#include "sessions/session/session_maker.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/review/checks_model.h"
+#include "ui/review/review_controller.h"
+
+namespace boresight::test {
+
+constexpr int kPatienceMs = 120'000;
+
+/// The example, and the run of its first case; made once for all tests.
+struct RunExample {
+  sessions::Session session = sessions::makeSession(exampleFolder() / "dataset.json");
+  std::string id = session.cases[0]->id;
+  sessions::LocalizationTrace trace = sessions::runCase(session, id);
+
+  static const RunExample& get() {
+    static const RunExample example;
+    return example;
+  }
+  /// The session with its run, whose trace lies beside this file.
+  sessions::Session withItsRun(const std::filesystem::path& session_file) const {
+    return sessions::withRun(session, sessions::storeRun(session, id, trace, session_file));
+  }
+};
+
+/// What a reviewer does with the panel, by its widgets.
+class ReviewHands {
+ public:
+  explicit ReviewHands(QWidget& panel) : panel_(panel) {}
+
+  QPushButton* button(const char* name) const {
+    return panel_.findChild<QPushButton*>(QLatin1String(name));
+  }
+  QTableView& table() const { return *panel_.findChild<QTableView*>(QStringLiteral("checks")); }
+  QString labelled(const char* name) const {
+    const auto* label = panel_.findChild<QLabel*>(QLatin1String(name));
+    return label ? label->text() : QString();
+  }
+  void type(const char* name, const QString& text) const {
+    auto* field = panel_.findChild<QLineEdit*>(QLatin1String(name));
+    ASSERT_NE(field, nullptr) << name;
+    field->setFocus();
+    field->selectAll();
+    QTest::keyClick(field, Qt::Key_Delete);
+    QTest::keyClicks(field, text);
+  }
+  void sign(const QString& name, const QString& comment) const {
+    type("decisionName", name);
+    type("decisionComment", comment);
+  }
+  void click(const char* name) const { QTest::mouseClick(button(name), Qt::LeftButton); }
+  /// The row of a check by its sign and title; -1 where there is none.
+  int rowOf(const QString& words) const {
+    const QAbstractItemModel& model = *table().model();
+    for (int row = 0; row < model.rowCount(); ++row)
+      if (model.index(row, ui::ChecksModel::kCheck).data().toString().contains(words)) return row;
+    return -1;
+  }
+  int failedCount() const {
+    int count = 0;
+    const QAbstractItemModel& model = *table().model();
+    for (int row = 0; row < model.rowCount(); ++row)
+      count += model.index(row, ui::ChecksModel::kCheck)
+                   .data()
+                   .toString()
+                   .startsWith(QString::fromUtf8("✗"));
+    return count;
+  }
+  /// Types into a cell as a person does who goes there with the keys.
+  static void typeInto(QTableView& table, int row, int column, const QString& text) {
+    table.setFocus();
+    table.setCurrentIndex(table.model()->index(row, column));
+    QTest::keyClick(&table, Qt::Key_F2);
+    auto* editor = table.findChild<QLineEdit*>();
+    ASSERT_NE(editor, nullptr) << "the cell cannot be edited";
+    editor->selectAll();
+    QTest::keyClicks(editor, text);
+    QTest::keyClick(editor, Qt::Key_Return);
+    QApplication::processEvents();
+    QApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);  // the editor
+  }
+  /// A reason for every check that failed.
+  void passOverAll(const QString& reason) const {
+    for (int row = 0; row < failedCount(); ++row)
+      typeInto(table(), row, ui::ChecksModel::kReason, reason);
+  }
+
+ private:
+  QWidget& panel_;
+};
+
+}  // namespace boresight::test

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/review/review_panel.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QLabel>
+#include <QSpinBox>
+#include <QTextBrowser>
+
+#include "sessions/review/review_settings.h"
+#include "sessions/review/standing.h"
+#include "sessions/session/session_document.h"
+#include "tests/support/marked_example.h"
+#include "tests/ui/review/review_fixture.h"
+#include "ui/models/number_text.h"
+#include "ui/review/decision_form.h"
+#include "ui/review/limits_dialog.h"
+#include "ui/review/pose_export.h"
+#include "ui/review/standing_banner.h"
+#include "ui/state/document.h"
+
+namespace boresight::ui {
+namespace {
+
+using sessions::CaseStanding;
+using sessions::CheckState;
+using test::kPatienceMs;
+using test::RunExample;
+
+class ReviewPanelTest : public ::testing::Test {
+ protected:
+  ReviewPanelTest() {
+    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope,
+                       QString::fromStdString((folder_.path() / "settings").string()));
+    QSettings().clear();
+    panel_ = std::make_unique<ReviewPanel>(document_, state_);
+    panel_->resize(900, 300);
+    panel_->show();
+  }
+
+  std::filesystem::path file() const { return folder_.path() / "one.boresight.json"; }
+
+  void open(const sessions::Session& session, const std::string& id) {
+    ASSERT_TRUE(document_.create(file(), session));
+    state_.setCase(sessions::loadCase(*session.findCase(id)));
+  }
+  void openRun() {
+    open(RunExample::get().withItsRun(file()), RunExample::get().id);
+    ASSERT_TRUE(checked());
+  }
+  bool checked() {
+    return QTest::qWaitFor([this] { return controller().isCurrent() && !controller().isBusy(); },
+                           kPatienceMs);
+  }
+  ReviewController& controller() { return panel_->controller(); }
+  test::ReviewHands hands() { return test::ReviewHands(*panel_); }
+  CaseStanding standing() { return controller().standing().state; }
+  QString banner() { return panel_->findChild<StandingBanner*>()->text(); }
+  QString obstacle() { return panel_->findChild<DecisionForm*>()->obstacle(); }
+  QString history() { return panel_->findChild<QTextBrowser*>()->toPlainText(); }
+
+  /// A limit that nothing keeps to.
+  void askTooMuch() {
+    sessions::CheckLimits limits = sessions::checkLimits(controller().settings().preset, {});
+    limits.inlier_count = 10000.0;
+    controller().setLimits(limits);
+    ASSERT_TRUE(checked());
+  }
+  void validateAs(const QString& name) {
+    hands().passOverAll(QStringLiteral("known"));
+    hands().sign(name, QStringLiteral("looked at it"));
+    hands().click("validate");
+  }
+
+  test::TemporaryFolder folder_;
+  Document document_;
+  ViewState state_;
+  std::unique_ptr<ReviewPanel> panel_;
+};
+
+TEST_F(ReviewPanelTest, WithoutASessionItSaysSo) {
+  EXPECT_EQ(hands().table().model()->rowCount(), 0);
+  EXPECT_TRUE(hands().labelled("emptyHint").contains(QStringLiteral("No session")));
+  EXPECT_FALSE(hands().button("validate")->isEnabled());
+}
+
+TEST_F(ReviewPanelTest, ACaseWithoutAPoseSaysWhatToDo) {
+  open(RunExample::get().session, RunExample::get().id);
+  EXPECT_TRUE(hands().labelled("emptyHint").contains(QStringLiteral("F5")));
+  EXPECT_TRUE(obstacle().contains(QStringLiteral("run it"))) << obstacle().toStdString();
+  hands().sign(QStringLiteral("Ada"), QStringLiteral("no reason"));
+  EXPECT_FALSE(hands().button("validate")->isEnabled());
+  EXPECT_TRUE(hands().button("reject")->isEnabled()) << "an image can be refused as it is";
+}
+
+TEST_F(ReviewPanelTest, ShowsTheChecksOfCheckPoseInTheirStates) {
+  openRun();
+  const auto& checks = controller().checks();
+  ASSERT_EQ(hands().table().model()->rowCount(), static_cast<int>(checks.size()));
+  for (const sessions::Check& check : checks) {
+    const int row = hands().rowOf(fromText(check.title));
+    ASSERT_GE(row, 0) << check.title;
+    const QString text = hands().table().model()->index(row, ChecksModel::kCheck).data().toString();
+    EXPECT_TRUE(text.startsWith(ChecksModel::sign(check.state))) << text.toStdString();
+    EXPECT_EQ(hands().table().model()->index(row, ChecksModel::kFound).data().toString(),
+              fromText(sessions::foundText(check)));
+  }
+  EXPECT_TRUE(banner().contains(QStringLiteral("NOT VALIDATED")));
+}
+
+TEST_F(ReviewPanelTest, NothingIsCheckedWhileNobodyLooks) {
+  panel_->hide();
+  open(RunExample::get().withItsRun(file()), RunExample::get().id);
+  EXPECT_FALSE(controller().isBusy());
+  EXPECT_TRUE(controller().checks().empty());
+  panel_->show();
+  EXPECT_TRUE(checked());
+  EXPECT_FALSE(controller().checks().empty());
+}
+
+TEST_F(ReviewPanelTest, AFailedCheckBlocksUntilAReasonIsTyped) {
+  openRun();
+  askTooMuch();
+  hands().sign(QStringLiteral("Ada"), QStringLiteral("looked at it"));
+  ASSERT_GT(hands().failedCount(), 0);
+  EXPECT_FALSE(hands().button("validate")->isEnabled());
+  EXPECT_TRUE(obstacle().contains(QStringLiteral("Inliers"))) << obstacle().toStdString();
+  hands().passOverAll(QStringLiteral("   "));
+  EXPECT_FALSE(hands().button("validate")->isEnabled()) << "blanks are no reason";
+  hands().passOverAll(QStringLiteral("a small station"));
+  ASSERT_TRUE(hands().button("validate")->isEnabled()) << obstacle().toStdString();
+  hands().click("validate");
+  EXPECT_EQ(standing(), CaseStanding::kValidated);
+  EXPECT_TRUE(history().contains(QStringLiteral("a small station"))) << history().toStdString();
+}
+
+TEST_F(ReviewPanelTest, AReasonHoldsForItsFigureAlone) {
+  openRun();
+  askTooMuch();
+  hands().passOverAll(QStringLiteral("known"));
+  sessions::CheckLimits limits;
+  limits.inlier_count = 9999.0;
+  controller().setLimits(limits);
+  ASSERT_TRUE(checked());
+  hands().sign(QStringLiteral("Ada"), QStringLiteral("looked at it"));
+  EXPECT_FALSE(hands().button("validate")->isEnabled());
+}
+
+TEST_F(ReviewPanelTest, NeedsANameAndAComment) {
+  openRun();
+  hands().passOverAll(QStringLiteral("known"));
+  EXPECT_FALSE(hands().button("validate")->isEnabled());
+  EXPECT_TRUE(obstacle().contains(QStringLiteral("name"))) << obstacle().toStdString();
+  hands().type("decisionName", QStringLiteral("Ada"));
+  EXPECT_TRUE(obstacle().contains(QStringLiteral("comment"))) << obstacle().toStdString();
+  hands().type("decisionComment", QStringLiteral("looked at it"));
+  EXPECT_TRUE(hands().button("validate")->isEnabled());
+  EXPECT_TRUE(obstacle().isEmpty());
+}
+
+TEST_F(ReviewPanelTest, ADecisionIsOneEditThatUndoTakesBack) {
+  openRun();
+  validateAs(QStringLiteral("Ada"));
+  ASSERT_EQ(standing(), CaseStanding::kValidated);
+  EXPECT_EQ(document_.undoText(),
+            QStringLiteral("Validate %1").arg(fromText(RunExample::get().id)));
+  EXPECT_TRUE(banner().contains(QStringLiteral("Validated by Ada"))) << banner().toStdString();
+  EXPECT_FALSE(hands().button("validate")->isEnabled()) << "said once";
+  ASSERT_TRUE(document_.undo());
+  EXPECT_EQ(standing(), CaseStanding::kConverged);
+  EXPECT_TRUE(document_.session().decisions.empty());
+  EXPECT_FALSE(history().contains(QStringLiteral("Ada")));
+  ASSERT_TRUE(document_.redo());
+  EXPECT_EQ(standing(), CaseStanding::kValidated);
+}
+
+TEST_F(ReviewPanelTest, TheNameIsRememberedAndTheCommentIsNot) {
+  openRun();
+  validateAs(QStringLiteral("Ada"));
+  EXPECT_TRUE(panel_->findChild<QLineEdit*>(QStringLiteral("decisionComment"))->text().isEmpty());
+  ReviewPanel next(document_, state_);
+  EXPECT_EQ(next.findChild<QLineEdit*>(QStringLiteral("decisionName"))->text(),
+            QStringLiteral("Ada"));
+}
+
+TEST_F(ReviewPanelTest, TheSecondPersonIsAnother) {
+  openRun();
+  controller().setSecondPerson(true);
+  validateAs(QStringLiteral("Ada"));
+  EXPECT_EQ(standing(), CaseStanding::kConverged) << "not yet validated";
+  EXPECT_TRUE(banner().contains(QStringLiteral("second person"))) << banner().toStdString();
+  hands().sign(QStringLiteral(" aDa "), QStringLiteral("me again"));
+  EXPECT_FALSE(hands().button("approve")->isEnabled());
+  EXPECT_FALSE(hands().button("validate")->isEnabled()) << "it would replace the first one";
+  EXPECT_TRUE(obstacle().contains(QStringLiteral("somebody else"))) << obstacle().toStdString();
+  hands().type("decisionName", QStringLiteral("Grace"));
+  ASSERT_TRUE(hands().button("approve")->isEnabled()) << obstacle().toStdString();
+  hands().click("approve");
+  EXPECT_EQ(standing(), CaseStanding::kValidated);
+  EXPECT_TRUE(banner().contains(QStringLiteral("approved by Grace")));
+}
+
+TEST_F(ReviewPanelTest, RejectsAndTakesBack) {
+  openRun();
+  EXPECT_FALSE(hands().button("takeBack")->isEnabled());
+  hands().sign(QStringLiteral("Ada"), QStringLiteral("the gripper hides it"));
+  hands().click("reject");
+  EXPECT_EQ(standing(), CaseStanding::kRejected);
+  EXPECT_TRUE(banner().contains(QStringLiteral("rejected by Ada"))) << banner().toStdString();
+  hands().sign(QStringLiteral("Grace"), QStringLiteral("it does not"));
+  hands().click("takeBack");
+  EXPECT_EQ(standing(), CaseStanding::kConverged);
+  EXPECT_TRUE(history().contains(QStringLiteral("the gripper hides it")));
+  EXPECT_TRUE(history().contains(QStringLiteral("Taken back by Grace"))) << "the newest first";
+}
+
+TEST_F(ReviewPanelTest, MarksCanBeJudgedInsteadAndTheirChangeIsTold) {
+  sessions::Session session = RunExample::get().withItsRun(file());
+  const std::string id = RunExample::get().id;
+  session = withAnnotation(session, id, *test::markedExample(0.2).annotations.at(id));
+  open(session, id);
+  ASSERT_TRUE(checked());
+  auto* judged = panel_->findChild<QComboBox*>(QStringLiteral("judged"));
+  ASSERT_EQ(judged->count(), 2);
+  EXPECT_EQ(controller().source(), sessions::PoseSource::kRun);
+  judged->setFocus();
+  QTest::keyClick(judged, Qt::Key_Down);
+  EXPECT_EQ(controller().source(), sessions::PoseSource::kAnnotation);
+  EXPECT_FALSE(controller().isCurrent()) << "stale at once";
+  ASSERT_TRUE(checked());
+  validateAs(QStringLiteral("Ada"));
+  ASSERT_EQ(standing(), CaseStanding::kValidated);
+  EXPECT_EQ(controller().standing().decision->pose->source, sessions::PoseSource::kAnnotation);
+  sessions::Marks moved = *document_.session().annotations.at(id);
+  moved.points[0].pixel->x() += 0.3;
+  document_.edit(withAnnotation(document_.session(), id, moved), QStringLiteral("Move"));
+  EXPECT_TRUE(banner().contains(QStringLiteral("the marks have changed")))
+      << banner().toStdString();
+  EXPECT_FALSE(controller().isCurrent());
+}
+
+TEST_F(ReviewPanelTest, LimitsAreEditedInTheirDialogAndSurviveSaving) {
+  openRun();
+  hands().click("openLimits");
+  auto* dialog = panel_->findChild<LimitsDialog*>();
+  ASSERT_NE(dialog, nullptr);
+  auto* table = dialog->findChild<QTableView*>(QStringLiteral("limits"));
+  int row = 0;
+  while (!table->model()
+              ->index(row, LimitsModel::kName)
+              .data()
+              .toString()
+              .contains(QStringLiteral("inlier_count")))
+    ASSERT_LT(++row, table->model()->rowCount());
+  test::ReviewHands::typeInto(*table, row, LimitsModel::kValue, QStringLiteral("-5"));
+  EXPECT_TRUE(dialog->findChild<QLabel*>(QStringLiteral("limitHelp"))
+                  ->text()
+                  .contains(QStringLiteral("Not changed")));
+  EXPECT_TRUE(document_.session().review.limits.empty());
+  test::ReviewHands::typeInto(*table, row, LimitsModel::kValue, QStringLiteral("9000"));
+  ASSERT_EQ(document_.session().review.limits.size(), 1u);
+  EXPECT_FALSE(controller().isCurrent()) << "stale at once";
+  ASSERT_TRUE(checked());
+  const int checked_row = hands().rowOf(QString::fromUtf8("✗ Inliers"));
+  ASSERT_GE(checked_row, 0);
+  EXPECT_EQ(hands().table().model()->index(checked_row, ChecksModel::kLimit).data().toString(),
+            QStringLiteral("at least 9e+03"));
+  QTest::mouseClick(dialog->findChild<QCheckBox*>(QStringLiteral("secondPerson")), Qt::LeftButton,
+                    Qt::NoModifier, QPoint(8, 8));
+  EXPECT_TRUE(document_.session().review.second_person);
+  ASSERT_TRUE(document_.save());
+  const sessions::ReviewSettings kept = document_.session().review;
+  document_.close();
+  ASSERT_TRUE(document_.open(file()));
+  EXPECT_EQ(document_.session().review, kept);
+  EXPECT_EQ(sessions::checkLimits(kept.preset, kept.limits).inlier_count, 9000.0);
+}
+
+TEST_F(ReviewPanelTest, AnotherPresetIsAnEdit) {
+  openRun();
+  hands().click("openLimits");
+  auto* preset = panel_->findChild<QComboBox*>(QStringLiteral("preset"));
+  ASSERT_NE(preset, nullptr);
+  preset->setFocus();
+  QTest::keyClick(preset, Qt::Key_Down);
+  EXPECT_EQ(document_.session().review.preset, sessions::checkPresets()[1].name);
+  ASSERT_TRUE(document_.undo());
+  EXPECT_EQ(preset->currentText(), QLatin1String(sessions::kDefaultCheckPreset));
+}
+
+TEST_F(ReviewPanelTest, TheBasinTestEntersTheChecksAndCanBeStopped) {
+  openRun();
+  const auto state = [this] {
+    for (const sessions::Check& check : controller().checks())
+      if (check.id.find("basin") != std::string::npos) return check.state;
+    ADD_FAILURE() << "there is no such check";
+    return CheckState::kNotApplicable;
+  };
+  EXPECT_EQ(state(), CheckState::kNotApplicable);
+  panel_->findChild<QSpinBox*>(QStringLiteral("basinSeeds"))->setValue(1000);
+  hands().click("basin");
+  EXPECT_TRUE(hands().button("basin")->text().contains(QStringLiteral("Stop")));
+  ASSERT_TRUE(
+      QTest::qWaitFor([this] { return controller().basinSoFar().seeds >= 2; }, kPatienceMs));
+  hands().click("basin");
+  ASSERT_TRUE(checked());
+  EXPECT_NE(state(), CheckState::kNotApplicable) << "what has been run counts";
+  EXPECT_TRUE(hands().button("basin")->text().contains(QStringLiteral("Test")));
+}
+
+TEST_F(ReviewPanelTest, AReadOnlySessionIsNotDecidedOn) {
+  ASSERT_TRUE(document_.create(file(), RunExample::get().withItsRun(file())));
+  ASSERT_TRUE(document_.save());
+  Document reader;
+  ASSERT_TRUE(reader.open(file()));
+  ASSERT_FALSE(reader.readOnlyReason().isEmpty()) << "another one has it open";
+  ReviewController controller(reader, state_);
+  state_.setCase(sessions::loadCase(*reader.session().cases[0]));
+  EXPECT_EQ(controller.obstacle(ReviewController::Act::kReject, {"Ada", "no"}),
+            reader.readOnlyReason());
+  EXPECT_FALSE(controller.decide(ReviewController::Act::kReject, {"Ada", "no"}));
+}
+
+TEST_F(ReviewPanelTest, WhatIsNotValidatedIsCalledSoInTheFile) {
+  openRun();
+  TaskRunner tasks;
+  PoseExport exporter(*panel_, document_, state_, tasks);
+  EXPECT_TRUE(exporter.poseFileName().contains(QStringLiteral("NOT_VALIDATED")));
+  QString noted;
+  QObject::connect(&exporter, &PoseExport::noted, panel_.get(),
+                   [&noted](const QString& text) { noted = text; });
+  exporter.exportPose(folder_.path() / "pose.json");
+  ASSERT_TRUE(QTest::qWaitFor([&noted] { return !noted.isEmpty(); }, kPatienceMs));
+  EXPECT_TRUE(noted.contains(QStringLiteral("NOT VALIDATED"))) << noted.toStdString();
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "pose.json"));
+  validateAs(QStringLiteral("Ada"));
+  EXPECT_EQ(exporter.poseFileName(), QStringLiteral("validated_pose.json"));
+}
+
+TEST_F(ReviewPanelTest, AResultsFileOfPosesThatNobodyValidatedHasToSaySo) {
+  openRun();
+  TaskRunner tasks;
+  PoseExport exporter(*panel_, document_, state_, tasks);
+  QString failure;
+  QObject::connect(&tasks, &TaskRunner::failed, panel_.get(),
+                   [&failure](const QString& text) { failure = text; });
+  exporter.exportBopResults(folder_.path() / "results.csv", 1);
+  ASSERT_TRUE(QTest::qWaitFor([&tasks] { return !tasks.isBusy(); }, kPatienceMs));
+  EXPECT_TRUE(failure.contains(QStringLiteral("NOT-VALIDATED"))) << failure.toStdString();
+  const std::filesystem::path honest = folder_.path() / exporter.bopResultsFileName().toStdString();
+  exporter.exportBopResults(honest, 1);
+  ASSERT_TRUE(QTest::qWaitFor([&tasks] { return !tasks.isBusy(); }, kPatienceMs));
+  EXPECT_TRUE(std::filesystem::exists(honest));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "results.csv"));
+}
+
+}  // namespace
+}  // namespace boresight::ui

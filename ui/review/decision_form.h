@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+
+#include <QWidget>
+
+#include "ui/review/review_controller.h"
+
+QT_BEGIN_NAMESPACE
+class QGridLayout;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QTextBrowser;
+QT_END_NAMESPACE
+
+namespace boresight::ui {
+
+/// Who decides what about the shown case, on what grounds, and what was decided before. What cannot
+/// be done now is disabled, and said why in place.
+class DecisionForm : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit DecisionForm(ReviewController& controller, QWidget* parent = nullptr);
+
+  /// What stands in the way of the next step, as it is shown.
+  QString obstacle() const;
+
+ private:
+  using Act = ReviewController::Act;
+
+  void buildFields(QGridLayout& grid);
+  QPushButton* button(Act act, const char* name, const QString& text, const QString& tip);
+  sessions::Signature signature() const;
+  void decide(Act act);
+  void showWhatIsPossible();
+  void showHistory();
+  Act nextStep() const;
+
+  ReviewController& controller_;
+  QLineEdit* name_ = nullptr;
+  QLineEdit* comment_ = nullptr;
+  std::map<Act, QPushButton*> buttons_;
+  std::map<Act, QString> tips_;
+  QLabel* obstacle_ = nullptr;
+  QTextBrowser* history_ = nullptr;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/review/pose_export.h"
+
+#include <algorithm>
+
+#include <QAction>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QInputDialog>
+#include <QMenu>
+
+#include "sessions/review/pose_exchange.h"
+#include "sessions/review/standing.h"
+#include "sessions/review/validated_pose_file.h"
+#include "ui/models/number_text.h"
+#include "ui/run/task_runner.h"
+#include "ui/state/document.h"
+#include "ui/state/view_state.h"
+
+namespace boresight::ui {
+namespace {
+
+QString nameOf(const std::filesystem::path& file) {
+  return QString::fromStdString(file.filename().string());
+}
+
+}  // namespace
+
+PoseExport::PoseExport(QWidget& window, Document& document, ViewState& state, TaskRunner& tasks)
+    : QObject(&window), window_(window), document_(document), state_(state), tasks_(tasks) {}
+
+void PoseExport::addTo(QMenu& menu) {
+  QAction* pose = menu.addAction(tr("&Pose for hand-over..."), this, &PoseExport::askForPose);
+  pose->setStatusTip(
+      tr("The shown case's pose with its checks, who decided on it and where it "
+         "comes from, as JSON"));
+  QAction* bop = menu.addAction(tr("&BOP results (CSV)..."), this, &PoseExport::askForBopResults);
+  bop->setStatusTip(tr("The poses of all cases that have one, as the BOP challenges take them"));
+  QAction* colmap = menu.addAction(tr("&COLMAP text model..."), this, &PoseExport::askForColmap);
+  colmap->setStatusTip(tr("The poses of all cases that have one, as a model for COLMAP"));
+  connect(&menu, &QMenu::aboutToShow, &menu, [this, pose, bop, colmap] {
+    pose->setEnabled(!caseId().empty());
+    for (QAction* all : {bop, colmap}) all->setEnabled(!document_.session().cases.empty());
+  });
+}
+
+std::string PoseExport::caseId() const {
+  const ViewState::CasePtr& one = state_.currentCase();
+  return one && document_.session().findCase(one->source.id) ? one->source.id : std::string();
+}
+
+bool PoseExport::isValidated(const std::string& case_id) const {
+  return sessions::standingOf(document_.session(), case_id).state ==
+         sessions::CaseStanding::kValidated;
+}
+
+QString PoseExport::standing() const {
+  return fromText(sessions::standingText(sessions::standingOf(document_.session(), caseId())));
+}
+
+QString PoseExport::poseFileName() const {
+  return isValidated(caseId()) ? QStringLiteral("validated_pose.json")
+                               : QStringLiteral("pose_NOT_VALIDATED.json");
+}
+
+QString PoseExport::bopResultsFileName() const {
+  const auto& cases = document_.session().cases;
+  const bool all = std::all_of(cases.begin(), cases.end(),
+                               [this](const auto& one) { return isValidated(one->id); });
+  return all ? QStringLiteral("boresight_results.csv")
+             : QStringLiteral("boresight_%1_results.csv")
+                   .arg(QLatin1String(sessions::kNotValidatedName));
+}
+
+/// Where people look for what belongs to the session.
+QString PoseExport::inSessionFolder(const QString& name) const {
+  return QString::fromStdString(document_.file().parent_path().string()) + QLatin1Char('/') + name;
+}
+
+/// Inputs are hashed and a trace is read: off this thread.
+void PoseExport::exportPose(const std::filesystem::path& file) {
+  tasks_.start(
+      QStringLiteral("export pose"),
+      [file, session = document_.session(), id = caseId()](const std::stop_token&) {
+        const sessions::HandedPose pose = sessions::handedPose(session, id);
+        sessions::writeValidatedPose(file, session, pose);
+        return pose.standing;
+      },
+      [this, file, id = fromText(caseId())](const std::string& standing) {
+        Q_EMIT noted(
+            tr("Pose of %1 written to %2. It is %3.").arg(id, nameOf(file), fromText(standing)));
+      });
+}
+
+/// Traces are read, and images may have to be: off this thread.
+template <class Write>
+void PoseExport::exportAll(const std::filesystem::path& path, Write write) {
+  tasks_.start(
+      QStringLiteral("export poses to hand over"),
+      [write, session = document_.session()](const std::stop_token&) { return write(session); },
+      [this, path](const sessions::ExportReport& report) {
+        QStringList notes;
+        for (const std::string& note : report.notes) notes << fromText(note);
+        Q_EMIT noted(tr("%1 poses written to %2. %3")
+                         .arg(report.case_ids.size())
+                         .arg(nameOf(path), notes.join(QLatin1Char(' '))));
+      });
+}
+
+void PoseExport::exportBopResults(const std::filesystem::path& file, int scene_id) {
+  exportAll(file, [file, scene_id](const sessions::Session& session) {
+    return sessions::exportBopResults(session, file, {}, scene_id);
+  });
+}
+
+void PoseExport::exportColmap(const std::filesystem::path& folder) {
+  exportAll(folder, [folder](const sessions::Session& session) {
+    return sessions::writeColmapOf(session, folder, sessions::posesToHandOver(session, {}));
+  });
+}
+
+void PoseExport::askForBopResults() {
+  bool chosen = false;
+  const int scene_id = QInputDialog::getInt(&window_, tr("BOP results"),
+                                            tr("Number of the scene that the images are of"), 1, 0,
+                                            999999, 1, &chosen);
+  if (!chosen) return;
+  const QString file =
+      QFileDialog::getSaveFileName(&window_, tr("Poses of all cases as BOP results"),
+                                   inSessionFolder(bopResultsFileName()), tr("Table (*.csv)"));
+  if (!file.isEmpty()) exportBopResults(file.toStdString(), scene_id);
+}
+
+void PoseExport::askForColmap() {
+  const QString folder =
+      QFileDialog::getSaveFileName(&window_, tr("New folder for a COLMAP text model"),
+                                   inSessionFolder(QStringLiteral("colmap_poses")));
+  if (!folder.isEmpty()) exportColmap(folder.toStdString());
+}
+
+void PoseExport::askForPose() {
+  if (caseId().empty()) return;
+  QString file = QFileDialog::getSaveFileName(
+      &window_, tr("Pose of %1 (%2)").arg(fromText(caseId()), standing()),
+      inSessionFolder(poseFileName()), tr("Pose (*.json)"));
+  if (file.isEmpty()) return;
+  if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".json");
+  exportPose(file.toStdString());
+}
+
+}  // namespace boresight::ui

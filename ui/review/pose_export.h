@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <QObject>
+#include <QString>
+
+QT_BEGIN_NAMESPACE
+class QMenu;
+class QWidget;
+QT_END_NAMESPACE
+
+namespace boresight::ui {
+
+class Document;
+class TaskRunner;
+class ViewState;
+
+/// Poses to hand over, as files. What is not validated is called so in its name and in the file.
+/// The functions with a path do what the ones without do after they have asked for one; they are
+/// done when `noted` says so, and the task runner says what could not be done.
+class PoseExport : public QObject {
+  Q_OBJECT
+
+ public:
+  PoseExport(QWidget& window, Document& document, ViewState& state, TaskRunner& tasks);
+
+  /// The entries of File > Export.
+  void addTo(QMenu& menu);
+  /// The shown case's pose, with its checks and where everything in it comes from.
+  void exportPose(const std::filesystem::path& file);
+  /// Proposed for it: says in its name when the case is not validated.
+  QString poseFileName() const;
+  /// The poses of all cases that have one: a BOP19 results file, whose name has to say when one of
+  /// them is not validated, and a COLMAP text model in a new folder.
+  void exportBopResults(const std::filesystem::path& file, int scene_id);
+  void exportColmap(const std::filesystem::path& folder);
+  QString bopResultsFileName() const;
+
+ public Q_SLOTS:
+  void askForPose();
+  void askForBopResults();
+  void askForColmap();
+
+ Q_SIGNALS:
+  /// What happened, for the status bar.
+  void noted(const QString& message);
+
+ private:
+  std::string caseId() const;
+  bool isValidated(const std::string& case_id) const;
+  template <class Write>
+  void exportAll(const std::filesystem::path& path, Write write);
+  /// "NOT VALIDATED: converged", for titles.
+  QString standing() const;
+  QString inSessionFolder(const QString& name) const;
+
+  QWidget& window_;
+  Document& document_;
+  ViewState& state_;
+  TaskRunner& tasks_;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/review/review_controller.h"
+
+#include <exception>
+#include <stdexcept>
+#include <utility>
+
+#include "sessions/review/grounds.h"
+#include "sessions/review/review_settings.h"
+#include "sessions/session/rig_links.h"
+#include "ui/models/number_text.h"
+#include "ui/state/document.h"
+
+namespace boresight::ui {
+
+using sessions::PoseSource;
+using sessions::Verdict;
+
+namespace {
+
+const QString kChecksKey = QStringLiteral("checks");
+const QString kBasinKey = QStringLiteral("basin");
+
+/// Whether what was read is the case as the document has it; a nudge by hand is not judged.
+bool isReadAs(const sessions::SessionCase& read, sessions::SessionCase now) {
+  now.camera_from_station_working = read.camera_from_station_working;
+  return read == now;
+}
+
+}  // namespace
+
+ReviewController::ReviewController(Document& document, ViewState& state, QObject* parent)
+    : QObject(parent), document_(document), state_(state) {
+  connect(&document_, &Document::opened, this, &ReviewController::follow);
+  connect(&document_, &Document::changed, this, &ReviewController::follow);
+  connect(&state_, &ViewState::caseChanged, this, &ReviewController::follow);
+  connect(&checks_runner_, &TaskRunner::failed, this, [this](const QString& message) {
+    take({nullptr, {}, message});
+  });
+  connect(&basin_runner_, &TaskRunner::busyChanged, this, &ReviewController::basinChanged);
+  follow();
+}
+
+ReviewController::~ReviewController() = default;
+
+void ReviewController::setActive(bool active) {
+  active_ = active;
+  if (active_ && !current_) ask();
+}
+
+std::string ReviewController::caseId() const {
+  const ViewState::CasePtr& one = state_.currentCase();
+  return one && document_.session().findCase(one->source.id) ? one->source.id : std::string();
+}
+
+bool ReviewController::hasRun() const { return document_.session().lastRunOf(caseId()) != nullptr; }
+
+bool ReviewController::hasMarks() const {
+  return document_.session().annotations.count(caseId()) > 0;
+}
+
+std::string ReviewController::runDigest() const {
+  const sessions::RunRecord* run = document_.session().lastRunOf(caseId());
+  return run ? run->digest : std::string();
+}
+
+void ReviewController::setSource(PoseSource source) {
+  wanted_source_ = source;
+  follow();
+}
+
+/// What somebody chose for this case, else what was decided on, else what there is.
+void ReviewController::chooseSource() {
+  const std::string id = caseId();
+  if (std::exchange(shown_id_, id) != id) wanted_source_.reset();
+  const sessions::RunRecord* run = document_.session().lastRunOf(id);
+  source_ = hasMarks() && (!run || run->status != "converged") ? PoseSource::kAnnotation
+                                                               : PoseSource::kRun;
+  const sessions::Standing now = standing();
+  if (now.holds() && now.decision->pose) source_ = now.decision->pose->source;
+  if (wanted_source_ == PoseSource::kRun && run) source_ = PoseSource::kRun;
+  if (wanted_source_ == PoseSource::kAnnotation && hasMarks()) source_ = PoseSource::kAnnotation;
+}
+
+QString ReviewController::missing() const {
+  if (!document_.isOpen()) return tr("No session is open.");
+  const std::string id = caseId();
+  if (id.empty()) return tr("No case is shown: choose one in the list of cases.");
+  if (!hasRun() && !hasMarks())
+    return tr("%1 has no pose yet: run it (F5), or mark it (F2). Then it is checked here.")
+        .arg(fromText(id));
+  return {};
+}
+
+/// Nothing while the views do not have the case as it is now.
+std::optional<ReviewController::Question> ReviewController::question() const {
+  const std::string id = caseId();
+  const sessions::Session& session = document_.session();
+  const sessions::SessionCase* one = session.findCase(id);
+  if (!one || !missing().isEmpty() || !isReadAs(state_.currentCase()->source, *one)) return {};
+  Question made;
+  made.loaded = state_.currentCase();
+  made.source = source_;
+  if (source_ == PoseSource::kRun) made.run_digest = runDigest();
+  made.grounds = sessions::judgedGrounds(session, id, made.run_digest);
+  for (const std::string& other : sessions::casesOfRig(session, id))
+    if (const sessions::RunRecord* run = session.lastRunOf(other))
+      made.other_digests.push_back(other + " " + run->digest);
+  return made;
+}
+
+void ReviewController::follow() {
+  chooseSource();
+  problem_ = missing();
+  auto now = question();
+  if (!now || now != question_) {
+    drop();
+    question_ = std::move(now);
+    if (active_) ask();
+  }
+  Q_EMIT checksChanged();
+  Q_EMIT standingChanged();
+}
+
+/// What was asked and answered is no longer so. The checks stay to be seen, as stale ones, unless
+/// they are of another case.
+void ReviewController::drop() {
+  checks_runner_.cancel(kChecksKey);
+  basin_runner_.cancel(kBasinKey);
+  if (!problem_.isEmpty() || !subject_ || subject_->loaded->source.id != caseId()) checks_.clear();
+  basin_.reset();
+  basin_so_far_ = {};
+  current_ = false;
+  asked_ = false;
+}
+
+void ReviewController::ask() {
+  if (!question_ || asked_) return;
+  asked_ = true;
+  current_ = false;
+  const sessions::Session session = document_.session();
+  checks_runner_.start(
+      kChecksKey,
+      [session, asked = *question_, basin = basin_](const std::stop_token&) {
+        Answer made;
+        try {
+          auto subject = std::make_shared<const sessions::ReviewSubject>(
+              reviewSubject(session, asked.loaded, asked.source, asked.run_digest));
+          const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
+          made.checks = checkPose(*subject, limits, basin);
+          made.subject = std::move(subject);
+        } catch (const std::exception& error) {
+          made.problem = QString::fromUtf8(error.what());
+        }
+        return made;
+      },
+      [this](const Answer& answer) { take(answer); });
+}
+
+void ReviewController::take(const Answer& answer) {
+  subject_ = answer.subject;
+  checks_ = answer.checks;
+  problem_ = answer.problem;
+  current_ = subject_ != nullptr;
+  Q_EMIT checksChanged();
+  Q_EMIT standingChanged();
+}
+
+QString ReviewController::reasonFor(const sessions::Check& check) const {
+  const auto of_case = reasons_.find(caseId());
+  if (of_case == reasons_.end()) return {};
+  const auto found = of_case->second.find(check.id);
+  const bool same = found != of_case->second.end() && found->second.check == check;
+  return same ? found->second.text : QString();
+}
+
+void ReviewController::setReason(const std::string& check_id, const QString& reason) {
+  for (const sessions::Check& check : checks_)
+    if (check.id == check_id) reasons_[caseId()][check_id] = {check, reason.trimmed()};
+  Q_EMIT checksChanged();
+}
+
+sessions::CheckOverrides ReviewController::overrides() const {
+  sessions::CheckOverrides made;
+  for (const sessions::Check& check : checks_) {
+    const QString reason = reasonFor(check);
+    if (check.state == sessions::CheckState::kFailed && !reason.isEmpty())
+      made[check.id] = reason.toStdString();
+  }
+  return made;
+}
+
+sessions::Standing ReviewController::standing() const {
+  return sessions::standingOf(document_.session(), caseId());
+}
+
+std::vector<const sessions::Decision*> ReviewController::history() const {
+  std::vector<const sessions::Decision*> made;
+  const std::string id = caseId();
+  const auto& all = document_.session().decisions;
+  for (auto one = all.rbegin(); one != all.rend(); ++one)
+    if (one->case_id == id) made.push_back(&*one);
+  return made;
+}
+
+sessions::Session ReviewController::after(Act act, const sessions::Signature& who) const {
+  const sessions::Session& session = document_.session();
+  const std::string id = caseId();
+  switch (act) {
+    case Act::kValidate:
+      return sessions::validated(session, *subject_, checks_, overrides(), who);
+    case Act::kApprove:
+      return sessions::approved(session, id, who);
+    case Act::kReject:
+      return sessions::rejected(session, id, current_ ? checks_ : std::vector<sessions::Check>(),
+                                who);
+    case Act::kTakeBack:
+      return sessions::reopened(session, id, who);
+  }
+  throw std::logic_error("no such act");
+}
+
+/// What has been said and holds is not said again; a validation least of all, as it would put
+/// itself in the place of one that awaits its second person.
+QString ReviewController::settled(Act act) const {
+  const sessions::Standing now = standing();
+  if (!now.holds()) return {};
+  const QString by = fromText(now.decision->by);
+  if (act == Act::kValidate && now.decision->verdict == Verdict::kValidated)
+    return tr("it is validated already, by %1").arg(by);
+  if (act == Act::kReject && now.decision->verdict == Verdict::kRejected)
+    return tr("it is rejected already, by %1").arg(by);
+  return {};
+}
+
+QString ReviewController::obstacle(Act act, const sessions::Signature& who) const {
+  if (!document_.isOpen()) return tr("no session is open");
+  if (!document_.readOnlyReason().isEmpty()) return document_.readOnlyReason();
+  if (caseId().empty()) return tr("no case is shown: choose one in the list of cases");
+  if (const QString said = settled(act); !said.isEmpty()) return said;
+  if (act == Act::kValidate && !problem_.isEmpty()) return problem_;
+  if (act == Act::kValidate && !current_) return tr("the checks are being made");
+  try {
+    (void)after(act, {"somebody else than anybody", "?"});  // what a signature does not mend
+    (void)after(act, who);
+  } catch (const std::exception& error) {
+    return QString::fromUtf8(error.what());
+  }
+  return {};
+}
+
+bool ReviewController::decide(Act act, const sessions::Signature& who) {
+  if (!obstacle(act, who).isEmpty()) return false;
+  const QString id = fromText(caseId());
+  const QString text = act == Act::kValidate  ? tr("Validate %1").arg(id)
+                       : act == Act::kApprove ? tr("Approve %1").arg(id)
+                       : act == Act::kReject  ? tr("Reject %1").arg(id)
+                                              : tr("Take back the decision on %1").arg(id);
+  return document_.edit(after(act, who), text);
+}
+
+const sessions::ReviewSettings& ReviewController::settings() const {
+  return document_.session().review;
+}
+
+void ReviewController::editSettings(const sessions::ReviewSettings& settings, const QString& text) {
+  if (!document_.isOpen() || settings == this->settings()) return;
+  sessions::Session next = document_.session();
+  next.review = settings;
+  document_.edit(next, text);
+}
+
+void ReviewController::setPreset(const QString& preset) {
+  editSettings(sessions::withPreset(settings(), preset.toStdString()),
+               tr("Check by %1").arg(preset));
+}
+
+void ReviewController::setLimits(const sessions::CheckLimits& limits) {
+  editSettings(sessions::withLimits(settings(), limits), tr("Change the limits of the checks"));
+}
+
+void ReviewController::setSecondPerson(bool asked) {
+  sessions::ReviewSettings next = settings();
+  next.second_person = asked;
+  editSettings(next, asked ? tr("Ask for a second person") : tr("Ask for one person"));
+}
+
+void ReviewController::startBasin(int seeds) {
+  if (!current_ || isBasinRunning()) return;
+  basin_so_far_ = {};
+  basin_runner_.run(kBasinKey, [this, subject = subject_, seeds](const std::stop_token& stop,
+                                                                 const TaskRunner::Report& report) {
+    const auto tell = [this, &report](const sessions::BasinResult& so_far) {
+      report([this, so_far] {
+        basin_so_far_ = so_far;
+        Q_EMIT basinChanged();
+      });
+    };
+    sessions::BasinResult result = sessions::basinTest(*subject, seeds, stop, tell);
+    report([this, result = std::move(result)] {
+      if (result.seeds == 0) return;
+      basin_ = result;
+      asked_ = false;
+      ask();
+      Q_EMIT checksChanged();
+    });
+  });
+}
+
+void ReviewController::stopBasin() { basin_runner_.stop(kBasinKey); }
+
+}  // namespace boresight::ui

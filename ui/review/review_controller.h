@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <QObject>
+#include <QString>
+
+#include "sessions/review/checks.h"
+#include "sessions/review/decide.h"
+#include "sessions/review/review_subject.h"
+#include "sessions/review/standing.h"
+#include "ui/run/task_runner.h"
+#include "ui/state/view_state.h"
+
+namespace boresight::ui {
+
+class Document;
+
+/// The pose of the shown case under review: its checks, made off the UI's thread while somebody
+/// looks at them, the reasons for passing over failed ones, and what can be decided. Every decision
+/// and every change of a limit is one edit of the document.
+class ReviewController : public QObject {
+  Q_OBJECT
+
+ public:
+  enum class Act { kValidate, kApprove, kReject, kTakeBack };
+
+  ReviewController(Document& document, ViewState& state, QObject* parent = nullptr);
+  ~ReviewController() override;
+
+  /// Checks are made only while somebody looks.
+  void setActive(bool active);
+
+  /// Of the shown case, or empty.
+  std::string caseId() const;
+  bool hasRun() const;
+  bool hasMarks() const;
+  /// The digest of the run that is judged, or empty.
+  std::string runDigest() const;
+  sessions::PoseSource source() const { return source_; }
+  void setSource(sessions::PoseSource source);
+
+  const std::vector<sessions::Check>& checks() const { return checks_; }
+  /// The checks are of what the document holds now.
+  bool isCurrent() const { return current_; }
+  bool isBusy() const { return checks_runner_.isBusy() || basin_runner_.isBusy(); }
+  /// Why there is nothing to check and what to do, or empty.
+  const QString& problem() const { return problem_; }
+
+  /// Why a failed check does not stand in the way; it holds for the figure that it was given for.
+  QString reasonFor(const sessions::Check& check) const;
+  void setReason(const std::string& check_id, const QString& reason);
+
+  sessions::Standing standing() const;
+  /// The decisions on the case, the newest first; they point into the document's session.
+  std::vector<const sessions::Decision*> history() const;
+  /// Why this cannot be done now, or empty.
+  QString obstacle(Act act, const sessions::Signature& who) const;
+  /// False, with nothing done, when there is an obstacle.
+  bool decide(Act act, const sessions::Signature& who);
+
+  const sessions::ReviewSettings& settings() const;
+  void setPreset(const QString& preset);
+  void setLimits(const sessions::CheckLimits& limits);
+  void setSecondPerson(bool asked);
+
+  bool isBasinRunning() const { return basin_runner_.isBusy(); }
+  /// Of the test that is under way.
+  const sessions::BasinResult& basinSoFar() const { return basin_so_far_; }
+  /// Runs further seeds and takes up what comes of them into the checks. Nothing while the checks
+  /// are not current.
+  void startBasin(int seeds);
+  /// What has been run by then counts.
+  void stopBasin();
+
+ Q_SIGNALS:
+  /// Checks, reasons, or whether the checks are current.
+  void checksChanged();
+  /// Case, decisions, limits, or what can be judged.
+  void standingChanged();
+  void basinChanged();
+
+ private:
+  /// All that the answer depends on.
+  struct Question {
+    ViewState::CasePtr loaded;
+    sessions::PoseSource source = sessions::PoseSource::kRun;
+    std::string run_digest;
+    std::map<std::string, std::string> grounds;
+    std::vector<std::string> other_digests;  ///< of the rig's other cameras
+
+    bool operator==(const Question&) const = default;
+  };
+  struct Answer {
+    std::shared_ptr<const sessions::ReviewSubject> subject;
+    std::vector<sessions::Check> checks;
+    QString problem;
+  };
+  struct Reason {
+    sessions::Check check;
+    QString text;
+  };
+
+  void follow();
+  void chooseSource();
+  std::optional<Question> question() const;
+  QString missing() const;
+  void drop();
+  void ask();
+  void take(const Answer& answer);
+  sessions::CheckOverrides overrides() const;
+  sessions::Session after(Act act, const sessions::Signature& who) const;
+  QString settled(Act act) const;
+  void editSettings(const sessions::ReviewSettings& settings, const QString& text);
+
+  Document& document_;
+  ViewState& state_;
+  bool active_ = false;
+  std::string shown_id_;  ///< the case that the source was chosen for
+  std::optional<sessions::PoseSource> wanted_source_;
+  sessions::PoseSource source_ = sessions::PoseSource::kRun;
+  std::optional<Question> question_;
+  bool asked_ = false;
+  bool current_ = false;
+  QString problem_;
+  std::shared_ptr<const sessions::ReviewSubject> subject_;  ///< of `question_` when not nullptr
+  std::vector<sessions::Check> checks_;
+  std::optional<sessions::BasinResult> basin_;
+  sessions::BasinResult basin_so_far_;
+  std::map<std::string, std::map<std::string, Reason>> reasons_;  ///< by case and check
+  TaskRunner checks_runner_;
+  TaskRunner basin_runner_;
+};
+
+}  // namespace boresight::ui

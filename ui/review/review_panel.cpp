@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/review/review_panel.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSpinBox>
+#include <QSplitter>
+#include <QTableView>
+#include <QVBoxLayout>
+
+#include "ui/models/number_text.h"
+#include "ui/panels/empty_hint.h"
+#include "ui/panels/table_style.h"
+#include "ui/review/decision_form.h"
+#include "ui/review/limits_dialog.h"
+#include "ui/review/standing_banner.h"
+
+namespace boresight::ui {
+
+using sessions::PoseSource;
+
+namespace {
+
+constexpr int kDigestDigits = 8;
+constexpr int kSeeds = 20;
+
+}  // namespace
+
+ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
+    : QWidget(parent), controller_(document, state) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(4, 4, 4, 4);
+  column->setSpacing(4);
+  column->addLayout(buildTop());
+  auto* splitter = new QSplitter(Qt::Horizontal, this);
+  decision_ = new DecisionForm(controller_, splitter);
+  splitter->addWidget(buildChecks());
+  splitter->addWidget(decision_);
+  splitter->setStretchFactor(0, 1);
+  splitter->setChildrenCollapsible(false);
+  splitter->setSizes({560, 340});
+  column->addWidget(splitter, 1);
+  connect(&controller_, &ReviewController::standingChanged, this, [this] {
+    showStanding();
+    showSources();
+  });
+  connect(&controller_, &ReviewController::checksChanged, this, &ReviewPanel::showChecks);
+  connect(&controller_, &ReviewController::basinChanged, this, &ReviewPanel::showBasin);
+  connect(&model_, &ChecksModel::reasonEdited, &controller_, &ReviewController::setReason);
+  showStanding();
+  showSources();
+  showChecks();
+}
+
+QHBoxLayout* ReviewPanel::buildTop() {
+  auto* row = new QHBoxLayout;
+  row->setSpacing(4);
+  banner_ = new StandingBanner(this);
+  source_ = new QComboBox(this);
+  source_->setObjectName(QStringLiteral("judged"));
+  source_->setAccessibleName(tr("What is judged"));
+  source_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  limits_ = new QPushButton(this);
+  limits_->setObjectName(QStringLiteral("openLimits"));
+  seeds_ = new QSpinBox(this);
+  seeds_->setObjectName(QStringLiteral("basinSeeds"));
+  seeds_->setRange(1, 1000);
+  seeds_->setValue(kSeeds);
+  seeds_->setToolTip(tr("How many further seeds the basin test runs from"));
+  basin_ = new QPushButton(this);
+  basin_->setObjectName(QStringLiteral("basin"));
+  row->addWidget(banner_, 1);
+  row->addWidget(source_);
+  row->addWidget(limits_);
+  row->addWidget(seeds_);
+  row->addWidget(basin_);
+  connect(source_, QOverload<int>::of(&QComboBox::activated), this, [this] {
+    controller_.setSource(static_cast<PoseSource>(source_->currentData().toInt()));
+  });
+  connect(limits_, &QPushButton::clicked, this, &ReviewPanel::openLimits);
+  connect(basin_, &QPushButton::clicked, this, &ReviewPanel::askForBasin);
+  return row;
+}
+
+QWidget* ReviewPanel::buildChecks() {
+  auto* left = new QWidget(this);
+  auto* column = new QVBoxLayout(left);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(4);
+  buildTable(*left);
+  column->addWidget(table_, 1);
+  detail_ = new QLabel(left);
+  detail_->setObjectName(QStringLiteral("checkSentence"));
+  detail_->setWordWrap(true);
+  detail_->setTextFormat(Qt::PlainText);
+  detail_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  detail_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  detail_->setMinimumHeight(2 * detail_->fontMetrics().lineSpacing());
+  column->addWidget(detail_);
+  return left;
+}
+
+void ReviewPanel::buildTable(QWidget& parent) {
+  table_ = new QTableView(&parent);
+  table_->setObjectName(QStringLiteral("checks"));
+  table_->setAccessibleName(tr("Checks"));
+  table_->setModel(&model_);
+  styleTable(*table_);
+  table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::SelectedClicked |
+                          QAbstractItemView::EditKeyPressed);
+  table_->setMinimumHeight(4 * table_->verticalHeader()->defaultSectionSize());
+  QHeaderView& header = *table_->horizontalHeader();
+  header.setSectionResizeMode(QHeaderView::ResizeToContents);
+  for (const int column : {ChecksModel::kCheck, ChecksModel::kReason})
+    header.setSectionResizeMode(column, QHeaderView::Stretch);
+  hint_ = new EmptyHint(*table_);
+  connect(table_->selectionModel(), &QItemSelectionModel::currentChanged, this,
+          &ReviewPanel::showChosen);
+  connect(&model_, &QAbstractItemModel::modelReset, this, &ReviewPanel::showChosen);
+}
+
+void ReviewPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  controller_.setActive(true);
+}
+
+void ReviewPanel::hideEvent(QHideEvent* event) {
+  QWidget::hideEvent(event);
+  controller_.setActive(false);
+}
+
+void ReviewPanel::showStanding() {
+  if (controller_.caseId().empty())
+    banner_->clear();
+  else
+    banner_->setStanding(controller_.standing());
+  const sessions::ReviewSettings& settings = controller_.settings();
+  const QString edited = settings.limits.empty() ? QString() : tr(", edited");
+  limits_->setText(tr("Limits: %1%2").arg(fromText(settings.preset), edited));
+  const sessions::CheckPreset* preset = sessions::findCheckPreset(settings.preset);
+  limits_->setToolTip(tr("What the checks are held against, and whether a second person approves. "
+                         "%1")
+                          .arg(preset ? fromText(preset->help) : QString()));
+}
+
+void ReviewPanel::showSources() {
+  const QSignalBlocker blocked(source_);
+  source_->clear();
+  if (controller_.hasRun())
+    source_->addItem(tr("Run %1").arg(fromText(controller_.runDigest()).left(kDigestDigits)),
+                     static_cast<int>(PoseSource::kRun));
+  if (controller_.hasMarks())
+    source_->addItem(tr("Annotation"), static_cast<int>(PoseSource::kAnnotation));
+  if (source_->count() == 0) source_->addItem(tr("No pose"));
+  source_->setCurrentIndex(std::max(0, source_->findData(static_cast<int>(controller_.source()))));
+  source_->setEnabled(source_->count() > 1);
+  source_->setToolTip(tr("Which pose is judged: that of the last run (%1), or that of the marks")
+                          .arg(fromText(controller_.runDigest())));
+}
+
+QString ReviewPanel::hint() const {
+  if (!controller_.problem().isEmpty()) return controller_.problem();
+  return tr("The pose is being checked ...");
+}
+
+void ReviewPanel::showChecks() {
+  const bool had_rows = model_.rowCount() > 0;
+  std::vector<CheckRow> rows;
+  for (const sessions::Check& check : controller_.checks())
+    rows.push_back({check, controller_.reasonFor(check)});
+  hint_->setText(hint());
+  model_.setRows(std::move(rows), controller_.isCurrent());
+  if (!had_rows && model_.rowCount() > 0) table_->setCurrentIndex(model_.index(0, 0));
+  // Failed ones come first; without any there is nothing to give a reason for.
+  table_->setColumnHidden(ChecksModel::kReason, model_.rowCount() > 0 && !model_.isFailed(0));
+  showChosen();
+  showBasin();
+}
+
+void ReviewPanel::showChosen() {
+  const QModelIndex index = table_->currentIndex();
+  QString text;
+  if (!controller_.isCurrent() && model_.rowCount() > 0)
+    text = controller_.problem().isEmpty()
+               ? tr("… Something has changed: these are of what was before; they are made anew.")
+               : tr("⚠ %1").arg(controller_.problem());
+  else if (index.isValid() && index.row() < model_.rowCount())
+    text = ChecksModel::sign(model_.checkAt(index.row()).check.state) + QLatin1Char(' ') +
+           fromText(model_.checkAt(index.row()).check.sentence);
+  detail_->setText(text);
+  detail_->setToolTip(text);
+}
+
+void ReviewPanel::showBasin() {
+  const bool running = controller_.isBasinRunning();
+  const sessions::BasinResult& so_far = controller_.basinSoFar();
+  seeds_->setEnabled(!running);
+  basin_->setText(running ? tr("Stop (%1 of %2)").arg(so_far.seeds).arg(seeds_->value())
+                          : tr("Test the basin"));
+  basin_->setEnabled(running || controller_.isCurrent());
+  basin_->setToolTip(
+      running ? tr("%1 of %2 seeds led back to the pose so far. What has been run counts.")
+                    .arg(so_far.returned)
+                    .arg(so_far.seeds)
+              : tr("Run from further seeds within the declared uncertainty, and see how many lead "
+                   "back to this pose. Takes as long as so many runs; it can be stopped."));
+}
+
+void ReviewPanel::askForBasin() {
+  if (controller_.isBasinRunning())
+    controller_.stopBasin();
+  else
+    controller_.startBasin(seeds_->value());
+}
+
+void ReviewPanel::openLimits() {
+  auto* dialog = findChild<LimitsDialog*>();
+  if (!dialog) dialog = new LimitsDialog(controller_, this);
+  dialog->show();
+  dialog->raise();
+  dialog->activateWindow();
+}
+
+}  // namespace boresight::ui
