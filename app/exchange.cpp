@@ -45,11 +45,7 @@ void tell(const std::vector<std::string>& case_ids, const std::vector<std::strin
 /// A pose that nobody judged is handed over with its checks as they are now.
 void exportPose(const sessions::Session& session, const ExchangeArguments& arguments) {
   sessions::requireWritable(arguments.pose);
-  sessions::HandedPose pose = sessions::handedPose(session, arguments.onlyCase());
-  if (pose.checks.empty()) {
-    const auto loaded = sessions::loadCase(*session.findCase(pose.case_id));
-    pose.checks = sessions::checksNow(session, loaded, pose);
-  }
+  const sessions::HandedPose pose = sessions::checkedPose(session, arguments.onlyCase());
   sessions::writeValidatedPose(arguments.pose, session, pose);
   std::cout << pose.case_id << ": " << pose.standing << std::endl;
 }

@@ -379,10 +379,10 @@ void drawPlots(PdfCanvas& canvas, double y, const PoseReport& report) {
 PoseReport poseReport(const Session& session, const std::string& case_id) {
   PoseReport report;
   report.session = &session;
-  report.pose = handedPose(session, case_id);
+  if (session.findCase(case_id) == nullptr)
+    throw InputError("session", "cases", "there is no case '" + case_id + "'");
   report.loaded = loadCase(*session.findCase(case_id));
-  if (report.pose.checks.empty())
-    report.pose.checks = checksNow(session, report.loaded, report.pose);
+  report.pose = checkedPose(session, case_id, report.loaded);
   report.trace = traceOf(session, report.pose);
   return report;
 }

@@ -67,14 +67,16 @@ HandedPose handedPose(const Session& session, const std::string& case_id) {
   return pose;
 }
 
-std::vector<JudgedCheck> checksNow(const Session& session, std::shared_ptr<const LoadedCase> loaded,
-                                   const HandedPose& pose) {
+HandedPose checkedPose(const Session& session, const std::string& case_id,
+                       std::shared_ptr<const LoadedCase> loaded) {
+  HandedPose pose = handedPose(session, case_id);
+  if (!pose.checks.empty()) return pose;
+  if (!loaded) loaded = loadCase(*session.findCase(case_id));
   const ReviewSubject subject =
       reviewSubject(session, std::move(loaded), pose.source, pose.run_digest);
   const CheckLimits limits = checkLimits(session.review.preset, session.review.limits);
-  std::vector<JudgedCheck> checks;
-  for (const Check& check : checkPose(subject, limits)) checks.push_back({check, ""});
-  return checks;
+  for (const Check& check : checkPose(subject, limits)) pose.checks.push_back({check, ""});
+  return pose;
 }
 
 std::optional<LocalizationTrace> traceOf(const Session& session, const HandedPose& pose) {

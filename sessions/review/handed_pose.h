@@ -29,9 +29,10 @@ struct HandedPose {
 /// InputError when there is none, or a run's trace cannot be read.
 HandedPose handedPose(const Session& session, const std::string& case_id);
 
-/// The checks of a pose that nobody judged, as they are now. InputError.
-std::vector<JudgedCheck> checksNow(const Session& session, std::shared_ptr<const LoadedCase> loaded,
-                                   const HandedPose& pose);
+/// The same with checks: as they were judged, else as they are now. `loaded` is the case; nullptr:
+/// it is read. InputError.
+HandedPose checkedPose(const Session& session, const std::string& case_id,
+                       std::shared_ptr<const LoadedCase> loaded = nullptr);
 
 /// The trace of the pose's run; nothing when it is the marks', or can no longer be read.
 std::optional<LocalizationTrace> traceOf(const Session& session, const HandedPose& pose);
