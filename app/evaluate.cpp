@@ -3,22 +3,26 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <thread>
+#include <tuple>
+#include <utility>
 
 #include "app/commands.h"
 #include "sessions/evaluation/batch.h"
-#include "sessions/evaluation/results_database.h"
+#include "sessions/evaluation/batch_facts.h"
+#include "sessions/evaluation/batch_progress.h"
+#include "sessions/evaluation/results_file.h"
+#include "sessions/evaluation/results_writer.h"
 #include "sessions/evaluation/summary.h"
 #include "sessions/io/atomic_file.h"
-#include "sessions/io/file_bytes.h"
-#include "sessions/io/json_document.h"
-#include "sessions/report/text_table.h"
-#include "sessions/version.h"
 
 namespace boresight::app {
 namespace {
@@ -30,18 +34,36 @@ struct EvaluateArguments {
   std::string out;
   std::string jsonl;
   std::string mirror;
+  std::string shard;
+  std::vector<std::string> methods = {"whs"};
   OptionArguments options;
   sessions::BatchOptions batch;
 
   void addTo(CLI::App& command);
 };
 
+/// The two numbers of "2/8"; nothing unless 1 <= first <= second.
+std::optional<std::pair<int, int>> shardNumbers(const std::string& text) {
+  int shard = 0;
+  int shards = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%6d/%6d%c", &shard, &shards, &rest) != 2 || shard < 1 ||
+      shard > shards)
+    return std::nullopt;
+  return std::pair(shard, shards);
+}
+
+std::string shardProblem(const std::string& text) {
+  return shardNumbers(text) ? std::string()
+                            : "\"" + text + "\" is not I/N with I from 1 to N, e.g. 2/8";
+}
+
 void EvaluateArguments::addTo(CLI::App& command) {
   command.add_option("--dataset", dataset, "dataset.json")->required()->type_name("FILE");
   command.add_option("--case", batch.cases, "Only these cases")->type_name("ID");
   command.add_option("--tag", batch.tags, "Only cases with one of these tags")->type_name("T");
   command.add_option("--station", batch.stations, "Only cases of these stations")->type_name("S");
-  addMethod(command, batch.method);
+  addMethods(command, methods);
   addKernels(command, batch.kernels);
   options.addTo(command);
   command.add_option("--jobs", batch.jobs, "Runs at a time")
@@ -67,7 +89,18 @@ void EvaluateArguments::addTo(CLI::App& command) {
       ->type_name("STATION");
   command.add_option("--mirror", mirror, "Deliberately wrong: the mesh mirrored across this axis")
       ->check(CLI::IsMember({"x", "y", "z"}));
-  command.add_option("--out", out, "Results as an SQLite file")->required()->type_name("FILE");
+  command
+      .add_option("--shard", shard,
+                  "Only the I-th of N shares of the cases, e.g. 2/8; `whs merge` joins the results")
+      ->check(CLI::Validator(shardProblem, "I/N"))
+      ->type_name("I/N");
+  command.add_flag("--keep-matches", batch.keep_matches,
+                   "Keeps every template of every iteration in the results");
+  command
+      .add_option("--out", out,
+                  "Results as an SQLite file, run by run; one that is there is gone on with")
+      ->required()
+      ->type_name("FILE");
   command.add_option("--jsonl", jsonl, "Results as JSON lines")->type_name("FILE");
 }
 
@@ -101,38 +134,99 @@ class InterruptWatch {
 /// A line that rewrites itself on a terminal, and bad inputs once each.
 class Progress {
  public:
-  void operator()(std::size_t done, std::size_t total, const sessions::RunResult& result) {
+  explicit Progress(std::size_t total) : total_(total) {}
+  void operator()(const sessions::RunResult& result) {
+    ++done_;
     completed_ += result.completed ? 1 : 0;
     if (result.inputFailed() && messages_.insert(result.message).second)
       std::cerr << (on_terminal_ ? "\r\033[K" : "") << result.message << std::endl;
     if (!on_terminal_) return;
-    std::cerr << "\r\033[K" << done << " of " << total << " runs, " << completed_ << " completed";
-    if (done == total) std::cerr << "\r\033[K";
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began_;
+    std::cerr << "\r\033[K";
+    if (done_ < total_)
+      std::cerr << sessions::batchProgressText(done_, total_, completed_, passed.count());
     std::cerr.flush();
   }
 
  private:
   bool on_terminal_ = isatty(STDERR_FILENO) != 0;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  std::size_t total_ = 0;
+  std::size_t done_ = 0;
   std::size_t completed_ = 0;
   std::set<std::string> messages_;
 };
 
-sessions::BatchFacts factsOf(const EvaluateArguments& arguments, bool whole) {
-  const sessions::BatchOptions& batch = arguments.batch;
-  const std::string profile = arguments.options.profileName();
-  const auto changed = sessions::changedOptions(batch.localizer, profileOptions(profile));
-  return {{"version", sessions::kVersion},
-          {"dataset", arguments.dataset},
-          {"dataset_sha256", sessions::sha256Text(sessions::readFileBytes(
-                                 arguments.dataset, sessions::kMaxJsonBytes))},
-          {"method", batch.method},
-          {"profile", profile},
-          {"options", sessions::toJson(changed).dump()},
-          {"reseed", std::to_string(batch.reseeds)},
-          {"reseed_scale", sessions::numberText(batch.reseed_scale)},
-          {"mesh_of", batch.mesh_of},
-          {"mirror", arguments.mirror},
-          {"complete", whole ? "1" : "0"}};
+/// As it was typed, near enough to be typed again.
+std::string commandText() {
+  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
+  std::string text;
+  for (std::string word; std::getline(stream, word, '\0');) {
+    const bool plain = !word.empty() && word.find_first_of(" '\"\\$&|;<>()*?") == std::string::npos;
+    text += (text.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
+  }
+  return text;
+}
+
+sessions::Sitting sittingOf(const EvaluateArguments& arguments) {
+  sessions::Sitting sitting = sessions::sittingHere();
+  sitting.command = commandText();
+  sitting.jobs = arguments.batch.jobs;
+  sitting.threads = arguments.batch.threads;
+  sitting.kernels = kernelsName(arguments.batch.kernels);
+  sitting.shard = arguments.shard;
+  sitting.reseeds = arguments.batch.reseeds;
+  return sitting;
+}
+
+sessions::MethodFacts factsOf(const EvaluateArguments& arguments, const std::string& method) {
+  sessions::MethodFacts facts =
+      sessions::methodFacts(method, arguments.options.profileName(), arguments.batch.localizer);
+  facts.reseed_scale = arguments.batch.reseed_scale;
+  facts.mesh_of = arguments.batch.mesh_of;
+  facts.mirror = arguments.mirror;
+  return facts;
+}
+
+/// What of a plan each method still has to do.
+using Work = std::vector<std::pair<std::string, std::vector<sessions::PlannedRun>>>;
+
+Work workLeft(const EvaluateArguments& arguments, const std::vector<sessions::PlannedRun>& plan,
+              const sessions::ResultsWriter& writer) {
+  Work work;
+  std::size_t left = 0;
+  for (const std::string& method : arguments.methods) {
+    work.emplace_back(method, plan);
+    std::erase_if(work.back().second, [&](const sessions::PlannedRun& run) {
+      return writer.has(method, run.input->id, run.reseed);
+    });
+    left += work.back().second.size();
+  }
+  const std::size_t all = plan.size() * arguments.methods.size();
+  if (left < all)
+    note(arguments.out + ": going on, " + std::to_string(all - left) + " of " +
+         std::to_string(all) + " runs are there already");
+  return work;
+}
+
+void runAll(EvaluateArguments& arguments, const sessions::Dataset& dataset, const Work& work,
+            sessions::ResultsWriter& writer, const std::stop_token& stop) {
+  std::size_t total = 0;
+  for (const auto& [method, runs] : work) total += runs.size();
+  if (total == 0) return;
+  writer.begin(sittingOf(arguments));
+  Progress progress(total);
+  for (const auto& [method, runs] : work) {
+    arguments.batch.method = method;
+    sessions::runPlanned(
+        dataset, arguments.batch, runs,
+        [&](std::size_t, std::size_t, const sessions::RunResult& result) {
+          writer.add(result);
+          progress(result);
+        },
+        stop);
+  }
+  if (!stop.stop_requested()) writer.end();
 }
 
 void writeLines(const std::string& file, const std::vector<sessions::RunResult>& results) {
@@ -141,35 +235,49 @@ void writeLines(const std::string& file, const std::vector<sessions::RunResult>&
   sessions::writeFileAtomically(file, text);
 }
 
-int evaluate(EvaluateArguments& arguments) {
+/// The closing tables, one set for each method.
+void printSummary(const std::vector<sessions::RunResult>& results) {
+  std::map<std::string, std::vector<sessions::RunResult>> by_method;
+  for (const sessions::RunResult& result : results) by_method[result.method].push_back(result);
+  for (const auto& [method, runs] : by_method) {
+    if (by_method.size() > 1) std::cout << "method " << method << "\n";
+    std::cout << sessions::summaryTable(runs) << "\n"
+              << sessions::toleranceTable(runs) << "\n"
+              << sessions::failureList(runs, kListedFailures) << std::flush;
+  }
+}
+
+void readArguments(EvaluateArguments& arguments) {
   sessions::requireWritable(arguments.out);
   if (!arguments.jsonl.empty()) sessions::requireWritable(arguments.jsonl);
   if (!arguments.mirror.empty())
     arguments.batch.mirror = static_cast<sessions::MirrorAxis>(arguments.mirror.front() - 'x');
+  if (!arguments.shard.empty())
+    std::tie(arguments.batch.shard, arguments.batch.shards) = *shardNumbers(arguments.shard);
   arguments.batch.localizer = arguments.options.read();
   arguments.batch.memory_limit = arguments.options.memoryLimit();
+}
+
+int evaluate(EvaluateArguments& arguments) {
+  readArguments(arguments);
   const sessions::Dataset dataset = sessions::readDataset(arguments.dataset);
   for (const std::string& line : dataset.notes) note(line);
+  const std::vector<sessions::PlannedRun> plan = sessions::planBatch(dataset, arguments.batch);
 
   std::stop_source stop;
-  std::vector<sessions::RunResult> results;
   {
     const InterruptWatch watch(stop);
-    auto progress = std::make_shared<Progress>();
-    results = sessions::runBatch(
-        dataset, arguments.batch,
-        [progress](std::size_t done, std::size_t total, const sessions::RunResult& result) {
-          (*progress)(done, total, result);
-        },
-        stop.get_token());
+    sessions::ResultsWriter writer(
+        arguments.out,
+        sessions::datasetFacts(arguments.dataset, static_cast<std::int64_t>(dataset.cases.size())));
+    for (const std::string& method : arguments.methods) writer.admit(factsOf(arguments, method));
+    runAll(arguments, dataset, workLeft(arguments, plan, writer), writer, stop.get_token());
   }
-  const bool whole = !stop.stop_requested();
-  sessions::writeResultsDatabase(arguments.out, results, factsOf(arguments, whole));
+  const std::vector<sessions::RunResult> results = sessions::readResults(arguments.out).runs;
   if (!arguments.jsonl.empty()) writeLines(arguments.jsonl, results);
-  std::cout << sessions::summaryTable(results) << "\n"
-            << sessions::toleranceTable(results) << "\n"
-            << sessions::failureList(results, kListedFailures) << std::flush;
-  if (!whole) note("interrupted: the results hold what had been run");
+  printSummary(results);
+  const bool whole = !stop.stop_requested();
+  if (!whole) note("interrupted: the same command goes on with what is left");
   for (const sessions::RunResult& result : results)
     if (result.inputFailed()) return kBadInput;
   return whole ? kDone : kInternalFault;

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "app/commands.h"
+#include "app/results_commands.h"
 #include "sessions/io/errors.h"
 #include "sessions/version.h"
 
@@ -22,6 +23,8 @@ int run(int argc, char** argv) {
   int exit_code = kDone;
   addLocalize(app, exit_code);
   addEvaluate(app, exit_code);
+  addMerge(app, exit_code);
+  addTables(app, exit_code);
   addCompare(app, exit_code);
   addCheck(app, exit_code);
   addDecide(app, exit_code);

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <new>
 #include <thread>
+#include <utility>
 
 #include "sessions/evaluation/reseed.h"
 #include "sessions/io/errors.h"
@@ -60,6 +61,7 @@ struct CaseImage {
 /// A case and what its runs share.
 struct CaseWork {
   const Case* input = nullptr;
+  std::int64_t place = 0;
   Shared<StationScene>* scene = nullptr;
   const Station* mesh_station = nullptr;
   Shared<CaseImage> image;
@@ -75,7 +77,7 @@ bool selectsTag(const std::vector<std::string>& filter, const Case& one) {
                                        [&](const std::string& tag) { return one.hasTag(tag); });
 }
 
-std::vector<const Case*> selectedCases(const Dataset& dataset, const BatchOptions& options) {
+void requireNames(const Dataset& dataset, const BatchOptions& options) {
   for (const std::string& id : options.cases)
     if (dataset.findCase(id) == nullptr)
       throw InputError(dataset.file, "cases", "there is no case \"" + id + "\"");
@@ -84,14 +86,6 @@ std::vector<const Case*> selectedCases(const Dataset& dataset, const BatchOption
   for (const std::string& id : stations)
     if (dataset.stations.count(id) == 0)
       throw InputError(dataset.file, "stations", "there is no station \"" + id + "\"");
-  std::vector<const Case*> selected;
-  for (const Case& one : dataset.cases) {
-    if (selects(options.cases, one.id) && selects(options.stations, one.station) &&
-        selectsTag(options.tags, one) && one.station != options.mesh_of)
-      selected.push_back(&one);
-  }
-  if (selected.empty()) throw InputError(dataset.file, "cases", "none meets all filters");
-  return selected;
 }
 
 StationScene loadScene(const Station& station, const std::optional<MirrorAxis>& mirror) {
@@ -114,8 +108,9 @@ std::optional<PoseError> errorOf(const Case& one, const Camera& camera, const Po
 
 class Batch {
  public:
-  Batch(const Dataset& dataset, const BatchOptions& options, const BatchProgress& progress);
-  std::vector<RunResult> run(const std::stop_token& stop);
+  Batch(const Dataset& dataset, const BatchOptions& options, const std::vector<PlannedRun>& plan,
+        const BatchProgress& progress);
+  void run(const std::stop_token& stop);
 
  private:
   struct Item {
@@ -126,7 +121,7 @@ class Batch {
   void workUntilDone(const std::stop_token& stop);
   RunResult runItem(const Item& item, const std::stop_token& stop);
   void runLoaded(const Item& item, const std::stop_token& stop, RunResult& result);
-  void finish(std::size_t index, RunResult result);
+  void finish(const RunResult& result);
 
   const Dataset& dataset_;
   const BatchOptions& options_;
@@ -136,28 +131,29 @@ class Batch {
   std::vector<Item> items_;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;  ///< over what follows
-  std::vector<std::optional<RunResult>> results_;
   std::size_t done_ = 0;
   std::exception_ptr fault_;
 };
 
-Batch::Batch(const Dataset& dataset, const BatchOptions& options, const BatchProgress& progress)
+Batch::Batch(const Dataset& dataset, const BatchOptions& options,
+             const std::vector<PlannedRun>& plan, const BatchProgress& progress)
     : dataset_(dataset), options_(options), progress_(progress) {
-  for (const Case* one : selectedCases(dataset, options)) {
-    auto work = std::make_unique<CaseWork>();
-    work->input = one;
-    const std::string& mesh = options.mesh_of.empty() ? one->station : options.mesh_of;
-    work->mesh_station = &dataset.stations.at(mesh);
-    work->scene = &scenes_[mesh];
-    const int reseeds = one->truth_camera_from_station ? options.reseeds : 0;
-    work->runs_left = reseeds + 1;
-    for (int reseed = 0; reseed <= reseeds; ++reseed) items_.push_back({work.get(), reseed});
-    cases_.push_back(std::move(work));
+  for (const PlannedRun& planned : plan) {
+    if (cases_.empty() || cases_.back()->input != planned.input) {
+      auto work = std::make_unique<CaseWork>();
+      work->input = planned.input;
+      work->place = planned.place;
+      const std::string& mesh = options.mesh_of.empty() ? planned.input->station : options.mesh_of;
+      work->mesh_station = &dataset.stations.at(mesh);
+      work->scene = &scenes_[mesh];
+      cases_.push_back(std::move(work));
+    }
+    ++cases_.back()->runs_left;
+    items_.push_back({cases_.back().get(), planned.reseed});
   }
-  results_.resize(items_.size());
 }
 
-std::vector<RunResult> Batch::run(const std::stop_token& stop) {
+void Batch::run(const std::stop_token& stop) {
   {
     std::vector<std::jthread> threads;
     const auto wanted = static_cast<std::size_t>(std::max(1, options_.jobs));
@@ -165,17 +161,14 @@ std::vector<RunResult> Batch::run(const std::stop_token& stop) {
       threads.emplace_back([this, stop] {
         try {
           workUntilDone(stop);
-        } catch (...) {  // a fault of the program: for the caller's thread to report
+        } catch (...) {  // for the caller's thread to report; nobody begins another run
           const std::lock_guard lock(mutex_);
-          fault_ = std::current_exception();
+          if (!fault_) fault_ = std::current_exception();
+          next_ = items_.size();
         }
       });
   }
   if (fault_) std::rethrow_exception(fault_);
-  std::vector<RunResult> results;
-  for (std::optional<RunResult>& result : results_)
-    if (result) results.push_back(std::move(*result));
-  return results;
 }
 
 void Batch::workUntilDone(const std::stop_token& stop) {
@@ -183,23 +176,23 @@ void Batch::workUntilDone(const std::stop_token& stop) {
     const std::size_t index = next_++;
     if (index >= items_.size()) return;
     const Item& item = items_[index];
-    RunResult result = runItem(item, stop);
+    const RunResult result = runItem(item, stop);
     if (--item.work->runs_left == 0) item.work->image.release();
-    if (!stop.stop_requested()) finish(index, std::move(result));
+    if (!stop.stop_requested()) finish(result);
   }
 }
 
-void Batch::finish(std::size_t index, RunResult result) {
+void Batch::finish(const RunResult& result) {
   const std::lock_guard lock(mutex_);
   ++done_;
   if (progress_) progress_(done_, items_.size(), result);
-  results_[index] = std::move(result);
 }
 
 RunResult Batch::runItem(const Item& item, const std::stop_token& stop) {
   const Case& one = *item.work->input;
   RunResult result;
   result.case_id = one.id;
+  result.place = item.work->place;
   result.reseed = item.reseed;
   result.station = one.station;
   result.method = options_.method;
@@ -253,11 +246,13 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
   result.message = seedConcern(problem.camera, problem.mesh, problem.camera_from_station_seed);
   if (result.message.empty()) {
     RunSettings settings;
-    settings.level = RecordLevel::kSummary;
+    settings.level = options_.keep_matches ? RecordLevel::kFull : RecordLevel::kSummary;
     settings.memory_limit = options_.memory_limit;
     settings.threads = options_.threads;
     settings.kernels = options_.kernels;
-    noteTrace(localize(problem, options, settings, stop), result);
+    const LocalizationTrace trace = localize(problem, options, settings, stop);
+    noteTrace(trace, result);
+    result.steps = runSteps(trace, one);
   } else {
     result.status = "bad_seed";
   }
@@ -277,9 +272,44 @@ SceneMesh mirrored(SceneMesh scene, MirrorAxis axis) {
   return scene;
 }
 
+std::vector<PlannedRun> planBatch(const Dataset& dataset, const BatchOptions& options) {
+  requireNames(dataset, options);
+  std::vector<PlannedRun> plan;
+  std::int64_t selected = 0;
+  for (std::size_t place = 0; place < dataset.cases.size(); ++place) {
+    const Case& one = dataset.cases[place];
+    if (!selects(options.cases, one.id) || !selects(options.stations, one.station) ||
+        !selectsTag(options.tags, one) || one.station == options.mesh_of)
+      continue;
+    if (selected++ % options.shards != options.shard - 1) continue;
+    const int reseeds = one.truth_camera_from_station ? options.reseeds : 0;
+    for (int reseed = 0; reseed <= reseeds; ++reseed)
+      plan.push_back({&one, static_cast<std::int64_t>(place), reseed});
+  }
+  if (selected == 0) throw InputError(dataset.file, "cases", "none meets all filters");
+  return plan;
+}
+
+void runPlanned(const Dataset& dataset, const BatchOptions& options,
+                const std::vector<PlannedRun>& plan, const BatchProgress& progress,
+                const std::stop_token& stop) {
+  Batch(dataset, options, plan, progress).run(stop);
+}
+
 std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& options,
                                 const BatchProgress& progress, const std::stop_token& stop) {
-  return Batch(dataset, options, progress).run(stop);
+  std::vector<RunResult> results;
+  runPlanned(
+      dataset, options, planBatch(dataset, options),
+      [&](std::size_t done, std::size_t total, const RunResult& result) {
+        results.push_back(result);
+        if (progress) progress(done, total, result);
+      },
+      stop);
+  std::sort(results.begin(), results.end(), [](const RunResult& a, const RunResult& b) {
+    return std::pair(a.place, a.reseed) < std::pair(b.place, b.reseed);
+  });
+  return results;
 }
 
 }  // namespace boresight::sessions

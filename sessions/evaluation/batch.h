@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <stop_token>
@@ -22,6 +23,10 @@ struct BatchOptions {
   std::vector<std::string> cases;
   std::vector<std::string> tags;
   std::vector<std::string> stations;
+  /// Of these, every `shards`-th case from the `shard`-th on (1 ... shards): each case, with all
+  /// its seeds, is in exactly one shard.
+  int shard = 1;
+  int shards = 1;
 
   LocalizerOptions localizer;  ///< a feature size of 0 is replaced by the station's, if it has one
   std::string method = "whs";
@@ -31,6 +36,7 @@ struct BatchOptions {
   std::size_t memory_limit = 0;  ///< of each run, see RunSettings
   int reseeds = 0;               ///< further seeds per case; needs truth
   double reseed_scale = 1.0;     ///< how far they are drawn, while the declared uncertainty stays
+  bool keep_matches = false;     ///< each step of a result says what became of every template
   /// Deliberately wrong meshes: another station's, or mirrored.
   std::string mesh_of;
   std::optional<MirrorAxis> mirror;
@@ -38,14 +44,31 @@ struct BatchOptions {
   bool wrongMesh() const { return !mesh_of.empty() || mirror.has_value(); }
 };
 
+/// One run that is to be done.
+struct PlannedRun {
+  const Case* input = nullptr;  ///< of the dataset
+  std::int64_t place = 0;       ///< of the case in the dataset
+  int reseed = 0;
+};
+
+/// The runs that the options ask for, in the order of the dataset, then of seeds. InputError when a
+/// filter or `mesh_of` names what the dataset does not have, or no case meets all filters. A shard
+/// may be empty.
+std::vector<PlannedRun> planBatch(const Dataset& dataset, const BatchOptions& options);
+
 /// Told of each finished run, by one thread at a time and in the order of finishing.
 using BatchProgress = std::function<void(std::size_t done, std::size_t total, const RunResult&)>;
 
-/// Runs cases and reseeds on `jobs` threads. An image is read once, shared by the runs of its case,
-/// and dropped after the last; what a run keeps is small. A case whose files are wrong is a result
-/// with status "input_error", and the others go on. The results are in the order of the dataset,
-/// whatever the number of threads; after a stop, those that have not been run are missing.
-/// InputError when a filter or `mesh_of` names what the dataset does not have, or nothing is left.
+/// Carries out a plan on `jobs` threads and keeps nothing: what `progress` throws ends it. An image
+/// is read when the first run of its case begins, and dropped after the last: as many are held as
+/// there are jobs. A case whose files are wrong is a result with status "input_error", and the
+/// others go on. After a stop nothing is told of runs that were not finished.
+void runPlanned(const Dataset& dataset, const BatchOptions& options,
+                const std::vector<PlannedRun>& plan, const BatchProgress& progress,
+                const std::stop_token& stop = {});
+
+/// Plans and runs. The results are in the order of the plan, whatever the number of threads; after
+/// a stop, those that have not been run are missing.
 std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& options,
                                 const BatchProgress& progress, const std::stop_token& stop = {});
 

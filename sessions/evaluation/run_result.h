@@ -9,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "sessions/evaluation/pose_error.h"
+#include "sessions/evaluation/run_step.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/trace/trace.h"
 
@@ -17,6 +18,7 @@ namespace boresight::sessions {
 /// What is kept of one run of a batch.
 struct RunResult {
   std::string case_id;
+  std::int64_t place = 0;   ///< of the case in its dataset, from 0
   std::int32_t reseed = 0;  ///< 0: the seed of the dataset
   std::string station;
   std::string method;
@@ -41,6 +43,7 @@ struct RunResult {
   std::optional<Requirement> requirement;
   StageSeconds seconds;
   std::string digest;
+  std::vector<RunStep> steps;  ///< as it ran; not read back with a results file's runs
 
   bool inputFailed() const { return status == "input_error"; }
   bool hasTag(const std::string& tag) const;

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
 
+#include "sessions/evaluation/requirement_share.h"
 #include "sessions/io/option_value.h"
 #include "sessions/record/record_of_run.h"
 #include "sessions/report/text_table.h"
@@ -18,7 +17,6 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr double kMradPerDegree = 1e3 * std::numbers::pi / 180.0;
 constexpr double kTelling = 0.1;  // of the requirement: a change of the error that counts
 
 /// A run as it was read, with its checks.
@@ -47,21 +45,6 @@ ReadRun readRun(const Session& session, const std::string& digest,
   return made;
 }
 
-double shareOf(const PoseError& error, const Requirement& required) {
-  double share = 0.0;
-  const auto note = [&share](double value, std::optional<double> allowed) {
-    if (!allowed) return;
-    const double infinite = std::numeric_limits<double>::infinity();
-    share = std::max(share, *allowed > 0.0 ? value / *allowed : infinite);
-  };
-  note(std::abs(error.normal_mm), required.normal_mm);
-  note(error.lateral_mm, required.lateral_mm);
-  if (required.rotation_deg) note(error.rotation_mrad, *required.rotation_deg * kMradPerDegree);
-  if (required.projection_px && error.projection_px)
-    note(*error.projection_px, required.projection_px);
-  return share;
-}
-
 void takeError(const ReviewSubject& subject, RunSide& side) {
   const SessionCase& one = subject.loaded->source;
   if (!one.camera_from_station_truth || !side.converged) return;
@@ -71,7 +54,7 @@ void takeError(const ReviewSubject& subject, RunSide& side) {
     side.error->projection_px =
         projectionError(one.camera, *one.camera_from_station_truth, subject.camera_from_station,
                         matchedVertices(subject.loaded->scene.view()));
-  side.error_share = shareOf(*side.error, subject.requirement);
+  side.error_share = requirementShare(*side.error, subject.requirement);
 }
 
 RunSide sideOf(const ReadRun& run) {

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "sessions/evaluation/results_file.h"
+#include "sessions/io/errors.h"
 #include "tests/app/run_whs.h"
 
 namespace boresight::test {
@@ -81,6 +87,107 @@ TEST_F(WhsEvaluate, ReportsABadCaseAndGoesOn) {
   ASSERT_EQ(results.size(), 4u);
   EXPECT_EQ(results[0]["status"], "input_error");
   EXPECT_EQ(results[2]["status"], "iteration_limit");
+}
+
+/// Runs whs and kills it as soon as its results hold `runs` runs; how many they hold then.
+int killAfter(const Arguments& arguments, const std::filesystem::path& results, int runs) {
+  const pid_t child = fork();
+  if (child == 0) {
+    std::vector<char*> words = {const_cast<char*>(BORESIGHT_WHS)};
+    for (const std::string& argument : arguments)
+      words.push_back(const_cast<char*>(argument.c_str()));
+    words.push_back(nullptr);
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+    execv(BORESIGHT_WHS, words.data());
+    _exit(127);
+  }
+  const auto held = [&results] {
+    try {
+      return static_cast<int>(sessions::readResults(results).runs.size());
+    } catch (const sessions::FileError&) {
+      return 0;  // not there yet
+    }
+  };
+  int status = 0;
+  while (held() < runs && waitpid(child, &status, WNOHANG) == 0) usleep(2000);
+  kill(child, SIGKILL);
+  waitpid(child, &status, 0);
+  return held();
+}
+
+TEST_F(WhsEvaluate, GoesOnAfterItWasKilledWithoutRedoingOrLosingARun) {
+  const Arguments options = {"--reseed", "5", "--jobs", "2", "--set", "loop.max_iterations=1"};
+  const Arguments arguments = evaluateArguments(dataset_, options);
+  int held = 0;
+  int kills = 0;
+  for (int at = 2; at <= 8; at += 3, ++kills) {
+    const int after = killAfter(arguments, folder_ / "r.sqlite", at);
+    EXPECT_GE(after, held) << "nothing that was there is lost";
+    held = after;
+  }
+  ASSERT_GE(held, 1);
+  const ProgramRun last = runWhs(arguments);
+  EXPECT_EQ(last.exit_code, 0) << last.err;
+  EXPECT_THAT(last.err, HasSubstr("going on, " + std::to_string(held) + " of 12 runs are there"));
+  const sessions::Results results = sessions::readResults(folder_ / "r.sqlite");
+  ASSERT_EQ(results.runs.size(), 12u);
+  std::int64_t done = 0;
+  for (const sessions::Sitting& sitting : results.facts.sittings) done += sitting.runs;
+  EXPECT_EQ(done, 12) << "none was done twice";
+  const auto resumed = lines();
+
+  std::filesystem::remove(folder_ / "r.sqlite");
+  EXPECT_EQ(runWhs(arguments).exit_code, 0);
+  const auto undisturbed = lines();
+  ASSERT_EQ(resumed.size(), undisturbed.size());
+  for (std::size_t i = 0; i < resumed.size(); ++i) {
+    EXPECT_EQ(resumed[i]["id"], undisturbed[i]["id"]);
+    EXPECT_EQ(resumed[i]["reseed"], undisturbed[i]["reseed"]);
+    EXPECT_EQ(resumed[i]["digest"], undisturbed[i]["digest"]);
+  }
+}
+
+TEST_F(WhsEvaluate, RefusesToGoOnWithOtherOptions) {
+  const Arguments quick = {"--set", "loop.max_iterations=1"};
+  ASSERT_EQ(runWhs(evaluateArguments(dataset_, quick)).exit_code, 0);
+  const std::string before = folder_.read("r.sqlite");
+  const ProgramRun other = runWhs(evaluateArguments(dataset_, {"--set", "loop.max_iterations=2"}));
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_EQ(other.errorLines(), 1) << other.err;
+  EXPECT_THAT(other.err, HasSubstr("loop.max_iterations 1, not 2; name another file"));
+  EXPECT_EQ(folder_.read("r.sqlite"), before);
+  const ProgramRun again = runWhs(evaluateArguments(dataset_, quick));
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_THAT(again.err, HasSubstr("2 of 2 runs are there already"));
+}
+
+TEST_F(WhsEvaluate, MergesShardsToWhatOneRunGives) {
+  const Arguments quick = {"--reseed", "1", "--set", "loop.max_iterations=1"};
+  ASSERT_EQ(runWhs(evaluateArguments(dataset_, quick)).exit_code, 0);
+  Arguments merge = {"merge", (folder_ / "merged.sqlite").string()};
+  for (const std::string shard : {"2/2", "1/2"}) {
+    Arguments arguments = {"evaluate", "--dataset", dataset_.string(), "--shard", shard, "--out"};
+    arguments.push_back((folder_ / ("shard" + shard.substr(0, 1) + ".sqlite")).string());
+    arguments.insert(arguments.end(), quick.begin(), quick.end());
+    ASSERT_EQ(runWhs(arguments).exit_code, 0);
+    merge.push_back(arguments[6]);
+  }
+  const ProgramRun merged = runWhs(merge);
+  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_THAT(merged.out, HasSubstr("4 runs"));
+  const auto one = sessions::readResults(folder_ / "r.sqlite").runs;
+  const auto joined = sessions::readResults(folder_ / "merged.sqlite").runs;
+  ASSERT_EQ(one.size(), joined.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].case_id, joined[i].case_id);
+    EXPECT_EQ(one[i].digest, joined[i].digest);
+  }
+  EXPECT_EQ(runWhs({"evaluate", "--dataset", dataset_.string(), "--shard", "3/2", "--out",
+                    (folder_ / "x").string()})
+                .exit_code,
+            2);
 }
 
 TEST_F(WhsEvaluate, RefusesWhatItCannotRun) {

@@ -130,6 +130,67 @@ TEST(RunBatch, StopsBetweenRuns) {
   EXPECT_EQ(results.size(), 2u);
 }
 
+TEST(RunBatch, KeepsNothingOfAPlanAndEndsWhenNobodyListens) {
+  const Dataset dataset = exampleDataset();
+  BatchOptions options = quick();
+  options.reseeds = 20;
+  options.jobs = 2;
+  int told = 0;
+  const auto refuse = [&told](std::size_t, std::size_t, const RunResult&) {
+    ++told;
+    throw std::runtime_error("the disk is full");
+  };
+  EXPECT_THROW(runPlanned(dataset, options, planBatch(dataset, options), refuse),
+               std::runtime_error);
+  EXPECT_LE(told, 2) << "one for each job, and none begins another";
+}
+
+TEST(RunBatch, SaysWhatEachStepDid) {
+  const Dataset dataset = exampleDataset();
+  BatchOptions options = quick();
+  options.stations = {"bc"};
+  options.keep_matches = true;
+  const RunResult result = runBatch(dataset, options, {}).front();
+  ASSERT_FALSE(result.steps.empty());
+  const RunStep& first = result.steps.front();
+  EXPECT_EQ(first.kind, "match");
+  EXPECT_EQ(first.details.size(), static_cast<std::size_t>(first.templates));
+  ASSERT_TRUE(first.error.has_value());
+  EXPECT_LT(first.error->lateral_mm, result.seed_error->lateral_mm);
+  options.keep_matches = false;
+  const RunResult brief = runBatch(dataset, options, {}).front();
+  EXPECT_EQ(brief.digest, result.digest);
+  EXPECT_EQ(brief.steps.size(), result.steps.size());
+  EXPECT_TRUE(brief.steps.front().details.empty());
+}
+
+TEST(PlanBatch, PutsEveryCaseInExactlyOneShardWithAllItsSeeds) {
+  Dataset dataset = exampleDataset();
+  const Case first = dataset.cases.front();
+  for (int i = 0; i < 5; ++i) {
+    dataset.cases.push_back(first);
+    dataset.cases.back().id = "more-" + std::to_string(i);
+  }
+  BatchOptions options = quick();
+  options.reseeds = 2;
+  options.shards = 3;
+  std::vector<int> seen(dataset.cases.size() * 3, 0);
+  std::size_t smallest = seen.size();
+  for (options.shard = 1; options.shard <= 3; ++options.shard) {
+    const auto plan = planBatch(dataset, options);
+    smallest = std::min(smallest, plan.size());
+    for (const PlannedRun& run : plan) {
+      EXPECT_EQ(&dataset.cases[static_cast<std::size_t>(run.place)], run.input);
+      ++seen[static_cast<std::size_t>(3 * run.place + run.reseed)];
+    }
+  }
+  EXPECT_THAT(seen, testing::Each(1));
+  EXPECT_EQ(smallest, 6u) << "7 cases are 3, 2 and 2";
+  options.shards = 100;
+  options.shard = 100;
+  EXPECT_TRUE(planBatch(dataset, options).empty());
+}
+
 TEST(RunBatch, TakesAnotherStationsMeshWhenAsked) {
   BatchOptions options = quick();
   options.mesh_of = "os";

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/evaluation/batch_facts.h"
+
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/config_file.h"
+#include "sessions/io/file_bytes.h"
+#include "sessions/io/json_document.h"
+#include "sessions/session/session.h"
+#include "sessions/version.h"
+
+namespace boresight::sessions {
+namespace {
+
+/// "value, not other", with words for what is empty.
+std::string heldNotGiven(const std::string& held, const std::string& given) {
+  return (held.empty() ? "none" : held) + ", not " + (given.empty() ? "none" : given);
+}
+
+/// The options in which two lists (JSON objects) differ: "pnp.seed=1, not 7".
+std::string optionDifference(const std::string& held, const std::string& given) {
+  const auto one = nlohmann::json::parse(held, nullptr, false);
+  const auto other = nlohmann::json::parse(given, nullptr, false);
+  if (!one.is_object() || !other.is_object()) return "others";
+  nlohmann::json all = one;
+  all.update(other);
+  std::string text;
+  const auto value = [](const nlohmann::json& list, const std::string& name) {
+    return list.contains(name) ? list[name].dump() : std::string("the profile's");
+  };
+  for (const auto& [name, unused] : all.items())
+    if (value(one, name) != value(other, name))
+      text += (text.empty() ? "" : "; ") + name + " " + value(one, name) + ", not " +
+              value(other, name);
+  return text.empty() ? "others" : text;
+}
+
+std::string processorName() {
+  std::ifstream stream("/proc/cpuinfo");
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos)
+      return line.substr(colon + 2);
+  }
+  return "unknown processor";
+}
+
+}  // namespace
+
+MethodFacts methodFacts(const std::string& method, const std::string& profile,
+                        const LocalizerOptions& options) {
+  MethodFacts facts;
+  facts.method = method;
+  facts.profile = profile;
+  const LocalizerOptions defaults = profileOptions(profile).value_or(defaultProfile());
+  facts.options = toJson(changedOptions(options, defaults)).dump();
+  facts.options_sha256 = optionsDigest(options);
+  return facts;
+}
+
+DatasetFacts datasetFacts(const std::filesystem::path& dataset_file, std::int64_t cases) {
+  DatasetFacts facts;
+  facts.dataset = std::filesystem::absolute(dataset_file).lexically_normal().string();
+  facts.dataset_sha256 = sha256Text(readFileBytes(dataset_file, kMaxJsonBytes));
+  facts.cases = cases;
+  facts.version = kVersion;
+  return facts;
+}
+
+std::optional<std::string> contradiction(const DatasetFacts& held, const DatasetFacts& given) {
+  if (held.dataset_sha256 != given.dataset_sha256)
+    return "its runs are of another dataset: " + held.dataset + " (SHA-256 " +
+           held.dataset_sha256.substr(0, 12) + "), not " + given.dataset + " (" +
+           given.dataset_sha256.substr(0, 12) + ")";
+  if (held.version != given.version)
+    return "its runs were made by version " + heldNotGiven(held.version, given.version);
+  return std::nullopt;
+}
+
+std::optional<std::string> contradiction(const MethodFacts& held, const MethodFacts& given) {
+  const std::string runs = "its runs of " + held.method + " have ";
+  if (held.profile != given.profile)
+    return runs + "the profile " + heldNotGiven(held.profile, given.profile);
+  if (held.options_sha256 != given.options_sha256)
+    return runs + "other options: " + optionDifference(held.options, given.options);
+  if (held.reseed_scale != given.reseed_scale)
+    return runs + "further seeds drawn " + numberText(held.reseed_scale) + " times as far, not " +
+           numberText(given.reseed_scale);
+  if (held.mesh_of != given.mesh_of)
+    return runs + "the mesh of another station: " + heldNotGiven(held.mesh_of, given.mesh_of);
+  if (held.mirror != given.mirror)
+    return runs + "a mirrored mesh: " + heldNotGiven(held.mirror, given.mirror);
+  if (held.note != given.note)
+    return runs + "been made with " + heldNotGiven(held.note, given.note);
+  return std::nullopt;
+}
+
+Sitting sittingHere() {
+  Sitting sitting;
+  sitting.began = utcNowText();
+  sitting.version = kVersion;
+  utsname name{};
+  if (uname(&name) == 0) {
+    sitting.machine = name.nodename;
+    sitting.system = std::string(name.sysname) + " " + name.release + " " + name.machine;
+  }
+  sitting.processor =
+      processorName() + " x " + std::to_string(std::max(1U, std::thread::hardware_concurrency()));
+  std::error_code error;
+  sitting.folder = std::filesystem::current_path(error).string();
+  return sitting;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a results file's runs were made of, with and on.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/localizer/localizer_options.h"
+
+namespace boresight::sessions {
+
+/// The dataset that all runs of a results file are of, and the program that made them.
+struct DatasetFacts {
+  std::string dataset;         ///< dataset.json, absolute
+  std::string dataset_sha256;  ///< of its bytes
+  std::int64_t cases = 0;
+  std::string version;  ///< of the program
+};
+
+/// What all runs of one method in a results file share.
+struct MethodFacts {
+  std::string method;
+  std::string profile;
+  std::string options;         ///< JSON: what differs from the profile
+  std::string options_sha256;  ///< optionsDigest over all of them
+  double reseed_scale = 1.0;
+  std::string mesh_of;  ///< deliberately wrong meshes: another station's,
+  std::string mirror;   ///< or mirrored across this axis; empty: the right ones
+  std::string note;     ///< for people, e.g. which network took part
+};
+
+/// One process that ran cases into a results file.
+struct Sitting {
+  std::int64_t id = 0;
+  std::string began;  ///< UTC
+  std::string ended;  ///< UTC; empty while it runs, and when it was killed
+  std::string version;
+  std::string machine;    ///< its name
+  std::string processor;  ///< and how many it has
+  std::string system;
+  std::string command;
+  std::string folder;  ///< in which the command was given
+  std::int64_t jobs = 1;
+  std::int64_t threads = 1;  ///< of each run
+  std::string kernels;
+  std::string shard;  ///< "2/8", or empty
+  std::int64_t reseeds = 0;
+  std::int64_t runs = 0;  ///< that it added
+  double seconds = 0.0;   ///< of wall time, up to its last run
+};
+
+/// Everything of `options`, `profile` and the deliberate wrongs.
+MethodFacts methodFacts(const std::string& method, const std::string& profile,
+                        const LocalizerOptions& options);
+
+/// Of a dataset file; InputError.
+DatasetFacts datasetFacts(const std::filesystem::path& dataset_file, std::int64_t cases);
+
+/// In what the second cannot go on with the first: one clause for people ("its runs are of another
+/// dataset, ..."); nothing when it can.
+std::optional<std::string> contradiction(const DatasetFacts& held, const DatasetFacts& given);
+std::optional<std::string> contradiction(const MethodFacts& held, const MethodFacts& given);
+
+/// Name, processor and system of this machine, as far as it tells; the rest is the caller's.
+Sitting sittingHere();
+
+}  // namespace boresight::sessions

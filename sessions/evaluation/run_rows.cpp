@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/evaluation/run_rows.h"
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/json_document.h"
+#include "sessions/io/json_writer.h"
+#include "sessions/io/pose_file.h"
+
+namespace boresight::sessions {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A column: how it is declared, written, and read back (empty: it is not).
+template <class Row>
+struct Column {
+  std::string name;
+  const char* type;
+  std::function<SqlValue(const Row&)> write;
+  std::function<void(Row&, const SqlValue&, const fs::path&)> read = {};
+};
+
+template <class Row>
+Column<Row> text(const char* name, std::string Row::*field) {
+  return {
+      name, "TEXT NOT NULL", [field](const Row& row) { return SqlValue(row.*field); },
+      [field](Row& row, const SqlValue& value, const fs::path&) { row.*field = textOf(value); }};
+}
+
+template <class Row, class Integer>
+Column<Row> integer(const char* name, Integer Row::*field) {
+  return {name, "INTEGER NOT NULL",
+          [field](const Row& row) { return SqlValue(static_cast<std::int64_t>(row.*field)); },
+          [field](Row& row, const SqlValue& value, const fs::path&) {
+            row.*field = static_cast<Integer>(integerOf(value));
+          }};
+}
+
+/// A number that is not finite has no value: NULL, read back as 0.
+template <class Row>
+Column<Row> real(const char* name, double Row::*field) {
+  return {name, "REAL",
+          [field](const Row& row) {
+            return std::isfinite(row.*field) ? SqlValue(row.*field) : SqlValue();
+          },
+          [field](Row& row, const SqlValue& value, const fs::path&) {
+            row.*field = realOf(value).value_or(0.0);
+          }};
+}
+
+template <class Row>
+Column<Row> pose(const char* name, Pose Row::*field) {
+  return {name, "TEXT NOT NULL",
+          [field](const Row& row) { return SqlValue(toJson(row.*field).dump()); },
+          [field, name](Row& row, const SqlValue& value, const fs::path& file) {
+            const JsonDocument document(file, textOf(value));
+            row.*field = readTransform(document.root());
+          }};
+}
+
+using Seconds = std::pair<const char*, double StageSeconds::*>;
+constexpr Seconds kSeconds[] = {{"s_initialization", &StageSeconds::initialization},
+                                {"s_rendering", &StageSeconds::rendering},
+                                {"s_matching", &StageSeconds::matching},
+                                {"s_pose", &StageSeconds::pose},
+                                {"s_refinement", &StageSeconds::refinement}};
+
+template <class Row>
+void addSeconds(std::vector<Column<Row>>& columns) {
+  for (const auto& [name, part] : kSeconds)
+    columns.push_back({name, "REAL",
+                       [part = part](const Row& row) { return SqlValue(row.seconds.*part); },
+                       [part = part](Row& row, const SqlValue& value, const fs::path&) {
+                         row.seconds.*part = realOf(value).value_or(0.0);
+                       }});
+  columns.push_back(
+      {"s_total", "REAL", [](const Row& row) { return SqlValue(row.seconds.total()); }});
+}
+
+using ErrorPart = std::pair<const char*, double PoseError::*>;
+constexpr ErrorPart kErrorParts[] = {{"normal_mm", &PoseError::normal_mm},
+                                     {"lateral_mm", &PoseError::lateral_mm},
+                                     {"rotation_mrad", &PoseError::rotation_mrad},
+                                     {"in_plane_mrad", &PoseError::in_plane_mrad},
+                                     {"geodesic_mrad", &PoseError::geodesic_mrad}};
+
+PoseError& made(std::optional<PoseError>& error) {
+  if (!error) error.emplace();
+  return *error;
+}
+
+/// An error has values in all of its columns, or in none; the projection's may be missing.
+template <class Row>
+void addError(std::vector<Column<Row>>& columns, const std::string& prefix,
+              std::optional<PoseError> Row::*field, bool with_projection) {
+  for (const auto& [name, part] : kErrorParts)
+    columns.push_back({prefix + name, "REAL",
+                       [field, part = part](const Row& row) {
+                         return row.*field ? SqlValue((*(row.*field)).*part) : SqlValue();
+                       },
+                       [field, part = part](Row& row, const SqlValue& value, const fs::path&) {
+                         if (const auto real = realOf(value)) made(row.*field).*part = *real;
+                       }});
+  if (!with_projection) return;
+  columns.push_back({prefix + "projection_px", "REAL",
+                     [field](const Row& row) {
+                       return row.*field ? sqlReal((row.*field)->projection_px) : SqlValue();
+                     },
+                     [field](Row& row, const SqlValue& value, const fs::path&) {
+                       if (const auto real = realOf(value)) made(row.*field).projection_px = real;
+                     }});
+}
+
+SqlValue requirementText(const RunResult& run) {
+  return run.requirement ? SqlValue(toJson(*run.requirement).dump()) : SqlValue();
+}
+
+void readRequirementText(RunResult& run, const SqlValue& value, const fs::path& file) {
+  if (textOf(value).empty()) return;
+  const JsonDocument document(file, textOf(value));
+  run.requirement = readRequirement(document.root());
+}
+
+Column<RunResult> flag(const char* name, bool RunResult::*field) {
+  return {name, "INTEGER NOT NULL", [field](const RunResult& run) { return sqlFlag(run.*field); },
+          [field](RunResult& run, const SqlValue& value, const fs::path&) {
+            run.*field = integerOf(value) != 0;
+          }};
+}
+
+/// A rotation as it is, [w, x, y, z]: a matrix would not give the same bits back.
+SqlValue quaternionText(const RunResult& run) {
+  const Eigen::Quaterniond& q = run.camera_from_station_seed.rotation;
+  return nlohmann::json({q.w(), q.x(), q.y(), q.z()}).dump();
+}
+
+void readQuaternionText(RunResult& run, const SqlValue& value, const fs::path& file) {
+  if (textOf(value).empty()) return;
+  const JsonDocument document(file, textOf(value));
+  const std::vector<JsonReader> parts = document.root().elements(4);
+  run.camera_from_station_seed.rotation = Eigen::Quaterniond(parts[0].number(), parts[1].number(),
+                                                             parts[2].number(), parts[3].number());
+}
+
+std::vector<Column<RunResult>> makeRunColumns() {
+  using Run = RunResult;
+  std::vector<Column<Run>> columns = {
+      integer("place", &Run::place),
+      text("case_id", &Run::case_id),
+      integer("reseed", &Run::reseed),
+      text("station", &Run::station),
+      text("method", &Run::method),
+      text("status", &Run::status),
+      text("message", &Run::message),
+      flag("completed", &Run::completed),
+      {"success", "INTEGER", [](const Run& run) { return sqlFlag(run.success); },
+       [](Run& run, const SqlValue& value, const fs::path&) {
+         if (realOf(value)) run.success = integerOf(value) != 0;
+       }},
+      flag("false_positive", &Run::false_positive),
+      flag("gross_false_positive", &Run::gross_false_positive),
+      integer("iterations", &Run::iterations),
+      integer("matches", &Run::matches),
+      integer("inliers", &Run::inliers),
+      real("edge_support", &Run::edge_support)};
+  addError(columns, "", &Run::error, true);
+  addError(columns, "seed_", &Run::seed_error, true);
+  columns.push_back({"requirement", "TEXT", requirementText, readRequirementText});
+  addSeconds(columns);
+  columns.push_back(pose("camera_from_station", &Run::camera_from_station));
+  columns.push_back(pose("camera_from_station_seed", &Run::camera_from_station_seed));
+  columns.push_back({"seed_quaternion", "TEXT NOT NULL", quaternionText, readQuaternionText});
+  columns.push_back(text("digest", &Run::digest));
+  return columns;
+}
+
+std::vector<Column<RunStep>> makeStepColumns() {
+  using Step = RunStep;
+  std::vector<Column<Step>> columns = {integer("step", &Step::index),
+                                       integer("attempt", &Step::attempt),
+                                       text("kind", &Step::kind),
+                                       integer("level", &Step::level),
+                                       text("status", &Step::status),
+                                       real("threshold_px", &Step::threshold_px),
+                                       integer("templates", &Step::templates),
+                                       integer("matches", &Step::matches),
+                                       integer("support", &Step::support),
+                                       real("rms_px", &Step::rms_px),
+                                       real("best_score", &Step::best_score),
+                                       real("mean_score", &Step::mean_score),
+                                       real("correction_mm", &Step::correction_mm),
+                                       real("correction_mrad", &Step::correction_mrad),
+                                       real("correction_px", &Step::correction_px)};
+  addSeconds(columns);
+  columns.push_back(pose("camera_from_station", &Step::camera_from_station));
+  addError(columns, "", &Step::error, false);
+  return columns;
+}
+
+/// One of a vector's coordinates.
+template <class Vector>
+Column<MatchDetails> coordinate(const char* name, Vector MatchDetails::*field, int axis) {
+  return {name, "REAL", [field, axis](const MatchDetails& match) {
+            const double value = (match.*field)[axis];
+            return std::isfinite(value) ? SqlValue(value) : SqlValue();
+          }};
+}
+
+Column<MatchDetails> matchFlag(const char* name, bool MatchDetails::*field) {
+  return {name, "INTEGER NOT NULL",
+          [field](const MatchDetails& match) { return sqlFlag(match.*field); }};
+}
+
+std::vector<Column<MatchDetails>> makeMatchColumns() {
+  using Match = MatchDetails;
+  return {integer("template", &Match::index),
+          coordinate("station_x_m", &Match::point_in_station_m, 0),
+          coordinate("station_y_m", &Match::point_in_station_m, 1),
+          coordinate("station_z_m", &Match::point_in_station_m, 2),
+          real("depth_m", &Match::depth_m),
+          coordinate("predicted_x_px", &Match::predicted_px, 0),
+          coordinate("predicted_y_px", &Match::predicted_px, 1),
+          coordinate("found_x_px", &Match::found_px, 0),
+          coordinate("found_y_px", &Match::found_px, 1),
+          matchFlag("searched", &Match::searched),
+          matchFlag("at_border", &Match::at_border),
+          real("score", &Match::score),
+          real("second_score", &Match::second_score),
+          matchFlag("inlier", &Match::inlier),
+          real("residual_px", &Match::residual_px)};
+}
+
+const std::vector<Column<RunResult>>& runColumns() {
+  static const auto kColumns = makeRunColumns();
+  return kColumns;
+}
+
+const std::vector<Column<RunStep>>& stepColumns() {
+  static const auto kColumns = makeStepColumns();
+  return kColumns;
+}
+
+const std::vector<Column<MatchDetails>>& matchColumns() {
+  static const auto kColumns = makeMatchColumns();
+  return kColumns;
+}
+
+template <class Row>
+std::string sqlOf(const std::vector<Column<Row>>& columns) {
+  std::string sql;
+  for (const Column<Row>& column : columns)
+    sql += (sql.empty() ? "" : ", ") + column.name + " " + column.type;
+  return sql;
+}
+
+template <class Row>
+std::vector<std::string> namesOf(const std::vector<Column<Row>>& columns) {
+  std::vector<std::string> names;
+  for (const Column<Row>& column : columns) names.push_back(column.name);
+  return names;
+}
+
+template <class Row>
+std::vector<SqlValue> valuesOf(const std::vector<Column<Row>>& columns, const Row& row) {
+  std::vector<SqlValue> values;
+  for (const Column<Row>& column : columns) values.push_back(column.write(row));
+  return values;
+}
+
+}  // namespace
+
+std::string runColumnsSql() { return sqlOf(runColumns()); }
+std::string stepColumnsSql() { return sqlOf(stepColumns()); }
+std::string matchColumnsSql() { return sqlOf(matchColumns()); }
+std::vector<std::string> runColumnNames() { return namesOf(runColumns()); }
+std::vector<std::string> stepColumnNames() { return namesOf(stepColumns()); }
+std::vector<std::string> matchColumnNames() { return namesOf(matchColumns()); }
+std::vector<SqlValue> runValues(const RunResult& run) { return valuesOf(runColumns(), run); }
+std::vector<SqlValue> stepValues(const RunStep& step) { return valuesOf(stepColumns(), step); }
+std::vector<SqlValue> matchValues(const MatchDetails& match) {
+  return valuesOf(matchColumns(), match);
+}
+
+RunResult runFromRow(const fs::path& file, const std::vector<std::string>& names,
+                     const std::vector<SqlValue>& row) {
+  RunResult run;
+  for (const Column<RunResult>& column : runColumns()) {
+    if (!column.read) continue;
+    for (std::size_t i = 0; i < names.size() && i < row.size(); ++i)
+      if (names[i] == column.name) column.read(run, row[i], file);
+  }
+  return run;
+}
+
+}  // namespace boresight::sessions

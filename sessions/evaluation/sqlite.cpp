@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/evaluation/sqlite.h"
+
+#include <sqlite3.h>
+
+#include <utility>
+
+#include "sessions/io/errors.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr int kPatience_ms = 10'000;
+
+int flagsOf(SqlAccess access) {
+  // Reading, too, must be able to take back what a killed writer had not committed; where the file
+  // cannot be written SQLite opens it for reading by itself.
+  return access == SqlAccess::kRead ? SQLITE_OPEN_READWRITE
+                                    : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+}
+
+}  // namespace
+
+SqlValue sqlFlag(bool value) { return std::int64_t{value ? 1 : 0}; }
+
+SqlValue sqlFlag(const std::optional<bool>& value) { return value ? sqlFlag(*value) : SqlValue(); }
+
+SqlValue sqlReal(const std::optional<double>& value) {
+  return value ? SqlValue(*value) : SqlValue();
+}
+
+std::optional<double> realOf(const SqlValue& value) {
+  if (const auto* real = std::get_if<double>(&value)) return *real;
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
+  return std::nullopt;
+}
+
+std::int64_t integerOf(const SqlValue& value) {
+  const auto* integer = std::get_if<std::int64_t>(&value);
+  return integer != nullptr ? *integer : 0;
+}
+
+std::string textOf(const SqlValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  return text != nullptr ? *text : std::string();
+}
+
+SqlDatabase::SqlDatabase(const std::filesystem::path& file, SqlAccess access)
+    : file_(file), access_(access) {
+  std::error_code error;
+  if (access == SqlAccess::kRead && !std::filesystem::exists(file, error))
+    throw InputError(file, "there is no such file");
+  if (std::filesystem::is_directory(file, error)) fail("it is a folder");
+  sqlite3* handle = nullptr;
+  const int code = sqlite3_open_v2(file.c_str(), &handle, flagsOf(access), nullptr);
+  handle_.reset(handle);
+  if (code != SQLITE_OK && handle == nullptr) throw std::bad_alloc();
+  require(code);
+  sqlite3_extended_result_codes(handle, 1);
+  sqlite3_busy_timeout(handle, kPatience_ms);
+  if (access == SqlAccess::kRead) execute("PRAGMA query_only = 1");
+}
+
+SqlDatabase::SqlDatabase(SqlDatabase&&) noexcept = default;
+SqlDatabase& SqlDatabase::operator=(SqlDatabase&&) noexcept = default;
+SqlDatabase::~SqlDatabase() = default;
+
+void SqlDatabase::Close::operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
+
+void SqlDatabase::require(int code) const {
+  if (code == SQLITE_OK || code == SQLITE_DONE || code == SQLITE_ROW) return;
+  switch (code & 0xFF) {
+    case SQLITE_NOMEM:
+      throw std::bad_alloc();
+    case SQLITE_NOTADB:
+      fail("it is not a results file (not an SQLite database)");
+    case SQLITE_BUSY:
+      fail("another program has locked it");
+    case SQLITE_FULL:
+      fail("no space left on the device");
+    default:
+      fail(sqlite3_errmsg(handle_.get()));
+  }
+}
+
+void SqlDatabase::fail(const std::string& reason) const {
+  if (access_ == SqlAccess::kRead) throw InputError(file_, reason);
+  throw OutputError(file_, reason);
+}
+
+void SqlDatabase::execute(const std::string& sql) {
+  require(sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr));
+}
+
+SqlValue SqlDatabase::value(const std::string& sql) {
+  SqlStatement statement(*this, sql);
+  return statement.step() ? statement.cell(0) : SqlValue();
+}
+
+std::vector<std::string> SqlDatabase::columns(const std::string& table) {
+  SqlStatement statement(*this, "SELECT name FROM pragma_table_info(?1) ORDER BY cid");
+  const SqlValue name = table;
+  statement.bind({&name, 1});
+  std::vector<std::string> names;
+  while (statement.step()) names.push_back(textOf(statement.cell(0)));
+  return names;
+}
+
+std::int64_t SqlDatabase::lastId() const { return sqlite3_last_insert_rowid(handle_.get()); }
+
+SqlStatement::SqlStatement(SqlDatabase& database, const std::string& sql) : database_(&database) {
+  sqlite3_stmt* statement = nullptr;
+  database.require(sqlite3_prepare_v2(database.handle(), sql.c_str(), -1, &statement, nullptr));
+  statement_.reset(statement);
+}
+
+void SqlStatement::Finalize::operator()(sqlite3_stmt* statement) const {
+  sqlite3_finalize(statement);
+}
+
+void SqlStatement::bind(std::span<const SqlValue> values) {
+  sqlite3_reset(statement_.get());  // repeats the error of the last step, which was told then
+  int place = 0;
+  for (const SqlValue& value : values) {
+    ++place;
+    int code = SQLITE_OK;
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
+      code = sqlite3_bind_int64(statement_.get(), place, *integer);
+    } else if (const auto* real = std::get_if<double>(&value)) {
+      code = sqlite3_bind_double(statement_.get(), place, *real);
+    } else if (const auto* text = std::get_if<std::string>(&value)) {
+      code = sqlite3_bind_text(statement_.get(), place, text->c_str(),
+                               static_cast<int>(text->size()), SQLITE_TRANSIENT);
+    } else {
+      code = sqlite3_bind_null(statement_.get(), place);
+    }
+    database_->require(code);
+  }
+}
+
+bool SqlStatement::step() {
+  const int code = sqlite3_step(statement_.get());
+  database_->require(code);
+  return code == SQLITE_ROW;
+}
+
+void SqlStatement::run(std::span<const SqlValue> values) {
+  bind(values);
+  (void)step();
+  sqlite3_reset(statement_.get());
+}
+
+int SqlStatement::columnCount() const { return sqlite3_column_count(statement_.get()); }
+
+SqlValue SqlStatement::cell(int column) const {
+  sqlite3_stmt* statement = statement_.get();
+  switch (sqlite3_column_type(statement, column)) {
+    case SQLITE_INTEGER:
+      return std::int64_t{sqlite3_column_int64(statement, column)};
+    case SQLITE_FLOAT:
+      return sqlite3_column_double(statement, column);
+    case SQLITE_TEXT:
+    case SQLITE_BLOB: {
+      const auto* bytes = static_cast<const char*>(sqlite3_column_blob(statement, column));
+      const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement, column));
+      return bytes != nullptr ? std::string(bytes, size) : std::string();
+    }
+    default:
+      return {};
+  }
+}
+
+std::vector<SqlValue> SqlStatement::row() const {
+  std::vector<SqlValue> cells;
+  for (int i = 0; i < columnCount(); ++i) cells.push_back(cell(i));
+  return cells;
+}
+
+SqlTransaction::SqlTransaction(SqlDatabase& database) : database_(&database) {
+  database.execute("BEGIN IMMEDIATE");
+}
+
+SqlTransaction::~SqlTransaction() {
+  if (database_ != nullptr)
+    sqlite3_exec(database_->handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+void SqlTransaction::commit() {
+  database_->execute("COMMIT");
+  database_ = nullptr;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// The little of SQLite that results files need, with errors that name the file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace boresight::sessions {
+
+/// NULL, INTEGER, REAL or TEXT.
+using SqlValue = std::variant<std::monostate, std::int64_t, double, std::string>;
+
+SqlValue sqlFlag(bool value);
+SqlValue sqlFlag(const std::optional<bool>& value);
+SqlValue sqlReal(const std::optional<double>& value);
+/// NULL reads as nothing, or as 0 or "" where a plain value is asked for.
+std::optional<double> realOf(const SqlValue& value);
+std::int64_t integerOf(const SqlValue& value);
+std::string textOf(const SqlValue& value);
+
+enum class SqlAccess {
+  kRead,   ///< must be there; what goes wrong is an InputError
+  kWrite,  ///< made when it is not there; what goes wrong is an OutputError
+};
+
+/// An open SQLite file. What another process has locked is waited for, a while. Not for several
+/// threads at a time.
+class SqlDatabase {
+ public:
+  SqlDatabase(const std::filesystem::path& file, SqlAccess access);
+  SqlDatabase(SqlDatabase&&) noexcept;
+  SqlDatabase& operator=(SqlDatabase&&) noexcept;
+  ~SqlDatabase();
+
+  const std::filesystem::path& file() const { return file_; }
+  SqlAccess access() const { return access_; }
+  /// One statement or several, without results.
+  void execute(const std::string& sql);
+  /// The first cell of a query's first row; NULL when there is none.
+  SqlValue value(const std::string& sql);
+  /// The names of a table's columns; empty when there is no such table.
+  std::vector<std::string> columns(const std::string& table);
+  std::int64_t lastId() const;
+
+  /// Throws what the access calls for, unless `code` is a success.
+  void require(int code) const;
+  /// Throws what the access calls for.
+  [[noreturn]] void fail(const std::string& reason) const;
+  sqlite3* handle() const { return handle_.get(); }
+
+ private:
+  struct Close {
+    void operator()(sqlite3* handle) const;
+  };
+  std::filesystem::path file_;
+  SqlAccess access_;
+  std::unique_ptr<sqlite3, Close> handle_;
+};
+
+/// A statement to be carried out any number of times. Its database must outlive it.
+class SqlStatement {
+ public:
+  SqlStatement(SqlDatabase& database, const std::string& sql);
+  /// The values of ?1, ?2, ...; begins anew.
+  void bind(std::span<const SqlValue> values);
+  /// Whether there is a (further) row.
+  bool step();
+  /// Binds and runs what yields no rows.
+  void run(std::span<const SqlValue> values);
+  int columnCount() const;
+  SqlValue cell(int column) const;
+  std::vector<SqlValue> row() const;
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  SqlDatabase* database_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+};
+
+/// BEGIN ... COMMIT; what was not committed when it ends is rolled back.
+class SqlTransaction {
+ public:
+  explicit SqlTransaction(SqlDatabase& database);
+  SqlTransaction(const SqlTransaction&) = delete;
+  SqlTransaction& operator=(const SqlTransaction&) = delete;
+  ~SqlTransaction();
+  void commit();
+
+ private:
+  SqlDatabase* database_;
+};
+
+}  // namespace boresight::sessions

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/evaluation/results_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <limits>
+#include <memory>
+
+#include "sessions/evaluation/results_writer.h"
+#include "sessions/io/errors.h"
+#include "tests/sessions/evaluation/sample_results.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::sampleDataset;
+using test::sampleMethod;
+using test::sampleRun;
+using testing::HasSubstr;
+
+/// The cells of a query, row by row, separated by '|'; NULL as "NULL". By SQLite itself.
+std::string query(const std::filesystem::path& file, const char* sql) {
+  sqlite3* raw = nullptr;
+  EXPECT_EQ(sqlite3_open_v2(file.c_str(), &raw, SQLITE_OPEN_READONLY, nullptr), SQLITE_OK);
+  const std::unique_ptr<sqlite3, int (*)(sqlite3*)> database(raw, sqlite3_close);
+  std::string text;
+  const auto add = [](void* out, int count, char** cells, char**) {
+    for (int i = 0; i < count; ++i)
+      *static_cast<std::string*>(out) += std::string(cells[i] != nullptr ? cells[i] : "NULL") + "|";
+    return 0;
+  };
+  char* error = nullptr;
+  EXPECT_EQ(sqlite3_exec(raw, sql, add, &text, &error), SQLITE_OK) << error;
+  sqlite3_free(error);
+  return text;
+}
+
+class ResultsFile : public testing::Test {
+ protected:
+  void write(const std::vector<RunResult>& runs, const std::string& method = "whs") const {
+    ResultsWriter writer(file_, sampleDataset());
+    writer.admit(sampleMethod(method));
+    writer.begin(Sitting{});
+    for (const RunResult& run : runs) writer.add(run);
+    writer.end();
+  }
+  std::string refusal(const DatasetFacts& dataset, const MethodFacts& method) const {
+    return folder_.message([&] {
+      ResultsWriter writer(file_, dataset);
+      writer.admit(method);
+    });
+  }
+
+  const test::TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "r.sqlite";
+};
+
+TEST_F(ResultsFile, HoldsEveryRun) {
+  RunResult blind;
+  blind.case_id = "bc-2";
+  blind.place = 1;
+  blind.method = "whs";
+  write({sampleRun(), blind});
+  EXPECT_EQ(query(file_,
+                  "SELECT id, place, case_id, reseed, station, method, status, message, completed, "
+                  "success, matches, inliers, edge_support, lateral_mm, projection_px, "
+                  "requirement, s_matching, s_total, digest FROM run ORDER BY id"),
+            "1|0|bc-1|2|bc|whs|converged|it's \"quoted\"|1|1|96|88|0.5|0.25|NULL|"
+            "{\"normal_mm\":0.4}|1.5|1.5|abc|"
+            "2|1|bc-2|0||whs|||0|NULL|0|0|0.0|NULL|NULL|NULL|0.0|0.0||");
+  EXPECT_EQ(query(file_, "SELECT value FROM fact WHERE name = 'dataset_sha256'"), "d1|");
+  EXPECT_EQ(query(file_, "SELECT tag, case_id FROM tag JOIN run ON run.id = run ORDER BY tag"),
+            "far|bc-1|low_sun|bc-1|");
+  EXPECT_EQ(query(file_, "PRAGMA integrity_check"), "ok|");
+  EXPECT_EQ(folder_.fileCount(), 1u) << "neither journal nor lock stays";
+}
+
+TEST_F(ResultsFile, HoldsStepsAndWhatBecameOfTemplates) {
+  RunResult run = sampleRun();
+  RunStep step;
+  step.kind = "match";
+  step.status = "running";
+  step.rms_px = 0.75;
+  step.error = PoseError{};
+  step.error->normal_mm = -0.5;
+  step.details.resize(2);
+  step.details[1].index = 1;
+  step.details[1].found_px = {3.5, 4.0};
+  step.details[1].second_score = std::numeric_limits<double>::quiet_NaN();
+  run.steps = {step, step};
+  run.steps[1].index = 1;
+  run.steps[1].details.clear();
+  write({run});
+  EXPECT_EQ(query(file_, "SELECT run, step, kind, rms_px, normal_mm FROM iteration ORDER BY step"),
+            "1|0|match|0.75|-0.5|1|1|match|0.75|-0.5|");
+  EXPECT_EQ(query(file_,
+                  "SELECT step, template, found_x_px, found_y_px, second_score FROM match "
+                  "ORDER BY template"),
+            "0|0|0.0|0.0|0.0|0|1|3.5|4.0|NULL|");
+}
+
+TEST_F(ResultsFile, ReadsBackWhatWasWritten) {
+  RunResult run = sampleRun();
+  run.camera_from_station.translation_m = {0.1, -0.2, 0.3};
+  run.seed_error = PoseError{.normal_mm = -7.0, .projection_px = 12.0};
+  write({run});
+  const Results results = readResults(file_);
+  ASSERT_EQ(results.runs.size(), 1u);
+  const RunResult& read = results.runs.front();
+  EXPECT_EQ(read.case_id, run.case_id);
+  EXPECT_EQ(read.reseed, run.reseed);
+  EXPECT_EQ(read.message, run.message);
+  EXPECT_EQ(read.success, run.success);
+  EXPECT_EQ(read.tags, run.tags);
+  ASSERT_TRUE(read.error && read.seed_error && read.requirement);
+  EXPECT_EQ(read.error->lateral_mm, 0.25);
+  EXPECT_EQ(read.error->projection_px, std::nullopt);
+  EXPECT_EQ(read.seed_error->projection_px, 12.0);
+  EXPECT_EQ(read.requirement, run.requirement);
+  EXPECT_EQ(read.seconds.matching, 1.5);
+  EXPECT_EQ(read.camera_from_station.translation_m, run.camera_from_station.translation_m);
+  ASSERT_EQ(results.facts.methods.size(), 1u);
+  EXPECT_EQ(results.facts.methods.front().options, "{\"pnp.seed\":7}");
+  ASSERT_EQ(results.facts.sittings.size(), 1u);
+  EXPECT_EQ(results.facts.sittings.front().runs, 1);
+  EXPECT_NE(results.facts.sittings.front().ended, "");
+}
+
+TEST_F(ResultsFile, OrdersRunsAsTheDatasetDoesWhateverCameFirst) {
+  write({sampleRun("os-1", 5, 0), sampleRun("bc-1", 0, 1), sampleRun("bc-1", 0, 0)});
+  write({sampleRun("bc-1", 0, 0, "ncc")}, "ncc");
+  std::string order;
+  forEachRun(file_, [&order](const RunResult& run) {
+    order += run.case_id + "/" + std::to_string(run.reseed) + "/" + run.method + " ";
+  });
+  EXPECT_EQ(order, "bc-1/0/ncc bc-1/0/whs bc-1/1/whs os-1/0/whs ");
+}
+
+TEST_F(ResultsFile, GoesOnWithoutDoingAnythingTwice) {
+  write({sampleRun("bc-1", 0, 0)});
+  ResultsWriter writer(file_, sampleDataset());
+  writer.admit(sampleMethod("whs"));
+  writer.begin(Sitting{});
+  EXPECT_TRUE(writer.has("whs", "bc-1", 0));
+  EXPECT_FALSE(writer.has("whs", "bc-1", 1));
+  EXPECT_FALSE(writer.has("ncc", "bc-1", 0));
+  writer.add(sampleRun("bc-1", 0, 0));
+  writer.add(sampleRun("bc-1", 0, 1));
+  EXPECT_EQ(query(file_, "SELECT reseed, sitting FROM run ORDER BY id"), "0|1|1|2|");
+}
+
+TEST_F(ResultsFile, KeepsWhatWasAddedWhenTheWriterIsNeverEnded) {
+  auto* abandoned = new ResultsWriter(file_, sampleDataset());
+  abandoned->begin(Sitting{});
+  abandoned->add(sampleRun());
+  EXPECT_EQ(readResults(file_).runs.size(), 1u) << "another process sees it at once";
+  EXPECT_EQ(readResults(file_).facts.sittings.front().ended, "");
+  delete abandoned;
+}
+
+TEST_F(ResultsFile, TriesRefusedInputsAgain) {
+  RunResult bad = sampleRun("bc-1", 0, 0);
+  bad.status = "input_error";
+  write({bad});
+  {
+    const ResultsWriter writer(file_, sampleDataset());
+    EXPECT_FALSE(writer.has("whs", "bc-1", 0));
+  }
+  write({sampleRun("bc-1", 0, 0)});
+  EXPECT_EQ(query(file_, "SELECT status FROM run"), "converged|");
+  EXPECT_EQ(query(file_, "SELECT count(*) FROM tag"), "2|");
+}
+
+TEST_F(ResultsFile, RefusesToGoOnWithSomethingElse) {
+  write({sampleRun()});
+  DatasetFacts other = sampleDataset();
+  other.dataset_sha256 = "d2";
+  EXPECT_THAT(refusal(other, sampleMethod("whs")), HasSubstr("another dataset"));
+  other = sampleDataset();
+  other.version = "0.0.9";
+  EXPECT_THAT(refusal(other, sampleMethod("whs")), HasSubstr("version 1.0, not 0.0.9"));
+  MethodFacts method = sampleMethod("whs");
+  method.options_sha256 = "o2";
+  method.options = "{\"pnp.seed\":8}";
+  EXPECT_EQ(refusal(sampleDataset(), method),
+            "cannot write r.sqlite: its runs of whs have other options: pnp.seed 7, not 8; name "
+            "another file");
+  method = sampleMethod("whs");
+  method.reseed_scale = 2.0;
+  EXPECT_THAT(refusal(sampleDataset(), method), HasSubstr("1 times as far, not 2"));
+  method = sampleMethod("ncc");
+  method.options_sha256 = "o2";
+  EXPECT_EQ(refusal(sampleDataset(), method), "(nothing)") << "a method has its own options";
+}
+
+TEST_F(ResultsFile, IsWrittenByOneAtATime) {
+  const ResultsWriter writer(file_, sampleDataset());
+  EXPECT_THAT(refusal(sampleDataset(), sampleMethod("whs")), HasSubstr("another run is writing"));
+}
+
+TEST_F(ResultsFile, LeavesOtherFilesAlone) {
+  folder_.write("r.sqlite", "something else, long enough to be taken for a database's header");
+  EXPECT_THAT(refusal(sampleDataset(), sampleMethod("whs")), HasSubstr("not a results file"));
+  EXPECT_THAT(folder_.read("r.sqlite"), HasSubstr("something else"));
+  EXPECT_THROW(readResults(file_), InputError);
+  EXPECT_THROW(readResults(folder_ / "none.sqlite"), InputError);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "none.sqlite"));
+  EXPECT_THROW(ResultsWriter(folder_ / "no/such/r.sqlite", sampleDataset()), OutputError);
+}
+
+}  // namespace
+}  // namespace boresight::sessions
