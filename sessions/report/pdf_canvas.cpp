@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include <cairo-pdf.h>
+#include <cairo-svg.h>
 #include <pango/pangocairo.h>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -16,6 +17,7 @@ namespace {
 
 constexpr int kLongestPictureSide_px = 1400;
 constexpr int kJpegQuality = 88;
+constexpr double kPngPixelsPerPoint = 2.5;
 
 struct LayoutDeleter {
   void operator()(PangoLayout* layout) const { g_object_unref(layout); }
@@ -115,6 +117,7 @@ cairo_surface_t* makeSurface(const cv::Mat& bgr) {
 }  // namespace
 
 struct PdfCanvas::Pieces {
+  CanvasFormat format = CanvasFormat::kPdf;
   std::vector<std::uint8_t> bytes;
   cairo_surface_t* surface = nullptr;
   cairo_t* cairo = nullptr;
@@ -122,12 +125,24 @@ struct PdfCanvas::Pieces {
   void color(const PdfColor& rgb) const { cairo_set_source_rgb(cairo, rgb[0], rgb[1], rgb[2]); }
 };
 
-PdfCanvas::PdfCanvas(const std::string& title) : pieces_(std::make_unique<Pieces>()) {
-  pieces_->surface = cairo_pdf_surface_create_for_stream(append, &pieces_->bytes, kWidth, kHeight);
-  cairo_pdf_surface_set_metadata(pieces_->surface, CAIRO_PDF_METADATA_TITLE,
-                                 validUtf8(title).c_str());
-  cairo_pdf_surface_set_metadata(pieces_->surface, CAIRO_PDF_METADATA_CREATOR, "Boresight");
+PdfCanvas::PdfCanvas(const std::string& title, CanvasFormat format, double width, double height)
+    : pieces_(std::make_unique<Pieces>()) {
+  pieces_->format = format;
+  if (format == CanvasFormat::kPng) {
+    pieces_->surface = cairo_image_surface_create(
+        CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(kPngPixelsPerPoint * width)),
+        static_cast<int>(std::lround(kPngPixelsPerPoint * height)));
+    cairo_surface_set_device_scale(pieces_->surface, kPngPixelsPerPoint, kPngPixelsPerPoint);
+  } else if (format == CanvasFormat::kSvg) {
+    pieces_->surface = cairo_svg_surface_create_for_stream(append, &pieces_->bytes, width, height);
+  } else {
+    pieces_->surface = cairo_pdf_surface_create_for_stream(append, &pieces_->bytes, width, height);
+    cairo_pdf_surface_set_metadata(pieces_->surface, CAIRO_PDF_METADATA_TITLE,
+                                   validUtf8(title).c_str());
+    cairo_pdf_surface_set_metadata(pieces_->surface, CAIRO_PDF_METADATA_CREATOR, "Boresight");
+  }
   pieces_->cairo = cairo_create(pieces_->surface);
+  if (format == CanvasFormat::kPng) fill({0.0, 0.0, width, height}, {1.0, 1.0, 1.0});
 }
 
 PdfCanvas::~PdfCanvas() {
@@ -160,13 +175,15 @@ void PdfCanvas::line(double x0, double y0, double x1, double y1, const PdfColor&
 }
 
 void PdfCanvas::polyline(const std::vector<std::array<double, 2>>& points, const PdfColor& color,
-                         double width) {
+                         double width, const std::vector<double>& dashes) {
   if (points.size() < 2) return;
   pieces_->color(color);
+  cairo_set_dash(pieces_->cairo, dashes.data(), static_cast<int>(dashes.size()), 0.0);
   cairo_set_line_width(pieces_->cairo, width);
   cairo_move_to(pieces_->cairo, points[0][0], points[0][1]);
   for (const auto& point : points) cairo_line_to(pieces_->cairo, point[0], point[1]);
   cairo_stroke(pieces_->cairo);
+  cairo_set_dash(pieces_->cairo, nullptr, 0, 0.0);
 }
 
 void PdfCanvas::circle(double x, double y, double radius, const PdfColor& color, bool filled) {
@@ -220,9 +237,11 @@ void PdfCanvas::unclip() { cairo_restore(pieces_->cairo); }
 
 std::vector<std::uint8_t> PdfCanvas::finish() {
   cairo_show_page(pieces_->cairo);
-  const cairo_status_t drawn = cairo_status(pieces_->cairo);
+  cairo_status_t drawn = cairo_status(pieces_->cairo);
   cairo_destroy(pieces_->cairo);
   pieces_->cairo = nullptr;
+  if (pieces_->format == CanvasFormat::kPng && drawn == CAIRO_STATUS_SUCCESS)
+    drawn = cairo_surface_write_to_png_stream(pieces_->surface, append, &pieces_->bytes);
   cairo_surface_finish(pieces_->surface);
   const cairo_status_t written = cairo_surface_status(pieces_->surface);
   cairo_surface_destroy(pieces_->surface);
@@ -230,7 +249,7 @@ std::vector<std::uint8_t> PdfCanvas::finish() {
   for (const cairo_status_t status : {drawn, written}) {
     if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
     if (status != CAIRO_STATUS_SUCCESS)
-      throw std::runtime_error(std::string("drawing a PDF: ") + cairo_status_to_string(status));
+      throw std::runtime_error(std::string("drawing a page: ") + cairo_status_to_string(status));
   }
   return std::move(pieces_->bytes);
 }

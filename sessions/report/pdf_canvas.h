@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pages of a PDF, drawn without a display (Cairo and Pango).
+// Pages of a PDF, or one picture as SVG or PNG, drawn without a display (Cairo and Pango).
 #pragma once
 
 #include <array>
@@ -41,7 +41,10 @@ struct PdfTextStyle {
   enum class Align { kLeft, kCentre, kRight } align = Align::kLeft;
 };
 
-/// A4, upright. Not for several threads.
+/// What a canvas becomes. A PNG has 2.5 pixels a point, on white.
+enum class CanvasFormat { kPdf, kSvg, kPng };
+
+/// A4, upright, unless another size is asked for. Not for several threads.
 class PdfCanvas {
  public:
   static constexpr double kWidth = 595.0;
@@ -49,12 +52,13 @@ class PdfCanvas {
 
   /// `title` goes into the file's properties. OutputError is not its business: pages are kept in
   /// memory until `finish`.
-  explicit PdfCanvas(const std::string& title);
+  explicit PdfCanvas(const std::string& title, CanvasFormat format = CanvasFormat::kPdf,
+                     double width = kWidth, double height = kHeight);
   ~PdfCanvas();
   PdfCanvas(const PdfCanvas&) = delete;
   PdfCanvas& operator=(const PdfCanvas&) = delete;
 
-  /// Ends the page and begins the next one.
+  /// Ends the page and begins the next one; only a PDF has several.
   void nextPage();
   int page() const { return page_; }  ///< from 1
 
@@ -65,8 +69,9 @@ class PdfCanvas {
   double textHeight(double width, const std::string& text, const PdfTextStyle& style = {}) const;
 
   void line(double x0, double y0, double x1, double y1, const PdfColor& color, double width = 0.6);
+  /// `dashes`: lengths drawn and left out in turn, pt; empty: a whole line.
   void polyline(const std::vector<std::array<double, 2>>& points, const PdfColor& color,
-                double width);
+                double width, const std::vector<double>& dashes = {});
   void circle(double x, double y, double radius, const PdfColor& color, bool filled);
   void cross(double x, double y, double radius, const PdfColor& color);
   void fill(const PdfBox& box, const PdfColor& color);

@@ -16,9 +16,13 @@ struct Axes {
   PdfBox box;  ///< of the area within the axes
   double x_low = 0.0, x_high = 1.0, y_low = 0.0, y_high = 1.0;
   bool log_y = false;
+  bool log_x = false;
 
   double scaledY(double y) const { return log_y ? std::log10(y) : y; }
-  double pageX(double x) const { return box.x + box.width * (x - x_low) / (x_high - x_low); }
+  double scaledX(double x) const { return log_x ? std::log10(x) : x; }
+  double pageX(double x) const {
+    return box.x + box.width * (scaledX(x) - x_low) / (x_high - x_low);
+  }
   double pageY(double y) const {
     return box.bottom() - box.height * (scaledY(y) - y_low) / (y_high - y_low);
   }
@@ -31,7 +35,8 @@ std::string tickText(double value) {
 }
 
 bool isDrawn(const PdfPlot& plot, const std::array<double, 2>& point) {
-  return std::isfinite(point[0]) && std::isfinite(point[1]) && (!plot.log_y || point[1] > 0.0);
+  return std::isfinite(point[0]) && std::isfinite(point[1]) && (!plot.log_y || point[1] > 0.0) &&
+         (!plot.log_x || point[0] > 0.0);
 }
 
 void widen(double& low, double& high, double share) {
@@ -52,14 +57,15 @@ Axes axesOf(const PdfBox& area, const PdfPlot& plot) {
   Axes axes;
   axes.box = area;
   axes.log_y = plot.log_y;
+  axes.log_x = plot.log_x;
   constexpr double kFar = std::numeric_limits<double>::infinity();
   axes.x_low = axes.y_low = kFar;
   axes.x_high = axes.y_high = -kFar;
   for (const PdfSeries& series : plot.series) {
     for (const auto& point : series.points) {
       if (!isDrawn(plot, point)) continue;
-      axes.x_low = std::min(axes.x_low, point[0]);
-      axes.x_high = std::max(axes.x_high, point[0]);
+      axes.x_low = std::min(axes.x_low, axes.scaledX(point[0]));
+      axes.x_high = std::max(axes.x_high, axes.scaledX(point[0]));
       axes.y_low = std::min(axes.y_low, axes.scaledY(point[1]));
       axes.y_high = std::max(axes.y_high, axes.scaledY(point[1]));
     }
@@ -67,6 +73,14 @@ Axes axesOf(const PdfBox& area, const PdfPlot& plot) {
   if (!plot.log_y) axes.y_low = std::min(axes.y_low, 0.0);
   widen(axes.x_low, axes.x_high, 0.04);
   widen(axes.y_low, axes.y_high, 0.06);
+  if (plot.x_range) {
+    axes.x_low = axes.scaledX((*plot.x_range)[0]);
+    axes.x_high = axes.scaledX((*plot.x_range)[1]);
+  }
+  if (plot.y_range) {
+    axes.y_low = axes.scaledY((*plot.y_range)[0]);
+    axes.y_high = axes.scaledY((*plot.y_range)[1]);
+  }
   return axes;
 }
 
@@ -86,7 +100,8 @@ void drawTickY(PdfCanvas& canvas, const Axes& axes, double value, const std::str
 
 void drawTicks(PdfCanvas& canvas, const Axes& axes, const PdfPlot& plot) {
   for (const double value : roundTicks(axes.x_low, axes.x_high, 7))
-    if (!plot.whole_x || value == std::floor(value)) drawTickX(canvas, axes, value);
+    if (!(plot.whole_x || plot.log_x) || value == std::floor(value))
+      drawTickX(canvas, axes, plot.log_x ? std::pow(10.0, value) : value);
   for (const double value : roundTicks(axes.y_low, axes.y_high, 5)) {
     if (plot.log_y && value != std::floor(value)) continue;
     const double y = plot.log_y ? std::pow(10.0, value) : value;
@@ -94,14 +109,27 @@ void drawTicks(PdfCanvas& canvas, const Axes& axes, const PdfPlot& plot) {
   }
 }
 
+void drawMark(PdfCanvas& canvas, double x, double y, const PdfSeries& series) {
+  series.crosses ? canvas.cross(x, y, series.mark_radius + 0.1, series.color)
+                 : canvas.circle(x, y, series.mark_radius, series.color, true);
+}
+
 void drawSeries(PdfCanvas& canvas, const Axes& axes, const PdfPlot& plot, const PdfSeries& series) {
   std::vector<std::array<double, 2>> page;
   for (const auto& point : series.points)
     if (isDrawn(plot, point)) page.push_back({axes.pageX(point[0]), axes.pageY(point[1])});
-  canvas.polyline(page, series.color, 0.9);
-  for (const auto& point : page)
-    series.crosses ? canvas.cross(point[0], point[1], 1.8, series.color)
-                   : canvas.circle(point[0], point[1], 1.7, series.color, true);
+  if (series.line) canvas.polyline(page, series.color, 0.9, series.dashes);
+  if (!series.marks) return;
+  for (const auto& point : page) drawMark(canvas, point[0], point[1], series);
+}
+
+void drawGuides(PdfCanvas& canvas, const Axes& axes, const PdfPlot& plot) {
+  for (const PdfGuide& guide : plot.guides) {
+    const double x = axes.pageX(guide.x);
+    canvas.polyline({{x, axes.box.y}, {x, axes.box.bottom()}}, kFaintInk, 0.7, {2.0, 1.5});
+    canvas.text(x - 62.0, axes.box.y + 1.0, 60.0, guide.name,
+                {kLabelSize, false, false, kFaintInk, 1, PdfTextStyle::Align::kRight});
+  }
 }
 
 /// Title above, labels around; the area within the axes is what remains.
@@ -116,7 +144,7 @@ PdfBox drawSurroundings(PdfCanvas& canvas, const PdfBox& box, const std::string&
 }
 
 void drawNames(PdfCanvas& canvas, const PdfBox& area, const PdfPlot& plot) {
-  if (plot.series.size() < 2) return;
+  if (!plot.with_names || plot.series.size() < 2) return;
   double y = plot.names_at_foot ? area.bottom() - 9.0 * static_cast<double>(plot.series.size())
                                 : area.y + 2.0;
   for (const PdfSeries& series : plot.series) {
@@ -146,9 +174,24 @@ void drawPlot(PdfCanvas& canvas, const PdfBox& box, const PdfPlot& plot) {
   drawTicks(canvas, axes, plot);
   canvas.frame(area, kFaintInk);
   canvas.clip(area);
+  drawGuides(canvas, axes, plot);
   for (const PdfSeries& series : plot.series) drawSeries(canvas, axes, plot, series);
   canvas.unclip();
   drawNames(canvas, area, plot);
+}
+
+double drawSeriesNames(PdfCanvas& canvas, double x, double y, double width,
+                       const std::vector<PdfSeries>& series) {
+  constexpr double kSample = 24.0;
+  double taken = 0.0;
+  for (const PdfSeries& one : series) {
+    const double middle = y + taken + 5.0;
+    if (one.line) canvas.polyline({{x, middle}, {x + kSample, middle}}, one.color, 0.9, one.dashes);
+    if (one.marks) drawMark(canvas, x + 0.5 * kSample, middle, one);
+    taken += 1.5 + canvas.text(x + kSample + 4.0, y + taken, width - kSample - 4.0, one.name,
+                               {7.0, false, false, kInk, 1});
+  }
+  return taken;
 }
 
 void drawHistogram(PdfCanvas& canvas, const PdfBox& box, const std::string& title,

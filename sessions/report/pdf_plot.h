@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,16 @@ struct PdfSeries {
   std::vector<std::array<double, 2>> points;  ///< x ascending
   PdfColor color = kPdfBlue;
   bool crosses = false;  ///< marks are crosses instead of dots
+  bool line = true;
+  bool marks = true;
+  std::vector<double> dashes = {};  ///< of the line, see PdfCanvas::polyline
+  double mark_radius = 1.7;         ///< pt
+};
+
+/// An upright line with a name, e.g. at a limit.
+struct PdfGuide {
+  double x = 0.0;
+  std::string name;
 };
 
 struct PdfPlot {
@@ -25,10 +36,19 @@ struct PdfPlot {
   bool log_y = false;          ///< values that are not positive are left out
   bool whole_x = false;        ///< ticks at whole numbers only
   bool names_at_foot = false;  ///< of the series, where the upper right corner is taken
+  bool log_x = false;          ///< values that are not positive are left out
+  std::optional<std::array<double, 2>> x_range = {};  ///< as far as it is not what the points span
+  std::optional<std::array<double, 2>> y_range = {};
+  std::vector<PdfGuide> guides = {};
+  bool with_names = true;  ///< of the series; several plots side by side may share one list
 };
 
 /// Draws axes with round ticks, grid, series and their names.
 void drawPlot(PdfCanvas& canvas, const PdfBox& box, const PdfPlot& plot);
+
+/// The names of series with their lines and marks, one below the other; the height taken.
+double drawSeriesNames(PdfCanvas& canvas, double x, double y, double width,
+                       const std::vector<PdfSeries>& series);
 
 /// Counts in equal bins from `low` to `high`; what lies beyond counts in the outermost ones.
 void drawHistogram(PdfCanvas& canvas, const PdfBox& box, const std::string& title,
