@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/results_commands.h"
+#include "sessions/io/atomic_file.h"
+#include "sessions/tables/method_tables.h"
+#include "sessions/tables/result_figures.h"
+#include "sessions/tables/results_difference.h"
+#include "sessions/tables/results_set.h"
+
+namespace boresight::app {
+namespace {
+
+using sessions::CanvasFormat;
+using sessions::Table;
+using sessions::TableFormat;
+
+struct TablesArguments {
+  std::vector<std::string> results;
+  std::vector<std::string> against;
+  std::vector<std::string> tables;
+  sessions::ResultsFilter filter;
+  std::string format = "text";
+  std::string out;
+  std::string figures;
+  std::vector<std::string> figure_formats = {"pdf"};
+  bool paper = false;
+  bool all = false;
+
+  void addTo(CLI::App& command);
+};
+
+void TablesArguments::addTo(CLI::App& command) {
+  command.add_option("RESULTS", results, "Results of `whs evaluate`")
+      ->required()
+      ->type_name("FILE");
+  command
+      .add_option("--against", against,
+                  "Compares RESULTS (before) with these (after), run by run, instead")
+      ->type_name("FILE");
+  command.add_flag("--all", all, "With --against: lists also what did not change");
+  command.add_option("--table", tables, "Only these: errors, success, times (all three)")
+      ->check(CLI::IsMember({"errors", "success", "times"}));
+  command.add_option("--station", filter.stations, "Only runs of these stations")->type_name("S");
+  command.add_option("--tag", filter.tags, "Only runs with one of these tags")->type_name("T");
+  command.add_option("--method", filter.methods, "Only runs of these methods")->type_name("M");
+  command.add_flag("--paper", paper,
+                   "Shows what Pham et al. 2025 report beside ours, with what to mind");
+  command.add_option("--format", format, "text, csv or latex")
+      ->check(CLI::IsMember({"text", "csv", "latex"}))
+      ->capture_default_str()
+      ->type_name("F");
+  command.add_option("--out", out, "The tables into this file instead of onto the terminal")
+      ->type_name("FILE");
+  command
+      .add_option("--figures", figures,
+                  "Draws the figures into this folder: error_distribution, success_tolerance, "
+                  "success_seed_error, time_accuracy")
+      ->type_name("FOLDER");
+  command.add_option("--figure-format", figure_formats, "pdf, svg, png, or several of them")
+      ->check(CLI::IsMember({"pdf", "svg", "png"}))
+      ->capture_default_str()
+      ->type_name("F");
+}
+
+TableFormat tableFormat(const TablesArguments& arguments) {
+  if (arguments.format == "csv") return TableFormat::kCsv;
+  return arguments.format == "latex" ? TableFormat::kLatex : TableFormat::kText;
+}
+
+CanvasFormat canvasFormat(const std::string& name) {
+  if (name == "svg") return CanvasFormat::kSvg;
+  return name == "png" ? CanvasFormat::kPng : CanvasFormat::kPdf;
+}
+
+void write(const TablesArguments& arguments, const std::string& text) {
+  if (arguments.out.empty())
+    std::cout << text << std::flush;
+  else
+    sessions::writeFileAtomically(arguments.out, text);
+}
+
+/// What the runs are: nobody should have to guess which files and options a table is of.
+std::string provenanceText(const sessions::ResultsSet& set) {
+  std::string text;
+  for (const sessions::ResultsFacts& file : set.files)
+    text += file.file.string() + ": " + file.dataset.dataset + " (SHA-256 " +
+            file.dataset.dataset_sha256.substr(0, 12) + "), version " + file.dataset.version + "\n";
+  for (const auto& [name, method] : set.methods)
+    text += name + ": profile " + method.profile +
+            (method.options == "{}" ? "" : ", options " + method.options) +
+            (method.mesh_of.empty() ? "" : ", WRONG mesh of " + method.mesh_of) +
+            (method.mirror.empty() ? "" : ", WRONG mesh mirrored across " + method.mirror) +
+            (method.note.empty() ? "" : ", " + method.note) + "\n";
+  return text;
+}
+
+std::vector<std::filesystem::path> paths(const std::vector<std::string>& files) {
+  return {files.begin(), files.end()};
+}
+
+std::string tablesText(const TablesArguments& arguments, const sessions::ResultsSet& set) {
+  std::string text;
+  const auto add = [&](const char* name, auto make) {
+    if (!arguments.tables.empty() &&
+        std::find(arguments.tables.begin(), arguments.tables.end(), name) == arguments.tables.end())
+      return;
+    text += (text.empty() ? "" : "\n") +
+            sessions::tableText(make(set.runs, arguments.paper), tableFormat(arguments));
+  };
+  add("errors", sessions::errorTable);
+  add("success", sessions::successTable);
+  add("times", sessions::timeTable);
+  if (tableFormat(arguments) == TableFormat::kText) text += "\n" + provenanceText(set);
+  return text;
+}
+
+void drawFigures(const TablesArguments& arguments, const sessions::ResultsSet& set) {
+  std::filesystem::create_directories(arguments.figures);
+  for (const std::string& name : arguments.figure_formats) {
+    const CanvasFormat format = canvasFormat(name);
+    for (const sessions::Figure& figure : sessions::resultFigures(set.runs, format))
+      sessions::writeFileAtomically(
+          std::filesystem::path(arguments.figures) / (figure.name + sessions::extensionOf(format)),
+          figure.bytes);
+  }
+}
+
+int compareSets(const TablesArguments& arguments, const sessions::ResultsSet& before) {
+  const sessions::ResultsSet after =
+      sessions::readResultsSet(paths(arguments.against), arguments.filter);
+  const sessions::ResultsDifference difference = sessions::compareResults(before, after);
+  const Table table = sessions::differenceTable(difference, arguments.all);
+  std::string text = sessions::tableText(table, tableFormat(arguments));
+  if (tableFormat(arguments) == TableFormat::kText) {
+    const std::string sentence = sessions::differenceSentence(difference) + "\n";
+    text = (table.rows.empty() ? sentence : text + sentence) + "\nbefore:\n" +
+           provenanceText(before) + "after:\n" + provenanceText(after);
+  }
+  write(arguments, text);
+  return difference.worse > 0 ? kDifferent : kDone;
+}
+
+int makeTables(const TablesArguments& arguments) {
+  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
+  const sessions::ResultsSet set =
+      sessions::readResultsSet(paths(arguments.results), arguments.filter);
+  if (!arguments.against.empty()) return compareSets(arguments, set);
+  if (set.runs.empty()) {
+    note("no run meets all filters");
+    return kBadInput;
+  }
+  write(arguments, tablesText(arguments, set));
+  if (!arguments.figures.empty()) drawFigures(arguments, set);
+  return kDone;
+}
+
+}  // namespace
+
+void addTables(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "tables",
+      "Tables and figures of results: errors, success, time per step, distributions; or two sets "
+      "of results run by run (--against; exit 6 when a run became worse)");
+  auto arguments = std::make_shared<TablesArguments>();
+  arguments->addTo(*command);
+  command->callback([arguments, &exit_code] { exit_code = makeTables(*arguments); });
+}
+
+}  // namespace boresight::app

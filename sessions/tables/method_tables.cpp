@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/tables/method_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <tuple>
+
+#include "sessions/evaluation/summary.h"
+#include "sessions/tables/paper_figures.h"
+#include "sessions/tables/results_set.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kMradPerDegree = 1e3 * std::numbers::pi / 180.0;
+constexpr const char* kSeed = "seed";
+
+using Members = std::vector<const RunResult*>;
+
+std::optional<double> percent(std::int64_t part, std::int64_t whole) {
+  if (whole == 0) return std::nullopt;
+  return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+Statistics statisticsOf(const Members& members, double PoseError::*part) {
+  std::vector<double> values;
+  for (const RunResult* run : members)
+    if (run->completed && run->error) values.push_back((*run->error).*part);
+  return statistics(values);
+}
+
+/// Percent of completed runs within what the requirement says of one figure, over those where it
+/// says something of it.
+template <class Within>
+std::optional<double> percentWithin(const Members& members, Within&& within) {
+  std::int64_t asked = 0;
+  std::int64_t met = 0;
+  for (const RunResult* run : members) {
+    if (!run->success || !run->error || !run->requirement) continue;
+    const std::optional<bool> inside = within(*run->error, *run->requirement);
+    if (!inside) continue;
+    ++asked;
+    met += run->completed && *inside ? 1 : 0;
+  }
+  return percent(met, asked);
+}
+
+std::optional<bool> below(std::optional<double> value, std::optional<double> limit) {
+  if (!limit) return std::nullopt;
+  return value && std::abs(*value) <= *limit;
+}
+
+void takeAxes(const Members& members, MethodFigures& figures) {
+  figures.normal_percent = percentWithin(members, [](const PoseError& e, const Requirement& r) {
+    return below(e.normal_mm, r.normal_mm);
+  });
+  figures.lateral_percent = percentWithin(members, [](const PoseError& e, const Requirement& r) {
+    return below(e.lateral_mm, r.lateral_mm);
+  });
+  figures.rotation_percent = percentWithin(members, [](const PoseError& e, const Requirement& r) {
+    return below(e.rotation_mrad / kMradPerDegree, r.rotation_deg);
+  });
+  figures.projection_percent = percentWithin(members, [](const PoseError& e, const Requirement& r) {
+    return below(e.projection_px, r.projection_px);
+  });
+}
+
+MethodFigures figuresOf(const Members& members) {
+  MethodFigures figures;
+  figures.runs = static_cast<std::int64_t>(members.size());
+  std::int64_t completed = 0;
+  std::int64_t judged = 0;
+  std::int64_t successful = 0;
+  for (const RunResult* run : members) {
+    completed += run->completed ? 1 : 0;
+    judged += run->success ? 1 : 0;
+    successful += run->success.value_or(false) ? 1 : 0;
+    figures.false_positives += run->false_positive ? 1 : 0;
+  }
+  figures.completed_percent = percent(completed, figures.runs);
+  figures.success_percent = percent(successful, judged);
+  figures.normal_mm = statisticsOf(members, &PoseError::normal_mm);
+  figures.lateral_mm = statisticsOf(members, &PoseError::lateral_mm);
+  figures.rotation_mrad = statisticsOf(members, &PoseError::rotation_mrad);
+  takeAxes(members, figures);
+  return figures;
+}
+
+/// The seeds of runs, each once, as if each were what a run had ended with.
+std::vector<RunResult> seedsOf(std::span<const RunResult> runs) {
+  std::set<std::tuple<std::string, std::string, std::int32_t>> seen;
+  std::vector<RunResult> seeds;
+  for (const RunResult& run : runs) {
+    if (run.inputFailed() || !run.seed_error ||
+        !seen.insert({run.station, run.case_id, run.reseed}).second)
+      continue;
+    RunResult seed;
+    seed.case_id = run.case_id;
+    seed.station = run.station;
+    seed.tags = run.tags;
+    seed.method = kSeed;
+    seed.completed = true;
+    seed.error = run.seed_error;
+    seed.requirement = run.requirement;
+    judge(false, seed);
+    seed.false_positive = false;  // nobody claims that a seed is right
+    seeds.push_back(std::move(seed));
+  }
+  return seeds;
+}
+
+TableCell statisticsCell(const Statistics& figures) {
+  if (figures.count == 0) return {{}, {std::nullopt, std::nullopt, std::nullopt}};
+  return {{}, {figures.mean, figures.deviation, figures.maximum}};
+}
+
+TableCell statisticsCell(const PaperStatistics& figures, bool any) {
+  if (!any) return {{}, {std::nullopt, std::nullopt, std::nullopt}};
+  return {{}, {figures[0], figures[1], figures[2]}};
+}
+
+std::string rangeText(bool far) { return far ? "far" : "near"; }
+
+TableCell countCell(std::int64_t count) { return TableCell::of(std::to_string(count)); }
+
+std::string paperName(const std::string& method) { return method + " (paper)"; }
+
+std::vector<std::vector<TableCell>> paperErrorRows(const std::string& station) {
+  std::vector<std::vector<TableCell>> rows;
+  for (const PaperErrors& row : paperErrors()) {
+    if (row.station != station) continue;
+    const bool any = row.completed_percent > 0.0;
+    rows.push_back({TableCell::of(row.station), TableCell::of("near"),
+                    TableCell::of(paperName(row.method)), TableCell::of("2000"),
+                    TableCell::of(row.completed_percent), TableCell::of(row.success_percent),
+                    TableCell::of(std::nullopt), statisticsCell(row.normal_mm, any),
+                    statisticsCell(row.lateral_mm, any), statisticsCell(row.rotation_mrad, any)});
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::optional<double> median(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+std::vector<MethodFigures> methodFigures(std::span<const RunResult> runs) {
+  const std::vector<RunResult> seeds = seedsOf(runs);
+  const auto before = [](const auto& a, const auto& b) {
+    if (std::tie(std::get<0>(a), std::get<1>(a)) != std::tie(std::get<0>(b), std::get<1>(b)))
+      return std::tie(std::get<0>(a), std::get<1>(a)) < std::tie(std::get<0>(b), std::get<1>(b));
+    return methodBefore(std::get<2>(a), std::get<2>(b));
+  };
+  std::map<std::tuple<std::string, bool, std::string>, Members, decltype(before)> groups(before);
+  for (const std::span<const RunResult> all : {std::span<const RunResult>(seeds), runs})
+    for (const RunResult& run : all)
+      if (!run.inputFailed())
+        groups[{run.station, run.hasTag(kFarTag), run.method}].push_back(&run);
+  std::vector<MethodFigures> rows;
+  for (const auto& [key, members] : groups) {
+    rows.push_back(figuresOf(members));
+    std::tie(rows.back().station, rows.back().far, rows.back().method) = key;
+  }
+  return rows;
+}
+
+std::vector<MethodTimes> methodTimes(std::span<const RunResult> runs) {
+  std::map<std::string, Members, decltype(&methodBefore)> groups(&methodBefore);
+  for (const RunResult& run : runs)
+    if (!run.inputFailed() && run.status != "bad_seed") groups[run.method].push_back(&run);
+  std::vector<MethodTimes> rows;
+  for (const auto& [method, members] : groups) {
+    MethodTimes times;
+    times.method = method;
+    times.runs = static_cast<std::int64_t>(members.size());
+    std::vector<double> totals;
+    for (const RunResult* run : members) {
+      times.mean += run->seconds;
+      totals.push_back(run->seconds.total());
+    }
+    for (double StageSeconds::*part :
+         {&StageSeconds::initialization, &StageSeconds::rendering, &StageSeconds::matching,
+          &StageSeconds::pose, &StageSeconds::refinement})
+      times.mean.*part /= static_cast<double>(members.size());
+    times.median_total = median(totals).value_or(0.0);
+    times.maximum_total = *std::max_element(totals.begin(), totals.end());
+    rows.push_back(std::move(times));
+  }
+  return rows;
+}
+
+Table errorTable(std::span<const RunResult> runs, bool with_paper) {
+  const std::vector<std::string> parts = {"mean", "std", "max"};
+  Table table{"errors",
+              "Errors per station and method, over completed runs",
+              {{"station"},
+               {"range"},
+               {"method"},
+               {"runs"},
+               {"completed %", {}, 1},
+               {"success %", {}, 1},
+               {"false positives"},
+               {"normal mm", parts, 3},
+               {"lateral mm", parts, 3},
+               {"rotation mrad", parts, 3}},
+              {},
+              {"The maximum of the normal error is that of its absolute value."}};
+  std::string station;
+  for (const MethodFigures& row : methodFigures(runs)) {
+    if (with_paper && row.station != station)
+      for (auto& paper_row : paperErrorRows(row.station))
+        table.rows.push_back(std::move(paper_row));
+    station = row.station;
+    table.rows.push_back({TableCell::of(row.station), TableCell::of(rangeText(row.far)),
+                          TableCell::of(row.method), countCell(row.runs),
+                          TableCell::of(row.completed_percent), TableCell::of(row.success_percent),
+                          row.method == kSeed ? TableCell::of(std::nullopt) : countCell(row.false_positives),
+                          statisticsCell(row.normal_mm), statisticsCell(row.lateral_mm),
+                          statisticsCell(row.rotation_mrad)});
+  }
+  if (with_paper) {
+    table.notes.emplace_back(kPaperCaution);
+    table.notes.push_back(std::string("Source: ") + kPaperSource + ".");
+  }
+  return table;
+}
+
+Table successTable(std::span<const RunResult> runs, bool with_paper) {
+  Table table{"success",
+              "Completed and successful runs, percent",
+              {{"station"},
+               {"range"},
+               {"method"},
+               {"runs"},
+               {"completed %", {}, 1},
+               {"success %", {}, 1},
+               {"within normal %", {}, 1},
+               {"within lateral %", {}, 1},
+               {"within rotation %", {}, 1},
+               {"within projection %", {}, 1}},
+              {},
+              {"Within: completed and within what the requirement says of that error alone."}};
+  for (const MethodFigures& row : methodFigures(runs)) {
+    if (row.method == kSeed) continue;
+    table.rows.push_back({TableCell::of(row.station), TableCell::of(rangeText(row.far)),
+                          TableCell::of(row.method), countCell(row.runs),
+                          TableCell::of(row.completed_percent), TableCell::of(row.success_percent),
+                          TableCell::of(row.normal_percent), TableCell::of(row.lateral_percent),
+                          TableCell::of(row.rotation_percent),
+                          TableCell::of(row.projection_percent)});
+  }
+  if (!with_paper) return table;
+  for (const PaperSuccess& row : paperSuccess())
+    table.rows.push_back({TableCell::of(row.set), TableCell::of(""),
+                          TableCell::of(paperName(row.method)), countCell(row.runs),
+                          TableCell::of(row.completed_percent), TableCell::of(row.success_percent),
+                          TableCell::of(std::nullopt), TableCell::of(std::nullopt), TableCell::of(std::nullopt),
+                          TableCell::of(std::nullopt)});
+  table.notes.push_back(std::string("Rows marked (paper) are of other images, cameras and "
+                                    "requirements: they cannot be compared with ours. Source: ") +
+                        kPaperSource + ".");
+  return table;
+}
+
+Table timeTable(std::span<const RunResult> runs, bool with_paper) {
+  Table table{"times",
+              "Time per run and step, seconds",
+              {{"method"},
+               {"runs"},
+               {"initialization", {}, 3},
+               {"rendering", {}, 3},
+               {"matching", {}, 3},
+               {"pose", {}, 3},
+               {"refinement", {}, 3},
+               {"total", {}, 3},
+               {"median", {}, 3},
+               {"maximum", {}, 3}},
+              {},
+              {"Means of wall time; median and maximum are of a run's total."}};
+  for (const MethodTimes& row : methodTimes(runs))
+    table.rows.push_back({TableCell::of(row.method), countCell(row.runs),
+                          TableCell::of(row.mean.initialization), TableCell::of(row.mean.rendering),
+                          TableCell::of(row.mean.matching), TableCell::of(row.mean.pose),
+                          TableCell::of(row.mean.refinement), TableCell::of(row.mean.total()),
+                          TableCell::of(row.median_total), TableCell::of(row.maximum_total)});
+  if (!with_paper) return table;
+  for (const PaperTimes& row : paperTimes())
+    table.rows.push_back(
+        {TableCell::of(paperName(row.method)), TableCell::of("2"),
+         TableCell::of(60.0 * row.initialization_min), TableCell::of(60.0 * row.rendering_min),
+         TableCell::of(60.0 * row.matching_min), TableCell::of(60.0 * row.pose_min),
+         TableCell::of(std::nullopt), TableCell::of(60.0 * row.total_min), TableCell::of(std::nullopt),
+         TableCell::of(std::nullopt)});
+  table.notes.push_back(
+      std::string("Rows marked (paper) are of one core at 200 MHz, a BC and an OS "
+                  "case added up. Source: ") +
+      kPaperSource + ".");
+  return table;
+}
+
+}  // namespace boresight::sessions

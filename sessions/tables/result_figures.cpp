@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/tables/result_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "sessions/evaluation/summary.h"
+#include "sessions/report/pdf_plot.h"
+#include "sessions/tables/curves.h"
+#include "sessions/tables/method_tables.h"
+#include "sessions/tables/results_set.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kMradPerDegree = 1e3 * std::numbers::pi / 180.0;
+constexpr double kPanelHeight = 150.0;
+constexpr double kMargin = 12.0;
+constexpr double kTitleHeight = 18.0;
+constexpr int kSeedBins = 8;
+constexpr int kToleranceSteps = 41;
+
+using Members = std::vector<const RunResult*>;
+
+/// The runs of a station, near or far, by method.
+struct Group {
+  std::string title;
+  std::map<std::string, Members, decltype(&methodBefore)> methods{&methodBefore};
+  Members all;
+};
+
+std::vector<Group> groupsOf(std::span<const RunResult> runs) {
+  std::map<std::pair<std::string, bool>, Group> groups;
+  for (const RunResult& run : runs) {
+    if (run.inputFailed()) continue;
+    const bool far = run.hasTag(kFarTag);
+    Group& group = groups[{run.station, far}];
+    group.title = run.station + (far ? ", far" : "");
+    group.methods[run.method].push_back(&run);
+    group.all.push_back(&run);
+  }
+  std::vector<Group> made;
+  for (auto& [key, group] : groups) made.push_back(std::move(group));
+  return made;
+}
+
+/// How methods are told apart, by colour (Okabe and Ito 2008) and by dashes.
+class Styles {
+ public:
+  explicit Styles(std::span<const RunResult> runs) {
+    std::set<std::string, decltype(&methodBefore)> names(&methodBefore);
+    for (const RunResult& run : runs) names.insert(run.method);
+    std::size_t next = 0;
+    for (const std::string& name : names)
+      styles_[name] = name == "whs" ? PdfSeries{name, {}, kPdfBlue} : styleOf(name, next++);
+  }
+  PdfSeries of(const std::string& method) const { return styles_.at(method); }
+  std::vector<PdfSeries> list() const {
+    std::vector<PdfSeries> made;
+    for (const auto& [name, style] : styles_) made.push_back(style);
+    std::sort(made.begin(), made.end(),
+              [](const auto& a, const auto& b) { return methodBefore(b.name, a.name); });
+    return made;
+  }
+
+ private:
+  static PdfSeries styleOf(const std::string& name, std::size_t index) {
+    static const PdfColor kColors[] = {{0.84, 0.37, 0.00}, {0.00, 0.62, 0.45}, {0.80, 0.47, 0.65},
+                                       {0.34, 0.71, 0.91}, {0.90, 0.62, 0.00}, {0.35, 0.35, 0.40}};
+    static const std::vector<double> kDashes[] = {{5.0, 2.0}, {1.2, 1.6}, {6.0, 1.5, 1.2, 1.5},
+                                                  {3.0, 3.0}, {8.0, 2.0}, {2.0, 1.0}};
+    PdfSeries style{name, {}, kColors[index % std::size(kColors)]};
+    style.dashes = kDashes[index % std::size(kDashes)];
+    style.crosses = index % 2 == 0;
+    return style;
+  }
+  std::map<std::string, PdfSeries> styles_;
+};
+
+/// A page of panels, a row for each group, with one list of methods at the foot.
+class Sheet {
+ public:
+  Sheet(const std::string& title, CanvasFormat format, std::size_t rows, int columns,
+        std::vector<PdfSeries> names)
+      : columns_(columns),
+        names_(std::move(names)),
+        canvas_(title, format, PdfCanvas::kWidth,
+                2.0 * kMargin + kTitleHeight + static_cast<double>(rows) * kPanelHeight +
+                    11.0 * static_cast<double>(names_.size()) + 6.0) {
+    canvas_.text(kMargin, kMargin, PdfCanvas::kWidth - 2.0 * kMargin, title,
+                 {10.0, true, false, kInk, 1});
+    foot_ = kMargin + kTitleHeight + static_cast<double>(rows) * kPanelHeight;
+  }
+  void draw(std::size_t row, int column, PdfPlot plot) {
+    const double width = (PdfCanvas::kWidth - 2.0 * kMargin) / columns_;
+    plot.with_names = false;
+    drawPlot(
+        canvas_,
+        {kMargin + column * width, kMargin + kTitleHeight + static_cast<double>(row) * kPanelHeight,
+         width - 8.0, kPanelHeight - 6.0},
+        plot);
+  }
+  std::vector<std::uint8_t> finish() {
+    drawSeriesNames(canvas_, kMargin + 34.0, foot_, 300.0, names_);
+    return canvas_.finish();
+  }
+
+ private:
+  int columns_;
+  std::vector<PdfSeries> names_;
+  PdfCanvas canvas_;
+  double foot_ = 0.0;
+};
+
+/// The one value of the requirement that all runs share; nothing when they differ.
+template <class Limit>
+std::optional<double> sharedLimit(const Members& members, Limit&& limit) {
+  std::optional<double> shared;
+  for (const RunResult* run : members) {
+    const std::optional<double> value = run->requirement ? limit(*run->requirement) : std::nullopt;
+    if (!value || (shared && *shared != *value)) return std::nullopt;
+    shared = value;
+  }
+  return shared;
+}
+
+/// One of the three errors that are judged.
+struct ErrorAxis {
+  const char* label;
+  double PoseError::*part;
+  std::optional<double> (*limit)(const Requirement&);
+};
+
+const ErrorAxis kAxes[] = {
+    {"normal error, mm (absolute)", &PoseError::normal_mm,
+     [](const Requirement& required) { return required.normal_mm; }},
+    {"lateral error, mm", &PoseError::lateral_mm,
+     [](const Requirement& required) { return required.lateral_mm; }},
+    {"rotation error, mrad", &PoseError::rotation_mrad,
+     [](const Requirement& required) -> std::optional<double> {
+       if (!required.rotation_deg) return std::nullopt;
+       return *required.rotation_deg * kMradPerDegree;
+     }},
+};
+
+PdfSeries staircase(PdfSeries style, CurvePoints points, double until) {
+  style.marks = false;
+  style.points = std::move(points);
+  if (!style.points.empty()) style.points.push_back({until, style.points.back()[1]});
+  return style;
+}
+
+PdfPlot errorPlot(const Group& group, const ErrorAxis& axis, const Styles& styles) {
+  constexpr double kLow = 1e-3;
+  constexpr double kHigh = 1e3;
+  PdfPlot plot{group.title, axis.label, "% of runs at or below", {}};
+  plot.log_x = true;
+  plot.x_range = {kLow, kHigh};
+  plot.y_range = {0.0, 104.0};
+  for (const auto& [method, members] : group.methods) {
+    std::vector<double> values;
+    for (const RunResult* run : members)
+      if (run->completed && run->error)
+        values.push_back(std::max(kLow, std::abs((*run->error).*axis.part)));
+    plot.series.push_back(staircase(styles.of(method), shareBelow(values, members.size()), kHigh));
+  }
+  if (const auto limit = sharedLimit(group.all, axis.limit))
+    plot.guides.push_back({*limit, "requirement"});
+  return plot;
+}
+
+std::vector<std::uint8_t> errorFigure(const std::vector<Group>& groups, const Styles& styles,
+                                      CanvasFormat format) {
+  Sheet sheet("Distribution of errors: percent of all runs that completed with at most this error",
+              format, groups.size(), 3, styles.list());
+  for (std::size_t row = 0; row < groups.size(); ++row)
+    for (int column = 0; column < 3; ++column)
+      sheet.draw(row, column, errorPlot(groups[row], kAxes[column], styles));
+  return sheet.finish();
+}
+
+std::vector<std::uint8_t> toleranceFigure(const std::vector<Group>& groups, const Styles& styles,
+                                          CanvasFormat format) {
+  const std::vector<double> factors = geometricSteps(0.05, 20.0, kToleranceSteps);
+  const std::size_t rows = (groups.size() + 1) / 2;
+  Sheet sheet("Success against tolerance", format, rows, 2, styles.list());
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    PdfPlot plot{groups[i].title, "multiple of the requirement", "% of runs within", {}};
+    plot.log_x = true;
+    plot.x_range = {factors.front(), factors.back()};
+    plot.y_range = {0.0, 104.0};
+    plot.guides.push_back({1.0, "requirement"});
+    for (const auto& [method, members] : groups[i].methods) {
+      PdfSeries series = styles.of(method);
+      series.marks = false;
+      series.points = successAgainstTolerance(members, factors);
+      plot.series.push_back(std::move(series));
+    }
+    sheet.draw(i / 2, static_cast<int>(i % 2), std::move(plot));
+  }
+  return sheet.finish();
+}
+
+std::vector<std::uint8_t> seedFigure(const std::vector<Group>& groups, const Styles& styles,
+                                     CanvasFormat format) {
+  Sheet sheet("Success against the seed's error (each mark: an eighth of the runs)", format,
+              groups.size(), 2, styles.list());
+  for (std::size_t row = 0; row < groups.size(); ++row) {
+    for (const SeedMeasure measure : {SeedMeasure::kDistance_mm, SeedMeasure::kAngle_mrad}) {
+      const bool distance = measure == SeedMeasure::kDistance_mm;
+      PdfPlot plot{groups[row].title,
+                   distance ? "seed off, mm (normal and lateral)" : "seed off, mrad (whole angle)",
+                   "% successful",
+                   {}};
+      plot.y_range = {0.0, 104.0};
+      for (const auto& [method, members] : groups[row].methods) {
+        PdfSeries series = styles.of(method);
+        series.points = successAgainstSeed(members, measure, kSeedBins);
+        plot.series.push_back(std::move(series));
+      }
+      sheet.draw(row, distance ? 0 : 1, std::move(plot));
+    }
+  }
+  return sheet.finish();
+}
+
+/// Every run faintly small, and where the middle of both lies.
+void addTimes(const Members& members, const PdfSeries& style, PdfPlot& plot) {
+  PdfSeries each = style;
+  each.line = false;
+  each.mark_radius = 0.7;
+  each.points = timeAgainstError(members);
+  std::vector<double> seconds;
+  std::vector<double> errors;
+  for (const auto& point : each.points) {
+    seconds.push_back(point[0]);
+    errors.push_back(point[1]);
+  }
+  plot.series.push_back(std::move(each));
+  PdfSeries middle = style;
+  middle.line = false;
+  middle.mark_radius = 4.0;
+  if (const auto time = median(seconds))
+    middle.points.push_back({*time, median(errors).value_or(0.0)});
+  plot.series.push_back(std::move(middle));
+}
+
+std::vector<std::uint8_t> timeFigure(const std::vector<Group>& groups, const Styles& styles,
+                                     CanvasFormat format) {
+  const std::size_t rows = (groups.size() + 1) / 2;
+  Sheet sheet("Time against accuracy: each completed run, and the medians", format, rows, 2,
+              styles.list());
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    PdfPlot plot{groups[i].title, "seconds per run", "lateral error, mm", {}};
+    plot.log_x = plot.log_y = true;
+    for (const auto& [method, members] : groups[i].methods)
+      addTimes(members, styles.of(method), plot);
+    sheet.draw(i / 2, static_cast<int>(i % 2), std::move(plot));
+  }
+  return sheet.finish();
+}
+
+}  // namespace
+
+std::vector<Figure> resultFigures(std::span<const RunResult> runs, CanvasFormat format) {
+  const std::vector<Group> groups = groupsOf(runs);
+  const Styles styles(runs);
+  return {{kErrorFigure, errorFigure(groups, styles, format)},
+          {kToleranceFigure, toleranceFigure(groups, styles, format)},
+          {kSeedFigure, seedFigure(groups, styles, format)},
+          {kTimeFigure, timeFigure(groups, styles, format)}};
+}
+
+const char* extensionOf(CanvasFormat format) {
+  constexpr const char* kExtensions[] = {".pdf", ".svg", ".png"};
+  return kExtensions[static_cast<std::size_t>(format)];
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// A table as numbers, and as text, CSV or LaTeX.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace boresight::sessions {
+
+/// A column; of several parts ("mean", "std", "max") where it holds several numbers.
+struct TableColumn {
+  std::string name;  ///< with its unit
+  std::vector<std::string> parts = {};
+  int decimals = 0;  ///< of its numbers, as people read them
+};
+
+/// Text, or the numbers of a column's parts; a part without one shows as "-".
+struct TableCell {
+  std::string text;
+  std::vector<std::optional<double>> values = {};
+
+  static TableCell of(std::string text) { return {std::move(text), {}}; }
+  static TableCell of(std::optional<double> value) { return {{}, {value}}; }
+};
+
+struct Table {
+  std::string name;  ///< one word, for file names and labels
+  std::string title;
+  std::vector<TableColumn> columns;
+  std::vector<std::vector<TableCell>> rows;
+  std::vector<std::string> notes;  ///< sentences below the table
+};
+
+enum class TableFormat { kText, kCsv, kLatex };
+
+/// Text: columns of equal width, parts as "a / b / c", notes below. CSV (RFC 4180): each part a
+/// column of its own, numbers whole, empty where there is none, notes left out. LaTeX: a `table`
+/// with a `tabular` that needs no packages.
+std::string tableText(const Table& table, TableFormat format);
+
+}  // namespace boresight::sessions

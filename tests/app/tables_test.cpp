@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/app/run_whs.h"
+
+namespace boresight::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Results of the example, quick and good.
+class WhsTables : public testing::Test {
+ protected:
+  void evaluate(const std::string& name, const std::string& iterations) const {
+    const ProgramRun run =
+        runWhs({"evaluate", "--dataset", (exampleFolder() / "dataset.json").string(), "--out",
+                (folder_ / name).string(), "--set", "loop.max_iterations=" + iterations});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(WhsTables, MakesTablesAndFigures) {
+  evaluate("r.sqlite", "10");
+  const ProgramRun text = runWhs({"tables", file("r.sqlite"), "--paper", "--figures",
+                                  file("figures"), "--figure-format", "pdf", "png", "svg"});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_THAT(text.out, AllOf(HasSubstr("Errors per station and method"), HasSubstr("seed"),
+                              HasSubstr("whs (paper)"), HasSubstr("Time per run and step"),
+                              HasSubstr("profile default")));
+  std::size_t figures = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "figures"))
+    figures += std::filesystem::file_size(entry.path()) > 2000 ? 1 : 0;
+  EXPECT_EQ(figures, 12u) << "four figures in three formats";
+  const ProgramRun csv = runWhs({"tables", file("r.sqlite"), "--table", "errors", "--station", "os",
+                                 "--format", "csv", "--out", file("t.csv")});
+  EXPECT_EQ(csv.exit_code, 0) << csv.err;
+  EXPECT_EQ(csv.out, "");
+  EXPECT_THAT(folder_.read("t.csv"),
+              AllOf(HasSubstr("normal mm mean,normal mm std"),
+                    HasSubstr("os,near,whs,1,100,100,0,"), Not(HasSubstr("bc"))));
+  EXPECT_THAT(runWhs({"tables", file("r.sqlite"), "--format", "latex"}).out,
+              HasSubstr("\\begin{tabular}"));
+}
+
+TEST_F(WhsTables, ComparesTwoResultsRunByRun) {
+  evaluate("good.sqlite", "10");
+  evaluate("bad.sqlite", "1");
+  const ProgramRun worse = runWhs({"tables", file("good.sqlite"), "--against", file("bad.sqlite")});
+  EXPECT_EQ(worse.exit_code, 6) << worse.err;
+  EXPECT_THAT(worse.out, HasSubstr("2 runs in both: 0 better, 2 worse"));
+  const ProgramRun same = runWhs({"tables", file("good.sqlite"), "--against", file("good.sqlite")});
+  EXPECT_EQ(same.exit_code, 0);
+  EXPECT_THAT(same.out, HasSubstr("2 the same (2 bit for bit)"));
+}
+
+TEST_F(WhsTables, RefusesWhatIsNoResults) {
+  folder_.write("no.sqlite", "no");
+  EXPECT_EQ(runWhs({"tables", file("no.sqlite")}).exit_code, 3);
+  EXPECT_EQ(runWhs({"tables", file("none.sqlite")}).exit_code, 3);
+  EXPECT_EQ(runWhs({"tables"}).exit_code, 2);
+  EXPECT_EQ(runWhs({"tables", file("no.sqlite"), "--format", "word"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace boresight::test

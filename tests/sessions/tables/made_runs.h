@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "sessions/evaluation/run_result.h"
+
+namespace boresight::test {
+
+/// A run with errors of its own and the requirement 0.4 mm, 0.4 mm, 0.25 deg (4.363 mrad).
+inline sessions::RunResult madeRun(const std::string& case_id, const std::string& method,
+                                   bool completed, double normal_mm, double lateral_mm,
+                                   double rotation_mrad) {
+  sessions::RunResult run;
+  run.case_id = case_id;
+  run.station = case_id.substr(0, 2);
+  run.method = method;
+  run.status = completed ? "converged" : "pnp_failed";
+  run.completed = completed;
+  run.error = sessions::PoseError{};
+  run.error->normal_mm = normal_mm;
+  run.error->lateral_mm = lateral_mm;
+  run.error->rotation_mrad = rotation_mrad;
+  run.seed_error = sessions::PoseError{};
+  run.seed_error->normal_mm = 3.0;
+  run.seed_error->lateral_mm = 4.0;
+  run.seed_error->geodesic_mrad = 20.0;
+  run.requirement = sessions::Requirement{0.4, 0.4, 0.25, std::nullopt};
+  run.digest = case_id + method;
+  sessions::judge(false, run);
+  return run;
+}
+
+}  // namespace boresight::test

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/tables/result_figures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+
+#include "tests/sessions/tables/made_runs.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::madeRun;
+
+std::vector<RunResult> sample() {
+  std::vector<RunResult> runs;
+  for (int i = 0; i < 30; ++i)
+    for (const char* method : {"ncc", "whs"}) {
+      runs.push_back(madeRun((i % 2 == 0 ? "bc-" : "os-") + std::to_string(i), method, i % 7 != 0,
+                             0.01 * i, 0.02 * i, 0.2 * i));
+      runs.back().seconds.matching = 0.1 + 0.01 * i;
+    }
+  return runs;
+}
+
+std::string begin(const Figure& figure, std::size_t length) {
+  return {figure.bytes.begin(), figure.bytes.begin() + static_cast<std::ptrdiff_t>(length)};
+}
+
+TEST(ResultFigures, AreFilesOfEachFormat) {
+  for (const Figure& figure : resultFigures(sample(), CanvasFormat::kPdf))
+    EXPECT_EQ(begin(figure, 5), "%PDF-") << figure.name;
+  for (const Figure& figure : resultFigures(sample(), CanvasFormat::kSvg))
+    EXPECT_EQ(begin(figure, 5), "<?xml") << figure.name;
+}
+
+TEST(ResultFigures, ShowEveryMethodInItsColour) {
+  for (const Figure& figure : resultFigures(sample(), CanvasFormat::kPng)) {
+    const cv::Mat image = cv::imdecode(figure.bytes, cv::IMREAD_COLOR);
+    ASSERT_FALSE(image.empty()) << figure.name;
+    EXPECT_EQ(image.at<cv::Vec3b>(2, 2), cv::Vec3b(255, 255, 255)) << "on white";
+    for (const cv::Scalar& bgr : {cv::Scalar(178, 115, 0), cv::Scalar(0, 94, 214)}) {
+      cv::Mat of_method;
+      cv::inRange(image, bgr - cv::Scalar::all(3), bgr + cv::Scalar::all(3), of_method);
+      EXPECT_GT(cv::countNonZero(of_method), 300) << figure.name << " " << bgr;
+    }
+  }
+}
+
+TEST(ResultFigures, StandRunsWithoutTruth) {
+  std::vector<RunResult> runs = sample();
+  for (RunResult& run : runs) {
+    run.error.reset();
+    run.seed_error.reset();
+    run.success.reset();
+  }
+  EXPECT_EQ(resultFigures(runs, CanvasFormat::kPdf).size(), 4u);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/tables/table.h"
+
+#include <gtest/gtest.h>
+
+namespace boresight::sessions {
+namespace {
+
+Table sample() {
+  return {"some",
+          "Some 100 % of a_b",
+          {{"name"}, {"error mm", {"mean", "max"}, 2}, {"share %", {}, 1}},
+          {{TableCell::of("a, \"b\""), {{}, {0.125, -1.0}}, TableCell::of(50.0)},
+           {TableCell::of("c_d"), {{}, {std::nullopt, std::nullopt}}, TableCell::of(std::nullopt)}},
+          {"A note."}};
+}
+
+TEST(TableText, IsReadByPeople) {
+  EXPECT_EQ(tableText(sample(), TableFormat::kText),
+            "Some 100 % of a_b\n"
+            "name    error mm mean / max  share %\n"
+            "------------------------------------\n"
+            "a, \"b\"         0.12 / -1.00     50.0\n"
+            "c_d                       -        -\n"
+            "A note.\n");
+}
+
+TEST(TableText, IsReadByPrograms) {
+  EXPECT_EQ(tableText(sample(), TableFormat::kCsv),
+            "name,error mm mean,error mm max,share %\r\n"
+            "\"a, \"\"b\"\"\",0.125,-1,50\r\n"
+            "c_d,,,\r\n");
+}
+
+TEST(TableText, IsSetByLatex) {
+  const std::string text = tableText(sample(), TableFormat::kLatex);
+  EXPECT_NE(text.find("\\caption{Some 100 \\% of a\\_b}"), std::string::npos) << text;
+  EXPECT_NE(text.find("name & error mm mean / max & share \\% \\\\"), std::string::npos) << text;
+  EXPECT_NE(text.find("c\\_d & - & - \\\\"), std::string::npos) << text;
+  EXPECT_NE(text.find("{lrr}"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace boresight::sessions
