@@ -15,12 +15,14 @@
 #include "core/localizer/localizer.h"
 #include "sessions/io/errors.h"
 #include "sessions/report/run_text.h"
+#include "sessions/report/text_table.h"
 #include "sessions/review/check_limits.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/decide.h"
 #include "sessions/review/grounds.h"
 #include "sessions/review/run_figures.h"
 #include "sessions/session/rig_links.h"
+#include "sessions/session/session_of_results.h"
 
 namespace boresight::sessions {
 namespace {
@@ -85,6 +87,19 @@ void checkRun(const Session& session, std::shared_ptr<const LoadedCase> loaded, 
                                          : "the run failed: " + explanation(traceOf(*subject.run));
 }
 
+/// What is known of a case that was not run here: how it ended in the results that its session was
+/// made of.
+void takeListedResult(const SessionCase& one, QueueRow& row) {
+  const std::optional<ListedResult> listed = listedResult(one);
+  if (!listed) return;
+  if (!listed->completed) {
+    row.trouble = "not run here; in the results: " + listed->status;
+  } else if (listed->error_share) {
+    row.margin = 1.0 - *listed->error_share;
+    row.margin_of = "Requirement, in the results";
+  }
+}
+
 /// For comparing: no margin is the worst where checks failed, and the best where none did.
 double comparableMargin(const QueueRow& row) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -146,6 +161,8 @@ QueueRow queueRow(const Session& session, const std::string& case_id,
     } catch (const FileError& error) {
       row.trouble = error.what();
     }
+  } else if (const SessionCase* one = session.findCase(case_id)) {
+    if (reason.empty()) takeListedResult(*one, row);
   }
   takeStanding(session, row);
   return row;
@@ -181,6 +198,9 @@ std::string troubleText(const QueueRow& row) {
   if (row.group == QueueGroup::kAwaits) return "a second person has to approve";
   if (row.group == QueueGroup::kDecided) return row.standing_text;
   if (!row.trouble.empty()) return row.trouble;
+  if (row.group == QueueGroup::kNotRun && row.margin)
+    return "not run here; in the results " + fixedText(100.0 * (1.0 - *row.margin), 0) +
+           " % of the requirement off";
   if (row.group == QueueGroup::kNotRun) return "not run yet";
   if (row.failed > 0)
     return std::to_string(row.failed) + (row.failed == 1 ? " check failed: " : " checks failed: ") +

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/session_of_results.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <string_view>
+#include <tuple>
+
+#include "sessions/evaluation/requirement_share.h"
+#include "sessions/evaluation/results_file.h"
+#include "sessions/io/config_file.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
+#include "sessions/io/json_document.h"
+#include "sessions/report/text_table.h"
+#include "sessions/session/session_maker.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr std::string_view kTag = "result:";
+constexpr int kShareDecimals = 4;
+
+const MethodFacts& chosenMethod(const ResultsFacts& facts, const std::string& wanted) {
+  const auto named = [&facts](const std::string& name) {
+    return std::find_if(facts.methods.begin(), facts.methods.end(),
+                        [&name](const MethodFacts& one) { return one.method == name; });
+  };
+  auto found = named(wanted.empty() ? "whs" : wanted);
+  if (found == facts.methods.end() && wanted.empty()) found = facts.methods.begin();
+  if (found == facts.methods.end())
+    throw InputError(facts.file, wanted.empty() ? "it holds no runs"
+                                                : "it holds no runs of the method " + wanted);
+  if (!found->mesh_of.empty() || !found->mirror.empty())
+    throw InputError(facts.file,
+                     "its runs were made with deliberately wrong meshes: there is "
+                     "nothing to look at here");
+  return *found;
+}
+
+void requireSameDataset(const ResultsFacts& facts) {
+  const std::string now = sha256Text(readFileBytes(facts.dataset.dataset, kMaxJsonBytes));
+  if (now != facts.dataset.dataset_sha256)
+    throw InputError(facts.file, "its dataset " + facts.dataset.dataset +
+                                     " has changed since: evaluate again into a new file");
+}
+
+/// The runs of a method, the most troubled first.
+std::vector<RunResult> troubledFirst(const std::filesystem::path& file, const std::string& method) {
+  std::vector<RunResult> runs;
+  forEachRun(file, [&](const RunResult& run) {
+    if (run.method == method) runs.push_back(run);
+  });
+  std::stable_sort(runs.begin(), runs.end(), [](const RunResult& a, const RunResult& b) {
+    const auto key = [](const RunResult& run) {
+      return std::tuple(!run.inputFailed(), run.completed,
+                        -listedResult(run).error_share.value_or(0.0));
+    };
+    return key(a) < key(b);
+  });
+  return runs;
+}
+
+/// The flight profile has the default's options, and no memory of its own in a session.
+Session withOptionsOf(const Session& session, const ResultsFacts& facts,
+                      const MethodFacts& method) {
+  const JsonDocument document(facts.file, method.options);
+  const std::string profile = profileOptions(method.profile) ? method.profile : "default";
+  LocalizerOptions options = *profileOptions(profile);
+  applyConfig(options, Config{facts.file, profile, readOptions(document.root())});
+  return withOptions(session, profile, options);
+}
+
+}  // namespace
+
+ListedResult listedResult(const RunResult& run) {
+  ListedResult result{run.status, run.completed, std::nullopt};
+  if (run.completed && run.error && run.requirement)
+    result.error_share = requirementShare(*run.error, *run.requirement);
+  return result;
+}
+
+std::string resultTag(const ListedResult& result) {
+  std::string tag = std::string(kTag) + result.status;
+  if (result.error_share) tag += ":" + fixedText(*result.error_share, kShareDecimals);
+  return tag;
+}
+
+std::optional<ListedResult> listedResult(const SessionCase& one) {
+  for (const std::string& tag : one.tags) {
+    if (!std::string_view(tag).starts_with(kTag)) continue;
+    ListedResult result;
+    const std::size_t colon = tag.find(':', kTag.size());
+    result.status = tag.substr(kTag.size(), colon - kTag.size());
+    result.completed = result.status == "converged";
+    if (colon != std::string::npos)
+      result.error_share = std::strtod(tag.c_str() + colon + 1, nullptr);
+    return result;
+  }
+  return std::nullopt;
+}
+
+std::string resultCaseId(const RunResult& run) {
+  return run.case_id + (run.reseed > 0 ? " seed " + std::to_string(run.reseed) : "");
+}
+
+Session sessionOfResults(const std::filesystem::path& results_file, const std::string& method) {
+  const ResultsFacts facts = readResultsFacts(results_file);
+  const MethodFacts& chosen = chosenMethod(facts, method);
+  requireSameDataset(facts);
+  const std::vector<RunResult> runs = troubledFirst(results_file, chosen.method);
+  std::vector<std::string> ids;
+  for (const RunResult& run : runs)
+    if (!run.inputFailed()) ids.push_back(run.case_id);
+  if (ids.empty())
+    throw InputError(results_file, "it holds no runs of " + chosen.method + " that could begin");
+  Session session = makeSession(facts.dataset.dataset, ids);
+  std::map<std::string, SharedValue<SessionCase>> by_id;
+  for (const auto& one : session.cases) by_id.emplace(one->id, one);
+  session.cases.clear();
+  for (const RunResult& run : runs) {
+    const auto found = by_id.find(run.case_id);
+    if (found == by_id.end()) continue;
+    SessionCase one = *found->second;
+    one.id = resultCaseId(run);
+    if (run.reseed > 0) one.camera_from_station_seed = run.camera_from_station_seed;
+    one.tags.push_back(resultTag(listedResult(run)));
+    session.cases.emplace_back(std::move(one));
+  }
+  return withOptionsOf(session, facts, chosen);
+}
+
+}  // namespace boresight::sessions

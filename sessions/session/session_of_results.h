@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// A results file as a session: its runs become cases to look at and to run again.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "sessions/evaluation/run_result.h"
+#include "sessions/session/session.h"
+
+namespace boresight::sessions {
+
+/// How a case's run ended in the results that its session was made of.
+struct ListedResult {
+  std::string status;  ///< as RunResult has it
+  bool completed = false;
+  /// The part of the requirement that its error took up, see requirementShare; nothing without
+  /// truth or requirement.
+  std::optional<double> error_share;
+};
+ListedResult listedResult(const RunResult& run);
+
+/// As one of a case's tags, "result:converged:0.37" or "result:pnp_failed", and back; nothing when
+/// there is no such tag.
+std::string resultTag(const ListedResult& result);
+std::optional<ListedResult> listedResult(const SessionCase& one);
+
+/// "bc-000012", or "bc-000012 seed 3" for a further seed.
+std::string resultCaseId(const RunResult& run);
+
+/// A session of the cases of a results file's runs, by one method, each with the seed that its run
+/// began from and a tag of how it ended; profile and options are the method's, so that a run here
+/// repeats the one listed. The most troubled come first: refused inputs, failed runs, then by error
+/// share. `method` empty: WHS where it is there, else the first. InputError when the file or the
+/// dataset that it names cannot be read, the dataset is not the one any more, there is no such
+/// method, or its meshes were deliberately wrong.
+Session sessionOfResults(const std::filesystem::path& results_file, const std::string& method = {});
+
+}  // namespace boresight::sessions

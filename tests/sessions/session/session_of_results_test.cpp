@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/session_of_results.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sessions/evaluation/batch.h"
+#include "sessions/evaluation/results_writer.h"
+#include "sessions/io/config_file.h"
+#include "sessions/io/errors.h"
+#include "sessions/review/queue.h"
+#include "sessions/session/case_run.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// The example, run with three seeds a case; the options cannot converge but for one case.
+class SessionOfResults : public testing::Test {
+ protected:
+  SessionOfResults() {
+    options_.localizer = defaultProfile();
+    options_.localizer.loop.max_iterations = 1;
+    options_.reseeds = 1;
+    const Dataset dataset = readDataset(dataset_file_);
+    runs_ = runBatch(dataset, options_, {});
+    // How the runs ended is made up: what matters is who comes first.
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      runs_[i].completed = i > 0;
+      runs_[i].status = i > 0 ? "converged" : "pnp_failed";
+      runs_[i].error->normal_mm = 0.1 * static_cast<double>(i);
+      runs_[i].error->lateral_mm = 0.0;
+      runs_[i].error->rotation_mrad = 0.0;
+      runs_[i].requirement = Requirement{0.4, 0.4, 0.25, std::nullopt};
+    }
+  }
+  void write(const std::string& method = "whs", const std::string& mirror = {}) const {
+    ResultsWriter writer(file_, datasetFacts(dataset_file_, 2));
+    MethodFacts facts = methodFacts(method, "default", options_.localizer);
+    facts.mirror = mirror;
+    writer.admit(facts);
+    writer.begin(Sitting{});
+    for (RunResult run : runs_) {
+      run.method = method;
+      writer.add(run);
+    }
+  }
+
+  const test::TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "r.sqlite";
+  const std::filesystem::path dataset_file_ = test::exampleFolder() / "dataset.json";
+  BatchOptions options_;
+  std::vector<RunResult> runs_;
+};
+
+TEST_F(SessionOfResults, ListsTheMostTroubledFirstAndSoDoesTheQueue) {
+  write();
+  const Session session = sessionOfResults(file_);
+  std::vector<std::string> expected;
+  for (const std::size_t i : {0, 3, 2, 1}) expected.push_back(resultCaseId(runs_[i]));
+  std::vector<std::string> listed;
+  for (const auto& one : session.cases) listed.push_back(one->id);
+  EXPECT_EQ(listed, expected);
+  std::vector<std::string> queued;
+  const std::vector<QueueRow> rows = queueRows(session);
+  for (const QueueRow& row : rows) queued.push_back(row.case_id);
+  EXPECT_EQ(queued, expected);
+  EXPECT_EQ(troubleText(rows[0]), "not run here; in the results: pnp_failed");
+  EXPECT_EQ(troubleText(rows[1]), "not run here; in the results 75 % of the requirement off");
+}
+
+TEST_F(SessionOfResults, RepeatsARunByItsOwnSeedAndOptions) {
+  write();
+  const Session session = sessionOfResults(file_);
+  for (const RunResult& run : runs_) {
+    const SessionCase* one = session.findCase(resultCaseId(run));
+    ASSERT_NE(one, nullptr) << resultCaseId(run);
+    EXPECT_EQ(runCase(session, one->id, RecordLevel::kSummary).digest, run.digest)
+        << "bit for bit what `whs evaluate` ran";
+  }
+}
+
+TEST_F(SessionOfResults, RefusesWhatItCannotShow) {
+  EXPECT_THROW(sessionOfResults(file_), InputError);
+  write();
+  EXPECT_THAT(folder_.message([&] { (void)sessionOfResults(file_, "ncc"); }),
+              HasSubstr("no runs of the method ncc"));
+  write("mirrored", "x");
+  EXPECT_THAT(folder_.message([&] { (void)sessionOfResults(file_, "mirrored"); }),
+              HasSubstr("deliberately wrong"));
+}
+
+TEST_F(SessionOfResults, RefusesADatasetThatHasChanged) {
+  ResultsWriter writer(file_, {dataset_file_.string(), "another", 2, "1"});
+  writer.admit(methodFacts("whs", "default", options_.localizer));
+  EXPECT_THAT(folder_.message([&] { (void)sessionOfResults(file_); }),
+              HasSubstr("has changed since"));
+}
+
+TEST(ResultTag, IsReadBack) {
+  SessionCase one;
+  one.tags = {"far", resultTag({"converged", true, 0.375})};
+  EXPECT_EQ(one.tags[1], "result:converged:0.3750");
+  ASSERT_TRUE(listedResult(one));
+  EXPECT_TRUE(listedResult(one)->completed);
+  EXPECT_DOUBLE_EQ(*listedResult(one)->error_share, 0.375);
+  one.tags = {resultTag({"pnp_failed", false, std::nullopt})};
+  EXPECT_EQ(listedResult(one)->status, "pnp_failed");
+  EXPECT_FALSE(listedResult(one)->error_share);
+  one.tags = {"far"};
+  EXPECT_FALSE(listedResult(one));
+}
+
+}  // namespace
+}  // namespace boresight::sessions
