@@ -10,6 +10,7 @@
 #include "app/exit_codes.h"
 #include "core/base/kernels.h"
 #include "core/localizer/localizer_options.h"
+#include "sessions/baselines/method_options.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/io/scene_mesh.h"
@@ -50,9 +51,6 @@ struct MeshArguments {
   sessions::SceneMesh read() const;
 };
 
-/// --method: refused, with what there is, unless it exists.
-void addMethod(CLI::App& command, std::string& method);
-
 /// --threads: how many a run may use.
 void addThreads(CLI::App& command, int& threads);
 
@@ -68,6 +66,8 @@ struct OptionArguments {
   void addTo(CLI::App& command);
   /// Profile, then config, then --set. InputError for the config, CLI::ValidationError for --set.
   LocalizerOptions read() const;
+  /// The same for the methods beside WHS, whose options stand in the same places.
+  sessions::MethodOptions readMethodOptions() const;
   /// "paper", "default" or "flight": the one asked for, else the config's.
   std::string profileName() const;
   /// Bytes for a run and its inputs; 0 where the profile sets no limit.

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "app/commands.h"
+#include "app/method_arguments.h"
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/results_database.h"
 #include "sessions/evaluation/summary.h"
@@ -31,6 +32,7 @@ struct EvaluateArguments {
   std::string jsonl;
   std::string mirror;
   OptionArguments options;
+  MethodArguments method;
   sessions::BatchOptions batch;
 
   void addTo(CLI::App& command);
@@ -41,7 +43,7 @@ void EvaluateArguments::addTo(CLI::App& command) {
   command.add_option("--case", batch.cases, "Only these cases")->type_name("ID");
   command.add_option("--tag", batch.tags, "Only cases with one of these tags")->type_name("T");
   command.add_option("--station", batch.stations, "Only cases of these stations")->type_name("S");
-  addMethod(command, batch.method);
+  method.addTo(command, true);
   addKernels(command, batch.kernels);
   options.addTo(command);
   command.add_option("--jobs", batch.jobs, "Runs at a time")
@@ -120,12 +122,14 @@ class Progress {
 sessions::BatchFacts factsOf(const EvaluateArguments& arguments, bool whole) {
   const sessions::BatchOptions& batch = arguments.batch;
   const std::string profile = arguments.options.profileName();
-  const auto changed = sessions::changedOptions(batch.localizer, profileOptions(profile));
+  auto changed = sessions::changedOptions(batch.localizer, profileOptions(profile));
+  for (auto& option : arguments.method.changedOptions(batch.method_setup.options))
+    changed.push_back(std::move(option));
   return {{"version", sessions::kVersion},
           {"dataset", arguments.dataset},
           {"dataset_sha256", sessions::sha256Text(sessions::readFileBytes(
                                  arguments.dataset, sessions::kMaxJsonBytes))},
-          {"method", batch.method},
+          {"method", arguments.method.names()},
           {"profile", profile},
           {"options", sessions::toJson(changed).dump()},
           {"reseed", std::to_string(batch.reseeds)},
@@ -147,6 +151,8 @@ int evaluate(EvaluateArguments& arguments) {
   if (!arguments.mirror.empty())
     arguments.batch.mirror = static_cast<sessions::MirrorAxis>(arguments.mirror.front() - 'x');
   arguments.batch.localizer = arguments.options.read();
+  arguments.batch.methods = arguments.method.methods;
+  arguments.batch.method_setup = arguments.method.setup(arguments.options);
   arguments.batch.memory_limit = arguments.options.memoryLimit();
   const sessions::Dataset dataset = sessions::readDataset(arguments.dataset);
   for (const std::string& line : dataset.notes) note(line);

@@ -121,6 +121,7 @@ class Batch {
   struct Item {
     CaseWork* work = nullptr;
     int reseed = 0;
+    const std::string* method = nullptr;
   };
 
   void workUntilDone(const std::stop_token& stop);
@@ -134,6 +135,7 @@ class Batch {
   std::map<std::string, Shared<StationScene>> scenes_;
   std::vector<std::unique_ptr<CaseWork>> cases_;
   std::vector<Item> items_;
+  Methods methods_;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;  ///< over what follows
   std::vector<std::optional<RunResult>> results_;
@@ -142,7 +144,7 @@ class Batch {
 };
 
 Batch::Batch(const Dataset& dataset, const BatchOptions& options, const BatchProgress& progress)
-    : dataset_(dataset), options_(options), progress_(progress) {
+    : dataset_(dataset), options_(options), progress_(progress), methods_(options.method_setup) {
   for (const Case* one : selectedCases(dataset, options)) {
     auto work = std::make_unique<CaseWork>();
     work->input = one;
@@ -150,8 +152,10 @@ Batch::Batch(const Dataset& dataset, const BatchOptions& options, const BatchPro
     work->mesh_station = &dataset.stations.at(mesh);
     work->scene = &scenes_[mesh];
     const int reseeds = one->truth_camera_from_station ? options.reseeds : 0;
-    work->runs_left = reseeds + 1;
-    for (int reseed = 0; reseed <= reseeds; ++reseed) items_.push_back({work.get(), reseed});
+    work->runs_left = (reseeds + 1) * static_cast<int>(options.methods.size());
+    for (int reseed = 0; reseed <= reseeds; ++reseed)
+      for (const std::string& method : options.methods)
+        items_.push_back({work.get(), reseed, &method});
     cases_.push_back(std::move(work));
   }
   results_.resize(items_.size());
@@ -202,7 +206,7 @@ RunResult Batch::runItem(const Item& item, const std::stop_token& stop) {
   result.case_id = one.id;
   result.reseed = item.reseed;
   result.station = one.station;
-  result.method = options_.method;
+  result.method = *item.method;
   result.tags = one.tags;
   result.requirement = one.requirement;
   try {
@@ -210,6 +214,9 @@ RunResult Batch::runItem(const Item& item, const std::stop_token& stop) {
   } catch (const FileError& error) {
     result.status = "input_error";
     result.message = error.what();
+  } catch (const MethodError& error) {
+    result.status = "method_error";
+    result.message = one.id + ": " + error.what();
   } catch (const std::bad_alloc&) {
     result.status = "input_error";
     result.message = one.image.string() + ": not enough memory for this image and mesh";
@@ -257,7 +264,7 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
     settings.memory_limit = options_.memory_limit;
     settings.threads = options_.threads;
     settings.kernels = options_.kernels;
-    noteTrace(localize(problem, options, settings, stop), result);
+    noteTrace(methods_.localize(result.method, problem, options, settings, stop), result);
   } else {
     result.status = "bad_seed";
   }
