@@ -5,6 +5,7 @@
 #include <iostream>
 #include <map>
 
+#include "sessions/baselines/method_options.h"
 #include "sessions/report/text_table.h"
 #include "sessions/trace/record.h"
 

@@ -10,10 +10,13 @@
 #include "app/exit_codes.h"
 #include "core/base/kernels.h"
 #include "core/localizer/localizer_options.h"
-#include "sessions/baselines/method_options.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/io/scene_mesh.h"
+
+namespace boresight::sessions {
+struct MethodOptions;
+}
 
 namespace boresight::app {
 

@@ -151,7 +151,6 @@ int evaluate(EvaluateArguments& arguments) {
   if (!arguments.mirror.empty())
     arguments.batch.mirror = static_cast<sessions::MirrorAxis>(arguments.mirror.front() - 'x');
   arguments.batch.localizer = arguments.options.read();
-  arguments.batch.methods = arguments.method.methods;
   arguments.batch.method_setup = arguments.method.setup(arguments.options);
   arguments.batch.memory_limit = arguments.options.memoryLimit();
   const sessions::Dataset dataset = sessions::readDataset(arguments.dataset);
@@ -162,12 +161,16 @@ int evaluate(EvaluateArguments& arguments) {
   {
     const InterruptWatch watch(stop);
     auto progress = std::make_shared<Progress>();
-    results = sessions::runBatch(
-        dataset, arguments.batch,
-        [progress](std::size_t done, std::size_t total, const sessions::RunResult& result) {
-          (*progress)(done, total, result);
-        },
-        stop.get_token());
+    for (const std::string& method : arguments.method.methods) {
+      arguments.batch.method = method;
+      std::vector<sessions::RunResult> made = sessions::runBatch(
+          dataset, arguments.batch,
+          [progress](std::size_t done, std::size_t total, const sessions::RunResult& result) {
+            (*progress)(done, total, result);
+          },
+          stop.get_token());
+      results.insert(results.end(), made.begin(), made.end());
+    }
   }
   const bool whole = !stop.stop_requested();
   sessions::writeResultsDatabase(arguments.out, results, factsOf(arguments, whole));

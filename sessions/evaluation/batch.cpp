@@ -121,7 +121,6 @@ class Batch {
   struct Item {
     CaseWork* work = nullptr;
     int reseed = 0;
-    const std::string* method = nullptr;
   };
 
   void workUntilDone(const std::stop_token& stop);
@@ -152,10 +151,8 @@ Batch::Batch(const Dataset& dataset, const BatchOptions& options, const BatchPro
     work->mesh_station = &dataset.stations.at(mesh);
     work->scene = &scenes_[mesh];
     const int reseeds = one->truth_camera_from_station ? options.reseeds : 0;
-    work->runs_left = (reseeds + 1) * static_cast<int>(options.methods.size());
-    for (int reseed = 0; reseed <= reseeds; ++reseed)
-      for (const std::string& method : options.methods)
-        items_.push_back({work.get(), reseed, &method});
+    work->runs_left = reseeds + 1;
+    for (int reseed = 0; reseed <= reseeds; ++reseed) items_.push_back({work.get(), reseed});
     cases_.push_back(std::move(work));
   }
   results_.resize(items_.size());
@@ -206,7 +203,7 @@ RunResult Batch::runItem(const Item& item, const std::stop_token& stop) {
   result.case_id = one.id;
   result.reseed = item.reseed;
   result.station = one.station;
-  result.method = *item.method;
+  result.method = options_.method;
   result.tags = one.tags;
   result.requirement = one.requirement;
   try {
@@ -264,7 +261,7 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
     settings.memory_limit = options_.memory_limit;
     settings.threads = options_.threads;
     settings.kernels = options_.kernels;
-    noteTrace(methods_.localize(result.method, problem, options, settings, stop), result);
+    noteTrace(methods_.localize(options_.method, problem, options, settings, stop), result);
   } else {
     result.status = "bad_seed";
   }

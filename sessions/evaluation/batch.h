@@ -25,8 +25,8 @@ struct BatchOptions {
   std::vector<std::string> stations;
 
   LocalizerOptions localizer;  ///< a feature size of 0 is replaced by the station's, if it has one
-  std::vector<std::string> methods = {"whs"};  ///< each case and reseed is run by each of them
-  MethodSetup method_setup;                    ///< of those that are not WHS
+  std::string method = "whs";
+  MethodSetup method_setup;  ///< of those that are not WHS
   Kernels kernels = bestKernels();
   int jobs = 1;
   int threads = 1;               ///< of each run
@@ -45,8 +45,7 @@ using BatchProgress = std::function<void(std::size_t done, std::size_t total, co
 
 /// Runs cases and reseeds on `jobs` threads. An image is read once, shared by the runs of its case,
 /// and dropped after the last; what a run keeps is small. A case whose files are wrong is a result
-/// with status "input_error", one whose method could not go on one with "method_error", and the
-/// others go on. The results are in the order of the dataset,
+/// with status "input_error", and the others go on. The results are in the order of the dataset,
 /// whatever the number of threads; after a stop, those that have not been run are missing.
 /// InputError when a filter or `mesh_of` names what the dataset does not have, or nothing is left.
 std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& options,
