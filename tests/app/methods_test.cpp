@@ -102,8 +102,10 @@ TEST_F(WhsMethods, AMatcherThatFailsCostsItsCaseAndNotTheRun) {
     for (const auto& result : results) {
       const bool failed = result["method"] == "external";
       EXPECT_EQ(result["status"] == "method_error", failed) << result.dump();
-      if (failed) EXPECT_THAT(std::string(result["message"]), HasSubstr("the matcher"));
-      if (!failed) EXPECT_EQ(result["completed"], true);
+      EXPECT_EQ(result["completed"], !failed);
+      if (failed) {
+        EXPECT_THAT(std::string(result["message"]), HasSubstr("the matcher"));
+      }
     }
     std::filesystem::remove(folder_ / "r.sqlite");
   }

@@ -80,9 +80,10 @@ TEST(LocalizerOutside, TheSameMatchesMakeTheSameBits) {
     outside.localizer.matchOutside({});
     StepReport report;
     for (int steps = 0; !report.finished && steps < 1000000; ++steps) {
-      if (outside.localizer.awaitsMatches())
+      if (outside.localizer.awaitsMatches()) {
         ASSERT_EQ(outside.localizer.supplyMatches(whs.match(outside.localizer.workspace())),
                   Status::kOk);
+      }
       report = outside.localizer.step();
     }
     EXPECT_EQ(outside.localizer.workspace().status, LocalizationStatus::kConverged);
@@ -179,7 +180,9 @@ TEST(LocalizerOutside, NoMatchesEndTheRunAsTooFew) {
   Localizer& localizer = waiting.run.localizer;
   StepReport report;
   for (int steps = 0; !report.finished && steps < 1000000; ++steps) {
-    if (localizer.awaitsMatches()) ASSERT_EQ(localizer.supplyMatches({}), Status::kOk);
+    if (localizer.awaitsMatches()) {
+      ASSERT_EQ(localizer.supplyMatches({}), Status::kOk);
+    }
     report = localizer.step();
   }
   EXPECT_EQ(localizer.workspace().status, LocalizationStatus::kTooFewMatches);
