@@ -169,7 +169,7 @@ TEST_F(ReviewPanelTest, ADecisionIsOneEditThatUndoTakesBack) {
   ASSERT_TRUE(document_.undo());
   EXPECT_EQ(standing(), CaseStanding::kConverged);
   EXPECT_TRUE(document_.session().decisions.empty());
-  EXPECT_FALSE(history().contains(QStringLiteral("Ada")));
+  EXPECT_FALSE(history().contains(QStringLiteral("Validated by Ada")));
   ASSERT_TRUE(document_.redo());
   EXPECT_EQ(standing(), CaseStanding::kValidated);
 }
@@ -264,7 +264,7 @@ TEST_F(ReviewPanelTest, LimitsAreEditedInTheirDialogAndSurviveSaving) {
   const int checked_row = hands().rowOf(QString::fromUtf8("✗ Inliers"));
   ASSERT_GE(checked_row, 0);
   EXPECT_EQ(hands().table().model()->index(checked_row, ChecksModel::kLimit).data().toString(),
-            QStringLiteral("at least 9e+03"));
+            QString::fromUtf8("≥ 9000"));
   QTest::mouseClick(dialog->findChild<QCheckBox*>(QStringLiteral("secondPerson")), Qt::LeftButton,
                     Qt::NoModifier, QPoint(8, 8));
   EXPECT_TRUE(document_.session().review.second_person);
@@ -305,7 +305,7 @@ TEST_F(ReviewPanelTest, TheBasinTestEntersTheChecksAndCanBeStopped) {
   hands().click("basin");
   ASSERT_TRUE(checked());
   EXPECT_NE(state(), CheckState::kNotApplicable) << "what has been run counts";
-  EXPECT_TRUE(hands().button("basin")->text().contains(QStringLiteral("Test")));
+  EXPECT_TRUE(hands().button("basin")->text().contains(QStringLiteral("test")));
 }
 
 TEST_F(ReviewPanelTest, AReadOnlySessionIsNotDecidedOn) {
