@@ -22,6 +22,7 @@ void addEvaluate(CLI::App& app, int& exit_code);
 void addCompare(CLI::App& app, int& exit_code);
 void addCheck(CLI::App& app, int& exit_code);
 void addDecide(CLI::App& app, int& exit_code);
+void addReport(CLI::App& app, int& exit_code);
 void addVerify(CLI::App& app, int& exit_code);
 void addQueue(CLI::App& app, int& exit_code);
 void addSolve(CLI::App& app, int& exit_code);

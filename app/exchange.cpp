@@ -5,7 +5,6 @@
 #include "app/commands.h"
 #include "app/open_session.h"
 #include "sessions/io/atomic_file.h"
-#include "sessions/review/checks.h"
 #include "sessions/review/handed_pose.h"
 #include "sessions/review/pose_exchange.h"
 #include "sessions/review/validated_pose_file.h"
@@ -46,14 +45,7 @@ void tell(const std::vector<std::string>& case_ids, const std::vector<std::strin
 /// A pose that nobody judged is handed over with its checks as they are now.
 void exportPose(const sessions::Session& session, const ExchangeArguments& arguments) {
   sessions::requireWritable(arguments.pose);
-  sessions::HandedPose pose = sessions::handedPose(session, arguments.onlyCase());
-  if (pose.checks.empty()) {
-    const auto subject = sessions::reviewSubject(
-        session, sessions::loadCase(*session.findCase(pose.case_id)), pose.source);
-    const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
-    for (const sessions::Check& check : sessions::checkPose(subject, limits))
-      pose.checks.push_back({check, ""});
-  }
+  const sessions::HandedPose pose = sessions::checkedPose(session, arguments.onlyCase());
   sessions::writeValidatedPose(arguments.pose, session, pose);
   std::cout << pose.case_id << ": " << pose.standing << std::endl;
 }

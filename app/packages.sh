@@ -4,14 +4,14 @@
 boresight_packages=(
   build-essential cmake ninja-build ccache
   libeigen3-dev libopencv-dev libassimp-dev nlohmann-json3-dev libsqlite3-dev libcli11-dev
-  libminizip-dev zlib1g-dev
+  libminizip-dev zlib1g-dev pkg-config libcairo2-dev libpango1.0-dev fonts-dejavu-core
   libgtest-dev libgmock-dev libbenchmark-dev
   qtbase5-dev libvtk9-dev libvtk9-qt-dev libqwt-qt5-dev xvfb xauth libgl1-mesa-dri
 )
 
 # Other compilers, and an emulator for what one of them makes: the tests that need them are skipped,
 # visibly, where they are not.
-boresight_optional_packages=(clang g++-powerpc-linux-gnu qemu-user)
+boresight_optional_packages=(clang g++-powerpc-linux-gnu qemu-user poppler-utils)
 
 # missingPackages PACKAGE...: those that are not installed, one a line.
 missingPackages() {

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include <cairo-pdf.h>
+#include <pango/pangocairo.h>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <pango/pangocairo.h>
 
 namespace boresight::sessions {
 namespace {
@@ -100,8 +100,8 @@ cairo_surface_t* makeSurface(const cv::Mat& bgr) {
     auto* row = reinterpret_cast<std::uint32_t*>(data + static_cast<std::ptrdiff_t>(y) * stride);
     for (int x = 0; x < bgr.cols; ++x) {
       const auto& p = bgr.at<cv::Vec3b>(y, x);
-      row[x] = static_cast<std::uint32_t>(p[2]) << 16U | static_cast<std::uint32_t>(p[1]) << 8U |
-               p[0];
+      row[x] =
+          static_cast<std::uint32_t>(p[2]) << 16U | static_cast<std::uint32_t>(p[1]) << 8U | p[0];
     }
   }
   cairo_surface_mark_dirty(surface);
@@ -123,8 +123,7 @@ struct PdfCanvas::Pieces {
 };
 
 PdfCanvas::PdfCanvas(const std::string& title) : pieces_(std::make_unique<Pieces>()) {
-  pieces_->surface =
-      cairo_pdf_surface_create_for_stream(append, &pieces_->bytes, kWidth, kHeight);
+  pieces_->surface = cairo_pdf_surface_create_for_stream(append, &pieces_->bytes, kWidth, kHeight);
   cairo_pdf_surface_set_metadata(pieces_->surface, CAIRO_PDF_METADATA_TITLE,
                                  validUtf8(title).c_str());
   cairo_pdf_surface_set_metadata(pieces_->surface, CAIRO_PDF_METADATA_CREATOR, "Boresight");

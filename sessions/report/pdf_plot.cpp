@@ -26,7 +26,7 @@ struct Axes {
 
 std::string tickText(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.4g", std::abs(value) < 1e-12 ? 0.0 : value);
+  std::snprintf(text, sizeof text, "%.6g", std::abs(value) < 1e-12 ? 0.0 : value);
   return text;
 }
 
@@ -94,8 +94,7 @@ void drawTicks(PdfCanvas& canvas, const Axes& axes, const PdfPlot& plot) {
   }
 }
 
-void drawSeries(PdfCanvas& canvas, const Axes& axes, const PdfPlot& plot,
-                const PdfSeries& series) {
+void drawSeries(PdfCanvas& canvas, const Axes& axes, const PdfPlot& plot, const PdfSeries& series) {
   std::vector<std::array<double, 2>> page;
   for (const auto& point : series.points)
     if (isDrawn(plot, point)) page.push_back({axes.pageX(point[0]), axes.pageY(point[1])});
@@ -118,7 +117,8 @@ PdfBox drawSurroundings(PdfCanvas& canvas, const PdfBox& box, const std::string&
 
 void drawNames(PdfCanvas& canvas, const PdfBox& area, const PdfPlot& plot) {
   if (plot.series.size() < 2) return;
-  double y = area.y + 2.0;
+  double y = plot.names_at_foot ? area.bottom() - 9.0 * static_cast<double>(plot.series.size())
+                                : area.y + 2.0;
   for (const PdfSeries& series : plot.series) {
     const std::string sign = series.crosses ? "\xC3\x97 " : "\xE2\x97\x8F ";
     y += canvas.text(area.x, y, area.width - 3.0, sign + series.name,
@@ -161,8 +161,8 @@ void drawHistogram(PdfCanvas& canvas, const PdfBox& box, const std::string& titl
     const double place = std::floor((value - low) / (high - low) * bins);
     counts[static_cast<std::size_t>(std::clamp(place, 0.0, bins - 1.0))] += 1.0;
   }
-  Axes axes{area, low, high, 0.0, 1.05 * std::max(1.0, *std::max_element(counts.begin(),
-                                                                        counts.end()))};
+  Axes axes{area, low, high, 0.0,
+            1.05 * std::max(1.0, *std::max_element(counts.begin(), counts.end()))};
   for (const double value : roundTicks(low, high, 6)) drawTickX(canvas, axes, value);
   for (const double value : roundTicks(0.0, axes.y_high, 4))
     drawTickY(canvas, axes, value, tickText(value));

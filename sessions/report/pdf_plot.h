@@ -22,8 +22,9 @@ struct PdfPlot {
   std::string x_label;
   std::string y_label;
   std::vector<PdfSeries> series;
-  bool log_y = false;      ///< values that are not positive are left out
-  bool whole_x = false;    ///< ticks at whole numbers only
+  bool log_y = false;          ///< values that are not positive are left out
+  bool whole_x = false;        ///< ticks at whole numbers only
+  bool names_at_foot = false;  ///< of the series, where the upper right corner is taken
 };
 
 /// Draws axes with round ticks, grid, series and their names.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sessions/io/errors.h"
+#include "sessions/review/checks.h"
 #include "sessions/review/standing.h"
 #include "sessions/session/case_marks.h"
 #include "sessions/session/case_run.h"
@@ -64,6 +65,30 @@ HandedPose handedPose(const Session& session, const std::string& case_id) {
   else
     takeMarks(session, *one, pose);
   return pose;
+}
+
+HandedPose checkedPose(const Session& session, const std::string& case_id,
+                       std::shared_ptr<const LoadedCase> loaded) {
+  HandedPose pose = handedPose(session, case_id);
+  if (!pose.checks.empty()) return pose;
+  if (!loaded) loaded = loadCase(*session.findCase(case_id));
+  const ReviewSubject subject =
+      reviewSubject(session, std::move(loaded), pose.source, pose.run_digest);
+  const CheckLimits limits = checkLimits(session.review.preset, session.review.limits);
+  for (const Check& check : checkPose(subject, limits)) pose.checks.push_back({check, ""});
+  return pose;
+}
+
+std::optional<LocalizationTrace> traceOf(const Session& session, const HandedPose& pose) {
+  const auto run = std::find_if(session.runs.begin(), session.runs.end(), [&](const auto& one) {
+    return one.case_id == pose.case_id && one.digest == pose.run_digest;
+  });
+  if (run == session.runs.end()) return {};
+  try {
+    return loadRun(*run);
+  } catch (const InputError&) {  // the pose stands without it
+    return {};
+  }
 }
 
 HandedPoses handedPoses(const Session& session, const std::vector<std::string>& case_ids) {

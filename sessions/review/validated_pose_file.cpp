@@ -244,17 +244,7 @@ ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
 
 void writeValidatedPose(const std::filesystem::path& file, const Session& session,
                         const HandedPose& pose) {
-  std::optional<LocalizationTrace> trace;
-  const auto run = std::find_if(session.runs.begin(), session.runs.end(), [&](const auto& one) {
-    return one.case_id == pose.case_id && one.digest == pose.run_digest;
-  });
-  if (run != session.runs.end()) {
-    try {
-      trace = loadRun(*run);
-    } catch (const InputError&) {  // the pose does not need it: its matches are left out
-    }
-  }
-  writeJsonFile(file, validatedPoseJson(session, pose, trace, file));
+  writeJsonFile(file, validatedPoseJson(session, pose, traceOf(session, pose), file));
 }
 
 }  // namespace boresight::sessions

@@ -9,6 +9,7 @@
 #include <QInputDialog>
 #include <QMenu>
 
+#include "sessions/report/pose_report.h"
 #include "sessions/review/pose_exchange.h"
 #include "sessions/review/standing.h"
 #include "sessions/review/validated_pose_file.h"
@@ -34,12 +35,15 @@ void PoseExport::addTo(QMenu& menu) {
   pose->setStatusTip(
       tr("The shown case's pose with its checks, who decided on it and where it "
          "comes from, as JSON"));
+  QAction* report = menu.addAction(tr("&Report (PDF)..."), this, &PoseExport::askForReport);
+  report->setStatusTip(
+      tr("The shown case's pose on two pages: overlay, inputs, decision, checks, residuals"));
   QAction* bop = menu.addAction(tr("&BOP results (CSV)..."), this, &PoseExport::askForBopResults);
   bop->setStatusTip(tr("The poses of all cases that have one, as the BOP challenges take them"));
   QAction* colmap = menu.addAction(tr("&COLMAP text model..."), this, &PoseExport::askForColmap);
   colmap->setStatusTip(tr("The poses of all cases that have one, as a model for COLMAP"));
-  connect(&menu, &QMenu::aboutToShow, &menu, [this, pose, bop, colmap] {
-    pose->setEnabled(!caseId().empty());
+  connect(&menu, &QMenu::aboutToShow, &menu, [this, pose, report, bop, colmap] {
+    for (QAction* one : {pose, report}) one->setEnabled(!caseId().empty());
     for (QAction* all : {bop, colmap}) all->setEnabled(!document_.session().cases.empty());
   });
 }
@@ -82,13 +86,27 @@ void PoseExport::exportPose(const std::filesystem::path& file) {
   tasks_.start(
       QStringLiteral("export pose"),
       [file, session = document_.session(), id = caseId()](const std::stop_token&) {
-        const sessions::HandedPose pose = sessions::handedPose(session, id);
+        const sessions::HandedPose pose = sessions::checkedPose(session, id);
         sessions::writeValidatedPose(file, session, pose);
         return pose.standing;
       },
       [this, file, id = fromText(caseId())](const std::string& standing) {
         Q_EMIT noted(
             tr("Pose of %1 written to %2. It is %3.").arg(id, nameOf(file), fromText(standing)));
+      });
+}
+
+void PoseExport::exportReport(const std::filesystem::path& file) {
+  tasks_.start(
+      QStringLiteral("report pose"),
+      [file, session = document_.session(), id = caseId()](const std::stop_token&) {
+        const sessions::PoseReport report = sessions::poseReport(session, id);
+        sessions::writePoseReport(file, report);
+        return report.pose.standing;
+      },
+      [this, file, id = fromText(caseId())](const std::string& standing) {
+        Q_EMIT noted(
+            tr("Report of %1 written to %2. It is %3.").arg(id, nameOf(file), fromText(standing)));
       });
 }
 
@@ -146,6 +164,18 @@ void PoseExport::askForPose() {
   if (file.isEmpty()) return;
   if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".json");
   exportPose(file.toStdString());
+}
+
+void PoseExport::askForReport() {
+  if (caseId().empty()) return;
+  const QString name = isValidated(caseId()) ? QStringLiteral("pose_report.pdf")
+                                             : QStringLiteral("pose_report_NOT_VALIDATED.pdf");
+  QString file = QFileDialog::getSaveFileName(
+      &window_, tr("Report of %1 (%2)").arg(fromText(caseId()), standing()), inSessionFolder(name),
+      tr("PDF (*.pdf)"));
+  if (file.isEmpty()) return;
+  if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".pdf");
+  exportReport(file.toStdString());
 }
 
 }  // namespace boresight::ui

@@ -31,7 +31,9 @@ class PoseExport : public QObject {
   void addTo(QMenu& menu);
   /// The shown case's pose, with its checks and where everything in it comes from.
   void exportPose(const std::filesystem::path& file);
-  /// Proposed for it: says in its name when the case is not validated.
+  /// The same on two pages for people.
+  void exportReport(const std::filesystem::path& file);
+  /// Proposed for the pose: says in its name when the case is not validated.
   QString poseFileName() const;
   /// The poses of all cases that have one: a BOP19 results file, whose name has to say when one of
   /// them is not validated, and a COLMAP text model in a new folder.
@@ -41,6 +43,7 @@ class PoseExport : public QObject {
 
  public Q_SLOTS:
   void askForPose();
+  void askForReport();
   void askForBopResults();
   void askForColmap();
 

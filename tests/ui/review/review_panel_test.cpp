@@ -7,6 +7,7 @@
 #include <QSpinBox>
 #include <QTextBrowser>
 
+#include "sessions/review/verify_pose.h"
 #include "sessions/review/review_settings.h"
 #include "sessions/review/standing.h"
 #include "sessions/session/session_document.h"
@@ -332,9 +333,23 @@ TEST_F(ReviewPanelTest, WhatIsNotValidatedIsCalledSoInTheFile) {
   exporter.exportPose(folder_.path() / "pose.json");
   ASSERT_TRUE(QTest::qWaitFor([&noted] { return !noted.isEmpty(); }, kPatienceMs));
   EXPECT_TRUE(noted.contains(QStringLiteral("NOT VALIDATED"))) << noted.toStdString();
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "pose.json"));
+  EXPECT_TRUE(sessions::verifyPose(folder_.path() / "pose.json", true).good());
   validateAs(QStringLiteral("Ada"));
   EXPECT_EQ(exporter.poseFileName(), QStringLiteral("validated_pose.json"));
+}
+
+TEST_F(ReviewPanelTest, AReportIsWrittenOfWhatIsShown) {
+  openRun();
+  TaskRunner tasks;
+  PoseExport exporter(*panel_, document_, state_, tasks);
+  QString noted;
+  QObject::connect(&exporter, &PoseExport::noted, panel_.get(),
+                   [&noted](const QString& text) { noted = text; });
+  const std::filesystem::path file = folder_.path() / "report.pdf";
+  exporter.exportReport(file);
+  ASSERT_TRUE(QTest::qWaitFor([&noted] { return !noted.isEmpty(); }, kPatienceMs));
+  EXPECT_TRUE(noted.contains(QStringLiteral("NOT VALIDATED"))) << noted.toStdString();
+  EXPECT_GT(std::filesystem::file_size(file), 10000u);
 }
 
 TEST_F(ReviewPanelTest, AResultsFileOfPosesThatNobodyValidatedHasToSaySo) {

@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/report/pose_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdarg>
+#include <cstdio>
+#include <string>
+
+#include "core/base/math.h"
+#include "sessions/evaluation/pose_sigma.h"
+#include "sessions/io/atomic_file.h"
+#include "sessions/io/errors.h"
+#include "sessions/report/pdf_canvas.h"
+#include "sessions/report/pdf_plot.h"
+#include "sessions/report/report_pictures.h"
+#include "sessions/report/report_residuals.h"
+#include "sessions/review/checks.h"
+#include "sessions/review/checks_text.h"
+#include "sessions/review/end_effector_pose.h"
+#include "sessions/review/standing.h"
+#include "sessions/version.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kLeft = 40.0;
+constexpr double kRight = PdfCanvas::kWidth - 40.0;
+constexpr double kTextWidth = kRight - kLeft;
+constexpr double kFoot = PdfCanvas::kHeight - 38.0;
+constexpr double kGap = 8.0;
+
+const PdfTextStyle kHeading{9.5, true, false, kInk, 1};
+const PdfTextStyle kFaint{7.0, false, false, kFaintInk, 0};
+
+__attribute__((format(printf, 1, 2))) std::string formatted(const char* format, ...) {
+  std::array<char, 256> text{};
+  va_list arguments;
+  va_start(arguments, format);
+  (void)std::vsnprintf(text.data(), text.size(), format, arguments);
+  va_end(arguments);
+  return text.data();
+}
+
+const SessionCase& caseOf(const PoseReport& report) { return report.loaded->source; }
+
+/// The decision that the report's pose rests on, or nullptr.
+const Decision* decisionOf(const PoseReport& report) {
+  const Standing standing = standingOf(*report.session, report.pose.case_id);
+  return standing.holds() ? standing.decision : nullptr;
+}
+
+// ---- what every page has
+
+void drawHead(PdfCanvas& canvas, const PoseReport& report) {
+  const SessionCase& one = caseOf(report);
+  const std::string title =
+      "Pose of " + one.id + (one.station.empty() ? "" : ", station " + one.station);
+  canvas.text(kLeft, 28.0, kTextWidth, title, {14.0, true, false, kInk, 1});
+  const PdfColor& color = report.pose.validated ? kPdfBlue : kPdfOrange;
+  const PdfBox bar = {kLeft, 48.0, kTextWidth, 17.0};
+  canvas.fill(bar, color);
+  const char* sign = report.pose.validated ? "\xE2\x9C\x94  " : "\xE2\x9A\xA0  ";
+  canvas.text(bar.x + 6.0, bar.y + 3.0, bar.width - 12.0, sign + report.pose.standing,
+              {9.0, true, false, {1.0, 1.0, 1.0}, 1});
+}
+
+void drawFoot(PdfCanvas& canvas, const PoseReport& report) {
+  canvas.line(kLeft, kFoot, kRight, kFoot, kPaperGrid);
+  const std::string what = report.pose.run_digest.empty()
+                               ? "pose of the marks"
+                               : "run " + report.pose.run_digest.substr(0, 16);
+  canvas.text(kLeft, kFoot + 4.0, kTextWidth - 90.0,
+              report.pose.standing + ".  " + what + ", pixels " +
+                  caseOf(report).image.pixels_sha256.substr(0, 16) + ", Boresight " + kVersion,
+              {6.5, false, false, kFaintInk, 2});
+  canvas.text(kRight - 90.0, kFoot + 4.0, 90.0, formatted("page %d of 2", canvas.page()),
+              {6.5, false, false, kFaintInk, 1, PdfTextStyle::Align::kRight});
+}
+
+double drawHeading(PdfCanvas& canvas, double x, double y, double width, const std::string& text) {
+  const double height = canvas.text(x, y, width, text, kHeading);
+  canvas.line(x, y + height + 1.0, x + width, y + height + 1.0, kPaperGrid);
+  return y + height + 4.0;
+}
+
+/// A name and what it is, one below the other; the place below.
+double drawRow(PdfCanvas& canvas, const PdfBox& box, const std::string& name,
+               const std::string& value, bool fixed = false) {
+  constexpr double kNameWidth = 92.0;
+  const double left = canvas.text(box.x, box.y, kNameWidth, name, kFaint);
+  const double right = canvas.text(box.x + kNameWidth, box.y, box.width - kNameWidth, value,
+                                   {7.0, false, fixed, kInk, 3});
+  return box.y + std::max(left, right) + 1.0;
+}
+
+// ---- the first page
+
+void drawOverlayPicture(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
+  const ReportPicture picture = overlayPicture(report);
+  const PdfBox taken = canvas.picture(box, picture.image);
+  canvas.frame(taken, kFaintInk);
+  canvas.text(box.x, taken.bottom() + 2.0, box.width,
+              formatted("Edges of the seed (red) and, over them, of the pose (green) on the image; "
+                        "%d x %d px from (%d, %d).",
+                        picture.image.width, picture.image.height, picture.left_px, picture.top_px),
+              kFaint);
+}
+
+std::string vectorText(const Eigen::Vector3d& v, const char* unit, const char* number) {
+  const std::string format = std::string(number) + "  " + number + "  " + number + "  %s";
+  std::array<char, 160> text{};
+  (void)std::snprintf(text.data(), text.size(), format.c_str(), v.x(), v.y(), v.z(), unit);
+  return text.data();
+}
+
+std::string quaternionText(const Pose& pose) {
+  Eigen::Quaterniond q = pose.rotation;
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  return formatted("%.9f  %.9f  %.9f  %.9f", q.w(), q.x(), q.y(), q.z());
+}
+
+double drawPose(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
+  const Pose& pose = report.pose.camera_from_station;
+  box.y = drawHeading(canvas, box.x, box.y, box.width, "camera_from_station");
+  const auto row = [&](const char* name, const std::string& value) {
+    box.y = drawRow(canvas, box, name, value, true);
+  };
+  row("translation", vectorText(1e3 * pose.translation_m, "mm", "%.4f"));
+  row("rotation vector", vectorText(rotationLog(pose.rotation) / kDegree_rad, "deg", "%.5f"));
+  row("quaternion wxyz", quaternionText(pose));
+  const auto& end_effector = caseOf(report).camera_from_end_effector;
+  if (const auto sigma = poseSigma(report.pose.covariance, end_effector)) {
+    row("1 sigma", formatted("normal %.4f mm, lateral %.4f mm, axis %.4f mrad", sigma->normal_mm,
+                             sigma->lateral_mm, sigma->out_of_plane_mrad));
+    row("1 sigma of", end_effector ? "the end effector's origin" : "the camera's centre");
+  } else {
+    row("1 sigma", "not known");
+  }
+  if (const auto& requirement = caseOf(report).requirement) {
+    std::string text;
+    const auto add = [&text](const std::optional<double>& value, const char* name,
+                             const char* unit) {
+      if (value) text += formatted("%s%s %.4g %s", text.empty() ? "" : ", ", name, *value, unit);
+    };
+    add(requirement->normal_mm, "normal", "mm");
+    add(requirement->lateral_mm, "lateral", "mm");
+    add(requirement->rotation_deg, "axis", "deg");
+    add(requirement->projection_px, "projection", "px");
+    row("requirement", text);
+  }
+  return box.y;
+}
+
+double drawEndEffector(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
+  const SessionCase& one = caseOf(report);
+  if (!one.camera_from_end_effector) return box.y;
+  const EndEffectorPose made =
+      endEffectorPose(one.camera_from_station_seed, report.pose.camera_from_station,
+                      *one.camera_from_end_effector, report.pose.covariance);
+  const Pose& correction = made.end_effector_seed_from_end_effector_estimated;
+  box.y = drawHeading(canvas, box.x, box.y, box.width, "Correction to what was commanded");
+  box.y +=
+      canvas.text(box.x, box.y, box.width, "end_effector_seed_from_end_effector_estimated", kFaint);
+  const auto row = [&](const char* name, const std::string& value) {
+    box.y = drawRow(canvas, box, name, value, true);
+  };
+  row("translation", vectorText(1e3 * correction.translation_m, "mm", "%.4f"));
+  row("rotation vector", vectorText(rotationLog(correction.rotation) / kDegree_rad, "deg", "%.5f"));
+  if (!report.pose.covariance.isZero()) {
+    const Vector6d sigma = made.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+    row("1 sigma", vectorText(1e3 * sigma.tail<3>(), "mm", "%.4f"));
+    row("", vectorText(1e3 * sigma.head<3>(), "mrad", "%.4f"));
+  }
+  return box.y;
+}
+
+double drawInputs(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
+  const SessionCase& one = caseOf(report);
+  box.y = drawHeading(canvas, box.x, box.y, box.width, "Inputs");
+  const auto row = [&](const std::string& name, const std::string& value) {
+    box.y = drawRow(canvas, box, name, value);
+  };
+  row("image", one.image.source.file.filename().string() +
+                   formatted(", %d x %d px, file %s", one.image.width, one.image.height,
+                             one.image.source.sha256.substr(0, 16).c_str()));
+  row("camera", formatted("fx %.3f, fy %.3f, cx %.3f, cy %.3f px; centre of the top-left pixel is "
+                          "(0, 0)",
+                          one.camera.fx, one.camera.fy, one.camera.cx, one.camera.cy));
+  for (const MeshInput& part : one.parts)
+    row("mesh", part.source.mesh.filename().string() + " in " +
+                    (part.source.mesh_unit.empty() ? "its own unit" : part.source.mesh_unit) +
+                    ", " + part.sha256.substr(0, 16));
+  if (one.ignore || !one.ignore_strokes.empty()) row("ignored pixels", "a mask");
+  row("seed", vectorText(1e3 * one.camera_from_station_seed.translation_m, "mm", "%.1f"));
+  if (report.trace) {
+    row("run",
+        formatted("%s, %zu iterations, version %s", localizationStatusText(report.trace->status),
+                  report.trace->iterations.size(), report.trace->version.c_str()));
+    row("digest", report.trace->digest);
+  }
+  return box.y;
+}
+
+double drawDecision(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
+  box.y = drawHeading(canvas, box.x, box.y, box.width, "Decision");
+  const Decision* decision = decisionOf(report);
+  if (decision == nullptr)
+    return box.y + canvas.text(box.x, box.y, box.width, report.pose.standing + ".",
+                               {7.5, true, false, kPdfOrange, 4});
+  const char* verdict = decision->verdict == Verdict::kValidated ? "validated by" : "rejected by";
+  box.y = drawRow(canvas, box, verdict, decision->by + ", " + decision->time);
+  box.y = drawRow(canvas, box, "comment", decision->comment);
+  if (decision->approval) {
+    box.y = drawRow(canvas, box, "approved by",
+                    decision->approval->by + ", " + decision->approval->time);
+    box.y = drawRow(canvas, box, "comment", decision->approval->comment);
+  }
+  return box.y;
+}
+
+void drawFirstPage(PdfCanvas& canvas, const PoseReport& report) {
+  drawHead(canvas, report);
+  drawOverlayPicture(canvas, {kLeft, 74.0, kTextWidth, 470.0}, report);
+  constexpr double kBelow = 562.0;
+  const double column = 0.5 * (kTextWidth - 2.0 * kGap);
+  PdfBox left = {kLeft, kBelow, column, kFoot - kBelow};
+  left.y = drawPose(canvas, left, report) + kGap;
+  (void)drawEndEffector(canvas, left, report);
+  PdfBox right = {kLeft + column + 2.0 * kGap, kBelow, column, kFoot - kBelow};
+  right.y = drawInputs(canvas, right, report) + kGap;
+  (void)drawDecision(canvas, right, report);
+  drawFoot(canvas, report);
+}
+
+// ---- the second page
+
+struct CheckLook {
+  const char* sign;
+  PdfColor color;
+};
+
+CheckLook lookOf(const JudgedCheck& judged) {
+  if (judged.check.state == CheckState::kPassed) return {"\xE2\x9C\x94", kPdfBlue};
+  if (judged.check.state == CheckState::kFailed)
+    return {judged.override_reason.empty() ? "\xE2\x9C\x98" : "\xE2\x9C\x98!", kPdfOrange};
+  return {"\xE2\x80\x93", kFaintInk};
+}
+
+double drawCheck(PdfCanvas& canvas, double y, const JudgedCheck& judged) {
+  constexpr double kSize = 6.6;
+  const CheckLook look = lookOf(judged);
+  const Check& check = judged.check;
+  const PdfColor& ink = check.state == CheckState::kNotApplicable ? kFaintInk : kInk;
+  std::string sentence = check.sentence;
+  if (!judged.override_reason.empty()) sentence += " Passed over: " + judged.override_reason;
+  canvas.text(kLeft, y, 14.0, look.sign, {kSize, true, false, look.color, 1});
+  const double title =
+      canvas.text(kLeft + 14.0, y, 138.0, check.title, {kSize, false, false, ink, 2});
+  canvas.text(kLeft + 156.0, y, 104.0, figureText(check), {kSize, false, false, ink, 1});
+  const double told =
+      canvas.text(kLeft + 262.0, y, kTextWidth - 262.0, sentence,
+                  {kSize, false, false, ink, check.state == CheckState::kFailed ? 4 : 2});
+  return y + std::max(title, told) + 1.0;
+}
+
+double drawChecks(PdfCanvas& canvas, double y, const PoseReport& report) {
+  std::vector<Check> plain;
+  for (const JudgedCheck& judged : report.pose.checks) plain.push_back(judged.check);
+  const bool judged = decisionOf(report) != nullptr;
+  const std::string text =
+      plain.empty() ? "Checks: none were made"
+                    : "Checks: " + checkCountsText(plain) +
+                          (judged ? ", as they were when it was decided" : ", as they are now");
+  y = drawHeading(canvas, kLeft, y, kTextWidth, text);
+  for (const JudgedCheck& one : report.pose.checks) y = drawCheck(canvas, y, one);
+  return y;
+}
+
+/// A power of ten times 1, 2 or 5 that makes a residual of `rms_px` some pixels long.
+double magnification(double rms_px, double pixels) {
+  double factor = 1.0;
+  for (const double step : {2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0})
+    if (step * rms_px <= pixels) factor = step;
+  return factor;
+}
+
+constexpr std::size_t kMostArrows = 1200;  ///< more would hide each other
+
+void drawResidualPicture(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report,
+                         const ReportResiduals& residuals) {
+  const ReportPicture picture = palePicture(report);
+  const PdfBox taken = canvas.picture({box.x, box.y, box.width, box.height - 20.0}, picture.image);
+  const double scale = taken.width / picture.image.width;
+  const double factor = magnification(residuals.rms_px(), 6.0 / scale);
+  canvas.clip(taken);
+  const std::size_t step = 1 + residuals.all.size() / kMostArrows;
+  for (std::size_t i = 0; i < residuals.all.size(); i += step) {
+    const ReportResidual& one = residuals.all[i];
+    const Eigen::Vector2d from =
+        scale * (one.predicted_px - Eigen::Vector2d(picture.left_px, picture.top_px) +
+                 Eigen::Vector2d(0.5, 0.5));
+    const Eigen::Vector2d to = from + scale * factor * one.residual_px;
+    const PdfColor& color = one.used ? kPdfBlue : kPdfOrange;
+    canvas.line(taken.x + from.x(), taken.y + from.y(), taken.x + to.x(), taken.y + to.y(), color,
+                0.5);
+    one.used ? canvas.circle(taken.x + from.x(), taken.y + from.y(), 0.9, color, true)
+             : canvas.cross(taken.x + from.x(), taken.y + from.y(), 1.4, color);
+  }
+  canvas.unclip();
+  canvas.frame(taken, kFaintInk);
+  const auto set_aside = std::count_if(residuals.all.begin(), residuals.all.end(),
+                                       [](const ReportResidual& one) { return !one.used; });
+  canvas.text(
+      box.x, taken.bottom() + 2.0, box.width,
+      formatted("Residuals of %zu %s (one in %zu is drawn), %.3g times as long; rms %.3f px. "
+                "Dots: used; crosses: set aside (%td).",
+                residuals.all.size(), residuals.of, step, factor, residuals.rms_px(), set_aside),
+      kFaint);
+}
+
+PdfPlot correctionPlot(const LocalizationTrace& trace) {
+  PdfPlot plot{
+      "Correction of each iteration", "iteration", "mm (dots), mrad (crosses)", {}, true, true};
+  plot.series = {{"translation, mm", {}, kPdfBlue, false},
+                 {"rotation, mrad", {}, kPdfOrange, true}};
+  for (std::size_t i = 0; i < trace.iterations.size(); ++i) {
+    const double x = static_cast<double>(i + 1);
+    plot.series[0].points.push_back({x, 1e3 * trace.iterations[i].correction_translation_m});
+    plot.series[1].points.push_back({x, 1e3 * trace.iterations[i].correction_rotation_rad});
+  }
+  return plot;
+}
+
+PdfPlot supportPlot(const LocalizationTrace& trace) {
+  PdfPlot plot{
+      "Matches and edge places of each iteration", "iteration", "count", {}, true, true, true};
+  plot.series = {{"looked for", {}, kFaintInk, false}, {"agree", {}, kPdfBlue, false}};
+  for (std::size_t i = 0; i < trace.iterations.size(); ++i) {
+    const IterationTrace& one = trace.iterations[i];
+    const double x = static_cast<double>(i + 1);
+    const bool refine = one.kind == IterationKind::kRefine;
+    plot.series[0].points.push_back(
+        {x, static_cast<double>(refine ? one.refinement.sample_count : one.searched_count)});
+    plot.series[1].points.push_back({x, static_cast<double>(one.support())});
+  }
+  return plot;
+}
+
+void drawResidualHistogram(PdfCanvas& canvas, const PdfBox& box, const ReportResiduals& residuals) {
+  std::vector<double> lengths;
+  for (const ReportResidual& one : residuals.all)
+    if (one.used) lengths.push_back(one.residual_px.norm());
+  if (lengths.empty()) return;
+  const double high = std::max(0.1, *std::max_element(lengths.begin(), lengths.end()));
+  drawHistogram(canvas, box, "Lengths of the residuals that are used", "px", lengths, 0.0, high,
+                24);
+}
+
+void drawPlots(PdfCanvas& canvas, double y, const PoseReport& report) {
+  const ReportResiduals residuals = reportResiduals(report);
+  const double column = 0.5 * (kTextWidth - 2.0 * kGap);
+  const double room = kFoot - y - kGap;
+  const double right = kLeft + column + 2.0 * kGap;
+  if (residuals.all.empty()) {
+    canvas.text(kLeft, y, kTextWidth,
+                "No residuals and no course: the run's trace could not be read.", kFaint);
+    return;
+  }
+  drawResidualPicture(canvas, {kLeft, y, column, 0.62 * room}, report, residuals);
+  drawResidualHistogram(canvas, {kLeft, y + 0.64 * room, column, 0.36 * room}, residuals);
+  if (!report.trace || report.pose.source != PoseSource::kRun) return;
+  drawPlot(canvas, {right, y, column, 0.48 * room}, correctionPlot(*report.trace));
+  drawPlot(canvas, {right, y + 0.52 * room, column, 0.48 * room}, supportPlot(*report.trace));
+}
+
+}  // namespace
+
+PoseReport poseReport(const Session& session, const std::string& case_id) {
+  PoseReport report;
+  report.session = &session;
+  if (session.findCase(case_id) == nullptr)
+    throw InputError("session", "cases", "there is no case '" + case_id + "'");
+  report.loaded = loadCase(*session.findCase(case_id));
+  report.pose = checkedPose(session, case_id, report.loaded);
+  report.trace = traceOf(session, report.pose);
+  return report;
+}
+
+std::vector<std::uint8_t> poseReportPdf(const PoseReport& report) {
+  PdfCanvas canvas("Pose of " + report.pose.case_id + " (" + report.pose.standing + ")");
+  drawFirstPage(canvas, report);
+  canvas.nextPage();
+  drawHead(canvas, report);
+  const double below = drawChecks(canvas, 74.0, report);
+  drawPlots(canvas, below + kGap, report);
+  drawFoot(canvas, report);
+  return canvas.finish();
+}
+
+void writePoseReport(const std::filesystem::path& file, const PoseReport& report) {
+  writeFileAtomically(file, poseReportPdf(report));
+}
+
+}  // namespace boresight::sessions

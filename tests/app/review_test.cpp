@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// whs check, decide, export --pose, verify and report: from a run to a pose that is handed over.
+#include <gmock/gmock.h>
+
+#include "tests/app/run_whs.h"
+
+namespace boresight::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ReviewCommands : public ::testing::Test {
+ protected:
+  ReviewCommands() {
+    EXPECT_EQ(
+        runWhs({"new", "--dataset", (exampleFolder() / "dataset.json").string(), "--out", session_})
+            .exit_code,
+        0);
+    EXPECT_EQ(runWhs({"run", session_, "--case", kCase}).exit_code, 0);
+  }
+
+  ProgramRun decide(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {"decide", session_, "--case", kCase};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runWhs(arguments);
+  }
+
+  std::string exportPose() const {
+    const std::string file = (folder_ / "pose.json").string();
+    EXPECT_EQ(runWhs({"export", session_, "--case", kCase, "--pose", file}).exit_code, 0);
+    return file;
+  }
+
+  static constexpr const char* kCase = "os-000038";
+  TemporaryFolder folder_;
+  std::string session_ = (folder_ / "s.boresight.json").string();
+};
+
+TEST_F(ReviewCommands, APoseIsCheckedValidatedHandedOverAndVerified) {
+  EXPECT_EQ(runWhs({"check", session_, "--case", kCase}).exit_code, 0);
+  const ProgramRun decided = decide({"--validate", "--by", "Ada", "--comment", "right"});
+  EXPECT_EQ(decided.exit_code, 0) << decided.err;
+  EXPECT_THAT(decided.out, HasSubstr("validated by Ada"));
+  const std::string file = exportPose();
+  const ProgramRun good = runWhs({"verify", file});
+  EXPECT_EQ(good.exit_code, 0) << good.out;
+  EXPECT_THAT(good.out, HasSubstr("the run gives the same digest again"));
+
+  std::string text = folder_.read("pose.json");
+  text.replace(text.find("\"comment\": \"right\""), 18, "\"comment\": \"wrong\"");
+  folder_.write("tampered.json", text);
+  const ProgramRun bad = runWhs({"verify", (folder_ / "tampered.json").string(), "--no-run"});
+  EXPECT_EQ(bad.exit_code, 6);
+  EXPECT_THAT(bad.out, HasSubstr("WRONG signature"));
+}
+
+TEST_F(ReviewCommands, WhatMayNotBeDecidedIsRefusedAndChangesNothing) {
+  const std::string before = folder_.read("s.boresight.json");
+  const ProgramRun approval = decide({"--approve", "--by", "Ada", "--comment", "yes"});
+  EXPECT_EQ(approval.exit_code, 4);
+  EXPECT_EQ(approval.errorLines(), 1) << approval.err;
+  EXPECT_THAT(approval.err, HasSubstr("no validation"));
+  const ProgramRun unknown =
+      decide({"--validate", "--by", "Ada", "--comment", "yes", "--pass-over", "nothing=because"});
+  EXPECT_EQ(unknown.exit_code, 4);
+  EXPECT_THAT(unknown.err, HasSubstr("no check 'nothing'"));
+  EXPECT_EQ(decide({"--validate", "--reject", "--by", "A", "--comment", "b"}).exit_code, 2);
+  EXPECT_EQ(decide({"--validate", "--by", "A", "--comment", "b", "--pass-over", "x"}).exit_code, 2);
+  EXPECT_EQ(folder_.read("s.boresight.json"), before);
+}
+
+TEST_F(ReviewCommands, WhatNobodyValidatedIsReportedAsSuch) {
+  const std::string pdf = (folder_ / "report.pdf").string();
+  const ProgramRun report = runWhs({"report", session_, "--case", kCase, "--out", pdf});
+  EXPECT_EQ(report.exit_code, 0) << report.err;
+  EXPECT_THAT(report.out, HasSubstr("NOT VALIDATED: converged"));
+  EXPECT_EQ(folder_.read("report.pdf").substr(0, 5), "%PDF-");
+  EXPECT_EQ(runWhs({"verify", exportPose()}).exit_code, 0);
+  EXPECT_THAT(folder_.read("pose.json"), HasSubstr("\"state\": \"NOT VALIDATED\""));
+  EXPECT_EQ(runWhs({"report", session_, "--out", pdf}).exit_code, 2) << "which case?";
+  const ProgramRun none = runWhs({"report", session_, "--case", "bc-000028", "--out", pdf});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_EQ(none.errorLines(), 1) << none.err;
+}
+
+}  // namespace
+}  // namespace boresight::test

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/report/pose_report.h"
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "sessions/io/atomic_file.h"
+#include "sessions/io/errors.h"
+#include "sessions/report/pdf_plot.h"
+#include "sessions/report/report_residuals.h"
+#include "sessions/review/decide.h"
+#include "tests/support/marked_example.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::Session;
+using testing::HasSubstr;
+
+/// What another program reads on a page of a PDF; empty where that program is not installed.
+std::string pageText(const std::filesystem::path& file, int page) {
+  const std::string command = "pdftotext -f " + std::to_string(page) + " -l " +
+                              std::to_string(page) + " -layout '" + file.string() +
+                              "' - 2>/dev/null";
+  std::string text;
+  FILE* pipe = ::popen(command.c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (pipe != nullptr && std::fgets(buffer.data(), buffer.size(), pipe) != nullptr)
+    text += buffer.data();
+  if (pipe != nullptr) ::pclose(pipe);
+  return text;
+}
+
+class PoseReportTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const Session both = markedExample(0.1);
+    id_ = caseOfStation(both, "os");
+    session_ = withoutCase(both, caseOfStation(both, "bc"));
+  }
+
+  void run() {
+    const auto trace = runCase(session_, id_);
+    session_ = withRun(session_, storeRun(session_, id_, trace, folder_ / "s.boresight.json"));
+  }
+
+  std::filesystem::path write() {
+    const std::filesystem::path file = folder_ / "report.pdf";
+    writePoseReport(file, sessions::poseReport(session_, id_));
+    return file;
+  }
+
+  TemporaryFolder folder_;
+  Session session_;
+  std::string id_;
+};
+
+TEST_F(PoseReportTest, EveryPageSaysThatNobodyValidatedIt) {
+  run();
+  const std::filesystem::path file = write();
+  if (pageText(file, 1).empty()) GTEST_SKIP() << "pdftotext is not installed";
+  for (const int page : {1, 2}) {
+    EXPECT_THAT(pageText(file, page), HasSubstr("NOT VALIDATED: converged")) << page;
+    EXPECT_THAT(pageText(file, page), HasSubstr("page " + std::to_string(page) + " of 2"));
+  }
+  EXPECT_EQ(pageText(file, 3), "");
+  EXPECT_THAT(pageText(file, 2), HasSubstr("as they are now"));
+}
+
+TEST_F(PoseReportTest, HoldsPoseDecisionAndReasons) {
+  run();
+  const auto loaded = sessions::loadCase(*session_.findCase(id_));
+  const auto subject = reviewSubject(session_, loaded, sessions::PoseSource::kRun);
+  sessions::Check failed;
+  failed.id = "clutter";
+  failed.title = "Clutter";
+  failed.state = sessions::CheckState::kFailed;
+  failed.sentence = "A hose lies across it.";
+  session_ = validated(session_, subject, {failed}, {{"clutter", "the hose is known"}},
+                       {"Ad\xC3\xA0 \xE4\xB8\xAD", "looked at twice"});
+  session_ = approved(session_, id_, {"Bob", "so did I"});
+  const std::filesystem::path file = write();
+  const std::string first = pageText(file, 1);
+  if (first.empty()) GTEST_SKIP() << "pdftotext is not installed";
+  EXPECT_THAT(first, HasSubstr("approved by Bob"));
+  EXPECT_THAT(first, HasSubstr("looked at twice"));
+  EXPECT_THAT(first, HasSubstr("so did I"));
+  char translation[64];
+  (void)std::snprintf(translation, sizeof translation, "%.4f",
+                      1e3 * subject.camera_from_station.translation_m.z());
+  EXPECT_THAT(first, HasSubstr(translation));
+  const std::string second = pageText(file, 2);
+  EXPECT_THAT(second, HasSubstr("as they were when it was decided"));
+  EXPECT_THAT(second, HasSubstr("the hose is known"));
+}
+
+TEST_F(PoseReportTest, OfMarksNeedsNoRun) {
+  const sessions::PoseReport report = sessions::poseReport(session_, id_);
+  EXPECT_EQ(report.pose.source, sessions::PoseSource::kAnnotation);
+  const sessions::ReportResiduals residuals = reportResiduals(report);
+  EXPECT_EQ(residuals.all.size(), 10u);
+  EXPECT_LT(residuals.rms_px(), 0.3);
+  EXPECT_GT(poseReportPdf(report).size(), 10000u);
+}
+
+TEST_F(PoseReportTest, ALostTraceLeavesThePlotsOutAndNothingElse) {
+  run();
+  const auto loaded = sessions::loadCase(*session_.findCase(id_));
+  const auto subject = reviewSubject(session_, loaded, sessions::PoseSource::kRun);
+  sessions::Check check;
+  check.id = "converged";
+  check.title = "Converged";
+  check.state = sessions::CheckState::kPassed;
+  session_ = validated(session_, subject, {check}, {}, {"Ada", "right"});
+  std::filesystem::remove(session_.runs.back().file);
+  const std::filesystem::path file = write();
+  const std::string second = pageText(file, 2);
+  if (second.empty()) GTEST_SKIP() << "pdftotext is not installed";
+  EXPECT_THAT(second, HasSubstr("trace could not be read"));
+  EXPECT_THAT(second, HasSubstr("validated by Ada"));
+}
+
+TEST_F(PoseReportTest, WithoutAnyPoseThereIsNoReport) {
+  session_ = withAnnotation(session_, id_, {});
+  EXPECT_THROW(sessions::poseReport(session_, id_), sessions::InputError);
+  run();
+  EXPECT_THROW(writePoseReport(folder_ / "none" / "r.pdf", sessions::poseReport(session_, id_)),
+               sessions::OutputError);
+}
+
+TEST(PdfPlot, TicksAreRoundFewAndWithin) {
+  const std::pair<double, double> ranges[] = {{0.0, 1.0}, {-3.7, 912.0}, {1e-9, 2e-9}, {5.0, 5.1}};
+  for (const auto& [low, high] : ranges) {
+    const auto ticks = sessions::roundTicks(low, high, 6);
+    EXPECT_GE(ticks.size(), 2u) << low;
+    EXPECT_LE(ticks.size(), 7u) << low;
+    for (const double tick : ticks) EXPECT_TRUE(tick >= low && tick <= high) << tick;
+  }
+  EXPECT_TRUE(sessions::roundTicks(1.0, 1.0, 6).empty());
+  EXPECT_TRUE(sessions::roundTicks(0.0, INFINITY, 6).empty());
+}
+
+}  // namespace
+}  // namespace boresight::test
