@@ -175,6 +175,9 @@ void DecisionForm::showWhatIsPossible() {
 void DecisionForm::showReading() {
   QStringList parts;
   if (!obstacle_.isEmpty()) parts << QStringLiteral("⚠ %1").arg(obstacle_.toHtmlEscaped());
+  if (controller_.awaitsBasin() && nextStep() == Act::kValidate)
+    parts << tr(
+        "○ The basin test has not been run: a second answer to this image is not excluded.");
   if (!note_.isEmpty()) parts << note_;
   for (const Decision* decision : controller_.history()) parts << decisionHtml(*decision);
   if (controller_.history().empty()) parts << tr("<i>Nobody has decided on this case yet.</i>");

@@ -25,7 +25,6 @@ using sessions::PoseSource;
 namespace {
 
 constexpr int kDigestDigits = 8;
-constexpr int kSeeds = 20;
 
 }  // namespace
 
@@ -69,7 +68,7 @@ QHBoxLayout* ReviewPanel::buildTop() {
   seeds_ = new QSpinBox(this);
   seeds_->setObjectName(QStringLiteral("basinSeeds"));
   seeds_->setRange(1, 1000);
-  seeds_->setValue(kSeeds);
+  seeds_->setValue(sessions::kBasinSeeds);
   seeds_->setToolTip(tr("How many further seeds the basin test runs from"));
   basin_ = new QPushButton(this);
   basin_->setObjectName(QStringLiteral("basin"));
