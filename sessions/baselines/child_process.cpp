@@ -87,6 +87,13 @@ pid_t spawnShell(const std::string& command, const Pipe& in, const Pipe& out, co
   return pid;
 }
 
+/// A shell ends with 128 + n when what it ran died of signal n.
+std::string howItEnded(int status) {
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return code > 128 ? "died of signal " + std::to_string(code - 128)
+                    : "ended with status " + std::to_string(code);
+}
+
 }  // namespace
 
 ChildProcess::ChildProcess(const std::string& command) {
@@ -202,8 +209,7 @@ void ChildProcess::died() {
   if (ended == pid_) {
     kill(-pid_, SIGKILL);  // whatever it has left behind
     pid_ = -1;
-    reason = WIFSIGNALED(status) ? "died of signal " + std::to_string(WTERMSIG(status))
-                                 : "ended with status " + std::to_string(WEXITSTATUS(status));
+    reason = howItEnded(status);
   }
   while (!last_errors_.empty() && last_errors_.back() == '\n') last_errors_.pop_back();
   const std::size_t start = last_errors_.rfind('\n');

@@ -82,7 +82,10 @@ void act(const std::string& what, const Images& images, int dx, int dy) {
   }
   if (what == "crash") std::abort();
   if (what == "hang") pause();
-  if (what == "half") return answer(images.request, count + 5, pairs);
+  if (what == "half") {
+    pairs.resize(pairs.size() / 2);
+    return answer(images.request, count, pairs);
+  }
   if (what == "many") return answer(images.request, 1000000000000LL, pairs);
   if (what == "other") return answer(images.request + 7, count, pairs);
   if (what == "nan" || what == "outside") {
