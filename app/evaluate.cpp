@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "app/commands.h"
+#include "app/method_arguments.h"
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/batch_facts.h"
 #include "sessions/evaluation/batch_progress.h"
@@ -35,8 +36,8 @@ struct EvaluateArguments {
   std::string jsonl;
   std::string mirror;
   std::string shard;
-  std::vector<std::string> methods = {"whs"};
   OptionArguments options;
+  MethodArguments method;
   sessions::BatchOptions batch;
 
   void addTo(CLI::App& command);
@@ -63,7 +64,7 @@ void EvaluateArguments::addTo(CLI::App& command) {
   command.add_option("--case", batch.cases, "Only these cases")->type_name("ID");
   command.add_option("--tag", batch.tags, "Only cases with one of these tags")->type_name("T");
   command.add_option("--station", batch.stations, "Only cases of these stations")->type_name("S");
-  addMethods(command, methods);
+  method.addTo(command, true);
   addKernels(command, batch.kernels);
   options.addTo(command);
   command.add_option("--jobs", batch.jobs, "Runs at a time")
@@ -182,6 +183,10 @@ sessions::Sitting sittingOf(const EvaluateArguments& arguments) {
 sessions::MethodFacts factsOf(const EvaluateArguments& arguments, const std::string& method) {
   sessions::MethodFacts facts =
       sessions::methodFacts(method, arguments.options.profileName(), arguments.batch.localizer);
+  if (method != sessions::kWhs)
+    sessions::addMethodOptions(
+        arguments.method.changedOptions(arguments.batch.method_setup.options), facts);
+  if (sessions::needsMatcher(method)) facts.note = "matcher: " + arguments.method.matcher;
   facts.reseed_scale = arguments.batch.reseed_scale;
   facts.mesh_of = arguments.batch.mesh_of;
   facts.mirror = arguments.mirror;
@@ -195,14 +200,14 @@ Work workLeft(const EvaluateArguments& arguments, const std::vector<sessions::Pl
               const sessions::ResultsWriter& writer) {
   Work work;
   std::size_t left = 0;
-  for (const std::string& method : arguments.methods) {
+  for (const std::string& method : arguments.method.methods) {
     work.emplace_back(method, plan);
     std::erase_if(work.back().second, [&](const sessions::PlannedRun& run) {
       return writer.has(method, run.input->id, run.reseed);
     });
     left += work.back().second.size();
   }
-  const std::size_t all = plan.size() * arguments.methods.size();
+  const std::size_t all = plan.size() * arguments.method.methods.size();
   if (left < all)
     note(arguments.out + ": going on, " + std::to_string(all - left) + " of " +
          std::to_string(all) + " runs are there already");
@@ -255,6 +260,7 @@ void readArguments(EvaluateArguments& arguments) {
   if (!arguments.shard.empty())
     std::tie(arguments.batch.shard, arguments.batch.shards) = *shardNumbers(arguments.shard);
   arguments.batch.localizer = arguments.options.read();
+  arguments.batch.method_setup = arguments.method.setup(arguments.options);
   arguments.batch.memory_limit = arguments.options.memoryLimit();
 }
 
@@ -270,7 +276,8 @@ int evaluate(EvaluateArguments& arguments) {
     sessions::ResultsWriter writer(
         arguments.out,
         sessions::datasetFacts(arguments.dataset, static_cast<std::int64_t>(dataset.cases.size())));
-    for (const std::string& method : arguments.methods) writer.admit(factsOf(arguments, method));
+    for (const std::string& method : arguments.method.methods)
+      writer.admit(factsOf(arguments, method));
     runAll(arguments, dataset, workLeft(arguments, plan, writer), writer, stop.get_token());
   }
   const std::vector<sessions::RunResult> results = sessions::readResults(arguments.out).runs;

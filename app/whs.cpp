@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/results_commands.h"
+#include "sessions/baselines/matching_method.h"
 #include "sessions/io/errors.h"
 #include "sessions/version.h"
 
@@ -64,6 +65,9 @@ int main(int argc, char** argv) {
   } catch (const boresight::sessions::FileError& error) {
     std::cerr << error.what() << std::endl;
     return boresight::app::kBadInput;
+  } catch (const boresight::sessions::MethodError& error) {
+    note(error.what());
+    return boresight::app::kNotConverged;
   } catch (const std::bad_alloc&) {
     note("not enough memory");
     return boresight::app::kInternalFault;

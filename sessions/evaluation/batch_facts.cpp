@@ -64,6 +64,16 @@ MethodFacts methodFacts(const std::string& method, const std::string& profile,
   return facts;
 }
 
+void addMethodOptions(const OptionList& changed, MethodFacts& facts) {
+  if (changed.empty()) return;
+  auto all = nlohmann::ordered_json::parse(facts.options);
+  all.update(toJson(changed));
+  facts.options = all.dump();
+  const std::string both = facts.options_sha256 + toJson(changed).dump();
+  facts.options_sha256 =
+      sha256Text({reinterpret_cast<const std::uint8_t*>(both.data()), both.size()});
+}
+
 DatasetFacts datasetFacts(const std::filesystem::path& dataset_file, std::int64_t cases) {
   DatasetFacts facts;
   facts.dataset = std::filesystem::absolute(dataset_file).lexically_normal().string();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/localizer/localizer_options.h"
+#include "sessions/io/option_value.h"
 
 namespace boresight::sessions {
 
@@ -55,6 +56,9 @@ struct Sitting {
 /// Everything of `options`, `profile` and the deliberate wrongs.
 MethodFacts methodFacts(const std::string& method, const std::string& profile,
                         const LocalizerOptions& options);
+
+/// Takes up options of the method itself, as far as they are not its defaults.
+void addMethodOptions(const OptionList& changed, MethodFacts& facts);
 
 /// Of a dataset file; InputError.
 DatasetFacts datasetFacts(const std::filesystem::path& dataset_file, std::int64_t cases);

@@ -22,20 +22,16 @@ namespace {
 constexpr std::string_view kTag = "result:";
 constexpr int kShareDecimals = 4;
 
-const MethodFacts& chosenMethod(const ResultsFacts& facts, const std::string& wanted) {
-  const auto named = [&facts](const std::string& name) {
-    return std::find_if(facts.methods.begin(), facts.methods.end(),
-                        [&name](const MethodFacts& one) { return one.method == name; });
-  };
-  auto found = named(wanted.empty() ? "whs" : wanted);
-  if (found == facts.methods.end() && wanted.empty()) found = facts.methods.begin();
+/// The one method that a session can run.
+const MethodFacts& whsOf(const ResultsFacts& facts) {
+  const auto found = std::find_if(facts.methods.begin(), facts.methods.end(),
+                                  [](const MethodFacts& one) { return one.method == "whs"; });
   if (found == facts.methods.end())
-    throw InputError(facts.file, wanted.empty() ? "it holds no runs"
-                                                : "it holds no runs of the method " + wanted);
+    throw InputError(facts.file, "it holds no runs of the method whs, which alone can be repeated");
   if (!found->mesh_of.empty() || !found->mirror.empty())
-    throw InputError(facts.file,
-                     "its runs were made with deliberately wrong meshes: there is "
-                     "nothing to look at here");
+    throw InputError(
+        facts.file,
+        "its runs were made with deliberately wrong meshes: there is nothing to look at");
   return *found;
 }
 
@@ -46,16 +42,15 @@ void requireSameDataset(const ResultsFacts& facts) {
                                      " has changed since: evaluate again into a new file");
 }
 
-/// The runs of a method, the most troubled first.
-std::vector<RunResult> troubledFirst(const std::filesystem::path& file, const std::string& method) {
+/// The runs that began, the most troubled first.
+std::vector<RunResult> troubledFirst(const std::filesystem::path& file) {
   std::vector<RunResult> runs;
   forEachRun(file, [&](const RunResult& run) {
-    if (run.method == method) runs.push_back(run);
+    if (run.method == "whs" && !run.inputFailed()) runs.push_back(run);
   });
   std::stable_sort(runs.begin(), runs.end(), [](const RunResult& a, const RunResult& b) {
     const auto key = [](const RunResult& run) {
-      return std::tuple(!run.inputFailed(), run.completed,
-                        -listedResult(run).error_share.value_or(0.0));
+      return std::tuple(run.completed, -listedResult(run).error_share.value_or(0.0));
     };
     return key(a) < key(b);
   });
@@ -105,16 +100,14 @@ std::string resultCaseId(const RunResult& run) {
   return run.case_id + (run.reseed > 0 ? " seed " + std::to_string(run.reseed) : "");
 }
 
-Session sessionOfResults(const std::filesystem::path& results_file, const std::string& method) {
+Session sessionOfResults(const std::filesystem::path& results_file) {
   const ResultsFacts facts = readResultsFacts(results_file);
-  const MethodFacts& chosen = chosenMethod(facts, method);
+  const MethodFacts& method = whsOf(facts);
   requireSameDataset(facts);
-  const std::vector<RunResult> runs = troubledFirst(results_file, chosen.method);
+  const std::vector<RunResult> runs = troubledFirst(results_file);
   std::vector<std::string> ids;
-  for (const RunResult& run : runs)
-    if (!run.inputFailed()) ids.push_back(run.case_id);
-  if (ids.empty())
-    throw InputError(results_file, "it holds no runs of " + chosen.method + " that could begin");
+  for (const RunResult& run : runs) ids.push_back(run.case_id);
+  if (ids.empty()) throw InputError(results_file, "none of its runs could begin");
   Session session = makeSession(facts.dataset.dataset, ids);
   std::map<std::string, SharedValue<SessionCase>> by_id;
   for (const auto& one : session.cases) by_id.emplace(one->id, one);
@@ -128,7 +121,7 @@ Session sessionOfResults(const std::filesystem::path& results_file, const std::s
     one.tags.push_back(resultTag(listedResult(run)));
     session.cases.emplace_back(std::move(one));
   }
-  return withOptionsOf(session, facts, chosen);
+  return withOptionsOf(session, facts, method);
 }
 
 }  // namespace boresight::sessions

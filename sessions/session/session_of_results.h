@@ -29,12 +29,12 @@ std::optional<ListedResult> listedResult(const SessionCase& one);
 /// "bc-000012", or "bc-000012 seed 3" for a further seed.
 std::string resultCaseId(const RunResult& run);
 
-/// A session of the cases of a results file's runs, by one method, each with the seed that its run
-/// began from and a tag of how it ended; profile and options are the method's, so that a run here
-/// repeats the one listed. The most troubled come first: refused inputs, failed runs, then by error
-/// share. `method` empty: WHS where it is there, else the first. InputError when the file or the
-/// dataset that it names cannot be read, the dataset is not the one any more, there is no such
-/// method, or its meshes were deliberately wrong.
-Session sessionOfResults(const std::filesystem::path& results_file, const std::string& method = {});
+/// A session of the cases of a results file's runs of WHS, each with the seed that its run began
+/// from and a tag of how it ended; profile and options are theirs, so that a run here repeats the
+/// one listed, to the bit. The most troubled come first: failed runs, then by error share; refused
+/// inputs are left out. InputError when the file or the dataset that it names cannot be read, the
+/// dataset is not the one any more, there are no such runs, or their meshes were deliberately
+/// wrong.
+Session sessionOfResults(const std::filesystem::path& results_file);
 
 }  // namespace boresight::sessions
