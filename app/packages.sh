@@ -13,9 +13,6 @@ boresight_packages=(
 # visibly, where they are not.
 boresight_optional_packages=(clang g++-powerpc-linux-gnu qemu-user poppler-utils)
 
-# A cluster of one machine, for the test of resources/slurm.
-boresight_cluster_packages=(slurm-wlm munge)
-
 # missingPackages PACKAGE...: those that are not installed, one a line.
 missingPackages() {
   local package
@@ -53,11 +50,6 @@ installPackages() {
 installOptionalPackages() {
   installMissing "${boresight_optional_packages[@]}" ||
     echo "going on without; the tests that need these packages will be skipped" >&2
-}
-
-installClusterPackages() {
-  installMissing "${boresight_cluster_packages[@]}" ||
-    echo "going on without; the test on a cluster will be skipped" >&2
 }
 
 # configureAndBuild PRESET [TARGET]: configures once, builds what has changed.

@@ -10,14 +10,15 @@ case "${1:-}" in
   "") presets=(release) ;;
   --all)
     presets=(release asan)
-    export BORESIGHT_ALL=1  # also cases of full size, where there is data, and a Slurm cluster
+    export BORESIGHT_ALL=1  # also cases of full size, where there is data
+    boresight_optional_packages+=(blender)  # renders what resources/synthetic makes
+    boresight_optional_packages+=(slurm-wlm munge)  # a cluster of one machine, for resources/slurm
     ;;
   *) echo "usage: bash tests/run.sh [--all]" >&2; exit 2 ;;
 esac
 
 installPackages
 installOptionalPackages
-if [ -n "${BORESIGHT_ALL-}" ]; then installClusterPackages; fi
 for preset in "${presets[@]}"; do
   configureAndBuild "$preset"
   ctest --preset "$preset" --output-on-failure -j2
