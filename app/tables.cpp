@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <set>
 
 #include "app/commands.h"
 #include "app/results_commands.h"
@@ -89,6 +90,12 @@ std::string provenanceText(const sessions::ResultsSet& set) {
   for (const sessions::ResultsFacts& file : set.files)
     text += file.file.string() + ": " + file.dataset.dataset + " (SHA-256 " +
             file.dataset.dataset_sha256.substr(0, 12) + "), version " + file.dataset.version + "\n";
+  std::set<std::string> machines;
+  for (const sessions::ResultsFacts& file : set.files)
+    for (const sessions::Sitting& sitting : file.sittings)
+      machines.insert(sitting.processor + ", " + std::to_string(sitting.jobs) + " jobs of " +
+                      std::to_string(sitting.threads) + " threads");
+  for (const std::string& machine : machines) text += "run on " + machine + "\n";
   for (const auto& [name, method] : set.methods)
     text += name + ": profile " + method.profile +
             (method.options == "{}" ? "" : ", options " + method.options) +

@@ -142,7 +142,8 @@ PdfCanvas::PdfCanvas(const std::string& title, CanvasFormat format, double width
     cairo_pdf_surface_set_metadata(pieces_->surface, CAIRO_PDF_METADATA_CREATOR, "Boresight");
   }
   pieces_->cairo = cairo_create(pieces_->surface);
-  if (format == CanvasFormat::kPng) fill({0.0, 0.0, width, height}, {1.0, 1.0, 1.0});
+  if (format == CanvasFormat::kPng)  // also the pixels that the page ends in
+    fill({0.0, 0.0, width + 1.0, height + 1.0}, {1.0, 1.0, 1.0});
 }
 
 PdfCanvas::~PdfCanvas() {

@@ -2,7 +2,9 @@
 #include "sessions/tables/result_figures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -146,10 +148,13 @@ const ErrorAxis kAxes[] = {
      }},
 };
 
-PdfSeries staircase(PdfSeries style, CurvePoints points, double until) {
+/// From nothing at `from` on; a method of which nothing completed stays there.
+PdfSeries staircase(PdfSeries style, const CurvePoints& points, double from, double until) {
   style.marks = false;
-  style.points = std::move(points);
-  if (!style.points.empty()) style.points.push_back({until, style.points.back()[1]});
+  style.points = {{from, 0.0}};
+  if (!points.empty()) style.points.push_back({points.front()[0], 0.0});
+  style.points.insert(style.points.end(), points.begin(), points.end());
+  style.points.push_back({until, style.points.back()[1]});
   return style;
 }
 
@@ -165,7 +170,8 @@ PdfPlot errorPlot(const Group& group, const ErrorAxis& axis, const Styles& style
     for (const RunResult* run : members)
       if (run->completed && run->error)
         values.push_back(std::max(kLow, std::abs((*run->error).*axis.part)));
-    plot.series.push_back(staircase(styles.of(method), shareBelow(values, members.size()), kHigh));
+    plot.series.push_back(
+        staircase(styles.of(method), shareBelow(values, members.size()), kLow, kHigh));
   }
   if (const auto limit = sharedLimit(group.all, axis.limit))
     plot.guides.push_back({*limit, "requirement"});
@@ -248,6 +254,35 @@ void addTimes(const Members& members, const PdfSeries& style, PdfPlot& plot) {
   plot.series.push_back(std::move(middle));
 }
 
+/// Whole powers of ten around all values above zero; 0.1 to 10 without any.
+std::array<double, 2> decades(const std::vector<double>& values) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
+  for (const double value : values) {
+    if (!(value > 0.0)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  if (!(high > 0.0)) return {0.1, 10.0};
+  const double first = std::floor(std::log10(low));
+  const double last = std::max(first + 1.0, std::ceil(std::log10(high)));
+  return {std::pow(10.0, first), std::pow(10.0, last)};
+}
+
+/// All panels have the same axes.
+void takeSharedAxes(const std::vector<Group>& groups, PdfPlot& plot) {
+  std::vector<double> seconds;
+  std::vector<double> errors;
+  for (const Group& group : groups)
+    for (const auto& point : timeAgainstError(group.all)) {
+      seconds.push_back(point[0]);
+      errors.push_back(point[1]);
+    }
+  plot.log_x = plot.log_y = true;
+  plot.x_range = decades(seconds);
+  plot.y_range = decades(errors);
+}
+
 std::vector<std::uint8_t> timeFigure(const std::vector<Group>& groups, const Styles& styles,
                                      CanvasFormat format) {
   const std::size_t rows = (groups.size() + 1) / 2;
@@ -255,7 +290,7 @@ std::vector<std::uint8_t> timeFigure(const std::vector<Group>& groups, const Sty
               styles.list());
   for (std::size_t i = 0; i < groups.size(); ++i) {
     PdfPlot plot{groups[i].title, "seconds per run", "lateral error, mm", {}};
-    plot.log_x = plot.log_y = true;
+    takeSharedAxes(groups, plot);
     for (const auto& [method, members] : groups[i].methods)
       addTimes(members, styles.of(method), plot);
     sheet.draw(i / 2, static_cast<int>(i % 2), std::move(plot));
