@@ -11,6 +11,7 @@ case "${1:-}" in
   --all)
     presets=(release asan)
     export BORESIGHT_ALL=1  # also cases of full size, where there is data
+    boresight_optional_packages+=(blender)  # renders what resources/synthetic makes
     ;;
   *) echo "usage: bash tests/run.sh [--all]" >&2; exit 2 ;;
 esac

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Makes of the finished cases' records a dataset.json and the index files of a BOP data set."""
+
+import json
+import os
+
+import plan
+
+BOP_OBJECTS = {"bc": 1, "os": 2}
+BOP_DEPTH_MM = 0.05
+
+
+def replace_json(path, value):
+    """Written aside and renamed, so that a reader never meets half a file."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    draft = path.with_name(path.name + ".part")
+    draft.write_text(json.dumps(value, indent=1) + "\n")
+    os.replace(draft, path)
+
+
+def records(root):
+    """The finished cases, in the order of their names."""
+    return [json.loads(p.read_text()) for p in sorted((root / "cases").glob("*.json"))]
+
+
+def write(root):
+    """Both indices; how many cases they hold."""
+    known = records(root)
+    if known:
+        replace_json(root / "dataset.json", dataset(known))
+        write_bop(root / "bop", known)
+    return len(known)
+
+
+def dataset(known):
+    stations = sorted({r["plan"]["station"] for r in known})
+    cameras = {r["frame"]["camera"]: r["frame"]["camera_parameters"] for r in known}
+    return {"format": "boresight-dataset", "version": 1,
+            "requirement": {"normal_mm": 0.4, "lateral_mm": 0.4, "rotation_deg": 0.25},
+            "stations": {name: _station(name) for name in stations},
+            "cameras": dict(sorted(cameras.items())),
+            "cases": [_case(r) for r in known]}
+
+
+def _station(name):
+    values = plan.STATIONS[name]
+    tool = plan.pose_of(plan.rotation_about([0.0] * 3), [0.0, 0.0, values["end_effector_m"]])
+    return {"mesh": f"{name}/model.ply", "mesh_unit": "m",
+            "feature_size_m": values["feature_size_m"],
+            "uncertainty": {"translation_m": values["declared_m"],
+                            "rotation_deg": values["declared_deg"], "pivot": "camera"},
+            "camera_from_end_effector": tool}
+
+
+def _case(record):
+    frame, station = record["frame"], record["plan"]["station"]
+    made = {"id": frame["id"], "station": station,
+            "image": f"{station}/images/{frame['number']:06d}.png", "camera": frame["camera"],
+            "seed": {"camera_from_station": frame["seed"]},
+            "truth": {"camera_from_station": frame["camera_from_station"]}, "tags": frame["tags"]}
+    if "rig" in frame:
+        made["rig"] = frame["rig"]
+    return made
+
+
+def write_bop(root, known):
+    """A scene for each station; pictures, depth and masks are there already."""
+    side_px = known[0]["frame"]["camera_parameters"]["width"]
+    camera = plan.camera("left_pinhole", side_px)
+    replace_json(root / "camera.json", {"depth_scale": BOP_DEPTH_MM, **{
+        k: camera[k] for k in ("width", "height", "fx", "fy", "cx", "cy")}})
+    targets = []
+    for station, scene in BOP_OBJECTS.items():
+        cameras, truth, info = {}, {}, {}
+        for record in (r for r in known if r["plan"]["station"] == station):
+            key = str(record["frame"]["number"])
+            cameras[key], truth[key] = _bop_camera(record), [_bop_pose(record, scene)]
+            info[key] = [record["bop"]]
+            targets.append({"im_id": int(key), "inst_count": 1, "obj_id": scene,
+                            "scene_id": scene})
+        if not cameras:
+            continue
+        folder = root / "test" / f"{scene:06d}"
+        replace_json(folder / "scene_camera.json", cameras)
+        replace_json(folder / "scene_gt.json", truth)
+        replace_json(folder / "scene_gt_info.json", info)
+    replace_json(root / "test_targets_bop19.json", targets)
+
+
+def _bop_camera(record):
+    c = record["frame"]["camera_parameters"]
+    return {"cam_K": [c["fx"], 0.0, c["cx"], 0.0, c["fy"], c["cy"], 0.0, 0.0, 1.0],
+            "depth_scale": BOP_DEPTH_MM}
+
+
+def _bop_pose(record, number):
+    pose = record["frame"]["camera_from_station"]
+    return {"cam_R_m2c": [v for row in pose[:3] for v in row[:3]],
+            "cam_t_m2c": [1e3 * row[3] for row in pose[:3]], "obj_id": number}
