@@ -14,13 +14,17 @@ namespace {
 
 using test::madeRun;
 
+constexpr int kFoot_px = 110;
+
+/// Two methods that differ by a factor in everything, so that neither hides the other.
 std::vector<RunResult> sample() {
   std::vector<RunResult> runs;
   for (int i = 0; i < 30; ++i)
-    for (const char* method : {"ncc", "whs"}) {
-      runs.push_back(madeRun((i % 2 == 0 ? "bc-" : "os-") + std::to_string(i), method, i % 7 != 0,
-                             0.01 * i, 0.02 * i, 0.2 * i));
-      runs.back().seconds.matching = 0.1 + 0.01 * i;
+    for (const double factor : {1.0, 5.0}) {
+      runs.push_back(madeRun((i % 2 == 0 ? "bc-" : "os-") + std::to_string(i),
+                             factor > 1.0 ? "ncc" : "whs", i % 7 != 0, factor * 0.01 * i,
+                             factor * 0.02 * i, factor * 0.2 * i));
+      runs.back().seconds.matching = factor * (0.1 + 0.01 * i);
     }
   return runs;
 }
@@ -38,13 +42,14 @@ TEST(ResultFigures, AreFilesOfEachFormat) {
 
 TEST(ResultFigures, ShowEveryMethodInItsColour) {
   for (const Figure& figure : resultFigures(sample(), CanvasFormat::kPng)) {
-    const cv::Mat image = cv::imdecode(figure.bytes, cv::IMREAD_COLOR);
-    ASSERT_FALSE(image.empty()) << figure.name;
+    const cv::Mat whole = cv::imdecode(figure.bytes, cv::IMREAD_COLOR);
+    ASSERT_GT(whole.rows, 2 * kFoot_px) << figure.name;
+    const cv::Mat image = whole.rowRange(0, whole.rows - kFoot_px);  // without the names
     EXPECT_EQ(image.at<cv::Vec3b>(2, 2), cv::Vec3b(255, 255, 255)) << "on white";
     for (const cv::Scalar& bgr : {cv::Scalar(178, 115, 0), cv::Scalar(0, 94, 214)}) {
       cv::Mat of_method;
       cv::inRange(image, bgr - cv::Scalar::all(3), bgr + cv::Scalar::all(3), of_method);
-      EXPECT_GT(cv::countNonZero(of_method), 300) << figure.name << " " << bgr;
+      EXPECT_GT(cv::countNonZero(of_method), 30) << figure.name << " " << bgr;
     }
   }
 }
