@@ -10,6 +10,7 @@
 #include <set>
 #include <thread>
 
+#include "app/bop_arguments.h"
 #include "app/commands.h"
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/results_database.h"
@@ -26,9 +27,10 @@ namespace {
 constexpr std::size_t kListedFailures = 40;
 
 struct EvaluateArguments {
-  std::string dataset;
+  DatasetArguments dataset;
   std::string out;
   std::string jsonl;
+  std::string bop_csv;
   std::string mirror;
   OptionArguments options;
   sessions::BatchOptions batch;
@@ -37,7 +39,10 @@ struct EvaluateArguments {
 };
 
 void EvaluateArguments::addTo(CLI::App& command) {
-  command.add_option("--dataset", dataset, "dataset.json")->required()->type_name("FILE");
+  command.add_option("--dataset", dataset.path, "dataset.json, or the folder of a BOP dataset")
+      ->required()
+      ->type_name("PATH");
+  dataset.addTo(command);
   command.add_option("--case", batch.cases, "Only these cases")->type_name("ID");
   command.add_option("--tag", batch.tags, "Only cases with one of these tags")->type_name("T");
   command.add_option("--station", batch.stations, "Only cases of these stations")->type_name("S");
@@ -69,6 +74,10 @@ void EvaluateArguments::addTo(CLI::App& command) {
       ->check(CLI::IsMember({"x", "y", "z"}));
   command.add_option("--out", out, "Results as an SQLite file")->required()->type_name("FILE");
   command.add_option("--jsonl", jsonl, "Results as JSON lines")->type_name("FILE");
+  command
+      .add_option("--bop-csv", bop_csv,
+                  "Results of a BOP dataset as the challenge takes them (METHOD_SET-SPLIT.csv)")
+      ->type_name("FILE");
 }
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -117,14 +126,14 @@ class Progress {
   std::set<std::string> messages_;
 };
 
-sessions::BatchFacts factsOf(const EvaluateArguments& arguments, bool whole) {
+sessions::BatchFacts factsOf(const EvaluateArguments& arguments, const sessions::Dataset& dataset,
+                             bool whole) {
   const sessions::BatchOptions& batch = arguments.batch;
   const std::string profile = arguments.options.profileName();
   const auto changed = sessions::changedOptions(batch.localizer, profileOptions(profile));
   return {{"version", sessions::kVersion},
-          {"dataset", arguments.dataset},
-          {"dataset_sha256", sessions::sha256Text(sessions::readFileBytes(
-                                 arguments.dataset, sessions::kMaxJsonBytes))},
+          {"dataset", arguments.dataset.path},
+          {"dataset_sha256", dataset.sha256},
           {"method", batch.method},
           {"profile", profile},
           {"options", sessions::toJson(changed).dump()},
@@ -143,12 +152,14 @@ void writeLines(const std::string& file, const std::vector<sessions::RunResult>&
 
 int evaluate(EvaluateArguments& arguments) {
   sessions::requireWritable(arguments.out);
-  if (!arguments.jsonl.empty()) sessions::requireWritable(arguments.jsonl);
+  for (const std::string& file : {arguments.jsonl, arguments.bop_csv})
+    if (!file.empty()) sessions::requireWritable(file);
   if (!arguments.mirror.empty())
     arguments.batch.mirror = static_cast<sessions::MirrorAxis>(arguments.mirror.front() - 'x');
   arguments.batch.localizer = arguments.options.read();
   arguments.batch.memory_limit = arguments.options.memoryLimit();
-  const sessions::Dataset dataset = sessions::readDataset(arguments.dataset);
+  const sessions::Dataset dataset = arguments.dataset.open();
+  if (!arguments.bop_csv.empty()) (void)sessions::bopResults(dataset, {});
   for (const std::string& line : dataset.notes) note(line);
 
   std::stop_source stop;
@@ -164,8 +175,10 @@ int evaluate(EvaluateArguments& arguments) {
         stop.get_token());
   }
   const bool whole = !stop.stop_requested();
-  sessions::writeResultsDatabase(arguments.out, results, factsOf(arguments, whole));
+  sessions::writeResultsDatabase(arguments.out, results, factsOf(arguments, dataset, whole));
   if (!arguments.jsonl.empty()) writeLines(arguments.jsonl, results);
+  if (!arguments.bop_csv.empty())
+    sessions::writeBopResults(arguments.bop_csv, sessions::bopResults(dataset, results));
   std::cout << sessions::summaryTable(results) << "\n"
             << sessions::toleranceTable(results) << "\n"
             << sessions::failureList(results, kListedFailures) << std::flush;

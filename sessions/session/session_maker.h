@@ -38,6 +38,8 @@ MadeCase makeCase(const CaseFiles& files);
 
 /// A session of the cases of a dataset.json with these ids, or of all. Requirement, truth, rig,
 /// tags and uncertainty come along. InputError, also for an id that the dataset does not have.
+Session makeSession(const Dataset& dataset, const std::vector<std::string>& case_ids = {});
+/// The same of a file, or of a BOP folder with what openDataset chooses of it.
 Session makeSession(const std::filesystem::path& dataset_file,
                     const std::vector<std::string>& case_ids = {});
 
