@@ -29,7 +29,7 @@ struct CheckArguments {
   std::string source = "run";
   std::string preset;
   std::string json;
-  int basin = 0;
+  int basin = sessions::kBasinSeeds;
   bool sentences = false;
 
   PoseSource poseSource() const {
@@ -115,8 +115,8 @@ std::vector<std::string> presetNames() {
 void addCheck(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "check",
-      "Checks the poses of a session before somebody vouches for them; runs no localization, but "
-      "for --basin. Exit status 0 when all checks pass, 4 when some fail, 3 where there is no pose "
+      "Checks the poses of a session before somebody vouches for them, also by running from other "
+      "seeds. Exit status 0 when all checks pass, 4 when some fail, 3 where there is no pose "
       "to check");
   auto arguments = std::make_shared<CheckArguments>();
   command->add_option("session", arguments->session, "Session file")->required()->type_name("FILE");
@@ -127,8 +127,9 @@ void addCheck(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--basin", arguments->basin,
-                   "Run so many further seeds and see whether they lead back")
+                   "Run so many further seeds and see where they lead; 0: none, which is quick")
       ->check(CLI::Range(0, 1000))
+      ->capture_default_str()
       ->type_name("N");
   command
       ->add_option("--preset", arguments->preset,

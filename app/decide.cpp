@@ -22,6 +22,7 @@ struct DecideArguments {
   std::string comment;
   std::string source = "run";
   std::vector<std::string> overrides;
+  int basin = sessions::kBasinSeeds;
   bool validate = false;
   bool reject = false;
   bool approve = false;
@@ -48,8 +49,14 @@ Session validatedCase(const Session& session, const DecideArguments& arguments) 
   const auto subject = sessions::reviewSubject(
       session, sessions::loadCase(*session.findCase(arguments.case_id)), source);
   const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
-  return sessions::validated(session, subject, sessions::checkPose(subject, limits),
-                             readOverrides(arguments), arguments.signature());
+  const sessions::CheckOverrides overrides = readOverrides(arguments);
+  // What is refused anyway is refused at once.
+  const std::string concern = sessions::validationConcern(session, subject);
+  if (!concern.empty()) throw sessions::DecisionError(concern);
+  std::optional<sessions::BasinResult> basin;
+  if (arguments.basin > 0) basin = sessions::basinTest(subject, arguments.basin);
+  return sessions::validated(session, subject, sessions::checkPose(subject, limits, basin),
+                             overrides, arguments.signature());
 }
 
 Session decided(const Session& session, const DecideArguments& arguments) {
@@ -106,6 +113,12 @@ void addDecide(CLI::App& app, int& exit_code) {
       ->add_option("--source", arguments->source,
                    "Which pose is validated: of the last run, or of the marks")
       ->check(CLI::IsMember({"run", "annotation"}))
+      ->capture_default_str();
+  command
+      ->add_option("--basin", arguments->basin,
+                   "To validate, run so many further seeds and see where they lead; 0: none")
+      ->check(CLI::Range(0, 1000))
+      ->type_name("N")
       ->capture_default_str();
   command->add_flag("--recover", arguments->recover,
                     "Take edits that a killed program left in the session's journal");

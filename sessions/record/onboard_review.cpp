@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "core/base/math.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/record/record_of_run.h"
@@ -35,7 +36,7 @@ double largestSigma(const Matrix6d& covariance, int first) {
 }
 
 std::string turnText(const Pose& pose) {
-  const Eigen::Vector3d turn_deg = rotationLog(pose.rotation) * (180.0 / 3.14159265358979323846);
+  const Eigen::Vector3d turn_deg = rotationLog(pose.rotation) / kDegree_rad;
   return triple(turn_deg, 3) + " deg";
 }
 

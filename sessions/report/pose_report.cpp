@@ -96,15 +96,19 @@ double drawRow(PdfCanvas& canvas, const PdfBox& box, const std::string& name,
 
 // ---- the first page
 
-void drawOverlayPicture(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
+/// The place below.
+double drawOverlayPicture(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
   const ReportPicture picture = overlayPicture(report);
   const PdfBox taken = canvas.picture(box, picture.image);
   canvas.frame(taken, kFaintInk);
-  canvas.text(box.x, taken.bottom() + 2.0, box.width,
-              formatted("Edges of the seed (red) and, over them, of the pose (green) on the image; "
-                        "%d x %d px from (%d, %d).",
-                        picture.image.width, picture.image.height, picture.left_px, picture.top_px),
-              kFaint);
+  const double below = taken.bottom() + 2.0;
+  return below +
+         canvas.text(
+             box.x, below, box.width,
+             formatted("Edges of the seed (red) and, over them, of the pose (green) on the image; "
+                       "%d x %d px from (%d, %d).",
+                       picture.image.width, picture.image.height, picture.left_px, picture.top_px),
+             kFaint);
 }
 
 std::string vectorText(const Eigen::Vector3d& v, const char* unit, const char* number) {
@@ -221,13 +225,12 @@ double drawDecision(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
 
 void drawFirstPage(PdfCanvas& canvas, const PoseReport& report) {
   drawHead(canvas, report);
-  drawOverlayPicture(canvas, {kLeft, 74.0, kTextWidth, 470.0}, report);
-  constexpr double kBelow = 562.0;
+  const double below = drawOverlayPicture(canvas, {kLeft, 74.0, kTextWidth, 470.0}, report) + kGap;
   const double column = 0.5 * (kTextWidth - 2.0 * kGap);
-  PdfBox left = {kLeft, kBelow, column, kFoot - kBelow};
+  PdfBox left = {kLeft, below, column, kFoot - below};
   left.y = drawPose(canvas, left, report) + kGap;
   (void)drawEndEffector(canvas, left, report);
-  PdfBox right = {kLeft + column + 2.0 * kGap, kBelow, column, kFoot - kBelow};
+  PdfBox right = {kLeft + column + 2.0 * kGap, below, column, kFoot - below};
   right.y = drawInputs(canvas, right, report) + kGap;
   (void)drawDecision(canvas, right, report);
   drawFoot(canvas, report);

@@ -4,6 +4,8 @@
 #include "sessions/evaluation/reseed.h"
 #include "sessions/review/agreement_checks.h"
 #include "sessions/review/checks.h"
+#include "sessions/review/edge_evidence.h"
+#include "sessions/review/mirror_image.h"
 #include "sessions/trace/record.h"
 
 namespace boresight::sessions {
@@ -17,15 +19,21 @@ RunPlan planFor(const ReviewSubject& subject) {
 }
 
 /// The case as it would be had somebody begun elsewhere.
-LocalizationProblem problemFrom(const ReviewSubject& subject, int number) {
-  const SessionCase& one = subject.loaded->source;
-  const Eigen::Vector3d centre = matchedBounds(subject.loaded->scene.view()).centre();
-  const Vector6d offset = drawOffset(one.uncertainty, 1.0, one.id, number);
-  LocalizationProblem problem = subject.loaded->problem();
+LocalizationProblem problemFrom(const ReviewSubject& subject, const LoadedCase& loaded,
+                                const Vector6d& offset) {
+  const SessionCase& one = loaded.source;
+  const Eigen::Vector3d centre = matchedBounds(loaded.scene.view()).centre();
+  LocalizationProblem problem = loaded.problem();
   problem.camera_from_station_seed =
       seedForOffset(subject.camera_from_station, offset, one.uncertainty.pivot, centre);
   problem.uncertainty = seedUncertainty(one.uncertainty, problem.camera_from_station_seed, centre);
   return problem;
+}
+
+void addRival(const LoadedCase& loaded, const Pose& camera_from_station, bool mirrored,
+              BasinResult& result) {
+  result.rivals.push_back(
+      {camera_from_station, mirrored, coverageOfPose(loaded, camera_from_station).value()});
 }
 
 void count(const ReviewSubject& subject, const LocalizationTrace& trace, BasinResult& result) {
@@ -35,7 +43,16 @@ void count(const ReviewSubject& subject, const LocalizationTrace& trace, BasinRe
   if (withinRequirement(subject, trace.camera_from_station))
     ++result.returned;
   else
-    result.elsewhere.push_back(trace.camera_from_station);
+    addRival(*subject.loaded, trace.camera_from_station, false, result);
+}
+
+/// A station with two like halves is nearly its own mirror image: the right one must fit better.
+void tryMirrorImage(const ReviewSubject& subject, const RunPlan& plan, int axis,
+                    const std::stop_token& stop, BasinResult& result) {
+  const auto image = mirrorImageOf(*subject.loaded, axis);
+  const LocalizationTrace trace =
+      localize(problemFrom(subject, *image, Vector6d::Zero()), plan, RecordLevel::kSummary, stop);
+  if (trace.converged()) addRival(*image, trace.camera_from_station, true, result);
 }
 
 }  // namespace
@@ -45,13 +62,18 @@ BasinResult basinTest(const ReviewSubject& subject, int seeds, const std::stop_t
   BasinResult result;
   if (subject.loaded == nullptr) return result;
   const RunPlan plan = planFor(subject);
+  result.coverage = coverageOfPose(*subject.loaded, subject.camera_from_station).value();
   for (int number = 1; number <= seeds && !stop.stop_requested(); ++number) {
+    const SessionCase& one = subject.loaded->source;
+    const Vector6d offset = drawOffset(one.uncertainty, 1.0, one.id, number);
     const LocalizationTrace trace =
-        localize(problemFrom(subject, number), plan, RecordLevel::kSummary, stop);
+        localize(problemFrom(subject, *subject.loaded, offset), plan, RecordLevel::kSummary, stop);
     if (trace.status == LocalizationStatus::kRunning) break;
     count(subject, trace, result);
     if (after_each) after_each(result);
   }
+  for (int axis = 0; axis < 3 && seeds > 0 && !stop.stop_requested(); ++axis)
+    tryMirrorImage(subject, plan, axis, stop, result);
   return result;
 }
 

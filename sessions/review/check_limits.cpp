@@ -2,6 +2,7 @@
 #include "sessions/review/check_limits.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 namespace boresight::sessions {
@@ -27,6 +28,8 @@ CheckPreset photographs() {
   preset.limits.coverage_percent = 25.0;
   preset.limits.clutter_percent = 90.0;
   preset.limits.fall_off_percent = 8.0;
+  // Printed boxes and things that look alike from many sides are hard to find.
+  preset.limits.basin_percent = 30.0;
   return preset;
 }
 
@@ -42,6 +45,18 @@ const CheckPreset* findCheckPreset(const std::string& name) {
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&name](const CheckPreset& one) { return one.name == name; });
   return found == all.end() ? nullptr : &*found;
+}
+
+const CheckPreset& presetFor(const Requirement& requirement) {
+  const auto names = [](const Requirement& one) {
+    return std::array{one.normal_mm.has_value(), one.lateral_mm.has_value(),
+                      one.rotation_deg.has_value(), one.projection_px.has_value()};
+  };
+  const auto& all = checkPresets();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const CheckPreset& one) {
+    return names(one.requirement) == names(requirement);
+  });
+  return found == all.end() ? all.front() : *found;
 }
 
 CheckLimits checkLimits(const std::string& preset, const OptionList& changed) {

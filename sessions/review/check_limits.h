@@ -25,11 +25,13 @@ struct CheckLimits {
   double centre_sigma_px = 0.0;
   double coverage_percent = 30.0;
   double clutter_percent = 95.0;
+  double explained_percent = 40.0;
   double fall_off_percent = 15.0;
   double focal_percent = 1.0;
   double centre_px = 10.0;
   double agreement_percent = 100.0;
   double basin_percent = 90.0;
+  double rival_percent = 115.0;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -90,6 +92,10 @@ struct CheckLimits {
     visit(OptionInfo{"check.clutter_percent", "%", 0.0, 100.0,
                      "Most of the image's edges on the station that the pose may not predict."},
           self.clutter_percent);
+    visit(OptionInfo{"check.explained_percent", "%", 0.0, 100.0,
+                     "Least share of the predicted edges that the image shows, or else of the "
+                     "image's edges on the station that are predicted."},
+          self.explained_percent);
     visit(OptionInfo{"check.fall_off_percent", "%", 0.0, 100.0,
                      "Least part of the edges seen that must be lost when the pose is displaced, "
                      "whichever way."},
@@ -114,6 +120,10 @@ struct CheckLimits {
     visit(OptionInfo{"check.basin_percent", "%", 0.0, 100.0,
                      "Least share of further seeds that lead back to the same pose."},
           self.basin_percent);
+    visit(OptionInfo{"check.rival_percent", "%", 0.0, 1000.0,
+                     "Most that another pose, or the station's mirror image, may show of its "
+                     "predicted edges, of the share that this pose shows."},
+          self.rival_percent);
   }
 };
 
@@ -131,6 +141,10 @@ inline constexpr const char* kDefaultCheckPreset = "sample_transfer";
 const std::vector<CheckPreset>& checkPresets();
 /// nullptr when there is none of this name.
 const CheckPreset* findCheckPreset(const std::string& name);
+
+/// The first one whose requirement names the same figures (a photograph's names pixels), whatever
+/// their values; the default when there is none.
+const CheckPreset& presetFor(const Requirement& requirement);
 
 /// A preset's limits with those of a session in their place. OptionError when one does not exist or
 /// is out of range; std::invalid_argument when there is no such preset.

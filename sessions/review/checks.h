@@ -12,16 +12,28 @@
 
 namespace boresight::sessions {
 
-/// How many of a number of seeds around the case's lead back to the same pose.
+/// So many further seeds tell a second answer from none, and take a few seconds.
+inline constexpr int kBasinSeeds = 8;
+
+/// Another answer to the same image.
+struct RivalPose {
+  Pose camera_from_station;
+  bool mirrored = false;  ///< of the station's mirror image about a plane through its box's middle
+  double coverage = 0.0;  ///< share of the edges that it predicts which the image shows, 0 to 1
+};
+
+/// Where further seeds around the case's lead, and what speaks for it.
 struct BasinResult {
   int seeds = 0;
   int converged = 0;
-  int returned = 0;             ///< converged to the pose in question, within the requirement
-  std::vector<Pose> elsewhere;  ///< of those that converged to another pose
+  int returned = 0;               ///< converged to the pose in question, within the requirement
+  double coverage = 0.0;          ///< of the pose in question
+  std::vector<RivalPose> rivals;  ///< other poses, and the mirror images' wherever they lie
 };
 
-/// Runs the case's localization from `seeds` further seeds, drawn evenly in its uncertainty.
-/// Deterministic. A stop leaves what was done by then. `after_each` is told what was found so far.
+/// Runs the case's localization from `seeds` further seeds, drawn evenly in its uncertainty, and
+/// of the station's three mirror images from the pose in question. Deterministic. A stop leaves
+/// what was done by then. `after_each` is told what was found so far.
 BasinResult basinTest(const ReviewSubject& subject, int seeds, const std::stop_token& stop = {},
                       const std::function<void(const BasinResult&)>& after_each = {});
 

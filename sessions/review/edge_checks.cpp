@@ -15,6 +15,7 @@ namespace {
 
 constexpr CheckName kCoverage{"edge_coverage", "Predicted edges that are seen"};
 constexpr CheckName kClutter{"edge_clutter", "Edges on the station that are not predicted"};
+constexpr CheckName kExplained{"edge_explained", "Edges that explain each other"};
 constexpr CheckName kFallOff{"edge_fall_off", "Fall-off when the pose is displaced"};
 constexpr CheckName kFocal{"camera_focal", "Focal length that the edges ask for"};
 constexpr CheckName kCentre{"camera_centre", "Principal point that the edges ask for"};
@@ -49,6 +50,19 @@ Check clutterCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
       percentText(share) + " of the image's edges on the station are none that the pose predicts.",
       "Look what they belong to: shadows and labels are harmless, another station "
       "or a part that the mesh lacks is not.");
+}
+
+/// A label or a screw that the mesh lacks leaves much unpredicted, a shadow or an obstacle leaves
+/// much unseen; of a right pose one of the two is well explained.
+Check explainedCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
+  const double seen = evidence.coverage.value();
+  const double predicted = evidence.clutter.whole > 0.0 ? 1.0 - evidence.clutter.value() : 0.0;
+  return measuredCheck(kExplained, "%", 100.0 * std::max(seen, predicted), limits.explained_percent,
+                       LimitSide::kAtLeast,
+                       percentText(seen) + " of the predicted edges are seen, and " +
+                           percentText(predicted) +
+                           " of the edges seen on the station are predicted.",
+                       "Neither explains the other: look at the overlay.");
 }
 
 Check fallOffCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
@@ -139,7 +153,7 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
     const std::string why = measurable ? "The pose shows no edge of the station in the image."
                                        : "There is no image of the camera's size.";
     addAll(kCoverage, measurable, why, checks);
-    for (const CheckName& name : {kClutter, kFallOff, kFocal, kCentre})
+    for (const CheckName& name : {kClutter, kExplained, kFallOff, kFocal, kCentre})
       addAll(name, false, why, checks);
     return;
   }
@@ -156,6 +170,7 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
       fallOffOf(image, places, loaded.source.camera, subject.camera_from_station, settings);
   checks.push_back(coverageCheck(evidence, limits));
   checks.push_back(clutterCheck(evidence, limits));
+  checks.push_back(explainedCheck(evidence, limits));
   checks.push_back(fallOffCheck(evidence, limits));
   if (asksForMetric(subject.requirement)) {
     addCameraChecks(fitCamera(looked, loaded.source.camera, subject.camera_from_station),

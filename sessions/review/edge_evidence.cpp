@@ -88,6 +88,16 @@ Share coverageOf(const std::vector<LookedPlace>& looked, double near_px) {
   return share;
 }
 
+Share coverageOfPose(const LoadedCase& loaded, const Pose& camera_from_station,
+                     const EvidenceSettings& settings) {
+  const PredictedEdges edges =
+      predictEdges(loaded.source.camera, loaded.scene.view(), camera_from_station);
+  const ImageEdges image(loaded.image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr,
+                         regionOf(edges, settings));
+  return coverageOf(lookAt(image, thinned(edges.places, settings.places), settings),
+                    settings.near_px);
+}
+
 Share clutterOf(const ImageEdges& image, const PredictedEdges& edges,
                 const std::vector<LookedPlace>& looked, const EvidenceSettings& settings) {
   Share share;

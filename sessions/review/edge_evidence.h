@@ -10,6 +10,7 @@
 #include "core/geometry/pose.h"
 #include "sessions/review/image_edges.h"
 #include "sessions/review/predicted_edges.h"
+#include "sessions/session/case_run.h"
 
 namespace boresight::sessions {
 
@@ -54,6 +55,10 @@ struct LookedPlace {
 std::vector<LookedPlace> lookAt(const ImageEdges& image, const std::vector<PredictedPlace>& places,
                                 const EvidenceSettings& settings);
 Share coverageOf(const std::vector<LookedPlace>& looked, double near_px);
+
+/// That of the station at a pose, rendered anew. Nothing where no edge can be looked at.
+Share coverageOfPose(const LoadedCase& loaded, const Pose& camera_from_station,
+                     const EvidenceSettings& settings = {});
 
 /// Edges of the image inside the silhouette that are at least half as steep as the predicted ones
 /// that were seen, and of these the ones with no predicted edge of their direction within 2 px.

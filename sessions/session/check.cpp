@@ -2,6 +2,7 @@
 #include "sessions/session/check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace boresight::sessions {
@@ -9,7 +10,8 @@ namespace {
 
 std::string numberText(double value, const std::string& unit) {
   char text[40];
-  std::snprintf(text, sizeof text, "%.3g", value);
+  const bool large = std::abs(value) >= 1000.0 && std::abs(value) < 1e6;  // not as 9e+03
+  std::snprintf(text, sizeof text, large ? "%.0f" : "%.3g", value);
   return unit.empty() ? std::string(text) : text + (" " + unit);
 }
 

@@ -7,6 +7,7 @@
 #include "sessions/exchange/bop_dataset.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
+#include "sessions/review/check_limits.h"
 #include "sessions/session/input_check.h"
 
 namespace boresight::sessions {
@@ -63,6 +64,17 @@ SessionCase caseOf(const Dataset& dataset, const Case& one, const std::vector<Me
   return made;
 }
 
+/// By what all of its cases ask for; the default when they ask for different things or nothing.
+std::string presetOfAll(const Session& session) {
+  std::string preset;
+  for (const auto& one : session.cases) {
+    const std::string own = one->requirement ? presetFor(*one->requirement).name : "";
+    if (own.empty() || (!preset.empty() && own != preset)) return kDefaultCheckPreset;
+    preset = own;
+  }
+  return preset.empty() ? kDefaultCheckPreset : preset;
+}
+
 }  // namespace
 
 MadeCase makeCase(const CaseFiles& files) {
@@ -103,6 +115,7 @@ Session makeSession(const Dataset& dataset, const std::vector<std::string>& case
       parts[one.station] = meshInputs(dataset.stations.at(one.station).parts);
     session.cases.emplace_back(caseOf(dataset, one, parts[one.station]));
   }
+  session.review.preset = presetOfAll(session);
   return session;
 }
 

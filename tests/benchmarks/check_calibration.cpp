@@ -5,11 +5,14 @@
 //   made wrong
 //                                                   only of every so many cases
 //   check_calibration recheck DATASET OUT.jsonl NEW.jsonl  measures the edges of the poses anew
+//   check_calibration basin DATASET OUT.jsonl NEW.jsonl SEEDS  adds the basin test to what passes
 //   check_calibration judge OUT.jsonl ...                 by the limits as they are now
 #include <algorithm>
 #include <exception>
 #include <fstream>
+#include <functional>
 #include <iostream>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -62,6 +65,34 @@ ordered_json errorJson(const CheckedVariant& variant, const Pose& camera_from_st
   return sessions::toJson(error);
 }
 
+/// Mean distance of the station's vertices in the image, each pose through the camera that it was
+/// found with: what a requirement in pixels asks. Nothing of the camera's error shows in it.
+std::optional<double> distanceInImage(const CheckedVariant& variant,
+                                      const Pose& camera_from_station) {
+  double sum_px = 0.0;
+  double count = 0.0;
+  for (const auto& vertex : sessions::matchedVertices(variant.loaded->scene.view())) {
+    const Eigen::Vector3d point_m = vertex.cast<double>();
+    Eigen::Vector2d true_px;
+    Eigen::Vector2d found_px;
+    if (!project(variant.true_camera, variant.camera_from_station_true * point_m, true_px) ||
+        !project(variant.loaded->source.camera, camera_from_station * point_m, found_px))
+      continue;
+    sum_px += (found_px - true_px).norm();
+    count += 1.0;
+  }
+  if (count == 0.0) return {};
+  return sum_px / count;
+}
+
+/// Whether a requirement that is one in the image alone is met there.
+bool meetsInImage(const CheckedVariant& variant, const Pose& camera_from_station) {
+  const sessions::Requirement& required = *variant.loaded->source.requirement;
+  if (!required.projection_px || required.normal_mm) return false;
+  const auto distance_px = distanceInImage(variant, camera_from_station);
+  return distance_px && *distance_px <= *required.projection_px;
+}
+
 sessions::ReviewSubject subjectOf(const CheckedVariant& variant, const Pose& camera_from_station) {
   sessions::ReviewSubject subject;
   subject.loaded = variant.loaded;
@@ -70,9 +101,11 @@ sessions::ReviewSubject subjectOf(const CheckedVariant& variant, const Pose& cam
   return subject;
 }
 
-ordered_json checksJson(const sessions::ReviewSubject& subject) {
+ordered_json checksJson(const sessions::ReviewSubject& subject, int basin_seeds = 0) {
   ordered_json json = ordered_json::array();
-  for (const sessions::Check& check : checkPose(subject, sessions::CheckLimits()))
+  std::optional<sessions::BasinResult> basin;
+  if (basin_seeds > 0) basin = basinTest(subject, basin_seeds);
+  for (const sessions::Check& check : checkPose(subject, sessions::CheckLimits(), basin))
     json.push_back(sessions::toJson(sessions::JudgedCheck{check, ""}));
   return json;
 }
@@ -86,6 +119,8 @@ ordered_json measured(const CheckedVariant& variant) {
     bool meets = false;
     json["error"] = errorJson(variant, trace.camera_from_station, meets);
     json["right"] = meets && !variant.wrong_mesh;
+    json["right_in_image"] =
+        !variant.wrong_mesh && meetsInImage(variant, trace.camera_from_station);
     json["pose"] = sessions::exactPoseJson(trace.camera_from_station);
     sessions::ReviewSubject subject = subjectOf(variant, trace.camera_from_station);
     subject.covariance = trace.covariance;
@@ -139,22 +174,30 @@ bool isOfEdges(const std::string& id) {
   return id.starts_with("edge_") || id.starts_with("camera_");
 }
 
-int recheck(const std::string& dataset, const std::string& from, const std::string& to) {
+bool isOfBasin(const std::string& id) { return id.starts_with("basin_"); }
+
+/// Measures anew what `which` names, of the lines for which `when`, and keeps the others.
+int measureAnew(const std::string& dataset, const std::string& from, const std::string& to,
+                const std::function<bool(const ordered_json&)>& when,
+                const std::function<bool(const std::string&)>& which, int basin_seeds) {
   const Session session = sessionOf(dataset);
+  const std::size_t done = linesOf(to).size();
   std::ofstream stream(to, std::ios::app);
+  std::size_t number = 0;
   for (ordered_json line : linesOf(from)) {
+    if (number++ < done) continue;
     const SessionCase* one = session.findCase(line["case"].get<std::string>());
-    if (one == nullptr) continue;
-    if (line.contains("pose")) {
+    if (one != nullptr && line.contains("pose") && when(line)) {
       const CheckedVariant variant =
           makeVariant(session, *one, lender(session, *one), line["variant"].get<std::string>());
       const auto pose_json = nlohmann::json::parse(line["pose"].dump());
       const Pose pose = sessions::readExactPose(sessions::JsonReader(from, pose_json, "pose"));
+      line["right_in_image"] = !variant.wrong_mesh && meetsInImage(variant, pose);
       ordered_json kept = ordered_json::array();
       for (const ordered_json& check : line["checks"])
-        if (!isOfEdges(check["id"].get<std::string>())) kept.push_back(check);
-      for (const ordered_json& check : checksJson(subjectOf(variant, pose)))
-        if (isOfEdges(check["id"].get<std::string>())) kept.push_back(check);
+        if (!which(check["id"].get<std::string>())) kept.push_back(check);
+      for (const ordered_json& check : checksJson(subjectOf(variant, pose), basin_seeds))
+        if (which(check["id"].get<std::string>())) kept.push_back(check);
       line["checks"] = kept;
     }
     stream << line.dump() << std::endl;
@@ -172,7 +215,14 @@ int main(int argc, char** argv) {
       return boresight::test::measure(arguments[1], arguments[2],
                                       arguments.size() > 3 ? std::stoul(arguments[3]) : 1);
     if (arguments.size() == 4 && arguments[0] == "recheck")
-      return boresight::test::recheck(arguments[1], arguments[2], arguments[3]);
+      return boresight::test::measureAnew(
+          arguments[1], arguments[2], arguments[3], [](const auto&) { return true; },
+          boresight::test::isOfEdges, 0);
+    if (arguments.size() == 5 && arguments[0] == "basin")
+      return boresight::test::measureAnew(
+          arguments[1], arguments[2], arguments[3],
+          [](const auto& line) { return boresight::test::passes(nlohmann::json(line)); },
+          boresight::test::isOfBasin, std::stoi(arguments[4]));
     if (arguments.size() >= 2 && arguments[0] == "judge")
       return boresight::test::judge({arguments.begin() + 1, arguments.end()});
   } catch (const std::exception& error) {
@@ -180,7 +230,8 @@ int main(int argc, char** argv) {
     return 1;
   }
   std::cerr
-      << "check_calibration measure DATASET OUT [EVERY] | recheck DATASET FROM TO | judge OUT ..."
+      << "check_calibration measure DATASET OUT [EVERY] | recheck DATASET FROM TO | basin DATASET "
+         "FROM TO SEEDS | judge OUT ..."
       << std::endl;
   return 2;
 }

@@ -21,6 +21,12 @@ int rank(CheckState state) {
   return state == CheckState::kFailed ? 0 : state == CheckState::kPassed ? 1 : 2;
 }
 
+QString shortLimit(const sessions::Check& check) {
+  return fromText(sessions::limitText(check))
+      .replace(QStringLiteral("at most"), QStringLiteral("≤"))
+      .replace(QStringLiteral("at least"), QStringLiteral("≥"));
+}
+
 bool isAsked(const CheckRow& row) { return row.check.state != CheckState::kNotApplicable; }
 
 }  // namespace
@@ -74,7 +80,7 @@ QString ChecksModel::text(const CheckRow& row, int column) const {
   const sessions::Check& check = row.check;
   if (column == kCheck) return sign(check.state) + QLatin1Char(' ') + fromText(check.title);
   if (column == kFound) return fromText(sessions::foundText(check));
-  if (column == kLimit) return fromText(sessions::limitText(check));
+  if (column == kLimit) return shortLimit(check);
   if (check.state != CheckState::kFailed) return {};
   return row.reason.isEmpty() ? tr("✎ type a reason") : row.reason;
 }
@@ -136,7 +142,7 @@ QString ChecksModel::countsText() const {
 QVariant ChecksModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || section < 0 || section >= kColumnCount) return {};
   const std::array<QString, kColumnCount> titles = {countsText(), tr("Found"), tr("Limit"),
-                                                    tr("Pass over because ...")};
+                                                    tr("Reason to pass over")};
   const std::array<QString, kColumnCount> help = {
       tr("What is asked of the pose: ✗ failed, ✓ passed, – could not be asked."),
       tr("What was measured, with its unit; nothing where the sentence alone tells."),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/review/decision_form.h"
 
-#include <QGridLayout>
+#include <utility>
+
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSettings>
@@ -80,9 +80,9 @@ DecisionForm::DecisionForm(ReviewController& controller, QWidget* parent)
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(4);
-  auto* grid = new QGridLayout;
-  buildFields(*grid);
-  column->addLayout(grid);
+  auto* fields = new QHBoxLayout;
+  buildFields(*fields);
+  column->addLayout(fields);
   auto* row = new QHBoxLayout;
   row->setSpacing(3);
   row->addWidget(button(Act::kValidate, "validate", tr("Validate"),
@@ -94,27 +94,19 @@ DecisionForm::DecisionForm(ReviewController& controller, QWidget* parent)
   row->addWidget(button(Act::kTakeBack, "takeBack", tr("Take back"),
                         tr("Take the last decision back; it stays in the history")));
   column->addLayout(row);
-  obstacle_ = new QLabel(this);
-  obstacle_->setObjectName(QStringLiteral("obstacle"));
-  obstacle_->setWordWrap(true);
-  obstacle_->setTextFormat(Qt::PlainText);
-  column->addWidget(obstacle_);
-  history_ = new QTextBrowser(this);
-  history_->setObjectName(QStringLiteral("history"));
-  history_->setAccessibleName(tr("Decisions on this case"));
-  history_->setMinimumHeight(2 * fontMetrics().lineSpacing());
-  column->addWidget(history_, 1);
+  reading_ = new QTextBrowser(this);
+  reading_->setObjectName(QStringLiteral("reading"));
+  reading_->setAccessibleName(tr("What stands in the way, the chosen check, former decisions"));
+  reading_->setMinimumHeight(2 * fontMetrics().lineSpacing());
+  column->addWidget(reading_, 1);
   connect(&controller_, &ReviewController::checksChanged, this, &DecisionForm::showWhatIsPossible);
-  connect(&controller_, &ReviewController::standingChanged, this, [this] {
-    showWhatIsPossible();
-    showHistory();
-  });
+  connect(&controller_, &ReviewController::standingChanged, this,
+          &DecisionForm::showWhatIsPossible);
   showWhatIsPossible();
-  showHistory();
 }
 
-void DecisionForm::buildFields(QGridLayout& grid) {
-  grid.setSpacing(3);
+void DecisionForm::buildFields(QHBoxLayout& row) {
+  row.setSpacing(3);
   name_ = new QLineEdit(QSettings().value(QLatin1String(kNameKey)).toString(), this);
   name_->setObjectName(QStringLiteral("decisionName"));
   name_->setPlaceholderText(tr("Who decides"));
@@ -123,14 +115,10 @@ void DecisionForm::buildFields(QGridLayout& grid) {
   comment_->setObjectName(QStringLiteral("decisionComment"));
   comment_->setPlaceholderText(tr("On what grounds"));
   comment_->setToolTip(tr("On what grounds; it goes with the decision into every file"));
-  auto* name = new QLabel(tr("&Name"), this);
-  auto* comment = new QLabel(tr("Co&mment"), this);
-  name->setBuddy(name_);
-  comment->setBuddy(comment_);
-  grid.addWidget(name, 0, 0);
-  grid.addWidget(name_, 0, 1);
-  grid.addWidget(comment, 1, 0);
-  grid.addWidget(comment_, 1, 1);
+  name_->setAccessibleName(tr("Who decides"));
+  comment_->setAccessibleName(tr("On what grounds"));
+  row.addWidget(name_, 2);
+  row.addWidget(comment_, 3);
   for (QLineEdit* each : {name_, comment_})
     connect(each, &QLineEdit::textChanged, this, &DecisionForm::showWhatIsPossible);
 }
@@ -146,6 +134,11 @@ QPushButton* DecisionForm::button(Act act, const char* name, const QString& text
   return made;
 }
 
+void DecisionForm::setNote(const QString& html) {
+  note_ = html;
+  showReading();
+}
+
 sessions::Signature DecisionForm::signature() const {
   return {name_->text().trimmed().toStdString(), comment_->text().trimmed().toStdString()};
 }
@@ -155,8 +148,6 @@ void DecisionForm::decide(Act act) {
   QSettings().setValue(QLatin1String(kNameKey), name_->text().trimmed());
   comment_->clear();  // the next decision has grounds of its own
 }
-
-QString DecisionForm::obstacle() const { return obstacle_->text(); }
 
 /// What a person most likely wants to do, whose obstacle is told without being asked.
 ReviewController::Act DecisionForm::nextStep() const {
@@ -173,17 +164,25 @@ void DecisionForm::showWhatIsPossible() {
     each->setToolTip(reason.isEmpty() ? tips_[act]
                                       : tr("%1. Not now: %2").arg(tips_[act], sentence(reason)));
   }
-  const QString reason = controller_.obstacle(nextStep(), who);
-  const bool told = nextStep() != Act::kTakeBack && !reason.isEmpty();
-  obstacle_->setText(told ? QStringLiteral("⚠ ") + sentence(reason) : QString());
-  obstacle_->setVisible(told);
+  // Nobody is asked for a second person's yes where one person is enough.
+  buttons_[Act::kApprove]->setVisible(controller_.settings().second_person);
+  const bool told = nextStep() != Act::kTakeBack;
+  obstacle_ = told ? sentence(controller_.obstacle(nextStep(), who)) : QString();
+  showReading();
 }
 
-void DecisionForm::showHistory() {
-  QStringList entries;
-  for (const Decision* decision : controller_.history()) entries << decisionHtml(*decision);
-  history_->setHtml(entries.isEmpty() ? tr("<i>Nobody has decided on this case yet.</i>")
-                                      : entries.join(QStringLiteral("<hr>")));
+/// One page that scrolls: of several labels in so little room one would be cut off.
+void DecisionForm::showReading() {
+  QStringList parts;
+  if (!obstacle_.isEmpty()) parts << QStringLiteral("⚠ %1").arg(obstacle_.toHtmlEscaped());
+  if (controller_.awaitsBasin() && nextStep() == Act::kValidate)
+    parts << tr(
+        "○ The basin test has not been run: a second answer to this image is not excluded.");
+  if (!note_.isEmpty()) parts << note_;
+  for (const Decision* decision : controller_.history()) parts << decisionHtml(*decision);
+  if (controller_.history().empty()) parts << tr("<i>Nobody has decided on this case yet.</i>");
+  const QString html = parts.join(QStringLiteral("<hr>"));
+  if (std::exchange(read_, html) != html) reading_->setHtml(html);
 }
 
 }  // namespace boresight::ui

@@ -8,8 +8,7 @@
 #include "ui/review/review_controller.h"
 
 QT_BEGIN_NAMESPACE
-class QGridLayout;
-class QLabel;
+class QHBoxLayout;
 class QLineEdit;
 class QPushButton;
 class QTextBrowser;
@@ -26,17 +25,19 @@ class DecisionForm : public QWidget {
   explicit DecisionForm(ReviewController& controller, QWidget* parent = nullptr);
 
   /// What stands in the way of the next step, as it is shown.
-  QString obstacle() const;
+  const QString& obstacle() const { return obstacle_; }
+  /// Something to read while deciding, above the former decisions.
+  void setNote(const QString& html);
 
  private:
   using Act = ReviewController::Act;
 
-  void buildFields(QGridLayout& grid);
+  void buildFields(QHBoxLayout& row);
   QPushButton* button(Act act, const char* name, const QString& text, const QString& tip);
   sessions::Signature signature() const;
   void decide(Act act);
   void showWhatIsPossible();
-  void showHistory();
+  void showReading();
   Act nextStep() const;
 
   ReviewController& controller_;
@@ -44,8 +45,10 @@ class DecisionForm : public QWidget {
   QLineEdit* comment_ = nullptr;
   std::map<Act, QPushButton*> buttons_;
   std::map<Act, QString> tips_;
-  QLabel* obstacle_ = nullptr;
-  QTextBrowser* history_ = nullptr;
+  QString obstacle_;
+  QString note_;
+  QString read_;
+  QTextBrowser* reading_ = nullptr;
 };
 
 }  // namespace boresight::ui

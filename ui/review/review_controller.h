@@ -69,6 +69,8 @@ class ReviewController : public QObject {
   void setLimits(const sessions::CheckLimits& limits);
   void setSecondPerson(bool asked);
 
+  /// Whether a pose is ready to be judged from which no other seeds have been run yet.
+  bool awaitsBasin() const { return current_ && !basin_ && !isBasinRunning(); }
   bool isBasinRunning() const { return basin_runner_.isBusy(); }
   /// Of the test that is under way.
   const sessions::BasinResult& basinSoFar() const { return basin_so_far_; }

@@ -4,7 +4,6 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QHeaderView>
-#include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSpinBox>
@@ -26,7 +25,6 @@ using sessions::PoseSource;
 namespace {
 
 constexpr int kDigestDigits = 8;
-constexpr int kSeeds = 20;
 
 }  // namespace
 
@@ -38,11 +36,12 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
   column->addLayout(buildTop());
   auto* splitter = new QSplitter(Qt::Horizontal, this);
   decision_ = new DecisionForm(controller_, splitter);
-  splitter->addWidget(buildChecks());
+  buildTable();
+  splitter->addWidget(table_);
   splitter->addWidget(decision_);
   splitter->setStretchFactor(0, 1);
   splitter->setChildrenCollapsible(false);
-  splitter->setSizes({560, 340});
+  splitter->setSizes({640, 280});
   column->addWidget(splitter, 1);
   connect(&controller_, &ReviewController::standingChanged, this, [this] {
     showStanding();
@@ -69,7 +68,7 @@ QHBoxLayout* ReviewPanel::buildTop() {
   seeds_ = new QSpinBox(this);
   seeds_->setObjectName(QStringLiteral("basinSeeds"));
   seeds_->setRange(1, 1000);
-  seeds_->setValue(kSeeds);
+  seeds_->setValue(sessions::kBasinSeeds);
   seeds_->setToolTip(tr("How many further seeds the basin test runs from"));
   basin_ = new QPushButton(this);
   basin_->setObjectName(QStringLiteral("basin"));
@@ -86,26 +85,8 @@ QHBoxLayout* ReviewPanel::buildTop() {
   return row;
 }
 
-QWidget* ReviewPanel::buildChecks() {
-  auto* left = new QWidget(this);
-  auto* column = new QVBoxLayout(left);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  buildTable(*left);
-  column->addWidget(table_, 1);
-  detail_ = new QLabel(left);
-  detail_->setObjectName(QStringLiteral("checkSentence"));
-  detail_->setWordWrap(true);
-  detail_->setTextFormat(Qt::PlainText);
-  detail_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  detail_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  detail_->setMinimumHeight(2 * detail_->fontMetrics().lineSpacing());
-  column->addWidget(detail_);
-  return left;
-}
-
-void ReviewPanel::buildTable(QWidget& parent) {
-  table_ = new QTableView(&parent);
+void ReviewPanel::buildTable() {
+  table_ = new QTableView(this);
   table_->setObjectName(QStringLiteral("checks"));
   table_->setAccessibleName(tr("Checks"));
   table_->setModel(&model_);
@@ -115,6 +96,7 @@ void ReviewPanel::buildTable(QWidget& parent) {
   table_->setMinimumHeight(4 * table_->verticalHeader()->defaultSectionSize());
   QHeaderView& header = *table_->horizontalHeader();
   header.setSectionResizeMode(QHeaderView::ResizeToContents);
+  header.setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   for (const int column : {ChecksModel::kCheck, ChecksModel::kReason})
     header.setSectionResizeMode(column, QHeaderView::Stretch);
   hint_ = new EmptyHint(*table_);
@@ -139,12 +121,13 @@ void ReviewPanel::showStanding() {
   else
     banner_->setStanding(controller_.standing());
   const sessions::ReviewSettings& settings = controller_.settings();
-  const QString edited = settings.limits.empty() ? QString() : tr(", edited");
-  limits_->setText(tr("Limits: %1%2").arg(fromText(settings.preset), edited));
+  limits_->setText(settings.limits.empty() ? tr("Limits...") : tr("Limits (edited)..."));
   const sessions::CheckPreset* preset = sessions::findCheckPreset(settings.preset);
   limits_->setToolTip(tr("What the checks are held against, and whether a second person approves. "
-                         "%1")
-                          .arg(preset ? fromText(preset->help) : QString()));
+                         "Now: %1%2. %3")
+                          .arg(fromText(settings.preset),
+                               settings.limits.empty() ? QString() : tr(", edited"),
+                               preset ? fromText(preset->help) : QString()));
 }
 
 void ReviewPanel::showSources() {
@@ -183,24 +166,27 @@ void ReviewPanel::showChecks() {
 
 void ReviewPanel::showChosen() {
   const QModelIndex index = table_->currentIndex();
-  QString text;
-  if (!controller_.isCurrent() && model_.rowCount() > 0)
-    text = controller_.problem().isEmpty()
-               ? tr("… Something has changed: these are of what was before; they are made anew.")
-               : tr("⚠ %1").arg(controller_.problem());
-  else if (index.isValid() && index.row() < model_.rowCount())
-    text = ChecksModel::sign(model_.checkAt(index.row()).check.state) + QLatin1Char(' ') +
-           fromText(model_.checkAt(index.row()).check.sentence);
-  detail_->setText(text);
-  detail_->setToolTip(text);
+  QString html;
+  if (!controller_.isCurrent() && model_.rowCount() > 0) {
+    html = controller_.problem().isEmpty()
+               ? tr("… Something has changed: these are the checks of what was before; they are "
+                    "made anew.")
+               : tr("⚠ %1").arg(controller_.problem().toHtmlEscaped());
+  } else if (index.isValid() && index.row() < model_.rowCount()) {
+    const sessions::Check& check = model_.checkAt(index.row()).check;
+    html = QStringLiteral("%1 <b>%2</b> %3")
+               .arg(ChecksModel::sign(check.state), fromText(check.title).toHtmlEscaped(),
+                    fromText(check.sentence).toHtmlEscaped());
+  }
+  decision_->setNote(html);
 }
 
 void ReviewPanel::showBasin() {
   const bool running = controller_.isBasinRunning();
   const sessions::BasinResult& so_far = controller_.basinSoFar();
   seeds_->setEnabled(!running);
-  basin_->setText(running ? tr("Stop (%1 of %2)").arg(so_far.seeds).arg(seeds_->value())
-                          : tr("Test the basin"));
+  basin_->setText(running ? tr("Stop (%1/%2)").arg(so_far.seeds).arg(seeds_->value())
+                          : tr("Basin test"));
   basin_->setEnabled(running || controller_.isCurrent());
   basin_->setToolTip(
       running ? tr("%1 of %2 seeds led back to the pose so far. What has been run counts.")

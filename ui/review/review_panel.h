@@ -9,7 +9,6 @@
 QT_BEGIN_NAMESPACE
 class QComboBox;
 class QHBoxLayout;
-class QLabel;
 class QPushButton;
 class QSpinBox;
 class QTableView;
@@ -39,8 +38,7 @@ class ReviewPanel : public QWidget {
 
  private:
   QHBoxLayout* buildTop();
-  QWidget* buildChecks();
-  void buildTable(QWidget& parent);
+  void buildTable();
   void showStanding();
   void showSources();
   void showChecks();
@@ -57,7 +55,6 @@ class ReviewPanel : public QWidget {
   QPushButton* limits_ = nullptr;
   QTableView* table_ = nullptr;
   EmptyHint* hint_ = nullptr;
-  QLabel* detail_ = nullptr;
   QSpinBox* seeds_ = nullptr;
   QPushButton* basin_ = nullptr;
   DecisionForm* decision_ = nullptr;

@@ -14,6 +14,19 @@ namespace boresight::ui {
 
 using sessions::CaseStanding;
 
+namespace {
+
+/// A tick beside "NOT VALIDATED" would be read as a yes: what converged, but nobody vouches for, is
+/// an open circle here.
+QString signOf(const sessions::Standing& standing) {
+  if (!standing.dropped.empty()) return QStringLiteral("⚠");
+  const bool open =
+      standing.state == CaseStanding::kConverged || standing.state == CaseStanding::kAnnotated;
+  return CasesModel::stateText(open ? CaseState::kNew : caseStateOf(standing.state)).left(1);
+}
+
+}  // namespace
+
 StandingBanner::StandingBanner(QWidget* parent) : QFrame(parent) {
   setFrameShape(QFrame::StyledPanel);
   setAutoFillBackground(true);
@@ -43,9 +56,7 @@ void StandingBanner::setStanding(const sessions::Standing& standing) {
   const Look look = standing.state == CaseStanding::kValidated ? Look::kGood
                     : bad                                      ? Look::kBad
                                                                : Look::kPlain;
-  const QString sign = standing.dropped.empty()
-                           ? CasesModel::stateText(caseStateOf(standing.state)).left(1)
-                           : QStringLiteral("⚠");
+  const QString sign = signOf(standing);
   QString text = fromText(sessions::standingText(standing));
   if (!text.isEmpty()) text[0] = text[0].toUpper();
   show(sign, text, look);

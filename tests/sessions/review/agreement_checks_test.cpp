@@ -91,18 +91,32 @@ std::vector<Check> basinChecks(const std::optional<BasinResult>& basin) {
   return checks;
 }
 
-TEST(BasinChecks, SeedsThatStayAwayAndSeedsThatLeadElsewhereAreTwoThings) {
+TEST(BasinChecks, SeedsThatDoNotLeadBackFailAtTheLimit) {
   EXPECT_EQ(findCheck(basinChecks({}), "basin_returned").state, CheckState::kNotApplicable);
-  BasinResult basin{20, 19, 19, {}};
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").figure, 95.0);
+  EXPECT_EQ(findCheck(basinChecks({}), "basin_rival").state, CheckState::kNotApplicable);
+  const double limit = CheckLimits().basin_percent;
+  BasinResult basin{100, 100, static_cast<int>(limit), 0.5, {}};
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").figure, limit);
   EXPECT_TRUE(allPassed(basinChecks(basin)));
-  basin.converged = 20;
-  basin.elsewhere.emplace_back();
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").state, CheckState::kPassed);
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_elsewhere").state, CheckState::kFailed);
-  basin = {20, 10, 10, {}};
+  --basin.returned;
   EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").state, CheckState::kFailed);
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_elsewhere").state, CheckState::kPassed);
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kPassed);
+}
+
+TEST(BasinChecks, OnlyABetterAnswerElsewhereSpeaksAgainstThePose) {
+  BasinResult basin{10, 10, 9, 0.5, {{Pose(), false, 0.3}}};
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kPassed);
+  EXPECT_NEAR(findCheck(basinChecks(basin), "basin_rival").figure.value(), 60.0, 1e-9);
+  basin.rivals.push_back({Pose(), false, 0.7});
+  const Check other = findCheck(basinChecks(basin), "basin_rival");
+  EXPECT_EQ(other.state, CheckState::kFailed);
+  EXPECT_NE(other.sentence.find("another pose 70 %"), std::string::npos) << other.sentence;
+  basin.rivals.push_back({Pose(), true, 0.8});
+  const Check mirrored = findCheck(basinChecks(basin), "basin_rival");
+  EXPECT_NE(mirrored.sentence.find("mirror image of the station 80 %"), std::string::npos)
+      << mirrored.sentence;
+  basin.coverage = 0.0;
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kFailed);
 }
 
 Check onboardCheck(const ReviewSubject& subject) {

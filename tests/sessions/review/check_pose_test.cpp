@@ -8,6 +8,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/checks_text.h"
+#include "sessions/review/mirror_image.h"
 #include "tests/sessions/review/find_check.h"
 #include "tests/support/loaded_example.h"
 #include "tests/support/marked_example.h"
@@ -165,12 +166,46 @@ TEST(CheckPose, OtherSeedsLeadBackAndAStopLeavesWhatWasDone) {
   const BasinResult basin = basinTest(subject, 2);
   EXPECT_EQ(basin.seeds, 2);
   EXPECT_EQ(basin.returned, 2);
-  EXPECT_TRUE(basin.elsewhere.empty());
+  EXPECT_GT(basin.coverage, 0.5);
+  for (const RivalPose& rival : basin.rivals) {
+    EXPECT_TRUE(rival.mirrored);
+    EXPECT_LT(rival.coverage, basin.coverage);
+  }
   std::stop_source stop;
   stop.request_stop();
   EXPECT_EQ(basinTest(subject, 2, stop.get_token()).seeds, 0);
   const auto checks = checkPose(subject, presetLimits(), basin);
   EXPECT_EQ(findCheck(checks, "basin_returned").figure, 100.0);
+  EXPECT_EQ(findCheck(checks, "basin_rival").state, CheckState::kPassed);
+}
+
+TEST(CheckPose, AMirroredStationIsToldByTheRightOneThatFitsBetter) {
+  // What a mesh mirrored by mistake makes of an image: its own mirror image is the right station.
+  const ExampleReview review = example("os");
+  ReviewSubject subject = review.subject;
+  subject.loaded = mirrorImageOf(*review.subject.loaded, 0);
+  subject.run.reset();
+  LocalizerOptions options = caseOptions(review.session, subject.loaded->source, "session");
+  options.support.gate = false;
+  const LocalizationTrace trace = runCase(*subject.loaded, options);
+  ASSERT_TRUE(trace.converged()) << "this station is nearly its own mirror image";
+  subject.camera_from_station = trace.camera_from_station;
+  const auto checks = checkPose(subject, presetLimits(), basinTest(subject, 1));
+  const Check rival = findCheck(checks, "basin_rival");
+  EXPECT_EQ(rival.state, CheckState::kFailed) << rival.sentence;
+  EXPECT_NE(rival.sentence.find("mirror image"), std::string::npos) << rival.sentence;
+}
+
+TEST(CheckPresets, ArePickedByWhatTheRequirementNames) {
+  Requirement pixels;
+  pixels.projection_px = 3.0;
+  EXPECT_EQ(presetFor(pixels).name, "photographs");
+  Requirement metric;
+  metric.normal_mm = 1.0;
+  metric.lateral_mm = 2.0;
+  metric.rotation_deg = 3.0;
+  EXPECT_EQ(presetFor(metric).name, "sample_transfer");
+  EXPECT_EQ(presetFor(Requirement()).name, kDefaultCheckPreset);
 }
 
 TEST(ChecksText, FailedOnesSayWhy) {

@@ -94,6 +94,30 @@ TEST(EdgeChecks, LinesThatTheBoxDoesNotHaveAreClutterByTheirLength) {
   EXPECT_GT(figureOf(checks, "edge_coverage"), 96.0);
 }
 
+TEST(EdgeChecks, EitherThePredictedOrTheSeenIsExplained) {
+  // Half of the box unseen, yet what is seen is predicted; then lines all over it as well.
+  DrawnBox box;
+  const double middle_px = box.pixelOf({0.0, 0.0, 0.025}).x();
+  box.fill({{0.0, 0.0}, {middle_px, 0.0}, {middle_px, 599.0}, {0.0, 599.0}}, 40);
+  const auto half = checksOf(box.subject(box.camera_from_station_));
+  EXPECT_NEAR(figureOf(half, "edge_explained"),
+              std::max(figureOf(half, "edge_coverage"), 100.0 - figureOf(half, "edge_clutter")),
+              1e-9);
+  EXPECT_EQ(findCheck(half, "edge_explained").state, CheckState::kPassed);
+  const auto away = checksOf(box.subject(movedBy(box, 6.0, 5.0)));
+  EXPECT_LT(figureOf(away, "edge_explained"), 40.0);
+  EXPECT_EQ(findCheck(away, "edge_explained").state, CheckState::kFailed);
+}
+
+TEST(EdgeChecks, CoverageOfAPoseIsThatOfTheCheck) {
+  const DrawnBox box;
+  for (const double moved_px : {0.0, 1.0, 6.0}) {
+    const auto subject = box.subject(movedBy(box, moved_px, 0.5));
+    const Share share = coverageOfPose(*subject.loaded, subject.camera_from_station);
+    EXPECT_NEAR(100.0 * share.value(), figureOf(checksOf(subject), "edge_coverage"), 1e-9);
+  }
+}
+
 TEST(EdgeChecks, WhatIsHiddenIsNotSeen) {
   DrawnBox box;
   const double middle_px = box.pixelOf({0.0, 0.0, 0.025}).x();

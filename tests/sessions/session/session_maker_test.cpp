@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_file.h"
@@ -56,6 +57,20 @@ TEST(SessionMaker, ADatasetAndItsFilesMakeTheSameRun) {
       sessions::makeSession(exampleFolder() / "dataset.json", {session.cases[1]->id});
   ASSERT_EQ(only.cases.size(), 1u);
   EXPECT_TRUE(only.cases[0] == session.cases[1]);
+}
+
+TEST(SessionMaker, TheChecksAreThoseOfWhatTheDatasetAsksFor) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = copyOfExamples(folder) / "dataset.json";
+  EXPECT_EQ(sessions::makeSession(file).review.preset, "sample_transfer");
+  auto json = nlohmann::json::parse(folder.read("stations/dataset.json"));
+  json["requirement"] = {{"projection_px", 5.0}};
+  folder.write("stations/dataset.json", json.dump());
+  EXPECT_EQ(sessions::makeSession(file).review.preset, "photographs");
+  json["cases"][0]["requirement"] = {
+      {"normal_mm", 1.0}, {"lateral_mm", 1.0}, {"rotation_deg", 1.0}};
+  folder.write("stations/dataset.json", json.dump());
+  EXPECT_EQ(sessions::makeSession(file).review.preset, "sample_transfer") << "they differ";
 }
 
 TEST(SessionMaker, TheSessionThatShipsIsMadeOfTheDatasetThatShips) {

@@ -7,9 +7,9 @@
 #include <QSpinBox>
 #include <QTextBrowser>
 
-#include "sessions/review/verify_pose.h"
 #include "sessions/review/review_settings.h"
 #include "sessions/review/standing.h"
+#include "sessions/review/verify_pose.h"
 #include "sessions/session/session_document.h"
 #include "tests/support/marked_example.h"
 #include "tests/ui/review/review_fixture.h"
@@ -170,7 +170,7 @@ TEST_F(ReviewPanelTest, ADecisionIsOneEditThatUndoTakesBack) {
   ASSERT_TRUE(document_.undo());
   EXPECT_EQ(standing(), CaseStanding::kConverged);
   EXPECT_TRUE(document_.session().decisions.empty());
-  EXPECT_FALSE(history().contains(QStringLiteral("Ada")));
+  EXPECT_FALSE(history().contains(QStringLiteral("Validated by Ada")));
   ASSERT_TRUE(document_.redo());
   EXPECT_EQ(standing(), CaseStanding::kValidated);
 }
@@ -265,7 +265,7 @@ TEST_F(ReviewPanelTest, LimitsAreEditedInTheirDialogAndSurviveSaving) {
   const int checked_row = hands().rowOf(QString::fromUtf8("✗ Inliers"));
   ASSERT_GE(checked_row, 0);
   EXPECT_EQ(hands().table().model()->index(checked_row, ChecksModel::kLimit).data().toString(),
-            QStringLiteral("at least 9e+03"));
+            QString::fromUtf8("≥ 9000"));
   QTest::mouseClick(dialog->findChild<QCheckBox*>(QStringLiteral("secondPerson")), Qt::LeftButton,
                     Qt::NoModifier, QPoint(8, 8));
   EXPECT_TRUE(document_.session().review.second_person);
@@ -306,7 +306,7 @@ TEST_F(ReviewPanelTest, TheBasinTestEntersTheChecksAndCanBeStopped) {
   hands().click("basin");
   ASSERT_TRUE(checked());
   EXPECT_NE(state(), CheckState::kNotApplicable) << "what has been run counts";
-  EXPECT_TRUE(hands().button("basin")->text().contains(QStringLiteral("Test")));
+  EXPECT_TRUE(hands().button("basin")->text().contains(QStringLiteral("test")));
 }
 
 TEST_F(ReviewPanelTest, AReadOnlySessionIsNotDecidedOn) {
