@@ -14,10 +14,11 @@ namespace boresight::sessions {
 
 /// Which part of a BOP dataset is read, and how well its objects' places are said to be known.
 struct BopSelection {
-  std::string split;  ///< folder of scenes, e.g. "val"; empty: "test", or the only one there is
-  std::vector<int> scenes;   ///< empty: all
-  std::vector<int> objects;  ///< empty: all
-  std::string sensor;        ///< of datasets with several: `scene_camera_SENSOR.json`
+  /// Folder of scenes, e.g. "val"; empty: "test", or the only one there is.
+  std::string split = {};
+  std::vector<int> scenes = {};   ///< empty: all
+  std::vector<int> objects = {};  ///< empty: all
+  std::string sensor = {};        ///< of datasets with several: `scene_camera_SENSOR.json`
   /// Every instance, also those that are hardly to be seen or no target of the challenge.
   bool every_instance = false;
   /// Seeds are drawn about the truth, uniformly in the ellipsoids inscribed in this; a case always
