@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/commands.h"
 
+#include <algorithm>
 #include <iostream>
 #include <map>
 
+#include "sessions/baselines/method_options.h"
 #include "sessions/report/text_table.h"
 #include "sessions/trace/record.h"
 
@@ -12,6 +14,35 @@ namespace {
 
 constexpr const char* kDefaultProfile = "default";
 constexpr const char* kFlightProfile = "flight";
+
+bool isMethodOption(const std::string& name) {
+  const auto all = sessions::listOptions(sessions::MethodOptions());
+  return std::any_of(all.begin(), all.end(),
+                     [&name](const sessions::OptionDescription& one) { return one.name == name; });
+}
+
+/// Sets what the config, then the assignments name: options of methods, or all others.
+template <class Options>
+void applyTo(Options& options, const std::string& config, const std::vector<std::string>& set,
+             bool of_methods) {
+  if (!config.empty()) {
+    sessions::Config read = sessions::readConfig(config);
+    std::erase_if(read.options,
+                  [=](const auto& one) { return isMethodOption(one.first) != of_methods; });
+    sessions::applyConfig(options, read);
+  }
+  for (const std::string& assignment : set) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos) throw CLI::ValidationError("--set", "needs NAME=VALUE");
+    const std::string name = assignment.substr(0, equals);
+    if (isMethodOption(name) != of_methods) continue;
+    try {
+      sessions::applyOptionText(options, name, std::string_view(assignment).substr(equals + 1));
+    } catch (const sessions::OptionError& error) {
+      throw CLI::ValidationError("--set", error.what());
+    }
+  }
+}
 
 }  // namespace
 
@@ -36,14 +67,6 @@ sessions::SceneMesh MeshArguments::read() const {
   part.mesh = mesh;
   part.mesh_unit = unit;
   return sessions::readScene({&part, 1});
-}
-
-void addMethod(CLI::App& command, std::string& method) {
-  command.add_option("--method", method, "How to localize; there is: whs")
-      ->capture_default_str()
-      ->check([](const std::string& name) {
-        return name == "whs" ? std::string() : "there is no method \"" + name + "\"; there is: whs";
-      });
 }
 
 void addThreads(CLI::App& command, int& threads) {
@@ -96,17 +119,13 @@ void OptionArguments::addTo(CLI::App& command) {
 
 LocalizerOptions OptionArguments::read() const {
   LocalizerOptions options = profileOptions(profileName());
-  if (!config.empty()) sessions::applyConfig(options, sessions::readConfig(config));
-  for (const std::string& assignment : assignments) {
-    const std::size_t equals = assignment.find('=');
-    if (equals == std::string::npos) throw CLI::ValidationError("--set", "needs NAME=VALUE");
-    try {
-      sessions::applyOptionText(options, assignment.substr(0, equals),
-                                std::string_view(assignment).substr(equals + 1));
-    } catch (const sessions::OptionError& error) {
-      throw CLI::ValidationError("--set", error.what());
-    }
-  }
+  applyTo(options, config, assignments, false);
+  return options;
+}
+
+sessions::MethodOptions OptionArguments::readMethodOptions() const {
+  sessions::MethodOptions options;
+  applyTo(options, config, assignments, true);
   return options;
 }
 

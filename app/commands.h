@@ -14,6 +14,10 @@
 #include "sessions/io/pose_file.h"
 #include "sessions/io/scene_mesh.h"
 
+namespace boresight::sessions {
+struct MethodOptions;
+}
+
 namespace boresight::app {
 
 /// Each adds its subcommand; what that returns when it was called goes to `exit_code`.
@@ -50,9 +54,6 @@ struct MeshArguments {
   sessions::SceneMesh read() const;
 };
 
-/// --method: refused, with what there is, unless it exists.
-void addMethod(CLI::App& command, std::string& method);
-
 /// --threads: how many a run may use.
 void addThreads(CLI::App& command, int& threads);
 
@@ -68,6 +69,8 @@ struct OptionArguments {
   void addTo(CLI::App& command);
   /// Profile, then config, then --set. InputError for the config, CLI::ValidationError for --set.
   LocalizerOptions read() const;
+  /// The same for the methods beside WHS, whose options stand in the same places.
+  sessions::MethodOptions readMethodOptions() const;
   /// "paper", "default" or "flight": the one asked for, else the config's.
   std::string profileName() const;
   /// Bytes for a run and its inputs; 0 where the profile sets no limit.

@@ -12,6 +12,7 @@
 
 #include "app/bop_arguments.h"
 #include "app/commands.h"
+#include "app/method_arguments.h"
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/results_database.h"
 #include "sessions/evaluation/summary.h"
@@ -33,6 +34,7 @@ struct EvaluateArguments {
   std::string bop_csv;
   std::string mirror;
   OptionArguments options;
+  MethodArguments method;
   sessions::BatchOptions batch;
 
   void addTo(CLI::App& command);
@@ -46,7 +48,7 @@ void EvaluateArguments::addTo(CLI::App& command) {
   command.add_option("--case", batch.cases, "Only these cases")->type_name("ID");
   command.add_option("--tag", batch.tags, "Only cases with one of these tags")->type_name("T");
   command.add_option("--station", batch.stations, "Only cases of these stations")->type_name("S");
-  addMethod(command, batch.method);
+  method.addTo(command, true);
   addKernels(command, batch.kernels);
   options.addTo(command);
   command.add_option("--jobs", batch.jobs, "Runs at a time")
@@ -130,11 +132,13 @@ sessions::BatchFacts factsOf(const EvaluateArguments& arguments, const sessions:
                              bool whole) {
   const sessions::BatchOptions& batch = arguments.batch;
   const std::string profile = arguments.options.profileName();
-  const auto changed = sessions::changedOptions(batch.localizer, profileOptions(profile));
+  auto changed = sessions::changedOptions(batch.localizer, profileOptions(profile));
+  for (auto& option : arguments.method.changedOptions(batch.method_setup.options))
+    changed.push_back(std::move(option));
   return {{"version", sessions::kVersion},
           {"dataset", arguments.dataset.path},
           {"dataset_sha256", dataset.sha256},
-          {"method", batch.method},
+          {"method", arguments.method.names()},
           {"profile", profile},
           {"options", sessions::toJson(changed).dump()},
           {"reseed", std::to_string(batch.reseeds)},
@@ -150,6 +154,13 @@ void writeLines(const std::string& file, const std::vector<sessions::RunResult>&
   sessions::writeFileAtomically(file, text);
 }
 
+/// Before the work rather than after it.
+void requireOneMethodOfBop(const EvaluateArguments& arguments, const sessions::Dataset& dataset) {
+  if (arguments.method.methods.size() != 1)
+    throw CLI::ValidationError("--bop-csv", "holds the results of one method");
+  (void)sessions::bopResults(dataset, {});
+}
+
 int evaluate(EvaluateArguments& arguments) {
   sessions::requireWritable(arguments.out);
   for (const std::string& file : {arguments.jsonl, arguments.bop_csv})
@@ -157,9 +168,10 @@ int evaluate(EvaluateArguments& arguments) {
   if (!arguments.mirror.empty())
     arguments.batch.mirror = static_cast<sessions::MirrorAxis>(arguments.mirror.front() - 'x');
   arguments.batch.localizer = arguments.options.read();
+  arguments.batch.method_setup = arguments.method.setup(arguments.options);
   arguments.batch.memory_limit = arguments.options.memoryLimit();
   const sessions::Dataset dataset = arguments.dataset.open();
-  if (!arguments.bop_csv.empty()) (void)sessions::bopResults(dataset, {});
+  if (!arguments.bop_csv.empty()) requireOneMethodOfBop(arguments, dataset);
   for (const std::string& line : dataset.notes) note(line);
 
   std::stop_source stop;
@@ -167,12 +179,16 @@ int evaluate(EvaluateArguments& arguments) {
   {
     const InterruptWatch watch(stop);
     auto progress = std::make_shared<Progress>();
-    results = sessions::runBatch(
-        dataset, arguments.batch,
-        [progress](std::size_t done, std::size_t total, const sessions::RunResult& result) {
-          (*progress)(done, total, result);
-        },
-        stop.get_token());
+    for (const std::string& method : arguments.method.methods) {
+      arguments.batch.method = method;
+      std::vector<sessions::RunResult> made = sessions::runBatch(
+          dataset, arguments.batch,
+          [progress](std::size_t done, std::size_t total, const sessions::RunResult& result) {
+            (*progress)(done, total, result);
+          },
+          stop.get_token());
+      results.insert(results.end(), made.begin(), made.end());
+    }
   }
   const bool whole = !stop.stop_requested();
   sessions::writeResultsDatabase(arguments.out, results, factsOf(arguments, dataset, whole));

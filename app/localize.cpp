@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/commands.h"
+#include "app/method_arguments.h"
 #include "app/problem_inputs.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/atomic_file.h"
@@ -20,7 +21,7 @@ namespace {
 
 struct LocalizeArguments : InputArguments {
   std::string truth;
-  std::string method = "whs";
+  MethodArguments method;
   int threads = 1;
   Kernels kernels = bestKernels();
   std::string out, trace, record, overlay;
@@ -38,7 +39,7 @@ void LocalizeArguments::addTo(CLI::App& command) {
   };
   InputArguments::addTo(command);
   file("--truth", truth, "pose.json with the true pose: errors are printed, an overlay shows it");
-  addMethod(command, method);
+  method.addTo(command, false);
   addThreads(command, threads);
   addKernels(command, kernels);
   file("--out", out, "Writes the result as JSON");
@@ -57,9 +58,11 @@ Inputs readInputs(const LocalizeArguments& arguments) {
 
 sessions::RunProvenance provenance(const LocalizeArguments& arguments, const Inputs& inputs) {
   sessions::RunProvenance made;
-  made.method = arguments.method;
+  made.method = arguments.method.methods.front();
   made.profile = arguments.options.profileName();
   made.changed_options = sessions::changedOptions(inputs.options, profileOptions(made.profile));
+  for (auto& option : arguments.method.changedOptions(arguments.options.readMethodOptions()))
+    made.changed_options.push_back(std::move(option));
   made.uncertainty = inputs.uncertainty;
   made.image = &inputs.image;
   made.scene = &inputs.scene;
@@ -160,6 +163,8 @@ int localizeImage(const LocalizeArguments& arguments) {
   for (const std::string& file :
        {arguments.out, arguments.trace, arguments.record, arguments.overlay})
     if (!file.empty()) sessions::requireWritable(file);
+  if (!arguments.record.empty() && arguments.method.needsSetup())
+    throw CLI::ValidationError("--record", "the onboard record is of runs with --method whs alone");
   const Inputs inputs = readInputs(arguments);
   requireSensibleSeed(inputs, arguments.seed);
   for (const std::string& line : inputs.notes) note(line);
@@ -172,8 +177,9 @@ int localizeImage(const LocalizeArguments& arguments) {
   std::vector<std::uint8_t> onboard(arguments.record.empty() ? 0 : kRecordRoomBytes);
   RecordWriter record(onboard);
   if (!arguments.record.empty()) settings.onboard_record = &record;
-  const sessions::LocalizationTrace trace =
-      sessions::localize(inputs.problem(), inputs.options, settings);
+  sessions::Methods methods(arguments.method.setup(arguments.options));
+  const sessions::LocalizationTrace trace = methods.localize(
+      arguments.method.methods.front(), inputs.problem(), inputs.options, settings);
   requireAccepted(arguments, trace);
   const auto error = errorAgainstTruth(inputs, trace.camera_from_station);
   printResult(trace, error);

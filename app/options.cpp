@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "sessions/baselines/methods.h"
 #include "sessions/report/text_table.h"
 
 namespace boresight::app {
@@ -21,11 +22,17 @@ std::string rangeText(const OptionDescription& option) {
   return sessions::numberText(option.minimum) + " .. " + sessions::numberText(option.maximum);
 }
 
-void printOptions(const std::string& profile) {
-  for (const OptionDescription& option : sessions::listOptions(profileOptions(profile))) {
+void print(const std::vector<OptionDescription>& options) {
+  for (const OptionDescription& option : options) {
     std::cout << option.name << " = " << sessions::valueText(option, option.value) << "   ("
               << rangeText(option) << ")\n    " << option.help << "\n";
   }
+}
+
+void printOptions(const std::string& profile) {
+  print(sessions::listOptions(profileOptions(profile)));
+  std::cout << "\nOf the methods beside whs (" << sessions::methodNames() << "):\n";
+  print(sessions::listOptions(sessions::MethodOptions()));
 }
 
 }  // namespace

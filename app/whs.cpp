@@ -5,6 +5,7 @@
 #include <new>
 
 #include "app/commands.h"
+#include "sessions/baselines/matching_method.h"
 #include "sessions/io/errors.h"
 #include "sessions/version.h"
 
@@ -61,6 +62,9 @@ int main(int argc, char** argv) {
   } catch (const boresight::sessions::FileError& error) {
     std::cerr << error.what() << std::endl;
     return boresight::app::kBadInput;
+  } catch (const boresight::sessions::MethodError& error) {
+    note(error.what());
+    return boresight::app::kNotConverged;
   } catch (const std::bad_alloc&) {
     note("not enough memory");
     return boresight::app::kInternalFault;

@@ -126,6 +126,18 @@ class Localizer {
   /// (firstFixedOption); then nothing has changed. The digest hears of it unless none differs.
   [[nodiscard]] bool changeOptions(const LocalizerOptions& options);
 
+  /// Leaves the matching to the caller, for methods other than WHS in the same loop; before the
+  /// first step. Every match stage then waits for supplyMatches(), and the renders also give
+  /// `surfaces` (of the level's size, or larger), which must outlive the run. Everything else, and
+  /// a run without this call, stays what it is. The digest hears of it.
+  void matchOutside(const SurfaceRender& surfaces);
+  /// Whether step() waits for matches: then the workspace's iteration holds render and templates.
+  bool awaitsMatches() const;
+  /// One entry per template, in their order; or any other items of the render, which then stand for
+  /// the templates. What is not finite counts as not found. kCapacityExceeded for more than
+  /// templates.count, kInvalidOption when none are awaited; then nothing has changed.
+  Status supplyMatches(std::span<const SuppliedMatch> supplied);
+
   const Workspace& workspace() const { return workspace_; }
   const LocalizationProblem& problem() const { return problem_; }
   const LocalizerOptions& options() const { return options_; }
@@ -190,6 +202,9 @@ class Localizer {
   EdgeRenderer renderer_;
   TemplateSelector selector_;
   std::span<WhsSearch> searches_;  ///< one per worker
+  bool match_outside_ = false;
+  bool supplied_ = false;   ///< for the match stage at hand
+  SurfaceRender surfaces_;  ///< for those who match outside
   PnpRansac ransac_;
   EdgeRefinement refinement_;
   std::array<RayGrid, kPyramidLevels> rays_;

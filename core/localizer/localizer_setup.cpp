@@ -191,6 +191,7 @@ void Localizer::begin() {
   bounds_ = matchedBounds(problem_.mesh);
   digestOptions(options_, digest_);
   digestProblem(problem_, digest_);
+  if (match_outside_) matchOutside(surfaces_);
 }
 
 std::size_t MemoryUse::total() const {

@@ -67,8 +67,8 @@ StepReport Localizer::stepRender() {
     const Pose rendered = hypothesis_ == 0
                               ? camera_from_station_
                               : rolledAboutScene(camera_from_station_, roll_rad, bounds_);
-    const Status status =
-        renderer_.begin(rays_[static_cast<std::size_t>(now.level)], rendered, now.render);
+    const Status status = renderer_.begin(rays_[static_cast<std::size_t>(now.level)], rendered,
+                                          now.render, surfaces_);
     if (status != Status::kOk) return faulted(Stage::kRender, status);
     stage_begun_ = true;
     openPieces(renderer_.pieces());
@@ -106,13 +106,15 @@ StepReport Localizer::stepTemplates() {
     return failHypothesis(Stage::kTemplates, LocalizationStatus::kTooFewTemplates);
   if (status != Status::kOk) return faulted(Stage::kTemplates, status);
   now.matches.count = now.templates.count;
-  openPieces(now.templates.count);
+  openPieces(match_outside_ ? 0 : now.templates.count);
+  supplied_ = false;
   stage_ = Stage::kMatch;
   return StepReport::of(Stage::kTemplates, true);
 }
 
 StepReport Localizer::stepMatch() {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
+  if (match_outside_ && !supplied_) return StepReport::of(Stage::kMatch, false);
   if (nextUndone()) {
     WhsSearch& search = searches_.front();
     if (!piece_begun_) piece_begun_ = beginMatch(piece_, search);

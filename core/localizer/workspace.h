@@ -31,6 +31,18 @@ struct MatchSet {
   std::int32_t searched = 0;
 };
 
+/// A correspondence that somebody else than the core found (Localizer::matchOutside): an item of
+/// the render, and where the image shows it.
+struct SuppliedMatch {
+  Template item;              ///< one of the templates chosen, or another place of the render
+  SearchWindow window;        ///< where it was looked for, at the level
+  double x = 0.0, y = 0.0;    ///< where it was found, px at the level
+  double score = 0.0;         ///< [0, 2], the higher the better; for people and records
+  double second_score = 0.0;  ///< of the best other place
+  bool has_second = false;
+  bool found = false;
+};
+
 /// Why a run, or an iteration, ended.
 enum class LocalizationStatus : std::uint8_t {
   kRunning = 0,

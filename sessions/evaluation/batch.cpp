@@ -135,6 +135,7 @@ class Batch {
   std::map<std::string, Shared<StationScene>> scenes_;
   std::vector<std::unique_ptr<CaseWork>> cases_;
   std::vector<Item> items_;
+  Methods methods_;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;  ///< over what follows
   std::vector<std::optional<RunResult>> results_;
@@ -143,7 +144,7 @@ class Batch {
 };
 
 Batch::Batch(const Dataset& dataset, const BatchOptions& options, const BatchProgress& progress)
-    : dataset_(dataset), options_(options), progress_(progress) {
+    : dataset_(dataset), options_(options), progress_(progress), methods_(options.method_setup) {
   for (const Case* one : selectedCases(dataset, options)) {
     auto work = std::make_unique<CaseWork>();
     work->input = one;
@@ -211,6 +212,9 @@ RunResult Batch::runItem(const Item& item, const std::stop_token& stop) {
   } catch (const FileError& error) {
     result.status = "input_error";
     result.message = error.what();
+  } catch (const MethodError& error) {
+    result.status = "method_error";
+    result.message = one.id + ": " + error.what();
   } catch (const std::bad_alloc&) {
     result.status = "input_error";
     result.message = one.image.string() + ": not enough memory for this image and mesh";
@@ -258,7 +262,7 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
     settings.memory_limit = options_.memory_limit;
     settings.threads = options_.threads;
     settings.kernels = options_.kernels;
-    noteTrace(localize(problem, options, settings, stop), result);
+    noteTrace(methods_.localize(options_.method, problem, options, settings, stop), result);
   } else {
     result.status = "bad_seed";
   }

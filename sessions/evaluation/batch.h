@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sessions/baselines/methods.h"
 #include "sessions/evaluation/run_result.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/trace/record.h"
@@ -25,6 +26,7 @@ struct BatchOptions {
 
   LocalizerOptions localizer;  ///< a feature size of 0 is replaced by the station's, if it has one
   std::string method = "whs";
+  MethodSetup method_setup;  ///< of those that are not WHS
   Kernels kernels = bestKernels();
   int jobs = 1;
   int threads = 1;               ///< of each run

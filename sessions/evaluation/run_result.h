@@ -22,7 +22,8 @@ struct RunResult {
   std::string method;
   std::vector<std::string> tags;
 
-  /// LocalizationStatus as text, or "input_error", or "bad_seed" (nothing to see from it).
+  /// LocalizationStatus as text, or "input_error", "method_error" (the method could not go on), or
+  /// "bad_seed" (nothing to see from it).
   std::string status;
   std::string message;  ///< why it did not converge; empty otherwise
   bool completed = false;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
 
+#include "sessions/baselines/outside_matching.h"
 #include "sessions/record/record_inputs.h"
 #include "sessions/trace/worker_pool.h"
 #include "sessions/version.h"
@@ -137,6 +139,8 @@ void runSteps(Localizer& localizer, const RunSettings& settings, const std::stop
   Stopwatch watch;
   StageSeconds iteration_seconds;
   PlannedChanges changes(trace.changes);
+  std::optional<OutsideMatching> outside;
+  if (settings.method != nullptr) outside.emplace(localizer, *settings.method, stop);
   bool finished = false;
   while (!finished && !stop.stop_requested()) {
     if (changes.takeUp(localizer, trace.iterations.size()) && settings.onboard_record != nullptr)
@@ -145,6 +149,7 @@ void runSteps(Localizer& localizer, const RunSettings& settings, const std::stop
       pool.run(localizer.pieces(), work, stop);
       if (stop.stop_requested()) break;
     }
+    if (outside) outside->serve();
     const StepReport report = localizer.step();
     const double seconds = watch.lap();
     trace.seconds.add(report.stage, seconds);

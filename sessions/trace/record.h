@@ -9,6 +9,8 @@
 
 namespace boresight::sessions {
 
+class MatchingMethod;  // sessions/baselines/matching_method.h
+
 /// Copies what the core's record of an iteration holds, up to the stage that it reached: what lies
 /// beyond still has the values of an earlier iteration and is left out.
 IterationTrace recordIteration(const Iteration& iteration, Stage reached, RecordLevel level);
@@ -32,13 +34,16 @@ struct RunSettings {
   Kernels kernels = bestKernels();
   /// Notes the run as the flight side would, if given: from its first block to its last.
   RecordWriter* onboard_record = nullptr;
+  /// Matches in place of WHS, if given; then also what is computed is the method's.
+  MatchingMethod* method = nullptr;
 };
 
 /// Runs a whole localization with memory of its own: a loop around Localizer::step(). What is
 /// recorded does not change what is computed. A stop is noticed between two steps and leaves the
 /// status at kRunning. A problem that cannot run at all, or not within the limit (kArenaTooSmall),
 /// is a trace with kFault and without iterations. With a limit the localizer gets all that the
-/// inputs leave of it. Throws std::bad_alloc when there is no memory for the arena.
+/// inputs leave of it. Throws std::bad_alloc when there is no memory for the arena,
+/// and MethodError when the method, if any, cannot go on.
 LocalizationTrace localize(const LocalizationProblem& problem, const RunPlan& plan,
                            const RunSettings& settings, const std::stop_token& stop = {});
 inline LocalizationTrace localize(const LocalizationProblem& problem, const RunPlan& plan,

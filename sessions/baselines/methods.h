@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "sessions/baselines/matching_method.h"
+#include "sessions/baselines/method_options.h"
+#include "sessions/trace/record.h"
+
+namespace boresight::sessions {
+
+inline constexpr const char* kWhs = "whs";
+
+bool isMethod(const std::string& name);
+/// Whether it is an external matcher, whose command must be given.
+bool needsMatcher(const std::string& name);
+/// "whs, ncc, ...", for messages.
+std::string methodNames();
+
+/// What the methods beside WHS need to know.
+struct MethodSetup {
+  MethodOptions options;
+  std::string matcher;  ///< command of the external matcher; it serves `external` and `loftr-*`
+};
+
+/// Localizes by the name of a method. What a method holds on to (a child process) serves one run
+/// after the other; several threads may run at the same time.
+class Methods {
+ public:
+  explicit Methods(const MethodSetup& setup) : setup_(setup) {}
+
+  /// `localize` with the matches of the method; with WHS the very same. A method with a capacity of
+  /// its own raises templates.count to it. MethodError when it could not go on (the run is lost,
+  /// the next one may go well), std::invalid_argument for a name that does not exist.
+  LocalizationTrace localize(const std::string& method, const LocalizationProblem& problem,
+                             const LocalizerOptions& options, const RunSettings& settings,
+                             const std::stop_token& stop = {});
+
+ private:
+  std::unique_ptr<MatchingMethod> take(const std::string& method);
+  void giveBack(const std::string& method, std::unique_ptr<MatchingMethod> used);
+
+  MethodSetup setup_;
+  std::mutex mutex_;  ///< over what follows
+  std::map<std::string, std::vector<std::unique_ptr<MatchingMethod>>> idle_;
+};
+
+}  // namespace boresight::sessions

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// Matches that come from outside, in the same loop.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <memory>
+
+#include "core/match/whs.h"
+#include "tests/core/localizer/scene.h"
+
+namespace boresight::test {
+namespace {
+
+/// WHS as somebody outside would do it, from the core's own parts.
+class OutsideWhs {
+ public:
+  OutsideWhs(const Camera& camera, const LocalizerOptions& options)
+      : options_(options), most_(std::max(camera.width, camera.height)) {
+    Arena counter;
+    EXPECT_EQ(search_.create(kMostSide, most_, Kernels::kPortable, counter), Status::kOk);
+    memory_.resize(counter.highWater() + Arena::kAlignment);
+    Arena arena(memory_);
+    EXPECT_EQ(search_.create(kMostSide, most_, Kernels::kPortable, arena), Status::kOk);
+  }
+
+  std::vector<SuppliedMatch> match(const Workspace& workspace) {
+    const Iteration& now = *workspace.iteration;
+    std::vector<SuppliedMatch> found;
+    for (std::int32_t i = 0; i < now.templates.count; ++i)
+      found.push_back(find(workspace, now.templates.templates[static_cast<std::size_t>(i)]));
+    return found;
+  }
+
+ private:
+  static constexpr int kMostSide = 256;
+
+  SuppliedMatch find(const Workspace& workspace, const Template& item) {
+    const Iteration& now = *workspace.iteration;
+    const BitImage& edges = workspace.edges.level[static_cast<std::size_t>(now.level)];
+    const TemplateView view{&now.render.edges, &now.render.mask, item.center_x, item.center_y,
+                            now.templates.side_px};
+    SuppliedMatch match;
+    match.item = item;
+    match.window =
+        searchWindow(now.render.camera, now.camera_from_station_before * item.point_in_station_m,
+                     now.uncertainty, now.templates.side_px);
+    if (match.window.empty() ||
+        search_.begin(view, edges, match.window, item.center_x, item.center_y,
+                      options_.loop.second_peak_exclusion_px) != Status::kOk)
+      return match;
+    while (!search_.step()) {
+    }
+    subpixelPeak(view, edges, search_.peak(), match.x, match.y);
+    match.score = whsScore(search_.peak().counts, search_.norms());
+    match.found = true;
+    return match;
+  }
+
+  LocalizerOptions options_;
+  int most_;
+  std::vector<std::byte> memory_;
+  WhsSearch search_;
+};
+
+void expectSamePose(const Pose& one, const Pose& other) {
+  EXPECT_EQ(one.rotation.coeffs(), other.rotation.coeffs());
+  EXPECT_EQ(one.translation_m, other.translation_m);
+}
+
+TEST(LocalizerOutside, TheSameMatchesMakeTheSameBits) {
+  for (const bool distorted : {false, true}) {
+    const Case scene = stationCase(2, distorted);
+    const LocalizerOptions options = defaultProfile();
+    OwnedRun inside(scene.problem(), options);
+    ASSERT_GT(inside.finish(), 0);
+    ASSERT_EQ(inside.localizer.workspace().status, LocalizationStatus::kConverged);
+
+    OwnedRun outside(scene.problem(), options);
+    OutsideWhs whs(scene.camera, options);
+    outside.localizer.matchOutside({});
+    StepReport report;
+    for (int steps = 0; !report.finished && steps < 1000000; ++steps) {
+      if (outside.localizer.awaitsMatches()) {
+        ASSERT_EQ(outside.localizer.supplyMatches(whs.match(outside.localizer.workspace())),
+                  Status::kOk);
+      }
+      report = outside.localizer.step();
+    }
+    EXPECT_EQ(outside.localizer.workspace().status, LocalizationStatus::kConverged);
+    expectSamePose(outside.localizer.workspace().camera_from_station,
+                   inside.localizer.workspace().camera_from_station);
+    EXPECT_EQ(outside.localizer.workspace().iterations, inside.localizer.workspace().iterations);
+    EXPECT_NE(outside.localizer.digest(), inside.localizer.digest()) << "WHS did not make these";
+  }
+}
+
+/// A run that stands where it waits for matches.
+struct WaitingRun {
+  Case scene = stationCase(2);
+  std::vector<std::uint8_t> intensity;
+  OwnedRun run{scene.problem(), defaultProfile()};
+
+  WaitingRun() {
+    const auto pixels = static_cast<std::size_t>(scene.camera.width) *
+                        static_cast<std::size_t>(scene.camera.height);
+    intensity.resize(pixels);
+    SurfaceRender surfaces;
+    surfaces.intensity = intensity;
+    run.localizer.matchOutside(surfaces);
+    for (int steps = 0; !run.localizer.awaitsMatches() && steps < 1000000; ++steps)
+      run.localizer.step();
+  }
+  std::vector<SuppliedMatch> everyTemplate() const {
+    const TemplateSet& templates = run.localizer.workspace().iteration->templates;
+    std::vector<SuppliedMatch> all(static_cast<std::size_t>(templates.count));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i].item = templates.templates[i];
+      all[i].x = templates.templates[i].center_x;
+      all[i].y = templates.templates[i].center_y;
+      all[i].score = 1.25;
+      all[i].found = true;
+    }
+    return all;
+  }
+};
+
+TEST(LocalizerOutside, WaitsUntilThereAreMatches) {
+  WaitingRun waiting;
+  Localizer& localizer = waiting.run.localizer;
+  ASSERT_TRUE(localizer.awaitsMatches());
+  EXPECT_EQ(localizer.pieces(), 0);
+  for (int i = 0; i < 3; ++i) {
+    const StepReport report = localizer.step();
+    EXPECT_EQ(report.stage, Stage::kMatch);
+    EXPECT_FALSE(report.stage_complete);
+  }
+  const Iteration& now = *localizer.workspace().iteration;
+  const EdgePixel& pixel = now.render.pixels[0];
+  EXPECT_GT(*std::max_element(waiting.intensity.begin(), waiting.intensity.end()), 30)
+      << "the shaded render came with the edges, around " << pixel.x;
+  ASSERT_EQ(localizer.supplyMatches(waiting.everyTemplate()), Status::kOk);
+  EXPECT_FALSE(localizer.awaitsMatches());
+  EXPECT_EQ(localizer.supplyMatches(waiting.everyTemplate()), Status::kInvalidOption);
+  EXPECT_TRUE(localizer.step().stage_complete);
+  EXPECT_EQ(now.matches.searched, now.templates.count);
+  EXPECT_DOUBLE_EQ(whsScore(now.matches.matches[0].peak.counts, now.matches.matches[0].norms),
+                   1.25);
+}
+
+TEST(LocalizerOutside, RefusesMoreThanThereIsRoomFor) {
+  WaitingRun waiting;
+  std::vector<SuppliedMatch> many(
+      static_cast<std::size_t>(waiting.run.localizer.options().templates.count) + 1);
+  EXPECT_EQ(waiting.run.localizer.supplyMatches(many), Status::kCapacityExceeded);
+  EXPECT_TRUE(waiting.run.localizer.awaitsMatches());
+}
+
+TEST(LocalizerOutside, WhatIsNotFiniteIsNotFound) {
+  WaitingRun waiting;
+  std::vector<SuppliedMatch> matches = waiting.everyTemplate();
+  ASSERT_GT(matches.size(), 6u);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  matches[0].x = nan;
+  matches[1].y = 1e300;
+  matches[2].item.point_in_station_m.x() = nan;
+  matches[3].score = nan;
+  matches[4].found = false;
+  matches[5].item.center_x = -1000000;
+  Localizer& localizer = waiting.run.localizer;
+  ASSERT_EQ(localizer.supplyMatches(matches), Status::kOk);
+  localizer.step();
+  const Iteration& now = *localizer.workspace().iteration;
+  EXPECT_EQ(now.matches.searched, now.matches.count - 4);
+  EXPECT_TRUE(now.matches.matches[3].searched) << "a score is for people";
+  EXPECT_EQ(now.templates.templates[5].center_x, 0);
+}
+
+TEST(LocalizerOutside, NoMatchesEndTheRunAsTooFew) {
+  WaitingRun waiting;
+  Localizer& localizer = waiting.run.localizer;
+  StepReport report;
+  for (int steps = 0; !report.finished && steps < 1000000; ++steps) {
+    if (localizer.awaitsMatches()) {
+      ASSERT_EQ(localizer.supplyMatches({}), Status::kOk);
+    }
+    report = localizer.step();
+  }
+  EXPECT_EQ(localizer.workspace().status, LocalizationStatus::kTooFewMatches);
+}
+
+TEST(LocalizerOutside, NobodyAsksARunWithoutIt) {
+  const Case scene = stationCase(2);
+  OwnedRun run(scene.problem(), defaultProfile());
+  StepReport report;
+  while (!report.finished) {
+    report = run.localizer.step();
+    ASSERT_FALSE(run.localizer.awaitsMatches());
+  }
+  EXPECT_EQ(run.localizer.supplyMatches({}), Status::kInvalidOption);
+}
+
+}  // namespace
+}  // namespace boresight::test

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// Methods beside WHS in the same loop, on images whose truth is known because the renderer made
+// them: the shaded object before a noisy background.
+#include "sessions/baselines/methods.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sessions/trace/scene_render.h"
+#include "tests/support/example_case.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::Methods;
+using sessions::MethodSetup;
+using testing::HasSubstr;
+
+/// The example's orbiting sample, its photograph replaced by its own shaded render.
+struct RenderedCase : ExampleCase {
+  RenderedCase() : ExampleCase("os") {
+    std::vector<std::uint8_t> shaded(image.pixels.size());
+    SurfaceRender surfaces;
+    surfaces.intensity = shaded;
+    sessions::RenderTrace edges;
+    EXPECT_EQ(
+        sessions::renderScene(camera, scene.view(), truth.camera_from_station, edges, surfaces),
+        Status::kOk);
+    std::uint32_t state = 1;
+    for (std::size_t i = 0; i < shaded.size(); ++i) {
+      state = state * 1664525u + 1013904223u;
+      if (shaded[i] == 0) shaded[i] = static_cast<std::uint8_t>(60 + (state >> 24) / 4);
+    }
+    image.pixels = shaded;
+  }
+
+  /// Of the middle of the station, m.
+  double errorOf(const Pose& camera_from_station) const {
+    const Eigen::Vector3d middle = matchedBounds(scene.view()).centre();
+    return (camera_from_station * middle - truth.camera_from_station * middle).norm();
+  }
+};
+
+/// Matches alone decide.
+LocalizerOptions matchesAlone() {
+  LocalizerOptions options = defaultProfile();
+  options.refinement.enabled = false;
+  options.support.gate = false;
+  options.templates.feature_size_m = 0.018;
+  return options;
+}
+
+sessions::RunSettings summary() {
+  sessions::RunSettings settings;
+  settings.level = sessions::RecordLevel::kFull;
+  return settings;
+}
+
+MethodSetup withMatcher(const std::string& what) {
+  MethodSetup setup;
+  setup.matcher = std::string("'") + BORESIGHT_TEST_MATCHER + "' " + what;
+  setup.options.external.timeout_s = what == "hang" ? 0.5 : 60.0;
+  setup.options.external.start_timeout_s = 60.0;
+  return setup;
+}
+
+TEST(Methods, KnowsTheirNames) {
+  for (const char* name : {"whs", "ncc", "ssd", "orb", "external", "loftr-r", "loftr-s"}) {
+    EXPECT_TRUE(sessions::isMethod(name)) << name;
+    EXPECT_THAT(sessions::methodNames(), HasSubstr(name));
+  }
+  EXPECT_FALSE(sessions::isMethod("sift"));
+  EXPECT_TRUE(sessions::needsMatcher("loftr-s"));
+  EXPECT_FALSE(sessions::needsMatcher("ncc"));
+}
+
+TEST(Methods, WhsIsTheVerySame) {
+  const ExampleCase example("os");
+  Methods methods({});
+  const auto one = methods.localize("whs", example.problem(), defaultProfile(), summary());
+  const auto other = sessions::localize(example.problem(), defaultProfile(), summary());
+  EXPECT_TRUE(one.converged());
+  EXPECT_EQ(one.digest, other.digest);
+}
+
+TEST(Methods, FindTheTruthWhereTheImageIsARender) {
+  const RenderedCase rendered;
+  EXPECT_GT(rendered.errorOf(rendered.seed.camera_from_station), 2e-3);
+  Methods methods({});
+  for (const char* name : {"ncc", "ssd", "orb"}) {
+    const auto trace = methods.localize(name, rendered.problem(), matchesAlone(), summary());
+    EXPECT_TRUE(trace.converged()) << name << ": " << localizationStatusText(trace.status);
+    EXPECT_LT(rendered.errorOf(trace.camera_from_station), 1e-3) << name;
+  }
+}
+
+TEST(Methods, AreTheSameEveryTime) {
+  const RenderedCase rendered;
+  Methods methods({});
+  for (const char* name : {"ncc", "orb"}) {
+    const auto one = methods.localize(name, rendered.problem(), matchesAlone(), summary());
+    const auto other = methods.localize(name, rendered.problem(), matchesAlone(), summary());
+    EXPECT_EQ(one.digest, other.digest) << name;
+  }
+}
+
+TEST(Methods, TakeTheOptionsOfTheirOwn) {
+  const RenderedCase rendered;
+  MethodSetup setup;
+  setup.options.orb.features = 120;
+  Methods methods(setup);
+  const auto trace = methods.localize("orb", rendered.problem(), matchesAlone(), summary());
+  EXPECT_EQ(trace.options.templates.count, 120);
+  ASSERT_FALSE(trace.iterations.empty());
+  for (const auto& iteration : trace.iterations) EXPECT_LE(iteration.template_count, 120);
+}
+
+TEST(ExternalMethod, MatchesThatDoNotMoveKeepTheSeed) {
+  // Points, pixels and levels are right if a match at its own place means no correction.
+  const ExampleCase example("os");
+  for (const char* name : {"external", "loftr-s"}) {
+    Methods methods(withMatcher("shift"));
+    LocalizerOptions options = matchesAlone();
+    options.loop.max_rolled_hypotheses = 1;
+    const auto trace = methods.localize(name, example.problem(), options, summary());
+    EXPECT_TRUE(trace.converged()) << localizationStatusText(trace.status);
+    const Pose& seed = example.seed.camera_from_station;
+    EXPECT_LT((trace.camera_from_station.translation_m - seed.translation_m).norm(), 1e-6);
+    ASSERT_FALSE(trace.iterations.empty());
+    EXPECT_GT(trace.iterations.back().pnp.inlier_count, 20) << name;
+  }
+}
+
+TEST(ExternalMethod, OneThatFailsCostsItsRunAlone) {
+  const ExampleCase example("os");
+  for (const char* what : {"die", "hang", "babble"}) {
+    Methods methods(withMatcher(what));
+    for (int i = 0; i < 2; ++i)
+      EXPECT_THROW(methods.localize("external", example.problem(), matchesAlone(), summary()),
+                   sessions::MethodError)
+          << what << ": a new one is started, and fails anew";
+  }
+}
+
+}  // namespace
+}  // namespace boresight::test
