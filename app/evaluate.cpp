@@ -15,6 +15,7 @@
 #include <tuple>
 #include <utility>
 
+#include "app/bop_arguments.h"
 #include "app/commands.h"
 #include "app/method_arguments.h"
 #include "sessions/evaluation/batch.h"
@@ -31,9 +32,10 @@ namespace {
 constexpr std::size_t kListedFailures = 40;
 
 struct EvaluateArguments {
-  std::string dataset;
+  DatasetArguments dataset;
   std::string out;
   std::string jsonl;
+  std::string bop_csv;
   std::string mirror;
   std::string shard;
   OptionArguments options;
@@ -60,7 +62,10 @@ std::string shardProblem(const std::string& text) {
 }
 
 void EvaluateArguments::addTo(CLI::App& command) {
-  command.add_option("--dataset", dataset, "dataset.json")->required()->type_name("FILE");
+  command.add_option("--dataset", dataset.path, "dataset.json, or the folder of a BOP dataset")
+      ->required()
+      ->type_name("PATH");
+  dataset.addTo(command);
   command.add_option("--case", batch.cases, "Only these cases")->type_name("ID");
   command.add_option("--tag", batch.tags, "Only cases with one of these tags")->type_name("T");
   command.add_option("--station", batch.stations, "Only cases of these stations")->type_name("S");
@@ -103,6 +108,10 @@ void EvaluateArguments::addTo(CLI::App& command) {
       ->required()
       ->type_name("FILE");
   command.add_option("--jsonl", jsonl, "Results as JSON lines")->type_name("FILE");
+  command
+      .add_option("--bop-csv", bop_csv,
+                  "Results of a BOP dataset as the challenge takes them (METHOD_SET-SPLIT.csv)")
+      ->type_name("FILE");
 }
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -252,9 +261,26 @@ void printSummary(const std::vector<sessions::RunResult>& results) {
   }
 }
 
+/// Before the work rather than after it.
+void requireOneMethodOfBop(const EvaluateArguments& arguments, const sessions::Dataset& dataset) {
+  if (arguments.method.methods.size() != 1)
+    throw CLI::ValidationError("--bop-csv", "holds the results of one method");
+  (void)sessions::bopResults(dataset, {});
+}
+
+/// Of the method that was asked for: the results may hold others from before.
+void writeBopCsv(const EvaluateArguments& arguments, const sessions::Dataset& dataset,
+                 std::vector<sessions::RunResult> results) {
+  std::erase_if(results, [&](const sessions::RunResult& run) {
+    return run.method != arguments.method.methods.front();
+  });
+  sessions::writeBopResults(arguments.bop_csv, sessions::bopResults(dataset, results));
+}
+
 void readArguments(EvaluateArguments& arguments) {
   sessions::requireWritable(arguments.out);
-  if (!arguments.jsonl.empty()) sessions::requireWritable(arguments.jsonl);
+  for (const std::string& file : {arguments.jsonl, arguments.bop_csv})
+    if (!file.empty()) sessions::requireWritable(file);
   if (!arguments.mirror.empty())
     arguments.batch.mirror = static_cast<sessions::MirrorAxis>(arguments.mirror.front() - 'x');
   if (!arguments.shard.empty())
@@ -266,22 +292,22 @@ void readArguments(EvaluateArguments& arguments) {
 
 int evaluate(EvaluateArguments& arguments) {
   readArguments(arguments);
-  const sessions::Dataset dataset = sessions::readDataset(arguments.dataset);
+  const sessions::Dataset dataset = arguments.dataset.open();
+  if (!arguments.bop_csv.empty()) requireOneMethodOfBop(arguments, dataset);
   for (const std::string& line : dataset.notes) note(line);
   const std::vector<sessions::PlannedRun> plan = sessions::planBatch(dataset, arguments.batch);
 
   std::stop_source stop;
   {
     const InterruptWatch watch(stop);
-    sessions::ResultsWriter writer(
-        arguments.out,
-        sessions::datasetFacts(arguments.dataset, static_cast<std::int64_t>(dataset.cases.size())));
+    sessions::ResultsWriter writer(arguments.out, sessions::datasetFacts(dataset));
     for (const std::string& method : arguments.method.methods)
       writer.admit(factsOf(arguments, method));
     runAll(arguments, dataset, workLeft(arguments, plan, writer), writer, stop.get_token());
   }
   const std::vector<sessions::RunResult> results = sessions::readResults(arguments.out).runs;
   if (!arguments.jsonl.empty()) writeLines(arguments.jsonl, results);
+  if (!arguments.bop_csv.empty()) writeBopCsv(arguments, dataset, results);
   printSummary(results);
   const bool whole = !stop.stop_requested();
   if (!whole) note("interrupted: the same command goes on with what is left");

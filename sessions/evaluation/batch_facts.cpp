@@ -4,6 +4,7 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -11,7 +12,6 @@
 
 #include "sessions/io/config_file.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/io/json_document.h"
 #include "sessions/session/session.h"
 #include "sessions/version.h"
 
@@ -74,11 +74,11 @@ void addMethodOptions(const OptionList& changed, MethodFacts& facts) {
       sha256Text({reinterpret_cast<const std::uint8_t*>(both.data()), both.size()});
 }
 
-DatasetFacts datasetFacts(const std::filesystem::path& dataset_file, std::int64_t cases) {
+DatasetFacts datasetFacts(const Dataset& dataset) {
   DatasetFacts facts;
-  facts.dataset = std::filesystem::absolute(dataset_file).lexically_normal().string();
-  facts.dataset_sha256 = sha256Text(readFileBytes(dataset_file, kMaxJsonBytes));
-  facts.cases = cases;
+  facts.dataset = std::filesystem::absolute(dataset.file).lexically_normal().string();
+  facts.dataset_sha256 = dataset.sha256;
+  facts.cases = static_cast<std::int64_t>(dataset.cases.size());
   facts.version = kVersion;
   return facts;
 }

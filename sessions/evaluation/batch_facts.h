@@ -3,20 +3,20 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/localizer/localizer_options.h"
+#include "sessions/io/dataset_file.h"
 #include "sessions/io/option_value.h"
 
 namespace boresight::sessions {
 
 /// The dataset that all runs of a results file are of, and the program that made them.
 struct DatasetFacts {
-  std::string dataset;         ///< dataset.json, absolute
-  std::string dataset_sha256;  ///< of its bytes
+  std::string dataset;         ///< dataset.json, or the folder of a BOP dataset; absolute
+  std::string dataset_sha256;  ///< as Dataset has it
   std::int64_t cases = 0;
   std::string version;  ///< of the program
 };
@@ -60,8 +60,7 @@ MethodFacts methodFacts(const std::string& method, const std::string& profile,
 /// Takes up options of the method itself, as far as they are not its defaults.
 void addMethodOptions(const OptionList& changed, MethodFacts& facts);
 
-/// Of a dataset file; InputError.
-DatasetFacts datasetFacts(const std::filesystem::path& dataset_file, std::int64_t cases);
+DatasetFacts datasetFacts(const Dataset& dataset);
 
 /// In what the second cannot go on with the first: one clause for people ("its runs are of another
 /// dataset, ..."); nothing when it can.

@@ -94,10 +94,18 @@ PoseError& made(std::optional<PoseError>& error) {
   return *error;
 }
 
-/// An error has values in all of its columns, or in none; the projection's may be missing.
+using OptionalPart = std::pair<const char*, std::optional<double> PoseError::*>;
+constexpr OptionalPart kModelParts[] = {{"projection_px", &PoseError::projection_px},
+                                        {"mssd_mm", &PoseError::mssd_mm},
+                                        {"mspd_px", &PoseError::mspd_px},
+                                        {"add_mm", &PoseError::add_mm},
+                                        {"adi_mm", &PoseError::adi_mm}};
+
+/// An error has values in the columns of all of its own parts, or in none; those of the model,
+/// which only whole runs have, may be missing.
 template <class Row>
 void addError(std::vector<Column<Row>>& columns, const std::string& prefix,
-              std::optional<PoseError> Row::*field, bool with_projection) {
+              std::optional<PoseError> Row::*field, bool with_model) {
   for (const auto& [name, part] : kErrorParts)
     columns.push_back({prefix + name, "REAL",
                        [field, part = part](const Row& row) {
@@ -106,14 +114,15 @@ void addError(std::vector<Column<Row>>& columns, const std::string& prefix,
                        [field, part = part](Row& row, const SqlValue& value, const fs::path&) {
                          if (const auto real = realOf(value)) made(row.*field).*part = *real;
                        }});
-  if (!with_projection) return;
-  columns.push_back({prefix + "projection_px", "REAL",
-                     [field](const Row& row) {
-                       return row.*field ? sqlReal((row.*field)->projection_px) : SqlValue();
-                     },
-                     [field](Row& row, const SqlValue& value, const fs::path&) {
-                       if (const auto real = realOf(value)) made(row.*field).projection_px = real;
-                     }});
+  if (!with_model) return;
+  for (const auto& [name, part] : kModelParts)
+    columns.push_back({prefix + name, "REAL",
+                       [field, part = part](const Row& row) {
+                         return row.*field ? sqlReal((*(row.*field)).*part) : SqlValue();
+                       },
+                       [field, part = part](Row& row, const SqlValue& value, const fs::path&) {
+                         if (const auto real = realOf(value)) made(row.*field).*part = real;
+                       }});
 }
 
 SqlValue requirementText(const RunResult& run) {

@@ -37,7 +37,7 @@ class SessionOfResults : public testing::Test {
     }
   }
   void write(const std::string& method = "whs", const std::string& mirror = {}) const {
-    ResultsWriter writer(file_, datasetFacts(dataset_file_, 2));
+    ResultsWriter writer(file_, datasetFacts(readDataset(dataset_file_)));
     MethodFacts facts = methodFacts(method, "default", options_.localizer);
     facts.mirror = mirror;
     writer.admit(facts);

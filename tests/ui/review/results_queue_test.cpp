@@ -58,7 +58,7 @@ class ResultsQueueTest : public ::testing::Test {
     options.localizer.loop.max_iterations = 1;
     options.reseeds = 1;
     runs_ = sessions::runBatch(sessions::readDataset(dataset), options, {});
-    sessions::ResultsWriter writer(file_, sessions::datasetFacts(dataset, 2));
+    sessions::ResultsWriter writer(file_, sessions::datasetFacts(sessions::readDataset(dataset)));
     writer.admit(sessions::methodFacts("whs", "default", options.localizer));
     writer.begin(sessions::Sitting{});
     for (const sessions::RunResult& run : runs_) writer.add(run);
