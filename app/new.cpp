@@ -8,12 +8,14 @@
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_maker.h"
+#include "sessions/session/session_of_results.h"
 
 namespace boresight::app {
 namespace {
 
 struct NewArguments {
   DatasetArguments dataset;
+  std::string results;
   std::vector<std::string> cases;
   std::string image, camera, mesh, mesh_unit, seed, truth, ignore, id, record, out;
   int bit_depth = 0;
@@ -33,6 +35,10 @@ void NewArguments::addTo(CLI::App& command) {
   command.add_option("--case", cases, "Only this case of the dataset; may be repeated")
       ->needs(from_dataset)
       ->type_name("ID");
+  file("--results", results,
+       "Results of `whs evaluate`: its runs become cases, the most troubled first, with the seeds "
+       "and the options that they had")
+      ->excludes(from_dataset);
   CLI::Option* from_image = file("--image", image, "One case: PNG, JPEG or TIFF, 8 or 16 bit");
   from_image->excludes(from_dataset);
   file("--camera", camera, "camera.json")->needs(from_image);
@@ -61,6 +67,7 @@ void NewArguments::addTo(CLI::App& command) {
 }
 
 sessions::Session sessionOf(const NewArguments& arguments) {
+  if (!arguments.results.empty()) return sessions::sessionOfResults(arguments.results);
   if (!arguments.dataset.path.empty())
     return sessions::makeSession(arguments.dataset.open(), arguments.cases);
   for (const auto& [name, value] :
@@ -98,7 +105,8 @@ sessions::Session withRecord(const sessions::Session& session, const std::string
 int makeNew(const NewArguments& arguments) {
   sessions::Session session = sessionOf(arguments);
   if (!arguments.record.empty()) session = withRecord(session, arguments.record);
-  session = withOptions(session, arguments.options.profileName(), arguments.options.read());
+  if (arguments.results.empty())
+    session = withOptions(session, arguments.options.profileName(), arguments.options.read());
   const auto document = sessions::SessionDocument::create(arguments.out, session);
   std::cout << document.file().string() << ": " << session.cases.size() << " cases" << std::endl;
   return kDone;

@@ -58,6 +58,17 @@ TEST_F(WhsTables, ComparesTwoResultsRunByRun) {
   EXPECT_THAT(same.out, HasSubstr("2 the same (2 bit for bit)"));
 }
 
+TEST_F(WhsTables, AreOfRunsThatASessionRepeatsAndItsQueueLists) {
+  evaluate("r.sqlite", "1");
+  const ProgramRun made =
+      runWhs({"new", "--results", file("r.sqlite"), "--out", file("q.boresight.json")});
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("2 cases"));
+  EXPECT_THAT(folder_.read("q.boresight.json"), HasSubstr("loop.max_iterations"));
+  EXPECT_THAT(runWhs({"queue", file("q.boresight.json")}).out,
+              HasSubstr("not run here; in the results: iteration_limit"));
+}
+
 TEST_F(WhsTables, RefusesWhatIsNoResults) {
   folder_.write("no.sqlite", "no");
   EXPECT_EQ(runWhs({"tables", file("no.sqlite")}).exit_code, 3);
