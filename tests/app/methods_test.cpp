@@ -88,9 +88,9 @@ TEST_F(WhsMethods, SeveralAreRunSideBySide) {
   const auto results = evaluated({"--method", "whs", "--method", "orb"});
   EXPECT_EQ(run_.exit_code, 0) << run_.err;
   ASSERT_EQ(results.size(), 2u);
-  EXPECT_EQ(results[0]["method"], "whs");
-  EXPECT_EQ(results[0]["success"], true);
-  EXPECT_EQ(results[1]["method"], "orb");
+  EXPECT_EQ(results[0]["method"], "orb") << "by name, of the same case and seed";
+  EXPECT_EQ(results[1]["method"], "whs");
+  EXPECT_EQ(results[1]["success"], true);
 }
 
 TEST_F(WhsMethods, AMatcherThatFailsCostsItsCaseAndNotTheRun) {
