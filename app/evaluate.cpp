@@ -10,6 +10,7 @@
 #include <set>
 #include <thread>
 
+#include "app/bop_arguments.h"
 #include "app/commands.h"
 #include "app/method_arguments.h"
 #include "sessions/evaluation/batch.h"
@@ -27,9 +28,10 @@ namespace {
 constexpr std::size_t kListedFailures = 40;
 
 struct EvaluateArguments {
-  std::string dataset;
+  DatasetArguments dataset;
   std::string out;
   std::string jsonl;
+  std::string bop_csv;
   std::string mirror;
   OptionArguments options;
   MethodArguments method;
@@ -39,7 +41,10 @@ struct EvaluateArguments {
 };
 
 void EvaluateArguments::addTo(CLI::App& command) {
-  command.add_option("--dataset", dataset, "dataset.json")->required()->type_name("FILE");
+  command.add_option("--dataset", dataset.path, "dataset.json, or the folder of a BOP dataset")
+      ->required()
+      ->type_name("PATH");
+  dataset.addTo(command);
   command.add_option("--case", batch.cases, "Only these cases")->type_name("ID");
   command.add_option("--tag", batch.tags, "Only cases with one of these tags")->type_name("T");
   command.add_option("--station", batch.stations, "Only cases of these stations")->type_name("S");
@@ -71,6 +76,10 @@ void EvaluateArguments::addTo(CLI::App& command) {
       ->check(CLI::IsMember({"x", "y", "z"}));
   command.add_option("--out", out, "Results as an SQLite file")->required()->type_name("FILE");
   command.add_option("--jsonl", jsonl, "Results as JSON lines")->type_name("FILE");
+  command
+      .add_option("--bop-csv", bop_csv,
+                  "Results of a BOP dataset as the challenge takes them (METHOD_SET-SPLIT.csv)")
+      ->type_name("FILE");
 }
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -119,16 +128,16 @@ class Progress {
   std::set<std::string> messages_;
 };
 
-sessions::BatchFacts factsOf(const EvaluateArguments& arguments, bool whole) {
+sessions::BatchFacts factsOf(const EvaluateArguments& arguments, const sessions::Dataset& dataset,
+                             bool whole) {
   const sessions::BatchOptions& batch = arguments.batch;
   const std::string profile = arguments.options.profileName();
   auto changed = sessions::changedOptions(batch.localizer, profileOptions(profile));
   for (auto& option : arguments.method.changedOptions(batch.method_setup.options))
     changed.push_back(std::move(option));
   return {{"version", sessions::kVersion},
-          {"dataset", arguments.dataset},
-          {"dataset_sha256", sessions::sha256Text(sessions::readFileBytes(
-                                 arguments.dataset, sessions::kMaxJsonBytes))},
+          {"dataset", arguments.dataset.path},
+          {"dataset_sha256", dataset.sha256},
           {"method", arguments.method.names()},
           {"profile", profile},
           {"options", sessions::toJson(changed).dump()},
@@ -145,15 +154,24 @@ void writeLines(const std::string& file, const std::vector<sessions::RunResult>&
   sessions::writeFileAtomically(file, text);
 }
 
+/// Before the work rather than after it.
+void requireOneMethodOfBop(const EvaluateArguments& arguments, const sessions::Dataset& dataset) {
+  if (arguments.method.methods.size() != 1)
+    throw CLI::ValidationError("--bop-csv", "holds the results of one method");
+  (void)sessions::bopResults(dataset, {});
+}
+
 int evaluate(EvaluateArguments& arguments) {
   sessions::requireWritable(arguments.out);
-  if (!arguments.jsonl.empty()) sessions::requireWritable(arguments.jsonl);
+  for (const std::string& file : {arguments.jsonl, arguments.bop_csv})
+    if (!file.empty()) sessions::requireWritable(file);
   if (!arguments.mirror.empty())
     arguments.batch.mirror = static_cast<sessions::MirrorAxis>(arguments.mirror.front() - 'x');
   arguments.batch.localizer = arguments.options.read();
   arguments.batch.method_setup = arguments.method.setup(arguments.options);
   arguments.batch.memory_limit = arguments.options.memoryLimit();
-  const sessions::Dataset dataset = sessions::readDataset(arguments.dataset);
+  const sessions::Dataset dataset = arguments.dataset.open();
+  if (!arguments.bop_csv.empty()) requireOneMethodOfBop(arguments, dataset);
   for (const std::string& line : dataset.notes) note(line);
 
   std::stop_source stop;
@@ -173,8 +191,10 @@ int evaluate(EvaluateArguments& arguments) {
     }
   }
   const bool whole = !stop.stop_requested();
-  sessions::writeResultsDatabase(arguments.out, results, factsOf(arguments, whole));
+  sessions::writeResultsDatabase(arguments.out, results, factsOf(arguments, dataset, whole));
   if (!arguments.jsonl.empty()) writeLines(arguments.jsonl, results);
+  if (!arguments.bop_csv.empty())
+    sessions::writeBopResults(arguments.bop_csv, sessions::bopResults(dataset, results));
   std::cout << sessions::summaryTable(results) << "\n"
             << sessions::toleranceTable(results) << "\n"
             << sessions::failureList(results, kListedFailures) << std::flush;

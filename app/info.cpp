@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "app/bop_arguments.h"
 #include "app/commands.h"
 #include "sessions/annotation/marks_file.h"
 #include "sessions/io/camera_file.h"
@@ -67,6 +68,12 @@ void describePose(const sessions::PoseFile& pose) {
     flag("the station's origin lies behind the camera");
 }
 
+std::string symmetryText(const sessions::Symmetries& symmetries) {
+  if (symmetries.empty()) return "";
+  return ", symmetries: " + std::to_string(symmetries.discrete.size()) + " discrete, " +
+         std::to_string(symmetries.continuous.size()) + " continuous";
+}
+
 void describeDataset(const sessions::Dataset& dataset) {
   line(std::to_string(dataset.cases.size()) + " cases, " + std::to_string(dataset.stations.size()) +
        " stations, " + std::to_string(dataset.cameras.size()) + " cameras");
@@ -76,7 +83,8 @@ void describeDataset(const sessions::Dataset& dataset) {
     line("station " + id + ": " + std::to_string(cases_of[id]) + " cases, " +
          std::to_string(station.parts.size()) + " parts" +
          (station.feature_size_m ? ", feature size " + millimetresText(*station.feature_size_m)
-                                 : ""));
+                                 : "") +
+         symmetryText(station.symmetries));
   for (const auto& [id, camera] : dataset.cameras) {
     line("camera " + id + ":");
     describeCamera(camera);
@@ -223,8 +231,15 @@ bool beginsLikeTrace(const path& file) {
   return sessions::asText(bytes).substr(0, 8) == "BSTRACE\n";
 }
 
-void describe(const path& file, const std::string& mesh_unit) {
+void describeFolder(const path& folder, DatasetArguments arguments) {
+  line("BOP dataset");
+  arguments.path = folder.string();
+  describeDataset(arguments.open());
+}
+
+void describe(const path& file, const std::string& mesh_unit, const DatasetArguments& choice) {
   std::cout << file.string() << "\n";
+  if (std::filesystem::is_directory(file)) return describeFolder(file, choice);
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -245,11 +260,12 @@ void describe(const path& file, const std::string& mesh_unit) {
 }
 
 /// Every file is described; a bad one does not keep the others from it.
-int describeAll(const std::vector<std::string>& files, const std::string& mesh_unit) {
+int describeAll(const std::vector<std::string>& files, const std::string& mesh_unit,
+                const DatasetArguments& choice) {
   int exit_code = kDone;
   for (const std::string& file : files) {
     try {
-      describe(file, mesh_unit);
+      describe(file, mesh_unit, choice);
     } catch (const sessions::FileError& error) {
       std::cout << std::flush;
       std::cerr << error.what() << std::endl;
@@ -269,11 +285,15 @@ void addInfo(CLI::App& app, int& exit_code) {
   auto unit = std::make_shared<std::string>();
   command
       ->add_option("files", *files,
-                   "Images, cameras, meshes, poses, datasets, sessions, configs, points, traces")
+                   "Images, cameras, meshes, poses, datasets, sessions, configs, points, traces; "
+                   "folders of BOP datasets")
       ->required()
       ->type_name("FILE");
   command->add_option("--mesh-unit", *unit, "Unit of meshes that state none")->type_name("UNIT");
-  command->callback([files, unit, &exit_code] { exit_code = describeAll(*files, *unit); });
+  auto choice = std::make_shared<DatasetArguments>();
+  choice->addTo(*command);
+  command->callback(
+      [files, unit, choice, &exit_code] { exit_code = describeAll(*files, *unit, *choice); });
 }
 
 }  // namespace boresight::app

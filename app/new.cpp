@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "app/bop_arguments.h"
 #include "app/commands.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/session/input_check.h"
@@ -12,7 +13,7 @@ namespace boresight::app {
 namespace {
 
 struct NewArguments {
-  std::string dataset;
+  DatasetArguments dataset;
   std::vector<std::string> cases;
   std::string image, camera, mesh, mesh_unit, seed, truth, ignore, id, record, out;
   int bit_depth = 0;
@@ -27,7 +28,8 @@ void NewArguments::addTo(CLI::App& command) {
     return command.add_option(name, value, help)->type_name("FILE");
   };
   CLI::Option* from_dataset =
-      file("--dataset", dataset, "dataset.json: its cases become the session's");
+      file("--dataset", dataset.path,
+           "dataset.json or the folder of a BOP dataset: its cases become the session's");
   command.add_option("--case", cases, "Only this case of the dataset; may be repeated")
       ->needs(from_dataset)
       ->type_name("ID");
@@ -53,12 +55,14 @@ void NewArguments::addTo(CLI::App& command) {
       ->check(CLI::Range(1e-6, 100.0))
       ->needs(from_image)
       ->type_name("M");
+  dataset.addTo(command);
   options.addTo(command);
   file("--out", out, "The session file that is made, e.g. sol12.boresight.json")->required();
 }
 
 sessions::Session sessionOf(const NewArguments& arguments) {
-  if (!arguments.dataset.empty()) return sessions::makeSession(arguments.dataset, arguments.cases);
+  if (!arguments.dataset.path.empty())
+    return sessions::makeSession(arguments.dataset.open(), arguments.cases);
   for (const auto& [name, value] :
        {std::pair("--image", &arguments.image), std::pair("--camera", &arguments.camera),
         std::pair("--mesh", &arguments.mesh), std::pair("--seed", &arguments.seed)})

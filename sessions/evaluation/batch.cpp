@@ -10,6 +10,7 @@
 #include <new>
 #include <thread>
 
+#include "sessions/evaluation/model_error.h"
 #include "sessions/evaluation/reseed.h"
 #include "sessions/io/errors.h"
 #include "sessions/trace/record.h"
@@ -50,6 +51,7 @@ struct StationScene {
   SceneMesh scene;
   std::vector<Eigen::Vector3f> matched_vertices;
   Eigen::Vector3d centre_m;
+  Symmetries symmetries;
 };
 
 struct CaseImage {
@@ -100,16 +102,15 @@ StationScene loadScene(const Station& station, const std::optional<MirrorAxis>& 
   if (mirror) loaded.scene = mirrored(std::move(loaded.scene), *mirror);
   loaded.matched_vertices = matchedVertices(loaded.scene.view());
   loaded.centre_m = matchedBounds(loaded.scene.view()).centre();
+  loaded.symmetries = station.symmetries;
   return loaded;
 }
 
 std::optional<PoseError> errorOf(const Case& one, const Camera& camera, const Pose& estimate,
                                  const StationScene& scene) {
   if (!one.truth_camera_from_station) return std::nullopt;
-  const Pose& truth = *one.truth_camera_from_station;
-  PoseError error = poseError(truth, estimate, one.camera_from_end_effector);
-  error.projection_px = projectionError(camera, truth, estimate, scene.matched_vertices);
-  return error;
+  return wholeError(camera, *one.truth_camera_from_station, estimate, one.camera_from_end_effector,
+                    {scene.matched_vertices, &scene.symmetries});
 }
 
 class Batch {

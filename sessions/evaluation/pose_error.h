@@ -21,6 +21,11 @@ struct PoseError {
   double in_plane_mrad = 0.0;  ///< twist about the axis, signed, in (-pi, pi] rad; not judged
   double geodesic_mrad = 0.0;  ///< whole rotation angle; not judged
   std::optional<double> projection_px;  ///< nothing when it was not asked for or cannot be had
+  /// The errors of the BOP challenges (model_error.h); nothing when they were not asked for.
+  std::optional<double> mssd_mm = {};
+  std::optional<double> mspd_px = {};
+  std::optional<double> add_mm = {};
+  std::optional<double> adi_mm = {};
 };
 
 /// With E = camera_true_from_camera_estimated = [R|t] and p the end effector's origin in the camera

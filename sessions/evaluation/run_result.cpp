@@ -50,6 +50,10 @@ nlohmann::ordered_json toJson(const PoseError& error) {
                                  {"in_plane_mrad", error.in_plane_mrad},
                                  {"geodesic_mrad", error.geodesic_mrad}};
   if (error.projection_px) json["projection_px"] = *error.projection_px;
+  if (error.mssd_mm) json["mssd_mm"] = *error.mssd_mm;
+  if (error.mspd_px) json["mspd_px"] = *error.mspd_px;
+  if (error.add_mm) json["add_mm"] = *error.add_mm;
+  if (error.adi_mm) json["adi_mm"] = *error.adi_mm;
   return json;
 }
 

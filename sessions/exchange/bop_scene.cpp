@@ -44,16 +44,9 @@ ordered_json objectEntry(const PosedImage& image, int object_id) {
   return json;
 }
 
-int imageId(const std::string& key, const JsonReader& entry) {
-  int id = -1;
-  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), id);
-  if (error != std::errc() || end != key.data() + key.size() || id < 0)
-    entry.fail("'" + key + "' is not the number of an image");
-  return id;
-}
-
 Camera readCameraEntry(const JsonReader& entry) {
-  if (entry.has("cam_model")) entry.failMember("cam_model", "only cam_K can be read");
+  if (entry.has("cam_model"))
+    entry.failMember("cam_model", "this camera model cannot be read, only pinhole cameras (cam_K)");
   const std::vector<JsonReader> k = entry.at("cam_K").elements(9);
   for (const std::size_t zero : {1u, 3u, 6u, 7u})
     if (k[zero].number() != 0.0) k[zero].fail("a camera with skew cannot be read");
@@ -110,17 +103,30 @@ void writeBopScene(const std::filesystem::path& folder, std::span<const BopObjec
   writeJsonFile(folder / "scene_gt.json", truth);
 }
 
+int bopImageId(const std::string& key, const JsonReader& entry) {
+  int id = -1;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), id);
+  if (error != std::errc() || end != key.data() + key.size() || id < 0)
+    entry.fail("'" + key + "' is not a number from 0 on");
+  return id;
+}
+
 std::vector<BopObject> readBopScene(const std::filesystem::path& folder) {
+  return readBopScene(folder / "scene_camera.json", folder / "scene_gt.json");
+}
+
+std::vector<BopObject> readBopScene(const std::filesystem::path& camera_file,
+                                    const std::filesystem::path& truth_file) {
   std::map<int, Camera> cameras;
-  const JsonDocument camera_document(folder / "scene_camera.json");
+  const JsonDocument camera_document(camera_file);
   for (const auto& [key, entry] : camera_document.root().members())
-    cameras[imageId(key, entry)] = readCameraEntry(entry);
+    cameras[bopImageId(key, entry)] = readCameraEntry(entry);
   std::vector<BopObject> made;
-  const JsonDocument document(folder / "scene_gt.json");
+  const JsonDocument document(truth_file);
   for (const auto& [key, list] : document.root().members()) {
-    const int id = imageId(key, list);
+    const int id = bopImageId(key, list);
     const auto camera = cameras.find(id);
-    if (camera == cameras.end()) list.fail("scene_camera.json has no such image");
+    if (camera == cameras.end()) list.fail(camera_file.filename().string() + " has no such image");
     for (const JsonReader& entry : list.elements()) {
       BopObject object;
       object.image.id = id;

@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "sessions/exchange/posed_image.h"
+#include "sessions/io/json_reader.h"
 
 namespace boresight::sessions {
 
@@ -23,5 +25,11 @@ void writeBopScene(const std::filesystem::path& folder, std::span<const BopObjec
 
 /// Reads them back, several objects an image allowed; poses come back to 1e-12. InputError.
 std::vector<BopObject> readBopScene(const std::filesystem::path& folder);
+/// The same from two files, whatever they are called.
+std::vector<BopObject> readBopScene(const std::filesystem::path& camera_file,
+                                    const std::filesystem::path& truth_file);
+
+/// The number that a key of such a file is. InputError.
+int bopImageId(const std::string& key, const JsonReader& entry);
 
 }  // namespace boresight::sessions

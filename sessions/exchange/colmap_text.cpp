@@ -20,6 +20,9 @@ namespace {
 constexpr double kPixelOrigin = 0.5;  ///< where COLMAP has the centre of the top-left pixel
 constexpr std::size_t kMaxBytes = 256 * kMegabyte;
 
+/// A coefficient that ours has no place for: it must be 0.
+constexpr std::size_t kNone = 99;
+
 /// A COLMAP model: how many focal lengths it has, and which of ours its further numbers are.
 struct ColmapModel {
   const char* name;
@@ -36,9 +39,27 @@ const std::vector<ColmapModel>& colmapModels() {
       {"OPENCV_FISHEYE", 2, CameraModel::kKannalaBrandt, {0, 1, 2, 3}},
       {"SIMPLE_PINHOLE", 1, CameraModel::kPinhole, {}},
       {"SIMPLE_RADIAL", 1, CameraModel::kBrownConrady, {0}},
-      {"RADIAL", 1, CameraModel::kBrownConrady, {0, 1}}};
+      {"RADIAL", 1, CameraModel::kBrownConrady, {0, 1}},
+      {"SIMPLE_FISHEYE", 1, CameraModel::kKannalaBrandt, {}},
+      {"FISHEYE", 2, CameraModel::kKannalaBrandt, {}},
+      {"SIMPLE_RADIAL_FISHEYE", 1, CameraModel::kKannalaBrandt, {0}},
+      {"RADIAL_FISHEYE", 1, CameraModel::kKannalaBrandt, {0, 1}},
+      {"THIN_PRISM_FISHEYE",
+       2,
+       CameraModel::kKannalaBrandt,
+       {0, 1, kNone, kNone, 2, 3, kNone, kNone}}};
   return models;
 }
+
+bool knownToColmap(const std::string& name) {
+  for (const char* other : {"FOV", "RAD_TAN_THIN_PRISM_FISHEYE", "SIMPLE_DIVISION", "DIVISION",
+                            "EUCM", "EQUIRECTANGULAR"})
+    if (name == other) return true;
+  return false;
+}
+
+constexpr const char* kWhatToDo =
+    "; undistort the images with COLMAP's image_undistorter and read its model";
 
 const ColmapModel& modelFor(const Camera& camera) {
   const bool short_form = std::all_of(camera.distortion.begin() + 4, camera.distortion.end(),
@@ -145,6 +166,8 @@ Camera readCameraLine(Line& line) {
   const ColmapModel* model = nullptr;
   for (const ColmapModel& one : colmapModels())
     if (name == one.name) model = &one;
+  if (model == nullptr && knownToColmap(name))
+    line.fail("no camera here can be a " + name + kWhatToDo);
   if (model == nullptr) line.fail("the camera model " + name + " is not known");
   Camera camera;
   camera.model = model->model;
@@ -154,7 +177,13 @@ Camera readCameraLine(Line& line) {
   camera.fy = model->focal_lengths == 2 ? line.number("the second focal length") : camera.fx;
   camera.cx = line.number("cx") - kPixelOrigin;
   camera.cy = line.number("cy") - kPixelOrigin;
-  for (const std::size_t i : model->distortion) camera.distortion[i] = line.number("a coefficient");
+  for (const std::size_t i : model->distortion) {
+    const double value = line.number("a coefficient");
+    if (i == kNone && value != 0.0)
+      line.fail("no camera here can be a " + name + " with tangential or thin-prism terms" +
+                kWhatToDo);
+    if (i != kNone) camera.distortion[i] = value;
+  }
   line.end();
   if (prepareCamera(camera) != Status::kOk) line.fail("the numbers cannot be a camera's");
   return camera;

@@ -17,9 +17,11 @@ namespace boresight::sessions {
 /// positive, and a name with line breaks or none.
 void writeColmapText(const std::filesystem::path& folder, std::span<const PosedImage> images);
 
-/// Reads them back, and what COLMAP itself wrote with these models or SIMPLE_PINHOLE, SIMPLE_RADIAL
-/// and RADIAL. Poses and distortion come back bit by bit, cx and cy to the last bit but one.
-/// InputError.
+/// Reads them back, and what COLMAP itself wrote with these models or SIMPLE_PINHOLE,
+/// SIMPLE_RADIAL, RADIAL, SIMPLE_FISHEYE, FISHEYE, SIMPLE_RADIAL_FISHEYE, RADIAL_FISHEYE, or a
+/// THIN_PRISM_FISHEYE whose tangential and prism terms are 0. Poses and distortion come back bit by
+/// bit, cx and cy to the last bit but one. InputError; for COLMAP's other models it says what to
+/// do.
 std::vector<PosedImage> readColmapText(const std::filesystem::path& folder);
 
 }  // namespace boresight::sessions

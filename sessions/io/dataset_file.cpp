@@ -190,6 +190,7 @@ Dataset readDataset(const std::filesystem::path& file) {
   const JsonReader json = document.root(kFormat, kVersion);
   Dataset dataset;
   dataset.file = file;
+  dataset.sha256 = sha256Text(readFileBytes(file, kMaxJsonBytes));
   if (const auto requirement = json.find("requirement"))
     dataset.requirement = readRequirement(*requirement);
   for (const auto& [id, station] : json.at("stations").members())

@@ -13,6 +13,7 @@
 #include "sessions/io/json_reader.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/io/scene_mesh.h"
+#include "sessions/io/symmetries.h"
 
 namespace boresight::sessions {
 
@@ -32,6 +33,7 @@ struct Station {
   std::optional<double> feature_size_m;
   std::optional<DeclaredUncertainty> uncertainty;
   std::optional<Pose> camera_from_end_effector;
+  Symmetries symmetries;  ///< poses that differ by one of them count as the same
 };
 
 /// Cases with the same `id` were taken at once by rigidly linked cameras.
@@ -40,6 +42,13 @@ struct Rig {
   Pose camera_from_rig;
 
   bool operator==(const Rig&) const = default;
+};
+
+/// What a BOP dataset calls a case.
+struct BopKey {
+  int scene_id = 0;
+  int image_id = 0;
+  int object_id = 0;
 };
 
 struct Case {
@@ -57,6 +66,7 @@ struct Case {
   std::optional<DeclaredUncertainty> uncertainty;
   std::optional<Requirement> requirement;
   std::optional<Pose> camera_from_end_effector;
+  std::optional<BopKey> bop = {};
 
   bool hasTag(const std::string& tag) const;
 };
@@ -64,6 +74,7 @@ struct Case {
 /// dataset.json (`boresight-dataset`, version 1), checked whole; images and meshes are read later.
 struct Dataset {
   std::filesystem::path file;
+  std::string sha256;  ///< of the file, or of what was chosen of a folder
   std::optional<Requirement> requirement;
   std::map<std::string, Station> stations;
   std::map<std::string, Camera> cameras;

@@ -27,6 +27,8 @@ bool carriesUnit(MeshFormat format);
 struct MeshDeclaration {
   std::optional<std::int64_t> vertex_count;
   std::optional<std::int64_t> polygon_count;
+  /// Where the data of a binary PLY begin, when their first byte looks like the end of a line.
+  std::optional<std::size_t> newline_as_data = {};
 };
 
 /// Checks that the bytes are of the format that the extension promises, and complete as far as the

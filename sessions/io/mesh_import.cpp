@@ -24,6 +24,15 @@ namespace {
 
 constexpr double kMaxCoordinate_m = 1e6;
 
+/// The importer takes a first data byte of 10 for the second half of the header's line end and
+/// drops it, which moves all that follows: it gets one more to drop.
+std::vector<std::uint8_t> withNewlineToDrop(const std::vector<std::uint8_t>& bytes,
+                                            std::size_t body) {
+  std::vector<std::uint8_t> longer = bytes;
+  longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(body), '\n');
+  return longer;
+}
+
 /// The importer's scene, polygons as they are in the file.
 const aiScene* import(Assimp::Importer& importer, const std::filesystem::path& file,
                       const std::vector<std::uint8_t>& bytes, MeshFormat format) {
@@ -159,7 +168,10 @@ ImportedMesh importMesh(const std::filesystem::path& file, const std::vector<std
                         double metres_per_unit) {
   ImportedMesh imported;
   Assimp::Importer importer;
-  const aiScene* scene = import(importer, file, bytes, format);
+  const aiScene* scene =
+      declared.newline_as_data
+          ? import(importer, file, withNewlineToDrop(bytes, *declared.newline_as_data), format)
+          : import(importer, file, bytes, format);
   checkIndices(file, *scene);
   countPrimitives(file, *scene, declared, imported);
   placeNodes(file, *scene, metres_per_unit, imported);

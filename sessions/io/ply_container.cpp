@@ -206,6 +206,8 @@ MeshDeclaration checkPly(const std::filesystem::path& file, Bytes bytes) {
     return declaration;
   }
   std::uint64_t offset = header.body;
+  if (offset < bytes.size() && bytes[offset] == '\n' && bytes[offset - 2] != '\r')
+    declaration.newline_as_data = static_cast<std::size_t>(offset);
   for (const PlyElement& element : header.elements)
     offset =
         walkPlyElement(file, bytes, element, header.encoding == PlyEncoding::kBigEndian, offset);

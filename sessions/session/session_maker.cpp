@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "sessions/exchange/bop_dataset.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/review/check_limits.h"
@@ -98,10 +99,13 @@ MadeCase makeCase(const CaseFiles& files) {
 }
 
 Session makeSession(const fs::path& dataset_file, const std::vector<std::string>& case_ids) {
-  const Dataset dataset = readDataset(dataset_file);
+  return makeSession(openDataset(dataset_file), case_ids);
+}
+
+Session makeSession(const Dataset& dataset, const std::vector<std::string>& case_ids) {
   for (const std::string& id : case_ids)
     if (dataset.findCase(id) == nullptr)
-      throw InputError(dataset_file, "cases", "there is no case '" + id + "'");
+      throw InputError(dataset.file, "cases", "there is no case '" + id + "'");
   Session session;
   std::map<std::string, std::vector<MeshInput>> parts;
   for (const Case& one : dataset.cases) {

@@ -40,6 +40,8 @@ MadeCase makeCase(const CaseFiles& files);
 /// tags and uncertainty come along, and the checks' preset is the one for what they all require
 /// (a requirement in pixels alone: "photographs"). InputError, also for an id that the dataset does
 /// not have.
+Session makeSession(const Dataset& dataset, const std::vector<std::string>& case_ids = {});
+/// The same of a file, or of a BOP folder with what openDataset chooses of it.
 Session makeSession(const std::filesystem::path& dataset_file,
                     const std::vector<std::string>& case_ids = {});
 

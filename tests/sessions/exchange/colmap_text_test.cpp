@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/exchange/colmap_text.h"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -70,6 +72,38 @@ TEST(ColmapText, ReadsSimplerModelsAndPoints) {
   EXPECT_EQ(read[1].camera_from_station.rotation.y(), 0.8);
 }
 
+/// COLMAP's own formulas (its sensor/models.h): a point (u, v, 1), pixels from the image's corner.
+TEST(ColmapText, FisheyesProjectAsColmapDoes) {
+  const TemporaryFolder folder;
+  const double u = 0.31, v = -0.22, f = 210.0, fy = 212.0;
+  const double radius = std::hypot(u, v), theta = std::atan(radius);
+  const struct {
+    const char* line;
+    double fy, k[4];
+  } models[] = {{"1 SIMPLE_FISHEYE 400 300 210 200.5 150.5", f, {}},
+                {"1 FISHEYE 400 300 210 212 200.5 150.5", fy, {}},
+                {"1 SIMPLE_RADIAL_FISHEYE 400 300 210 200.5 150.5 0.02", f, {0.02}},
+                {"1 RADIAL_FISHEYE 400 300 210 200.5 150.5 0.02 -0.01", f, {0.02, -0.01}},
+                {"1 OPENCV_FISHEYE 400 300 210 212 200.5 150.5 0.02 -0.01 0.003 0.001",
+                 fy,
+                 {0.02, -0.01, 0.003, 0.001}},
+                {"1 THIN_PRISM_FISHEYE 400 300 210 212 200.5 150.5 0.02 -0.01 0 0 0.003 0.001 0 0",
+                 fy,
+                 {0.02, -0.01, 0.003, 0.001}}};
+  for (const auto& model : models) {
+    SCOPED_TRACE(model.line);
+    folder.write("cameras.txt", std::string(model.line) + "\n");
+    folder.write("images.txt", "1 1 0 0 0 0 0 1 1 a.png\n\n");
+    const Camera camera = readColmapText(folder / "").at(0).camera;
+    double distorted = theta;
+    for (int i = 0; i < 4; ++i) distorted += model.k[i] * std::pow(theta, 2 * i + 3);
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(project(camera, {u, v, 1.0}, pixel));
+    EXPECT_NEAR(pixel.x(), f * u * distorted / radius + 200.5 - 0.5, 1e-9);
+    EXPECT_NEAR(pixel.y(), model.fy * v * distorted / radius + 150.5 - 0.5, 1e-9);
+  }
+}
+
 TEST(ColmapText, NamesWhatIsWrong) {
   const TemporaryFolder folder;
   const auto error = [&folder](const std::string& cameras, const std::string& images) {
@@ -79,7 +113,14 @@ TEST(ColmapText, NamesWhatIsWrong) {
   };
   const std::string camera = "1 PINHOLE 10 10 9 9 5 5\n";
   EXPECT_EQ(error("1 FOV 10 10 9 9 5 5 1\n", "x"),
-            "cameras.txt: line 1: the camera model FOV is not known");
+            "cameras.txt: line 1: no camera here can be a FOV; undistort the images with COLMAP's "
+            "image_undistorter and read its model");
+  EXPECT_EQ(error("1 THIN_PRISM_FISHEYE 10 10 9 9 5 5 0.1 0 0 0.001 0 0 0 0\n", "x"),
+            "cameras.txt: line 1: no camera here can be a THIN_PRISM_FISHEYE with tangential or "
+            "thin-prism terms; undistort the images with COLMAP's image_undistorter and read its "
+            "model");
+  EXPECT_EQ(error("1 CATADIOPTRIC 10 10 9 9 5 5 1\n", "x"),
+            "cameras.txt: line 1: the camera model CATADIOPTRIC is not known");
   EXPECT_EQ(error("1 PINHOLE 10 10 9 9 5\n", "x"), "cameras.txt: line 1: cy is missing");
   EXPECT_EQ(error("1 PINHOLE 10 10 9 9 5 5 5\n", "x"),
             "cameras.txt: line 1: has more than it should: '5'");

@@ -22,6 +22,7 @@ using boresight::test::TemporaryFolder;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+using ::testing::UnorderedElementsAreArray;
 using namespace boresight::sessions::test;  // NOLINT: the samples are this file's vocabulary
 
 double signedVolume_m3(const Mesh& mesh) {
@@ -91,6 +92,18 @@ TEST_F(ReadMesh, KeepsCoordinatesInMetresExactly) {
   for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(mesh.vertices_m[i], source.vertices[i]);
   for (std::size_t f = 0; f < 100; ++f)
     for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(mesh.faces[f].vertex[i], source.polygons[f][i]);
+}
+
+/// -0.16 m is 0A D7 23 BE: its first byte is that of a line end.
+TEST_F(ReadMesh, TakesAFirstByteOfTenForData) {
+  PolygonMesh mesh = cube();
+  mesh.vertices[0].x() = -0.16F;
+  for (const bool after_carriage_return : {false, true}) {
+    std::string bytes = binaryPly(mesh, false);
+    if (after_carriage_return) bytes.insert(bytes.find("end_header") + 10, "\r");
+    const Mesh made = read("ten.ply", bytes);
+    EXPECT_THAT(made.vertices_m, UnorderedElementsAreArray(mesh.vertices));
+  }
 }
 
 TEST_F(ReadMesh, ConvertsTheStatedUnit) {
