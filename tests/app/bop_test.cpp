@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// BOP datasets in evaluate, info and new.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "sessions/exchange/bop_results.h"
+#include "sessions/exchange/bop_scene.h"
+#include "sessions/io/dataset_file.h"
+#include "sessions/session/session_file.h"
+#include "tests/app/run_whs.h"
+
+namespace boresight::test {
+namespace {
+
+using testing::HasSubstr;
+
+const std::filesystem::path kRendered = BORESIGHT_SYNTHETIC_EXAMPLE;
+
+/// One rendered case as a BOP dataset of one image, made by hand: object 5 in image 4 of scene 3.
+class WhsBop : public testing::Test {
+ protected:
+  WhsBop() {
+    const sessions::Case& one = *dataset_.findCase("bc-000001");
+    truth_ = *one.truth_camera_from_station;
+    sessions::PosedImage image;
+    image.id = 4;
+    image.camera = dataset_.cameras.at(one.camera);
+    image.camera_from_station = truth_;
+    const std::filesystem::path scene = folder_ / "set/test/000003";
+    std::filesystem::create_directories(scene / "gray");
+    sessions::writeBopScene(scene, {{{image, 5}}});
+    std::filesystem::copy_file(one.image, scene / "gray/000004.png");
+    writeModel(sessions::readStationScene(dataset_.stations.at("bc")));
+  }
+
+  void writeModel(const sessions::SceneMesh& mesh) {
+    Eigen::AlignedBox3f box;
+    std::string text = "ply\nformat ascii 1.0\nelement vertex " +
+                       std::to_string(mesh.vertices_in_station_m.size()) +
+                       "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+                       std::to_string(mesh.faces.size()) +
+                       "\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m) {
+      const Eigen::Vector3f v_mm = 1000.0F * vertex;
+      box.extend(v_mm);
+      for (int i = 0; i < 3; ++i) text += std::to_string(v_mm[i]) + (i < 2 ? " " : "\n");
+    }
+    for (const Face& face : mesh.faces)
+      text += "3 " + std::to_string(face.vertex[0]) + " " + std::to_string(face.vertex[1]) + " " +
+              std::to_string(face.vertex[2]) + "\n";
+    folder_.write("set/models/obj_000005.ply", text);
+    nlohmann::json info = {{"diameter", box.diagonal().norm()}};
+    const char* axes[] = {"x", "y", "z"};
+    for (int i = 0; i < 3; ++i) {
+      info[std::string("min_") + axes[i]] = box.min()[i];
+      info[std::string("size_") + axes[i]] = box.sizes()[i];
+    }
+    folder_.write("set/models/models_info.json", nlohmann::json{{"5", info}}.dump());
+  }
+
+  sessions::Dataset dataset_ = sessions::readDataset(kRendered / "dataset.json");
+  TemporaryFolder folder_;
+  std::string set_ = folder_ / "set";
+  Pose truth_;
+};
+
+TEST_F(WhsBop, EvaluatesAndWritesTheChallengesResults) {
+  const std::string csv = folder_ / "whs_set-test.csv";
+  const ProgramRun run =
+      runWhs({"evaluate", "--dataset", set_, "--uncertainty", "0.02", "0.02", "0.02", "3", "3", "3",
+              "--pivot", "camera", "--out", folder_ / "r.sqlite", "--jsonl", folder_ / "r.jsonl",
+              "--bop-csv", csv});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto result = nlohmann::json::parse(folder_.read("r.jsonl"));
+  EXPECT_EQ(result["id"], "000003-000004-000005");
+  ASSERT_TRUE(result["completed"]);
+  const auto& error = result["error"];
+  EXPECT_LT(error["mssd_mm"], 0.5);
+  EXPECT_LT(error["mspd_px"], 1.0);
+  EXPECT_LE(error["adi_mm"], error["add_mm"]);
+  EXPECT_LE(error["add_mm"], error["mssd_mm"]);
+  EXPECT_GT(result["seed_error"]["mssd_mm"], 2.0);
+  const auto rows = sessions::readBopResults(csv);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].scene_id, 3);
+  EXPECT_EQ(rows[0].image_id, 4);
+  EXPECT_EQ(rows[0].object_id, 5);
+  EXPECT_GT(rows[0].seconds, 0.0);
+  EXPECT_LT(perturbationBetween(rows[0].camera_from_station, truth_).norm(), 2e-3);
+}
+
+TEST_F(WhsBop, SaysWhatIsInIt) {
+  const ProgramRun run = runWhs({"info", set_});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("BOP dataset\n  1 cases, 1 stations, 1 cameras"));
+  EXPECT_THAT(run.out, HasSubstr("station obj_000005: 1 cases, 1 parts"));
+}
+
+TEST_F(WhsBop, BecomesASession) {
+  const std::string file = folder_ / "s.boresight.json";
+  const ProgramRun run = runWhs({"new", "--dataset", set_, "--obj", "5", "--out", file});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const sessions::Session session = sessions::readSessionFile(file).session;
+  ASSERT_EQ(session.cases.size(), 1u);
+  EXPECT_EQ(session.cases[0]->camera_from_station_truth->translation_m, truth_.translation_m);
+  EXPECT_EQ(session.cases[0]->parts.at(0).source.mesh_unit, "mm");
+}
+
+TEST_F(WhsBop, RefusesWhatItCannotMean) {
+  const std::string out = folder_ / "r.sqlite";
+  const std::string file = kRendered / "dataset.json";
+  const ProgramRun choice = runWhs({"evaluate", "--dataset", file, "--scene", "3", "--out", out});
+  EXPECT_EQ(choice.exit_code, 2);
+  EXPECT_THAT(choice.err, HasSubstr("choose of a BOP folder"));
+  const ProgramRun csv =
+      runWhs({"evaluate", "--dataset", file, "--bop-csv", folder_ / "r.csv", "--out", out});
+  EXPECT_EQ(csv.exit_code, 3);
+  EXPECT_THAT(csv.err, HasSubstr("is not of a BOP dataset"));
+  const ProgramRun scene = runWhs({"info", set_, "--scene", "9"});
+  EXPECT_EQ(scene.exit_code, 3);
+  EXPECT_THAT(scene.err, HasSubstr("has no scene 000009"));
+}
+
+}  // namespace
+}  // namespace boresight::test
