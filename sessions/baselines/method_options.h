@@ -30,7 +30,7 @@ inline constexpr const char* kNccKindNames[] = {"ccorr_normed", "ccoeff_normed"}
 struct NccOptions {
   NccKind kind = NccKind::kCcoeff;
   bool masked = false;
-  bool equalized = false;
+  bool equalized = true;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -55,7 +55,7 @@ struct OrbOptions {
   std::int32_t fast_threshold = 10;
   double ratio = 1.0;
   bool unique = true;
-  bool equalized = false;
+  bool equalized = true;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {

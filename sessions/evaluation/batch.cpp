@@ -215,6 +215,7 @@ RunResult Batch::runItem(const Item& item, const std::stop_token& stop) {
   } catch (const MethodError& error) {
     result.status = "method_error";
     result.message = one.id + ": " + error.what();
+    if (one.truth_camera_from_station && one.requirement) result.success = false;
   } catch (const std::bad_alloc&) {
     result.status = "input_error";
     result.message = one.image.string() + ": not enough memory for this image and mesh";

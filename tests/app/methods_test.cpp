@@ -103,6 +103,7 @@ TEST_F(WhsMethods, AMatcherThatFailsCostsItsCaseAndNotTheRun) {
       const bool failed = result["method"] == "external";
       EXPECT_EQ(result["status"] == "method_error", failed) << result.dump();
       EXPECT_EQ(result["completed"], !failed);
+      EXPECT_EQ(result["success"], !failed) << "a run that was lost is not left out of the share";
       if (failed) {
         EXPECT_THAT(std::string(result["message"]), HasSubstr("the matcher"));
       }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A coarse LoFTR (Sun 2021) as an external matcher: see ../README.md for the protocol.
 //
-//   node loftr.js --model MODEL.onnx [--threshold 0.02] [--threads 1]
+//   node loftr.js --model MODEL.onnx [--threshold 0.0002] [--threads 1]
 //
 // The model: inputs img0, img1 (float32 [1, 1, H, W] in 0..1), and an output [1, N, N] of confidences over the N cells of
 // the two images' grids (dual softmax, so that rows and columns sum up to at most 1). Of several such outputs the one
@@ -9,7 +9,7 @@
 'use strict';
 
 function argumentsOf(argv) {
-  const options = {model: '', threshold: 0.02, threads: 1};
+  const options = {model: '', threshold: 0.0002, threads: 1};
   for (let i = 2; i < argv.length; i += 2) {
     const name = argv[i].replace(/^--/, '');
     if (!(name in options) || i + 1 >= argv.length) throw new Error(`what is "${argv[i]}"?`);
