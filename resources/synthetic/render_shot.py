@@ -104,8 +104,13 @@ def develop(passes, plan):
     guides += [(np.log(depth), 0.012), (passes["albedo"], 0.06)]
     # What reflects is divided out, so that the texture of a surface stays.
     albedo = passes["albedo"] + 0.02
-    sky, sun = pixels.smooth([(passes["sky"] / albedo, 4, 1.5), (passes["sun"] / albedo, 2, 0.3)],
-                             guides)
+    sky, sun = passes["sky"] / albedo, passes["sun"] / albedo
+    # In its own shadows the sun's light is what surfaces pass on, and seldom met by a ray. What
+    # faces the sun may have edges of shadows as high as its full light; what faces away has none.
+    full = plan["sun_irradiance"] / np.pi
+    facing = passes["normal"] @ np.array(plan["towards_sun"], dtype=np.float32)
+    noise = np.where(facing > 0.03, 0.3 * full * facing, 0.5 * full).astype(np.float32)
+    sky, sun = pixels.smooth([(sky, 4, 1.5, np.float32(0.0)), (sun, 4, 0.2, noise)], guides)
     clear = np.exp(-plan["haze_per_m"] * np.minimum(depth, 2000.0))
     return (sun + sky) * albedo * clear + plan["sky_radiance"] * (1.0 - clear)
 

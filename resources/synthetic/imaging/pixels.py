@@ -15,16 +15,16 @@ MAX_LEVELS = 4
 def smooth(lights, guides):
     """Edge-stopping wavelet filter (Dammertz 2010) of pictures of the same scene.
 
-    `lights` are (picture, levels, tolerance): how far it is filtered, and what difference to a
-    neighbour, relative to the local mean, counts as noise at first; it halves with every level, as
-    the noise does. `guides` are (picture, sigma) without noise: what differs in them is not mixed.
+    `lights` are (picture, levels, relative, absolute): how far it is filtered, and what difference
+    to a neighbour counts as noise at first, of the local mean and besides (a number or a
+    picture); both halve with every level, as the noise does. `guides` are (picture, sigma) without noise: what differs in them is not mixed.
     """
-    pictures = [picture for picture, _, _ in lights]
+    pictures = [picture for picture, *_ in lights]
     guides = [picture * np.float32(1.0 / sigma) for picture, sigma in guides]
     for level in range(MAX_LEVELS):
-        active = [i for i, (_, levels, _) in enumerate(lights) if level < levels]
-        floors = {i: lights[i][2] * 0.5 ** level * (_box(pictures[i], 3 * 2 ** level) + 1e-4)
-                  for i in active}
+        active = [i for i, (_, levels, _, _) in enumerate(lights) if level < levels]
+        floors = {i: 0.5 ** level * (lights[i][2] * _box(pictures[i], 3 * 2 ** level)
+                                     + lights[i][3] + np.float32(1e-4)) for i in active}
         totals = {i: pictures[i].copy() for i in active}
         weights = {i: np.ones_like(pictures[i]) for i in active}
         for dy, dx, kernel in PAIRS:
