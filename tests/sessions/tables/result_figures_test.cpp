@@ -24,6 +24,8 @@ std::vector<RunResult> sample() {
       runs.push_back(madeRun((i % 2 == 0 ? "bc-" : "os-") + std::to_string(i),
                              factor > 1.0 ? "ncc" : "whs", i % 7 != 0, factor * 0.01 * i,
                              factor * 0.02 * i, factor * 0.2 * i));
+      runs.back().seed_error->lateral_mm = i;
+      runs.back().seed_error->geodesic_mrad = 2.0 * i;
       runs.back().seconds.matching = factor * (0.1 + 0.01 * i);
     }
   return runs;
