@@ -140,9 +140,9 @@ TEST_F(BadInput, CallsWrongUseUsage) {
   EXPECT_EQ(run({{"--profile", "best"}}).exit_code, 2);
   EXPECT_EQ(run({{"--set", "pnp.seed"}}).exit_code, 2);
   EXPECT_EQ(run({{"--set", "pnp.seed=soon"}}).exit_code, 2);
-  const ProgramRun unknown_method = run({{"--method", "orb"}});
+  const ProgramRun unknown_method = run({{"--method", "sift"}});
   EXPECT_EQ(unknown_method.exit_code, 2);
-  EXPECT_THAT(unknown_method.err, HasSubstr("there is: whs"));
+  EXPECT_THAT(unknown_method.err, HasSubstr("there are: whs"));
   EXPECT_EQ(outputs_.fileCount(), 0u);
 }
 

@@ -9,11 +9,13 @@
 namespace boresight::sessions {
 namespace {
 
-/// Six times the volume that the faces enclose: positive when they look outward.
+/// Six times the signed volume between the faces and the middle of their box: faces that look the
+/// other way change its sign, whether or not they are closed.
 double sixfoldVolume(const SceneMesh& scene) {
   double sum = 0.0;
+  const Eigen::Vector3d middle_m = matchedBounds(scene.view()).centre();
   const auto at = [&](std::uint32_t i) -> Eigen::Vector3d {
-    return scene.vertices_in_station_m[i].cast<double>();
+    return scene.vertices_in_station_m[i].cast<double>() - middle_m;
   };
   for (const Face& face : scene.faces)
     sum += at(face.vertex[0]).dot(at(face.vertex[1]).cross(at(face.vertex[2])));
