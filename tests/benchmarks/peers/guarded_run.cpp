@@ -3,11 +3,13 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <exception>
 #include <stdexcept>
@@ -17,6 +19,7 @@ namespace {
 
 constexpr char kAnswer = 'a';
 constexpr char kException = 'e';
+constexpr double kWallFactor = 30.0;
 
 void writeAll(int descriptor, const std::string& text) {
   std::size_t written = 0;
@@ -27,7 +30,11 @@ void writeAll(int descriptor, const std::string& text) {
   }
 }
 
-[[noreturn]] void beChild(const std::function<std::string()>& work, int descriptor) {
+[[noreturn]] void beChild(const std::function<std::string()>& work, int descriptor,
+                          double limit_s) {
+  const auto whole_s = static_cast<rlim_t>(std::ceil(limit_s));
+  const rlimit limit{whole_s, whole_s};
+  ::setrlimit(RLIMIT_CPU, &limit);
   const int nowhere = ::open("/dev/null", O_WRONLY);
   ::dup2(nowhere, STDOUT_FILENO);
   ::dup2(nowhere, STDERR_FILENO);
@@ -72,17 +79,19 @@ GuardedAnswer runGuarded(const std::function<std::string()>& work, double limit_
   if (child < 0) throw std::runtime_error("no child process");
   if (child == 0) {
     ::close(pipe_ends[0]);
-    beChild(work, pipe_ends[1]);
+    beChild(work, pipe_ends[1], limit_s);
   }
   ::close(pipe_ends[1]);
   GuardedAnswer guarded;
   std::string text;
-  const bool ended = readUntil(pipe_ends[0], limit_s, text);
+  const bool ended = readUntil(pipe_ends[0], kWallFactor * limit_s, text);
   ::close(pipe_ends[0]);
   if (!ended) ::kill(child, SIGKILL);
   int status = 0;
   ::waitpid(child, &status, 0);
-  if (!ended)
+  const bool spent =
+      WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL);
+  if (!ended || spent)
     guarded.loss = "took more than " + std::to_string(static_cast<int>(limit_s)) + " s";
   else if (text.empty())
     guarded.loss = lossText(status);

@@ -13,9 +13,10 @@ struct GuardedAnswer {
   std::string loss;                   ///< how: "took more than 60 s", "signal 11", ...
 };
 
-/// Does `work` in a child process that is killed after `limit_s` of wall time; what it prints goes
-/// nowhere. An exception, a crash or a hang costs its answer and nothing else. Only for a process
-/// that has one thread. std::runtime_error when there can be no child.
+/// Does `work` in a child process that is killed after `limit_s` of processor time (or 30 times as
+/// much of wall time); what it prints goes nowhere. An exception, a crash or a hang costs its
+/// answer and nothing else. Only for a process that has one thread. std::runtime_error when there
+/// can be no child.
 GuardedAnswer runGuarded(const std::function<std::string()>& work, double limit_s);
 
 }  // namespace boresight::peers

@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
+#include <ctime>
 
 namespace boresight::peers {
 
-/// Wall time in pieces.
+/// Processor time of this process in pieces: what others do on the machine does not count.
 class StopWatch {
  public:
   /// Seconds since it was made or last asked.
   double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const std::chrono::duration<double> passed = now - began_;
-    began_ = now;
-    return passed.count();
+    const double now_s = processor_s();
+    const double passed_s = now_s - began_s_;
+    began_s_ = now_s;
+    return passed_s;
   }
 
  private:
-  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  static double processor_s() {
+    timespec time{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+
+  double began_s_ = processor_s();
 };
 
 }  // namespace boresight::peers

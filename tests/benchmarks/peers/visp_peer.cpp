@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/benchmarks/peers/visp_peer.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <exception>
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
 
 #include "tests/benchmarks/peers/stop_watch.h"
+#include "tests/benchmarks/peers/visible_lines.h"
 #include "tests/benchmarks/peers/visp_tracker.h"
 #include "tests/benchmarks/peers/wire_model.h"
 
@@ -40,32 +35,19 @@ Pose poseOf(const PoseRows& rows) {
   return pose;
 }
 
-/// ViSP's text format: points, lines (each an object of its own), no faces of lines, faces of
-/// points. A line that is also a side of faces stays one.
-void writeModel(const WireModel& model, const std::filesystem::path& file) {
-  std::ofstream stream(file);
-  stream.precision(10);
-  stream << "V1\n" << model.points_m.size() << "\n";
-  for (const Eigen::Vector3d& point : model.points_m)
-    stream << point.x() << " " << point.y() << " " << point.z() << "\n";
-  stream << model.lines.size() << "\n";
-  for (const auto& line : model.lines)
-    stream << line[0] << " " << line[1] << " name=" << kVispLine << "\n";
-  stream << "0\n" << model.faces.size() << "\n";
-  for (const auto& face : model.faces)
-    stream << "3 " << face[0] << " " << face[1] << " " << face[2] << " name=" << kVispFace << "\n";
-  stream << "0\n0\n";
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
+VispPoint vispPoint(const WireModel& model, int index) {
+  const Eigen::Vector3d& point = model.points_m[static_cast<std::size_t>(index)];
+  return {point.x(), point.y(), point.z()};
 }
 
-VispTracker trackerOf(const WireModel& model, const VispTuning& tuning) {
-  std::string folder = (std::filesystem::temp_directory_path() / "peers-XXXXXX").string();
-  if (::mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  const std::filesystem::path file = std::filesystem::path(folder) / "model.cao";
-  writeModel(model, file);
-  VispTracker tracker(file.string(), tuning);
-  std::filesystem::remove_all(folder);
-  return tracker;
+VispModel vispModel(const WireModel& model) {
+  VispModel made;
+  for (const auto& line : model.lines)
+    made.lines.push_back({vispPoint(model, line[0]), vispPoint(model, line[1])});
+  for (const auto& face : model.faces)
+    made.faces.push_back(
+        {vispPoint(model, face[0]), vispPoint(model, face[1]), vispPoint(model, face[2])});
+  return made;
 }
 
 class VispPeer : public Peer {
@@ -77,6 +59,8 @@ class VispPeer : public Peer {
 
  private:
   VispTuning tuning() const;
+  /// What is seen from a pose.
+  VispModel modelAt(const PeerProblem& problem, const Pose& camera_from_station) const;
   double seekAt(int pass, int passes) const;
   void runLevel(VispTracker& tracker, int level, Pose& pose, PeerAnswer& answer) const;
   void judge(const VispTracker& tracker, PeerAnswer& answer) const;
@@ -96,7 +80,8 @@ class VispPeer : public Peer {
       {"visp.mu2", 0.5, "contrast may rise by this share"},
       {"visp.sample_px", 4, "between sites"},
       {"visp.crease_deg", 30, "angle between faces from which their edge is followed"},
-      {"visp.depth_threshold", 1e-4, "of the scan line visibility test (m)"},
+      {"visp.scan_lines", 0, "1: ViSP's scan line test says what is hidden, at ten times the time"},
+      {"visp.depth_threshold", 1e-4, "of that test (m)"},
       {"visp.good_share", 0.4, "of sites that must be good"},
       {"visp.largest_error_deg", 90, "mean angle between lines and gradients to be accepted"},
   }};
@@ -112,8 +97,19 @@ VispTuning VispPeer::tuning() const {
   tuning.mu2 = settings_.value("visp.mu2");
   tuning.sample_px = settings_.value("visp.sample_px");
   tuning.good_share = settings_.value("visp.good_share");
+  tuning.scan_lines = settings_.value("visp.scan_lines") != 0.0;
   tuning.depth_threshold = settings_.value("visp.depth_threshold");
   return tuning;
+}
+
+VispModel VispPeer::modelAt(const PeerProblem& problem, const Pose& camera_from_station) const {
+  WireModel model =
+      wireModel(*problem.scene, camera_from_station, settings_.value("visp.crease_deg"));
+  if (settings_.value("visp.scan_lines") == 0.0) {
+    keepVisibleLines(problem.image, camera_from_station, model);
+    model.faces.clear();
+  }
+  return vispModel(model);
 }
 
 double VispPeer::seekAt(int pass, int passes) const {
@@ -158,9 +154,8 @@ PeerAnswer VispPeer::localize(const PeerProblem& problem) {
          level >= 0; --level) {
       watch.lap();
       const PinholeImage image = atLevel(problem.image, level);
-      // Anew at each level: the outline of what is round moves with the pose.
-      VispTracker tracker =
-          trackerOf(wireModel(*problem.scene, pose, settings_.value("visp.crease_deg")), tuning());
+      // Anew at each level: what is hidden, and the outline of what is round, move with the pose.
+      VispTracker tracker(modelAt(problem, pose), tuning());
       tracker.look(image.gray, image.fx, image.fy, image.cx, image.cy);
       answer.seconds.initialization += watch.lap();
       runLevel(tracker, level, pose, answer);

@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -21,22 +22,26 @@ struct VispTuning {
   double mu2 = 0.5;
   double sample_px = 4.0;
   double good_share = 0.4;
-  double depth_threshold = 1e-4;  ///< of the scan line visibility test
+  bool scan_lines = false;        ///< whether it tests by scan lines what is hidden
+  double depth_threshold = 1e-4;  ///< of that test, m
 };
 
-/// Names in the model's file: of lines to follow, and of faces that only hide.
-inline constexpr const char* kVispLine = "line";
-inline constexpr const char* kVispFace = "face";
+/// Points in the station frame, metres.
+using VispPoint = std::array<double, 3>;
+
+struct VispModel {
+  std::vector<std::array<VispPoint, 2>> lines;  ///< to follow; at least one
+  std::vector<std::array<VispPoint, 3>> faces;  ///< hide what lies behind them
+};
 
 /// 4 x 4, row-major, metres.
 using PoseRows = std::array<double, 16>;
 
-/// vpMbGenericTracker by moving edges, with scan line visibility. Throws vpException, which is a
+/// vpMbGenericTracker by moving edges. Throws vpException, which is a
 /// std::exception.
 class VispTracker {
  public:
-  /// Reads a model (.cao).
-  VispTracker(const std::string& model_file, const VispTuning& tuning);
+  VispTracker(const VispModel& model, const VispTuning& tuning);
   VispTracker(VispTracker&&) noexcept;
   ~VispTracker();
 
