@@ -2,6 +2,7 @@
 #include "tests/benchmarks/peers/rapid_peer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -19,21 +20,46 @@ struct CvMesh {
   cv::Mat triangles;  ///< N x 1, CV_32SC3, counter-clockwise from outside
 };
 
-/// Matched parts only: what merely hides would lend its outline to the object.
-CvMesh cvMesh(const sessions::SceneMesh& scene) {
-  CvMesh mesh;
-  std::vector<cv::Point3f> points;
-  for (const Eigen::Vector3f& vertex : scene.vertices_in_station_m)
-    points.emplace_back(vertex.x(), vertex.y(), vertex.z());
-  std::vector<cv::Vec3i> triangles;
-  for (std::size_t i = 0; i < scene.faces.size(); ++i) {
-    const auto& vertex = scene.faces[i].vertex;
-    if (scene.parts[scene.part_of_face[i]].match)
-      triangles.emplace_back(vertex[0], vertex[1], vertex[2]);
+constexpr double kSidesOfMesh = 40.0;
+constexpr int kSplits = 6;
+
+/// Splits a triangle into four until no side is longer than `longest_m`.
+void addTriangle(const std::array<cv::Point3f, 3>& corner, double longest_m, int splits,
+                 std::vector<cv::Point3f>& points, std::vector<cv::Vec3i>& triangles) {
+  const std::array<cv::Point3f, 3> middle = {(corner[0] + corner[1]) * 0.5F,
+                                             (corner[1] + corner[2]) * 0.5F,
+                                             (corner[2] + corner[0]) * 0.5F};
+  const double side_m = std::max({cv::norm(corner[0] - corner[1]), cv::norm(corner[1] - corner[2]),
+                                  cv::norm(corner[2] - corner[0])});
+  if (splits == 0 || side_m <= longest_m) {
+    const int first = static_cast<int>(points.size());
+    points.insert(points.end(), corner.begin(), corner.end());
+    triangles.emplace_back(first, first + 1, first + 2);
+    return;
   }
-  mesh.points = cv::Mat(points, true);
-  mesh.triangles = cv::Mat(triangles, true);
-  return mesh;
+  for (const auto& part :
+       {std::array{corner[0], middle[0], middle[2]}, std::array{middle[0], corner[1], middle[1]},
+        std::array{middle[2], middle[1], corner[2]}, middle})
+    addTriangle(part, longest_m, splits - 1, points, triangles);
+}
+
+/// Matched parts only: what merely hides would lend its outline to the object. Large triangles are
+/// split, as places on the outline are interpolated between vertices that lie on it.
+CvMesh cvMesh(const sessions::SceneMesh& scene) {
+  std::vector<cv::Point3f> points;
+  std::vector<cv::Vec3i> triangles;
+  const double longest_m = matchedBounds(scene.view()).diagonal() / kSidesOfMesh;
+  for (std::size_t i = 0; i < scene.faces.size(); ++i) {
+    if (!scene.parts[scene.part_of_face[i]].match) continue;
+    std::array<cv::Point3f, 3> corner;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3f& vertex =
+          scene.vertices_in_station_m[static_cast<std::size_t>(scene.faces[i].vertex[k])];
+      corner[k] = {vertex.x(), vertex.y(), vertex.z()};
+    }
+    addTriangle(corner, longest_m, kSplits, points, triangles);
+  }
+  return {cv::Mat(points, true), cv::Mat(triangles, true)};
 }
 
 struct CvPose {
@@ -80,11 +106,11 @@ class RapidPeer : public Peer {
   RapidKind kind_;
   Settings settings_{{
       {"rapid.levels", 4, "resolutions, the coarsest at 1 / 2^(levels - 1)"},
-      {"rapid.least_side_px", 120, "no resolution with a shorter side"},
+      {"rapid.least_side_px", 480, "no resolution with a shorter side"},
       {"rapid.lines", 200, "search lines around the outline"},
-      {"rapid.first_length_px", 20, "search on both sides of it, first pass of a level"},
-      {"rapid.last_length_px", 3, "the same, last pass of a level"},
-      {"rapid.passes", 12, "searches at each level"},
+      {"rapid.first_length_px", 6, "search on both sides of it, first pass of a level"},
+      {"rapid.last_length_px", 2, "the same, last pass of a level"},
+      {"rapid.passes", 20, "searches at each level"},
       {"rapid.good_share", 0.5, "of lines that must have met an edge in the last pass"},
   }};
 };

@@ -83,7 +83,7 @@ class VispPeer : public Peer {
       {"visp.scan_lines", 0, "1: ViSP's scan line test says what is hidden, at ten times the time"},
       {"visp.depth_threshold", 1e-4, "of that test (m)"},
       {"visp.good_share", 0.4, "of sites that must be good"},
-      {"visp.largest_error_deg", 90, "mean angle between lines and gradients to be accepted"},
+      {"visp.largest_error_deg", 18, "mean angle between lines and gradients to be accepted"},
   }};
 };
 
