@@ -80,7 +80,7 @@ class VispPeer : public Peer {
       {"visp.mu2", 0.5, "contrast may rise by this share"},
       {"visp.sample_px", 4, "between sites"},
       {"visp.crease_deg", 30, "angle between faces from which their edge is followed"},
-      {"visp.scan_lines", 0, "1: ViSP's scan line test says what is hidden, at ten times the time"},
+      {"visp.scan_lines", 0, "1: ViSP's scan line test says what is hidden; slow on fine meshes"},
       {"visp.depth_threshold", 1e-4, "of that test (m)"},
       {"visp.good_share", 0.4, "of sites that must be good"},
       {"visp.largest_error_deg", 18, "mean angle between lines and gradients to be accepted"},
