@@ -23,11 +23,16 @@ double quadraticForm(const Matrix6d& lower, const Vector6d& x) {
   return sum;
 }
 
-void addRow(const EdgeSample& sample, const Eigen::Vector3d& point_in_camera_m,
-            const Eigen::Matrix<double, 2, 3>& jacobian, NormalEquations& equations) {
+/// d(normal . pixel) / d xi for p -> p + r x p + t
+Vector6d rowOf(const EdgeSample& sample, const Eigen::Vector3d& point_in_camera_m,
+               const Eigen::Matrix<double, 2, 3>& jacobian) {
   const Eigen::Vector3d slope = (sample.normal.transpose() * jacobian).transpose();
   Vector6d row;
-  row << point_in_camera_m.cross(slope), slope;  // d(n . pixel)/d xi for p -> p + r x p + t
+  row << point_in_camera_m.cross(slope), slope;
+  return row;
+}
+
+void addRow(const EdgeSample& sample, const Vector6d& row, NormalEquations& equations) {
   for (int a = 0; a < 6; ++a) {
     const double weighted = sample.weight * row[a];
     equations.gradient[a] += weighted * sample.residual_px;
@@ -49,6 +54,7 @@ Status EdgeRefinement::create(const RefinementOptions& options, Arena& arena) {
   setOptions(options);
   absolute_residuals_ = arena.allocate<float>(static_cast<std::size_t>(options.max_samples));
   found_at_px_ = arena.allocate<double>(static_cast<std::size_t>(options.max_samples));
+  if (groups_.create(arena) != Status::kOk) return Status::kArenaTooSmall;
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 
@@ -86,6 +92,7 @@ void EdgeRefinement::takeSamples(const MeshView& mesh, const EdgeRender& render)
   const int stride = std::max({1, std::min(by_spacing, by_need), by_capacity});
   RefinementResult& result = *result_;
   result.sample_count = 0;
+  box_px_.setEmpty();
   for (std::int32_t i = 0; i < render.pixel_count; i += stride) {
     const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
     Eigen::Vector2d position_px;
@@ -93,6 +100,7 @@ void EdgeRefinement::takeSamples(const MeshView& mesh, const EdgeRender& render)
     if (!edgeLinePoint(render, mesh, pixel, position_px, sample.point_in_station_m)) continue;
     sample.normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
     sample.kind = pixel.kind;
+    box_px_.extend(scale * position_px);
     result.samples[static_cast<std::size_t>(result.sample_count)] = sample;
     ++result.sample_count;
   }
@@ -171,6 +179,10 @@ Status EdgeRefinement::solve(bool& settled) {
   equations.information /= noise_px2;
   equations.gradient /= noise_px2;
   const bool determined = invert(equations.information, result.covariance);
+  if (determined && options_.covariance == CovarianceModel::kGrouped) {
+    Matrix6d grouped;  // stays the inflated one where the groups do not give any
+    if (groups_.covariance(curvature_, grouped)) result.covariance = grouped;
+  }
   addKnowledge(equations);
   // What the edges alone leave open is known as well as it was before.
   if (!determined && !invert(equations.information, result.covariance)) return Status::kDegenerate;
@@ -204,6 +216,8 @@ NormalEquations EdgeRefinement::weightedEquations(double& weights) {
   const Eigen::Vector3d translation_m = result.camera_from_station.translation_m;
   const double cut_px = kTukey * scale_px_;
   NormalEquations equations;
+  curvature_ = Matrix6d::Zero();
+  if (options_.covariance == CovarianceModel::kGrouped) groups_.clear();
   result.used_count = 0;
   for (std::int32_t i = 0; i < result.sample_count; ++i) {
     EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
@@ -217,11 +231,26 @@ NormalEquations EdgeRefinement::weightedEquations(double& weights) {
     if (std::abs(sample.residual_px) >= cut_px) continue;
     const double ratio = sample.residual_px / cut_px;
     sample.weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
-    addRow(sample, point_in_camera_m, jacobian, equations);
+    const Vector6d row = rowOf(sample, point_in_camera_m, jacobian);
+    addRow(sample, row, equations);
+    if (options_.covariance == CovarianceModel::kGrouped) noteGroups(sample, pixel, row, ratio);
     weights += sample.weight;
     if (sample.weight > 0.5) ++result.used_count;
   }
   return equations;
+}
+
+/// What the covariance needs of a sample whose residual is this part of where weights end.
+void EdgeRefinement::noteGroups(const EdgeSample& sample, const Eigen::Vector2d& pixel,
+                                const Vector6d& row, double ratio) {
+  const double squared = ratio * ratio;
+  const double bend = (1.0 - squared) * (1.0 - 5.0 * squared);  // of Tukey's influence
+  for (int a = 0; a < 6; ++a)
+    for (int b = 0; b <= a; ++b) curvature_(a, b) += bend * row[a] * row[b];
+  const Eigen::Vector2d sizes_px = box_px_.sizes().cwiseMax(1.0);
+  const Eigen::Vector2d place = (pixel - box_px_.min()).cwiseQuotient(sizes_px);
+  groups_.add({place, sample.normal, sample.gradient > 0.0, sample.kind},
+              sample.weight * sample.residual_px * row);
 }
 
 }  // namespace boresight

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include <Eigen/Geometry>
+
 #include "core/base/arena.h"
 #include "core/base/image.h"
 #include "core/base/options.h"
@@ -13,11 +15,19 @@
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
 #include "core/localizer/edge_search.h"
+#include "core/localizer/error_groups.h"
 #include "core/pnp/normal_equations.h"
 #include "core/pnp/pnp.h"
 #include "core/render/edge_render.h"
 
 namespace boresight {
+
+/// Where the covariance of a refined pose comes from.
+enum class CovarianceModel : std::int32_t {
+  kInflated = 0,  ///< independent errors, a factor for what they share
+  kGrouped = 1,   ///< ErrorGroups: the sums of errors that were measured
+};
+inline constexpr const char* kCovarianceModelNames[] = {"inflated", "grouped"};
 
 struct RefinementOptions {
   bool enabled = true;
@@ -33,6 +43,7 @@ struct RefinementOptions {
   double sample_spacing_px = 2.0;
   std::int32_t min_found = 60;
   double covariance_inflation = 4.0;
+  CovarianceModel covariance = CovarianceModel::kInflated;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -74,6 +85,11 @@ struct RefinementOptions {
     visit(OptionInfo{"refinement.covariance_inflation", "", 1.0, 1000.0,
                      "Factor on the covariance for the correlation of neighbouring edge places."},
           self.covariance_inflation);
+    visit(OptionInfo{"refinement.covariance", "", 0, 1,
+                     "Independent errors and a factor for what neighbours share, or the measured "
+                     "sums of errors by place, by direction and by kind of edge.",
+                     kCovarianceModelNames},
+          self.covariance);
   }
 };
 
@@ -148,6 +164,8 @@ class EdgeRefinement {
   void addKnowledge(NormalEquations& equations) const;
   Status solve(bool& settled);
   NormalEquations weightedEquations(double& weights);
+  void noteGroups(const EdgeSample& sample, const Eigen::Vector2d& pixel, const Vector6d& row,
+                  double ratio);
 
   RefinementOptions options_;
   ImageView image_;
@@ -160,6 +178,9 @@ class EdgeRefinement {
   PoseEstimate matched_;
   RefinementResult* result_ = nullptr;
   EdgeSearch search_;
+  ErrorGroups groups_;
+  Matrix6d curvature_ = Matrix6d::Zero();  ///< of half of the robust cost; the lower triangle
+  Eigen::AlignedBox2d box_px_;             ///< of the edge places where they begin
   std::span<float> absolute_residuals_;
   /// Per sample, where the edge was found: the image's coordinate along the sample's normal.
   std::span<double> found_at_px_;

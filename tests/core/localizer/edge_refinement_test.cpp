@@ -154,6 +154,26 @@ TEST(EdgeRefinement, CovarianceIsSymmetricAndPositive) {
   EXPECT_LT((inflated.result.covariance - 2.0 * covariance).norm(), 1e-9 * covariance.norm());
 }
 
+TEST(EdgeRefinement, TheCovariancesModelMovesNoPose) {
+  const Case scene = stationCase(1);
+  const Pose start = poseOff(scene, 1.0, 4);
+  Refined inflated;
+  inflated.pass(scene, start, 3.0);
+  RefinementOptions options;
+  options.covariance = CovarianceModel::kGrouped;
+  Refined grouped(options);
+  grouped.pass(scene, start, 3.0);
+  ASSERT_EQ(grouped.status, Status::kOk);
+  EXPECT_EQ(grouped.result.camera_from_station.translation_m,
+            inflated.result.camera_from_station.translation_m);
+  EXPECT_EQ(grouped.result.camera_from_station.rotation.coeffs(),
+            inflated.result.camera_from_station.rotation.coeffs());
+  const Matrix6d& covariance = grouped.result.covariance;
+  EXPECT_EQ(covariance, covariance.transpose());
+  EXPECT_EQ(Eigen::LLT<Matrix6d>(covariance).info(), Eigen::Success);
+  EXPECT_GT((covariance - inflated.result.covariance).norm(), 0.01 * covariance.norm());
+}
+
 TEST(EdgeRefinement, FindsTooFewEdgesInAFlatImage) {
   Case scene = stationCase(1);
   const Picture flat = flatPicture(512, 512, 100);

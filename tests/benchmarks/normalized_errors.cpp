@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a refined pose's covariance is what its errors are: runs the cases of a dataset with each
+// covariance model and prints mean normalized squared errors per station (1 per axis and 6 together
+// when the covariance is right).
+//
+//   normalized_errors DATASET [TAG | -TAG ...]   only cases with every TAG and without any -TAG
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "sessions/evaluation/reseed.h"
+#include "sessions/io/dataset_file.h"
+#include "sessions/io/scene_mesh.h"
+#include "sessions/trace/record.h"
+
+namespace boresight::test {
+namespace {
+
+/// Errors of one station's converged runs under one model, in units of their one sigma.
+struct Sums {
+  int runs = 0;
+  std::vector<double> together;
+  Vector6d axes = Vector6d::Zero();
+
+  void add(const Vector6d& error, const Matrix6d& covariance) {
+    ++runs;
+    together.push_back(error.dot(covariance.ldlt().solve(error)));
+    axes += error.cwiseAbs2().cwiseQuotient(covariance.diagonal());
+  }
+};
+
+bool isAsked(const sessions::Case& one, const std::vector<std::string>& tags) {
+  if (!one.truth_camera_from_station || !one.uncertainty) return false;
+  return std::all_of(tags.begin(), tags.end(), [&one](const std::string& tag) {
+    return tag[0] == '-' ? !one.hasTag(tag.substr(1)) : one.hasTag(tag);
+  });
+}
+
+sessions::LocalizationTrace run(const sessions::Dataset& dataset, const sessions::Case& one,
+                                const sessions::SceneMesh& scene, CovarianceModel model) {
+  const sessions::GrayImage image = sessions::readCaseImage(dataset, one);
+  LocalizationProblem problem;
+  problem.image = image.view();
+  problem.camera = dataset.cameras.at(one.camera);
+  problem.mesh = scene.view();
+  problem.camera_from_station_seed = one.seed_camera_from_station;
+  problem.uncertainty = sessions::seedUncertainty(*one.uncertainty, one.seed_camera_from_station,
+                                                  sessions::matchedBounds(scene.view()).centre());
+  LocalizerOptions options = defaultProfile();
+  const sessions::Station& station = dataset.stations.at(one.station);
+  if (station.feature_size_m) options.templates.feature_size_m = *station.feature_size_m;
+  options.refinement.covariance = model;
+  return sessions::localize(problem, sessions::RunPlan(options), sessions::RecordLevel::kSummary);
+}
+
+void print(const std::map<std::pair<std::string, std::string>, Sums>& all) {
+  std::puts(
+      "| station | covariance | runs | together, mean (6) | median | about x | y | z | along x | y "
+      "| "
+      "z |\n|---|---|---|---|---|---|---|---|---|---|---|");
+  for (const auto& [key, sums] : all) {
+    std::vector<double> sorted = sums.together;
+    std::sort(sorted.begin(), sorted.end());
+    double mean = 0.0;
+    for (const double value : sorted) mean += value / sums.runs;
+    std::printf("| %s | %s | %d | %.1f | %.1f |", key.first.c_str(), key.second.c_str(), sums.runs,
+                mean, sorted[sorted.size() / 2]);
+    for (const double square : sums.axes) std::printf(" %.2f |", square / sums.runs);
+    std::puts("");
+  }
+}
+
+int measure(const std::string& file, const std::vector<std::string>& tags) {
+  const sessions::Dataset dataset = sessions::readDataset(file);
+  std::map<std::string, sessions::SceneMesh> scenes;
+  std::map<std::pair<std::string, std::string>, Sums> all;
+  for (const sessions::Case& one : dataset.cases) {
+    if (!isAsked(one, tags)) continue;
+    if (!scenes.contains(one.station))
+      scenes[one.station] = sessions::readStationScene(dataset.stations.at(one.station));
+    for (const auto model : {CovarianceModel::kInflated, CovarianceModel::kGrouped}) {
+      const sessions::LocalizationTrace trace = run(dataset, one, scenes[one.station], model);
+      if (trace.status != LocalizationStatus::kConverged) continue;
+      all[{one.station, kCovarianceModelNames[static_cast<int>(model)]}].add(
+          perturbationBetween(trace.camera_from_station, *one.truth_camera_from_station),
+          trace.covariance);
+    }
+  }
+  print(all);
+  return 0;
+}
+
+}  // namespace
+}  // namespace boresight::test
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::cerr << "normalized_errors DATASET [TAG | -TAG ...]\n";
+    return 2;
+  }
+  try {
+    return boresight::test::measure(argv[1], {argv + 2, argv + argc});
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 3;
+  }
+}
