@@ -42,7 +42,9 @@ bool readArguments(const QCoreApplication& application, Arguments& arguments,
   parser.addVersionOption();
   parser.addPositionalArgument(
       QStringLiteral("files"),
-      QStringLiteral("A session, a dataset.json, or an image, a camera, a mesh and a seed"),
+      QStringLiteral(
+          "A session, a dataset.json, results of whs evaluate, or an image, a camera, a mesh and "
+          "a seed"),
       QStringLiteral("[files...]"));
   const QCommandLineOption self_test(
       QStringLiteral("self-test"),

@@ -40,12 +40,6 @@ sessions::MethodSetup MethodArguments::setup(const OptionArguments& options) con
   return made;
 }
 
-std::string MethodArguments::names() const {
-  std::string text;
-  for (const std::string& name : methods) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 sessions::OptionList MethodArguments::changedOptions(const sessions::MethodOptions& options) const {
   if (!needsSetup()) return {};
   return sessions::changedOptions(options, sessions::MethodOptions());

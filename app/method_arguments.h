@@ -19,8 +19,6 @@ struct MethodArguments {
   bool needsSetup() const;
   /// With the options of the methods among `options`. InputError, CLI::ValidationError.
   sessions::MethodSetup setup(const OptionArguments& options) const;
-  /// "whs, ncc"
-  std::string names() const;
   /// What differs from their defaults, of methods that are not WHS.
   sessions::OptionList changedOptions(const sessions::MethodOptions& options) const;
 };

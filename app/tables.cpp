@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/results_commands.h"
 #include "sessions/io/atomic_file.h"
+#include "sessions/tables/failure_sheet.h"
 #include "sessions/tables/method_tables.h"
 #include "sessions/tables/result_figures.h"
 #include "sessions/tables/results_difference.h"
@@ -27,6 +28,7 @@ struct TablesArguments {
   std::string format = "text";
   std::string out;
   std::string figures;
+  std::string failures;
   std::vector<std::string> figure_formats = {"pdf"};
   bool paper = false;
   bool all = false;
@@ -60,6 +62,11 @@ void TablesArguments::addTo(CLI::App& command) {
       .add_option("--figures", figures,
                   "Draws the figures into this folder: error_distribution, success_tolerance, "
                   "success_seed_error, time_accuracy")
+      ->type_name("FOLDER");
+  command
+      .add_option("--failures", failures,
+                  "Draws the runs that did not succeed into this folder, with where each went "
+                  "astray; needs the dataset's images")
       ->type_name("FOLDER");
   command.add_option("--figure-format", figure_formats, "pdf, svg, png, or several of them")
       ->check(CLI::IsMember({"pdf", "svg", "png"}))
@@ -125,15 +132,30 @@ std::string tablesText(const TablesArguments& arguments, const sessions::Results
   return text;
 }
 
+void writeFigures(const std::filesystem::path& folder, CanvasFormat format,
+                  const std::vector<sessions::Figure>& figures) {
+  std::filesystem::create_directories(folder);
+  for (const sessions::Figure& figure : figures)
+    sessions::writeFileAtomically(folder / (figure.name + sessions::extensionOf(format)),
+                                  figure.bytes);
+}
+
 void drawFigures(const TablesArguments& arguments, const sessions::ResultsSet& set) {
-  std::filesystem::create_directories(arguments.figures);
-  for (const std::string& name : arguments.figure_formats) {
-    const CanvasFormat format = canvasFormat(name);
-    for (const sessions::Figure& figure : sessions::resultFigures(set.runs, format))
-      sessions::writeFileAtomically(
-          std::filesystem::path(arguments.figures) / (figure.name + sessions::extensionOf(format)),
-          figure.bytes);
+  for (const std::string& name : arguments.figure_formats)
+    writeFigures(arguments.figures, canvasFormat(name),
+                 sessions::resultFigures(set.runs, canvasFormat(name)));
+}
+
+void drawFailures(const TablesArguments& arguments) {
+  const std::vector<sessions::Failure> failures =
+      sessions::failuresOf(paths(arguments.results), arguments.filter);
+  if (failures.empty()) {
+    note("every run succeeded: there is nothing for --failures to draw");
+    return;
   }
+  for (const std::string& name : arguments.figure_formats)
+    writeFigures(arguments.failures, canvasFormat(name),
+                 sessions::failureSheets(failures, canvasFormat(name)));
 }
 
 int compareSets(const TablesArguments& arguments, const sessions::ResultsSet& before) {
@@ -162,6 +184,7 @@ int makeTables(const TablesArguments& arguments) {
   }
   write(arguments, tablesText(arguments, set));
   if (!arguments.figures.empty()) drawFigures(arguments, set);
+  if (!arguments.failures.empty()) drawFailures(arguments);
   return kDone;
 }
 

@@ -84,6 +84,21 @@ def render(frame, folder):
             for name in PASSES.values()}
 
 
+def render_station_alone(frame, folder):
+    """Where the station would be seen if nothing stood before it: true where it is hit."""
+    others = [o for o in bpy.context.scene.objects
+              if o.type == "MESH" and o.pass_index != assembly.STATION_INDEX]
+    cycles = bpy.context.scene.cycles
+    for other in others:
+        other.hide_render = True
+    cycles.samples = 1
+    passes = render(frame, folder)
+    cycles.samples = SAMPLES
+    for other in others:
+        other.hide_render = False
+    return passes["index"]
+
+
 def load(path, name):
     image = bpy.data.images.load(str(path))
     image.colorspace_settings.name = "Non-Color"
@@ -127,29 +142,40 @@ def nearest(image, x, y):
                  np.clip(np.rint(x).astype(int), 0, side - 1)]
 
 
-def write_bop_pictures(frame, folder, radiance, passes, gain, plan, generator):
-    """The undistorted picture, its depth and its mask: BOP knows pinhole cameras only."""
+def box_of(mask):
+    """[x, y, width, height] of what is true, as BOP has it; [-1, -1, -1, -1] of nothing."""
+    rows, columns = np.flatnonzero(mask.any(1)), np.flatnonzero(mask.any(0))
+    if not len(rows):
+        return [-1, -1, -1, -1]
+    return [int(columns[0]), int(rows[0]), int(columns[-1] - columns[0] + 1),
+            int(rows[-1] - rows[0] + 1)]
+
+
+def write_bop_pictures(frame, folder, radiance, passes, alone, gain, plan, generator):
+    """The undistorted picture, its depth and its masks: BOP knows pinhole cameras only."""
     pinhole = {k: v for k, v in frame.camera.items() if k != "dist"}
     at = frame.render_coordinates(*cameras.rays(pinhole))
     if frame.camera.get("dist"):
         image = pixels.expose(pixels.sample(radiance, *at), gain, plan["sensor"], generator)
         pixels.write_png(folder / "gray.png", image)
     steps = np.clip(nearest(passes["depth"], *at) * (1e3 / BOP_DEPTH_MM) + 0.5, 0, 65536)
-    pixels.write_png(folder / "depth.png", np.where(steps < 65536, steps, 0).astype(np.uint16))
-    mask = (nearest(passes["index"], *at) == assembly.STATION_INDEX)
-    pixels.write_png(folder / "mask_visib.png", mask.astype(np.uint8) * 255)
-    rows, columns = np.flatnonzero(mask.any(1)), np.flatnonzero(mask.any(0))
-    box = [0, 0, 0, 0]
-    if len(rows):
-        box = [int(columns[0]), int(rows[0]), int(columns[-1] - columns[0] + 1),
-               int(rows[-1] - rows[0] + 1)]
-    return {"px_count_visib": int(mask.sum()), "bbox_visib": box}
+    depth = np.where(steps < 65536, steps, 0).astype(np.uint16)
+    pixels.write_png(folder / "depth.png", depth)
+    visible = (nearest(passes["index"], *at) == assembly.STATION_INDEX)
+    whole = (nearest(alone, *at) == assembly.STATION_INDEX) | visible
+    pixels.write_png(folder / "mask_visib.png", visible.astype(np.uint8) * 255)
+    pixels.write_png(folder / "mask.png", whole.astype(np.uint8) * 255)
+    counts = int(whole.sum()), int(visible.sum())
+    return {"bbox_obj": box_of(whole), "bbox_visib": box_of(visible), "px_count_all": counts[0],
+            "px_count_valid": int((whole & (depth > 0)).sum()), "px_count_visib": counts[1],
+            "visib_fract": counts[1] / max(1, counts[0])}
 
 
 def make_case(plan, frame_plan, frame, temporary, root):
     """Renders a case, and moves its files into place when all are there."""
     started = time.monotonic()
     passes = render(frame, temporary)
+    alone = render_station_alone(frame, temporary)
     rendered = time.monotonic()
     radiance = develop(passes, plan)
     gain = gain_for(radiance, passes["index"], plan["exposure"])
@@ -157,7 +183,7 @@ def make_case(plan, frame_plan, frame, temporary, root):
     at = frame.render_coordinates(*cameras.rays(frame.camera))
     image = pixels.expose(pixels.sample(radiance, *at), gain, plan["sensor"], generator)
     pixels.write_png(temporary / "image.png", image)
-    info = write_bop_pictures(frame, temporary, radiance, passes, gain, plan, generator)
+    info = write_bop_pictures(frame, temporary, radiance, passes, alone, gain, plan, generator)
     record = {"plan": {k: v for k, v in plan.items() if k != "frames"}, "frame": frame_plan,
               "bop": info, "seconds": {"render": round(rendered - started, 1),
                                        "develop": round(time.monotonic() - rendered, 1)}}
@@ -171,6 +197,7 @@ def commit(record, temporary, root):
     bop = root / "bop" / "test" / f"{meshes.OBJECTS[station]:06d}"
     places = {"image": root / station / "images" / f"{name}.png",
               "gray": bop / "gray" / f"{name}.png", "depth": bop / "depth" / f"{name}.png",
+              "mask": bop / "mask" / f"{name}_000000.png",
               "mask_visib": bop / "mask_visib" / f"{name}_000000.png"}
     for kind, place in places.items():
         place.parent.mkdir(parents=True, exist_ok=True)

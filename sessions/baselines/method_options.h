@@ -30,7 +30,7 @@ inline constexpr const char* kNccKindNames[] = {"ccorr_normed", "ccoeff_normed"}
 struct NccOptions {
   NccKind kind = NccKind::kCcoeff;
   bool masked = false;
-  bool equalized = true;
+  bool equalized = false;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {

@@ -179,6 +179,21 @@ void forEachRun(const std::filesystem::path& file,
   readRuns(database, take);
 }
 
+std::vector<RunStep> readSteps(const std::filesystem::path& file, const RunResult& run) {
+  SqlDatabase database(file, SqlAccess::kRead);
+  requireResultsFile(database);
+  const std::vector<std::string> names = stepColumnNames();
+  SqlStatement statement(database, "SELECT " + joined(names, "iteration.") +
+                                       " FROM iteration JOIN run ON run.id = iteration.run WHERE "
+                                       "case_id = ?1 AND reseed = ?2 AND run.method = ?3 ORDER BY "
+                                       "step");
+  const SqlValue key[] = {run.case_id, std::int64_t{run.reseed}, run.method};
+  statement.bind(key);
+  std::vector<RunStep> steps;
+  while (statement.step()) steps.push_back(stepFromRow(file, names, statement.row()));
+  return steps;
+}
+
 Results readResults(const std::filesystem::path& file) {
   SqlDatabase database(file, SqlAccess::kRead);
   Results results;

@@ -33,6 +33,10 @@ ResultsFacts readResultsFacts(const std::filesystem::path& file);
 void forEachRun(const std::filesystem::path& file,
                 const std::function<void(const RunResult&)>& take);
 
+/// The iterations of a run that the file lists, in their order, without details of matches. Empty
+/// when the file has no such run. InputError.
+std::vector<RunStep> readSteps(const std::filesystem::path& file, const RunResult& run);
+
 struct Results {
   ResultsFacts facts;
   std::vector<RunResult> runs;  ///< as forEachRun orders them

@@ -44,7 +44,7 @@ struct RunResult {
   std::optional<Requirement> requirement;
   StageSeconds seconds;
   std::string digest;
-  std::vector<RunStep> steps;  ///< as it ran; not read back with a results file's runs
+  std::vector<RunStep> steps;  ///< as it ran; a results file's are read by readSteps
 
   bool inputFailed() const { return status == "input_error"; }
   bool hasTag(const std::string& tag) const;

@@ -281,6 +281,18 @@ std::vector<SqlValue> valuesOf(const std::vector<Column<Row>>& columns, const Ro
   return values;
 }
 
+template <class Row>
+Row fromRow(const std::vector<Column<Row>>& columns, const fs::path& file,
+            const std::vector<std::string>& names, const std::vector<SqlValue>& values) {
+  Row made;
+  for (const Column<Row>& column : columns) {
+    if (!column.read) continue;
+    for (std::size_t i = 0; i < names.size() && i < values.size(); ++i)
+      if (names[i] == column.name) column.read(made, values[i], file);
+  }
+  return made;
+}
+
 }  // namespace
 
 std::string runColumnsSql() { return sqlOf(runColumns()); }
@@ -297,13 +309,12 @@ std::vector<SqlValue> matchValues(const MatchDetails& match) {
 
 RunResult runFromRow(const fs::path& file, const std::vector<std::string>& names,
                      const std::vector<SqlValue>& row) {
-  RunResult run;
-  for (const Column<RunResult>& column : runColumns()) {
-    if (!column.read) continue;
-    for (std::size_t i = 0; i < names.size() && i < row.size(); ++i)
-      if (names[i] == column.name) column.read(run, row[i], file);
-  }
-  return run;
+  return fromRow(runColumns(), file, names, row);
+}
+
+RunStep stepFromRow(const fs::path& file, const std::vector<std::string>& names,
+                    const std::vector<SqlValue>& row) {
+  return fromRow(stepColumns(), file, names, row);
 }
 
 }  // namespace boresight::sessions

@@ -31,4 +31,8 @@ std::vector<SqlValue> matchValues(const MatchDetails& match);
 RunResult runFromRow(const std::filesystem::path& file, const std::vector<std::string>& names,
                      const std::vector<SqlValue>& row);
 
+/// The same for an iteration; its details stay empty.
+RunStep stepFromRow(const std::filesystem::path& file, const std::vector<std::string>& names,
+                    const std::vector<SqlValue>& row);
+
 }  // namespace boresight::sessions

@@ -127,8 +127,9 @@ void drawGuides(PdfCanvas& canvas, const Axes& axes, const PdfPlot& plot) {
   for (const PdfGuide& guide : plot.guides) {
     const double x = axes.pageX(guide.x);
     canvas.polyline({{x, axes.box.y}, {x, axes.box.bottom()}}, kFaintInk, 0.7, {2.0, 1.5});
-    canvas.text(x - 62.0, axes.box.y + 1.0, 60.0, guide.name,
-                {kLabelSize, false, false, kFaintInk, 1, PdfTextStyle::Align::kRight});
+    // Below the middle: curves of shares run along the top and the bottom.
+    canvas.text(x + 2.0, axes.box.y + 0.6 * axes.box.height, 60.0, guide.name,
+                {kLabelSize, false, false, kFaintInk, 1});
   }
 }
 

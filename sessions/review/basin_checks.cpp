@@ -2,7 +2,6 @@
 #include "sessions/review/basin_checks.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "sessions/review/check_making.h"
@@ -14,10 +13,6 @@ constexpr CheckName kReturned{"basin_returned", "Other seeds lead back"};
 /// Of coverage over none at all.
 constexpr double kNothingSeen = 10.0;
 constexpr CheckName kRival{"basin_rival", "The best of other answers"};
-
-std::string percentText(double share) {
-  return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
-}
 
 std::string foundText(const BasinResult& basin) {
   const auto elsewhere = std::count_if(basin.rivals.begin(), basin.rivals.end(),

@@ -28,10 +28,6 @@ constexpr const char* kUndecidedRemedy =
     "The image cannot vouch for the camera: state how well it is calibrated (check.focal_sigma_px, "
     "check.centre_sigma_px), or use a nearer image.";
 
-std::string percentText(double share) {
-  return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
-}
-
 Check coverageCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
   const double seen = evidence.coverage.value();
   return measuredCheck(

@@ -30,6 +30,16 @@ cv::Rect2d stationBox(const Camera& camera, const MeshView& mesh, const Pose& ca
   return box.width > 0.0 && box.height > 0.0 ? box & image : cv::Rect2d();
 }
 
+/// All of their boxes; empty when none is in sight.
+cv::Rect2d boxOfAll(const Camera& camera, const MeshView& mesh, std::span<const Pose> poses) {
+  cv::Rect2d box;
+  for (const Pose& camera_from_station : poses) {
+    const cv::Rect2d one = stationBox(camera, mesh, camera_from_station);
+    if (one.area() > 0.0) box = box.area() > 0.0 ? box | one : one;
+  }
+  return box;
+}
+
 /// Of the picture's shape where the image allows it, inside the image.
 cv::Rect partToShow(const Camera& camera, const cv::Rect2d& box, double aspect) {
   const cv::Rect image(0, 0, camera.width, camera.height);
@@ -70,13 +80,14 @@ cv::Size sizeWithin(const cv::Rect& part, int width_px, int height_px) {
 
 }  // namespace
 
-ColorImage poseThumbnail(const ImageView& image, const Camera& camera, const MeshView& mesh,
-                         const Pose& camera_from_station, int width_px, int height_px,
-                         const ColorBgr& color) {
+ColorImage stationPicture(const ImageView& image, Camera camera, const MeshView& mesh,
+                          std::span<const Pose> framed, std::span<const OverlayLayer> layers,
+                          int width_px, int height_px) {
+  const bool projects = prepareCamera(camera) == Status::kOk;
   const cv::Mat whole(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),
                       static_cast<std::size_t>(image.stride));
-  const cv::Rect part = partToShow(camera, stationBox(camera, mesh, camera_from_station),
-                                   static_cast<double>(width_px) / height_px);
+  const cv::Rect part =
+      partToShow(camera, boxOfAll(camera, mesh, framed), static_cast<double>(width_px) / height_px);
   const cv::Size size = sizeWithin(part, width_px, height_px);
   cv::Mat small;
   const bool shrinks = size.width < part.width;
@@ -84,9 +95,16 @@ ColorImage poseThumbnail(const ImageView& image, const Camera& camera, const Mes
              shrinks ? cv::INTER_AREA : cv::INTER_LINEAR);
   Camera scaled = cameraOfPart(camera, part, size);
   const ImageView view{small.data, small.cols, small.rows, static_cast<std::ptrdiff_t>(small.step)};
-  if (prepareCamera(scaled) != Status::kOk) return drawOverlay(view, camera, mesh, {});
+  if (!projects || prepareCamera(scaled) != Status::kOk) layers = {};
+  return drawOverlay(view, scaled, mesh, layers);
+}
+
+ColorImage poseThumbnail(const ImageView& image, const Camera& camera, const MeshView& mesh,
+                         const Pose& camera_from_station, int width_px, int height_px,
+                         const ColorBgr& color) {
   const OverlayLayer layer{"", camera_from_station, color, true};
-  return drawOverlay(view, scaled, mesh, {&layer, 1});
+  return stationPicture(image, camera, mesh, {&camera_from_station, 1}, {&layer, 1}, width_px,
+                        height_px);
 }
 
 }  // namespace boresight::sessions

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "sessions/report/overlay.h"
 
 namespace boresight::sessions {
@@ -12,5 +14,11 @@ namespace boresight::sessions {
 ColorImage poseThumbnail(const ImageView& image, const Camera& camera, const MeshView& mesh,
                          const Pose& camera_from_station, int width_px, int height_px,
                          const ColorBgr& color = kResultColor);
+
+/// The same with the edges of several poses; shown is the part that holds the station in each of
+/// the poses `framed`. Prepares the camera itself.
+ColorImage stationPicture(const ImageView& image, Camera camera, const MeshView& mesh,
+                          std::span<const Pose> framed, std::span<const OverlayLayer> layers,
+                          int width_px, int height_px);
 
 }  // namespace boresight::sessions

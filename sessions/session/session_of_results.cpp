@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <string_view>
 #include <tuple>
@@ -36,6 +37,9 @@ const MethodFacts& whsOf(const ResultsFacts& facts) {
 }
 
 void requireSameDataset(const ResultsFacts& facts) {
+  if (std::filesystem::is_directory(facts.dataset.dataset))
+    throw InputError(facts.file, "its runs are of the BOP folder " + facts.dataset.dataset +
+                                     ", and sessions are made of a dataset.json only");
   const std::string now = sha256Text(readFileBytes(facts.dataset.dataset, kMaxJsonBytes));
   if (now != facts.dataset.dataset_sha256)
     throw InputError(facts.file, "its dataset " + facts.dataset.dataset +

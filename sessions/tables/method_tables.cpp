@@ -218,12 +218,13 @@ Table errorTable(std::span<const RunResult> runs, bool with_paper) {
       for (auto& paper_row : paperErrorRows(row.station))
         table.rows.push_back(std::move(paper_row));
     station = row.station;
-    table.rows.push_back({TableCell::of(row.station), TableCell::of(rangeText(row.far)),
-                          TableCell::of(row.method), countCell(row.runs),
-                          TableCell::of(row.completed_percent), TableCell::of(row.success_percent),
-                          row.method == kSeed ? TableCell::of(std::nullopt) : countCell(row.false_positives),
-                          statisticsCell(row.normal_mm), statisticsCell(row.lateral_mm),
-                          statisticsCell(row.rotation_mrad)});
+    table.rows.push_back(
+        {TableCell::of(row.station), TableCell::of(rangeText(row.far)), TableCell::of(row.method),
+         countCell(row.runs), TableCell::of(row.completed_percent),
+         TableCell::of(row.success_percent),
+         row.method == kSeed ? TableCell::of(std::nullopt) : countCell(row.false_positives),
+         statisticsCell(row.normal_mm), statisticsCell(row.lateral_mm),
+         statisticsCell(row.rotation_mrad)});
   }
   if (with_paper) {
     table.notes.emplace_back(kPaperCaution);
@@ -261,8 +262,8 @@ Table successTable(std::span<const RunResult> runs, bool with_paper) {
     table.rows.push_back({TableCell::of(row.set), TableCell::of(""),
                           TableCell::of(paperName(row.method)), countCell(row.runs),
                           TableCell::of(row.completed_percent), TableCell::of(row.success_percent),
-                          TableCell::of(std::nullopt), TableCell::of(std::nullopt), TableCell::of(std::nullopt),
-                          TableCell::of(std::nullopt)});
+                          TableCell::of(std::nullopt), TableCell::of(std::nullopt),
+                          TableCell::of(std::nullopt), TableCell::of(std::nullopt)});
   table.notes.push_back(std::string("Rows marked (paper) are of other images, cameras and "
                                     "requirements: they cannot be compared with ours. Source: ") +
                         kPaperSource + ".");
@@ -296,8 +297,8 @@ Table timeTable(std::span<const RunResult> runs, bool with_paper) {
         {TableCell::of(paperName(row.method)), TableCell::of("2"),
          TableCell::of(60.0 * row.initialization_min), TableCell::of(60.0 * row.rendering_min),
          TableCell::of(60.0 * row.matching_min), TableCell::of(60.0 * row.pose_min),
-         TableCell::of(std::nullopt), TableCell::of(60.0 * row.total_min), TableCell::of(std::nullopt),
-         TableCell::of(std::nullopt)});
+         TableCell::of(std::nullopt), TableCell::of(60.0 * row.total_min),
+         TableCell::of(std::nullopt), TableCell::of(std::nullopt)});
   table.notes.push_back(
       std::string("Rows marked (paper) are of one core at 200 MHz, a BC and an OS "
                   "case added up. Source: ") +

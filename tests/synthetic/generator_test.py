@@ -157,7 +157,21 @@ class Pictures(unittest.TestCase):
     def test_3_moved_projection_is_found_out(self):
         self.assertNotEqual(self.measure("--shift-px", "0.2", "0").returncode, 0)
 
-    def test_4_other_options_are_refused(self):
+    def test_4_bop_says_how_much_of_the_station_is_seen(self):
+        for scene in ("000001", "000002"):
+            folder = self.set / "bop" / "test" / scene
+            info = json.loads((folder / "scene_gt_info.json").read_text())["0"][0]
+            self.assertTrue((folder / "mask" / "000000_000000.png").exists())
+            self.assertLessEqual(info["px_count_visib"], info["px_count_all"])
+            self.assertGreater(info["visib_fract"], 0.8)  # nothing stands before it
+            self.assertAlmostEqual(info["visib_fract"],
+                                   info["px_count_visib"] / info["px_count_all"])
+            x, y, width, height = info["bbox_visib"]
+            whole = info["bbox_obj"]
+            self.assertTrue(whole[0] <= x and whole[1] <= y)
+            self.assertTrue(x + width <= whole[0] + whole[2] and y + height <= whole[1] + whole[3])
+
+    def test_5_other_options_are_refused(self):
         result = subprocess.run(self.command("--far"), capture_output=True, text=True)
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("holds a set made with", result.stderr)

@@ -11,7 +11,7 @@
 namespace boresight::ui {
 namespace {
 
-enum class Kind { kImage, kMesh, kCamera, kPose, kDataset, kSession, kRecord, kUnknown };
+enum class Kind { kImage, kMesh, kCamera, kPose, kDataset, kSession, kResults, kRecord, kUnknown };
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -46,10 +46,11 @@ Kind kindOf(const std::filesystem::path& file, std::string& problem) {
   if (isOneOf(extension, std::array{".png", ".jpg", ".jpeg", ".tif", ".tiff"})) return Kind::kImage;
   if (isOneOf(extension, std::array{".ply", ".obj", ".stl", ".gltf", ".glb"})) return Kind::kMesh;
   if (extension == ".whsr") return Kind::kRecord;
+  if (extension == ".sqlite") return Kind::kResults;
   if (extension == ".json") return kindOfJson(file, problem);
   problem = file.string() +
             ": not an image (png, jpg, tif), a mesh (ply, obj, stl, gltf, glb), an onboard record "
-            "(whsr) or a json file";
+            "(whsr), results (sqlite) or a json file";
   return Kind::kUnknown;
 }
 
@@ -117,6 +118,9 @@ DroppedFiles classify(const std::vector<std::filesystem::path>& files,
         break;
       case Kind::kSession:
         made.session = file;
+        break;
+      case Kind::kResults:
+        made.results = file;
         break;
       case Kind::kRecord:
         made.record = file;

@@ -14,8 +14,9 @@ namespace boresight::ui {
 struct DroppedFiles {
   std::optional<std::filesystem::path> session;
   std::optional<std::filesystem::path> dataset;
-  std::optional<std::filesystem::path> record;  ///< of an onboard run
-  sessions::CaseFiles one;                      ///< as far as it goes
+  std::optional<std::filesystem::path> results;  ///< of `whs evaluate`
+  std::optional<std::filesystem::path> record;   ///< of an onboard run
+  sessions::CaseFiles one;                       ///< as far as it goes
   std::vector<std::string> problems;  ///< one sentence each: files that are nothing known, twice
                                       ///< the same kind
 
@@ -26,8 +27,8 @@ struct DroppedFiles {
 };
 
 /// Tells files by their content (JSON by its `format`) and by their extension (".whsr" is a
-/// record). Files of an earlier drop are completed by `earlier`. Two poses are the seed and, if its
-/// name says so, the truth.
+/// record, ".sqlite" holds results). Files of an earlier drop are completed by `earlier`. Two poses
+/// are the seed and, if its name says so, the truth.
 DroppedFiles classify(const std::vector<std::filesystem::path>& files,
                       const DroppedFiles& earlier = {});
 

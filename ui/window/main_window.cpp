@@ -110,6 +110,8 @@ void MainWindow::connectAll() {
   connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::changed, this, &MainWindow::showHint);
   connect(files_, &SessionFiles::failed, this, &MainWindow::showMessage);
+  connect(files_, &SessionFiles::queueWanted, this,
+          [this] { docks_->raise(QStringLiteral("queue")); });
   connect(files_, &SessionFiles::noted, this, [this](const QString& message) {
     statusBar()->showMessage(message, kNote_ms);
     if (!state_.currentCase()) image().setHint(message);  // where people look

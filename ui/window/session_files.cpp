@@ -11,6 +11,7 @@
 
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_maker.h"
+#include "sessions/session/session_of_results.h"
 #include "ui/review/onboard_controller.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
@@ -44,8 +45,9 @@ void SessionFiles::askForSession() {
 
 void SessionFiles::askForFiles() {
   const QStringList files = QFileDialog::getOpenFileNames(
-      &window_, tr("A dataset, or an image, a camera, a mesh and a seed"), {},
-      tr("All (*.json *.whsr *.png *.jpg *.jpeg *.tif *.tiff *.ply *.obj *.stl *.gltf *.glb)"));
+      &window_, tr("A dataset, results, or an image, a camera, a mesh and a seed"), {},
+      tr("All (*.json *.sqlite *.whsr *.png *.jpg *.jpeg *.tif *.tiff *.ply *.obj *.stl *.gltf "
+         "*.glb)"));
   std::vector<std::filesystem::path> paths;
   for (const QString& file : files) paths.push_back(path(file));
   if (!paths.empty()) take(paths);
@@ -57,6 +59,10 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
     Q_EMIT failed(QString::fromStdString(problem));
   if (dropped.session) {
     if (mayLeave()) open(*dropped.session);
+    return;
+  }
+  if (dropped.results) {
+    makeFromResults(*dropped.results);
     return;
   }
   collected_ = dropped;
@@ -92,6 +98,21 @@ void SessionFiles::makeFromDataset(const std::filesystem::path& dataset) {
       [this](const sessions::Session& session) {
         Q_EMIT noted({});
         parts_.document.createUntitled(session);
+      });
+}
+
+/// Its runs become cases, the most troubled first, and the queue comes to the front.
+void SessionFiles::makeFromResults(const std::filesystem::path& results) {
+  if (!mayLeave()) return;
+  collected_ = {};
+  Q_EMIT noted(tr("Reading %1 and all that its dataset names ...").arg(text(results.filename())));
+  parts_.tasks.start(
+      QStringLiteral("make session"),
+      [results](const std::stop_token&) { return sessions::sessionOfResults(results); },
+      [this](const sessions::Session& session) {
+        Q_EMIT noted({});
+        parts_.document.createUntitled(session);
+        Q_EMIT queueWanted();
       });
 }
 

@@ -25,7 +25,8 @@ class SessionFiles : public QObject {
 
   /// False, with a message, when it cannot be opened.
   bool open(const std::filesystem::path& file);
-  /// Another session, a dataset, or what makes a case; parts of a case are kept until it is whole.
+  /// Another session, a dataset, results, or what makes a case; parts of a case are kept until it
+  /// is whole.
   void take(const std::vector<std::filesystem::path>& files);
   /// Whether the open session may be left; asks when it has changes.
   bool mayLeave();
@@ -47,9 +48,12 @@ class SessionFiles : public QObject {
   void failed(const QString& message);
   /// What happened, for the status bar.
   void noted(const QString& message);
+  /// The session that has just been made is one to go through in the queue.
+  void queueWanted();
 
  private:
   void makeFromDataset(const std::filesystem::path& dataset);
+  void makeFromResults(const std::filesystem::path& results);
   void addCase();
   void takeCase(sessions::SessionCase made);
   bool askForUnits();

@@ -88,7 +88,8 @@ TEST(BopScene, NamesWhatIsWrong) {
             "scene_gt.json: 1: scene_camera.json has no such image");
   EXPECT_EQ(error(camera, "{\"x\": " + object + "}"),
             "scene_gt.json: x: 'x' is not a number from 0 on");
-  EXPECT_THAT(error(R"({"0": {"cam_model": {}}})", "{}"), HasSubstr("only pinhole cameras (cam_K)"));
+  EXPECT_THAT(error(R"({"0": {"cam_model": {}}})", "{}"),
+              HasSubstr("only pinhole cameras (cam_K)"));
   EXPECT_THAT(error(camera, R"({"0": [{"cam_R_m2c": [2, 0, 0, 0, 1, 0, 0, 0, 1],
                                "cam_t_m2c": [0, 0, 1], "obj_id": 1}]})"),
               HasSubstr("is not a rotation"));

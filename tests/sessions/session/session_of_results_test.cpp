@@ -92,6 +92,13 @@ TEST_F(SessionOfResults, RefusesWhatItCannotShow) {
               HasSubstr("deliberately wrong"));
 }
 
+TEST_F(SessionOfResults, RefusesABopFolderByNamingIt) {
+  ResultsWriter writer(file_, {folder_.path().string(), "one", 2, "1"});
+  writer.admit(methodFacts("whs", "default", options_.localizer));
+  EXPECT_THAT(folder_.message([&] { (void)sessionOfResults(file_); }),
+              HasSubstr("BOP folder " + folder_.path().string()));
+}
+
 TEST_F(SessionOfResults, RefusesADatasetThatHasChanged) {
   ResultsWriter writer(file_, {dataset_file_.string(), "another", 2, "1"});
   writer.admit(methodFacts("whs", "default", options_.localizer));

@@ -42,6 +42,11 @@ TEST(DroppedFiles, JsonIsToldByItsFormat) {
   EXPECT_FALSE(dropped.session.has_value());
 }
 
+TEST(DroppedFiles, ResultsAreToldByTheirExtension) {
+  EXPECT_EQ(classify({"/data/Results.SQLite"}).results,
+            std::filesystem::path("/data/Results.SQLite"));
+}
+
 TEST(DroppedFiles, WhatIsNothingKnownIsToldByName) {
   const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "odd.json") << R"({"format": "boresight-points", "version": 1})";

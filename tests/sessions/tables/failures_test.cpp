@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/tables/failures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "sessions/evaluation/batch.h"
+#include "sessions/evaluation/results_writer.h"
+#include "sessions/tables/failure_sheet.h"
+#include "tests/sessions/tables/made_runs.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::madeRun;
+using testing::HasSubstr;
+
+PoseError off(double lateral_mm, double geodesic_mrad) {
+  PoseError error;
+  error.lateral_mm = lateral_mm;
+  error.geodesic_mrad = geodesic_mrad;
+  return error;
+}
+
+/// A failed run from a seed 10 mm and 100 mrad off whose iterations leave these parts of that.
+RunResult runThatLeaves(const std::vector<double>& parts) {
+  RunResult run = madeRun("bc-1", "whs", false, 0.0, 0.0, 0.0);
+  run.seed_error = off(10.0, 100.0);
+  for (const double part : parts) {
+    RunStep step;
+    step.index = static_cast<std::int32_t>(run.steps.size());
+    step.kind = "match";
+    step.support = 5;
+    step.matches = 60;
+    step.error = off(10.0 * part, 50.0 * part);
+    run.steps.push_back(step);
+  }
+  if (!parts.empty()) run.error = run.steps.back().error;
+  return run;
+}
+
+TEST(Failures, AreToldApartByTheNearestIteration) {
+  EXPECT_EQ(whereAstray(runThatLeaves({2.0, 1.5})), Astray::kLedAway);
+  EXPECT_EQ(whereAstray(runThatLeaves({0.8, 0.3, 3.0})), Astray::kPartOfWay);
+  EXPECT_EQ(whereAstray(runThatLeaves({0.8, 0.09, 3.0})), Astray::kCameNear);
+  EXPECT_EQ(whereAstray(runThatLeaves({})), Astray::kUnknown);
+  EXPECT_EQ(whereAstray(madeRun("bc-1", "whs", true, 0.5, 0.0, 0.0)), Astray::kBeyondNeed);
+  RunResult refused = runThatLeaves({0.5});
+  refused.status = "input_error";
+  EXPECT_EQ(whereAstray(refused), Astray::kNotBegun);
+}
+
+TEST(Failures, AnAngleThatIsLeftIsNotNear) {
+  RunResult run = runThatLeaves({0.01});
+  run.steps.front().error = off(0.1, 30.0);
+  EXPECT_EQ(whereAstray(run), Astray::kPartOfWay);
+}
+
+TEST(Failures, TheStoryNamesTheWayAndWhy) {
+  RunResult run = runThatLeaves({0.8, 0.05, 3.0});
+  run.message = "its edges explain the image no better than chance";
+  const std::string story = failureStory(run);
+  EXPECT_THAT(story, HasSubstr("pnp_failed: its edges explain the image no better than chance."));
+  EXPECT_THAT(story, HasSubstr("Off by 10.00 mm, 5.73 deg at the seed; 8.00 mm, 2.29 deg after the "
+                               "first iteration (5 of 60 matches agree); nearest 0.50 mm, 0.14 deg "
+                               "after iteration 2."));
+  EXPECT_THAT(story, HasSubstr("near the truth"));
+  EXPECT_THAT(failureStory(madeRun("bc-1", "whs", true, 0.8, 0.0, 0.0)),
+              HasSubstr("converged, 2.0 times beyond what is required."));
+}
+
+/// The example from its own seeds and by options under which none converges.
+class FailuresOfExample : public testing::Test {
+ protected:
+  FailuresOfExample() {
+    const Dataset dataset = readDataset(test::exampleFolder() / "dataset.json");
+    BatchOptions options;
+    options.localizer = defaultProfile();
+    options.localizer.loop.max_iterations = 1;
+    runs_ = runBatch(dataset, options, {});
+    write(file_, datasetFacts(dataset), options);
+  }
+  void write(const std::filesystem::path& file, const DatasetFacts& facts,
+             const BatchOptions& options) const {
+    ResultsWriter writer(file, facts);
+    writer.admit(methodFacts("whs", "default", options.localizer));
+    writer.begin(Sitting{});
+    for (const RunResult& run : runs_) writer.add(run);
+    RunResult good = runs_.front();
+    good.reseed = 1;
+    good.completed = true;
+    good.success = true;
+    good.false_positive = false;
+    writer.add(good);
+  }
+  const test::TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "r.sqlite";
+  std::vector<RunResult> runs_;
+};
+
+TEST_F(FailuresOfExample, AreReadWithTheirIterations) {
+  const std::vector<Failure> failures = failuresOf({file_});
+  ASSERT_EQ(failures.size(), runs_.size()) << "the one that succeeded is left out";
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    const RunResult& listed = failures[i].run;
+    const auto ran = std::find_if(runs_.begin(), runs_.end(),
+                                  [&](const auto& run) { return run.case_id == listed.case_id; });
+    ASSERT_NE(ran, runs_.end());
+    ASSERT_EQ(listed.steps.size(), ran->steps.size());
+    ASSERT_FALSE(listed.steps.empty());
+    EXPECT_EQ(listed.steps.back().kind, ran->steps.back().kind);
+    EXPECT_EQ(listed.steps.back().support, ran->steps.back().support);
+    ASSERT_TRUE(listed.steps.back().error);
+    EXPECT_EQ(listed.steps.back().error->lateral_mm, ran->steps.back().error->lateral_mm);
+    EXPECT_EQ(listed.steps.back().camera_from_station.translation_m,
+              ran->steps.back().camera_from_station.translation_m);
+  }
+  EXPECT_TRUE(failuresOf({file_}, {.methods = {"ncc"}}).empty());
+}
+
+int pixelsOf(const cv::Mat& image, const ColorBgr& color) {
+  cv::Mat found;
+  const cv::Scalar bgr(color[0], color[1], color[2]);
+  cv::inRange(image, bgr - cv::Scalar::all(40), bgr + cv::Scalar::all(40), found);
+  return cv::countNonZero(found);
+}
+
+TEST_F(FailuresOfExample, TheSheetShowsSeedTruthAndEnd) {
+  const std::vector<Failure> failures = failuresOf({file_});
+  const std::vector<Figure> pages = failureSheets(failures, CanvasFormat::kPng);
+  ASSERT_EQ(pages.size(), 1u);
+  EXPECT_EQ(pages.front().name, "failures_1");
+  const cv::Mat image = cv::imdecode(pages.front().bytes, cv::IMREAD_COLOR);
+  for (const ColorBgr& color : {kSeedColor, kTruthColor, kResultColor})
+    EXPECT_GT(pixelsOf(image, color), 500);
+}
+
+TEST_F(FailuresOfExample, PagesAreFilledWithSixEach) {
+  const std::vector<Failure> one = failuresOf({file_});
+  std::vector<Failure> many;
+  for (int i = 0; i < 7; ++i) many.push_back(one.front());
+  const std::vector<Figure> pages = failureSheets(many, CanvasFormat::kSvg);
+  ASSERT_EQ(pages.size(), 2u);
+  EXPECT_EQ(pages.back().name, "failures_2");
+  EXPECT_EQ(failureSheets(many, CanvasFormat::kPdf).size(), 1u);
+  EXPECT_TRUE(failureSheets({}, CanvasFormat::kPdf).empty());
+}
+
+TEST_F(FailuresOfExample, ADatasetThatIsGoneLeavesTheStory) {
+  std::vector<Failure> failures = failuresOf({file_});
+  for (Failure& failure : failures) failure.dataset = folder_ / "gone.json";
+  const std::vector<Figure> pages = failureSheets(failures, CanvasFormat::kPng);
+  ASSERT_EQ(pages.size(), 1u);
+  const cv::Mat image = cv::imdecode(pages.front().bytes, cv::IMREAD_COLOR);
+  EXPECT_EQ(pixelsOf(image, kResultColor), 0);
+}
+
+}  // namespace
+}  // namespace boresight::sessions
