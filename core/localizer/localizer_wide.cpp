@@ -167,8 +167,6 @@ void Localizer::startFinalist(int finalist) {
   camera_from_station_ = finalists_[static_cast<std::size_t>(finalist)].camera_from_station;
   started_.camera_from_station_seed = camera_from_station_;
   started_.uncertainty = grid_.uncertaintyAfter(camera_from_station_);
-  // Its windows halve again, but it may go as far as a turn about the station takes the camera.
-  started_.uncertainty.translation_m *= 2.0;
   constexpr double kUniform = 0.57735026918962576;  // half-width to standard deviation
   anchor_ = {camera_from_station_, scaled(started_.uncertainty, kUniform)};
   iteration_ = options_.loop.match_iterations > 1 ? 1 : 0;

@@ -11,10 +11,12 @@
 namespace boresight {
 namespace {
 
+constexpr double kSame = 1e-9;  ///< rounding, where spacings divide a range
+
 /// The odd number of intervals of at most `spacing` that tile [-range, range].
 int oddTiles(double range, double spacing, int most) {
   int count = 1;
-  while (count + 2 <= most && count * spacing < 2.0 * range) count += 2;
+  while (count + 2 <= most && count * spacing < 2.0 * range - kSame) count += 2;
   return count;
 }
 
@@ -56,7 +58,7 @@ void RestartGrid::layOutTurns(double range_rad, const WideOptions& options) {
   const int most = std::max(1, options.max_restarts / depths_);
   const double spacing_rad = options.rotation_spacing_rad;
   if (2.0 * range_rad + spacing_rad > 2.0 * kPi) {
-    while (turns_ < most && turns_ * spacing_rad < 2.0 * kPi) ++turns_;
+    while (turns_ < most && turns_ * spacing_rad < 2.0 * kPi - kSame) ++turns_;
     turn_rad_ = 2.0 * kPi / turns_;
   } else {
     turns_ = oddTiles(range_rad, spacing_rad, most);
