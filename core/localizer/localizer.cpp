@@ -80,16 +80,11 @@ void Localizer::startHypothesis() {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   now.index = workspace_.iterations;
   now.attempt = attempt_;
-  now.kind = isRefinement(options_, iteration_) ? IterationKind::kRefine : IterationKind::kMatch;
-  now.level = now.kind == IterationKind::kMatch && iteration_ == 0 ? coarse_level_ : fine_level_;
-  now.camera_from_station_before = camera_from_station_;
-  now.uncertainty = uncertaintyAt(problem_, options_.loop, iteration_, camera_from_station_);
-  now.threshold_px = thresholdAt(options_, iteration_, now.level);
   now.status = LocalizationStatus::kRunning;
-  if (!canReuseRender(now)) {
-    now.render = now.level == coarse_level_ ? coarse_render_[static_cast<std::size_t>(current_)]
-                                            : fine_render_;
-  }
+  if (isWide())
+    placeRestart(now);
+  else
+    placeIteration(now);
   now.templates.count = 0;
   now.matches.count = 0;
   now.matches.searched = 0;
@@ -103,6 +98,20 @@ void Localizer::startHypothesis() {
   stage_begun_ = false;
 }
 
+/// What the schedule asks of the iteration.
+void Localizer::placeIteration(Iteration& now) {
+  now.restarts = {};
+  now.kind = isRefinement(options_, iteration_) ? IterationKind::kRefine : IterationKind::kMatch;
+  now.level = now.kind == IterationKind::kMatch && iteration_ == 0 ? coarse_level_ : fine_level_;
+  now.camera_from_station_before = camera_from_station_;
+  now.uncertainty = uncertaintyAt(started_, options_.loop, iteration_, camera_from_station_);
+  now.threshold_px = thresholdAt(options_, iteration_, now.level);
+  if (!canReuseRender(now)) {
+    now.render = now.level == coarse_level_ ? coarse_render_[static_cast<std::size_t>(current_)]
+                                            : fine_render_;
+  }
+}
+
 /// The last refinement's render shows the scene as it would be rendered again.
 bool Localizer::canReuseRender(const Iteration& now) const {
   return now.kind == IterationKind::kRefine && iteration_ > options_.loop.match_iterations &&
@@ -110,10 +119,8 @@ bool Localizer::canReuseRender(const Iteration& now) const {
                                 problem_.camera) < options_.loop.render_again_px;
 }
 
-void Localizer::noteHypothesis() {
-  const Iteration& now = buffers_[static_cast<std::size_t>(current_)];
+HypothesisSummary Localizer::summaryOf(const Iteration& now) const {
   HypothesisSummary summary;
-  summary.roll_rad = rollOf(hypothesis_, options_.loop.roll_spacing_rad);
   summary.templates = now.templates.count;
   summary.matches = now.correspondence_count;
   summary.inliers = now.pnp.inlier_count;
@@ -124,6 +131,12 @@ void Localizer::noteHypothesis() {
         summary.solved ? now.pnp.residual_px[static_cast<std::size_t>(i)] / now.threshold_px : 1.0;
     summary.cost += std::min(1.0, ratio * ratio);
   }
+  return summary;
+}
+
+void Localizer::noteHypothesis() {
+  HypothesisSummary summary = summaryOf(buffers_[static_cast<std::size_t>(current_)]);
+  summary.roll_rad = rollOf(hypothesis_, options_.loop.roll_spacing_rad);
   for (Iteration& buffer : buffers_) {
     buffer.hypotheses[static_cast<std::size_t>(hypothesis_)] = summary;
     buffer.hypothesis_count = hypothesis_ + 1;
@@ -141,6 +154,7 @@ StepReport Localizer::failHypothesis(Stage stage, LocalizationStatus status) {
 }
 
 StepReport Localizer::finishHypothesis(Stage stage) {
+  if (isWide()) return finishRestart(stage, {});
   reached_[static_cast<std::size_t>(current_)] = stage;
   noteHypothesis();
   const int other = 1 - current_;
@@ -151,7 +165,7 @@ StepReport Localizer::finishHypothesis(Stage stage) {
       better ? hypothesis_ : best.chosen_hypothesis;
   const int kept = better ? current_ : other;
   ++hypothesis_;
-  const int wanted = iteration_ == 0 ? rolledHypotheses(options_.loop, problem_.uncertainty) : 1;
+  const int wanted = iteration_ == 0 ? rolledHypotheses(options_.loop, started_.uncertainty) : 1;
   if (hypothesis_ < wanted && !isConvincing(buffers_[static_cast<std::size_t>(kept)])) {
     has_best_ = true;
     current_ = 1 - kept;
@@ -179,7 +193,7 @@ StepReport Localizer::finishIteration(Stage stage, const Pose& camera_from_stati
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   const bool matched = now.kind == IterationKind::kMatch;
   const bool pull = options_.loop.anchored && matched && options_.refinement.enabled;
-  now.camera_from_station = pull ? pulledBack(problem_, camera_from_station) : camera_from_station;
+  now.camera_from_station = pull ? pulledBack(started_, camera_from_station) : camera_from_station;
   measureCorrection(camera_from_station_, now.camera_from_station);
   small_corrections_ = isSmall(now) ? small_corrections_ + 1 : 0;
   camera_from_station_ = now.camera_from_station;
@@ -194,7 +208,7 @@ StepReport Localizer::finishIteration(Stage stage, const Pose& camera_from_stati
   made.iteration_complete = true;
   ++iteration_;
   ++workspace_.iterations;
-  if (leftUncertainty(problem_, camera_from_station_, options_.loop.leave_factor))
+  if (leftUncertainty(started_, camera_from_station_, options_.loop.leave_factor))
     return fail(stage, LocalizationStatus::kLeftUncertainty);
   if (iteration_ >= iterationsNeeded(options_) &&
       small_corrections_ >= options_.loop.converged_iterations) {
@@ -229,7 +243,7 @@ StepReport Localizer::fail(Stage stage, LocalizationStatus status) {
   made.iteration_complete = workspace_.iteration != nullptr;  // a fault may come before the first
   // One whose pose came out has been counted.
   if (made.iteration_complete && now.index == workspace_.iterations) ++workspace_.iterations;
-  if (status != LocalizationStatus::kFault && attempt_ + 1 < options_.loop.max_attempts) {
+  if (status != LocalizationStatus::kFault && canTryAgain()) {
     startAttempt();
     return made;
   }
@@ -238,8 +252,13 @@ StepReport Localizer::fail(Stage stage, LocalizationStatus status) {
   return made;
 }
 
+bool Localizer::canTryAgain() const {
+  if (attempt_ + 1 >= options_.loop.max_attempts) return false;
+  return !options_.wide.isOn() || (!isWide() && bestFinalistLeft() >= 0);
+}
+
 /// From the seed again, with other templates and other samples: what failed may have been one of
-/// them.
+/// them. After a wide search from what it found next best.
 void Localizer::startAttempt() {
   ++attempt_;
   workspace_.attempts = attempt_ + 1;
@@ -247,6 +266,7 @@ void Localizer::startAttempt() {
   small_corrections_ = 0;
   camera_from_station_ = problem_.camera_from_station_seed;
   iteration_pending_ = true;
+  if (options_.wide.isOn()) startFinalist(bestFinalistLeft());
 }
 
 StepReport Localizer::faulted(Stage stage, Status fault) {

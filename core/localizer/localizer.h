@@ -10,6 +10,7 @@
 #include "core/base/kernels.h"
 #include "core/localizer/localizer_options.h"
 #include "core/localizer/problem.h"
+#include "core/localizer/wide_search.h"
 #include "core/localizer/workspace.h"
 
 namespace boresight {
@@ -153,12 +154,15 @@ class Localizer {
   Status layOut(const ProblemSize& size);
   Status layOutKept();
   void layOutRenders();
+  EdgeRender createRender(int level);
   Status layOutStages(const ProblemSize& size);
   void shareScratch(std::size_t& bytes);
   void openPieces(int count);
   std::size_t& bytesOf(Stage stage) { return memory_use_.stage[static_cast<std::size_t>(stage)]; }
   void startIteration();
   void startHypothesis();
+  void placeIteration(Iteration& now);
+  void placeRestart(Iteration& now);
   StepReport stepEdges();
   StepReport stepRender();
   StepReport stepTemplates();
@@ -167,6 +171,7 @@ class Localizer {
   StepReport stepRefine();
   StepReport stepSupport();
   StepReport fail(Stage stage, LocalizationStatus status);
+  bool canTryAgain() const;
   void startAttempt();
   StepReport faulted(Stage stage, Status fault);
   bool beginMatch(int index, WhsSearch& search);
@@ -174,6 +179,19 @@ class Localizer {
   bool nextUndone();
   void collectCorrespondences();
   void noteHypothesis();
+  HypothesisSummary summaryOf(const Iteration& iteration) const;
+  Status continueRender(bool& complete);
+  void layOutWideSearch();
+  bool isWide() const { return wide_round_ != WideRound::kNone; }
+  int restartCount() const;
+  StepReport beginEvidence();
+  StepReport stepEvidence();
+  StepReport finishRestart(Stage stage, const EdgeSupport& support);
+  void noteRestart(const EdgeSupport& support);
+  StepReport finishWideRound();
+  void chooseRestarts();
+  int bestFinalistLeft() const;
+  void startFinalist(int finalist);
   bool isConvincing(const Iteration& iteration) const;
   bool canReuseRender(const Iteration& now) const;
   StepReport failHypothesis(Stage stage, LocalizationStatus status);
@@ -187,6 +205,7 @@ class Localizer {
   double featureSize() const;
 
   LocalizationProblem problem_;
+  LocalizationProblem started_;  ///< from the seed of this attempt: what the wide search found
   LocalizerOptions options_;
   std::span<std::byte> memory_;
   Arena kept_;
@@ -215,6 +234,17 @@ class Localizer {
   EdgeRender fine_render_;  ///< of later ones, in the same memory unless it is the same level
   int current_ = 0;
   bool has_best_ = false;
+
+  enum class WideRound : std::uint8_t { kNone = 0, kRestarts, kFinalists };
+  RestartGrid grid_;
+  WideRound wide_round_ = WideRound::kNone;
+  bool weighing_ = false;                      ///< a restart's pose is being looked at
+  std::array<EdgeRender, 2> wide_render_;      ///< of restarts, one per buffer
+  std::array<EdgeRender, 2> evidence_render_;  ///< of poses found, by restarts and by finalists
+  std::span<HypothesisSummary> restarts_;
+  std::span<HypothesisSummary> finalists_;
+  int finalist_count_ = 0;
+  std::uint32_t finalists_used_ = 0;  ///< bits
   int hypothesis_ = 0;
   std::span<std::uint8_t> done_;  ///< pieces of the stage, or of its round
   int piece_count_ = 0;
@@ -229,6 +259,7 @@ class Localizer {
   int iteration_ = 0;  ///< of this attempt
   int small_corrections_ = 0;
   int coarse_level_ = 0;
+  int wide_level_ = 0;  ///< of restarts; the coarse level when there are none
   int fine_level_ = 0;
   PosePrior anchor_;          ///< the seed with its uncertainty as a Gaussian
   PoseEstimate matched_;      ///< from the latest templates

@@ -29,7 +29,7 @@ bool holdsForWholeRun(std::string_view name) {
                                          "refinement.enabled",        "refinement.max_samples",
                                          "loop.coarse_size_px",       "loop.halved_size_px",
                                          "loop.max_rolled_hypotheses"};
-  return name.starts_with("edges.") || name.starts_with("render.") ||
+  return name.starts_with("edges.") || name.starts_with("render.") || name.starts_with("wide.") ||
          std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 

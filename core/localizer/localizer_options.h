@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "core/base/options.h"
 #include "core/edges/edge_map.h"
 #include "core/localizer/edge_refinement.h"
 #include "core/localizer/edge_support.h"
+#include "core/localizer/wide_options.h"
 #include "core/pnp/pnp.h"
 #include "core/render/edge_render.h"
 #include "core/templates/template_selection.h"
@@ -139,6 +141,7 @@ struct LocalizerOptions {
   LoopOptions loop;
   RefinementOptions refinement;
   SupportOptions support;
+  WideOptions wide;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -149,6 +152,20 @@ struct LocalizerOptions {
     LoopOptions::visitFields(self.loop, visit);
     RefinementOptions::visitFields(self.refinement, visit);
     SupportOptions::visitFields(self.support, visit);
+    WideOptions::visitFields(self.wide, visit);
+  }
+
+  /// What digests are made of: all options, those of the wide search once one of them is not as it
+  /// stands by itself. Runs that know nothing of it keep the digests that they had.
+  template <class Visitor>
+  static void visitDigested(const LocalizerOptions& options, Visitor&& visit) {
+    const bool plain = options.wide == WideOptions{};
+    visitFields(options, [&](const OptionInfo& info, const auto& field) {
+      if (!plain || !isWide(info)) visit(info, field);
+    });
+  }
+  static bool isWide(const OptionInfo& info) {
+    return std::string_view(info.name).starts_with("wide.");
   }
 };
 

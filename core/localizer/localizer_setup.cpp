@@ -177,6 +177,11 @@ void Localizer::begin() {
   covariance_ = Matrix6d::Zero();
   // A uniform distribution's standard deviation is its half-width over the square root of 3.
   anchor_ = {problem_.camera_from_station_seed, scaled(problem_.uncertainty, 0.57735026918962576)};
+  started_ = problem_;
+  wide_round_ = options_.wide.isOn() ? WideRound::kRestarts : WideRound::kNone;
+  weighing_ = false;
+  finalist_count_ = 0;
+  finalists_used_ = 0;
   stage_ = Stage::kEdges;
   stage_begun_ = false;
   iteration_pending_ = false;
@@ -189,6 +194,7 @@ void Localizer::begin() {
   digest_ = DigestWriter();
   if (status_ != Status::kOk) return;
   bounds_ = matchedBounds(problem_.mesh);
+  if (options_.wide.isOn()) grid_ = RestartGrid(problem_, bounds_, options_.wide);
   digestOptions(options_, digest_);
   digestProblem(problem_, digest_);
   if (match_outside_) matchOutside(surfaces_);
@@ -237,6 +243,7 @@ Status Localizer::layOut(const ProblemSize& size) {
   if (workers_ < 1 || workers_ > kMaxWorkers) return Status::kInvalidOption;
   coarse_level_ = coarseLevel(size.width, size.height, options_.loop);
   fine_level_ = std::max(0, coarse_level_ - 1);
+  wide_level_ = wideLevel(size.width, size.height, options_);
   Status status = layOutKept();
   if (status == Status::kOk) status = layOutStages(size);
   if (kept_.countsOnly()) memory_use_.kept = kept_.highWater();
@@ -248,36 +255,39 @@ Status Localizer::layOut(const ProblemSize& size) {
 Status Localizer::layOutKept() {
   Status status = buildAdjacency(problem_.mesh, kept_, scratch_, adjacency_);
   shareScratch(memory_use_.construction);
-  for (int level = fine_level_; level <= coarse_level_ && status == Status::kOk; ++level) {
+  for (int level = fine_level_; level <= wide_level_ && status == Status::kOk; ++level) {
+    if (level > coarse_level_ && level < wide_level_) continue;
     status = RayGrid::create(cameraAtLevel(problem_.camera, level), kept_,
                              rays_[static_cast<std::size_t>(level)]);
   }
   layOutRenders();
+  if (options_.wide.isOn()) layOutWideSearch();
   searches_ = kept_.allocate<WhsSearch>(static_cast<std::size_t>(workers_));
   done_ = kept_.allocate<std::uint8_t>(static_cast<std::size_t>(
       std::max({options_.templates.count, EdgeRefinement::chunksOf(options_.refinement),
                 EdgeRenderer::mostPieces(workers_)})));
   buffers_[0] = createIteration(options_, kept_);
-  if (options_.loop.max_rolled_hypotheses > 1) buffers_[1] = createIteration(options_, kept_);
+  if (comparesHypotheses(options_)) buffers_[1] = createIteration(options_, kept_);
   return status;
+}
+
+EdgeRender Localizer::createRender(int level) {
+  const Camera camera = cameraAtLevel(problem_.camera, level);
+  const std::int32_t capacity = options_.render.max_edge_pixels >> (level - fine_level_);
+  return createEdgeRender(camera.width, camera.height,
+                          std::min(capacity, camera.width * camera.height), kept_);
 }
 
 /// The first iteration compares two coarse renders; later ones have one fine render in their place.
 void Localizer::layOutRenders() {
-  const auto create = [this](int level) {
-    const Camera camera = cameraAtLevel(problem_.camera, level);
-    const std::int32_t capacity = options_.render.max_edge_pixels >> (level - fine_level_);
-    return createEdgeRender(camera.width, camera.height,
-                            std::min(capacity, camera.width * camera.height), kept_);
-  };
   const std::size_t start = kept_.mark();
-  coarse_render_[0] = create(coarse_level_);
-  if (options_.loop.max_rolled_hypotheses > 1) coarse_render_[1] = create(coarse_level_);
+  coarse_render_[0] = createRender(coarse_level_);
+  if (comparesHypotheses(options_)) coarse_render_[1] = createRender(coarse_level_);
   fine_render_ = coarse_render_[0];
   if (fine_level_ == coarse_level_) return;
   const std::size_t end = kept_.mark();
   kept_.rewind(start);
-  fine_render_ = create(fine_level_);
+  fine_render_ = createRender(fine_level_);
   kept_.rewind(std::max(end, kept_.mark()));
 }
 
@@ -285,9 +295,11 @@ void Localizer::layOutRenders() {
 Status Localizer::layOutStages(const ProblemSize& size) {
   const int width = ((size.width - 1) >> fine_level_) + 1;
   const int height = ((size.height - 1) >> fine_level_) + 1;
+  std::size_t evidence_bytes = 0;
   Status status = renderer_.create(problem_.mesh, adjacency_, width, height, options_.render, kept_,
                                    scratch_, EdgeRenderer::kBandRows, workers_);
   shareScratch(bytesOf(Stage::kRender));
+  if (options_.wide.isOn() && scratch_.countsOnly()) evidence_bytes = bytesOf(Stage::kRender);
   if (status == Status::kOk) status = selector_.create(width, height, options_.templates, scratch_);
   shareScratch(bytesOf(Stage::kTemplates));
   const int side = std::min(options_.templates.max_side_px, 512);
@@ -299,6 +311,9 @@ Status Localizer::layOutStages(const ProblemSize& size) {
   shareScratch(bytesOf(Stage::kMatch));
   if (status == Status::kOk) status = ransac_.create(options_.templates.count, scratch_);
   shareScratch(bytesOf(Stage::kPose));
+  // The poses of restarts are rendered, too.
+  if (scratch_.countsOnly())
+    bytesOf(Stage::kPose) = std::max(bytesOf(Stage::kPose), evidence_bytes);
   if (status == Status::kOk) status = refinement_.create(options_.refinement, scratch_);
   if (options_.refinement.enabled) {
     buffers_[0].refinement.samples =

@@ -31,7 +31,7 @@ bool Localizer::nextUndone() {
 void Localizer::work(int piece, int worker) {
   if (piece < 0 || piece >= pieces() || worker < 0 || worker >= workers_) return;
   if (done_[static_cast<std::size_t>(piece)] != 0) return;
-  if (stage_ == Stage::kRender) {
+  if (stage_ == Stage::kRender || weighing_) {
     renderer_.work(piece, worker);
   } else if (stage_ == Stage::kMatch) {
     WhsSearch& search = searches_[static_cast<std::size_t>(worker)];
@@ -64,7 +64,7 @@ StepReport Localizer::stepRender() {
   if (!stage_begun_) {
     // Not turned, the pose keeps its bits.
     const double roll_rad = rollOf(hypothesis_, options_.loop.roll_spacing_rad);
-    const Pose rendered = hypothesis_ == 0
+    const Pose rendered = hypothesis_ == 0 || isWide()
                               ? camera_from_station_
                               : rolledAboutScene(camera_from_station_, roll_rad, bounds_);
     const Status status = renderer_.begin(rays_[static_cast<std::size_t>(now.level)], rendered,
@@ -74,14 +74,8 @@ StepReport Localizer::stepRender() {
     openPieces(renderer_.pieces());
     if (piece_count_ > 0) return StepReport::of(Stage::kRender, false);
   }
-  if (nextUndone()) {
-    renderer_.work(piece_, 0);
-    done_[static_cast<std::size_t>(piece_)] = 1;
-    if (nextUndone()) return StepReport::of(Stage::kRender, false);
-  }
   bool complete = false;
-  const Status status = renderer_.step(complete);
-  openPieces(renderer_.pieces());
+  const Status status = continueRender(complete);
   if (status != Status::kOk) return faulted(Stage::kRender, status);
   if (complete) {
     digestRender(now.render, digest_);
@@ -94,11 +88,25 @@ StepReport Localizer::stepRender() {
   return StepReport::of(Stage::kRender, complete);
 }
 
+/// One piece of the render under way, or what follows when there is none.
+Status Localizer::continueRender(bool& complete) {
+  complete = false;
+  if (nextUndone()) {
+    renderer_.work(piece_, 0);
+    done_[static_cast<std::size_t>(piece_)] = 1;
+    if (nextUndone()) return Status::kOk;
+  }
+  const Status status = renderer_.step(complete);
+  openPieces(renderer_.pieces());
+  return status;
+}
+
 StepReport Localizer::stepTemplates() {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   const double depth_m = (now.render.camera_from_station * bounds_.centre()).z();
-  const int side_px = templateSide(options_.templates, templateFactor(attempt_) * featureSize(),
-                                   depth_m, now.render.camera);
+  const double factor = options_.wide.isOn() ? 1.0 : templateFactor(attempt_);
+  const int side_px =
+      templateSide(options_.templates, factor * featureSize(), depth_m, now.render.camera);
   const Status status =
       selector_.select(now.render, side_px, problem_.ignore, now.level, now.templates);
   digestTemplates(now.templates, digest_);
@@ -192,6 +200,7 @@ void Localizer::collectCorrespondences() {
 }
 
 StepReport Localizer::stepPose() {
+  if (weighing_) return stepEvidence();
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   const auto count = static_cast<std::size_t>(now.correspondence_count);
   Status status = Status::kOk;
@@ -213,6 +222,7 @@ StepReport Localizer::stepPose() {
   digestPnp(now.pnp, digest_);
   now.status =
       status == Status::kOk ? LocalizationStatus::kRunning : LocalizationStatus::kPnpFailed;
+  if (isWide() && status == Status::kOk) return beginEvidence();
   return finishHypothesis(Stage::kPose);
 }
 
@@ -251,13 +261,7 @@ StepReport Localizer::stepSupport() {
   workspace_.support = measureEdgeSupport(now.render, now.level, workspace_.edges, problem_.image,
                                           problem_.ignore, options_.support);
   digest_.tag("support");
-  digest_.i32(workspace_.support.rendered);
-  digest_.i32(workspace_.support.covered);
-  digest_.i32(workspace_.support.displaced);
-  digest_.i32(workspace_.support.displaced_covered);
-  digest_.i32(workspace_.support.seen);
-  digest_.i32(workspace_.support.explained);
-  digest_.i32(workspace_.support.displaced_explained);
+  digestSupport(workspace_.support, digest_);
   const bool supported =
       !options_.support.gate || workspace_.support.share() >= options_.support.min_support;
   if (!supported) {

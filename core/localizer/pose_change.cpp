@@ -71,16 +71,21 @@ bool leftUncertainty(const LocalizationProblem& problem, const Pose& camera_from
 }
 
 Pose pulledBack(const LocalizationProblem& problem, const Pose& camera_from_station) {
-  Vector6d offset = offsetFromSeed(problem, camera_from_station);
-  const Vector6d limits = limitsOf(problem.uncertainty);
+  return pulledBack(PosePrior{problem.camera_from_station_seed, problem.uncertainty},
+                    camera_from_station);
+}
+
+Pose pulledBack(const PosePrior& seed, const Pose& camera_from_station) {
+  Vector6d offset =
+      offsetAboutPivot(seed.camera_from_station, camera_from_station, seed.sigma.pivot_in_camera_m);
+  const Vector6d limits = limitsOf(seed.sigma);
   bool outside = false;
   for (int i = 0; i < 6; ++i) {
     outside = outside || std::abs(offset[i]) > limits[i];
     offset[i] = std::clamp(offset[i], -limits[i], limits[i]);
   }
   if (!outside) return camera_from_station;
-  return displacedAboutPivot(problem.camera_from_station_seed, offset,
-                             problem.uncertainty.pivot_in_camera_m);
+  return displacedAboutPivot(seed.camera_from_station, offset, seed.sigma.pivot_in_camera_m);
 }
 
 }  // namespace boresight

@@ -6,6 +6,7 @@
 #include "core/geometry/pose.h"
 #include "core/localizer/localizer_options.h"
 #include "core/localizer/problem.h"
+#include "core/pnp/correspondence.h"
 
 // How far two poses are apart, as the loop sees it.
 namespace boresight {
@@ -30,5 +31,7 @@ bool leftUncertainty(const LocalizationProblem& problem, const Pose& camera_from
 /// The nearest pose inside the seed's uncertainty, axis by axis: a coarse estimate may overshoot
 /// where the image says little.
 Pose pulledBack(const LocalizationProblem& problem, const Pose& camera_from_station);
+/// The same with the box in place of sigma.
+Pose pulledBack(const PosePrior& seed, const Pose& camera_from_station);
 
 }  // namespace boresight

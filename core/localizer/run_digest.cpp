@@ -44,7 +44,7 @@ void digestMatrix(const Matrix6d& matrix, DigestWriter& writer) {
 
 void digestOptions(const LocalizerOptions& options, DigestWriter& writer) {
   writer.tag("options");
-  LocalizerOptions::visitFields(options, [&writer](const OptionInfo& info, const auto& field) {
+  LocalizerOptions::visitDigested(options, [&writer](const OptionInfo& info, const auto& field) {
     writer.tag(info.name);
     writer.f64(static_cast<double>(field));
   });
@@ -183,6 +183,23 @@ void digestRefinement(const RefinementResult& refinement, DigestWriter& writer) 
     writer.f64(sample.weight);
   }
   digestMatrix(refinement.covariance, writer);
+}
+
+void digestEvidence(const HypothesisSummary& restart, const EdgeSupport& support,
+                    DigestWriter& writer) {
+  writer.tag("evidence");
+  digestSupport(support, writer);
+  writer.u8(restart.solved ? 1 : 0);
+  writer.f64(restart.inlier_nats);
+  writer.f64(restart.edge_nats);
+  digestPose(restart.camera_from_station, writer);
+}
+
+void digestSupport(const EdgeSupport& support, DigestWriter& writer) {
+  for (const std::int32_t count :
+       {support.rendered, support.covered, support.displaced, support.displaced_covered,
+        support.seen, support.explained, support.displaced_explained})
+    writer.i32(count);
 }
 
 }  // namespace boresight

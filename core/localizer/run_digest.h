@@ -18,6 +18,10 @@ void digestRender(const EdgeRender& render, DigestWriter& writer);
 void digestTemplates(const TemplateSet& templates, DigestWriter& writer);
 void digestMatches(const MatchSet& matches, DigestWriter& writer);
 void digestPnp(const PnpSolution& solution, DigestWriter& writer);
+void digestSupport(const EdgeSupport& support, DigestWriter& writer);
+/// Of a restart of the wide search.
+void digestEvidence(const HypothesisSummary& restart, const EdgeSupport& support,
+                    DigestWriter& writer);
 void digestRefinement(const RefinementResult& refinement, DigestWriter& writer);
 
 }  // namespace boresight

@@ -7,11 +7,29 @@
 
 namespace boresight {
 
+namespace {
+
+/// The finest level from `level` on whose longer image side is at most `size_px`.
+int levelOfSize(int longer, int size_px, int level) {
+  while (level < kPyramidLevels - 1 && (longer >> level) > size_px) ++level;
+  return level;
+}
+
+}  // namespace
+
 int coarseLevel(int width, int height, const LoopOptions& loop) {
   const int longer = std::max(width, height);
-  int level = longer > loop.halved_size_px ? 1 : 0;
-  while (level < kPyramidLevels - 1 && (longer >> level) > loop.coarse_size_px) ++level;
-  return level;
+  return levelOfSize(longer, loop.coarse_size_px, longer > loop.halved_size_px ? 1 : 0);
+}
+
+int wideLevel(int width, int height, const LocalizerOptions& options) {
+  const int coarse = coarseLevel(width, height, options.loop);
+  if (!options.wide.isOn()) return coarse;
+  return levelOfSize(std::max(width, height), options.wide.size_px, coarse);
+}
+
+bool comparesHypotheses(const LocalizerOptions& options) {
+  return options.loop.max_rolled_hypotheses > 1 || options.wide.isOn();
 }
 
 bool isRefinement(const LocalizerOptions& options, int iteration) {

@@ -12,6 +12,12 @@ namespace boresight {
 /// Level of the image pyramid that the first iteration matches on; later ones work one level finer.
 int coarseLevel(int width, int height, const LoopOptions& loop);
 
+/// Level that restarts match on; the same when the wide search is off.
+int wideLevel(int width, int height, const LocalizerOptions& options);
+
+/// Whether the best of several hypotheses is kept while another one is tried.
+bool comparesHypotheses(const LocalizerOptions& options);
+
 /// Whether the iteration refines on the image's own edges instead of matching templates.
 bool isRefinement(const LocalizerOptions& options, int iteration);
 

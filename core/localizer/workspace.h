@@ -60,9 +60,9 @@ const char* localizationStatusText(LocalizationStatus status);
 
 enum class IterationKind : std::uint8_t { kMatch = 0, kRefine = 1 };
 
-/// One rolled render of an iteration and what it yielded.
+/// One rolled render of an iteration, or one restart of the wide search, and what it yielded.
 struct HypothesisSummary {
-  double roll_rad = 0.0;
+  double roll_rad = 0.0;  ///< of a restart: its turn about the axis chosen
   std::int32_t templates = 0;
   std::int32_t matches = 0;
   std::int32_t inliers = 0;
@@ -70,6 +70,13 @@ struct HypothesisSummary {
       0.0;  ///< truncated squared residuals over the correspondences, in thresholds squared
   Pose camera_from_station;
   bool solved = false;
+  // Of restarts alone.
+  double depth_offset_m = 0.0;
+  double support = 0.0;      ///< edge support of the pose, EdgeSupport::share()
+  double inlier_nats = 0.0;  ///< beyond chance, as in Evidence
+  double edge_nats = 0.0;
+
+  double evidence() const { return inlier_nats + edge_nats; }
 };
 inline constexpr int kMaxHypotheses = 9;
 
@@ -81,7 +88,8 @@ struct Iteration {
   std::int32_t level = 0;
   double threshold_px = 0.0;  ///< of the full image; the search radius when refining
   /// What the render shows is this, rolled by the hypothesis chosen; a refinement's may be the last
-  /// one's, from a pose less than loop.render_again_px away.
+  /// one's, from a pose less than loop.render_again_px away. In the wide search: where the restart
+  /// chosen began.
   Pose camera_from_station_before;
   SeedUncertainty uncertainty;
   EdgeRender render;
@@ -94,6 +102,8 @@ struct Iteration {
   RefinementResult refinement;
   std::array<HypothesisSummary, kMaxHypotheses> hypotheses;
   std::int32_t hypothesis_count = 0;
+  /// Of an iteration of the wide search, in place of those: its restarts up to now.
+  std::span<const HypothesisSummary> restarts;
   std::int32_t chosen_hypothesis = 0;
   Pose camera_from_station;  ///< after
   double correction_translation_m = 0.0;

@@ -174,6 +174,7 @@ void Replayer::startAttempt(const RecordedIteration& one) {
   attempt_ = one.attempt;
   refined_render_.reset();
   attempt_begin_.reset();
+  if (optionsAt(one.index).wide.isOn()) return;  // the record does not say what restarts covered
   if (one.attempt == 0) attempt_begin_ = 0;
   if (one.attempt > 0 && follows) attempt_begin_ = one.index;
 }

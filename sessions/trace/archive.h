@@ -48,6 +48,8 @@ class ArchiveWriter {
   void require(bool /*holds*/, const char* /*reason*/) const {}
 
   std::vector<std::uint8_t>& bytes() { return bytes_; }
+  /// Whether the format is one that knows nothing of the wide search.
+  static constexpr bool precedesWideSearch() { return false; }
 
  private:
   template <class U>
@@ -65,6 +67,9 @@ class ArchiveReader {
  public:
   ArchiveReader(std::filesystem::path file, std::span<const std::uint8_t> bytes)
       : file_(std::move(file)), bytes_(bytes) {}
+
+  bool precedesWideSearch() const { return precedes_wide_search_; }
+  void setPrecedesWideSearch(bool precedes) { precedes_wide_search_ = precedes; }
 
   template <class T>
   void number(T& value) {
@@ -115,6 +120,7 @@ class ArchiveReader {
     return static_cast<U>(value);
   }
 
+  bool precedes_wide_search_ = false;
   std::filesystem::path file_;
   std::span<const std::uint8_t> bytes_;
   std::size_t place_ = 0;

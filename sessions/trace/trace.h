@@ -128,6 +128,7 @@ struct IterationTrace {
   std::int32_t correspondence_count = 0;
   PnpTrace pnp;
   RefinementTrace refinement;
+  bool wide = false;  ///< of the wide search: the hypotheses are restarts
   std::vector<HypothesisSummary> hypotheses;
   std::int32_t chosen_hypothesis = 0;
 

@@ -158,10 +158,13 @@ void fields(Archive& archive, Self& refinement) {
 
 template <class Archive, Is<HypothesisSummary> Self>
 void fields(Archive& archive, Self& hypothesis) {
-  auto& [roll_rad, templates, matches, inliers, cost, camera_from_station, solved] = hypothesis;
+  auto& [roll_rad, templates, matches, inliers, cost, camera_from_station, solved, depth_offset_m,
+         support, inlier_nats, edge_nats] = hypothesis;
   numbers(archive, roll_rad, templates, matches, inliers, cost);
   fields(archive, camera_from_station);
   archive.number(solved);
+  if (!archive.precedesWideSearch())
+    numbers(archive, depth_offset_m, support, inlier_nats, edge_nats);
 }
 
 template <class Archive, Is<StageSeconds> Self>
@@ -219,6 +222,7 @@ void fields(Archive& archive, Self& iteration) {
   fields(archive, iteration.refinement);
   archive.list(iteration.hypotheses, [&](auto& hypothesis) { fields(archive, hypothesis); });
   archive.number(iteration.chosen_hypothesis);
+  if (!archive.precedesWideSearch()) archive.number(iteration.wide);
   fields(archive, iteration.camera_from_station);
   archive.number(iteration.correction_translation_m);
   archive.number(iteration.correction_rotation_rad);
@@ -229,6 +233,7 @@ void fields(Archive& archive, Self& iteration) {
 template <class Archive, Is<LocalizerOptions> Self>
 void fields(Archive& archive, Self& options) {
   LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
+    if (archive.precedesWideSearch() && LocalizerOptions::isWide(info)) return;
     std::string name = info.name;
     archive.text(name);
     archive.require(name == info.name, "an option that this version does not know");

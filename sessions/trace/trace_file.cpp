@@ -15,7 +15,8 @@ namespace boresight::sessions {
 namespace {
 
 constexpr std::string_view kMagic = "BSTRACE\n";
-constexpr std::uint32_t kFormatVersion = 3;
+constexpr std::uint32_t kFormatVersion = 4;
+constexpr std::uint32_t kVersionWithoutWideSearch = 3;
 constexpr std::uint32_t kVersionWithoutChanges = 2;
 constexpr std::size_t kHeaderBytes = 8 + 4 + 8;
 constexpr std::size_t kChecksumBytes = 32;
@@ -55,7 +56,7 @@ LocalizationTrace loadTrace(const std::filesystem::path& file) {
   std::uint64_t length = 0;
   header.number(version);
   header.number(length);
-  if (version != kFormatVersion && version != kVersionWithoutChanges)
+  if (version < kVersionWithoutChanges || version > kFormatVersion)
     throw InputError(file, "version",
                      std::to_string(version) + ", but this program reads version " +
                          std::to_string(kFormatVersion));
@@ -65,6 +66,7 @@ LocalizationTrace loadTrace(const std::filesystem::path& file) {
   if (!std::equal(sum.begin(), sum.end(), bytes.end() - kChecksumBytes))
     throw InputError(file, "checksum", "the file was altered or damaged");
   ArchiveReader payload(file, all.subspan(kHeaderBytes, static_cast<std::size_t>(length)));
+  payload.setPrecedesWideSearch(version <= kVersionWithoutWideSearch);
   LocalizationTrace trace;
   fields(payload, trace);
   if (version != kVersionWithoutChanges) changeFields(payload, trace);

@@ -30,7 +30,14 @@ constexpr std::array<ColumnInfo, IterationsModel::kColumnCount> kColumns = {{
     {QT_TRANSLATE_NOOP("boresight::ui::IterationsModel", "Kind"),
      QT_TRANSLATE_NOOP("boresight::ui::IterationsModel",
                        "match: templates are searched and a pose is solved from them; refine: the "
-                       "pose moves until rendered edges meet the image's own."),
+                       "pose moves until rendered edges meet the image's own; restarts: the best "
+                       "of several turned or moved seeds goes on."),
+     -1},
+    {QT_TRANSLATE_NOOP("boresight::ui::IterationsModel", "Hypothesis"),
+     QT_TRANSLATE_NOOP("boresight::ui::IterationsModel",
+                       "Which render the iteration went on with: its turn in degrees, of restarts "
+                       "also its step in depth in mm, and how many there were. Point at a cell for "
+                       "all of them."),
      -1},
     {QT_TRANSLATE_NOOP("boresight::ui::IterationsModel", "Level"),
      QT_TRANSLATE_NOOP("boresight::ui::IterationsModel",
@@ -107,6 +114,23 @@ bool isSolved(const IterationTrace& one) {
          one.status != LocalizationStatus::kFault;
 }
 
+const HypothesisSummary* chosenOf(const IterationTrace& one) {
+  const auto chosen = static_cast<std::size_t>(one.chosen_hypothesis);
+  if (one.kind == IterationKind::kRefine || chosen >= one.hypotheses.size()) return nullptr;
+  return &one.hypotheses[chosen];
+}
+
+/// "+40.0 deg", "+40.0 deg, -25 mm".
+QString placeText(const HypothesisSummary& one) {
+  const auto sign = [](double value) { return QLatin1String(value < 0.0 ? "" : "+"); };
+  const double turn_deg = one.roll_rad / kDegree_rad;
+  QString text = sign(turn_deg) + numberText(turn_deg, 1) + QStringLiteral(" deg");
+  const double depth_mm = 1e3 * one.depth_offset_m;
+  if (depth_mm != 0.0)
+    text += QStringLiteral(", ") + sign(depth_mm) + numberText(depth_mm, 0) + QStringLiteral(" mm");
+  return text;
+}
+
 double ofPose(const IterationTrace& one, double value) { return isSolved(one) ? value : kUnknown; }
 
 double ofStage(const IterationTrace& one, Stage stage, double value) {
@@ -162,6 +186,7 @@ double numberOf(const IterationTrace& one, IterationsModel::Column column) {
       return ofStage(one, Stage::kPose, 1e3 * (one.seconds.pose + one.seconds.refinement));
     case IterationsModel::kNumber:
     case IterationsModel::kKind:
+    case IterationsModel::kHypothesis:
     case IterationsModel::kStatus:
     case IterationsModel::kColumnCount:
       break;
@@ -246,12 +271,41 @@ QString IterationsModel::text(int index, Column column) const {
     case kNumber:
       return iterationName(index);
     case kKind:
+      if (iteration(index).wide) return tr("restarts");
       return iteration(index).kind == IterationKind::kRefine ? tr("refine") : tr("match");
+    case kHypothesis:
+      return hypothesisText(index);
     case kStatus:
       return statusOf(index);
     default:
       return numberText(number(index, column), columnInfo(column).decimals);
   }
+}
+
+QString IterationsModel::hypothesisText(int index) const {
+  const IterationTrace& one = iteration(index);
+  const HypothesisSummary* chosen = chosenOf(one);
+  if (chosen == nullptr) return {};
+  return tr("%1 (of %2)").arg(placeText(*chosen)).arg(one.hypotheses.size());
+}
+
+/// One line per hypothesis, the one chosen marked.
+QString IterationsModel::hypothesesList(int index) const {
+  const IterationTrace& one = iteration(index);
+  if (chosenOf(one) == nullptr) return {};
+  QStringList lines;
+  for (std::size_t i = 0; i < one.hypotheses.size(); ++i) {
+    const HypothesisSummary& each = one.hypotheses[i];
+    QString line =
+        tr("%1: %2 of %3 inliers").arg(placeText(each)).arg(each.inliers).arg(each.matches);
+    if (one.wide)
+      line += tr(", evidence %1, edge support %2")
+                  .arg(numberText(each.evidence(), 0), numberText(each.support, 2));
+    if (!each.solved) line += tr(", no pose");
+    if (static_cast<int>(i) == one.chosen_hypothesis) line += tr(" (chosen)");
+    lines << line;
+  }
+  return lines.join(QLatin1Char('\n'));
 }
 
 QVariant IterationsModel::data(const QModelIndex& index, int role) const {
@@ -263,6 +317,9 @@ QVariant IterationsModel::data(const QModelIndex& index, int role) const {
       return text(shown, column);
     case kNumberRole:
       return number(shown, column);
+    case Qt::ToolTipRole:
+      if (column == kHypothesis && shown >= 0) return hypothesesList(shown);
+      return columnCell(kContext, columnInfo(column), role);
     default:
       return columnCell(kContext, columnInfo(column), role);
   }

@@ -19,6 +19,7 @@ class IterationsModel : public QAbstractTableModel {
   enum Column {
     kNumber,
     kKind,
+    kHypothesis,
     kLevel,
     kTranslation_mm,
     kRotation_deg,
@@ -63,6 +64,8 @@ class IterationsModel : public QAbstractTableModel {
   const sessions::IterationTrace& iteration(int index) const;
   QString text(int index, Column column) const;
   QString statusOf(int index) const;
+  QString hypothesisText(int index) const;
+  QString hypothesesList(int index) const;
 
   SnapshotPtr snapshot_;
 };

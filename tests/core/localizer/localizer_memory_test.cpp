@@ -43,9 +43,16 @@ struct Variant {
 };
 
 std::vector<Variant> variants() {
-  std::vector<Variant> made = {{"default", {}},          {"paper", paperProfile()}, {"pyramid", {}},
-                               {"unrolled", {}},         {"unrefined", {}},         {"fixed", {}},
-                               {"equalized locally", {}}};
+  std::vector<Variant> made = {{"default", {}},           {"paper", paperProfile()},
+                               {"pyramid", {}},           {"unrolled", {}},
+                               {"unrefined", {}},         {"fixed", {}},
+                               {"equalized locally", {}}, {"wide", {}},
+                               {"wide, one level", {}}};
+  made[7].options.wide.rotation_rad = 0.5;
+  made[7].options.wide.size_px = 128;
+  made[7].options.loop.max_rolled_hypotheses = 1;
+  made[8].options.wide.translation_m = 0.05;
+  made[8].options.wide.size_px = 16384;
   made[2].options.loop.coarse_size_px = 128;
   made[3].options.loop.max_rolled_hypotheses = 1;
   made[4].options.refinement.enabled = false;

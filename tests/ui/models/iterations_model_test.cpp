@@ -55,6 +55,31 @@ TEST_F(IterationsModelTest, ShowsTheFiguresOfTheRun) {
   EXPECT_EQ(text(1, IterationsModel::kStatus), QStringLiteral("went on"));
 }
 
+TEST_F(IterationsModelTest, SaysWhichHypothesisAnIterationWentOnWith) {
+  auto snapshot = std::make_shared<sessions::RunSnapshot>(*run_);
+  auto wide = std::make_shared<sessions::IterationTrace>(*snapshot->iterations.front());
+  wide->wide = true;
+  wide->hypotheses.resize(2);
+  wide->hypotheses[1].roll_rad = -40.0 * kDegree_rad;
+  wide->hypotheses[1].depth_offset_m = 0.025;
+  wide->hypotheses[1].solved = true;
+  wide->hypotheses[1].edge_nats = 120.0;
+  wide->hypotheses[1].support = 0.5;
+  wide->chosen_hypothesis = 1;
+  snapshot->iterations.front() = wide;
+  model_.setSnapshot(snapshot);
+  EXPECT_EQ(text(1, IterationsModel::kKind), QStringLiteral("restarts"));
+  EXPECT_EQ(text(1, IterationsModel::kHypothesis), QStringLiteral("-40.0 deg, +25 mm (of 2)"));
+  const QStringList lines = model_.index(1, IterationsModel::kHypothesis)
+                                .data(Qt::ToolTipRole)
+                                .toString()
+                                .split(QLatin1Char('\n'));
+  ASSERT_EQ(lines.size(), 2);
+  EXPECT_TRUE(lines[0].contains(QStringLiteral("no pose")));
+  EXPECT_TRUE(lines[1].contains(QStringLiteral("evidence 120, edge support 0.50")));
+  EXPECT_TRUE(lines[1].endsWith(QStringLiteral("(chosen)")));
+}
+
 TEST_F(IterationsModelTest, EveryColumnSaysWhatItMeans) {
   for (int column = 0; column < model_.columnCount(); ++column) {
     EXPECT_FALSE(model_.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString().isEmpty());
