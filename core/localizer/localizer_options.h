@@ -155,17 +155,23 @@ struct LocalizerOptions {
     WideOptions::visitFields(self.wide, visit);
   }
 
-  /// What digests are made of: all options, those of the wide search once one of them is not as it
-  /// stands by itself. Runs that know nothing of it keep the digests that they had.
+  /// What digests are made of: all options, but those that came later (`cameLater`) only once they
+  /// are not as they stand by themselves. Runs without them keep the digests that they had.
   template <class Visitor>
   static void visitDigested(const LocalizerOptions& options, Visitor&& visit) {
-    const bool plain = options.wide == WideOptions{};
+    const bool plain_search = options.wide == WideOptions{};
+    const bool plain_covariance = options.refinement.covariance == RefinementOptions{}.covariance;
     visitFields(options, [&](const OptionInfo& info, const auto& field) {
-      if (!plain || !isWide(info)) visit(info, field);
+      const bool left_out = isWide(info) ? plain_search : cameLater(info) && plain_covariance;
+      if (!left_out) visit(info, field);
     });
   }
   static bool isWide(const OptionInfo& info) {
     return std::string_view(info.name).starts_with("wide.");
+  }
+  /// Not known to traces before format 4.
+  static bool cameLater(const OptionInfo& info) {
+    return isWide(info) || std::string_view(info.name) == "refinement.covariance";
   }
 };
 

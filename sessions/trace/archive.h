@@ -48,7 +48,8 @@ class ArchiveWriter {
   void require(bool /*holds*/, const char* /*reason*/) const {}
 
   std::vector<std::uint8_t>& bytes() { return bytes_; }
-  /// Whether the format is one that knows nothing of the wide search.
+  /// Whether the format is one before 4, which knows nothing of the wide search and of the
+  /// covariance's model.
   static constexpr bool precedesWideSearch() { return false; }
 
  private:

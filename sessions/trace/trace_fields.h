@@ -233,7 +233,7 @@ void fields(Archive& archive, Self& iteration) {
 template <class Archive, Is<LocalizerOptions> Self>
 void fields(Archive& archive, Self& options) {
   LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
-    if (archive.precedesWideSearch() && LocalizerOptions::isWide(info)) return;
+    if (archive.precedesWideSearch() && LocalizerOptions::cameLater(info)) return;
     std::string name = info.name;
     archive.text(name);
     archive.require(name == info.name, "an option that this version does not know");

@@ -168,14 +168,14 @@ TEST(LocalizerWide, GivesTheSameBitsWithAnyKernelsAndWorkers) {
   }
 }
 
-TEST(LocalizerWide, IsNotHeardOfInDigestsAsLongAsItIsAsItStands) {
+TEST(LocalizerWide, WhatCameLaterIsNotHeardOfInDigestsAsLongAsItIsAsItStands) {
   LocalizerOptions options = defaultProfile();
   DigestWriter all;
   digestOptions(options, all);
   DigestWriter without;
   without.tag("options");
   LocalizerOptions::visitFields(options, [&](const OptionInfo& info, const auto& field) {
-    if (LocalizerOptions::isWide(info)) return;
+    if (LocalizerOptions::cameLater(info)) return;
     without.tag(info.name);
     without.f64(static_cast<double>(field));
   });
@@ -184,6 +184,11 @@ TEST(LocalizerWide, IsNotHeardOfInDigestsAsLongAsItIsAsItStands) {
   DigestWriter changed;
   digestOptions(options, changed);
   EXPECT_NE(changed.digest(), all.digest());
+  options = defaultProfile();
+  options.refinement.covariance = CovarianceModel::kGrouped;
+  DigestWriter grouped;
+  digestOptions(options, grouped);
+  EXPECT_NE(grouped.digest(), all.digest());
 }
 
 }  // namespace
