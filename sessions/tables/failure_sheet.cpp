@@ -41,12 +41,17 @@ class Inputs {
   std::map<std::pair<std::filesystem::path, std::string>, std::unique_ptr<SceneMesh>> scenes_;
 };
 
-/// What the run came to; a run that did not complete hands its seed back, which shows nothing.
+/// What the run came to. One that did not complete hands its seed back, which shows nothing: its
+/// iteration nearest to the truth, the first one where it was led away, or the last without truth.
 OverlayLayer reached(const RunResult& run) {
   if (run.completed) return {"end", run.camera_from_station, kResultColor, true};
+  const auto layer = [](const char* name, const RunStep& step) {
+    return OverlayLayer{name, step.camera_from_station, kResultColor, true};
+  };
   const RunStep* nearest = nearestStep(run);
-  const RunStep& step = nearest != nullptr ? *nearest : run.steps.back();
-  return {nearest != nullptr ? "nearest" : "last", step.camera_from_station, kResultColor, true};
+  if (nearest == nullptr) return layer("last", run.steps.back());
+  if (whereAstray(run) == Astray::kLedAway) return layer("first", run.steps.front());
+  return layer("nearest", *nearest);
 }
 
 /// InputError when an input cannot be read.
@@ -124,7 +129,8 @@ void drawTitle(PdfCanvas& canvas, std::size_t page, std::size_t pages, std::size
                   std::to_string(pages) + ")",
               {11.0, true, false, kInk, 1});
   canvas.text(kMargin, kMargin + 14.0, PdfCanvas::kWidth - 2.0 * kMargin,
-              "Edges: seed red, truth blue, where the run ended, or its nearest iteration, green.",
+              "Edges: seed red, truth blue, where the run ended green (or its nearest, first or "
+              "last iteration).",
               {7.5, false, false, kFaintInk, 1});
 }
 

@@ -43,7 +43,8 @@ std::string wayText(const RunResult& run) {
   if (!run.steps.empty() && run.steps.front().error)
     way += "; " + text(*run.steps.front().error) + " after the first iteration" +
            agreement(run.steps.front());
-  if (least != nullptr && least != &run.steps.front())
+  if (least != nullptr && least != &run.steps.front() &&
+      partLeft(*least->error, *run.seed_error) < 1.0)
     way +=
         "; nearest " + text(*least->error) + " after iteration " + std::to_string(least->index + 1);
   if (run.completed && run.error) way += "; " + text(*run.error) + " at the end";
