@@ -52,7 +52,7 @@ sessions::LocalizationTrace run(const sessions::Dataset& dataset, const sessions
   problem.mesh = scene.view();
   problem.camera_from_station_seed = one.seed_camera_from_station;
   problem.uncertainty = sessions::seedUncertainty(*one.uncertainty, one.seed_camera_from_station,
-                                                  sessions::matchedBounds(scene.view()).centre());
+                                                  matchedBounds(scene.view()).centre());
   LocalizerOptions options = defaultProfile();
   const sessions::Station& station = dataset.stations.at(one.station);
   if (station.feature_size_m) options.templates.feature_size_m = *station.feature_size_m;
