@@ -32,13 +32,14 @@ Vector6d rowOf(const EdgeSample& sample, const Eigen::Vector3d& point_in_camera_
   return row;
 }
 
-void addRow(const EdgeSample& sample, const Vector6d& row, NormalEquations& equations) {
+void addRow(const EdgeSample& sample, double weight, const Vector6d& row,
+            NormalEquations& equations) {
   for (int a = 0; a < 6; ++a) {
-    const double weighted = sample.weight * row[a];
+    const double weighted = weight * row[a];
     equations.gradient[a] += weighted * sample.residual_px;
     for (int b = 0; b <= a; ++b) equations.information(a, b) += weighted * row[b];
   }
-  equations.squares += sample.weight * sample.residual_px * sample.residual_px;
+  equations.squares += weight * sample.residual_px * sample.residual_px;
   ++equations.projected;
 }
 
@@ -232,9 +233,10 @@ NormalEquations EdgeRefinement::weightedEquations(double& weights) {
     const double ratio = sample.residual_px / cut_px;
     sample.weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
     const Vector6d row = rowOf(sample, point_in_camera_m, jacobian);
-    addRow(sample, row, equations);
+    const double weight = shareOf(sample) * sample.weight;
+    addRow(sample, weight, row, equations);
     if (options_.covariance == CovarianceModel::kGrouped) noteGroups(sample, pixel, row, ratio);
-    weights += sample.weight;
+    weights += weight;
     if (sample.weight > 0.5) ++result.used_count;
   }
   return equations;
@@ -244,13 +246,14 @@ NormalEquations EdgeRefinement::weightedEquations(double& weights) {
 void EdgeRefinement::noteGroups(const EdgeSample& sample, const Eigen::Vector2d& pixel,
                                 const Vector6d& row, double ratio) {
   const double squared = ratio * ratio;
-  const double bend = (1.0 - squared) * (1.0 - 5.0 * squared);  // of Tukey's influence
+  const double share = shareOf(sample);
+  const double bend = share * (1.0 - squared) * (1.0 - 5.0 * squared);  // of Tukey's influence
   for (int a = 0; a < 6; ++a)
     for (int b = 0; b <= a; ++b) curvature_(a, b) += bend * row[a] * row[b];
   const Eigen::Vector2d sizes_px = box_px_.sizes().cwiseMax(1.0);
   const Eigen::Vector2d place = (pixel - box_px_.min()).cwiseQuotient(sizes_px);
   groups_.add({place, sample.normal, sample.gradient > 0.0, sample.kind},
-              sample.weight * sample.residual_px * row);
+              share * sample.weight * sample.residual_px * row);
 }
 
 }  // namespace boresight

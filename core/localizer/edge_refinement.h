@@ -40,6 +40,7 @@ struct RefinementOptions {
   double search_again_px = 0.1;
   double derivative_sigma_px = 1.0;
   double min_gradient = 2.0;
+  double rising_weight = 1.0;
   double sample_spacing_px = 2.0;
   std::int32_t min_found = 60;
   double covariance_inflation = 4.0;
@@ -77,6 +78,10 @@ struct RefinementOptions {
     visit(
         OptionInfo{"refinement.min_gradient", "gray/px", 0.0, 255.0, "Weaker edges are not used."},
         self.min_gradient);
+    visit(OptionInfo{"refinement.rising_weight", "", 0.01, 1.0,
+                     "Weight of edges beyond which the image is brighter than on the nearer "
+                     "surface, beside 1 of the others."},
+          self.rising_weight);
     visit(OptionInfo{"refinement.sample_spacing_px", "px", 0.5, 50.0,
                      "Distance between edge places."},
           self.sample_spacing_px);
@@ -106,7 +111,7 @@ struct EdgeSample {
       Eigen::Vector2d::Zero();  ///< in the image, from the nearer surface outwards
   double residual_px = 0.0;     ///< along the normal, found minus predicted
   double gradient = 0.0;        ///< signed, gray/px along the normal; 0 where nothing was found
-  double weight = 0.0;          ///< of the last round
+  double weight = 0.0;          ///< robust, of the last round
   std::uint8_t kind = 0;        ///< EdgeKind bits
 };
 
@@ -166,6 +171,10 @@ class EdgeRefinement {
   NormalEquations weightedEquations(double& weights);
   void noteGroups(const EdgeSample& sample, const Eigen::Vector2d& pixel, const Vector6d& row,
                   double ratio);
+  /// What a place counts for, besides its robust weight.
+  double shareOf(const EdgeSample& sample) const {
+    return sample.gradient > 0.0 ? options_.rising_weight : 1.0;
+  }
 
   RefinementOptions options_;
   ImageView image_;

@@ -9,20 +9,6 @@
 namespace boresight {
 namespace {
 
-/// Values of all options in the order of the visitor.
-struct OptionValues {
-  static constexpr std::size_t kMost = 128;
-  std::array<double, kMost> value{};
-  std::size_t count = 0;
-
-  explicit OptionValues(const LocalizerOptions& options) {
-    LocalizerOptions::visitFields(options, [this](const OptionInfo&, const auto& field) {
-      if (count < kMost) value[count] = static_cast<double>(field);
-      ++count;
-    });
-  }
-};
-
 /// Whether an option makes the test edges or the rendered ones, or sizes the memory.
 bool holdsForWholeRun(std::string_view name) {
   constexpr std::string_view kNames[] = {"templates.count",           "templates.max_side_px",
@@ -47,6 +33,13 @@ void visitDifferences(const LocalizerOptions& before, const LocalizerOptions& af
 }
 
 }  // namespace
+
+int LocalizerOptions::roundOf(const OptionInfo& info) {
+  const std::string_view name = info.name;
+  if (name.starts_with("wide.") || name == "refinement.covariance") return 1;
+  if (name == "refinement.rising_weight") return 2;
+  return 0;
+}
 
 bool sameOptions(const LocalizerOptions& one, const LocalizerOptions& other) {
   bool same = true;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <string_view>
 
 #include "core/base/options.h"
 #include "core/edges/edge_map.h"
@@ -155,25 +156,38 @@ struct LocalizerOptions {
     WideOptions::visitFields(self.wide, visit);
   }
 
-  /// What digests are made of: all options, but those that came later (`cameLater`) only once they
-  /// are not as they stand by themselves. Runs without them keep the digests that they had.
-  template <class Visitor>
-  static void visitDigested(const LocalizerOptions& options, Visitor&& visit) {
-    const bool plain_search = options.wide == WideOptions{};
-    const bool plain_covariance = options.refinement.covariance == RefinementOptions{}.covariance;
-    visitFields(options, [&](const OptionInfo& info, const auto& field) {
-      const bool left_out = isWide(info) ? plain_search : cameLater(info) && plain_covariance;
-      if (!left_out) visit(info, field);
+  /// Which round of additions brought an option, 0: there from the start. For files that were
+  /// written before.
+  static int roundOf(const OptionInfo& info);
+};
+
+/// Values of all options in the order of the visitor.
+struct OptionValues {
+  static constexpr std::size_t kMost = 160;
+  std::array<double, kMost> value{};
+  std::size_t count = 0;  ///< of options, should they be more than there is room for
+
+  explicit OptionValues(const LocalizerOptions& options) {
+    LocalizerOptions::visitFields(options, [this](const OptionInfo&, const auto& field) {
+      if (count < kMost) value[count] = static_cast<double>(field);
+      ++count;
     });
   }
-  static bool isWide(const OptionInfo& info) {
-    return std::string_view(info.name).starts_with("wide.");
-  }
-  /// Not known to traces before format 4.
-  static bool cameLater(const OptionInfo& info) {
-    return isWide(info) || std::string_view(info.name) == "refinement.covariance";
-  }
 };
+
+/// Visits what digests are made of: all options, but those that came later only where they are not
+/// as they stand by themselves. Runs without them keep the digests that they had.
+template <class Visitor>
+void visitDigested(const LocalizerOptions& options, Visitor&& visit) {
+  const OptionValues plain{LocalizerOptions()};
+  std::size_t at = 0;
+  LocalizerOptions::visitFields(options, [&](const OptionInfo& info, const auto& field) {
+    const bool as_it_stands =
+        at < OptionValues::kMost && plain.value[at] == static_cast<double>(field);
+    if (LocalizerOptions::roundOf(info) == 0 || !as_it_stands) visit(info, field);
+    ++at;
+  });
+}
 
 bool sameOptions(const LocalizerOptions& one, const LocalizerOptions& other);
 /// The first option in which `after` differs from `before` and that holds for a whole run, or

@@ -44,7 +44,7 @@ void digestMatrix(const Matrix6d& matrix, DigestWriter& writer) {
 
 void digestOptions(const LocalizerOptions& options, DigestWriter& writer) {
   writer.tag("options");
-  LocalizerOptions::visitDigested(options, [&writer](const OptionInfo& info, const auto& field) {
+  visitDigested(options, [&writer](const OptionInfo& info, const auto& field) {
     writer.tag(info.name);
     writer.f64(static_cast<double>(field));
   });

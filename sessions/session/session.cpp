@@ -159,7 +159,7 @@ LocalizerOptions caseOptions(const Session& session, const SessionCase& one,
 
 std::string optionsDigest(const LocalizerOptions& options) {
   DigestWriter writer;
-  LocalizerOptions::visitDigested(options, [&writer](const OptionInfo& info, const auto& field) {
+  visitDigested(options, [&writer](const OptionInfo& info, const auto& field) {
     writer.tag(info.name);
     writer.f64(static_cast<double>(field));
   });

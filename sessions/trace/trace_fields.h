@@ -13,7 +13,8 @@
 
 namespace boresight::sessions {
 
-/// The trace's format that brought restarts and the options that came with them.
+/// The trace's format before options were added; each round of them has the next.
+inline constexpr std::uint32_t kFormatBeforeRounds = 3;
 inline constexpr std::uint32_t kFormatOfWideSearch = 4;
 
 template <class Self, class Record>
@@ -237,7 +238,8 @@ void fields(Archive& archive, Self& iteration) {
 template <class Archive, Is<LocalizerOptions> Self>
 void fields(Archive& archive, Self& options) {
   LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
-    if (!archive.has(kFormatOfWideSearch) && LocalizerOptions::cameLater(info)) return;
+    const int round = LocalizerOptions::roundOf(info);
+    if (!archive.has(kFormatBeforeRounds + static_cast<std::uint32_t>(round))) return;
     std::string name = info.name;
     archive.text(name);
     archive.require(name == info.name, "an option that this version does not know");

@@ -9,6 +9,7 @@
 
 #include "core/base/random.h"
 #include "tests/core/localizer/scene.h"
+#include "tests/core/localizer/step_edge.h"
 
 namespace boresight::test {
 namespace {
@@ -236,6 +237,12 @@ TEST(EdgeRefinement, IgnoredEdgesAreNotUsed) {
             0.08);
 }
 
+/// As `picture`, white on black.
+Picture negativeOf(Picture picture) {
+  for (std::uint8_t& gray : picture.gray) gray = static_cast<std::uint8_t>(255 - gray);
+  return picture;
+}
+
 /// A sheet that covers the left of the image: one straight edge, all else out of sight.
 struct OneEdge {
   Picture picture;
@@ -314,6 +321,93 @@ TEST(EdgeRefinement, AMatchedPoseHoldsWhatOneEdgeLeavesOpen) {
   refined.pass(one.scene, start, 4.0, nullptr, &matched);
   ASSERT_EQ(refined.status, Status::kOk);
   expectHeld(one, start, refined.result.camera_from_station);
+}
+
+/// Holds all but the translation along the image's rows.
+PoseEstimate holdingAllButX(const Pose& camera_from_station) {
+  PoseEstimate held;
+  held.camera_from_station = camera_from_station;
+  held.information.diagonal() << 1e14, 1e14, 1e14, 1.0, 1e14, 1e14;
+  return held;
+}
+
+/// A strip across the image, gray before black on the left and before white on the right, where
+/// its edge stands `aside_px` further out than the mesh has it.
+struct Strip {
+  static constexpr double kHalf_m = 0.03;
+  Picture picture;
+  Case scene;
+
+  explicit Strip(double aside_px) {
+    scene.solid.addPrism({{-kHalf_m, -1.0}, {kHalf_m, -1.0}, {kHalf_m, 1.0}, {-kHalf_m, 1.0}},
+                         -0.001, 0.0, 0.9);
+    scene.camera = pinholeCamera();
+    scene.truth.rotation = rotationExp({0.0, 0.0, 0.11}) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+    scene.truth.translation_m = {0.0, 0.0, 0.45};
+    const StepEdge one = edgeAlong(kHalf_m, 0.0, 60.0);
+    const StepEdge other = edgeAlong(-kHalf_m, 0.0, 60.0);
+    const bool one_is_right = one.distance_px > other.distance_px;
+    picture = drawSteps(scene.camera.width, scene.camera.height, 60.0,
+                        {edgeAlong(one_is_right ? -kHalf_m : kHalf_m, 0.0, 60.0),
+                         edgeAlong(one_is_right ? kHalf_m : -kHalf_m, aside_px, 60.0)});
+    scene.picture = &picture;
+  }
+  StepEdge edgeAlong(double x_m, double aside_px, double contrast) const {
+    Eigen::Vector2d from;
+    Eigen::Vector2d to;
+    EXPECT_TRUE(project(scene.camera, scene.truth * Eigen::Vector3d(x_m, -0.01, 0.0), from));
+    EXPECT_TRUE(project(scene.camera, scene.truth * Eigen::Vector3d(x_m, 0.01, 0.0), to));
+    StepEdge edge;
+    edge.normal = Eigen::Vector2d(to.y() - from.y(), from.x() - to.x()).normalized();
+    if (edge.normal.x() < 0.0) edge.normal = -edge.normal;
+    edge.distance_px = edge.normal.dot(from) + aside_px;
+    edge.contrast = contrast;
+    return edge;
+  }
+  /// How far to the right the strip ends up, in pixels along the edges' normal.
+  double shift_px(double rising_weight) const {
+    RefinementOptions options;
+    options.rising_weight = rising_weight;
+    Refined refined(options);
+    const PoseEstimate held = holdingAllButX(scene.truth);
+    refined.pass(scene, scene.truth, 2.0, nullptr, &held);
+    EXPECT_EQ(refined.status, Status::kOk);
+    const Pose& pose = refined.result.camera_from_station;
+    Eigen::Vector2d before;
+    Eigen::Vector2d after;
+    EXPECT_TRUE(project(scene.camera, scene.truth.translation_m, before));
+    EXPECT_TRUE(project(scene.camera, pose.translation_m, after));
+    return edgeAlong(kHalf_m, 0.0, 1.0).normal.dot(after - before);
+  }
+};
+
+/// Both edges are as long: the one that rises pulls by its weight.
+TEST(EdgeRefinement, RisingEdgesCountAsMuchAsTheirWeight) {
+  constexpr double kAside_px = 0.3;
+  const Strip strip(kAside_px);
+  const Strip true_to_mesh(0.0);
+  for (const double weight : {1.0, 0.5, 0.2, 0.05}) {
+    const double pulled_px = strip.shift_px(weight) - true_to_mesh.shift_px(weight);
+    EXPECT_NEAR(pulled_px, kAside_px * weight / (1.0 + weight), 0.02) << weight;
+  }
+}
+
+TEST(EdgeRefinement, WhereAllEdgesRiseTheirWeightChangesNoPose) {
+  OneEdge one;
+  const Picture negative = negativeOf(one.picture);
+  one.scene.picture = &negative;
+  const PoseEstimate held = holdingAllButX(startOf(one));
+  std::vector<double> across_px;
+  for (const double weight : {1.0, 0.2}) {
+    RefinementOptions options;
+    options.rising_weight = weight;
+    Refined refined(options);
+    refined.pass(one.scene, startOf(one), 4.0, nullptr, &held);
+    ASSERT_EQ(refined.status, Status::kOk) << "they are used however little they weigh";
+    EXPECT_GT(refined.result.used_count, 60);
+    across_px.push_back(one.placeOf(refined.result.camera_from_station, 0.0).x());
+  }
+  EXPECT_NEAR(across_px[0], across_px[1], 2e-3);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/localizer/localizer_options.h"
+#include "core/localizer/run_digest.h"
 
 #include <limits>
 #include <set>
@@ -73,6 +74,35 @@ TEST(LocalizerOptions, EveryFieldIsVisitedOnce) {
     EXPECT_TRUE(names.insert(info.name).second) << info.name;
   });
   EXPECT_EQ(places.size(), names.size());
+}
+
+std::array<std::uint8_t, 32> digestOf(const LocalizerOptions& options) {
+  DigestWriter writer;
+  digestOptions(options, writer);
+  return writer.digest();
+}
+
+TEST(LocalizerOptions, WhatCameLaterIsHeardOfInDigestsOnlyWhereItIsNotAsItStands) {
+  LocalizerOptions options = defaultProfile();
+  DigestWriter first_ones;
+  first_ones.tag("options");
+  std::set<std::array<std::uint8_t, 32>> digests;
+  LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
+    if (LocalizerOptions::roundOf(info) == 0) {
+      first_ones.tag(info.name);
+      first_ones.f64(static_cast<double>(field));
+      return;
+    }
+    using Field = std::remove_reference_t<decltype(field)>;
+    const Field kept = field;
+    field = static_cast<Field>(static_cast<double>(field) >= info.maximum ? info.minimum
+                                                                          : info.maximum);
+    EXPECT_TRUE(digests.insert(digestOf(options)).second) << info.name;
+    field = kept;
+  });
+  EXPECT_GE(digests.size(), 10u);
+  EXPECT_EQ(digestOf(options), first_ones.digest());
+  EXPECT_EQ(digests.count(digestOf(options)), 0u);
 }
 
 TEST(LocalizerOptions, AreDescribed) {

@@ -168,28 +168,5 @@ TEST(LocalizerWide, GivesTheSameBitsWithAnyKernelsAndWorkers) {
   }
 }
 
-TEST(LocalizerWide, WhatCameLaterIsNotHeardOfInDigestsAsLongAsItIsAsItStands) {
-  LocalizerOptions options = defaultProfile();
-  DigestWriter all;
-  digestOptions(options, all);
-  DigestWriter without;
-  without.tag("options");
-  LocalizerOptions::visitFields(options, [&](const OptionInfo& info, const auto& field) {
-    if (LocalizerOptions::cameLater(info)) return;
-    without.tag(info.name);
-    without.f64(static_cast<double>(field));
-  });
-  EXPECT_EQ(all.digest(), without.digest());
-  options.wide.finalists = 4;
-  DigestWriter changed;
-  digestOptions(options, changed);
-  EXPECT_NE(changed.digest(), all.digest());
-  options = defaultProfile();
-  options.refinement.covariance = CovarianceModel::kGrouped;
-  DigestWriter grouped;
-  digestOptions(options, grouped);
-  EXPECT_NE(grouped.digest(), all.digest());
-}
-
 }  // namespace
 }  // namespace boresight::test
