@@ -32,8 +32,16 @@ std::string sigmaText(const Matrix6d& covariance) {
                 1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2));
 }
 
+bool wentOnFromRestarts(const LocalizationTrace& trace) {
+  return std::any_of(trace.iterations.begin(), trace.iterations.end(),
+                     [](const IterationTrace& one) { return one.wide; });
+}
+
 /// The axis that is furthest beyond its limit.
 std::string leftUncertaintyText(const LocalizationTrace& trace) {
+  if (wentOnFromRestarts(trace))
+    return "the pose moved away from what the restarts had found, further than they leave open; "
+           "check the mesh, or run it without wide.* if the truth is within the seed's uncertainty";
   constexpr const char* kAxes[] = {"x", "y", "z"};
   const Pose& last = trace.iterations.back().camera_from_station;
   const Vector6d offset =

@@ -63,6 +63,13 @@ TEST(Explanation, NamesTheAxisThatLeftTheUncertainty) {
   EXPECT_THAT(explanation(trace), HasSubstr("20.00 deg about z"));
 }
 
+TEST(Explanation, SpeaksOfRestartsWhereTheRunWentOnFromThem) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kLeftUncertainty);
+  trace.iterations.front().wide = true;
+  EXPECT_THAT(explanation(trace), HasSubstr("what the restarts had found"));
+  EXPECT_THAT(explanation(trace), Not(HasSubstr("allowed")));
+}
+
 TEST(Explanation, GivesTheShareOfSupportedEdges) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kNotSupported);
   trace.support.rendered = 200;
