@@ -69,6 +69,19 @@ std::vector<PartSource> readParts(const JsonReader& json, Dataset& dataset) {
   return all;
 }
 
+/// Discrete ones as transforms, turns as axis and a point on it, metres, station frame.
+Symmetries readStationSymmetries(const JsonReader& json, Dataset& dataset) {
+  Symmetries symmetries;
+  if (const auto list = json.find("discrete"))
+    for (const JsonReader& one : list->elements())
+      symmetries.discrete.push_back(readNotedTransform(one, dataset));
+  if (const auto list = json.find("continuous"))
+    for (const JsonReader& one : list->elements())
+      symmetries.continuous.push_back(readAxisSymmetry(one, "point_m", 1.0));
+  if (symmetries.empty()) json.fail("has neither 'discrete' nor 'continuous' symmetries");
+  return symmetries;
+}
+
 Station readStation(const std::string& id, const JsonReader& json, Dataset& dataset) {
   Station station;
   station.id = id;
@@ -79,6 +92,8 @@ Station readStation(const std::string& id, const JsonReader& json, Dataset& data
     station.uncertainty = readUncertainty(*uncertainty);
   if (const auto transform = json.find("camera_from_end_effector"))
     station.camera_from_end_effector = readNotedTransform(*transform, dataset);
+  if (const auto symmetries = json.find("symmetries"))
+    station.symmetries = readStationSymmetries(*symmetries, dataset);
   return station;
 }
 

@@ -19,17 +19,19 @@ Pose readDiscrete(const JsonReader& json) {
   return pose;
 }
 
-AxisSymmetry readContinuous(const JsonReader& json) {
+}  // namespace
+
+AxisSymmetry readAxisSymmetry(const JsonReader& json, const char* point_key,
+                              double units_per_metre) {
   AxisSymmetry symmetry;
   symmetry.axis = json.at("axis").vector3();
   const double length = symmetry.axis.norm();
   if (!(length > 1e-9)) json.failMember("axis", "has no direction");
   symmetry.axis /= length;
-  if (const auto offset = json.find("offset")) symmetry.point_m = offset->vector3() / kMillimetres;
+  if (const auto point = json.find(point_key))
+    symmetry.point_m = point->vector3() / units_per_metre;
   return symmetry;
 }
-
-}  // namespace
 
 Symmetries readBopSymmetries(const JsonReader& model) {
   Symmetries symmetries;
@@ -37,7 +39,7 @@ Symmetries readBopSymmetries(const JsonReader& model) {
     for (const JsonReader& one : list->elements()) symmetries.discrete.push_back(readDiscrete(one));
   if (const auto list = model.find("symmetries_continuous"))
     for (const JsonReader& one : list->elements())
-      symmetries.continuous.push_back(readContinuous(one));
+      symmetries.continuous.push_back(readAxisSymmetry(one, "offset", kMillimetres));
   return symmetries;
 }
 

@@ -24,6 +24,10 @@ struct Symmetries {
   bool empty() const { return discrete.empty() && continuous.empty(); }
 };
 
+/// `axis` (of any length, station frame) and, under `point_key`, a point on it; InputError.
+AxisSymmetry readAxisSymmetry(const JsonReader& json, const char* point_key,
+                              double units_per_metre);
+
 /// `symmetries_discrete` (16 numbers each, row by row) and `symmetries_continuous` (axis, offset)
 /// of an entry of BOP's models_info.json, millimetres. InputError.
 Symmetries readBopSymmetries(const JsonReader& model);

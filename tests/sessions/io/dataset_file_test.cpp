@@ -15,6 +15,7 @@ namespace {
 
 using boresight::test::TemporaryFolder;
 using nlohmann::json;
+using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 json transform(double z_m) {
@@ -160,6 +161,33 @@ TEST_F(ReadDataset, NamesThePlaceOfWhatIsWrong) {
             "projection_px");
   EXPECT_EQ(error([](json& d) { d["requirement"]["normal_mm"] = 0; }),
             "dataset.json: requirement.normal_mm: 0 is not above 0");
+}
+
+TEST_F(ReadDataset, TakesDeclaredSymmetries) {
+  json d = sampleDataset();
+  d["stations"]["bc"]["symmetries"] = {
+      {"discrete", {json::parse("[[-1,0,0,0.002],[0,-1,0,0],[0,0,1,0],[0,0,0,1]]")}},
+      {"continuous", {{{"axis", {0, 0, 2}}, {"point_m", {0.01, 0, 0}}}, {{"axis", {1, 0, 0}}}}}};
+  const Dataset dataset = read(d);
+  const Symmetries& symmetries = dataset.stations.at("bc").symmetries;
+  ASSERT_EQ(symmetries.discrete.size(), 1u);
+  const Eigen::Vector3d turned = symmetries.discrete.front() * Eigen::Vector3d(0.1, 0.2, 0.3);
+  EXPECT_TRUE(turned.isApprox(Eigen::Vector3d(-0.098, -0.2, 0.3)));
+  ASSERT_EQ(symmetries.continuous.size(), 2u);
+  EXPECT_EQ(symmetries.continuous[0].axis, Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(symmetries.continuous[0].point_m, Eigen::Vector3d(0.01, 0.0, 0.0));
+  EXPECT_EQ(symmetries.continuous[1].point_m, Eigen::Vector3d::Zero());
+  EXPECT_TRUE(dataset.stations.at("os").symmetries.empty());
+}
+
+TEST_F(ReadDataset, NamesWhatIsWrongInSymmetries) {
+  const auto with = [this](const json& symmetries) {
+    return error([&](json& d) { d["stations"]["bc"]["symmetries"] = symmetries; });
+  };
+  EXPECT_THAT(with({{"discrete", {{1, 2, 3}}}}), HasSubstr("stations.bc.symmetries.discrete[0]"));
+  EXPECT_THAT(with({{"continuous", {{{"axis", {0, 0, 0}}}}}}),
+              HasSubstr("stations.bc.symmetries.continuous[0].axis: has no direction"));
+  EXPECT_THAT(with(json::object()), HasSubstr("stations.bc.symmetries: has neither"));
 }
 
 TEST_F(ReadDataset, NamesWhatIsWrongInAStation) {
