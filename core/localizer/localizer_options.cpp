@@ -30,6 +30,7 @@ bool holdsForWholeRun(std::string_view name) {
                                          "loop.coarse_size_px",       "loop.halved_size_px",
                                          "loop.max_rolled_hypotheses"};
   return name.starts_with("edges.") || name.starts_with("render.") || name.starts_with("wide.") ||
+         name.starts_with("ambiguity.") ||
          std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/base/options.h"
 #include "core/edges/edge_map.h"
+#include "core/localizer/ambiguity_options.h"
 #include "core/localizer/edge_refinement.h"
 #include "core/localizer/edge_support.h"
 #include "core/localizer/wide_options.h"
@@ -142,6 +143,7 @@ struct LocalizerOptions {
   RefinementOptions refinement;
   SupportOptions support;
   WideOptions wide;
+  AmbiguityOptions ambiguity;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -153,6 +155,7 @@ struct LocalizerOptions {
     RefinementOptions::visitFields(self.refinement, visit);
     SupportOptions::visitFields(self.support, visit);
     WideOptions::visitFields(self.wide, visit);
+    AmbiguityOptions::visitFields(self.ambiguity, visit);
   }
 
   /// What digests are made of: all options, but those that came later (`cameLater`) only once they
@@ -161,17 +164,24 @@ struct LocalizerOptions {
   static void visitDigested(const LocalizerOptions& options, Visitor&& visit) {
     const bool plain_search = options.wide == WideOptions{};
     const bool plain_covariance = options.refinement.covariance == RefinementOptions{}.covariance;
+    const bool plain_end = options.ambiguity == AmbiguityOptions{};
     visitFields(options, [&](const OptionInfo& info, const auto& field) {
-      const bool left_out = isWide(info) ? plain_search : cameLater(info) && plain_covariance;
+      const bool left_out = isWide(info)        ? plain_search
+                            : isAmbiguity(info) ? plain_end
+                                                : cameLater(info) && plain_covariance;
       if (!left_out) visit(info, field);
     });
   }
   static bool isWide(const OptionInfo& info) {
     return std::string_view(info.name).starts_with("wide.");
   }
+  static bool isAmbiguity(const OptionInfo& info) {
+    return std::string_view(info.name).starts_with("ambiguity.");
+  }
   /// Not known to traces before format 4.
   static bool cameLater(const OptionInfo& info) {
-    return isWide(info) || std::string_view(info.name) == "refinement.covariance";
+    return isWide(info) || isAmbiguity(info) ||
+           std::string_view(info.name) == "refinement.covariance";
   }
 };
 

@@ -181,6 +181,16 @@ void fields(Archive& archive, Self& support) {
           displaced_explained);
 }
 
+template <class Archive, Is<Rival> Self>
+void fields(Archive& archive, Self& rival) {
+  auto& [camera_from_station_before, camera_from_station, similarity, ended, margin_nats] = rival;
+  fields(archive, camera_from_station_before);
+  fields(archive, camera_from_station);
+  archive.number(similarity);
+  archive.choice(ended, kLastLocalizationStatus);
+  archive.number(margin_nats);
+}
+
 template <class Archive, Is<IterationTrace> Self>
 void matchingFields(Archive& archive, Self& iteration) {
   archive.list(iteration.templates, [&](auto& item) { fields(archive, item); });
@@ -212,7 +222,7 @@ void fields(Archive& archive, Self& iteration) {
   archive.choice(iteration.kind, IterationKind::kRefine);
   archive.number(iteration.level);
   archive.choice(iteration.reached, Stage::kFinished);
-  archive.choice(iteration.status, LocalizationStatus::kFault);
+  archive.choice(iteration.status, kLastLocalizationStatus);
   archive.number(iteration.threshold_px);
   fields(archive, iteration.camera_from_station_before);
   fields(archive, iteration.uncertainty);
@@ -270,8 +280,10 @@ void fields(Archive& archive, Self& trace) {
   fields(archive, trace.edges);
   archive.list(trace.iterations, [&](auto& iteration) { fields(archive, iteration); });
   archive.number(trace.attempts);
+  if (!archive.precedesWideSearch())
+    archive.list(trace.rivals, [&](auto& rival) { fields(archive, rival); });
   fields(archive, trace.support);
-  archive.choice(trace.status, LocalizationStatus::kFault);
+  archive.choice(trace.status, kLastLocalizationStatus);
   archive.choice(trace.fault, Status::kNoConsensus);
   fields(archive, trace.camera_from_station);
   vectorFields(archive, trace.covariance);
