@@ -42,7 +42,7 @@ StepReport Localizer::weighRivals() {
     lead_.rival = -1;
     takeLead();
     beginScan();
-    return StepReport::of(Stage::kSupport, false);
+    return StepReport::of(Stage::kSupport, true);
   }
   const Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   Rival& rival = rivals_[static_cast<std::size_t>(rival_)];
@@ -97,7 +97,7 @@ void Localizer::beginScan() {
 StepReport Localizer::stepScan() {
   if (!similarity_.step()) return StepReport::of(Stage::kSupport, false);
   noteRivals();
-  return nextRival(StepReport::of(Stage::kSupport, true));
+  return nextRival(StepReport::of(Stage::kSupport, false));
 }
 
 void Localizer::noteRivals() {

@@ -15,6 +15,8 @@ namespace boresight::sessions {
 
 /// The trace's format that brought restarts and the options that came with them.
 inline constexpr std::uint32_t kFormatOfWideSearch = 4;
+/// The one that brought rivals and the options about them.
+inline constexpr std::uint32_t kFormatOfRivals = 5;
 
 template <class Self, class Record>
 concept Is = std::same_as<std::remove_const_t<Self>, Record>;
@@ -248,6 +250,7 @@ template <class Archive, Is<LocalizerOptions> Self>
 void fields(Archive& archive, Self& options) {
   LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
     if (!archive.has(kFormatOfWideSearch) && LocalizerOptions::cameLater(info)) return;
+    if (!archive.has(kFormatOfRivals) && LocalizerOptions::isAmbiguity(info)) return;
     std::string name = info.name;
     archive.text(name);
     archive.require(name == info.name, "an option that this version does not know");
@@ -284,7 +287,7 @@ void fields(Archive& archive, Self& trace) {
   fields(archive, trace.edges);
   archive.list(trace.iterations, [&](auto& iteration) { fields(archive, iteration); });
   archive.number(trace.attempts);
-  if (!archive.precedesWideSearch())
+  if (archive.has(kFormatOfRivals))
     archive.list(trace.rivals, [&](auto& rival) { fields(archive, rival); });
   fields(archive, trace.support);
   archive.choice(trace.status, kLastLocalizationStatus);
