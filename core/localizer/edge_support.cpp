@@ -103,6 +103,15 @@ void measureExplanation(const EdgeRender& render, const BitImage& test_edges,
 
 }  // namespace
 
+void countEdge(const EdgePixel& pixel, int direction, int level, const EdgeSearch& search,
+               const ImageView& image, const BitImage* ignore, const SupportOptions& options,
+               std::int32_t& looked, std::int32_t& covered) {
+  constexpr int kInPlace[2] = {0, 0};
+  const double scale = static_cast<double>(1 << level);
+  countPlace(placeOf(pixel, scale, direction < 0 ? kInPlace : kDisplacements[direction]), search,
+             scale, image, ignore, options, looked, covered);
+}
+
 EdgeSupport measureEdgeSupport(const EdgeRender& render, int level, const EdgeMap& edges,
                                const ImageView& image, const BitImage* ignore,
                                const SupportOptions& options) {

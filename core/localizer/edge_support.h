@@ -82,6 +82,13 @@ struct EdgeSupport {
   }
 };
 
+/// Counts a rendered edge pixel as looked at and, when its counterpart is near, as covered; ignored
+/// ones not at all. `direction` 0 ... 3 displaces it by one of those that tell what comes about by
+/// chance, -1 leaves it in place.
+void countEdge(const EdgePixel& pixel, int direction, int level, const EdgeSearch& search,
+               const ImageView& image, const BitImage* ignore, const SupportOptions& options,
+               std::int32_t& looked, std::int32_t& covered);
+
 /// `image` is raw, at full resolution; `level` is the render's. `ignore` may be nullptr.
 EdgeSupport measureEdgeSupport(const EdgeRender& render, int level, const EdgeMap& edges,
                                const ImageView& image, const BitImage* ignore,

@@ -237,6 +237,8 @@ bool Localizer::isSmall(const Iteration& iteration) const {
 }
 
 StepReport Localizer::fail(Stage stage, LocalizationStatus status) {
+  if (rival_round_ == RivalRound::kRivals && status != LocalizationStatus::kFault)
+    return endRival(stage, status);
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   now.status = status;
   StepReport made = StepReport::of(stage, true);
@@ -253,7 +255,7 @@ StepReport Localizer::fail(Stage stage, LocalizationStatus status) {
 }
 
 bool Localizer::canTryAgain() const {
-  if (attempt_ + 1 >= options_.loop.max_attempts) return false;
+  if (attempt_ + 1 >= options_.loop.max_attempts || rival_round_ != RivalRound::kNone) return false;
   return !options_.wide.isOn() || (!isWide() && bestFinalistLeft() >= 0);
 }
 

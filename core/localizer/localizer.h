@@ -10,6 +10,8 @@
 #include "core/base/kernels.h"
 #include "core/localizer/localizer_options.h"
 #include "core/localizer/problem.h"
+#include "core/localizer/rival.h"
+#include "core/localizer/self_similarity.h"
 #include "core/localizer/wide_search.h"
 #include "core/localizer/workspace.h"
 
@@ -192,6 +194,22 @@ class Localizer {
   void chooseRestarts();
   int bestFinalistLeft() const;
   void startFinalist(int finalist);
+  void layOutRivals();
+  bool weighsRivals() const;
+  StepReport weighRivals();
+  void takeLead();
+  void beginScan();
+  StepReport stepScan();
+  void noteRivals();
+  bool isKnown(const Pose& camera_from_station, double within_px) const;
+  StepReport nextRival(StepReport made);
+  void startRival();
+  StepReport endRival(Stage stage, LocalizationStatus status);
+  StepReport concludeRivals(StepReport made);
+  void returnToLead();
+  bool isInSeedsBox(const Pose& camera_from_station) const;
+  LocalizationStatus verdict() const;
+  double templateFactorNow() const;
   bool isConvincing(const Iteration& iteration) const;
   bool canReuseRender(const Iteration& now) const;
   StepReport failHypothesis(Stage stage, LocalizationStatus status);
@@ -245,6 +263,27 @@ class Localizer {
   std::span<HypothesisSummary> finalists_;
   int finalist_count_ = 0;
   std::uint32_t finalists_used_ = 0;  ///< bits
+
+  /// The pose with the most evidence up to now, and what it takes to do its last iteration again.
+  struct Lead {
+    Pose camera_from_station;
+    Pose camera_from_station_before;
+    PoseEstimate matched;
+    LocalizationProblem started;
+    int iteration = 0;
+    int rival = -1;  ///< that it was; -1: the first
+  };
+  enum class RivalRound : std::uint8_t { kNone = 0, kScan, kRivals, kReturn };
+  RivalRound rival_round_ = RivalRound::kNone;
+  SelfSimilarity similarity_;
+  EdgeRender lead_render_;
+  Lead lead_;
+  LocalizationProblem first_started_;  ///< of the attempt that converged first
+  int first_attempt_ = 0;
+  std::span<Rival> rivals_;
+  int rival_count_ = 0;
+  int rival_ = 0;               ///< being tried
+  bool lead_is_shown_ = false;  ///< the latest iteration is the lead's
   int hypothesis_ = 0;
   std::span<std::uint8_t> done_;  ///< pieces of the stage, or of its round
   int piece_count_ = 0;

@@ -16,6 +16,7 @@ bool holdsForWholeRun(std::string_view name) {
                                          "loop.coarse_size_px",       "loop.halved_size_px",
                                          "loop.max_rolled_hypotheses"};
   return name.starts_with("edges.") || name.starts_with("render.") || name.starts_with("wide.") ||
+         name.starts_with("ambiguity.") ||
          std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
@@ -37,7 +38,7 @@ void visitDifferences(const LocalizerOptions& before, const LocalizerOptions& af
 int LocalizerOptions::roundOf(const OptionInfo& info) {
   const std::string_view name = info.name;
   if (name.starts_with("wide.") || name == "refinement.covariance") return 1;
-  if (name == "refinement.rising_weight") return 2;
+  if (name.starts_with("ambiguity.") || name == "refinement.rising_weight") return 2;
   return 0;
 }
 

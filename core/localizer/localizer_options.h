@@ -7,6 +7,7 @@
 
 #include "core/base/options.h"
 #include "core/edges/edge_map.h"
+#include "core/localizer/ambiguity_options.h"
 #include "core/localizer/edge_refinement.h"
 #include "core/localizer/edge_support.h"
 #include "core/localizer/wide_options.h"
@@ -143,6 +144,7 @@ struct LocalizerOptions {
   RefinementOptions refinement;
   SupportOptions support;
   WideOptions wide;
+  AmbiguityOptions ambiguity;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -154,6 +156,7 @@ struct LocalizerOptions {
     RefinementOptions::visitFields(self.refinement, visit);
     SupportOptions::visitFields(self.support, visit);
     WideOptions::visitFields(self.wide, visit);
+    AmbiguityOptions::visitFields(self.ambiguity, visit);
   }
 
   /// Which round of additions brought an option, 0: there from the start. For files that were

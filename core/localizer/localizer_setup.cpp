@@ -32,6 +32,8 @@ const char* localizationStatusText(LocalizationStatus status) {
       return "iteration_limit";
     case LocalizationStatus::kFault:
       return "fault";
+    case LocalizationStatus::kAmbiguous:
+      return "ambiguous";
   }
   return "unknown";
 }
@@ -182,6 +184,9 @@ void Localizer::begin() {
   weighing_ = false;
   finalist_count_ = 0;
   finalists_used_ = 0;
+  rival_round_ = RivalRound::kNone;
+  rival_count_ = 0;
+  workspace_.rivals = {};
   stage_ = Stage::kEdges;
   stage_begun_ = false;
   iteration_pending_ = false;
@@ -262,6 +267,7 @@ Status Localizer::layOutKept() {
   }
   layOutRenders();
   if (options_.wide.isOn()) layOutWideSearch();
+  if (options_.ambiguity.enabled) layOutRivals();
   searches_ = kept_.allocate<WhsSearch>(static_cast<std::size_t>(workers_));
   done_ = kept_.allocate<std::uint8_t>(static_cast<std::size_t>(
       std::max({options_.templates.count, EdgeRefinement::chunksOf(options_.refinement),

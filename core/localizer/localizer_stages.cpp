@@ -104,9 +104,8 @@ Status Localizer::continueRender(bool& complete) {
 StepReport Localizer::stepTemplates() {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   const double depth_m = (now.render.camera_from_station * bounds_.centre()).z();
-  const double factor = options_.wide.isOn() ? 1.0 : templateFactor(attempt_);
-  const int side_px =
-      templateSide(options_.templates, factor * featureSize(), depth_m, now.render.camera);
+  const int side_px = templateSide(options_.templates, templateFactorNow() * featureSize(), depth_m,
+                                   now.render.camera);
   const Status status =
       selector_.select(now.render, side_px, problem_.ignore, now.level, now.templates);
   digestTemplates(now.templates, digest_);
@@ -257,6 +256,7 @@ StepReport Localizer::stepRefine() {
 }
 
 StepReport Localizer::stepSupport() {
+  if (rival_round_ == RivalRound::kScan) return stepScan();
   const Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   workspace_.support = measureEdgeSupport(now.render, now.level, workspace_.edges, problem_.image,
                                           problem_.ignore, options_.support);
@@ -269,7 +269,8 @@ StepReport Localizer::stepSupport() {
     failed.iteration_complete = false;  // it was reported when its pose came out
     return failed;
   }
-  finish(LocalizationStatus::kConverged);
+  if (weighsRivals()) return weighRivals();
+  finish(verdict());
   StepReport made = StepReport::of(Stage::kSupport, true);
   made.finished = true;
   return made;

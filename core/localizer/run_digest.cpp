@@ -195,6 +195,18 @@ void digestEvidence(const HypothesisSummary& restart, const EdgeSupport& support
   digestPose(restart.camera_from_station, writer);
 }
 
+void digestRivals(std::span<const Rival> rivals, DigestWriter& writer) {
+  writer.tag("rivals");
+  writer.i32(static_cast<std::int32_t>(rivals.size()));
+  for (const Rival& rival : rivals) {
+    digestPose(rival.camera_from_station_before, writer);
+    digestPose(rival.camera_from_station, writer);
+    writer.f64(rival.similarity);
+    writer.tag(localizationStatusText(rival.ended));
+    writer.f64(rival.margin_nats);
+  }
+}
+
 void digestSupport(const EdgeSupport& support, DigestWriter& writer) {
   for (const std::int32_t count :
        {support.rendered, support.covered, support.displaced, support.displaced_covered,

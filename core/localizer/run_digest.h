@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "core/base/digest.h"
 #include "core/localizer/localizer_options.h"
 #include "core/localizer/problem.h"
@@ -22,6 +24,7 @@ void digestSupport(const EdgeSupport& support, DigestWriter& writer);
 /// Of a restart of the wide search.
 void digestEvidence(const HypothesisSummary& restart, const EdgeSupport& support,
                     DigestWriter& writer);
+void digestRivals(std::span<const Rival> rivals, DigestWriter& writer);
 void digestRefinement(const RefinementResult& refinement, DigestWriter& writer);
 
 }  // namespace boresight

@@ -54,8 +54,10 @@ enum class LocalizationStatus : std::uint8_t {
   kPnpFailed,
   kNotSupported,
   kIterationLimit,
-  kFault,  ///< a capacity or the arena did not suffice; `Workspace::fault` says which
+  kFault,      ///< a capacity or the arena did not suffice; `Workspace::fault` says which
+  kAmbiguous,  ///< another pose explains the image nearly as well: `Workspace::rivals`
 };
+inline constexpr LocalizationStatus kLastLocalizationStatus = LocalizationStatus::kAmbiguous;
 const char* localizationStatusText(LocalizationStatus status);
 
 enum class IterationKind : std::uint8_t { kMatch = 0, kRefine = 1 };
@@ -112,6 +114,16 @@ struct Iteration {
   LocalizationStatus status = LocalizationStatus::kRunning;
 };
 
+/// Another pose under which the model's edges look like those of the converged one.
+struct Rival {
+  Pose camera_from_station_before;  ///< as self-similarity predicts it
+  Pose camera_from_station;         ///< what the image made of it, when it converged
+  double similarity = 0.0;          ///< SelfShift's
+  /// kRunning: not tried; kConverged: a supported pose; otherwise why it is none.
+  LocalizationStatus ended = LocalizationStatus::kRunning;
+  double margin_nats = 0.0;  ///< evidence of the best pose beyond a converged one's
+};
+
 /// What a caller can look at between two steps.
 struct Workspace {
   EdgeMap edges;  ///< levels finer than any render are gone when the first iteration has begun
@@ -123,6 +135,7 @@ struct Workspace {
   Matrix6d covariance = Matrix6d::Zero();
   std::int32_t iterations = 0;  ///< of all attempts, those that failed included
   std::int32_t attempts = 1;
+  std::span<const Rival> rivals;  ///< with ambiguity.enabled, once a pose has converged
 };
 
 }  // namespace boresight

@@ -89,7 +89,7 @@ RecordedIteration readIteration(ByteReader& reader) {
   made.level = reader.u8();
   if (made.level >= kPyramidLevels) (void)reader.take(SIZE_MAX);  // fails
   made.reached = readChoice(reader, Stage::kFinished);
-  made.status = readChoice(reader, LocalizationStatus::kFault);
+  made.status = readChoice(reader, kLastLocalizationStatus);
   made.threshold_px = reader.f64();
   made.camera_from_station_before = readPose(reader);
   made.camera_from_station = readPose(reader);
@@ -140,7 +140,7 @@ bool readTemplates(ByteReader& reader, OnboardRecord& record) {
 /// It may change how its iteration ended.
 bool readSupport(ByteReader& reader, OnboardRecord& record) {
   const std::int32_t index = reader.i32();
-  const auto status = readChoice(reader, LocalizationStatus::kFault);
+  const auto status = readChoice(reader, kLastLocalizationStatus);
   EdgeSupport support;
   for (std::int32_t* count :
        {&support.rendered, &support.covered, &support.displaced, &support.displaced_covered,
@@ -155,7 +155,7 @@ bool readSupport(ByteReader& reader, OnboardRecord& record) {
 
 RecordedEnd readEnd(ByteReader& reader) {
   RecordedEnd end;
-  end.status = readChoice(reader, LocalizationStatus::kFault);
+  end.status = readChoice(reader, kLastLocalizationStatus);
   end.fault = readChoice(reader, Status::kNoConsensus);
   end.iterations = reader.i32();
   end.attempts = reader.i32();

@@ -175,6 +175,7 @@ void Replayer::startAttempt(const RecordedIteration& one) {
   refined_render_.reset();
   attempt_begin_.reset();
   if (optionsAt(one.index).wide.isOn()) return;  // the record does not say what restarts covered
+  if (one.attempt > 0 && optionsAt(one.index).ambiguity.enabled) return;  // nor which are rivals
   if (one.attempt == 0) attempt_begin_ = 0;
   if (one.attempt > 0 && follows) attempt_begin_ = one.index;
 }

@@ -115,6 +115,32 @@ std::string notSupportedText(const LocalizationTrace& trace) {
       100.0 * support.chanceExplanation());
 }
 
+/// The rival that came nearest to the best pose, or nullptr.
+const Rival* closestRival(const std::vector<Rival>& rivals) {
+  const Rival* closest = nullptr;
+  for (const Rival& rival : rivals) {
+    if (rival.ended != LocalizationStatus::kConverged) continue;
+    if (closest == nullptr || rival.margin_nats < closest->margin_nats) closest = &rival;
+  }
+  return closest;
+}
+
+std::string ambiguousText(const LocalizationTrace& trace) {
+  const Rival* rival = closestRival(trace.rivals);
+  if (rival == nullptr || trace.iterations.empty())
+    return "another pose explains the image as well";
+  const Pose& ahead = trace.iterations.back().camera_from_station;
+  const Pose& behind = rival->camera_from_station;
+  const Eigen::Quaterniond turn = (behind.rotation * ahead.rotation.conjugate()).normalized();
+  return format(
+      "a pose %.1f mm away, turned by %.2f deg, explains the image nearly as well: %.1f nats less "
+      "evidence, needed %.1f; the station looks alike from both: show more of what tells its "
+      "features apart, or give a closer seed",
+      toMillimetres((behind.translation_m - ahead.translation_m).norm()),
+      toDegrees(rotationLog(turn).norm()), rival->margin_nats,
+      trace.lastOptions().ambiguity.min_margin_nats);
+}
+
 std::string iterationLimitText(const LocalizationTrace& trace, const IterationTrace& last) {
   const LoopOptions& loop = trace.lastOptions().loop;
   return format(
@@ -173,6 +199,9 @@ std::string convergedText(const RunSnapshot& snapshot) {
   if (snapshot.lastOptions().support.gate)
     text += format(" Edge support is %.1f %%, needed %.1f %%.", 100.0 * snapshot.support.share(),
                    100.0 * snapshot.lastOptions().support.min_support);
+  if (const Rival* rival = closestRival(snapshot.rivals))
+    text += format(" The best of the poses that look alike has %.0f nats less evidence.",
+                   rival->margin_nats);
   return text + format(
                     " 1 sigma along x, y, z of the camera: %.3f, %.3f, %.3f mm; about them: "
                     "%.3f, %.3f, %.3f mrad.",
@@ -253,6 +282,8 @@ std::string explanation(const LocalizationTrace& trace) {
       return pnpFailedText(trace, last);
     case LocalizationStatus::kNotSupported:
       return notSupportedText(trace);
+    case LocalizationStatus::kAmbiguous:
+      return ambiguousText(trace);
     case LocalizationStatus::kIterationLimit:
       return iterationLimitText(trace, last);
     case LocalizationStatus::kTooFewEdges:

@@ -104,6 +104,7 @@ void recordEnd(const Localizer& localizer, LocalizationTrace& trace) {
   const Workspace& workspace = localizer.workspace();
   trace.support = workspace.support;
   trace.attempts = workspace.attempts;
+  trace.rivals.assign(workspace.rivals.begin(), workspace.rivals.end());
   trace.status = workspace.status;
   trace.fault = workspace.fault;
   trace.camera_from_station = workspace.camera_from_station;

@@ -16,6 +16,7 @@ void copyHead(const From& from, To& to) {
   to.camera_from_station_seed = from.camera_from_station_seed;
   to.uncertainty = from.uncertainty;
   to.attempts = from.attempts;
+  to.rivals = from.rivals;
   to.support = from.support;
   to.status = from.status;
   to.fault = from.fault;

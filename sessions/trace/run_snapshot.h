@@ -26,6 +26,7 @@ struct RunSnapshot {
   bool finished = false;
   Stage stage = Stage::kEdges;  ///< the last one that was worked on
   std::int32_t attempts = 1;
+  std::vector<Rival> rivals;
   EdgeSupport support;
   LocalizationStatus status = LocalizationStatus::kRunning;
   Status fault = Status::kOk;

@@ -85,6 +85,7 @@ void SteppedRun::finish() {
   snapshot_.finished = true;
   snapshot_.support = workspace.support;
   snapshot_.attempts = workspace.attempts;
+  snapshot_.rivals.assign(workspace.rivals.begin(), workspace.rivals.end());
   snapshot_.status = workspace.status;
   snapshot_.fault = workspace.fault;
   snapshot_.camera_from_station = workspace.camera_from_station;

@@ -155,6 +155,7 @@ struct LocalizationTrace {
   EdgeMapTrace edges;
   std::vector<IterationTrace> iterations;  ///< of all attempts
   std::int32_t attempts = 1;
+  std::vector<Rival> rivals;  ///< with ambiguity.enabled, about the pose that converged
   EdgeSupport support;
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< kRunning: it was stopped
   Status fault = Status::kOk;

@@ -16,6 +16,8 @@ namespace boresight::sessions {
 /// The trace's format before options were added; each round of them has the next.
 inline constexpr std::uint32_t kFormatBeforeRounds = 3;
 inline constexpr std::uint32_t kFormatOfWideSearch = 4;
+/// The one that brought rivals and the options about them.
+inline constexpr std::uint32_t kFormatOfRivals = 5;
 
 template <class Self, class Record>
 concept Is = std::same_as<std::remove_const_t<Self>, Record>;
@@ -186,6 +188,16 @@ void fields(Archive& archive, Self& support) {
           displaced_explained);
 }
 
+template <class Archive, Is<Rival> Self>
+void fields(Archive& archive, Self& rival) {
+  auto& [camera_from_station_before, camera_from_station, similarity, ended, margin_nats] = rival;
+  fields(archive, camera_from_station_before);
+  fields(archive, camera_from_station);
+  archive.number(similarity);
+  archive.choice(ended, kLastLocalizationStatus);
+  archive.number(margin_nats);
+}
+
 template <class Archive, Is<IterationTrace> Self>
 void matchingFields(Archive& archive, Self& iteration) {
   archive.list(iteration.templates, [&](auto& item) { fields(archive, item); });
@@ -217,7 +229,7 @@ void fields(Archive& archive, Self& iteration) {
   archive.choice(iteration.kind, IterationKind::kRefine);
   archive.number(iteration.level);
   archive.choice(iteration.reached, Stage::kFinished);
-  archive.choice(iteration.status, LocalizationStatus::kFault);
+  archive.choice(iteration.status, kLastLocalizationStatus);
   archive.number(iteration.threshold_px);
   fields(archive, iteration.camera_from_station_before);
   fields(archive, iteration.uncertainty);
@@ -276,8 +288,10 @@ void fields(Archive& archive, Self& trace) {
   fields(archive, trace.edges);
   archive.list(trace.iterations, [&](auto& iteration) { fields(archive, iteration); });
   archive.number(trace.attempts);
+  if (archive.has(kFormatOfRivals))
+    archive.list(trace.rivals, [&](auto& rival) { fields(archive, rival); });
   fields(archive, trace.support);
-  archive.choice(trace.status, LocalizationStatus::kFault);
+  archive.choice(trace.status, kLastLocalizationStatus);
   archive.choice(trace.fault, Status::kNoConsensus);
   fields(archive, trace.camera_from_station);
   vectorFields(archive, trace.covariance);

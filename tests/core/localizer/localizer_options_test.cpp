@@ -58,10 +58,12 @@ TEST(LocalizerOptions, EveryFieldIsVisited) {
   expectEveryFieldVisited<RefinementOptions>("refinement");
   expectEveryFieldVisited<SupportOptions>("support");
   expectEveryFieldVisited<WideOptions>("wide");
+  expectEveryFieldVisited<AmbiguityOptions>("ambiguity");
   const int parts = extentOf<EdgeOptions>().count + extentOf<RenderOptions>().count +
                     extentOf<TemplateOptions>().count + extentOf<PnpOptions>().count +
                     extentOf<LoopOptions>().count + extentOf<RefinementOptions>().count +
-                    extentOf<SupportOptions>().count + extentOf<WideOptions>().count;
+                    extentOf<SupportOptions>().count + extentOf<WideOptions>().count +
+                    extentOf<AmbiguityOptions>().count;
   EXPECT_EQ(extentOf<LocalizerOptions>().count, parts);
 }
 

@@ -82,6 +82,23 @@ TEST(Explanation, GivesTheShareOfSupportedEdges) {
                     HasSubstr("20.0 % of the edges seen")));
 }
 
+TEST(Explanation, SaysHowFarTheRivalOfAnAmbiguousRunIs) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kAmbiguous);
+  trace.rivals.resize(3);
+  for (Rival& rival : trace.rivals) {
+    rival.camera_from_station = trace.iterations.back().camera_from_station;
+    rival.camera_from_station.translation_m.x() += 0.02;
+    rival.ended = LocalizationStatus::kConverged;
+    rival.margin_nats = 5.5;
+  }
+  trace.rivals[1].camera_from_station.translation_m.x() += 0.02;
+  trace.rivals[1].margin_nats = 2.5;
+  trace.rivals[2].ended = LocalizationStatus::kNotSupported;
+  trace.rivals[2].margin_nats = 0.0;
+  EXPECT_THAT(explanation(trace), HasSubstr("a pose 40.0 mm away, turned by 0.00 deg"));
+  EXPECT_THAT(explanation(trace), HasSubstr("2.5 nats less evidence, needed 10.0"));
+}
+
 TEST(Explanation, BlamesAnImageWithoutEdges) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kPnpFailed);
   trace.edges.edge_count = 0;

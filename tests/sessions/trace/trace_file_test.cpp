@@ -92,6 +92,19 @@ TEST(TraceFile, ReadsTheVersionBeforeTheWideSearch) {
   EXPECT_EQ(bytesOf(loadTrace(folder / "old.trace")), bytesOf(exampleTrace()));
 }
 
+TEST(TraceFile, ReadsTheVersionBeforeRivals) {
+  const test::TemporaryFolder folder;
+  saveTrace(folder / "run.trace", exampleTrace());
+  std::string bytes = folder.read("run.trace").substr(0, kHeaderBytes);
+  bytes[11] = 4;
+  const std::vector<std::uint8_t> payload = bytesOf(exampleTrace(), 4);
+  bytes.append(payload.begin(), payload.end()).append(4, '\0');  // no changes
+  EXPECT_EQ(bytes.find("ambiguity."), std::string::npos);
+  EXPECT_NE(bytes.find("wide."), std::string::npos);
+  folder.write("old.trace", sealed(bytes));
+  EXPECT_EQ(bytesOf(loadTrace(folder / "old.trace")), bytesOf(exampleTrace()));
+}
+
 TEST(TraceFile, GivesBackEveryFieldExactly) {
   const test::TemporaryFolder folder;
   saveTrace(folder / "run.trace", exampleTrace());
@@ -115,6 +128,26 @@ TEST(TraceFile, GivesBackEveryFieldExactly) {
   EXPECT_EQ(first.pnp.residual_px, expected.pnp.residual_px);
   EXPECT_EQ(loaded.iterations.back().refinement.samples.back().residual_px,
             trace.iterations.back().refinement.samples.back().residual_px);
+}
+
+TEST(TraceFile, GivesBackRivals) {
+  const test::TemporaryFolder folder;
+  LocalizationTrace trace = exampleTrace();
+  trace.status = LocalizationStatus::kAmbiguous;
+  trace.rivals.resize(2);
+  trace.rivals[1].camera_from_station.translation_m = {0.1, 0.2, 0.3};
+  trace.rivals[1].similarity = 0.6;
+  trace.rivals[1].ended = LocalizationStatus::kAmbiguous;
+  trace.rivals[1].margin_nats = 3.5;
+  saveTrace(folder / "run.trace", trace);
+  const LocalizationTrace loaded = loadTrace(folder / "run.trace");
+  EXPECT_EQ(loaded.status, LocalizationStatus::kAmbiguous);
+  ASSERT_EQ(loaded.rivals.size(), 2u);
+  const Rival& rival = loaded.rivals[1];
+  EXPECT_EQ(rival.camera_from_station, trace.rivals[1].camera_from_station);
+  EXPECT_EQ(rival.similarity, 0.6);
+  EXPECT_EQ(rival.ended, LocalizationStatus::kAmbiguous);
+  EXPECT_EQ(rival.margin_nats, 3.5);
 }
 
 TEST(TraceFile, KeepsAnEmptyTrace) {
