@@ -85,7 +85,7 @@ def render(frame, folder):
 
 
 def render_station_alone(frame, folder):
-    """Where the station would be seen if nothing stood before it: true where it is hit."""
+    """Index of the object hit by each pixel, [row, column], if nothing stood before the station."""
     others = [o for o in bpy.context.scene.objects
               if o.type == "MESH" and o.pass_index != assembly.STATION_INDEX]
     cycles = bpy.context.scene.cycles

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "sessions/evaluation/requirement_share.h"
 #include "sessions/evaluation/results_file.h"
@@ -86,6 +88,21 @@ std::string meshNote(const MethodFacts& method) {
   return method.mirror.empty() ? "" : "WRONG mesh mirrored across " + method.mirror;
 }
 
+std::vector<Failure> failuresOfFile(const std::filesystem::path& file,
+                                    const ResultsFilter& filter) {
+  const ResultsFacts facts = readResultsFacts(file);
+  std::map<std::string, std::string> notes;
+  for (const MethodFacts& method : facts.methods) notes[method.method] = meshNote(method);
+  std::vector<Failure> failures;
+  forEachRun(file, [&](const RunResult& run) {
+    const bool failed = !run.completed || run.success == false || run.false_positive;
+    if (failed && filter.takes(run))
+      failures.push_back({run, facts.dataset.dataset, notes[run.method]});
+  });
+  for (Failure& failure : failures) failure.run.steps = readSteps(file, failure.run);
+  return failures;
+}
+
 }  // namespace
 
 const RunStep* nearestStep(const RunResult& run) {
@@ -121,16 +138,8 @@ std::vector<Failure> failuresOf(const std::vector<std::filesystem::path>& files,
                                 const ResultsFilter& filter) {
   std::vector<Failure> failures;
   for (const std::filesystem::path& file : files) {
-    const ResultsFacts facts = readResultsFacts(file);
-    std::map<std::string, std::string> notes;
-    for (const MethodFacts& method : facts.methods) notes[method.method] = meshNote(method);
-    forEachRun(file, [&](const RunResult& run) {
-      const bool failed = !run.completed || run.success == false || run.false_positive;
-      if (failed && filter.takes(run))
-        failures.push_back({run, facts.dataset.dataset, notes[run.method]});
-    });
-    for (Failure& failure : failures)
-      if (failure.run.steps.empty()) failure.run.steps = readSteps(file, failure.run);
+    std::vector<Failure> found = failuresOfFile(file, filter);
+    std::move(found.begin(), found.end(), std::back_inserter(failures));
   }
   return failures;
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -48,9 +49,10 @@ class ArchiveWriter {
   void require(bool /*holds*/, const char* /*reason*/) const {}
 
   std::vector<std::uint8_t>& bytes() { return bytes_; }
-  /// Whether the format is one before 4, which knows nothing of the wide search and of the
-  /// covariance's model.
-  static constexpr bool precedesWideSearch() { return false; }
+
+  /// Whether the format has what came with this version of it; by itself it is the newest.
+  bool has(std::uint32_t version) const { return format_ >= version; }
+  void setFormat(std::uint32_t version) { format_ = version; }
 
  private:
   template <class U>
@@ -60,6 +62,7 @@ class ArchiveWriter {
   }
 
   std::vector<std::uint8_t> bytes_;
+  std::uint32_t format_ = std::numeric_limits<std::uint32_t>::max();
 };
 
 /// Reads what ArchiveWriter wrote; throws InputError where bytes are missing or impossible. A list
@@ -69,8 +72,8 @@ class ArchiveReader {
   ArchiveReader(std::filesystem::path file, std::span<const std::uint8_t> bytes)
       : file_(std::move(file)), bytes_(bytes) {}
 
-  bool precedesWideSearch() const { return precedes_wide_search_; }
-  void setPrecedesWideSearch(bool precedes) { precedes_wide_search_ = precedes; }
+  bool has(std::uint32_t version) const { return format_ >= version; }
+  void setFormat(std::uint32_t version) { format_ = version; }
 
   template <class T>
   void number(T& value) {
@@ -121,10 +124,10 @@ class ArchiveReader {
     return static_cast<U>(value);
   }
 
-  bool precedes_wide_search_ = false;
   std::filesystem::path file_;
   std::span<const std::uint8_t> bytes_;
   std::size_t place_ = 0;
+  std::uint32_t format_ = std::numeric_limits<std::uint32_t>::max();
 };
 
 }  // namespace boresight::sessions

@@ -6,11 +6,15 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <type_traits>
 
 #include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
+
+/// The trace's format that brought restarts and the options that came with them.
+inline constexpr std::uint32_t kFormatOfWideSearch = 4;
 
 template <class Self, class Record>
 concept Is = std::same_as<std::remove_const_t<Self>, Record>;
@@ -163,7 +167,7 @@ void fields(Archive& archive, Self& hypothesis) {
   numbers(archive, roll_rad, templates, matches, inliers, cost);
   fields(archive, camera_from_station);
   archive.number(solved);
-  if (!archive.precedesWideSearch())
+  if (archive.has(kFormatOfWideSearch))
     numbers(archive, depth_offset_m, support, inlier_nats, edge_nats);
 }
 
@@ -222,7 +226,7 @@ void fields(Archive& archive, Self& iteration) {
   fields(archive, iteration.refinement);
   archive.list(iteration.hypotheses, [&](auto& hypothesis) { fields(archive, hypothesis); });
   archive.number(iteration.chosen_hypothesis);
-  if (!archive.precedesWideSearch()) archive.number(iteration.wide);
+  if (archive.has(kFormatOfWideSearch)) archive.number(iteration.wide);
   fields(archive, iteration.camera_from_station);
   archive.number(iteration.correction_translation_m);
   archive.number(iteration.correction_rotation_rad);
@@ -233,7 +237,7 @@ void fields(Archive& archive, Self& iteration) {
 template <class Archive, Is<LocalizerOptions> Self>
 void fields(Archive& archive, Self& options) {
   LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
-    if (archive.precedesWideSearch() && LocalizerOptions::cameLater(info)) return;
+    if (!archive.has(kFormatOfWideSearch) && LocalizerOptions::cameLater(info)) return;
     std::string name = info.name;
     archive.text(name);
     archive.require(name == info.name, "an option that this version does not know");

@@ -16,7 +16,6 @@ namespace {
 
 constexpr std::string_view kMagic = "BSTRACE\n";
 constexpr std::uint32_t kFormatVersion = 4;
-constexpr std::uint32_t kVersionWithoutWideSearch = 3;
 constexpr std::uint32_t kVersionWithoutChanges = 2;
 constexpr std::size_t kHeaderBytes = 8 + 4 + 8;
 constexpr std::size_t kChecksumBytes = 32;
@@ -66,7 +65,7 @@ LocalizationTrace loadTrace(const std::filesystem::path& file) {
   if (!std::equal(sum.begin(), sum.end(), bytes.end() - kChecksumBytes))
     throw InputError(file, "checksum", "the file was altered or damaged");
   ArchiveReader payload(file, all.subspan(kHeaderBytes, static_cast<std::size_t>(length)));
-  payload.setPrecedesWideSearch(version <= kVersionWithoutWideSearch);
+  payload.setFormat(version);
   LocalizationTrace trace;
   fields(payload, trace);
   if (version != kVersionWithoutChanges) changeFields(payload, trace);

@@ -56,10 +56,11 @@ TEST(LocalizerOptions, EveryFieldIsVisited) {
   expectEveryFieldVisited<LoopOptions>("loop");
   expectEveryFieldVisited<RefinementOptions>("refinement");
   expectEveryFieldVisited<SupportOptions>("support");
+  expectEveryFieldVisited<WideOptions>("wide");
   const int parts = extentOf<EdgeOptions>().count + extentOf<RenderOptions>().count +
                     extentOf<TemplateOptions>().count + extentOf<PnpOptions>().count +
                     extentOf<LoopOptions>().count + extentOf<RefinementOptions>().count +
-                    extentOf<SupportOptions>().count;
+                    extentOf<SupportOptions>().count + extentOf<WideOptions>().count;
   EXPECT_EQ(extentOf<LocalizerOptions>().count, parts);
 }
 

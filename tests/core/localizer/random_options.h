@@ -51,6 +51,7 @@ inline LocalizerOptions randomOptions(Random& random) {
   });
   options.edges.aperture_px |= 1;
   options.loop.max_iterations = std::min(options.loop.max_iterations, 6);
+  options.wide.max_restarts = std::min(options.wide.max_restarts, 12);
   return options;
 }
 

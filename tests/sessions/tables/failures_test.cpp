@@ -122,6 +122,24 @@ TEST_F(FailuresOfExample, AreReadWithTheirIterations) {
   EXPECT_TRUE(failuresOf({file_}, {.methods = {"ncc"}}).empty());
 }
 
+TEST_F(FailuresOfExample, ARunWithoutIterationsDoesNotTakeThoseOfAnotherFile) {
+  const std::filesystem::path unread = folder_ / "unread.sqlite";
+  {
+    ResultsWriter writer(unread, DatasetFacts{});
+    writer.admit(methodFacts("whs", "default", LocalizerOptions{}));
+    writer.begin(Sitting{});
+    RunResult run = runs_.front();
+    run.status = "input_error";
+    run.steps.clear();
+    writer.add(run);
+  }
+  const std::vector<Failure> failures = failuresOf({unread, file_});
+  ASSERT_EQ(failures.size(), 1 + runs_.size());
+  EXPECT_EQ(failures.front().run.status, "input_error");
+  EXPECT_TRUE(failures.front().run.steps.empty());
+  EXPECT_FALSE(failures.back().run.steps.empty());
+}
+
 int pixelsOf(const cv::Mat& image, const ColorBgr& color) {
   cv::Mat found;
   const cv::Scalar bgr(color[0], color[1], color[2]);

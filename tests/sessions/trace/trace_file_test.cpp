@@ -33,8 +33,9 @@ const LocalizationTrace& exampleTrace() {
 }
 
 /// All fields as bytes: equal bytes, equal traces.
-std::vector<std::uint8_t> bytesOf(const LocalizationTrace& trace) {
+std::vector<std::uint8_t> bytesOf(const LocalizationTrace& trace, std::uint32_t format = ~0U) {
   ArchiveWriter writer;
+  writer.setFormat(format);
   fields(writer, trace);
   return writer.bytes();
 }
@@ -69,13 +70,26 @@ TEST(TraceFile, GivesBackTheOptionsTakenUpOnTheWay) {
 TEST(TraceFile, ReadsTheVersionBeforeTheChanges) {
   const test::TemporaryFolder folder;
   saveTrace(folder / "run.trace", exampleTrace());
-  std::string bytes = folder.read("run.trace");
-  bytes.resize(bytes.size() - kChecksumBytes - 4);  // without the count of changes
+  std::string bytes = folder.read("run.trace").substr(0, kHeaderBytes);
   bytes[11] = 2;
-  folder.write("old.trace", sealed(bytes));
+  const std::vector<std::uint8_t> payload = bytesOf(exampleTrace(), 2);  // no count of changes
+  folder.write("old.trace", sealed(bytes.append(payload.begin(), payload.end())));
   const LocalizationTrace loaded = loadTrace(folder / "old.trace");
   EXPECT_EQ(bytesOf(loaded), bytesOf(exampleTrace()));
   EXPECT_TRUE(loaded.changes.empty());
+}
+
+/// Format 3 as it was written: options by name, none of the later ones among them.
+TEST(TraceFile, ReadsTheVersionBeforeTheWideSearch) {
+  const test::TemporaryFolder folder;
+  saveTrace(folder / "run.trace", exampleTrace());
+  std::string bytes = folder.read("run.trace").substr(0, kHeaderBytes);
+  bytes[11] = 3;
+  const std::vector<std::uint8_t> payload = bytesOf(exampleTrace(), 3);
+  bytes.append(payload.begin(), payload.end()).append(4, '\0');  // no changes
+  EXPECT_EQ(bytes.find("wide."), std::string::npos);
+  folder.write("old.trace", sealed(bytes));
+  EXPECT_EQ(bytesOf(loadTrace(folder / "old.trace")), bytesOf(exampleTrace()));
 }
 
 TEST(TraceFile, GivesBackEveryFieldExactly) {

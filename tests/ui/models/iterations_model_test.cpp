@@ -59,7 +59,7 @@ TEST_F(IterationsModelTest, SaysWhichHypothesisAnIterationWentOnWith) {
   auto snapshot = std::make_shared<sessions::RunSnapshot>(*run_);
   auto wide = std::make_shared<sessions::IterationTrace>(*snapshot->iterations.front());
   wide->wide = true;
-  wide->hypotheses.resize(2);
+  wide->hypotheses.assign(2, HypothesisSummary{});
   wide->hypotheses[1].roll_rad = -40.0 * kDegree_rad;
   wide->hypotheses[1].depth_offset_m = 0.025;
   wide->hypotheses[1].solved = true;
