@@ -149,6 +149,8 @@ void ViewLink::measureSupport() {
   localizer_->link_.need = ViewNeed::kNothing;
 }
 
+void ViewLink::rest() { localizer_->link_.need = ViewNeed::kPlace; }
+
 StepReport ViewLink::conclude(SupportVerdict verdict) {
   Localizer& view = *localizer_;
   view.link_.need = ViewNeed::kNothing;

@@ -55,6 +55,8 @@ class ViewLink {
   StepReport finishRound(Status status, bool ends);
 
   void measureSupport();
+  /// A follower, until the next place.
+  void rest();
   StepReport conclude(SupportVerdict verdict);
 
  private:
