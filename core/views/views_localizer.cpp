@@ -50,7 +50,7 @@ void ViewsLocalizer::layOut(const ViewsProblem& problem, const LocalizerOptions&
 }
 
 Status ViewsLocalizer::requiredBytes(const ViewsProblem& problem, const LocalizerOptions& options,
-                                     std::size_t& bytes) {
+                                     Kernels kernels, std::size_t& bytes) {
   const Status status = validate(problem, options);
   if (status != Status::kOk) return status;
   Arena counter;
@@ -63,7 +63,7 @@ Status ViewsLocalizer::requiredBytes(const ViewsProblem& problem, const Localize
     one.camera = view.camera;
     one.mesh = problem.mesh;
     std::size_t own = 0;
-    const Status sized = Localizer::requiredBytes(sizeOf(one), options, own);
+    const Status sized = Localizer::requiredBytes(sizeOf(one), options, 1, own, kernels);
     if (sized != Status::kOk) return sized;
     bytes += (own + Arena::kAlignment - 1) / Arena::kAlignment * Arena::kAlignment;
   }
@@ -86,7 +86,7 @@ ViewsLocalizer::ViewsLocalizer(const ViewsProblem& problem, const LocalizerOptio
                                std::span<std::byte> memory, Kernels kernels)
     : problem_(problem), options_(options) {
   std::size_t needed = 0;
-  status_ = requiredBytes(problem, options, needed);
+  status_ = requiredBytes(problem, options, kernels, needed);
   if (status_ == Status::kOk && memory.size() < needed) status_ = Status::kArenaTooSmall;
   result_.rig_from_station = problem.rig_from_station_seed;
   if (status_ != Status::kOk) return;
@@ -95,7 +95,7 @@ ViewsLocalizer::ViewsLocalizer(const ViewsProblem& problem, const LocalizerOptio
   for (std::size_t v = 0; v < views_.size() && status_ == Status::kOk; ++v) {
     const LocalizationProblem own = problemOf(v);
     std::size_t bytes = 0;
-    status_ = Localizer::requiredBytes(sizeOf(own), options_, bytes);
+    status_ = Localizer::requiredBytes(sizeOf(own), options_, 1, bytes, kernels);
     if (status_ != Status::kOk) return;
     views_[v].camera_from_first =
         problem_.views[v].camera_from_rig * problem_.views[0].camera_from_rig.inverse();

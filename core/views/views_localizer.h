@@ -40,7 +40,11 @@ class ViewsLocalizer {
   /// Bytes of arena, in a block aligned to Arena::kAlignment: the sum of what each view's localizer
   /// asks for, and some ten kB a view.
   static Status requiredBytes(const ViewsProblem& problem, const LocalizerOptions& options,
-                              std::size_t& bytes);
+                              std::size_t& bytes) {
+    return requiredBytes(problem, options, Kernels::kPortable, bytes);
+  }
+  static Status requiredBytes(const ViewsProblem& problem, const LocalizerOptions& options,
+                              Kernels kernels, std::size_t& bytes);
 
   /// As Localizer's constructor. kCapacityExceeded: no view, or more than kMaxViews.
   ViewsLocalizer(const ViewsProblem& problem, const LocalizerOptions& options,
