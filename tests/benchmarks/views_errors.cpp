@@ -3,10 +3,11 @@
 // one view black, half covered or over-exposed. Prints errors at the views' own cameras (figures of
 // core/beyond.md), after every rig anew.
 //
-//   views_errors DATASET
+//   views_errors DATASET [N]   views are spoiled in every Nth rig only; 0: in none
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <map>
@@ -66,13 +67,17 @@ void spoil(sessions::GrayImage& image, Spoil how) {
   }
 }
 
-void runRig(const RigViews& rig, std::map<std::string, Row>& rows) {
+void runWhole(const RigViews& rig, std::map<std::string, Row>& rows) {
   const LocalizerOptions options = defaultProfile();
   for (std::size_t v = 0; v < rig.cases.size(); ++v) {
     const RigViews one = alone(rig, v);
     noteRun(one, sessions::localizeViews(one, options), rows["0 each view alone"]);
   }
   noteRun(rig, sessions::localizeViews(rig, options), rows["1 together"]);
+}
+
+void runSpoiled(const RigViews& rig, std::map<std::string, Row>& rows) {
+  const LocalizerOptions options = defaultProfile();
   const char* const names[] = {"black", "half covered", "over-exposed"};
   for (int how = 0; how < 3; ++how) {
     for (std::size_t v = 0; v < rig.cases.size(); ++v) {
@@ -108,11 +113,14 @@ void print(const std::map<std::string, Row>& rows) {
   std::cout << std::endl;
 }
 
-int run(const std::string& file) {
+int run(const std::string& file, int every) {
   const sessions::Dataset dataset = sessions::readDataset(file);
   std::map<std::string, Row> rows;
+  int index = 0;
   for (const std::string& id : sessions::rigIds(dataset)) {
-    runRig(sessions::readRigViews(dataset, id), rows);
+    const RigViews rig = sessions::readRigViews(dataset, id);
+    runWhole(rig, rows);
+    if (every > 0 && index++ % every == 0) runSpoiled(rig, rows);
     std::cout << "up to " << id << "\n\n";
     print(rows);
   }
@@ -123,12 +131,12 @@ int run(const std::string& file) {
 }  // namespace boresight::test
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::cerr << "usage: views_errors DATASET\n";
+  if (argc < 2 || argc > 3) {
+    std::cerr << "usage: views_errors DATASET [N]\n";
     return 2;
   }
   try {
-    return boresight::test::run(argv[1]);
+    return boresight::test::run(argv[1], argc > 2 ? std::atoi(argv[2]) : 1);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return 3;
