@@ -28,6 +28,7 @@ void addCheck(CLI::App& app, int& exit_code);
 void addDecide(CLI::App& app, int& exit_code);
 void addReport(CLI::App& app, int& exit_code);
 void addVerify(CLI::App& app, int& exit_code);
+void addViews(CLI::App& app, int& exit_code);
 void addQueue(CLI::App& app, int& exit_code);
 void addSolve(CLI::App& app, int& exit_code);
 void addRender(CLI::App& app, int& exit_code);

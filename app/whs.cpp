@@ -30,6 +30,7 @@ int run(int argc, char** argv) {
   addCheck(app, exit_code);
   addDecide(app, exit_code);
   addVerify(app, exit_code);
+  addViews(app, exit_code);
   addReport(app, exit_code);
   addQueue(app, exit_code);
   addSolve(app, exit_code);

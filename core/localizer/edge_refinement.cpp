@@ -128,8 +128,20 @@ Status EdgeRefinement::step(bool& done) {
 }
 
 Status EdgeRefinement::finishRound(bool& done) {
+  NormalEquations found;
+  bool settled = false;
+  done = true;
+  Status status = gather(found);
+  if (status == Status::kOk) status = advance(found, settled);
+  done = settled || roundsAreOver() || status != Status::kOk;
+  return status;
+}
+
+Status EdgeRefinement::gather(NormalEquations& made) {
   RefinementResult& result = *result_;
   const bool search = searches();
+  ++round_;
+  motion_ = Matrix6d::Zero();
   if (search) {
     moved_px_ = 0.0;
     result.found_count = 0;
@@ -137,14 +149,20 @@ Status EdgeRefinement::finishRound(bool& done) {
       if (result.samples[static_cast<std::size_t>(i)].gradient != 0.0) ++result.found_count;
     }
   }
-  done = true;
   if (result.found_count < options_.min_found) return Status::kTooFewEdges;
   if (search) scale_px_ = robustScale();
-  ++round_;
-  bool settled = false;
-  const Status status = solve(settled);
-  done = settled || round_ >= options_.rounds || status != Status::kOk;
-  return status;
+  double weights = 0.0;
+  made = weightedEquations(weights);
+  if (result.used_count < options_.min_found) return Status::kTooFewEdges;
+  const double variance_px2 = made.squares / weights;
+  result.rms_px = std::sqrt(variance_px2);
+  motion_ = made.information / weights;
+  // Neighbouring places share their errors: each counts for less than one measurement.
+  const double noise_px2 =
+      std::max(variance_px2, kMinScale_px * kMinScale_px) * options_.covariance_inflation;
+  made.information /= noise_px2;
+  made.gradient /= noise_px2;
+  return Status::kOk;
 }
 
 void EdgeRefinement::searchChunk(int chunk) {
@@ -166,19 +184,8 @@ void EdgeRefinement::searchChunk(int chunk) {
   }
 }
 
-Status EdgeRefinement::solve(bool& settled) {
+Status EdgeRefinement::advance(NormalEquations equations, bool& settled) {
   RefinementResult& result = *result_;
-  double weights = 0.0;
-  NormalEquations equations = weightedEquations(weights);
-  if (result.used_count < options_.min_found) return Status::kTooFewEdges;
-  const double variance_px2 = equations.squares / weights;
-  result.rms_px = std::sqrt(variance_px2);
-  const Matrix6d motion = equations.information / weights;  // xi' motion xi: mean square, px^2
-  // Neighbouring places share their errors: each counts for less than one measurement.
-  const double noise_px2 =
-      std::max(variance_px2, kMinScale_px * kMinScale_px) * options_.covariance_inflation;
-  equations.information /= noise_px2;
-  equations.gradient /= noise_px2;
   const bool determined = invert(equations.information, result.covariance);
   if (determined && options_.covariance == CovarianceModel::kGrouped) {
     Matrix6d grouped;  // stays the inflated one where the groups do not give any
@@ -188,15 +195,25 @@ Status EdgeRefinement::solve(bool& settled) {
   // What the edges alone leave open is known as well as it was before.
   if (!determined && !invert(equations.information, result.covariance)) return Status::kDegenerate;
   Vector6d xi;
-  if (!boresight::solve(equations, 0.0, xi)) return Status::kDegenerate;
+  if (!solve(equations, 0.0, xi)) return Status::kDegenerate;
   Pose moved = perturbed(xi, result.camera_from_station);
   moved.rotation.normalize();
   if (!moved.isFinite()) return Status::kDegenerate;
   result.camera_from_station = moved;
-  const double step_px = std::sqrt(std::max(0.0, quadraticForm(motion, xi)));
-  moved_px_ += step_px;
-  settled = step_px < kSettled_px;
+  settled = noteMove(xi);
   return Status::kOk;
+}
+
+bool EdgeRefinement::moveTo(const Pose& camera_from_station) {
+  const Vector6d xi = perturbationBetween(result_->camera_from_station, camera_from_station);
+  result_->camera_from_station = camera_from_station;
+  return noteMove(xi);
+}
+
+bool EdgeRefinement::noteMove(const Vector6d& xi) {
+  const double step_px = std::sqrt(std::max(0.0, quadraticForm(motion_, xi)));
+  moved_px_ += step_px;
+  return step_px < kSettled_px;
 }
 
 /// The seed's uncertainty and the matched pose: weak beside thousands of edges, but where the edges

@@ -161,13 +161,28 @@ class EdgeRefinement {
   /// A whole round.
   Status step(bool& done);
 
+  // finishRound() in parts, for those who refine several views as one (core/views). A round is
+  // then: searchChunk() of every chunk, gather(), and either advance() by the sum of all views'
+  // equations, or moveTo() where that led.
+
+  /// Ends the search: what the edges found say of the pose, H and g in px / px of noise (the factor
+  /// for what neighbours share included). kTooFewEdges when too little is found.
+  Status gather(NormalEquations& made);
+  /// Moves the pose to what solves `equations` together with anchor and matched pose, and gives its
+  /// covariance. kDegenerate when they do not fix it.
+  Status advance(NormalEquations equations, bool& settled);
+  /// Takes a pose from elsewhere; whether that hardly moved what is seen.
+  bool moveTo(const Pose& camera_from_station);
+  /// Whether this was the last round that the options allow.
+  bool roundsAreOver() const { return round_ >= options_.rounds; }
+
  private:
   static constexpr std::int32_t kChunk = 256;
   void takeSamples(const MeshView& mesh, const EdgeRender& render);
   bool searches() const { return round_ == 0 || moved_px_ > options_.search_again_px; }
   double robustScale();
   void addKnowledge(NormalEquations& equations) const;
-  Status solve(bool& settled);
+  bool noteMove(const Vector6d& xi);
   NormalEquations weightedEquations(double& weights);
   void noteGroups(const EdgeSample& sample, const Eigen::Vector2d& pixel, const Vector6d& row,
                   double ratio);
@@ -188,6 +203,7 @@ class EdgeRefinement {
   RefinementResult* result_ = nullptr;
   EdgeSearch search_;
   ErrorGroups groups_;
+  Matrix6d motion_ = Matrix6d::Zero();     ///< xi' motion xi: mean square along the normals, px^2
   Matrix6d curvature_ = Matrix6d::Zero();  ///< of half of the robust cost; the lower triangle
   Eigen::AlignedBox2d box_px_;             ///< of the edge places where they begin
   std::span<float> absolute_residuals_;

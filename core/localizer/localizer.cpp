@@ -13,6 +13,7 @@
 namespace boresight {
 StepReport Localizer::step() {
   if (status_ != Status::kOk && stage_ != Stage::kFinished) return faulted(stage_, status_);
+  if (link_.need != ViewNeed::kNothing) return StepReport::of(stage_, false);
   if (iteration_pending_) startIteration();
   if (hypothesis_pending_) startHypothesis();
   switch (stage_) {
@@ -104,7 +105,9 @@ void Localizer::placeIteration(Iteration& now) {
   now.kind = isRefinement(options_, iteration_) ? IterationKind::kRefine : IterationKind::kMatch;
   now.level = now.kind == IterationKind::kMatch && iteration_ == 0 ? coarse_level_ : fine_level_;
   now.camera_from_station_before = camera_from_station_;
-  now.uncertainty = uncertaintyAt(started_, options_.loop, iteration_, camera_from_station_);
+  now.uncertainty = link_.role == ViewRole::kFollows
+                        ? link_.uncertainty
+                        : uncertaintyAt(started_, options_.loop, iteration_, camera_from_station_);
   now.threshold_px = thresholdAt(options_, iteration_, now.level);
   if (!canReuseRender(now)) {
     now.render = now.level == coarse_level_ ? coarse_render_[static_cast<std::size_t>(current_)]
@@ -147,6 +150,7 @@ void Localizer::noteHypothesis() {
 StepReport Localizer::failHypothesis(Stage stage, LocalizationStatus status) {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   now.status = status;
+  if (link_.role != ViewRole::kAlone) return leaveToOthers(stage, status);
   if (now.kind == IterationKind::kRefine) return fail(stage, status);
   now.pnp.inlier_count = 0;
   now.pnp.camera_from_station = camera_from_station_;
@@ -160,13 +164,16 @@ StepReport Localizer::finishHypothesis(Stage stage) {
   const int other = 1 - current_;
   const Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   const Iteration& best = buffers_[static_cast<std::size_t>(other)];
-  const bool better = !has_best_ || now.pnp.inlier_count > best.pnp.inlier_count;
+  Agreement& agreement = agreement_[static_cast<std::size_t>(current_)];
+  if (link_.role == ViewRole::kAlone) agreement = {now.pnp.inlier_count, now.correspondence_count};
+  const bool better =
+      !has_best_ || agreement.inliers > agreement_[static_cast<std::size_t>(other)].inliers;
   buffers_[static_cast<std::size_t>(better ? current_ : other)].chosen_hypothesis =
       better ? hypothesis_ : best.chosen_hypothesis;
   const int kept = better ? current_ : other;
   ++hypothesis_;
   const int wanted = iteration_ == 0 ? rolledHypotheses(options_.loop, started_.uncertainty) : 1;
-  if (hypothesis_ < wanted && !isConvincing(buffers_[static_cast<std::size_t>(kept)])) {
+  if (hypothesis_ < wanted && !isConvincing(kept)) {
     has_best_ = true;
     current_ = 1 - kept;
     // Started by the next step: until then the caller sees the hypothesis that has ended.
@@ -182,10 +189,11 @@ StepReport Localizer::finishHypothesis(Stage stage) {
 }
 
 /// So many matches agree by chance with no pose. A further attempt looks at every roll.
-bool Localizer::isConvincing(const Iteration& iteration) const {
-  return attempt_ == 0 && iteration.status == LocalizationStatus::kRunning &&
-         iteration.pnp.inlier_count >=
-             options_.loop.enough_inliers * iteration.correspondence_count;
+bool Localizer::isConvincing(int buffer) const {
+  const auto index = static_cast<std::size_t>(buffer);
+  return attempt_ == 0 && buffers_[index].status == LocalizationStatus::kRunning &&
+         agreement_[index].inliers >=
+             options_.loop.enough_inliers * agreement_[index].correspondences;
 }
 
 StepReport Localizer::finishIteration(Stage stage, const Pose& camera_from_station,

@@ -8,6 +8,7 @@
 
 #include "core/base/digest.h"
 #include "core/base/kernels.h"
+#include "core/localizer/linked_view.h"
 #include "core/localizer/localizer_options.h"
 #include "core/localizer/problem.h"
 #include "core/localizer/rival.h"
@@ -151,6 +152,8 @@ class Localizer {
   std::array<std::uint8_t, 32> digest() const { return digest_.digest(); }
 
  private:
+  friend class ViewLink;
+
   void begin();
   Status build();
   Status layOut(const ProblemSize& size);
@@ -171,7 +174,10 @@ class Localizer {
   StepReport stepMatch();
   StepReport stepPose();
   StepReport stepRefine();
+  Status beginRefinement();
   StepReport stepSupport();
+  StepReport finishSupported();
+  StepReport failUnsupported();
   StepReport fail(Stage stage, LocalizationStatus status);
   bool canTryAgain() const;
   void startAttempt();
@@ -210,7 +216,9 @@ class Localizer {
   bool isInSeedsBox(const Pose& camera_from_station) const;
   LocalizationStatus verdict() const;
   double templateFactorNow() const;
-  bool isConvincing(const Iteration& iteration) const;
+  bool isConvincing(int buffer) const;
+  StepReport leaveToOthers(Stage stage, LocalizationStatus status);
+  StepReport stepLinkedRefine();
   bool canReuseRender(const Iteration& now) const;
   StepReport failHypothesis(Stage stage, LocalizationStatus status);
   StepReport finishHypothesis(Stage stage);
@@ -242,12 +250,18 @@ class Localizer {
   bool match_outside_ = false;
   bool supplied_ = false;   ///< for the match stage at hand
   SurfaceRender surfaces_;  ///< for those who match outside
+  LinkedView link_;
   PnpRansac ransac_;
   EdgeRefinement refinement_;
   std::array<RayGrid, kPyramidLevels> rays_;
 
   std::array<Iteration, 2> buffers_;  ///< the current hypothesis and the best of this iteration
   std::array<Stage, 2> reached_{};    ///< by each of them
+  struct Agreement {
+    std::int32_t inliers = 0;
+    std::int32_t correspondences = 0;
+  };
+  std::array<Agreement, 2> agreement_;  ///< of each of them; of all views when there are several
   std::array<EdgeRender, 2> coarse_render_;  ///< of the first iteration, one per buffer
   EdgeRender fine_render_;  ///< of later ones, in the same memory unless it is the same level
   int current_ = 0;

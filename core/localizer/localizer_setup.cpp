@@ -196,6 +196,9 @@ void Localizer::begin() {
   current_ = 0;
   small_corrections_ = 0;
   openPieces(0);
+  const ViewRole role = link_.role;
+  link_ = {};
+  link_.role = role;
   digest_ = DigestWriter();
   if (status_ != Status::kOk) return;
   bounds_ = matchedBounds(problem_.mesh);

@@ -50,7 +50,8 @@ StepReport Localizer::stepEdges() {
   const bool complete = detector_.step();
   if (complete) {
     digestEdgeMap(workspace_.edges, digest_);
-    iteration_pending_ = true;
+    iteration_pending_ = link_.role != ViewRole::kFollows;
+    if (!iteration_pending_) link_.need = ViewNeed::kPlace;
   }
   return StepReport::of(Stage::kEdges, complete);
 }
@@ -200,6 +201,10 @@ void Localizer::collectCorrespondences() {
 
 StepReport Localizer::stepPose() {
   if (weighing_) return stepEvidence();
+  if (link_.role != ViewRole::kAlone) {
+    link_.need = ViewNeed::kPose;
+    return StepReport::of(Stage::kPose, false);
+  }
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   const auto count = static_cast<std::size_t>(now.correspondence_count);
   Status status = Status::kOk;
@@ -225,15 +230,22 @@ StepReport Localizer::stepPose() {
   return finishHypothesis(Stage::kPose);
 }
 
+Status Localizer::beginRefinement() {
+  Iteration& now = buffers_[static_cast<std::size_t>(current_)];
+  const Status status = refinement_.begin(
+      problem_.image, problem_.ignore, problem_.camera, problem_.mesh, now.render, now.threshold_px,
+      anchor(), options_.loop.anchored ? &matched_ : nullptr, now.refinement);
+  refinement_.startFrom(camera_from_station_);
+  stage_begun_ = true;
+  return status;
+}
+
 StepReport Localizer::stepRefine() {
+  if (link_.role != ViewRole::kAlone) return stepLinkedRefine();
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   Status status = Status::kOk;
   if (!stage_begun_) {
-    status = refinement_.begin(problem_.image, problem_.ignore, problem_.camera, problem_.mesh,
-                               now.render, now.threshold_px, anchor(),
-                               options_.loop.anchored ? &matched_ : nullptr, now.refinement);
-    refinement_.startFrom(camera_from_station_);
-    stage_begun_ = true;
+    status = beginRefinement();
     if (status == Status::kOk) {
       openPieces(refinement_.chunks());
       return StepReport::of(Stage::kRefine, false);
@@ -262,13 +274,22 @@ StepReport Localizer::stepSupport() {
                                           problem_.ignore, options_.support);
   digest_.tag("support");
   digestSupport(workspace_.support, digest_);
+  if (link_.role != ViewRole::kAlone) {
+    link_.need = ViewNeed::kSupport;
+    return StepReport::of(Stage::kSupport, false);
+  }
   const bool supported =
       !options_.support.gate || workspace_.support.share() >= options_.support.min_support;
-  if (!supported) {
-    StepReport failed = fail(Stage::kSupport, LocalizationStatus::kNotSupported);
-    failed.iteration_complete = false;  // it was reported when its pose came out
-    return failed;
-  }
+  return supported ? finishSupported() : failUnsupported();
+}
+
+StepReport Localizer::failUnsupported() {
+  StepReport failed = fail(Stage::kSupport, LocalizationStatus::kNotSupported);
+  failed.iteration_complete = false;  // it was reported when its pose came out
+  return failed;
+}
+
+StepReport Localizer::finishSupported() {
   if (weighsRivals()) return weighRivals();
   finish(verdict());
   StepReport made = StepReport::of(Stage::kSupport, true);

@@ -157,6 +157,53 @@ NormalEquations reprojectionEquations(std::span<const Correspondence> correspond
   return equations;
 }
 
+NormalEquations reprojectionEquations(std::span<const Correspondence> correspondences,
+                                      std::span<const std::uint8_t> use,
+                                      std::span<const PnpView> views,
+                                      const Pose& first_from_station) {
+  NormalEquations sum;
+  std::size_t begin = 0;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const auto count = static_cast<std::size_t>(views[v].end) - begin;
+    const NormalEquations own = reprojectionEquations(
+        correspondences.subspan(begin, count), use.empty() ? use : use.subspan(begin, count),
+        *views[v].camera, poseOfView(views, v, first_from_station));
+    if (v == 0)
+      sum = own;
+    else
+      addTo(sum, inFirst(own, views[v].camera_from_first));
+    begin += count;
+  }
+  return sum;
+}
+
+Matrix6d adjointOf(const Pose& a_from_b) {
+  const Eigen::Matrix3d rotation = a_from_b.matrix();
+  Matrix6d adjoint = Matrix6d::Zero();
+  adjoint.topLeftCorner<3, 3>() = rotation;
+  adjoint.bottomLeftCorner<3, 3>() = crossMatrix(a_from_b.translation_m) * rotation;
+  adjoint.bottomRightCorner<3, 3>() = rotation;
+  return adjoint;
+}
+
+NormalEquations inFirst(const NormalEquations& equations, const Pose& camera_from_first) {
+  const Matrix6d adjoint = adjointOf(camera_from_first);
+  const Matrix6d whole = equations.information.selfadjointView<Eigen::Lower>();
+  NormalEquations brought = equations;
+  brought.information = adjoint.transpose() * whole * adjoint;
+  brought.gradient = adjoint.transpose() * equations.gradient;
+  return brought;
+}
+
+void addTo(NormalEquations& sum, const NormalEquations& equations) {
+  sum.information += equations.information;
+  sum.gradient += equations.gradient;
+  sum.squares += equations.squares;
+  sum.prior_squares += equations.prior_squares;
+  sum.projected += equations.projected;
+  sum.missing += equations.missing;
+}
+
 void addPrior(const PosePrior& prior, const Pose& camera_from_station, NormalEquations& equations) {
   const Eigen::Vector3d& pivot = prior.sigma.pivot_in_camera_m;
   const Vector6d offset = offsetAboutPivot(prior.camera_from_station, camera_from_station, pivot);

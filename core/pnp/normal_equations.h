@@ -7,6 +7,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "core/pnp/correspondence.h"
+#include "core/pnp/pnp_view.h"
 
 namespace boresight {
 
@@ -30,6 +31,23 @@ struct NormalEquations {
 NormalEquations reprojectionEquations(std::span<const Correspondence> correspondences,
                                       std::span<const std::uint8_t> use, const Camera& camera,
                                       const Pose& camera_from_station);
+
+/// The same over several views, in the perturbation of the first one's pose: the sum of each view's
+/// own, brought there by `inFirst`.
+NormalEquations reprojectionEquations(std::span<const Correspondence> correspondences,
+                                      std::span<const std::uint8_t> use,
+                                      std::span<const PnpView> views,
+                                      const Pose& first_from_station);
+
+/// To first order Exp(A xi) * (a_from_b * pose) = a_from_b * (Exp(xi) * pose): the matrix A that
+/// brings perturbations of poses b_from_station to those of a_from_station. With R, t of a_from_b
+/// its rows are [R, 0] (rotation) and [[t]x R, R] (translation).
+Matrix6d adjointOf(const Pose& a_from_b);
+/// Equations in the perturbation of `camera`'s pose as equations in that of `first`'s:
+/// A' H A and A' g with A = adjointOf(camera_from_first). Sums and counts stay.
+NormalEquations inFirst(const NormalEquations& equations, const Pose& camera_from_first);
+/// Adds H, g, sums and counts.
+void addTo(NormalEquations& sum, const NormalEquations& equations);
 
 /// Adds ((offset about the pivot) / sigma)^2. Rows: d r = Jl(r)^-1 omega, with the inverse left
 /// Jacobian of the rotation group to second order in r (relative error |r|^4 / 720), and exactly

@@ -19,18 +19,35 @@ constexpr int kRefineRounds = 20;
 constexpr int kProjectionsPerStep = 32768;  ///< about a millisecond
 constexpr int kMaxSamplesPerStep = 64;
 constexpr int kP3pSize = 3;
+constexpr int kMostRedraws = 32;
 
 /// A pose ready to be applied to many points.
 struct Transform {
   Eigen::Matrix3d rotation;
   Eigen::Vector3d translation_m;
+  Transform() = default;
   explicit Transform(const Pose& pose)
       : rotation(pose.matrix()), translation_m(pose.translation_m) {}
 };
 
+/// The pose of the first view, ready to be applied in each of them.
+class Transforms {
+ public:
+  Transforms(std::span<const PnpView> views, const Pose& first_from_station) : views_(views) {
+    for (std::size_t v = 0; v < views.size(); ++v)
+      transform_[v] = Transform(poseOfView(views, v, first_from_station));
+  }
+  const Transform& of(std::size_t view) const { return transform_[view]; }
+  double squaredResidual(std::span<const Correspondence> correspondences, std::size_t i) const;
+
+ private:
+  std::span<const PnpView> views_;
+  std::array<Transform, kMaxPnpViews> transform_;
+};
+
 /// Squared distance between the pixel and the projection; 1e12 px^2 where it does not project.
-double squaredResidual(const Transform& camera_from_station, const Camera& camera,
-                       const Correspondence& item) {
+double squaredResidualOf(const Transform& camera_from_station, const Camera& camera,
+                         const Correspondence& item) {
   const Eigen::Vector3d point_in_camera_m =
       camera_from_station.rotation * item.point_in_station_m + camera_from_station.translation_m;
   Eigen::Vector2d projection;
@@ -38,6 +55,12 @@ double squaredResidual(const Transform& camera_from_station, const Camera& camer
     return kMissingResidual_px * kMissingResidual_px;
   }
   return (item.pixel - projection).squaredNorm();
+}
+
+double Transforms::squaredResidual(std::span<const Correspondence> correspondences,
+                                   std::size_t i) const {
+  const std::size_t view = viewOf(views_, i);
+  return squaredResidualOf(transform_[view], *views_[view].camera, correspondences[i]);
 }
 
 /// base^exponent by squaring: the same bits everywhere, unlike pow and log.
@@ -67,10 +90,20 @@ Status PnpRansac::create(int max_correspondences, Arena& arena) {
 Status PnpRansac::begin(std::span<const Correspondence> correspondences, const Camera& camera,
                         const PosePrior& hypothesis, double threshold_px, const PnpOptions& options,
                         PnpSolution& solution, const PosePrior* anchor) {
+  camera_ = camera;
+  single_ = {&camera_, Pose(), static_cast<std::int32_t>(correspondences.size())};
+  return begin(correspondences, std::span(&single_, 1), hypothesis, threshold_px, options, solution,
+               anchor);
+}
+
+Status PnpRansac::begin(std::span<const Correspondence> correspondences,
+                        std::span<const PnpView> views, const PosePrior& hypothesis,
+                        double threshold_px, const PnpOptions& options, PnpSolution& solution,
+                        const PosePrior* anchor) {
   correspondences_ = correspondences;
+  views_ = views;
   anchored_ = anchor != nullptr;
   if (anchored_) anchor_ = *anchor;
-  camera_ = camera;
   hypothesis_ = hypothesis;
   if (!isUsable(hypothesis.camera_from_station)) hypothesis_.camera_from_station = Pose();
   threshold_px_ = threshold_px;
@@ -103,17 +136,18 @@ Status PnpRansac::begin(std::span<const Correspondence> correspondences, const C
 Status PnpRansac::validate(double threshold_px, const PosePrior& hypothesis) const {
   if (firstInvalidOption(options_) != nullptr) return Status::kInvalidOption;
   if (!(threshold_px > 0.0 && threshold_px < kMissingResidual_px)) return Status::kInvalidOption;
-  Camera checked = camera_;
-  // An unprepared camera has no valid field and projects nothing.
-  if (prepareCamera(checked) != Status::kOk || !(camera_.valid_radius > 0.0)) {
-    return Status::kInvalidCamera;
+  for (const PnpView& view : views_) {
+    Camera checked = *view.camera;
+    // An unprepared camera has no valid field and projects nothing.
+    if (prepareCamera(checked) != Status::kOk || !(view.camera->valid_radius > 0.0))
+      return Status::kInvalidCamera;
   }
   if (anchored_ && !isUsable(anchor_)) return Status::kInvalidPose;
   return isUsable(hypothesis) ? Status::kOk : Status::kInvalidPose;
 }
 
 void PnpRansac::listUsable() {
-  const Transform transform(hypothesis_.camera_from_station);
+  const Transforms transforms(views_, hypothesis_.camera_from_station);
   const bool guided = options_.sampler == PnpSampler::kGuided;
   usable_count_ = 0;
   for (std::size_t i = 0; i < correspondences_.size(); ++i) {
@@ -125,9 +159,11 @@ void PnpRansac::listUsable() {
     // matches cannot disturb.
     Eigen::Vector2d place = item.pixel;
     Eigen::Vector2d predicted;
-    if (guided &&
-        project(camera_, transform.rotation * item.point_in_station_m + transform.translation_m,
-                predicted)) {
+    const std::size_t view = viewOf(views_, i);
+    const Transform& transform = transforms.of(view);
+    if (guided && project(*views_[view].camera,
+                          transform.rotation * item.point_in_station_m + transform.translation_m,
+                          predicted)) {
       place = predicted;
     }
     usable_[static_cast<std::size_t>(usable_count_)] = static_cast<std::int32_t>(i);
@@ -161,12 +197,25 @@ Status PnpRansac::finish(Status status) {
   return status;
 }
 
+std::size_t PnpRansac::viewOfUsable(std::int32_t k) const {
+  return viewOf(views_, static_cast<std::size_t>(usable_[static_cast<std::size_t>(k)]));
+}
+
 const Correspondence& PnpRansac::usable(std::int32_t k) const {
   return correspondences_[static_cast<std::size_t>(usable_[static_cast<std::size_t>(k)])];
 }
 
+/// Whether the first three are of one view: what a minimal sample must be.
+bool PnpRansac::isOfOneView(const std::array<std::int32_t, 4>& sample) const {
+  const std::size_t view = viewOfUsable(sample[0]);
+  return viewOfUsable(sample[1]) == view && viewOfUsable(sample[2]) == view;
+}
+
 void PnpRansac::takeSample() {
-  const std::array<std::int32_t, 4> sample = sampler_.draw();
+  std::array<std::int32_t, 4> sample = sampler_.draw();
+  const bool minimal = options_.sampler == PnpSampler::kP3p;
+  for (int i = 0; minimal && i < kMostRedraws && !isOfOneView(sample); ++i)
+    sample = sampler_.draw();
   ++samples_;
   if (options_.sampler == PnpSampler::kGuided) {
     sampleGuided(sample);
@@ -178,24 +227,35 @@ void PnpRansac::takeSample() {
 void PnpRansac::sampleP3p(const std::array<std::int32_t, 4>& sample) {
   std::array<Eigen::Vector3d, 3> bearing;
   std::array<Eigen::Vector3d, 3> point;
+  if (!isOfOneView(sample)) return;
+  const std::size_t view = viewOfUsable(sample[0]);
   for (std::size_t i = 0; i < 3; ++i) {
     const Correspondence& item = usable(sample[i]);
-    if (!unproject(camera_, item.pixel, bearing[i])) return;
+    if (!unproject(*views_[view].camera, item.pixel, bearing[i])) return;
     bearing[i].normalize();
     point[i] = item.point_in_station_m;
   }
   std::array<Pose, 4> pose;
   const int count = solveP3p(bearing, point, pose);
-  for (int i = 0; i < count; ++i) consider(pose[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < count; ++i) {
+    const Pose& found = pose[static_cast<std::size_t>(i)];
+    consider(view == 0 ? found : views_[view].camera_from_first.inverse() * found);
+  }
 }
 
 void PnpRansac::sampleGuided(const std::array<std::int32_t, 4>& sample) {
   std::array<Correspondence, 4> items;
+  std::array<PnpView, kMaxPnpViews> views;
   const auto size = static_cast<std::size_t>(sample_size_);
-  for (std::size_t i = 0; i < size; ++i) items[i] = usable(sample[i]);
+  std::size_t taken = 0;
+  for (std::size_t v = 0; v < views_.size(); ++v) {
+    for (std::size_t i = 0; i < size; ++i)
+      if (viewOfUsable(sample[i]) == v) items[taken++] = usable(sample[i]);
+    views[v] = {views_[v].camera, views_[v].camera_from_first, static_cast<std::int32_t>(taken)};
+  }
   Pose pose = hypothesis_.camera_from_station;
-  if (refinePose(std::span(items).first(size), {}, camera_, &prior_, kGuidedSteps, pose) ==
-      Status::kOk) {
+  if (refinePose(std::span(items).first(size), {}, std::span(views).first(views_.size()), &prior_,
+                 kGuidedSteps, pose) == Status::kOk) {
     consider(pose);
   }
 }
@@ -216,7 +276,7 @@ void PnpRansac::optimizeLocally() {
     if (count < kFewestInliersToRefit) return;
     Pose pose = best_;
     const Status status =
-        refinePose(correspondences_, selected, camera_, anchor(), kLocalSteps, pose);
+        refinePose(correspondences_, selected, views_, anchor(), kLocalSteps, pose);
     Score found;
     if (status != Status::kOk || !score(pose, best_score_.cost, found)) return;
     best_ = pose;
@@ -234,13 +294,13 @@ bool PnpRansac::enoughSamples() const {
 
 /// False as soon as the cost reaches `limit`: the rest can only add.
 bool PnpRansac::score(const Pose& camera_from_station, double limit, Score& result) const {
-  const Transform transform(camera_from_station);
+  const Transforms transforms(views_, camera_from_station);
   const double largest = threshold_px_ * threshold_px_;
   double cost = 0.0;
   std::int32_t inliers = 0;
   for (std::int32_t k = 0; k < usable_count_; ++k) {
     const auto i = static_cast<std::size_t>(usable_[static_cast<std::size_t>(k)]);
-    const double squared = squaredResidual(transform, camera_, correspondences_[i]);
+    const double squared = transforms.squaredResidual(correspondences_, i);
     const bool inside = squared <= largest;  // false for a NaN
     inliers += inside ? 1 : 0;
     cost += weight_[i] * (inside ? squared : largest);
@@ -252,13 +312,13 @@ bool PnpRansac::score(const Pose& camera_from_station, double limit, Score& resu
 
 /// Marks the inliers of a pose in selected_; true when that changed anything.
 bool PnpRansac::selectInliers(const Pose& camera_from_station, std::int32_t& count) {
-  const Transform transform(camera_from_station);
+  const Transforms transforms(views_, camera_from_station);
   const double largest = threshold_px_ * threshold_px_;
   bool changed = false;
   count = 0;
   for (std::size_t i = 0; i < correspondences_.size(); ++i) {
     const bool inside =
-        weight_[i] > 0.0 && squaredResidual(transform, camera_, correspondences_[i]) <= largest;
+        weight_[i] > 0.0 && transforms.squaredResidual(correspondences_, i) <= largest;
     const std::uint8_t mark = inside ? 1 : 0;
     changed = changed || mark != selected_[i];
     selected_[i] = mark;
@@ -277,13 +337,13 @@ Status PnpRansac::refine() {
   for (int round = 0; round < kRefineRounds && changed; ++round) {
     if (count < options_.min_inliers) return Status::kNoConsensus;
     const Status status =
-        refinePose(correspondences_, selected, camera_, anchor(), options_.refine_iterations, pose);
+        refinePose(correspondences_, selected, views_, anchor(), options_.refine_iterations, pose);
     if (status != Status::kOk) return status;
     changed = selectInliers(pose, count);
   }
   if (count < options_.min_inliers) return Status::kNoConsensus;
   Matrix6d covariance;
-  const Status status = poseCovariance(correspondences_, selected, camera_, pose, covariance);
+  const Status status = poseCovariance(correspondences_, selected, views_, pose, covariance);
   if (status != Status::kOk) return status;
   writeSolution(pose, true);
   solution_->covariance = covariance;
@@ -294,14 +354,14 @@ Status PnpRansac::refine() {
 /// pose's.
 void PnpRansac::writeSolution(const Pose& camera_from_station, bool with_inliers) {
   PnpSolution& solution = *solution_;
-  const Transform transform(camera_from_station);
+  const Transforms transforms(views_, camera_from_station);
   double sum = 0.0;
   solution.camera_from_station = camera_from_station;
   solution.inlier_count = 0;
   solution.covariance = Matrix6d::Zero();
   solution.samples = samples_;
   for (std::size_t i = 0; i < correspondences_.size(); ++i) {
-    const double squared = squaredResidual(transform, camera_, correspondences_[i]);
+    const double squared = transforms.squaredResidual(correspondences_, i);
     const double residual_px = std::sqrt(squared);
     // Written so that a NaN, too, becomes the stand-in.
     solution.residual_px[i] = residual_px < kMissingResidual_px ? residual_px : kMissingResidual_px;

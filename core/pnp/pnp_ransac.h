@@ -11,6 +11,7 @@
 #include "core/geometry/pose.h"
 #include "core/pnp/correspondence.h"
 #include "core/pnp/pnp_options.h"
+#include "core/pnp/pnp_view.h"
 #include "core/pnp/spread_sampler.h"
 
 namespace boresight {
@@ -59,6 +60,12 @@ class PnpRansac {
   Status begin(std::span<const Correspondence> correspondences, const Camera& camera,
                const PosePrior& hypothesis, double threshold_px, const PnpOptions& options,
                PnpSolution& solution, const PosePrior* anchor = nullptr);
+  /// The same from several views, at most kMaxPnpViews, which must outlive the steps: hypothesis,
+  /// anchor and solution are the first one's pose, scores and refits are over all views. A minimal
+  /// sample is of one view (places are compared in their own images), a guided one may be of any.
+  Status begin(std::span<const Correspondence> correspondences, std::span<const PnpView> views,
+               const PosePrior& hypothesis, double threshold_px, const PnpOptions& options,
+               PnpSolution& solution, const PosePrior* anchor = nullptr);
   /// One batch of samples, or the refinement; `done` when the solution is complete or a status
   /// other than kOk ended it.
   Status step(bool& done);
@@ -73,6 +80,8 @@ class PnpRansac {
   const PosePrior* anchor() const { return anchored_ ? &anchor_ : nullptr; }
   Status validate(double threshold_px, const PosePrior& hypothesis) const;
   void listUsable();
+  std::size_t viewOfUsable(std::int32_t k) const;
+  bool isOfOneView(const std::array<std::int32_t, 4>& sample) const;
   const Correspondence& usable(std::int32_t k) const;
   Status finish(Status status);
   void takeSample();
@@ -96,7 +105,9 @@ class PnpRansac {
   std::span<std::uint8_t> selected_;     ///< inliers of the pose last selected for
 
   std::span<const Correspondence> correspondences_;
-  Camera camera_;
+  Camera camera_;  ///< of a single view
+  PnpView single_;
+  std::span<const PnpView> views_;
   PosePrior hypothesis_;
   PosePrior prior_;
   double threshold_px_ = 0.0;

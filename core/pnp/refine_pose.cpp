@@ -21,13 +21,13 @@ constexpr int kFewestPoints = 3;
 struct Problem {
   std::span<const Correspondence> correspondences;
   std::span<const std::uint8_t> use;
-  const Camera* camera;
+  std::span<const PnpView> views;
   const PosePrior* prior;
 };
 
 NormalEquations equationsAt(const Problem& problem, const Pose& camera_from_station) {
   NormalEquations equations = reprojectionEquations(problem.correspondences, problem.use,
-                                                    *problem.camera, camera_from_station);
+                                                    problem.views, camera_from_station);
   if (problem.prior != nullptr) addPrior(*problem.prior, camera_from_station, equations);
   return equations;
 }
@@ -71,32 +71,51 @@ void iterate(const Problem& problem, int max_iterations, Pose& pose, NormalEquat
   }
 }
 
+PnpView onlyView(const Camera& camera, std::span<const Correspondence> correspondences) {
+  return {&camera, Pose(), static_cast<std::int32_t>(correspondences.size())};
+}
+
 }  // namespace
 
 Status refinePose(std::span<const Correspondence> correspondences,
                   std::span<const std::uint8_t> use, const Camera& camera, const PosePrior* prior,
                   int max_iterations, Pose& camera_from_station) {
+  const PnpView view = onlyView(camera, correspondences);
+  return refinePose(correspondences, use, std::span(&view, 1), prior, max_iterations,
+                    camera_from_station);
+}
+
+Status refinePose(std::span<const Correspondence> correspondences,
+                  std::span<const std::uint8_t> use, std::span<const PnpView> views,
+                  const PosePrior* prior, int max_iterations, Pose& first_from_station) {
   if (!use.empty() && use.size() != correspondences.size()) return Status::kTooFewPoints;
-  if (!isUsable(camera_from_station)) return Status::kInvalidPose;
+  if (!isUsable(first_from_station)) return Status::kInvalidPose;
   if (prior != nullptr && !isUsable(*prior)) return Status::kInvalidPose;
-  const Problem problem{correspondences, use, &camera, prior};
-  Pose pose = camera_from_station;
+  const Problem problem{correspondences, use, views, prior};
+  Pose pose = first_from_station;
   NormalEquations equations = equationsAt(problem, pose);
   iterate(problem, max_iterations, pose, equations);
   if (prior == nullptr && equations.projected < kFewestPoints) return Status::kDegenerate;
   Vector6d unused;
   if (!solve(equations, 0.0, unused)) return Status::kDegenerate;
-  camera_from_station = pose;
+  first_from_station = pose;
   return Status::kOk;
 }
 
 Status poseCovariance(std::span<const Correspondence> correspondences,
                       std::span<const std::uint8_t> use, const Camera& camera,
                       const Pose& camera_from_station, Matrix6d& covariance) {
+  const PnpView view = onlyView(camera, correspondences);
+  return poseCovariance(correspondences, use, std::span(&view, 1), camera_from_station, covariance);
+}
+
+Status poseCovariance(std::span<const Correspondence> correspondences,
+                      std::span<const std::uint8_t> use, std::span<const PnpView> views,
+                      const Pose& first_from_station, Matrix6d& covariance) {
   if (!use.empty() && use.size() != correspondences.size()) return Status::kTooFewPoints;
-  if (!isUsable(camera_from_station)) return Status::kInvalidPose;
+  if (!isUsable(first_from_station)) return Status::kInvalidPose;
   const NormalEquations equations =
-      reprojectionEquations(correspondences, use, camera, camera_from_station);
+      reprojectionEquations(correspondences, use, views, first_from_station);
   Matrix6d inverse;
   if (equations.projected < kFewestPoints || !invert(equations.information, inverse)) {
     return Status::kDegenerate;

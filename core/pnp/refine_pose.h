@@ -8,6 +8,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "core/pnp/correspondence.h"
+#include "core/pnp/pnp_view.h"
 
 namespace boresight {
 
@@ -27,6 +28,11 @@ Status refinePose(std::span<const Correspondence> correspondences,
                   std::span<const std::uint8_t> use, const Camera& camera, const PosePrior* prior,
                   int max_iterations, Pose& camera_from_station);
 
+/// The same over the correspondences of several views; the pose and the prior are the first one's.
+Status refinePose(std::span<const Correspondence> correspondences,
+                  std::span<const std::uint8_t> use, std::span<const PnpView> views,
+                  const PosePrior* prior, int max_iterations, Pose& first_from_station);
+
 /// Covariance over xi = (rotation rad, translation m) of the left perturbation, camera frame, at a
 /// pose from the used correspondences: s^2 (J' W J)^-1 with W = 1/sigma_px^2 and the observed
 /// variance s^2 = sum (residual / sigma)^2 / (2 n - 6), at least 1e-12 and with a denominator of at
@@ -35,5 +41,9 @@ Status refinePose(std::span<const Correspondence> correspondences,
 Status poseCovariance(std::span<const Correspondence> correspondences,
                       std::span<const std::uint8_t> use, const Camera& camera,
                       const Pose& camera_from_station, Matrix6d& covariance);
+/// The same from several views; xi is the perturbation of the first one's pose.
+Status poseCovariance(std::span<const Correspondence> correspondences,
+                      std::span<const std::uint8_t> use, std::span<const PnpView> views,
+                      const Pose& first_from_station, Matrix6d& covariance);
 
 }  // namespace boresight

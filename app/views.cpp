@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "sessions/evaluation/rig_views.h"
+#include "sessions/io/atomic_file.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/json_writer.h"
+#include "sessions/report/text_table.h"
+
+namespace boresight::app {
+namespace {
+
+struct ViewsArguments {
+  std::string dataset, out;
+  std::vector<std::string> rigs;
+  OptionArguments options;
+  Kernels kernels = bestKernels();
+};
+
+std::string errorText(const sessions::PoseError& error) {
+  using sessions::fixedText;
+  return ", normal " + fixedText(error.normal_mm, 3) + " mm, lateral " +
+         fixedText(error.lateral_mm, 3) + " mm, rotation " + fixedText(error.rotation_mrad, 3) +
+         " mrad";
+}
+
+void printRig(const sessions::RigViews& rig, const sessions::RigRun& run) {
+  using sessions::fixedText;
+  const bool converged = run.result.status == LocalizationStatus::kConverged;
+  std::cout << rig.id << ": " << localizationStatusText(run.result.status) << " in "
+            << run.result.iterations << " iterations, " << fixedText(run.seconds, 2) << " s\n";
+  if (run.result.status == LocalizationStatus::kFault)
+    std::cout << "  " << statusText(run.result.fault) << "\n";
+  for (std::size_t v = 0; v < run.views; ++v) {
+    const ViewReport& view = run.result.views[v];
+    std::cout << "  " << rig.cases[v]->id << " (" << rig.cases[v]->camera
+              << "): " << localizationStatusText(view.status) << ", " << view.inliers << " of "
+              << view.correspondences << " matches agree, " << view.edges_used
+              << " edge places, edge support " << fixedText(100.0 * view.support.share(), 1)
+              << " %";
+    const auto error = converged ? sessions::viewError(rig, run, v) : std::nullopt;
+    std::cout << (error ? errorText(*error) : "") << "\n";
+  }
+  std::cout << std::flush;
+}
+
+void requireOffered(const LocalizerOptions& options) {
+  if (options.wide.isOn())
+    throw CLI::ValidationError("--set", "views have no wide search (wide.*)");
+  if (options.refinement.covariance == CovarianceModel::kGrouped)
+    throw CLI::ValidationError("--set", "views have no refinement.covariance=grouped");
+}
+
+int localizeRigs(const ViewsArguments& arguments) {
+  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
+  const LocalizerOptions options = arguments.options.read();
+  requireOffered(options);
+  const sessions::Dataset dataset = sessions::readDataset(arguments.dataset);
+  for (const std::string& line : dataset.notes) note(line);
+  const std::vector<std::string> ids =
+      arguments.rigs.empty() ? sessions::rigIds(dataset) : arguments.rigs;
+  if (ids.empty()) throw sessions::InputError(dataset.file, "cases", "none has a rig");
+  nlohmann::ordered_json json = {{"format", "boresight-views-result"}, {"version", 1}};
+  json["rigs"] = nlohmann::ordered_json::array();
+  bool all_converged = true;
+  for (const std::string& id : ids) {
+    const sessions::RigViews rig = sessions::readRigViews(dataset, id);
+    const sessions::RigRun run = sessions::localizeViews(rig, options, arguments.kernels);
+    printRig(rig, run);
+    json["rigs"].push_back(sessions::toJson(rig, run));
+    all_converged = all_converged && run.result.status == LocalizationStatus::kConverged;
+  }
+  if (!arguments.out.empty()) sessions::writeJsonFile(arguments.out, json);
+  return all_converged ? kDone : kNotConverged;
+}
+
+}  // namespace
+
+void addViews(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "views",
+      "Finds one pose from several images: the cases of a dataset that share a rig, i.e. cameras "
+      "of a rigid rig, or one camera at known places of its arm");
+  auto arguments = std::make_shared<ViewsArguments>();
+  command->add_option("--dataset", arguments->dataset, "dataset.json whose cases name rigs")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--rig", arguments->rigs, "Which of its rigs; without it all")
+      ->type_name("ID");
+  arguments->options.addTo(*command);
+  addKernels(*command, arguments->kernels);
+  command->add_option("--out", arguments->out, "Writes the results as JSON")->type_name("FILE");
+  command->callback([arguments, &exit_code] { exit_code = localizeRigs(*arguments); });
+}
+
+}  // namespace boresight::app

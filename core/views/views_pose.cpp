@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// One pose from the matches of all views.
+#include <algorithm>
+#include <cmath>
+
+#include "core/views/views_localizer.h"
+
+namespace boresight {
+namespace {
+
+/// Whether some edge of the template met one of the image. Where there is no edge at all every
+/// place is as good as the predicted one, so that such matches agree with any hypothesis.
+bool meetsEdges(const Match& match) { return match.peak.counts.edge_hits > 0; }
+
+}  // namespace
+
+StepReport ViewsLocalizer::stepPose() {
+  Status status = Status::kOk;
+  if (!pose_begun_) {
+    chooseViews();
+    status = beginPose();
+    pose_begun_ = true;
+    if (status == Status::kOk) return StepReport::of(Stage::kPose, false);
+  }
+  bool complete = status != Status::kOk;
+  if (!complete) status = ransac_.step(complete);
+  if (!complete) return StepReport::of(Stage::kPose, false);
+  noteInliers();
+  if (status == Status::kOk && leaveOutDissenters()) {
+    status = beginPose();
+    if (status == Status::kOk) return StepReport::of(Stage::kPose, false);
+  }
+  pose_begun_ = false;
+  return supplyPose(status);
+}
+
+/// Those that have something to say of this hypothesis.
+void ViewsLocalizer::chooseViews() {
+  for (std::size_t v = 0; v < views_.size(); ++v) {
+    Share& share = shares()[v];
+    share = {};
+    if (!takesPart(v)) {
+      share.status = LocalizationStatus::kNotSupported;
+    } else if (link(v).failed() != LocalizationStatus::kRunning) {
+      share.status = link(v).failed();
+    } else if (views_.size() > 1 && seeing(v) < options_.pnp.min_inliers) {
+      share.status = LocalizationStatus::kTooFewMatches;
+    }
+  }
+}
+
+/// Correspondences of a view that rest on edges of its image.
+std::int32_t ViewsLocalizer::seeing(std::size_t index) const {
+  const Iteration& now = *view(static_cast<int>(index)).workspace().iteration;
+  std::int32_t count = 0;
+  for (std::int32_t i = 0; i < now.correspondence_count; ++i) {
+    const auto of = static_cast<std::size_t>(now.template_of[static_cast<std::size_t>(i)]);
+    count += meetsEdges(now.matches.matches[of]) ? 1 : 0;
+  }
+  return count;
+}
+
+/// From the correspondences of the views chosen. Of one alone all count, as they would without the
+/// others; of several only those that rest on edges.
+Status ViewsLocalizer::beginPose() {
+  const Shares& chosen = shares();
+  const auto taking = std::count_if(
+      chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(views_.size()),
+      [](const Share& share) { return share.status == LocalizationStatus::kRunning; });
+  std::int32_t end = 0;
+  for (std::size_t v = 0; v < views_.size(); ++v) {
+    pnp_views_[v] = {&problem_.views[v].camera, views_[v].camera_from_first, end};
+    shares()[v].correspondences = 0;
+    if (chosen[v].status == LocalizationStatus::kRunning) collect(v, taking == 1);
+    end = pnp_views_[v].end;
+  }
+  const auto count = static_cast<std::size_t>(end);
+  const Iteration& now = leading();
+  const PosePrior hypothesis{now.camera_from_station_before, now.uncertainty};
+  return ransac_.begin(correspondences_.first(count), std::span(pnp_views_).first(views_.size()),
+                       hypothesis, now.threshold_px, options_.pnp, pnp_);
+}
+
+void ViewsLocalizer::collect(std::size_t index, bool all) {
+  const Iteration& now = *view(static_cast<int>(index)).workspace().iteration;
+  std::int32_t& end = pnp_views_[index].end;
+  for (std::int32_t i = 0; i < now.correspondence_count; ++i) {
+    const auto own = static_cast<std::size_t>(i);
+    const auto of = static_cast<std::size_t>(now.template_of[own]);
+    if (!all && !meetsEdges(now.matches.matches[of])) continue;
+    correspondences_[static_cast<std::size_t>(end)] = now.correspondences[own];
+    own_index_[static_cast<std::size_t>(end)] = i;
+    ++end;
+    ++shares()[index].correspondences;
+  }
+}
+
+void ViewsLocalizer::noteInliers() {
+  std::int32_t begin = 0;
+  for (std::size_t v = 0; v < views_.size(); ++v) {
+    shares()[v].inliers = 0;
+    for (std::int32_t i = begin; i < pnp_views_[v].end; ++i)
+      shares()[v].inliers += pnp_.inlier[static_cast<std::size_t>(i)];
+    begin = pnp_views_[v].end;
+  }
+}
+
+/// Views whose matches disagree with a pose that others carry; false when there are none.
+bool ViewsLocalizer::leaveOutDissenters() {
+  const std::int32_t enough = options_.pnp.min_inliers;
+  const std::span<Share> all = std::span(shares()).first(views_.size());
+  const bool carried =
+      std::any_of(all.begin(), all.end(), [&](const Share& one) { return one.inliers >= enough; });
+  bool left_out = false;
+  for (Share& one : all) {
+    const bool dissents = one.status == LocalizationStatus::kRunning && one.inliers < enough;
+    if (!carried || !dissents) continue;
+    one.status = LocalizationStatus::kPnpFailed;
+    left_out = true;
+  }
+  return left_out;
+}
+
+StepReport ViewsLocalizer::supplyPose(Status status) {
+  JointPose joint;
+  const bool solved = status == Status::kOk;
+  for (const Share& one : std::span(shares()).first(views_.size())) {
+    joint.inliers += solved ? one.inliers : 0;
+    joint.correspondences += one.correspondences;
+  }
+  // With nobody left the leader's own reason is as good as any.
+  const LocalizationStatus own = link(0).failed();
+  if (solved)
+    joint.status = LocalizationStatus::kRunning;
+  else if (joint.correspondences == 0 && own != LocalizationStatus::kRunning)
+    joint.status = own;
+  joint.samples = pnp_.samples;
+  for (std::size_t v = views_.size(); v-- > 0;) {
+    const bool waits = link(v).need() == ViewNeed::kPose;
+    if (v > 0 && !waits) continue;
+    fillSolution(v, status);
+    const Pose& camera_from_first = views_[v].camera_from_first;
+    const Matrix6d adjoint = adjointOf(camera_from_first);
+    joint.camera_from_station =
+        poseOfView(std::span(pnp_views_).first(views_.size()), v, pnp_.camera_from_station);
+    joint.covariance =
+        v == 0 ? pnp_.covariance : Matrix6d(adjoint * pnp_.covariance * adjoint.transpose());
+    if (v > 0) {
+      (void)link(v).supplyPose(joint);
+      continue;
+    }
+    const StepReport report = link(0).supplyPose(joint);
+    latest_ = shares();  // of the hypothesis that the leader kept, once it has chosen
+    chooseRefining();
+    return report;
+  }
+  return {};
+}
+
+/// Inliers and residuals of the view's own list. What was left out is no inlier.
+void ViewsLocalizer::fillSolution(std::size_t index, Status status) {
+  PnpSolution& own = link(index).solution();
+  const Iteration& now = *view(static_cast<int>(index)).workspace().iteration;
+  const auto count = static_cast<std::size_t>(now.correspondence_count);
+  own.inlier = {own.inlier.data(), count};
+  own.residual_px = {own.residual_px.data(), count};
+  std::fill(own.inlier.begin(), own.inlier.end(), std::uint8_t{0});
+  std::fill(own.residual_px.begin(), own.residual_px.end(), 1e6);
+  own.inlier_count = status == Status::kOk ? shares()[index].inliers : 0;
+  double sum_px2 = 0.0;
+  const std::int32_t begin = index == 0 ? 0 : pnp_views_[index - 1].end;
+  for (std::int32_t i = begin; i < pnp_views_[index].end; ++i) {
+    const auto from = static_cast<std::size_t>(i);
+    const auto to = static_cast<std::size_t>(own_index_[from]);
+    own.inlier[to] = pnp_.inlier[from];
+    own.residual_px[to] = pnp_.residual_px[from];
+    if (own.inlier[to] != 0) sum_px2 += own.residual_px[to] * own.residual_px[to];
+  }
+  // All inliers, or some of them.
+  const std::int32_t inliers = shares()[index].inliers;
+  own.rms_px = inliers == pnp_.inlier_count ? pnp_.rms_px
+               : inliers > 0                ? std::sqrt(sum_px2 / inliers)
+                                            : 0.0;
+}
+
+}  // namespace boresight

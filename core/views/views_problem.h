@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/base/image.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/mesh.h"
+#include "core/geometry/pose.h"
+#include "core/localizer/edge_support.h"
+#include "core/localizer/workspace.h"
+#include "core/pnp/pnp_view.h"
+
+namespace boresight {
+
+inline constexpr int kMaxViews = kMaxPnpViews;
+
+/// One image of the station: by a camera of a rigid rig, or by one camera at a known place of its
+/// arm (the rig is then any frame that the station does not move in).
+struct View {
+  ImageView image;                   ///< 8-bit gray, of the camera's size
+  const BitImage* ignore = nullptr;  ///< set bits are not trusted; the image's size; may be nullptr
+  Camera camera;                     ///< after prepareCamera
+  Pose camera_from_rig;
+};
+
+/// Several views of one station, solved for the one pose that they share. Everything is the
+/// caller's and must outlive the run.
+struct ViewsProblem {
+  std::span<const View> views;  ///< 1 ... kMaxViews; the first one leads
+  MeshView mesh;
+  Pose rig_from_station_seed;
+  /// Per axis of the *first* view's seed camera frame, its pivot in it, as with a single view.
+  SeedUncertainty uncertainty;
+};
+
+/// What became of a view.
+struct ViewReport {
+  /// kConverged: it took part in the pose. Else why not: kTooFewEdges, kTooFewTemplates or
+  /// kTooFewMatches (its own stages), kPnpFailed (too few of its matches, or edges, agree with the
+  /// pose of all), kNotSupported (dropped at the end). kRunning before the end.
+  LocalizationStatus status = LocalizationStatus::kRunning;
+  std::int32_t correspondences = 0;  ///< of the latest match iteration; 0 when left out of it
+  std::int32_t inliers = 0;
+  std::int32_t edges_used = 0;  ///< of the latest refinement
+  double edges_rms_px = 0.0;
+  EdgeSupport support;  ///< of the final pose; empty when it was not asked for
+  Pose camera_from_station;
+
+  bool tookPart() const { return status == LocalizationStatus::kConverged; }
+};
+
+/// What a caller can look at; the workspace of each view's localizer has the rest.
+struct ViewsResult {
+  LocalizationStatus status = LocalizationStatus::kRunning;
+  Status fault = Status::kOk;
+  Pose rig_from_station;  ///< the seed unless converged
+  /// Over xi = (rotation rad, translation m), left perturbation, in the rig's frame.
+  Matrix6d covariance = Matrix6d::Zero();
+  std::int32_t iterations = 0;
+  std::int32_t attempts = 1;
+  std::array<ViewReport, kMaxViews> views;
+};
+
+}  // namespace boresight

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// Several views as one: against the plain localizer, which one view alone must equal to the bit,
+// and against known truths.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "core/views/views_localizer.h"
+#include "tests/core/localizer/scene.h"
+
+namespace boresight::test {
+namespace {
+
+struct ViewsRun {
+  std::vector<View> views;
+  ViewsProblem problem;
+  std::vector<std::byte> memory;
+  std::unique_ptr<ViewsLocalizer> localizer;
+
+  ViewsRun(const Case& scene, std::vector<View> given, const LocalizerOptions& options)
+      : views(std::move(given)) {
+    problem.views = views;
+    problem.mesh = scene.solid.view();
+    problem.rig_from_station_seed = scene.seed;
+    problem.uncertainty = scene.uncertainty;
+    std::size_t bytes = 0;
+    if (ViewsLocalizer::requiredBytes(problem, options, bytes) == Status::kOk) memory.resize(bytes);
+    localizer = std::make_unique<ViewsLocalizer>(problem, options, memory);
+  }
+  const ViewsResult& finish() {
+    for (int i = 0; i < 1000000 && !localizer->step().finished; ++i) {
+    }
+    return localizer->result();
+  }
+};
+
+View viewOf(const Case& scene) { return {scene.picture->view(), nullptr, scene.camera, Pose()}; }
+
+Pose secondFromRig() { return {rotationExp({0.02, -0.2, 0.03}), {0.09, 0.005, 0.01}}; }
+
+/// Where a camera beside the first sees the station.
+View secondView(const Case& scene) {
+  static const Picture picture =
+      takePicture(stationMesh(), pinholeCamera(), secondFromRig() * truthPose());
+  return {picture.view(), nullptr, scene.camera, secondFromRig()};
+}
+
+void expectSamePose(const Pose& one, const Pose& other) {
+  EXPECT_EQ(one.rotation.coeffs(), other.rotation.coeffs());
+  EXPECT_EQ(one.translation_m, other.translation_m);
+}
+
+std::vector<LocalizerOptions> profiles() {
+  LocalizerOptions matched = defaultProfile();
+  matched.refinement.enabled = false;
+  LocalizerOptions one_match = defaultProfile();
+  one_match.loop.match_iterations = 1;
+  one_match.loop.enough_inliers = 2.0;
+  LocalizerOptions refused = defaultProfile();
+  refused.support.min_support = 1.0;
+  LocalizerOptions few = defaultProfile();
+  few.pnp.min_inliers = 10000;
+  LocalizerOptions no_edges = defaultProfile();
+  no_edges.refinement.min_found = 100000;
+  return {defaultProfile(), paperProfile(), matched, one_match, refused, few, no_edges};
+}
+
+TEST(ViewsLocalizer, OneViewAloneHasTheBitsOfThePlainLocalizer) {
+  for (int i = 0; i < static_cast<int>(profiles().size()); ++i) {
+    const LocalizerOptions options = profiles()[static_cast<std::size_t>(i)];
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      SCOPED_TRACE(testing::Message() << "options " << i << ", seed " << seed);
+      const Case scene = stationCase(seed, seed == 2);
+      OwnedRun plain(scene.problem(), options);
+      plain.finish();
+      const Workspace& expected = plain.localizer.workspace();
+      ViewsRun run(scene, {viewOf(scene)}, options);
+      const ViewsResult& result = run.finish();
+      EXPECT_EQ(result.status, expected.status);
+      EXPECT_EQ(result.iterations, expected.iterations);
+      EXPECT_EQ(result.attempts, expected.attempts);
+      expectSamePose(result.rig_from_station, expected.camera_from_station);
+      EXPECT_EQ(result.covariance, expected.covariance);
+      EXPECT_STREQ(hexText(run.localizer->view(0).digest()).data(),
+                   hexText(plain.localizer.digest()).data());
+    }
+  }
+}
+
+TEST(ViewsLocalizer, TheSameViewTwiceGivesThePoseWithHalfTheCovariance) {
+  const Case scene = stationCase(1);
+  ViewsRun alone(scene, {viewOf(scene)}, defaultProfile());
+  ViewsRun twice(scene, {viewOf(scene), viewOf(scene)}, defaultProfile());
+  const ViewsResult& one = alone.finish();
+  const ViewsResult& two = twice.finish();
+  ASSERT_EQ(two.status, LocalizationStatus::kConverged);
+  const Vector6d difference = perturbationBetween(one.rig_from_station, two.rig_from_station);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_LT(std::abs(difference[i]), 0.3 * std::sqrt(one.covariance(i, i)));
+    EXPECT_NEAR(two.covariance(i, i) / one.covariance(i, i), 0.5, 0.02);
+  }
+}
+
+TEST(ViewsLocalizer, TwoCamerasConvergeOnTheTruthAndBothTakePart) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const Case scene = stationCase(seed);
+    ViewsRun run(scene, {viewOf(scene), secondView(scene)}, defaultProfile());
+    const ViewsResult& result = run.finish();
+    ASSERT_EQ(result.status, LocalizationStatus::kConverged);
+    EXPECT_TRUE(result.views[0].tookPart());
+    EXPECT_TRUE(result.views[1].tookPart());
+    EXPECT_GT(result.views[1].inliers, 20);
+    const PoseError error = poseError(scene.solid, scene.truth, result.rig_from_station);
+    EXPECT_LT(error.centre_m, 0.0002);
+    EXPECT_LT(error.angle_rad, 0.002);
+  }
+}
+
+TEST(ViewsLocalizer, ABlackOrWhiteSecondViewLeavesTheBitsOfTheFirstAlone) {
+  for (const int gray : {0, 255}) {
+    const Case scene = stationCase(3);
+    const Picture blank = flatPicture(512, 512, static_cast<std::uint8_t>(gray));
+    View second = secondView(scene);
+    second.image = blank.view();
+    ViewsRun alone(scene, {viewOf(scene)}, defaultProfile());
+    ViewsRun run(scene, {viewOf(scene), second}, defaultProfile());
+    const ViewsResult& expected = alone.finish();
+    const ViewsResult& result = run.finish();
+    ASSERT_EQ(result.status, LocalizationStatus::kConverged);
+    expectSamePose(result.rig_from_station, expected.rig_from_station);
+    EXPECT_EQ(result.covariance, expected.covariance);
+    EXPECT_TRUE(result.views[0].tookPart());
+    EXPECT_EQ(result.views[1].status, LocalizationStatus::kTooFewMatches);
+  }
+}
+
+TEST(ViewsLocalizer, ABlackFirstViewLeavesTheSecondToLead) {
+  const Case scene = stationCase(2);
+  const Picture blank = flatPicture(512, 512, 0);
+  View first = viewOf(scene);
+  first.image = blank.view();
+  ViewsRun run(scene, {first, secondView(scene)}, defaultProfile());
+  const ViewsResult& result = run.finish();
+  ASSERT_EQ(result.status, LocalizationStatus::kConverged);
+  EXPECT_FALSE(result.views[0].tookPart());
+  EXPECT_TRUE(result.views[1].tookPart());
+  EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).centre_m, 0.0006);
+}
+
+TEST(ViewsLocalizer, AViewOfSomethingElseIsLeftOut) {
+  const Case scene = stationCase(4);
+  const Picture noise = noisePicture(512, 512, 5);
+  View second = secondView(scene);
+  second.image = noise.view();
+  ViewsRun run(scene, {viewOf(scene), second}, defaultProfile());
+  const ViewsResult& result = run.finish();
+  ASSERT_EQ(result.status, LocalizationStatus::kConverged);
+  EXPECT_TRUE(result.views[0].tookPart());
+  EXPECT_FALSE(result.views[1].tookPart());
+  EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).centre_m, 0.0006);
+}
+
+TEST(ViewsLocalizer, AllBlackFails) {
+  const Case scene = stationCase(1);
+  const Picture blank = flatPicture(512, 512, 0);
+  View first = viewOf(scene);
+  View second = secondView(scene);
+  first.image = second.image = blank.view();
+  ViewsRun run(scene, {first, second}, defaultProfile());
+  EXPECT_NE(run.finish().status, LocalizationStatus::kConverged);
+  expectSamePose(run.localizer->result().rig_from_station, scene.seed);
+}
+
+TEST(ViewsLocalizer, RunsAgainToTheSameDigest) {
+  const Case scene = stationCase(2);
+  ViewsRun one(scene, {viewOf(scene), secondView(scene)}, defaultProfile());
+  ViewsRun two(scene, {viewOf(scene), secondView(scene)}, defaultProfile());
+  one.finish();
+  two.finish();
+  EXPECT_STREQ(hexText(one.localizer->digest()).data(), hexText(two.localizer->digest()).data());
+}
+
+TEST(ViewsLocalizer, RefusesWhatItDoesNotOffer) {
+  const Case scene = stationCase(1);
+  LocalizerOptions grouped = defaultProfile();
+  grouped.refinement.covariance = CovarianceModel::kGrouped;
+  ViewsRun two(scene, {viewOf(scene), secondView(scene)}, grouped);
+  EXPECT_EQ(two.localizer->status(), Status::kInvalidOption);
+  EXPECT_EQ(two.finish().status, LocalizationStatus::kFault);
+  LocalizerOptions wide = defaultProfile();
+  wide.wide.rotation_rad = 1.0;
+  EXPECT_EQ(ViewsRun(scene, {viewOf(scene)}, wide).localizer->status(), Status::kInvalidOption);
+  EXPECT_EQ(ViewsRun(scene, {}, defaultProfile()).localizer->status(), Status::kCapacityExceeded);
+  View blind = viewOf(scene);
+  blind.camera = Camera();
+  EXPECT_NE(ViewsRun(scene, {viewOf(scene), blind}, defaultProfile()).localizer->status(),
+            Status::kOk);
+}
+
+}  // namespace
+}  // namespace boresight::test
