@@ -159,20 +159,31 @@ struct LocalizerOptions {
   /// are not as they stand by themselves. Runs without them keep the digests that they had.
   template <class Visitor>
   static void visitDigested(const LocalizerOptions& options, Visitor&& visit) {
-    const bool plain_search = options.wide == WideOptions{};
-    const bool plain_covariance = options.refinement.covariance == RefinementOptions{}.covariance;
     visitFields(options, [&](const OptionInfo& info, const auto& field) {
-      const bool left_out = isWide(info) ? plain_search : cameLater(info) && plain_covariance;
-      if (!left_out) visit(info, field);
+      if (!isLeftOut(options, info)) visit(info, field);
     });
+  }
+  static bool isLeftOut(const LocalizerOptions& options, const OptionInfo& info) {
+    const std::string_view name = info.name;
+    if (isWide(info)) return options.wide == WideOptions{};
+    if (name == "refinement.covariance")
+      return options.refinement.covariance == RefinementOptions{}.covariance;
+    if (name == "refinement.saturated_weight") return options.refinement.saturated_weight == 1.0;
+    return isPartial(info) && !options.support.partial;
   }
   static bool isWide(const OptionInfo& info) {
     return std::string_view(info.name).starts_with("wide.");
   }
-  /// Not known to traces before format 4.
-  static bool cameLater(const OptionInfo& info) {
-    return isWide(info) || std::string_view(info.name) == "refinement.covariance";
+  static bool isPartial(const OptionInfo& info) {
+    return std::string_view(info.name).starts_with("support.partial");
   }
+  /// The format of traces that brought the option; 0: the first.
+  static std::uint32_t traceFormatOf(const OptionInfo& info) {
+    const std::string_view name = info.name;
+    if (isWide(info) || name == "refinement.covariance") return 4;
+    return isPartial(info) || name == "refinement.saturated_weight" ? 5 : 0;
+  }
+  static bool cameLater(const OptionInfo& info) { return traceFormatOf(info) > 0; }
 };
 
 bool sameOptions(const LocalizerOptions& one, const LocalizerOptions& other);

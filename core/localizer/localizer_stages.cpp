@@ -259,11 +259,13 @@ StepReport Localizer::stepRefine() {
 StepReport Localizer::stepSupport() {
   const Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   workspace_.support = measureEdgeSupport(now.render, now.level, workspace_.edges, problem_.image,
-                                          problem_.ignore, options_.support);
+                                          problem_.ignore, options_.support, &workspace_.partial);
   digest_.tag("support");
   digestSupport(workspace_.support, digest_);
+  if (options_.support.partial) digestPartialSupport(workspace_.partial, digest_);
   const bool supported =
-      !options_.support.gate || workspace_.support.share() >= options_.support.min_support;
+      !options_.support.gate || workspace_.support.share() >= options_.support.min_support ||
+      (options_.support.partial && workspace_.partial.suffices(options_.support));
   if (!supported) {
     StepReport failed = fail(Stage::kSupport, LocalizationStatus::kNotSupported);
     failed.iteration_complete = false;  // it was reported when its pose came out

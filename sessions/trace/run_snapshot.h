@@ -27,6 +27,7 @@ struct RunSnapshot {
   Stage stage = Stage::kEdges;  ///< the last one that was worked on
   std::int32_t attempts = 1;
   EdgeSupport support;
+  PartialSupport partial;  ///< of the same pose; zero in old traces and replayed runs
   LocalizationStatus status = LocalizationStatus::kRunning;
   Status fault = Status::kOk;
   Pose camera_from_station;

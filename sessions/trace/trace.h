@@ -156,6 +156,7 @@ struct LocalizationTrace {
   std::vector<IterationTrace> iterations;  ///< of all attempts
   std::int32_t attempts = 1;
   EdgeSupport support;
+  PartialSupport partial;  ///< of the same pose; zero in old traces
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< kRunning: it was stopped
   Status fault = Status::kOk;
   Pose camera_from_station;  ///< best estimate; the seed unless converged

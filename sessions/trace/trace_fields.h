@@ -15,6 +15,8 @@ namespace boresight::sessions {
 
 /// The trace's format that brought restarts and the options that came with them.
 inline constexpr std::uint32_t kFormatOfWideSearch = 4;
+/// The one that brought what is seen of an object in parts.
+inline constexpr std::uint32_t kFormatOfPartialSupport = 5;
 
 template <class Self, class Record>
 concept Is = std::same_as<std::remove_const_t<Self>, Record>;
@@ -185,6 +187,14 @@ void fields(Archive& archive, Self& support) {
           displaced_explained);
 }
 
+template <class Archive, Is<PartialSupport> Self>
+void fields(Archive& archive, Self& partial) {
+  auto& [rendered, visible, cells, visible_cells, found, covered, displaced_found,
+         displaced_covered] = partial;
+  numbers(archive, rendered, visible, cells, visible_cells, found, covered, displaced_found,
+          displaced_covered);
+}
+
 template <class Archive, Is<IterationTrace> Self>
 void matchingFields(Archive& archive, Self& iteration) {
   archive.list(iteration.templates, [&](auto& item) { fields(archive, item); });
@@ -237,7 +247,7 @@ void fields(Archive& archive, Self& iteration) {
 template <class Archive, Is<LocalizerOptions> Self>
 void fields(Archive& archive, Self& options) {
   LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
-    if (!archive.has(kFormatOfWideSearch) && LocalizerOptions::cameLater(info)) return;
+    if (!archive.has(LocalizerOptions::traceFormatOf(info))) return;
     std::string name = info.name;
     archive.text(name);
     archive.require(name == info.name, "an option that this version does not know");
@@ -275,6 +285,7 @@ void fields(Archive& archive, Self& trace) {
   archive.list(trace.iterations, [&](auto& iteration) { fields(archive, iteration); });
   archive.number(trace.attempts);
   fields(archive, trace.support);
+  if (archive.has(kFormatOfPartialSupport)) fields(archive, trace.partial);
   archive.choice(trace.status, LocalizationStatus::kFault);
   archive.choice(trace.fault, Status::kNoConsensus);
   fields(archive, trace.camera_from_station);
