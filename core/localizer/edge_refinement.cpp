@@ -42,23 +42,6 @@ void addRow(const EdgeSample& sample, const Vector6d& row, NormalEquations& equa
   ++equations.projected;
 }
 
-/// Whether a pixel across the edge, as far as an image's blur reaches, has all the light it can.
-bool isBesideSaturation(const ImageView& image, const Eigen::Vector2d& edge_px,
-                        const Eigen::Vector2d& normal) {
-  constexpr int kReach_px = 3;
-  constexpr std::uint8_t kSaturated_gray = 250;  // a little less where a picture was compressed
-  for (int step = -kReach_px; step <= kReach_px; ++step) {
-    const Eigen::Vector2d place = edge_px + step * normal;
-    if (!(place.x() >= 0.0 && place.y() >= 0.0 && place.x() < image.width - 1 &&
-          place.y() < image.height - 1))
-      continue;
-    if (image.at(static_cast<int>(place.x() + 0.5), static_cast<int>(place.y() + 0.5)) >=
-        kSaturated_gray)
-      return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 void EdgeRefinement::setOptions(const RefinementOptions& options) {
@@ -247,7 +230,7 @@ NormalEquations EdgeRefinement::weightedEquations(double& weights) {
     sample.residual_px = found_at_px_[static_cast<std::size_t>(i)] - sample.normal.dot(pixel);
     if (std::abs(sample.residual_px) >= cut_px) continue;
     const double ratio = sample.residual_px / cut_px;
-    sample.weight = weightOf(sample, pixel, ratio);
+    sample.weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
     const Vector6d row = rowOf(sample, point_in_camera_m, jacobian);
     addRow(sample, row, equations);
     if (options_.covariance == CovarianceModel::kGrouped) noteGroups(sample, pixel, row, ratio);
@@ -255,16 +238,6 @@ NormalEquations EdgeRefinement::weightedEquations(double& weights) {
     if (sample.weight > 0.5) ++result.used_count;
   }
   return equations;
-}
-
-/// Tukey's, less where the image is saturated beside the edge found.
-double EdgeRefinement::weightOf(const EdgeSample& sample, const Eigen::Vector2d& pixel,
-                                double ratio) const {
-  const double weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
-  if (options_.saturated_weight == 1.0) return weight;
-  const Eigen::Vector2d found_px = pixel + sample.residual_px * sample.normal;
-  return isBesideSaturation(image_, found_px, sample.normal) ? options_.saturated_weight * weight
-                                                             : weight;
 }
 
 /// What the covariance needs of a sample whose residual is this part of where weights end.

@@ -44,7 +44,6 @@ struct RefinementOptions {
   std::int32_t min_found = 60;
   double covariance_inflation = 4.0;
   CovarianceModel covariance = CovarianceModel::kInflated;
-  double saturated_weight = 1.0;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -91,10 +90,6 @@ struct RefinementOptions {
                      "sums of errors by place, by direction and by kind of edge.",
                      kCovarianceModelNames},
           self.covariance);
-    visit(OptionInfo{"refinement.saturated_weight", "", 0.0, 1.0,
-                     "Factor on the weight of edges beside saturated pixels, which light that "
-                     "spills over displaces; 1: they count like others."},
-          self.saturated_weight);
   }
 };
 
@@ -169,7 +164,6 @@ class EdgeRefinement {
   void addKnowledge(NormalEquations& equations) const;
   Status solve(bool& settled);
   NormalEquations weightedEquations(double& weights);
-  double weightOf(const EdgeSample& sample, const Eigen::Vector2d& pixel, double ratio) const;
   void noteGroups(const EdgeSample& sample, const Eigen::Vector2d& pixel, const Vector6d& row,
                   double ratio);
 

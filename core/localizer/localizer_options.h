@@ -164,24 +164,28 @@ struct LocalizerOptions {
     });
   }
   static bool isLeftOut(const LocalizerOptions& options, const OptionInfo& info) {
-    const std::string_view name = info.name;
     if (isWide(info)) return options.wide == WideOptions{};
-    if (name == "refinement.covariance")
-      return options.refinement.covariance == RefinementOptions{}.covariance;
-    if (name == "refinement.saturated_weight") return options.refinement.saturated_weight == 1.0;
-    return isPartial(info) && !options.support.partial;
+    if (isCovariance(info)) return options.refinement.covariance == RefinementOptions{}.covariance;
+    return isPartial(info) && judgesTheWhole(options.support);
+  }
+  static bool judgesTheWhole(const SupportOptions& support) {
+    constexpr SupportOptions kPlain;
+    return support.partial == kPlain.partial && support.partial_visible == kPlain.partial_visible &&
+           support.partial_precision == kPlain.partial_precision;
   }
   static bool isWide(const OptionInfo& info) {
     return std::string_view(info.name).starts_with("wide.");
+  }
+  static bool isCovariance(const OptionInfo& info) {
+    return std::string_view(info.name) == "refinement.covariance";
   }
   static bool isPartial(const OptionInfo& info) {
     return std::string_view(info.name).starts_with("support.partial");
   }
   /// The format of traces that brought the option; 0: the first.
   static std::uint32_t traceFormatOf(const OptionInfo& info) {
-    const std::string_view name = info.name;
-    if (isWide(info) || name == "refinement.covariance") return 4;
-    return isPartial(info) || name == "refinement.saturated_weight" ? 5 : 0;
+    if (isWide(info) || isCovariance(info)) return 4;
+    return isPartial(info) ? 5 : 0;
   }
   static bool cameLater(const OptionInfo& info) { return traceFormatOf(info) > 0; }
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/localizer/edge_refinement.h"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -133,51 +132,6 @@ TEST(EdgeRefinement, CountsWhatItUses) {
   EXPECT_NEAR(result.rms_px, std::sqrt(squares / weights), 1e-9);
   EXPECT_LT(result.rms_px, 0.3);
   EXPECT_GT(used, 500);
-}
-
-TEST(EdgeRefinement, EdgesBesideSaturationWeighLess) {
-  Case scene = stationCase(1);
-  RefinementOptions options;
-  options.rounds = 1;
-  options.saturated_weight = 0.25;
-  const RefinementOptions plain = [&] {
-    RefinementOptions made = options;
-    made.saturated_weight = 1.0;
-    return made;
-  }();
-  const Pose start = poseOff(scene, 0.5, 4);
-  for (const int brightened : {0, 1}) {
-    Picture bright = *scene.picture;
-    if (brightened != 0)
-      for (std::uint8_t& gray : bright.gray)
-        gray = static_cast<std::uint8_t>(std::min(255, 2 * gray));
-    scene.picture = &bright;
-    Refined less(options);
-    Refined all(plain);
-    less.pass(scene, start, 3.0);
-    all.pass(scene, start, 3.0);
-    ASSERT_EQ(all.status, Status::kOk);
-    ASSERT_EQ(less.result.sample_count, all.result.sample_count);
-    int lessened = 0;
-    for (int i = 0; i < all.result.sample_count; ++i) {
-      const EdgeSample& sample = all.result.samples[static_cast<std::size_t>(i)];
-      const double weight = less.result.samples[static_cast<std::size_t>(i)].weight;
-      Eigen::Vector2d pixel;
-      ASSERT_TRUE(project(scene.camera, start * sample.point_in_station_m, pixel));
-      bool saturated = false;
-      for (int step = -3; step <= 3; ++step) {
-        const Eigen::Vector2d at = pixel + (sample.residual_px + step) * sample.normal;
-        const auto x = static_cast<int>(std::lround(at.x()));
-        const auto y = static_cast<int>(std::lround(at.y()));
-        if (x >= 0 && y >= 0 && x < bright.width && y < bright.height)
-          saturated = saturated || bright.view().at(x, y) >= 250;
-      }
-      EXPECT_NEAR(weight, (saturated ? 0.25 : 1.0) * sample.weight, 1e-9);
-      lessened += saturated && sample.weight > 0.0 ? 1 : 0;
-    }
-    EXPECT_EQ(lessened > 20, brightened != 0);
-    scene.picture = stationCase(1).picture;
-  }
 }
 
 TEST(EdgeRefinement, CovarianceIsSymmetricAndPositive) {
