@@ -18,6 +18,9 @@ struct SupportOptions {
   double near_px = 1.0;
   double min_gradient = 4.0;
   double derivative_sigma_px = 1.0;
+  bool partial = false;
+  double partial_visible = 0.45;
+  double partial_precision = 0.7;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -41,6 +44,17 @@ struct SupportOptions {
     visit(OptionInfo{"support.derivative_sigma_px", "px", 0.3, 5.0,
                      "Scale of the derivative along the normal."},
           self.derivative_sigma_px);
+    visit(OptionInfo{"support.partial", "", 0, 1,
+                     "A pose with too little edge support for a part of the object being hidden is "
+                     "accepted when enough of the object is visible and precisely met."},
+          self.partial);
+    visit(OptionInfo{"support.partial_visible", "", 0.0, 1.0,
+                     "Share of the rendered edges that must lie where the object is visible."},
+          self.partial_visible);
+    visit(OptionInfo{"support.partial_precision", "", 0.0, 1.0,
+                     "Share of the edges found about the rendered ones that must be met, beyond "
+                     "chance."},
+          self.partial_precision);
   }
 };
 
@@ -89,9 +103,37 @@ void countEdge(const EdgePixel& pixel, int direction, int level, const EdgeSearc
                const ImageView& image, const BitImage* ignore, const SupportOptions& options,
                std::int32_t& looked, std::int32_t& covered);
 
-/// `image` is raw, at full resolution; `level` is the render's. `ignore` may be nullptr.
+/// Where the object is visible: what an occluder, a deep shadow or saturation hides takes whole
+/// regions away and leaves others as they are, whereas a wrong pose is met here and there all over.
+/// The box around the rendered edges is divided into 8 x 8 cells; the object is *visible* in those
+/// where the coverage of kVisibleFrom_places places or more exceeds chance by kVisibleExcess at
+/// least. *Precision* is the part of the edges found within the search radius that lie near the
+/// rendered ones, beyond chance: where nothing is seen nothing is missed.
+struct PartialSupport {
+  static constexpr std::int32_t kVisibleFrom_places = 8;
+  static constexpr double kVisibleExcess = 0.35;
+
+  std::int32_t rendered = 0;  ///< as in EdgeSupport
+  std::int32_t visible = 0;   ///< of these in cells where the object is visible
+  std::int32_t cells = 0;     ///< with so many places
+  std::int32_t visible_cells = 0;
+  std::int32_t found = 0;  ///< places with an edge within the search radius
+  std::int32_t covered = 0;
+  std::int32_t displaced_found = 0;  ///< the same for the displaced render
+  std::int32_t displaced_covered = 0;
+
+  double visibleShare() const;
+  double precision() const;
+  /// What the options ask for before a pose of little support is accepted.
+  bool suffices(const SupportOptions& options) const {
+    return visibleShare() >= options.partial_visible && precision() >= options.partial_precision;
+  }
+};
+
+/// `image` is raw, at full resolution; `level` is the render's. `ignore` may be nullptr, `partial`
+/// too.
 EdgeSupport measureEdgeSupport(const EdgeRender& render, int level, const EdgeMap& edges,
                                const ImageView& image, const BitImage* ignore,
-                               const SupportOptions& options);
+                               const SupportOptions& options, PartialSupport* partial = nullptr);
 
 }  // namespace boresight

@@ -38,7 +38,9 @@ void visitDifferences(const LocalizerOptions& before, const LocalizerOptions& af
 int LocalizerOptions::roundOf(const OptionInfo& info) {
   const std::string_view name = info.name;
   if (name.starts_with("wide.") || name == "refinement.covariance") return 1;
-  if (name.starts_with("ambiguity.") || name == "refinement.rising_weight") return 2;
+  if (name.starts_with("ambiguity.") || name.starts_with("support.partial") ||
+      name == "refinement.rising_weight")
+    return 2;
   return 0;
 }
 

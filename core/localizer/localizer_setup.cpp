@@ -171,6 +171,7 @@ void Localizer::begin() {
   workspace_.fault = Status::kOk;
   workspace_.iteration = nullptr;
   workspace_.support = {};
+  workspace_.partial = {};
   workspace_.covariance = Matrix6d::Zero();
   workspace_.iterations = 0;
   workspace_.attempts = 1;

@@ -271,15 +271,17 @@ StepReport Localizer::stepSupport() {
   if (rival_round_ == RivalRound::kScan) return stepScan();
   const Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   workspace_.support = measureEdgeSupport(now.render, now.level, workspace_.edges, problem_.image,
-                                          problem_.ignore, options_.support);
+                                          problem_.ignore, options_.support, &workspace_.partial);
   digest_.tag("support");
   digestSupport(workspace_.support, digest_);
+  if (options_.support.partial) digestPartialSupport(workspace_.partial, digest_);
   if (link_.role != ViewRole::kAlone) {
     link_.need = ViewNeed::kSupport;
     return StepReport::of(Stage::kSupport, false);
   }
   const bool supported =
-      !options_.support.gate || workspace_.support.share() >= options_.support.min_support;
+      !options_.support.gate || workspace_.support.share() >= options_.support.min_support ||
+      (options_.support.partial && workspace_.partial.suffices(options_.support));
   return supported ? finishSupported() : failUnsupported();
 }
 

@@ -21,6 +21,7 @@ void digestTemplates(const TemplateSet& templates, DigestWriter& writer);
 void digestMatches(const MatchSet& matches, DigestWriter& writer);
 void digestPnp(const PnpSolution& solution, DigestWriter& writer);
 void digestSupport(const EdgeSupport& support, DigestWriter& writer);
+void digestPartialSupport(const PartialSupport& partial, DigestWriter& writer);
 /// Of a restart of the wide search.
 void digestEvidence(const HypothesisSummary& restart, const EdgeSupport& support,
                     DigestWriter& writer);

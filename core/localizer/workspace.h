@@ -129,6 +129,7 @@ struct Workspace {
   EdgeMap edges;  ///< levels finer than any render are gone when the first iteration has begun
   const Iteration* iteration = nullptr;  ///< the latest; stages not yet reached hold old values
   EdgeSupport support;                   ///< of the final pose
+  PartialSupport partial;                ///< of it, too
   LocalizationStatus status = LocalizationStatus::kRunning;
   Status fault = Status::kOk;
   Pose camera_from_station;  ///< best estimate; the seed unless converged

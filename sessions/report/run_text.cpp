@@ -104,15 +104,26 @@ std::string faultText(const LocalizationTrace& trace) {
   return text;
 }
 
+/// What is visible of an object in parts, when that was asked for.
+std::string partialText(const PartialSupport& partial, const SupportOptions& options) {
+  if (!options.partial) return "";
+  return format(
+      "; %.1f %% of the rendered edges lie where the object is visible, needed %.1f %%, and %.1f "
+      "%% of the edges about them are met beyond chance, needed %.1f %%",
+      100.0 * partial.visibleShare(), 100.0 * options.partial_visible, 100.0 * partial.precision(),
+      100.0 * options.partial_precision);
+}
+
 std::string notSupportedText(const LocalizationTrace& trace) {
   const EdgeSupport& support = trace.support;
+  const std::string partial = partialText(trace.partial, trace.lastOptions().support);
   return format(
       "edge support is %.1f %%, needed %.1f %%: %.1f %% of the rendered edges are seen (%.1f %% by "
-      "chance), %.1f %% of the edges seen on the object are rendered (%.1f %% by chance); the pose "
-      "is probably wrong: check seed and mesh",
+      "chance), %.1f %% of the edges seen on the object are rendered (%.1f %% by chance)%s; the "
+      "pose is probably wrong: check seed and mesh",
       100.0 * support.share(), 100.0 * trace.lastOptions().support.min_support,
       100.0 * support.coverage(), 100.0 * support.chanceCoverage(), 100.0 * support.explanation(),
-      100.0 * support.chanceExplanation());
+      100.0 * support.chanceExplanation(), partial.c_str());
 }
 
 /// The rival that came nearest to the best pose, or nullptr.
@@ -196,9 +207,10 @@ std::string convergedText(const RunSnapshot& snapshot) {
       "Converged in " + countText(snapshot.iterations.size(), "iteration", "iterations");
   if (snapshot.attempts > 1) text += format(" and %d attempts", snapshot.attempts);
   text += snapshot.replayed ? "." : format(", %.2f s.", snapshot.seconds.total());
-  if (snapshot.lastOptions().support.gate)
-    text += format(" Edge support is %.1f %%, needed %.1f %%.", 100.0 * snapshot.support.share(),
-                   100.0 * snapshot.lastOptions().support.min_support);
+  const SupportOptions& asked = snapshot.lastOptions().support;
+  if (asked.gate)
+    text += format(" Edge support is %.1f %%, needed %.1f %%%s.", 100.0 * snapshot.support.share(),
+                   100.0 * asked.min_support, partialText(snapshot.partial, asked).c_str());
   if (const Rival* rival = closestRival(snapshot.rivals))
     text += format(" The best of the poses that look alike has %.0f nats less evidence.",
                    rival->margin_nats);

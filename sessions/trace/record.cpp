@@ -103,6 +103,7 @@ void recordRefinement(const RefinementResult& refinement, RecordLevel level,
 void recordEnd(const Localizer& localizer, LocalizationTrace& trace) {
   const Workspace& workspace = localizer.workspace();
   trace.support = workspace.support;
+  trace.partial = workspace.partial;
   trace.attempts = workspace.attempts;
   trace.rivals.assign(workspace.rivals.begin(), workspace.rivals.end());
   trace.status = workspace.status;

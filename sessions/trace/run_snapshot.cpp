@@ -18,6 +18,7 @@ void copyHead(const From& from, To& to) {
   to.attempts = from.attempts;
   to.rivals = from.rivals;
   to.support = from.support;
+  to.partial = from.partial;
   to.status = from.status;
   to.fault = from.fault;
   to.camera_from_station = from.camera_from_station;

@@ -28,6 +28,7 @@ struct RunSnapshot {
   std::int32_t attempts = 1;
   std::vector<Rival> rivals;
   EdgeSupport support;
+  PartialSupport partial;  ///< of the same pose; zero in old traces and replayed runs
   LocalizationStatus status = LocalizationStatus::kRunning;
   Status fault = Status::kOk;
   Pose camera_from_station;

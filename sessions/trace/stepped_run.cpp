@@ -84,6 +84,7 @@ void SteppedRun::finish() {
   const Workspace& workspace = localizer_->workspace();
   snapshot_.finished = true;
   snapshot_.support = workspace.support;
+  snapshot_.partial = workspace.partial;
   snapshot_.attempts = workspace.attempts;
   snapshot_.rivals.assign(workspace.rivals.begin(), workspace.rivals.end());
   snapshot_.status = workspace.status;

@@ -157,6 +157,7 @@ struct LocalizationTrace {
   std::int32_t attempts = 1;
   std::vector<Rival> rivals;  ///< with ambiguity.enabled, about the pose that converged
   EdgeSupport support;
+  PartialSupport partial;  ///< of the same pose; zero in old traces
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< kRunning: it was stopped
   Status fault = Status::kOk;
   Pose camera_from_station;  ///< best estimate; the seed unless converged

@@ -16,7 +16,7 @@ namespace boresight::sessions {
 /// The trace's format before options were added; each round of them has the next.
 inline constexpr std::uint32_t kFormatBeforeRounds = 3;
 inline constexpr std::uint32_t kFormatOfWideSearch = 4;
-/// The one that brought rivals and the options about them.
+/// The one that brought rivals, what is seen of an object in parts, and their options.
 inline constexpr std::uint32_t kFormatOfRivals = 5;
 
 template <class Self, class Record>
@@ -198,6 +198,14 @@ void fields(Archive& archive, Self& rival) {
   archive.number(margin_nats);
 }
 
+template <class Archive, Is<PartialSupport> Self>
+void fields(Archive& archive, Self& partial) {
+  auto& [rendered, visible, cells, visible_cells, found, covered, displaced_found,
+         displaced_covered] = partial;
+  numbers(archive, rendered, visible, cells, visible_cells, found, covered, displaced_found,
+          displaced_covered);
+}
+
 template <class Archive, Is<IterationTrace> Self>
 void matchingFields(Archive& archive, Self& iteration) {
   archive.list(iteration.templates, [&](auto& item) { fields(archive, item); });
@@ -291,6 +299,7 @@ void fields(Archive& archive, Self& trace) {
   if (archive.has(kFormatOfRivals))
     archive.list(trace.rivals, [&](auto& rival) { fields(archive, rival); });
   fields(archive, trace.support);
+  if (archive.has(kFormatOfRivals)) fields(archive, trace.partial);
   archive.choice(trace.status, kLastLocalizationStatus);
   archive.choice(trace.fault, Status::kNoConsensus);
   fields(archive, trace.camera_from_station);

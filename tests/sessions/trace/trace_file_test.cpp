@@ -32,6 +32,13 @@ const LocalizationTrace& exampleTrace() {
   return trace;
 }
 
+/// What formats before 5 know of it.
+LocalizationTrace exampleOfOldFormats() {
+  LocalizationTrace trace = exampleTrace();
+  trace.partial = {};
+  return trace;
+}
+
 /// All fields as bytes: equal bytes, equal traces.
 std::vector<std::uint8_t> bytesOf(const LocalizationTrace& trace, std::uint32_t format = ~0U) {
   ArchiveWriter writer;
@@ -75,7 +82,7 @@ TEST(TraceFile, ReadsTheVersionBeforeTheChanges) {
   const std::vector<std::uint8_t> payload = bytesOf(exampleTrace(), 2);  // no count of changes
   folder.write("old.trace", sealed(bytes.append(payload.begin(), payload.end())));
   const LocalizationTrace loaded = loadTrace(folder / "old.trace");
-  EXPECT_EQ(bytesOf(loaded), bytesOf(exampleTrace()));
+  EXPECT_EQ(bytesOf(loaded), bytesOf(exampleOfOldFormats()));
   EXPECT_TRUE(loaded.changes.empty());
 }
 
@@ -89,7 +96,22 @@ TEST(TraceFile, ReadsTheVersionBeforeTheWideSearch) {
   bytes.append(payload.begin(), payload.end()).append(4, '\0');  // no changes
   EXPECT_EQ(bytes.find("wide."), std::string::npos);
   folder.write("old.trace", sealed(bytes));
-  EXPECT_EQ(bytesOf(loadTrace(folder / "old.trace")), bytesOf(exampleTrace()));
+  EXPECT_EQ(bytesOf(loadTrace(folder / "old.trace")), bytesOf(exampleOfOldFormats()));
+}
+
+/// Format 4 likewise, without what came with partial support.
+TEST(TraceFile, ReadsTheVersionBeforePartialSupport) {
+  const test::TemporaryFolder folder;
+  saveTrace(folder / "run.trace", exampleTrace());
+  std::string bytes = folder.read("run.trace").substr(0, kHeaderBytes);
+  bytes[11] = 4;
+  const std::vector<std::uint8_t> payload = bytesOf(exampleTrace(), 4);
+  bytes.append(payload.begin(), payload.end()).append(4, '\0');  // no changes
+  EXPECT_NE(bytes.find("wide."), std::string::npos);
+  EXPECT_EQ(bytes.find("support.partial"), std::string::npos);
+  folder.write("old.trace", sealed(bytes));
+  EXPECT_EQ(bytesOf(loadTrace(folder / "old.trace")), bytesOf(exampleOfOldFormats()));
+  EXPECT_GT(exampleTrace().partial.rendered, 0);
 }
 
 TEST(TraceFile, ReadsTheVersionBeforeRivals) {
