@@ -99,8 +99,8 @@ TEST(TraceFile, ReadsTheVersionBeforeTheWideSearch) {
   EXPECT_EQ(bytesOf(loadTrace(folder / "old.trace")), bytesOf(exampleOfOldFormats()));
 }
 
-/// Format 4 likewise, without what came with partial support.
-TEST(TraceFile, ReadsTheVersionBeforePartialSupport) {
+/// Format 4 likewise, without what came with rivals and partial support.
+TEST(TraceFile, ReadsTheVersionBeforeRivalsAndPartialSupport) {
   const test::TemporaryFolder folder;
   saveTrace(folder / "run.trace", exampleTrace());
   std::string bytes = folder.read("run.trace").substr(0, kHeaderBytes);
@@ -109,22 +109,10 @@ TEST(TraceFile, ReadsTheVersionBeforePartialSupport) {
   bytes.append(payload.begin(), payload.end()).append(4, '\0');  // no changes
   EXPECT_NE(bytes.find("wide."), std::string::npos);
   EXPECT_EQ(bytes.find("support.partial"), std::string::npos);
+  EXPECT_EQ(bytes.find("ambiguity."), std::string::npos);
   folder.write("old.trace", sealed(bytes));
   EXPECT_EQ(bytesOf(loadTrace(folder / "old.trace")), bytesOf(exampleOfOldFormats()));
   EXPECT_GT(exampleTrace().partial.rendered, 0);
-}
-
-TEST(TraceFile, ReadsTheVersionBeforeRivals) {
-  const test::TemporaryFolder folder;
-  saveTrace(folder / "run.trace", exampleTrace());
-  std::string bytes = folder.read("run.trace").substr(0, kHeaderBytes);
-  bytes[11] = 4;
-  const std::vector<std::uint8_t> payload = bytesOf(exampleTrace(), 4);
-  bytes.append(payload.begin(), payload.end()).append(4, '\0');  // no changes
-  EXPECT_EQ(bytes.find("ambiguity."), std::string::npos);
-  EXPECT_NE(bytes.find("wide."), std::string::npos);
-  folder.write("old.trace", sealed(bytes));
-  EXPECT_EQ(bytesOf(loadTrace(folder / "old.trace")), bytesOf(exampleTrace()));
 }
 
 TEST(TraceFile, GivesBackEveryFieldExactly) {
