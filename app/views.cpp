@@ -52,6 +52,9 @@ void printRig(const sessions::RigViews& rig, const sessions::RigRun& run) {
 void requireOffered(const LocalizerOptions& options) {
   if (options.wide.isOn())
     throw CLI::ValidationError("--set", "views have no wide search (wide.*)");
+  if (options.ambiguity.enabled)
+    throw CLI::ValidationError("--set", "views have no search for rivals (ambiguity.*)");
+  if (options.support.partial) throw CLI::ValidationError("--set", "views have no support.partial");
   if (options.refinement.covariance == CovarianceModel::kGrouped)
     throw CLI::ValidationError("--set", "views have no refinement.covariance=grouped");
 }

@@ -22,7 +22,9 @@ Matrix6d movedBy(const Pose& a_from_b, const Matrix6d& covariance_in_b) {
 
 Status ViewsLocalizer::validate(const ViewsProblem& problem, const LocalizerOptions& options) {
   if (problem.views.empty() || problem.views.size() > kMaxViews) return Status::kCapacityExceeded;
-  if (firstInvalidOption(options) != nullptr || options.wide.isOn()) return Status::kInvalidOption;
+  const bool offered =
+      !options.wide.isOn() && !options.ambiguity.enabled && !options.support.partial;
+  if (firstInvalidOption(options) != nullptr || !offered) return Status::kInvalidOption;
   if (options.refinement.covariance == CovarianceModel::kGrouped && problem.views.size() > 1)
     return Status::kInvalidOption;
   if (!isUsable(problem.rig_from_station_seed)) return Status::kInvalidPose;

@@ -33,8 +33,8 @@ namespace boresight {
 /// edge support refuses is dropped for the attempt, and the run goes on to refine without it.
 /// Whatever is left when all that take part are supported is the result.
 ///
-/// Not offered: the wide search, matches from outside, covariances by groups of errors
-/// (kInvalidOption) and more than one worker.
+/// Not offered: the wide search, rivals, partial support, matches from outside, covariances by
+/// groups of errors (kInvalidOption) and more than one worker.
 class ViewsLocalizer {
  public:
   /// Bytes of arena, in a block aligned to Arena::kAlignment: the sum of what each view's localizer

@@ -191,6 +191,12 @@ TEST(ViewsLocalizer, RefusesWhatItDoesNotOffer) {
   LocalizerOptions wide = defaultProfile();
   wide.wide.rotation_rad = 1.0;
   EXPECT_EQ(ViewsRun(scene, {viewOf(scene)}, wide).localizer->status(), Status::kInvalidOption);
+  LocalizerOptions rivals = defaultProfile();
+  rivals.ambiguity.enabled = true;
+  EXPECT_EQ(ViewsRun(scene, {viewOf(scene)}, rivals).localizer->status(), Status::kInvalidOption);
+  LocalizerOptions partial = defaultProfile();
+  partial.support.partial = true;
+  EXPECT_EQ(ViewsRun(scene, {viewOf(scene)}, partial).localizer->status(), Status::kInvalidOption);
   EXPECT_EQ(ViewsRun(scene, {}, defaultProfile()).localizer->status(), Status::kCapacityExceeded);
   View blind = viewOf(scene);
   blind.camera = Camera();
