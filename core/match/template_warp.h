@@ -16,8 +16,8 @@ namespace boresight {
 /// Templates searched for turned and scaled, in place of renders rolled as a whole.
 struct WarpOptions {
   bool enabled = false;
-  double tolerance_px = 2.0;
-  std::int32_t max_per_template = 49;
+  double tolerance_px = 3.0;
+  std::int32_t max_per_template = 99;
   std::int32_t iterations = 1;
 
   bool operator==(const WarpOptions&) const = default;

@@ -31,7 +31,7 @@ struct Drawing {
   Drawing(int width, int height, Dice& dice) : edges(width, height), mask(width, height) {
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) mask.image.set(x, y);
-    for (int line = 0; line < 7; ++line) {
+    for (int line = 0; line < 12; ++line) {
       const std::complex<double> at(dice.uniform(0.2, 0.8) * width,
                                     dice.uniform(0.2, 0.8) * height);
       const std::complex<double> along = std::polar(1.0, dice.uniform(0.0, 3.14));
@@ -102,7 +102,8 @@ TEST(TemplateWarp, TurnsAndScalesEdgesAboutTheCentre) {
       for (int x = view.center_x - 15; x <= view.center_x + 15; ++x) {
         if (!view.edges->get(x, y)) continue;
         const auto to = middle + (std::complex<double>(x, y) - centre) * turn;
-        EXPECT_TRUE(hasEdgeNear(*warped.edges, to, kHalfDiagonal * (1.0 + warp.scale)));
+        // A line that shrinks may lose single pixels, not two in a row.
+        EXPECT_TRUE(hasEdgeNear(*warped.edges, to, kHalfDiagonal * (1.0 + warp.scale) + 1.0));
       }
     }
   }
@@ -242,15 +243,15 @@ TEST(WarpedSearch, FindsWhatIsTurnedAndScaled) {
     SearchTask task{drawn.view(100, 100, 64), &seen.image, {70, 70, 150, 150}, {}, 6, true};
     OwnedSearch plain(false), warped(true);
     plain.run(task);
-    task.warps.rolls = 9;
-    task.warps.scales = 3;
-    task.warps.roll_step_rad = 5.0 * kDegree;
-    task.warps.scale_step = 0.1;
+    task.warps.rolls = 19;
+    task.warps.scales = 7;
+    task.warps.roll_step_rad = 2.0 * kDegree;
+    task.warps.scale_step = 0.04;
     warped.run(task);
     EXPECT_NEAR(warped.search.x(), found_x, 1.5);
     EXPECT_NEAR(warped.search.y(), found_y, 1.5);
     EXPECT_NEAR(warped.search.warp().roll_rad, roll_rad, 3.0 * kDegree);
-    EXPECT_NEAR(warped.search.warp().scale, scale, 0.08);
+    EXPECT_NEAR(warped.search.warp().scale, scale, 0.06);
     const double of_plain = whsScore(plain.search.peak().counts, plain.search.norms());
     const double of_warped = whsScore(warped.search.peak().counts, warped.search.norms());
     plain_better += of_plain >= of_warped ? 1 : 0;

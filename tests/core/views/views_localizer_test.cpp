@@ -3,6 +3,8 @@
 // and against known truths.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -159,6 +161,40 @@ TEST(ViewsLocalizer, AViewOfSomethingElseIsLeftOut) {
   EXPECT_TRUE(result.views[0].tookPart());
   EXPECT_FALSE(result.views[1].tookPart());
   EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).centre_m, 0.0006);
+}
+
+/// What is left of the second view agrees with the first, but supports the pose too little: it is
+/// dropped at the end, and the first refines on alone.
+TEST(ViewsLocalizer, AViewHalfCoveredIsDroppedAtTheGateAndTheOtherConverges) {
+  const Case scene = stationCase(3);
+  const View whole = secondView(scene);
+  int dropped = 0;
+  for (int covered = 180; covered <= 360; covered += 30) {
+    SCOPED_TRACE(covered);
+    Picture half = flatPicture(512, 512, 0);
+    for (int y = 0; y < 512; ++y)
+      std::copy_n(whole.image.row(y) + covered, 512 - covered,
+                  half.gray.begin() + 512 * y + covered);
+    View second = whole;
+    second.image = half.view();
+    ViewsRun run(scene, {viewOf(scene), second}, defaultProfile());
+    const ViewsResult& result = run.finish();
+    ASSERT_EQ(result.status, LocalizationStatus::kConverged);
+    EXPECT_TRUE(result.views[0].tookPart());
+    EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).centre_m, 0.0006);
+    if (result.views[1].status != LocalizationStatus::kNotSupported) continue;
+    ++dropped;
+    EXPECT_GT(result.views[1].inliers, 5);
+    EXPECT_LT(result.views[1].support.share(), defaultProfile().support.min_support);
+    // By the first view's edges alone at the end: its covariance, not that of both.
+    ViewsRun both(scene, {viewOf(scene), whole}, defaultProfile());
+    ViewsRun alone(scene, {viewOf(scene)}, defaultProfile());
+    const double of_alone = alone.finish().covariance.trace();
+    const double of_both = both.finish().covariance.trace();
+    EXPECT_LT(std::abs(result.covariance.trace() - of_alone),
+              std::abs(result.covariance.trace() - of_both));
+  }
+  EXPECT_GT(dropped, 0);
 }
 
 TEST(ViewsLocalizer, AllBlackFails) {

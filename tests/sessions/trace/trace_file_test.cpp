@@ -115,6 +115,34 @@ TEST(TraceFile, ReadsTheVersionBeforeRivalsAndPartialSupport) {
   EXPECT_GT(exampleTrace().partial.rendered, 0);
 }
 
+/// Format 5 likewise, without what came with warped templates.
+TEST(TraceFile, ReadsTheVersionBeforeWarpedTemplates) {
+  const test::TemporaryFolder folder;
+  saveTrace(folder / "run.trace", exampleTrace());
+  std::string bytes = folder.read("run.trace").substr(0, kHeaderBytes);
+  bytes[11] = 5;
+  const std::vector<std::uint8_t> payload = bytesOf(exampleTrace(), 5);
+  bytes.append(payload.begin(), payload.end()).append(4, '\0');  // no changes
+  EXPECT_NE(bytes.find("ambiguity."), std::string::npos);
+  EXPECT_EQ(bytes.find("warp."), std::string::npos);
+  EXPECT_EQ(bytes.find("templates.learn"), std::string::npos);
+  folder.write("old.trace", sealed(bytes));
+  EXPECT_EQ(bytesOf(loadTrace(folder / "old.trace")), bytesOf(exampleTrace()));
+}
+
+TEST(TraceFile, KeepsHowTemplatesWereWarpedAndWhichWereDropped) {
+  const test::TemporaryFolder folder;
+  LocalizationTrace trace = exampleTrace();
+  trace.iterations.front().matches[2].warp = {0.25, 1.125};
+  trace.iterations.front().matches[3].dropped = true;
+  saveTrace(folder / "run.trace", trace);
+  const LocalizationTrace loaded = loadTrace(folder / "run.trace");
+  EXPECT_EQ(loaded.iterations.front().matches[2].warp, (TemplateWarp{0.25, 1.125}));
+  EXPECT_EQ(loaded.iterations.front().matches[1].warp, TemplateWarp());
+  EXPECT_TRUE(loaded.iterations.front().matches[3].dropped);
+  EXPECT_FALSE(loaded.iterations.front().matches[2].dropped);
+}
+
 TEST(TraceFile, GivesBackEveryFieldExactly) {
   const test::TemporaryFolder folder;
   saveTrace(folder / "run.trace", exampleTrace());
