@@ -49,8 +49,9 @@ void expectLikePlain(const SceneMesh& mesh, const Camera& camera, const Pose& po
 }
 
 std::vector<Camera> cameras() {
-  return {pinholeCamera(201, 149, 220.0), brownCamera(201, 149, 200.0, -0.25),
-          fisheyeCamera(160, 120, 90.0), pinholeCamera(1400, 30, 220.0)};
+  return {pinholeCamera(201, 149, 220.0),      brownCamera(201, 149, 200.0, -0.25),
+          fisheyeCamera(160, 120, 90.0),       pinholeCamera(1400, 30, 220.0),
+          skewMirroredCamera(201, 149, 220.0), pupilCamera(160, 120, 110.0, 0.01)};
 }
 
 TEST(SmallFaces, BallsOfAllFinenessLikePlain) {
