@@ -69,7 +69,8 @@ CahvModel cahvFromCamera(const Camera& camera, const Pose& camera_from_reference
   const Eigen::Matrix3d reference_from_camera = camera_from_reference.matrix().transpose();
   CahvModel cahv;
   cahv.model = camera.model;
-  cahv.c_m = camera_from_reference.inverse().translation_m;
+  // 0 rather than -0 where there is nothing to subtract.
+  cahv.c_m = Eigen::Vector3d::Zero() - reference_from_camera * camera_from_reference.translation_m;
   cahv.a = reference_from_camera.col(2);
   cahv.h_px = reference_from_camera * Eigen::Vector3d(camera.fx, 0.0, camera.cx);
   cahv.v_px = reference_from_camera * Eigen::Vector3d(camera.cahv.skew_px, camera.fy, camera.cy);

@@ -176,11 +176,11 @@ BoxErrors boxErrors(const Camera& camera, double half_m) {
 TEST(SalientLines, OnTheExactProjectionDespiteAMovingPupil) {
   struct {
     double focal_px, entrance_m, half_m, most_beyond_px;
-  } const cases[] = {{260.0, 0.002, 0.1, 0.02},   // a hazard camera of 1 Mpx at half size
-                     {260.0, 0.026, 0.03, 0.02},  // the deepest pupil that is flown
-                     {1040.0, 0.002, 0.03, 0.02},
-                     {1040.0, 0.026, 0.03, 0.06},
-                     {1040.0, 0.026, 0.1, 0.6}};
+  } const cases[] = {
+      {260.0, 0.002, 0.1, 0.02},   // a hazard camera of 1 Mpx at half size
+      {260.0, 0.026, 0.03, 0.02},  // the deepest pupil that is flown
+      {1040.0, 0.002, 0.03, 0.02}, {1040.0, 0.026, 0.03, 0.02},
+      {1040.0, 0.026, 0.1, 0.12},  {1040.0, 0.026, 0.3, 0.5}};  // beyond the image on all sides
   for (const auto& at : cases) {
     const int width = static_cast<int>(1.6 * at.focal_px);
     const BoxErrors errors =
