@@ -57,8 +57,11 @@ Status cameraFromCahv(const CahvModel& cahv, int width, int height, Camera& came
   if (cahv.model != CameraModel::kCahv) {
     const double optical_length = lengthOf(cahv.o);
     if (!isUnit(optical_length)) return Status::kInvalidCamera;
+    // What has length 1 but for rounding stays as it is, so that a camera written comes back.
     const Eigen::Vector3d optical = rotation * cahv.o;
-    camera.cahv.optical_axis = optical / lengthOf(optical);
+    const double excess = lengthOf(optical) - 1.0;
+    camera.cahv.optical_axis =
+        excess < 1e-15 && excess > -1e-15 ? optical : Eigen::Vector3d(optical / lengthOf(optical));
     camera.cahv.radial = cahv.r;
   }
   if (cahv.model == CameraModel::kCahvore) camera.cahv.entrance_m = cahv.e_m;

@@ -21,7 +21,7 @@ struct CahvModel {
   Eigen::Vector3d r = Eigen::Vector3d::Zero();     ///< radial terms; CAHVOR and CAHVORE
   Eigen::Vector3d e_m = Eigen::Vector3d::Zero();   ///< entrance pupil terms; CAHVORE
   int type = 1;                                    ///< CAHVORE: 1 perspective, 2 fisheye, 3 general
-  double parameter = 1.0;                          ///< CAHVORE: linearity of type 3
+  double parameter = 1.0;  ///< CAHVORE: linearity of type 3; the others do not use it
 
   bool operator==(const CahvModel&) const = default;
 };

@@ -129,7 +129,6 @@ void readModel(const Entries& entries, CahvModel& cahv) {
   const std::string_view rest = std::string_view(name).substr(8);
   if (cahv.type != 3) {
     if (!rest.empty()) fail();
-    cahv.parameter = cahv.type == 1 ? 1.0 : 0.0;
     return;
   }
   if (rest.size() < 2 || rest[0] != ',') fail();

@@ -112,11 +112,12 @@ TEST_F(CahvorText, StatesScalesAndCentres) {
 TEST_F(CahvorText, NamesWhatIsWrong) {
   EXPECT_EQ(error("hello"),
             "a.cahvor: not a camera file: it begins with 'hello' instead of Model = ...");
-  EXPECT_EQ(error(""), "a.cahvor: Model: is missing");
+  EXPECT_EQ(error(""), "a.cahvor: the file is empty");
   EXPECT_THAT(error(with("CAHVORE3,0.37", "CAHVORE4")),
               HasSubstr("Model: 'CAHVORE4' is not known"));
   EXPECT_THAT(error(with("CAHVORE3,0.37", "CAHVORE3,x")), HasSubstr("is not known"));
   EXPECT_THAT(error(with("CAHVORE3,0.37", "FISH")), HasSubstr("is not known"));
+  EXPECT_EQ(error(with("Model =", "Lens =")), "a.cahvor: Model: is missing");
   EXPECT_EQ(error(with("E =", "F =")), "a.cahvor: E: is missing");
   EXPECT_EQ(error(with("E =", "C =")), "a.cahvor: C: is given twice");
   EXPECT_EQ(error(with("0.001900 ", "nan ")), "a.cahvor: E: 'nan' is not a number");
