@@ -11,6 +11,7 @@
 #include "app/bop_arguments.h"
 #include "app/commands.h"
 #include "sessions/annotation/marks_file.h"
+#include "sessions/io/cahvor_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/image_file.h"
@@ -48,9 +49,20 @@ void flagAll(const std::vector<sessions::RedFlag>& flags) {
   for (const sessions::RedFlag& one : flags) flag(one.text);
 }
 
-void describeCamera(const Camera& camera) {
-  const sessions::CameraSheet sheet = sessions::cameraSheet(camera);
-  for (const std::string& text : sessions::cameraLines(sheet, camera)) line(text);
+void describeCamera(const sessions::CameraFile& file) {
+  const sessions::CameraSheet sheet = sessions::cameraSheet(file.camera);
+  for (const std::string& text : sessions::cameraLines(sheet, file.camera)) line(text);
+  if (file.reference) {
+    const std::string frame =
+        file.reference->name.empty() ? "a frame that it does not name" : file.reference->name;
+    std::string index;
+    for (const std::int64_t one : file.reference->index) index += " " + std::to_string(one);
+    line("vectors in " + frame + index + ", the camera's centre at " +
+         vectorText(file.reference->camera_from_reference.inverse().translation_m, 4) + " m");
+  }
+  if (pupilMoves(file.camera))
+    line("the entrance pupil moves from " + fixedText(1e3 * file.camera.cahv.pupil_low_m, 2) +
+         " to " + fixedText(1e3 * file.camera.cahv.pupil_high_m, 2) + " mm along the optical axis");
   flagAll(sheet.flags);
 }
 
@@ -167,7 +179,7 @@ void describeJson(const path& file) {
   const std::string format = sessions::JsonDocument(file).root().at("format").nonEmptyText();
   line(format);
   if (format == "boresight-camera") {
-    describeCamera(sessions::readCamera(file));
+    describeCamera(sessions::readCameraFile(file));
   } else if (format == "boresight-pose") {
     describePose(sessions::readPose(file));
   } else if (format == "boresight-dataset") {
@@ -246,7 +258,9 @@ void describe(const path& file, const std::string& mesh_unit, const DatasetArgum
   const auto is = [&extension](std::initializer_list<const char*> names) {
     return std::find(names.begin(), names.end(), extension) != names.end();
   };
-  if (is({".json"})) {
+  if (sessions::isCahvorFile(file)) {
+    describeCamera(sessions::readCahvorCamera(file));
+  } else if (is({".json"})) {
     describeJson(file);
   } else if (is({".ply", ".obj", ".stl", ".gltf", ".glb"})) {
     describeMesh(file, mesh_unit);

@@ -52,7 +52,8 @@ void LocalizeArguments::addTo(CLI::App& command) {
 Inputs readInputs(const LocalizeArguments& arguments) {
   Inputs inputs{readProblemInputs(arguments), std::nullopt};
   if (!arguments.truth.empty())
-    inputs.truth = sessions::readPose(std::filesystem::path(arguments.truth));
+    inputs.truth =
+        sessions::readPose(std::filesystem::path(arguments.truth), inputs.camera_reference);
   return inputs;
 }
 

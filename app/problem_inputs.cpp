@@ -76,8 +76,10 @@ ProblemInputs readProblemInputs(const InputArguments& arguments) {
   inputs.options = arguments.options.read();
   if (arguments.feature_size_m > 0.0)
     inputs.options.templates.feature_size_m = arguments.feature_size_m;
-  inputs.camera = sessions::readCamera(std::filesystem::path(arguments.camera));
-  inputs.seed = sessions::readPose(std::filesystem::path(arguments.seed));
+  const auto camera = sessions::readCameraFile(std::filesystem::path(arguments.camera));
+  inputs.camera = camera.camera;
+  inputs.camera_reference = camera.reference;
+  inputs.seed = sessions::readPose(std::filesystem::path(arguments.seed), camera.reference);
   sessions::ImageReadOptions reading;
   if (arguments.bit_depth > 0) reading.bit_depth = arguments.bit_depth;
   inputs.image = sessions::readImage(arguments.image, reading);

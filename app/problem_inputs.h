@@ -32,6 +32,7 @@ struct ProblemInputs {
   sessions::GrayImage image;
   Camera camera;
   sessions::SceneMesh scene;
+  std::optional<sessions::CameraReference> camera_reference;
   sessions::PoseFile seed;
   std::optional<sessions::IgnoreMask> ignore_mask;
   BitImage ignore;

@@ -21,8 +21,11 @@ struct RenderArguments {
 
 int render(const RenderArguments& arguments) {
   sessions::requireWritable(arguments.out);
-  const Camera camera = sessions::readCamera(arguments.camera);
-  const sessions::PoseFile pose = sessions::readPose(std::filesystem::path(arguments.pose));
+  const sessions::CameraFile camera_file =
+      sessions::readCameraFile(std::filesystem::path(arguments.camera));
+  const Camera& camera = camera_file.camera;
+  const sessions::PoseFile pose =
+      sessions::readPose(std::filesystem::path(arguments.pose), camera_file.reference);
   const sessions::SceneMesh scene = arguments.mesh.read();
   sessions::requirePlausibleScale(scene, pose.camera_from_station);
   const std::string concern = sessions::seedConcern(camera, scene.view(), pose.camera_from_station);

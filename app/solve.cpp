@@ -46,9 +46,13 @@ sessions::CaseMarksSolution solveFiles(const SolveArguments& arguments) {
   made.marks.rigid = !arguments.rig.empty();
   sessions::SolveMarksOptions options;
   options.robust = arguments.robust;
-  if (!arguments.seed.empty())
+  if (!arguments.seed.empty()) {
+    std::optional<sessions::CameraReference> reference;
+    if (arguments.rig.empty())
+      reference = sessions::readCameraFile(std::filesystem::path(arguments.camera)).reference;
     options.rig_from_station_guess =
-        sessions::readPose(std::filesystem::path(arguments.seed)).camera_from_station;
+        sessions::readPose(std::filesystem::path(arguments.seed), reference).camera_from_station;
+  }
   const auto& views = made.marks.views;
   made.result = sessions::solveMarks(views, options);
   const Pose* known = options.rig_from_station_guess ? &*options.rig_from_station_guess : nullptr;

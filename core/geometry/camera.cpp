@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/base/math.h"
+#include "core/geometry/cahvore.h"
 #include "core/geometry/distortion.h"
 
 namespace boresight {
@@ -20,6 +21,41 @@ bool plausibleFocalLength(double focal_length_px) {
 
 bool within(double value, double bound) { return value >= -bound && value <= bound; }
 
+/// O within 60 deg of A, and everything of a size that a lens can have.
+bool plausibleLens(const CahvLens& lens) {
+  constexpr double kLargestTerm = 1e6;
+  constexpr double kLargestLinearity = 10.0;
+  for (int i = 0; i < 3; ++i)
+    if (!within(lens.radial[i], kLargestTerm) || !within(lens.entrance_m[i], kLargestTerm))
+      return false;
+  const double length2 = lens.optical_axis.squaredNorm();
+  return length2 > 1.0 - 1e-9 && length2 < 1.0 + 1e-9 && lens.optical_axis.z() > 0.5 &&
+         within(lens.skew_px, kLargestPixel) && within(lens.linearity, kLargestLinearity);
+}
+
+/// Pixel of a distorted direction on the plane z = 1.
+inline Eigen::Vector2d cahvPixel(const Camera& camera, const Eigen::Vector2d& q) {
+  return {camera.fx * q.x() + camera.cx,
+          camera.cahv.skew_px * q.x() + camera.fy * q.y() + camera.cy};
+}
+
+inline Eigen::Vector2d cahvDistorted(const Camera& camera, const Eigen::Vector2d& pixel) {
+  const double x = (pixel.x() - camera.cx) / camera.fx;
+  return {x, (pixel.y() - camera.cy - camera.cahv.skew_px * x) / camera.fy};
+}
+
+bool projectCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vector2d& pixel,
+                 Eigen::Matrix<double, 2, 3>& jacobian) {
+  Eigen::Vector2d q;
+  if (!distortCahv(camera, point, q, jacobian)) return false;
+  pixel = cahvPixel(camera, q);
+  for (int k = 0; k < 3; ++k) {
+    jacobian(1, k) = camera.cahv.skew_px * jacobian(0, k) + camera.fy * jacobian(1, k);
+    jacobian(0, k) *= camera.fx;
+  }
+  return true;
+}
+
 inline bool inPinholeField(const Camera& camera, const Eigen::Vector2d& p) {
   const double limit = camera.valid_radius;
   return p.x() * p.x() + p.y() * p.y() <= limit * limit;
@@ -30,8 +66,11 @@ inline bool inPinholeField(const Camera& camera, const Eigen::Vector2d& p) {
 Status prepareCamera(Camera& camera) {
   camera.valid_radius = 0.0;
   if (camera.width <= 0 || camera.height <= 0) return Status::kInvalidCamera;
-  if (!plausibleFocalLength(camera.fx) || !plausibleFocalLength(camera.fy))
+  const bool cahv = isCahvFamily(camera.model);
+  if (!plausibleFocalLength(camera.fx) ||
+      !plausibleFocalLength(cahv && isMirrored(camera) ? -camera.fy : camera.fy))
     return Status::kInvalidCamera;
+  if (cahv && !plausibleLens(camera.cahv)) return Status::kInvalidCamera;
   if (!within(camera.cx, kLargestPixel) || !within(camera.cy, kLargestPixel))
     return Status::kInvalidCamera;
   for (const double coefficient : camera.distortion)
@@ -47,12 +86,23 @@ Status prepareCamera(Camera& camera) {
     case CameraModel::kKannalaBrandt:
       camera.valid_radius = kannalaBrandtValidAngle_rad(camera);
       break;
+    case CameraModel::kCahv:
+    case CameraModel::kCahvor:
+    case CameraModel::kCahvore:
+      camera.valid_radius = prepareCahvLens(camera);
+      break;
   }
   return camera.valid_radius > 0.0 ? Status::kOk : Status::kInvalidCamera;
 }
 
 bool project(const Camera& camera, const Eigen::Vector3d& point_in_camera_m,
              Eigen::Vector2d& pixel) {
+  if (isCahvFamily(camera.model)) {
+    Eigen::Vector2d q;
+    if (!distortCahv(camera, point_in_camera_m, q)) return false;
+    pixel = cahvPixel(camera, q);
+    return true;
+  }
   if (!(point_in_camera_m.z() > 0.0)) return false;
   const double inverse_z = 1.0 / point_in_camera_m.z();
   const Eigen::Vector2d p(point_in_camera_m.x() * inverse_z, point_in_camera_m.y() * inverse_z);
@@ -68,6 +118,10 @@ bool project(const Camera& camera, const Eigen::Vector3d& point_in_camera_m,
     case CameraModel::kKannalaBrandt:
       valid = distortKannalaBrandt(camera, p, q);
       break;
+    case CameraModel::kCahv:
+    case CameraModel::kCahvor:
+    case CameraModel::kCahvore:
+      break;  // above
   }
   if (!valid) return false;
   pixel.x() = camera.fx * q.x() + camera.cx;
@@ -77,6 +131,7 @@ bool project(const Camera& camera, const Eigen::Vector3d& point_in_camera_m,
 
 bool projectWithJacobian(const Camera& camera, const Eigen::Vector3d& point_in_camera_m,
                          Eigen::Vector2d& pixel, Eigen::Matrix<double, 2, 3>& jacobian) {
+  if (isCahvFamily(camera.model)) return projectCahv(camera, point_in_camera_m, pixel, jacobian);
   if (!(point_in_camera_m.z() > 0.0)) return false;
   const double inverse_z = 1.0 / point_in_camera_m.z();
   const Eigen::Vector2d p(point_in_camera_m.x() * inverse_z, point_in_camera_m.y() * inverse_z);
@@ -93,6 +148,10 @@ bool projectWithJacobian(const Camera& camera, const Eigen::Vector3d& point_in_c
     case CameraModel::kKannalaBrandt:
       valid = distortKannalaBrandt(camera, p, q, q_by_p);
       break;
+    case CameraModel::kCahv:
+    case CameraModel::kCahvor:
+    case CameraModel::kCahvore:
+      break;  // above
   }
   if (!valid) return false;
   pixel.x() = camera.fx * q.x() + camera.cx;
@@ -108,6 +167,12 @@ bool projectWithJacobian(const Camera& camera, const Eigen::Vector3d& point_in_c
 }
 
 bool unproject(const Camera& camera, const Eigen::Vector2d& pixel, Eigen::Vector3d& ray) {
+  if (isCahvFamily(camera.model)) {
+    Ray with_origin;
+    if (!undistortCahv(camera, cahvDistorted(camera, pixel), with_origin)) return false;
+    ray = with_origin.direction;
+    return true;
+  }
   const Eigen::Vector2d q((pixel.x() - camera.cx) / camera.fx, (pixel.y() - camera.cy) / camera.fy);
   Eigen::Vector2d p = q;
   bool valid = false;
@@ -121,10 +186,42 @@ bool unproject(const Camera& camera, const Eigen::Vector2d& pixel, Eigen::Vector
     case CameraModel::kKannalaBrandt:
       valid = undistortKannalaBrandt(camera, q, p);
       break;
+    case CameraModel::kCahv:
+    case CameraModel::kCahvor:
+    case CameraModel::kCahvore:
+      break;  // above
   }
   if (!valid) return false;
   ray = {p.x(), p.y(), 1.0};
   return true;
+}
+
+bool unprojectRay(const Camera& camera, const Eigen::Vector2d& pixel, Ray& ray) {
+  if (isCahvFamily(camera.model)) return undistortCahv(camera, cahvDistorted(camera, pixel), ray);
+  ray.origin_m.setZero();
+  return unproject(camera, pixel, ray.direction);
+}
+
+bool projectDirection(const Camera& camera, const Eigen::Vector3d& direction,
+                      Eigen::Vector2d& pixel) {
+  if (camera.model != CameraModel::kCahvore) return project(camera, direction, pixel);
+  Eigen::Vector2d q;
+  if (!distortCahvDirection(camera, direction, q)) return false;
+  pixel = cahvPixel(camera, q);
+  return true;
+}
+
+Eigen::Vector3d seenFromPupil(const Camera& camera, const Eigen::Vector3d& point_in_camera_m) {
+  if (!pupilMoves(camera)) return point_in_camera_m;
+  return point_in_camera_m - pupilOf(camera, point_in_camera_m) * camera.cahv.optical_axis;
+}
+
+Status cutToFrame(int first_x, int first_y, int width, int height, Camera& camera) {
+  camera.width = width;
+  camera.height = height;
+  camera.cx -= first_x;
+  camera.cy -= first_y;
+  return prepareCamera(camera);
 }
 
 Camera cameraAtLevel(const Camera& camera, int level) {
@@ -133,6 +230,7 @@ Camera cameraAtLevel(const Camera& camera, int level) {
   Camera result = camera;
   result.fx *= scale;
   result.fy *= scale;
+  result.cahv.skew_px *= scale;
   result.cx = (camera.cx + 0.5) * scale - 0.5;
   result.cy = (camera.cy + 0.5) * scale - 0.5;
   const auto pooled = [halvings](int size) {

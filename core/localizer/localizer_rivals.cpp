@@ -4,6 +4,7 @@
 // on to its end as from any seed; of two that are borne out the one with more evidence leads on.
 // The lead's last iteration is done again at the end, so that what the run ends with is its own.
 #include <algorithm>
+#include <cmath>
 
 #include "core/localizer/localizer.h"
 #include "core/localizer/pose_change.h"
@@ -90,7 +91,7 @@ void Localizer::beginScan() {
   };
   const Camera& camera = lead_render_.camera;
   similarity_.begin(lead_render_, inPixels(reach_m.x(), camera.fx, camera.width),
-                    inPixels(reach_m.y(), camera.fy, camera.height),
+                    inPixels(reach_m.y(), std::abs(camera.fy), camera.height),
                     options_.ambiguity.min_similarity);
 }
 

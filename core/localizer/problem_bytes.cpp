@@ -36,12 +36,21 @@ void writeVector(const Eigen::Vector3d& vector, ByteWriter& writer) {
   for (int i = 0; i < 3; ++i) writer.f64(vector[i]);
 }
 
+void writeLens(const CahvLens& lens, ByteWriter& writer) {
+  writer.f64(lens.skew_px);
+  writeVector(lens.optical_axis, writer);
+  writeVector(lens.radial, writer);
+  writeVector(lens.entrance_m, writer);
+  writer.f64(lens.linearity);
+}
+
 void writeCamera(const Camera& camera, ByteWriter& writer) {
   writer.i32(static_cast<std::int32_t>(camera.model));
   writer.i32(camera.width);
   writer.i32(camera.height);
   for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) writer.f64(value);
   for (const double value : camera.distortion) writer.f64(value);
+  if (isCahvFamily(camera.model)) writeLens(camera.cahv, writer);
 }
 
 void writeSeed(const LocalizationProblem& problem, ByteWriter& writer) {
@@ -148,15 +157,24 @@ Eigen::Vector3d readVector(ByteReader& reader) {
   return vector;
 }
 
+void readLens(ByteReader& reader, CahvLens& lens) {
+  lens.skew_px = reader.f64();
+  lens.optical_axis = readVector(reader);
+  lens.radial = readVector(reader);
+  lens.entrance_m = readVector(reader);
+  lens.linearity = reader.f64();
+}
+
 ProblemFault readCamera(ByteReader& reader, Camera& camera) {
   const std::int32_t model = reader.i32();
-  if (model < 0 || model > static_cast<std::int32_t>(CameraModel::kKannalaBrandt))
+  if (model < 0 || model > static_cast<std::int32_t>(kLastCameraModel))
     return ProblemFault::kCamera;
   camera.model = static_cast<CameraModel>(model);
   camera.width = reader.i32();
   camera.height = reader.i32();
   for (double* value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *value = reader.f64();
   for (double& value : camera.distortion) value = reader.f64();
+  if (isCahvFamily(camera.model)) readLens(reader, camera.cahv);
   if (reader.failed()) return ProblemFault::kContent;
   // Edge pixels are stored in 16 bits.
   constexpr int kMostSide_px = 16384;

@@ -17,7 +17,8 @@ namespace boresight {
 ///     "BORSIGHT"  u32 version  u32 size of the whole in bytes
 ///     u32 options, each: u8 length, name, u8 kind (0 bool, 1 integer, 2 real, 3 choice),
 ///       u64 value (a real's bits; a signed integer else); in the order of visitFields
-///     camera: i32 model, i32 width, i32 height, f64 fx fy cx cy (px), 8 f64 distortion
+///     camera: i32 model, i32 width, i32 height, f64 fx fy cx cy (px), 8 f64 distortion;
+///       of the CAHV family also f64 skew (px), 3 f64 O, 3 f64 R, 3 f64 E (m), f64 linearity
 ///     seed camera_from_station: f64 quaternion w x y z, f64 translation x y z (m)
 ///     uncertainty: 3 f64 translation (m), 3 f64 rotation (rad), 3 f64 pivot in camera (m)
 ///     u32 parts, each: f64 normal threshold (rad), f64 depth threshold (m), u8 match

@@ -71,6 +71,13 @@ void digestProblem(const LocalizationProblem& problem, DigestWriter& writer) {
   writer.i32(static_cast<std::int32_t>(camera.model));
   for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) writer.f64(value);
   for (const double value : camera.distortion) writer.f64(value);
+  if (isCahvFamily(camera.model)) {
+    writer.f64(camera.cahv.skew_px);
+    digestVector(camera.cahv.optical_axis, writer);
+    digestVector(camera.cahv.radial, writer);
+    digestVector(camera.cahv.entrance_m, writer);
+    writer.f64(camera.cahv.linearity);
+  }
   const MeshView& mesh = problem.mesh;
   writer.u32(static_cast<std::uint32_t>(mesh.vertices_in_station_m.size()));
   for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m) {

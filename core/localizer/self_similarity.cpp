@@ -216,9 +216,9 @@ void SelfSimilarity::measureDisplacement(SelfShift& shift) {
   std::array<std::int32_t, kBinCount> weight{};
   weighBins(shift.x_px, shift.y_px, weight);
   const auto pointOf = [this](const EdgePixel& pixel, Eigen::Vector3d& point_in_camera_m) {
-    if (!unproject(render_->camera, Eigen::Vector2d(pixel.x, pixel.y), point_in_camera_m))
-      return false;
-    point_in_camera_m *= static_cast<double>(pixel.depth_m);
+    Ray ray;
+    if (!unprojectRay(render_->camera, Eigen::Vector2d(pixel.x, pixel.y), ray)) return false;
+    point_in_camera_m = ray.at(static_cast<double>(pixel.depth_m));
     return true;
   };
   std::size_t found = 0;

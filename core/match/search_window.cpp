@@ -184,16 +184,16 @@ Eigen::Vector2d pixelTowards(const Camera& camera, const Eigen::Vector2d& inside
                              const Eigen::Vector2d& direction, bool& pulled_in) {
   constexpr int kBisections = 20;
   Eigen::Vector2d pixel;
-  if (project(camera, {direction.x(), direction.y(), 1.0}, pixel)) return pixel;
+  if (projectDirection(camera, {direction.x(), direction.y(), 1.0}, pixel)) return pixel;
   pulled_in = true;
   double low = 0.0, high = 1.0;
   for (int k = 0; k < kBisections; ++k) {
     const double middle = 0.5 * (low + high);
     const Eigen::Vector2d tried = inside + middle * (direction - inside);
-    (project(camera, {tried.x(), tried.y(), 1.0}, pixel) ? low : high) = middle;
+    (projectDirection(camera, {tried.x(), tried.y(), 1.0}, pixel) ? low : high) = middle;
   }
   const Eigen::Vector2d last = inside + low * (direction - inside);
-  if (!project(camera, {last.x(), last.y(), 1.0}, pixel)) {
+  if (!projectDirection(camera, {last.x(), last.y(), 1.0}, pixel)) {
     pixel = {camera.cx, camera.cy};  // `inside` itself cannot be seen: excluded by the caller
   }
   return pixel;
@@ -232,12 +232,29 @@ void extendBySide(const Camera& camera, const Eigen::Vector2d& inside, const Eig
   }
 }
 
-/// Bounds of the pixels of a point. The Jacobian of every distortion model is positive definite in
-/// the valid field, so x grows with x/z, y with y/z: extremes lie on the sides of the polygon.
-bool boundPixels(const Camera& camera, const Eigen::Vector3d& point_in_camera_m,
-                 const SeedUncertainty& uncertainty, PixelBounds& pixels) {
+/// Where the entrance pupil moves along O, a place seen from it is a place seen from the camera's
+/// centre when all is moved the other way: by where the pupil is at most and at least, a further
+/// translation that is not known.
+void seeFromPupil(const Camera& camera, Eigen::Vector3d& point_in_camera_m,
+                  SeedUncertainty& uncertainty) {
+  if (!pupilMoves(camera)) return;
+  const CahvLens& lens = camera.cahv;
+  const double middle_m = 0.5 * (lens.pupil_low_m + lens.pupil_high_m);
+  const double reach_m = 0.5 * (lens.pupil_high_m - lens.pupil_low_m);
+  point_in_camera_m -= middle_m * lens.optical_axis;
+  uncertainty.pivot_in_camera_m -= middle_m * lens.optical_axis;
+  uncertainty.translation_m += reach_m * lens.optical_axis.cwiseAbs();
+}
+
+/// Bounds of the pixels of a point. The Jacobian of every distortion model is regular in the valid
+/// field, which it maps one to one: extremes lie on the sides of the polygon.
+bool boundPixels(const Camera& camera, Eigen::Vector3d point_in_camera_m,
+                 SeedUncertainty uncertainty, PixelBounds& pixels) {
   if (!project(camera, point_in_camera_m, pixels.low)) return false;
   pixels.high = pixels.low;
+  seeFromPupil(camera, point_in_camera_m, uncertainty);
+  Eigen::Vector2d seen;
+  if (pupilMoves(camera) && !projectDirection(camera, point_in_camera_m, seen)) return false;
   const Eigen::Vector2d inside = point_in_camera_m.head<2>() / point_in_camera_m.z();
   DirectionBounds bounds;
   bounds.add({1.0, 0.0}, inside);

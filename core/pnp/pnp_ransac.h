@@ -30,8 +30,9 @@ struct PnpSolution {
 
 /// RANSAC in bounded slices, then refinement over all inliers.
 ///
-/// - Samples: three points by P3P (every solution is scored), or a few refined from the hypothesis
-///   under its weak prior (the hypothesis itself is scored first).
+/// - Samples: three points by P3P (every solution is scored; where the entrance pupil moves, the
+///   bearings are those of points as far off as the hypothesis has them), or a few refined from the
+///   hypothesis under its weak prior (the hypothesis itself is scored first).
 /// - Score: sum of min(residual^2, threshold^2) / sigma^2 over the usable correspondences (MSAC,
 ///   Torr and Zisserman 2000), the lowest wins, the earlier of equals.
 /// - Every new best is refitted to its inliers, without that prior, while this lowers the score

@@ -205,6 +205,15 @@ void rotate(const Eigen::Matrix3d& r, const Eigen::Vector3d& t, VertexBlock& blo
   }
 }
 
+/// Vertices as seen from the pupils that see them: from there on, all rays have one origin.
+void moveToPupil(const Camera& camera, std::size_t count, VertexBlock& block) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d seen =
+        seenFromPupil(camera, {block.camera[0][i], block.camera[1][i], block.camera[2][i]});
+    for (int k = 0; k < 3; ++k) block.camera[k][i] = seen[k];
+  }
+}
+
 }  // namespace
 
 void CameraScene::transform(const Pose& camera_from_station, const RayGrid& rays, std::size_t first,
@@ -219,6 +228,7 @@ void CameraScene::transform(const Pose& camera_from_station, const RayGrid& rays
       for (int k = 0; k < 3; ++k) block.station[k][i] = static_cast<double>(p[k]);
     }
     rotate(r, camera_from_station.translation_m, block);
+    if (pupilMoves(rays.camera())) moveToPupil(rays.camera(), count, block);
     for (std::size_t i = 0; i < kBlock; ++i)
       steps_of_depth[i] = clamped((block.camera[2][i] - scale.low_m) * scale.per_m, 0.0, kDeepest);
     for (std::size_t i = 0; i < count; ++i) {
@@ -265,7 +275,7 @@ void CameraScene::projectDistorted(const Camera& camera, std::size_t first, std:
     const Eigen::Vector3d& q = vertex_in_camera_m[i];
     vertex_px[i] = {FixedPixel::kNotProjected, FixedPixel::kNotProjected};
     Eigen::Vector2d pixel;
-    if (!(q.z() >= near_plane_m) || !project(camera, q, pixel)) continue;
+    if (!(q.z() >= near_plane_m) || !projectDirection(camera, q, pixel)) continue;
     if (!(pixel.x() >= -reach && pixel.x() <= camera.width - 1 + reach && pixel.y() >= -reach &&
           pixel.y() <= camera.height - 1 + reach))
       continue;

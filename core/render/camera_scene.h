@@ -38,7 +38,8 @@ struct FixedScale {
   int steps() const { return 1 << shift; }
 };
 
-/// The mesh seen from one pose: its vertices in the camera frame, and their pixels and depths in
+/// The mesh seen from one pose: its vertices in the camera frame (where the entrance pupil moves:
+/// as seen from the pupil of their own rays), and their pixels and depths in
 /// few bits, which serve for bounds and for what is clear without more. Refilled for every pose.
 struct CameraScene {
   MeshView mesh;

@@ -59,9 +59,9 @@ std::int32_t findEdgePixel(const EdgeRender& render, int x, int y) {
 
 bool edgePointInStation(const EdgeRender& render, const EdgePixel& pixel,
                         Eigen::Vector3d& point_in_station_m) {
-  Eigen::Vector3d ray;
-  if (!unproject(render.camera, Eigen::Vector2d(pixel.x, pixel.y), ray)) return false;
-  const Eigen::Vector3d point_in_camera_m = ray * static_cast<double>(pixel.depth_m);
+  Ray ray;
+  if (!unprojectRay(render.camera, Eigen::Vector2d(pixel.x, pixel.y), ray)) return false;
+  const Eigen::Vector3d point_in_camera_m = ray.at(static_cast<double>(pixel.depth_m));
   point_in_station_m = render.camera_from_station.inverse() * point_in_camera_m;
   return pixel.depth_m > 0.0F;
 }
@@ -73,23 +73,25 @@ bool edgeLinePoint(const EdgeRender& render, const MeshView& mesh, const EdgePix
   if (!(norm > 0.0)) return false;
   const double distance_px = pixel.offset / (100.0 * norm);
   position_px = {pixel.x + distance_px * pixel.normal_x, pixel.y + distance_px * pixel.normal_y};
-  Eigen::Vector3d ray;
-  if (!unproject(render.camera, position_px, ray)) return false;
+  Ray ray;
+  if (!unprojectRay(render.camera, position_px, ray)) return false;
 
   const Face& face = mesh.faces[static_cast<std::size_t>(pixel.face)];
   Eigen::Vector3d corner[3];
   for (std::size_t i = 0; i < 3; ++i)
-    corner[i] = render.camera_from_station *
-                mesh.vertices_in_station_m[static_cast<std::size_t>(face.vertex[i])].cast<double>();
+    corner[i] =
+        render.camera_from_station *
+            mesh.vertices_in_station_m[static_cast<std::size_t>(face.vertex[i])].cast<double>() -
+        ray.origin_m;
   const Eigen::Vector3d normal = crossProduct(corner[1] - corner[0], corner[2] - corner[0]);
   // On the face's plane, and no nearer or farther than the face itself where the plane is steep.
   const double farthest = std::max({corner[0].z(), corner[1].z(), corner[2].z()});
   const double nearest = std::min({corner[0].z(), corner[1].z(), corner[2].z()});
-  double depth_m = dotProduct(normal, corner[0]) / dotProduct(normal, ray);
+  double depth_m = dotProduct(normal, corner[0]) / dotProduct(normal, ray.direction);
   if (!(depth_m >= nearest)) depth_m = nearest;
   if (depth_m > farthest) depth_m = farthest;
   if (!(depth_m > 0.0)) return false;
-  point_in_station_m = render.camera_from_station.inverse() * Eigen::Vector3d(ray * depth_m);
+  point_in_station_m = render.camera_from_station.inverse() * Eigen::Vector3d(ray.at(depth_m));
   return true;
 }
 

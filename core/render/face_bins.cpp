@@ -151,7 +151,7 @@ void FaceBins::addOne(CameraScene& scene, const RayGrid& rays, std::int32_t face
   bounds.y_last = std::min(box.y_last + scale.middle_y, camera.height - 1);
   if (bounds.empty()) return;
   if (area2 > tolerance || area2 < -tolerance)
-    scene.setFrontFacing(face, area2 < 0);
+    scene.setFrontFacing(face, (area2 < 0) != isMirrored(camera));
   else
     scene.orient(face);
   enter(face, scene.isFrontFacing(face) ? kSmallFront : kSmallBack, bounds, share);

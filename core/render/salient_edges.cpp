@@ -107,6 +107,8 @@ bool SalientEdges::crossBorder(const Context& context, const Sample& p, const Sa
   crossing.face = end.face;
   crossing.has_line = end.ends;
   crossing.line = end.line;
+  crossing.edge_of = end.face;
+  crossing.edge = end.edge;
   crossing.kind = kEdgeOccluding | kEdgeBorder;
   return true;
 }
@@ -134,6 +136,8 @@ bool SalientEdges::crossSurfaces(const Context& context, const Sample& p, const 
   crossing.s = end_p.reached ? end_p.s : 1.0 - end_q.s;
   crossing.has_line = true;
   crossing.line = end_p.reached ? end_p.line : Eigen::Vector3d(-end_q.line);
+  crossing.edge_of = end_p.reached ? end_p.face : end_q.face;
+  crossing.edge = end_p.reached ? end_p.edge : end_q.edge;
   // Both faces hold the line; the flatter one's plane is the better known beside it.
   crossing.nearer_is_p = flatter(plane_p, plane_q);
   if (!crossing.nearer_is_p) crossing.line = -crossing.line;
@@ -183,6 +187,10 @@ bool SalientEdges::crossOverlap(const Context& context, const Sample& p, const S
     crossing.s = crossing.nearer_is_p ? std::min(s_p, 1.0) : std::max(s_q, 0.0);
     crossing.has_line = true;
     crossing.line = end.line;
+    if (end.ends) {
+      crossing.edge_of = end.face;
+      crossing.edge = end.edge;
+    }
     // It covers the other pixel and is not seen there: the two planes meet in that very pixel.
     if (!end.ends) crossing.line = crossing.nearer_is_p ? difference : Eigen::Vector3d(-difference);
   }
@@ -269,6 +277,29 @@ float SalientEdges::depthOf(const Context& context, const Sample& own, const Sam
   return depth_m > 0.0 && depth_m < 1e30 ? static_cast<float>(depth_m) : 0.0F;
 }
 
+/// The line as a pixel sees it. Where the entrance pupil moves, vertices are seen from the pupils
+/// of their own rays, which bends what lies between them by what the pupil's place along an edge
+/// differs from linear; from this pixel's own pupil the edge's line is exact.
+Eigen::Vector3d SalientEdges::lineAt(const Context& context, const Crossing& crossing, int x,
+                                     int y) {
+  const EdgeRender& output = context.output;
+  Ray ray;
+  if (!pupilMoves(output.camera) || crossing.edge_of < 0 || crossing.edge < 0 ||
+      !unprojectRay(output.camera, Eigen::Vector2d(x, y), ray))
+    return crossing.line;
+  const MeshView& mesh = context.scene.mesh;
+  const Face& face = mesh.faces[static_cast<std::size_t>(crossing.edge_of)];
+  Eigen::Vector3d end[2];
+  for (int i = 0; i < 2; ++i) {
+    const auto corner = static_cast<std::size_t>((crossing.edge + i) % 3);
+    const auto vertex = static_cast<std::size_t>(face.vertex[corner]);
+    end[i] = output.camera_from_station * mesh.vertices_in_station_m[vertex].cast<double>() -
+             ray.origin_m;
+  }
+  const Eigen::Vector3d line = crossProduct(end[0], end[1]);
+  return dotProduct(line, crossing.line) < 0.0 ? Eigen::Vector3d(-line) : line;
+}
+
 void SalientEdges::mark(const Context& context, const Sample& p, const Sample& q,
                         const Crossing& crossing) {
   const RasterBand& band = context.band;
@@ -302,7 +333,7 @@ void SalientEdges::mark(const Context& context, const Sample& p, const Sample& q
       band.face[band.index(left + 1, marked.row)] != RasterBand::kInvalid &&
       band.face[band.index(marked.x, top)] != RasterBand::kInvalid &&
       band.face[band.index(marked.x, top + 1)] != RasterBand::kInvalid) {
-    const Eigen::Vector3d& line = crossing.line;
+    const Eigen::Vector3d line = lineAt(context, crossing, marked.x, y);
     const double along_x = dotProduct(line, band.ray(left + 1, marked.row)) -
                            dotProduct(line, band.ray(left, marked.row));
     const double along_y =

@@ -66,6 +66,8 @@ class SalientEdges {
     std::int32_t face = -1;  ///< of the nearer surface, where it ends
     bool has_line = false;
     Eigen::Vector3d line = Eigen::Vector3d::Zero();  ///< line . ray > 0 on the nearer side
+    std::int32_t edge_of = -1;  ///< the face whose edge the line is; -1: none's
+    std::int8_t edge = -1;
     std::uint8_t kind = 0;
   };
   struct Context {
@@ -83,6 +85,7 @@ class SalientEdges {
                      const Difference& difference, Crossing& crossing);
   bool crossOverlap(const Context& context, const Sample& p, const Sample& q,
                     const SurfaceEnd& end_p, const SurfaceEnd& end_q, Crossing& crossing);
+  static Eigen::Vector3d lineAt(const Context& context, const Crossing& crossing, int x, int y);
   void mark(const Context& context, const Sample& p, const Sample& q, const Crossing& crossing);
   float depthOf(const Context& context, const Sample& own, const Sample& marked,
                 const Eigen::Vector3d& ray_at_line, std::int32_t face);

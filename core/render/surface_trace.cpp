@@ -129,6 +129,7 @@ SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32
     end.s = exit.s;
     if (!end.ends) break;
     end.line = edge[exit.edge];
+    end.edge = static_cast<std::int8_t>(exit.edge);
     if (hop == kMaxHops) break;
 
     const std::int32_t next =

@@ -49,6 +49,7 @@ struct SurfaceEnd {
   bool reached = false;  ///< the way leads over one connected surface to the target face
   double s = 2.0;
   std::int32_t face = -1;                          ///< the face that ends there
+  std::int8_t edge = -1;                           ///< the edge of that face
   Eigen::Vector3d line = Eigen::Vector3d::Zero();  ///< line . ray > 0 on the surface's side
 };
 

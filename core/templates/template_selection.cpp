@@ -39,7 +39,7 @@ int countBits(const BitImage& image, int x_begin, int y_begin, int x_end, int y_
 
 int templateSide(const TemplateOptions& options, double feature_size_m, double depth_m,
                  const Camera& camera) {
-  const double focal_px = 0.5 * (camera.fx + camera.fy);
+  const double focal_px = 0.5 * (camera.fx + std::abs(camera.fy));
   const double wanted_px =
       options.size_factor * feature_size_m * focal_px / std::max(depth_m, 1e-6);
   const int largest = std::min(options.max_side_px, std::min(camera.width, camera.height) / 4);

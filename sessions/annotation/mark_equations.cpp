@@ -29,23 +29,37 @@ MarkResidual pointResidual(const Camera& camera, const PointPair& pair,
   return made;
 }
 
-/// The edge's interpretation plane through the camera's centre, unit normal.
+/// The edge's interpretation plane through the place where a ray starts, unit normal.
 struct EdgePlane {
-  Eigen::Vector3d a;  ///< ends in the camera frame
+  Eigen::Vector3d a;  ///< ends in the camera frame, from there
   Eigen::Vector3d b;
   Eigen::Vector3d normal;
   double length = 0.0;  ///< of a x b
+
+  /// False when the edge is seen end-on.
+  bool set(const Eigen::Vector3d& from_a, const Eigen::Vector3d& from_b) {
+    a = from_a;
+    b = from_b;
+    const Eigen::Vector3d across = a.cross(b);
+    length = across.norm();
+    if (!(length > 1e-12 * a.norm() * b.norm())) return false;
+    normal = across / length;
+    return true;
+  }
 };
 
-/// One end of the line; false where the camera cannot say which ray it is.
-bool endResidual(const Camera& camera, const EdgePlane& plane, const Eigen::Vector2d& seen,
-                 double& residual_px, Row6& predicted_by_xi) {
-  Eigen::Vector3d ray;
-  if (!unproject(camera, seen, ray)) return false;
-  const Eigen::Vector3d d = ray.normalized();
+/// One end of the line; false where the camera cannot say which ray it is. `start_m` and `end_m`
+/// are the edge's in the camera frame.
+bool endResidual(const Camera& camera, const Eigen::Vector3d& start_m, const Eigen::Vector3d& end_m,
+                 const Eigen::Vector2d& seen, double& residual_px, Row6& predicted_by_xi) {
+  Ray ray;
+  EdgePlane plane;
+  if (!unprojectRay(camera, seen, ray) || !plane.set(start_m - ray.origin_m, end_m - ray.origin_m))
+    return false;
+  const Eigen::Vector3d d = ray.direction.normalized();
   Eigen::Vector2d pixel;
   Eigen::Matrix<double, 2, 3> jacobian;
-  if (!projectWithJacobian(camera, d, pixel, jacobian)) return false;
+  if (!projectWithJacobian(camera, ray.origin_m + d, pixel, jacobian)) return false;
   const double sine = plane.normal.dot(d);
   // Pixels across the edge for a unit step of the ray along the plane's normal.
   const Eigen::Vector2d along = jacobian * plane.normal.cross(d);
@@ -56,30 +70,26 @@ bool endResidual(const Camera& camera, const EdgePlane& plane, const Eigen::Vect
   residual_px = scale_px * sine;
   // n = (a x b) / |a x b|: d n . d = (da x b + a x db) . m.
   const Eigen::Vector3d m = (d - sine * plane.normal) / plane.length;
-  predicted_by_xi = -scale_px * (rowOf(plane.a, plane.b.cross(m).transpose()) +
-                                 rowOf(plane.b, m.cross(plane.a).transpose()));
+  predicted_by_xi = -scale_px * (rowOf(start_m, plane.b.cross(m).transpose()) +
+                                 rowOf(end_m, m.cross(plane.a).transpose()));
   return true;
 }
 
 MarkResidual lineResidual(const Camera& camera, const LinePair& pair,
                           const Pose& camera_from_station) {
   MarkResidual made;
-  EdgePlane plane;
-  plane.a = camera_from_station * pair.edge->start_in_station_m;
-  plane.b = camera_from_station * pair.edge->end_in_station_m;
-  if (!(plane.a.z() > 0.0) || !(plane.b.z() > 0.0)) return made;
-  const Eigen::Vector3d normal = plane.a.cross(plane.b);
-  plane.length = normal.norm();
-  if (!(plane.length > 1e-12 * plane.a.norm() * plane.b.norm())) return made;
-  plane.normal = normal / plane.length;
+  const Eigen::Vector3d start_m = camera_from_station * pair.edge->start_in_station_m;
+  const Eigen::Vector3d end_m = camera_from_station * pair.edge->end_in_station_m;
+  if (!(start_m.z() > 0.0) || !(end_m.z() > 0.0)) return made;
   const Eigen::Vector2d ends[2] = {pair.line->start, pair.line->end};
   made.valid = true;
   for (int i = 0; i < 2; ++i) {
     Row6 row;
-    made.valid = made.valid && endResidual(camera, plane, ends[i], made.residual_px[i], row);
+    made.valid =
+        made.valid && endResidual(camera, start_m, end_m, ends[i], made.residual_px[i], row);
     if (made.valid) made.predicted_by_xi.row(i) = row;
   }
-  made.depth_m = 0.5 * (plane.a.z() + plane.b.z());
+  made.depth_m = 0.5 * (start_m.z() + end_m.z());
   return made;
 }
 

@@ -12,18 +12,20 @@ namespace boresight::sessions {
 namespace {
 
 /// Across the edge at a place near it, towards where `markResidual` counts as positive: a quarter
-/// turn from the way in which the edge's ray goes round the plane through the camera's centre.
+/// turn from the way in which the edge's ray goes round the plane through the place where the ray
+/// starts.
 std::optional<Eigen::Vector2d> acrossEdge(const Camera& camera, const Pose& camera_from_station,
                                           const ModelEdge& edge, const Eigen::Vector2d& seen) {
-  Eigen::Vector3d ray;
-  if (!unproject(camera, seen, ray)) return {};
-  const Eigen::Vector3d d = ray.normalized();
+  Ray ray;
+  if (!unprojectRay(camera, seen, ray)) return {};
+  const Eigen::Vector3d d = ray.direction.normalized();
   Eigen::Vector2d pixel;
   Eigen::Matrix<double, 2, 3> jacobian;
-  if (!projectWithJacobian(camera, d, pixel, jacobian)) return {};
-  const Eigen::Vector3d normal = (camera_from_station * edge.start_in_station_m)
-                                     .cross(camera_from_station * edge.end_in_station_m)
-                                     .normalized();
+  if (!projectWithJacobian(camera, ray.origin_m + d, pixel, jacobian)) return {};
+  const Eigen::Vector3d normal =
+      (camera_from_station * edge.start_in_station_m - ray.origin_m)
+          .cross(camera_from_station * edge.end_in_station_m - ray.origin_m)
+          .normalized();
   const Eigen::Vector2d along = (jacobian * normal.cross(d)).normalized();
   return Eigen::Vector2d(-along.y(), along.x());
 }

@@ -194,11 +194,11 @@ bool MeshSnapper::seenFrom(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& 
 std::optional<Eigen::Vector3d> MeshSnapper::surfaceAt(const Camera& camera,
                                                       const Pose& camera_from_station,
                                                       const Eigen::Vector2d& pixel) const {
-  Eigen::Vector3d ray;
-  if (!unproject(camera, pixel, ray)) return std::nullopt;
+  Ray ray;
+  if (!unprojectRay(camera, pixel, ray)) return std::nullopt;
   const Pose station_from_camera = camera_from_station.inverse();
-  const Eigen::Vector3d eye_m = station_from_camera.translation_m;
-  const Eigen::Vector3d direction = station_from_camera.rotation * ray;
+  const Eigen::Vector3d eye_m = station_from_camera * ray.origin_m;
+  const Eigen::Vector3d direction = station_from_camera.rotation * ray.direction;
   const auto hit = faces_->firstHit(eye_m, direction);
   if (!hit) return std::nullopt;
   return eye_m + hit->distance * direction;

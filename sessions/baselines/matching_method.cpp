@@ -25,10 +25,10 @@ bool MatchQuery::pointAt(const Eigen::Vector2d& place_px, Template& item) const 
   item.depth_m =
       depth[static_cast<std::size_t>(item.center_y) * static_cast<std::size_t>(camera.width) +
             static_cast<std::size_t>(item.center_x)];
-  Eigen::Vector3d ray;
-  if (!(item.depth_m > 0.0F) || !unproject(camera, place_px, ray)) return false;
+  Ray ray;
+  if (!(item.depth_m > 0.0F) || !unprojectRay(camera, place_px, ray)) return false;
   item.point_in_station_m =
-      iteration.render.camera_from_station.inverse() * (static_cast<double>(item.depth_m) * ray);
+      iteration.render.camera_from_station.inverse() * ray.at(static_cast<double>(item.depth_m));
   return true;
 }
 

@@ -80,7 +80,8 @@ void requireWritableAsBop(const std::filesystem::path& folder, const PosedImage&
   const bool distorted = image.camera.model != CameraModel::kPinhole &&
                          std::any_of(image.camera.distortion.begin(), image.camera.distortion.end(),
                                      [](double value) { return value != 0.0; });
-  if (distorted || image.camera.model == CameraModel::kKannalaBrandt)
+  if (distorted || image.camera.model == CameraModel::kKannalaBrandt ||
+      isCahvFamily(image.camera.model))
     throw OutputError(folder / "scene_camera.json",
                       name +
                           ": its camera distorts, which the format does not know; undistort "

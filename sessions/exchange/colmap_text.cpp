@@ -71,6 +71,10 @@ const ColmapModel& modelFor(const Camera& camera) {
       return colmapModels()[short_form ? 1 : 2];
     case CameraModel::kKannalaBrandt:
       return colmapModels()[3];
+    case CameraModel::kCahv:
+    case CameraModel::kCahvor:
+    case CameraModel::kCahvore:
+      break;  // refused before
   }
   throw std::logic_error("no such camera model");
 }
@@ -239,6 +243,11 @@ void writeColmapText(const std::filesystem::path& folder, std::span<const PosedI
       throw OutputError(folder / "images.txt", "image " + std::to_string(image.id) + " '" +
                                                    image.name +
                                                    "' needs an id and a name of its own");
+    if (isCahvFamily(image.camera.model))
+      throw OutputError(folder / "cameras.txt",
+                        "image " + std::to_string(image.id) + " '" + image.name +
+                            "' has a camera of the CAHV family, which the format does not know; "
+                            "undistort the image, the pose stays");
     auto at = std::find(cameras.begin(), cameras.end(), image.camera);
     if (at == cameras.end()) at = cameras.insert(cameras.end(), image.camera);
     image_text += imageLines(image, static_cast<int>(at - cameras.begin()) + 1);

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sessions/io/cahv_camera.h"
+#include "sessions/io/cahvor_file.h"
 #include "sessions/io/json_document.h"
 #include "sessions/io/json_writer.h"
 
@@ -23,12 +25,11 @@ CameraModel readModel(const JsonReader& json) {
   const JsonReader model = json.at("model");
   const std::string name = model.text();
   for (const CameraModel known :
-       {CameraModel::kPinhole, CameraModel::kBrownConrady, CameraModel::kKannalaBrandt})
+       {CameraModel::kPinhole, CameraModel::kBrownConrady, CameraModel::kKannalaBrandt,
+        CameraModel::kCahv, CameraModel::kCahvor, CameraModel::kCahvore})
     if (name == cameraModelName(known)) return known;
-  if (name == "cahv" || name == "cahvor" || name == "cahvore")
-    model.fail("camera model '" + name + "' is not supported");
   model.fail("unknown camera model '" + name +
-             "' (pinhole, brown_conrady or kannala_brandt is needed)");
+             "' (pinhole, brown_conrady, kannala_brandt, cahv, cahvor or cahvore is needed)");
 }
 
 const char* expectedCoefficients(CameraModel model) {
@@ -69,13 +70,20 @@ const char* cameraModelName(CameraModel model) {
       return "brown_conrady";
     case CameraModel::kKannalaBrandt:
       return "kannala_brandt";
+    case CameraModel::kCahv:
+      return "cahv";
+    case CameraModel::kCahvor:
+      return "cahvor";
+    case CameraModel::kCahvore:
+      return "cahvore";
   }
   return "unknown";
 }
 
-Camera readCamera(const JsonReader& json) {
+CameraFile readCameraFile(const JsonReader& json) {
   Camera camera;
   camera.model = readModel(json);
+  if (isCahvFamily(camera.model)) return readCahvCamera(camera.model, json);
   camera.width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
   camera.height = static_cast<int>(json.at("height").integer(1, kMaxImageSide_px));
   camera.fx = json.at("fx").number(kMinFocalLength_px, kMaxFocalLength_px);
@@ -87,15 +95,25 @@ Camera readCamera(const JsonReader& json) {
   if (status != Status::kOk)
     json.fail(std::string("the camera cannot project with these parameters (") +
               statusText(status) + ")");
-  return camera;
+  return {camera, std::nullopt};
 }
 
-Camera readCamera(const std::filesystem::path& file) {
+CameraFile readCameraFile(const std::filesystem::path& file) {
+  if (isCahvorFile(file)) return readCahvorCamera(file);
   const JsonDocument document(file);
-  return readCamera(document.root(kFormat, kVersion));
+  return readCameraFile(document.root(kFormat, kVersion));
+}
+
+Camera readCamera(const JsonReader& json) { return readCameraFile(json).camera; }
+
+Camera readCamera(const std::filesystem::path& file) { return readCameraFile(file).camera; }
+
+nlohmann::ordered_json toJson(const CameraFile& file) {
+  return isCahvFamily(file.camera.model) ? cahvJson(file) : toJson(file.camera);
 }
 
 nlohmann::ordered_json toJson(const Camera& camera) {
+  if (isCahvFamily(camera.model)) return cahvJson({camera, std::nullopt});
   nlohmann::ordered_json json;
   json["model"] = cameraModelName(camera.model);
   json["width"] = camera.width;
@@ -117,6 +135,10 @@ nlohmann::ordered_json toJson(const Camera& camera) {
 }
 
 void writeCamera(const std::filesystem::path& file, const Camera& camera) {
+  writeCamera(file, CameraFile{camera, std::nullopt});
+}
+
+void writeCamera(const std::filesystem::path& file, const CameraFile& camera) {
   nlohmann::ordered_json json;
   json["format"] = kFormat;
   json["version"] = kVersion;

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
 #include "sessions/io/json_reader.h"
 
 namespace boresight::sessions {
@@ -13,18 +18,42 @@ namespace boresight::sessions {
 /// Longest side of an image or a camera, px: edge pixels are stored in 16 bits.
 inline constexpr int kMaxImageSide_px = 16384;
 
+/// Where the vectors of a CAHV camera are given: a frame of the vehicle or the site. Name and index
+/// (site, drive, pose ...) together identify it; empty where the file does not say.
+struct CameraReference {
+  Pose camera_from_reference;
+  std::string name;
+  std::vector<std::int64_t> index;
+};
+
+/// A camera in its own frame and, of the CAHV family, where that is.
+struct CameraFile {
+  Camera camera;
+  std::optional<CameraReference> reference;
+};
+
 /// Reads camera.json (`boresight-camera`, version 1): pinhole, brown_conrady with 4, 5 or 8
-/// coefficients, kannala_brandt with 4. The camera is prepared for projection. InputError.
+/// coefficients, kannala_brandt with 4, cahv, cahvor and cahvore with their vectors; or a text file
+/// of calibration named .cahv, .cahvor or .cahvore. The camera is prepared for projection.
+/// InputError.
+CameraFile readCameraFile(const std::filesystem::path& file);
+/// The same for a camera inside another file, without format and version.
+CameraFile readCameraFile(const JsonReader& json);
+/// The camera alone: whoever has no pose in the reference frame.
 Camera readCamera(const std::filesystem::path& file);
 
 /// The same for a camera inside another file, without format and version.
 Camera readCamera(const JsonReader& json);
 
-/// What camera.json holds besides format and version; reading it back gives the same bits.
+/// What camera.json holds besides format and version; reading it back gives the same bits. The
+/// vectors of the CAHV family are then those in the camera's own frame.
 nlohmann::ordered_json toJson(const Camera& camera);
+/// The same with vectors in the reference frame: reading them back gives the same but for rounding.
+nlohmann::ordered_json toJson(const CameraFile& file);
 
 /// Writes camera.json; OutputError.
 void writeCamera(const std::filesystem::path& file, const Camera& camera);
+void writeCamera(const std::filesystem::path& file, const CameraFile& camera);
 
 /// Name of a model in files, e.g. "brown_conrady".
 const char* cameraModelName(CameraModel model);

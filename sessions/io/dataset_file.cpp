@@ -106,8 +106,12 @@ std::string readReference(const JsonReader& json, const Map& known, const char* 
 }
 
 void readPoses(const JsonReader& json, Case& one, Dataset& dataset) {
-  const auto read = [&dataset](const JsonReader& pose_json) {
-    PoseFile pose = readPose(pose_json);
+  std::optional<CameraReference> reference;
+  if (const auto known = dataset.camera_references.find(one.camera);
+      known != dataset.camera_references.end())
+    reference = known->second;
+  const auto read = [&](const JsonReader& pose_json) {
+    PoseFile pose = readPose(pose_json, reference);
     const std::string note = projectionNote(pose.rotation_deviation);
     if (!note.empty()) dataset.notes.push_back(pose_json.place() + ".camera_from_station: " + note);
     return pose;
@@ -210,8 +214,11 @@ Dataset readDataset(const std::filesystem::path& file) {
     dataset.requirement = readRequirement(*requirement);
   for (const auto& [id, station] : json.at("stations").members())
     dataset.stations.emplace(id, readStation(id, station, dataset));
-  for (const auto& [id, camera] : json.at("cameras").members())
-    dataset.cameras.emplace(id, readCamera(camera));
+  for (const auto& [id, camera] : json.at("cameras").members()) {
+    CameraFile read = readCameraFile(camera);
+    dataset.cameras.emplace(id, read.camera);
+    if (read.reference) dataset.camera_references.emplace(id, *read.reference);
+  }
   std::set<std::string> ids;
   for (const JsonReader& one : json.at("cases").elements()) {
     dataset.cases.push_back(readCase(one, dataset));

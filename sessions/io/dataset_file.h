@@ -78,6 +78,7 @@ struct Dataset {
   std::optional<Requirement> requirement;
   std::map<std::string, Station> stations;
   std::map<std::string, Camera> cameras;
+  std::map<std::string, CameraReference> camera_references;  ///< of those that have one
   std::vector<Case> cases;
   std::vector<std::string> notes;  ///< e.g. matrices that were projected to rotations
 

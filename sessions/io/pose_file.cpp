@@ -52,22 +52,29 @@ DeclaredUncertainty readUncertainty(const JsonReader& json) {
   return uncertainty;
 }
 
-PoseFile readPose(const JsonReader& json) {
+PoseFile readPose(const JsonReader& json, const std::optional<CameraReference>& reference) {
   PoseFile pose;
-  if (json.has("reference_from_station") && !json.has("camera_from_station"))
-    json.failMember("reference_from_station",
-                    "needs a camera of the CAHV family, which is not supported; give "
-                    "camera_from_station");
-  pose.camera_from_station =
-      readTransform(json.at("camera_from_station"), &pose.rotation_deviation);
+  if (json.has("reference_from_station") && !json.has("camera_from_station")) {
+    if (!reference)
+      json.failMember("reference_from_station",
+                      "needs a camera of the CAHV family, whose file says where its reference "
+                      "frame is; give camera_from_station");
+    pose.camera_from_station =
+        reference->camera_from_reference *
+        readTransform(json.at("reference_from_station"), &pose.rotation_deviation);
+  } else {
+    pose.camera_from_station =
+        readTransform(json.at("camera_from_station"), &pose.rotation_deviation);
+  }
   if (const auto uncertainty = json.find("uncertainty"))
     pose.uncertainty = readUncertainty(*uncertainty);
   return pose;
 }
 
-PoseFile readPose(const std::filesystem::path& file) {
+PoseFile readPose(const std::filesystem::path& file,
+                  const std::optional<CameraReference>& reference) {
   const JsonDocument document(file);
-  return readPose(document.root(kFormat, kVersion));
+  return readPose(document.root(kFormat, kVersion), reference);
 }
 
 std::string projectionNote(double rotation_deviation) {

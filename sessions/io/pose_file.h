@@ -9,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/geometry/pose.h"
+#include "sessions/io/camera_file.h"
 #include "sessions/io/json_reader.h"
 
 namespace boresight::sessions {
@@ -32,10 +33,13 @@ struct PoseFile {
   std::optional<DeclaredUncertainty> uncertainty;
 };
 
-/// Reads pose.json (`boresight-pose`, version 1). InputError.
-PoseFile readPose(const std::filesystem::path& file);
+/// Reads pose.json (`boresight-pose`, version 1). `reference_from_station` may stand in place of
+/// `camera_from_station` where the camera's file says where its reference frame is. InputError.
+PoseFile readPose(const std::filesystem::path& file,
+                  const std::optional<CameraReference>& reference = std::nullopt);
 /// The same for a pose inside another file, without format and version.
-PoseFile readPose(const JsonReader& json);
+PoseFile readPose(const JsonReader& json,
+                  const std::optional<CameraReference>& reference = std::nullopt);
 
 /// A 4x4 rigid transform: last row 0 0 0 1, everything finite, and a rotation with
 /// |R'R - I| <= 1e-4, which is projected to the nearest one; refused otherwise.

@@ -47,6 +47,13 @@ RecordInputs::Hash cameraHash(const Camera& camera) {
     writer.i32(value);
   for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) writer.f64(value);
   for (const double value : camera.distortion) writer.f64(value);
+  if (isCahvFamily(camera.model)) {
+    const CahvLens& lens = camera.cahv;
+    writer.f64(lens.skew_px);
+    for (const Eigen::Vector3d& vector : {lens.optical_axis, lens.radial, lens.entrance_m})
+      for (int i = 0; i < 3; ++i) writer.f64(vector[i]);
+    writer.f64(lens.linearity);
+  }
   return writer.digest();
 }
 

@@ -36,7 +36,7 @@ void undistortRows(const Camera& camera, const ImageView& image, int first, int 
       const std::size_t index =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(pinhole.width) +
           static_cast<std::size_t>(x);
-      if (project(camera, ray, place)) output.pixels[index] = sample(image, place);
+      if (projectDirection(camera, ray, place)) output.pixels[index] = sample(image, place);
     }
 }
 
@@ -46,6 +46,8 @@ Camera pinholeOf(const Camera& camera) {
   Camera pinhole = camera;
   pinhole.model = CameraModel::kPinhole;
   pinhole.distortion = {};
+  pinhole.cahv = {};
+  pinhole.fy = std::abs(pinhole.fy);
   if (prepareCamera(pinhole) != Status::kOk) pinhole.valid_radius = 0.0;
   return pinhole;
 }

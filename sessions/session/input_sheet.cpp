@@ -37,10 +37,11 @@ void flagCamera(const Camera& camera, CameraSheet& sheet) {
          "the principal point is " + fixedText(100.0 * off_centre, 0) +
              " % of the image off its middle: is this camera of a sub-frame, or of another image "
              "size?"});
-  if (camera.fx / camera.fy > 1.02 || camera.fy / camera.fx > 1.02)
+  const double aspect = camera.fx / std::abs(camera.fy);
+  if (aspect > 1.02 || 1.0 / aspect > 1.02)
     sheet.flags.push_back(
-        {"camera_aspect", "fx and fy differ by " +
-                              fixedText(100.0 * std::abs(camera.fx / camera.fy - 1.0), 1) + " %"});
+        {"camera_aspect",
+         "fx and fy differ by " + fixedText(100.0 * std::abs(aspect - 1.0), 1) + " %"});
   Eigen::Vector3d ray;
   for (const Eigen::Vector2d& corner :
        {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(right, 0.0), Eigen::Vector2d(0.0, bottom),

@@ -82,10 +82,11 @@ MadeCase makeCase(const CaseFiles& files) {
   SessionCase& made = result.made;
   made.id = files.id.empty() ? files.image.stem().string() : files.id;
   made.image = imageInput(files.image, files.eight_bit);
-  made.camera = readCamera(files.camera);
+  const CameraFile camera = readCameraFile(files.camera);
+  made.camera = camera.camera;
   made.parts = meshInputs(files.parts);
   made.feature_size_m = files.feature_size_m;
-  const PoseFile seed = readPose(files.seed);
+  const PoseFile seed = readPose(files.seed, camera.reference);
   made.camera_from_station_seed = seed.camera_from_station;
   made.uncertainty =
       files.uncertainty ? *files.uncertainty : seed.uncertainty.value_or(DeclaredUncertainty());
@@ -93,7 +94,8 @@ MadeCase makeCase(const CaseFiles& files) {
     result.notes.push_back("the seed states no uncertainty; taking 0.03 m and 5 deg");
   const std::string projected = projectionNote(seed.rotation_deviation);
   if (!projected.empty()) result.notes.push_back(files.seed.string() + ": " + projected);
-  if (files.truth) made.camera_from_station_truth = readPose(*files.truth).camera_from_station;
+  if (files.truth)
+    made.camera_from_station_truth = readPose(*files.truth, camera.reference).camera_from_station;
   if (files.ignore) made.ignore = maskInput(*files.ignore, made.image);
   return result;
 }

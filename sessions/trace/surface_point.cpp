@@ -32,11 +32,12 @@ double distanceToFace(const Eigen::Vector3d& origin, const Eigen::Vector3d& dire
 std::optional<SurfacePoint> surfacePointAt(const Camera& camera, const MeshView& mesh,
                                            const Pose& camera_from_station,
                                            const Eigen::Vector2d& pixel) {
-  Eigen::Vector3d ray;
-  if (!unproject(camera, pixel, ray)) return std::nullopt;
+  Ray ray;
+  if (!unprojectRay(camera, pixel, ray)) return std::nullopt;
   const Pose station_from_camera = camera_from_station.inverse();
-  const Eigen::Vector3d origin = station_from_camera.translation_m;
-  const Eigen::Vector3d direction = station_from_camera.rotation * ray;  // z = 1 in the camera
+  const Eigen::Vector3d origin = station_from_camera * ray.origin_m;
+  const Eigen::Vector3d direction =
+      station_from_camera.rotation * ray.direction;  // z = 1 in the camera
   std::optional<SurfacePoint> nearest;
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     const auto corner = [&mesh, i](std::size_t k) {

@@ -48,12 +48,24 @@ void fields(Archive& archive, Self& uncertainty) {
   vectorFields(archive, pivot_in_camera_m);
 }
 
+template <class Archive, Is<CahvLens> Self>
+void fields(Archive& archive, Self& lens) {
+  auto& [skew_px, optical_axis, radial, entrance_m, linearity, pupil_low_m, pupil_high_m] = lens;
+  archive.number(skew_px);
+  vectorFields(archive, optical_axis);
+  vectorFields(archive, radial);
+  vectorFields(archive, entrance_m);
+  numbers(archive, linearity, pupil_low_m, pupil_high_m);
+}
+
 template <class Archive, Is<Camera> Self>
 void fields(Archive& archive, Self& camera) {
-  auto& [model, width, height, fx, fy, cx, cy, distortion, valid_radius] = camera;
-  archive.choice(model, CameraModel::kKannalaBrandt);
+  auto& [model, width, height, fx, fy, cx, cy, distortion, cahv, valid_radius] = camera;
+  archive.choice(model, kLastCameraModel);
   numbers(archive, width, height, fx, fy, cx, cy);
   for (auto& coefficient : distortion) archive.number(coefficient);
+  // A camera of another model says nothing of it: files from before are read as they are.
+  if (isCahvFamily(model)) fields(archive, cahv);
   archive.number(valid_radius);
 }
 

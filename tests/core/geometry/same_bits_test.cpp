@@ -7,6 +7,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "tests/core/geometry/example_cameras.h"
+#include "tests/core/geometry/planetary_cameras.h"
 
 namespace boresight::test {
 namespace {
@@ -98,6 +99,36 @@ TEST(SameBits, OfProjections) {
     }
   });
   EXPECT_EQ(digest, "f862229e8bdabe8def70515c561fc709fa8f475fb811436eebd1b382de989503");
+}
+
+TEST(SameBits, OfPlanetaryCameras) {
+  const std::string digest = digestOf([](DigestWriter& writer) {
+    Random random(2024, 10);
+    for (const PlanetaryCamera& planetary : planetaryCameras()) {
+      const Camera camera = planetary.camera();
+      writer.f64(camera.valid_radius);
+      writer.f64(camera.cahv.pupil_low_m);
+      writer.f64(camera.cahv.pupil_high_m);
+      for (int i = 0; i < 300; ++i) {
+        Eigen::Vector3d point;
+        point.x() = random.uniform(-1.0, 1.0);
+        point.y() = random.uniform(-1.0, 1.0);
+        point.z() = random.uniform(0.3, 2.0);
+        Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+        Eigen::Matrix<double, 2, 3> jacobian = Eigen::Matrix<double, 2, 3>::Zero();
+        Ray ray;
+        const bool projects = projectWithJacobian(camera, point, pixel, jacobian);
+        writer.u8(projects ? 1 : 0);
+        if (!projects) continue;
+        for (int k = 0; k < 2; ++k) writer.f64(pixel[k]);
+        for (int k = 0; k < 6; ++k) writer.f64(jacobian(k / 3, k % 3));
+        writer.u8(unprojectRay(camera, pixel, ray) ? 1 : 0);
+        for (int k = 0; k < 3; ++k) writer.f64(ray.direction[k]);
+        for (int k = 0; k < 3; ++k) writer.f64(ray.origin_m[k]);
+      }
+    }
+  });
+  EXPECT_EQ(digest, "db4342836b8acbeef2ac9d0b36a7fcb3230d8a7b067395eda35d34d51b6bd68e");
 }
 
 }  // namespace

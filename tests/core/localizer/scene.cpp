@@ -25,6 +25,7 @@ Camera finerCamera(const Camera& camera) {
   finer.height *= kSubpixels;
   finer.fx *= kSubpixels;
   finer.fy *= kSubpixels;
+  finer.cahv.skew_px *= kSubpixels;
   finer.cx = (camera.cx + 0.5) * kSubpixels - 0.5;
   finer.cy = (camera.cy + 0.5) * kSubpixels - 0.5;
   EXPECT_EQ(prepareCamera(finer), Status::kOk);
@@ -259,6 +260,85 @@ Picture takePicture(const Solid& solid, const Camera& camera, const Pose& camera
   Surfaces surfaces{std::vector<std::int32_t>(rays), std::vector<std::uint8_t>(rays),
                     std::vector<Eigen::Vector3f>(rays)};
   render(solid, finer, camera_from_station, &surfaces);
+  return develop(expose(solid, finer, surfaces), camera.width, camera.height);
+}
+
+namespace {
+
+/// Everything about the nearest of the faces that a ray has met.
+struct Hit {
+  double depth_m = 1e300;
+  std::int32_t face = -1;
+};
+
+/// Depth at which a ray meets a triangle; negative where it does not (Moeller and Trumbore).
+double meet(const Ray& ray, const Eigen::Vector3d corner[3]) {
+  const Eigen::Vector3d ab = corner[1] - corner[0];
+  const Eigen::Vector3d ac = corner[2] - corner[0];
+  const Eigen::Vector3d p = ray.direction.cross(ac);
+  const double determinant = ab.dot(p);
+  if (determinant == 0.0) return -1.0;
+  const Eigen::Vector3d from = ray.origin_m - corner[0];
+  const double u = from.dot(p) / determinant;
+  const Eigen::Vector3d q = from.cross(ab);
+  const double v = ray.direction.dot(q) / determinant;
+  return u >= 0.0 && v >= 0.0 && u + v <= 1.0 ? ac.dot(q) / determinant : -1.0;
+}
+
+}  // namespace
+
+Picture takePictureByRays(const Solid& solid, const Camera& camera,
+                          const Pose& camera_from_station) {
+  const Camera finer = finerCamera(camera);
+  const auto count = static_cast<std::size_t>(finer.width * finer.height);
+  std::vector<Ray> rays(count);
+  for (int y = 0; y < finer.height; ++y)
+    for (int x = 0; x < finer.width; ++x)
+      EXPECT_TRUE(unprojectRay(finer, {x, y}, rays[static_cast<std::size_t>(y * finer.width + x)]));
+  std::vector<Hit> hits(count);
+  for (std::size_t face = 0; face < solid.faces.size(); ++face) {
+    Eigen::Vector3d corner[3];
+    Eigen::Vector2d low(1e9, 1e9);
+    Eigen::Vector2d high(-1e9, -1e9);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto vertex = static_cast<std::size_t>(solid.faces[face].vertex[i]);
+      corner[i] = camera_from_station * solid.vertices[vertex].cast<double>();
+      Eigen::Vector2d pixel;
+      EXPECT_TRUE(project(finer, corner[i], pixel));
+      low = low.cwiseMin(pixel);
+      high = high.cwiseMax(pixel);
+    }
+    const double bend_px = 6.0 + 0.12 * (high - low).norm();  // lines are curves in the image
+    const auto limited = [](double value, int most) {
+      return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(most)));
+    };
+    for (int y = limited(low.y() - bend_px, finer.height);
+         y < limited(high.y() + bend_px, finer.height); ++y) {
+      for (int x = limited(low.x() - bend_px, finer.width);
+           x < limited(high.x() + bend_px, finer.width); ++x) {
+        const auto i = static_cast<std::size_t>(y * finer.width + x);
+        const double depth_m = meet(rays[i], corner);
+        if (depth_m > 0.0 && depth_m < hits[i].depth_m)
+          hits[i] = {depth_m, static_cast<std::int32_t>(face)};
+      }
+    }
+  }
+  Surfaces surfaces{std::vector<std::int32_t>(count, -1), std::vector<std::uint8_t>(count),
+                    std::vector<Eigen::Vector3f>(count)};
+  for (std::size_t i = 0; i < count; ++i) {
+    if (hits[i].face < 0) continue;
+    const Face& face = solid.faces[static_cast<std::size_t>(hits[i].face)];
+    Eigen::Vector3d corner[3];
+    for (std::size_t k = 0; k < 3; ++k)
+      corner[k] = camera_from_station *
+                  solid.vertices[static_cast<std::size_t>(face.vertex[k])].cast<double>();
+    Eigen::Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+    const double cosine = -normal.dot(rays[i].direction.normalized());
+    if (cosine < 0.0) normal = -normal;
+    surfaces.face[i] = hits[i].face;
+    surfaces.intensity[i] = static_cast<std::uint8_t>(30.5 + 224.0 * std::abs(cosine));
+    surfaces.normal[i] = normal.cast<float>();
+  }
   return develop(expose(solid, finer, surfaces), camera.width, camera.height);
 }
 

@@ -60,6 +60,9 @@ struct Picture {
 /// What the camera sees: nine rays a pixel, shaded by a lamp at the side, in front of a blotchy
 /// background, blurred 3 x 3, with a little noise.
 Picture takePicture(const Solid& solid, const Camera& camera, const Pose& camera_from_station);
+/// The same by casting each ray on its own, from where it starts: knows nothing of the renderer.
+Picture takePictureByRays(const Solid& solid, const Camera& camera,
+                          const Pose& camera_from_station);
 Picture noisePicture(int width, int height, std::uint64_t seed);
 Picture flatPicture(int width, int height, std::uint8_t gray);
 

@@ -67,6 +67,30 @@ Camera fisheye() {
   return prepared(camera);
 }
 
+/// Image axes 10 deg from square, y up the image.
+Camera skewCahvor() {
+  Camera camera = pinhole();
+  camera.model = CameraModel::kCahvor;
+  camera.fx = 1500.0;
+  camera.fy = -1480.0;
+  camera.cahv.skew_px = 260.0;
+  camera.cahv.optical_axis = Eigen::Vector3d(0.02, -0.01, 1.0).normalized();
+  camera.cahv.radial = {0.001, -0.12, 0.03};
+  return prepared(camera);
+}
+
+/// The entrance pupil moves by 4 mm over the image, at a third of a metre.
+Camera hazardCahvore() {
+  Camera camera = pinhole();
+  camera.model = CameraModel::kCahvore;
+  camera.fx = camera.fy = 900.0;
+  camera.cahv.optical_axis = Eigen::Vector3d(-0.002, 0.001, 1.0).normalized();
+  camera.cahv.radial = {0.000002, 0.0075, -0.0056};
+  camera.cahv.entrance_m = {0.026, 0.0004, -0.0045};
+  camera.cahv.linearity = 0.37;
+  return prepared(camera);
+}
+
 SeedUncertainty uncertaintyOf(double translation_m, const Eigen::Vector3d& rotation_deg,
                               const Eigen::Vector3d& pivot_in_camera_m) {
   SeedUncertainty uncertainty;
@@ -143,9 +167,9 @@ Eigen::Vector3d visiblePoint(const Camera& camera, double margin_px, Dice& dice)
   for (int attempt = 0; attempt < 1000; ++attempt) {
     const Eigen::Vector2d pixel(dice.uniform(margin_px, camera.width - 1 - margin_px),
                                 dice.uniform(margin_px, camera.height - 1 - margin_px));
-    Eigen::Vector3d ray;
-    if (unproject(camera, pixel, ray) && ray.head<2>().norm() < 1.5) {
-      return ray * dice.uniform(0.3, 0.6);
+    Ray ray;
+    if (unprojectRay(camera, pixel, ray) && ray.direction.head<2>().norm() < 1.5) {
+      return ray.at(dice.uniform(0.3, 0.6));
     }
   }
   ADD_FAILURE() << "the camera sees nothing";
@@ -174,7 +198,10 @@ class SearchWindowOf : public testing::TestWithParam<int> {
             {"pinholeTube", pinhole(), tube, 0.02, 600.0, 1.15},
             {"brownConradyTube", brownConrady(), tube, 0.02, 300.0, 1.2},
             {"fisheyeWide", fisheye(), wide, 0.03, 500.0, 1.4},
-            {"narrowField", narrowField(), usual, 0.03, 5.0, 1.25}};
+            {"narrowField", narrowField(), usual, 0.03, 5.0, 1.25},
+            {"skewCahvor", skewCahvor(), usual, 0.03, 100.0, 1.3},
+            {"hazardCahvore", hazardCahvore(), usual, 0.03, 300.0, 1.3},
+            {"hazardCahvoreSmall", hazardCahvore(), small, 0.0075, 100.0, 1.5}};
   }
 };
 
@@ -218,7 +245,7 @@ TEST_P(SearchWindowOf, ContainsEveryPlaceAndLittleMore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Cameras, SearchWindowOf, testing::Range(0, 9), [](const testing::TestParamInfo<int>& setting) {
+    Cameras, SearchWindowOf, testing::Range(0, 12), [](const testing::TestParamInfo<int>& setting) {
       return SearchWindowOf::all()[static_cast<std::size_t>(setting.param)].name;
     });
 

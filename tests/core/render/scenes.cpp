@@ -97,6 +97,28 @@ Camera fisheyeCamera(int width, int height, double focal_px) {
   return camera;
 }
 
+Camera skewMirroredCamera(int width, int height, double focal_px) {
+  Camera camera = pinholeCamera(width, height, focal_px);
+  camera.model = CameraModel::kCahvor;
+  camera.fy = -1.02 * focal_px;
+  camera.cahv.skew_px = 0.15 * focal_px;
+  camera.cahv.optical_axis = Eigen::Vector3d(0.02, 0.015, 1.0).normalized();
+  camera.cahv.radial = {0.002, -0.2, 0.04};
+  EXPECT_EQ(prepareCamera(camera), Status::kOk);
+  return camera;
+}
+
+Camera pupilCamera(int width, int height, double focal_px, double entrance_m) {
+  Camera camera = pinholeCamera(width, height, focal_px);
+  camera.model = CameraModel::kCahvore;
+  camera.cahv.optical_axis = Eigen::Vector3d(0.003, -0.002, 1.0).normalized();
+  camera.cahv.radial = {0.000002, 0.0075, -0.0056};
+  camera.cahv.entrance_m = {entrance_m, 0.0, 0.0};
+  camera.cahv.linearity = 0.37;
+  EXPECT_EQ(prepareCamera(camera), Status::kOk);
+  return camera;
+}
+
 Rendered render(const SceneMesh& mesh, const Camera& camera, const Pose& camera_from_station,
                 const RenderOptions& options, int band_rows, bool plainly) {
   Rendered out;

@@ -3,10 +3,13 @@
 // drawing them like all others.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/render/face_bins.h"
 #include "tests/core/render/scenes.h"
 
 namespace boresight::testing {
@@ -60,6 +63,48 @@ TEST(SmallFaces, BallsOfAllFinenessLikePlain) {
     addBall(mesh, random, {0, 0, 0}, 0.08, n, n < 100 ? 0.02 : 0.002);
     for (const Camera& camera : cameras())
       expectLikePlain(mesh, camera, poseOf({0.1, 0.2, 0.3}, {0.01, 0.0, 0.5}), 10);
+  }
+}
+
+/// Which side of a face is seen, from its few bits as from its plane, in images turned over, too.
+TEST(SmallFaces, KnowWhichSideIsSeen) {
+  for (const Camera& camera :
+       {pinholeCamera(1024, 900, 1100.0), brownCamera(1024, 900, 1100.0, -0.2),
+        skewMirroredCamera(1024, 900, 1600.0), pupilCamera(1024, 900, 1600.0, 0.01)}) {
+    Random random(4);
+    SceneMesh mesh;
+    addBall(mesh, random, {0, 0, 0}, 0.08, 120, 0.002);
+    std::vector<std::byte> memory(std::size_t{16} << 20);
+    Arena arena(memory);
+    MeshAdjacency adjacency;
+    RayGrid rays;
+    CameraScene scene;
+    ASSERT_EQ(buildAdjacency(mesh.view(), arena, adjacency), Status::kOk);
+    ASSERT_EQ(RayGrid::create(camera, arena, rays), Status::kOk);
+    ASSERT_EQ(CameraScene::create(mesh.view(), adjacency, 0.01, arena, arena, scene), Status::kOk);
+    FaceBins bins = FaceBins::create(mesh.faces.size(), camera.height, 1, arena);
+    ASSERT_FALSE(arena.exhausted());
+    const Pose pose = poseOf({0.1, 0.2, 0.3}, {0.01, 0.0, 0.5});
+    scene.begin(pose, rays);
+    scene.transform(pose, rays, 0, mesh.vertices.size());
+    for (std::size_t face = 0; face < mesh.faces.size(); ++face)
+      scene.orient(static_cast<std::int32_t>(face));
+    const std::vector<std::uint8_t> expected(scene.face_flags.begin(), scene.face_flags.end());
+    bins.begin(scene, rays, 16, false, 1);
+    EXPECT_TRUE(bins.smallFaces().possible());
+    bins.add(scene, rays, 0, mesh.faces.size(), 0);
+    const std::vector<std::uint8_t> found(scene.face_flags.begin(), scene.face_flags.end());
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST(SmallFaces, OfPlanetaryCamerasLikePlain) {
+  for (const Camera& camera :
+       {skewMirroredCamera(301, 149, 1600.0), pupilCamera(301, 149, 1600.0, 0.01)}) {
+    Random random(5);
+    SceneMesh mesh;
+    addBall(mesh, random, {0, 0, 0}, 0.04, 150, 0.002);
+    expectLikePlain(mesh, camera, poseOf({0.1, 0.2, 0.3}, {0.01, 0.0, 0.5}), 10);
   }
 }
 

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/base/status.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
+
+namespace boresight {
+
+/// A camera as the labels of planetary images state it: vectors in some frame of the vehicle or the
+/// site (the reference frame), for pixels counted from the centre of the top-left one.
+struct CahvModel {
+  CameraModel model = CameraModel::kCahv;
+  Eigen::Vector3d c_m = Eigen::Vector3d::Zero();  ///< centre
+  Eigen::Vector3d a = Eigen::Vector3d::UnitZ();  ///< axis; rounded labels are not quite of length 1
+  Eigen::Vector3d h_px = Eigen::Vector3d::Zero();  ///< horizontal: x = (P - C).H / (P - C).A
+  Eigen::Vector3d v_px = Eigen::Vector3d::Zero();  ///< vertical
+  Eigen::Vector3d o = Eigen::Vector3d::UnitZ();    ///< optical axis; CAHVOR and CAHVORE
+  Eigen::Vector3d r = Eigen::Vector3d::Zero();     ///< radial terms; CAHVOR and CAHVORE
+  Eigen::Vector3d e_m = Eigen::Vector3d::Zero();   ///< entrance pupil terms; CAHVORE
+  int type = 1;                                    ///< CAHVORE: 1 perspective, 2 fisheye, 3 general
+  double parameter = 1.0;  ///< CAHVORE: linearity of type 3; the others do not use it
+
+  bool operator==(const CahvModel&) const = default;
+};
+
+/// The camera, in its own frame, and where that frame is: origin C, z = A, x along the part of H
+/// across A, y = z cross x. A V that is not along y is kept (skew), as is one that points the other
+/// way (a mirrored image, fy < 0). A is brought to length 1 together with H and V, which changes no
+/// pixel; O, too. kInvalidCamera when A or O are not within 1e-3 of length 1, an H or V is along A,
+/// or the lens cannot be (see prepareCamera).
+Status cameraFromCahv(const CahvModel& cahv, int width, int height, Camera& camera,
+                      Pose& camera_from_reference);
+
+/// The other way: what a label would state in that frame, with A and O of length 1.
+CahvModel cahvFromCamera(const Camera& camera, const Pose& camera_from_reference);
+
+}  // namespace boresight

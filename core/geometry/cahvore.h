@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/geometry/camera.h"
+
+namespace boresight {
+
+/// The lens of the CAHV family between a point and the distorted direction q = d'_xy / d'_z, with
+/// pixel = (fx q_x + cx, skew q_x + fy q_y + cy): Gennery, "Generalized Camera Calibration
+/// Including Fish-Eye Lenses", IJCV 2006. A point d is split by the optical axis O into d = w O +
+/// lam.
+///   CAHV:    d' = d
+///   CAHVOR:  d' = d + mu lam,               mu = r0 + r1 tau + r2 tau^2, tau = |lam|^2 / w^2
+///   CAHVORE: d' = |lam| / chi O + (1 + mu) lam, mu = r0 + r1 chi^2 + r2 chi^4, where
+///            chi = tan(L theta) / L for L > 0, theta for L = 0, sin(L theta) / L for L < 0, and
+///            w sin theta - |lam| cos theta = (theta - sin theta) (e0 + e1 theta^2 + e2 theta^4).
+/// A camera must have been prepared; `false` means outside its valid field (or not finite), and
+/// then the outputs are unspecified.
+
+/// The end of the valid field (see Camera::valid_radius), also sets the range of the pupil; 0 when
+/// there is none.
+double prepareCahvLens(Camera& camera);
+
+bool distortCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vector2d& q);
+/// Also d q / d point.
+bool distortCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vector2d& q,
+                 Eigen::Matrix<double, 2, 3>& jacobian);
+/// Of a direction, as if from a point infinitely far off.
+bool distortCahvDirection(const Camera& camera, const Eigen::Vector3d& direction,
+                          Eigen::Vector2d& q);
+bool undistortCahv(const Camera& camera, const Eigen::Vector2d& q, Ray& ray);
+
+/// Place of the pupil along O for the ray on which a point lies, kept within the image's range.
+double pupilOf(const Camera& camera, const Eigen::Vector3d& point);
+
+}  // namespace boresight

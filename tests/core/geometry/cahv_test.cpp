@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "tests/core/geometry/planetary_cameras.h"
+#include "tests/support/random_pose.h"
+
+namespace boresight::test {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class EveryPlanetaryCamera : public ::testing::TestWithParam<PlanetaryCamera> {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(cameraFromCahv(GetParam().cahv, GetParam().width, GetParam().height, camera_,
+                             camera_from_reference_),
+              Status::kOk);
+  }
+  /// Anywhere in the image.
+  Eigen::Vector2d pixel(Random& random) const {
+    return {random.uniform(-1.0, camera_.width), random.uniform(-1.0, camera_.height)};
+  }
+
+  Camera camera_;
+  Pose camera_from_reference_;
+};
+INSTANTIATE_TEST_SUITE_P(Cahv, EveryPlanetaryCamera, ::testing::ValuesIn(planetaryCameras()),
+                         [](const auto& instance) { return instance.param.name; });
+
+TEST_P(EveryPlanetaryCamera, AgreesWithFiftyDigitsOfThePublishedMathematics) {
+  for (const PlanetaryCamera::Sight& sight : GetParam().sights) {
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(project(camera_, camera_from_reference_ * sight.point_m, pixel));
+    EXPECT_LT((pixel - sight.pixel).norm(), 1e-9) << sight.pixel.transpose();
+    Ray ray;
+    ASSERT_TRUE(unprojectRay(camera_, sight.pixel, ray));
+    const Eigen::Vector3d direction = camera_from_reference_.rotation * sight.direction;
+    EXPECT_LT((ray.direction.normalized() - direction).norm(), 1e-13);
+    EXPECT_LT((ray.origin_m - camera_from_reference_ * sight.origin_m).norm(), 1e-14);
+  }
+}
+
+TEST_P(EveryPlanetaryCamera, ProjectsEveryRayBackOntoItsPixel) {
+  double worst_px = 0.0;
+  for (int j = 0; j <= 100; ++j) {
+    for (int i = 0; i <= 100; ++i) {
+      const Eigen::Vector2d pixel(-1.0 + (camera_.width + 1.0) * i / 100.0,
+                                  -1.0 + (camera_.height + 1.0) * j / 100.0);
+      Ray ray;
+      ASSERT_TRUE(unprojectRay(camera_, pixel, ray)) << pixel.transpose();
+      ASSERT_EQ(ray.direction.z(), 1.0);
+      for (const double depth_m : {0.1, 0.5, 20.0}) {
+        Eigen::Vector2d back;
+        ASSERT_TRUE(project(camera_, ray.at(depth_m), back)) << pixel.transpose();
+        worst_px = std::max(worst_px, (back - pixel).norm());
+      }
+      Eigen::Vector3d direction;
+      Eigen::Vector2d back;
+      ASSERT_TRUE(unproject(camera_, pixel, direction));
+      EXPECT_EQ(direction, ray.direction);
+      ASSERT_TRUE(projectDirection(camera_, 3.0 * direction, back));
+      worst_px = std::max(worst_px, (back - pixel).norm());
+    }
+  }
+  EXPECT_LT(worst_px, 1e-9);
+}
+
+TEST_P(EveryPlanetaryCamera, JacobianAgreesWithFiniteDifferences) {
+  Random random = randomFor("CahvJacobian" + GetParam().name);
+  for (int i = 0; i < 1000; ++i) {
+    Ray ray;
+    ASSERT_TRUE(unprojectRay(camera_, pixel(random), ray));
+    const Eigen::Vector3d point = ray.at(random.uniform(0.1, 4.0));
+    Eigen::Vector2d plain;
+    Eigen::Vector2d pixel;
+    Eigen::Matrix<double, 2, 3> jacobian;
+    ASSERT_TRUE(project(camera_, point, plain));
+    ASSERT_TRUE(projectWithJacobian(camera_, point, pixel, jacobian));
+    EXPECT_EQ(pixel, plain);
+    const double step = 1e-5 * point.z();
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d shift = step * Eigen::Vector3d::Unit(axis);
+      Eigen::Vector2d ahead;
+      Eigen::Vector2d behind;
+      ASSERT_TRUE(project(camera_, point + shift, ahead));
+      ASSERT_TRUE(project(camera_, point - shift, behind));
+      const Eigen::Vector2d numeric = (ahead - behind) / (2.0 * step);
+      EXPECT_LT((numeric - jacobian.col(axis)).norm(), 1e-6 * (1.0 + jacobian.norm()))
+          << point.transpose();
+    }
+  }
+}
+
+/// On the axis the angle's direction is not defined; the derivatives are.
+TEST_P(EveryPlanetaryCamera, JacobianIsSmoothThroughTheOpticalAxis) {
+  const Eigen::Vector3d on_axis = 0.7 * camera_.cahv.optical_axis;
+  Eigen::Vector2d pixel;
+  Eigen::Matrix<double, 2, 3> there;
+  ASSERT_TRUE(projectWithJacobian(camera_, on_axis, pixel, there));
+  for (const double off : {0.0, 1e-300, 1e-12, 1e-9, 1e-7, 0.69e-4, 0.71e-4}) {
+    Eigen::Matrix<double, 2, 3> beside;
+    ASSERT_TRUE(
+        projectWithJacobian(camera_, on_axis + Eigen::Vector3d(off, -off, 0.0), pixel, beside));
+    EXPECT_LT((beside - there).norm(), (1e-9 + 20.0 * off) * there.norm()) << off;
+    const double step = 1e-6;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d at = on_axis + Eigen::Vector3d(off, -off, 0.0);
+      const Eigen::Vector3d shift = step * Eigen::Vector3d::Unit(axis);
+      Eigen::Vector2d ahead;
+      Eigen::Vector2d behind;
+      ASSERT_TRUE(project(camera_, at + shift, ahead) && project(camera_, at - shift, behind));
+      EXPECT_LT(((ahead - behind) / (2.0 * step) - beside.col(axis)).norm(), 1e-6 * there.norm());
+    }
+  }
+}
+
+TEST_P(EveryPlanetaryCamera, ALevelAndAPartOfTheImageSeeTheSamePoints) {
+  Random random = randomFor("CahvLevel" + GetParam().name);
+  Camera part = camera_;
+  ASSERT_EQ(cutToFrame(100, -37, 400, 300, part), Status::kOk);
+  for (int i = 0; i < 200; ++i) {
+    Ray ray;
+    ASSERT_TRUE(unprojectRay(camera_, pixel(random), ray));
+    const Eigen::Vector3d point = ray.at(0.4);
+    Eigen::Vector2d full;
+    ASSERT_TRUE(project(camera_, point, full));
+    Eigen::Vector2d seen;
+    for (int level = 1; level <= 4; ++level) {
+      ASSERT_TRUE(project(cameraAtLevel(camera_, level), point, seen));
+      const Eigen::Vector2d half(0.5, 0.5);
+      EXPECT_LT((seen - ((full + half) / std::ldexp(1.0, level) - half)).norm(), 1e-9);
+    }
+    ASSERT_TRUE(project(part, point, seen));
+    EXPECT_LT((seen - full + Eigen::Vector2d(100.0, -37.0)).norm(), 1e-9);
+  }
+}
+
+TEST_P(EveryPlanetaryCamera, SeenFromItsPupilAPointLiesInTheDirectionOfItsPixel) {
+  Random random = randomFor("CahvSeen" + GetParam().name);
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector2d at = pixel(random);
+    Ray ray;
+    ASSERT_TRUE(unprojectRay(camera_, at, ray));
+    const double depth_m = random.uniform(0.15, 3.0);
+    const Eigen::Vector3d seen = seenFromPupil(camera_, ray.at(depth_m));
+    EXPECT_LT((seen - depth_m * ray.direction).norm(), 1e-7 * depth_m) << at.transpose();
+    if (!pupilMoves(camera_)) {
+      EXPECT_EQ(seen, ray.at(depth_m));
+    }
+    const double pupil_m = camera_.cahv.optical_axis.dot(ray.origin_m);
+    EXPECT_GE(pupil_m, camera_.cahv.pupil_low_m);
+    EXPECT_LE(pupil_m, camera_.cahv.pupil_high_m);
+  }
+}
+
+TEST_P(EveryPlanetaryCamera, VectorsComeBackInTheReferenceFrame) {
+  const CahvModel again = cahvFromCamera(camera_, camera_from_reference_);
+  const CahvModel& cahv = GetParam().cahv;
+  EXPECT_LT((again.c_m - cahv.c_m).norm(), 1e-15);
+  EXPECT_LT((again.a - cahv.a).norm(), 1e-15);
+  EXPECT_LT((again.h_px - cahv.h_px).norm(), 1e-12 * cahv.h_px.norm());
+  EXPECT_LT((again.v_px - cahv.v_px).norm(), 1e-12 * cahv.v_px.norm());
+  EXPECT_EQ(again.r, cahv.r);
+  EXPECT_EQ(again.e_m, cahv.e_m);
+  if (cahv.model != CameraModel::kCahv) {
+    EXPECT_LT((again.o - cahv.o).norm(), 1e-15);
+  }
+}
+
+TEST_P(EveryPlanetaryCamera, RefusesPointsBehindAndNonFiniteInput) {
+  Eigen::Vector2d pixel;
+  Ray ray;
+  Eigen::Matrix<double, 2, 3> jacobian;
+  for (const Eigen::Vector3d& point :
+       {Eigen::Vector3d(0.1, 0.1, 0.0), Eigen::Vector3d(0.1, 0.1, -1.0),
+        Eigen::Vector3d(0.0, 0.0, -1e-300), Eigen::Vector3d(0.1, 0.1, 1e-320),
+        Eigen::Vector3d(0.0, 0.0, 0.0), Eigen::Vector3d(0.0, kNan, 1.0),
+        Eigen::Vector3d(0.0, 0.0, kNan), Eigen::Vector3d(kInfinity, 0.0, 1.0),
+        Eigen::Vector3d(kInfinity, 0.0, kInfinity)}) {
+    EXPECT_FALSE(project(camera_, point, pixel)) << point.transpose();
+    EXPECT_FALSE(projectDirection(camera_, point, pixel)) << point.transpose();
+    EXPECT_FALSE(projectWithJacobian(camera_, point, pixel, jacobian)) << point.transpose();
+  }
+  for (const Eigen::Vector2d& bad : {Eigen::Vector2d(kNan, 0.0), Eigen::Vector2d(0.0, kInfinity),
+                                     Eigen::Vector2d(1e300, -1e300)})
+    EXPECT_FALSE(unprojectRay(camera_, bad, ray)) << bad.transpose();
+}
+
+/// Anything that projects, wherever it lands, is on the ray of the pixel where it does: nothing
+/// folds back.
+TEST_P(EveryPlanetaryCamera, NothingFoldsBack) {
+  Random random = randomFor("CahvFolds" + GetParam().name);
+  int projected = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Eigen::Vector3d point(random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0),
+                                random.uniform(0.3, 1.5));
+    Eigen::Vector2d pixel;
+    if (!project(camera_, point, pixel)) continue;
+    ++projected;
+    Ray ray;
+    ASSERT_TRUE(unprojectRay(camera_, pixel, ray)) << point.transpose();
+    const double depth_m = point.z() - ray.origin_m.z();
+    EXPECT_LT((ray.at(depth_m) - point).norm(), 1e-7 * point.norm()) << point.transpose();
+  }
+  EXPECT_GT(projected, 100);
+}
+
+TEST(Cahv, OfAPinholeIsThatPinhole) {
+  Random random = randomFor("CahvPinhole");
+  for (int k = 0; k < 20; ++k) {
+    const Camera pinhole = randomCamera(random, CameraModel::kPinhole);
+    const Pose camera_from_reference = randomPose(random);
+    const Eigen::Matrix3d axes = camera_from_reference.matrix();
+    CahvModel cahv;  // from the published relations, not from this program's own
+    cahv.c_m = camera_from_reference.inverse().translation_m;
+    cahv.a = axes.row(2).transpose();
+    cahv.h_px = (pinhole.fx * axes.row(0) + pinhole.cx * axes.row(2)).transpose();
+    cahv.v_px = (pinhole.fy * axes.row(1) + pinhole.cy * axes.row(2)).transpose();
+    Camera camera;
+    Pose found;
+    ASSERT_EQ(cameraFromCahv(cahv, pinhole.width, pinhole.height, camera, found), Status::kOk);
+    EXPECT_THAT(found, poseNear(camera_from_reference, 1e-12, 1e-12));
+    for (int i = 0; i < 100; ++i) {
+      const Eigen::Vector3d point(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
+                                  random.uniform(0.5, 3.0));
+      Eigen::Vector2d pixel;
+      Eigen::Vector2d expected;
+      ASSERT_TRUE(project(camera, point, pixel) && project(pinhole, point, expected));
+      EXPECT_LT((pixel - expected).norm(), 1e-9);
+    }
+  }
+}
+
+TEST(Cahv, VectorsOfRoundedLengthGiveTheSamePixels) {
+  const PlanetaryCamera mast = planetaryCameras().front();
+  CahvModel longer = mast.cahv;
+  longer.a *= 1.0004;  // (P - C).H / (P - C).A with these very vectors
+  Camera camera;
+  Pose camera_from_reference;
+  ASSERT_EQ(cameraFromCahv(longer, mast.width, mast.height, camera, camera_from_reference),
+            Status::kOk);
+  for (const PlanetaryCamera::Sight& sight : mast.sights) {
+    const Eigen::Vector3d d = sight.point_m - longer.c_m;
+    const Eigen::Vector2d expected(d.dot(longer.h_px) / d.dot(longer.a),
+                                   d.dot(longer.v_px) / d.dot(longer.a));
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(project(camera, camera_from_reference * sight.point_m, pixel));
+    EXPECT_LT((pixel - expected).norm(), 1e-9);
+  }
+}
+
+/// Two cameras give the same pixels over the image of the first.
+void expectSamePixels(const Camera& one, const Camera& other) {
+  Random random = randomFor("CahvSamePixels");
+  ASSERT_EQ(pupilMoves(one), false);
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Vector2d at(random.uniform(0.0, one.width), random.uniform(0.0, one.height));
+    Ray ray;
+    ASSERT_TRUE(unprojectRay(one, at, ray));
+    Eigen::Vector2d pixel;
+    Eigen::Vector2d expected;
+    Eigen::Matrix<double, 2, 3> jacobian;
+    Eigen::Matrix<double, 2, 3> expected_jacobian;
+    const Eigen::Vector3d point = ray.at(random.uniform(0.1, 2.0));
+    ASSERT_TRUE(projectWithJacobian(one, point, expected, expected_jacobian));
+    ASSERT_TRUE(projectWithJacobian(other, point, pixel, jacobian));
+    EXPECT_LT((pixel - expected).norm(), 1e-9) << at.transpose();
+    EXPECT_LT((jacobian - expected_jacobian).norm(), 1e-9 * expected_jacobian.norm());
+  }
+}
+
+Camera changed(Camera camera, CameraModel model) {
+  camera.model = model;
+  EXPECT_EQ(prepareCamera(camera), Status::kOk);
+  return camera;
+}
+
+TEST(Cahvor, WithoutRadialTermsIsCahv) {
+  Camera camera = planetaryCamera("Wide");
+  camera.cahv.radial.setZero();
+  expectSamePixels(changed(camera, CameraModel::kCahv), changed(camera, CameraModel::kCahvor));
+}
+
+/// k1 = r1 / (1 + r0), k2 = r2 / (1 + r0), and focal lengths times 1 + r0, when O is A.
+TEST(Cahvor, AlongTheAxisIsBrownsRadialModel) {
+  Camera camera = planetaryCamera("Wide");
+  camera.cahv.optical_axis = Eigen::Vector3d::UnitZ();
+  camera.cahv.skew_px = 0.0;
+  const Eigen::Vector3d r = camera.cahv.radial;
+  Camera brown = makeCamera(CameraModel::kBrownConrady, camera.width, camera.height, 1.0,
+                            {r[1] / (1.0 + r[0]), r[2] / (1.0 + r[0])});
+  brown.fx = camera.fx * (1.0 + r[0]);
+  brown.fy = camera.fy * (1.0 + r[0]);
+  brown.cx = camera.cx;
+  brown.cy = camera.cy;
+  expectSamePixels(changed(brown, CameraModel::kBrownConrady),
+                   changed(camera, CameraModel::kCahvor));
+}
+
+TEST(Cahvore, OfAStillPupilAndPerspectiveIsCahvor) {
+  Camera camera = planetaryCamera("Wide");
+  expectSamePixels(changed(camera, CameraModel::kCahvor), changed(camera, CameraModel::kCahvore));
+}
+
+/// theta (1 + r1 theta^2 + r2 theta^4): k1 = r1, k2 = r2.
+TEST(Cahvore, OfAStillPupilAndFisheyeIsKannalaBrandt) {
+  Camera camera = planetaryCamera("Fisheye");
+  camera.cahv.optical_axis = Eigen::Vector3d::UnitZ();
+  camera.cahv.entrance_m.setZero();
+  camera.cahv.radial[0] = 0.0;
+  camera.cahv.skew_px = 0.0;
+  Camera fisheye = makeCamera(CameraModel::kKannalaBrandt, camera.width, camera.height, 1.0,
+                              {camera.cahv.radial[1], camera.cahv.radial[2]});
+  fisheye.fx = camera.fx;
+  fisheye.fy = camera.fy;
+  fisheye.cx = camera.cx;
+  fisheye.cy = camera.cy;
+  expectSamePixels(changed(fisheye, CameraModel::kKannalaBrandt),
+                   changed(camera, CameraModel::kCahvore));
+}
+
+TEST(Cahvore, LinearityIsContinuousAtTheFisheye) {
+  Camera camera = planetaryCamera("Hazard");
+  Camera zero = camera;
+  camera.cahv.linearity = 1e-9;
+  zero.cahv.linearity = 0.0;
+  camera = changed(camera, CameraModel::kCahvore);
+  zero = changed(zero, CameraModel::kCahvore);
+  Eigen::Vector2d pixel;
+  Eigen::Vector2d expected;
+  ASSERT_TRUE(project(camera, {0.3, 0.4, 0.5}, pixel));
+  ASSERT_TRUE(project(zero, {0.3, 0.4, 0.5}, expected));
+  EXPECT_LT((pixel - expected).norm(), 1e-5);
+}
+
+/// 1 + 3 r1 tau + 5 r2 tau^2 = 0.
+TEST(Cahvor, ValidFieldEndsWhereTheRadiusStopsIncreasing) {
+  Camera camera = planetaryCamera("Wide");
+  camera.cahv.optical_axis = Eigen::Vector3d::UnitZ();
+  camera.cahv.radial = {0.0, -0.3, 0.0};
+  camera = changed(camera, CameraModel::kCahvor);
+  EXPECT_NEAR(camera.valid_radius, 1.0 / std::sqrt(0.9), 1e-12);
+  Eigen::Vector2d pixel;
+  EXPECT_TRUE(project(camera, {camera.valid_radius * 0.9999, 0.0, 1.0}, pixel));
+  EXPECT_FALSE(project(camera, {camera.valid_radius * 1.0001, 0.0, 1.0}, pixel));
+}
+
+TEST(Cahvore, ValidFieldEndsWhereTheGeneralModelDoes) {
+  Camera camera = planetaryCamera("NegativeLinearity");
+  camera.cahv.entrance_m.setZero();
+  camera.cahv.radial.setZero();
+  camera.cahv.optical_axis = Eigen::Vector3d::UnitZ();
+  camera.cahv.linearity = -1.25;  // theta |L| reaches 90 deg at 72 deg
+  camera = changed(camera, CameraModel::kCahvore);
+  EXPECT_NEAR(camera.valid_radius, 72.0 * kDegree_rad, 1e-7);
+  Eigen::Vector2d pixel;
+  EXPECT_TRUE(project(camera, {std::tan(71.9 * kDegree_rad), 0.0, 1.0}, pixel));
+  EXPECT_FALSE(project(camera, {std::tan(72.1 * kDegree_rad), 0.0, 1.0}, pixel));
+}
+
+/// So near to a deep pupil that rays cross, a point has no one pixel.
+TEST(Cahvore, RefusesPointsWhereRaysCross) {
+  const Camera camera = planetaryCamera("HazardDeepPupil");
+  Eigen::Vector2d pixel;
+  for (const double distance_m : {1e-4, 1e-6, 1e-30}) {
+    EXPECT_FALSE(project(camera, Eigen::Vector3d(1.0, 0.5, 0.7) * distance_m, pixel));
+  }
+  EXPECT_TRUE(project(camera, Eigen::Vector3d(1.0, 0.5, 0.7) * 0.1, pixel));
+}
+
+TEST(CameraFromCahv, RefusesWhatCannotBeACamera) {
+  const PlanetaryCamera good = planetaryCameras().back();
+  const auto status = [&good](auto&& change) {
+    CahvModel cahv = good.cahv;
+    change(cahv);
+    Camera camera;
+    Pose pose;
+    return cameraFromCahv(cahv, good.width, good.height, camera, pose);
+  };
+  EXPECT_EQ(status([](CahvModel&) {}), Status::kOk);
+  const auto refused = [&status](auto&& change) {
+    EXPECT_EQ(status(change), Status::kInvalidCamera);
+  };
+  for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    refused([bad](CahvModel& c) { c.c_m[1] = bad; });
+    refused([bad](CahvModel& c) { c.a[1] = bad; });
+    refused([bad](CahvModel& c) { c.h_px[1] = bad; });
+    refused([bad](CahvModel& c) { c.v_px[1] = bad; });
+    refused([bad](CahvModel& c) { c.o[1] = bad; });
+    refused([bad](CahvModel& c) { c.r[1] = bad; });
+    refused([bad](CahvModel& c) { c.e_m[1] = bad; });
+    refused([bad](CahvModel& c) { c.parameter = bad; });
+  }
+  refused([](CahvModel& c) { c.a *= 1.01; });
+  refused([](CahvModel& c) { c.o *= 0.99; });
+  refused([](CahvModel& c) { c.o = -c.o; });
+  refused([](CahvModel& c) { c.h_px = 500.0 * c.a; });
+  refused([](CahvModel& c) { c.v_px = c.h_px; });
+  refused([](CahvModel& c) { c.r[0] = -1.0; });
+  refused([](CahvModel& c) { c.type = 0; });
+  refused([](CahvModel& c) { c.type = 4; });
+  refused([](CahvModel& c) { c.model = CameraModel::kPinhole; });
+}
+
+}  // namespace
+}  // namespace boresight::test
