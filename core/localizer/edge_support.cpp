@@ -107,14 +107,6 @@ void measureCoverage(const EdgeRender& render, int level, const ImageView& image
   }
 }
 
-double ratio(std::int32_t part, std::int32_t whole) {
-  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
-}
-
-double excess(double share, double chance) {
-  return share > chance && chance < 1.0 ? (share - chance) / (1.0 - chance) : 0.0;
-}
-
 void addUp(const Cells& cells, EdgeSupport& support) {
   for (const Cell& cell : cells.cell) {
     support.rendered += cell.in_place.looked;
@@ -134,8 +126,8 @@ void addUp(const Cells& cells, PartialSupport& partial) {
     partial.displaced_covered += cell.displaced.near;
     if (cell.in_place.looked < PartialSupport::kVisibleFrom_places) continue;
     ++partial.cells;
-    const double beyond_chance = excess(ratio(cell.in_place.near, cell.in_place.looked),
-                                        ratio(cell.displaced.near, cell.displaced.looked));
+    const double beyond_chance = beyondChance(shareOf(cell.in_place.near, cell.in_place.looked),
+                                              shareOf(cell.displaced.near, cell.displaced.looked));
     if (beyond_chance < PartialSupport::kVisibleExcess) continue;
     ++partial.visible_cells;
     partial.visible += cell.in_place.looked;
@@ -194,12 +186,6 @@ void countEdge(const EdgePixel& pixel, int direction, int level, const EdgeSearc
              scale, image, ignore, options, counts);
   looked += counts.looked;
   covered += counts.near;
-}
-
-double PartialSupport::visibleShare() const { return ratio(visible, rendered); }
-
-double PartialSupport::precision() const {
-  return excess(ratio(covered, found), ratio(displaced_covered, displaced_found));
 }
 
 EdgeSupport measureEdgeSupport(const EdgeRender& render, int level, const EdgeMap& edges,

@@ -172,7 +172,7 @@ StepReport Localizer::finishHypothesis(Stage stage) {
       better ? hypothesis_ : best.chosen_hypothesis;
   const int kept = better ? current_ : other;
   ++hypothesis_;
-  const int wanted = iteration_ == 0 ? rolledHypotheses(options_.loop, started_.uncertainty) : 1;
+  const int wanted = iteration_ == 0 ? rolledHypotheses(options_, started_.uncertainty) : 1;
   if (hypothesis_ < wanted && !isConvincing(kept)) {
     has_best_ = true;
     current_ = 1 - kept;
@@ -206,6 +206,7 @@ StepReport Localizer::finishIteration(Stage stage, const Pose& camera_from_stati
   small_corrections_ = isSmall(now) ? small_corrections_ + 1 : 0;
   camera_from_station_ = now.camera_from_station;
   covariance_ = covariance;
+  if (matched && options_.templates.learn) learn();
   if (matched) {
     // Templates overlap and share their errors.
     matched_.camera_from_station = camera_from_station_;
@@ -274,6 +275,7 @@ void Localizer::startAttempt() {
   workspace_.attempts = attempt_ + 1;
   iteration_ = 0;
   small_corrections_ = 0;
+  failed_count_ = 0;
   camera_from_station_ = problem_.camera_from_station_seed;
   iteration_pending_ = true;
   if (options_.wide.isOn()) startFinalist(bestFinalistLeft());

@@ -15,6 +15,7 @@
 #include "core/localizer/self_similarity.h"
 #include "core/localizer/wide_search.h"
 #include "core/localizer/workspace.h"
+#include "core/match/warped_search.h"
 
 namespace boresight {
 
@@ -182,8 +183,11 @@ class Localizer {
   bool canTryAgain() const;
   void startAttempt();
   StepReport faulted(Stage stage, Status fault);
-  bool beginMatch(int index, WhsSearch& search);
-  void finishMatch(int index, const WhsSearch& search);
+  bool beginMatch(int index, WarpedSearch& search);
+  void finishMatch(int index, const WarpedSearch& search);
+  WarpGrid warpsOf(const Iteration& now, const Eigen::Vector3d& point_in_camera_m) const;
+  void dropIndistinct();
+  void learn();
   bool nextUndone();
   void collectCorrespondences();
   void noteHypothesis();
@@ -246,7 +250,9 @@ class Localizer {
   EdgeDetector detector_;
   EdgeRenderer renderer_;
   TemplateSelector selector_;
-  std::span<WhsSearch> searches_;  ///< one per worker
+  std::span<Eigen::Vector3d> failed_in_station_m_;  ///< where the last templates were of no use
+  int failed_count_ = 0;
+  std::span<WarpedSearch> searches_;  ///< one per worker
   bool match_outside_ = false;
   bool supplied_ = false;   ///< for the match stage at hand
   SurfaceRender surfaces_;  ///< for those who match outside

@@ -11,12 +11,16 @@ namespace {
 
 /// Whether an option makes the test edges or the rendered ones, or sizes the memory.
 bool holdsForWholeRun(std::string_view name) {
-  constexpr std::string_view kNames[] = {"templates.count",           "templates.max_side_px",
-                                         "refinement.enabled",        "refinement.max_samples",
-                                         "loop.coarse_size_px",       "loop.halved_size_px",
-                                         "loop.max_rolled_hypotheses"};
+  constexpr std::string_view kNames[] = {"templates.count",
+                                         "templates.max_side_px",
+                                         "refinement.enabled",
+                                         "refinement.max_samples",
+                                         "loop.coarse_size_px",
+                                         "loop.halved_size_px",
+                                         "loop.max_rolled_hypotheses",
+                                         "templates.learn"};
   return name.starts_with("edges.") || name.starts_with("render.") || name.starts_with("wide.") ||
-         name.starts_with("ambiguity.") ||
+         name.starts_with("ambiguity.") || name == "warp.enabled" ||
          std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
@@ -41,6 +45,8 @@ int LocalizerOptions::roundOf(const OptionInfo& info) {
   if (name.starts_with("ambiguity.") || name.starts_with("support.partial") ||
       name == "refinement.rising_weight")
     return 2;
+  if (name.starts_with("warp.") || name == "templates.min_margin" || name == "templates.learn")
+    return 3;
   return 0;
 }
 

@@ -11,6 +11,7 @@
 #include "core/localizer/edge_refinement.h"
 #include "core/localizer/edge_support.h"
 #include "core/localizer/wide_options.h"
+#include "core/match/template_warp.h"
 #include "core/pnp/pnp.h"
 #include "core/render/edge_render.h"
 #include "core/templates/template_selection.h"
@@ -145,6 +146,7 @@ struct LocalizerOptions {
   SupportOptions support;
   WideOptions wide;
   AmbiguityOptions ambiguity;
+  WarpOptions warp;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -157,6 +159,7 @@ struct LocalizerOptions {
     SupportOptions::visitFields(self.support, visit);
     WideOptions::visitFields(self.wide, visit);
     AmbiguityOptions::visitFields(self.ambiguity, visit);
+    WarpOptions::visitFields(self.warp, visit);
   }
 
   /// Which round of additions brought an option, 0: there from the start. For files that were

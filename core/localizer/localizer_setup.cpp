@@ -196,6 +196,7 @@ void Localizer::begin() {
   attempt_ = 0;
   current_ = 0;
   small_corrections_ = 0;
+  failed_count_ = 0;
   openPieces(0);
   const ViewRole role = link_.role;
   link_ = {};
@@ -272,10 +273,14 @@ Status Localizer::layOutKept() {
   layOutRenders();
   if (options_.wide.isOn()) layOutWideSearch();
   if (options_.ambiguity.enabled) layOutRivals();
-  searches_ = kept_.allocate<WhsSearch>(static_cast<std::size_t>(workers_));
+  searches_ = kept_.allocate<WarpedSearch>(static_cast<std::size_t>(workers_));
   done_ = kept_.allocate<std::uint8_t>(static_cast<std::size_t>(
       std::max({options_.templates.count, EdgeRefinement::chunksOf(options_.refinement),
                 EdgeRenderer::mostPieces(workers_)})));
+  if (options_.templates.learn) {
+    failed_in_station_m_ =
+        kept_.allocate<Eigen::Vector3d>(static_cast<std::size_t>(options_.templates.count));
+  }
   buffers_[0] = createIteration(options_, kept_);
   if (comparesHypotheses(options_)) buffers_[1] = createIteration(options_, kept_);
   return status;
@@ -313,10 +318,12 @@ Status Localizer::layOutStages(const ProblemSize& size) {
   if (status == Status::kOk) status = selector_.create(width, height, options_.templates, scratch_);
   shareScratch(bytesOf(Stage::kTemplates));
   const int side = std::min(options_.templates.max_side_px, 512);
-  WhsSearch counted;
+  WarpedSearch counted;
   for (int worker = 0; worker < workers_ && status == Status::kOk; ++worker) {
-    WhsSearch& search = searches_.empty() ? counted : searches_[static_cast<std::size_t>(worker)];
-    status = search.create(side, std::max(width, height), kernels_, scratch_);
+    WarpedSearch& search =
+        searches_.empty() ? counted : searches_[static_cast<std::size_t>(worker)];
+    status =
+        search.create(side, std::max(width, height), options_.warp.enabled, kernels_, scratch_);
   }
   shareScratch(bytesOf(Stage::kMatch));
   if (status == Status::kOk) status = ransac_.create(options_.templates.count, scratch_);

@@ -34,7 +34,7 @@ void Localizer::work(int piece, int worker) {
   if (stage_ == Stage::kRender || weighing_) {
     renderer_.work(piece, worker);
   } else if (stage_ == Stage::kMatch) {
-    WhsSearch& search = searches_[static_cast<std::size_t>(worker)];
+    WarpedSearch& search = searches_[static_cast<std::size_t>(worker)];
     if (beginMatch(piece, search)) {
       while (!search.step()) {
       }
@@ -107,8 +107,9 @@ StepReport Localizer::stepTemplates() {
   const double depth_m = (now.render.camera_from_station * bounds_.centre()).z();
   const int side_px = templateSide(options_.templates, templateFactorNow() * featureSize(), depth_m,
                                    now.render.camera);
-  const Status status =
-      selector_.select(now.render, side_px, problem_.ignore, now.level, now.templates);
+  const Status status = selector_.select(
+      now.render, side_px, problem_.ignore, now.level,
+      failed_in_station_m_.first(static_cast<std::size_t>(failed_count_)), now.templates);
   digestTemplates(now.templates, digest_);
   if (status == Status::kTooFewTemplates)
     return failHypothesis(Stage::kTemplates, LocalizationStatus::kTooFewTemplates);
@@ -124,7 +125,7 @@ StepReport Localizer::stepMatch() {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   if (match_outside_ && !supplied_) return StepReport::of(Stage::kMatch, false);
   if (nextUndone()) {
-    WhsSearch& search = searches_.front();
+    WarpedSearch& search = searches_.front();
     if (!piece_begun_) piece_begun_ = beginMatch(piece_, search);
     if (piece_begun_ && !search.step()) return StepReport::of(Stage::kMatch, false);
     if (piece_begun_) finishMatch(piece_, search);
@@ -136,7 +137,10 @@ StepReport Localizer::stepMatch() {
   for (std::int32_t i = 0; i < now.matches.count; ++i) {
     if (now.matches.matches[static_cast<std::size_t>(i)].searched) ++now.matches.searched;
   }
+  if (options_.templates.min_margin > 0.0) dropIndistinct();
   digestMatches(now.matches, digest_);
+  if (options_.warp.enabled || options_.templates.min_margin > 0.0)
+    digestWarps(now.matches, digest_);
   collectCorrespondences();
   stage_ = Stage::kPose;
   stage_begun_ = false;
@@ -146,37 +150,42 @@ StepReport Localizer::stepMatch() {
   return StepReport::of(Stage::kMatch, true);
 }
 
-/// False when the template cannot be searched for.
-bool Localizer::beginMatch(int index, WhsSearch& search) {
-  Iteration& now = buffers_[static_cast<std::size_t>(current_)];
-  const Template& item = now.templates.templates[static_cast<std::size_t>(index)];
-  Match& match = now.matches.matches[static_cast<std::size_t>(index)];
-  const TemplateView view{&now.render.edges, &now.render.mask, item.center_x, item.center_y,
-                          now.templates.side_px};
-  match = Match{};
-  // The window is about the unrolled hypothesis: that is what the uncertainty speaks of.
-  match.window = searchWindow(now.render.camera, camera_from_station_ * item.point_in_station_m,
-                              now.uncertainty, now.templates.side_px);
-  return !match.window.empty() &&
-         search.begin(view, workspace_.edges.level[static_cast<std::size_t>(now.level)],
-                      match.window, item.center_x, item.center_y,
-                      options_.loop.second_peak_exclusion_px) == Status::kOk;
+/// As many warps as the schedule and the uncertainty ask for.
+WarpGrid Localizer::warpsOf(const Iteration& now, const Eigen::Vector3d& point_in_camera_m) const {
+  if (!options_.warp.enabled || isWide() || iteration_ >= options_.warp.iterations) return {};
+  return warpGrid(options_.warp, now.uncertainty, point_in_camera_m, now.templates.side_px);
 }
 
-void Localizer::finishMatch(int index, const WhsSearch& search) {
+/// False when the template cannot be searched for.
+bool Localizer::beginMatch(int index, WarpedSearch& search) {
   Iteration& now = buffers_[static_cast<std::size_t>(current_)];
   const Template& item = now.templates.templates[static_cast<std::size_t>(index)];
   Match& match = now.matches.matches[static_cast<std::size_t>(index)];
-  const TemplateView view{&now.render.edges, &now.render.mask, item.center_x, item.center_y,
-                          now.templates.side_px};
+  match = Match{};
+  // The window is about the unrolled hypothesis: that is what the uncertainty speaks of.
+  const Eigen::Vector3d point_in_camera_m = camera_from_station_ * item.point_in_station_m;
+  match.window =
+      searchWindow(now.render.camera, point_in_camera_m, now.uncertainty, now.templates.side_px);
+  if (match.window.empty()) return false;
+  SearchTask task;
+  task.view = {&now.render.edges, &now.render.mask, item.center_x, item.center_y,
+               now.templates.side_px};
+  task.test_edges = &workspace_.edges.level[static_cast<std::size_t>(now.level)];
+  task.window = match.window;
+  task.warps = warpsOf(now, point_in_camera_m);
+  task.exclusion_px = options_.loop.second_peak_exclusion_px;
+  task.subpixel = options_.loop.subpixel_matches;
+  return search.begin(task) == Status::kOk;
+}
+
+void Localizer::finishMatch(int index, const WarpedSearch& search) {
+  Iteration& now = buffers_[static_cast<std::size_t>(current_)];
+  Match& match = now.matches.matches[static_cast<std::size_t>(index)];
   match.peak = search.peak();
   match.norms = search.norms();
-  match.x = match.peak.x;
-  match.y = match.peak.y;
-  if (options_.loop.subpixel_matches) {
-    subpixelPeak(view, workspace_.edges.level[static_cast<std::size_t>(now.level)], match.peak,
-                 match.x, match.y);
-  }
+  match.warp = search.warp();
+  match.x = search.x();
+  match.y = search.y();
   match.searched = true;
   match.at_border = match.peak.x == match.window.x_min || match.peak.x == match.window.x_max ||
                     match.peak.y == match.window.y_min || match.peak.y == match.window.y_max;
@@ -188,7 +197,7 @@ void Localizer::collectCorrespondences() {
   const double scale = static_cast<double>(1 << now.level);
   for (std::int32_t i = 0; i < now.matches.count; ++i) {
     const Match& match = now.matches.matches[static_cast<std::size_t>(i)];
-    if (!match.searched) continue;
+    if (!match.searched || match.dropped) continue;
     Correspondence& made = now.correspondences[static_cast<std::size_t>(now.correspondence_count)];
     made.point_in_station_m =
         now.templates.templates[static_cast<std::size_t>(i)].point_in_station_m;

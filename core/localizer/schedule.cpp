@@ -29,7 +29,8 @@ int wideLevel(int width, int height, const LocalizerOptions& options) {
 }
 
 bool comparesHypotheses(const LocalizerOptions& options) {
-  return options.loop.max_rolled_hypotheses > 1 || options.wide.isOn();
+  const bool rolled = options.loop.max_rolled_hypotheses > 1 && !options.warp.enabled;
+  return rolled || options.wide.isOn();
 }
 
 bool isRefinement(const LocalizerOptions& options, int iteration) {
@@ -66,7 +67,9 @@ SeedUncertainty uncertaintyAt(const LocalizationProblem& problem, const LoopOpti
   return now;
 }
 
-int rolledHypotheses(const LoopOptions& loop, const SeedUncertainty& uncertainty) {
+int rolledHypotheses(const LocalizerOptions& options, const SeedUncertainty& uncertainty) {
+  if (options.warp.enabled) return 1;
+  const LoopOptions& loop = options.loop;
   const double half_rad = 0.5 * loop.roll_spacing_rad;
   const double uncovered_rad = uncertainty.rotation_rad.z() - half_rad;
   int count = 1;

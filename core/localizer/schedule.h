@@ -33,8 +33,8 @@ SeedUncertainty uncertaintyAt(const LocalizationProblem& problem, const LoopOpti
                               int iteration, const Pose& camera_from_station);
 
 /// Renders that the first iteration compares, turned about the view axis, so that each serves half
-/// a spacing to either side and all of them the seed's uncertainty.
-int rolledHypotheses(const LoopOptions& loop, const SeedUncertainty& uncertainty);
+/// a spacing to either side and all of them the seed's uncertainty; 1 where templates are warped.
+int rolledHypotheses(const LocalizerOptions& options, const SeedUncertainty& uncertainty);
 /// Turn of one of them: 0, +s, -s, +2s, -2s, ...
 double rollOf(int hypothesis, double spacing_rad);
 

@@ -38,15 +38,6 @@ ordered_json pairJson(const Eigen::Vector2d& vector) {
   return ordered_json::array({vector.x(), vector.y()});
 }
 
-ordered_json matrixJson(const Matrix6d& matrix) {
-  ordered_json rows = ordered_json::array();
-  for (int i = 0; i < 6; ++i) {
-    rows.push_back(ordered_json::array());
-    for (int k = 0; k < 6; ++k) rows.back().push_back(matrix(i, k));
-  }
-  return rows;
-}
-
 /// Roots of three entries of the diagonal, in thousandths.
 ordered_json sigmas(const Matrix6d& covariance, int first) {
   ordered_json made = ordered_json::array();
@@ -61,7 +52,7 @@ ordered_json viewJson(const MarkedView& view, const Pose& camera_from_station,
   json["name"] = view.name;
   json["camera_from_rig"] = toJson(view.camera_from_rig);
   json["camera_from_station"] = toJson(camera_from_station);
-  json["covariance"] = matrixJson(covariance);
+  json["covariance"] = toJson(covariance);
   json["sigma_mm"] = sigmas(covariance, 3);
   json["sigma_mrad"] = sigmas(covariance, 0);
   return json;
@@ -91,7 +82,7 @@ void addSolution(std::span<const MarkedView> views, const MarksSolution& solutio
   json["noise_factor"] = solution.noise_factor;
   json["degrees_of_freedom"] = solution.degrees_of_freedom;
   json["rig_from_station"] = toJson(solution.rig_from_station);
-  json["covariance"] = matrixJson(solution.covariance);
+  json["covariance"] = toJson(solution.covariance);
   json["views"] = ordered_json::array();
   for (std::size_t i = 0; i < views.size(); ++i)
     json["views"].push_back(

@@ -40,16 +40,6 @@ Pose rigSeed(const Case& first) {
   return camera_from_rig.inverse() * first.seed_camera_from_station;
 }
 
-ordered_json covarianceJson(const Matrix6d& covariance) {
-  ordered_json rows = ordered_json::array();
-  for (int i = 0; i < 6; ++i) {
-    ordered_json row = ordered_json::array();
-    for (int j = 0; j < 6; ++j) row.push_back(covariance(i, j));
-    rows.push_back(row);
-  }
-  return rows;
-}
-
 ordered_json viewJson(const RigViews& rig, const RigRun& run, std::size_t v) {
   const ViewReport& report = run.result.views[v];
   ordered_json json = {{"case", rig.cases[v]->id},
@@ -153,7 +143,7 @@ ordered_json toJson(const RigViews& rig, const RigRun& run) {
                        {"rig_from_station", toJson(result.rig_from_station)}};
   if (result.status == LocalizationStatus::kFault) json["fault"] = statusText(result.fault);
   if (result.status == LocalizationStatus::kConverged)
-    json["covariance"] = covarianceJson(result.covariance);
+    json["covariance"] = toJson(result.covariance);
   json["views"] = ordered_json::array();
   for (std::size_t v = 0; v < run.views; ++v) json["views"].push_back(viewJson(rig, run, v));
   json["seconds"] = run.seconds;

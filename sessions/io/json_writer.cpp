@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -78,6 +79,16 @@ ordered_json toJson(const Pose& a_from_b) {
     rows.push_back(ordered_json::array(
         {rotation(row, 0), rotation(row, 1), rotation(row, 2), a_from_b.translation_m[row]}));
   rows.push_back(ordered_json::array({0.0, 0.0, 0.0, 1.0}));
+  return rows;
+}
+
+ordered_json toJson(const Matrix6d& matrix) {
+  ordered_json rows = ordered_json::array();
+  for (int row = 0; row < 6; ++row) {
+    ordered_json numbers = ordered_json::array();
+    for (int column = 0; column < 6; ++column) numbers.push_back(matrix(row, column));
+    rows.push_back(std::move(numbers));
+  }
   return rows;
 }
 

@@ -22,5 +22,7 @@ void writeJsonFile(const std::filesystem::path& file, const nlohmann::ordered_js
 nlohmann::ordered_json toJson(const Eigen::Vector3d& vector);
 /// Row-major 4x4.
 nlohmann::ordered_json toJson(const Pose& a_from_b);
+/// Six rows of six numbers.
+nlohmann::ordered_json toJson(const Matrix6d& matrix);
 
 }  // namespace boresight::sessions

@@ -20,16 +20,6 @@ ordered_json fileJson(const std::filesystem::path& file) {
   return {{"file", file.string()}, {"sha256", sha256Text(readFileBytes(file, kMaxImageFileBytes))}};
 }
 
-ordered_json covarianceJson(const Matrix6d& covariance) {
-  ordered_json rows = ordered_json::array();
-  for (int row = 0; row < 6; ++row) {
-    ordered_json values = ordered_json::array();
-    for (int column = 0; column < 6; ++column) values.push_back(covariance(row, column));
-    rows.push_back(values);
-  }
-  return rows;
-}
-
 ordered_json iterationJson(const IterationTrace& iteration) {
   ordered_json json = {{"attempt", iteration.attempt},
                        {"kind", iteration.kind == IterationKind::kRefine ? "refine" : "match"},
@@ -106,7 +96,7 @@ ordered_json resultJson(const LocalizationTrace& trace, const std::optional<Pose
   json["attempts"] = trace.attempts;
   json["camera_from_station"] = toJson(trace.camera_from_station);
   json["camera_from_station_seed"] = toJson(trace.camera_from_station_seed);
-  if (trace.converged()) json["covariance"] = covarianceJson(trace.covariance);
+  if (trace.converged()) json["covariance"] = toJson(trace.covariance);
   json["matches"] = result.matches;
   json["inliers"] = result.inliers;
   json["edge_support"] = result.edge_support;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/config_file.h"
+#include "sessions/io/json_writer.h"
 #include "sessions/review/check_limits.h"
 #include "sessions/session/case_json.h"
 #include "sessions/session/session.h"
@@ -60,16 +61,6 @@ JudgedPose readJudgedPose(const JsonReader& json) {
 }
 
 }  // namespace
-
-ordered_json toJson(const Matrix6d& matrix) {
-  ordered_json json = ordered_json::array();
-  for (int row = 0; row < 6; ++row) {
-    ordered_json numbers = ordered_json::array();
-    for (int column = 0; column < 6; ++column) numbers.push_back(matrix(row, column));
-    json.push_back(std::move(numbers));
-  }
-  return json;
-}
 
 Matrix6d readMatrix6(const JsonReader& json) {
   Matrix6d matrix;

@@ -23,8 +23,7 @@ nlohmann::ordered_json toJson(const ReviewSettings& settings);
 /// The reverse. InputError, also for a preset or limit that does not exist.
 ReviewSettings readReviewSettings(const JsonReader& json);
 
-/// Six rows of six numbers.
-nlohmann::ordered_json toJson(const Matrix6d& matrix);
+/// Six rows of six numbers. InputError.
 Matrix6d readMatrix6(const JsonReader& json);
 
 /// UTC, as `utcNowText` says it. InputError.

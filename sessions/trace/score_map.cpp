@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <span>
 
+#include "sessions/trace/searched_template.h"
+
 namespace boresight::sessions {
 namespace {
 
@@ -41,12 +43,8 @@ std::optional<ScoreMap> scoreMap(const EdgeMapTrace& edges, const IterationTrace
                                  int template_index, const std::stop_token& stop) {
   const Match* match = searchedMatch(edges, iteration, template_index);
   if (match == nullptr) return std::nullopt;
-  const Template& item = iteration.templates[static_cast<std::size_t>(template_index)];
-  const BitImage render_edges = iteration.render.edges.view();
-  const BitImage render_mask = iteration.render.mask.view();
+  const SearchedTemplate searched(iteration, static_cast<std::size_t>(template_index));
   const BitImage test_edges = edges.level[static_cast<std::size_t>(iteration.level)].view();
-  const TemplateView view{&render_edges, &render_mask, item.center_x, item.center_y,
-                          iteration.template_side_px};
   ScoreMap map;
   map.window = match->window;
   map.level = iteration.level;
@@ -58,7 +56,7 @@ std::optional<ScoreMap> scoreMap(const EdgeMapTrace& edges, const IterationTrace
     if (stop.stop_requested()) return std::nullopt;
     row.y_min = row.y_max = y;
     const std::size_t begin = static_cast<std::size_t>(y - map.window.y_min) * width;
-    whsScoreMap(view, test_edges, row, std::span(map.counts).subspan(begin, width));
+    whsScoreMap(searched.view(), test_edges, row, std::span(map.counts).subspan(begin, width));
   }
   measureRange(map);
   return map;

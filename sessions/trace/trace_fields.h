@@ -18,6 +18,8 @@ inline constexpr std::uint32_t kFormatBeforeRounds = 3;
 inline constexpr std::uint32_t kFormatOfWideSearch = 4;
 /// The one that brought rivals, what is seen of an object in parts, and their options.
 inline constexpr std::uint32_t kFormatOfRivals = 5;
+/// The one that brought warped templates, dropped matches, and their options.
+inline constexpr std::uint32_t kFormatOfWarps = 6;
 
 template <class Self, class Record>
 concept Is = std::same_as<std::remove_const_t<Self>, Record>;
@@ -118,11 +120,12 @@ void fields(Archive& archive, Self& peak) {
 
 template <class Archive, Is<Match> Self>
 void fields(Archive& archive, Self& match) {
-  auto& [window, norms, peak, x, y, searched, at_border] = match;
+  auto& [window, norms, peak, x, y, searched, at_border, warp, dropped] = match;
   numbers(archive, window.x_min, window.y_min, window.x_max, window.y_max, norms.edges,
           norms.empties);
   fields(archive, peak);
   numbers(archive, x, y, searched, at_border);
+  if (archive.has(kFormatOfWarps)) numbers(archive, warp.roll_rad, warp.scale, dropped);
 }
 
 template <class Archive, Is<Correspondence> Self>

@@ -71,8 +71,10 @@ constexpr std::array<ColumnInfo, TemplatesModel::kColumnCount> kColumns = {{
                        "pixels of the full image."),
      2},
     {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "Verdict"),
-     QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel",
-                       "Whether the match agrees with the solved pose within the threshold."),
+     QT_TRANSLATE_NOOP(
+         "boresight::ui::TemplatesModel",
+         "Whether the match agrees with the solved pose within the threshold; dropped: its "
+         "margin is too low for the pose (templates.min_margin)."),
      -1},
     {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "Border"),
      QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel",
@@ -132,6 +134,7 @@ void TemplatesModel::setIteration(const sessions::IterationTrace* iteration) {
 QString TemplatesModel::verdictOf(const MatchDetails& details) {
   if (details.inlier) return tr("inlier");
   if (details.solved) return tr("outlier");
+  if (details.dropped) return tr("dropped");
   return details.searched ? tr("found") : tr("not searched");
 }
 

@@ -7,6 +7,8 @@
 #include <QLabel>
 #include <QVBoxLayout>
 
+#include "core/base/math.h"
+#include "sessions/trace/searched_template.h"
 #include "ui/models/number_text.h"
 #include "ui/models/templates_model.h"
 #include "ui/panels/patch_pictures.h"
@@ -99,7 +101,7 @@ void MatchView::showMatch(const ScoreMapper::Request& request) {
   const auto index = static_cast<std::size_t>(request.template_index);
   const bool searched = index < iteration.matches.size() && iteration.matches[index].searched;
   const Match* match = searched ? &iteration.matches[index] : nullptr;
-  showPictures(*request.edges, iteration, iteration.templates[index], match);
+  showPictures(*request.edges, iteration, index, match);
   showFigures(iteration, sessions::matchDetails(iteration)[index]);
   if (!searched) {
     mapper_.cancel();
@@ -127,12 +129,12 @@ void MatchView::showMap(const ScoreMapper::MapPtr& map) {
 }
 
 void MatchView::showPictures(const sessions::EdgeMapTrace& edges,
-                             const sessions::IterationTrace& iteration, const Template& item,
+                             const sessions::IterationTrace& iteration, std::size_t index,
                              const Match* match) {
-  const BitImage rendered = iteration.render.edges.view();
-  const BitImage mask = iteration.render.mask.view();
-  const PatchPlace place{item.center_x, item.center_y, iteration.template_side_px};
-  template_->setPicture(templatePicture(rendered, mask, place));
+  const sessions::SearchedTemplate searched(iteration, index);
+  const TemplateView& view = searched.view();
+  const PatchPlace place{view.center_x, view.center_y, view.side_px};
+  template_->setPicture(templatePicture(*view.edges, *view.mask, place));
   template_->setNote(
       tr("%1 x %1 px, level %2").arg(iteration.template_side_px).arg(iteration.level));
   if (match == nullptr) {
@@ -146,7 +148,7 @@ void MatchView::showPictures(const sessions::EdgeMapTrace& edges,
   const PatchPlace there{match->peak.x, match->peak.y, iteration.template_side_px};
   found_->setPicture(seenPicture(seen, there));
   found_->setNote(tr("edges of the image"));
-  agreement_->setPicture(agreementPicture(rendered, mask, place, seen, there));
+  agreement_->setPicture(agreementPicture(*view.edges, *view.mask, place, seen, there));
   agreement_->setLegend({{patch_colors::kEdge, tr("both")},
                          {patch_colors::kOnlyRendered, tr("render")},
                          {patch_colors::kOnlySeen, tr("image")}});
@@ -170,6 +172,10 @@ void MatchView::showFigures(const sessions::IterationTrace& iteration,
     places += rowText(tr("Found at"),
                       tr("%1 px, moved by %2 px")
                           .arg(pairText(details.found_px, 2), pairText(details.moved_px(), 2)));
+    if (!(details.warp == TemplateWarp()))
+      places += rowText(tr("Warped"), tr("turned by %1 deg, scaled by %2")
+                                          .arg(numberText(details.warp.roll_rad / kDegree_rad, 1),
+                                               numberText(details.warp.scale, 3)));
     scores += rowText(tr("Score S"), scoreText(details));
     const bool counted = iteration.recorded_scores.empty();
     const QString unknown = tr("not in the onboard record");

@@ -34,7 +34,7 @@ class MatchView : public QWidget {
  private:
   QLabel* addFigures(QHBoxLayout& row, const QString& name);
   void showPictures(const sessions::EdgeMapTrace& edges, const sessions::IterationTrace& iteration,
-                    const Template& item, const Match* match);
+                    std::size_t index, const Match* match);
   void showFigures(const sessions::IterationTrace& iteration,
                    const sessions::MatchDetails& details);
   void showMap(const ScoreMapper::MapPtr& map);

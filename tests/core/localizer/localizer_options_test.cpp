@@ -59,11 +59,12 @@ TEST(LocalizerOptions, EveryFieldIsVisited) {
   expectEveryFieldVisited<SupportOptions>("support");
   expectEveryFieldVisited<WideOptions>("wide");
   expectEveryFieldVisited<AmbiguityOptions>("ambiguity");
+  expectEveryFieldVisited<WarpOptions>("warp");
   const int parts = extentOf<EdgeOptions>().count + extentOf<RenderOptions>().count +
                     extentOf<TemplateOptions>().count + extentOf<PnpOptions>().count +
                     extentOf<LoopOptions>().count + extentOf<RefinementOptions>().count +
                     extentOf<SupportOptions>().count + extentOf<WideOptions>().count +
-                    extentOf<AmbiguityOptions>().count;
+                    extentOf<AmbiguityOptions>().count + extentOf<WarpOptions>().count;
   EXPECT_EQ(extentOf<LocalizerOptions>().count, parts);
 }
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole runs on features that repeat: no pose one pitch off is taken for the truth.
 #include <cmath>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "core/base/kernels.h"
 #include "core/localizer/localizer.h"
 #include "core/localizer/run_digest.h"
 #include "tests/core/localizer/rail_scene.h"
@@ -146,23 +144,8 @@ TEST(LocalizerRivals, GiveTheSameBitsWithAnyKernelsAndWorkers) {
   const LocalizationProblem problem = scene.problem();
   OwnedRun plain(problem, options);
   plain.finish();
-  for (const int workers : {1, 3}) {
-    std::size_t bytes = 0;
-    ASSERT_EQ(Localizer::requiredBytes(sizeOf(problem), options, workers, bytes, bestKernels()),
-              Status::kOk);
-    std::vector<std::byte> memory(bytes + Arena::kAlignment);
-    Localizer shared(problem, options, memory, workers, bestKernels());
-    do {
-      const int pieces = shared.pieces();
-      std::vector<std::jthread> threads;
-      for (int worker = 0; worker < workers && pieces > 0; ++worker) {
-        threads.emplace_back([&shared, pieces, worker, workers] {
-          for (int piece = worker; piece < pieces; piece += workers) shared.work(piece, worker);
-        });
-      }
-    } while (!shared.step().finished);
-    EXPECT_EQ(shared.digest(), plain.localizer.digest()) << workers;
-  }
+  for (const int workers : {1, 3})
+    EXPECT_EQ(sharedDigest(problem, options, workers), plain.localizer.digest()) << workers;
 }
 
 /// Whatever is left of them, loops and memory are bounded.

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole runs from seeds far off.
 #include <algorithm>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "core/base/kernels.h"
 #include "core/base/math.h"
 #include "core/localizer/localizer.h"
 #include "core/localizer/pose_change.h"
@@ -149,23 +147,8 @@ TEST(LocalizerWide, GivesTheSameBitsWithAnyKernelsAndWorkers) {
   const LocalizationProblem problem = scene.problem();
   OwnedRun plain(problem, options);
   plain.finish();
-  for (const int workers : {1, 3}) {
-    std::size_t bytes = 0;
-    ASSERT_EQ(Localizer::requiredBytes(sizeOf(problem), options, workers, bytes, bestKernels()),
-              Status::kOk);
-    std::vector<std::byte> memory(bytes + Arena::kAlignment);
-    Localizer shared(problem, options, memory, workers, bestKernels());
-    do {
-      const int pieces = shared.pieces();
-      std::vector<std::jthread> threads;
-      for (int worker = 0; worker < workers && pieces > 0; ++worker) {
-        threads.emplace_back([&shared, pieces, worker, workers] {
-          for (int piece = worker; piece < pieces; piece += workers) shared.work(piece, worker);
-        });
-      }
-    } while (!shared.step().finished);
-    EXPECT_EQ(shared.digest(), plain.localizer.digest()) << workers;
-  }
+  for (const int workers : {1, 3})
+    EXPECT_EQ(sharedDigest(problem, options, workers), plain.localizer.digest()) << workers;
 }
 
 }  // namespace

@@ -5,9 +5,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <thread>
 
 #include <gtest/gtest.h>
 
+#include "core/base/kernels.h"
 #include "core/base/random.h"
 
 namespace boresight::test {
@@ -369,6 +371,25 @@ int OwnedRun::finish() {
   }
   ADD_FAILURE() << "the run does not end";
   return -1;
+}
+
+std::array<std::uint8_t, 32> sharedDigest(const LocalizationProblem& problem,
+                                          const LocalizerOptions& options, int workers) {
+  std::size_t bytes = 0;
+  EXPECT_EQ(Localizer::requiredBytes(sizeOf(problem), options, workers, bytes, bestKernels()),
+            Status::kOk);
+  std::vector<std::byte> memory(bytes + Arena::kAlignment);
+  Localizer shared(problem, options, memory, workers, bestKernels());
+  do {
+    const int pieces = shared.pieces();
+    std::vector<std::jthread> threads;
+    for (int worker = 0; worker < workers && pieces > 0; ++worker) {
+      threads.emplace_back([&shared, pieces, worker, workers] {
+        for (int piece = worker; piece < pieces; piece += workers) shared.work(piece, worker);
+      });
+    }
+  } while (!shared.step().finished);
+  return shared.digest();
 }
 
 PoseError poseError(const Solid& solid, const Pose& truth, const Pose& estimate) {

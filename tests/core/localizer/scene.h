@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -111,6 +112,10 @@ struct OwnedRun {
 };
 std::vector<std::byte> blockFor(const LocalizationProblem& problem,
                                 const LocalizerOptions& options);
+
+/// The digest of a run with the best kernels, its pieces shared out among so many threads.
+std::array<std::uint8_t, 32> sharedDigest(const LocalizationProblem& problem,
+                                          const LocalizerOptions& options, int workers);
 
 /// Distance between the station's centre under two poses, and the angle between them.
 struct PoseError {

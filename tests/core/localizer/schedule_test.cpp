@@ -37,14 +37,15 @@ TEST(Schedule, ThresholdsShrinkWhileMatchingAndAreARadiusWhenRefining) {
 }
 
 TEST(Schedule, RolledRendersCoverTheUncertaintyAboutTheViewAxis) {
-  LoopOptions loop;
+  LocalizerOptions options;
+  LoopOptions& loop = options.loop;
   loop.max_rolled_hypotheses = 9;
   for (double spacing_rad = 0.05; spacing_rad < 0.5; spacing_rad += 0.03) {
     loop.roll_spacing_rad = spacing_rad;
     for (double uncertain_rad = 0.0; uncertain_rad < 4.4 * spacing_rad; uncertain_rad += 0.01) {
       SeedUncertainty uncertainty;
       uncertainty.rotation_rad.z() = uncertain_rad;
-      const int count = rolledHypotheses(loop, uncertainty);
+      const int count = rolledHypotheses(options, uncertainty);
       double most_rad = 0.0;
       for (int i = 0; i < count; ++i)
         most_rad = std::max(most_rad, std::abs(rollOf(i, spacing_rad)));

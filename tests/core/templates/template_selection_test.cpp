@@ -82,7 +82,7 @@ class Selector {
   }
   Status select(const EdgeRender& render, int side_px, const BitImage* ignore = nullptr,
                 int level = 0) {
-    return selector_.select(render, side_px, ignore, level, set);
+    return selector_.select(render, side_px, ignore, level, {}, set);
   }
   TemplateSet set;
 
