@@ -55,7 +55,7 @@ Argument describe(const CLI::Option& option) {
   argument.help = option.get_description();
   argument.fallback = option.get_default_str();
   argument.required = option.get_required();
-  argument.repeats = option.get_expected_max() > 1;
+  argument.repeats = option.get_expected_max() >= CLI::detail::expected_max_vector_size;
   return argument;
 }
 

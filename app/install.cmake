@@ -10,7 +10,7 @@ function(boresight_documents_of program)
     COMMAND ${program} ${ARGN} ${folder}
     DEPENDS ${program} VERBATIM
     COMMENT "Writing manual pages and completions of ${program}")
-  add_custom_target(${program}_documents ALL DEPENDS ${folder}/man1/${program}.1)
+  add_custom_target(${program}_pages ALL DEPENDS ${folder}/man1/${program}.1)
   install(DIRECTORY ${folder}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT programs)
   install(DIRECTORY ${folder}/bash/
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT programs)

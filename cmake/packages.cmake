@@ -33,17 +33,17 @@ if(BORESIGHT_BUILD_UI)
 endif()
 set(CPACK_DEBIAN_PROGRAMS_DESCRIPTION
   "localizes a camera before a known object in one image
- Boresight finds out where a camera is relative to a known object from one
- image, a coarse mesh and a rough guess, by rendering the salient edges of the
- object and finding them in the image. This package has the program without a
- window (whs), the desktop program (boresight) and examples.")
+Boresight finds out where a camera is relative to a known object from one
+image, a coarse mesh and a rough guess, by rendering the salient edges of the
+object and finding them in the image. This package has the program without a
+window (whs), the desktop program (boresight) and examples.")
 
 set(CPACK_DEBIAN_CORE_PACKAGE_NAME libboresight-core-dev)
 set(CPACK_DEBIAN_CORE_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_CORE_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4)")
 set(CPACK_DEBIAN_CORE_DESCRIPTION
   "localizes a camera before a known object: the flight core
- The algorithm of Boresight as a static library with its headers, for
- find_package(Boresight) in CMake. It needs Eigen and nothing else.")
+The algorithm of Boresight as a static library with its headers, for
+find_package(Boresight) in CMake. It needs Eigen and nothing else.")
 
 include(CPack)

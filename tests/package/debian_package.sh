@@ -35,13 +35,14 @@ trap 'rm -rf "$folder"' EXIT
 programs=$(echo "$folder"/boresight_*.deb)
 core=$(echo "$folder"/libboresight-core-dev_*.deb)
 
-dpkg-deb -c "$core" | grep -q /cmake/Boresight/BoresightConfig.cmake ||
+dpkg-deb -c "$core" | grep /cmake/Boresight/BoresightConfig.cmake >/dev/null ||
   fail "the core's package has no BoresightConfig.cmake"
-dpkg-deb -f "$core" Depends | grep -q libeigen3-dev || fail "the core's package needs no Eigen"
+dpkg-deb -f "$core" Depends | grep libeigen3-dev >/dev/null || fail "the core's package needs no Eigen"
 for library in libvtk9 libqt5widgets5 libopencv-core libassimp libsqlite3-0; do
-  dpkg-deb -f "$programs" Depends | grep -q "$library" || fail "the package does not need $library"
+  dpkg-deb -f "$programs" Depends | grep "$library" >/dev/null || fail "the package does not need $library"
 done
 dpkg-deb -x "$programs" "$folder/files"
+[ -e "$folder/files/usr/share/man/man1/whs-localize.1.gz" ] || fail "manual pages are not compressed"
 for program in whs boresight; do
   if grep -qF "$source" "$folder/files/usr/bin/$program"; then
     fail "$program names the tree that it was built in"
