@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -12,13 +13,14 @@
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/report/text_table.h"
+#include "sessions/session/examples.h"
 #include "sessions/version.h"
 
 namespace boresight::app {
 namespace {
 
 struct BenchArguments {
-  std::string dataset = BORESIGHT_EXAMPLES "/dataset.json";
+  std::string dataset;
   std::vector<std::string> cases;
   OptionArguments options;
   bool quick = false;
@@ -74,7 +76,9 @@ std::vector<const sessions::Case*> chosenCases(const sessions::Dataset& dataset,
 }
 
 Figures measure(const BenchArguments& arguments) {
-  const sessions::Dataset dataset = sessions::readDataset(arguments.dataset);
+  const sessions::Dataset dataset = sessions::readDataset(
+      arguments.dataset.empty() ? sessions::examplesFolder() / "stations" / "dataset.json"
+                                : std::filesystem::path(arguments.dataset));
   const LocalizerOptions options = arguments.options.read();
   const auto cases = chosenCases(dataset, arguments.cases);
   Figures figures;

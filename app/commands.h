@@ -41,6 +41,7 @@ void addPack(CLI::App& app, int& exit_code);
 void addExport(CLI::App& app, int& exit_code);
 void addImport(CLI::App& app, int& exit_code);
 void addProblem(CLI::App& app, int& exit_code);
+void addDocuments(CLI::App& app, int& exit_code);
 
 /// A line to stderr for people.
 void note(const std::string& line);

@@ -14,4 +14,8 @@ enum ExitCode : int {
   kDifferent = 6,     ///< compare
 };
 
+/// Of whs, for its help.
+inline constexpr const char* kExitStatusText =
+    "0 done (localize: converged), 2 usage, 3 bad input, 4 did not converge, 1 internal fault.";
+
 }  // namespace boresight::app

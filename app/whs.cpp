@@ -18,9 +18,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string("whs ") + sessions::kVersion);
   app.set_help_all_flag("--help-all", "Help of every subcommand");
   app.require_subcommand(1);
-  app.footer(
-      "Exit status: 0 done (localize: converged), 2 usage, 3 bad input, 4 did not converge, "
-      "1 internal fault.");
+  app.footer(std::string("Exit status: ") + kExitStatusText);
   int exit_code = kDone;
   addLocalize(app, exit_code);
   addEvaluate(app, exit_code);
@@ -44,6 +42,7 @@ int run(int argc, char** argv) {
   addImport(app, exit_code);
   addProblem(app, exit_code);
   addBench(app, exit_code);
+  addDocuments(app, exit_code);
   for (CLI::App* command : app.get_subcommands({}))
     command->set_version_flag("--version", std::string("whs ") + sessions::kVersion);
   try {

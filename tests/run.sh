@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs what is missing, builds, and runs every test; with --all also under the sanitizers, and
-# with BORESIGHT_DATA set also on images of full size.
+# Installs what is missing, builds, and runs every test; with --all also under the sanitizers and
+# with the Debian package in a new Debian, and with BORESIGHT_DATA set also on images of full size.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source app/packages.sh
@@ -14,6 +14,8 @@ case "${1:-}" in
     boresight_optional_packages+=(blender)  # renders what resources/synthetic makes
     boresight_optional_packages+=(slurm-wlm munge)  # a cluster of one machine, for resources/slurm
     boresight_optional_packages+=(libvisp-mbt-dev)  # a peer that tests/benchmarks/peers runs beside whs
+    boresight_optional_packages+=(dpkg-dev mmdebstrap)  # a new Debian, for the packages that cpack makes
+    boresight_optional_packages+=(zsh fish groff)  # what reads completions and manual pages
     ;;
   *) echo "usage: bash tests/run.sh [--all]" >&2; exit 2 ;;
 esac

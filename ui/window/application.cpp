@@ -2,6 +2,7 @@
 #include "ui/window/application.h"
 
 #include <QApplication>
+#include <QIcon>
 #include <QPainter>
 #include <QPalette>
 #include <QProxyStyle>
@@ -50,6 +51,9 @@ void nameApplication(QApplication& application) {
   QCoreApplication::setOrganizationName(QStringLiteral("Boresight"));
   QCoreApplication::setApplicationName(QStringLiteral("boresight"));
   QCoreApplication::setApplicationVersion(QString::fromUtf8(sessions::kVersion));
+  // What is installed: the entry that docks and task bars know the window by, and its icon.
+  QGuiApplication::setDesktopFileName(QStringLiteral("boresight"));
+  QApplication::setWindowIcon(QIcon::fromTheme(QStringLiteral("boresight")));
   application.setStyle(new VisibleBoxes);
 }
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/documents/program.h"
+
+namespace boresight::documents {
+
+/// Writes man1/NAME.1, bash/NAME, zsh/_NAME and fish/NAME.fish below the folder, which is made when
+/// it is not there. What went wrong, or "".
+[[nodiscard]] std::string writeDocuments(const Program& program, const std::string& version,
+                                         const std::filesystem::path& folder);
+
+}  // namespace boresight::documents

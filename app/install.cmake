@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+# The programs and what they need beside them: found relative to the program, never through the
+# build tree.
+
+# boresight_documents_of(PROGRAM ARGUMENT ...): manual pages and completions, made by the program itself.
+function(boresight_documents_of program)
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${program}_documents)
+  add_custom_command(OUTPUT ${folder}/man1/${program}.1
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${folder}
+    # Leaks of the libraries are looked for by tests, not by a build under a sanitizer.
+    COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 $<TARGET_FILE:${program}> ${ARGN}
+      ${folder}
+    DEPENDS ${program} VERBATIM
+    COMMENT "Writing manual pages and completions of ${program}")
+  add_custom_target(${program}_pages ALL DEPENDS ${folder}/man1/${program}.1)
+  install(DIRECTORY ${folder}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT programs)
+  install(DIRECTORY ${folder}/bash/
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT programs)
+  install(DIRECTORY ${folder}/zsh/
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT programs)
+  install(DIRECTORY ${folder}/fish/
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT programs)
+endfunction()
+
+install(TARGETS whs RUNTIME COMPONENT programs)
+boresight_documents_of(whs documents)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/sessions/examples ${PROJECT_SOURCE_DIR}/resources/matchers
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/boresight COMPONENT programs
+  PATTERN "*.boresight.*" EXCLUDE PATTERN node_modules EXCLUDE)
+install(FILES
+  ${PROJECT_SOURCE_DIR}/sessions/examples/annotated.boresight.json
+  ${PROJECT_SOURCE_DIR}/sessions/examples/example.boresight.json
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/boresight/examples COMPONENT programs)
+install(FILES ${PROJECT_SOURCE_DIR}/README.md
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/boresight COMPONENT programs)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/boresight RENAME copyright COMPONENT programs)
+
+if(BORESIGHT_BUILD_UI)
+  set(desktop ${PROJECT_SOURCE_DIR}/resources/desktop)
+  install(TARGETS boresight RUNTIME COMPONENT programs)
+  boresight_documents_of(boresight --documents)
+  install(FILES ${desktop}/boresight.desktop
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT programs)
+  install(FILES ${desktop}/boresight-mime.xml
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages RENAME boresight.xml COMPONENT programs)
+  install(FILES ${desktop}/boresight.svg
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps COMPONENT programs)
+endif()
