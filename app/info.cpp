@@ -132,6 +132,7 @@ std::string stalenessText(const sessions::Staleness& staleness) {
 
 std::string rerunText(const sessions::RunRecord& run) {
   if (!run.rerun) return "";
+  if (run.rerun->changes.empty()) return ", with options of its own";
   const int from_iteration = run.rerun->changes.back().iteration + 1;
   return ", with other options from its iteration " + std::to_string(from_iteration) + " on" +
          (run.rerun->from.empty() ? "" : ", going on from run " + run.rerun->from);
@@ -151,7 +152,8 @@ void describeCase(const sessions::Session& session, const sessions::SessionCase&
   for (const sessions::RunRecord& run : session.runs)
     if (run.case_id == one.id)
       line("  run " + run.digest + ": " + run.status + ", " + run.time + ", whs " + run.version +
-           stalenessText(sessions::stalenessOf(run, session, file)) + rerunText(run));
+           stalenessText(sessions::stalenessOf(run, session, file)) + rerunText(run) +
+           (run.together ? ", " + togetherText(run.together->views, one.id) : ""));
   const sessions::Standing standing = sessions::standingOf(session, one.id);
   if (standing.decision != nullptr)
     line("  " + standingText(standing) + ", " + standing.decision->time +

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -7,6 +8,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_document.h"
+#include "sessions/session/views_run.h"
 
 namespace boresight::app {
 namespace {
@@ -16,6 +18,7 @@ struct RunArguments {
   std::vector<std::string> cases;
   std::string again;
   bool recover = false;
+  bool views = false;
 };
 
 /// The cases to run: those asked for, or all.
@@ -39,13 +42,40 @@ int runOne(sessions::SessionDocument& document, const std::string& id) {
   return trace.converged() ? kDone : kNotConverged;
 }
 
+/// Runs a case together with the other views of its rig and records a run of each.
+int runTogether(sessions::SessionDocument& document, const std::string& id) {
+  const auto views = sessions::runViews(document.session(), id);
+  const auto runs = sessions::storeViews(document.session(), views, document.file());
+  sessions::Session next = document.session();
+  for (const sessions::RunRecord& run : runs) next = sessions::withRun(next, run);
+  document.apply(next, "Run " + id + " with the other views");
+  bool converged = false;
+  for (std::size_t v = 0; v < runs.size(); ++v) {
+    std::cout << runs[v].case_id << ": " << runs[v].status << ", " << views[v].iterations.size()
+              << " iterations, " << togetherText(views[v].views, runs[v].case_id) << ", digest "
+              << runs[v].digest << std::endl;
+    converged = converged || views[v].converged();
+  }
+  return converged ? kDone : kNotConverged;
+}
+
+/// Each rig once, by the first of its cases that was asked for; cases without other views alone.
+bool rigHasRun(const sessions::Session& session, const std::string& id,
+               const std::vector<std::string>& led) {
+  const auto rigOf = [&session](const std::string& one) {
+    const auto& rig = session.findCase(one)->rig;
+    return rig ? rig->id : std::string();
+  };
+  return std::any_of(led.begin(), led.end(), [&](const std::string& leader) {
+    return !rigOf(id).empty() && rigOf(leader) == rigOf(id);
+  });
+}
+
 /// Runs a recorded run once more, by the options that it had, and says whether it is the same.
 int runAgain(const sessions::SessionDocument& document, const std::string& beginning) {
   const sessions::RunRecord& run = recordedRun(document, beginning);
-  const sessions::RunPlan plan = sessions::planOf(run, document.session(), document.file());
-  const auto loaded = sessions::loadCase(*document.session().findCase(run.case_id));
-  const sessions::LocalizationTrace trace =
-      sessions::runCase(*loaded, plan, sessions::RecordLevel::kSummary);
+  const sessions::LocalizationTrace trace = sessions::repeatRun(
+      run, document.session(), document.file(), sessions::RecordLevel::kSummary);
   const bool same = trace.digest == run.digest;
   std::cout << run.case_id << ": " << run.status << ", digest " << trace.digest
             << (same ? ", the same" : ", NOT the same as recorded") << std::endl;
@@ -56,9 +86,15 @@ int runSession(const RunArguments& arguments) {
   sessions::SessionDocument document = openToEdit(arguments.session, arguments.recover);
   if (!arguments.again.empty()) return runAgain(document, arguments.again);
   int exit_code = kDone;
+  std::vector<std::string> led;
   for (const std::string& id : selectedCases(document, arguments.cases)) {
+    const bool together =
+        arguments.views &&
+        (!arguments.cases.empty() || !sessions::otherViews(document.session(), id).empty());
+    if (together && rigHasRun(document.session(), id, led)) continue;
+    if (together) led.push_back(id);
     try {
-      const int code = runOne(document, id);
+      const int code = together ? runTogether(document, id) : runOne(document, id);
       if (exit_code == kDone) exit_code = code;
     } catch (const sessions::InputError& error) {
       std::cerr << "case " << id << ": " << error.what() << std::endl;
@@ -85,6 +121,11 @@ void addRun(CLI::App& app, int& exit_code) {
           "on its way, and compare; the beginning of its digest")
       ->type_name("DIGEST")
       ->excludes("--case");
+  command
+      ->add_flag("--views", arguments->views,
+                 "Each case together with the other views of its rig, as one pose; the case of a "
+                 "rig that comes first leads: seed and uncertainty are its")
+      ->excludes("--again");
   command->add_flag("--recover", arguments->recover,
                     "Take edits that a killed program left in the session's journal");
   command->callback([arguments, &exit_code] { exit_code = runSession(*arguments); });

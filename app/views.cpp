@@ -11,6 +11,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/report/text_table.h"
+#include "sessions/session/views_run.h"
 
 namespace boresight::app {
 namespace {
@@ -50,13 +51,8 @@ void printRig(const sessions::RigViews& rig, const sessions::RigRun& run) {
 }
 
 void requireOffered(const LocalizerOptions& options) {
-  if (options.wide.isOn())
-    throw CLI::ValidationError("--set", "views have no wide search (wide.*)");
-  if (options.ambiguity.enabled)
-    throw CLI::ValidationError("--set", "views have no search for rivals (ambiguity.*)");
-  if (options.support.partial) throw CLI::ValidationError("--set", "views have no support.partial");
-  if (options.refinement.covariance == CovarianceModel::kGrouped)
-    throw CLI::ValidationError("--set", "views have no refinement.covariance=grouped");
+  const std::string refusal = sessions::viewsRefusal(options);
+  if (!refusal.empty()) throw CLI::ValidationError("--set", refusal);
 }
 
 int localizeRigs(const ViewsArguments& arguments) {

@@ -166,4 +166,12 @@ StepReport ViewLink::conclude(SupportVerdict verdict) {
   return StepReport::of(Stage::kSupport, true);
 }
 
+int ViewLink::shownBuffer(const Localizer& localizer) {
+  return localizer.workspace_.iteration == &localizer.buffers_[1] ? 1 : 0;
+}
+
+const Iteration& ViewLink::record(const Localizer& localizer, int buffer) {
+  return localizer.buffers_[static_cast<std::size_t>(buffer)];
+}
+
 }  // namespace boresight

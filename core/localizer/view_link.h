@@ -59,6 +59,10 @@ class ViewLink {
   void rest();
   StepReport conclude(SupportVerdict verdict);
 
+  /// Which of its two records a localizer's workspace shows, and either of them.
+  static int shownBuffer(const Localizer& localizer);
+  static const Iteration& record(const Localizer& localizer, int buffer);
+
  private:
   Localizer* localizer_;
 };

@@ -245,6 +245,16 @@ StepReport ViewsLocalizer::stepSupport() {
   return link(0).conclude(verdict);
 }
 
+const Iteration* ViewsLocalizer::iterationOf(int index) const {
+  if (status_ != Status::kOk || view(0).workspace().iteration == nullptr) return nullptr;
+  if (index == 0) return &leading();
+  // A view that was not asked still has an earlier iteration there.
+  const Iteration& own = ViewLink::record(view(index), ViewLink::shownBuffer(view(0)));
+  const bool began = view(index).workspace().iteration != nullptr;
+  const bool same = own.index == leading().index && own.attempt == leading().attempt;
+  return began && same ? &own : nullptr;
+}
+
 void ViewsLocalizer::noteViews() {
   for (std::size_t v = 0; v < views_.size(); ++v) {
     const Share& share = latest_[v];

@@ -64,6 +64,9 @@ class ViewsLocalizer {
   const Localizer& view(int index) const {
     return *views_[static_cast<std::size_t>(index)].localizer;
   }
+  /// What a view has of the iteration that the first one's workspace shows: of rolled hypotheses
+  /// the same one. nullptr before the first iteration, and for a view that has no part in this one.
+  const Iteration* iterationOf(int index) const;
   /// SHA-256 over how the views are linked, each view's own digest and the result.
   std::array<std::uint8_t, 32> digest() const;
 

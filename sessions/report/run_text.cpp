@@ -235,6 +235,29 @@ std::string replayedText(const RunSnapshot& snapshot) {
          ": how the run ended is not known.";
 }
 
+std::string aloneText(const RunSnapshot& snapshot) {
+  if (snapshot.converged()) return convergedText(snapshot);
+  if (snapshot.finished) return "Did not converge. " + sentence(explanation(endOf(snapshot)));
+  if (snapshot.iterations.empty())
+    return snapshot.edges ? "The image's edges are found." : "Nothing has run yet.";
+  const std::string number = std::to_string(snapshot.iterations.size());
+  if (!snapshot.last_under_way) return "Iteration " + number + " is complete.";
+  return "Iteration " + number + " is under way, its last complete stage is " +
+         stageText(snapshot.iterations.back()->reached) + ".";
+}
+
+/// Of one of several views; one that was left out says why, and what is known all the same.
+std::string viewText(const RunSnapshot& snapshot) {
+  const ViewOutcome& own = snapshot.views[snapshot.own_view];
+  const std::string with = sentence(togetherText(snapshot.views, own.case_id)) + " ";
+  const std::string good = localizationStatusText(LocalizationStatus::kConverged);
+  const bool others = std::any_of(snapshot.views.begin(), snapshot.views.end(),
+                                  [&](const ViewOutcome& one) { return one.status == good; });
+  if (!snapshot.finished || snapshot.converged() || !others) return with + aloneText(snapshot);
+  return with + "This view was left out: " + leftOutText(own.status) +
+         ". The pose of the others is its last iteration's.";
+}
+
 }  // namespace
 
 std::string iterationTable(const LocalizationTrace& trace) {
@@ -330,14 +353,7 @@ std::string memoryTable(const LocalizationTrace& trace) {
 
 std::string standingText(const RunSnapshot& snapshot) {
   if (snapshot.replayed) return replayedText(snapshot);
-  if (snapshot.converged()) return convergedText(snapshot);
-  if (snapshot.finished) return "Did not converge. " + sentence(explanation(endOf(snapshot)));
-  if (snapshot.iterations.empty())
-    return snapshot.edges ? "The image's edges are found." : "Nothing has run yet.";
-  const std::string number = std::to_string(snapshot.iterations.size());
-  if (!snapshot.last_under_way) return "Iteration " + number + " is complete.";
-  return "Iteration " + number + " is under way, its last complete stage is " +
-         stageText(snapshot.iterations.back()->reached) + ".";
+  return snapshot.views.empty() ? aloneText(snapshot) : viewText(snapshot);
 }
 
 }  // namespace boresight::sessions

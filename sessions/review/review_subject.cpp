@@ -51,11 +51,27 @@ std::optional<OtherPose> poseOfMarks(const Session& session, const LoadedCase& l
                    cameraCovariance(*solved.result.solution, solved.marks.views.front())};
 }
 
-/// Another camera's pose as this camera sees the station. Nothing unless its last run converged
-/// with the inputs that it has now.
+/// The last run of the other case in which this one had no say: poses that were solved for as one
+/// always agree.
+const RunRecord* ownRunOf(const Session& session, const std::string& other,
+                          const std::string& case_id) {
+  const RunRecord* last = nullptr;
+  for (const RunRecord& run : session.runs) {
+    const std::vector<ViewOutcome> views =
+        run.together ? run.together->views : std::vector<ViewOutcome>();
+    const bool shared = std::any_of(views.begin(), views.end(), [&](const ViewOutcome& view) {
+      return view.case_id == case_id;
+    });
+    if (run.case_id == other && !shared) last = &run;
+  }
+  return last;
+}
+
+/// Another camera's pose as this camera sees the station. Nothing unless its last run of its own
+/// converged with the inputs that it has now.
 std::optional<OtherPose> seenByOther(const Session& session, const SessionCase& one,
                                      const SessionCase& other) {
-  const RunRecord* run = session.lastRunOf(other.id);
+  const RunRecord* run = ownRunOf(session, other.id, one.id);
   if (run == nullptr || run->inputs_sha256 != inputsDigest(other) ||
       run->status != localizationStatusText(LocalizationStatus::kConverged))
     return {};
@@ -76,7 +92,7 @@ std::vector<OtherPose> otherCameras(const Session& session, const SessionCase& o
 }
 
 void takeRun(const RunRecord& record, ReviewSubject& subject) {
-  subject.run = snapshotOf(loadRun(record));
+  subject.run = loadSnapshot(record);
   subject.camera_from_station = subject.run->camera_from_station;
   subject.covariance = subject.run->covariance;
 }

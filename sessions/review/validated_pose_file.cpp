@@ -93,8 +93,17 @@ ordered_json linkJson(const std::string& name, const Pose& pose, const std::stri
   return {{"name", name}, {"matrix", toJson(pose)}, {"from", from}};
 }
 
+/// Which run it was, and which other views had a say in it.
+std::string runText(const HandedPose& pose, const Session& session) {
+  std::string text = "run " + pose.run_digest;
+  for (const RunRecord& run : session.runs)
+    if (run.case_id == pose.case_id && run.digest == pose.run_digest && run.together)
+      text += ", " + togetherText(run.together->views, run.case_id);
+  return text;
+}
+
 /// Every transform that was used, and where it came from.
-ordered_json chainJson(const HandedPose& pose, const SessionCase& one) {
+ordered_json chainJson(const HandedPose& pose, const SessionCase& one, const Session& session) {
   ordered_json chain = ordered_json::array();
   chain.push_back(linkJson("camera_from_station_seed", one.camera_from_station_seed,
                            "the case's seed, as it was given"));
@@ -110,9 +119,9 @@ ordered_json chainJson(const HandedPose& pose, const SessionCase& one) {
   if (one.camera_from_end_effector)
     chain.push_back(linkJson("camera_from_end_effector", *one.camera_from_end_effector,
                              "the case's, as it was given"));
-  chain.push_back(linkJson(
-      "camera_from_station", pose.camera_from_station,
-      pose.source == PoseSource::kRun ? "run " + pose.run_digest : "the marks of the case"));
+  chain.push_back(
+      linkJson("camera_from_station", pose.camera_from_station,
+               pose.source == PoseSource::kRun ? runText(pose, session) : "the marks of the case"));
   return chain;
 }
 
@@ -226,7 +235,7 @@ ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
   json["conventions"] = conventionsJson();
   json["pose"] = poseJson(pose, one);
   if (one.camera_from_end_effector) json["end_effector"] = endEffectorJson(pose, one);
-  json["chain"] = chainJson(pose, one);
+  json["chain"] = chainJson(pose, one, alone);
   json["decision"] = decisionJson(pose, standingOf(alone, one.id));
   json["checks"] = ordered_json::array();
   for (const JudgedCheck& judged : pose.checks) json["checks"].push_back(toJson(judged));

@@ -18,6 +18,7 @@
 #include "sessions/session/decision_json.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_json.h"
+#include "sessions/session/views_run.h"
 #include "sessions/version.h"
 
 namespace boresight::sessions {
@@ -131,12 +132,13 @@ std::optional<LocalizationTrace> runAgain(const Document& document, Findings& fi
     findings.add(false, "run", "the document does not say which run its pose is of");
     return {};
   }
-  const SessionCase& one = *document.session.findCase(document.pose.case_id);
-  LocalizationTrace trace = runCase(*loadCase(one), planOf(*run, document.session, document.file));
+  LocalizationTrace trace = repeatRun(*run, document.session, document.file);
   const bool same = trace.digest == run->digest;
-  std::string text =
-      same ? "the run gives the same digest again"
-           : "the run gives another digest: " + trace.digest + " instead of " + run->digest;
+  const std::string together =
+      run->together ? " " + togetherText(run->together->views, run->case_id) : "";
+  std::string text = same ? "the run" + together + " gives the same digest again"
+                          : "the run" + together + " gives another digest: " + trace.digest +
+                                " instead of " + run->digest;
   if (!same && run->version != kVersion)
     text += "; it was made by version " + run->version + ", this is " + kVersion;
   findings.add(same, "run", text);

@@ -145,6 +145,10 @@ RunPlan planOf(const RunRecord& run, const Session& session, const fs::path& fil
   const std::string place = "run " + run.digest;
   if (run.inputs_sha256 != inputsDigest(one))
     throw InputError(file, place, "the inputs of case " + run.case_id + " are no longer its own");
+  if (run.together && run.together->inputs_sha256 != viewsDigest(session, casesOf(*run.together)))
+    throw InputError(file, place,
+                     "it was made " + togetherText(run.together->views, run.case_id) +
+                         ", and one of these views is no longer there as it was");
   if (run.rerun) return planOf(*run.rerun, file);
   const LocalizerOptions options = caseOptions(session, one, file);
   if (run.options_sha256 != optionsDigest(options))
@@ -192,6 +196,15 @@ Session withRun(const Session& session, RunRecord run) {
   });
   next.runs.push_back(std::move(run));
   return next;
+}
+
+RunSnapshot loadSnapshot(const RunRecord& run) {
+  RunSnapshot snapshot = snapshotOf(loadRun(run));
+  if (!run.together) return snapshot;
+  snapshot.views = run.together->views;
+  for (std::size_t i = 0; i < snapshot.views.size(); ++i)
+    if (snapshot.views[i].case_id == run.case_id) snapshot.own_view = i;
+  return snapshot;
 }
 
 LocalizationTrace loadRun(const RunRecord& run) {

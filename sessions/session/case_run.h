@@ -11,6 +11,7 @@
 #include "sessions/io/image_file.h"
 #include "sessions/io/scene_mesh.h"
 #include "sessions/session/session.h"
+#include "sessions/trace/run_snapshot.h"
 #include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
@@ -73,5 +74,7 @@ Session withRun(const Session& session, RunRecord run);
 
 /// The trace of a run. InputError when the file is missing, damaged, or of another run.
 LocalizationTrace loadRun(const RunRecord& run);
+/// The same to be looked at, with the views that it was made together with.
+RunSnapshot loadSnapshot(const RunRecord& run);
 
 }  // namespace boresight::sessions

@@ -184,7 +184,9 @@ Staleness stalenessOf(const RunRecord& run, const Session& session,
                       const std::filesystem::path& file) {
   const SessionCase* one = session.findCase(run.case_id);
   if (one == nullptr) return {true, false};
-  return {run.inputs_sha256 != inputsDigest(*one),
+  const bool others_changed =
+      run.together && run.together->inputs_sha256 != viewsDigest(session, casesOf(*run.together));
+  return {others_changed || run.inputs_sha256 != inputsDigest(*one),
           run.options_sha256 != optionsDigest(caseOptions(session, *one, file))};
 }
 

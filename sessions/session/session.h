@@ -22,6 +22,7 @@
 #include "sessions/session/ignore_strokes.h"
 #include "sessions/session/rerun_record.h"
 #include "sessions/session/shared_value.h"
+#include "sessions/session/together_record.h"
 
 namespace boresight::sessions {
 
@@ -92,6 +93,8 @@ struct RunRecord {
   std::string options_sha256;  ///< optionsDigest of what ran, as it was at the end
   std::optional<RerunRecord> rerun =
       std::nullopt;  ///< of a run that took up other options on its way
+  /// Of a run that was solved for together with other views of the case's rig.
+  std::optional<TogetherRecord> together = std::nullopt;
 
   bool operator==(const RunRecord&) const = default;
 };

@@ -53,6 +53,7 @@ ordered_json runJson(const RunRecord& run, const PathWriter& path) {
   json["inputs_sha256"] = run.inputs_sha256;
   json["options_sha256"] = run.options_sha256;
   if (run.rerun) json["rerun"] = toJson(*run.rerun);
+  if (run.together) json["together"] = toJson(*run.together);
   return json;
 }
 
@@ -101,7 +102,7 @@ void readMarksOf(const JsonReader& json, Session& session) {
 
 RunRecord readRun(const JsonReader& json, const Session& session) {
   json.requireKnown({"case", "digest", "file", "status", "version", "time", "inputs_sha256",
-                     "options_sha256", "rerun"});
+                     "options_sha256", "rerun", "together"});
   RunRecord run;
   run.case_id = readCaseReference(json.at("case"), session);
   run.digest = readSha256(json.at("digest"));
@@ -116,6 +117,7 @@ RunRecord readRun(const JsonReader& json, const Session& session) {
     if (const auto from = rerun->find("from")) (void)readSha256(*from);
     run.rerun = readRerun(*rerun);
   }
+  if (const auto together = json.find("together")) run.together = readTogether(*together);
   return run;
 }
 

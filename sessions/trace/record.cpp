@@ -191,6 +191,12 @@ EdgeMapTrace recordEdgeMap(const EdgeMap& edges) {
   return trace;
 }
 
+bool hasPose(const Iteration& iteration, Stage reached) {
+  return (reached == Stage::kPose || reached == Stage::kRefine) &&
+         iteration.status != LocalizationStatus::kPnpFailed &&
+         iteration.status != LocalizationStatus::kFault;
+}
+
 IterationTrace recordIteration(const Iteration& iteration, Stage reached, RecordLevel level) {
   IterationTrace trace;
   trace.index = iteration.index;
@@ -217,9 +223,7 @@ IterationTrace recordIteration(const Iteration& iteration, Stage reached, Record
   } else if (reached >= Stage::kRefine) {
     recordRefinement(iteration.refinement, level, trace.refinement);
   }
-  const bool solved = (reached == Stage::kPose || reached == Stage::kRefine) &&
-                      iteration.status != LocalizationStatus::kPnpFailed &&
-                      iteration.status != LocalizationStatus::kFault;
+  const bool solved = hasPose(iteration, reached);
   trace.camera_from_station =
       solved ? iteration.camera_from_station : iteration.camera_from_station_before;
   if (solved) {

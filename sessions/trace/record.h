@@ -15,6 +15,9 @@ class MatchingMethod;  // sessions/baselines/matching_method.h
 /// beyond still has the values of an earlier iteration and is left out.
 IterationTrace recordIteration(const Iteration& iteration, Stage reached, RecordLevel level);
 
+/// Whether a pose came out of an iteration that reached a stage.
+bool hasPose(const Iteration& iteration, Stage reached);
+
 RenderTrace recordRender(const EdgeRender& render);
 EdgeMapTrace recordEdgeMap(const EdgeMap& edges);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sessions/trace/trace.h"
+#include "sessions/trace/view_outcome.h"
 
 namespace boresight::sessions {
 
@@ -41,6 +42,10 @@ struct RunSnapshot {
   bool replayed = false;
   /// Of a replayed run, sentences: what is not known, and what on the ground is not as on board.
   std::vector<std::string> remarks;
+  /// Of one of several views that were solved as one: all of them, the first one led. Not in files
+  /// of traces: the session's record of the run names them.
+  std::vector<ViewOutcome> views;
+  std::size_t own_view = 0;  ///< which of them this is
 
   bool converged() const { return status == LocalizationStatus::kConverged; }
   RunPlan plan() const { return {options, changes}; }

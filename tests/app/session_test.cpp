@@ -9,6 +9,7 @@
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
 #include "tests/app/run_whs.h"
+#include "tests/support/turned_view.h"
 
 namespace boresight::test {
 namespace {
@@ -34,6 +35,33 @@ std::string newSession(const TemporaryFolder& folder) {
   const ProgramRun made = runWhs({"new", "--dataset", kDataset, "--case", idOfOs(), "--out", file});
   EXPECT_EQ(made.exit_code, 0) << made.err;
   return file;
+}
+
+TEST(WhsRun, TheImagesOfARigTogetherAreOneRunThatIsRepeated) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "two.boresight.json";
+  sessions::writeSessionFile(file, sessionOfTwoViews(folder.path()));
+  const ProgramRun run = runWhs({"run", file, "--views"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Session session = sessions::readSessionFile(file).session;
+  ASSERT_EQ(session.runs.size(), 2u) << "the rig was run once";
+  for (std::size_t v = 0; v < 2; ++v) {
+    const std::string& other = session.cases[1 - v]->id;
+    EXPECT_EQ(session.runs[v].case_id, session.cases[v]->id);
+    EXPECT_THAT(run.out,
+                HasSubstr("together with " + other + ", digest " + session.runs[v].digest));
+    const ProgramRun again = runWhs({"run", file, "--again", session.runs[v].digest});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_THAT(again.out, HasSubstr(session.runs[v].digest + ", the same"));
+  }
+  EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("together with " + session.cases[1]->id));
+  EXPECT_EQ(runWhs({"run", file, "--views", "--again", "0"}).exit_code, 2);
+  sessions::Session alone = session;
+  alone = sessions::withoutRigLink(alone, session.cases[0]->id);
+  sessions::writeSessionFile(file, alone);
+  const ProgramRun refused = runWhs({"run", file, "--views", "--case", session.cases[0]->id});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("of no rig"));
 }
 
 TEST(WhsNew, RefusesWhatIsIncompleteOrThere) {

@@ -168,5 +168,23 @@ TEST(StandingText, SaysHowFarARunIs) {
   EXPECT_THAT(standingText(snapshot), AllOf(HasSubstr("under way"), HasSubstr("render")));
 }
 
+TEST(StandingText, NamesTheOtherViews) {
+  RunSnapshot snapshot = snapshotWith(LocalizationStatus::kConverged);
+  snapshot.views = {{"a", "converged"}, {"b", "too_few_matches"}, {"c", "converged"}};
+  EXPECT_THAT(standingText(snapshot),
+              testing::StartsWith("Together with b (left out: too few of its templates meet edges "
+                                  "of the image) and c. Converged in"));
+  snapshot = snapshotWith(LocalizationStatus::kTooFewMatches);
+  snapshot.views = {{"a", "converged"}, {"b", "too_few_matches"}};
+  snapshot.own_view = 1;
+  EXPECT_THAT(standingText(snapshot),
+              testing::StartsWith("Together with a. This view was left out: too few of"));
+  snapshot.views[0].status = "pnp_failed";
+  EXPECT_THAT(standingText(snapshot), testing::StartsWith("Together with a. Did not converge. "));
+  snapshot.views = {{"a", "running"}, {"b", "running"}};
+  snapshot.finished = false;
+  EXPECT_EQ(standingText(snapshot), "Together with a. Iteration 1 is complete.");
+}
+
 }  // namespace
 }  // namespace boresight::sessions

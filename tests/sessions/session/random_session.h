@@ -203,6 +203,9 @@ inline sessions::Session randomSession(Random& random) {
       session.runs.push_back({id, randomSha256(random), randomPath(random, ".trace"), "converged",
                               "0.1.0", "2026-01-31T23:59:59Z", randomSha256(random),
                               randomSha256(random)});
+    if (coin(random) && !session.runs.empty())
+      session.runs.back().together = sessions::TogetherRecord{
+          {{id, "converged"}, {"another \xC3\xBC", "too_few_matches"}}, randomSha256(random)};
     if (coin(random) && !session.runs.empty()) session.runs.back().rerun = randomRerun(random);
     if (coin(random)) session.view = {id, "", static_cast<std::int32_t>(random.below(9)) - 1};
   }

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/views_run.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sessions/io/errors.h"
+#include "sessions/session/rig_links.h"
+#include "sessions/trace/stepped_views.h"
+
+namespace boresight::sessions {
+namespace {
+
+/// The same meshes in the same places, whatever their files are called.
+bool sameStation(const SessionCase& a, const SessionCase& b) {
+  const auto same = [](const MeshInput& one, MeshInput other) {
+    other.source.mesh = one.source.mesh;
+    return one == other;
+  };
+  return a.feature_size_m == b.feature_size_m &&
+         std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(), same);
+}
+
+/// A rig frame that is the first camera's own changes no bit of the seed.
+Pose rigSeed(const SessionCase& first) {
+  const Pose& camera_from_rig = first.rig->camera_from_rig;
+  if (camera_from_rig == Pose()) return first.camera_from_station_seed;
+  return camera_from_rig.inverse() * first.camera_from_station_seed;
+}
+
+View viewOf(const LoadedCase& loaded) {
+  View view;
+  view.image = loaded.image.view();
+  view.ignore = loaded.ignore ? &loaded.ignore_bits : nullptr;
+  view.camera = loaded.source.camera;
+  view.camera_from_rig = loaded.source.rig->camera_from_rig;
+  return view;
+}
+
+std::vector<RunSnapshot> runLoaded(const LoadedViews& loaded, const LocalizerOptions& options,
+                                   const std::stop_token& stop) {
+  const std::string place = "case " + loaded.cases.front()->source.id;
+  const std::string refusal = viewsRefusal(options);
+  if (!refusal.empty()) throw InputError(place, "options", refusal);
+  SteppedViews run(loaded.problem(), options, loaded.ids());
+  run.advance(StepUntil::kEnd, stop);
+  const RunSnapshot& first = run.snapshots().front();
+  if (first.digest.empty() && first.finished) throw InputError(place, statusText(first.fault));
+  return run.snapshots();
+}
+
+}  // namespace
+
+std::string whyAlone(const Session& session, const std::string& case_id) {
+  const SessionCase* one = session.findCase(case_id);
+  if (one == nullptr) return "There is no such case.";
+  if (!one->rig)
+    return "The case is of no rig: link it to the other views (Annotation, Rig), or name a rig in "
+           "dataset.json.";
+  const std::vector<std::string> others = casesOfRig(session, case_id);
+  if (others.empty()) return "The session has no other view of rig " + one->rig->id + ".";
+  if (others.size() + 1 > kMaxViews)
+    return "Rig " + one->rig->id + " has " + std::to_string(others.size() + 1) +
+           " views; at most " + std::to_string(kMaxViews) + " are solved together.";
+  for (const std::string& id : others)
+    if (!sameStation(*one, *session.findCase(id)))
+      return "Case " + id + " of the same rig has another station.";
+  return "";
+}
+
+std::string viewsRefusal(const LocalizerOptions& options) {
+  const auto refused = [](const std::string& what) {
+    return "Several views are not solved together with " + what + ".";
+  };
+  if (options.wide.isOn())
+    return refused("a wide search: set wide.rotation_rad and wide.translation_m to 0");
+  if (options.ambiguity.enabled)
+    return refused("a search for rivals: switch ambiguity.enabled off");
+  if (options.support.partial) return refused("partial support: switch support.partial off");
+  if (options.refinement.covariance == CovarianceModel::kGrouped)
+    return refused("a grouped covariance: set refinement.covariance to inflated");
+  return "";
+}
+
+ViewsProblem LoadedViews::problem() const {
+  const LocalizationProblem first = cases.front()->problem();
+  ViewsProblem made;
+  made.views = views;
+  made.mesh = first.mesh;
+  made.rig_from_station_seed = rigSeed(cases.front()->source);
+  made.uncertainty = first.uncertainty;
+  return made;
+}
+
+std::vector<std::string> LoadedViews::ids() const {
+  std::vector<std::string> ids;
+  for (const auto& one : cases) ids.push_back(one->source.id);
+  return ids;
+}
+
+std::vector<SessionCase> otherViews(const Session& session, const std::string& case_id) {
+  std::vector<SessionCase> others;
+  for (const std::string& id : casesOfRig(session, case_id))
+    others.push_back(*session.findCase(id));
+  return others;
+}
+
+std::shared_ptr<const LoadedViews> loadViews(std::shared_ptr<const LoadedCase> first,
+                                             const std::vector<SessionCase>& others) {
+  auto loaded = std::make_shared<LoadedViews>();
+  loaded->cases.push_back(std::move(first));
+  // What the first has of the same files is taken from there.
+  for (const SessionCase& one : others)
+    loaded->cases.push_back(reloadCase(*loaded->cases.front(), one));
+  for (const auto& one : loaded->cases) {
+    requireSameSize(one->image, one->source.camera);
+    loaded->views.push_back(viewOf(*one));
+  }
+  return loaded;
+}
+
+std::vector<RunSnapshot> runViews(const Session& session, const std::string& case_id,
+                                  const std::stop_token& stop) {
+  const std::string alone = whyAlone(session, case_id);
+  if (!alone.empty()) throw InputError("case " + case_id, "rig", alone);
+  const SessionCase& one = *session.findCase(case_id);
+  const LocalizerOptions options = caseOptions(session, one, "session");
+  const auto first = loadCase(one);
+  requireRunnable(*first);
+  return runLoaded(*loadViews(first, otherViews(session, case_id)), options, stop);
+}
+
+std::vector<RunRecord> storeViews(const Session& session, const std::vector<RunSnapshot>& views,
+                                  const std::filesystem::path& session_file) {
+  std::vector<RunRecord> records;
+  for (const RunSnapshot& view : views) {
+    TogetherRecord together{view.views, {}};
+    together.inputs_sha256 = viewsDigest(session, casesOf(together));
+    const std::string& id = view.views[view.own_view].case_id;
+    records.push_back(storeRun(session, id, traceOf(view), session_file));
+    records.back().together = std::move(together);
+  }
+  return records;
+}
+
+LocalizationTrace repeatRun(const RunRecord& run, const Session& session,
+                            const std::filesystem::path& session_file, RecordLevel level) {
+  const RunPlan plan = planOf(run, session, session_file);
+  if (!run.together) return runCase(*loadCase(*session.findCase(run.case_id)), plan, level);
+  const std::vector<std::string> ids = casesOf(*run.together);
+  std::vector<SessionCase> others;
+  for (std::size_t i = 1; i < ids.size(); ++i) others.push_back(*session.findCase(ids[i]));
+  const auto views = loadViews(loadCase(*session.findCase(ids.front())), others);
+  for (const RunSnapshot& one : runLoaded(*views, plan.options, {}))
+    if (one.views[one.own_view].case_id == run.case_id) return traceOf(one);
+  throw InputError(session_file, "run " + run.digest, "its own case is not among its views");
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/views_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/views/views_localizer.h"
+#include "sessions/review/handed_pose.h"
+#include "sessions/review/review_subject.h"
+#include "sessions/review/validated_pose_file.h"
+#include "sessions/review/verify_pose.h"
+#include "sessions/session/session_file.h"
+#include "tests/sessions/session/example_session.h"
+#include "tests/support/turned_view.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::LocalizationTrace;
+using sessions::RunRecord;
+using sessions::RunSnapshot;
+using sessions::Session;
+using sessions::SessionCase;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class ViewsRunTest : public testing::Test {
+ protected:
+  ViewsRunTest() : session_(sessionOfTwoViews(folder_.path())) {}
+
+  const std::string& first() const { return session_.cases[0]->id; }
+  const std::string& second() const { return session_.cases[1]->id; }
+  std::filesystem::path file() const { return folder_ / "s.boresight.json"; }
+
+  /// Run and noted.
+  void run(const std::string& leader) {
+    views_ = sessions::runViews(session_, leader);
+    for (const RunRecord& one : sessions::storeViews(session_, views_, file()))
+      session_ = withRun(session_, one);
+  }
+
+  TemporaryFolder folder_;
+  Session session_;
+  std::vector<RunSnapshot> views_;
+};
+
+TEST_F(ViewsRunTest, IsWhatTheCoreMakesOfBothImages) {
+  const SessionCase& one = *session_.cases[0];
+  const SessionCase& other = *session_.cases[1];
+  const ExampleCase example("os");
+  const sessions::GrayImage turned = sessions::readImage(other.image.source.file);
+  std::array<View, 2> images;
+  images[0].image = example.image.view();
+  images[0].camera = example.camera;
+  images[1].image = turned.view();
+  images[1].camera = other.camera;
+  images[1].camera_from_rig = halfTurn();
+  ViewsProblem problem;
+  problem.views = images;
+  problem.mesh = example.scene.view();
+  problem.rig_from_station_seed = example.seed.camera_from_station;
+  problem.uncertainty = example.problem().uncertainty;
+  LocalizerOptions options = defaultProfile();
+  options.templates.feature_size_m = one.feature_size_m.value();
+  std::size_t bytes = 0;
+  ASSERT_EQ(ViewsLocalizer::requiredBytes(problem, options, Kernels::kPortable, bytes),
+            Status::kOk);
+  const auto memory = std::make_unique<std::byte[]>(bytes);
+  const auto expected = std::make_unique<ViewsLocalizer>(
+      problem, options, std::span<std::byte>(memory.get(), bytes), Kernels::kPortable);
+  while (!expected->step().finished) {
+  }
+  ASSERT_EQ(expected->result().status, LocalizationStatus::kConverged);
+
+  views_ = sessions::runViews(session_, first());
+  ASSERT_EQ(views_.size(), 2u);
+  for (std::size_t v = 0; v < 2; ++v) {
+    const ViewReport& report = expected->result().views[v];
+    EXPECT_EQ(views_[v].camera_from_station, report.camera_from_station);
+    EXPECT_TRUE(views_[v].converged());
+    EXPECT_EQ(views_[v].iterations.back()->refinement.used_count, report.edges_used);
+    EXPECT_EQ(static_cast<int>(views_[v].iterations.size()), expected->result().iterations);
+    const Pose& truth = *session_.cases[v]->camera_from_station_truth;
+    const Vector6d error = perturbationBetween(truth, views_[v].camera_from_station);
+    EXPECT_LT(error.tail<3>().norm(), 1e-3);
+  }
+  EXPECT_EQ(views_[0].covariance, expected->result().covariance) << "the rig is its camera";
+}
+
+TEST_F(ViewsRunTest, EachCaseGetsARunThatNamesTheOthersAndIsReadAgain) {
+  run(first());
+  ASSERT_EQ(session_.runs.size(), 2u);
+  sessions::writeSessionFile(file(), session_);
+  const Session reread = sessions::readSessionFile(file()).session;
+  EXPECT_EQ(reread, session_);
+  for (std::size_t v = 0; v < 2; ++v) {
+    const RunRecord& record = reread.runs[v];
+    EXPECT_EQ(record.case_id, session_.cases[v]->id);
+    EXPECT_EQ(record.status, "converged");
+    ASSERT_TRUE(record.together.has_value());
+    EXPECT_EQ(sessions::casesOf(*record.together), (std::vector<std::string>{first(), second()}));
+    const RunSnapshot snapshot = sessions::loadSnapshot(record);
+    EXPECT_EQ(snapshot.views, views_[v].views);
+    EXPECT_EQ(snapshot.own_view, v);
+    EXPECT_EQ(snapshot.digest, views_[v].digest);
+    EXPECT_FALSE(sessions::stalenessOf(record, reread, file()).stale());
+  }
+  const LocalizationTrace alone = sessions::runCase(session_, first());
+  EXPECT_NE(alone.digest, session_.runs[0].digest);
+}
+
+TEST_F(ViewsRunTest, ARunIsRepeatedWithTheOthers) {
+  run(second());
+  for (const RunRecord& record : session_.runs)
+    EXPECT_EQ(sessions::repeatRun(record, session_, file()).digest, record.digest);
+  EXPECT_EQ(session_.runs[0].together->views[0].case_id, second()) << "it led";
+}
+
+TEST_F(ViewsRunTest, WhatAnotherViewDependsOnMakesItStale) {
+  run(first());
+  const auto stale = [this](const Session& changed, std::size_t v) {
+    return sessions::stalenessOf(session_.runs[v], changed, file()).inputs_changed;
+  };
+  SessionCase moved = *session_.cases[1];
+  moved.rig->camera_from_rig.translation_m.x() += 1e-6;
+  SessionCase reseeded = *session_.cases[1];
+  reseeded.camera_from_station_seed.translation_m.x() += 1e-6;
+  SessionCase masked = *session_.cases[1];
+  masked.ignore_strokes.push_back({});
+  EXPECT_TRUE(stale(withCase(session_, moved), 0));
+  EXPECT_TRUE(stale(withCase(session_, masked), 0));
+  EXPECT_TRUE(stale(withoutCase(session_, second()), 0));
+  EXPECT_FALSE(stale(withCase(session_, reseeded), 0)) << "the first view's seed alone counts";
+  EXPECT_THAT(folder_.message([&] {
+    (void)sessions::repeatRun(session_.runs[0], withCase(session_, masked), file());
+  }),
+              HasSubstr("one of these views is no longer there as it was"));
+}
+
+TEST_F(ViewsRunTest, ABlackViewIsLeftOutAndSaysWhy) {
+  const std::string alone = sessions::runCase(session_, first()).digest;
+  const Pose pose = sessions::runCase(session_, first()).camera_from_station;
+  session_ = withBlackSecond(session_, folder_.path());
+  run(first());
+  EXPECT_EQ(views_[0].camera_from_station, pose);
+  EXPECT_NE(session_.runs[0].digest, alone) << "it says that there was another";
+  EXPECT_EQ(session_.runs[1].status, "too_few_matches");
+  EXPECT_THAT(sessions::togetherText(session_.runs[0].together->views, first()),
+              HasSubstr("left out: too few of its templates meet edges"));
+}
+
+TEST_F(ViewsRunTest, OldFilesHaveNoneOfIt) {
+  run(first());
+  sessions::writeSessionFile(file(), session_);
+  std::string text = folder_.read("s.boresight.json");
+  EXPECT_THAT(text, HasSubstr("\"together\""));
+  for (RunRecord& one : session_.runs) one.together.reset();
+  sessions::writeSessionFile(file(), session_);
+  text = folder_.read("s.boresight.json");
+  EXPECT_THAT(text, testing::Not(HasSubstr("\"together\"")));
+  const Session old = sessions::readSessionFile(file()).session;
+  EXPECT_EQ(old, session_);
+  EXPECT_TRUE(sessions::loadSnapshot(old.runs[0]).views.empty());
+  // A record that names nobody is refused.
+  session_.runs[0].together =
+      sessions::TogetherRecord{{{first(), "converged"}}, std::string(64, 'a')};
+  sessions::writeSessionFile(file(), session_);
+  EXPECT_THAT(folder_.message([&] { (void)sessions::readSessionFile(file()); }),
+              HasSubstr("views: names less than two"));
+}
+
+TEST_F(ViewsRunTest, RefusesBeforeAnythingRuns) {
+  LocalizerOptions options;
+  EXPECT_THAT(sessions::viewsRefusal(options), IsEmpty());
+  const auto refusal = [this](auto&& change) {
+    LocalizerOptions changed = sessionOptions(session_, file());
+    change(changed);
+    const Session asked = withOptions(session_, "default", changed);
+    return folder_.message([&] { (void)sessions::runViews(asked, first()); });
+  };
+  EXPECT_THAT(refusal([](auto& o) { o.wide.rotation_rad = 0.1; }), HasSubstr("a wide search"));
+  EXPECT_THAT(refusal([](auto& o) { o.ambiguity.enabled = true; }),
+              HasSubstr("a search for rivals"));
+  EXPECT_THAT(refusal([](auto& o) { o.support.partial = true; }), HasSubstr("partial support"));
+  EXPECT_THAT(refusal([](auto& o) { o.refinement.covariance = CovarianceModel::kGrouped; }),
+              HasSubstr("a grouped covariance"));
+  EXPECT_EQ(folder_.fileCount(), 1u) << "the second image alone";
+}
+
+TEST_F(ViewsRunTest, SaysWhyACaseStandsAlone) {
+  EXPECT_THAT(sessions::whyAlone(session_, first()), IsEmpty());
+  EXPECT_THAT(sessions::whyAlone(withoutRigLink(session_, second()), first()),
+              HasSubstr("of no rig"));
+  EXPECT_THAT(sessions::whyAlone(withoutCase(session_, second()), first()),
+              HasSubstr("no other view of rig"));
+  SessionCase coarser = *session_.cases[1];
+  coarser.parts[0].sha256 = std::string(64, 'a');
+  EXPECT_THAT(sessions::whyAlone(withCase(session_, coarser), first()),
+              HasSubstr("has another station"));
+  SessionCase elsewhere = *session_.cases[1];
+  elsewhere.parts[0].source.mesh = "/copy/of/the.ply";
+  EXPECT_THAT(sessions::whyAlone(withCase(session_, elsewhere), first()), IsEmpty());
+  Session many = session_;
+  for (int i = 0; i < 7; ++i) {
+    SessionCase one = *session_.cases[1];
+    one.id += std::to_string(i);
+    many = withCase(many, one);
+  }
+  EXPECT_THAT(sessions::whyAlone(many, first()), HasSubstr("has 9 views; at most 8"));
+}
+
+TEST_F(ViewsRunTest, AStopLeavesItUnderWay) {
+  std::stop_source stopped;
+  stopped.request_stop();
+  const auto views = sessions::runViews(session_, first(), stopped.get_token());
+  EXPECT_EQ(views[0].status, LocalizationStatus::kRunning);
+  EXPECT_EQ(views[1].status, LocalizationStatus::kRunning);
+  EXPECT_THROW((void)sessions::storeViews(session_, views, file()), std::logic_error);
+}
+
+TEST_F(ViewsRunTest, AHandedPoseOfItIsVerifiedByRunningAllViewsAgain) {
+  run(first());
+  const std::filesystem::path handed = folder_ / "pose.json";
+  sessions::writeValidatedPose(handed, session_, sessions::handedPose(session_, first()));
+  EXPECT_THAT(folder_.read("pose.json"), HasSubstr("together with " + second()));
+  const sessions::VerifyReport report = sessions::verifyPose(handed, true);
+  EXPECT_TRUE(report.good());
+  bool said = false;
+  for (const auto& finding : report.findings)
+    said = said ||
+           finding.text == "the run together with " + second() + " gives the same digest again";
+  EXPECT_TRUE(said);
+}
+
+/// Poses that were solved for as one say nothing of each other.
+TEST_F(ViewsRunTest, TheOtherCameraIsAWitnessOnlyByARunOfItsOwn) {
+  run(first());
+  const auto witnesses = [this] {
+    return sessions::reviewSubject(session_, sessions::loadCase(*session_.cases[0]),
+                                   sessions::PoseSource::kRun)
+        .other_cameras.size();
+  };
+  EXPECT_EQ(witnesses(), 0u);
+  const LocalizationTrace alone = sessions::runCase(session_, second());
+  session_ = withRun(session_, sessions::storeRun(session_, second(), alone, file()));
+  EXPECT_EQ(witnesses(), 1u);
+  run(first());
+  EXPECT_EQ(witnesses(), 1u) << "a later run of both takes nothing away";
+}
+
+}  // namespace
+}  // namespace boresight::test
