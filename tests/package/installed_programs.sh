@@ -11,8 +11,8 @@ fail() {
   exit 1
 }
 
-echo "installing the package"
 apt-get update
+echo "installing the package"
 apt-get install -y --no-install-recommends \
   /tmp/boresight.deb desktop-file-utils shared-mime-info libglib2.0-bin man-db poppler-utils
 echo "installed the package"
