@@ -63,12 +63,15 @@ bool readArguments(const QCoreApplication& application, Arguments& arguments,
       QStringLiteral("iteration"),
       QStringLiteral("Iteration that the picture shows, from 0; -1: the seed"),
       QStringLiteral("N"));
+  const QCommandLineOption rival(QStringLiteral("rival"),
+                                 QStringLiteral("Row under Rivals that the picture shows, from 1"),
+                                 QStringLiteral("N"));
   const QCommandLineOption dark(QStringLiteral("dark"), QStringLiteral("Dark colours"));
   const QCommandLineOption mark(
       QStringLiteral("mark"),
       QStringLiteral("Mark that somebody works on in the picture, as when placing it"),
       QStringLiteral("ID"));
-  parser.addOptions({self_test, screenshot, view, size, iteration, mark, dark});
+  parser.addOptions({self_test, screenshot, view, size, iteration, rival, mark, dark});
   parser.process(application);
   arguments.self_test = parser.isSet(self_test);
   arguments.dark = parser.isSet(dark);
@@ -88,6 +91,13 @@ bool readArguments(const QCoreApplication& application, Arguments& arguments,
     arguments.screenshot.iteration = parser.value(iteration).toInt(&fine);
     if (!fine || arguments.screenshot.iteration < -1) {
       problem = "--iteration: a number from -1";
+      return false;
+    }
+  }
+  if (parser.isSet(rival)) {
+    arguments.screenshot.rival = parser.value(rival).toInt(&fine);
+    if (!fine || arguments.screenshot.rival < 1) {
+      problem = "--rival: a number from 1";
       return false;
     }
   }
