@@ -34,6 +34,9 @@ struct Options {
       QStringLiteral("iteration"),
       QStringLiteral("Iteration that the picture shows, from 0; -1: the seed"),
       QStringLiteral("N")};
+  QCommandLineOption rival{QStringLiteral("rival"),
+                           QStringLiteral("Row under Rivals that the picture shows, from 1"),
+                           QStringLiteral("N")};
   QCommandLineOption mark{
       QStringLiteral("mark"),
       QStringLiteral("Mark that somebody works on in the picture, as when placing it"),
@@ -41,7 +44,7 @@ struct Options {
   QCommandLineOption dark{QStringLiteral("dark"), QStringLiteral("Dark colours")};
 
   QList<QCommandLineOption> shown() const {
-    return {self_test, screenshot, view, size, iteration, mark, dark};
+    return {self_test, screenshot, view, size, iteration, rival, mark, dark};
   }
 };
 
@@ -52,6 +55,13 @@ QCommandLineOption documentsOption() {
                             QStringLiteral("DIR"));
   option.setFlags(QCommandLineOption::HiddenFromHelp);
   return option;
+}
+
+/// A whole number from `least` on.
+bool readNumber(const QString& text, int least, int& number) {
+  bool fine = false;
+  number = text.toInt(&fine);
+  return fine && number >= least;
 }
 
 bool readSize(const QString& text, ui::ScreenshotOrder& order) {
@@ -99,13 +109,15 @@ bool readArguments(const QCoreApplication& application, Arguments& arguments,
     problem = "--size: WxH from 320x240 to 8192x8192";
     return false;
   }
-  if (parser.isSet(options.iteration)) {
-    bool fine = false;
-    arguments.screenshot.iteration = parser.value(options.iteration).toInt(&fine);
-    if (!fine || arguments.screenshot.iteration < -1) {
-      problem = "--iteration: a number from -1";
-      return false;
-    }
+  ui::ScreenshotOrder& order = arguments.screenshot;
+  if (parser.isSet(options.iteration) &&
+      !readNumber(parser.value(options.iteration), -1, order.iteration)) {
+    problem = "--iteration: a number from -1";
+    return false;
+  }
+  if (parser.isSet(options.rival) && !readNumber(parser.value(options.rival), 1, order.rival)) {
+    problem = "--rival: a number from 1";
+    return false;
   }
   for (const QString& file : parser.positionalArguments())
     arguments.files.emplace_back(file.toStdString());

@@ -7,6 +7,7 @@
 namespace boresight::ui {
 
 using sessions::SteppedRun;
+using sessions::SteppedViews;
 using sessions::StepUntil;
 
 namespace {
@@ -19,12 +20,36 @@ QString taskKey() { return QStringLiteral("run"); }
 struct RunController::Job {
   RunInputs inputs;
   std::unique_ptr<SteppedRun> run;  ///< points into the inputs
+  std::shared_ptr<const sessions::LoadedViews> read;
+  std::unique_ptr<SteppedViews> views;  ///< of several; points into what was read
+
+  bool finished() const { return views ? views->finished() : run && run->finished(); }
+
+  /// Of the case, or of every view.
+  std::vector<SnapshotPtr> records() const {
+    std::vector<SnapshotPtr> made;
+    if (!views) return {std::make_shared<const sessions::RunSnapshot>(run->snapshot())};
+    for (const sessions::RunSnapshot& one : views->snapshots())
+      made.push_back(std::make_shared<const sessions::RunSnapshot>(one));
+    return made;
+  }
 
   /// False when it was stopped before it was where the run goes on from.
   bool advance(StepUntil until, const std::stop_token& stop) {
+    if (!inputs.others.empty()) return advanceViews(until, stop);
     if (!run) run = std::make_unique<SteppedRun>(inputs.one->problem(), inputs.plan);
     if (!catchUp(stop)) return false;
     run->advance(until, stop);
+    return true;
+  }
+
+  bool advanceViews(StepUntil until, const std::stop_token& stop) {
+    if (!views) {
+      read = sessions::loadViews(inputs.one, inputs.others);
+      if (stop.stop_requested()) return false;
+      views = std::make_unique<SteppedViews>(read->problem(), inputs.plan.options, read->ids());
+    }
+    views->advance(until, stop);
     return true;
   }
 
@@ -69,6 +94,7 @@ void RunController::reset(RunInputs inputs) {
   runner_.cancel(taskKey());
   inputs_ = std::move(inputs);
   snapshot_.reset();
+  views_.clear();
   job_ = std::make_shared<Job>();
   job_->inputs = inputs_;
   setState(inputs_.one ? RunState::kReady : RunState::kEmpty);
@@ -83,23 +109,23 @@ void RunController::advance(StepUntil until) {
   runner_.run(taskKey(), [this, until, stride, job = job_](const std::stop_token& stop,
                                                            const TaskRunner::Report& report) {
     for (bool halted = false; !halted;) {
-      SnapshotPtr snapshot;
-      if (job->advance(stride, stop))
-        snapshot = std::make_shared<const sessions::RunSnapshot>(job->run->snapshot());
-      halted = job->run->finished() || until != StepUntil::kEnd || stop.stop_requested();
-      report([this, snapshot, halted] { takeResult(snapshot, halted); });
+      std::vector<SnapshotPtr> records;
+      if (job->advance(stride, stop)) records = job->records();
+      halted = job->finished() || until != StepUntil::kEnd || stop.stop_requested();
+      report([this, records, halted] { takeResult(records, halted); });
     }
   });
 }
 
 void RunController::stop() { runner_.stop(taskKey()); }
 
-void RunController::takeResult(SnapshotPtr snapshot, bool halted) {
-  if (!snapshot) {
+void RunController::takeResult(std::vector<SnapshotPtr> records, bool halted) {
+  if (records.empty()) {
     setState(RunState::kHalted);
     return;
   }
-  snapshot_ = std::move(snapshot);
+  snapshot_ = records.front();
+  views_ = inputs_.others.empty() ? std::vector<SnapshotPtr>() : std::move(records);
   const bool ended = snapshot_->finished;
   Q_EMIT snapshotChanged();
   if (halted) setState(ended ? RunState::kFinished : RunState::kHalted);

@@ -8,9 +8,9 @@
 #include <QObject>
 #include <QString>
 
-#include "sessions/session/case_run.h"
+#include "sessions/session/views_run.h"
 #include "sessions/trace/run_snapshot.h"
-#include "sessions/trace/stepped_run.h"
+#include "sessions/trace/stepped_views.h"
 #include "ui/run/task_runner.h"
 
 namespace boresight::ui {
@@ -31,6 +31,8 @@ struct RunInputs {
   /// and must come out as they are here; and its digest, empty when it was halted.
   std::vector<std::shared_ptr<const sessions::IterationTrace>> kept;
   std::string continued;
+  /// Other views of the case's rig that it is solved together with; read by the worker.
+  std::vector<sessions::SessionCase> others = {};
 };
 
 /// Runs one localization off the UI's thread. Inputs go in as a snapshot, records that never change
@@ -49,6 +51,8 @@ class RunController : public QObject {
   /// The latest record; nullptr before the first.
   const SnapshotPtr& snapshot() const { return snapshot_; }
   const RunInputs& inputs() const { return inputs_; }
+  /// Of a run of several views, the latest record of each, the case's first; else none.
+  const std::vector<SnapshotPtr>& views() const { return views_; }
 
   /// Drops the run, if any; the next step begins anew from these. Without a case: kEmpty.
   void reset(RunInputs inputs);
@@ -70,13 +74,14 @@ class RunController : public QObject {
  private:
   struct Job;
 
-  void takeResult(SnapshotPtr snapshot, bool halted);
+  void takeResult(std::vector<SnapshotPtr> records, bool halted);
   void takeFailure(const QString& message);
   void setState(RunState state);
 
   RunState state_ = RunState::kEmpty;
   RunInputs inputs_;
   SnapshotPtr snapshot_;
+  std::vector<SnapshotPtr> views_;
   std::shared_ptr<Job> job_;
   TaskRunner runner_;
 };

@@ -33,12 +33,14 @@ void ViewState::setCase(CasePtr one) {
   selected_template_ = -1;
   nudged_.reset();
   annotated_.reset();
+  alternative_.reset();
   Q_EMIT caseChanged();
   Q_EMIT snapshotChanged();
   Q_EMIT cursorChanged();
   Q_EMIT templateSelected(-1);
   Q_EMIT nudgedPoseChanged();
   Q_EMIT annotatedPoseChanged();
+  Q_EMIT alternativeChanged();
 }
 
 void ViewState::replaceCase(CasePtr one) {
@@ -55,9 +57,12 @@ void ViewState::setSnapshot(SnapshotPtr snapshot) {
   cursor_.iteration = follows ? lastIteration() : std::min(cursor_.iteration, lastIteration());
   if (follows) cursor_.stage = Stage::kFinished;
   selected_template_ = -1;
+  const bool had_alternative = alternative_.has_value();
+  alternative_.reset();
   Q_EMIT snapshotChanged();
   Q_EMIT cursorChanged();
   Q_EMIT templateSelected(-1);
+  if (had_alternative) Q_EMIT alternativeChanged();
 }
 
 void ViewState::setCursor(const RunCursor& cursor) {
@@ -88,6 +93,12 @@ void ViewState::setNudgedPose(const std::optional<Pose>& camera_from_station) {
 void ViewState::setAnnotatedPose(const std::optional<Pose>& camera_from_station) {
   annotated_ = camera_from_station;
   Q_EMIT annotatedPoseChanged();
+}
+
+void ViewState::setAlternative(const std::optional<sessions::Alternative>& alternative) {
+  if (!alternative && !alternative_) return;
+  alternative_ = alternative;
+  Q_EMIT alternativeChanged();
 }
 
 }  // namespace boresight::ui

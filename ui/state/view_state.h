@@ -7,6 +7,7 @@
 
 #include "core/geometry/pose.h"
 #include "sessions/session/case_run.h"
+#include "sessions/trace/alternatives.h"
 #include "sessions/trace/run_snapshot.h"
 
 namespace boresight::ui {
@@ -44,6 +45,8 @@ class ViewState : public QObject {
   const std::optional<Pose>& nudgedPose() const { return nudged_; }
   /// The pose that solves the case's annotated marks, if any.
   const std::optional<Pose>& annotatedPose() const { return annotated_; }
+  /// The pose that the run weighed and that is looked at beside the one it went on with, if any.
+  const std::optional<sessions::Alternative>& alternative() const { return alternative_; }
   /// The pose that the views show: the nudged one, else that after the cursor's iteration (before
   /// it where the shown stage is earlier), else the seed. Identity without a case.
   Pose shownPose() const;
@@ -59,6 +62,8 @@ class ViewState : public QObject {
   void selectTemplate(int index);
   void setNudgedPose(const std::optional<Pose>& camera_from_station);
   void setAnnotatedPose(const std::optional<Pose>& camera_from_station);
+  /// Of the current snapshot: another one drops it.
+  void setAlternative(const std::optional<sessions::Alternative>& alternative);
 
  Q_SIGNALS:
   void caseChanged();
@@ -67,6 +72,7 @@ class ViewState : public QObject {
   void templateSelected(int index);
   void nudgedPoseChanged();
   void annotatedPoseChanged();
+  void alternativeChanged();
 
  private:
   int lastIteration() const;
@@ -77,6 +83,7 @@ class ViewState : public QObject {
   int selected_template_ = -1;
   std::optional<Pose> nudged_;
   std::optional<Pose> annotated_;
+  std::optional<sessions::Alternative> alternative_;
 };
 
 }  // namespace boresight::ui

@@ -12,6 +12,7 @@
 
 #include "sessions/trace/scene_render.h"
 #include "sessions/trace/surface_point.h"
+#include "ui/models/alternatives_model.h"
 #include "ui/run/task_runner.h"
 #include "ui/views/display_image.h"
 #include "ui/views/image_view.h"
@@ -72,6 +73,7 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
   connect(&state_, &ViewState::caseChanged, this, &ImagePanel::showCase);
   connect(&state_, &ViewState::cursorChanged, this, &ImagePanel::showIteration);
   connect(&state_, &ViewState::templateSelected, this, &ImagePanel::showTemplates);
+  connect(&state_, &ViewState::alternativeChanged, this, &ImagePanel::showAlternative);
 }
 
 void ImagePanel::setHint(const QString& hint) {
@@ -168,19 +170,37 @@ void ImagePanel::showCase() {
   const bool same_scene = before && now && before->source.id == now->source.id &&
                           before->source.camera == now->source.camera &&
                           before->source.parts == now->source.parts;
-  const auto forget = [this](LayerId id) {
-    asked_[static_cast<std::size_t>(id)] = false;
-    setBits(id, {});
-  };
   if (!same_scene ||
       !(before->source.camera_from_station_seed == now->source.camera_from_station_seed))
     forget(LayerId::kSeedEdges);
   if (!same_scene) {
     agreement_of_.reset();
-    for (const LayerId id : {LayerId::kTruthEdges, LayerId::kAgreement, LayerId::kNudgedEdges})
+    for (const LayerId id : {LayerId::kTruthEdges, LayerId::kAgreement, LayerId::kNudgedEdges,
+                             LayerId::kChosenEdges, LayerId::kRivalEdges})
       forget(id);
   }
   setBits(LayerId::kIgnoreMask, ignoreBits(now));
+  askForRenders();
+}
+
+void ImagePanel::forget(LayerId id) {
+  asked_[static_cast<std::size_t>(id)] = false;
+  setBits(id, {});
+}
+
+/// A rival beside the pose that the run went on with.
+void ImagePanel::showAlternative() {
+  forget(LayerId::kChosenEdges);
+  forget(LayerId::kRivalEdges);
+  std::vector<LegendLine> names;
+  if (const auto& other = state_.alternative()) {
+    names = {{LayerId::kRivalEdges, alternativeTitle(*other)},
+             {LayerId::kChosenEdges, chosenTitle(*other)},
+             {LayerId::kIterationEdges, tr("As the shown iteration rendered it")},
+             {LayerId::kSeedEdges, tr("Seed")},
+             {LayerId::kTruthEdges, tr("Truth")}};
+  }
+  view_->setLegend(std::move(names));
   askForRenders();
 }
 
@@ -226,6 +246,12 @@ void ImagePanel::askForRenders() {
   askForRender(LayerId::kSeedEdges, "seed edges", one->source.camera_from_station_seed);
   if (one->source.camera_from_station_truth)
     askForRender(LayerId::kTruthEdges, "truth edges", *one->source.camera_from_station_truth);
+  if (const auto& other = state_.alternative()) {
+    if (other->has_pose)
+      askForRender(LayerId::kRivalEdges, "rival's edges", other->camera_from_station);
+    if (!other->chosen)
+      askForRender(LayerId::kChosenEdges, "chosen pose's edges", other->camera_from_station_chosen);
+  }
   askForAgreement();
 }
 

@@ -61,6 +61,8 @@ class ImagePanel : public QWidget {
   void showPlace(const QPointF& pixel);
   void askForRenders();
   void askForRender(LayerId id, const char* key, const Pose& camera_from_station);
+  void forget(LayerId id);
+  void showAlternative();
   void askForAgreement();
   void showImage();
 

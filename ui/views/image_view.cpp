@@ -116,6 +116,11 @@ void ImageView::setOverlay(Overlay overlay) {
   update();
 }
 
+void ImageView::setLegend(std::vector<LegendLine> lines) {
+  legend_ = std::move(lines);
+  update();
+}
+
 void ImageView::changed() {
   update();
   Q_EMIT transformChanged();
@@ -170,6 +175,7 @@ void ImageView::paintEvent(QPaintEvent*) {
   if (transform_.scale() >= kGridScale) paintGrid(painter);
   if (transform_.scale() >= kValueScale) paintValues(painter);
   paintTool(painter);
+  if (!layers_hidden_) paintNames(painter);
   if (overlay_) overlay_(painter);
 }
 
@@ -183,6 +189,17 @@ void ImageView::paintTool(QPainter& painter) const {
     painter.drawEllipse(last_, radius, radius);
   }
   painter.setRenderHint(QPainter::Antialiasing, false);
+}
+
+/// Of the layers that show something.
+void ImageView::paintNames(QPainter& painter) const {
+  std::vector<LegendEntry> entries;
+  for (const LegendLine& line : legend_) {
+    const Layer& one = layer(line.layer);
+    const bool empty = one.bits.empty() && one.marks.empty();
+    if (one.style.visible && !empty) entries.push_back({one.style.color, line.name});
+  }
+  paintLegend(painter, entries);
 }
 
 void ImageView::paintImage(QPainter& painter) const {

@@ -11,6 +11,7 @@
 #include "ui/views/bit_pixmaps.h"
 #include "ui/views/gray_pyramid.h"
 #include "ui/views/layer.h"
+#include "ui/views/legend.h"
 #include "ui/views/tool_preview.h"
 #include "ui/views/view_transform.h"
 
@@ -81,6 +82,10 @@ class ImageView : public QWidget {
   void setToolActive(bool active, double radius_px = 0.0);
   bool toolActive() const { return tool_active_; }
   void setToolPreviews(std::vector<ToolPreview> previews);
+  /// Names of layers that are told apart in a corner of the picture while they show something;
+  /// empty: none.
+  void setLegend(std::vector<LegendLine> lines);
+  const std::vector<LegendLine>& legend() const { return legend_; }
   /// What is painted over everything else, in the widget's coordinates; empty: nothing.
   using Overlay = std::function<void(QPainter&)>;
   void setOverlay(Overlay overlay);
@@ -106,6 +111,7 @@ class ImageView : public QWidget {
   void paintGrid(QPainter& painter) const;
   void paintValues(QPainter& painter) const;
   void paintTool(QPainter& painter) const;
+  void paintNames(QPainter& painter) const;
   QRect visiblePixels() const;
   void changed();
 
@@ -126,6 +132,7 @@ class ImageView : public QWidget {
   double tool_radius_px_ = 0.0;
   std::vector<ToolPreview> tool_previews_;
   Overlay overlay_;
+  std::vector<LegendLine> legend_;
 };
 
 }  // namespace boresight::ui

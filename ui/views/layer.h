@@ -27,6 +27,8 @@ enum class LayerId : std::uint8_t {
   kNudgedEdges,
   kAnnotationBand,
   kAnnotationEdges,
+  kChosenEdges,
+  kRivalEdges,
   kWindows,
   kTemplates,
   kMatches,
@@ -35,7 +37,7 @@ enum class LayerId : std::uint8_t {
   kProposals,
   kPoints,
 };
-inline constexpr int kLayerCount = 17;
+inline constexpr int kLayerCount = 19;
 
 /// Of the pose that solves the annotated marks, wherever it is drawn.
 inline const QColor kAnnotatedColor(178, 120, 255);

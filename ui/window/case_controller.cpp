@@ -4,11 +4,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include <QCoreApplication>
 #include <QStringList>
 
 #include "sessions/io/errors.h"
-#include "sessions/session/case_run.h"
+#include "sessions/session/views_run.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
 
@@ -17,8 +16,6 @@ namespace boresight::ui {
 using sessions::StepUntil;
 
 namespace {
-
-constexpr int kPatience_ms = 100;  ///< between looks whether a store has failed
 
 /// The views have the nudged pose apart from the case that they show.
 bool sameButNudge(sessions::SessionCase a, const sessions::SessionCase& b) {
@@ -166,8 +163,7 @@ void CaseController::loadLatestRun(const QString& id) {
   tasks_.start(
       QStringLiteral("load run"),
       [run = *record](const std::stop_token&) {
-        return std::make_shared<const sessions::RunSnapshot>(
-            sessions::snapshotOf(sessions::loadRun(run)));
+        return std::make_shared<const sessions::RunSnapshot>(sessions::loadSnapshot(run));
       },
       [this, id](std::shared_ptr<const sessions::RunSnapshot> snapshot) {
         if (id != case_id_ || run_is_prepared_) return;
@@ -195,10 +191,12 @@ QString CaseController::staleness() const {
   return {};
 }
 
-void CaseController::prepareRun(const sessions::RunPlan& plan) {
+void CaseController::prepareRun(const sessions::RunPlan& plan,
+                                std::vector<sessions::SessionCase> others) {
   RunInputs inputs;
   inputs.one = state_.currentCase();
   inputs.plan = plan;
+  inputs.others = std::move(others);
   run_.reset(std::move(inputs));
   run_session_ = document_.session();
   run_is_prepared_ = true;
@@ -236,6 +234,26 @@ void CaseController::runPlan(const sessions::RunPlan& plan) {
   run_.advance(StepUntil::kEnd);
 }
 
+QString CaseController::whyAlone() const {
+  return QString::fromStdString(sessions::whyAlone(document_.session(), case_id_.toStdString()));
+}
+
+void CaseController::runTogether() {
+  if (!state_.currentCase() || run_.state() == RunState::kWorking) return;
+  try {
+    if (!isLoaded()) throw std::runtime_error(tr("The case is still being read.").toStdString());
+    const std::string refusal = sessions::viewsRefusal(options());
+    if (!whyAlone().isEmpty() || !refusal.empty())
+      throw std::runtime_error(whyAlone().isEmpty() ? refusal : whyAlone().toStdString());
+    sessions::requireRunnable(*state_.currentCase());
+    prepareRun(options(), sessions::otherViews(document_.session(), case_id_.toStdString()));
+  } catch (const std::exception& error) {
+    Q_EMIT failed(QString::fromUtf8(error.what()));
+    return;
+  }
+  run_.advance(StepUntil::kEnd);
+}
+
 void CaseController::rerunFrom(int iteration) {
   if (!state_.currentCase() || !state_.snapshot() || run_.state() == RunState::kWorking) return;
   if (iteration < 1) {
@@ -258,6 +276,10 @@ void CaseController::prepareRerun(int iteration) {
   if (shown.replayed)
     throw std::runtime_error(
         tr("The onboard run is shown: run it again on the ground first.").toStdString());
+  if (!shown.views.empty())
+    throw std::runtime_error(
+        tr("The shown run was made with other views: run it with them anew from the start.")
+            .toStdString());
   const auto kept = static_cast<std::size_t>(iteration);
   const std::string id = case_id_.toStdString();
   const sessions::RunRecord* record = document_.session().lastRunOf(id);
@@ -301,64 +323,9 @@ void CaseController::runEnded() {
 
 void CaseController::storeRun() {
   if (const auto snapshot = run_.snapshot())
-    store({run_session_, case_id_.toStdString(), snapshot, run_.inputs().continued});
+    store({run_session_, case_id_.toStdString(), snapshot, run_.inputs().continued, run_.views()});
   else
     runNext();
-}
-
-void CaseController::store(const EndedRun& ended) {
-  struct Stored {
-    std::optional<sessions::RunRecord> record;
-    QString problem;
-  };
-  ++storing_;
-  // Of a key of its own: no run's storing replaces another's.
-  tasks_.start(
-      QStringLiteral("store run %1").arg(QString::fromStdString(ended.snapshot->digest)),
-      [ended, file = document_.file()](const std::stop_token&) {
-        try {
-          return Stored{
-              sessions::storeRun(ended.session, ended.case_id, sessions::traceOf(*ended.snapshot),
-                                 file, ended.continued),
-              {}};
-        } catch (const sessions::OutputError& error) {
-          return Stored{std::nullopt, QString::fromUtf8(error.what())};
-        }
-      },
-      [this, ended, file = document_.file()](const Stored& stored) {
-        --storing_;
-        // Before it is noted: a failure is told at once, and answered by saving elsewhere.
-        unstored_file_ = file;
-        unstored_.push_back(ended);
-        if (!stored.record) {
-          Q_EMIT storeFailed(stored.problem);
-          if (!unstored_.empty()) queue_.clear();  // nor is there room for the next
-        } else if (document_.note(sessions::withRun(document_.session(), *stored.record),
-                                  tr("Run %1").arg(QString::fromStdString(ended.case_id)))) {
-          std::erase_if(unstored_,
-                        [&](const EndedRun& one) { return one.snapshot == ended.snapshot; });
-          Q_EMIT stalenessChanged();
-        }
-        runNext();
-      });
-}
-
-/// The session was saved: perhaps there is room now.
-void CaseController::storeAgain() {
-  for (const EndedRun& ended : std::exchange(unstored_, {})) store(ended);
-}
-
-QStringList CaseController::unstoredRuns() const {
-  QStringList ids;
-  for (const EndedRun& ended : unstored_) ids << QString::fromStdString(ended.case_id);
-  return ids;
-}
-
-void CaseController::finishStoring() {
-  // A store that fails leaves nobody busy.
-  while (storing_ && tasks_.isBusy())
-    QCoreApplication::processEvents(
-        QEventLoop::ExcludeUserInputEvents | QEventLoop::WaitForMoreEvents, kPatience_ms);
 }
 
 void CaseController::runAll(const QStringList& ids) {

@@ -37,6 +37,8 @@ class CaseController : public QObject {
   LocalizerOptions options() const;
   /// Whether the shown run was made with other options or inputs; then `stale` names what.
   QString staleness() const;
+  /// Why the case cannot be run together with other views, one sentence; empty when it can.
+  QString whyAlone() const;
   /// Runs of all cases that wait or are under way.
   int queued() const { return static_cast<int>(queue_.size()); }
 
@@ -52,6 +54,9 @@ class CaseController : public QObject {
   /// Drops the shown run; the next step begins anew.
   void reset();
   void runAll(const QStringList& ids);
+  /// Runs the case to its end together with the other views of its rig, as one pose; each gets a
+  /// run of its own.
+  void runTogether();
   /// Of runs that have ended and for which there was no room where the session lies; they are
   /// stored as soon as it is saved, there or elsewhere.
   QStringList unstoredRuns() const;
@@ -77,6 +82,7 @@ class CaseController : public QObject {
     std::string case_id;
     ViewState::SnapshotPtr snapshot;
     std::string continued;  ///< digest of the run that it goes on from, or empty
+    std::vector<ViewState::SnapshotPtr> views;  ///< of several that were solved as one
   };
 
   void documentOpened();
@@ -86,10 +92,12 @@ class CaseController : public QObject {
   void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one);
   void loadFailed(const QString& id, const QString& message);
   void loadLatestRun(const QString& id);
-  void prepareRun(const sessions::RunPlan& plan);
+  void prepareRun(const sessions::RunPlan& plan, std::vector<sessions::SessionCase> others = {});
   void prepareRerun(int iteration);
   void runEnded();
   void storeRun();
+  static std::vector<sessions::RunRecord> recordsOf(const EndedRun& ended,
+                                                    const std::filesystem::path& file);
   void store(const EndedRun& ended);
   void storeAgain();
   void runNext();

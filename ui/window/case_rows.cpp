@@ -14,7 +14,9 @@ QString detailOf(const sessions::Session& session, const std::string& id,
   QString text = fromText(sessions::standingText(standing));
   if (const sessions::RunRecord* run = session.lastRunOf(id))
     text += QCoreApplication::translate("CaseRows", "\nLast run %1: %2")
-                .arg(fromText(run->time), fromText(run->status));
+                .arg(fromText(run->time), fromText(run->status)) +
+            (run->together ? QStringLiteral(", ") + fromText(togetherText(run->together->views, id))
+                           : QString());
   return text;
 }
 

@@ -32,7 +32,7 @@ namespace {
 constexpr const char* kGeometryKey = "window/geometry";
 constexpr const char* kLayoutKey = "window/state";
 constexpr int kNote_ms = 15'000;   // that a remark stays in the status bar
-constexpr int kLayoutVersion = 7;  // of another set of panels, a layout is not taken over
+constexpr int kLayoutVersion = 8;  // of another set of panels, a layout is not taken over
 
 QString stateText(RunState state) {
   switch (state) {

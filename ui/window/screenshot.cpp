@@ -12,6 +12,7 @@
 #include <QTimer>
 
 #include "ui/panels/match_view.h"
+#include "ui/panels/rivals_panel.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/views/image_panel.h"
@@ -118,6 +119,11 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
     cursor.iteration = order.iteration;
     window.state().setCursor(cursor);
   }
+  auto* rivals = window.findChild<RivalsPanel*>();
+  if (order.rival > rivals->model().rowCount())
+    return QObject::tr("the shown run has %1 rivals, restarts and rolled hypotheses")
+        .arg(rivals->model().rowCount());
+  if (order.rival > 0) rivals->choose(order.rival - 1);
   const auto* iteration = window.state().iteration();
   if (iteration && !iteration->templates.empty() && window.state().selectedTemplate() < 0)
     window.state().selectTemplate(0);

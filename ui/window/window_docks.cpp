@@ -18,6 +18,7 @@
 #include "ui/panels/mask_panel.h"
 #include "ui/panels/match_inspector_panel.h"
 #include "ui/panels/pose_panel.h"
+#include "ui/panels/rivals_panel.h"
 #include "ui/panels/warning_bar.h"
 #include "ui/review/onboard_panel.h"
 #include "ui/review/queue_panel.h"
@@ -79,6 +80,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   add(QStringLiteral("configuration"), tr("Configuration"), configuration_);
   add(QStringLiteral("scene"), tr("Scene"), scene_);
   add(QStringLiteral("iterations"), tr("Iterations"), new IterationsPanel(parts.state));
+  add(QStringLiteral("rivals"), tr("Rivals"), new RivalsPanel(parts.state));
   add(QStringLiteral("inspector"), tr("Match inspector"), new MatchInspectorPanel(parts.state));
   add(QStringLiteral("annotation"), tr("Annotation"), annotation_);
   add(QStringLiteral("review"), tr("Review"), review_);
@@ -129,7 +131,8 @@ void WindowDocks::place() const {
   for (const char* name : {"mask", "levels", "pose", "configuration"})
     window_.tabifyDockWidget(layers, dock(QLatin1String(name)));
   window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
-  for (const char* name : {"inspector", "annotation", "review", "queue", "onboard", "inputs"})
+  for (const char* name :
+       {"rivals", "inspector", "annotation", "review", "queue", "onboard", "inputs"})
     window_.tabifyDockWidget(iterations, dock(QLatin1String(name)));
   for (QDockWidget* each : docks_) each->show();
   layers->raise();

@@ -47,6 +47,7 @@ class WindowMenus : public QObject {
   void undo();
   void redo();
   void showChange(const sessions::Session& before, const QString& told);
+  void updateTogether(bool idle);
   void showRecent();
   void showAbout();
   QAction* action(const QString& text, const QKeySequence& keys, const QString& tip);
@@ -65,6 +66,7 @@ class WindowMenus : public QObject {
   QAction* stop_ = nullptr;
   QAction* reset_ = nullptr;
   QAction* rerun_ = nullptr;
+  QAction* run_together_ = nullptr;
   QAction* run_all_ = nullptr;
   QAction* load_record_ = nullptr;
   QAction* show_other_run_ = nullptr;

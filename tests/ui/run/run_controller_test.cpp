@@ -59,6 +59,56 @@ TEST_F(RunControllerTest, AStopHaltsItWhereItIsAndChangesNoBit) {
   EXPECT_EQ(run_.snapshot()->digest, headlessDigest());
 }
 
+/// A second image of the same rig, from the same place.
+sessions::SessionCase secondView(const sessions::SessionCase& one) {
+  sessions::SessionCase other = one;
+  other.id = one.id + "-2";
+  other.rig = sessions::Rig{"pair", Pose()};
+  return other;
+}
+
+TEST_F(RunControllerTest, SeveralViewsAreRunAsOneAndAStopChangesNoBit) {
+  sessions::SessionCase first = case_->source;
+  first.rig = sessions::Rig{"pair", Pose()};
+  RunInputs both = inputs();
+  both.one = sessions::loadCase(first);
+  both.others = {secondView(first)};
+  run_.reset(both);
+  EXPECT_TRUE(run_.views().empty());
+  int stops = 0;
+  do {
+    run_.advance(StepUntil::kEnd);
+    QTest::qWait(5);
+    run_.stop();
+    ASSERT_TRUE(
+        QTest::qWaitFor([this] { return run_.state() != RunState::kWorking; }, kPatienceMs));
+  } while (++stops < 1000 && run_.state() != RunState::kFinished);
+  ASSERT_EQ(run_.views().size(), 2u);
+  EXPECT_EQ(run_.snapshot(), run_.views().front());
+  const auto views = sessions::loadViews(both.one, both.others);
+  sessions::SteppedViews expected(views->problem(), defaultProfile(), views->ids());
+  expected.advance(StepUntil::kEnd);
+  for (std::size_t v = 0; v < 2; ++v)
+    EXPECT_EQ(run_.views()[v]->digest, expected.snapshots()[v].digest);
+  run_.reset(inputs());
+  EXPECT_TRUE(run_.views().empty());
+}
+
+TEST_F(RunControllerTest, AViewThatCannotBeReadIsOneSentence) {
+  sessions::SessionCase first = case_->source;
+  first.rig = sessions::Rig{"pair", Pose()};
+  RunInputs both = inputs();
+  both.one = sessions::loadCase(first);
+  both.others = {secondView(first)};
+  both.others[0].image.source.file = "/nowhere/second.png";
+  QString message;
+  QObject::connect(&run_, &RunController::failed, [&](const QString& text) { message = text; });
+  run_.reset(both);
+  run_.advance(StepUntil::kEnd);
+  ASSERT_TRUE(arrives(RunState::kReady));
+  EXPECT_TRUE(message.contains(QStringLiteral("/nowhere/second.png"))) << message.toStdString();
+}
+
 TEST_F(RunControllerTest, AResetDropsWhatIsUnderWay) {
   run_.reset(inputs());
   run_.advance(StepUntil::kEnd);

@@ -3,18 +3,23 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 
 #include <QMouseEvent>
 #include <QRegularExpression>
 #include <QtTest/QTest>
 
+#include "sessions/trace/scene_render.h"
 #include "tests/support/loaded_example.h"
+#include "tests/support/rival_run.h"
 #include "ui/run/task_runner.h"
 #include "ui/views/image_view.h"
 
 namespace boresight::ui {
 namespace {
+
+constexpr int kPatienceMs = 60'000;
 
 class ImagePanelTest : public ::testing::Test {
  protected:
@@ -95,6 +100,63 @@ TEST_F(ImagePanelTest, BesideTheStationOnlyThePixelIsTold) {
   QEvent leave(QEvent::Leave);
   QCoreApplication::sendEvent(&panel_.view(), &leave);
   EXPECT_TRUE(text_.isEmpty());
+}
+
+/// A rival and the pose that it is a rival of, each where the core renders it.
+TEST_F(ImagePanelTest, ARivalIsDrawnBesideTheChosenPose) {
+  const auto run = test::runWithRivals();
+  state_.setSnapshot(run);
+  const sessions::Alternative rival = sessions::alternativesOf(*run).front();
+  const auto bitsOfLayer = [this](LayerId id) -> const std::vector<LayerBits>& {
+    return panel_.view().layer(id).bits;
+  };
+  EXPECT_TRUE(bitsOfLayer(LayerId::kRivalEdges).empty());
+  EXPECT_TRUE(panel_.view().legend().empty());
+  state_.setAlternative(rival);
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] {
+        return !bitsOfLayer(LayerId::kRivalEdges).empty() &&
+               !bitsOfLayer(LayerId::kChosenEdges).empty();
+      },
+      kPatienceMs));
+  const auto& one = *state_.currentCase();
+  const auto isRenderOf = [&](LayerId id, const Pose& pose) {
+    sessions::RenderTrace expected;
+    if (sessions::renderScene(one.source.camera, one.scene.view(), pose, expected) != Status::kOk)
+      return false;
+    const auto words = bitsOfLayer(id).front().bits.words;
+    return std::equal(words.begin(), words.end(), expected.edges.words.begin(),
+                      expected.edges.words.end());
+  };
+  EXPECT_TRUE(isRenderOf(LayerId::kRivalEdges, rival.camera_from_station));
+  EXPECT_TRUE(isRenderOf(LayerId::kChosenEdges, run->camera_from_station));
+  EXPECT_EQ(panel_.view().legend().front(),
+            (LegendLine{LayerId::kRivalEdges, QStringLiteral("Rival 1")}));
+  state_.setAlternative(std::nullopt);
+  EXPECT_TRUE(bitsOfLayer(LayerId::kRivalEdges).empty());
+  EXPECT_TRUE(bitsOfLayer(LayerId::kChosenEdges).empty());
+  EXPECT_TRUE(panel_.view().legend().empty());
+}
+
+TEST_F(ImagePanelTest, TheLegendNamesWhatShows) {
+  const auto run = test::runWithRivals();
+  state_.setSnapshot(run);
+  const auto corner = [this] {
+    const QImage shown = panel_.view().grab().toImage();
+    return shown.copy(0, 0, 160, 40);
+  };
+  LayerStyle hidden = panel_.style(LayerId::kSeedEdges);
+  for (const LayerId id : {LayerId::kSeedEdges, LayerId::kIterationEdges, LayerId::kMatches})
+    panel_.setStyle(id, {false, hidden.color, 1.0});
+  const QImage before = corner();
+  state_.setAlternative(sessions::alternativesOf(*run).front());
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return !panel_.view().layer(LayerId::kRivalEdges).bits.empty() && !tasks_.isBusy(); },
+      kPatienceMs));
+  EXPECT_NE(corner(), before);
+  for (const LayerId id : {LayerId::kRivalEdges, LayerId::kChosenEdges})
+    panel_.setStyle(id, {false, hidden.color, 1.0});
+  EXPECT_EQ(corner(), before) << "what is hidden is not named";
 }
 
 }  // namespace

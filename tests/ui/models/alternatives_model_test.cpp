@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/models/alternatives_model.h"
+
+#include <gtest/gtest.h>
+#include <QAbstractItemModelTester>
+#include <QFont>
+
+#include "tests/support/rival_run.h"
+
+namespace boresight::ui {
+namespace {
+
+using Tester = QAbstractItemModelTester;
+
+class AlternativesModelTest : public testing::Test {
+ protected:
+  AlternativesModelTest() {
+    model_.setAlternatives(sessions::alternativesOf(*test::runWithRivals()));
+  }
+  QString text(int row, int column) const { return model_.index(row, column).data().toString(); }
+
+  AlternativesModel model_;
+  Tester tester_{&model_, Tester::FailureReportingMode::Fatal};
+};
+
+TEST_F(AlternativesModelTest, ListsRivalsThenRestarts) {
+  ASSERT_EQ(model_.rowCount(), 5);
+  EXPECT_EQ(text(0, AlternativesModel::kPose), QStringLiteral("Rival 1"));
+  EXPECT_EQ(text(1, AlternativesModel::kPose), QStringLiteral("Rival 2"));
+  EXPECT_EQ(text(3, AlternativesModel::kPose), QStringLiteral("Restart +17.2 deg, -25 mm"));
+  EXPECT_EQ(text(0, AlternativesModel::kIteration), QStringLiteral("result"));
+  EXPECT_EQ(text(3, AlternativesModel::kIteration), QStringLiteral("1"));
+  EXPECT_EQ(model_.firstRowOf(0), 2);
+  EXPECT_EQ(model_.firstRowOf(1), -1);
+  EXPECT_EQ(model_.firstRowOf(-1), -1) << "rivals are of no iteration";
+}
+
+TEST_F(AlternativesModelTest, TellsHowEachEndedAndByHowMuch) {
+  EXPECT_EQ(text(0, AlternativesModel::kEnded), QStringLiteral("converged"));
+  EXPECT_EQ(text(0, AlternativesModel::kMargin_nats), QStringLiteral("395"));
+  EXPECT_EQ(text(0, AlternativesModel::kSimilarity), QStringLiteral("0.45"));
+  EXPECT_EQ(text(0, AlternativesModel::kApart_mm), QStringLiteral("22.00"));
+  EXPECT_EQ(text(0, AlternativesModel::kInliers), QString()) << "a rival's are in its iterations";
+  EXPECT_EQ(text(1, AlternativesModel::kEnded), QStringLiteral("not supported"));
+  EXPECT_EQ(text(1, AlternativesModel::kMargin_nats), QString());
+  EXPECT_EQ(text(2, AlternativesModel::kEnded), QStringLiteral("chosen"));
+  EXPECT_EQ(text(2, AlternativesModel::kEvidence_nats), QStringLiteral("90"));
+  EXPECT_TRUE(model_.index(2, 0).data(Qt::FontRole).value<QFont>().bold());
+  EXPECT_FALSE(model_.index(3, 0).data(Qt::FontRole).isValid());
+  EXPECT_EQ(text(3, AlternativesModel::kEnded), QStringLiteral("passed over"));
+  EXPECT_EQ(text(3, AlternativesModel::kApart_deg), QStringLiteral("17.19"));
+  EXPECT_EQ(text(4, AlternativesModel::kEnded), QStringLiteral("no pose"));
+  EXPECT_EQ(text(4, AlternativesModel::kEvidence_nats), QString());
+}
+
+TEST_F(AlternativesModelTest, EveryColumnSaysWhatItIs) {
+  for (int i = 0; i < AlternativesModel::kColumnCount; ++i) {
+    EXPECT_FALSE(model_.headerData(i, Qt::Horizontal, Qt::DisplayRole).toString().isEmpty());
+    EXPECT_FALSE(model_.headerData(i, Qt::Horizontal, Qt::ToolTipRole).toString().isEmpty());
+  }
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/rivals_panel.h"
+
+#include <gtest/gtest.h>
+#include <QTableView>
+#include <QtTest/QTest>
+
+#include "tests/support/rival_run.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kRivals = 2;
+
+class RivalsPanelTest : public testing::Test {
+ protected:
+  RivalsPanelTest() {
+    panel_.resize(900, 260);
+    panel_.show();
+    run_ = test::runWithRivals();
+    view_.setSnapshot(run_);
+    last_ = static_cast<int>(run_->iterations.size()) - 1;
+  }
+  QTableView& table() const { return *panel_.findChild<QTableView*>(QStringLiteral("rivals")); }
+  void clickRow(int row) {
+    const QRect place = table().visualRect(panel_.model().index(row, 0));
+    QTest::mouseClick(table().viewport(), Qt::LeftButton, Qt::NoModifier, place.center());
+  }
+
+  ViewState view_;
+  RivalsPanel panel_{view_};
+  std::shared_ptr<const sessions::RunSnapshot> run_;
+  int last_ = 0;
+};
+
+TEST_F(RivalsPanelTest, NothingIsChosenAtFirst) {
+  EXPECT_EQ(panel_.model().rowCount(), 5);
+  EXPECT_FALSE(view_.alternative());
+  EXPECT_FALSE(table().currentIndex().isValid());
+}
+
+TEST_F(RivalsPanelTest, ARivalIsLookedAtBesideTheResult) {
+  clickRow(1);
+  ASSERT_TRUE(view_.alternative());
+  EXPECT_EQ(view_.alternative()->camera_from_station, run_->rivals[1].camera_from_station_before);
+  EXPECT_EQ(view_.cursor().iteration, last_);
+}
+
+TEST_F(RivalsPanelTest, ARestartTakesTheCursorToItsIteration) {
+  clickRow(kRivals + 1);
+  ASSERT_TRUE(view_.alternative());
+  EXPECT_EQ(view_.alternative()->camera_from_station,
+            run_->iterations[0]->hypotheses[1].camera_from_station);
+  EXPECT_EQ(view_.alternative()->camera_from_station_chosen,
+            run_->iterations[0]->hypotheses[0].camera_from_station);
+  EXPECT_EQ(view_.cursor().iteration, 0);
+  EXPECT_EQ(table().currentIndex().row(), kRivals + 1) << "and stays chosen";
+}
+
+TEST_F(RivalsPanelTest, AnIterationOfARivalChoosesThatRival) {
+  view_.setCursor({last_ - 1, Stage::kFinished});
+  ASSERT_TRUE(view_.alternative());
+  EXPECT_EQ(view_.alternative()->number, 1);
+  EXPECT_EQ(view_.cursor().iteration, last_ - 1) << "the cursor stays where it was put";
+  EXPECT_EQ(table().currentIndex().row(), 0);
+}
+
+TEST_F(RivalsPanelTest, GoingElsewhereTakesItAway) {
+  clickRow(kRivals + 1);
+  view_.setCursor({1, Stage::kFinished});
+  EXPECT_FALSE(view_.alternative());
+  EXPECT_FALSE(table().currentIndex().isValid());
+  clickRow(kRivals + 1);
+  EXPECT_TRUE(view_.alternative());
+  view_.setSnapshot(test::exampleRun());
+  EXPECT_FALSE(view_.alternative());
+  EXPECT_EQ(panel_.model().rowCount(), 0);
+}
+
+}  // namespace
+}  // namespace boresight::ui

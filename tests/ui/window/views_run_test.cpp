@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// The images of a rig run as one from the window.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include <QAction>
+#include <QLabel>
+#include <QStandardPaths>
+#include <QtTest/QTest>
+
+#include "sessions/session/views_run.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/turned_view.h"
+#include "ui/window/main_window.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kPatienceMs = 120'000;
+
+class ViewsRunWindowTest : public ::testing::Test {
+ protected:
+  ViewsRunWindowTest() {
+    QStandardPaths::setTestModeEnabled(true);
+    window_.setQuiet(true);
+    window_.show();
+  }
+
+  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
+  bool rests() {
+    return wait(
+        [&] { return !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking; });
+  }
+  void open(const sessions::Session& session) {
+    ASSERT_TRUE(window_.document().create(folder_.path() / "two.boresight.json", session));
+    ASSERT_TRUE(wait([&] { return window_.state().currentCase() != nullptr; }));
+    ASSERT_TRUE(rests());
+  }
+  QAction* together() {
+    for (QAction* each : window_.findChildren<QAction*>())
+      if (each->text().remove(QLatin1Char('&')) == QStringLiteral("Run with the other views"))
+        return each;
+    return nullptr;
+  }
+  const sessions::Session& session() { return window_.document().session(); }
+  QString banner() { return window_.findChild<QLabel*>(QStringLiteral("standing"))->text(); }
+
+  test::TemporaryFolder folder_;
+  MainWindow window_;
+};
+
+TEST_F(ViewsRunWindowTest, EveryViewGetsARunThatIsTheSameHeadless) {
+  open(test::sessionOfTwoViews(folder_.path()));
+  ASSERT_TRUE(together() && together()->isEnabled());
+  std::size_t most = 0;
+  QObject::connect(&window_.state(), &ViewState::snapshotChanged, [&] {
+    const auto& shown = window_.state().snapshot();
+    if (shown && !shown->finished) most = std::max(most, shown->iterations.size());
+  });
+  together()->trigger();
+  ASSERT_TRUE(wait([&] { return session().runs.size() == 2; }))
+      << window_.lastMessage().toStdString();
+  ASSERT_TRUE(rests());
+  EXPECT_GT(most, 1u) << "iterations show as they come";
+  const auto expected = sessions::runViews(session(), session().cases[0]->id);
+  for (std::size_t v = 0; v < 2; ++v) {
+    EXPECT_EQ(session().runs[v].digest, expected[v].digest);
+    EXPECT_EQ(session().runs[v].case_id, session().cases[v]->id);
+    EXPECT_EQ(session().runs[v].together->views, expected[v].views);
+  }
+  EXPECT_TRUE(banner().startsWith(QStringLiteral("Together with ")) &&
+              banner().contains(QStringLiteral("Converged in")))
+      << banner().toStdString();
+  EXPECT_EQ(window_.cases().staleness(), QString());
+
+  // The other case shows its own run of it, with everything in between.
+  window_.cases().chooseCase(QString::fromStdString(session().cases[1]->id));
+  ASSERT_TRUE(wait([&] {
+    const auto& shown = window_.state().snapshot();
+    return shown && shown->digest == expected[1].digest;
+  }));
+  EXPECT_EQ(window_.state().snapshot()->own_view, 1u);
+  EXPECT_FALSE(window_.state().snapshot()->iterations.front()->templates.empty());
+  EXPECT_TRUE(banner().startsWith(QStringLiteral("Together with "))) << banner().toStdString();
+}
+
+TEST_F(ViewsRunWindowTest, AViewThatIsLeftOutSaysWhy) {
+  open(test::withBlackSecond(test::sessionOfTwoViews(folder_.path()), folder_.path()));
+  together()->trigger();
+  ASSERT_TRUE(wait([&] { return session().runs.size() == 2; }));
+  ASSERT_TRUE(rests());
+  EXPECT_TRUE(banner().contains(QStringLiteral("left out: too few of its templates")))
+      << banner().toStdString();
+  window_.cases().chooseCase(QString::fromStdString(session().cases[1]->id));
+  ASSERT_TRUE(wait([&] {
+    const auto& shown = window_.state().snapshot();
+    return shown && shown->own_view == 1;
+  }));
+  EXPECT_TRUE(banner().contains(QStringLiteral("This view was left out: too few of its")))
+      << banner().toStdString();
+}
+
+TEST_F(ViewsRunWindowTest, WithoutOthersItSaysWhy) {
+  const sessions::Session two = test::sessionOfTwoViews(folder_.path());
+  open(sessions::withoutRigLink(two, two.cases[0]->id));
+  EXPECT_FALSE(together()->isEnabled());
+  EXPECT_TRUE(together()->toolTip().contains(QStringLiteral("of no rig")))
+      << together()->toolTip().toStdString();
+  window_.document().edit(two, QStringLiteral("Link"));
+  EXPECT_TRUE(together()->isEnabled());
+  EXPECT_FALSE(together()->toolTip().contains(QStringLiteral("of no rig")));
+}
+
+TEST_F(ViewsRunWindowTest, RefusesOptionsBeforeAnythingRuns) {
+  open(test::sessionOfTwoViews(folder_.path()));
+  LocalizerOptions options = window_.cases().options();
+  options.templates.feature_size_m = 0.0;
+  options.ambiguity.enabled = true;
+  window_.cases().setOptions(QStringLiteral("default"), options);
+  together()->trigger();
+  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("ambiguity.enabled")))
+      << window_.lastMessage().toStdString();
+  EXPECT_NE(window_.run().state(), RunState::kWorking);
+  EXPECT_TRUE(session().runs.empty());
+}
+
+TEST_F(ViewsRunWindowTest, AStopHaltsItAndItGoesOn) {
+  open(test::sessionOfTwoViews(folder_.path()));
+  together()->trigger();
+  window_.cases().stop();
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kHalted; }));
+  EXPECT_TRUE(session().runs.empty());
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return session().runs.size() == 2; }));
+  ASSERT_TRUE(rests());
+  EXPECT_EQ(session().runs[0].digest,
+            sessions::runViews(session(), session().cases[0]->id)[0].digest);
+}
+
+TEST_F(ViewsRunWindowTest, ItIsNotGoneOnFromAnIteration) {
+  open(test::sessionOfTwoViews(folder_.path()));
+  together()->trigger();
+  ASSERT_TRUE(wait([&] { return session().runs.size() == 2; }));
+  ASSERT_TRUE(rests());
+  window_.state().setCursor({2, Stage::kFinished});
+  QTest::keyClick(&window_, Qt::Key_F5, Qt::ShiftModifier);
+  ASSERT_TRUE(rests());
+  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("made with other views")))
+      << window_.lastMessage().toStdString();
+  EXPECT_EQ(session().runs.size(), 2u);
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/rivals_panel.h"
+
+#include <QScopedValueRollback>
+#include <QTableView>
+#include <QVBoxLayout>
+
+#include "ui/panels/empty_hint.h"
+#include "ui/panels/table_style.h"
+
+namespace boresight::ui {
+
+using sessions::AlternativeKind;
+
+RivalsPanel::RivalsPanel(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(4, 4, 4, 4);
+  table_ = new QTableView(this);
+  table_->setObjectName(QStringLiteral("rivals"));
+  table_->setAccessibleName(tr("Rivals, restarts and rolled hypotheses"));
+  table_->setModel(&model_);
+  styleTable(*table_);
+  column->addWidget(table_);
+  auto* hint = new EmptyHint(*table_);
+  hint->setText(
+      tr("Poses that a run weighs beside the one it goes on with: rivals of its result "
+         "(ambiguity.enabled), restarts (wide.rotation_rad, wide.translation_m), rolled "
+         "hypotheses. The chosen row is drawn on the image."));
+  connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          [this](const QModelIndex& current) {
+            if (!showing_) choose(current.isValid() ? current.row() : -1);
+          });
+  // A click on the row that is drawn already brings it back where the cursor has gone elsewhere.
+  connect(table_, &QTableView::clicked, this, [this](const QModelIndex& row) {
+    if (!view_.alternative()) choose(row.row());
+  });
+  connect(&view_, &ViewState::snapshotChanged, this, &RivalsPanel::showSnapshot);
+  connect(&view_, &ViewState::cursorChanged, this, &RivalsPanel::showCursor);
+  connect(&view_, &ViewState::alternativeChanged, this, &RivalsPanel::showAlternative);
+  showSnapshot();
+}
+
+void RivalsPanel::choose(int row) {
+  if (row < 0 || row >= model_.rowCount()) {
+    view_.setAlternative(std::nullopt);
+    return;
+  }
+  const sessions::Alternative chosen = model_.alternative(row);
+  const QScopedValueRollback<bool> from_here(showing_, true);
+  const auto& run = *view_.snapshot();
+  const int last = static_cast<int>(run.iterations.size()) - 1;
+  const int cursor = view_.cursor().iteration;
+  const bool of_rival =
+      chosen.kind == AlternativeKind::kRival &&
+      sessions::rivalOfIteration(run, model_.alternatives(), cursor) == chosen.number - 1;
+  if (!of_rival)
+    view_.setCursor({chosen.iteration < 0 ? last : chosen.iteration, Stage::kFinished});
+  view_.setAlternative(chosen);
+  select(row);
+}
+
+void RivalsPanel::showSnapshot() {
+  const QScopedValueRollback<bool> follows(showing_, true);
+  model_.setAlternatives(view_.snapshot() ? sessions::alternativesOf(*view_.snapshot())
+                                          : std::vector<sessions::Alternative>());
+  fitColumns(*table_);
+}
+
+void RivalsPanel::showCursor() {
+  if (showing_ || !view_.snapshot()) return;
+  const int iteration = view_.cursor().iteration;
+  const int rival = sessions::rivalOfIteration(*view_.snapshot(), model_.alternatives(), iteration);
+  if (rival >= 0) {
+    choose(rival);
+    return;
+  }
+  view_.setAlternative(std::nullopt);
+  const int first = model_.firstRowOf(iteration);
+  if (first >= 0) table_->scrollTo(model_.index(first, 0), QAbstractItemView::PositionAtTop);
+}
+
+void RivalsPanel::showAlternative() {
+  if (!view_.alternative()) select(-1);
+}
+
+void RivalsPanel::select(int row) {
+  const QScopedValueRollback<bool> follows(showing_, true);
+  if (row < 0) {
+    table_->setCurrentIndex({});
+    table_->clearSelection();
+  } else {
+    table_->setCurrentIndex(model_.index(row, 0));
+    table_->scrollTo(model_.index(row, 0));
+  }
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QWidget>
+
+#include "ui/models/alternatives_model.h"
+#include "ui/state/view_state.h"
+
+QT_BEGIN_NAMESPACE
+class QTableView;
+QT_END_NAMESPACE
+
+namespace boresight::ui {
+
+/// What else a run weighed: rivals of its result, restarts, rolled hypotheses. The chosen one is
+/// drawn on the image beside the pose that the run went on with; one that belongs to an iteration
+/// takes the cursor there, and the cursor on an iteration of a rival chooses that rival.
+class RivalsPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit RivalsPanel(ViewState& view, QWidget* parent = nullptr);
+
+  const AlternativesModel& model() const { return model_; }
+  /// -1: none.
+  void choose(int row);
+
+ private:
+  void showSnapshot();
+  void showCursor();
+  void showAlternative();
+  void select(int row);
+
+  ViewState& view_;
+  AlternativesModel model_;
+  QTableView* table_ = nullptr;
+  bool showing_ = false;  ///< the table follows the view state, not a person
+};
+
+}  // namespace boresight::ui
