@@ -99,7 +99,11 @@ void describeDataset(const sessions::Dataset& dataset) {
          symmetryText(station.symmetries));
   for (const auto& [id, camera] : dataset.cameras) {
     line("camera " + id + ":");
-    describeCamera(camera);
+    sessions::CameraFile described{camera, std::nullopt};
+    if (const auto known = dataset.camera_references.find(id);
+        known != dataset.camera_references.end())
+      described.reference = known->second;
+    describeCamera(described);
   }
   std::set<std::string> tags;
   for (const sessions::Case& one : dataset.cases) tags.insert(one.tags.begin(), one.tags.end());
