@@ -22,12 +22,27 @@ namespace boresight::ui {
 namespace {
 
 constexpr int kBlinkMs = 500;
+constexpr int kFaded = 50;  // opacity of 255 of what stands back behind a rival
 using RenderPtr = std::shared_ptr<const sessions::RenderTrace>;
 using MapsPtr = std::shared_ptr<const sessions::AgreementMaps>;
 
 std::shared_ptr<const sessions::IterationTrace> shownIteration(const ViewState& state) {
   if (!state.iteration()) return nullptr;
   return state.snapshot()->iterations[static_cast<std::size_t>(state.cursor().iteration)];
+}
+
+/// While two poses are compared, the edges of others stand back.
+void fadeOthers(ImageView& view, bool fade) {
+  for (const LayerId id : {LayerId::kSeedEdges, LayerId::kIterationEdges}) {
+    Layer layer = view.layer(id);
+    QColor color;  // the layer's own
+    if (fade) {
+      color = layer.style.color;
+      color.setAlpha(kFaded);
+    }
+    for (LayerBits& one : layer.bits) one.color = color;
+    view.setLayer(std::move(layer));
+  }
 }
 
 QToolButton* barButton(const QString& text, const QString& tip, bool checkable) {
@@ -201,6 +216,8 @@ void ImagePanel::showAlternative() {
              {LayerId::kTruthEdges, tr("Truth")}};
   }
   view_->setLegend(std::move(names));
+  showTemplates();
+  fadeOthers(*view_, state_.alternative().has_value());
   askForRenders();
 }
 
@@ -212,6 +229,7 @@ void ImagePanel::showImage() {
 void ImagePanel::showIteration() {
   const std::shared_ptr<const sessions::IterationTrace> iteration = shownIteration(state_);
   setBits(LayerId::kIterationEdges, iterationBits(iteration, false));
+  fadeOthers(*view_, state_.alternative().has_value());
   setBits(LayerId::kMask, iterationBits(iteration, true));
   const bool has_edges = state_.snapshot() && state_.snapshot()->edges;
   setBits(LayerId::kTestEdges,
@@ -237,7 +255,9 @@ void ImagePanel::showTemplates() {
   const bool matched = iteration && stage >= Stage::kMatch;
   setMarks(LayerId::kTemplates, placed ? templateMarks(*iteration, selected) : std::vector<Mark>());
   setMarks(LayerId::kWindows, matched ? windowMarks(*iteration, selected) : std::vector<Mark>());
-  setMarks(LayerId::kMatches, matched ? matchMarks(*iteration, selected) : std::vector<Mark>());
+  // Arrows of the pose that was chosen say nothing of a rival.
+  const bool arrows = matched && !state_.alternative();
+  setMarks(LayerId::kMatches, arrows ? matchMarks(*iteration, selected) : std::vector<Mark>());
 }
 
 void ImagePanel::askForRenders() {
@@ -272,6 +292,7 @@ void ImagePanel::askForRender(LayerId id, const char* key, const Pose& camera_fr
         const ViewState::CasePtr& now = state_.currentCase();
         if (now && asked_[static_cast<std::size_t>(id)] && one->source.id == now->source.id)
           setBits(id, bitsOf(render, false));
+        fadeOthers(*view_, state_.alternative().has_value());
       });
 }
 
