@@ -132,6 +132,18 @@ inline Camera randomCamera(Random& random, CameraModel model) {
   } else if (model == CameraModel::kKannalaBrandt) {
     k = {random.uniform(-0.05, 0.05), random.uniform(-0.02, 0.02), random.uniform(-0.01, 0.01),
          random.uniform(0.0, 0.003)};
+  } else if (isCahvFamily(model)) {
+    camera.cahv.skew_px = camera.fx * random.uniform(-0.02, 0.02);
+    const double off_x = random.uniform(-0.01, 0.01);
+    const double off_y = random.uniform(-0.01, 0.01);
+    if (model != CameraModel::kCahv) {
+      camera.cahv.optical_axis = Eigen::Vector3d(off_x, off_y, 1.0).normalized();
+      camera.cahv.radial = randomVector(random, 0.02);
+    }
+    if (model == CameraModel::kCahvore) {
+      camera.cahv.entrance_m = randomVector(random, 0.01);
+      camera.cahv.linearity = random.uniform(-0.6, 1.0);
+    }
   }
   if (prepareCamera(camera) != Status::kOk) camera.valid_radius = 0.0;
   return camera;

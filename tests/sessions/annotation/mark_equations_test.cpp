@@ -15,7 +15,8 @@ using test::randomFor;
 using test::randomScene;
 
 constexpr CameraModel kModels[] = {CameraModel::kPinhole, CameraModel::kBrownConrady,
-                                   CameraModel::kKannalaBrandt};
+                                   CameraModel::kKannalaBrandt, CameraModel::kCahvor,
+                                   CameraModel::kCahvore};
 
 TEST(MarkEquations, ResidualsVanishAtTheTruth) {
   Random random = randomFor("MarkEquations.Truth");
