@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/fuzz/readers.h"
+
+#include <fstream>
+
+#include "sessions/annotation/landmarks.h"
+#include "sessions/annotation/marks_file.h"
+#include "sessions/exchange/bop_results.h"
+#include "sessions/io/cahvor_file.h"
+#include "sessions/io/camera_file.h"
+#include "sessions/io/config_file.h"
+#include "sessions/io/dataset_file.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/image_file.h"
+#include "sessions/io/mesh_file.h"
+#include "sessions/io/pose_file.h"
+#include "sessions/record/onboard_record.h"
+#include "sessions/session/journal.h"
+#include "sessions/session/session_file.h"
+#include "sessions/trace/trace_file.h"
+
+namespace boresight::test {
+namespace {
+
+using Path = std::filesystem::path;
+
+void readMetres(const Path& file) { (void)sessions::readMesh(file, "m"); }
+
+constexpr FuzzedReader kReaders[] = {
+    {"bop_results", "results.csv", [](const Path& file) { (void)sessions::readBopResults(file); }},
+    {"cahvor", "camera.cahvor", [](const Path& file) { (void)sessions::readCahvorFile(file); }},
+    {"camera", "camera.json", [](const Path& file) { (void)sessions::readCameraFile(file); }},
+    {"config", "config.json", [](const Path& file) { (void)sessions::readConfig(file); }},
+    {"dataset", "dataset.json", [](const Path& file) { (void)sessions::readDataset(file); }},
+    {"image_jpeg", "image.jpg", [](const Path& file) { (void)sessions::readSamples(file); }},
+    {"image_png", "image.png", [](const Path& file) { (void)sessions::readSamples(file); }},
+    {"image_tiff", "image.tif", [](const Path& file) { (void)sessions::readSamples(file); }},
+    {"journal", "journal", [](const Path& file) { (void)sessions::readJournal(file); }},
+    {"landmarks", "landmarks.json", [](const Path& file) { (void)sessions::readLandmarks(file); }},
+    {"marks", "marks.json", [](const Path& file) { (void)sessions::readMarks(file); }},
+    {"mesh_glb", "mesh.glb", readMetres},
+    {"mesh_gltf", "mesh.gltf", readMetres},
+    {"mesh_obj", "mesh.obj", readMetres},
+    {"mesh_ply", "mesh.ply", readMetres},
+    {"mesh_stl", "mesh.stl", readMetres},
+    {"pose", "pose.json", [](const Path& file) { (void)sessions::readPose(file); }},
+    {"record", "run.whsr", [](const Path& file) { (void)sessions::readRecord(file); }},
+    {"session", "s.boresight.json",
+     [](const Path& file) { (void)sessions::readSessionFile(file); }},
+    {"trace", "run.trace", [](const Path& file) { (void)sessions::loadTrace(file); }},
+};
+
+}  // namespace
+
+std::span<const FuzzedReader> fuzzedReaders() { return kReaders; }
+
+const FuzzedReader* fuzzedReader(std::string_view name) {
+  for (const FuzzedReader& reader : kReaders)
+    if (reader.name == name) return &reader;
+  return nullptr;
+}
+
+void feed(const FuzzedReader& reader, std::span<const std::uint8_t> bytes,
+          const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / reader.file_name;
+  std::ofstream(file, std::ios::binary | std::ios::trunc)
+      .write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
+  try {
+    reader.read(file);
+  } catch (const sessions::InputError&) {
+  }
+}
+
+}  // namespace boresight::test

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+namespace boresight::test {
+
+/// A reader of files from outside, and the name under which it is given one (readers go by
+/// extensions). What it reads is thrown away.
+struct FuzzedReader {
+  std::string_view name;  ///< also of its folder of the corpus
+  const char* file_name;
+  void (*read)(const std::filesystem::path& file);
+};
+
+std::span<const FuzzedReader> fuzzedReaders();
+/// nullptr where there is none of the name.
+const FuzzedReader* fuzzedReader(std::string_view name);
+
+/// Writes the bytes to a file in `folder` and has it read. An InputError is what a reader may say
+/// to bad bytes; everything else goes through to the caller.
+void feed(const FuzzedReader& reader, std::span<const std::uint8_t> bytes,
+          const std::filesystem::path& folder);
+
+}  // namespace boresight::test
