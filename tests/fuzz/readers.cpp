@@ -18,6 +18,7 @@
 #include "sessions/session/journal.h"
 #include "sessions/session/session_file.h"
 #include "sessions/trace/trace_file.h"
+#include "tests/fuzz/seals.h"
 
 namespace boresight::test {
 namespace {
@@ -35,7 +36,8 @@ constexpr FuzzedReader kReaders[] = {
     {"image_jpeg", "image.jpg", [](const Path& file) { (void)sessions::readSamples(file); }},
     {"image_png", "image.png", [](const Path& file) { (void)sessions::readSamples(file); }},
     {"image_tiff", "image.tif", [](const Path& file) { (void)sessions::readSamples(file); }},
-    {"journal", "journal", [](const Path& file) { (void)sessions::readJournal(file); }},
+    {"journal", "journal", [](const Path& file) { (void)sessions::readJournal(file); },
+     sealJournal},
     {"landmarks", "landmarks.json", [](const Path& file) { (void)sessions::readLandmarks(file); }},
     {"marks", "marks.json", [](const Path& file) { (void)sessions::readMarks(file); }},
     {"mesh_glb", "mesh.glb", readMetres},
@@ -44,11 +46,21 @@ constexpr FuzzedReader kReaders[] = {
     {"mesh_ply", "mesh.ply", readMetres},
     {"mesh_stl", "mesh.stl", readMetres},
     {"pose", "pose.json", [](const Path& file) { (void)sessions::readPose(file); }},
-    {"record", "run.whsr", [](const Path& file) { (void)sessions::readRecord(file); }},
+    {"record", "run.whsr", [](const Path& file) { (void)sessions::readRecord(file); }, sealRecord},
     {"session", "s.boresight.json",
      [](const Path& file) { (void)sessions::readSessionFile(file); }},
-    {"trace", "run.trace", [](const Path& file) { (void)sessions::loadTrace(file); }},
+    {"trace", "run.trace", [](const Path& file) { (void)sessions::loadTrace(file); }, sealTrace},
 };
+
+void feedOnce(const FuzzedReader& reader, std::span<const std::uint8_t> bytes, const Path& folder) {
+  const Path file = folder / reader.file_name;
+  std::ofstream(file, std::ios::binary | std::ios::trunc)
+      .write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
+  try {
+    reader.read(file);
+  } catch (const sessions::InputError&) {
+  }
+}
 
 }  // namespace
 
@@ -62,13 +74,11 @@ const FuzzedReader* fuzzedReader(std::string_view name) {
 
 void feed(const FuzzedReader& reader, std::span<const std::uint8_t> bytes,
           const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / reader.file_name;
-  std::ofstream(file, std::ios::binary | std::ios::trunc)
-      .write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
-  try {
-    reader.read(file);
-  } catch (const sessions::InputError&) {
-  }
+  feedOnce(reader, bytes, folder);
+  if (reader.seal == nullptr) return;
+  std::vector<std::uint8_t> sealed(bytes.begin(), bytes.end());
+  reader.seal(sealed);
+  feedOnce(reader, sealed, folder);
 }
 
 }  // namespace boresight::test

@@ -2,6 +2,7 @@
 // Every reader, with the corpus and with files that are nearly like it: what is wrong is said by an
 // InputError, and by nothing else. The long runs are libFuzzer's (README.md).
 #include <algorithm>
+#include <cstdlib>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -18,7 +19,12 @@ namespace boresight::test {
 namespace {
 
 constexpr std::size_t kMostBytes = 1 << 22;
-constexpr int kMutants = 150;
+
+/// BORESIGHT_MUTANTS asks for more.
+int mutantCount() {
+  const char* wanted = std::getenv("BORESIGHT_MUTANTS");
+  return wanted != nullptr ? std::atoi(wanted) : 150;
+}
 
 std::vector<Bytes> corpusOf(std::string_view name) {
   std::vector<std::filesystem::path> files;
@@ -49,7 +55,8 @@ TEST_P(Readers, ReadTheFirstFileOfTheirCorpus) {
 TEST_P(Readers, SayWhatIsWrongWithEveryMutantAndNothingElse) {
   Random random(GetParam().name.size());
   const std::vector<Bytes> corpus = corpusOf(GetParam().name);
-  for (int i = 0; i < kMutants; ++i) {
+  const int count = mutantCount();
+  for (int i = 0; i < count; ++i) {
     const Bytes& seed = corpus[random.below(static_cast<std::uint32_t>(corpus.size()))];
     const Bytes bytes = mutated(seed, random);
     SCOPED_TRACE(i);
@@ -58,6 +65,21 @@ TEST_P(Readers, SayWhatIsWrongWithEveryMutantAndNothingElse) {
 }
 
 TEST_P(Readers, RefuseAnEmptyFile) { ASSERT_NO_THROW(feed(GetParam(), {}, folder_.path())); }
+
+/// A seal that were wrong would keep all mutants out.
+TEST(Seals, LeaveWholeFilesAsTheyAre) {
+  int sealed = 0;
+  for (const FuzzedReader& reader : fuzzedReaders()) {
+    if (reader.seal == nullptr) continue;
+    ++sealed;
+    for (const Bytes& bytes : corpusOf(reader.name)) {
+      Bytes made = bytes;
+      reader.seal(made);
+      EXPECT_EQ(made, bytes) << reader.name;
+    }
+  }
+  EXPECT_EQ(sealed, 3);
+}
 
 INSTANTIATE_TEST_SUITE_P(All, Readers,
                          testing::ValuesIn(fuzzedReaders().begin(), fuzzedReaders().end()),
