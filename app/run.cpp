@@ -97,7 +97,9 @@ int runSession(const RunArguments& arguments) {
       const int code = together ? runTogether(document, id) : runOne(document, id);
       if (exit_code == kDone) exit_code = code;
     } catch (const sessions::InputError& error) {
-      std::cerr << "case " << id << ": " << error.what() << std::endl;
+      // What a case itself is at fault for names it already.
+      const std::string place = "case " + id + ": ", what = error.what();
+      std::cerr << (what.starts_with(place) ? what : place + what) << std::endl;
       exit_code = kBadInput;
     }
   }
