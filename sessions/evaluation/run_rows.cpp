@@ -57,7 +57,7 @@ template <class Row>
 Column<Row> pose(const char* name, Pose Row::*field) {
   return {name, "TEXT NOT NULL",
           [field](const Row& row) { return SqlValue(toJson(row.*field).dump()); },
-          [field, name](Row& row, const SqlValue& value, const fs::path& file) {
+          [field](Row& row, const SqlValue& value, const fs::path& file) {
             const JsonDocument document(file, textOf(value));
             row.*field = readTransform(document.root());
           }};

@@ -20,7 +20,6 @@ namespace boresight::sessions {
 namespace {
 
 constexpr std::size_t kMaxBytes = 1 << 20;
-constexpr double kLargest = 1e9;
 constexpr double kMostAsymmetry = 1e-6;  ///< of a covariance, beside its diagonal
 
 std::string_view trimmed(std::string_view text) {
