@@ -70,7 +70,7 @@ void requireAnswered(const std::vector<JudgedCheck>& checks) {
 void requireKnownOverrides(const std::vector<Check>& checks, const CheckOverrides& overrides) {
   for (const auto& [id, reason] : overrides) {
     const auto found = std::find_if(checks.begin(), checks.end(),
-                                    [&id](const Check& check) { return check.id == id; });
+                                    [&id = id](const Check& check) { return check.id == id; });
     if (found == checks.end()) throw DecisionError("there is no check '" + id + "'");
     if (found->state != CheckState::kFailed)
       throw DecisionError("the check '" + found->title + "' has not failed: it needs no reason");
