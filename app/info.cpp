@@ -53,11 +53,7 @@ void describeCamera(const sessions::CameraFile& file) {
   const sessions::CameraSheet sheet = sessions::cameraSheet(file.camera);
   for (const std::string& text : sessions::cameraLines(sheet, file.camera)) line(text);
   if (file.reference) {
-    const std::string frame =
-        file.reference->name.empty() ? "a frame that it does not name" : file.reference->name;
-    std::string index;
-    for (const std::int64_t one : file.reference->index) index += " " + std::to_string(one);
-    line("vectors in " + frame + index + ", the camera's centre at " +
+    line("vectors in " + frameText(file.reference->frame) + ", the camera's centre at " +
          vectorText(file.reference->camera_from_reference.inverse().translation_m, 4) + " m");
   }
   if (pupilMoves(file.camera))

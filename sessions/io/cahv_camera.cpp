@@ -47,17 +47,29 @@ void cutSubframe(const JsonReader& json, Camera& camera) {
   camera.cahv.skew_px /= scale;
 }
 
-CameraReference readReference(const JsonReader& json, const Pose& camera_from_reference) {
-  CameraReference reference{camera_from_reference, "", {}};
-  const auto frame = json.find("reference_frame");
-  if (!frame) return reference;
-  reference.name = frame->at("name").nonEmptyText();
-  if (const auto index = frame->find("index"))
-    for (const JsonReader& one : index->elements()) reference.index.push_back(one.integer());
-  return reference;
+}  // namespace
+
+FrameName readFrameName(const JsonReader& json) {
+  FrameName frame;
+  frame.name = json.at("name").nonEmptyText();
+  if (const auto index = json.find("index"))
+    for (const JsonReader& one : index->elements()) frame.index.push_back(one.integer());
+  return frame;
 }
 
-}  // namespace
+nlohmann::ordered_json toJson(const FrameName& frame) {
+  nlohmann::ordered_json json = {{"name", frame.name}};
+  if (!frame.index.empty()) json["index"] = frame.index;
+  return json;
+}
+
+std::string frameText(const FrameName& frame) {
+  if (frame.name.empty()) return "a frame without a name";
+  std::string index;
+  for (const std::int64_t one : frame.index)
+    index += (index.empty() ? " (" : ", ") + std::to_string(one);
+  return frame.name + (index.empty() ? "" : index + ")");
+}
 
 CameraFile readCahvCamera(CameraModel model, const JsonReader& json) {
   for (const char* key : {"fx", "fy", "cx", "cy", "dist"})
@@ -79,7 +91,9 @@ CameraFile readCahvCamera(CameraModel model, const JsonReader& json) {
     json.fail(
         "the camera cannot project with these vectors: A and O must have length 1 and lie within "
         "60 deg, H and V must not lie along A or along each other, and 1 + r0 must be positive");
-  file.reference = readReference(json, camera_from_reference);
+  file.reference = CameraReference{camera_from_reference, {}};
+  if (const auto frame = json.find("reference_frame"))
+    file.reference->frame = readFrameName(*frame);
   return file;
 }
 
@@ -103,11 +117,8 @@ nlohmann::ordered_json cahvJson(const CameraFile& file) {
     json["cahvore_type"] = cahv.type;
     json["cahvore_parameter"] = cahv.parameter;
   }
-  const std::string name = file.reference ? file.reference->name : kOwnFrame;
-  if (name.empty()) return json;
-  json["reference_frame"]["name"] = name;
-  if (file.reference && !file.reference->index.empty())
-    json["reference_frame"]["index"] = file.reference->index;
+  const FrameName frame = file.reference ? file.reference->frame : FrameName{kOwnFrame, {}};
+  if (!frame.name.empty()) json["reference_frame"] = toJson(frame);
   return json;
 }
 

@@ -18,12 +18,27 @@ namespace boresight::sessions {
 /// Longest side of an image or a camera, px: edge pixels are stored in 16 bits.
 inline constexpr int kMaxImageSide_px = 16384;
 
-/// Where the vectors of a CAHV camera are given: a frame of the vehicle or the site. Name and index
-/// (site, drive, pose ...) together identify it; empty where the file does not say.
+/// A frame of a vehicle or a site, as labels call it. Name and index (site, drive, pose ...)
+/// together identify it.
+struct FrameName {
+  std::string name;  ///< empty: not said
+  std::vector<std::int64_t> index;
+
+  bool operator==(const FrameName&) const = default;
+};
+
+/// "ROVER_FRAME (194, 835, 1)", or "a frame without a name".
+std::string frameText(const FrameName& frame);
+/// {"name", "index"}; the name is not empty. InputError.
+FrameName readFrameName(const JsonReader& json);
+nlohmann::ordered_json toJson(const FrameName& frame);
+
+/// Where the vectors of a CAHV camera are given.
 struct CameraReference {
   Pose camera_from_reference;
-  std::string name;
-  std::vector<std::int64_t> index;
+  FrameName frame;
+
+  bool operator==(const CameraReference&) const = default;
 };
 
 /// A camera in its own frame and, of the CAHV family, where that is.

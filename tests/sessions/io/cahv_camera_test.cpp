@@ -69,16 +69,16 @@ INSTANTIATE_TEST_SUITE_P(Cahv, CahvCamera, ::testing::ValuesIn(planetaryCameras(
 TEST_P(CahvCamera, ProjectsAsItsVectorsSay) {
   const CameraFile file = read(written(GetParam()));
   expectSights(file);
-  EXPECT_EQ(file.reference->name, "ROVER_NAV_FRAME");
-  EXPECT_EQ(file.reference->index, (std::vector<std::int64_t>{14, 1262, 6}));
+  EXPECT_EQ(file.reference->frame.name, "ROVER_NAV_FRAME");
+  EXPECT_EQ(file.reference->frame.index, (std::vector<std::int64_t>{14, 1262, 6}));
 }
 
 TEST_P(CahvCamera, WritesItsVectorsInTheReferenceFrame) {
   writeCamera(folder_ / "again.json", read(written(GetParam())));
   const CameraFile again = readCameraFile(folder_ / "again.json");
   expectSights(again);
-  EXPECT_EQ(again.reference->name, "ROVER_NAV_FRAME");
-  EXPECT_EQ(again.reference->index, (std::vector<std::int64_t>{14, 1262, 6}));
+  EXPECT_EQ(again.reference->frame.name, "ROVER_NAV_FRAME");
+  EXPECT_EQ(again.reference->frame.index, (std::vector<std::int64_t>{14, 1262, 6}));
 }
 
 TEST_P(CahvCamera, AloneComesBackBitForBit) {
@@ -86,7 +86,7 @@ TEST_P(CahvCamera, AloneComesBackBitForBit) {
   writeCamera(folder_ / "own.json", camera);
   const CameraFile own = readCameraFile(folder_ / "own.json");
   EXPECT_EQ(own.camera, camera);
-  EXPECT_EQ(own.reference->name, "CAMERA");
+  EXPECT_EQ(own.reference->frame.name, "CAMERA");
   EXPECT_EQ(own.reference->camera_from_reference, Pose());
 }
 

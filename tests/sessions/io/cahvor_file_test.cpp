@@ -66,7 +66,7 @@ TEST_F(CahvorText, IsReadAsItIsLaidOut) {
   EXPECT_EQ(camera.camera.width, 1024);
   EXPECT_NEAR(camera.camera.cx, 512.0, 1e-12);
   EXPECT_NEAR(camera.camera.fx, 450.0, 1e-12);
-  EXPECT_EQ(camera.reference->name, "");
+  EXPECT_EQ(camera.reference->frame.name, "");
 }
 
 TEST_F(CahvorText, OfEveryModelComesBackBitForBit) {
