@@ -32,6 +32,7 @@ void addViews(CLI::App& app, int& exit_code);
 void addQueue(CLI::App& app, int& exit_code);
 void addSolve(CLI::App& app, int& exit_code);
 void addRender(CLI::App& app, int& exit_code);
+void addCamera(CLI::App& app, int& exit_code);
 void addInfo(CLI::App& app, int& exit_code);
 void addOptions(CLI::App& app, int& exit_code);
 void addBench(CLI::App& app, int& exit_code);

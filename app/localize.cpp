@@ -52,8 +52,7 @@ void LocalizeArguments::addTo(CLI::App& command) {
 Inputs readInputs(const LocalizeArguments& arguments) {
   Inputs inputs{readProblemInputs(arguments), std::nullopt};
   if (!arguments.truth.empty())
-    inputs.truth =
-        sessions::readPose(std::filesystem::path(arguments.truth), inputs.camera_reference);
+    inputs.truth = sessions::readPose(std::filesystem::path(arguments.truth), inputs.frames);
   return inputs;
 }
 

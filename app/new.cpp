@@ -4,6 +4,7 @@
 
 #include "app/bop_arguments.h"
 #include "app/commands.h"
+#include "app/frame_arguments.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_document.h"
@@ -18,6 +19,7 @@ struct NewArguments {
   std::string results;
   std::vector<std::string> cases;
   std::string image, camera, mesh, mesh_unit, seed, truth, ignore, id, record, out;
+  std::vector<std::string> transforms;
   int bit_depth = 0;
   double feature_size_m = 0.0;
   OptionArguments options;
@@ -39,9 +41,16 @@ void NewArguments::addTo(CLI::App& command) {
        "Results of `whs evaluate`: its runs become cases, the most troubled first, with the seeds "
        "and the options that they had")
       ->excludes(from_dataset);
-  CLI::Option* from_image = file("--image", image, "One case: PNG, JPEG or TIFF, 8 or 16 bit");
+  CLI::Option* from_image =
+      file("--image", image, "One case: PNG, JPEG, TIFF, VICAR, PDS3 or PDS4");
   from_image->excludes(from_dataset);
-  file("--camera", camera, "camera.json")->needs(from_image);
+  file("--camera", camera, kOwnCameraHelp)->needs(from_image);
+  command
+      .add_option("--transform", transforms,
+                  "transform.json between the frame that seed or truth name and that of the "
+                  "camera model; may be repeated")
+      ->needs(from_image)
+      ->type_name("FILE");
   file("--mesh", mesh, "Mesh of the station: PLY, OBJ, STL, glTF or GLB")->needs(from_image);
   command
       .add_option("--mesh-unit", mesh_unit, "Unit of the mesh's coordinates: m, mm, cm, in, ...")
@@ -71,14 +80,15 @@ sessions::Session sessionOf(const NewArguments& arguments) {
   if (!arguments.dataset.path.empty())
     return sessions::makeSession(arguments.dataset.open(), arguments.cases);
   for (const auto& [name, value] :
-       {std::pair("--image", &arguments.image), std::pair("--camera", &arguments.camera),
-        std::pair("--mesh", &arguments.mesh), std::pair("--seed", &arguments.seed)})
+       {std::pair("--image", &arguments.image), std::pair("--mesh", &arguments.mesh),
+        std::pair("--seed", &arguments.seed)})
     if (value->empty()) throw CLI::ValidationError(name, "is needed where there is no --dataset");
   sessions::CaseFiles files;
   files.id = arguments.id;
   files.image = arguments.image;
   if (arguments.bit_depth > 0) files.eight_bit.bit_depth = arguments.bit_depth;
   files.camera = arguments.camera;
+  files.transforms.assign(arguments.transforms.begin(), arguments.transforms.end());
   files.parts.resize(1);
   files.parts[0].mesh = arguments.mesh;
   files.parts[0].mesh_unit = arguments.mesh_unit;

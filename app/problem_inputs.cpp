@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/problem_inputs.h"
 
-#include "sessions/io/camera_file.h"
+#include "sessions/io/chosen_camera.h"
 #include "sessions/trace/seed_check.h"
 
 namespace boresight::app {
@@ -30,10 +30,11 @@ void InputArguments::addTo(CLI::App& command) {
   const auto file = [&command](const char* name, std::string& value, const char* help) {
     return command.add_option(name, value, help)->type_name("FILE");
   };
-  file("--image", image, "PNG, JPEG or TIFF, 8 or 16 bit")->required();
-  file("--camera", camera, "camera.json")->required();
+  file("--image", image, "PNG, JPEG, TIFF, VICAR, PDS3 or PDS4")->required();
+  file("--camera", camera, kOwnCameraHelp);
   mesh.addTo(command);
   file("--seed", seed, "pose.json: where the camera is believed to be")->required();
+  frames.addTo(command);
   options.addTo(command);
   command
       .add_option("--feature-size", feature_size_m,
@@ -76,10 +77,10 @@ ProblemInputs readProblemInputs(const InputArguments& arguments) {
   inputs.options = arguments.options.read();
   if (arguments.feature_size_m > 0.0)
     inputs.options.templates.feature_size_m = arguments.feature_size_m;
-  const auto camera = sessions::readCameraFile(std::filesystem::path(arguments.camera));
+  const sessions::CameraFile camera = sessions::readChosenCamera(arguments.camera, arguments.image);
   inputs.camera = camera.camera;
-  inputs.camera_reference = camera.reference;
-  inputs.seed = sessions::readPose(std::filesystem::path(arguments.seed), camera.reference);
+  inputs.frames = arguments.frames.of(camera);
+  inputs.seed = sessions::readPose(std::filesystem::path(arguments.seed), inputs.frames);
   sessions::ImageReadOptions reading;
   if (arguments.bit_depth > 0) reading.bit_depth = arguments.bit_depth;
   inputs.image = sessions::readImage(arguments.image, reading);

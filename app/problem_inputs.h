@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/frame_arguments.h"
 #include "core/localizer/problem.h"
 #include "sessions/io/image_file.h"
 #include "sessions/io/pose_file.h"
@@ -18,6 +19,7 @@ namespace boresight::app {
 struct InputArguments {
   std::string image, camera, seed, ignore;
   MeshArguments mesh;
+  FrameArguments frames;
   OptionArguments options;
   double feature_size_m = 0.0;
   std::vector<double> uncertainty;
@@ -32,7 +34,7 @@ struct ProblemInputs {
   sessions::GrayImage image;
   Camera camera;
   sessions::SceneMesh scene;
-  std::optional<sessions::CameraReference> camera_reference;
+  sessions::PoseFrames frames;
   sessions::PoseFile seed;
   std::optional<sessions::IgnoreMask> ignore_mask;
   BitImage ignore;

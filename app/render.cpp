@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/frame_arguments.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/image_file.h"
@@ -14,6 +15,7 @@ namespace {
 
 struct RenderArguments {
   MeshArguments mesh;
+  FrameArguments frames;
   std::string camera;
   std::string pose;
   std::string out;
@@ -25,7 +27,7 @@ int render(const RenderArguments& arguments) {
       sessions::readCameraFile(std::filesystem::path(arguments.camera));
   const Camera& camera = camera_file.camera;
   const sessions::PoseFile pose =
-      sessions::readPose(std::filesystem::path(arguments.pose), camera_file.reference);
+      sessions::readPose(std::filesystem::path(arguments.pose), arguments.frames.of(camera_file));
   const sessions::SceneMesh scene = arguments.mesh.read();
   sessions::requirePlausibleScale(scene, pose.camera_from_station);
   const std::string concern = sessions::seedConcern(camera, scene.view(), pose.camera_from_station);
@@ -52,7 +54,8 @@ void addRender(CLI::App& app, int& exit_code) {
       app.add_subcommand("render", "Draws the salient edges of a mesh seen from a pose");
   auto arguments = std::make_shared<RenderArguments>();
   arguments->mesh.addTo(*command);
-  command->add_option("--camera", arguments->camera, "camera.json")->required()->type_name("FILE");
+  arguments->frames.addTo(*command);
+  command->add_option("--camera", arguments->camera, kCameraHelp)->required()->type_name("FILE");
   command->add_option("--pose", arguments->pose, "pose.json")->required()->type_name("FILE");
   command->add_option("--out", arguments->out, "PNG: white edges on black")
       ->required()

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/frame_arguments.h"
 #include "app/open_session.h"
 #include "sessions/annotation/marks_file.h"
 #include "sessions/annotation/rig_file.h"
@@ -26,6 +27,7 @@ struct SolveArguments {
   std::string seed;
   std::string out;
   std::string json;
+  FrameArguments frames;
   bool alone = false;
   bool robust = false;
 };
@@ -47,11 +49,12 @@ sessions::CaseMarksSolution solveFiles(const SolveArguments& arguments) {
   sessions::SolveMarksOptions options;
   options.robust = arguments.robust;
   if (!arguments.seed.empty()) {
-    std::optional<sessions::CameraReference> reference;
+    sessions::PoseFrames frames;
     if (arguments.rig.empty())
-      reference = sessions::readCameraFile(std::filesystem::path(arguments.camera)).reference;
+      frames =
+          arguments.frames.of(sessions::readCameraFile(std::filesystem::path(arguments.camera)));
     options.rig_from_station_guess =
-        sessions::readPose(std::filesystem::path(arguments.seed), reference).camera_from_station;
+        sessions::readPose(std::filesystem::path(arguments.seed), frames).camera_from_station;
   }
   const auto& views = made.marks.views;
   made.result = sessions::solveMarks(views, options);
@@ -95,7 +98,7 @@ int solve(const SolveArguments& arguments) {
 void addSources(CLI::App& command, SolveArguments& arguments) {
   CLI::Option* points =
       command.add_option("--points", arguments.points, "points.json or points.csv");
-  CLI::Option* camera = command.add_option("--camera", arguments.camera, "camera.json");
+  CLI::Option* camera = command.add_option("--camera", arguments.camera, kCameraHelp);
   CLI::Option* rig = command.add_option("--rig", arguments.rig,
                                         "rig.json: cameras that moved as one, with their points; "
                                         "the pose is the rig's");
@@ -110,6 +113,7 @@ void addSources(CLI::App& command, SolveArguments& arguments) {
                                          "pose.json to start from, where no image has four points");
   for (CLI::Option* file : {points, camera, rig, session, seed}) file->type_name("FILE");
   one->type_name("ID");
+  arguments.frames.addTo(command);
   rig->excludes(points)->excludes(camera);
   session->excludes(points)->excludes(camera)->excludes(rig)->excludes(seed);
   session->needs(one);

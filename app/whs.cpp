@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
   addQueue(app, exit_code);
   addSolve(app, exit_code);
   addRender(app, exit_code);
+  addCamera(app, exit_code);
   addInfo(app, exit_code);
   addOptions(app, exit_code);
   addNew(app, exit_code);

@@ -9,6 +9,7 @@
 #include "core/base/math.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
+#include "sessions/io/image_label.h"
 #include "sessions/io/json_document.h"
 #include "sessions/io/mesh_container.h"
 
@@ -106,12 +107,12 @@ std::string readReference(const JsonReader& json, const Map& known, const char* 
 }
 
 void readPoses(const JsonReader& json, Case& one, Dataset& dataset) {
-  std::optional<CameraReference> reference;
+  PoseFrames frames{std::nullopt, dataset.transforms};
   if (const auto known = dataset.camera_references.find(one.camera);
       known != dataset.camera_references.end())
-    reference = known->second;
+    frames.reference = known->second;
   const auto read = [&](const JsonReader& pose_json) {
-    PoseFile pose = readPose(pose_json, reference);
+    PoseFile pose = readPose(pose_json, frames);
     const std::string note = projectionNote(pose.rotation_deviation);
     if (!note.empty()) dataset.notes.push_back(pose_json.place() + ".camera_from_station: " + note);
     return pose;
@@ -119,6 +120,7 @@ void readPoses(const JsonReader& json, Case& one, Dataset& dataset) {
   const PoseFile seed = read(json.at("seed"));
   one.seed_camera_from_station = seed.camera_from_station;
   one.uncertainty = seed.uncertainty;
+  one.station_frame = seed.station_frame;
   if (const auto truth = json.find("truth"))
     one.truth_camera_from_station = read(*truth).camera_from_station;
   if (const auto rig = json.find("rig"))
@@ -139,12 +141,30 @@ void readOverrides(const JsonReader& json, const Station& station, Case& one, Da
     one.camera_from_end_effector = readNotedTransform(*transform, dataset);
 }
 
+void addCamera(const std::string& id, const CameraFile& camera, Dataset& dataset) {
+  dataset.cameras.emplace(id, camera.camera);
+  if (camera.reference) dataset.camera_references.emplace(id, *camera.reference);
+}
+
+/// One of the data set's cameras, or that of the image's own label.
+std::string readCaseCamera(const JsonReader& json, const Case& one, Dataset& dataset) {
+  if (const auto named = json.find("camera"))
+    return readReference(*named, dataset.cameras, "camera");
+  if (!hasImageLabel(one.image))
+    json.failMember("camera", "missing, and the image has no label with a camera model");
+  const std::string id = "label of " + one.id;
+  if (dataset.cameras.contains(id))
+    json.failMember("camera", "missing, and there is a camera called '" + id + "'");
+  addCamera(id, readLabelCamera(one.image), dataset);
+  return id;
+}
+
 Case readCase(const JsonReader& json, Dataset& dataset) {
   Case one;
   one.id = json.at("id").nonEmptyText();
   one.station = readReference(json.at("station"), dataset.stations, "station");
-  one.camera = readReference(json.at("camera"), dataset.cameras, "camera");
   one.image = json.at("image").path();
+  one.camera = readCaseCamera(json, one, dataset);
   if (const auto ignore = json.find("ignore")) one.ignore = ignore->path();
   readPoses(json, one, dataset);
   readOverrides(json, dataset.stations.at(one.station), one, dataset);
@@ -214,11 +234,12 @@ Dataset readDataset(const std::filesystem::path& file) {
     dataset.requirement = readRequirement(*requirement);
   for (const auto& [id, station] : json.at("stations").members())
     dataset.stations.emplace(id, readStation(id, station, dataset));
-  for (const auto& [id, camera] : json.at("cameras").members()) {
-    CameraFile read = readCameraFile(camera);
-    dataset.cameras.emplace(id, read.camera);
-    if (read.reference) dataset.camera_references.emplace(id, *read.reference);
-  }
+  if (const auto transforms = json.find("transforms"))
+    for (const JsonReader& one : transforms->elements())
+      dataset.transforms.push_back(readFrameTransform(one.path()));
+  if (const auto cameras = json.find("cameras"))
+    for (const auto& [id, camera] : cameras->members())
+      addCamera(id, readCameraFile(camera), dataset);
   std::set<std::string> ids;
   for (const JsonReader& one : json.at("cases").elements()) {
     dataset.cases.push_back(readCase(one, dataset));

@@ -58,6 +58,8 @@ struct Case {
   std::filesystem::path image;
   std::optional<std::filesystem::path> ignore;
   Pose seed_camera_from_station;
+  /// Of a seed that was given in a named frame.
+  std::optional<StationFrame> station_frame = std::nullopt;
   std::optional<Pose> truth_camera_from_station;
   std::optional<Rig> rig;
   std::vector<std::string> tags;
@@ -79,6 +81,7 @@ struct Dataset {
   std::map<std::string, Station> stations;
   std::map<std::string, Camera> cameras;
   std::map<std::string, CameraReference> camera_references;  ///< of those that have one
+  std::vector<FrameTransform> transforms;  ///< between frames of camera models and of poses
   std::vector<Case> cases;
   std::vector<std::string> notes;  ///< e.g. matrices that were projected to rotations
 

@@ -52,17 +52,38 @@ DeclaredUncertainty readUncertainty(const JsonReader& json) {
   return uncertainty;
 }
 
-PoseFile readPose(const JsonReader& json, const std::optional<CameraReference>& reference) {
+namespace {
+
+/// A pose of the station in the camera model's frame, or in one that is joined to it.
+void readReferencePose(const JsonReader& json, const PoseFrames& frames, PoseFile& pose) {
+  const JsonReader given = json.at("reference_from_station");
+  if (!frames.reference)
+    given.fail(
+        "needs a camera of the CAHV family, whose file says where its reference frame is; give "
+        "camera_from_station");
+  const CameraReference& reference = *frames.reference;
+  pose.camera_from_station =
+      reference.camera_from_reference * readTransform(given, &pose.rotation_deviation);
+  pose.station_frame = StationFrame{reference.frame};
+  const auto named = json.find("reference_frame");
+  if (!named) return;
+  const FrameName frame = readFrameName(*named);
+  const JoinedFrames joined = joinFrames(reference.frame, frame, frames.transforms, *named);
+  pose.station_frame = StationFrame{frame, joined.by};
+  pose.camera_from_station =
+      reference.camera_from_reference * joined.a_from_b * readTransform(given);
+}
+
+}  // namespace
+
+PoseFile readPose(const JsonReader& json, const PoseFrames& frames) {
   PoseFile pose;
   if (json.has("reference_from_station") && !json.has("camera_from_station")) {
-    if (!reference)
-      json.failMember("reference_from_station",
-                      "needs a camera of the CAHV family, whose file says where its reference "
-                      "frame is; give camera_from_station");
-    pose.camera_from_station =
-        reference->camera_from_reference *
-        readTransform(json.at("reference_from_station"), &pose.rotation_deviation);
+    readReferencePose(json, frames, pose);
   } else {
+    if (json.has("reference_frame"))
+      json.failMember("reference_frame",
+                      "belongs to reference_from_station, but the pose is camera_from_station");
     pose.camera_from_station =
         readTransform(json.at("camera_from_station"), &pose.rotation_deviation);
   }
@@ -71,10 +92,9 @@ PoseFile readPose(const JsonReader& json, const std::optional<CameraReference>& 
   return pose;
 }
 
-PoseFile readPose(const std::filesystem::path& file,
-                  const std::optional<CameraReference>& reference) {
+PoseFile readPose(const std::filesystem::path& file, const PoseFrames& frames) {
   const JsonDocument document(file);
-  return readPose(document.root(kFormat, kVersion), reference);
+  return readPose(document.root(kFormat, kVersion), frames);
 }
 
 std::string projectionNote(double rotation_deviation) {

@@ -10,6 +10,7 @@
 
 #include "core/geometry/pose.h"
 #include "sessions/io/camera_file.h"
+#include "sessions/io/frame_transform.h"
 #include "sessions/io/json_reader.h"
 
 namespace boresight::sessions {
@@ -31,15 +32,25 @@ struct PoseFile {
   /// |R'R - I| (Frobenius) of the matrix in the file, before it was projected to a rotation.
   double rotation_deviation = 0.0;
   std::optional<DeclaredUncertainty> uncertainty;
+  /// Of a pose that was given as `reference_from_station`.
+  std::optional<StationFrame> station_frame = std::nullopt;
+};
+
+/// What a pose in a named frame is brought to the camera by.
+struct PoseFrames {
+  /// Of a camera of the CAHV family.
+  std::optional<CameraReference> reference = std::nullopt;
+  /// Between the camera model's frame and that of the pose, where these differ.
+  std::vector<FrameTransform> transforms = {};
 };
 
 /// Reads pose.json (`boresight-pose`, version 1). `reference_from_station` may stand in place of
-/// `camera_from_station` where the camera's file says where its reference frame is. InputError.
-PoseFile readPose(const std::filesystem::path& file,
-                  const std::optional<CameraReference>& reference = std::nullopt);
+/// `camera_from_station` where the camera's file says where its reference frame is: the camera
+/// model's frame, or the one that `reference_frame` {name, index} names, which must be that frame
+/// or be joined to it by one of the transforms. InputError.
+PoseFile readPose(const std::filesystem::path& file, const PoseFrames& frames = {});
 /// The same for a pose inside another file, without format and version.
-PoseFile readPose(const JsonReader& json,
-                  const std::optional<CameraReference>& reference = std::nullopt);
+PoseFile readPose(const JsonReader& json, const PoseFrames& frames = {});
 
 /// A 4x4 rigid transform: last row 0 0 0 1, everything finite, and a rotation with
 /// |R'R - I| <= 1e-4, which is projected to the nearest one; refused otherwise.

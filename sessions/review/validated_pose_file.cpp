@@ -17,6 +17,7 @@
 #include "sessions/review/standing.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/decision_json.h"
+#include "sessions/session/frames_json.h"
 #include "sessions/session/rig_links.h"
 #include "sessions/session/session_json.h"
 #include "sessions/version.h"
@@ -102,6 +103,38 @@ std::string runText(const HandedPose& pose, const Session& session) {
   return text;
 }
 
+/// The camera model's frame, and what joined the station's to it.
+void addFrames(const SessionCase& one, ordered_json& chain) {
+  if (one.camera_reference)
+    chain.push_back(linkJson("camera_from_reference", one.camera_reference->camera_from_reference,
+                             "the camera model, in " + frameText(one.camera_reference->frame)));
+  if (!one.station_frame || !one.station_frame->joined_by) return;
+  const FrameTransform& join = *one.station_frame->joined_by;
+  chain.push_back(linkJson("target_from_source", join.target_from_source,
+                           join.file.string() + ", sha256 " + join.file_sha256 + ", from " +
+                               frameText(join.source) + " to " + frameText(join.target) + ": " +
+                               join.comment));
+}
+
+/// The pose in the frames that the case knows by name; those are never converted silently.
+ordered_json framesJson(const HandedPose& pose, const SessionCase& one) {
+  const Pose reference_from_station =
+      one.camera_reference->camera_from_reference.inverse() * pose.camera_from_station;
+  ordered_json json;
+  json["camera_model"] = {{"frame", frameText(one.camera_reference->frame)},
+                          {"reference_from_station", toJson(reference_from_station)}};
+  if (!one.station_frame || !one.station_frame->joined_by) return json;
+  const FrameTransform& join = *one.station_frame->joined_by;
+  const bool forward = sameFrame(join.target, one.camera_reference->frame);
+  const Pose given_from_reference =
+      forward ? join.target_from_source.inverse() : join.target_from_source;
+  json["station"] = {
+      {"frame", frameText(one.station_frame->frame)},
+      {"reference_from_station", toJson(given_from_reference * reference_from_station)},
+      {"joined_by", join.file.string() + ": " + join.comment}};
+  return json;
+}
+
 /// Every transform that was used, and where it came from.
 ordered_json chainJson(const HandedPose& pose, const SessionCase& one, const Session& session) {
   ordered_json chain = ordered_json::array();
@@ -116,6 +149,7 @@ ordered_json chainJson(const HandedPose& pose, const SessionCase& one, const Ses
   if (one.rig)
     chain.push_back(
         linkJson("camera_from_rig", one.rig->camera_from_rig, "rig '" + one.rig->id + "'"));
+  addFrames(one, chain);
   if (one.camera_from_end_effector)
     chain.push_back(linkJson("camera_from_end_effector", *one.camera_from_end_effector,
                              "the case's, as it was given"));
@@ -234,12 +268,14 @@ ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
   json["station"] = one.station;
   json["conventions"] = conventionsJson();
   json["pose"] = poseJson(pose, one);
+  if (one.camera_reference) json["frames"] = framesJson(pose, one);
   if (one.camera_from_end_effector) json["end_effector"] = endEffectorJson(pose, one);
   json["chain"] = chainJson(pose, one, alone);
   json["decision"] = decisionJson(pose, standingOf(alone, one.id));
   json["checks"] = ordered_json::array();
   for (const JudgedCheck& judged : pose.checks) json["checks"].push_back(toJson(judged));
   if (one.requirement) json["requirement"] = toJson(*one.requirement);
+  if (!one.image.label.empty()) json["image_label"] = toJson(one.image.label);
   json["sha256"] = hashesJson(one);
   if (trace) json["run"] = runJson(*trace);
   if (const auto marks = session.annotations.find(one.id);

@@ -12,6 +12,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/io/mesh_container.h"
+#include "sessions/session/frames_json.h"
 
 namespace boresight::sessions {
 
@@ -78,6 +79,7 @@ ordered_json imageJson(const ImageInput& image, const PathWriter& path) {
   json["width"] = image.width;
   json["height"] = image.height;
   json["pixels_sha256"] = image.pixels_sha256;
+  if (!image.label.empty()) json["label"] = toJson(image.label);
   json["rule"] = image.eight_bit.levels          ? "levels"
                  : image.eight_bit.table.empty() ? "linear"
                                                  : "table";
@@ -128,6 +130,8 @@ ordered_json listJson(const List& list, Convert&& convert) {
 }
 
 void addExtras(const SessionCase& one, const PathWriter& path, ordered_json& json) {
+  if (one.camera_reference) json["camera_reference"] = toJson(*one.camera_reference);
+  if (one.station_frame) json["station_frame"] = toJson(*one.station_frame);
   if (one.camera_from_station_truth) json["truth"] = exactPoseJson(*one.camera_from_station_truth);
   if (one.camera_from_station_working)
     json["working"] = exactPoseJson(*one.camera_from_station_working);
@@ -179,13 +183,14 @@ ImageReadOptions readEightBit(const JsonReader& json) {
 }
 
 ImageInput readImageInput(const JsonReader& json) {
-  json.requireKnown({"file", "sha256", "width", "height", "pixels_sha256", "rule", "bit_depth",
-                     "table", "black", "white"});
+  json.requireKnown({"file", "sha256", "width", "height", "pixels_sha256", "label", "rule",
+                     "bit_depth", "table", "black", "white"});
   ImageInput image;
   image.source = {readPath(json.at("file")), readSha256(json.at("sha256"))};
   image.width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
   image.height = static_cast<int>(json.at("height").integer(1, kMaxImageSide_px));
   image.pixels_sha256 = readSha256(json.at("pixels_sha256"));
+  if (const auto label = json.find("label")) image.label = readLabelItems(*label);
   image.eight_bit = readEightBit(json);
   return image;
 }
@@ -237,6 +242,9 @@ MaskStroke readStroke(const JsonReader& json) {
 }
 
 void readExtras(const JsonReader& json, SessionCase& one) {
+  if (const auto reference = json.find("camera_reference"))
+    one.camera_reference = readCameraReference(*reference);
+  if (const auto frame = json.find("station_frame")) one.station_frame = readStationFrame(*frame);
   if (const auto truth = json.find("truth")) one.camera_from_station_truth = readExactPose(*truth);
   if (const auto working = json.find("working"))
     one.camera_from_station_working = readExactPose(*working);
@@ -278,10 +286,26 @@ ordered_json toJson(const SessionCase& one, const PathWriter& path) {
 }
 
 SessionCase readSessionCase(const JsonReader& json) {
-  json.requireKnown({"id", "station", "image", "camera", "parts", "feature_size_m", "seed",
-                     "uncertainty", "truth", "working", "ignore", "ignore_strokes",
-                     "onboard_record", "rig", "tags", "requirement", "camera_from_end_effector",
-                     "landmarks"});
+  json.requireKnown({"id",
+                     "station",
+                     "image",
+                     "camera",
+                     "parts",
+                     "feature_size_m",
+                     "seed",
+                     "uncertainty",
+                     "truth",
+                     "working",
+                     "ignore",
+                     "ignore_strokes",
+                     "onboard_record",
+                     "rig",
+                     "tags",
+                     "requirement",
+                     "camera_from_end_effector",
+                     "landmarks",
+                     "camera_reference",
+                     "station_frame"});
   SessionCase one;
   one.id = json.at("id").nonEmptyText();
   if (const auto station = json.find("station")) one.station = station->nonEmptyText();

@@ -16,7 +16,9 @@
 #include "sessions/annotation/annotation_pass.h"
 #include "sessions/annotation/marks.h"
 #include "sessions/io/dataset_file.h"
+#include "sessions/io/frame_transform.h"
 #include "sessions/io/image_file.h"
+#include "sessions/io/image_label.h"
 #include "sessions/io/option_value.h"
 #include "sessions/session/decision.h"
 #include "sessions/session/ignore_strokes.h"
@@ -40,6 +42,8 @@ struct ImageInput {
   int height = 0;
   ImageReadOptions eight_bit;  ///< how its samples become 8 bit
   std::string pixels_sha256;   ///< of the 8-bit pixels that the core sees
+  /// What the label of a planetary image says it is, for provenance; else empty.
+  std::vector<LabelItem> label = {};
 
   bool operator==(const ImageInput&) const = default;
 };
@@ -58,9 +62,13 @@ struct SessionCase {
   std::string station;  ///< a name for people, may be empty
   ImageInput image;
   Camera camera;
+  /// Of the CAHV family: where the camera model's frame is. No input of a run.
+  std::optional<CameraReference> camera_reference;
   std::vector<MeshInput> parts;  ///< at least one that is matched
   std::optional<double> feature_size_m;
   Pose camera_from_station_seed;
+  /// Of a seed that was given in a named frame. No input of a run.
+  std::optional<StationFrame> station_frame;
   DeclaredUncertainty uncertainty;
   std::optional<Pose> camera_from_station_truth;
   std::optional<Pose> camera_from_station_working;  ///< nudged by hand; no input of a run

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "sessions/exchange/bop_dataset.h"
-#include "sessions/io/camera_file.h"
+#include "sessions/io/chosen_camera.h"
 #include "sessions/io/errors.h"
 #include "sessions/review/check_limits.h"
 #include "sessions/session/input_check.h"
@@ -25,6 +25,7 @@ ImageInput imageInput(const fs::path& file, const ImageReadOptions& eight_bit) {
   input.height = image.height;
   input.eight_bit = eight_bit;
   input.pixels_sha256 = image.pixels_sha256;
+  if (hasImageLabel(file)) input.label = readImageLabel(file).identifiers;
   return input;
 }
 
@@ -51,9 +52,13 @@ SessionCase caseOf(const Dataset& dataset, const Case& one, const std::vector<Me
   made.station = one.station;
   made.image = imageInput(one.image, {});
   made.camera = dataset.cameras.at(one.camera);
+  if (const auto known = dataset.camera_references.find(one.camera);
+      known != dataset.camera_references.end())
+    made.camera_reference = known->second;
   made.parts = parts;
   made.feature_size_m = dataset.stations.at(one.station).feature_size_m;
   made.camera_from_station_seed = one.seed_camera_from_station;
+  made.station_frame = one.station_frame;
   made.uncertainty = *one.uncertainty;
   made.camera_from_station_truth = one.truth_camera_from_station;
   if (one.ignore) made.ignore = maskInput(*one.ignore, made.image);
@@ -82,12 +87,17 @@ MadeCase makeCase(const CaseFiles& files) {
   SessionCase& made = result.made;
   made.id = files.id.empty() ? files.image.stem().string() : files.id;
   made.image = imageInput(files.image, files.eight_bit);
-  const CameraFile camera = readCameraFile(files.camera);
+  const CameraFile camera = readChosenCamera(files.camera, files.image);
   made.camera = camera.camera;
+  made.camera_reference = camera.reference;
   made.parts = meshInputs(files.parts);
   made.feature_size_m = files.feature_size_m;
-  const PoseFile seed = readPose(files.seed, camera.reference);
+  PoseFrames frames{camera.reference};
+  for (const fs::path& file : files.transforms)
+    frames.transforms.push_back(readFrameTransform(file));
+  const PoseFile seed = readPose(files.seed, frames);
   made.camera_from_station_seed = seed.camera_from_station;
+  made.station_frame = seed.station_frame;
   made.uncertainty =
       files.uncertainty ? *files.uncertainty : seed.uncertainty.value_or(DeclaredUncertainty());
   if (!files.uncertainty && !seed.uncertainty)
@@ -95,7 +105,7 @@ MadeCase makeCase(const CaseFiles& files) {
   const std::string projected = projectionNote(seed.rotation_deviation);
   if (!projected.empty()) result.notes.push_back(files.seed.string() + ": " + projected);
   if (files.truth)
-    made.camera_from_station_truth = readPose(*files.truth, camera.reference).camera_from_station;
+    made.camera_from_station_truth = readPose(*files.truth, frames).camera_from_station;
   if (files.ignore) made.ignore = maskInput(*files.ignore, made.image);
   return result;
 }

@@ -16,7 +16,10 @@ struct CaseFiles {
   std::string id;  ///< "": the image's name without extension
   std::filesystem::path image;
   ImageReadOptions eight_bit;
+  /// camera.json, text of calibration or an image with a label; "": the image's own label.
   std::filesystem::path camera;
+  /// Between the camera model's frame and those of seed and truth, where these differ.
+  std::vector<std::filesystem::path> transforms;
   std::vector<PartSource> parts;
   std::filesystem::path seed;
   std::optional<DeclaredUncertainty> uncertainty;  ///< instead of the seed file's

@@ -6,12 +6,25 @@
 #include <cctype>
 #include <exception>
 
+#include "sessions/io/cahvor_file.h"
+#include "sessions/io/image_label.h"
 #include "sessions/io/json_document.h"
 
 namespace boresight::ui {
 namespace {
 
-enum class Kind { kImage, kMesh, kCamera, kPose, kDataset, kSession, kResults, kRecord, kUnknown };
+enum class Kind {
+  kImage,
+  kMesh,
+  kCamera,
+  kPose,
+  kTransform,
+  kDataset,
+  kSession,
+  kResults,
+  kRecord,
+  kUnknown
+};
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -34,10 +47,11 @@ Kind kindOfJson(const std::filesystem::path& file, std::string& problem) {
   }
   if (format == "boresight-camera") return Kind::kCamera;
   if (format == "boresight-pose") return Kind::kPose;
+  if (format == "boresight-transform") return Kind::kTransform;
   if (format == "boresight-dataset") return Kind::kDataset;
   if (format == "boresight-session") return Kind::kSession;
   problem = file.string() + ": the format '" + format +
-            "' is none that can be opened here (camera, pose, dataset, session)";
+            "' is none that can be opened here (camera, pose, transform, dataset, session)";
   return Kind::kUnknown;
 }
 
@@ -48,9 +62,13 @@ Kind kindOf(const std::filesystem::path& file, std::string& problem) {
   if (extension == ".whsr") return Kind::kRecord;
   if (extension == ".sqlite") return Kind::kResults;
   if (extension == ".json") return kindOfJson(file, problem);
-  problem = file.string() +
-            ": not an image (png, jpg, tif), a mesh (ply, obj, stl, gltf, glb), an onboard record "
-            "(whsr), results (sqlite) or a json file";
+  if (sessions::isCahvorFile(file)) return Kind::kCamera;
+  if (sessions::hasImageLabel(file)) return Kind::kImage;
+  problem =
+      file.string() +
+      ": not an image (png, jpg, tif, or with a VICAR, PDS3 or PDS4 label), a mesh (ply, obj, "
+      "stl, gltf, glb), a camera (json, cahvor), an onboard record (whsr), results (sqlite) "
+      "or a json file";
   return Kind::kUnknown;
 }
 
@@ -61,7 +79,11 @@ bool isNamedTruth(const std::filesystem::path& file) {
 }  // namespace
 
 bool DroppedFiles::isCase() const {
-  return !one.image.empty() && !one.camera.empty() && !one.seed.empty() && !one.parts.empty();
+  return !one.image.empty() && hasCamera() && !one.seed.empty() && !one.parts.empty();
+}
+
+bool DroppedFiles::hasCamera() const {
+  return !one.camera.empty() || (!one.image.empty() && sessions::hasImageLabel(one.image));
 }
 
 bool DroppedFiles::isRecordAlone() const {
@@ -72,7 +94,7 @@ bool DroppedFiles::isRecordAlone() const {
 std::string DroppedFiles::missing() const {
   std::vector<std::string> names;
   if (one.image.empty()) names.emplace_back("an image");
-  if (one.camera.empty()) names.emplace_back("a camera (json)");
+  if (!hasCamera()) names.emplace_back("a camera (json)");
   if (one.parts.empty()) names.emplace_back("a mesh");
   if (one.seed.empty()) names.emplace_back("a seed pose (json)");
   std::string text;
@@ -112,6 +134,9 @@ DroppedFiles classify(const std::vector<std::filesystem::path>& files,
         } else {
           made.one.seed = file;
         }
+        break;
+      case Kind::kTransform:
+        made.one.transforms.push_back(file);
         break;
       case Kind::kDataset:
         made.dataset = file;

@@ -23,6 +23,7 @@ struct DroppedFiles {
   /// What of a case is still missing, for people: "a camera and a seed", or "".
   std::string missing() const;
   bool isCase() const;         ///< an image, a camera, a mesh and a seed
+  bool hasCamera() const;      ///< a file of its own, or the label of the image
   bool isRecordAlone() const;  ///< an onboard record, and nothing of a case
 };
 

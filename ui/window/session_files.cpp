@@ -46,7 +46,8 @@ void SessionFiles::askForSession() {
 void SessionFiles::askForFiles() {
   const QStringList files = QFileDialog::getOpenFileNames(
       &window_, tr("A dataset, results, or an image, a camera, a mesh and a seed"), {},
-      tr("All (*.json *.sqlite *.whsr *.png *.jpg *.jpeg *.tif *.tiff *.ply *.obj *.stl *.gltf "
+      tr("All (*.json *.sqlite *.whsr *.img *.IMG *.vic *.VIC *.lbl *.LBL *.xml *.cahv *.cahvor "
+         "*.cahvore *.png *.jpg *.jpeg *.tif *.tiff *.ply *.obj *.stl *.gltf "
          "*.glb)"));
   std::vector<std::filesystem::path> paths;
   for (const QString& file : files) paths.push_back(path(file));

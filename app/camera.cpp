@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "app/commands.h"
+#include "app/frame_arguments.h"
+#include "sessions/io/atomic_file.h"
+#include "sessions/io/cahvor_file.h"
+#include "sessions/io/camera_conversion.h"
+#include "sessions/io/camera_file.h"
+#include "sessions/io/errors.h"
+
+namespace boresight::app {
+namespace {
+
+using std::filesystem::path;
+
+struct CameraArguments {
+  std::string file, model, out;
+  double distance_m = std::numeric_limits<double>::infinity();
+};
+
+CameraModel modelNamed(const std::string& name) {
+  for (const CameraModel model :
+       {CameraModel::kPinhole, CameraModel::kBrownConrady, CameraModel::kKannalaBrandt})
+    if (name == sessions::cameraModelName(model)) return model;
+  throw CLI::ValidationError("--as", "'" + name + "' is no model that is fitted");
+}
+
+/// Vectors as text, with the covariance where the given file had one.
+void writeVectors(const CameraArguments& arguments, const sessions::CameraFile& given) {
+  if (!isCahvFamily(given.camera.model))
+    throw sessions::InputError(arguments.file, "model",
+                               std::string("a ") + sessions::cameraModelName(given.camera.model) +
+                                   " camera has no vectors: write a .json");
+  if (sessions::isCahvorFile(path(arguments.file)))
+    return sessions::writeCahvorFile(arguments.out, sessions::readCahvorFile(arguments.file));
+  sessions::CahvorFile made;
+  made.cahv = cahvFromCamera(given.camera,
+                             given.reference ? given.reference->camera_from_reference : Pose());
+  made.width = given.camera.width;
+  made.height = given.camera.height;
+  sessions::writeCahvorFile(arguments.out, made);
+  if (given.reference)
+    note("the vectors are in " + frameText(given.reference->frame) +
+         ", which a text file has no place for");
+}
+
+void convertAs(const CameraArguments& arguments, const sessions::CameraFile& given) {
+  sessions::FittedCamera fitted;
+  try {
+    fitted = sessions::fitCamera(given.camera, modelNamed(arguments.model), arguments.distance_m);
+  } catch (const std::runtime_error& error) {
+    throw sessions::InputError(arguments.file, "model", error.what());
+  }
+  std::cout << arguments.model << ": " << fitText(fitted) << "\n";
+  if (std::isfinite(arguments.distance_m))
+    std::cout << "points " << arguments.distance_m << " m from the camera; of far ones the worst "
+              << "error is " << fitted.worst_error_far_px << " px\n";
+  else if (pupilMoves(given.camera))
+    note("the entrance pupil moves: nearby points are seen elsewhere; state --distance");
+  if (!arguments.out.empty())
+    sessions::writeFittedCamera(arguments.out, fitted, given.camera,
+                                path(arguments.file).filename().string(), arguments.distance_m);
+}
+
+int convert(const CameraArguments& arguments) {
+  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
+  const sessions::CameraFile given = sessions::readCameraFile(path(arguments.file));
+  if (!arguments.model.empty()) {
+    if (sessions::isCahvorFile(path(arguments.out)))
+      throw CLI::ValidationError("--out", "a text file holds vectors, not a fitted model: .json");
+    convertAs(arguments, given);
+  } else if (arguments.out.empty()) {
+    throw CLI::RequiredError("--as, --out or both");
+  } else if (sessions::isCahvorFile(path(arguments.out))) {
+    writeVectors(arguments, given);
+  } else {
+    sessions::writeCamera(path(arguments.out), given);
+  }
+  if (!arguments.out.empty()) std::cout << arguments.out << std::endl;
+  return kDone;
+}
+
+}  // namespace
+
+void addCamera(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "camera",
+      "Writes a camera as another kind of file, or as another model with the error that it makes");
+  auto arguments = std::make_shared<CameraArguments>();
+  command->add_option("file", arguments->file, kCameraHelp)->required()->type_name("FILE");
+  command
+      ->add_option("--as", arguments->model,
+                   "Fits this model, in the same camera frame, and says its worst error in pixels")
+      ->check(CLI::IsMember({"pinhole", "brown_conrady", "kannala_brandt"}));
+  command
+      ->add_option("--distance", arguments->distance_m,
+                   "Distance from the camera that the fit is made for, where the entrance pupil "
+                   "moves (cahvore), m")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->type_name("M");
+  command
+      ->add_option("--out", arguments->out,
+                   "camera.json, or for vectors a text file (.cahv, .cahvor, .cahvore)")
+      ->type_name("FILE");
+  command->callback([arguments, &exit_code] { exit_code = convert(*arguments); });
+}
+
+}  // namespace boresight::app

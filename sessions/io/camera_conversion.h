@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "core/geometry/camera.h"
+
+namespace boresight::sessions {
+
+/// A camera of another model that sees nearly what the given one sees, in the same camera frame, so
+/// that poses keep their meaning; and what is lost by it.
+struct FittedCamera {
+  Camera camera;  ///< prepared
+  /// Over pixels all across the image and along its whole border: between the pixel of the given
+  /// camera and where the fitted one sees the same point.
+  double worst_error_px = 0.0;
+  Eigen::Vector2d worst_pixel = Eigen::Vector2d::Zero();
+  double rms_error_px = 0.0;
+  /// The same for points infinitely far off, where the fit was made for a distance.
+  double worst_error_far_px = 0.0;
+  int checked_count = 0;
+  /// Of those: pixels without a ray in the given camera, and points that the fitted one does not
+  /// see.
+  int without_ray_count = 0;
+  int unseen_count = 0;
+};
+
+/// Least squares over a grid of the image: fx fy cx cy and the coefficients of `model`
+/// (Brown-Conrady with k1 k2 p1 p2 k3 or also k4 k5 k6, whichever has the smaller worst error;
+/// Kannala-Brandt; or a pinhole, whose error is the whole distortion). A camera whose entrance
+/// pupil moves is like no other at every distance at once: the fit is for points `distance_m` from
+/// the camera's centre, infinity for the rays alone.
+/// std::invalid_argument for a model of the CAHV family, whose vectors are exact as they are;
+/// std::runtime_error with a sentence when no such camera can stand in for it: a mirrored image, or
+/// a fit that fails.
+FittedCamera fitCamera(const Camera& given, CameraModel model,
+                       double distance_m = std::numeric_limits<double>::infinity());
+
+/// "worst error 0.83 px at (1023, 0), rms 0.21 px" and what is not seen.
+std::string fitText(const FittedCamera& fitted);
+
+/// The fitted camera as camera.json, with what it was made of and its errors in `fitted_from`.
+/// OutputError.
+void writeFittedCamera(const std::filesystem::path& file, const FittedCamera& fitted,
+                       const Camera& given, const std::string& given_name, double distance_m);
+
+}  // namespace boresight::sessions
