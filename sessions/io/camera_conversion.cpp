@@ -22,6 +22,10 @@ constexpr int kFitSteps = 48;       ///< along each side of the grid that is fit
 constexpr int kCheckedSteps = 256;  ///< along each side of the finer one that is checked
 constexpr double kFar_m = 1e6;      ///< 1 um of pupil is 1e-9 px there
 constexpr double kWithoutLimit = 1e3;
+/// A unit of a coefficient weighs as much as one residual of this size: numerator and denominator
+/// of the rational model could else grow together without end, and their zeros meet the image.
+constexpr double kRidge_px = 0.05;
+constexpr int kPolynomialCount = 5;  ///< k1 k2 p1 p2 k3: no denominator
 
 /// A pixel of the given camera and a point that it sees.
 struct Sight {
@@ -92,7 +96,7 @@ struct FitResiduals {
   int parameter_count;
 
   int inputs() const { return parameter_count; }
-  int values() const { return static_cast<int>(2 * sights->size()); }
+  int values() const { return static_cast<int>(2 * sights->size()) + parameter_count - 4; }
 
   int operator()(const Eigen::VectorXd& parameters, Eigen::VectorXd& residuals) const {
     Camera camera = cameraOf(*start, parameters);
@@ -105,6 +109,8 @@ struct FitResiduals {
       residuals.segment<2>(static_cast<Eigen::Index>(2 * i)) =
           seen ? Eigen::Vector2d(pixel - sight.pixel) : Eigen::Vector2d::Constant(1e6);
     }
+    const double ridge_px = parameter_count - 4 > kPolynomialCount ? kRidge_px : 0.0;
+    residuals.tail(parameter_count - 4) = ridge_px * parameters.tail(parameter_count - 4);
     return 0;
   }
 };
@@ -122,8 +128,10 @@ Camera startCamera(const Camera& given, CameraModel model) {
 }
 
 bool fitParameters(const std::vector<Sight>& sights, int coefficient_count, Camera& camera) {
-  Eigen::VectorXd parameters = Eigen::VectorXd::Zero(4 + coefficient_count);
+  Eigen::VectorXd parameters(4 + coefficient_count);
   parameters.head<4>() << camera.fx, camera.fy, camera.cx, camera.cy;
+  for (int i = 0; i < coefficient_count; ++i)
+    parameters[4 + i] = camera.distortion[static_cast<std::size_t>(i)];
   const Camera start = camera;
   Eigen::NumericalDiff<FitResiduals, Eigen::Central> residuals(
       FitResiduals{&start, &sights, static_cast<int>(parameters.size())});
@@ -167,12 +175,14 @@ void measure(const Camera& given, double distance_m, FittedCamera& fitted) {
 std::vector<int> coefficientCounts(CameraModel model) {
   if (model == CameraModel::kPinhole) return {0};
   if (model == CameraModel::kKannalaBrandt) return {4};
-  return {5, 8};
+  return {kPolynomialCount, 8};
 }
 
-bool isBetter(const FittedCamera& a, const FittedCamera& b) {
-  if (a.unseen_count != b.unseen_count) return a.unseen_count < b.unseen_count;
-  return a.worst_error_px < b.worst_error_px;
+/// Whether more coefficients pay: by a thousandth of a pixel and a tenth.
+bool isBetter(const FittedCamera& longer, const FittedCamera& shorter) {
+  if (longer.unseen_count != shorter.unseen_count)
+    return longer.unseen_count < shorter.unseen_count;
+  return longer.worst_error_px < 0.9 * shorter.worst_error_px - 1e-3;
 }
 
 std::vector<Sight> sightsOf(const Camera& given, double distance_m) {
@@ -202,10 +212,12 @@ FittedCamera fitCamera(const Camera& given, CameraModel model, double distance_m
     throw std::runtime_error("hardly a pixel of it sees a point at that distance");
   FittedCamera best;
   bool found = false;
+  Camera start = startCamera(given, model);
   for (const int count : coefficientCounts(model)) {
     FittedCamera fitted;
-    fitted.camera = startCamera(given, model);
+    fitted.camera = start;
     if (!fitParameters(sights, count, fitted.camera)) continue;
+    start = fitted.camera;
     measure(given, distance_m, fitted);
     if (!found || isBetter(fitted, best)) best = fitted;
     found = true;

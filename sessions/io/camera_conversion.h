@@ -30,7 +30,7 @@ struct FittedCamera {
 };
 
 /// Least squares over a grid of the image: fx fy cx cy and the coefficients of `model`
-/// (Brown-Conrady with k1 k2 p1 p2 k3 or also k4 k5 k6, whichever has the smaller worst error;
+/// (Brown-Conrady with k1 k2 p1 p2 k3, and with k4 k5 k6 where the worst error is smaller by it;
 /// Kannala-Brandt; or a pinhole, whose error is the whole distortion). A camera whose entrance
 /// pupil moves is like no other at every distance at once: the fit is for points `distance_m` from
 /// the camera's centre, infinity for the rays alone.

@@ -19,6 +19,7 @@
 #include "sessions/review/checks_text.h"
 #include "sessions/review/end_effector_pose.h"
 #include "sessions/review/standing.h"
+#include "sessions/session/frame_lines.h"
 #include "sessions/version.h"
 
 namespace boresight::sessions {
@@ -191,6 +192,9 @@ double drawInputs(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
   row("camera", formatted("fx %.3f, fy %.3f, cx %.3f, cy %.3f px; centre of the top-left pixel is "
                           "(0, 0)",
                           one.camera.fx, one.camera.fy, one.camera.cx, one.camera.cy));
+  for (const FrameLine& line : frameLines(one)) row(line.label, line.value);
+  for (const LabelItem& item : one.image.label)
+    if (item.name == "PRODUCT_ID" || item.name == "START_TIME") row(item.name, item.value);
   for (const MeshInput& part : one.parts)
     row("mesh", part.source.mesh.filename().string() + " in " +
                     (part.source.mesh_unit.empty() ? "its own unit" : part.source.mesh_unit) +

@@ -14,6 +14,8 @@
 #include "sessions/exchange/bop_scene.h"
 #include "sessions/exchange/colmap_text.h"
 #include "sessions/io/atomic_folder.h"
+#include "sessions/io/camera_conversion.h"
+#include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/image_file.h"
 #include "sessions/report/undistort.h"
@@ -90,6 +92,27 @@ Camera prepared(const SessionCase& one) {
   if (prepareCamera(camera) != Status::kOk)
     throw InputError("case " + one.id, "camera", "its parameters are not those of a camera");
   return camera;
+}
+
+/// What formats without vectors are given, and what is said of it.
+struct ExchangeCamera {
+  Camera camera;
+  std::string remark;  ///< empty: it is the case's own
+};
+
+/// A camera of the CAHV family is fitted at the distance of the seed, and says with what error.
+ExchangeCamera exchangeCamera(const SessionCase& one) {
+  const Camera own = prepared(one);
+  if (!isCahvFamily(own.model)) return {own, ""};
+  try {
+    const FittedCamera fitted = fitCamera(own, CameraModel::kBrownConrady,
+                                          one.camera_from_station_seed.translation_m.norm());
+    return {fitted.camera, std::string("its ") + cameraModelName(own.model) +
+                               " camera is written as brown_conrady, " + fitText(fitted)};
+  } catch (const std::runtime_error& error) {
+    throw InputError("session", "cases",
+                     "the camera of case '" + one.id + "' cannot be written: " + error.what());
+  }
 }
 
 /// The image as a camera without distortion would have taken it, where BOP has images.
@@ -193,13 +216,20 @@ ExportReport writeColmapOf(const Session& session, const fs::path& folder, const
   requireOneStation(session, poses);
   const std::vector<std::string> names = imageNames(session);
   std::vector<PosedImage> images;
+  std::vector<std::string> notes;
   for (const CasePose& pose : poses.poses) {
     const std::size_t place = placeOf(session, pose.case_id);
-    images.push_back({static_cast<int>(place) + 1, names[place], prepared(*session.cases[place]),
-                      pose.camera_from_station, remarkOf(session, pose)});
+    const ExchangeCamera camera = exchangeCamera(*session.cases[place]);
+    const std::string remark = remarkOf(session, pose);
+    images.push_back(
+        {static_cast<int>(place) + 1, names[place], camera.camera, pose.camera_from_station,
+         remark + (remark.empty() || camera.remark.empty() ? "" : "; ") + camera.remark});
+    if (!camera.remark.empty()) notes.push_back("case " + pose.case_id + ": " + camera.remark);
   }
   writeFolderAtomically(folder, [&](const fs::path& to) { writeColmapText(to, images); });
-  return reportOf(poses);
+  ExportReport report = reportOf(poses);
+  report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+  return report;
 }
 
 ExportReport writeBopOf(const Session& session, const fs::path& folder, const CasePoses& poses) {
@@ -263,7 +293,7 @@ ImportReport importColmap(const Session& session, const fs::path& folder, bool r
     const SessionCase* one = caseOfImage(session, folder / "images.txt", image.name);
     if (one == nullptr)
       report.notes.push_back("image '" + image.name + "' is no case's");
-    else if (!sameCamera(image.camera, one->camera, true))
+    else if (!sameCamera(image.camera, exchangeCamera(*one).camera, true))
       report.notes.push_back(otherCamera("image '" + image.name + "'", one->id));
     else
       setTruth(report, one->id, image.camera_from_station, replace);

@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/report/text_table.h"
+#include "sessions/session/frame_lines.h"
 #include "sessions/trace/seed_check.h"
 
 namespace boresight::sessions {
@@ -118,6 +119,7 @@ void describe(const LoadedCase& loaded, InputSheet& sheet) {
                   std::to_string(sheet.image.highest_gray) + ", " +
                   fixedText(100.0 * sheet.image.saturated_share, 2) + " % saturated");
   add("camera", sheet.camera.model + ", " + sizeText(one.camera.width, one.camera.height) + " px");
+  for (const FrameLine& line : frameLines(one)) add(line.label.c_str(), line.value);
   add("field of view", fixedText(sheet.camera.field_of_view_x_deg, 2) + " x " +
                            fixedText(sheet.camera.field_of_view_y_deg, 2) + " deg");
   for (const MeshInfo& info : loaded.scene.infos)

@@ -72,6 +72,17 @@ Kind kindOf(const std::filesystem::path& file, std::string& problem) {
   return Kind::kUnknown;
 }
 
+/// Nothing for an image without a label; else why that has no camera, or "".
+std::optional<std::string> labelCameraRemark(const std::filesystem::path& image) {
+  if (!sessions::hasImageLabel(image)) return std::nullopt;
+  try {
+    const sessions::ImageLabel label = sessions::readImageLabel(image);
+    return label.camera ? std::string() : label.camera_remark;
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
 bool isNamedTruth(const std::filesystem::path& file) {
   return lower(file.stem().string()).find("truth") != std::string::npos;
 }
@@ -83,7 +94,7 @@ bool DroppedFiles::isCase() const {
 }
 
 bool DroppedFiles::hasCamera() const {
-  return !one.camera.empty() || (!one.image.empty() && sessions::hasImageLabel(one.image));
+  return !one.camera.empty() || (label_camera_remark && label_camera_remark->empty());
 }
 
 bool DroppedFiles::isRecordAlone() const {
@@ -94,7 +105,9 @@ bool DroppedFiles::isRecordAlone() const {
 std::string DroppedFiles::missing() const {
   std::vector<std::string> names;
   if (one.image.empty()) names.emplace_back("an image");
-  if (!hasCamera()) names.emplace_back("a camera (json)");
+  if (!hasCamera())
+    names.emplace_back("a camera (json)" +
+                       (label_camera_remark ? ": " + *label_camera_remark : ""));
   if (one.parts.empty()) names.emplace_back("a mesh");
   if (one.seed.empty()) names.emplace_back("a seed pose (json)");
   std::string text;
@@ -110,12 +123,14 @@ DroppedFiles classify(const std::vector<std::filesystem::path>& files,
   DroppedFiles made;
   made.one = earlier.one;
   made.record = earlier.record;
+  made.label_camera_remark = earlier.label_camera_remark;
   bool new_mesh = true;
   for (const std::filesystem::path& file : files) {
     std::string problem;
     switch (kindOf(file, problem)) {
       case Kind::kImage:
         made.one.image = file;
+        made.label_camera_remark = labelCameraRemark(file);
         break;
       case Kind::kMesh: {
         if (new_mesh) made.one.parts.clear();

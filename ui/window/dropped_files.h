@@ -17,6 +17,8 @@ struct DroppedFiles {
   std::optional<std::filesystem::path> results;  ///< of `whs evaluate`
   std::optional<std::filesystem::path> record;   ///< of an onboard run
   sessions::CaseFiles one;                       ///< as far as it goes
+  /// Of an image with a label: why that has no camera, or "" where it has one.
+  std::optional<std::string> label_camera_remark;
   std::vector<std::string> problems;  ///< one sentence each: files that are nothing known, twice
                                       ///< the same kind
 

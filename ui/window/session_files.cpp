@@ -55,7 +55,9 @@ void SessionFiles::askForFiles() {
 }
 
 void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
-  const DroppedFiles dropped = classify(files, collected_);
+  // Files that make a case by themselves have nothing to do with earlier ones.
+  const DroppedFiles alone = classify(files);
+  const DroppedFiles dropped = alone.isCase() ? alone : classify(files, collected_);
   for (const std::string& problem : dropped.problems)
     Q_EMIT failed(QString::fromStdString(problem));
   if (dropped.session) {
@@ -122,13 +124,15 @@ void SessionFiles::addCase() {
   Q_EMIT noted(tr("Reading the files ..."));
   parts_.tasks.start(
       QStringLiteral("make session"),
-      [files = std::exchange(collected_, {})](const std::stop_token&) {
+      [files = collected_](const std::stop_token&) {
         sessions::SessionCase made = sessions::makeCase(files.one).made;
         if (files.record)
           made.onboard_record = {*files.record, sessions::inputSha256(*files.record)};
         return made;
       },
       [this](sessions::SessionCase made) {
+        // Until now: whatever was wrong may be mended by a further file, e.g. a transform.
+        collected_ = {};
         Q_EMIT noted({});
         takeCase(std::move(made));
       });

@@ -103,7 +103,7 @@ TEST_P(CahvCamera, PlacesAPoseOfItsReferenceFrame) {
   const auto pose_file = folder_.write(
       "seed.json", R"({"format": "boresight-pose", "version": 1, "reference_from_station":
                    [[0,-1,0,2],[1,0,0,3],[0,0,1,-4],[0,0,0,1]]})");
-  const Pose pose = readPose(pose_file, file.reference).camera_from_station;
+  const Pose pose = readPose(pose_file, {file.reference}).camera_from_station;
   const Eigen::Vector3d expected =
       file.reference->camera_from_reference * Eigen::Vector3d(2.0 - 0.5, 3.0 + 0.25, -4.0 + 1.0);
   EXPECT_LT((pose * Eigen::Vector3d(0.25, 0.5, 1.0) - expected).norm(), 1e-14);

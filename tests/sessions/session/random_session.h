@@ -48,6 +48,32 @@ inline sessions::MaskStroke randomStroke(Random& random) {
   return stroke;
 }
 
+inline sessions::FrameName randomFrame(Random& random) {
+  sessions::FrameName frame;
+  frame.name = coin(random) ? "ROVER_FRAME" : "SITE \"q\"";
+  for (std::uint32_t i = random.below(4); i > 0; --i)
+    frame.index.push_back(static_cast<std::int64_t>(random.below(2000)));
+  return frame;
+}
+
+/// What the label of an image and the frames of poses leave in a case.
+inline void addRandomFrames(Random& random, sessions::SessionCase& one) {
+  if (coin(random)) one.image.label = {{"PRODUCT_ID", "1F483\xC3\xBC"}, {"START_TIME", ""}};
+  if (coin(random)) return;
+  one.camera_reference = sessions::CameraReference{randomPose(random), randomFrame(random)};
+  if (coin(random)) one.camera_reference->frame = {};
+  if (coin(random)) return;
+  one.station_frame = sessions::StationFrame{randomFrame(random)};
+  if (coin(random)) return;
+  sessions::FrameTransform& join = one.station_frame->joined_by.emplace();
+  join.target = randomFrame(random);
+  join.source = randomFrame(random);
+  join.target_from_source = randomPose(random);
+  join.comment = "sol 12";
+  join.file = "transform.json";
+  join.file_sha256 = randomSha256(random);
+}
+
 inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
   sessions::SessionCase one;
   one.id = id;
@@ -93,6 +119,7 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
     if (coin(random)) one.requirement->projection_px = random.uniform(0.1, 2.0);
   }
   if (coin(random)) one.camera_from_end_effector = randomPose(random);
+  addRandomFrames(random, one);
   if (coin(random)) one.landmarks = randomPath(random, ".json");
   return one;
 }

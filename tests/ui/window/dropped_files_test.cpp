@@ -7,6 +7,7 @@
 
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/vicar_image.h"
 
 namespace boresight::ui {
 namespace {
@@ -34,6 +35,33 @@ TEST(DroppedFiles, ALaterDropCompletesAnEarlierOne) {
   EXPECT_EQ(first.missing(), "a camera (json) and a seed pose (json)");
   const DroppedFiles second = classify({folder / "camera.json", folder / "seed.json"}, first);
   EXPECT_TRUE(second.isCase());
+}
+
+TEST(DroppedFiles, AnImageWithALabelBringsItsCamera) {
+  const test::TemporaryFolder folder;
+  CahvModel cahv;
+  cahv.h_px = {900.0, 0.0, 7.5};
+  cahv.v_px = {0.0, 900.0, 5.5};
+  const std::vector<std::uint16_t> samples(16 * 12, 100);
+  const auto image = folder.write(
+      "sol12.img",
+      test::vicarImage(16, 12, samples, test::vicarCamera(cahv, {"ROVER_FRAME", {1}})));
+  const std::filesystem::path os = test::exampleFolder() / "os";
+  const auto transform = folder.write("t.json", R"({"format": "boresight-transform"})");
+  const DroppedFiles dropped = classify({image, os / "model.ply", os / "seed.json", transform});
+  EXPECT_TRUE(dropped.problems.empty());
+  EXPECT_TRUE(dropped.isCase());
+  EXPECT_EQ(dropped.one.image, image);
+  EXPECT_TRUE(dropped.one.camera.empty());
+  ASSERT_EQ(dropped.one.transforms.size(), 1u);
+  EXPECT_EQ(dropped.one.transforms[0], transform);
+
+  const auto bare = folder.write("bare.vic", test::vicarImage(16, 12, samples, ""));
+  const DroppedFiles without = classify({bare, os / "model.ply", os / "seed.json"});
+  EXPECT_FALSE(without.isCase());
+  EXPECT_EQ(without.missing().find("a camera (json): "), 0u) << without.missing();
+  EXPECT_TRUE(classify({os / "camera.json"}, without).isCase());
+  EXPECT_FALSE(classify({os / "image.png"}, dropped).isCase()) << "another image has no label";
 }
 
 TEST(DroppedFiles, JsonIsToldByItsFormat) {

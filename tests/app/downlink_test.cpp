@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+// From an image as a mission sends it, its camera model in the label and the station's seed in
+// another frame, to a pose that is handed over.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/json_writer.h"
+#include "tests/app/run_whs.h"
+#include "tests/support/vicar_image.h"
+
+namespace boresight::test {
+namespace {
+
+using nlohmann::json;
+using sessions::FrameName;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const FrameName kRover{"ROVER_FRAME", {194, 835, 1}};
+const FrameName kSite{"SITE_FRAME", {194}};
+
+Pose roverFromCamera() {
+  return {Eigen::Quaterniond(0.3, 0.7, -0.5, 0.4).normalized(), {0.6, -0.04, -0.23}};
+}
+Pose siteFromRover() {
+  return {Eigen::Quaterniond(0.96, -0.07, -0.04, 0.25).normalized(), {-84.1, -26.1, 3.6}};
+}
+
+/// A CAHVOR camera that sees about what the example's does, its optical axis beside A.
+Camera labelCamera() {
+  Camera camera;
+  camera.model = CameraModel::kCahvor;
+  camera.width = camera.height = 1024;
+  camera.fx = camera.fy = 1560.0;
+  camera.cx = 511.0;
+  camera.cy = 512.5;
+  camera.cahv.optical_axis = Eigen::Vector3d(0.002, -0.001, 1.0).normalized();
+  camera.cahv.radial = {1e-5, -0.08, 0.03};
+  EXPECT_EQ(prepareCamera(camera), Status::kOk);
+  return camera;
+}
+
+/// The example's picture as that camera would have taken it: 12 bits, by bilinear interpolation.
+std::vector<std::uint16_t> seenBy(const Camera& camera, const ExampleCase& example) {
+  std::vector<std::uint16_t> samples;
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) {
+      Eigen::Vector3d ray;
+      Eigen::Vector2d p(-1.0, -1.0);
+      const bool seen = unproject(camera, {x, y}, ray) && projectDirection(example.camera, ray, p);
+      const int x0 = static_cast<int>(std::floor(p.x())), y0 = static_cast<int>(std::floor(p.y()));
+      if (!seen || x0 < 0 || y0 < 0 || x0 + 1 >= example.image.width ||
+          y0 + 1 >= example.image.height) {
+        samples.push_back(0);
+        continue;
+      }
+      const auto gray = [&](int dx, int dy) -> double {
+        return example.image
+            .pixels[static_cast<std::size_t>((y0 + dy) * example.image.width + x0 + dx)];
+      };
+      const double fx = p.x() - x0, fy = p.y() - y0;
+      const double value = (1 - fy) * ((1 - fx) * gray(0, 0) + fx * gray(1, 0)) +
+                           fy * ((1 - fx) * gray(0, 1) + fx * gray(1, 1));
+      samples.push_back(static_cast<std::uint16_t>(std::lround(value * 4095.0 / 255.0)));
+    }
+  return samples;
+}
+
+class Downlink : public ::testing::Test {
+ protected:
+  Downlink() {
+    const ExampleCase example("os");
+    const Camera camera = labelCamera();
+    const CahvModel cahv = cahvFromCamera(camera, roverFromCamera().inverse());
+    image_ =
+        folder_.write("1F483288473.IMG",
+                      vicarImage(camera.width, camera.height, seenBy(camera, example),
+                                 "PROPERTY='IDENTIFICATION'  INSTRUMENT_ID='FRONT_HAZCAM_LEFT'  "
+                                 "PRODUCT_ID='1F483288473'  " +
+                                     vicarCamera(cahv, kRover)));
+    truth_ = example.truth.camera_from_station;
+    seed_ = writeSeed("seed.json", example.seed, kSite);
+    const sessions::FrameTransform transform{kSite, kRover, siteFromRover(), "by hand, sol 12",
+                                             {},    {}};
+    transform_ = folder_ / "site_from_rover.json";
+    sessions::writeFrameTransform(transform_, transform);
+  }
+
+  /// The seed as the station's place in the site or in the rover's frame.
+  std::string writeSeed(const std::string& name, const sessions::PoseFile& seed,
+                        const FrameName& frame) const {
+    Pose pose = roverFromCamera() * seed.camera_from_station;
+    if (frame == kSite) pose = siteFromRover() * pose;
+    nlohmann::ordered_json written = {{"format", "boresight-pose"}, {"version", 1}};
+    written["reference_from_station"] = sessions::toJson(pose);
+    written["reference_frame"] = sessions::toJson(frame);
+    written["uncertainty"] = sessions::toJson(*seed.uncertainty);
+    return folder_.write(name, written.dump()).string();
+  }
+
+  Arguments newArguments(bool with_transform) const {
+    Arguments arguments = {"new",
+                           "--image",
+                           image_.string(),
+                           "--mesh",
+                           (exampleFolder() / "os" / "model.ply").string(),
+                           "--mesh-unit",
+                           "m",
+                           "--seed",
+                           seed_,
+                           "--id",
+                           "sol12",
+                           "--bit-depth",
+                           "12",
+                           "--feature-size",
+                           "0.018",
+                           "--out",
+                           session_};
+    if (with_transform) {
+      arguments.push_back("--transform");
+      arguments.push_back(transform_.string());
+    }
+    return arguments;
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path image_, transform_;
+  std::string seed_;
+  std::string session_ = (folder_ / "s.boresight.json").string();
+  Pose truth_;
+};
+
+Pose poseOf(const json& matrix) {
+  Eigen::Matrix3d rotation;
+  Pose pose;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) rotation(row, column) = matrix[row][column];
+    pose.translation_m[row] = matrix[row][3];
+  }
+  pose.rotation = Eigen::Quaterniond(rotation);
+  return pose;
+}
+
+void expectNear(const Pose& found, const Pose& expected) {
+  const Vector6d apart = perturbationBetween(expected, found);
+  EXPECT_LT(apart.head<3>().norm(), 0.25 * 3.14159265 / 180.0);
+  EXPECT_LT(apart.tail<3>().norm(), 4e-4);
+}
+
+TEST_F(Downlink, IsLocalizedJudgedHandedOverAndVerified) {
+  const ProgramRun made = runWhs(newArguments(true));
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const ProgramRun run = runWhs({"run", session_});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun decided = runWhs(
+      {"decide", session_, "--case", "sol12", "--validate", "--by", "Ada", "--comment", "right"});
+  EXPECT_EQ(decided.exit_code, 0) << decided.out << decided.err;
+  const std::string file = (folder_ / "pose.json").string();
+  EXPECT_EQ(runWhs({"export", session_, "--case", "sol12", "--pose", file}).exit_code, 0);
+  const ProgramRun verified = runWhs({"verify", file});
+  EXPECT_EQ(verified.exit_code, 0) << verified.out;
+
+  const json pose = json::parse(folder_.read("pose.json"));
+  expectNear(poseOf(pose["pose"]["camera_from_station"]), truth_);
+  EXPECT_EQ(pose["frames"]["camera_model"]["frame"], "ROVER_FRAME (194, 835, 1)");
+  EXPECT_EQ(pose["frames"]["station"]["frame"], "SITE_FRAME (194)");
+  EXPECT_EQ(pose["frames"]["station"]["joined_by"], "site_from_rover.json: by hand, sol 12");
+  expectNear(poseOf(pose["frames"]["camera_model"]["reference_from_station"]),
+             roverFromCamera() * truth_);
+  expectNear(poseOf(pose["frames"]["station"]["reference_from_station"]),
+             siteFromRover() * roverFromCamera() * truth_);
+  EXPECT_THAT(pose["image_label"].dump(), HasSubstr(R"(["PRODUCT_ID","1F483288473"])"));
+  EXPECT_THAT(pose["chain"].dump(), HasSubstr("site_from_rover.json, sha256 "));
+}
+
+TEST_F(Downlink, GoesToColmapWithTheErrorOfItsCamera) {
+  ASSERT_EQ(runWhs(newArguments(true)).exit_code, 0);
+  ASSERT_EQ(runWhs({"run", session_}).exit_code, 0);
+  const std::string colmap = (folder_ / "colmap").string();
+  const ProgramRun run = runWhs({"export", session_, "--poses", "handed-over", "--colmap", colmap});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("its cahvor camera is written as brown_conrady, worst error "));
+  EXPECT_THAT(folder_.read("colmap/images.txt"), HasSubstr("worst error "));
+  EXPECT_THAT(folder_.read("colmap/cameras.txt"), HasSubstr("OPENCV"));
+}
+
+TEST_F(Downlink, WithoutTheTransformNothingIsConverted) {
+  const ProgramRun refused = runWhs(newArguments(false));
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_EQ(refused.errorLines(), 1) << refused.err;
+  EXPECT_THAT(refused.err, HasSubstr("the pose is given in SITE_FRAME (194), but the camera model "
+                                     "in ROVER_FRAME (194, 835, 1)"));
+  EXPECT_FALSE(std::filesystem::exists(session_));
+}
+
+TEST_F(Downlink, IsLocalizedByItsOwnLabel) {
+  const std::string seed = writeSeed("rover.json", ExampleCase("os").seed, kRover);
+  const std::string out = (folder_ / "result.json").string();
+  const ProgramRun run = runWhs(localizeArguments({{"--image", image_.string()},
+                                                   {"--camera", ""},
+                                                   {"--seed", seed},
+                                                   {"--bit-depth", "12"},
+                                                   {"--out", out}}));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json result = json::parse(folder_.read("result.json"));
+  expectNear(poseOf(result["camera_from_station"]), truth_);
+}
+
+TEST_F(Downlink, OfADataSetIsEvaluated) {
+  json dataset = json::parse(
+      std::string(R"({"format": "boresight-dataset", "version": 1, "stations": {}, "cases": []})"));
+  dataset["requirement"] = {{"normal_mm", 0.4}, {"lateral_mm", 0.4}, {"rotation_deg", 0.25}};
+  dataset["transforms"] = {"site_from_rover.json"};
+  dataset["stations"]["os"] = {{"mesh", (exampleFolder() / "os" / "model.ply").string()},
+                               {"mesh_unit", "m"},
+                               {"feature_size_m", 0.018}};
+  json one = {{"id", "sol12"}, {"station", "os"}, {"image", "1F483288473.IMG"}};
+  one["seed"] = json::parse(folder_.read("seed.json"));
+  one["truth"]["camera_from_station"] = json::parse(sessions::toJson(truth_).dump());
+  dataset["cases"] = json::array({one});
+  const std::string file = folder_.write("dataset.json", dataset.dump()).string();
+  const std::string out = (folder_ / "r.jsonl").string();
+  const ProgramRun run = runWhs(
+      {"evaluate", "--dataset", file, "--out", (folder_ / "r.sqlite").string(), "--jsonl", out});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(json::parse(folder_.read("r.jsonl"))["success"], true) << folder_.read("r.jsonl");
+}
+
+TEST_F(Downlink, WithoutALabelACameraIsAskedFor) {
+  const ProgramRun run = runWhs(localizeArguments({{"--camera", ""}}));
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.err, HasSubstr("the image has no label that could tell it"));
+}
+
+TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
+  const std::string text = (folder_ / "left.cahvor").string();
+  EXPECT_EQ(runWhs({"camera", image_.string(), "--out", text}).exit_code, 0);
+  const sessions::CameraFile again = sessions::readCameraFile(std::filesystem::path(text));
+  Eigen::Vector2d expected, found;
+  const Eigen::Vector3d point_m(0.05, -0.03, 0.4);
+  ASSERT_TRUE(project(labelCamera(), point_m, expected));
+  ASSERT_TRUE(project(
+      again.camera, again.reference->camera_from_reference * (roverFromCamera() * point_m), found));
+  EXPECT_LT((expected - found).norm(), 1e-6);
+  const std::string fitted = (folder_ / "brown.json").string();
+  const ProgramRun run =
+      runWhs({"camera", image_.string(), "--as", "brown_conrady", "--out", fitted});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("worst error "));
+  ASSERT_TRUE(project(sessions::readCamera(std::filesystem::path(fitted)), point_m, found));
+  EXPECT_LT((expected - found).norm(),
+            json::parse(folder_.read("brown.json"))["fitted_from"]["worst_error_px"]);
+  EXPECT_EQ(runWhs({"camera", image_.string()}).exit_code, 2);
+  EXPECT_EQ(runWhs({"camera", text, "--as", "pinhole", "--out", text}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace boresight::test

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/camera_conversion.h"
+
+#include <cmath>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/calib3d.hpp>
+
+#include "core/geometry/cahv_model.h"
+#include "sessions/io/camera_file.h"
+#include "tests/core/geometry/planetary_cameras.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using boresight::test::planetaryCameras;
+using boresight::test::TemporaryFolder;
+
+/// A camera with its optical axis along z, where CAHVOR is Brown's radial distortion but for what
+/// the inverse leaves of higher order.
+Camera cahvor(const Eigen::Vector3d& optical_axis) {
+  CahvModel cahv;
+  cahv.model = CameraModel::kCahvor;
+  cahv.h_px = {1000.0, 0.0, 510.0};
+  cahv.v_px = {0.0, 990.0, 380.0};
+  cahv.o = optical_axis.normalized();
+  cahv.r = {0.0, -0.2, 0.05};
+  Camera camera;
+  Pose camera_from_reference;
+  EXPECT_EQ(cameraFromCahv(cahv, 1024, 768, camera, camera_from_reference), Status::kOk);
+  return camera;
+}
+
+/// The pixel that OpenCV gives a point, by the file's own numbers.
+Eigen::Vector2d byOpenCv(const nlohmann::json& json, const Eigen::Vector3d& point_m) {
+  const cv::Matx33d intrinsic(json["fx"], 0, json["cx"], 0, json["fy"], json["cy"], 0, 0, 1);
+  const auto dist = json["dist"].get<std::vector<double>>();
+  std::vector<cv::Point2d> pixel;
+  cv::projectPoints(std::vector<cv::Point3d>{{point_m.x(), point_m.y(), point_m.z()}},
+                    cv::Vec3d(0, 0, 0), cv::Vec3d(0, 0, 0), intrinsic, dist, pixel);
+  return {pixel[0].x, pixel[0].y};
+}
+
+TEST(CameraConversion, OfAnOpticalAxisAlongTheCamerasIsExact) {
+  const FittedCamera fitted =
+      fitCamera(cahvor(Eigen::Vector3d::UnitZ()), CameraModel::kBrownConrady);
+  EXPECT_LT(fitted.worst_error_px, 1e-6);
+  EXPECT_NEAR(fitted.camera.fx, 1000.0, 1e-6);
+  EXPECT_NEAR(fitted.camera.cy, 380.0, 1e-6);
+  EXPECT_NEAR(fitted.camera.distortion[0], -0.2, 1e-6);
+  EXPECT_NEAR(fitted.camera.distortion[1], 0.05, 1e-6);
+  EXPECT_EQ(fitted.unseen_count, 0);
+}
+
+TEST(CameraConversion, StatesTheWorstErrorThatOpenCvMakesWithItsFile) {
+  const Camera given = cahvor({0.01, -0.004, 1.0});
+  const TemporaryFolder folder;
+  const FittedCamera fitted = fitCamera(given, CameraModel::kBrownConrady);
+  const double infinite_m = std::numeric_limits<double>::infinity();
+  writeFittedCamera(folder / "fitted.json", fitted, given, "given.cahvor", infinite_m);
+  const auto json = nlohmann::json::parse(folder.read("fitted.json"));
+  double worst_px = 0.0;
+  for (int y = 0; y < given.height; ++y)
+    for (int x = 0; x < given.width; x += y % 97 == 0 || y == given.height - 1 ? 1 : 1023) {
+      const Eigen::Vector2d pixel(x, y);
+      Eigen::Vector3d ray;
+      ASSERT_TRUE(unproject(given, pixel, ray));
+      worst_px = std::max(worst_px, (byOpenCv(json, ray) - pixel).norm());
+    }
+  EXPECT_GT(worst_px, 1e-4);  // a tilted axis is not quite what tangential terms say
+  EXPECT_NEAR(fitted.worst_error_px, worst_px, 0.02 * worst_px);
+  EXPECT_EQ(json["fitted_from"]["file"], "given.cahvor");
+  EXPECT_EQ(json["fitted_from"]["model"], "cahvor");
+  EXPECT_EQ(json["fitted_from"]["worst_error_px"], fitted.worst_error_px);
+  EXPECT_EQ(readCamera(folder / "fitted.json"), fitted.camera);
+}
+
+TEST(CameraConversion, IsNoWorseThanAPinhole) {
+  for (const auto& one : planetaryCameras()) {
+    Camera given;
+    Pose camera_from_reference;
+    ASSERT_EQ(cameraFromCahv(one.cahv, one.width, one.height, given, camera_from_reference),
+              Status::kOk);
+    if (isMirrored(given)) continue;
+    const FittedCamera pinhole = fitCamera(given, CameraModel::kPinhole, 1.0);
+    const FittedCamera brown = fitCamera(given, CameraModel::kBrownConrady, 1.0);
+    EXPECT_LE(brown.worst_error_px, pinhole.worst_error_px + 1e-9) << one.name;
+    EXPECT_GE(pinhole.worst_error_px, pinhole.rms_error_px) << one.name;
+  }
+}
+
+TEST(CameraConversion, OfAMovingPupilHoldsAtItsDistance) {
+  CahvModel cahv;
+  cahv.model = CameraModel::kCahvore;
+  cahv.h_px = {600.0, 0.0, 320.0};
+  cahv.v_px = {0.0, 600.0, 240.0};
+  cahv.e_m = {0.02, 0.0, 0.0};
+  cahv.type = 3;
+  cahv.parameter = 0.5;
+  Camera given;
+  Pose camera_from_reference;
+  ASSERT_EQ(cameraFromCahv(cahv, 640, 480, given, camera_from_reference), Status::kOk);
+  const FittedCamera near = fitCamera(given, CameraModel::kBrownConrady, 0.2);
+  EXPECT_LT(near.worst_error_px, 0.05);
+  EXPECT_GT(near.worst_error_far_px, 5.0 * near.worst_error_px);
+  // A point of a ray 0.2 m from the centre, by plain projection.
+  Ray ray;
+  ASSERT_TRUE(unprojectRay(given, {600.0, 400.0}, ray));
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 60; ++i)
+    (ray.at(0.5 * (low + high)).norm() < 0.2 ? low : high) = 0.5 * (low + high);
+  Eigen::Vector2d pixel;
+  ASSERT_TRUE(project(near.camera, ray.at(low), pixel));
+  EXPECT_LT((pixel - Eigen::Vector2d(600.0, 400.0)).norm(), near.worst_error_px + 1e-9);
+}
+
+TEST(CameraConversion, RefusesWhatCannotBe) {
+  Camera mirrored = cahvor(Eigen::Vector3d::UnitZ());
+  mirrored.fy = -mirrored.fy;
+  ASSERT_EQ(prepareCamera(mirrored), Status::kOk);
+  EXPECT_THROW((void)fitCamera(mirrored, CameraModel::kBrownConrady), std::runtime_error);
+  EXPECT_THROW((void)fitCamera(cahvor(Eigen::Vector3d::UnitZ()), CameraModel::kCahv),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

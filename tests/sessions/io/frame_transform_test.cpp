@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/frame_transform.h"
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/math.h"
+#include "sessions/io/json_writer.h"
+#include "sessions/io/pose_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using boresight::test::TemporaryFolder;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+const FrameName kRover{"ROVER_FRAME", {194, 835, 1}};
+const FrameName kSite{"SITE_FRAME", {194}};
+
+/// From the rover to the site: a quarter turn about z, and then some way.
+nlohmann::ordered_json transformJson() {
+  return {{"format", "boresight-transform"},
+          {"version", 1},
+          {"target", {{"name", "SITE_FRAME"}, {"index", {194}}}},
+          {"source", {{"name", "ROVER_FRAME"}, {"index", {194, 835, 1}}}},
+          {"target_from_source",
+           {{0.0, -1.0, 0.0, 10.0}, {1.0, 0.0, 0.0, 20.0}, {0.0, 0.0, 1.0, -3.0}, {0, 0, 0, 1}}},
+          {"comment", "localization of sol 12"}};
+}
+
+/// A camera whose model is in the rover's frame, 1 m above its origin and looking along its x.
+CameraReference roverCamera() {
+  Eigen::Matrix3d camera_from_rover;
+  camera_from_rover << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  CameraReference reference;
+  reference.camera_from_reference.rotation = Eigen::Quaterniond(camera_from_rover);
+  reference.camera_from_reference.translation_m = {0.0, 1.0, 0.0};
+  reference.frame = kRover;
+  return reference;
+}
+
+class FrameTransforms : public ::testing::Test {
+ protected:
+  FrameTransform transform() {
+    return readFrameTransform(folder_.write("sol12.json", transformJson().dump()));
+  }
+  std::string error(const nlohmann::ordered_json& json) {
+    const auto file = folder_.write("t.json", json.dump());
+    return folder_.message([&] { (void)readFrameTransform(file); });
+  }
+  /// A pose of the station at (1, 2, 3) of `frame`, its axes along the frame's.
+  PoseFile read(const nlohmann::ordered_json& frame, const PoseFrames& frames) {
+    nlohmann::ordered_json json = {{"format", "boresight-pose"}, {"version", 1}};
+    json["reference_from_station"] = toJson(Pose{Eigen::Quaterniond::Identity(), {1, 2, 3}});
+    if (!frame.is_null()) json["reference_frame"] = frame;
+    return readPose(folder_.write("seed.json", json.dump()), frames);
+  }
+  std::string poseError(const nlohmann::ordered_json& frame, const PoseFrames& frames) {
+    return folder_.message([&] { (void)read(frame, frames); });
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(FrameTransforms, SaysWhatItIs) {
+  const FrameTransform read = transform();
+  EXPECT_EQ(read.target, kSite);
+  EXPECT_EQ(read.source, kRover);
+  EXPECT_EQ(read.comment, "localization of sol 12");
+  EXPECT_LT(
+      (read.target_from_source * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(10, 21, -3)).norm(),
+      1e-12);
+  writeFrameTransform(folder_ / "again.json", read);
+  FrameTransform again = readFrameTransform(folder_ / "again.json");
+  EXPECT_NE(again.file_sha256, "");
+  again.file = read.file;
+  again.file_sha256 = read.file_sha256;
+  EXPECT_EQ(again, read);
+}
+
+TEST_F(FrameTransforms, NamesWhatIsWrong) {
+  for (const char* key : {"target", "source", "target_from_source", "comment"}) {
+    nlohmann::ordered_json json = transformJson();
+    json.erase(key);
+    EXPECT_EQ(error(json), std::string("t.json: ") + key + ": missing");
+  }
+  nlohmann::ordered_json json = transformJson();
+  json["source"] = json["target"];
+  EXPECT_EQ(error(json), "t.json: source: is the same frame as the target");
+  json = transformJson();
+  json["target_from_source"][0][0] = 3.0;
+  EXPECT_THAT(error(json), HasSubstr("target_from_source: not a rotation"));
+  json = transformJson();
+  json["target"]["name"] = "";
+  EXPECT_THAT(error(json), HasSubstr("t.json: target.name"));
+}
+
+TEST_F(FrameTransforms, BringAPoseToTheCameraEitherWayRound) {
+  const CameraReference camera = roverCamera();
+  const nlohmann::ordered_json site = {{"name", "SITE_FRAME"}, {"index", {194}}};
+  // By hand: (1, 2, 3) of the site less (10, 20, -3), turned back by a quarter.
+  const Eigen::Vector3d in_rover(2.0 - 20.0, -(1.0 - 10.0), 6.0);
+  const Eigen::Vector3d in_camera = camera.camera_from_reference * in_rover;
+  const FrameTransform forward = transform();
+  FrameTransform backward = forward;
+  std::swap(backward.target, backward.source);
+  backward.target_from_source = forward.target_from_source.inverse();
+  for (const FrameTransform& given : {forward, backward}) {
+    const PoseFile pose = read(site, {camera, {given}});
+    EXPECT_LT((pose.camera_from_station.translation_m - in_camera).norm(), 1e-12);
+    EXPECT_EQ(pose.station_frame->frame, kSite);
+    ASSERT_TRUE(pose.station_frame->joined_by);
+    EXPECT_EQ(pose.station_frame->joined_by->file, "sol12.json");
+    EXPECT_EQ(pose.station_frame->joined_by->target, given.target);
+  }
+}
+
+TEST_F(FrameTransforms, AreNotAskedForInTheCamerasOwnFrame) {
+  const CameraReference camera = roverCamera();
+  const Eigen::Vector3d in_camera = camera.camera_from_reference * Eigen::Vector3d(1, 2, 3);
+  const nlohmann::ordered_json rover = {{"name", "ROVER_FRAME"}, {"index", {194, 835, 1}}};
+  for (const nlohmann::ordered_json& frame : {nlohmann::ordered_json(), rover}) {
+    const PoseFile pose = read(frame, {camera, {}});
+    EXPECT_LT((pose.camera_from_station.translation_m - in_camera).norm(), 1e-12);
+    EXPECT_EQ(pose.station_frame->frame, kRover);
+    EXPECT_FALSE(pose.station_frame->joined_by);
+  }
+}
+
+TEST_F(FrameTransforms, FramesOfOneNameAndAnotherIndexAreTwo) {
+  const CameraReference camera = roverCamera();
+  const nlohmann::ordered_json later = {{"name", "ROVER_FRAME"}, {"index", {194, 840, 0}}};
+  EXPECT_THAT(poseError(later, {camera, {}}),
+              EndsWith("seed.json: reference_frame: the pose is given in ROVER_FRAME (194, 840, "
+                       "0), but the camera model in ROVER_FRAME (194, 835, 1); give the transform "
+                       "between the two (transform.json)"));
+  EXPECT_THAT(poseError(later, {camera, {transform()}}),
+              HasSubstr("sol12.json leads from ROVER_FRAME (194, 835, 1) to SITE_FRAME (194)"));
+  const nlohmann::ordered_json bare = {{"name", "ROVER_FRAME"}};
+  EXPECT_THAT(poseError(bare, {camera, {}}), HasSubstr("the pose is given in ROVER_FRAME, but"));
+}
+
+TEST_F(FrameTransforms, AreNeverGuessed) {
+  const nlohmann::ordered_json site = {{"name", "SITE_FRAME"}, {"index", {194}}};
+  CameraReference nameless = roverCamera();
+  nameless.frame = {};
+  EXPECT_THAT(poseError(site, {nameless, {transform()}}), HasSubstr("a frame without a name"));
+  EXPECT_THAT(poseError(site, {std::nullopt, {transform()}}),
+              HasSubstr("needs a camera of the CAHV family"));
+  const auto file = folder_.write(
+      "seed.json", R"({"format": "boresight-pose", "version": 1, "camera_from_station":
+         [[1,0,0,0],[0,1,0,0],[0,0,1,1],[0,0,0,1]], "reference_frame": {"name": "SITE_FRAME"}})");
+  EXPECT_THAT(folder_.message([&] {
+    (void)readPose(file, {roverCamera(), {}});
+  }),
+              HasSubstr("reference_frame: belongs to reference_from_station"));
+}
+
+}  // namespace
+}  // namespace boresight::sessions
