@@ -17,7 +17,7 @@ std::vector<FrameLine> frameLines(const SessionCase& one) {
   std::string given = frameText(one.station_frame->frame);
   if (const auto& join = one.station_frame->joined_by)
     given += ", joined by " + join->file.string() + " (" + join->comment + ")";
-  lines.push_back({"seed given in", given});
+  lines.push_back({"station given in", given});
   return lines;
 }
 

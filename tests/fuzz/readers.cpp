@@ -27,6 +27,15 @@ using Path = std::filesystem::path;
 
 void readMetres(const Path& file) { (void)sessions::readMesh(file, "m"); }
 
+/// For poses in frames of their own.
+sessions::PoseFrames roverFrames() {
+  sessions::CameraReference reference;
+  reference.frame = {"ROVER_FRAME", {194, 835, 1}};
+  const sessions::FrameTransform transform{{"SITE_FRAME", {194}}, reference.frame, Pose(),
+                                           "a transform",         "t.json",        ""};
+  return {reference, {transform}};
+}
+
 constexpr FuzzedReader kReaders[] = {
     {"bop_results", "results.csv", [](const Path& file) { (void)sessions::readBopResults(file); }},
     {"cahvor", "camera.cahvor", [](const Path& file) { (void)sessions::readCahvorFile(file); }},
@@ -45,10 +54,12 @@ constexpr FuzzedReader kReaders[] = {
     {"mesh_obj", "mesh.obj", readMetres},
     {"mesh_ply", "mesh.ply", readMetres},
     {"mesh_stl", "mesh.stl", readMetres},
-    {"pose", "pose.json", [](const Path& file) { (void)sessions::readPose(file); }},
+    {"pose", "pose.json", [](const Path& file) { (void)sessions::readPose(file, roverFrames()); }},
     {"record", "run.whsr", [](const Path& file) { (void)sessions::readRecord(file); }, sealRecord},
     {"session", "s.boresight.json",
      [](const Path& file) { (void)sessions::readSessionFile(file); }},
+    {"transform", "transform.json",
+     [](const Path& file) { (void)sessions::readFrameTransform(file); }},
     {"trace", "run.trace", [](const Path& file) { (void)sessions::loadTrace(file); }, sealTrace},
 };
 
