@@ -9,6 +9,7 @@
 
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
+#include "sessions/io/label_files.h"
 #include "sessions/io/mesh_container.h"
 #include "sessions/io/mesh_file.h"
 
@@ -162,6 +163,7 @@ class Search {
 }  // namespace
 
 std::string inputSha256(const fs::path& file) {
+  if (const auto label = labelFileOf(file)) return readLabelFiles(*label).sha256();
   return sha256Text(readFileBytes(file, kMaxInputBytes));
 }
 

@@ -7,6 +7,7 @@
 
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
+#include "sessions/io/label_files.h"
 #include "sessions/io/mesh_container.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_file.h"
@@ -55,6 +56,22 @@ class Packer {
       zip_.add(top_ + "/" + name, bytes);
     }
     file = place(name);
+  }
+
+  /// An image, and where its label is another file that, too.
+  void packImage(InputFile& image) {
+    const auto label = labelFileOf(image.file);
+    if (!label) return pack(image.file, image.sha256);
+    const LabelFiles files = readLabelFiles(*label);
+    requireSame(image.file, files.sha256(), image.sha256);
+    const std::string folder = inputFolder(image.sha256);
+    for (const LabelPart& part : files.parts) {
+      const bool own = &part == &files.parts.front();
+      const std::string name = own ? label->filename().string() : part.name;
+      if (const std::string place = top_ + "/" + folder + "/" + name; !zip_.has(place))
+        zip_.add(place, part.bytes);
+    }
+    image.file = place(folder + "/" + image.file.filename().string());
   }
 
   /// Takes a file along as it is now; false when it is not there.
@@ -127,7 +144,7 @@ std::vector<std::string> packSession(const Session& session, const fs::path& ses
   std::vector<std::string> notes;
   for (auto& one : packed.cases) {
     SessionCase changed = *one;
-    packer.pack(changed.image.source.file, changed.image.source.sha256);
+    packer.packImage(changed.image.source);
     for (MeshInput& part : changed.parts) packer.packMesh(part);
     if (changed.ignore) packer.pack(changed.ignore->file, changed.ignore->sha256);
     if (changed.onboard_record)
