@@ -15,6 +15,7 @@
 #include "sessions/io/camera_file.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/image_file.h"
+#include "sessions/io/image_label.h"
 #include "sessions/io/json_document.h"
 #include "sessions/io/mesh_container.h"
 #include "sessions/report/run_text.h"
@@ -221,6 +222,28 @@ void describeMesh(const path& file, const std::string& unit) {
   for (const std::string& text : info.notes()) flag(text);
 }
 
+std::string frameLine(const sessions::LabelFrame& frame) {
+  const Pose& pose = frame.reference_from_frame;
+  const Eigen::Quaterniond& q = pose.rotation;
+  return frameText(frame.frame) + " in " + frameText(frame.reference) + ": at " +
+         vectorText(pose.translation_m, 4) + " m, wxyz " + fixedText(q.w(), 6) + " " +
+         fixedText(q.x(), 6) + " " + fixedText(q.y(), 6) + " " + fixedText(q.z(), 6);
+}
+
+void describeLabel(const path& file) {
+  const sessions::ImageLabel label = sessions::readImageLabel(file);
+  for (const sessions::SheetLine& entry : sessions::labelLines(label))
+    line(entry.label + ": " + entry.value);
+  if (label.camera) {
+    line("camera of the label:");
+    describeCamera(*label.camera);
+  }
+  for (const sessions::LabelItem& item : label.camera_items)
+    line("camera " + item.name + ": " + item.value);
+  for (const sessions::LabelFrame& frame : label.frames) line("frame " + frameLine(frame));
+  if (!label.camera) flag(label.camera_remark);
+}
+
 void describeImage(const path& file) {
   const sessions::GrayImage image = sessions::readImage(file);
   line(image.container + ", " + sizeText(image.width, image.height) + " px, " +
@@ -231,6 +254,7 @@ void describeImage(const path& file) {
        ", " + fixedText(100.0 * sheet.saturated_share, 2) + " % saturated");
   line("sha256 " + image.file_sha256);
   flagAll(sheet.flags);
+  if (sessions::hasImageLabel(file)) describeLabel(file);
 }
 
 void describeTrace(const path& file) {
@@ -266,7 +290,7 @@ void describe(const path& file, const std::string& mesh_unit, const DatasetArgum
     describeJson(file);
   } else if (is({".ply", ".obj", ".stl", ".gltf", ".glb"})) {
     describeMesh(file, mesh_unit);
-  } else if (is({".png", ".jpg", ".jpeg", ".tif", ".tiff"})) {
+  } else if (is({".png", ".jpg", ".jpeg", ".tif", ".tiff"}) || sessions::hasImageLabel(file)) {
     describeImage(file);
   } else if (beginsLikeTrace(file)) {
     describeTrace(file);

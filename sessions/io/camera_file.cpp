@@ -9,6 +9,7 @@
 
 #include "sessions/io/cahv_camera.h"
 #include "sessions/io/cahvor_file.h"
+#include "sessions/io/image_label.h"
 #include "sessions/io/json_document.h"
 #include "sessions/io/json_writer.h"
 
@@ -100,6 +101,7 @@ CameraFile readCameraFile(const JsonReader& json) {
 
 CameraFile readCameraFile(const std::filesystem::path& file) {
   if (isCahvorFile(file)) return readCahvorCamera(file);
+  if (hasImageLabel(file)) return readLabelCamera(file);
   const JsonDocument document(file);
   return readCameraFile(document.root(kFormat, kVersion));
 }

@@ -49,8 +49,8 @@ struct CameraFile {
 
 /// Reads camera.json (`boresight-camera`, version 1): pinhole, brown_conrady with 4, 5 or 8
 /// coefficients, kannala_brandt with 4, cahv, cahvor and cahvore with their vectors; or a text file
-/// of calibration named .cahv, .cahvor or .cahvore. The camera is prepared for projection.
-/// InputError.
+/// of calibration named .cahv, .cahvor or .cahvore; or an image with a VICAR, PDS3 or PDS4 label,
+/// for the camera model in it. The camera is prepared for projection. InputError.
 CameraFile readCameraFile(const std::filesystem::path& file);
 /// The same for a camera inside another file, without format and version.
 CameraFile readCameraFile(const JsonReader& json);

@@ -10,6 +10,7 @@
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/image_container.h"
+#include "sessions/io/label_samples.h"
 
 namespace boresight::sessions {
 namespace {
@@ -102,6 +103,18 @@ std::vector<std::uint8_t> sampleTable(const std::filesystem::path& file, int bit
   return table;
 }
 
+void requireDepth(const std::filesystem::path& file, const GrayImage& gray) {
+  if (gray.bit_depth > gray.sample_bits)
+    throw InputError(file, "bit_depth",
+                     std::to_string(gray.bit_depth) + " bits stated, but the file holds " +
+                         std::to_string(gray.sample_bits));
+}
+
+std::string depthText(const GrayImage& gray) {
+  if (gray.bit_depth_stated) return "stated";
+  return gray.bit_depth_of_label ? "that of the label" : "that of the file";
+}
+
 std::string ruleText(const GrayImage& gray, const ImageReadOptions& options) {
   std::string text;
   if (gray.channels == 2 || gray.channels == 4) text += "alpha dropped; ";
@@ -114,7 +127,69 @@ std::string ruleText(const GrayImage& gray, const ImageReadOptions& options) {
     return text + "by a given table of " + std::to_string(1 << gray.bit_depth) + " values";
   if (gray.bit_depth == 8) return text + "8-bit values as they are";
   return text + "floor(v * 255 / (2^" + std::to_string(gray.bit_depth) +
-         " - 1) + 0.5), bit depth " + (gray.bit_depth_stated ? "stated" : "that of the file");
+         " - 1) + 0.5), bit depth " + depthText(gray);
+}
+
+/// The samples of an image with a label, `bytes` being its file; nothing for other images.
+std::optional<LabelSamples> labelledSamples(const std::filesystem::path& file,
+                                            std::vector<std::uint8_t>& bytes) {
+  if (labelFormatOf(bytes)) return readLabelSamples(readLabelFiles(file, std::move(bytes)));
+  const auto label_file = labelFileOf(file);
+  if (!label_file) return std::nullopt;
+  return readLabelSamples(readLabelFiles(*label_file));
+}
+
+ImageSamples samplesOf(const LabelSamples& labelled) {
+  return {labelled.width,  labelled.height, labelled.sample_bits, labelled.values,
+          labelled.offset, labelled.scale,  labelled.sha256};
+}
+
+/// Depth of the label, of its file where it states none, or, where a sample is beyond the label's,
+/// the least that holds them all: an image is not refused for a sloppy label.
+void chooseDepth(const LabelSamples& labelled, const ImageReadOptions& options, GrayImage& gray) {
+  gray.bit_depth_of_label = labelled.quantized;
+  gray.bit_depth = gray.sample_bits;
+  if (options.bit_depth || options.levels || !labelled.bit_depth) {
+    gray.bit_depth = options.bit_depth.value_or(gray.sample_bits);
+    return;
+  }
+  if (!options.table.empty() && options.table.size() != std::size_t{1} << *labelled.bit_depth)
+    return;
+  gray.bit_depth = *labelled.bit_depth;
+  gray.bit_depth_of_label = true;
+  if (labelled.highest < 1 << gray.bit_depth) return;
+  while (labelled.highest >= 1 << gray.bit_depth) ++gray.bit_depth;
+  gray.notes.push_back("the label says that " + std::to_string(*labelled.bit_depth) +
+                       " bits are used, but a sample is " + std::to_string(labelled.highest) +
+                       ": read as " + std::to_string(gray.bit_depth) + " bits");
+}
+
+GrayImage grayOf(const std::filesystem::path& file, const LabelSamples& labelled,
+                 const ImageReadOptions& options) {
+  GrayImage gray;
+  gray.file = file;
+  gray.width = labelled.width;
+  gray.height = labelled.height;
+  gray.container = labelled.container;
+  gray.channels = labelled.bands;
+  gray.sample_bits = labelled.sample_bits;
+  gray.notes = labelled.notes;
+  gray.bit_depth_stated = options.bit_depth.has_value();
+  if (labelled.quantized && options.bit_depth && *options.bit_depth != 16)
+    throw InputError(file, "bit_depth",
+                     std::to_string(*options.bit_depth) +
+                         " bits stated, but its samples are not whole numbers from 0 on and "
+                         "become 16 bits");
+  chooseDepth(labelled, options, gray);
+  requireDepth(file, gray);
+  const cv::Mat values(gray.height, gray.width, CV_16U,
+                       const_cast<std::uint16_t*>(labelled.values.data()));
+  gray.pixels.resize(labelled.values.size());
+  convert<std::uint16_t>(file, values, sampleTable(file, gray.bit_depth, options), gray);
+  gray.rule = (labelled.rule.empty() ? "" : labelled.rule + "; ") + ruleText(gray, options);
+  gray.file_sha256 = labelled.sha256;
+  gray.pixels_sha256 = sha256Text(gray.pixels);
+  return gray;
 }
 
 }  // namespace
@@ -136,7 +211,8 @@ std::vector<std::uint8_t> tableOfLevels(const GrayLevels& levels, int n) {
 }
 
 ImageSamples readSamples(const std::filesystem::path& file) {
-  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxImageFileBytes);
+  std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxImageFileBytes);
+  if (const auto labelled = labelledSamples(file, bytes)) return samplesOf(*labelled);
   const ImageHeader header = checkImageContainer(file, bytes);
   checkSize(file, header);
   const cv::Mat image = decode(file, bytes, header);
@@ -163,7 +239,8 @@ GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& o
     throw InputError(file, "bit_depth", std::to_string(*options.bit_depth) + " is outside 1 .. 16");
   if (options.levels && !options.table.empty())
     throw InputError(file, "levels", "given beside a table: one of the two");
-  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxImageFileBytes);
+  std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxImageFileBytes);
+  if (const auto labelled = labelledSamples(file, bytes)) return grayOf(file, *labelled, options);
   const ImageHeader header = checkImageContainer(file, bytes);
   checkSize(file, header);
   const cv::Mat image = decode(file, bytes, header);
@@ -177,10 +254,7 @@ GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& o
   gray.sample_bits = image.depth() == CV_16U ? 16 : 8;
   gray.bit_depth = options.bit_depth.value_or(gray.sample_bits);
   gray.bit_depth_stated = options.bit_depth.has_value();
-  if (gray.bit_depth > gray.sample_bits)
-    throw InputError(file, "bit_depth",
-                     std::to_string(gray.bit_depth) + " bits stated, but the file holds " +
-                         std::to_string(gray.sample_bits));
+  requireDepth(file, gray);
   gray.pixels.resize(image.total());
   const std::vector<std::uint8_t> table = sampleTable(file, gray.bit_depth, options);
   if (gray.sample_bits == 16)

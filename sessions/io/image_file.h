@@ -45,24 +45,27 @@ struct GrayImage {
   int height = 0;
   std::vector<std::uint8_t> pixels;  ///< row-major, width * height
 
-  std::string container;  ///< "PNG", "JPEG", "TIFF"
+  std::string container;  ///< "PNG", "JPEG", "TIFF", "VICAR", "PDS3", "PDS4"
   int channels = 1;       ///< of the file: 1 gray, 2 gray + alpha, 3 colour, 4 colour + alpha
   int sample_bits = 8;    ///< of the decoded samples: 8 or 16
   int bit_depth = 8;      ///< n of the rule
-  bool bit_depth_stated = false;  ///< asked for, not taken from the file
-  std::string rule;               ///< how samples became 8 bit, for provenance
-  std::string file_sha256;
-  std::string pixels_sha256;  ///< of `pixels`
+  bool bit_depth_stated = false;    ///< asked for, not taken from the file
+  bool bit_depth_of_label = false;  ///< stated by the file's label, or made by its rule
+  std::string rule;                 ///< how samples became 8 bit, for provenance
+  std::vector<std::string> notes;   ///< what its label says that a person should know
+  std::string file_sha256;          ///< of a label and the file of its pixels: of both together
+  std::string pixels_sha256;        ///< of `pixels`
 
   ImageView view() const { return {pixels.data(), width, height, width}; }
 };
 
-/// Reads a PNG, JPEG or TIFF of 8 or 16 bits, gray or colour; alpha is dropped, an orientation tag
-/// is not applied (calibration belongs to the stored pixels). Rule (conventions.md): colour by
-/// luma (9798 R + 19235 G + 3735 B + 16384) >> 15 on the samples, then
-/// floor(v * 255 / (2^n - 1) + 0.5) or the given table; a sample above 2^n - 1 contradicts the
-/// stated depth and is refused. InputError when the file is missing, empty, truncated, damaged, of
-/// another format, or too large.
+/// Reads a PNG, JPEG or TIFF of 8 or 16 bits, gray or colour, or an image with a VICAR, PDS3 or
+/// PDS4 label of any samples (label_samples.h says how they become 16 bits; the depth is then that
+/// of the label), whatever its name; alpha is dropped, an orientation tag is not applied
+/// (calibration belongs to the stored pixels). Rule (conventions.md): colour by luma (9798 R +
+/// 19235 G + 3735 B + 16384) >> 15 on the samples, then floor(v * 255 / (2^n - 1) + 0.5) or the
+/// given table; a sample above 2^n - 1 contradicts the stated depth and is refused. InputError when
+/// the file is missing, empty, truncated, damaged, of another format, or too large.
 GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& options = {});
 
 /// The samples of an image before they become 8 bit, colour by the same luma: to look at, and to
@@ -72,6 +75,10 @@ struct ImageSamples {
   int height = 0;
   int sample_bits = 8;                ///< of the file: 8 or 16
   std::vector<std::uint16_t> values;  ///< row-major, width * height
+  /// The file's own value is offset + scale * value: other than 0 and 1 where numbers that are not
+  /// whole, or negative, became 16 bits.
+  double offset = 0.0;
+  double scale = 1.0;
   std::string file_sha256;
 };
 

@@ -138,6 +138,18 @@ void describe(const LoadedCase& loaded, InputSheet& sheet) {
                        " % of the image");
 }
 
+std::string subframeText(const ImageLabel& label) {
+  if (!label.subframe) return "not stated";
+  const LabelSubframe& part = *label.subframe;
+  const std::string averaged = part.samples_per_pixel == 1.0 && part.lines_per_pixel == 1.0
+                                   ? "not down-sampled"
+                                   : "each pixel is " + fixedText(part.samples_per_pixel, 2) +
+                                         " x " + fixedText(part.lines_per_pixel, 2) +
+                                         " of the detector's";
+  return "begins at sample " + std::to_string(part.first_sample) + ", line " +
+         std::to_string(part.first_line) + " of the detector (from 0), " + averaged;
+}
+
 }  // namespace
 
 CameraSheet cameraSheet(const Camera& camera) {
@@ -178,6 +190,22 @@ bool looksLikeMosaic(const ImageView& image) {
   return along_rows.alternate() && along_columns.alternate();
 }
 
+std::vector<SheetLine> labelLines(const ImageLabel& label) {
+  std::vector<SheetLine> lines{{"label", label.format}};
+  for (const LabelItem& item : label.identifiers) lines.push_back({item.name, item.value});
+  lines.push_back(
+      {"label's camera", label.camera ? std::string(cameraModelName(label.camera->camera.model)) +
+                                            " in " + frameText(label.camera->reference->frame)
+                                      : label.camera_remark});
+  lines.push_back({"sub-frame", subframeText(label)});
+  lines.push_back({"pixel origin",
+                   "the centre of the top-left pixel of the image is (0, 0); the "
+                   "label counts lines and samples from 1"});
+  if (label.bit_depth)
+    lines.push_back({"bit depth", std::to_string(*label.bit_depth) + " bits by the label"});
+  return lines;
+}
+
 ImageSheet imageSheet(const GrayImage& image) {
   ImageSheet sheet;
   const auto [low, high] = std::minmax_element(image.pixels.begin(), image.pixels.end());
@@ -194,7 +222,8 @@ ImageSheet imageSheet(const GrayImage& image) {
   if (*high - *low < 64)
     sheet.flags.push_back(
         {"image_few_grays", "the image uses few gray levels: is its bit depth stated right?"});
-  if (image.sample_bits > 8 && !image.bit_depth_stated)
+  for (const std::string& note : image.notes) sheet.flags.push_back({"image_label", note});
+  if (image.sample_bits > 8 && !image.bit_depth_stated && !image.bit_depth_of_label)
     sheet.flags.push_back({"image_bit_depth",
                            "the samples have 16 bits and nothing says how many of them are used: "
                            "state the bit depth"});

@@ -11,6 +11,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "sessions/io/image_file.h"
+#include "sessions/io/image_label.h"
 #include "sessions/io/mesh_file.h"
 #include "sessions/session/case_run.h"
 
@@ -49,9 +50,14 @@ struct ImageSheet {
   int lowest_gray = 0;
   int highest_gray = 0;
   double saturated_share = 0.0;  ///< of all pixels
-  std::vector<RedFlag> flags;  ///< image_saturated, image_few_grays, image_bit_depth, image_mosaic
+  std::vector<RedFlag> flags;  ///< image_saturated, image_few_grays, image_bit_depth, image_mosaic,
+                               ///< image_label
 };
 ImageSheet imageSheet(const GrayImage& image);
+
+/// What an image's label says, for people: identifiers, camera model with its frame, sub-frame,
+/// down-sampling, pixel origin, bits.
+std::vector<SheetLine> labelLines(const ImageLabel& label);
 
 /// Whether neighbouring pixels differ more than those two apart, along rows and columns both: a
 /// Bayer mosaic that was not turned into gray. A mosaic of a gray scene shows nothing of the kind.

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/image_label.h"
+
+#include "sessions/io/errors.h"
+#include "sessions/io/label_raster.h"
+#include "sessions/io/label_reading.h"
+
+namespace boresight::sessions {
+
+bool hasImageLabel(const std::filesystem::path& file) { return labelFileOf(file).has_value(); }
+
+ImageLabel readImageLabel(const std::filesystem::path& file) {
+  const LabelFiles files = readLabelFiles(labelFileOf(file).value_or(file));
+  const LabelRaster raster(files);
+  return readLabelTree(files.format, raster.label(), raster.vicarLabel(), pictureOf(raster)).label;
+}
+
+CameraFile readLabelCamera(const std::filesystem::path& file) {
+  const ImageLabel label = readImageLabel(file);
+  if (!label.camera) throw InputError(file, label.camera_remark);
+  return *label.camera;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boresight::sessions {
+
+enum class LabelFormat { kVicar, kPds3, kPds4 };
+
+const char* labelFormatName(LabelFormat format);  ///< "VICAR", "PDS3", "PDS4"
+
+/// The label that the bytes begin with, if any.
+std::optional<LabelFormat> labelFormatOf(std::span<const std::uint8_t> bytes);
+
+/// The value of `key` where a VICAR label of this text states it as a plain integer, e.g. NL=1024.
+std::optional<std::int64_t> vicarInteger(std::string_view label, std::string_view key);
+
+/// A file that an image with a label consists of, read once.
+struct LabelPart {
+  std::string name;  ///< as the label calls it; of the label itself, one of our own
+  std::vector<std::uint8_t> bytes;
+};
+
+/// The label's file and, where the pixels lie in another file, that file.
+struct LabelFiles {
+  std::filesystem::path file;  ///< the label
+  LabelFormat format = LabelFormat::kVicar;
+  std::vector<LabelPart> parts;  ///< the label first
+
+  std::span<const std::uint8_t> labelBytes() const { return parts.front().bytes; }
+  std::string sha256() const;  ///< of all parts one after the other
+};
+
+/// Where the label of this file is: the file itself, or the label beside it that names it (same
+/// name, ending .lbl or .xml) when the file has none and is no picture of another kind. Nothing
+/// when there is no label; false answers of files that cannot be read, too.
+std::optional<std::filesystem::path> labelFileOf(const std::filesystem::path& file);
+
+/// Reads the label and what it names. A label may only name a file in its own folder. InputError:
+/// unreadable, no label, a part that is missing or elsewhere.
+LabelFiles readLabelFiles(const std::filesystem::path& label_file);
+/// The same of bytes that are already read.
+LabelFiles readLabelFiles(const std::filesystem::path& label_file,
+                          std::vector<std::uint8_t> label_bytes);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "sessions/io/label_files.h"
+
+namespace boresight::sessions {
+
+enum class SampleType { kUint8, kUint16, kInt16, kUint32, kInt32, kFloat, kDouble };
+
+const char* sampleTypeName(SampleType type);  ///< "16-bit signed integers"
+inline bool isFloating(SampleType type) { return type >= SampleType::kFloat; }
+int bitsOf(SampleType type);
+
+/// An image with a label as GDAL opens it, from bytes in memory alone: nothing that a label says
+/// makes it read another file. The label comes as one tree: of VICAR and PDS3 as GDAL's JSON has
+/// it, of PDS4 its elements by their names without prefix, those with an attribute `unit` as
+/// {"value", "unit"}, repeated ones as arrays.
+class LabelRaster {
+ public:
+  /// The files must outlive it. InputError: a label that is damaged, sizes out of bounds, pixels
+  /// that are not all there.
+  explicit LabelRaster(const LabelFiles& files);
+  ~LabelRaster();
+  LabelRaster(const LabelRaster&) = delete;
+  LabelRaster& operator=(const LabelRaster&) = delete;
+
+  int width() const;
+  int height() const;
+  int bands() const;
+  SampleType type() const;
+  const nlohmann::json& label() const;
+  /// The label of the VICAR header inside a PDS3 file; null when there is none.
+  const nlohmann::json& vicarLabel() const;
+  /// Samples of a row of a band (from 0), exact in double. InputError.
+  void readRow(int band, int row, std::vector<double>& samples) const;
+
+ private:
+  struct Opened;
+  std::unique_ptr<Opened> opened_;
+};
+
+}  // namespace boresight::sessions

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values of labels as people and programs wrote them: with units, blanks, line ends inside texts,
+// numbers as texts, and words for what is not there.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+
+namespace boresight::sessions {
+
+/// A member of an object; null when there is none, or no object.
+const nlohmann::json* labelMember(const nlohmann::json* object, std::string_view key);
+/// The first of several keys that is there.
+const nlohmann::json* labelMember(const nlohmann::json* object,
+                                  std::initializer_list<std::string_view> keys);
+/// Members within members.
+const nlohmann::json* labelPath(const nlohmann::json* object,
+                                std::initializer_list<std::string_view> keys);
+
+/// The text on one line without blanks around it; nothing for "", N/A, NULL, UNK, UNKNOWN, NONE is
+/// kept. Numbers as they would be written.
+std::optional<std::string> labelText(const nlohmann::json* value);
+/// Every text of a list, "" where one is absent; a single value is a list of one.
+std::vector<std::string> labelTexts(const nlohmann::json* value);
+/// A finite number, also one written as a text, with a unit, or with D for E.
+std::optional<double> labelNumber(const nlohmann::json* value);
+/// All of a list; empty when one of them is no number. A single value is a list of one.
+std::vector<double> labelNumbers(const nlohmann::json* value);
+std::optional<std::int64_t> labelInteger(const nlohmann::json* value);
+/// Three numbers.
+std::optional<Eigen::Vector3d> labelVector(const nlohmann::json* value);
+/// The unit of a value, upper case, "" without one.
+std::string labelUnit(const nlohmann::json* value);
+
+/// Several texts as one, separated by ", ".
+std::string joined(const std::vector<std::string>& texts);
+std::string fixedNumber(double value, int decimals);
+std::string upperCase(std::string_view text);
+
+}  // namespace boresight::sessions
