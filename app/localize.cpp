@@ -9,6 +9,7 @@
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/image_file.h"
+#include "sessions/io/image_label.h"
 #include "sessions/report/overlay.h"
 #include "sessions/report/result_file.h"
 #include "sessions/report/run_text.h"
@@ -67,7 +68,10 @@ sessions::RunProvenance provenance(const LocalizeArguments& arguments, const Inp
   made.image = &inputs.image;
   made.scene = &inputs.scene;
   made.ignore = inputs.ignore_mask ? &*inputs.ignore_mask : nullptr;
-  made.camera_file = arguments.camera;
+  made.camera_file = arguments.cameraFile();
+  if (sessions::hasImageLabel(arguments.image))
+    made.image_label = sessions::readImageLabel(arguments.image).identifiers;
+  made.station_frame = inputs.seed.station_frame;
   made.seed_file = arguments.seed;
   made.truth_file = arguments.truth;
   made.config_file = arguments.options.config;
@@ -140,7 +144,7 @@ void requireAccepted(const LocalizeArguments& arguments, const sessions::Localiz
     case Status::kInvalidMesh:
       throw sessions::InputError(arguments.mesh.mesh, reason);
     case Status::kInvalidCamera:
-      throw sessions::InputError(arguments.camera, reason);
+      throw sessions::InputError(arguments.cameraFile(), reason);
     case Status::kInvalidImage:
       throw sessions::InputError(arguments.image, reason);
     case Status::kInvalidPose:

@@ -7,6 +7,7 @@
 #include "core/localizer/problem_bytes.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/dataset_file.h"
+#include "sessions/io/image_label.h"
 
 namespace boresight::app {
 namespace {
@@ -67,7 +68,8 @@ ProblemInputs readCaseInputs(const ProblemArguments& arguments) {
 
 void requireFilesNamed(const ProblemArguments& arguments) {
   if (arguments.image.empty()) throw CLI::RequiredError("--image (or --dataset and --case)");
-  if (arguments.camera.empty()) throw CLI::RequiredError("--camera");
+  if (arguments.camera.empty() && !sessions::hasImageLabel(arguments.image))
+    throw CLI::RequiredError("--camera");
   if (arguments.mesh.mesh.empty()) throw CLI::RequiredError("--mesh");
   if (arguments.seed.empty()) throw CLI::RequiredError("--seed");
 }

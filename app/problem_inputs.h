@@ -27,6 +27,8 @@ struct InputArguments {
   int bit_depth = 0;
 
   void addTo(CLI::App& command);
+  /// The image itself where its label is the camera.
+  const std::string& cameraFile() const { return camera.empty() ? image : camera; }
 };
 
 /// Everything that was read, and the problem that points into it.

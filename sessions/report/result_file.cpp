@@ -10,6 +10,7 @@
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/report/run_text.h"
+#include "sessions/session/frames_json.h"
 
 namespace boresight::sessions {
 namespace {
@@ -71,6 +72,8 @@ ordered_json provenanceJson(const LocalizationTrace& trace, const RunProvenance&
         {{"file", info.file.string()}, {"sha256", info.file_sha256}, {"unit", info.unit}});
   json["meshes"] = meshes;
   json["seed"] = fileJson(provenance.seed_file);
+  if (!provenance.image_label.empty()) json["image_label"] = toJson(provenance.image_label);
+  if (provenance.station_frame) json["station_frame"] = toJson(*provenance.station_frame);
   if (provenance.ignore != nullptr)
     json["ignore"] = {{"file", provenance.ignore->file.string()},
                       {"sha256", provenance.ignore->file_sha256},

@@ -9,6 +9,7 @@
 
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/image_file.h"
+#include "sessions/io/image_label.h"
 #include "sessions/io/option_value.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/io/scene_mesh.h"
@@ -26,6 +27,8 @@ struct RunProvenance {
   const SceneMesh* scene = nullptr;
   const IgnoreMask* ignore = nullptr;
   std::filesystem::path camera_file, seed_file, truth_file, config_file;
+  std::vector<LabelItem> image_label = {};                   ///< of an image that has a label
+  std::optional<StationFrame> station_frame = std::nullopt;  ///< of a seed in a named frame
 };
 
 /// result.json (`boresight-result`, version 1): status, pose, covariance, one line per iteration,
