@@ -230,8 +230,7 @@ std::string frameLine(const sessions::LabelFrame& frame) {
          fixedText(q.x(), 6) + " " + fixedText(q.y(), 6) + " " + fixedText(q.z(), 6);
 }
 
-void describeLabel(const path& file) {
-  const sessions::ImageLabel label = sessions::readImageLabel(file);
+void describeLabel(const sessions::ImageLabel& label) {
   for (const sessions::SheetLine& entry : sessions::labelLines(label))
     line(entry.label + ": " + entry.value);
   if (label.camera) {
@@ -254,7 +253,7 @@ void describeImage(const path& file) {
        ", " + fixedText(100.0 * sheet.saturated_share, 2) + " % saturated");
   line("sha256 " + image.file_sha256);
   flagAll(sheet.flags);
-  if (sessions::hasImageLabel(file)) describeLabel(file);
+  if (image.label) describeLabel(*image.label);
 }
 
 void describeTrace(const path& file) {

@@ -10,6 +10,7 @@
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/image_container.h"
+#include "sessions/io/image_label.h"
 #include "sessions/io/label_samples.h"
 
 namespace boresight::sessions {
@@ -112,7 +113,9 @@ void requireDepth(const std::filesystem::path& file, const GrayImage& gray) {
 
 std::string depthText(const GrayImage& gray) {
   if (gray.bit_depth_stated) return "stated";
-  return gray.bit_depth_of_label ? "that of the label" : "that of the file";
+  if (!gray.label || !gray.bit_depth_of_label) return "that of the file";
+  if (gray.label->bit_depth && *gray.label->bit_depth == gray.bit_depth) return "that of the label";
+  return gray.bit_depth == 16 ? "that of q" : "the least that holds all samples";
 }
 
 std::string ruleText(const GrayImage& gray, const ImageReadOptions& options) {
@@ -144,22 +147,24 @@ ImageSamples samplesOf(const LabelSamples& labelled) {
           labelled.offset, labelled.scale,  labelled.sha256};
 }
 
+/// Bits that the label states for samples that stay as they are; 0: none.
+int statedBits(const LabelSamples& labelled) {
+  return labelled.quantized ? 0 : labelled.label->bit_depth.value_or(0);
+}
+
 /// Depth of the label, of its file where it states none, or, where a sample is beyond the label's,
 /// the least that holds them all: an image is not refused for a sloppy label.
 void chooseDepth(const LabelSamples& labelled, const ImageReadOptions& options, GrayImage& gray) {
+  const int stated = statedBits(labelled);
   gray.bit_depth_of_label = labelled.quantized;
-  gray.bit_depth = gray.sample_bits;
-  if (options.bit_depth || options.levels || !labelled.bit_depth) {
-    gray.bit_depth = options.bit_depth.value_or(gray.sample_bits);
-    return;
-  }
-  if (!options.table.empty() && options.table.size() != std::size_t{1} << *labelled.bit_depth)
-    return;
-  gray.bit_depth = *labelled.bit_depth;
+  gray.bit_depth = options.bit_depth.value_or(gray.sample_bits);
+  if (options.bit_depth || options.levels || stated == 0) return;
+  if (!options.table.empty() && options.table.size() != std::size_t{1} << stated) return;
+  gray.bit_depth = stated;
   gray.bit_depth_of_label = true;
-  if (labelled.highest < 1 << gray.bit_depth) return;
+  if (labelled.highest < 1 << stated) return;
   while (labelled.highest >= 1 << gray.bit_depth) ++gray.bit_depth;
-  gray.notes.push_back("the label says that " + std::to_string(*labelled.bit_depth) +
+  gray.notes.push_back("the label says that " + std::to_string(stated) +
                        " bits are used, but a sample is " + std::to_string(labelled.highest) +
                        ": read as " + std::to_string(gray.bit_depth) + " bits");
 }
@@ -173,7 +178,8 @@ GrayImage grayOf(const std::filesystem::path& file, const LabelSamples& labelled
   gray.container = labelled.container;
   gray.channels = labelled.bands;
   gray.sample_bits = labelled.sample_bits;
-  gray.notes = labelled.notes;
+  gray.label = labelled.label;
+  gray.notes = labelled.label->flags;
   gray.bit_depth_stated = options.bit_depth.has_value();
   if (labelled.quantized && options.bit_depth && *options.bit_depth != 16)
     throw InputError(file, "bit_depth",

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,8 @@
 #include "sessions/io/file_bytes.h"
 
 namespace boresight::sessions {
+
+struct ImageLabel;
 
 inline constexpr std::size_t kMaxImageFileBytes = 1024 * kMegabyte;
 /// Sides are bounded by kMaxImageSide_px, so this also bounds memory (134 million pixels).
@@ -49,12 +52,13 @@ struct GrayImage {
   int channels = 1;       ///< of the file: 1 gray, 2 gray + alpha, 3 colour, 4 colour + alpha
   int sample_bits = 8;    ///< of the decoded samples: 8 or 16
   int bit_depth = 8;      ///< n of the rule
-  bool bit_depth_stated = false;    ///< asked for, not taken from the file
-  bool bit_depth_of_label = false;  ///< stated by the file's label, or made by its rule
-  std::string rule;                 ///< how samples became 8 bit, for provenance
-  std::vector<std::string> notes;   ///< what its label says that a person should know
-  std::string file_sha256;          ///< of a label and the file of its pixels: of both together
-  std::string pixels_sha256;        ///< of `pixels`
+  bool bit_depth_stated = false;            ///< asked for, not taken from the file
+  bool bit_depth_of_label = false;          ///< stated by the file's label, or made by its rule
+  std::string rule;                         ///< how samples became 8 bit, for provenance
+  std::shared_ptr<const ImageLabel> label;  ///< of a VICAR, PDS3 or PDS4 image, else null
+  std::vector<std::string> notes;           ///< what its label and samples should tell a person
+  std::string file_sha256;    ///< of a label and the file of its pixels: of both together
+  std::string pixels_sha256;  ///< of `pixels`
 
   ImageView view() const { return {pixels.data(), width, height, width}; }
 };

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/base/digest.h"
+#include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/image_file.h"
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxLabelBytes = 4 * kMegabyte;
 constexpr std::size_t kBeginning = 4096;
+constexpr std::int64_t kMostVicarLabel = 10 * 1024 * 1024;
 /// More files than an image product has.
 constexpr std::size_t kMostParts = 16;
 
@@ -193,6 +195,34 @@ std::optional<std::int64_t> vicarInteger(std::string_view label, std::string_vie
     return std::nullopt;
   }
   return std::nullopt;
+}
+
+void requireVicarSizes(const LabelFiles& files) {
+  const auto bytes = files.labelBytes();
+  const auto size =
+      vicarInteger(asText(bytes.first(std::min<std::size_t>(bytes.size(), 64))), "LBLSIZE");
+  if (!size || *size < 16 || *size > kMostVicarLabel ||
+      *size > static_cast<std::int64_t>(bytes.size()))
+    throw InputError(
+        files.file, "LBLSIZE",
+        "is not the length of a label in this file of " + std::to_string(bytes.size()) + " bytes");
+  const std::string_view label = asText(bytes.first(static_cast<std::size_t>(*size)));
+  const auto require = [&](const char* key, std::int64_t least, std::int64_t most) {
+    const auto value = vicarInteger(label, key);
+    if (value && (*value < least || *value > most))
+      throw InputError(files.file, key,
+                       std::to_string(*value) + " is outside of " + std::to_string(least) + " .. " +
+                           std::to_string(most));
+  };
+  require("NL", 1, kMaxImageSide_px);
+  require("NS", 1, kMaxImageSide_px);
+  require("NB", 1, kMostLabelBands);
+  require("NBB", 0, kMaxImageSide_px * 8);
+  require("NLB", 0, kMaxImageSide_px);
+  // A record is then one pixel, and each would have a prefix: nobody reads that right.
+  if (label.find("ORG='BIP'") != std::string_view::npos &&
+      vicarInteger(label, "NBB").value_or(0) > 0)
+    throw InputError(files.file, "NBB", "a prefix of every pixel (ORG='BIP') is not read");
 }
 
 std::string LabelFiles::sha256() const {

@@ -37,6 +37,11 @@ struct LabelFiles {
   std::string sha256() const;  ///< of all parts one after the other
 };
 
+inline constexpr int kMostLabelBands = 64;
+
+/// InputError where a VICAR label states sizes that no image has, before tables of them are made.
+void requireVicarSizes(const LabelFiles& files);
+
 /// Where the label of this file is: the file itself, or the label beside it that names it (same
 /// name, ending .lbl or .xml) when the file has none and is no picture of another kind. Nothing
 /// when there is no label; false answers of files that cannot be read, too.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cstring>
 #include <mutex>
 
@@ -19,13 +20,12 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/image_file.h"
+#include "sessions/io/label_values.h"
 
 namespace boresight::sessions {
 namespace {
 
-constexpr int kMostBands = 64;
 constexpr int kMostDepth = 64;  ///< of elements within elements
-constexpr std::int64_t kMostVicarLabel = 10 * 1024 * 1024;
 
 /// Three formats and no more, at the first image with a label.
 void registerDrivers() {
@@ -237,31 +237,6 @@ void requireSide(const std::filesystem::path& file, const char* what, std::int64
                          std::to_string(most));
 }
 
-/// What a VICAR label says of its sizes, before GDAL makes tables of them.
-void checkVicarSizes(const LabelFiles& files) {
-  const auto bytes = files.labelBytes();
-  const auto size =
-      vicarInteger(asText(bytes.first(std::min<std::size_t>(bytes.size(), 64))), "LBLSIZE");
-  if (!size || *size < 16 || *size > kMostVicarLabel ||
-      *size > static_cast<std::int64_t>(bytes.size()))
-    throw InputError(
-        files.file, "LBLSIZE",
-        "is not the length of a label in this file of " + std::to_string(bytes.size()) + " bytes");
-  const std::string_view label = asText(bytes.first(static_cast<std::size_t>(*size)));
-  const auto require = [&](const char* key, std::int64_t least, std::int64_t most) {
-    const auto value = vicarInteger(label, key);
-    if (value && (*value < least || *value > most))
-      throw InputError(files.file, key,
-                       std::to_string(*value) + " is outside of " + std::to_string(least) + " .. " +
-                           std::to_string(most));
-  };
-  require("NL", 1, kMaxImageSide_px);
-  require("NS", 1, kMaxImageSide_px);
-  require("NB", 1, kMostBands);
-  require("NBB", 0, kMaxImageSide_px * 8);
-  require("NLB", 0, kMaxImageSide_px);
-}
-
 }  // namespace
 
 struct LabelRaster::Opened {
@@ -277,6 +252,7 @@ struct LabelRaster::Opened {
   nlohmann::json label;
   nlohmann::json vicar_label;
   SampleType type = SampleType::kUint8;
+  bool integers_as_floats = false;
 
   void open(const LabelFiles& files) {
     const std::string name = folder.path(files.parts.front().name);
@@ -291,7 +267,19 @@ struct LabelRaster::Opened {
     checkSizes();
     type = sampleTypeOf(file, dataset->GetRasterBand(1)->GetRasterDataType());
     label = labelTree(file, files.format, *dataset);
+    if (files.format == LabelFormat::kPds3) correctType();
     requirePixels(files);
+  }
+
+  /// GDAL takes every PDS3 sample of 32 bits for a floating-point number of IEEE 754.
+  void correctType() {
+    const std::string stated =
+        upperCase(labelText(labelPath(&label, {"IMAGE", "SAMPLE_TYPE"})).value_or(""));
+    if (stated.find("VAX") != std::string::npos || stated.find("COMPLEX") != std::string::npos)
+      throw InputError(file, "SAMPLE_TYPE", "samples of the type " + stated + " are not read");
+    if (type != SampleType::kFloat || stated.find("INTEGER") == std::string::npos) return;
+    integers_as_floats = true;
+    type = stated.find("UNSIGNED") != std::string::npos ? SampleType::kUint32 : SampleType::kInt32;
   }
 
   /// A PDS4 label of several arrays is opened one by one.
@@ -306,7 +294,7 @@ struct LabelRaster::Opened {
   void checkSizes() const {
     requireSide(file, "samples in a line", dataset->GetRasterXSize(), kMaxImageSide_px);
     requireSide(file, "lines", dataset->GetRasterYSize(), kMaxImageSide_px);
-    requireSide(file, "bands", dataset->GetRasterCount(), kMostBands);
+    requireSide(file, "bands", dataset->GetRasterCount(), kMostLabelBands);
     const std::int64_t pixels = std::int64_t{dataset->GetRasterXSize()} * dataset->GetRasterYSize();
     if (pixels > kMaxImagePixels)
       throw InputError(file, "image size",
@@ -353,7 +341,7 @@ struct LabelRaster::Opened {
 
 LabelRaster::LabelRaster(const LabelFiles& files) {
   registerDrivers();
-  if (files.format == LabelFormat::kVicar) checkVicarSizes(files);
+  if (files.format == LabelFormat::kVicar) requireVicarSizes(files);
   if (files.format == LabelFormat::kPds4) requireFlat(files.file, asText(files.labelBytes()));
   opened_ = std::make_unique<Opened>(files);
   opened_->open(files);
@@ -372,49 +360,27 @@ const nlohmann::json& LabelRaster::vicarLabel() const { return opened_->vicar_la
 void LabelRaster::readRow(int band, int row, std::vector<double>& samples) const {
   samples.resize(static_cast<std::size_t>(width()));
   const Quiet quiet;
-  const CPLErr error = opened_->dataset->GetRasterBand(band + 1)->RasterIO(
-      GF_Read, 0, row, width(), 1, samples.data(), width(), 1, GDT_Float64, 0, 0, nullptr);
+  const auto read = [&](void* target, GDALDataType type) {
+    return opened_->dataset->GetRasterBand(band + 1)->RasterIO(GF_Read, 0, row, width(), 1, target,
+                                                               width(), 1, type, 0, 0, nullptr);
+  };
+  CPLErr error = CE_None;
+  if (opened_->integers_as_floats) {
+    std::vector<float> bits(samples.size());  // as GDAL has them: nothing is converted
+    error = read(bits.data(), GDT_Float32);
+    const bool is_signed = opened_->type == SampleType::kInt32;
+    std::transform(bits.begin(), bits.end(), samples.begin(), [is_signed](const float& one) {
+      const auto whole = std::bit_cast<std::uint32_t>(one);
+      return is_signed ? static_cast<double>(static_cast<std::int32_t>(whole))
+                       : static_cast<double>(whole);
+    });
+  } else {
+    error = read(samples.data(), GDT_Float64);
+  }
   if (error != CE_None)
     throw InputError(opened_->file,
                      "line " + std::to_string(row) +
                          " of the image cannot be read: " + opened_->folder.plain(quiet.message()));
-}
-
-const char* sampleTypeName(SampleType type) {
-  switch (type) {
-    case SampleType::kUint8:
-      return "8-bit unsigned integers";
-    case SampleType::kUint16:
-      return "16-bit unsigned integers";
-    case SampleType::kInt16:
-      return "16-bit signed integers";
-    case SampleType::kUint32:
-      return "32-bit unsigned integers";
-    case SampleType::kInt32:
-      return "32-bit signed integers";
-    case SampleType::kFloat:
-      return "32-bit floating-point numbers";
-    case SampleType::kDouble:
-      return "64-bit floating-point numbers";
-  }
-  return "unknown";
-}
-
-int bitsOf(SampleType type) {
-  switch (type) {
-    case SampleType::kUint8:
-      return 8;
-    case SampleType::kUint16:
-    case SampleType::kInt16:
-      return 16;
-    case SampleType::kUint32:
-    case SampleType::kInt32:
-    case SampleType::kFloat:
-      return 32;
-    case SampleType::kDouble:
-      return 64;
-  }
-  return 0;
 }
 
 }  // namespace boresight::sessions

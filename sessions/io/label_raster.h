@@ -9,14 +9,9 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "sessions/io/label_files.h"
+#include "sessions/io/sample_type.h"
 
 namespace boresight::sessions {
-
-enum class SampleType { kUint8, kUint16, kInt16, kUint32, kInt32, kFloat, kDouble };
-
-const char* sampleTypeName(SampleType type);  ///< "16-bit signed integers"
-inline bool isFloating(SampleType type) { return type >= SampleType::kFloat; }
-int bitsOf(SampleType type);
 
 /// An image with a label as GDAL opens it, from bytes in memory alone: nothing that a label says
 /// makes it read another file. The label comes as one tree: of VICAR and PDS3 as GDAL's JSON has

@@ -58,7 +58,7 @@ std::vector<LabelItem> elementIdentifiers(const json& tree) {
   std::vector<LabelItem> items;
   const json* area = labelMember(&tree, "Observation_Area");
   const auto add = [&](const char* name, const json* value) { addItem(items, name, value); };
-  add("name", labelPath(area, {"Investigation_Area", "name"}));
+  add("Investigation_Area", labelPath(area, {"Investigation_Area", "name"}));
   std::vector<std::string> system;
   if (const json* components =
           labelPath(area, {"Observing_System", "Observing_System_Component"})) {
@@ -73,7 +73,7 @@ std::vector<LabelItem> elementIdentifiers(const json& tree) {
        {"spacecraft_clock_start", "start_sol_number", "sequence_id", "geometry_projection_type"})
     if (const auto found = elementsNamed(tree, name, "Commanded_Parameters"); !found.empty())
       add(name, found.front());
-  add("name", labelPath(area, {"Target_Identification", "name"}));
+  add("Target_Identification", labelPath(area, {"Target_Identification", "name"}));
   return items;
 }
 
@@ -97,7 +97,7 @@ bool statesModelOfSubframe(const std::vector<LabelItem>& identifiers) {
                                     "MARS2020",
                                     "PERSEVERANCE",
                                     "CURIOSITY"};
-  constexpr const char* kHosts[] = {"MER1", "MER2", "MSL", "M20", "M2020"};
+  constexpr const char* kHosts[] = {"MER1", "MER2", "MSL", "M20", "M2020", "PHX"};
   for (const LabelItem& item : identifiers) {
     const std::string text = upperCase(item.value);
     for (const char* name : kNames)
@@ -328,6 +328,12 @@ LabelReading readLabelTree(LabelFormat format, const json& tree, const json& vic
   reading.derived_type = derivedType(source);
   readCamera(source, vicar_label, label);
   label.frames = labelFrames(format, tree, label.flags);
+  if (format == LabelFormat::kPds3 && picture.sample_bits == 8) {
+    const std::string type = labelText(source.image("SAMPLE_TYPE")).value_or("UNSIGNED");
+    if (upperCase(type).find("UNSIGNED") == std::string::npos)
+      label.flags.push_back("the label calls samples of 8 bits " + type +
+                            "; they are read as unsigned");
+  }
   if (!label.bayer_pattern.empty())
     label.flags.push_back("the pixels are a mosaic of colours (" + label.bayer_pattern +
                           "): turn it into gray or colour before matching");

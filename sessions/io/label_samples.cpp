@@ -153,11 +153,9 @@ LabelSamples readLabelSamples(const LabelFiles& files) {
   if (samples.quantized) {
     samples.offset = range.lowest;
     samples.scale = (range.highest / kLargestWhole) - (range.lowest / kLargestWhole);
-  } else {
-    samples.bit_depth = reading.label.bit_depth;
   }
   samples.rule = ruleOf(samples, range, raster.type());
-  samples.notes = reading.label.flags;
+  samples.label = std::make_shared<const ImageLabel>(reading.label);
   samples.sha256 = files.sha256();
   readValues(raster, valid, Quantizer(range, samples.quantized), samples.values);
   return samples;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,10 +25,9 @@ struct LabelSamples {
   bool quantized = false;          ///< the samples were not whole numbers of 0 .. 65535
   int highest = 0;                 ///< of all samples, before luma
   std::int64_t invalid_count = 0;  ///< samples without a value; they are 0
-  std::optional<int> bit_depth;    ///< as the label states it
   std::string rule;                ///< how samples became `values`; empty: as they are
-  std::vector<std::string> notes;  ///< the label's flags
-  std::string sha256;              ///< of all files read
+  std::shared_ptr<const ImageLabel> label;
+  std::string sha256;  ///< of all files read
 };
 
 /// Whole numbers of 0 .. 65535 stay as they are. All others are quantized: the lowest valid sample

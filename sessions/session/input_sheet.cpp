@@ -6,6 +6,7 @@
 
 #include "core/base/math.h"
 #include "sessions/io/camera_file.h"
+#include "sessions/io/image_label.h"
 #include "sessions/report/text_table.h"
 #include "sessions/session/frame_lines.h"
 #include "sessions/trace/seed_check.h"
@@ -114,6 +115,8 @@ void describe(const LoadedCase& loaded, InputSheet& sheet) {
                    std::to_string(image.sample_bits) +
                    " bit; the centre of the top-left pixel is "
                    "(0, 0)");
+  if (image.label)
+    for (const SheetLine& line : labelLines(*image.label)) sheet.lines.push_back(line);
   add("to 8 bit", image.rule);
   add("gray", std::to_string(sheet.image.lowest_gray) + " .. " +
                   std::to_string(sheet.image.highest_gray) + ", " +

@@ -11,11 +11,12 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "sessions/io/image_file.h"
-#include "sessions/io/image_label.h"
 #include "sessions/io/mesh_file.h"
 #include "sessions/session/case_run.h"
 
 namespace boresight::sessions {
+
+struct ImageLabel;
 
 /// Something that people should look at before they trust a result.
 struct RedFlag {
