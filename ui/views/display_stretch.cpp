@@ -34,6 +34,14 @@ GrayLevels automaticLevels(const ImageSamples& samples) {
   return levels;
 }
 
+QString sampleText(const ImageSamples& samples, int x, int y) {
+  const std::uint16_t value =
+      samples.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(samples.width) +
+                     static_cast<std::size_t>(x)];
+  if (samples.offset == 0.0 && samples.scale == 1.0) return QString::number(value);
+  return QString::number(samples.offset + samples.scale * value, 'g', 6);
+}
+
 QImage stretched(const ImageSamples& samples, const GrayLevels& levels) {
   const std::vector<std::uint8_t> table = sessions::tableOfLevels(levels, samples.sample_bits);
   QImage image(samples.width, samples.height, QImage::Format_Grayscale8);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <QImage>
+#include <QString>
 
 #include "sessions/io/image_file.h"
 
@@ -19,6 +20,9 @@ sessions::GrayLevels automaticLevels(const sessions::ImageSamples& samples);
 
 /// All that the samples' bits can say.
 sessions::GrayLevels fullLevels(const sessions::ImageSamples& samples);
+
+/// The file's own value at a pixel inside: whole numbers as they are, others with six digits.
+QString sampleText(const sessions::ImageSamples& samples, int x, int y);
 
 /// For the eye only.
 QImage stretched(const sessions::ImageSamples& samples, const sessions::GrayLevels& levels);

@@ -15,6 +15,7 @@
 #include "ui/models/alternatives_model.h"
 #include "ui/run/task_runner.h"
 #include "ui/views/display_image.h"
+#include "ui/views/display_stretch.h"
 #include "ui/views/image_view.h"
 #include "ui/views/layer_content.h"
 
@@ -322,10 +323,7 @@ void ImagePanel::showPlace(const QPointF& pixel) {
   if (x >= 0 && y >= 0 && x < one->image.width && y < one->image.height) {
     text += tr("  gray %1").arg(one->image.view().at(x, y));
     if (const auto& samples = display_->samples(); samples && samples->sample_bits > 8)
-      text += tr(" (sample %1)")
-                  .arg(samples->values[static_cast<std::size_t>(y) *
-                                           static_cast<std::size_t>(samples->width) +
-                                       static_cast<std::size_t>(x)]);
+      text += tr(" (sample %1)").arg(sampleText(*samples, x, y));
     const auto point = sessions::surfacePointAt(one->source.camera, one->scene.view(),
                                                 state_.shownPose(), {pixel.x(), pixel.y()});
     if (point) {

@@ -37,6 +37,16 @@ TEST(DisplayStretch, AutomaticLevelsClipAtMostTheirShareAtBothEnds) {
   EXPECT_EQ(levels.white, values[values.size() - 51]);
 }
 
+TEST(DisplayStretch, AValueIsReadAsTheFileHasIt) {
+  ImageSamples samples = samplesOf({0, 7, 4095, 65535, 1, 2}, 3, 16);
+  EXPECT_EQ(sampleText(samples, 1, 0), QStringLiteral("7"));
+  EXPECT_EQ(sampleText(samples, 0, 1), QStringLiteral("65535"));
+  samples.offset = -0.5;
+  samples.scale = 1.0 / 65535.0;
+  EXPECT_EQ(sampleText(samples, 0, 0), QStringLiteral("-0.5"));
+  EXPECT_EQ(sampleText(samples, 0, 1), QStringLiteral("0.5"));
+}
+
 TEST(DisplayStretch, AnEvenImageHasLevelsToo) {
   for (const int value : {0, 1, 77, 65534, 65535}) {
     const auto v = static_cast<std::uint16_t>(value);
