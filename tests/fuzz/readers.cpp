@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/fuzz/readers.h"
 
+#include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "sessions/annotation/landmarks.h"
 #include "sessions/annotation/marks_file.h"
@@ -11,7 +13,10 @@
 #include "sessions/io/config_file.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
 #include "sessions/io/image_file.h"
+#include "sessions/io/image_label.h"
+#include "sessions/io/label_reading.h"
 #include "sessions/io/mesh_file.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/record/onboard_record.h"
@@ -36,6 +41,38 @@ sessions::PoseFrames roverFrames() {
   return {reference, {transform}};
 }
 
+void readLabelled(const Path& file) {
+  (void)sessions::readSamples(file);
+  (void)sessions::readImageLabel(file);
+}
+
+/// The pixels that the corpus' labels name.
+void readPds4(const Path& file) {
+  const Path pixels = file.parent_path() / "pixels.img";
+  if (!std::filesystem::exists(pixels))
+    std::ofstream(pixels, std::ios::binary) << std::string(512, '\x2a');
+  readLabelled(file);
+}
+
+/// What GDAL makes of a label, without GDAL: {"format", "width", "height", "label", "vicar"}.
+void readTree(const Path& file) {
+  const auto bytes = sessions::readFileBytes(file, sessions::kMegabyte);
+  const auto json = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, false);
+  if (!json.is_object() || !json.contains("label")) return;
+  sessions::LabelPicture picture{1024, 1024, 1, 16, false};
+  const auto side = [&json](const char* key) {
+    return json.contains(key) && json[key].is_number_integer()
+               ? std::clamp(json[key].get<int>(), 1, sessions::kMaxImageSide_px)
+               : 1024;
+  };
+  picture.width = side("width");
+  picture.height = side("height");
+  const nlohmann::json vicar = json.value("vicar", nlohmann::json());
+  for (const sessions::LabelFormat format :
+       {sessions::LabelFormat::kVicar, sessions::LabelFormat::kPds3, sessions::LabelFormat::kPds4})
+    (void)sessions::readLabelTree(format, json["label"], vicar, picture);
+}
+
 constexpr FuzzedReader kReaders[] = {
     {"bop_results", "results.csv", [](const Path& file) { (void)sessions::readBopResults(file); }},
     {"cahvor", "camera.cahvor", [](const Path& file) { (void)sessions::readCahvorFile(file); }},
@@ -43,10 +80,14 @@ constexpr FuzzedReader kReaders[] = {
     {"config", "config.json", [](const Path& file) { (void)sessions::readConfig(file); }},
     {"dataset", "dataset.json", [](const Path& file) { (void)sessions::readDataset(file); }},
     {"image_jpeg", "image.jpg", [](const Path& file) { (void)sessions::readSamples(file); }},
+    {"image_pds3", "image.img", readLabelled},
+    {"image_pds4", "image.xml", readPds4},
     {"image_png", "image.png", [](const Path& file) { (void)sessions::readSamples(file); }},
     {"image_tiff", "image.tif", [](const Path& file) { (void)sessions::readSamples(file); }},
+    {"image_vicar", "image.vic", readLabelled},
     {"journal", "journal", [](const Path& file) { (void)sessions::readJournal(file); },
      sealJournal},
+    {"label_tree", "label.json", readTree},
     {"landmarks", "landmarks.json", [](const Path& file) { (void)sessions::readLandmarks(file); }},
     {"marks", "marks.json", [](const Path& file) { (void)sessions::readMarks(file); }},
     {"mesh_glb", "mesh.glb", readMetres},
