@@ -33,8 +33,7 @@ install(FILES
   DESTINATION ${CMAKE_INSTALL_DATADIR}/boresight/examples COMPONENT programs)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/boresight COMPONENT programs)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/boresight RENAME copyright COMPONENT programs)
+boresight_debian_documents(boresight programs)
 
 if(BORESIGHT_BUILD_UI)
   set(desktop ${PROJECT_SOURCE_DIR}/resources/desktop)

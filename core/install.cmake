@@ -22,5 +22,4 @@ install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/BoresightConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/BoresightConfigVersion.cmake
   DESTINATION ${BORESIGHT_CONFIG_FOLDER} COMPONENT core)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libboresight-core-dev RENAME copyright COMPONENT core)
+boresight_debian_documents(libboresight-core-dev core)

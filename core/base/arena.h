@@ -16,6 +16,7 @@ namespace boresight {
 class Arena {
  public:
   Arena() = default;  ///< counts only
+  /// Hands out the block, which must outlive what is allocated.
   explicit Arena(std::span<std::byte> block) : block_(block) {}
 
   /// `count` value-initialized objects; empty when the block is exhausted (then `exhausted()`), or
@@ -37,7 +38,9 @@ class Arena {
     return {first, count};
   }
 
+  /// Where the next allocation begins, for rewind().
   std::size_t mark() const { return used_; }
+  /// Gives back everything that was handed out since the mark was taken.
   void rewind(std::size_t mark) { used_ = mark; }
   /// Forgets everything that was handed out.
   void reset() {
@@ -45,12 +48,18 @@ class Arena {
     exhausted_ = false;
   }
 
+  /// Bytes handed out now; also what did not fit.
   std::size_t used() const { return used_; }
+  /// Most bytes that were ever handed out at a time.
   std::size_t highWater() const { return high_water_; }
+  /// Bytes of the block.
   std::size_t capacity() const { return block_.size(); }
+  /// Something did not fit; what was asked for since is empty.
   bool exhausted() const { return exhausted_; }
+  /// There is no block.
   bool countsOnly() const { return block_.empty(); }
 
+  /// Every allocation begins at a multiple of this, bytes.
   static constexpr std::size_t kAlignment = 16;
 
  private:

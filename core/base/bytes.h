@@ -13,8 +13,11 @@ namespace boresight {
 class ByteWriter {
  public:
   ByteWriter() = default;  ///< counts only
+  /// `block` must outlive the writer.
   explicit ByteWriter(std::span<std::uint8_t> block) : block_(block) {}
 
+  /// Appends a value, the most significant byte first.
+  ///@{
   void u8(std::uint8_t value) {
     if (written_ < block_.size()) block_[written_] = value;
     ++written_;
@@ -28,8 +31,10 @@ class ByteWriter {
   void bytes(std::span<const std::uint8_t> values) {
     for (const std::uint8_t value : values) u8(value);
   }
+  ///@}
 
   std::size_t written() const { return written_; }  ///< also what did not fit
+  /// The block was too small.
   bool overflowed() const { return written_ > block_.size(); }
 
  private:
@@ -45,8 +50,11 @@ class ByteWriter {
 /// first value that does not fit on, all are 0 and `failed()`.
 class ByteReader {
  public:
+  /// `bytes` must outlive the reader.
   explicit ByteReader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
 
+  /// Takes the next value.
+  ///@{
   std::uint8_t u8() { return static_cast<std::uint8_t>(get(1)); }
   std::uint16_t u16() { return static_cast<std::uint16_t>(get(2)); }
   std::uint32_t u32() { return static_cast<std::uint32_t>(get(4)); }
@@ -54,6 +62,7 @@ class ByteReader {
   std::uint64_t u64() { return get(8); }
   float f32() { return std::bit_cast<float>(u32()); }
   double f64() { return std::bit_cast<double>(u64()); }
+  ///@}
   /// The next `count` bytes; empty when there are fewer.
   std::span<const std::uint8_t> take(std::size_t count) {
     if (!fits(count, 1)) failed_ = true;
@@ -67,7 +76,9 @@ class ByteReader {
   bool fits(std::uint64_t count, std::size_t bytes_each) const {
     return !failed_ && count <= rest_.size() / bytes_each;
   }
+  /// Bytes not yet read.
   std::size_t left() const { return rest_.size(); }
+  /// A value did not fit.
   bool failed() const { return failed_; }
 
  private:

@@ -14,6 +14,8 @@ namespace boresight {
 /// -0 counts as +0; a NaN is written as one fixed pattern.
 class DigestWriter {
  public:
+  /// Adds a value.
+  ///@{
   void u8(std::uint8_t value) { sha_.updateBigEndian(value); }
   void u32(std::uint32_t value) { sha_.updateBigEndian(value); }
   void i32(std::int32_t value) { u32(static_cast<std::uint32_t>(value)); }
@@ -27,9 +29,11 @@ class DigestWriter {
     u64(value == 0.0 ? 0u : std::bit_cast<std::uint64_t>(value));
   }
   void bytes(std::span<const std::uint8_t> bytes) { sha_.update(bytes); }
+  ///@}
   /// A section name, so that neighbouring fields cannot be confused: length, then the characters.
   void tag(const char* name);
 
+  /// Of everything added so far.
   std::array<std::uint8_t, 32> digest() const { return sha_.digest(); }
 
  private:

@@ -11,12 +11,14 @@ namespace boresight {
 
 /// An 8-bit gray image that somebody else owns; rows are `stride` bytes apart.
 struct ImageView {
-  const std::uint8_t* data = nullptr;
-  int width = 0;
-  int height = 0;
-  std::ptrdiff_t stride = 0;
+  const std::uint8_t* data = nullptr;  ///< the top-left pixel; not owned
+  int width = 0;                       ///< px
+  int height = 0;                      ///< px
+  std::ptrdiff_t stride = 0;           ///< bytes from a row to the next one
 
+  /// First pixel of row y.
   const std::uint8_t* row(int y) const { return data + stride * y; }
+  /// Gray value of a pixel inside the image.
   std::uint8_t at(int x, int y) const { return row(y)[x]; }
 };
 
@@ -24,11 +26,12 @@ struct ImageView {
 /// beyond `width` are zero. Words, not bytes, are the unit, so the value of a map does not depend
 /// on the byte order of the machine.
 struct BitImage {
-  std::span<std::uint64_t> words;
-  int width = 0;
-  int height = 0;
-  int words_per_row = 0;
+  std::span<std::uint64_t> words;  ///< row by row, from the arena
+  int width = 0;                   ///< px
+  int height = 0;                  ///< px
+  int words_per_row = 0;           ///< wordsPerRow(width)
 
+  /// Words that hold a row of so many pixels.
   static int wordsPerRow(int width) { return (width + 63) / 64; }
 
   /// A cleared image of `width` x `height` from the arena.
@@ -42,16 +45,24 @@ struct BitImage {
     return image;
   }
 
+  /// First word of row y.
+  ///@{
   std::uint64_t* row(int y) {
     return words.data() + static_cast<std::ptrdiff_t>(words_per_row) * y;
   }
   const std::uint64_t* row(int y) const {
     return words.data() + static_cast<std::ptrdiff_t>(words_per_row) * y;
   }
+  ///@}
+  /// Whether a pixel lies inside the image.
   bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
+  /// The bit of a pixel inside the image.
   bool get(int x, int y) const { return ((row(y)[x >> 6] >> (x & 63)) & 1u) != 0; }
+  /// Sets the bit of a pixel inside the image.
   void set(int x, int y) { row(y)[x >> 6] |= std::uint64_t{1} << (x & 63); }
+  /// Clears the bit of a pixel inside the image.
   void reset(int x, int y) { row(y)[x >> 6] &= ~(std::uint64_t{1} << (x & 63)); }
+  /// Clears all bits.
   void clear() {
     for (std::uint64_t& word : words) word = 0;
   }

@@ -20,10 +20,10 @@ namespace boresight {
 /// with fields of type bool, std::int32_t, std::int64_t, double, or an enum with a `std::int32_t`
 /// underlying type whose `choices` name the values 0, 1, 2, ...
 struct OptionInfo {
-  const char* name;  ///< stage.name_unit, unique in the program
-  const char* unit;  ///< "" where it has none
-  double minimum;
-  double maximum;
+  const char* name;                           ///< stage.name_unit, unique in the program
+  const char* unit;                           ///< "" where it has none
+  double minimum;                             ///< least value allowed
+  double maximum;                             ///< largest value allowed
   const char* help;                           ///< one sentence
   std::span<const char* const> choices = {};  ///< names of an enum's values
 };

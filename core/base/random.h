@@ -9,9 +9,10 @@ namespace boresight {
 /// library's distributions differ between implementations and are not used.
 class Random {
  public:
+  /// Streams of the same seed are independent of each other.
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
 
-  std::uint32_t next();
+  std::uint32_t next();  ///< Uniform in 0 ... 2^32 - 1.
   /// Uniform in 0 .. bound - 1, without bias (bounded rejection); bound >= 1.
   std::uint32_t below(std::uint32_t bound);
   /// Uniform in [0, 1), 53 bits.

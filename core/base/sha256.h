@@ -22,8 +22,9 @@ Sha256Kernel fastestSha256();
 /// SHA-256, fed piece by piece.
 class Sha256 {
  public:
+  /// The kernel changes how fast it is, not what comes out.
   explicit Sha256(Sha256Kernel kernel = fastestSha256());
-  void update(std::span<const std::uint8_t> bytes);
+  void update(std::span<const std::uint8_t> bytes);  ///< Adds bytes to what is hashed
   /// As update() with the value's bytes, most significant first.
   template <class Value>
   void updateBigEndian(Value value) {

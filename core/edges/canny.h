@@ -14,8 +14,8 @@ namespace boresight {
 /// Canny's thresholds in the units of `GradientRows::magnitude`: a pixel exceeds one when its
 /// magnitude is greater.
 struct CannyLimits {
-  std::int32_t low = 0;
-  std::int32_t high = 0;
+  std::int32_t low = 0;   ///< a pixel above it belongs to an edge that another one has begun
+  std::int32_t high = 0;  ///< a pixel above it begins an edge
 };
 
 /// From thresholds as cv::Canny counts them (at aperture 7, sixteen times our derivatives; L2 not

@@ -23,10 +23,10 @@ inline constexpr int kPyramidLevels = 4;  ///< full, half, quarter, eighth resol
 /// The test image: Canny's edges at full resolution and, per further level, the OR over 2x2 pixels
 /// of the level before (an edge survives pooling; Canny at the coarse level loses it).
 struct EdgeMap {
-  std::array<BitImage, kPyramidLevels> level;
-  double low_threshold = 0.0;   ///< as used, in the units of cv::Canny
-  double high_threshold = 0.0;  ///< as used
-  std::int32_t edge_count = 0;  ///< set pixels at full resolution
+  std::array<BitImage, kPyramidLevels> level;  ///< by pyramid level, 0 full resolution
+  double low_threshold = 0.0;                  ///< as used, in the units of cv::Canny
+  double high_threshold = 0.0;                 ///< as used
+  std::int32_t edge_count = 0;                 ///< set pixels at full resolution
 };
 
 /// Equalization, Gaussian, Canny, ignore mask and pooling in bounded slices. Needs, besides the

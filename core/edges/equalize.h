@@ -40,7 +40,9 @@ class Equalizer {
   /// Row y, equalized, into `out` (width bytes). The tables must be complete.
   void row(int y, std::uint8_t* out) const;
 
+  /// px, of the image.
   int width() const { return image_.width; }
+  /// px, of the image.
   int height() const { return image_.height; }
 
  private:

@@ -18,7 +18,7 @@ inline constexpr int kMaxGaussianRadius = 24;  ///< at the largest sigma, 8 px
 /// Symmetric integer kernel with w0 + 2 (w1 + ... + w_radius) = 256: OpenCV's for 8-bit images, of
 /// radius about 3 sigma; the rounding error of each weight is carried on to the next inner one.
 struct GaussianKernel {
-  int radius = 0;
+  int radius = 0;                                              ///< px
   std::array<std::uint16_t, kMaxGaussianRadius + 2> weight{};  ///< from the centre; zero beyond
 };
 
@@ -30,6 +30,7 @@ GaussianKernel gaussianKernel(double sigma_px);
 /// (sum + 2^15) / 2^16, halves up, like cv::GaussianBlur on 8-bit images.
 class SmoothedRows {
  public:
+  /// Takes the ring from `arena`, for an image of this size.
   void begin(int width, int height, double sigma_px, Arena& arena);
   /// Back to the first row, for another pass.
   void restart() { loaded_ = 0; }

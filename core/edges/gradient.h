@@ -18,16 +18,20 @@ namespace boresight {
 /// magnitude is |dx| + |dy| (L1) or dx^2 + dy^2 (L2, squared); it is 0 outside the image.
 class GradientRows {
  public:
+  /// Takes the ring from `arena`, for an image of this size.
   void begin(int width, int height, int aperture_px, bool l2_gradient, Arena& arena);
   /// Back to before the first row, for another pass.
   void restart();
   /// The next row, from rows of `smoothed` over `source`.
   void advance(const Equalizer& source, SmoothedRows& smoothed);
+  /// Rows that advance() has made.
   int rowsDone() const { return rows_done_; }
 
   /// Rows rowsDone() - 3 ... rowsDone() - 1, and those outside the image; x in [-1, width].
   const std::int32_t* magnitude(int y) const;
+  /// Derivative to the right, for the same rows.
   const std::int16_t* dx(int y) const { return dx_.data() + columns_ * (y % kRing); }
+  /// Derivative downwards, for the same rows.
   const std::int16_t* dy(int y) const { return dy_.data() + columns_ * (y % kRing); }
 
  private:
@@ -57,6 +61,7 @@ class GradientRows {
 /// the share q of the pixels has a magnitude <= h, that is, does not exceed the threshold h.
 class GradientHistogram {
  public:
+  /// Takes the counters from `arena`, for magnitudes of this aperture and norm.
   void begin(int aperture_px, bool l2_gradient, Arena& arena);
   /// `magnitude` as GradientRows gives it; `ignored` is nullptr or a row of the ignore mask.
   void addRow(const std::int32_t* magnitude, const std::uint64_t* ignored, int width);

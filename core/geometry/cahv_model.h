@@ -12,7 +12,7 @@ namespace boresight {
 /// A camera as the labels of planetary images state it: vectors in some frame of the vehicle or the
 /// site (the reference frame), for pixels counted from the centre of the top-left one.
 struct CahvModel {
-  CameraModel model = CameraModel::kCahv;
+  CameraModel model = CameraModel::kCahv;         ///< kCahv, kCahvor or kCahvore
   Eigen::Vector3d c_m = Eigen::Vector3d::Zero();  ///< centre
   Eigen::Vector3d a = Eigen::Vector3d::UnitZ();  ///< axis; rounded labels are not quite of length 1
   Eigen::Vector3d h_px = Eigen::Vector3d::Zero();  ///< horizontal: x = (P - C).H / (P - C).A

@@ -38,16 +38,16 @@ struct CahvLens {
   /// Where the entrance pupil lies along O for all rays in and around the image; from
   /// `prepareCamera`.
   double pupil_low_m = 0.0;
-  double pupil_high_m = 0.0;
+  double pupil_high_m = 0.0;  ///< the far end of the same range
 
   bool operator==(const CahvLens&) const = default;
 };
 
 /// A calibrated camera: a tagged struct with a switch, not a class hierarchy.
 struct Camera {
-  CameraModel model = CameraModel::kPinhole;
-  int width = 0;
-  int height = 0;
+  CameraModel model = CameraModel::kPinhole;  ///< how a ray becomes a pixel
+  int width = 0;                              ///< px
+  int height = 0;                             ///< px
   double fx = 0.0, fy = 0.0;  ///< px; fy < 0 (CAHV family only) where y runs up the image
   double cx = 0.0, cy = 0.0;  ///< px
   /// Brown-Conrady in OpenCV order k1 k2 p1 p2 k3 k4 k5 k6; Kannala-Brandt k1..k4 (OpenCV fisheye).
@@ -86,9 +86,10 @@ Status prepareCamera(Camera& camera);
 /// What a pixel sees: the points origin_m + depth direction, depth > 0. A point's depth is its z as
 /// measured from the pupil; where all rays have one centre, that is the origin, and depth is z.
 struct Ray {
-  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();    ///< camera frame
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< (x/z, y/z, 1)
 
+  /// The point of the ray at a depth.
   Eigen::Vector3d at(double depth_m) const { return origin_m + direction * depth_m; }
 };
 /// `unproject` with the place where the ray starts.

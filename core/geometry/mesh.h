@@ -15,12 +15,13 @@ namespace boresight {
 /// One triangle: indices of its vertices, counter-clockwise seen from outside (back faces are
 /// rendered all the same: coarse meshes are not always oriented).
 struct Face {
-  std::array<std::int32_t, 3> vertex{};
+  std::array<std::int32_t, 3> vertex{};  ///< indices into MeshView::vertices_in_station_m
 };
 
 /// Thresholds and role of one part of the scene.
 struct ScenePart {
   double normal_threshold_rad = 0.5235987755982988;  ///< 30 deg
+  /// Surfaces this much apart in depth have an edge between them.
   double depth_threshold_m = 0.005;
   bool match = true;  ///< false: occludes, yields neither edges nor mask nor templates
 
@@ -30,10 +31,10 @@ struct ScenePart {
 /// The scene that the caller owns: welded vertices in the station frame (metres), faces, and the
 /// part of each face. Single precision is 3e-8 m at 0.5 m, far below any edge's accuracy.
 struct MeshView {
-  std::span<const Eigen::Vector3f> vertices_in_station_m;
-  std::span<const Face> faces;
-  std::span<const std::uint16_t> part_of_face;  ///< index into parts, one per face
-  std::span<const ScenePart> parts;             ///< at least one
+  std::span<const Eigen::Vector3f> vertices_in_station_m;  ///< metres
+  std::span<const Face> faces;                             ///< triangles
+  std::span<const std::uint16_t> part_of_face;             ///< index into parts, one per face
+  std::span<const ScenePart> parts;                        ///< at least one
 };
 
 /// kInvalidMesh when there are no faces, an index is out of range, a coordinate or threshold is not
@@ -44,7 +45,7 @@ Status validateMesh(const MeshView& mesh);
 /// Per face the face on the other side of edge i (vertex i to vertex (i + 1) % 3), or -1 at a
 /// border or where more than two faces meet. Faces that name a vertex twice join nothing.
 struct MeshAdjacency {
-  std::span<std::array<std::int32_t, 3>> neighbour;
+  std::span<std::array<std::int32_t, 3>> neighbour;  ///< one entry per face
 };
 
 /// Builds the adjacency; deterministic, O(n log n). The output comes from `kept`, 24 bytes a face
@@ -57,9 +58,11 @@ inline Status buildAdjacency(const MeshView& mesh, Arena& arena, MeshAdjacency& 
 
 /// Axis-aligned bounding box of the vertices used by faces of matched parts, station frame.
 struct BoundingBox {
-  Eigen::Vector3d minimum_m = Eigen::Vector3d::Zero();
-  Eigen::Vector3d maximum_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d minimum_m = Eigen::Vector3d::Zero();  ///< least coordinates
+  Eigen::Vector3d maximum_m = Eigen::Vector3d::Zero();  ///< largest coordinates
+  /// Middle of the box, m.
   Eigen::Vector3d centre() const { return 0.5 * (minimum_m + maximum_m); }
+  /// Length from corner to corner, m.
   double diagonal() const { return (maximum_m - minimum_m).norm(); }
 };
 BoundingBox matchedBounds(const MeshView& mesh);

@@ -8,11 +8,11 @@ namespace boresight {
 
 /// c[0] + c[1] x + ... + c[15] x^15: the conditions that bound a distortion model's valid field.
 struct Polynomial {
-  static constexpr std::size_t kTerms = 16;
-  std::array<double, kTerms> c{};
+  static constexpr std::size_t kTerms = 16;  ///< coefficients
+  std::array<double, kTerms> c{};            ///< c[k] belongs to x^k
 
-  double operator()(double x) const;
-  Polynomial derivative() const;
+  double operator()(double x) const;  ///< Value at x
+  Polynomial derivative() const;      ///< Its derivative
 };
 
 /// Terms beyond x^15 are dropped; no product here reaches them.

@@ -14,14 +14,15 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 /// A rigid transform. A variable of this type is named `a_from_b` and maps points of b into a:
 /// p_a = a_from_b * p_b = rotation * p_b + translation. Metres; the quaternion has unit length.
 struct Pose {
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< unit length
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();       ///< of b's origin, in a
 
-  Eigen::Vector3d operator*(const Eigen::Vector3d& point) const;
+  Eigen::Vector3d operator*(const Eigen::Vector3d& point) const;  ///< p_a of a point p_b, metres
   Pose operator*(const Pose& b_from_c) const;  ///< a_from_c; the inner names must meet
-  Pose inverse() const;
+  Pose inverse() const;                        ///< b_from_a
+  /// The rotation as a matrix.
   Eigen::Matrix3d matrix() const { return rotation.toRotationMatrix(); }
-  bool isFinite() const;
+  bool isFinite() const;                         ///< whether all numbers are finite
   bool operator==(const Pose&) const = default;  ///< the same numbers, not the same rotation
 };
 
@@ -46,9 +47,10 @@ Status poseFromMatrix(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& tr
 /// p_true = Exp(r) (p_seed - c) + c + t with |r_i| <= rotation_rad[i], |t_i| <= translation_m[i];
 /// c is the pivot in seed-camera coordinates.
 struct SeedUncertainty {
-  Eigen::Vector3d translation_m = Eigen::Vector3d::Constant(0.03);
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Constant(0.03);  ///< half the box, per axis
+  /// Half the box, per axis; 5 deg.
   Eigen::Vector3d rotation_rad = Eigen::Vector3d::Constant(0.0872664625997);
-  Eigen::Vector3d pivot_in_camera_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d pivot_in_camera_m = Eigen::Vector3d::Zero();  ///< seed camera frame
 };
 
 /// The same uncertainty with both boxes scaled.

@@ -29,6 +29,7 @@ enum class CovarianceModel : std::int32_t {
 };
 inline constexpr const char* kCovarianceModelNames[] = {"inflated", "grouped"};
 
+/// Of the last step, which meets the image's own edges.
 struct RefinementOptions {
   bool enabled = true;
   std::int32_t max_samples = 12000;
@@ -100,13 +101,13 @@ struct RefinementOptions {
 
 /// What is known of a pose already: xi' information xi with xi the perturbation from it.
 struct PoseEstimate {
-  Pose camera_from_station;
-  Matrix6d information = Matrix6d::Zero();
+  Pose camera_from_station;                 ///< the estimate
+  Matrix6d information = Matrix6d::Zero();  ///< inverse of its covariance, over xi
 };
 
 /// One place on a rendered edge and what the image shows there.
 struct EdgeSample {
-  Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();  ///< on the model's edge
   Eigen::Vector2d normal =
       Eigen::Vector2d::Zero();  ///< in the image, from the nearer surface outwards
   double residual_px = 0.0;     ///< along the normal, found minus predicted
@@ -115,16 +116,17 @@ struct EdgeSample {
   std::uint8_t kind = 0;        ///< EdgeKind bits
 };
 
+/// What the refinement of a pose gives.
 struct RefinementResult {
-  Pose camera_from_station;
+  Pose camera_from_station;  ///< the pose refined; where it began, before
   /// As in PnpSolution: of the edges alone; of edges, anchor and matched pose together where the
   /// edges alone leave a direction open.
   Matrix6d covariance = Matrix6d::Zero();
   std::span<EdgeSample> samples;  ///< capacity; the first `sample_count` are valid
-  std::int32_t sample_count = 0;
-  std::int32_t found_count = 0;  ///< samples with an edge within the radius
-  std::int32_t used_count = 0;   ///< samples with a weight above one half
-  double rms_px = 0.0;           ///< weighted residual
+  std::int32_t sample_count = 0;  ///< places looked at
+  std::int32_t found_count = 0;   ///< samples with an edge within the radius
+  std::int32_t used_count = 0;    ///< samples with a weight above one half
+  double rms_px = 0.0;            ///< weighted residual
 };
 
 /// Moves the pose so that the rendered edges meet the image's own (RAPID, Harris and Stennett 1990,
@@ -134,6 +136,7 @@ struct RefinementResult {
 /// pose returned is at most that far from where the edges were looked for.
 class EdgeRefinement {
  public:
+  /// Takes the memory of a localization from `arena`. kArenaTooSmall, kInvalidOption.
   Status create(const RefinementOptions& options, Arena& arena);
   /// Other options from the next begin() on, except the one that sizes the memory (max_samples).
   void setOptions(const RefinementOptions& options);
@@ -151,10 +154,11 @@ class EdgeRefinement {
   /// each other: different ones may be searched at the same time. 0 when what was found still
   /// serves.
   int chunks() const { return searches() ? (result_->sample_count + kChunk - 1) / kChunk : 0; }
+  /// Most chunks that a round can have.
   static int chunksOf(const RefinementOptions& options) {
     return (options.max_samples + kChunk - 1) / kChunk;
   }
-  void searchChunk(int chunk);
+  void searchChunk(int chunk);  ///< Looks for the image's edges at the samples of one chunk
   /// Ends the round when all chunks have been searched; kTooFewEdges when too little is found,
   /// kDegenerate when the edges and what is known besides do not fix the pose.
   Status finishRound(bool& done);

@@ -21,6 +21,7 @@ struct EdgePeak {
 class EdgeSearch {
  public:
   EdgeSearch() = default;
+  /// `sigma_px`: scale of the derivative along the normal.
   explicit EdgeSearch(double sigma_px);
 
   /// Nearer peaks are preferred: a strength counts (1 - (offset / (radius + 1 px))^2) times. Peaks

@@ -24,16 +24,20 @@ namespace boresight {
 struct EdgeSupport {
   std::int32_t rendered =
       0;  ///< rendered edge pixels looked at (an even subset of many), not ignored
-  std::int32_t covered = 0;
-  std::int32_t displaced = 0;  ///< the same for the displaced render
-  std::int32_t displaced_covered = 0;
-  std::int32_t seen = 0;  ///< test edge pixels inside the mask, at the render's level
-  std::int32_t explained = 0;
+  std::int32_t covered = 0;            ///< of those, seen in the image
+  std::int32_t displaced = 0;          ///< the same for the displaced render
+  std::int32_t displaced_covered = 0;  ///< of those, seen in the image
+  std::int32_t seen = 0;               ///< test edge pixels inside the mask, at the render's level
+  std::int32_t explained = 0;          ///< of those, predicted by the render
   std::int32_t displaced_explained = 0;  ///< over four displacements
 
+  /// Share of the rendered edges that is seen.
   double coverage() const { return shareOf(covered, rendered); }
+  /// The same by chance.
   double chanceCoverage() const { return shareOf(displaced_covered, displaced); }
+  /// Share of the edges seen on the object that is predicted.
   double explanation() const { return shareOf(explained, seen); }
+  /// The same by chance.
   double chanceExplanation() const { return 0.25 * shareOf(displaced_explained, seen); }
   /// (2 coverage + explanation) / 3, each as its excess over chance, in [0, 1].
   double share() const {

@@ -29,8 +29,8 @@ struct GroupedError {
 /// 8 x 8 cells; 8 directions by the sign of the gradient; 16 directions by the kind of edge.
 class ErrorGroups {
  public:
-  Status create(Arena& arena);
-  void clear();
+  Status create(Arena& arena);  ///< Takes the sums from `arena`. kArenaTooSmall.
+  void clear();                 ///< Forgets all errors
   /// `score`: the derivative of half of the robust cost with respect to the pose, weight times
   /// residual times row.
   void add(const GroupedError& error, const Vector6d& score);

@@ -24,8 +24,8 @@ enum class ViewNeed : std::uint8_t {
 
 /// State of a localizer that does not run alone.
 struct LinkedView {
-  ViewRole role = ViewRole::kAlone;
-  ViewNeed need = ViewNeed::kNothing;
+  ViewRole role = ViewRole::kAlone;    ///< whether it leads, follows, or runs alone
+  ViewNeed need = ViewNeed::kNothing;  ///< what it waits for
   /// What left the view without a say in this hypothesis or refinement; kRunning: nothing.
   LocalizationStatus failed = LocalizationStatus::kRunning;
   std::uint8_t failed_at = 0;   ///< Stage

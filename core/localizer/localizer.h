@@ -34,8 +34,9 @@ const char* stageText(Stage stage);
 /// Bytes of a localizer's block: what lives throughout, what construction takes besides (given back
 /// before the first step), and what each stage takes besides; these share the same memory.
 struct MemoryUse {
-  std::size_t kept = 0;
-  std::size_t construction = 0;
+  std::size_t kept = 0;          ///< bytes that live throughout
+  std::size_t construction = 0;  ///< bytes that construction takes besides
+  /// Bytes that each stage takes besides.
   std::array<std::size_t, static_cast<std::size_t>(Stage::kFinished)> stage{};
 
   /// High-water mark of a stage.
@@ -48,11 +49,12 @@ struct MemoryUse {
 
 /// What one step did.
 struct StepReport {
-  Stage stage = Stage::kEdges;  ///< the stage that was worked on
-  bool stage_complete = false;
+  Stage stage = Stage::kEdges;      ///< the stage that was worked on
+  bool stage_complete = false;      ///< the stage is done
   bool iteration_complete = false;  ///< its record is whole, up to the stage that failed
-  bool finished = false;
+  bool finished = false;            ///< the run has ended; further steps do nothing
 
+  /// A step on a stage inside an iteration.
   static StepReport of(Stage stage, bool stage_complete) { return {stage, stage_complete}; }
 };
 
@@ -89,11 +91,12 @@ class Localizer {
   /// The same in detail.
   static Status requiredMemory(const ProblemSize& size, const LocalizerOptions& options,
                                int workers, MemoryUse& use, Kernels kernels = Kernels::kPortable);
+  /// The same in detail.
   static Status requiredMemory(const ProblemSize& size, const LocalizerOptions& options,
                                MemoryUse& use) {
     return requiredMemory(size, options, 1, use);
   }
-  static constexpr int kMaxWorkers = 256;
+  static constexpr int kMaxWorkers = 256;  ///< most workers that can share a run
 
   /// `memory` and everything `problem` points to must outlive the localizer. `status()` tells
   /// whether it can run: kInvalidOption, kInvalidImage (its size is not the camera's or the ignore
@@ -107,6 +110,7 @@ class Localizer {
   Localizer(const Localizer&) = delete;
   Localizer& operator=(const Localizer&) = delete;
 
+  /// kOk when it can run.
   Status status() const { return status_; }
 
   /// One slice; after `finished` it does nothing.
@@ -143,10 +147,13 @@ class Localizer {
   /// templates.count, kInvalidOption when none are awaited; then nothing has changed.
   Status supplyMatches(std::span<const SuppliedMatch> supplied);
 
+  /// To be looked at between two steps.
+  ///@{
   const Workspace& workspace() const { return workspace_; }
   const LocalizationProblem& problem() const { return problem_; }
   const LocalizerOptions& options() const { return options_; }
   std::size_t highWaterBytes() const { return kept_.highWater() + scratch_.highWater(); }
+  ///@}
   /// What the stages need of the memory; known from the start.
   const MemoryUse& memoryUse() const { return memory_use_; }
   /// SHA-256 over options, inputs and every intermediate up to now, whoever looks or not.

@@ -137,16 +137,16 @@ struct LoopOptions {
 
 /// Every parameter of a run.
 struct LocalizerOptions {
-  EdgeOptions edges;
-  RenderOptions render;
-  TemplateOptions templates;
-  PnpOptions pnp;
-  LoopOptions loop;
-  RefinementOptions refinement;
-  SupportOptions support;
-  WideOptions wide;
-  AmbiguityOptions ambiguity;
-  WarpOptions warp;
+  EdgeOptions edges;             ///< stage `edges`
+  RenderOptions render;          ///< stage `render`
+  TemplateOptions templates;     ///< stage `templates`
+  PnpOptions pnp;                ///< stage `pnp`
+  LoopOptions loop;              ///< the loop around the stages
+  RefinementOptions refinement;  ///< the last step, on the image's edges
+  SupportOptions support;        ///< what a pose must show
+  WideOptions wide;              ///< seeds far off
+  AmbiguityOptions ambiguity;    ///< other poses that look alike
+  WarpOptions warp;              ///< turned and scaled templates
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -169,10 +169,11 @@ struct LocalizerOptions {
 
 /// Values of all options in the order of the visitor.
 struct OptionValues {
-  static constexpr std::size_t kMost = 160;
-  std::array<double, kMost> value{};
+  static constexpr std::size_t kMost = 160;  ///< most options
+  std::array<double, kMost> value{};         ///< by option; the rest 0
   std::size_t count = 0;  ///< of options, should they be more than there is room for
 
+  /// Takes the values of all options.
   explicit OptionValues(const LocalizerOptions& options) {
     LocalizerOptions::visitFields(options, [this](const OptionInfo&, const auto& field) {
       if (count < kMost) value[count] = static_cast<double>(field);

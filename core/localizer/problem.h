@@ -13,20 +13,20 @@ struct LocalizationProblem {
   ImageView image;                   ///< 8-bit gray, of the camera's size
   const BitImage* ignore = nullptr;  ///< set bits are not trusted; the image's size; may be nullptr
   Camera camera;                     ///< after prepareCamera
-  MeshView mesh;
-  Pose camera_from_station_seed;
-  SeedUncertainty uncertainty;
+  MeshView mesh;                     ///< the scene, station frame
+  Pose camera_from_station_seed;     ///< where the search begins
+  SeedUncertainty uncertainty;       ///< how far the truth may be from the seed
 };
 
 /// Sizes that decide how much memory a run needs.
 struct ProblemSize {
-  int width = 0;
-  int height = 0;
-  int vertices = 0;
-  int faces = 0;
-  int parts = 1;
-  CameraModel model = CameraModel::kPinhole;
-  bool ignore = false;
+  int width = 0;                              ///< px
+  int height = 0;                             ///< px
+  int vertices = 0;                           ///< of the mesh
+  int faces = 0;                              ///< of the mesh
+  int parts = 1;                              ///< of the scene
+  CameraModel model = CameraModel::kPinhole;  ///< of the camera
+  bool ignore = false;                        ///< whether there is an ignore mask
 };
 ProblemSize sizeOf(const LocalizationProblem& problem);
 

@@ -48,8 +48,8 @@ const char* problemFaultText(ProblemFault fault);
 
 /// Why bytes were refused. `option` names the one that was expected there, with kOption.
 struct ProblemCheck {
-  ProblemFault fault = ProblemFault::kNone;
-  const char* option = nullptr;
+  ProblemFault fault = ProblemFault::kNone;  ///< kNone when they were read
+  const char* option = nullptr;              ///< name, or nullptr
 };
 
 /// Writes a problem and its options to `out` and returns how many bytes that takes; when `out` is

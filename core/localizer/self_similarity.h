@@ -14,8 +14,8 @@ namespace boresight {
 
 /// A displacement in the image that lays a render's edges on each other.
 struct SelfShift {
-  std::int32_t x_px = 0;  ///< px of the render
-  std::int32_t y_px = 0;
+  std::int32_t x_px = 0;    ///< px of the render
+  std::int32_t y_px = 0;    ///< px of the render
   double similarity = 0.0;  ///< share of the edges laid on others, beyond chance
   /// From an edge to the one that it falls on, median per axis: a station moved by this covers
   /// itself.
@@ -29,8 +29,9 @@ struct SelfShift {
 /// integers, on cells of at most a 256th of the picture, met within a cell.
 class SelfSimilarity {
  public:
-  static constexpr int kMostShifts = 32;
+  static constexpr int kMostShifts = 32;  ///< most peaks that are kept
 
+  /// Takes the memory for renders of up to this size.
   void create(int width, int height, Arena& arena);
   /// The render must outlive the steps. Displacements up to `reach` px along each axis are looked
   /// at, and at most half of the picture.

@@ -7,6 +7,7 @@
 
 namespace boresight {
 
+/// Of the support that an image must give a converged pose.
 struct SupportOptions {
   bool gate = true;
   double min_support = 0.32;

@@ -12,9 +12,10 @@ namespace boresight {
 /// What all views together made of a hypothesis, in one camera's frame.
 struct JointPose {
   LocalizationStatus status = LocalizationStatus::kPnpFailed;  ///< kRunning: there is a pose
-  Pose camera_from_station;
+  Pose camera_from_station;                                    ///< the pose found
+  /// Over (rotation rad, translation m), left perturbation.
   Matrix6d covariance = Matrix6d::Zero();
-  std::int32_t samples = 0;
+  std::int32_t samples = 0;          ///< drawn by RANSAC
   std::int32_t inliers = 0;          ///< of all views
   std::int32_t correspondences = 0;  ///< of all views that take part
 };
@@ -29,12 +30,13 @@ enum class SupportVerdict : std::uint8_t { kSupported = 0, kNotSupported, kGoOn 
 /// all, the leader last: its loop goes on with it as with a pose of its own.
 class ViewLink {
  public:
+  /// The localizer must outlive the link.
   explicit ViewLink(Localizer& localizer) : localizer_(&localizer) {}
 
   /// Before the first step.
   void join(ViewRole role);
-  ViewNeed need() const;
-  LocalizationStatus failed() const;
+  ViewNeed need() const;              ///< What the localizer waits for
+  LocalizationStatus failed() const;  ///< Why the view has no say at the moment; kRunning: it has
   /// Which of two records the leader's hypothesis at hand, or the one it kept, is in.
   int buffer() const;
 
@@ -43,8 +45,10 @@ class ViewLink {
   void follow(const Localizer& leader, const Pose& camera_from_leader);
   /// Inliers and residuals of this view's correspondences, for supplyPose.
   PnpSolution& solution();
+  /// The pose of all views, for which need() is kPose.
   StepReport supplyPose(const JointPose& joint);
 
+  /// The view's own equations of the refinement round at hand.
   const NormalEquations& round() const;
   /// The leader's pose by the sum of all views' equations, in its frame.
   Status advance(const NormalEquations& sum, bool& settled);
@@ -52,15 +56,18 @@ class ViewLink {
   bool moveTo(const Pose& camera_from_station, const Matrix6d& covariance);
   /// `settled`: in all views.
   bool refinementEnds(Status status, bool settled) const;
+  /// Ends a refinement round with what advance() or moveTo() gave; `ends`: it was the last.
   StepReport finishRound(Status status, bool ends);
 
-  void measureSupport();
+  void measureSupport();  ///< Measures the edge support of the final pose in this view
   /// A follower, until the next place.
   void rest();
+  /// What all views together decided about the final pose.
   StepReport conclude(SupportVerdict verdict);
 
   /// Which of its two records a localizer's workspace shows, and either of them.
   static int shownBuffer(const Localizer& localizer);
+  /// One of a localizer's two records.
   static const Iteration& record(const Localizer& localizer, int buffer);
 
  private:

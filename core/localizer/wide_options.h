@@ -23,6 +23,7 @@ struct WideOptions {
   std::int32_t max_restarts = 128;
   std::int32_t finalists = 3;
 
+  /// Whether anything is searched beyond the seed's own uncertainty.
   bool isOn() const { return rotation_rad > 0.0 || translation_m > 0.0; }
   bool operator==(const WideOptions&) const = default;
 

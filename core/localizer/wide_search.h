@@ -19,15 +19,19 @@ namespace boresight {
 class RestartGrid {
  public:
   RestartGrid() = default;
+  /// Lays the restarts out about the problem's seed; `scene` is the box of the matched parts.
   RestartGrid(const LocalizationProblem& problem, const BoundingBox& scene,
               const WideOptions& options);
 
+  /// Restarts.
   int count() const { return turns_ * depths_; }
+  /// Turns in each depth.
   int turns() const { return turns_; }
+  /// Depths with each turn.
   int depths() const { return depths_; }
   /// Of a restart, nearest to the seed first: all turns in the seed's depth, then in the next.
   double turnOf_rad(int restart) const;
-  double depthOffsetOf_m(int restart) const;
+  double depthOffsetOf_m(int restart) const;  ///< m along the camera's z axis
   /// The seed turned about the axis, then moved along the camera's z axis.
   Pose poseOf(int restart) const;
   /// How far the truth may be from the restart that is nearest to it, in the restart's camera frame
@@ -58,8 +62,9 @@ class RestartGrid {
 /// a coin of that chance shows the share in n throws (Chernoff 1952), or 0 below chance. Templates
 /// overlap and neighbouring edge pixels go together: their numbers are divided accordingly.
 struct Evidence {
-  double inliers = 0.0;
-  double edges = 0.0;
+  double inliers = 0.0;  ///< of the matches, nats
+  double edges = 0.0;    ///< of the edges, nats
+  /// Of both, nats.
   double sum() const { return inliers + edges; }
 };
 Evidence evidenceOf(const Iteration& iteration, const EdgeSupport& support);

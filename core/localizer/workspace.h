@@ -18,20 +18,21 @@ namespace boresight {
 
 /// Where a template was found.
 struct Match {
-  SearchWindow window;  ///< at the level; empty when the template could not be searched
-  WhsNorms norms;
-  WhsPeak peak;
+  SearchWindow window;      ///< at the level; empty when the template could not be searched
+  WhsNorms norms;           ///< edge and empty pixels of the template
+  WhsPeak peak;             ///< the best place and the second
   double x = 0.0, y = 0.0;  ///< sub-pixel place at the level
-  bool searched = false;
-  bool at_border = false;  ///< the peak lies on the window's border: the truth may lie beyond
-  TemplateWarp warp;       ///< with warp.enabled: what fitted best; the norms are its own
-  bool dropped = false;    ///< not used for the pose: less distinct than templates.min_margin
+  bool searched = false;    ///< the window was searched; otherwise there is no peak
+  bool at_border = false;   ///< the peak lies on the window's border: the truth may lie beyond
+  TemplateWarp warp;        ///< with warp.enabled: what fitted best; the norms are its own
+  bool dropped = false;     ///< not used for the pose: less distinct than templates.min_margin
 };
 
+/// Where the templates of an iteration were found.
 struct MatchSet {
-  std::span<Match> matches;  ///< one per template
-  std::int32_t count = 0;
-  std::int32_t searched = 0;
+  std::span<Match> matches;   ///< one per template
+  std::int32_t count = 0;     ///< templates looked for
+  std::int32_t searched = 0;  ///< templates whose window could be searched
 };
 
 /// A correspondence that somebody else than the core found (Localizer::matchOutside): an item of
@@ -42,8 +43,8 @@ struct SuppliedMatch {
   double x = 0.0, y = 0.0;    ///< where it was found, px at the level
   double score = 0.0;         ///< [0, 2], the higher the better; for people and records
   double second_score = 0.0;  ///< of the best other place
-  bool has_second = false;
-  bool found = false;
+  bool has_second = false;    ///< there was another place
+  bool found = false;         ///< it was found at all
 };
 
 /// Why a run, or an iteration, ended.
@@ -67,53 +68,56 @@ enum class IterationKind : std::uint8_t { kMatch = 0, kRefine = 1 };
 
 /// One rolled render of an iteration, or one restart of the wide search, and what it yielded.
 struct HypothesisSummary {
-  double roll_rad = 0.0;  ///< of a restart: its turn about the axis chosen
-  std::int32_t templates = 0;
-  std::int32_t matches = 0;
-  std::int32_t inliers = 0;
+  double roll_rad = 0.0;       ///< of a restart: its turn about the axis chosen
+  std::int32_t templates = 0;  ///< chosen
+  std::int32_t matches = 0;    ///< used for the pose
+  std::int32_t inliers = 0;    ///< that agree with it
   double cost =
       0.0;  ///< truncated squared residuals over the correspondences, in thresholds squared
-  Pose camera_from_station;
-  bool solved = false;
+  Pose camera_from_station;  ///< the pose found
+  bool solved = false;       ///< there is a pose
   // Of restarts alone.
-  double depth_offset_m = 0.0;
-  double support = 0.0;      ///< edge support of the pose, EdgeSupport::share()
-  double inlier_nats = 0.0;  ///< beyond chance, as in Evidence
-  double edge_nats = 0.0;
+  double depth_offset_m = 0.0;  ///< along the seed camera's z axis
+  double support = 0.0;         ///< edge support of the pose, EdgeSupport::share()
+  double inlier_nats = 0.0;     ///< beyond chance, as in Evidence
+  double edge_nats = 0.0;       ///< beyond chance, as in Evidence
 
+  /// Of inliers and edges, nats.
   double evidence() const { return inlier_nats + edge_nats; }
 };
 inline constexpr int kMaxHypotheses = 9;
 
 /// Everything of one iteration: the next stage's input, and what a trace keeps.
 struct Iteration {
-  std::int32_t index = 0;  ///< over all attempts, without gaps
-  std::int32_t attempt = 0;
-  IterationKind kind = IterationKind::kMatch;
-  std::int32_t level = 0;
+  std::int32_t index = 0;                      ///< over all attempts, without gaps
+  std::int32_t attempt = 0;                    ///< 0 for the first
+  IterationKind kind = IterationKind::kMatch;  ///< what the iteration does
+  std::int32_t level = 0;                      ///< pyramid level, 0 full resolution
   double threshold_px = 0.0;  ///< of the full image; the search radius when refining
   /// What the render shows is this, rolled by the hypothesis chosen; a refinement's may be the last
   /// one's, from a pose less than loop.render_again_px away. In the wide search: where the restart
   /// chosen began.
   Pose camera_from_station_before;
-  SeedUncertainty uncertainty;
-  EdgeRender render;
-  TemplateSet templates;
-  MatchSet matches;
+  SeedUncertainty uncertainty;                ///< how far the truth may be from that pose
+  EdgeRender render;                          ///< the salient edges
+  TemplateSet templates;                      ///< the templates chosen in it
+  MatchSet matches;                           ///< where they were found
   std::span<Correspondence> correspondences;  ///< of the searched templates
   std::span<std::int32_t> template_of;        ///< template of each correspondence
-  std::int32_t correspondence_count = 0;
-  PnpSolution pnp;
-  RefinementResult refinement;
+  std::int32_t correspondence_count = 0;      ///< valid ones of the two above
+  PnpSolution pnp;                            ///< of a match iteration
+  RefinementResult refinement;                ///< of a refinement
+  /// The first `hypothesis_count` are valid.
   std::array<HypothesisSummary, kMaxHypotheses> hypotheses;
-  std::int32_t hypothesis_count = 0;
+  std::int32_t hypothesis_count = 0;  ///< renders tried
   /// Of an iteration of the wide search, in place of those: its restarts up to now.
   std::span<const HypothesisSummary> restarts;
-  std::int32_t chosen_hypothesis = 0;
-  Pose camera_from_station;  ///< after
-  double correction_translation_m = 0.0;
-  double correction_rotation_rad = 0.0;
-  double correction_image_px = 0.0;  ///< mean over the corners of the scene's box
+  std::int32_t chosen_hypothesis = 0;     ///< index of the one that is kept
+  Pose camera_from_station;               ///< after
+  double correction_translation_m = 0.0;  ///< from the pose before
+  double correction_rotation_rad = 0.0;   ///< from the pose before
+  double correction_image_px = 0.0;       ///< mean over the corners of the scene's box
+  /// Why the iteration ended; kRunning when it did not fail.
   LocalizationStatus status = LocalizationStatus::kRunning;
 };
 
@@ -133,12 +137,13 @@ struct Workspace {
   const Iteration* iteration = nullptr;  ///< the latest; stages not yet reached hold old values
   EdgeSupport support;                   ///< of the final pose
   PartialSupport partial;                ///< of it, too
-  LocalizationStatus status = LocalizationStatus::kRunning;
-  Status fault = Status::kOk;
+  LocalizationStatus status = LocalizationStatus::kRunning;  ///< how the run stands
+  Status fault = Status::kOk;                                ///< what did not suffice, with kFault
   Pose camera_from_station;  ///< best estimate; the seed unless converged
+  /// Of camera_from_station, over (rotation rad, translation m), left perturbation.
   Matrix6d covariance = Matrix6d::Zero();
-  std::int32_t iterations = 0;  ///< of all attempts, those that failed included
-  std::int32_t attempts = 1;
+  std::int32_t iterations = 0;    ///< of all attempts, those that failed included
+  std::int32_t attempts = 1;      ///< begun so far
   std::span<const Rival> rivals;  ///< with ambiguity.enabled, once a pose has converged
 };
 

@@ -22,11 +22,13 @@ inline int planesFor(int largest) {
 
 /// Planes of a row of counters: bit k of counter x is bit (x & 63) of plane(k)[x >> 6].
 struct CounterRow {
-  std::uint64_t* words = nullptr;
-  int stride = 0;       ///< words from one plane to the next
-  int plane_count = 0;  ///< planes in use
+  std::uint64_t* words = nullptr;  ///< plane 0 first
+  int stride = 0;                  ///< words from one plane to the next
+  int plane_count = 0;             ///< planes in use
   // Inlined always, so that no copy of them is left behind by files compiled for wide registers.
+  /// First word of plane k.
   [[gnu::always_inline]] std::uint64_t* plane(int k) { return words + std::ptrdiff_t{stride} * k; }
+  /// First word of plane k.
   [[gnu::always_inline]] const std::uint64_t* plane(int k) const {
     return words + std::ptrdiff_t{stride} * k;
   }
@@ -37,7 +39,7 @@ inline constexpr int kWordPadding = 7;
 
 /// Pixels whose bits are counted: the byte at which each one's row begins, relative to a base.
 struct PixelList {
-  const std::int32_t* offsets = nullptr;
+  const std::int32_t* offsets = nullptr;  ///< bytes, one per pixel
   int count = 0;        ///< a multiple of 4: padded with offsets that point to zeros
   int plane_count = 0;  ///< planes that hold the largest sum
   int shift = 0;        ///< bit within the byte, the same for all (0 ... 7)

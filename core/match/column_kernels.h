@@ -15,7 +15,7 @@ namespace boresight {
 /// to kMostRows - 1 more than asked for are read and written, of which nothing is to be expected.
 /// Every set of kernels gives the same numbers.
 struct ColumnKernels {
-  static constexpr int kMostRows = 8;
+  static constexpr int kMostRows = 8;    ///< most rows in a register
   static constexpr int kLaneWords = 16;  ///< words that hold 64 counters of 16 bits
 
   int rows = 0;  ///< of offsets in a register

@@ -23,14 +23,15 @@ namespace boresight {
 ///   C(x, y + 1) - C(x, y) = sum over (u, v) of [M(u, v - 1) - M(u, v)] I(x + u, y + v).
 class ColumnSearch {
  public:
-  static constexpr int kMaxSide_px = 256;
-  static constexpr int kTileColumns = 64;
+  static constexpr int kMaxSide_px = 256;  ///< larger templates are left to others
+  static constexpr int kTileColumns = 64;  ///< columns of offsets in a tile
 
   /// Takes nothing without kernels.
   void create(int max_side_px, const ColumnKernels* kernels, Arena& arena);
   /// Transposes and lists a valid template; false when this search cannot do it: no kernels, a side
   /// or a number of pixels beyond what it was made for.
   bool begin(const TemplateView& view, const BitImage& test_edges, const SearchWindow& window);
+  /// Edge and empty pixels of the template.
   const WhsNorms& norms() const { return norms_; }
 
   /// Counts the next band of the window and offers its offsets; true after the last one.

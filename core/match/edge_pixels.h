@@ -18,13 +18,14 @@ namespace boresight {
 /// is shifted. Templates with more pixels than there is room for are listed some rows at a time.
 class EdgePixels {
  public:
+  /// Most shifts that a band has.
   static constexpr int kMostShifts = 8;
 
-  void create(int capacity, Arena& arena);
+  void create(int capacity, Arena& arena);  ///< Takes room for so many pixels
   /// Lists the pixels from row `first_row` on, as many rows as fit; returns the row after them.
   int list(const TemplateView& view, const TestBand& band, int first_row);
 
-  PixelList pixels(int shift) const;
+  PixelList pixels(int shift) const;  ///< The pixels listed for a shift
 
  private:
   int countRows(const TemplateView& view, int shifts, int first_row);

@@ -21,6 +21,7 @@ namespace boresight {
 /// borders are too many to list, is summed up from the ends of all its runs and one exact value.
 class MaskCounts {
  public:
+  /// Takes the counters for rows of up to `max_words` words of offsets.
   void create(int max_words, const BitKernels& kernels, Arena& arena);
   /// Lists the borders of a template's mask.
   void begin(const TemplateView& view, const TestBand& band);
@@ -29,6 +30,7 @@ class MaskCounts {
   /// From the counts of the row of offsets at `rows` to those of the row below it.
   void advanceRow(const TestBand& band, const std::uint8_t* rows, int words);
 
+  /// C at offset 64 word + bit of the row.
   std::int32_t count(int word, int bit) const {
     const std::size_t at = static_cast<std::size_t>(lanesBefore(word) + laneIndex(bit));
     return is_small_ ? small_counts_[at] : counts_[at];

@@ -21,9 +21,12 @@ namespace boresight {
 /// them can be neither. That is the bound below which offsets are dropped unseen.
 class PeakTable {
  public:
+  /// Offsets along a side of a block.
   static constexpr int kBlock = 8;
 
+  /// Takes the table for windows of up to this extent along each axis.
   void create(int max_window_px, Arena& arena);
+  /// Clears the table for a window.
   void begin(const SearchWindow& window, const WhsNorms& norms, int predicted_x, int predicted_y,
              int exclusion_px);
 
@@ -32,7 +35,7 @@ class PeakTable {
   std::int32_t leastHits(std::int32_t least_covered) const;
   /// Offset (x, y) relative to the window's corner, with S+ = `hits` and C = `covered`.
   void offer(int x, int y, std::int32_t hits, std::int32_t covered);
-  WhsPeak finish() const;
+  WhsPeak finish() const;  ///< The best place and the second, of all offsets offered
 
  private:
   struct Offset {

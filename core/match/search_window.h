@@ -10,9 +10,12 @@ namespace boresight {
 
 /// Pixels of a level where the centre of a template may lie; both bounds belong to it.
 struct SearchWindow {
-  int x_min = 0, y_min = 0, x_max = -1, y_max = -1;
+  int x_min = 0, y_min = 0, x_max = -1, y_max = -1;  ///< px of the level
+  /// Whether it holds no pixel.
   bool empty() const { return x_max < x_min || y_max < y_min; }
+  /// px.
   int width() const { return x_max - x_min + 1; }
+  /// px.
   int height() const { return y_max - y_min + 1; }
 };
 

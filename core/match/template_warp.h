@@ -44,21 +44,22 @@ struct WarpOptions {
 /// How a template was turned (about the view axis, from x to y) and scaled before it was looked
 /// for.
 struct TemplateWarp {
-  double roll_rad = 0.0;
-  double scale = 1.0;
+  double roll_rad = 0.0;  ///< about the view axis, from x to y
+  double scale = 1.0;     ///< above 1: larger in the image
   bool operator==(const TemplateWarp&) const = default;
 };
 
 /// The warps of one template, the identity first, then by roll and scale: 0, +1, -1, +2, ... steps.
 /// Each serves half a step to either side, and all of them what the uncertainty leaves open.
 struct WarpGrid {
-  std::int32_t rolls = 1;   ///< odd
-  std::int32_t scales = 1;  ///< odd
-  double roll_step_rad = 0.0;
-  double scale_step = 0.0;
+  std::int32_t rolls = 1;      ///< odd
+  std::int32_t scales = 1;     ///< odd
+  double roll_step_rad = 0.0;  ///< between neighbours
+  double scale_step = 0.0;     ///< between neighbours, relative
 
+  /// Warps in the grid.
   std::int32_t count() const { return rolls * scales; }
-  TemplateWarp at(std::int32_t index) const;
+  TemplateWarp at(std::int32_t index) const;  ///< The warp of a number in 0 ... count() - 1.
 };
 
 /// What the uncertainty, at a point in the camera frame, asks for: turns by its rotation about the
@@ -70,6 +71,7 @@ WarpGrid warpGrid(const WarpOptions& options, const SeedUncertainty& uncertainty
 /// Room for the bits of one warped template.
 class WarpedTemplate {
  public:
+  /// Takes the bits of one template of up to this side.
   void create(int max_side_px, Arena& arena);
   /// The template turned and scaled about its centre: every pixel takes the bits of the pixel of
   /// the render that it comes from; what comes from outside the render is not in the mask. The view

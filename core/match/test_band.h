@@ -16,6 +16,7 @@ namespace boresight {
 /// need a shift of their own; all of it is to stay in the first-level cache.
 class TestBand {
  public:
+  /// Most shifted copies of a band.
   static constexpr int kMostCopies = 8;
 
   /// Takes the memory for templates of up to `max_side` px and `max_words` words of offsets a row.
@@ -29,6 +30,7 @@ class TestBand {
 
   /// First byte of row `row` of the band.
   const std::uint8_t* row(int row) const { return bytes_.data() + std::ptrdiff_t{stride_} * row; }
+  /// Bytes from a row to the next one.
   int stride() const { return stride_; }
 
   /// Pixels with the same shift can be counted together: there are this many different shifts.

@@ -8,12 +8,12 @@ namespace boresight {
 
 /// What a template is looked for in.
 struct SearchTask {
-  TemplateView view;
-  const BitImage* test_edges = nullptr;
-  SearchWindow window;
-  WarpGrid warps;  ///< one alone: as it is
-  int exclusion_px = 0;
-  bool subpixel = true;
+  TemplateView view;                     ///< the template
+  const BitImage* test_edges = nullptr;  ///< the level of the edge map
+  SearchWindow window;                   ///< where its centre may lie
+  WarpGrid warps;                        ///< one alone: as it is
+  int exclusion_px = 0;  ///< half side of the square about the best in which there is no second
+  bool subpixel = true;  ///< a parabola through the score's peak
 };
 
 /// Searches a window for a template in each of its warps and keeps the best, by the score S; of
@@ -27,10 +27,14 @@ class WarpedSearch {
   Status begin(const SearchTask& task);
   /// One bounded slice; true when all warps have been searched.
   [[nodiscard]] bool step();
+  /// Best place and second, of the best warp.
   const WhsPeak& peak() const { return peak_; }
+  /// Edge and empty pixels of the template as warped.
   const WhsNorms& norms() const { return norms_; }
+  /// The best warp.
   const TemplateWarp& warp() const { return warp_; }
   double x() const { return x_; }  ///< sub-pixel place, when the task asks for it
+  /// Sub-pixel place.
   double y() const { return y_; }
 
  private:

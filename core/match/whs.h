@@ -49,7 +49,9 @@ class WhsSearch {
                int predicted_x, int predicted_y, int exclusion_px);
   /// One bounded slice (some rows of offsets); true when `peak()` is complete.
   [[nodiscard]] bool step();
+  /// Best place and second; complete when step() says so.
   const WhsPeak& peak() const { return peak_; }
+  /// Edge and empty pixels of the template.
   const WhsNorms& norms() const { return norms_; }
 
  private:

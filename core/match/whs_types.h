@@ -10,15 +10,15 @@ namespace boresight {
 /// S+ and S- of Pham 2025, Eqs. 1-3: template edge pixels that meet a test edge, and masked-in
 /// template non-edge pixels that meet none.
 struct WhsCounts {
-  std::int32_t edge_hits = 0;   ///< S+
-  std::int32_t empty_hits = 0;  ///< S-
-  bool operator==(const WhsCounts&) const = default;
+  std::int32_t edge_hits = 0;                         ///< S+
+  std::int32_t empty_hits = 0;                        ///< S-
+  bool operator==(const WhsCounts&) const = default;  ///< the same counts
 };
 
 /// c+ and c-: masked-in edge and non-edge pixels of a template.
 struct WhsNorms {
-  std::int32_t edges = 0;
-  std::int32_t empties = 0;
+  std::int32_t edges = 0;    ///< c+
+  std::int32_t empties = 0;  ///< c-
   bool operator==(const WhsNorms&) const = default;
 };
 
@@ -32,20 +32,20 @@ inline std::int64_t whsComparable(const WhsCounts& counts, const WhsNorms& norms
 /// A square of the render, side `side_px` (even), centred at (center_x, center_y): it spans
 /// center - side/2 ... center + side/2 - 1 and lies wholly inside the render. Bits are not copied.
 struct TemplateView {
-  const BitImage* edges = nullptr;
-  const BitImage* mask = nullptr;
-  int center_x = 0;
-  int center_y = 0;
-  int side_px = 0;
+  const BitImage* edges = nullptr;  ///< of the whole render
+  const BitImage* mask = nullptr;   ///< of the whole render
+  int center_x = 0;                 ///< px
+  int center_y = 0;                 ///< px
+  int side_px = 0;                  ///< even
 };
 
 /// Result of searching a window.
 struct WhsPeak {
-  int x = 0, y = 0;  ///< best place of the template's centre
-  WhsCounts counts;
+  int x = 0, y = 0;                ///< best place of the template's centre
+  WhsCounts counts;                ///< there
   int second_x = 0, second_y = 0;  ///< best place outside the exclusion square around the best
-  WhsCounts second_counts;
-  bool has_second = false;
+  WhsCounts second_counts;         ///< there
+  bool has_second = false;         ///< there is one
   bool operator==(const WhsPeak&) const = default;
 };
 

@@ -7,16 +7,17 @@
 
 namespace boresight {
 
+/// A point of the station and the pixel that shows it.
 struct Correspondence {
-  Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();  ///< of the station
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();               ///< px of the full image
   double sigma_px = 1.0;  ///< per axis; in [1e-6, 1e6], or the correspondence is not used
 };
 
 /// Gaussian prior on the pose about a hypothesis, in the axes of SeedUncertainty.
 struct PosePrior {
-  Pose camera_from_station;
-  SeedUncertainty sigma;  ///< the box read as one sigma per axis
+  Pose camera_from_station;  ///< where it is centred
+  SeedUncertainty sigma;     ///< the box read as one sigma per axis
 };
 
 /// Whether a correspondence can take part: coordinates finite and below 1e9 in magnitude, sigma_px

@@ -17,9 +17,9 @@ struct NormalEquations {
   Matrix6d information = Matrix6d::Zero();  ///< H; only the lower triangle is filled
   Vector6d gradient = Vector6d::Zero();     ///< g = J' W (observed - predicted)
   double squares = 0.0;                     ///< sum of ((pixel - projection) / sigma)^2
-  double prior_squares = 0.0;
-  std::int32_t projected = 0;  ///< correspondences that entered
-  std::int32_t missing = 0;    ///< used ones that do not project at this pose
+  double prior_squares = 0.0;               ///< the prior's part of the squares
+  std::int32_t projected = 0;               ///< correspondences that entered
+  std::int32_t missing = 0;                 ///< used ones that do not project at this pose
 
   /// What a step has to lower: a correspondence that stops projecting costs more than any residual,
   /// so no step gains by pushing points behind the camera.

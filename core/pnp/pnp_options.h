@@ -10,6 +10,7 @@ namespace boresight {
 enum class PnpSampler : std::int32_t { kP3p = 0, kGuided = 1 };
 inline constexpr const char* kPnpSamplerNames[] = {"p3p", "guided"};
 
+/// Of RANSAC and the refits.
 struct PnpOptions {
   PnpSampler sampler = PnpSampler::kGuided;
   std::int32_t max_samples = 500;

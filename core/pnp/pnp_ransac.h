@@ -16,16 +16,17 @@
 
 namespace boresight {
 
+/// A pose from correspondences, with what supports it.
 struct PnpSolution {
-  Pose camera_from_station;
+  Pose camera_from_station;        ///< the pose
   std::span<std::uint8_t> inlier;  ///< of the *returned* pose, one per correspondence
   std::span<double> residual_px;   ///< distance pixel - projection; 1e6 where it does not project
-  std::int32_t inlier_count = 0;
-  double rms_px = 0.0;  ///< over the inliers
+  std::int32_t inlier_count = 0;   ///< of the returned pose
+  double rms_px = 0.0;             ///< over the inliers
   /// 6x6 over xi = (rotation rad, translation m), camera frame, left perturbation: poseCovariance
   /// over the inliers.
   Matrix6d covariance = Matrix6d::Zero();
-  std::int32_t samples = 0;
+  std::int32_t samples = 0;  ///< drawn
 };
 
 /// RANSAC in bounded slices, then refinement over all inliers.
@@ -52,6 +53,7 @@ struct PnpSolution {
 /// `residual_px` always is that of the pose in the solution.
 class PnpRansac {
  public:
+  /// Takes the memory for so many correspondences. kArenaTooSmall.
   Status create(int max_correspondences, Arena& arena);
   /// `hypothesis` is where guided samples start and what their prior is about (sigma = uncertainty
   /// times prior_factor). Spans in `solution` must hold one entry per correspondence. The data must

@@ -33,9 +33,13 @@ inline constexpr std::size_t kEndBytes = 270;
 
 /// Bits of a template's flags.
 struct TemplateFlags {
+  /// The template's window was searched.
   static constexpr std::uint8_t kSearched = 1;
+  /// The peak lies on the window's border.
   static constexpr std::uint8_t kAtBorder = 2;
+  /// There is another place.
   static constexpr std::uint8_t kHasSecond = 4;
+  /// The match agrees with the pose.
   static constexpr std::uint8_t kInlier = 8;
 };
 

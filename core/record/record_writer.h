@@ -14,11 +14,11 @@ namespace boresight {
 
 /// What a run was given, by SHA-256. The caller knows the bytes that it was made of.
 struct RecordInputs {
-  using Hash = std::array<std::uint8_t, 32>;
+  using Hash = std::array<std::uint8_t, 32>;  ///< SHA-256
   Hash pixels{};  ///< the decoded 8-bit pixels that the core saw, row by row
   Hash ignore{};  ///< of the mask's words; zeros without a mask
   Hash scene{};   ///< of the parts, vertices and faces
-  Hash camera{};
+  Hash camera{};  ///< of its canonical bytes
 };
 
 /// Writes the onboard record of a run into memory of the caller's, without allocation:
@@ -35,16 +35,19 @@ class RecordWriter {
  public:
   /// `out` must outlive the writer. Fewer than kMinimumBytes hold nothing: bytes() stays empty.
   explicit RecordWriter(std::span<std::uint8_t> out);
+  /// Bytes of an empty record.
   static constexpr std::size_t kMinimumBytes = kRecordHeaderBytes + kBlockBytes + kEndBytes;
 
+  /// Writes what the run is given, before the first step.
   void begin(const RecordInputs& inputs, const LocalizationProblem& problem,
              const LocalizerOptions& options);
   /// Options that hold from the next iteration on (Localizer::changeOptions).
   void changeOptions(const LocalizerOptions& options, std::int32_t first_iteration);
   /// After every step; most of them leave nothing to write.
   void note(const Localizer& localizer, const StepReport& report);
-  void end(const Localizer& localizer);
+  void end(const Localizer& localizer);  ///< Writes how the run ended, after the last step
 
+  /// What has been written: a whole record after end().
   std::span<const std::uint8_t> bytes() const { return out_.first(used_); }
   /// Every block has found room.
   bool complete() const { return complete_; }

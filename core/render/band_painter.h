@@ -17,12 +17,13 @@ namespace boresight {
 
 /// What is drawn, the same for all bands of a render.
 struct BandSource {
-  const CameraScene& scene;
-  const RayGrid& rays;
-  const FaceBins& bins;
-  const SurfaceRender& surfaces;
-  int band_rows;
+  const CameraScene& scene;       ///< the mesh from the pose
+  const RayGrid& rays;            ///< of the camera
+  const FaceBins& bins;           ///< the faces of each band
+  const SurfaceRender& surfaces;  ///< what else is wanted
+  int band_rows;                  ///< rows of a band
 
+  /// Bands of the image.
   int bands() const { return (rays.camera().height - 1) / band_rows + 1; }
 };
 
@@ -31,6 +32,7 @@ struct BandSource {
 /// a row does not depend on where the others begin.
 class BandPainter {
  public:
+  /// Takes the memory of one band from `arena`.
   static BandPainter create(int max_width, int band_rows, Arena& arena);
 
   /// Begins with bands `first_band` ... end_band - 1, whose rows in `output` are clear. A row is

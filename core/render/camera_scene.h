@@ -18,8 +18,8 @@ namespace boresight {
 /// A vertex's pixel in 16 bits: rounded to 1 / FixedScale::steps() px, counted from the middle of
 /// the image.
 struct FixedPixel {
-  std::int16_t x = 0;
-  std::int16_t y = 0;
+  std::int16_t x = 0;  ///< steps to the right of the middle
+  std::int16_t y = 0;  ///< steps below the middle
   /// Both coordinates of a vertex that has no usable pixel.
   static constexpr std::int16_t kNotProjected = -32000;
 };
@@ -30,11 +30,12 @@ struct FixedScale {
   static constexpr int kLimit = 31000;  ///< pixels farther off are moved here, outside the image
   int shift = 0;                        ///< 2^shift steps to a pixel
   int middle_x = 0;                     ///< the pixel from which coordinates are counted
-  int middle_y = 0;
-  double low_m = 0.0;  ///< z of depth 0
-  double per_m = 0.0;  ///< steps of depth per metre
-  int gap = 0;         ///< depths this far apart differ beyond all rounding
+  int middle_y = 0;                     ///< likewise
+  double low_m = 0.0;                   ///< z of depth 0
+  double per_m = 0.0;                   ///< steps of depth per metre
+  int gap = 0;                          ///< depths this far apart differ beyond all rounding
 
+  /// Steps to a pixel.
   int steps() const { return 1 << shift; }
 };
 
@@ -42,21 +43,23 @@ struct FixedScale {
 /// as seen from the pupil of their own rays), and their pixels and depths in
 /// few bits, which serve for bounds and for what is clear without more. Refilled for every pose.
 struct CameraScene {
-  MeshView mesh;
-  MeshAdjacency adjacency;
-  double near_plane_m = 0.0;
+  MeshView mesh;                                        ///< not owned
+  MeshAdjacency adjacency;                              ///< of the mesh
+  double near_plane_m = 0.0;                            ///< what is nearer is not rendered
   Eigen::Vector3d minimum_m = Eigen::Vector3d::Zero();  ///< box of all vertices, station frame
-  Eigen::Vector3d maximum_m = Eigen::Vector3d::Zero();
-  std::span<Eigen::Vector3d> vertex_in_camera_m;
-  std::span<FixedPixel> vertex_px;
-  std::span<std::uint16_t> vertex_depth;  ///< floor((z - low_m) per_m)
-  FixedScale scale;
-  std::span<double> cos_normal_threshold;  ///< per part
+  Eigen::Vector3d maximum_m = Eigen::Vector3d::Zero();  ///< the other corner of it
+  std::span<Eigen::Vector3d> vertex_in_camera_m;        ///< as many as the mesh has
+  std::span<FixedPixel> vertex_px;                      ///< of each
+  std::span<std::uint16_t> vertex_depth;                ///< floor((z - low_m) per_m)
+  FixedScale scale;                                     ///< of pixels and depths
+  std::span<double> cos_normal_threshold;               ///< per part
   /// Per face: bit i when the surface goes on smoothly over edge i to a face oriented alike;
   /// kFrontFacing when the outer side is seen from this pose; kNormalKnown when the face is wide
   /// enough for its normal to be known.
   std::span<std::uint8_t> face_flags;
+  /// Bit of face_flags.
   static constexpr std::uint8_t kFrontFacing = 8;
+  /// Bit of face_flags.
   static constexpr std::uint8_t kNormalKnown = 16;
 
   /// The mesh and its adjacency must outlive the scene. What depends on the pose comes from
@@ -72,14 +75,17 @@ struct CameraScene {
 
   /// Sets a face's kFrontFacing.
   void orient(std::int32_t face);
+  /// Sets or clears a face's kFrontFacing.
   void setFrontFacing(std::int32_t face, bool front) {
     std::uint8_t& flags = face_flags[static_cast<std::size_t>(face)];
     flags = static_cast<std::uint8_t>(front ? flags | kFrontFacing : flags & ~kFrontFacing);
   }
+  /// A face's kFrontFacing.
   bool isFrontFacing(std::int32_t face) const {
     return (face_flags[static_cast<std::size_t>(face)] & kFrontFacing) != 0;
   }
 
+  /// A face's kNormalKnown.
   bool normalKnown(std::int32_t face) const {
     return (face_flags[static_cast<std::size_t>(face)] & kNormalKnown) != 0;
   }
@@ -94,12 +100,15 @@ struct CameraScene {
            (around[2] == other && (flags & 4) != 0);
   }
 
+  /// Vertex `corner` (0 ... 2) of a face, camera frame, m.
   const Eigen::Vector3d& vertex(std::int32_t face, int corner) const {
     const Face& indices = mesh.faces[static_cast<std::size_t>(face)];
     return vertex_in_camera_m[static_cast<std::size_t>(
         indices.vertex[static_cast<std::size_t>(corner)])];
   }
+  /// The part that a face belongs to.
   const ScenePart& part(std::int32_t face) const { return mesh.parts[partIndex(face)]; }
+  /// Its index in the mesh's parts.
   std::size_t partIndex(std::int32_t face) const {
     return mesh.part_of_face[static_cast<std::size_t>(face)];
   }
@@ -138,10 +147,11 @@ inline double dotProduct(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 /// Pixels that a face can cover: a conservative rectangle, empty when it holds no pixel centre.
 struct PixelBounds {
-  int x_first = 0;
-  int x_last = -1;
-  int y_first = 0;
-  int y_last = -1;
+  int x_first = 0;  ///< leftmost column
+  int x_last = -1;  ///< rightmost column
+  int y_first = 0;  ///< uppermost row
+  int y_last = -1;  ///< lowest row
+  /// Whether it holds no pixel centre.
   bool empty() const { return x_last < x_first || y_last < y_first; }
 };
 PixelBounds faceBounds(const CameraScene& scene, const RayGrid& rays, std::int32_t face);

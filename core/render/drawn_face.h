@@ -12,11 +12,11 @@ struct DrawnFace {
   double a[3], b[3], c[3];  ///< edge i: a x/z + (b y/z + c)
   double limit[3];          ///< inside when the edge's value reaches this
   double slack[3];          ///< how far an edge's value may be from linear within a chunk's row
-  double plane_x, plane_y, plane_1;
-  bool clamped;      ///< 1/z has to be kept within the next two, and beyond the near plane
-  double low, high;  ///< range of 1/z over the face
-  double nearest;    ///< 1/z of the near plane
-  std::int32_t face;
+  double plane_x, plane_y, plane_1;  ///< 1/z = plane_x x/z + plane_y y/z + plane_1
+  bool clamped;       ///< 1/z has to be kept within the next two, and beyond the near plane
+  double low, high;   ///< range of 1/z over the face
+  double nearest;     ///< 1/z of the near plane
+  std::int32_t face;  ///< index in the mesh
 
   /// Keeps 1/z within the face; false where the near plane cuts the face off.
   bool clamp(double& inverse_depth) const {

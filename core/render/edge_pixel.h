@@ -13,8 +13,8 @@ namespace boresight {
 /// What is known of one salient edge pixel. It belongs to the *nearer* of the two surfaces that
 /// meet in it.
 struct EdgePixel {
-  std::int16_t x = 0;
-  std::int16_t y = 0;
+  std::int16_t x = 0;  ///< px
+  std::int16_t y = 0;  ///< px
   /// z of the nearer surface's plane at the pixel's centre, extended by at most one pixel. Of a
   /// face seen at less than 9 deg, whose extended plane says little, z at the line itself.
   float depth_m = 0.0F;
@@ -38,16 +38,16 @@ enum EdgeKind : std::uint8_t {
 /// Salient edges of the scene from one pose (Pham 2025, Sec. III-A): the baseline edge map, its
 /// mask, and depth, normal and sub-pixel place at the edge pixels, in raster order.
 struct EdgeRender {
-  BitImage edges;
-  BitImage mask;  ///< 1 where a matched part is the nearest surface, and at every edge pixel
+  BitImage edges;  ///< 1 at salient edges
+  BitImage mask;   ///< 1 where a matched part is the nearest surface, and at every edge pixel
   std::span<EdgePixel> pixels;        ///< capacity; the first `pixel_count` are valid, raster order
   std::span<std::int32_t> row_begin;  ///< height + 1 indices into pixels
-  std::int32_t pixel_count = 0;
+  std::int32_t pixel_count = 0;       ///< salient edge pixels
   /// Words for the largest image; `edges` and `mask` use as many as the camera at hand needs.
   std::span<std::uint64_t> edge_words;
-  std::span<std::uint64_t> mask_words;
-  Camera camera;  ///< the camera at this level
-  Pose camera_from_station;
+  std::span<std::uint64_t> mask_words;  ///< of the mask, likewise
+  Camera camera;                        ///< the camera at this level
+  Pose camera_from_station;             ///< the pose rendered
 };
 
 }  // namespace boresight

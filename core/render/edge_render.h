@@ -22,6 +22,7 @@
 
 namespace boresight {
 
+/// Of the salient edges' render.
 struct RenderOptions {
   double near_plane_m = 0.01;
   std::int32_t max_edge_pixels = 80000;
@@ -70,7 +71,7 @@ std::int32_t findEdgePixel(const EdgeRender& render, int x, int y);
 ///     }
 class EdgeRenderer {
  public:
-  static constexpr int kBandRows = 16;
+  static constexpr int kBandRows = 16;  ///< rows drawn at a time
 
   /// `max_width` x `max_height` bound every camera that will be rendered with. The mesh and its
   /// adjacency must outlive the renderer. Counting arenas only count. kInvalidMesh, kInvalidImage
@@ -100,6 +101,7 @@ class EdgeRenderer {
 
   /// Pieces of the phase at hand; 0 with one worker, whose steps do everything.
   int pieces() const { return phase_ == Phase::kIdle ? 0 : piece_count_; }
+  /// Most pieces that a phase has with so many workers.
   static int mostPieces(int workers) { return workers > 1 ? kPiecesPerWorker * workers : 0; }
   /// Does one piece, each exactly once before the step. Calls at the same time need different
   /// pieces and different workers.

@@ -19,14 +19,16 @@ class FaceBins {
  public:
   /// Columns that faces may cover.
   struct Columns {
-    std::int16_t first = 32767;
-    std::int16_t last = -1;
+    std::int16_t first = 32767;  ///< leftmost
+    std::int16_t last = -1;      ///< rightmost; none while it is less than the first
+    /// Widens the range to these, too.
     void include(int other_first, int other_last) {
       if (other_first < first) first = static_cast<std::int16_t>(other_first);
       if (other_last > last) last = static_cast<std::int16_t>(other_last);
     }
   };
 
+  /// Takes the lists from `arena`, for so many faces, bands and shares.
   static FaceBins create(std::size_t faces, int max_bands, int max_shares, Arena& arena);
   /// `plain`: no face is treated as small, for comparison. Faces may be added in up to `max_shares`
   /// shares, each by somebody else.
@@ -36,15 +38,19 @@ class FaceBins {
   /// After the last face, before the first band.
   void finish();
 
+  /// What the faces of a band may cover.
   const Columns& columns(int band) const { return columns_[static_cast<std::size_t>(band)]; }
 
   /// The faces of a band, in an order in which hidden ones mostly come last: lists 0 .. lists() -
   /// 1, those from firstSmallList() on of small faces. Some faces lie in other bands only.
   int lists() const { return firstSmallList() + 6 * shares_; }
+  /// Number of the first list of small faces.
   int firstSmallList() const { return 3 * levels_ * shares_; }
-  std::int32_t firstFace(int band, int list) const;
+  std::int32_t firstFace(int band, int list) const;  ///< First face of a list; -1: none
+  /// The face after it in its list; -1: none.
   std::int32_t nextFace(std::int32_t face) const { return next_[static_cast<std::size_t>(face)]; }
 
+  /// Draws the small ones.
   const SmallFaces& smallFaces() const { return small_; }
 
  private:

@@ -16,8 +16,8 @@ namespace boresight {
 /// Rows of the image while they are rendered: per pixel its ray, and what is nearest there.
 /// Row 0 carries the last row of the band before, so that vertical pairs of pixels meet.
 struct RasterBand {
-  static constexpr std::int32_t kBackground = -1;
-  static constexpr std::int32_t kInvalid = -2;  ///< outside the camera's valid field
+  static constexpr std::int32_t kBackground = -1;  ///< where no face is
+  static constexpr std::int32_t kInvalid = -2;     ///< outside the camera's valid field
   /// Of a small face whose depth nobody has asked for yet.
   static constexpr float kUnknownDepth = -1.0F;
 
@@ -26,21 +26,23 @@ struct RasterBand {
   std::span<float> inverse_depth;  ///< 1/z, 1/m; 0 where nothing is, or kUnknownDepth
   std::span<std::int32_t> face;    ///< or kBackground, kInvalid
   std::span<std::uint8_t> valid;   ///< scratch, one row
-  int stride = 0;
-  int capacity_rows = 0;  ///< carried row included
+  int stride = 0;                  ///< entries from a row to the next one
+  int capacity_rows = 0;           ///< carried row included
 
   int first_y = 0;  ///< image row of band row 1
   int rows = 0;     ///< new rows, carried row excluded
   int x_begin = 0;  ///< columns x_begin .. x_end - 1 are prepared
-  int x_end = 0;
+  int x_end = 0;    ///< the column after the last one drawn
 
   /// Room for `rows` new rows of `width` pixels.
   static RasterBand create(int width, int rows, Arena& arena);
 
+  /// Of a pixel's entry.
   std::size_t index(int x, int band_row) const {
     return static_cast<std::size_t>(band_row) * static_cast<std::size_t>(stride) +
            static_cast<std::size_t>(x);
   }
+  /// Direction (x/z, y/z, 1) of a pixel's ray.
   Eigen::Vector3d ray(int x, int band_row) const {
     return {ray_x[index(x, band_row)], ray_y[index(x, band_row)], 1.0};
   }

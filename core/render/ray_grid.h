@@ -19,11 +19,13 @@ namespace boresight {
 /// are computed.
 class RayGrid {
  public:
+  /// Takes a grid for the camera from `arena`. kInvalidCamera, kArenaTooSmall.
   static Status create(const Camera& camera, Arena& arena, RayGrid& grid);
   /// (x/z, y/z) of pixels (x_begin .. x_begin + count - 1, y); NaN-free: pixels outside the model's
   /// valid field get `valid[i] == 0`.
   void row(int y, int x_begin, int count, double* x_over_z, double* y_over_z,
            std::uint8_t* valid) const;
+  /// The camera that the rays are of.
   const Camera& camera() const { return camera_; }
 
   /// True when every pixel of the image (and some beyond) has a ray, so that rays vary smoothly
@@ -39,13 +41,16 @@ class RayGrid {
   /// Conservative range of rows (columns) that hold a pixel whose y/z (x/z) lies in
   /// [minimum, maximum]; empty when last < first.
   struct Range {
-    int first = 0;
-    int last = -1;
+    int first = 0;  ///< the first row (column)
+    int last = -1;  ///< the last row (column)
   };
+  /// The range as above; of rows by y/z, of columns by x/z.
+  ///@{
   Range rowsWithin(double minimum, double maximum) const;
   Range columnsWithin(double minimum, double maximum) const;
+  ///@}
 
-  static constexpr int kSpacing_px = 16;
+  static constexpr int kSpacing_px = 16;  ///< px between nodes
   /// Nodes before the first cell: the widest stencil begins two nodes before its cell.
   static constexpr int kMargin = 2;
 

@@ -17,7 +17,7 @@ inline constexpr int kSpacing = 16;
 /// between nodes; `at[j][k]` is the j-th difference between pixels of N_k at the cell's first one.
 template <int kNodes>
 struct StepMatrix {
-  double at[kNodes][kNodes] = {};
+  double at[kNodes][kNodes] = {};  ///< see above
   constexpr StepMatrix() {
     for (int k = 0; k < kNodes; ++k) {
       double value[kNodes] = {};
@@ -34,7 +34,7 @@ struct StepMatrix {
   }
 };
 template <int kNodes>
-constexpr StepMatrix<kNodes> kSteps{};
+constexpr StepMatrix<kNodes> kSteps{};  ///< The matrix, made when compiled
 
 /// Lagrange's weights of the stencil's nodes at pixel `i` of a cell.
 template <int kNodes>

@@ -25,6 +25,7 @@ namespace boresight {
 /// surface's plane extended to the other: grazing and curved surfaces are no depth edges.
 class SalientEdges {
  public:
+  /// Takes the memory of one row from `arena`.
   static SalientEdges create(int max_width, Arena& arena);
 
   /// Clears the output for a render.

@@ -21,6 +21,7 @@ struct SurfaceRender {
   std::span<std::uint8_t> intensity;  ///< Lambert, lit from the camera: 30 + 225 |n . ray|
   std::span<Eigen::Vector3f> normal_in_camera;  ///< unit, towards the camera; 0 where nothing is
 
+  /// Whether anything is wanted.
   bool wanted() const {
     return !depth_m.empty() || !face.empty() || !intensity.empty() || !normal_in_camera.empty();
   }

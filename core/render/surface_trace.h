@@ -14,15 +14,16 @@ namespace boresight {
 /// Planes of the faces met last (see facePlane): neighbouring pixels ask for the same few again.
 class PlaneCache {
  public:
+  /// A face and its plane.
   struct Entry {
-    std::int32_t face = -1;
-    bool valid = false;
-    Eigen::Vector3d plane = Eigen::Vector3d::Zero();
+    std::int32_t face = -1;                           ///< -1: none yet
+    bool valid = false;                               ///< it has a plane
+    Eigen::Vector3d plane = Eigen::Vector3d::Zero();  ///< 1/z = plane . ray
     double inverse_norm = 0.0;  ///< distance of the plane from the camera centre, m
   };
 
-  static PlaneCache create(Arena& arena);
-  void clear();
+  static PlaneCache create(Arena& arena);  ///< Takes the entries from `arena`
+  void clear();                            ///< Forgets all planes
   /// Valid until the next call.
   const Entry& get(const CameraScene& scene, std::int32_t face) {
     Entry& entry = entries_[static_cast<std::size_t>(face) % kEntries];
@@ -45,11 +46,11 @@ inline bool normalsDiffer(const PlaneCache::Entry& a, const PlaneCache::Entry& b
 
 /// Where a surface ends on the way from the centre of one pixel (s = 0) to another's (s = 1).
 struct SurfaceEnd {
-  bool ends = false;     ///< false: the surface covers the whole way
-  bool reached = false;  ///< the way leads over one connected surface to the target face
-  double s = 2.0;
-  std::int32_t face = -1;                          ///< the face that ends there
-  std::int8_t edge = -1;                           ///< the edge of that face
+  bool ends = false;       ///< false: the surface covers the whole way
+  bool reached = false;    ///< the way leads over one connected surface to the target face
+  double s = 2.0;          ///< where it ends; beyond 1: it does not
+  std::int32_t face = -1;  ///< the face that ends there
+  std::int8_t edge = -1;   ///< the edge of that face
   Eigen::Vector3d line = Eigen::Vector3d::Zero();  ///< line . ray > 0 on the surface's side
 };
 

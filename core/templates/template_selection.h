@@ -14,6 +14,7 @@
 
 namespace boresight {
 
+/// Of the choice of templates.
 struct TemplateOptions {
   std::int32_t count = 96;
   std::int32_t min_count = 6;
@@ -67,16 +68,18 @@ struct TemplateOptions {
 /// the render.
 struct Template {
   std::int32_t center_x = 0;  ///< px at the level of the render
-  std::int32_t center_y = 0;
-  float depth_m = 0.0F;
+  std::int32_t center_y = 0;  ///< px at the level of the render
+  float depth_m = 0.0F;       ///< z of the edge at the centre
   float distinctness = 0.0F;  ///< smaller eigenvalue of the edge normals' scatter, in edge pixels
+  /// Where the edge at the centre lies.
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
 };
 
+/// The templates of a render.
 struct TemplateSet {
   std::span<Template> templates;  ///< capacity; the first `count` are valid
-  std::int32_t count = 0;
-  std::int32_t side_px = 0;
+  std::int32_t count = 0;         ///< templates chosen
+  std::int32_t side_px = 0;       ///< of their square, px at the level
 };
 
 /// The power of two nearest (in ratio) to the projected size of a feature at a depth, within the
@@ -93,6 +96,7 @@ int templateSide(const TemplateOptions& options, double feature_size_m, double d
 /// belongs to the image at `level` 0.
 class TemplateSelector {
  public:
+  /// Takes the memory for renders of up to this size. kArenaTooSmall, kInvalidOption.
   Status create(int max_width, int max_height, const TemplateOptions& options, Arena& arena);
   /// Other options from the next select() on, except those that size the memory (count).
   void setOptions(const TemplateOptions& options) { options_ = options; }

@@ -43,6 +43,7 @@ class ViewsLocalizer {
                               std::size_t& bytes) {
     return requiredBytes(problem, options, Kernels::kPortable, bytes);
   }
+  /// The same with these kernels.
   static Status requiredBytes(const ViewsProblem& problem, const LocalizerOptions& options,
                               Kernels kernels, std::size_t& bytes);
 
@@ -53,12 +54,15 @@ class ViewsLocalizer {
   ViewsLocalizer(const ViewsLocalizer&) = delete;
   ViewsLocalizer& operator=(const ViewsLocalizer&) = delete;
 
+  /// kOk when it can run.
   Status status() const { return status_; }
   /// One slice of one view, or of the pose of all; after `finished` it does nothing. An iteration
   /// is complete when the leader's is.
   StepReport step();
 
+  /// How the run stands, or ended.
   const ViewsResult& result() const { return result_; }
+  /// Views of the problem.
   int viewCount() const { return static_cast<int>(views_.size()); }
   /// A view's own, for looking at; there is none when status() is not kOk.
   const Localizer& view(int index) const {

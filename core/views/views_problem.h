@@ -23,15 +23,15 @@ struct View {
   ImageView image;                   ///< 8-bit gray, of the camera's size
   const BitImage* ignore = nullptr;  ///< set bits are not trusted; the image's size; may be nullptr
   Camera camera;                     ///< after prepareCamera
-  Pose camera_from_rig;
+  Pose camera_from_rig;              ///< where the camera sits
 };
 
 /// Several views of one station, solved for the one pose that they share. Everything is the
 /// caller's and must outlive the run.
 struct ViewsProblem {
   std::span<const View> views;  ///< 1 ... kMaxViews; the first one leads
-  MeshView mesh;
-  Pose rig_from_station_seed;
+  MeshView mesh;                ///< the scene, station frame
+  Pose rig_from_station_seed;   ///< where the search begins
   /// Per axis of the *first* view's seed camera frame, its pivot in it, as with a single view.
   SeedUncertainty uncertainty;
 };
@@ -43,25 +43,26 @@ struct ViewReport {
   /// pose of all), kNotSupported (dropped at the end). kRunning before the end.
   LocalizationStatus status = LocalizationStatus::kRunning;
   std::int32_t correspondences = 0;  ///< of the latest match iteration; 0 when left out of it
-  std::int32_t inliers = 0;
-  std::int32_t edges_used = 0;  ///< of the latest refinement
-  double edges_rms_px = 0.0;
-  EdgeSupport support;  ///< of the final pose; empty when it was not asked for
-  Pose camera_from_station;
+  std::int32_t inliers = 0;          ///< of those
+  std::int32_t edges_used = 0;       ///< of the latest refinement
+  double edges_rms_px = 0.0;         ///< weighted residual, of the latest refinement
+  EdgeSupport support;               ///< of the final pose; empty when it was not asked for
+  Pose camera_from_station;          ///< of this view
 
+  /// Whether the view had a say in the pose.
   bool tookPart() const { return status == LocalizationStatus::kConverged; }
 };
 
 /// What a caller can look at; the workspace of each view's localizer has the rest.
 struct ViewsResult {
-  LocalizationStatus status = LocalizationStatus::kRunning;
-  Status fault = Status::kOk;
-  Pose rig_from_station;  ///< the seed unless converged
+  LocalizationStatus status = LocalizationStatus::kRunning;  ///< how the run stands, or ended
+  Status fault = Status::kOk;                                ///< what did not suffice, with kFault
+  Pose rig_from_station;                                     ///< the seed unless converged
   /// Over xi = (rotation rad, translation m), left perturbation, in the rig's frame.
   Matrix6d covariance = Matrix6d::Zero();
-  std::int32_t iterations = 0;
-  std::int32_t attempts = 1;
-  std::array<ViewReport, kMaxViews> views;
+  std::int32_t iterations = 0;              ///< of all attempts
+  std::int32_t attempts = 1;                ///< begun so far
+  std::array<ViewReport, kMaxViews> views;  ///< one per view
 };
 
 }  // namespace boresight

@@ -25,7 +25,7 @@ if grep -rlF -e "$source" -e "$folder/first" "$folder/moved" --include='*.cmake'
   echo "these installed files name the tree that they were made from" >&2
   exit 1
 fi
-installed=$(cd "$folder/moved" && find . -type f | grep -vE '/include/boresight/core/.*\.h$|/cmake/Boresight/|/libboresight_core\.a$|/doc/libboresight-core-dev/copyright$' || true)
+installed=$(cd "$folder/moved" && find . -type f | grep -vE '/include/boresight/core/.*\.h$|/cmake/Boresight/|/libboresight_core\.a$|/doc/libboresight-core-dev/(copyright|changelog\.gz)$' || true)
 if [ -n "$installed" ]; then
   echo "installed with the core, and no part of it: $installed" >&2
   exit 1

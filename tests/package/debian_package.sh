@@ -43,6 +43,11 @@ for library in libvtk9 libqt5widgets5 libopencv-core libassimp libsqlite3-0; do
 done
 dpkg-deb -x "$programs" "$folder/files"
 [ -e "$folder/files/usr/share/man/man1/whs-localize.1.gz" ] || fail "manual pages are not compressed"
+# As Debian's own checker wants them: the licence, the changelog, permissions, and all else.
+if command -v lintian >/dev/null; then
+  lintian --allow-root --fail-on error,warning --suppress-tags initial-upload-closes-no-bugs \
+    "$programs" "$core" || fail "lintian"
+fi
 for program in whs boresight; do
   if grep -qF "$source" "$folder/files/usr/bin/$program"; then
     fail "$program names the tree that it was built in"

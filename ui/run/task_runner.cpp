@@ -7,6 +7,10 @@
 #include <mutex>
 #include <new>
 #include <thread>
+#include <utility>
+
+#include <QCoreApplication>
+#include <QEvent>
 
 namespace boresight::ui {
 
@@ -50,6 +54,14 @@ class TaskRunner::Thread {
   void cancel(const QString& key) {
     const std::lock_guard lock(mutex_);
     drop(key);
+  }
+
+  /// The oldest report, on the owner's thread; one event stands for each.
+  std::function<void()> takeReport() {
+    const std::lock_guard lock(mutex_);
+    std::function<void()> report = std::move(reports_.front());
+    reports_.pop_front();
+    return report;
   }
 
  private:
@@ -101,10 +113,13 @@ class TaskRunner::Thread {
     return {};
   }
 
-  /// In the owner's thread; dropped when the owner is gone.
-  template <class Function>
-  void post(Function&& function) {
-    QMetaObject::invokeMethod(&owner_, std::forward<Function>(function), Qt::QueuedConnection);
+  /// To be called in the owner's thread; dropped when the owner is gone. The event only says that
+  /// there is something: what crosses threads does so under the mutex, where a thread sanitizer
+  /// sees it, which knows nothing of Qt's own locks.
+  void post(std::function<void()> function) {
+    const std::lock_guard lock(mutex_);
+    reports_.push_back(std::move(function));
+    QCoreApplication::postEvent(&owner_, new QEvent(QEvent::User));
   }
 
   TaskRunner& owner_;
@@ -112,8 +127,9 @@ class TaskRunner::Thread {
   std::condition_variable wake_;
   bool quit_ = false;
   std::deque<Item> queue_;
-  Item running_;        ///< its key and stop source
-  std::thread thread_;  ///< last: it starts when everything above is there
+  std::deque<std::function<void()>> reports_;  ///< not yet taken by the owner
+  Item running_;                               ///< its key and stop source
+  std::thread thread_;                         ///< last: it starts when everything above is there
 };
 
 TaskRunner::TaskRunner(QObject* parent)
@@ -134,6 +150,8 @@ void TaskRunner::cancel(const QString& key) {
   newest_[key] = 0;
   thread_->cancel(key);
 }
+
+void TaskRunner::customEvent(QEvent*) { thread_->takeReport()(); }
 
 bool TaskRunner::isNewest(const QString& key, std::uint64_t number) const {
   const auto found = newest_.find(key);

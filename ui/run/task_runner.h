@@ -51,6 +51,10 @@ class TaskRunner : public QObject {
   void busyChanged();
   void failed(const QString& message);
 
+ protected:
+  /// A report of the worker has come.
+  void customEvent(QEvent* event) override;
+
  private:
   class Thread;
 

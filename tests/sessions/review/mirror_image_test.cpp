@@ -14,8 +14,8 @@ namespace {
 double sixfoldVolume(const SceneMesh& scene) {
   double sum = 0.0;
   const Eigen::Vector3d middle_m = matchedBounds(scene.view()).centre();
-  const auto at = [&](std::uint32_t i) -> Eigen::Vector3d {
-    return scene.vertices_in_station_m[i].cast<double>() - middle_m;
+  const auto at = [&](std::int32_t i) -> Eigen::Vector3d {
+    return scene.vertices_in_station_m[static_cast<std::size_t>(i)].cast<double>() - middle_m;
   };
   for (const Face& face : scene.faces)
     sum += at(face.vertex[0]).dot(at(face.vertex[1]).cross(at(face.vertex[2])));

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many localizations in one process, each with everything around it: inputs read, threads made, the
+// run traced and noted as on board, trace and record written and read back. Whatever one of them
+// left behind would add up. 20 of them; 1000 with BORESIGHT_ALL set; any number with
+// BORESIGHT_SOAK=N. Nothing is timed.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "sessions/evaluation/reseed.h"
+#include "sessions/record/onboard_record.h"
+#include "sessions/trace/record.h"
+#include "sessions/trace/trace_file.h"
+#include "tests/soak/process_figures.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::test {
+namespace {
+
+/// After so many runs everything has happened once: each seed of each station.
+constexpr int kSeeds = 4;
+constexpr int kStations = 2;
+constexpr int kRound = kSeeds * kStations;
+
+/// What an allocator may keep of its own accord; 900 leaks of 3 kB are more.
+constexpr std::int64_t kResidentSlack_bytes = 2'500'000;
+/// First uses of what the libraries keep for later; 900 leaks of 10 bytes are more.
+constexpr std::int64_t kHeapSlack_bytes = 8'000;
+
+int wantedRuns() {
+  if (const char* runs = std::getenv("BORESIGHT_SOAK")) return std::atoi(runs);
+  return std::getenv("BORESIGHT_ALL") != nullptr ? 1000 : 20;
+}
+
+constexpr bool underSanitizer() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return true;
+#elif defined(__has_feature)
+  return __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+  return false;
+#endif
+}
+
+/// One localization as the programs run it; its digest.
+std::string runOnce(const TemporaryFolder& folder, int number) {
+  const std::string station = number % kStations == 0 ? "os" : "bc";
+  const ExampleCase example(station);
+  LocalizationProblem problem = example.problem();
+  const int seed = number / kStations % kSeeds;
+  problem.camera_from_station_seed = sessions::seedForOffset(
+      example.truth.camera_from_station,
+      sessions::drawOffset(example.seed.uncertainty.value(), 1.0, station, seed),
+      sessions::UncertaintyPivot::kStation, matchedBounds(example.scene.view()).centre());
+
+  sessions::RunSettings settings;
+  settings.threads = 2;
+  std::vector<std::uint8_t> bytes(65536);
+  RecordWriter onboard(bytes);
+  settings.onboard_record = &onboard;
+  const sessions::LocalizationTrace run = sessions::localize(problem, defaultProfile(), settings);
+  EXPECT_TRUE(sessions::parseRecord("run.whsr", onboard.bytes()).whole());
+  sessions::saveTrace(folder / "run.trace", run);
+  return sessions::loadTrace(folder / "run.trace").digest;
+}
+
+void print(int runs, const ProcessFigures& figures) {
+  std::printf("after %4d runs: resident %.1f MB, heap %.3f MB, %lld open files, %lld threads\n",
+              runs, 1e-6 * static_cast<double>(figures.resident_bytes),
+              1e-6 * static_cast<double>(figures.heap_bytes),
+              static_cast<long long>(figures.open_files), static_cast<long long>(figures.threads));
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+TEST(Soak, LocalizationsLeaveNothingBehind) {
+  const TemporaryFolder folder;
+  const int runs = wantedRuns();
+  const int settled = std::max(kRound, runs / 10);
+  ASSERT_GT(runs, settled) << "BORESIGHT_SOAK is too small a number";
+  std::vector<std::string> digests;
+  ProcessFigures first;
+  for (int run = 0; run < runs; ++run) {
+    const std::string digest = runOnce(folder, run);
+    if (run < kRound) digests.push_back(digest);
+    ASSERT_EQ(digest, digests[static_cast<std::size_t>(run % kRound)]) << "run " << run;
+    if (run + 1 == settled) print(settled, first = processFigures());
+  }
+  const ProcessFigures last = processFigures();
+  print(runs, last);
+
+  EXPECT_EQ(last.open_files, first.open_files);
+  EXPECT_EQ(last.threads, first.threads);
+  EXPECT_EQ(folder.fileCount(), 1u);
+  if (underSanitizer()) return;  // these keep freed memory for a while, and look for leaks
+  EXPECT_LE(last.heap_bytes, first.heap_bytes + kHeapSlack_bytes);
+  EXPECT_LE(last.resident_bytes, first.resident_bytes + kResidentSlack_bytes);
+}
+
+}  // namespace boresight::test
