@@ -40,8 +40,8 @@ int usageError(const std::string& message) {
 }
 
 int writeDocuments(const std::filesystem::path& folder) {
-  std::string problem = boresight::documents::writeDocuments(
-      describeArguments(), boresight::sessions::kVersion, folder);
+  std::string problem = boresight::documents::writeDocuments(describeArguments(),
+                                                             boresight::sessions::kVersion, folder);
   std::ofstream keys(folder / "manual" / "keys.md");
   keys << keysPage();
   keys.close();

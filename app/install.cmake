@@ -30,6 +30,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/sessions/examples ${PROJECT_SOURCE_DIR}/
 install(FILES
   ${PROJECT_SOURCE_DIR}/sessions/examples/annotated.boresight.json
   ${PROJECT_SOURCE_DIR}/sessions/examples/example.boresight.json
+  ${PROJECT_SOURCE_DIR}/sessions/examples/turned.boresight.json
   DESTINATION ${CMAKE_INSTALL_DATADIR}/boresight/examples COMPONENT programs)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/boresight COMPONENT programs)

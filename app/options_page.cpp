@@ -82,8 +82,9 @@ std::string optionsPage() {
       "[Methods beside WHS](methods.md).\n";
   text += tables({{"default", sessions::listOptions(sessions::MethodOptions())}}, "###");
   text +=
-      "\n## Limits of the checks\n\nBy what poses are judged: *Limits* under *Review*, `whs check "
-      "--preset` and `--limit`. What each check asks: [What each check means](checks.md).\n";
+      "\n## Limits of the checks\n\nBy what poses are judged: *Limits* under *Review*, or `whs "
+      "check "
+      "--preset`. What each check asks: [What each check means](checks.md).\n";
   std::vector<Column> presets;
   for (const sessions::CheckPreset& preset : sessions::checkPresets())
     presets.push_back({"`" + preset.name + "`", sessions::listOptions(preset.limits)});

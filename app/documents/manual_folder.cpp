@@ -71,11 +71,14 @@ std::string targetOf(const std::string& target, const fs::path& source, const st
                      const Names& names, const fs::path& folder) {
   if (target.find("://") != std::string::npos || target.front() == '#') return target;
   const std::size_t hash = target.find('#');
-  const fs::path place =
-      (fs::path(page).parent_path() / target.substr(0, hash)).lexically_normal();
+  const fs::path place = (fs::path(page).parent_path() / target.substr(0, hash)).lexically_normal();
   const auto found = names.find(place.generic_string());
   if (found != names.end())
     return found->second + (hash == std::string::npos ? "" : target.substr(hash));
+  // Written pages know the names in the manual alone.
+  const fs::path in_manual = place.lexically_relative(kManual);
+  for (const auto& name : names)
+    if (in_manual == name.second) return target;
   if (place.extension() != ".png" || !fs::exists(source / place)) return {};
   const fs::path picture = fs::path("pictures") / place.filename();
   fs::copy_file(source / place, folder / picture, fs::copy_options::overwrite_existing);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/documents/markdown_page.h"
 
+#include <set>
 #include <string_view>
 
 namespace boresight::documents {
@@ -30,15 +31,19 @@ std::string remarks(const Argument& argument) {
   if (!argument.limits.empty()) text += " Value: " + argument.limits + ".";
   if (!argument.fallback.empty()) text += " Default: " + argument.fallback + ".";
   if (argument.required && !argument.isPositional()) text += " Required.";
-  if (argument.repeats) text += " May be repeated.";
+  if (argument.repeats && argument.help.find("may be repeated") == std::string::npos)
+    text += " May be repeated.";
   return text;
 }
 
 std::string argumentTable(const Program& program) {
   std::string text = "\n| option | meaning |\n|---|---|\n";
-  for (const Argument& argument : program.arguments)
+  std::set<std::string> told;  // groups of options repeat --help
+  for (const Argument& argument : program.arguments) {
+    if (!told.insert(title(argument)).second) continue;
     text += "| `" + title(argument) + "` | " +
             markdownText(sentence(argument.help) + remarks(argument)) + " |\n";
+  }
   return program.arguments.empty() ? "" : text;
 }
 
@@ -82,7 +87,7 @@ std::string markdownPage(const Program& program) {
   if (!program.commands.empty()) text += "\n| command | what it does |\n|---|---|\n";
   for (const Program& command : program.commands)
     text += "| [" + program.name + " " + command.name + "](#" + program.name + "-" + command.name +
-            ") | " + markdownText(firstSentence(command.help)) + " |\n";
+            ") | " + markdownText(sentence(command.help)) + " |\n";
   for (const Program& command : program.commands) {
     const std::string name = program.name + " " + command.name;
     text += "\n## " + name + "\n\n" + markdownText(sentence(command.help)) + "\n" +

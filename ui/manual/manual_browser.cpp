@@ -3,9 +3,11 @@
 
 #include <algorithm>
 
+#include <QAbstractTextDocumentLayout>
 #include <QDesktopServices>
 #include <QImage>
 #include <QResizeEvent>
+#include <QScrollBar>
 #include <QTextBlock>
 #include <QTextCursor>
 #include <QTextDocument>
@@ -147,10 +149,10 @@ void ManualBrowser::dressCode() {
 void ManualBrowser::goToHeading(const QString& anchor) {
   for (QTextBlock block = document()->begin(); block.isValid(); block = block.next()) {
     if (block.blockFormat().headingLevel() == 0 || headingAnchor(block.text()) != anchor) continue;
-    QTextCursor cursor(block);
-    cursor.movePosition(QTextCursor::StartOfBlock);
-    moveCursor(QTextCursor::End);  // so that the heading comes to the top
-    setTextCursor(cursor);
+    setTextCursor(QTextCursor(block));
+    const QAbstractTextDocumentLayout* layout = document()->documentLayout();
+    (void)layout->documentSize();  // now: places are laid out when they are needed else
+    verticalScrollBar()->setValue(static_cast<int>(layout->blockBoundingRect(block).top()));
     return;
   }
 }

@@ -12,8 +12,8 @@ constexpr int kAround = 60;  // characters to either side of what was found
 
 /// The line round a place, on one line and not too long.
 QString lineRound(const QString& text, int place) {
-  const int begin = std::max(static_cast<int>(text.lastIndexOf(QLatin1Char('\n'), place)) + 1,
-                             place - kAround);
+  const int begin =
+      std::max(static_cast<int>(text.lastIndexOf(QLatin1Char('\n'), place)) + 1, place - kAround);
   int end = static_cast<int>(text.indexOf(QLatin1Char('\n'), place));
   if (end < 0) end = static_cast<int>(text.size());
   return text.mid(begin, std::min(end, place + kAround) - begin).simplified();

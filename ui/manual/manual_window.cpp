@@ -66,7 +66,7 @@ void ManualWindow::buildToolBar() {
   forward->setEnabled(false);
   connect(back, &QAction::triggered, browser_, &QTextBrowser::backward);
   connect(forward, &QAction::triggered, browser_, &QTextBrowser::forward);
-  connect(contents, &QAction::triggered, this, [this] { showPage(QStringLiteral("index.md")); });
+  connect(contents, &QAction::triggered, this, [this] { goTo(QStringLiteral("index.md")); });
   connect(browser_, &QTextBrowser::backwardAvailable, back, &QAction::setEnabled);
   connect(browser_, &QTextBrowser::forwardAvailable, forward, &QAction::setEnabled);
   bar->addActions({back, forward, contents});
@@ -100,11 +100,11 @@ void ManualWindow::buildSide() {
   connect(search_, &QLineEdit::textChanged, this, &ManualWindow::search);
   connect(contents_, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
     const QString page = item ? item->data(0, kPageRole).toString() : QString();
-    if (!page.isEmpty() && browser_->source().fileName() != page) showPage(page);
+    if (!page.isEmpty() && browser_->source().fileName() != page) goTo(page);
   });
   const auto open_hit = [this](const QListWidgetItem* item) {
     if (!item || item->data(kPageRole).toString().isEmpty()) return;
-    showPage(item->data(kPageRole).toString());
+    goTo(item->data(kPageRole).toString());
     find_->setText(search_->text().simplified().section(QLatin1Char(' '), 0, 0));
     find(false);
   };
@@ -125,8 +125,8 @@ void ManualWindow::buildFindBar() {
   QAction* next = action(tr("Next"), QKeySequence::FindNext, tr("Where it is next"));
   QAction* before = action(tr("Previous"), QKeySequence::FindPrevious, tr("Where it was before"));
   QAction* begin = action(tr("Find"), QKeySequence::Find, tr("Find in this page"));
-  QAction* search = action(tr("Search"), QKeySequence(QStringLiteral("Ctrl+Shift+F")),
-                           tr("Search all pages"));
+  QAction* search =
+      action(tr("Search"), QKeySequence(QStringLiteral("Ctrl+Shift+F")), tr("Search all pages"));
   bar->addWidget(find_);
   bar->addActions({next, before});
   bar->addWidget(found_);
@@ -160,14 +160,18 @@ void ManualWindow::fillContents() {
 }
 
 void ManualWindow::showPage(const QString& page) {
-  if (!folder_.isEmpty()) {
-    QUrl address = QUrl::fromLocalFile(folder_ + QLatin1Char('/') + page.section(QLatin1Char('#'), 0, 0));
-    address.setFragment(page.section(QLatin1Char('#'), 1));
-    browser_->open(address);
-  }
-  show();
+  show();  // headings have their place only in a window that has its size
+  goTo(page);
   raise();
   activateWindow();
+}
+
+void ManualWindow::goTo(const QString& page) {
+  if (folder_.isEmpty()) return;
+  const QChar hash = QLatin1Char('#');
+  QUrl address = QUrl::fromLocalFile(folder_ + QLatin1Char('/') + page.section(hash, 0, 0));
+  address.setFragment(page.section(hash, 1));
+  browser_->open(address);
 }
 
 /// The contents follow where links lead.

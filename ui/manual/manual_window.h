@@ -34,6 +34,7 @@ class ManualWindow : public QMainWindow {
   void buildFindBar();
   QAction* action(const QString& text, const QKeySequence& keys, const QString& tip);
   void fillContents();
+  void goTo(const QString& page);
   void search(const QString& words);
   void find(bool backward);
   void showPlace(const QUrl& address);
