@@ -103,8 +103,11 @@ void ManualBrowser::fitPictures() {
 void ManualBrowser::dress() {
   fitted_width_ = roomForPictures();
   document()->setUndoRedoEnabled(false);
+  QTextCursor all(document());
+  all.beginEditBlock();  // laid out once, not after every cell
   dressTables();
   dressCode();
+  all.endEditBlock();
 }
 
 void ManualBrowser::dressTables() {

@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QSignalBlocker>
 #include <QStackedWidget>
 #include <QToolBar>
 #include <QTreeWidget>
@@ -174,8 +175,9 @@ void ManualWindow::goTo(const QString& page) {
   browser_->open(address);
 }
 
-/// The contents follow where links lead.
+/// The contents follow where links lead, and do not lead there once more.
 void ManualWindow::showPlace(const QUrl& address) {
+  const QSignalBlocker quiet(contents_);
   found_->clear();
   const QString page = address.fileName();
   for (QTreeWidgetItemIterator it(contents_); *it; ++it)
