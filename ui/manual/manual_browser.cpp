@@ -74,11 +74,12 @@ QVariant ManualBrowser::loadResource(int type, const QUrl& name) {
   const QVariant loaded = QTextBrowser::loadResource(type, name);
   if (type != QTextDocument::ImageResource) return loaded;
   QImage picture = QImage::fromData(loaded.toByteArray());
-  const double ratio = devicePixelRatioF();
-  const int room = static_cast<int>(roomForPictures() * ratio);
-  if (picture.width() > room) picture = picture.scaledToWidth(room, Qt::SmoothTransformation);
-  // One that fits has a picture's pixel on each of the desktop's.
-  if (picture.width() == room) picture.setDevicePixelRatio(ratio);
+  const int room = roomForPictures();
+  if (picture.width() <= room) return picture;
+  // On a fine screen a wide picture is shown with all the pixels that there is room for.
+  const int pixels = static_cast<int>(room * devicePixelRatioF());
+  if (picture.width() > pixels) picture = picture.scaledToWidth(pixels, Qt::SmoothTransformation);
+  picture.setDevicePixelRatio(static_cast<double>(picture.width()) / room);
   return picture;
 }
 

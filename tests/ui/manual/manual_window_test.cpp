@@ -149,7 +149,8 @@ TEST_F(ManualWindowTest, PicturesAreAsWideAsTheWindowAtMost) {
     const QVariant picture = browser.document()->resource(
         QTextDocument::ImageResource,
         browser.source().resolved(QUrl(QStringLiteral("pictures/wide.png"))));
-    const int shown_width = picture.value<QImage>().width();
+    const QImage image = picture.value<QImage>();
+    const int shown_width = static_cast<int>(image.width() / image.devicePixelRatio());
     EXPECT_LE(shown_width, browser.viewport()->width()) << width;
     EXPECT_GT(shown_width, browser.viewport()->width() - 60) << width;
   }
