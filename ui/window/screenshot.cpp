@@ -91,6 +91,10 @@ QString openForPictures(MainWindow& window, const std::filesystem::path& session
   }
 }
 
+bool waitUntilResting(MainWindow& window) {
+  return waitUntil([&window] { return isResting(window); });
+}
+
 QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
   QWidget* shown = widgetOf(window, order.view);
   if (!shown)

@@ -25,6 +25,10 @@ struct ScreenshotOrder {
 QString openForPictures(MainWindow& window, const std::filesystem::path& session,
                         const std::filesystem::path& folder);
 
+/// Waits until the window has nothing left to do: files, runs, checks, renders. False when it takes
+/// too long.
+bool waitUntilResting(MainWindow& window);
+
 /// Waits until the session's chosen case is shown, runs it when it has no run yet, and writes a PNG
 /// of the window or of one view; an empty window is shown as it is. Returns "" or why it could not.
 QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order);

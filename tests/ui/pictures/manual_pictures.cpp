@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// Not a test: makes the manual's pictures. make_pictures.sh prepares what it shows.
+//
+//     manual_pictures SESSIONS OUT [NAME ...]
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include <QApplication>
+#include <QDockWidget>
+#include <QPushButton>
+#include <QTemporaryDir>
+
+#include "sessions/trace/score_map.h"
+#include "tests/ui/pictures/stage_pictures.h"
+#include "ui/manual/manual_folder.h"
+#include "ui/manual/manual_window.h"
+#include "ui/panels/rivals_panel.h"
+#include "ui/review/queue_panel.h"
+#include "ui/review/review_panel.h"
+#include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
+#include "ui/window/application.h"
+#include "ui/window/main_window.h"
+#include "ui/window/screenshot.h"
+
+namespace boresight::ui {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A window with a session in it, as an operator has it.
+class Stage {
+ public:
+  explicit Stage(const fs::path& session, const QString& case_id = {}) {
+    window_.setQuiet(true);
+    window_.resize(1280, 800);
+    window_.show();
+    const QString problem = openForPictures(window_, session, folder_.path().toStdString());
+    if (!problem.isEmpty()) throw std::runtime_error(problem.toStdString());
+    rest();
+    if (!case_id.isEmpty()) window_.cases().chooseCase(case_id);
+    rest();
+  }
+
+  MainWindow& window() { return window_; }
+  void rest() {
+    QApplication::processEvents();
+    if (!waitUntilResting(window_)) throw std::runtime_error("the window does not rest");
+    QApplication::processEvents();
+  }
+  void run() {
+    if (!window_.state().snapshot()) window_.cases().advance(sessions::StepUntil::kEnd);
+    rest();
+    window_.image().view().fit();
+  }
+  QDockWidget& front(const char* name) {
+    QDockWidget* dock = window_.dock(QLatin1String(name));
+    dock->show();
+    dock->raise();
+    rest();
+    return *dock;
+  }
+  void iteration(int index) {
+    RunCursor cursor;
+    cursor.iteration = index;
+    window_.state().setCursor(cursor);
+    rest();
+  }
+  void layer(LayerId id, bool visible) {
+    LayerStyle style = window_.image().style(id);
+    style.visible = visible;
+    window_.image().setStyle(id, style);
+  }
+  void height(const char* dock, int pixels) {
+    window_.resizeDocks({window_.dock(QLatin1String(dock))}, {pixels}, Qt::Vertical);
+    rest();
+  }
+
+ private:
+  QTemporaryDir folder_;
+  MainWindow window_;
+};
+
+/// Where sessions are and pictures go.
+struct Places {
+  fs::path sessions;
+  fs::path out;
+
+  void save(const QImage& picture, const char* name) const {
+    const fs::path file = out / (std::string(name) + ".png");
+    if (!picture.save(QString::fromStdString(file.string()), "PNG"))
+      throw std::runtime_error("cannot write " + file.string());
+  }
+  void save(QWidget& widget, const char* name) const { save(widget.grab().toImage(), name); }
+};
+
+void drawWindow(const Places& places) {
+  Stage stage(places.sessions / "example.boresight.json");
+  stage.run();
+  stage.front("iterations");
+  places.save(stage.window(), "window");
+}
+
+void drawOnboard(const Places& places) {
+  Stage stage(places.sessions / "onboard.boresight.json");
+  stage.run();
+  stage.height("iterations", 380);
+  stage.front("onboard");
+  stage.window().onboard().showOnboard();
+  stage.rest();
+  stage.window().image().view().fit();
+  places.save(stage.window(), "onboard");
+}
+
+void drawFailedRun(const Places& places) {
+  Stage stage(places.sessions / "turned.boresight.json");
+  stage.run();
+  stage.front("iterations");
+  places.save(stage.window(), "failed_run");
+  stage.iteration(0);
+  stage.window().state().selectTemplate(12);
+  stage.height("iterations", 400);
+  places.save(*stage.front("inspector").widget(), "failed_inspector");
+}
+
+void drawWideRun(const Places& places) {
+  Stage stage(places.sessions / "wide.boresight.json");
+  stage.run();
+  stage.front("rivals");
+  stage.window().findChild<RivalsPanel*>()->choose(
+      stage.window().state().snapshot()->iterations.front()->chosen_hypothesis);
+  stage.rest();
+  stage.window().image().view().fit();
+  places.save(stage.window(), "wide_run");
+}
+
+void drawAnnotation(const Places& places) {
+  Stage stage(places.sessions / "annotated.boresight.json");
+  AnnotationController& annotation = stage.window().annotation();
+  annotation.setMode(PlaceMode::kPoint);
+  annotation.select("p7");
+  stage.front("annotation");
+  const sessions::PointPair* point = annotation.selectedPoint();
+  stage.window().image().view().centreOn({point->pixel->x(), point->pixel->y()}, 2.0);
+  stage.rest();
+  places.save(stage.window(), "annotation");
+}
+
+void drawQueue(const Places& places) {
+  Stage stage(places.sessions / "batch.boresight.json");
+  stage.front("queue");
+  stage.height("queue", 380);
+  stage.window().image().view().fit();
+  places.save(stage.window(), "queue");
+}
+
+void drawReview(const Places& places) {
+  Stage stage(places.sessions / "example.boresight.json");
+  stage.run();
+  stage.front("review");
+  stage.height("review", 420);
+  stage.window().image().view().fit();
+  places.save(stage.window(), "review");
+}
+
+/// The template that was found with the best score of those that agree with the pose.
+int bestInlier(const sessions::RunSnapshot& run, const sessions::IterationTrace& iteration) {
+  int best = 0;
+  double score = 0.0;
+  for (std::size_t i = 0; i < iteration.pnp.inlier.size(); ++i) {
+    const int item = iteration.template_of[i];
+    const auto map = sessions::scoreMap(*run.edges, iteration, item);
+    if (iteration.pnp.inlier[i] == 0 || !map || map->highest <= score) continue;
+    score = map->highest;
+    best = item;
+  }
+  return best;
+}
+
+void drawStages(const Places& places) {
+  Stage stage(places.sessions / "example.boresight.json", QStringLiteral("os-000038"));
+  stage.run();
+  const auto one = stage.window().state().currentCase();
+  places.save(renderPicture(*one), "stage_render");
+  places.save(edgePicture(*one), "stage_edges");
+  places.save(beforeAndAfter(*one, stage.window().state().snapshot()->camera_from_station),
+              "stage_result");
+  stage.iteration(0);
+  for (const LayerId id : {LayerId::kSeedEdges, LayerId::kIterationEdges}) stage.layer(id, false);
+  stage.layer(LayerId::kTemplates, true);
+  stage.window().dock(QStringLiteral("layers"))->hide();
+  stage.window().resize(1260, 990);
+  stage.rest();
+  stage.window().image().view().fit();
+  stage.rest();
+  places.save(stage.window().image().view(), "stage_matches");
+  const ViewState& state = stage.window().state();
+  stage.window().state().selectTemplate(bestInlier(*state.snapshot(), *state.iteration()));
+  stage.front("inspector");
+  stage.height("inspector", 420);
+  places.save(*stage.front("inspector").widget(), "stage_score_map");
+}
+
+void drawManual(const Places& places) {
+  ManualWindow manual(manualFolder());
+  manual.resize(1000, 640);
+  manual.showPage(QStringLiteral("checks.md"));
+  QApplication::processEvents();
+  places.save(manual, "manual");
+}
+
+struct NamedPicture {
+  const char* name;
+  std::function<void(const Places&)> draw;
+};
+
+int makePictures(const Places& places, const QStringList& wanted) {
+  const std::vector<NamedPicture> all = {
+      {"window", drawWindow},    {"onboard", drawOnboard},       {"failed_run", drawFailedRun},
+      {"wide_run", drawWideRun}, {"annotation", drawAnnotation}, {"queue", drawQueue},
+      {"review", drawReview},    {"stages", drawStages},         {"manual", drawManual}};
+  for (const NamedPicture& each : all) {
+    if (!wanted.isEmpty() && !wanted.contains(QLatin1String(each.name))) continue;
+    std::printf("%s\n", each.name);
+    std::fflush(stdout);
+    each.draw(places);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace boresight::ui
+
+int main(int argc, char** argv) {
+  boresight::ui::prepareApplication(false);
+  QApplication application(argc, argv);
+  boresight::ui::nameApplication(application);
+  const QStringList arguments = QApplication::arguments();
+  if (arguments.size() < 3) {
+    std::fprintf(stderr, "manual_pictures SESSIONS OUT [NAME ...]\n");
+    return 2;
+  }
+  try {
+    return boresight::ui::makePictures({arguments[1].toStdString(), arguments[2].toStdString()},
+                                       arguments.mid(3));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "manual_pictures: %s\n", error.what());
+    return 1;
+  }
+}
