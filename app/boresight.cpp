@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The desktop program.
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <string>
 
@@ -8,6 +9,7 @@
 #include <QTemporaryDir>
 
 #include "app/boresight_arguments.h"
+#include "app/documents/markdown_page.h"
 #include "app/documents/write_documents.h"
 #include "app/exit_codes.h"
 #include "sessions/version.h"
@@ -15,10 +17,22 @@
 #include "ui/window/main_window.h"
 #include "ui/window/screenshot.h"
 #include "ui/window/self_test.h"
+#include "ui/window/shortcut_sheet.h"
 
 namespace {
 
 using namespace boresight::app;
+
+/// The manual's page of every key, as the window has them.
+std::string keysPage() {
+  const boresight::ui::MainWindow window;
+  std::string text =
+      "# Every key\n\nF1 shows them in the program.\n\n| key | what it does |\n|---|---|\n";
+  for (const boresight::ui::KeyRow& row : boresight::ui::keysOf(window))
+    text += "| " + boresight::documents::markdownText(row.keys.toStdString()) + " | " +
+            boresight::documents::markdownText(row.text.toStdString()) + " |\n";
+  return text;
+}
 
 int usageError(const std::string& message) {
   std::cerr << "boresight: " << message << "; see boresight --help\n";
@@ -26,8 +40,12 @@ int usageError(const std::string& message) {
 }
 
 int writeDocuments(const std::filesystem::path& folder) {
-  const std::string problem = boresight::documents::writeDocuments(
-      describeArguments(), boresight::sessions::kVersion, folder);
+  std::string problem = boresight::documents::writeDocuments(describeArguments(),
+                                                             boresight::sessions::kVersion, folder);
+  std::ofstream keys(folder / "manual" / "keys.md");
+  keys << keysPage();
+  keys.close();
+  if (problem.empty() && !keys) problem = "the page of keys cannot be written";
   if (problem.empty()) return kDone;
   std::cerr << "boresight: " << problem << "\n";
   return kBadInput;

@@ -30,6 +30,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/sessions/examples ${PROJECT_SOURCE_DIR}/
 install(FILES
   ${PROJECT_SOURCE_DIR}/sessions/examples/annotated.boresight.json
   ${PROJECT_SOURCE_DIR}/sessions/examples/example.boresight.json
+  ${PROJECT_SOURCE_DIR}/sessions/examples/turned.boresight.json
   DESTINATION ${CMAKE_INSTALL_DATADIR}/boresight/examples COMPONENT programs)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/boresight COMPONENT programs)
@@ -47,3 +48,27 @@ if(BORESIGHT_BUILD_UI)
   install(FILES ${desktop}/boresight.svg
     DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps COMPONENT programs)
 endif()
+
+# The manual: what people wrote and what the programs write of themselves, in one folder. In the
+# build tree it lies where the program looks for an installed one.
+set(manual ${PROJECT_BINARY_DIR}/share/boresight/manual)
+file(GLOB manual_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/resources/manual/*.md
+  ${PROJECT_SOURCE_DIR}/resources/manual/pictures/*.png)
+file(GLOB taken_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/sessions/*/*.md
+  ${PROJECT_SOURCE_DIR}/core/*.md ${PROJECT_SOURCE_DIR}/core/record/*.md)
+set(manual_pages --page ${CMAKE_CURRENT_BINARY_DIR}/whs_documents/manual/whs.md)
+set(manual_writers whs_pages)
+if(BORESIGHT_BUILD_UI)
+  foreach(page boresight keys)
+    list(APPEND manual_pages
+      --page ${CMAKE_CURRENT_BINARY_DIR}/boresight_documents/manual/${page}.md)
+  endforeach()
+  list(APPEND manual_writers boresight_pages)
+endif()
+add_custom_command(OUTPUT ${manual}/index.md
+  COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 $<TARGET_FILE:whs> documents
+    ${manual} --manual-of ${PROJECT_SOURCE_DIR} ${manual_pages}
+  DEPENDS ${manual_sources} ${taken_sources} whs ${manual_writers} VERBATIM
+  COMMENT "Putting the manual together")
+add_custom_target(manual ALL DEPENDS ${manual}/index.md)
+install(DIRECTORY ${manual} DESTINATION ${CMAKE_INSTALL_DATADIR}/boresight COMPONENT programs)

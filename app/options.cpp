@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/options_page.h"
 #include "sessions/baselines/methods.h"
 #include "sessions/report/text_table.h"
 
@@ -10,17 +11,6 @@ namespace boresight::app {
 namespace {
 
 using sessions::OptionDescription;
-using sessions::OptionKind;
-
-std::string rangeText(const OptionDescription& option) {
-  std::string text;
-  if (option.kind == OptionKind::kBoolean) return "true, false";
-  if (option.kind == OptionKind::kChoice) {
-    for (const std::string& choice : option.choices) text += (text.empty() ? "" : ", ") + choice;
-    return text;
-  }
-  return sessions::numberText(option.minimum) + " .. " + sessions::numberText(option.maximum);
-}
 
 void print(const std::vector<OptionDescription>& options) {
   for (const OptionDescription& option : options) {

@@ -119,7 +119,7 @@ ManualPage page(const Program& program, const Program* parent, const std::string
           bold(parent != nullptr ? parent->name
                : name == "whs"   ? "boresight"
                                  : "whs") +
-          "(1)\n";
+          "(1)\n.PP\nThe manual, task by task: Help > Manual in boresight.\n";
   return {name + ".1", text};
 }
 

@@ -8,6 +8,7 @@
 
 #include "app/documents/completions.h"
 #include "app/documents/manual_page.h"
+#include "app/documents/markdown_page.h"
 
 namespace boresight::documents {
 namespace {
@@ -29,7 +30,8 @@ std::string writeDocuments(const Program& program, const std::string& version,
   std::vector<std::pair<std::filesystem::path, std::string>> files = {
       {folder / "bash" / program.name, bashCompletion(program)},
       {folder / "zsh" / ("_" + program.name), zshCompletion(program)},
-      {folder / "fish" / (program.name + ".fish"), fishCompletion(program)}};
+      {folder / "fish" / (program.name + ".fish"), fishCompletion(program)},
+      {folder / "manual" / (program.name + ".md"), markdownPage(program)}};
   for (const auto& [name, text] : manualPages(program, version))
     files.emplace_back(folder / "man1" / name, text);
   for (const auto& [file, text] : files) {

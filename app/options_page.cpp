@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/options_page.h"
+
+#include "app/commands.h"
+#include "app/documents/markdown_page.h"
+#include "sessions/baselines/methods.h"
+#include "sessions/report/text_table.h"
+#include "sessions/review/check_limits.h"
+
+namespace boresight::app {
+namespace {
+
+using documents::markdownText;
+using sessions::OptionDescription;
+using sessions::OptionKind;
+using Options = std::vector<OptionDescription>;
+
+/// One column of values by what they are called.
+struct Column {
+  std::string title;
+  Options options;
+};
+
+/// "wide" of wide.rotation_rad.
+std::string groupOf(const OptionDescription& option) {
+  return option.name.substr(0, option.name.find('.'));
+}
+
+/// The value in the first column's set, and those in others that differ from it.
+std::string values(const std::vector<Column>& columns, std::size_t index) {
+  const OptionDescription& option = columns.front().options[index];
+  const std::string first = sessions::valueText(option, option.value);
+  std::string text = first;
+  for (const Column& column : columns) {
+    const std::string other = sessions::valueText(option, column.options[index].value);
+    if (other != first) text += "; " + column.title + ": " + other;
+  }
+  return text;
+}
+
+std::string row(const std::vector<Column>& columns, std::size_t index) {
+  const OptionDescription& option = columns.front().options[index];
+  return "| `" + option.name + "` | " + markdownText(values(columns, index)) + " | " +
+         markdownText(option.help) + " (" + markdownText(rangeText(option)) + ") |\n";
+}
+
+/// A table for every group of options, in the order of declaration.
+std::string tables(const std::vector<Column>& columns, const std::string& heading) {
+  std::string text;
+  std::string group;
+  for (std::size_t i = 0; i < columns.front().options.size(); ++i) {
+    if (groupOf(columns.front().options[i]) != group) {
+      group = groupOf(columns.front().options[i]);
+      text += "\n" + heading + " " + group + "\n\n| option | " + columns.front().title +
+              " | meaning |\n|---|---|---|\n";
+    }
+    text += row(columns, i);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string rangeText(const OptionDescription& option) {
+  std::string text;
+  if (option.kind == OptionKind::kBoolean) return "true, false";
+  if (option.kind == OptionKind::kChoice) {
+    for (const std::string& choice : option.choices) text += (text.empty() ? "" : ", ") + choice;
+    return text;
+  }
+  return sessions::numberText(option.minimum) + " .. " + sessions::numberText(option.maximum);
+}
+
+std::string optionsPage() {
+  std::string text =
+      "# Every option\n\n"
+      "A run takes them from its profile, then from `--config`, then from `--set NAME=VALUE`; in "
+      "the desktop program *Configuration* shows and changes them. A session keeps those that "
+      "differ from its profile. The profile `flight` has the options of `default`, and refuses "
+      "what does not fit its memory. `whs options` prints the same list.\n\n"
+      "## Options of a run\n";
+  text += tables({{"default", sessions::listOptions(profileOptions("default"))},
+                  {"paper", sessions::listOptions(profileOptions("paper"))}},
+                 "###");
+  text +=
+      "\n## Options of the methods beside WHS\n\nFor `--method`; see "
+      "[Methods beside WHS](methods.md).\n";
+  text += tables({{"default", sessions::listOptions(sessions::MethodOptions())}}, "###");
+  text +=
+      "\n## Limits of the checks\n\nBy what poses are judged: *Limits* under *Review*, or `whs "
+      "check "
+      "--preset`. What each check asks: [What each check means](checks.md).\n";
+  std::vector<Column> presets;
+  for (const sessions::CheckPreset& preset : sessions::checkPresets())
+    presets.push_back({preset.name, sessions::listOptions(preset.limits)});
+  return text + tables(presets, "###");
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+// The manual as it is installed, against the programs and the source that it tells of.
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/localizer/localizer_options.h"
+#include "sessions/baselines/methods.h"
+#include "sessions/review/check_limits.h"
+#include "tests/app/run_whs.h"
+
+namespace boresight::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kManual = BORESIGHT_MANUAL;
+const fs::path kSource = BORESIGHT_SOURCE;
+
+std::string textOf(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  EXPECT_TRUE(stream) << file;
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Every page by its name.
+const std::map<std::string, std::string>& pages() {
+  static const std::map<std::string, std::string> all = [] {
+    std::map<std::string, std::string> made;
+    for (const auto& entry : fs::directory_iterator(kManual))
+      if (entry.path().extension() == ".md")
+        made[entry.path().filename().string()] = textOf(entry.path());
+    return made;
+  }();
+  return all;
+}
+
+std::vector<std::string> matches(const std::string& text, const std::string& pattern, int group) {
+  const std::regex expression(pattern);
+  std::vector<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), expression), end; it != end; ++it)
+    found.push_back((*it)[static_cast<std::size_t>(group)].str());
+  return found;
+}
+
+/// The blocks between ``` that begin with this, and the text without any block.
+struct Blocks {
+  std::map<std::string, std::vector<std::string>> by_kind;
+  std::string text;
+};
+Blocks blocksOf(const std::string& page) {
+  Blocks blocks;
+  std::istringstream stream(page);
+  std::string kind;
+  bool inside = false;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.rfind("```", 0) == 0) {
+      inside = !inside;
+      kind = line.substr(3);
+      if (inside) blocks.by_kind[kind].emplace_back();
+    } else if (inside) {
+      blocks.by_kind[kind].back() += line + "\n";
+    } else {
+      blocks.text += line + "\n";
+    }
+  }
+  EXPECT_FALSE(inside) << "a block is not closed";
+  return blocks;
+}
+
+/// By which links name the page's headings.
+std::set<std::string> anchorsOf(const std::string& page) {
+  std::set<std::string> anchors;
+  for (std::string heading : matches(blocksOf(page).text, "(^|\n)#+ ([^\n]+)", 2)) {
+    std::string anchor;
+    for (const char c : heading) {
+      if (std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-')
+        anchor += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      if (c == ' ') anchor += '-';
+    }
+    anchors.insert(anchor);
+  }
+  return anchors;
+}
+
+std::vector<std::string> linksOf(const std::string& page) {
+  // What is between two backticks is code.
+  const std::string text = std::regex_replace(blocksOf(page).text, std::regex("`[^`\n]*`"), "code");
+  return matches(text, R"(\]\(([^)\s]+)\))", 1);
+}
+
+TEST(Manual, LinksLeadToPagesHeadingsAndPicturesThatAreThere) {
+  int links = 0;
+  for (const auto& [name, page] : pages()) {
+    for (const std::string& link : linksOf(page)) {
+      if (link.find("://") != std::string::npos) continue;
+      ++links;
+      const std::size_t hash = link.find('#');
+      const std::string file = hash == 0 ? name : link.substr(0, hash);
+      EXPECT_TRUE(fs::is_regular_file(kManual / file)) << name << ": " << link;
+      if (hash == std::string::npos || !pages().contains(file)) continue;
+      EXPECT_TRUE(anchorsOf(pages().at(file)).contains(link.substr(hash + 1)))
+          << name << ": " << link;
+    }
+  }
+  EXPECT_GT(links, 100);
+}
+
+/// The index lists what the window's contents show.
+TEST(Manual, EveryPageIsListedInTheIndexOnce) {
+  const std::vector<std::string> listed =
+      matches(pages().at("index.md"), R"(\n- \[[^\]]+\]\(([a-z_]+\.md)\))", 1);
+  std::set<std::string> expected;
+  for (const auto& page : pages()) expected.insert(page.first);
+  expected.erase("index.md");
+  EXPECT_EQ(std::set<std::string>(listed.begin(), listed.end()), expected);
+  EXPECT_EQ(listed.size(), expected.size());
+}
+
+TEST(Manual, EveryPictureIsShownAndSmall) {
+  std::set<std::string> shown;
+  for (const auto& page : pages())
+    for (const std::string& link : linksOf(page.second)) shown.insert(link);
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : fs::directory_iterator(kSource / "resources/manual/pictures")) {
+    const std::string name = "pictures/" + entry.path().filename().string();
+    EXPECT_TRUE(shown.contains(name)) << name;
+    EXPECT_LT(entry.file_size(), 260'000u) << name;
+    bytes += entry.file_size();
+  }
+  EXPECT_LT(bytes, 3'000'000u);
+}
+
+template <class Options>
+void expectOptions(const Options& options) {
+  const std::string page = std::regex_replace(pages().at("options.md"), std::regex(R"(\\)"), "");
+  for (const sessions::OptionDescription& option : sessions::listOptions(options)) {
+    EXPECT_NE(page.find("| `" + option.name + "` | "), std::string::npos) << option.name;
+    EXPECT_NE(page.find("| " + option.help + " ("), std::string::npos) << option.name;
+  }
+}
+
+TEST(Manual, KnowsEveryOption) {
+  expectOptions(defaultProfile());
+  expectOptions(sessions::MethodOptions());
+  expectOptions(sessions::CheckLimits());
+}
+
+TEST(Manual, NamesNoOptionThatThereIsNot) {
+  std::set<std::string> known;
+  std::set<std::string> groups;
+  const auto add = [&](const auto& options) {
+    for (const sessions::OptionDescription& option : sessions::listOptions(options)) {
+      known.insert(option.name);
+      groups.insert(option.name.substr(0, option.name.find('.')));
+    }
+  };
+  add(defaultProfile());
+  add(sessions::MethodOptions());
+  add(sessions::CheckLimits());
+  for (const char* name : {"failed_run.md", "limits.md", "checks.md", "algorithm.md", "beyond.md",
+                           "formats.md", "evaluate.md", "window.md"})
+    for (const std::string& word : matches(pages().at(name), R"(`([a-z]+\.[a-z_]+)(=[^`]*)?`)", 1))
+      EXPECT_TRUE(known.contains(word) || !groups.contains(word.substr(0, word.find('.'))))
+          << name << ": " << word;
+}
+
+TEST(Manual, KnowsEveryCommand) {
+  const std::string help = runWhs({"--help"}).out;
+  const std::vector<std::string> commands =
+      matches(help.substr(help.find("Subcommands:")), R"(\n  ([a-z]+) )", 1);
+  ASSERT_GT(commands.size(), 15u);
+  const std::set<std::string> anchors = anchorsOf(pages().at("whs.md"));
+  for (const std::string& command : commands)
+    EXPECT_TRUE(anchors.contains("whs-" + command)) << command;
+}
+
+TEST(Manual, KnowsEveryCheck) {
+  const TemporaryFolder folder;
+  fs::copy(exampleFolder().parent_path(), folder / "examples", fs::copy_options::recursive);
+  const std::string session = (folder / "examples/example.boresight.json").string();
+  ASSERT_EQ(runWhs({"run", session, "--case", "os-000038"}).exit_code, 0);
+  ASSERT_EQ(runWhs({"check", session, "--case", "os-000038", "--basin", "0", "--json",
+                    (folder / "checks.json").string()})
+                .exit_code,
+            0);
+  const nlohmann::json checks =
+      nlohmann::json::parse(folder.read("checks.json")).at("cases").at(0).at("checks");
+  EXPECT_GE(checks.size(), 24u);
+  const std::string& page = pages().at("checks.md");
+  for (const nlohmann::json& check : checks) {
+    const std::string row = "| **" + check.at("title").get<std::string>() + "** `" +
+                            check.at("id").get<std::string>() + "` |";
+    EXPECT_NE(page.find(row), std::string::npos) << row;
+  }
+}
+
+/// Of what the source reads or writes under a name of its own.
+TEST(Manual, KnowsEveryFormat) {
+  std::set<std::string> formats;
+  for (const char* folder : {"sessions", "app"})
+    for (const auto& entry : fs::recursive_directory_iterator(kSource / folder))
+      if (entry.path().extension() == ".cpp" || entry.path().extension() == ".h")
+        for (const std::string& format :
+             matches(textOf(entry.path()), R"re("(boresight-[a-z-]+)")re", 1))
+          formats.insert(format);
+  EXPECT_GE(formats.size(), 12u);
+  const std::string text = pages().at("formats.md") + pages().at("matchers.md");
+  for (const std::string& format : formats)
+    EXPECT_NE(text.find(format), std::string::npos) << format;
+}
+
+TEST(Manual, JsonIsJson) {
+  int count = 0;
+  for (const auto& [name, page] : pages()) {
+    const std::vector<std::string> blocks = blocksOf(page).by_kind["json"];
+    for (const std::string& block : blocks)
+      EXPECT_TRUE(nlohmann::json::accept(block)) << name << ":\n" << block;
+    count += static_cast<int>(blocks.size());
+  }
+  EXPECT_GE(count, 5);
+}
+
+/// As an operator types them, page by page, each in a folder of its own.
+TEST(Manual, CommandsDoWhatTheyAreThereFor) {
+  int run_pages = 0;
+  for (const auto& [name, page] : pages()) {
+    std::string script = "cd \"$HOME\"\n";
+    const std::vector<std::string> blocks = blocksOf(page).by_kind["sh run"];
+    for (const std::string& block : blocks) script += block;
+    if (blocks.empty()) continue;
+    ++run_pages;
+    script = std::regex_replace(script, std::regex("/usr/share/boresight/examples"),
+                                exampleFolder().parent_path().string());
+    const TemporaryFolder folder;
+    folder.write("page.sh", script);
+    const ProgramRun run = runProgram(
+        "env HOME=" + folder.path().string() +
+            " PATH=" + fs::path(BORESIGHT_WHS).parent_path().string() + ":\"$PATH\" bash",
+        {"-eu", (folder / "page.sh").string()});
+    EXPECT_EQ(run.exit_code, 0) << name << "\n" << script << run.out << run.err;
+  }
+  EXPECT_GE(run_pages, 6);
+}
+
+/// In tables of files, what is named beside a file is in it.
+TEST(Manual, NamesFilesAndFunctionsThatAreThere) {
+  int files = 0;
+  for (const char* page : {"engineer.md", "engineer_add.md", "formats.md", "evaluate.md"}) {
+    std::istringstream stream(blocksOf(pages().at(page)).text);
+    for (std::string line; std::getline(stream, line);) {
+      std::string named;
+      for (const std::string& file :
+           matches(line, R"(`((core|sessions|ui|app|tests|resources|cmake)/[\w/.]*)`)", 1)) {
+        EXPECT_TRUE(fs::exists(kSource / file)) << page << ": " << file;
+        if (fs::is_regular_file(kSource / file)) named += textOf(kSource / file);
+        ++files;
+      }
+      if (std::string(page) != "engineer_add.md" || line.rfind("| `", 0) != 0) continue;
+      for (const std::string& word : matches(line, R"(`([^`]+)`)", 1))
+        EXPECT_TRUE(named.find(word) != std::string::npos || fs::exists(kSource / word))
+            << line.substr(0, 60) << ": " << word;
+    }
+  }
+  EXPECT_GT(files, 50);
+}
+
+TEST(Manual, ThatCannotBePutTogetherIsOneLine) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runWhs(
+      {"documents", "--manual-of", (folder / "nowhere").string(), (folder / "manual").string()});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_EQ(run.errorLines(), 1) << run.err;
+}
+
+}  // namespace
+}  // namespace boresight::test
