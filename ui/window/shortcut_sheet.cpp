@@ -9,6 +9,7 @@
 #include <QLabel>
 #include <QMenu>
 #include <QMenuBar>
+#include <QPushButton>
 #include <QScrollArea>
 #include <QVBoxLayout>
 
@@ -17,11 +18,6 @@
 namespace boresight::ui {
 namespace {
 
-struct Row {
-  QString keys;
-  QString text;
-};
-
 QString plainText(const QAction& action) {
   QString text = action.text();
   text.remove(QLatin1Char('&'));
@@ -29,7 +25,7 @@ QString plainText(const QAction& action) {
 }
 
 /// Actions of the menus, in their order.
-void collect(const QList<QAction*>& actions, QList<Row>& rows) {
+void collect(const QList<QAction*>& actions, QList<KeyRow>& rows) {
   for (const QAction* action : actions) {
     if (action->menu()) {
       collect(action->menu()->actions(), rows);
@@ -46,7 +42,7 @@ struct Fixed {
 
 /// Keys that are no actions of a menu: those of the image, the scene, tables and the field for
 /// nudging, each where the pointer or the focus is.
-constexpr std::array<Fixed, 31> kFixed = {{
+constexpr std::array<Fixed, 32> kFixed = {{
     {QT_TR_NOOP("Image: wheel"), QT_TR_NOOP("Zoom at the cursor")},
     {QT_TR_NOOP("Image: drag"), QT_TR_NOOP("Move the image")},
     {QT_TR_NOOP("Image: double click, 0"), QT_TR_NOOP("Show the whole image")},
@@ -79,12 +75,13 @@ constexpr std::array<Fixed, 31> kFixed = {{
     {QT_TR_NOOP("Queue: J, K, arrows"), QT_TR_NOOP("The next case, the one before")},
     {QT_TR_NOOP("Queue: D"), QT_TR_NOOP("Compare each case's last two runs")},
     {QT_TR_NOOP("Inputs: Ctrl+C"), QT_TR_NOOP("Copy the chosen lines")},
+    {QT_TR_NOOP("Manual: Alt+Left, Alt+Right"), QT_TR_NOOP("The page before, the page after")},
     {QT_TR_NOOP("Configuration: F2"), QT_TR_NOOP("Change the option")},
     {QT_TR_NOOP("Configuration: Del"), QT_TR_NOOP("Take the option back to its default")},
 }};
 
-QList<Row> fixedRows() {
-  QList<Row> rows;
+QList<KeyRow> fixedRows() {
+  QList<KeyRow> rows;
   for (const Fixed& each : kFixed)
     rows.push_back({ShortcutSheet::tr(each.keys), ShortcutSheet::tr(each.text)});
   return rows;
@@ -92,11 +89,15 @@ QList<Row> fixedRows() {
 
 }  // namespace
 
+QList<KeyRow> keysOf(const QWidget& window) {
+  QList<KeyRow> rows;
+  if (auto* bar = window.findChild<QMenuBar*>()) collect(bar->actions(), rows);
+  return rows + fixedRows();
+}
+
 ShortcutSheet::ShortcutSheet(QWidget& window) : QDialog(&window) {
   setWindowTitle(tr("Keys"));
-  QList<Row> rows;
-  if (auto* bar = window.findChild<QMenuBar*>()) collect(bar->actions(), rows);
-  rows += fixedRows();
+  const QList<KeyRow> rows = keysOf(window);
   auto* sheet = new QWidget;
   auto* grid = new QGridLayout(sheet);
   grid->setHorizontalSpacing(16);
@@ -113,6 +114,13 @@ ShortcutSheet::ShortcutSheet(QWidget& window) : QDialog(&window) {
   scroll->setFrameShape(QFrame::NoFrame);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  QPushButton* manual = buttons->addButton(tr("&Manual"), QDialogButtonBox::HelpRole);
+  manual->setShortcut(Qt::Key_F1);
+  manual->setToolTip(tr("What the program does, task by task (F1)"));
+  connect(manual, &QPushButton::clicked, this, [this] {
+    accept();
+    Q_EMIT manualRequested();
+  });
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(scroll);
   layout->addWidget(buttons);

@@ -26,6 +26,7 @@
 #include "ui/views/mask_editor.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/loupe_menu.h"
+#include "ui/window/manual_help.h"
 #include "ui/window/queue_links.h"
 #include "ui/window/recent_files.h"
 #include "ui/window/session_files.h"
@@ -250,12 +251,19 @@ void WindowMenus::buildLayersMenu(QMenu& menu) {
 
 void WindowMenus::buildHelpMenu() {
   QMenu* menu = window_.menuBar()->addMenu(tr("&Help"));
+  auto* help = new ManualHelp(window_);
+  QAction* manual = action(tr("&Manual"), QKeySequence(QStringLiteral("Shift+F1")),
+                           tr("The manual, at the panel that has the focus"));
+  connect(manual, &QAction::triggered, help, &ManualHelp::showHere);
   QAction* keys = action(tr("&Keys"), Qt::Key_F1, tr("Every key of this window"));
-  connect(keys, &QAction::triggered, this, [this] { ShortcutSheet(window_).exec(); });
+  connect(keys, &QAction::triggered, this, [this, help] {
+    ShortcutSheet sheet(window_);
+    connect(&sheet, &ShortcutSheet::manualRequested, help, &ManualHelp::showHere);
+    sheet.exec();
+  });
   QAction* about = action(tr("&About Boresight"), {}, tr("Version"));
   connect(about, &QAction::triggered, this, &WindowMenus::showAbout);
-  menu->addAction(keys);
-  menu->addAction(about);
+  menu->addActions({manual, keys, about});
 }
 
 void WindowMenus::showAbout() {

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/manual/manual_window.h"
+
+#include <gtest/gtest.h>
+
+#include <QAction>
+#include <QDockWidget>
+#include <QImage>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMenuBar>
+#include <QPushButton>
+#include <QScrollBar>
+#include <QStackedWidget>
+#include <QStandardPaths>
+#include <QTextBlock>
+#include <QTextTable>
+#include <QTreeWidget>
+#include <QtTest/QTest>
+
+#include "tests/support/temporary_folder.h"
+#include "ui/manual/manual_browser.h"
+#include "ui/manual/manual_folder.h"
+#include "ui/manual/manual_search.h"
+#include "ui/window/main_window.h"
+#include "ui/window/manual_help.h"
+#include "ui/window/shortcut_sheet.h"
+
+namespace boresight::ui {
+namespace {
+
+QAction* actionOf(const QObject& parent, const QString& text) {
+  for (QAction* action : parent.findChildren<QAction*>())
+    if (action->text().remove(QLatin1Char('&')) == text) return action;
+  return nullptr;
+}
+
+/// A small manual of its own.
+class ManualWindowTest : public ::testing::Test {
+ protected:
+  ManualWindowTest() {
+    folder_.write("index.md",
+                  "# All\n\n## First part\n\n- [One thing](one.md): it\n\n## Second\n\n"
+                  "- [Another](two.md)\n");
+    folder_.write("one.md",
+                  "# One\n\nSee [the other](two.md#far-below).\n\n![p](pictures/wide.png)\n\n"
+                  "| a | b |\n|---|---|\n| 1 | zebra |\n");
+    std::string far = "# Two\n\nzebra zebra unicorn\n\n";
+    for (int i = 0; i < 200; ++i) far += "line\n\n";
+    folder_.write("two.md", far + "## Far below?\n\nend\n" + far);
+    std::filesystem::create_directories(folder_ / "pictures");
+    QImage(2000, 500, QImage::Format_RGB32)
+        .save(QString::fromStdString((folder_ / "pictures/wide.png").string()));
+  }
+
+  QString path() const { return QString::fromStdString(folder_.path().string()); }
+  QString shown(ManualWindow& window) { return window.browser().source().fileName(); }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(ManualWindowTest, ListsThePagesOfTheIndexUnderTheirHeadings) {
+  ManualWindow window(path());
+  auto* contents = window.findChild<QTreeWidget*>(QStringLiteral("manualContents"));
+  ASSERT_EQ(contents->topLevelItemCount(), 3);
+  EXPECT_EQ(contents->topLevelItem(1)->text(0), QStringLiteral("First part"));
+  ASSERT_EQ(contents->topLevelItem(1)->childCount(), 1);
+  contents->setCurrentItem(contents->topLevelItem(2)->child(0));
+  EXPECT_EQ(shown(window), QStringLiteral("two.md"));
+}
+
+TEST_F(ManualWindowTest, GoesWhereLinksLeadAndBack) {
+  ManualWindow window(path());
+  window.showPage(QStringLiteral("one.md"));
+  ManualBrowser& browser = window.browser();
+  Q_EMIT browser.anchorClicked(browser.source().resolved(QUrl(QStringLiteral("two.md#far-below"))));
+  EXPECT_EQ(shown(window), QStringLiteral("two.md"));
+  QCoreApplication::processEvents();
+  EXPECT_GT(browser.verticalScrollBar()->value(), 0);
+  EXPECT_EQ(browser.textCursor().block().text(), QStringLiteral("Far below?"));
+  auto* contents = window.findChild<QTreeWidget*>(QStringLiteral("manualContents"));
+  EXPECT_EQ(contents->currentItem()->text(0), QStringLiteral("Another"));
+  actionOf(window, QStringLiteral("Back"))->trigger();
+  EXPECT_EQ(shown(window), QStringLiteral("one.md"));
+  actionOf(window, QStringLiteral("Forward"))->trigger();
+  EXPECT_EQ(shown(window), QStringLiteral("two.md"));
+  actionOf(window, QStringLiteral("Contents"))->trigger();
+  EXPECT_EQ(shown(window), QStringLiteral("index.md"));
+}
+
+TEST_F(ManualWindowTest, FindsOnThePageAndStartsOver) {
+  ManualWindow window(path());
+  window.showPage(QStringLiteral("two.md"));
+  auto* find = window.findChild<QLineEdit*>(QStringLiteral("manualFind"));
+  find->setText(QStringLiteral("ZEBRA"));
+  std::vector<int> places;
+  for (int i = 0; i < 5; ++i) {
+    QTest::keyClick(find, Qt::Key_Return);
+    EXPECT_EQ(window.browser().textCursor().selectedText().toLower(), QStringLiteral("zebra"));
+    places.push_back(window.browser().textCursor().selectionStart());
+  }
+  EXPECT_LT(places[0], places[1]);
+  EXPECT_LT(places[1], places[2]);
+  EXPECT_EQ(places[4], places[0]);  // the fifth of four
+  actionOf(window, QStringLiteral("Previous"))->trigger();
+  EXPECT_EQ(window.browser().textCursor().selectionStart(), places[3]);
+  find->setText(QStringLiteral("giraffe"));
+  QTest::keyClick(find, Qt::Key_Return);
+  EXPECT_FALSE(window.browser().textCursor().selectedText().contains(QStringLiteral("giraffe")));
+}
+
+TEST_F(ManualWindowTest, SearchesAllPagesForAllWords) {
+  EXPECT_EQ(searchManual(path(), QStringLiteral("zebra")).size(), 2u);
+  const auto both = searchManual(path(), QStringLiteral(" Unicorn  zebra "));
+  ASSERT_EQ(both.size(), 1u);
+  EXPECT_EQ(both[0].page.file, QStringLiteral("two.md"));
+  EXPECT_EQ(both[0].count, 6);
+  EXPECT_TRUE(both[0].around.contains(QStringLiteral("unicorn")));
+  EXPECT_TRUE(searchManual(path(), QStringLiteral("giraffe")).empty());
+  EXPECT_TRUE(searchManual(path(), QStringLiteral("  ")).empty());
+}
+
+TEST_F(ManualWindowTest, OpensWhatWasFound) {
+  ManualWindow window(path());
+  window.showPage(QStringLiteral("index.md"));
+  auto* search = window.findChild<QLineEdit*>(QStringLiteral("manualSearch"));
+  auto* hits = window.findChild<QListWidget*>(QStringLiteral("manualHits"));
+  search->setText(QStringLiteral("unicorn"));
+  ASSERT_EQ(hits->count(), 1);
+  QTest::keyClick(search, Qt::Key_Return);
+  EXPECT_EQ(shown(window), QStringLiteral("two.md"));
+  EXPECT_EQ(window.browser().textCursor().selectedText(), QStringLiteral("unicorn"));
+  search->setText(QStringLiteral("giraffe"));
+  QTest::keyClick(search, Qt::Key_Return);  // nothing to open
+  EXPECT_EQ(shown(window), QStringLiteral("two.md"));
+  search->clear();
+  EXPECT_TRUE(window.findChild<QTreeWidget*>(QStringLiteral("manualContents"))->isVisible());
+}
+
+TEST_F(ManualWindowTest, PicturesAreAsWideAsTheWindowAtMost) {
+  ManualWindow window(path());
+  window.resize(900, 500);
+  window.showPage(QStringLiteral("one.md"));
+  ManualBrowser& browser = window.browser();
+  for (const int width : {900, 1300, 700}) {
+    window.resize(width, 500);
+    QCoreApplication::processEvents();
+    EXPECT_EQ(browser.horizontalScrollBar()->maximum(), 0) << width;
+    const QVariant picture = browser.document()->resource(
+        QTextDocument::ImageResource,
+        browser.source().resolved(QUrl(QStringLiteral("pictures/wide.png"))));
+    const QImage image = picture.value<QImage>();
+    const int shown_width = static_cast<int>(image.width() / image.devicePixelRatio());
+    EXPECT_LE(shown_width, browser.viewport()->width()) << width;
+    EXPECT_GT(shown_width, browser.viewport()->width() - 60) << width;
+  }
+}
+
+TEST_F(ManualWindowTest, TablesHaveLines) {
+  ManualWindow window(path());
+  window.showPage(QStringLiteral("one.md"));
+  int tables = 0;
+  for (QTextFrame* frame : window.browser().document()->rootFrame()->childFrames())
+    if (auto* table = qobject_cast<QTextTable*>(frame)) {
+      ++tables;
+      EXPECT_GT(table->format().border(), 0.0);
+      EXPECT_GE(table->format().cellPadding(), 3.0);
+    }
+  EXPECT_EQ(tables, 1);
+}
+
+TEST(ManualWindow, ThatHasNoManualSaysSo) {
+  ManualWindow window{QString()};
+  window.showPage(QStringLiteral("index.md"));
+  EXPECT_TRUE(window.browser().toPlainText().startsWith(QStringLiteral("The manual is not there")));
+  window.findChild<QLineEdit*>(QStringLiteral("manualSearch"))->setText(QStringLiteral("x"));
+}
+
+TEST(Manual, LiesWhereTheProgramLooks) {
+  ASSERT_FALSE(manualFolder().isEmpty());
+  const auto pages = manualPages(manualFolder());
+  EXPECT_GT(pages.size(), 20u);
+  ManualWindow window(manualFolder());
+  for (const ManualPage& page : pages) {
+    window.showPage(page.file);
+    EXPECT_FALSE(window.browser().toPlainText().isEmpty()) << page.file.toStdString();
+    EXPECT_EQ(window.browser().document()->begin().blockFormat().headingLevel(), 1)
+        << page.file.toStdString();
+  }
+}
+
+TEST(Manual, HasASectionForEveryPanel) {
+  QStandardPaths::setTestModeEnabled(true);
+  MainWindow window;
+  const QString page = manualText(manualFolder() + QStringLiteral("/window.md"));
+  const auto docks = window.findChildren<QDockWidget*>();
+  EXPECT_GT(docks.size(), 10);
+  for (const QDockWidget* dock : docks)
+    EXPECT_TRUE(page.contains(QStringLiteral("\n## %1\n").arg(dock->windowTitle())))
+        << dock->windowTitle().toStdString();
+}
+
+TEST(Manual, OpensAtThePanelThatHasTheFocus) {
+  QStandardPaths::setTestModeEnabled(true);
+  MainWindow window;
+  window.show();
+  auto* help = window.findChild<ManualHelp*>(QStringLiteral("manualHelp"));
+  ASSERT_NE(help, nullptr);
+  window.dock(QStringLiteral("configuration"))->raise();
+  QCoreApplication::processEvents();
+  auto* field = window.dock(QStringLiteral("configuration"))->findChild<QLineEdit*>();
+  ASSERT_NE(field, nullptr);
+  field->setFocus();
+  EXPECT_EQ(help->pageHere(), QStringLiteral("window.md#configuration"));
+  actionOf(window, QStringLiteral("Manual"))->trigger();
+  ASSERT_NE(help->manual(), nullptr);
+  EXPECT_TRUE(help->manual()->isVisible());
+  EXPECT_EQ(help->manual()->browser().textCursor().block().text(), QStringLiteral("Configuration"));
+}
+
+TEST(Manual, IsOneKeyAwayFromTheSheetOfKeys) {
+  QStandardPaths::setTestModeEnabled(true);
+  MainWindow window;
+  ShortcutSheet sheet(window);
+  bool requested = false;
+  QObject::connect(&sheet, &ShortcutSheet::manualRequested, [&requested] { requested = true; });
+  for (QPushButton* button : sheet.findChildren<QPushButton*>())
+    if (button->shortcut() == QKeySequence(Qt::Key_F1)) button->click();
+  EXPECT_TRUE(requested);
+}
+
+}  // namespace
+}  // namespace boresight::ui
