@@ -40,6 +40,11 @@ as pdffonts report.pdf | grep DejaVu >/dev/null || fail "the report is written i
 as boresight --screenshot window.png $examples/example.boresight.json
 [ -s window.png ] || fail "no picture of the window"
 
+for page in index start options whs keys cameras; do
+  [ -s /usr/share/boresight/manual/$page.md ] || fail "the manual has no page $page"
+done
+[ -s /usr/share/boresight/manual/pictures/window.png ] || fail "the manual has no pictures"
+
 desktop-file-validate /usr/share/applications/boresight.desktop
 # typeIs FILE TYPE: as a file manager sees it.
 typeIs() {
