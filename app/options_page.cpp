@@ -26,14 +26,22 @@ std::string groupOf(const OptionDescription& option) {
   return option.name.substr(0, option.name.find('.'));
 }
 
+/// The value in the first column's set, and those in others that differ from it.
+std::string values(const std::vector<Column>& columns, std::size_t index) {
+  const OptionDescription& option = columns.front().options[index];
+  const std::string first = sessions::valueText(option, option.value);
+  std::string text = first;
+  for (const Column& column : columns) {
+    const std::string other = sessions::valueText(option, column.options[index].value);
+    if (other != first) text += "; " + column.title + ": " + other;
+  }
+  return text;
+}
+
 std::string row(const std::vector<Column>& columns, std::size_t index) {
   const OptionDescription& option = columns.front().options[index];
-  std::string text = "| `" + option.name + "` |";
-  for (const Column& column : columns) {
-    const OptionDescription& one = column.options[index];
-    text += " " + markdownText(sessions::valueText(one, one.value)) + " |";
-  }
-  return text + " " + markdownText(rangeText(option)) + " | " + markdownText(option.help) + " |\n";
+  return "| `" + option.name + "` | " + markdownText(values(columns, index)) + " | " +
+         markdownText(option.help) + " (" + markdownText(rangeText(option)) + ") |\n";
 }
 
 /// A table for every group of options, in the order of declaration.
@@ -43,11 +51,8 @@ std::string tables(const std::vector<Column>& columns, const std::string& headin
   for (std::size_t i = 0; i < columns.front().options.size(); ++i) {
     if (groupOf(columns.front().options[i]) != group) {
       group = groupOf(columns.front().options[i]);
-      text += "\n" + heading + " " + group + "\n\n| option |";
-      for (const Column& column : columns) text += " " + column.title + " |";
-      text += " range | meaning |\n|---|";
-      for (std::size_t column = 0; column < columns.size(); ++column) text += "---|";
-      text += "---|---|\n";
+      text += "\n" + heading + " " + group + "\n\n| option | " + columns.front().title +
+              " | meaning |\n|---|---|---|\n";
     }
     text += row(columns, i);
   }
@@ -87,7 +92,7 @@ std::string optionsPage() {
       "--preset`. What each check asks: [What each check means](checks.md).\n";
   std::vector<Column> presets;
   for (const sessions::CheckPreset& preset : sessions::checkPresets())
-    presets.push_back({"`" + preset.name + "`", sessions::listOptions(preset.limits)});
+    presets.push_back({preset.name, sessions::listOptions(preset.limits)});
   return text + tables(presets, "###");
 }
 

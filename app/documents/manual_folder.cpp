@@ -20,7 +20,7 @@ struct TakenPage {
   const char* source;  ///< below the source
   const char* name;    ///< in the manual
 };
-constexpr std::array<TakenPage, 15> kTaken = {{
+constexpr std::array<TakenPage, 16> kTaken = {{
     {"sessions/session/README.md", "session_files.md"},
     {"sessions/evaluation/README.md", "results_files.md"},
     {"sessions/evaluation/measured.md", "measured.md"},
@@ -33,6 +33,7 @@ constexpr std::array<TakenPage, 15> kTaken = {{
     {"sessions/record/README.md", "replay.md"},
     {"sessions/baselines/README.md", "methods.md"},
     {"sessions/io/cameras.md", "cameras.md"},
+    {"sessions/io/planetary.md", "image_labels.md"},
     {"core/record/FORMAT.md", "onboard_record.md"},
     {"core/beyond.md", "beyond.md"},
     {"resources/matchers/README.md", "matchers.md"},

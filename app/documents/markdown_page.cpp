@@ -62,7 +62,7 @@ std::string synopsis(const Program& program, const std::string& name) {
     const std::string one = argument.position + (argument.repeats ? " ..." : "");
     text += argument.required ? " " + one : " [" + one + "]";
   }
-  return "\n```\n" + text + "\n```\n";
+  return "\n`" + text + "`\n";
 }
 
 }  // namespace

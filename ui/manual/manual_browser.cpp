@@ -21,12 +21,30 @@ namespace {
 
 constexpr int kMargin_px = 16;
 constexpr double kCellPadding_px = 4;
+constexpr int kLongestName = 36;  // of an option, a file, a table's column
 
 QColor mixed(const QColor& a, const QColor& b, double share_of_b) {
   const auto part = [share_of_b](int x, int y) {
     return static_cast<int>(x + share_of_b * (y - x));
   };
   return {part(a.red(), b.red()), part(a.green(), b.green()), part(a.blue(), b.blue())};
+}
+
+/// Names in the first column are not broken where they are short.
+void keepNames(QTextTable& table) {
+  for (int row = 1; row < table.rows(); ++row) {
+    const QTextTableCell cell = table.cellAt(row, 0);
+    const QTextBlock block = cell.firstCursorPosition().block();
+    if (block.text().size() > kLongestName || block.text().contains(QLatin1Char(' '))) continue;
+    QTextBlockFormat format = block.blockFormat();
+    format.setNonBreakableLines(true);
+    QTextCursor(block).setBlockFormat(format);
+  }
+}
+
+bool isCode(const QTextBlock& block) {
+  return block.isValid() && (block.blockFormat().nonBreakableLines() ||
+                             block.blockFormat().hasProperty(QTextFormat::BlockCodeFence));
 }
 
 /// Every picture's name in the document.
@@ -106,8 +124,8 @@ void ManualBrowser::dress() {
   document()->setUndoRedoEnabled(false);
   QTextCursor all(document());
   all.beginEditBlock();  // laid out once, not after every cell
-  dressTables();
   dressCode();
+  dressTables();
   all.endEditBlock();
 }
 
@@ -127,6 +145,7 @@ void ManualBrowser::dressTables() {
     format.setTopMargin(6);
     format.setBottomMargin(10);
     table->setFormat(format);
+    keepNames(*table);
     for (int column = 0; column < table->columns(); ++column) {
       QTextTableCell cell = table->cellAt(0, column);
       QTextCharFormat dressed = cell.format();
@@ -140,9 +159,8 @@ void ManualBrowser::dressCode() {
   const QColor ground =
       mixed(palette().color(QPalette::Base), palette().color(QPalette::Text), 0.08);
   for (QTextBlock block = document()->begin(); block.isValid(); block = block.next()) {
-    if (!block.blockFormat().nonBreakableLines() &&
-        !block.blockFormat().hasProperty(QTextFormat::BlockCodeFence))
-      continue;
+    // The reader leaves an empty line at the end.
+    if (!isCode(block) || (block.text().isEmpty() && !isCode(block.next()))) continue;
     QTextBlockFormat format = block.blockFormat();
     format.setBackground(ground);
     format.setLeftMargin(12);

@@ -97,7 +97,7 @@ void ManualWindow::buildSide() {
   dock->setTitleBarWidget(new QWidget);
   dock->setWidget(widget);
   addDockWidget(Qt::LeftDockWidgetArea, dock);
-  resizeDocks({dock}, {280}, Qt::Horizontal);
+  resizeDocks({dock}, {300}, Qt::Horizontal);
   connect(search_, &QLineEdit::textChanged, this, &ManualWindow::search);
   connect(contents_, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
     const QString page = item ? item->data(0, kPageRole).toString() : QString();
