@@ -291,6 +291,9 @@ BitImage IgnoreMask::view() const {
 
 IgnoreMask readIgnoreMask(const std::filesystem::path& file, int width, int height) {
   const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxImageFileBytes);
+  if (const auto format = labelFormatOf(bytes))
+    throw InputError(file,
+                     std::string("a mask must be PNG or TIFF, not ") + labelFormatName(*format));
   const ImageHeader header = checkImageContainer(file, bytes);
   checkSize(file, header);
   if (header.container == ImageContainer::kJpeg)

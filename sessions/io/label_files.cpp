@@ -140,7 +140,8 @@ std::vector<std::uint8_t> beginningOf(const fs::path& file, std::size_t count) {
 
 bool isOtherPicture(std::span<const std::uint8_t> bytes) {
   const std::string_view text = asText(bytes);
-  for (const std::string_view begin : {"\x89PNG", "\xff\xd8\xff", "II*", "MM"})
+  using namespace std::string_view_literals;
+  for (const std::string_view begin : {"\x89PNG"sv, "\xff\xd8\xff"sv, "II*\0"sv, "MM\0*"sv})
     if (text.starts_with(begin)) return true;
   return text.empty();
 }
@@ -262,6 +263,7 @@ LabelFiles readLabelFiles(const fs::path& label_file, std::vector<std::uint8_t> 
   files.parts.push_back(
       {*format == LabelFormat::kPds4 ? "label-of-image.xml" : "label-of-image.lbl",
        std::move(label_bytes)});
+  std::size_t left = kMaxImageFileBytes;
   for (const std::string& name : listed) {
     requireBeside(label_file, name);
     const fs::path part = fileBeside(label_file, name);
@@ -275,7 +277,8 @@ LabelFiles readLabelFiles(const fs::path& label_file, std::vector<std::uint8_t> 
       if (listed.size() > 1) continue;  // of several, those that are there
       throw InputError(label_file, "the file of its pixels, '" + name + "', is not beside it");
     }
-    files.parts.push_back({name, readFileBytes(part, kMaxImageFileBytes)});
+    files.parts.push_back({name, readFileBytes(part, left)});
+    left -= files.parts.back().bytes.size();
   }
   return files;
 }

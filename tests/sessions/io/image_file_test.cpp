@@ -206,8 +206,10 @@ TEST_F(ReadImage, RefusesWhatIsNotAnImage) {
             "none.png: no such file");
   EXPECT_EQ(error({}), "image: the file is empty");
   const std::string text = "{\"format\": \"boresight-pose\"}";
-  EXPECT_EQ(error(Bytes(text.begin(), text.end())), "image: not a PNG, JPEG or TIFF image");
-  EXPECT_EQ(error(encoded(randomImage(CV_8UC1), ".bmp")), "image: not a PNG, JPEG or TIFF image");
+  const std::string none =
+      "image: not a PNG, JPEG or TIFF image, nor one with a VICAR, PDS3 or PDS4 label";
+  EXPECT_EQ(error(Bytes(text.begin(), text.end())), none);
+  EXPECT_EQ(error(encoded(randomImage(CV_8UC1), ".bmp")), none);
   cv::Mat real(4, 4, CV_32FC1, cv::Scalar(1.0));
   EXPECT_EQ(error(encoded(real, ".tiff")),
             "image: samples are not unsigned integers of 8 or 16 bits");

@@ -397,7 +397,8 @@ TEST(LabelSamples, MaskWithALabelIsRefused) {
   const TemporaryFolder folder;
   const Raster raster = Raster::filled(8, 8, 1, [](std::size_t) { return 1.0; });
   const auto file = folder.write("mask.png", VicarFile().bytes(raster));
-  EXPECT_THAT(folder.message([&] { readIgnoreMask(file, 8, 8); }), HasSubstr("not a PNG"));
+  EXPECT_THAT(folder.message([&] { readIgnoreMask(file, 8, 8); }),
+              HasSubstr("a mask must be PNG or TIFF, not VICAR"));
 }
 
 }  // namespace
