@@ -18,6 +18,7 @@
 #include "sessions/io/image_label.h"
 #include "sessions/io/json_document.h"
 #include "sessions/io/mesh_container.h"
+#include "sessions/record/onboard_record.h"
 #include "sessions/report/run_text.h"
 #include "sessions/report/text_table.h"
 #include "sessions/review/standing.h"
@@ -75,6 +76,42 @@ void describePose(const sessions::PoseFile& pose) {
   if (!projected.empty()) flag(projected);
   if (pose.camera_from_station.translation_m.z() <= 0.0)
     flag("the station's origin lies behind the camera");
+}
+
+/// A pose in the frame of a camera model, which this file alone does not place in the camera.
+void describeReferencePose(const path& file, const sessions::JsonReader& root) {
+  sessions::CameraReference there;
+  if (const auto frame = root.find("reference_frame"))
+    there.frame = sessions::readFrameName(*frame);
+  line("reference_from_station in " +
+       (there.frame.name.empty() ? "the frame of the camera model" : frameText(there.frame)));
+  const sessions::PoseFile pose = sessions::readPose(file, {there, {}});
+  std::cout << sessions::poseText(pose.camera_from_station, Matrix6d::Zero());
+  const std::string projected = sessions::projectionNote(pose.rotation_deviation);
+  if (!projected.empty()) flag(projected);
+}
+
+void describePoseFile(const path& file, const sessions::JsonReader& root) {
+  if (root.has("reference_from_station") && !root.has("camera_from_station"))
+    describeReferencePose(file, root);
+  else
+    describePose(sessions::readPose(file));
+}
+
+void describeTransform(const sessions::FrameTransform& transform) {
+  line("from " + frameText(transform.source) + " to " + frameText(transform.target) + ": " +
+       transform.comment);
+  std::cout << sessions::poseText(transform.target_from_source, Matrix6d::Zero());
+}
+
+void describeRecord(const sessions::OnboardRecord& record) {
+  line("onboard record, " + std::to_string(record.iterations.size()) + " iterations" +
+       (record.inputs ? ", image " + sizeText(record.inputs->width, record.inputs->height) + " px"
+                      : ""));
+  if (record.end)
+    line(std::string(localizationStatusText(record.end->status)) + ", digest " +
+         record.end->digest);
+  for (const std::string& text : record.missing) flag("missing: " + text);
 }
 
 std::string symmetryText(const sessions::Symmetries& symmetries) {
@@ -179,12 +216,15 @@ void describeSession(const path& file) {
 }
 
 void describeJson(const path& file) {
-  const std::string format = sessions::JsonDocument(file).root().at("format").nonEmptyText();
+  const sessions::JsonDocument document(file);
+  const std::string format = document.root().at("format").nonEmptyText();
   line(format);
   if (format == "boresight-camera") {
     describeCamera(sessions::readCameraFile(file));
   } else if (format == "boresight-pose") {
-    describePose(sessions::readPose(file));
+    describePoseFile(file, document.root());
+  } else if (format == "boresight-transform") {
+    describeTransform(sessions::readFrameTransform(file));
   } else if (format == "boresight-dataset") {
     describeDataset(sessions::readDataset(file));
   } else if (format == "boresight-points") {
@@ -291,10 +331,13 @@ void describe(const path& file, const std::string& mesh_unit, const DatasetArgum
     describeMesh(file, mesh_unit);
   } else if (is({".png", ".jpg", ".jpeg", ".tif", ".tiff"}) || sessions::hasImageLabel(file)) {
     describeImage(file);
+  } else if (is({".whsr"})) {
+    describeRecord(sessions::readRecord(file));
   } else if (beginsLikeTrace(file)) {
     describeTrace(file);
   } else {
-    throw sessions::InputError(file, "neither an image, a mesh, a JSON file, nor a trace");
+    throw sessions::InputError(file,
+                               "neither an image, a mesh, a JSON file, a record, nor a trace");
   }
 }
 
@@ -323,9 +366,10 @@ void addInfo(CLI::App& app, int& exit_code) {
   auto files = std::make_shared<std::vector<std::string>>();
   auto unit = std::make_shared<std::string>();
   command
-      ->add_option("files", *files,
-                   "Images, cameras, meshes, poses, datasets, sessions, configs, points, traces; "
-                   "folders of BOP datasets")
+      ->add_option(
+          "files", *files,
+          "Images, cameras, meshes, poses, transforms, datasets, sessions, configs, points, "
+          "traces, onboard records; folders of BOP datasets")
       ->required()
       ->type_name("FILE");
   command->add_option("--mesh-unit", *unit, "Unit of meshes that state none")->type_name("UNIT");

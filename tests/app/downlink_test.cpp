@@ -204,6 +204,26 @@ TEST_F(Downlink, IsLocalizedByItsOwnLabel) {
   expectNear(poseOf(result["camera_from_station"]), truth_);
 }
 
+TEST_F(Downlink, IsDescribedWithAllThatBelongsToIt) {
+  const std::string rover = writeSeed("rover.json", ExampleCase("os").seed, kRover);
+  const std::string record = (folder_ / "run.whsr").string();
+  EXPECT_EQ(runWhs(localizeArguments({{"--image", image_.string()},
+                                      {"--camera", ""},
+                                      {"--seed", rover},
+                                      {"--record", record}}))
+                .exit_code,
+            0);
+  const ProgramRun run = runWhs({"info", image_.string(), seed_, transform_.string(), record});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("PRODUCT_ID: 1F483288473"));
+  EXPECT_THAT(run.out, HasSubstr("vectors in ROVER_FRAME (194, 835, 1)"));
+  EXPECT_THAT(run.out, HasSubstr("reference_from_station in SITE_FRAME (194)"));
+  EXPECT_THAT(run.out, HasSubstr("from ROVER_FRAME (194, 835, 1) to SITE_FRAME (194): by hand"));
+  EXPECT_THAT(run.out, HasSubstr("image 1024 x 1024 px"));
+  EXPECT_THAT(run.out, HasSubstr("converged, digest "));
+  EXPECT_THAT(run.out, Not(HasSubstr("missing: ")));
+}
+
 TEST_F(Downlink, OfADataSetIsEvaluated) {
   json dataset = json::parse(
       std::string(R"({"format": "boresight-dataset", "version": 1, "stations": {}, "cases": []})"));
