@@ -93,6 +93,38 @@ std::vector<std::string> pds4Names(std::string_view label) {
   return names;
 }
 
+bool isDigit(std::uint8_t c) { return c >= '0' && c <= '9'; }
+
+/// 1.5D-03 as 1.5E-03, outside of texts: the exponents of FORTRAN, which GDAL leaves out.
+void writeExponents(std::span<std::uint8_t> label, char quote) {
+  bool in_text = false;
+  bool in_number = false;
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    const std::uint8_t c = label[i];
+    if (c == static_cast<std::uint8_t>(quote)) in_text = !in_text;
+    const bool ends = i + 1 < label.size() &&
+                      (isDigit(label[i + 1]) || ((label[i + 1] == '-' || label[i + 1] == '+') &&
+                                                 i + 2 < label.size() && isDigit(label[i + 2])));
+    if (in_number && !in_text && ends && (c == 'D' || c == 'd')) label[i] = 'E';
+    // A number begins after a blank, '=', '(' or ','; letters end it.
+    const bool before =
+        i == 0 || std::string_view(" \t\r\n=(,+-").find(static_cast<char>(label[i - 1])) !=
+                      std::string_view::npos;
+    in_number = (isDigit(c) && (in_number || before)) || (c == '.' && (in_number || before));
+  }
+}
+
+void prepareLabel(LabelFormat format, std::vector<std::uint8_t>& bytes) {
+  if (format == LabelFormat::kPds4) return;
+  std::size_t size = pds3Text(bytes).size();
+  if (format == LabelFormat::kVicar) {
+    const auto stated = vicarInteger(asText(bytes).substr(0, 64), "LBLSIZE").value_or(0);
+    size = static_cast<std::size_t>(
+        std::clamp<std::int64_t>(stated, 0, static_cast<std::int64_t>(bytes.size())));
+  }
+  writeExponents(std::span(bytes).first(size), format == LabelFormat::kVicar ? '\'' : '"');
+}
+
 void requireBeside(const fs::path& label_file, const std::string& name) {
   const bool plain = !name.empty() && name != "." && name != ".." && name.size() <= 255 &&
                      std::all_of(name.begin(), name.end(), [](char c) {
@@ -226,12 +258,6 @@ void requireVicarSizes(const LabelFiles& files) {
     throw InputError(files.file, "NBB", "a prefix of every pixel (ORG='BIP') is not read");
 }
 
-std::string LabelFiles::sha256() const {
-  Sha256 sha;
-  for (const LabelPart& part : parts) sha.update(part.bytes);
-  return hexText(sha.digest()).data();
-}
-
 std::optional<fs::path> labelFileOf(const fs::path& file) {
   const auto begin = beginningOf(file, 4 * kBeginning);
   if (labelFormatOf(begin)) return file;
@@ -280,6 +306,10 @@ LabelFiles readLabelFiles(const fs::path& label_file, std::vector<std::uint8_t> 
     files.parts.push_back({name, readFileBytes(part, left)});
     left -= files.parts.back().bytes.size();
   }
+  Sha256 sha;
+  for (const LabelPart& part : files.parts) sha.update(part.bytes);
+  files.sha256 = hexText(sha.digest()).data();
+  prepareLabel(files.format, files.parts.front().bytes);
   return files;
 }
 

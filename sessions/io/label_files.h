@@ -31,10 +31,10 @@ struct LabelPart {
 struct LabelFiles {
   std::filesystem::path file;  ///< the label
   LabelFormat format = LabelFormat::kVicar;
-  std::vector<LabelPart> parts;  ///< the label first
+  std::vector<LabelPart> parts;  ///< the label first; its numbers' exponents D are written E
+  std::string sha256;            ///< of all parts as they were, one after the other
 
   std::span<const std::uint8_t> labelBytes() const { return parts.front().bytes; }
-  std::string sha256() const;  ///< of all parts one after the other
 };
 
 inline constexpr int kMostLabelBands = 64;

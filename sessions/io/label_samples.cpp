@@ -156,7 +156,7 @@ LabelSamples readLabelSamples(const LabelFiles& files) {
   }
   samples.rule = ruleOf(samples, range, raster.type());
   samples.label = std::make_shared<const ImageLabel>(reading.label);
-  samples.sha256 = files.sha256();
+  samples.sha256 = files.sha256;
   readValues(raster, valid, Quantizer(range, samples.quantized), samples.values);
   return samples;
 }

@@ -38,7 +38,7 @@ core=$(echo "$folder"/libboresight-core-dev_*.deb)
 dpkg-deb -c "$core" | grep /cmake/Boresight/BoresightConfig.cmake >/dev/null ||
   fail "the core's package has no BoresightConfig.cmake"
 dpkg-deb -f "$core" Depends | grep libeigen3-dev >/dev/null || fail "the core's package needs no Eigen"
-for library in libvtk9 libqt5widgets5 libopencv-core libassimp libsqlite3-0; do
+for library in libvtk9 libqt5widgets5 libopencv-core libassimp libgdal libsqlite3-0; do
   dpkg-deb -f "$programs" Depends | grep "$library" >/dev/null || fail "the package does not need $library"
 done
 dpkg-deb -x "$programs" "$folder/files"

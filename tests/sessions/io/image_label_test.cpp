@@ -176,6 +176,30 @@ TEST(ImageLabel, UnitsBlanksAndWordsForNothingAreUnderstood) {
   EXPECT_THAT(labelOf(folder, pds).camera_remark, HasSubstr("the unit 'MM'"));
 }
 
+TEST(ImageLabel, ExponentsOfFortranAreExponents) {
+  const TemporaryFolder folder;
+  GroupItems items = cameraItems(exampleModel(CameraModel::kCahv, 60, 31, 24));
+  for (auto& [key, value] : items)
+    if (key == "MODEL_COMPONENT_1") value = "(1.5D-03,-2.5d1,3.D+2)";
+  items.emplace_back("SOLUTION_ID", "\"1.5D-03\"");
+  Pds3File pds;
+  pds.items = "PRODUCT_ID = 1F483D5\r\n" + pds3Group("GEOMETRIC_CAMERA_MODEL", items);
+  VicarFile vicar;
+  vicar.items = vicarProperty("GEOMETRIC_CAMERA_MODEL", items);
+  for (const auto& file :
+       {folder.write("a.img", pds.bytes(plain())), folder.write("a.vic", vicar.bytes(plain()))}) {
+    const ImageLabel label = readImageLabel(file);
+    ASSERT_TRUE(label.camera) << label.camera_remark;
+    const Eigen::Vector3d centre_m =
+        label.camera->reference->camera_from_reference.inverse().translation_m;
+    EXPECT_LT((centre_m - Eigen::Vector3d(0.0015, -25.0, 300.0)).norm(), 1e-9);
+    EXPECT_THAT(label.camera_items, Contains(LabelItem{"SOLUTION_ID", "1.5D-03"}));
+    if (label.format == "PDS3") {
+      EXPECT_THAT(label.identifiers, Contains(LabelItem{"PRODUCT_ID", "1F483D5"}));
+    }
+  }
+}
+
 std::string remarkFor(const TemporaryFolder& folder, const CahvModel& cahv,
                       const std::string& image_items = "", const std::string& items = "",
                       int width = 64, int height = 48) {
