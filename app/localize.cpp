@@ -9,7 +9,6 @@
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/image_file.h"
-#include "sessions/io/image_label.h"
 #include "sessions/report/overlay.h"
 #include "sessions/report/result_file.h"
 #include "sessions/report/run_text.h"
@@ -69,8 +68,7 @@ sessions::RunProvenance provenance(const LocalizeArguments& arguments, const Inp
   made.scene = &inputs.scene;
   made.ignore = inputs.ignore_mask ? &*inputs.ignore_mask : nullptr;
   made.camera_file = arguments.cameraFile();
-  if (sessions::hasImageLabel(arguments.image))
-    made.image_label = sessions::readImageLabel(arguments.image).identifiers;
+  if (inputs.image.label) made.image_label = inputs.image.label->identifiers;
   made.station_frame = inputs.seed.station_frame;
   made.seed_file = arguments.seed;
   made.truth_file = arguments.truth;

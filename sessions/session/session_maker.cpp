@@ -25,7 +25,7 @@ ImageInput imageInput(const fs::path& file, const ImageReadOptions& eight_bit) {
   input.height = image.height;
   input.eight_bit = eight_bit;
   input.pixels_sha256 = image.pixels_sha256;
-  if (hasImageLabel(file)) input.label = readImageLabel(file).identifiers;
+  if (image.label) input.label = image.label->identifiers;
   return input;
 }
 
