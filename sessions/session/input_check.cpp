@@ -163,7 +163,7 @@ class Search {
 }  // namespace
 
 std::string inputSha256(const fs::path& file) {
-  if (const auto label = labelFileOf(file)) return readLabelFiles(*label).sha256();
+  if (const auto label = labelFileOf(file)) return readLabelFiles(*label).sha256;
   return sha256Text(readFileBytes(file, kMaxInputBytes));
 }
 

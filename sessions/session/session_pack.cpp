@@ -63,7 +63,7 @@ class Packer {
     const auto label = labelFileOf(image.file);
     if (!label) return pack(image.file, image.sha256);
     const LabelFiles files = readLabelFiles(*label);
-    requireSame(image.file, files.sha256(), image.sha256);
+    requireSame(image.file, files.sha256, image.sha256);
     const std::string folder = inputFolder(image.sha256);
     for (const LabelPart& part : files.parts) {
       const bool own = &part == &files.parts.front();
