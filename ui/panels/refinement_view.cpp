@@ -56,7 +56,8 @@ void RefinementView::fillRow(int row, const QString& name, const sessions::Sampl
                              countText(counts.used, counts.usedShare())};
   for (int column = 0; column < kColumns; ++column) {
     auto* item = new QTableWidgetItem(texts[column]);
-    item->setTextAlignment((column > 0 ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+    const Qt::Alignment side = column > 0 ? Qt::AlignRight : Qt::AlignLeft;
+    item->setData(Qt::TextAlignmentRole, static_cast<int>(side | Qt::AlignVCenter));
     table_->setItem(row, column, item);
   }
 }

@@ -243,7 +243,6 @@ TEST(EdgeRenderer, BadInputIsAStatus) {
 /// Poses from which nothing, or nothing sensible, is seen.
 TEST(EdgeRenderer, AbsurdPosesRenderNothingOrSomethingFinite) {
   Bench bench;
-  const RenderOptions options;
   for (const Eigen::Vector3d& translation :
        {Eigen::Vector3d(0, 0, -5), Eigen::Vector3d(100, 0, 1), Eigen::Vector3d(1e200, 1e200, 1e200),
         Eigen::Vector3d(1e300, -1e300, 1), Eigen::Vector3d(0, 0, 1e9), Eigen::Vector3d(0, 0, 0)}) {
