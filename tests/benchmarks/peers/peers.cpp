@@ -49,7 +49,8 @@ std::map<std::string, double> assigned(const std::vector<std::string>& assignmen
 
 void requireSettings(const std::map<std::string, double>& values,
                      const std::vector<std::unique_ptr<Peer>>& peers) {
-  for (const auto& [name, unused] : values) {
+  for (const auto& value : values) {
+    const std::string& name = value.first;  // a lambda cannot take a structured binding along
     const bool known = std::any_of(peers.begin(), peers.end(), [&](const auto& peer) {
       const auto& all = peer->settings().all();
       return std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });

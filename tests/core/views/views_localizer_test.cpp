@@ -71,7 +71,7 @@ std::vector<LocalizerOptions> profiles() {
 TEST(ViewsLocalizer, OneViewAloneHasTheBitsOfThePlainLocalizer) {
   for (int i = 0; i < static_cast<int>(profiles().size()); ++i) {
     const LocalizerOptions options = profiles()[static_cast<std::size_t>(i)];
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
       SCOPED_TRACE(testing::Message() << "options " << i << ", seed " << seed);
       const Case scene = stationCase(seed, seed == 2);
       OwnedRun plain(scene.problem(), options);
@@ -105,7 +105,7 @@ TEST(ViewsLocalizer, TheSameViewTwiceGivesThePoseWithHalfTheCovariance) {
 }
 
 TEST(ViewsLocalizer, TwoCamerasConvergeOnTheTruthAndBothTakePart) {
-  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
     const Case scene = stationCase(seed);
     ViewsRun run(scene, {viewOf(scene), secondView(scene)}, defaultProfile());
     const ViewsResult& result = run.finish();

@@ -59,7 +59,7 @@ TEST_F(SessionOfResults, ListsTheMostTroubledFirstAndSoDoesTheQueue) {
   write();
   const Session session = sessionOfResults(file_);
   std::vector<std::string> expected;
-  for (const std::size_t i : {0, 3, 2, 1}) expected.push_back(resultCaseId(runs_[i]));
+  for (const std::size_t i : {0U, 3U, 2U, 1U}) expected.push_back(resultCaseId(runs_[i]));
   std::vector<std::string> listed;
   for (const auto& one : session.cases) listed.push_back(one->id);
   EXPECT_EQ(listed, expected);
