@@ -52,8 +52,8 @@ installOptionalPackages() {
     echo "going on without; the tests that need these packages will be skipped" >&2
 }
 
-# configureAndBuild PRESET [TARGET]: configures once, builds what has changed.
+# configureAndBuild PRESET [TARGET]: configures once, builds what has changed of the preset's targets.
 configureAndBuild() {
   cmake --preset "$1" --log-level=WARNING
-  cmake --build --preset "$1" --target "${2:-all}" --parallel "$(nproc)"
+  cmake --build --preset "$1" ${2:+--target "$2"} --parallel "$(nproc)"
 }

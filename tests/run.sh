@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs what is missing, builds, and runs every test; with --all also under the sanitizers and
+# Installs what is missing, builds, and runs every test; with --all also under the sanitizers, and
 # with the Debian package in a new Debian, and with BORESIGHT_DATA set also on images of full size.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -9,7 +9,7 @@ source app/packages.sh
 case "${1:-}" in
   "") presets=(release) ;;
   --all)
-    presets=(release asan)
+    presets=(release asan tsan)
     export BORESIGHT_ALL=1  # also cases of full size, where there is data
     boresight_optional_packages+=(blender)  # renders what resources/synthetic makes
     boresight_optional_packages+=(slurm-wlm munge)  # a cluster of one machine, for resources/slurm
