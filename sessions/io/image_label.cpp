@@ -12,7 +12,7 @@ bool hasImageLabel(const std::filesystem::path& file) { return labelFileOf(file)
 ImageLabel readImageLabel(const std::filesystem::path& file) {
   const LabelFiles files = readLabelFiles(labelFileOf(file).value_or(file));
   const LabelRaster raster(files);
-  return readLabelTree(files.format, raster.label(), raster.vicarLabel(), pictureOf(raster)).label;
+  return readLabel(files, raster).label;
 }
 
 CameraFile readLabelCamera(const std::filesystem::path& file) {

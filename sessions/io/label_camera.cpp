@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sessions/io/label_frame_names.h"
 #include "sessions/io/label_groups.h"
 #include "sessions/io/label_values.h"
 
@@ -16,6 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int kMostComponents = 9;
+const std::string kNone = "the label's camera model is NONE";
 
 /// What a component of the model is called.
 struct Component {
@@ -160,34 +162,20 @@ std::vector<LabelItem> itemsOf(const json& group) {
   return items;
 }
 
-FrameName frameOf(const json& group, std::string_view name, std::string_view index) {
-  FrameName frame;
-  frame.name = labelText(labelMember(&group, name)).value_or("");
-  for (const double one : labelNumbers(labelMember(&group, index)))
-    if (one == std::floor(one) && std::abs(one) < 9e15)
-      frame.index.push_back(static_cast<std::int64_t>(one));
-  return frame;
-}
-
-StatedCamera groupCamera(LabelFormat format, const json& label) {
+StatedCamera groupCamera(const json& group) {
   StatedCamera stated;
-  const json* group = labelGroup(
-      format, label, {"GEOMETRIC_CAMERA_MODEL", "GEOMETRIC_CAMERA_MODEL_PARMS", "CAMERA_MODEL"});
-  if (group == nullptr) {
-    stated.remark = "the label has no camera model";
-    return stated;
-  }
-  stated.items = itemsOf(*group);
-  stated.frame = frameOf(*group, "REFERENCE_COORD_SYSTEM_NAME", "REFERENCE_COORD_SYSTEM_INDEX");
-  const std::string type = labelText(labelMember(group, "MODEL_TYPE")).value_or("NONE");
+  stated.items = itemsOf(group);
+  stated.frame = groupFrame(group, "REFERENCE_COORD_SYSTEM_NAME", "REFERENCE_COORD_SYSTEM_INDEX",
+                            stated.frame_flag);
+  const std::string type = labelText(labelMember(&group, "MODEL_TYPE")).value_or("NONE");
   const auto model = modelOf(type);
   if (!model) {
-    stated.remark = type == "NONE" ? "the label's camera model is NONE"
+    stated.remark = type == "NONE" ? kNone
                                    : "the label's camera model, '" + type +
                                          "', is not one of CAHV, CAHVOR and CAHVORE";
     return stated;
   }
-  const Components components = componentsOf(*group);
+  const Components components = componentsOf(group);
   stated.remark = components.remark.empty() ? unitRemark(components) : components.remark;
   if (!stated.remark.empty()) return stated;
   CahvModel cahv;
@@ -200,6 +188,15 @@ StatedCamera groupCamera(LabelFormat format, const json& label) {
                 cahv, stated.remark))
     stated.cahv = cahv;
   return stated;
+}
+
+std::vector<StatedCamera> groupCameras(LabelFormat format, const json& label) {
+  std::vector<StatedCamera> cameras;
+  for (const auto& [name, group] : labelGroups(format, label))
+    if (name == "GEOMETRIC_CAMERA_MODEL" || name == "GEOMETRIC_CAMERA_MODEL_PARMS" ||
+        name == "CAMERA_MODEL")
+      cameras.push_back(groupCamera(*group));
+  return cameras;
 }
 
 // PDS4: the classes of the geometry dictionary.
@@ -247,73 +244,117 @@ std::optional<Eigen::Vector3d> elementVector(const json* element) {
   return std::nullopt;
 }
 
-bool hasOtherUnit(const json& model) {
-  for (const char* name : {"x_position", "y_position", "z_position"}) {
-    const std::string unit = labelUnit(labelPath(&model, {"Vector_Center", name}));
-    if (!unit.empty() && unit != "M") return true;
+/// Metres for the centre, pixels for H and V, where a unit is stated.
+std::string elementUnitRemark(const json& model) {
+  const auto other = [&model](const char* element, std::initializer_list<const char*> names,
+                              std::initializer_list<const char*> known) {
+    for (const char* name : names) {
+      const std::string unit = labelUnit(labelPath(&model, {element, name}));
+      if (!unit.empty() && !isOneOf(unit, known)) return unit;
+    }
+    return std::string();
+  };
+  const std::string centre =
+      other("Vector_Center", {"x_position", "y_position", "z_position"}, {"M"});
+  if (!centre.empty())
+    return "the centre of the label's camera model is in " + centre + ", not in m";
+  for (const char* element : {"Vector_Horizontal", "Vector_Vertical"}) {
+    const std::string unit =
+        other(element, {"x_pixel", "y_pixel", "z_pixel"}, {"PIXEL", "PIXELS", "PX"});
+    if (!unit.empty())
+      return std::string("the element ") + element + " of the label's camera model is in " + unit +
+             ", not in pixels";
   }
-  return false;
+  return "";
 }
 
-StatedCamera elementCamera(const json& label) {
-  StatedCamera stated;
-  const auto parameters = elementsNamed(label, "Camera_Model_Parameters");
-  if (parameters.empty()) {
-    stated.remark = "the label has no camera model";
-    return stated;
-  }
-  const json& found = *parameters.front();
-  for (const char* key : {"calibration_source_id", "model_desc", "solution_id"})
-    if (const auto text = labelText(labelMember(&found, key))) stated.items.push_back({key, *text});
-  if (const json* space =
-          labelPath(&found, {"Coordinate_Space_Reference", "Coordinate_Space_Indexed"}))
-    stated.frame = indexedFrame(*space);
+/// The element of the model, of the type that is stated where one is.
+const json* modelElement(const json& parameters, CameraModel& model) {
   constexpr std::pair<const char*, CameraModel> kModels[] = {
       {"CAHVORE_Model", CameraModel::kCahvore},
       {"CAHVOR_Model", CameraModel::kCahvor},
       {"CAHV_Model", CameraModel::kCahv}};
-  const auto stated_type = labelText(labelMember(&found, "model_type"));
-  for (const auto& [name, model] : kModels) {
-    const json* element = labelMember(&found, name);
+  const auto stated_type = labelText(labelMember(&parameters, "model_type"));
+  for (const auto& [name, one] : kModels) {
+    const json* element = labelMember(&parameters, name);
     if (element == nullptr || element->is_array()) continue;
-    if (stated_type && modelOf(*stated_type) && *modelOf(*stated_type) != model) continue;
-    if (hasOtherUnit(*element)) {
-      stated.remark = "the centre of the label's camera model is not in metres";
-      return stated;
-    }
-    CahvModel cahv;
-    cahv.model = model;
-    if (fillModel([&](char c) { return elementVector(labelMember(element, elementOf(c))); },
-                  [&](char c) { return labelNumber(labelMember(element, elementOf(c))); }, cahv,
-                  stated.remark))
-      stated.cahv = cahv;
+    if (stated_type && modelOf(*stated_type) && *modelOf(*stated_type) != one) continue;
+    model = one;
+    return element;
+  }
+  return nullptr;
+}
+
+StatedCamera elementCamera(const json& parameters) {
+  StatedCamera stated;
+  for (const char* key : {"calibration_source_id", "model_desc", "solution_id"})
+    if (const auto text = labelText(labelMember(&parameters, key)))
+      stated.items.push_back({key, *text});
+  if (const json* space =
+          labelPath(&parameters, {"Coordinate_Space_Reference", "Coordinate_Space_Indexed"}))
+    stated.frame = indexedFrame(*space, stated.frame_flag);
+  CahvModel cahv;
+  const json* element = modelElement(parameters, cahv.model);
+  if (element == nullptr) {
+    const auto type = labelText(labelMember(&parameters, "model_type"));
+    stated.remark = type == "NONE"
+                        ? kNone
+                        : "the label's camera model" + (type ? ", '" + *type + "'," : "") +
+                              " is not one of CAHV, CAHVOR and CAHVORE";
     return stated;
   }
-  stated.remark = "the label's camera model" + (stated_type ? ", '" + *stated_type + "'," : "") +
-                  " is not one of CAHV, CAHVOR and CAHVORE";
+  stated.remark = elementUnitRemark(*element);
+  if (!stated.remark.empty()) return stated;
+  if (fillModel([&](char c) { return elementVector(labelMember(element, elementOf(c))); },
+                [&](char c) { return labelNumber(labelMember(element, elementOf(c))); }, cahv,
+                stated.remark))
+    stated.cahv = cahv;
   return stated;
+}
+
+/// Of several models that agree the first; models that differ are none.
+StatedCamera onlyCamera(const std::vector<StatedCamera>& cameras) {
+  const StatedCamera* chosen = nullptr;
+  for (const StatedCamera& one : cameras) {
+    if (!one.cahv) continue;
+    if (chosen != nullptr && !sameModel(*chosen, one)) {
+      StatedCamera none;
+      none.remark =
+          "the label states several camera models that differ; give a camera file with "
+          "that of the image";
+      return none;
+    }
+    if (chosen == nullptr) chosen = &one;
+  }
+  if (chosen != nullptr) return *chosen;
+  for (const StatedCamera& one : cameras)
+    if (one.remark != kNone) return one;
+  if (!cameras.empty()) return cameras.front();
+  StatedCamera none;
+  none.remark = "the label has no camera model";
+  return none;
 }
 
 }  // namespace
 
-FrameName indexedFrame(const json& space) {
-  FrameName frame;
-  frame.name = labelText(labelMember(&space, "coordinate_space_frame_type")).value_or("");
-  const json* indices = labelMember(&space, "Coordinate_Space_Index");
-  const auto add = [&frame](const json& index) {
-    const auto number = labelInteger(
-        labelMember(&index, {"index_value_number", "index_value_string", "index_value"}));
-    if (number) frame.index.push_back(*number);
+bool sameModel(const StatedCamera& a, const StatedCamera& b) {
+  if (!a.cahv || !b.cahv || a.cahv->model != b.cahv->model || !(a.frame == b.frame)) return false;
+  const auto near = [](const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
+    return (u - v).norm() <= 2e-6 * std::max(1.0, u.norm());
   };
-  if (indices != nullptr && indices->is_array())
-    for (const json& index : *indices) add(index);
-  else if (indices != nullptr)
-    add(*indices);
-  return frame;
+  return near(a.cahv->c_m, b.cahv->c_m) && near(a.cahv->a, b.cahv->a) &&
+         near(a.cahv->h_px, b.cahv->h_px) && near(a.cahv->v_px, b.cahv->v_px) &&
+         near(a.cahv->o, b.cahv->o) && near(a.cahv->r, b.cahv->r) &&
+         near(a.cahv->e_m, b.cahv->e_m) && a.cahv->type == b.cahv->type &&
+         std::abs(a.cahv->parameter - b.cahv->parameter) <= 2e-6;
 }
 
 StatedCamera statedCamera(LabelFormat format, const json& label) {
-  return format == LabelFormat::kPds4 ? elementCamera(label) : groupCamera(format, label);
+  if (format != LabelFormat::kPds4) return onlyCamera(groupCameras(format, label));
+  std::vector<StatedCamera> cameras;
+  for (const json* parameters : elementsNamed(label, "Camera_Model_Parameters"))
+    cameras.push_back(elementCamera(*parameters));
+  return onlyCamera(cameras);
 }
 
 }  // namespace boresight::sessions

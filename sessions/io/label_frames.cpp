@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/label_camera.h"
+#include "sessions/io/label_frame_names.h"
 #include "sessions/io/label_groups.h"
 #include "sessions/io/label_values.h"
 
@@ -19,13 +19,16 @@ constexpr double kMostQuaternionError = 1e-3;
 constexpr double kLargest_m = 1e9;
 constexpr std::size_t kMostFrames = 200;
 
-FrameName namedFrame(const json& group, const char* name, const char* index) {
-  FrameName frame;
-  frame.name = labelText(labelMember(&group, name)).value_or("");
-  for (const double one : labelNumbers(labelMember(&group, index)))
-    if (one == std::floor(one) && std::abs(one) < 9e15)
-      frame.index.push_back(static_cast<std::int64_t>(one));
-  return frame;
+/// The unit of an offset where it is stated: of one in mm no place is read.
+std::optional<Eigen::Vector3d> offsetIn_m(const json* value) {
+  const std::string unit = labelUnit(value);
+  if (!unit.empty() && unit != "M" && unit != "METER" && unit != "METERS") return std::nullopt;
+  return labelVector(value);
+}
+
+/// A flag of a frame's name, if there is one.
+void addFlag(const std::string& flag, std::vector<std::string>& flags) {
+  if (!flag.empty()) flags.push_back(flag);
 }
 
 std::optional<Pose> poseOf(const std::optional<Eigen::Vector3d>& offset_m,
@@ -54,9 +57,16 @@ void groupFrames(LabelFormat format, const json& label, std::vector<LabelFrame>&
     if (labelMember(group, "ORIGIN_OFFSET_VECTOR") == nullptr &&
         labelMember(group, "ORIGIN_ROTATION_QUATERNION") == nullptr)
       continue;
-    add(namedFrame(*group, "COORDINATE_SYSTEM_NAME", "COORDINATE_SYSTEM_INDEX"),
-        namedFrame(*group, "REFERENCE_COORD_SYSTEM_NAME", "REFERENCE_COORD_SYSTEM_INDEX"),
-        poseOf(labelVector(labelMember(group, "ORIGIN_OFFSET_VECTOR")),
+    std::string flag;
+    const FrameName frame =
+        groupFrame(*group, "COORDINATE_SYSTEM_NAME", "COORDINATE_SYSTEM_INDEX", flag);
+    addFlag(flag, flags);
+    std::string reference_flag;
+    const FrameName reference = groupFrame(*group, "REFERENCE_COORD_SYSTEM_NAME",
+                                           "REFERENCE_COORD_SYSTEM_INDEX", reference_flag);
+    addFlag(reference_flag, flags);
+    add(frame, reference,
+        poseOf(offsetIn_m(labelMember(group, "ORIGIN_OFFSET_VECTOR")),
                labelNumbers(labelMember(group, "ORIGIN_ROTATION_QUATERNION"))),
         frames, flags);
   }
@@ -83,10 +93,11 @@ std::optional<Eigen::Vector3d> elementOffset(const json* element) {
 }
 
 /// The reference is named whole, or by the identifier of another definition.
-FrameName elementReference(const json& definition, const std::vector<const json*>& all) {
+FrameName elementReference(const json& definition, const std::vector<const json*>& all,
+                           std::string& flag) {
   const json* reference = labelMember(&definition, "Coordinate_Space_Reference");
   if (const json* space = labelMember(reference, "Coordinate_Space_Indexed"))
-    return indexedFrame(*space);
+    return indexedFrame(*space, flag);
   const auto id =
       labelText(labelPath(reference, {"Local_Internal_Reference", "local_identifier_reference"}));
   if (!id) return {};
@@ -95,7 +106,7 @@ FrameName elementReference(const json& definition, const std::vector<const json*
       if (known == *id)
         if (const json* space =
                 labelPath(other, {"Coordinate_Space_Present", "Coordinate_Space_Indexed"}))
-          return indexedFrame(*space);
+          return indexedFrame(*space, flag);
   return {*id, {}};
 }
 
@@ -114,7 +125,13 @@ void elementFrames(const json& label, std::vector<LabelFrame>& frames,
     const auto direction = labelText(labelMember(quaternion, "rotation_direction"));
     if (pose && direction && upperCase(*direction) != "FORWARD")
       pose->rotation = pose->rotation.conjugate();
-    add(indexedFrame(*present), elementReference(*definition, definitions), pose, frames, flags);
+    std::string flag;
+    const FrameName frame = indexedFrame(*present, flag);
+    addFlag(flag, flags);
+    std::string reference_flag;
+    const FrameName reference = elementReference(*definition, definitions, reference_flag);
+    addFlag(reference_flag, flags);
+    add(frame, reference, pose, frames, flags);
   }
 }
 

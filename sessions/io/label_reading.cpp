@@ -14,6 +14,7 @@
 #include "sessions/io/label_frames.h"
 #include "sessions/io/label_groups.h"
 #include "sessions/io/label_raster.h"
+#include "sessions/io/label_repeats.h"
 #include "sessions/io/label_values.h"
 
 namespace boresight::sessions {
@@ -86,26 +87,6 @@ std::vector<LabelItem> identifiersOf(const Source& source) {
                           "SEQUENCE_ID", "TARGET_NAME", "GEOMETRY_PROJECTION_TYPE"})
     addItem(items, key, source.identification(key));
   return items;
-}
-
-/// Labels of these missions state the model of the image as it was cut and averaged: their own
-/// programs read it without an offset (planetary.md names the evidence).
-bool statesModelOfSubframe(const std::vector<LabelItem>& identifiers) {
-  constexpr const char* kNames[] = {"MARS EXPLORATION ROVER",
-                                    "MARS SCIENCE LABORATORY",
-                                    "MARS 2020",
-                                    "MARS2020",
-                                    "PERSEVERANCE",
-                                    "CURIOSITY"};
-  constexpr const char* kHosts[] = {"MER1", "MER2", "MSL", "M20", "M2020", "PHX"};
-  for (const LabelItem& item : identifiers) {
-    const std::string text = upperCase(item.value);
-    for (const char* name : kNames)
-      if (text.find(name) != std::string::npos) return true;
-    for (const char* host : kHosts)
-      if (item.name == "INSTRUMENT_HOST_ID" && text == host) return true;
-  }
-  return false;
 }
 
 std::optional<LabelSubframe> subframeOf(const Source& source) {
@@ -253,18 +234,6 @@ std::string derivedType(const Source& source) {
   return name == "NONE" || name == "IMAGE" || name == "IMAGE MAP" ? "" : name;
 }
 
-bool sameModel(const StatedCamera& a, const StatedCamera& b) {
-  if (!a.cahv || !b.cahv || a.cahv->model != b.cahv->model || !(a.frame == b.frame)) return false;
-  const auto near = [](const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
-    return (u - v).norm() <= 2e-6 * std::max(1.0, u.norm());
-  };
-  return near(a.cahv->c_m, b.cahv->c_m) && near(a.cahv->a, b.cahv->a) &&
-         near(a.cahv->h_px, b.cahv->h_px) && near(a.cahv->v_px, b.cahv->v_px) &&
-         near(a.cahv->o, b.cahv->o) && near(a.cahv->r, b.cahv->r) &&
-         near(a.cahv->e_m, b.cahv->e_m) && a.cahv->type == b.cahv->type &&
-         std::abs(a.cahv->parameter - b.cahv->parameter) <= 2e-6;
-}
-
 /// Of two labels in one file the PDS3 label counts; the other where only it has a model.
 StatedCamera chosenCamera(const Source& source, const json& vicar_label,
                           std::vector<std::string>& flags) {
@@ -289,9 +258,10 @@ void readCamera(const Source& source, const json& vicar_label, ImageLabel& label
   const StatedCamera stated = chosenCamera(source, vicar_label, label.flags);
   label.camera_items = stated.items;
   label.camera_remark = stated.remark;
+  if (!stated.frame_flag.empty()) label.flags.push_back(stated.frame_flag);
   if (!stated.cahv) return;
   label.camera_remark = cameraMisfit(*stated.cahv, label.width, label.height, label.subframe,
-                                     statesModelOfSubframe(label.identifiers));
+                                     detectorOf(label.identifiers));
   if (!label.camera_remark.empty()) return;
   CameraFile file;
   CameraReference reference;
@@ -340,6 +310,16 @@ LabelReading readLabelTree(LabelFormat format, const json& tree, const json& vic
   if (!reading.derived_type.empty())
     label.flags.push_back("the label calls this a " + reading.derived_type +
                           ", not a picture of the scene");
+  return reading;
+}
+
+LabelReading readLabel(const LabelFiles& files, const LabelRaster& raster) {
+  LabelReading reading =
+      readLabelTree(files.format, raster.label(), raster.vicarLabel(), pictureOf(raster));
+  const std::string repeated = repeatedInCameraModel(files);
+  if (repeated.empty()) return reading;
+  reading.label.camera.reset();
+  reading.label.camera_remark = repeated + ": which one holds is not known; give a camera file";
   return reading;
 }
 

@@ -36,4 +36,7 @@ struct LabelReading {
 LabelReading readLabelTree(LabelFormat format, const nlohmann::json& label,
                            const nlohmann::json& vicar_label, const LabelPicture& picture);
 
+/// The same of an opened image, whose label's text is searched for what the tree cannot show.
+LabelReading readLabel(const LabelFiles& files, const LabelRaster& raster);
+
 }  // namespace boresight::sessions

@@ -131,8 +131,7 @@ std::string ruleOf(const LabelSamples& samples, const Range& range, SampleType t
 
 LabelSamples readLabelSamples(const LabelFiles& files) {
   const LabelRaster raster(files);
-  const LabelReading reading =
-      readLabelTree(files.format, raster.label(), raster.vicarLabel(), pictureOf(raster));
+  const LabelReading reading = readLabel(files, raster);
   requirePicture(files, raster, reading);
   const Validity valid(reading.invalid, raster.type());
   const Range range = rangeOf(raster, valid);

@@ -171,7 +171,15 @@ std::optional<Eigen::Vector3d> labelVector(const json* value) {
 
 std::string labelUnit(const json* value) {
   if (value == nullptr) return "";
-  if (value->is_array()) return value->empty() ? "" : labelUnit(&value->front());
+  if (value->is_array()) {
+    // All of a list, each once: one that mixes units has none of those that are known.
+    std::vector<std::string> units;
+    for (const json& one : *value)
+      if (const std::string unit = labelUnit(&one);
+          !unit.empty() && std::find(units.begin(), units.end(), unit) == units.end())
+        units.push_back(unit);
+    return joined(units);
+  }
   if (value->is_object()) {
     const json* unit = labelMember(value, "unit");
     return unit != nullptr && unit->is_string()

@@ -36,7 +36,7 @@ std::vector<double> labelNumbers(const nlohmann::json* value);
 std::optional<std::int64_t> labelInteger(const nlohmann::json* value);
 /// Three numbers.
 std::optional<Eigen::Vector3d> labelVector(const nlohmann::json* value);
-/// The unit of a value, upper case, "" without one.
+/// The unit of a value, upper case, "" without one; all units of a list, each once.
 std::string labelUnit(const nlohmann::json* value);
 
 /// Several texts as one, separated by ", ".

@@ -135,8 +135,10 @@ Pose poseOf(const json& matrix) {
   Eigen::Matrix3d rotation;
   Pose pose;
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) rotation(row, column) = matrix[row][column];
-    pose.translation_m[row] = matrix[row][3];
+    const json& numbers = matrix[static_cast<std::size_t>(row)];
+    for (int column = 0; column < 3; ++column)
+      rotation(row, column) = numbers[static_cast<std::size_t>(column)];
+    pose.translation_m[row] = numbers[3];
   }
   pose.rotation = Eigen::Quaterniond(rotation);
   return pose;

@@ -37,8 +37,10 @@ TEST(EdgeSearch, FindsStepsToAFewHundredthsOfAPixel) {
     const double shift = random.uniform(-1.0, 1.0);
     const StepEdge edge = edgeAt(angle, shift, random.uniform(60.0, 200.0));
     const Picture picture = drawSteps(kSide, kSide, 20.0, {edge});
-    const Eigen::Vector2d predicted =
-        kCentre + Eigen::Vector2d(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5));
+    // One after the other: the same sample whichever argument a compiler evaluates first.
+    const double down = random.uniform(-1.5, 1.5);
+    const double right = random.uniform(-1.5, 1.5);
+    const Eigen::Vector2d predicted = kCentre + Eigen::Vector2d(right, down);
     const double expected = edge.distance_px - edge.normal.dot(predicted);
     const EdgePeak peak = search.find(picture.view(), nullptr, predicted, edge.normal, 5.0, 2.0);
     ASSERT_GT(peak.gradient, 0.0) << angle << " " << shift;

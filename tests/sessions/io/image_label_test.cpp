@@ -268,7 +268,7 @@ TEST(ImageLabel, CameraModelsThatDoNotFitTheImageAreLeftOut) {
 TEST(ImageLabel, SubframesModelIsTakenAndTheWholeDetectorsIsNot) {
   const TemporaryFolder folder;
   const std::string cut = " FIRST_LINE = 401\r\n FIRST_LINE_SAMPLE = 501\r\n";
-  const std::string rover = "INSTRUMENT_HOST_ID = MSL\r\n";
+  const std::string rover = "INSTRUMENT_HOST_ID = MSL\r\nINSTRUMENT_ID = NAV_LEFT_A\r\n";
   // A detector of 1024 x 1024 with its principal point in the middle.
   const CahvModel whole = exampleModel(CameraModel::kCahv, 454, 511.5, 511.5);
   const CahvModel part = exampleModel(CameraModel::kCahv, 454, 11.5, 111.5);
@@ -280,9 +280,10 @@ TEST(ImageLabel, SubframesModelIsTakenAndTheWholeDetectorsIsNot) {
   ASSERT_TRUE(label.subframe);
   EXPECT_EQ(label.subframe->first_sample, 500);
   EXPECT_EQ(label.subframe->first_line, 400);
-  EXPECT_THAT(remarkFor(folder, whole, cut, rover, 256, 128),
-              HasSubstr("is that of the whole detector, not of the sub-frame at sample 500, line "
-                        "400"));
+  EXPECT_THAT(
+      remarkFor(folder, whole, cut, rover, 256, 128),
+      HasSubstr("does not fit the sub-frame at sample 500, line 400: its principal point "
+                "would be at (1011.5, 911.5) of the detector, which has up to 1024 x 1024"));
   // Another mission's label: both readings are possible, so none is taken.
   EXPECT_THAT(remarkFor(folder, part, cut, "", 256, 128), HasSubstr("does not show whether"));
   // Far from the detector's middle the principal point is left of the cut: only one is possible.
