@@ -121,8 +121,11 @@ void readPoses(const JsonReader& json, Case& one, Dataset& dataset) {
   one.seed_camera_from_station = seed.camera_from_station;
   one.uncertainty = seed.uncertainty;
   one.station_frame = seed.station_frame;
-  if (const auto truth = json.find("truth"))
-    one.truth_camera_from_station = read(*truth).camera_from_station;
+  if (const auto given = json.find("truth")) {
+    const PoseFile truth = read(*given);
+    one.truth_camera_from_station = truth.camera_from_station;
+    one.truth_frame = truth.station_frame;
+  }
   if (const auto rig = json.find("rig"))
     one.rig =
         Rig{rig->at("id").nonEmptyText(), readNotedTransform(rig->at("camera_from_rig"), dataset)};

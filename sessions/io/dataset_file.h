@@ -61,6 +61,8 @@ struct Case {
   /// Of a seed that was given in a named frame.
   std::optional<StationFrame> station_frame = std::nullopt;
   std::optional<Pose> truth_camera_from_station;
+  /// Of a truth that was given in a named frame.
+  std::optional<StationFrame> truth_frame = std::nullopt;
   std::optional<Rig> rig;
   std::vector<std::string> tags;
   /// What holds for the case: its own, else its seed's (uncertainty), its station's or the

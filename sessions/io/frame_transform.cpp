@@ -13,6 +13,8 @@ namespace {
 
 constexpr const char* kFormat = "boresight-transform";
 constexpr int kVersion = 1;
+constexpr double kSameTranslation_m = 1e-6;
+constexpr double kSameRotation_rad = 1e-6;
 
 /// What people are told who gave none, or only some between other frames.
 std::string noWayText(const FrameName& a, const FrameName& b,
@@ -29,6 +31,22 @@ std::string noWayText(const FrameName& a, const FrameName& b,
     others += (others.empty() ? "" : ", ") + one.file.filename().string() + " leads from " +
               frameText(one.source) + " to " + frameText(one.target);
   return needed + ", and " + others;
+}
+
+/// The transform from `b` to `a` where this one or its inverse is it.
+std::optional<Pose> joinBy(const FrameTransform& transform, const FrameName& a,
+                           const FrameName& b) {
+  if (sameFrame(transform.target, a) && sameFrame(transform.source, b))
+    return transform.target_from_source;
+  if (sameFrame(transform.target, b) && sameFrame(transform.source, a))
+    return transform.target_from_source.inverse();
+  return std::nullopt;
+}
+
+/// As two files of one transform agree whose digits were rounded.
+bool nearlySame(const Pose& a, const Pose& b) {
+  return (a.translation_m - b.translation_m).norm() <= kSameTranslation_m &&
+         a.rotation.angularDistance(b.rotation) <= kSameRotation_rad;
 }
 
 }  // namespace
@@ -60,14 +78,20 @@ bool sameFrame(const FrameName& a, const FrameName& b) { return a == b; }
 JoinedFrames joinFrames(const FrameName& a, const FrameName& b,
                         std::span<const FrameTransform> given, const JsonReader& at) {
   if (!a.name.empty() && sameFrame(a, b)) return {};
+  std::optional<JoinedFrames> joined;
   for (const FrameTransform& one : given) {
-    JoinedFrames joined{one.target_from_source, one};
-    joined.by->file = one.file.filename();
-    if (sameFrame(one.target, a) && sameFrame(one.source, b)) return joined;
-    joined.a_from_b = one.target_from_source.inverse();
-    if (sameFrame(one.target, b) && sameFrame(one.source, a)) return joined;
+    const std::optional<Pose> a_from_b = joinBy(one, a, b);
+    if (!a_from_b) continue;
+    if (joined && !nearlySame(joined->a_from_b, *a_from_b))
+      at.fail("of the given transforms " + joined->by->file.string() + " and " +
+              one.file.filename().string() + " lead from " + frameText(b) + " to " + frameText(a) +
+              " by different numbers; give the one that holds");
+    if (joined) continue;
+    joined = JoinedFrames{*a_from_b, one};
+    joined->by->file = one.file.filename();
   }
-  at.fail(noWayText(a, b, given));
+  if (!joined) at.fail(noWayText(a, b, given));
+  return *joined;
 }
 
 void writeFrameTransform(const std::filesystem::path& file, const FrameTransform& transform) {

@@ -43,8 +43,8 @@ struct StationFrame {
 };
 
 /// The transform from frame `b` to frame `a` by one of `given` or its inverse, and which one it
-/// was. InputError about `at`, naming both frames, when none leads from one to the other: frames
-/// are never chained, nor converted by what a label says of them.
+/// was. InputError about `at`, naming both frames, when none leads from one to the other, or two of
+/// them by different numbers: frames are never chained, nor converted by what a label says of them.
 struct JoinedFrames {
   Pose a_from_b;
   std::optional<FrameTransform> by;  ///< with its file's name alone; none where the two are one

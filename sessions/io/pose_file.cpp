@@ -78,7 +78,10 @@ void readReferencePose(const JsonReader& json, const PoseFrames& frames, PoseFil
 
 PoseFile readPose(const JsonReader& json, const PoseFrames& frames) {
   PoseFile pose;
-  if (json.has("reference_from_station") && !json.has("camera_from_station")) {
+  if (json.has("reference_from_station") && json.has("camera_from_station"))
+    json.failMember("reference_from_station",
+                    "stands beside camera_from_station: give the pose in one of the two ways");
+  if (json.has("reference_from_station")) {
     readReferencePose(json, frames, pose);
   } else {
     if (json.has("reference_frame"))

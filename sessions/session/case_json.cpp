@@ -132,6 +132,7 @@ ordered_json listJson(const List& list, Convert&& convert) {
 void addExtras(const SessionCase& one, const PathWriter& path, ordered_json& json) {
   if (one.camera_reference) json["camera_reference"] = toJson(*one.camera_reference);
   if (one.station_frame) json["station_frame"] = toJson(*one.station_frame);
+  if (one.truth_frame) json["truth_frame"] = toJson(*one.truth_frame);
   if (one.camera_from_station_truth) json["truth"] = exactPoseJson(*one.camera_from_station_truth);
   if (one.camera_from_station_working)
     json["working"] = exactPoseJson(*one.camera_from_station_working);
@@ -245,6 +246,7 @@ void readExtras(const JsonReader& json, SessionCase& one) {
   if (const auto reference = json.find("camera_reference"))
     one.camera_reference = readCameraReference(*reference);
   if (const auto frame = json.find("station_frame")) one.station_frame = readStationFrame(*frame);
+  if (const auto frame = json.find("truth_frame")) one.truth_frame = readStationFrame(*frame);
   if (const auto truth = json.find("truth")) one.camera_from_station_truth = readExactPose(*truth);
   if (const auto working = json.find("working"))
     one.camera_from_station_working = readExactPose(*working);
@@ -305,7 +307,8 @@ SessionCase readSessionCase(const JsonReader& json) {
                      "camera_from_end_effector",
                      "landmarks",
                      "camera_reference",
-                     "station_frame"});
+                     "station_frame",
+                     "truth_frame"});
   SessionCase one;
   one.id = json.at("id").nonEmptyText();
   if (const auto station = json.find("station")) one.station = station->nonEmptyText();

@@ -9,6 +9,7 @@
 #include "sessions/io/image_label.h"
 #include "sessions/report/text_table.h"
 #include "sessions/session/frame_lines.h"
+#include "sessions/session/label_agreement.h"
 #include "sessions/trace/seed_check.h"
 
 namespace boresight::sessions {
@@ -255,6 +256,7 @@ InputSheet inputSheet(const LoadedCase& loaded) {
   sheet.flags.insert(sheet.flags.end(), sheet.camera.flags.begin(), sheet.camera.flags.end());
   flagMeshes(loaded.scene, sheet);
   flagSeed(loaded, bounds, sheet);
+  if (loaded.image.label) flagLabel(one, *loaded.image.label, sheet.flags);
   return sheet;
 }
 

@@ -71,6 +71,8 @@ struct SessionCase {
   std::optional<StationFrame> station_frame;
   DeclaredUncertainty uncertainty;
   std::optional<Pose> camera_from_station_truth;
+  /// Of a truth that was given in a named frame. No input of a run.
+  std::optional<StationFrame> truth_frame;
   std::optional<Pose> camera_from_station_working;  ///< nudged by hand; no input of a run
   std::optional<InputFile> ignore;                  ///< mask image
   MaskStrokes ignore_strokes;                       ///< edits of the mask, applied in their order

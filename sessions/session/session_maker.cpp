@@ -61,6 +61,7 @@ SessionCase caseOf(const Dataset& dataset, const Case& one, const std::vector<Me
   made.station_frame = one.station_frame;
   made.uncertainty = *one.uncertainty;
   made.camera_from_station_truth = one.truth_camera_from_station;
+  made.truth_frame = one.truth_frame;
   if (one.ignore) made.ignore = maskInput(*one.ignore, made.image);
   made.rig = one.rig;
   made.tags = one.tags;
@@ -104,8 +105,11 @@ MadeCase makeCase(const CaseFiles& files) {
     result.notes.push_back("the seed states no uncertainty; taking 0.03 m and 5 deg");
   const std::string projected = projectionNote(seed.rotation_deviation);
   if (!projected.empty()) result.notes.push_back(files.seed.string() + ": " + projected);
-  if (files.truth)
-    made.camera_from_station_truth = readPose(*files.truth, frames).camera_from_station;
+  if (files.truth) {
+    const PoseFile truth = readPose(*files.truth, frames);
+    made.camera_from_station_truth = truth.camera_from_station;
+    made.truth_frame = truth.station_frame;
+  }
   if (files.ignore) made.ignore = maskInput(*files.ignore, made.image);
   return result;
 }

@@ -119,6 +119,39 @@ TEST_F(FrameTransforms, BringAPoseToTheCameraEitherWayRound) {
   }
 }
 
+TEST_F(FrameTransforms, ThatContradictEachOtherAreRefused) {
+  const nlohmann::ordered_json site = {{"name", "SITE_FRAME"}, {"index", {194}}};
+  const FrameTransform first = transform();
+  FrameTransform second = first;
+  second.file = "sol13.json";
+  second.target_from_source.translation_m.x() += 5e-7;  // rounded otherwise
+  EXPECT_EQ(read(site, {roverCamera(), {second, first}}).station_frame->joined_by->file,
+            "sol13.json");
+  for (const bool inverse : {false, true}) {
+    second = first;
+    second.file = "sol13.json";
+    second.target_from_source.translation_m.x() += 0.02;
+    if (inverse) {
+      std::swap(second.target, second.source);
+      second.target_from_source = second.target_from_source.inverse();
+    }
+    EXPECT_THAT(poseError(site, {roverCamera(), {first, second}}),
+                EndsWith("sol12.json and sol13.json lead from SITE_FRAME (194) to ROVER_FRAME "
+                         "(194, 835, 1) by different numbers; give the one that holds"));
+  }
+}
+
+TEST_F(FrameTransforms, PoseIsGivenInOneOfTheTwoWays) {
+  nlohmann::ordered_json json = {{"format", "boresight-pose"}, {"version", 1}};
+  json["reference_from_station"] = toJson(Pose{Eigen::Quaterniond::Identity(), {1, 2, 3}});
+  json["camera_from_station"] = json["reference_from_station"];
+  const auto file = folder_.write("seed.json", json.dump());
+  EXPECT_THAT(folder_.message([&] {
+    (void)readPose(file, {roverCamera(), {}});
+  }),
+              HasSubstr("reference_from_station: stands beside camera_from_station"));
+}
+
 TEST_F(FrameTransforms, AreNotAskedForInTheCamerasOwnFrame) {
   const CameraReference camera = roverCamera();
   const Eigen::Vector3d in_camera = camera.camera_from_reference * Eigen::Vector3d(1, 2, 3);

@@ -72,6 +72,7 @@ inline void addRandomFrames(Random& random, sessions::SessionCase& one) {
   join.comment = "sol 12";
   join.file = "transform.json";
   join.file_sha256 = randomSha256(random);
+  if (coin(random)) one.truth_frame = one.station_frame;
 }
 
 inline sessions::SessionCase randomCase(Random& random, const std::string& id) {

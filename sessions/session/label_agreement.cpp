@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/label_agreement.h"
+
+#include <algorithm>
+
+#include "core/base/math.h"
+#include "sessions/report/text_table.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr int kPlaces = 9;            ///< along a side, where two cameras are compared
+constexpr double kAgreeing_px = 1.0;  ///< also a camera that was fitted to the label's
+constexpr double kAgreeing_m = 1e-3;  ///< of labels with six digits
+constexpr double kAgreeing_rad = 1e-3;
+
+/// How far from a pixel of `a` camera `b` sees what the pixel sees at a distance, at most over the
+/// places of a grid; nothing where the two have no pixel in common.
+std::optional<double> largestDifference_px(const Camera& a, const Camera& b, double distance_m) {
+  std::optional<double> largest_px;
+  for (int row = 0; row < kPlaces; ++row)
+    for (int column = 0; column < kPlaces; ++column) {
+      const Eigen::Vector2d pixel(column * (a.width - 1.0) / (kPlaces - 1),
+                                  row * (a.height - 1.0) / (kPlaces - 1));
+      Ray ray;
+      Eigen::Vector2d seen;
+      if (!unprojectRay(a, pixel, ray) || !project(b, ray.at(distance_m), seen)) continue;
+      largest_px = std::max(largest_px.value_or(0.0), (seen - pixel).norm());
+    }
+  return largest_px;
+}
+
+std::string cameraConcern(const SessionCase& one, const CameraFile& label) {
+  const Camera& stated = label.camera;
+  if (stated.width != one.camera.width || stated.height != one.camera.height) return "";
+  const double distance_m = std::max(one.camera_from_station_seed.translation_m.norm(), 1e-3);
+  const auto difference_px = largestDifference_px(stated, one.camera, distance_m);
+  if (!difference_px || *difference_px > kAgreeing_px)
+    return "the camera is not that of the image's label: " +
+           (difference_px ? "at the seed's distance the two differ by up to " +
+                                fixedText(*difference_px, 1) + " px"
+                          : "the two see nothing in common");
+  if (!one.camera_reference || !label.reference || label.reference->frame.name.empty() ||
+      !(one.camera_reference->frame == label.reference->frame))
+    return "";
+  const double apart_m = (one.camera_reference->camera_from_reference.inverse().translation_m -
+                          label.reference->camera_from_reference.inverse().translation_m)
+                             .norm();
+  const double turned_rad = one.camera_reference->camera_from_reference.rotation.angularDistance(
+      label.reference->camera_from_reference.rotation);
+  if (apart_m <= kAgreeing_m && turned_rad <= kAgreeing_rad) return "";
+  return "the camera is not that of the image's label: in " + frameText(label.reference->frame) +
+         " it stands " + fixedText(1e3 * apart_m, 1) + " mm and " +
+         fixedText(turned_rad / kDegree_rad, 2) + " deg from there";
+}
+
+/// What the label says of the transform's two frames, as target_from_source.
+std::optional<Pose> statedTransform(const FrameTransform& given, const ImageLabel& label) {
+  for (const LabelFrame& one : label.frames) {
+    if (sameFrame(one.reference, given.target) && sameFrame(one.frame, given.source))
+      return one.reference_from_frame;
+    if (sameFrame(one.reference, given.source) && sameFrame(one.frame, given.target))
+      return one.reference_from_frame.inverse();
+  }
+  return std::nullopt;
+}
+
+std::string transformConcern(const FrameTransform& given, const ImageLabel& label) {
+  const auto stated = statedTransform(given, label);
+  if (!stated) return "";
+  const double apart_m = (stated->translation_m - given.target_from_source.translation_m).norm();
+  const double turned_rad = stated->rotation.angularDistance(given.target_from_source.rotation);
+  if (apart_m <= kAgreeing_m && turned_rad <= kAgreeing_rad) return "";
+  return given.file.filename().string() + " and the image's label differ about where " +
+         frameText(given.source) + " is in " + frameText(given.target) + ": by " +
+         fixedText(1e3 * apart_m, 1) + " mm and " + fixedText(turned_rad / kDegree_rad, 2) + " deg";
+}
+
+}  // namespace
+
+void flagLabel(const SessionCase& one, const ImageLabel& label, std::vector<RedFlag>& flags) {
+  if (label.camera) {
+    const std::string concern = cameraConcern(one, *label.camera);
+    if (!concern.empty()) flags.push_back({"camera_label", concern});
+  }
+  for (const std::optional<StationFrame>* given : {&one.station_frame, &one.truth_frame}) {
+    if (!*given || !(*given)->joined_by) continue;
+    const RedFlag flag{"transform_label", transformConcern(*(*given)->joined_by, label)};
+    if (!flag.text.empty() && std::find(flags.begin(), flags.end(), flag) == flags.end())
+      flags.push_back(flag);
+  }
+}
+
+}  // namespace boresight::sessions

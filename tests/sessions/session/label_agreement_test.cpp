@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/label_agreement.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/math.h"
+#include "core/geometry/cahv_model.h"
+#include "sessions/io/camera_conversion.h"
+#include "tests/sessions/io/label_fixture.h"
+
+namespace boresight::sessions {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const FrameName kRover{"ROVER_FRAME", {3}};
+const FrameName kSite{"SITE_FRAME", {3}};
+
+CameraFile cameraOf(const CahvModel& cahv) {
+  CameraFile file;
+  CameraReference reference;
+  reference.frame = kRover;
+  EXPECT_EQ(cameraFromCahv(cahv, 640, 480, file.camera, reference.camera_from_reference),
+            Status::kOk);
+  file.reference = reference;
+  return file;
+}
+
+class LabelAgreement : public ::testing::Test {
+ protected:
+  LabelAgreement() {
+    const CameraFile camera = cameraOf(model_);
+    label_.camera = camera;
+    label_.frames = {{kRover, kSite, rover_in_site_}};
+    one_.camera = camera.camera;
+    one_.camera_reference = camera.reference;
+    one_.camera_from_station_seed.translation_m = {0.0, 0.0, 1.2};
+  }
+  void take(const CameraFile& camera) {
+    one_.camera = camera.camera;
+    one_.camera_reference = camera.reference;
+  }
+  void give(const FrameName& target, const FrameName& source, const Pose& target_from_source) {
+    FrameTransform transform{target, source, target_from_source, "by hand", "sol3.json", ""};
+    one_.station_frame = StationFrame{kSite, transform};
+  }
+  std::vector<std::string> flags() const {
+    std::vector<RedFlag> found;
+    flagLabel(one_, label_, found);
+    std::vector<std::string> texts;
+    for (const RedFlag& flag : found) texts.push_back(flag.code + ": " + flag.text);
+    return texts;
+  }
+
+  const CahvModel model_ = test::exampleModel(CameraModel::kCahvore, 600, 320, 240);
+  const Pose rover_in_site_{Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ())),
+                            {10, 20, -3}};
+  ImageLabel label_;
+  SessionCase one_;
+};
+
+TEST_F(LabelAgreement, LabelsOwnCameraAndAFitOfItAgree) {
+  EXPECT_THAT(flags(), IsEmpty());
+  const FittedCamera fit = fitCamera(one_.camera, CameraModel::kBrownConrady, 1.2);
+  ASSERT_LT(fit.worst_error_px, 0.5);
+  take({fit.camera, std::nullopt});
+  EXPECT_THAT(flags(), IsEmpty());
+}
+
+TEST_F(LabelAgreement, AnotherCameraIsFlaggedWithItsDifference) {
+  CahvModel longer = model_;  // by a tenth: 32 px at the left and right border and 24 at the top
+  longer.h_px = 1.1 * model_.h_px - 0.1 * model_.h_px.dot(model_.a) * model_.a;
+  longer.v_px = 1.1 * model_.v_px - 0.1 * model_.v_px.dot(model_.a) * model_.a;
+  take(cameraOf(longer));
+  EXPECT_THAT(flags(), ElementsAre(HasSubstr("camera_label: the camera is not that of the image's "
+                                             "label: at the seed's distance the two differ by up "
+                                             "to 4")));
+  CahvModel moved = model_;
+  moved.c_m.y() += 0.02;
+  take(cameraOf(moved));
+  EXPECT_THAT(flags(), ElementsAre(HasSubstr("in ROVER_FRAME (3) it stands 20.0 mm and 0.00 deg")));
+  label_.camera.reset();
+  EXPECT_THAT(flags(), IsEmpty());
+}
+
+TEST_F(LabelAgreement, TransformThatTheLabelContradictsIsFlagged) {
+  give(kSite, kRover, rover_in_site_);
+  EXPECT_THAT(flags(), IsEmpty());
+  give(kRover, kSite, rover_in_site_.inverse());
+  EXPECT_THAT(flags(), IsEmpty());
+  give(kRover, kSite, rover_in_site_);  // the frames swapped
+  EXPECT_THAT(flags(), ElementsAre(HasSubstr("transform_label: sol3.json and the image's label "
+                                             "differ about where SITE_FRAME (3) is in ROVER_FRAME "
+                                             "(3): by ")));
+  Pose near = rover_in_site_;
+  near.translation_m.x() += 0.02;
+  give(kSite, kRover, near);
+  one_.truth_frame = one_.station_frame;  // said once
+  EXPECT_THAT(flags(), ElementsAre(HasSubstr("by 20.0 mm and 0.00 deg")));
+  label_.frames.clear();
+  EXPECT_THAT(flags(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace boresight::sessions
