@@ -30,12 +30,31 @@ CameraModel modelNamed(const std::string& name) {
   throw CLI::ValidationError("--as", "'" + name + "' is no model that is fitted");
 }
 
+/// A text file's ending is read as the kind of its model by many programs, though not by this one.
+void noteEnding(const path& out, CameraModel model) {
+  const std::string needed = std::string(".") + sessions::cameraModelName(model);
+  if (out.extension() != needed)
+    note("the vectors are those of a " + needed.substr(1) +
+         " model: programs that go by a file's "
+         "ending want " +
+         needed);
+}
+
+/// What camera.json has no place for.
+void noteLost(const CameraArguments& arguments) {
+  if (!sessions::isCahvorFile(path(arguments.file))) return;
+  if (sessions::readCahvorFile(arguments.file).covariance.size() > 0)
+    note("the covariance of " + path(arguments.file).filename().string() +
+         " stays behind: a camera.json has no place for it");
+}
+
 /// Vectors as text, with the covariance where the given file had one.
 void writeVectors(const CameraArguments& arguments, const sessions::CameraFile& given) {
   if (!isCahvFamily(given.camera.model))
     throw sessions::InputError(arguments.file, "model",
                                std::string("a ") + sessions::cameraModelName(given.camera.model) +
                                    " camera has no vectors: write a .json");
+  noteEnding(arguments.out, given.camera.model);
   if (sessions::isCahvorFile(path(arguments.file)))
     return sessions::writeCahvorFile(arguments.out, sessions::readCahvorFile(arguments.file));
   sessions::CahvorFile made;
@@ -80,6 +99,7 @@ int convert(const CameraArguments& arguments) {
     writeVectors(arguments, given);
   } else {
     sessions::writeCamera(path(arguments.out), given);
+    noteLost(arguments);
   }
   if (!arguments.out.empty()) std::cout << arguments.out << std::endl;
   return kDone;

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "sessions/io/cahvor_file.h"
 #include "sessions/io/json_writer.h"
 #include "tests/app/run_whs.h"
 #include "tests/support/vicar_image.h"
@@ -270,6 +271,15 @@ TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
   ASSERT_TRUE(project(sessions::readCamera(std::filesystem::path(fitted)), point_m, found));
   EXPECT_LT((expected - found).norm(),
             json::parse(folder_.read("brown.json"))["fitted_from"]["worst_error_px"]);
+  sessions::CahvorFile with_covariance = sessions::readCahvorFile(text);
+  with_covariance.covariance = 1e-8 * Eigen::MatrixXd::Identity(12, 12);
+  const std::string other_ending = (folder_ / "left.cahvore").string();
+  sessions::writeCahvorFile(other_ending, with_covariance);
+  const ProgramRun lost = runWhs({"camera", other_ending, "--out", folder_ / "left.json"});
+  EXPECT_EQ(lost.exit_code, 0) << lost.err;
+  EXPECT_THAT(lost.err, HasSubstr("the covariance of left.cahvore stays behind"));
+  EXPECT_THAT(runWhs({"camera", text, "--out", other_ending}).err,
+              HasSubstr("the vectors are those of a cahv model"));
   EXPECT_EQ(runWhs({"camera", image_.string()}).exit_code, 2);
   EXPECT_EQ(runWhs({"camera", text, "--as", "pinhole", "--out", text}).exit_code, 2);
 }
