@@ -272,14 +272,14 @@ TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
   EXPECT_LT((expected - found).norm(),
             json::parse(folder_.read("brown.json"))["fitted_from"]["worst_error_px"]);
   sessions::CahvorFile with_covariance = sessions::readCahvorFile(text);
-  with_covariance.covariance = 1e-8 * Eigen::MatrixXd::Identity(12, 12);
+  with_covariance.covariance = 1e-8 * Eigen::MatrixXd::Identity(18, 18);
   const std::string other_ending = (folder_ / "left.cahvore").string();
   sessions::writeCahvorFile(other_ending, with_covariance);
   const ProgramRun lost = runWhs({"camera", other_ending, "--out", folder_ / "left.json"});
   EXPECT_EQ(lost.exit_code, 0) << lost.err;
   EXPECT_THAT(lost.err, HasSubstr("the covariance of left.cahvore stays behind"));
   EXPECT_THAT(runWhs({"camera", text, "--out", other_ending}).err,
-              HasSubstr("the vectors are those of a cahv model"));
+              HasSubstr("the vectors are those of a cahvor model"));
   EXPECT_EQ(runWhs({"camera", image_.string()}).exit_code, 2);
   EXPECT_EQ(runWhs({"camera", text, "--as", "pinhole", "--out", text}).exit_code, 2);
 }
