@@ -82,6 +82,9 @@ void flagLabel(const SessionCase& one, const ImageLabel& label, std::vector<RedF
   if (label.camera) {
     const std::string concern = cameraConcern(one, *label.camera);
     if (!concern.empty()) flags.push_back({"camera_label", concern});
+    // Of a part of the detector, as the label says, the principal point may lie anywhere.
+    if (concern.empty() && label.subframe && !label.subframe->whole())
+      std::erase_if(flags, [](const RedFlag& flag) { return flag.code == "camera_off_centre"; });
   }
   for (const std::optional<StationFrame>* given : {&one.station_frame, &one.truth_frame}) {
     if (!*given || !(*given)->joined_by) continue;

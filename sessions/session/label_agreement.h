@@ -11,7 +11,8 @@ namespace boresight::sessions {
 
 /// Adds `camera_label` where the case's camera is another one than the label's or stands elsewhere
 /// in the same frame, and `transform_label` where a transform that was given places a frame of the
-/// label elsewhere than the label does. Nothing is changed by it: what people gave counts.
+/// label elsewhere than the label does; takes `camera_off_centre` away where the camera is that of
+/// the sub-frame which the label states. Nothing is changed by it: what people gave counts.
 void flagLabel(const SessionCase& one, const ImageLabel& label, std::vector<RedFlag>& flags);
 
 }  // namespace boresight::sessions

@@ -86,6 +86,15 @@ TEST_F(LabelAgreement, AnotherCameraIsFlaggedWithItsDifference) {
   EXPECT_THAT(flags(), IsEmpty());
 }
 
+TEST_F(LabelAgreement, PartOfADetectorMayHaveItsPrincipalPointAnywhere) {
+  std::vector<RedFlag> found = {{"camera_off_centre", "far"}, {"mesh", "odd"}};
+  flagLabel(one_, label_, found);
+  EXPECT_EQ(found.size(), 2u);
+  label_.subframe = LabelSubframe{1272, 952};
+  flagLabel(one_, label_, found);
+  EXPECT_EQ(found, (std::vector<RedFlag>{{"mesh", "odd"}}));
+}
+
 TEST_F(LabelAgreement, TransformThatTheLabelContradictsIsFlagged) {
   give(kSite, kRover, rover_in_site_);
   EXPECT_THAT(flags(), IsEmpty());
