@@ -11,6 +11,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/image_file.h"
+#include "sessions/io/label_xml.h"
 
 namespace boresight::sessions {
 namespace {
@@ -20,14 +21,17 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxLabelBytes = 4 * kMegabyte;
 constexpr std::size_t kBeginning = 4096;
 constexpr std::int64_t kMostVicarLabel = 10 * 1024 * 1024;
-/// More files than an image product has.
-constexpr std::size_t kMostParts = 16;
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 std::string_view skipBlanks(std::string_view text) {
   while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
   return text;
+}
+
+/// Without the mark of UTF-8.
+std::string_view withoutMark(std::string_view text) {
+  return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
 }
 
 /// Blanks and comments may stand before a PDS3 label.
@@ -49,80 +53,63 @@ std::string lowerCase(std::string_view text) {
   return lower;
 }
 
-/// The text of a PDS3 label: up to the line END.
-std::string_view pds3Text(std::span<const std::uint8_t> bytes) {
-  const std::string_view text = asText(bytes.first(std::min(bytes.size(), kMaxLabelBytes)));
-  for (auto at = text.find("\nEND"); at != std::string_view::npos; at = text.find("\nEND", at + 4))
-    if (at + 4 >= text.size() || isBlank(text[at + 4])) return text.substr(0, at);
-  return text;
-}
-
-/// The file names of pointers to pixels: ^IMAGE = "X.IMG", ^IMAGE = ("X.IMG", 12 <BYTES>).
-std::vector<std::string> pds3Names(std::string_view label) {
-  std::vector<std::string> names;
-  for (auto at = label.find('^'); at != std::string_view::npos; at = label.find('^', at + 1)) {
-    std::string_view rest = label.substr(at + 1);
-    const auto equals = rest.find('=');
-    if (equals == std::string_view::npos) break;
-    const std::string_view key = rest.substr(0, equals);
-    if (key.find('\n') != std::string_view::npos ||
-        (!skipBlanks(key).starts_with("IMAGE") && key.find("_IMAGE") == std::string_view::npos) ||
-        key.find("HEADER") != std::string_view::npos)
-      continue;
-    rest = skipBlanks(rest.substr(equals + 1));
-    if (rest.starts_with('(')) rest = skipBlanks(rest.substr(1));
-    if (!rest.starts_with('"')) continue;
-    const auto end = rest.find('"', 1);
-    if (end != std::string_view::npos) names.emplace_back(rest.substr(1, end - 1));
-  }
-  return names;
-}
-
-/// What stands in every <file_name>.
-std::vector<std::string> pds4Names(std::string_view label) {
-  constexpr std::string_view kOpen = "<file_name>";
-  std::vector<std::string> names;
-  for (auto at = label.find(kOpen); at != std::string_view::npos; at = label.find(kOpen, at + 1)) {
-    const auto begin = at + kOpen.size();
-    const auto end = label.find('<', begin);
-    if (end == std::string_view::npos) break;
-    std::string_view name = skipBlanks(label.substr(begin, end - begin));
-    while (!name.empty() && isBlank(name.back())) name.remove_suffix(1);
-    names.emplace_back(name);
-  }
-  return names;
-}
-
-bool isDigit(std::uint8_t c) { return c >= '0' && c <= '9'; }
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
 /// 1.5D-03 as 1.5E-03, outside of texts: the exponents of FORTRAN, which GDAL leaves out.
-void writeExponents(std::span<std::uint8_t> label, char quote) {
+void editExponents(std::string_view label, char quote, std::vector<LabelEdit>& edits) {
   bool in_text = false;
   bool in_number = false;
+  const auto digitAt = [label](std::size_t i) { return i < label.size() && isDigit(label[i]); };
   for (std::size_t i = 0; i < label.size(); ++i) {
-    const std::uint8_t c = label[i];
-    if (c == static_cast<std::uint8_t>(quote)) in_text = !in_text;
-    const bool ends = i + 1 < label.size() &&
-                      (isDigit(label[i + 1]) || ((label[i + 1] == '-' || label[i + 1] == '+') &&
-                                                 i + 2 < label.size() && isDigit(label[i + 2])));
-    if (in_number && !in_text && ends && (c == 'D' || c == 'd')) label[i] = 'E';
+    const char c = label[i];
+    if (c == quote) in_text = !in_text;
+    const bool sign = i + 1 < label.size() && (label[i + 1] == '-' || label[i + 1] == '+');
+    const bool ends = digitAt(sign ? i + 2 : i + 1);
+    if (in_number && !in_text && ends && (c == 'D' || c == 'd')) edits.push_back({i, "E"});
     // A number begins after a blank, '=', '(' or ','; letters end it.
     const bool before =
-        i == 0 || std::string_view(" \t\r\n=(,+-").find(static_cast<char>(label[i - 1])) !=
-                      std::string_view::npos;
-    in_number = (isDigit(c) && (in_number || before)) || (c == '.' && (in_number || before));
+        i == 0 || std::string_view(" \t\r\n=(,+-").find(label[i - 1]) != std::string_view::npos;
+    in_number = (isDigit(c) || c == '.') && (in_number || before);
   }
 }
 
-void prepareLabel(LabelFormat format, std::vector<std::uint8_t>& bytes) {
-  if (format == LabelFormat::kPds4) return;
-  std::size_t size = pds3Text(bytes).size();
-  if (format == LabelFormat::kVicar) {
-    const auto stated = vicarInteger(asText(bytes).substr(0, 64), "LBLSIZE").value_or(0);
-    size = static_cast<std::size_t>(
-        std::clamp<std::int64_t>(stated, 0, static_cast<std::int64_t>(bytes.size())));
-  }
-  writeExponents(std::span(bytes).first(size), format == LabelFormat::kVicar ? '\'' : '"');
+void rewrite(LabelFiles& files, const std::vector<LabelEdit>& edits) {
+  if (edits.empty()) return;
+  files.rewritten = files.parts.front().bytes;
+  for (const LabelEdit& edit : edits)
+    std::copy(edit.text.begin(), edit.text.end(),
+              files.rewritten.begin() + static_cast<std::ptrdiff_t>(edit.at));
+}
+
+void readVicarLabel(LabelFiles& files) {
+  const std::string_view text = asText(files.parts.front().bytes);
+  const auto stated = vicarInteger(text.substr(0, 64), "LBLSIZE").value_or(0);
+  std::vector<LabelEdit> edits;
+  editExponents(text.substr(0, static_cast<std::size_t>(std::max<std::int64_t>(stated, 0))), '\'',
+                edits);
+  rewrite(files, edits);
+}
+
+/// The name of the pixels' file; empty: they are in the label's own.
+std::string readPds3Label(LabelFiles& files) {
+  const std::string_view text = asText(files.parts.front().bytes);
+  files.pointer = readPds3Pointer(files.file, text.substr(0, kMaxLabelBytes));
+  files.remark = files.pointer.remark;
+  std::vector<LabelEdit> edits = std::move(files.pointer.edits);
+  editExponents(text.substr(0, files.pointer.label_size), '"', edits);
+  rewrite(files, edits);
+  return files.pointer.file;
+}
+
+std::string readPds4Label(LabelFiles& files) {
+  const auto& bytes = files.parts.front().bytes;
+  if (bytes.size() > kMaxLabelBytes)
+    throw InputError(files.file, "the PDS4 label is larger than 4 MB");
+  XmlLabel label = readXmlLabel(files.file, asText(bytes));
+  files.elements = std::move(label.tree);
+  files.remark = std::move(label.remark);
+  files.rewritten.assign(label.array_label.begin(), label.array_label.end());
+  return label.file_name;
 }
 
 void requireBeside(const fs::path& label_file, const std::string& name) {
@@ -150,16 +137,6 @@ fs::path fileBeside(const fs::path& label_file, const std::string& name) {
   return found.empty() ? folder / name : found.front();
 }
 
-std::vector<std::string> namesIn(LabelFormat format, std::span<const std::uint8_t> bytes) {
-  std::vector<std::string> names;
-  if (format == LabelFormat::kPds3) names = pds3Names(pds3Text(bytes));
-  if (format == LabelFormat::kPds4) names = pds4Names(asText(bytes));
-  std::vector<std::string> once;
-  for (std::string& name : names)
-    if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(std::move(name));
-  return once;
-}
-
 std::vector<std::uint8_t> beginningOf(const fs::path& file, std::size_t count) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return {};
@@ -178,14 +155,35 @@ bool isOtherPicture(std::span<const std::uint8_t> bytes) {
   return text.empty();
 }
 
+/// Whether the label's pixels are those of the file.
 bool names(const fs::path& label_file, const fs::path& file) {
   const auto bytes = beginningOf(label_file, kMaxLabelBytes);
   const auto format = labelFormatOf(bytes);
-  if (!format) return false;
   const std::string wanted = lowerCase(file.filename().string());
-  const auto listed = namesIn(*format, bytes);
-  return std::any_of(listed.begin(), listed.end(),
-                     [&wanted](const std::string& name) { return lowerCase(name) == wanted; });
+  try {
+    if (format == LabelFormat::kPds3)
+      return lowerCase(readPds3Pointer(label_file, asText(bytes)).file) == wanted;
+    if (format == LabelFormat::kPds4)
+      return lowerCase(readXmlLabel(label_file, asText(bytes)).file_name) == wanted;
+  } catch (const InputError&) {
+    // Not a label that says so.
+  }
+  return false;
+}
+
+/// Reads the file of the pixels that the label names.
+void readPixelsPart(LabelFiles& files, const std::string& name) {
+  requireBeside(files.file, name);
+  const fs::path part = fileBeside(files.file, name);
+  std::error_code error;
+  // A label beside the pixels may name itself.
+  if (fs::equivalent(part, files.file, error)) {
+    files.parts.push_back({name, files.parts.front().bytes});
+    return;
+  }
+  if (!fs::exists(part, error))
+    throw InputError(files.file, "the file of its pixels, '" + name + "', is not beside it");
+  files.parts.push_back({name, readFileBytes(part, kMaxImageFileBytes)});
 }
 
 }  // namespace
@@ -205,14 +203,11 @@ const char* labelFormatName(LabelFormat format) {
 std::optional<LabelFormat> labelFormatOf(std::span<const std::uint8_t> bytes) {
   std::string_view text = asText(bytes);
   if (text.starts_with("LBLSIZE=")) return LabelFormat::kVicar;
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  text = text.substr(0, 4 * kBeginning);
+  text = withoutMark(text).substr(0, kMaxLabelBytes);
   const std::string_view begin = skipComments(text);
   for (const std::string_view key : {"PDS_VERSION_ID", "ODL_VERSION_ID", "CCSD3ZF"})
     if (begin.starts_with(key)) return LabelFormat::kPds3;
-  if (skipBlanks(text).starts_with('<') &&
-      text.find("Product_Observational") != std::string_view::npos)
-    return LabelFormat::kPds4;
+  if (begin.starts_with('<') && isXmlLabel(text)) return LabelFormat::kPds4;
   return std::nullopt;
 }
 
@@ -252,14 +247,13 @@ void requireVicarSizes(const LabelFiles& files) {
   require("NB", 1, kMostLabelBands);
   require("NBB", 0, kMaxImageSide_px * 8);
   require("NLB", 0, kMaxImageSide_px);
-  // A record is then one pixel, and each would have a prefix: nobody reads that right.
-  if (label.find("ORG='BIP'") != std::string_view::npos &&
-      vicarInteger(label, "NBB").value_or(0) > 0)
-    throw InputError(files.file, "NBB", "a prefix of every pixel (ORG='BIP') is not read");
 }
 
 std::optional<fs::path> labelFileOf(const fs::path& file) {
-  const auto begin = beginningOf(file, 4 * kBeginning);
+  auto begin = beginningOf(file, kBeginning);
+  // Comments may stand before a label's first word.
+  const std::string_view text = skipBlanks(withoutMark(asText(begin)));
+  if (text.starts_with('<') || text.starts_with("/*")) begin = beginningOf(file, kMaxLabelBytes);
   if (labelFormatOf(begin)) return file;
   if (isOtherPicture(begin)) return std::nullopt;
   for (const char* ending : {".lbl", ".LBL", ".xml", ".XML"}) {
@@ -280,36 +274,17 @@ LabelFiles readLabelFiles(const fs::path& label_file, std::vector<std::uint8_t> 
   LabelFiles files;
   files.file = label_file;
   files.format = *format;
-  if (*format == LabelFormat::kPds4 && label_bytes.size() > kMaxLabelBytes)
-    throw InputError(label_file, "the PDS4 label is larger than 4 MB");
-  const auto listed = namesIn(*format, label_bytes);
-  if (listed.size() > kMostParts)
-    throw InputError(label_file,
-                     "the label names " + std::to_string(listed.size()) + " files of pixels");
   files.parts.push_back(
       {*format == LabelFormat::kPds4 ? "label-of-image.xml" : "label-of-image.lbl",
        std::move(label_bytes)});
-  std::size_t left = kMaxImageFileBytes;
-  for (const std::string& name : listed) {
-    requireBeside(label_file, name);
-    const fs::path part = fileBeside(label_file, name);
-    std::error_code error;
-    // A label beside the pixels may name itself.
-    if (fs::equivalent(part, label_file, error)) {
-      files.parts.push_back({name, files.parts.front().bytes});
-      continue;
-    }
-    if (!fs::exists(part, error)) {
-      if (listed.size() > 1) continue;  // of several, those that are there
-      throw InputError(label_file, "the file of its pixels, '" + name + "', is not beside it");
-    }
-    files.parts.push_back({name, readFileBytes(part, left)});
-    left -= files.parts.back().bytes.size();
-  }
+  std::string pixels;
+  if (*format == LabelFormat::kVicar) readVicarLabel(files);
+  if (*format == LabelFormat::kPds3) pixels = readPds3Label(files);
+  if (*format == LabelFormat::kPds4) pixels = readPds4Label(files);
+  if (!pixels.empty() || *format == LabelFormat::kPds4) readPixelsPart(files, pixels);
   Sha256 sha;
   for (const LabelPart& part : files.parts) sha.update(part.bytes);
   files.sha256 = hexText(sha.digest()).data();
-  prepareLabel(files.format, files.parts.front().bytes);
   return files;
 }
 

@@ -3,11 +3,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "sessions/io/label_pointer.h"
 
 namespace boresight::sessions {
 
@@ -27,14 +32,23 @@ struct LabelPart {
   std::vector<std::uint8_t> bytes;
 };
 
-/// The label's file and, where the pixels lie in another file, that file.
+/// The label's file and, where the pixels lie in another file, that file: no other that the label
+/// may name.
 struct LabelFiles {
   std::filesystem::path file;  ///< the label
   LabelFormat format = LabelFormat::kVicar;
-  std::vector<LabelPart> parts;  ///< the label first; its numbers' exponents D are written E
-  std::string sha256;            ///< of all parts as they were, one after the other
+  std::vector<LabelPart> parts;  ///< as they were, the label first
+  std::string sha256;            ///< of all parts, one after the other
+  /// Where the label must be written otherwise for GDAL, the first part so; else empty.
+  std::vector<std::uint8_t> rewritten;
+  Pds3Pointer pointer;                             ///< of PDS3
+  std::shared_ptr<const nlohmann::json> elements;  ///< of PDS4, readXmlLabel's tree
+  std::string remark;  ///< of several images in the label, which one is read; else empty
 
-  std::span<const std::uint8_t> labelBytes() const { return parts.front().bytes; }
+  /// The first part as GDAL gets it: exponents D written E, of PDS4 the one array that is read.
+  std::span<const std::uint8_t> labelBytes() const {
+    return rewritten.empty() ? parts.front().bytes : rewritten;
+  }
 };
 
 inline constexpr int kMostLabelBands = 64;
@@ -47,8 +61,8 @@ void requireVicarSizes(const LabelFiles& files);
 /// when there is no label; false answers of files that cannot be read, too.
 std::optional<std::filesystem::path> labelFileOf(const std::filesystem::path& file);
 
-/// Reads the label and what it names. A label may only name a file in its own folder. InputError:
-/// unreadable, no label, a part that is missing or elsewhere.
+/// Reads the label and the file of its pixels, which may only be one in its own folder. InputError:
+/// unreadable, no label, pixels that are missing or elsewhere.
 LabelFiles readLabelFiles(const std::filesystem::path& label_file);
 /// The same of bytes that are already read.
 LabelFiles readLabelFiles(const std::filesystem::path& label_file,

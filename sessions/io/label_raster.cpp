@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only file that knows GDAL.
 #include "sessions/io/label_raster.h"
 
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <cstring>
 #include <mutex>
 
-#include <cpl_conv.h>
-#include <cpl_error.h>
-#include <cpl_minixml.h>
 #include <cpl_vsi.h>
 #include <gdal_frmts.h>
 #include <gdal_priv.h>
@@ -19,13 +14,13 @@
 #include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
+#include "sessions/io/gdal_quiet.h"
 #include "sessions/io/image_file.h"
-#include "sessions/io/label_values.h"
+#include "sessions/io/label_layout.h"
+#include "sessions/io/label_xml.h"
 
 namespace boresight::sessions {
 namespace {
-
-constexpr int kMostDepth = 64;  ///< of elements within elements
 
 /// Three formats and no more, at the first image with a label.
 void registerDrivers() {
@@ -37,54 +32,17 @@ void registerDrivers() {
   });
 }
 
-void CPL_STDCALL keepMessage(CPLErr kind, CPLErrorNum, const char* message) {
-  auto* kept = static_cast<std::string*>(CPLGetErrorHandlerUserData());
-  if (kept != nullptr && kind >= CE_Failure && kept->empty()) *kept = message;
-}
-
-/// GDAL's messages in this thread go here and never to stderr; its settings are its own again
-/// after.
-class Quiet {
- public:
-  explicit Quiet(bool vicar_in_pds3 = false) {
-    CPLPushErrorHandlerEx(keepMessage, &message_);
-    set("GDAL_PAM_ENABLED", "NO");
-    set("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");
-    set("GDAL_TRY_PDS3_WITH_VICAR", vicar_in_pds3 ? "YES" : "NO");
-  }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-  ~Quiet() {
-    for (const auto& [key, before] : settings_)
-      CPLSetThreadLocalConfigOption(key, before.empty() ? nullptr : before.c_str());
-    CPLPopErrorHandler();
-    CPLErrorReset();
-  }
-  const std::string& message() const { return message_; }
-
- private:
-  void set(const char* key, const char* value) {
-    const char* before = CPLGetThreadLocalConfigOption(key, nullptr);
-    settings_.emplace_back(key, before != nullptr ? before : "");
-    CPLSetThreadLocalConfigOption(key, value);
-  }
-  std::string message_;
-  std::vector<std::pair<const char*, std::string>> settings_;
-};
-
 /// The parts as files of GDAL's memory, in a folder of their own.
 class MemoryFolder {
  public:
   explicit MemoryFolder(const LabelFiles& files) {
     static std::atomic<std::uint64_t> next{0};
     folder_ = "/vsimem/boresight-label-" + std::to_string(++next);
-    for (const LabelPart& part : files.parts) {
-      const std::string name = path(part.name);
-      VSILFILE* file = VSIFileFromMemBuffer(name.c_str(), const_cast<GByte*>(part.bytes.data()),
-                                            part.bytes.size(), FALSE);
-      if (file == nullptr) continue;
-      names_.push_back(name);
-      VSIFCloseL(file);
+    label_ = path(files.parts.front().name);
+    add(label_, files.labelBytes());
+    if (files.parts.size() > 1) {
+      pixels_ = path(pixelsName(files));
+      add(pixels_, files.parts.back().bytes);
     }
   }
   MemoryFolder(const MemoryFolder&) = delete;
@@ -93,7 +51,9 @@ class MemoryFolder {
     for (const std::string& name : names_) VSIUnlink(name.c_str());
     VSIUnlink(folder_.c_str());
   }
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  const std::string& label() const { return label_; }
+  /// Whether this is the file of the pixels, where it is not the label's own.
+  bool isPixels(const std::string& name) const { return !pixels_.empty() && name == pixels_; }
   /// GDAL's words without its names of our files.
   std::string plain(std::string text) const {
     for (auto at = text.find(folder_ + "/"); at != std::string::npos; at = text.find(folder_ + "/"))
@@ -102,7 +62,25 @@ class MemoryFolder {
   }
 
  private:
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  /// As GDAL looks for it: of PDS3 names blanks become underscores.
+  static std::string pixelsName(const LabelFiles& files) {
+    if (files.format == LabelFormat::kPds4) return kXmlPixelsName;
+    std::string name = files.parts.back().name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+  }
+  void add(const std::string& name, std::span<const std::uint8_t> bytes) {
+    VSILFILE* file =
+        VSIFileFromMemBuffer(name.c_str(), const_cast<GByte*>(bytes.data()), bytes.size(), FALSE);
+    if (file == nullptr) return;
+    names_.push_back(name);
+    VSIFCloseL(file);
+  }
+
   std::string folder_;
+  std::string label_;
+  std::string pixels_;
   std::vector<std::string> names_;
 };
 
@@ -122,79 +100,11 @@ const char* driverName(LabelFormat format) {
   return format == LabelFormat::kVicar ? "VICAR" : format == LabelFormat::kPds3 ? "PDS" : "PDS4";
 }
 
-const char* metadataDomain(LabelFormat format) {
-  return format == LabelFormat::kVicar  ? "json:VICAR"
-         : format == LabelFormat::kPds3 ? "json:PDS"
-                                        : "xml:PDS4";
-}
-
-std::string_view withoutPrefix(const char* name) {
-  const std::string_view text(name);
-  const auto colon = text.rfind(':');
-  return colon == std::string_view::npos ? text : text.substr(colon + 1);
-}
-
-void addMember(nlohmann::json& object, const std::string& name, nlohmann::json value) {
-  const auto found = object.find(name);
-  if (found == object.end())
-    object[name] = std::move(value);
-  else if (found->is_array())
-    found->push_back(std::move(value));
-  else
-    *found = nlohmann::json::array({std::move(*found), std::move(value)});
-}
-
-/// An element's children as an object, or its text. Depth is bounded by the caller's check.
-nlohmann::json elementTree(const CPLXMLNode* element) {
-  nlohmann::json object = nlohmann::json::object();
-  std::string text;
-  std::string unit;
-  for (const CPLXMLNode* child = element->psChild; child != nullptr; child = child->psNext) {
-    if (child->eType == CXT_Text)
-      text += child->pszValue;
-    else if (child->eType == CXT_Element)
-      addMember(object, std::string(withoutPrefix(child->pszValue)), elementTree(child));
-    else if (child->eType == CXT_Attribute && std::strcmp(child->pszValue, "unit") == 0 &&
-             child->psChild != nullptr)
-      unit = child->psChild->pszValue;
-  }
-  if (!object.empty()) return object;
-  if (!unit.empty()) return {{"value", text}, {"unit", unit}};
-  return text;
-}
-
-/// Elements within elements, counted without a parser: what is nested deeper than any label is
-/// kept from parsers that would follow it.
-void requireFlat(const std::filesystem::path& file, std::string_view xml) {
-  int depth = 0;
-  for (auto at = xml.find('<'); at != std::string_view::npos; at = xml.find('<', at + 1)) {
-    const auto end = xml.find('>', at);
-    if (end == std::string_view::npos) break;
-    const char next = at + 1 < xml.size() ? xml[at + 1] : '>';
-    if (next == '/') --depth;
-    if (next == '/' || next == '!' || next == '?' || xml[end - 1] == '/') continue;
-    if (++depth > kMostDepth)
-      throw InputError(file,
-                       "the label's elements are nested deeper than " + std::to_string(kMostDepth));
-  }
-}
-
-nlohmann::json xmlTree(const std::filesystem::path& file, const char* xml) {
-  requireFlat(file, xml);
-  CPLXMLNode* root = CPLParseXMLString(xml);
-  if (root == nullptr) throw InputError(file, "the PDS4 label is not well-formed XML");
-  const std::unique_ptr<CPLXMLNode, decltype(&CPLDestroyXMLNode)> owner(root, CPLDestroyXMLNode);
-  for (const CPLXMLNode* node = root; node != nullptr; node = node->psNext)
-    if (node->eType == CXT_Element && withoutPrefix(node->pszValue) == "Product_Observational")
-      return elementTree(node);
-  throw InputError(file, "the PDS4 label has no Product_Observational");
-}
-
+/// Of VICAR and PDS3.
 nlohmann::json labelTree(const std::filesystem::path& file, LabelFormat format,
                          GDALDataset& dataset) {
-  char** lines = dataset.GetMetadata(metadataDomain(format));
+  char** lines = dataset.GetMetadata(format == LabelFormat::kVicar ? "json:VICAR" : "json:PDS");
   if (lines == nullptr || *lines == nullptr) throw InputError(file, "the label cannot be read");
-  if (format == LabelFormat::kPds4) return xmlTree(file, *lines);
   // Labels are of no stated encoding: bytes that are not UTF-8 become question marks.
   nlohmann::json tree = nlohmann::json::parse(*lines, nullptr, false);
   if (tree.is_discarded()) {
@@ -207,10 +117,21 @@ nlohmann::json labelTree(const std::filesystem::path& file, LabelFormat format,
   return tree;
 }
 
-SampleType sampleTypeOf(const std::filesystem::path& file, GDALDataType type) {
+/// Until it had a type of their own, GDAL noted aside that bytes have a sign.
+bool isSignedByte(GDALRasterBand& band) {
+  const char* kind = band.GetMetadataItem("PIXELTYPE", "IMAGE_STRUCTURE");
+  return kind != nullptr && std::string_view(kind) == "SIGNEDBYTE";
+}
+
+SampleType sampleTypeOf(const std::filesystem::path& file, GDALRasterBand& band) {
+  const GDALDataType type = band.GetRasterDataType();
   switch (type) {
     case GDT_Byte:
-      return SampleType::kUint8;
+      return isSignedByte(band) ? SampleType::kInt8 : SampleType::kUint8;
+#if GDAL_VERSION_NUM >= GDAL_COMPUTE_VERSION(3, 7, 0)
+    case GDT_Int8:
+      return SampleType::kInt8;
+#endif
     case GDT_UInt16:
       return SampleType::kUint16;
     case GDT_Int16:
@@ -240,14 +161,16 @@ void requireSide(const std::filesystem::path& file, const char* what, std::int64
 }  // namespace
 
 struct LabelRaster::Opened {
-  explicit Opened(const LabelFiles& files) : file(files.file), folder(files) {}
+  explicit Opened(const LabelFiles& files)
+      : file(files.file), folder(files), remark(files.remark) {}
   ~Opened() {
-    const Quiet quiet;
+    const GdalQuiet quiet;
     dataset.reset();
   }
 
   std::filesystem::path file;
   MemoryFolder folder;
+  std::string remark;
   Dataset dataset;
   nlohmann::json label;
   nlohmann::json vicar_label;
@@ -255,40 +178,17 @@ struct LabelRaster::Opened {
   bool integers_as_floats = false;
 
   void open(const LabelFiles& files) {
-    const std::string name = folder.path(files.parts.front().name);
-    const Quiet quiet;
-    dataset = openWith(driverName(files.format), name);
-    if (dataset && dataset->GetRasterCount() == 0) openFirstArray();
+    const GdalQuiet quiet;
+    dataset = openWith(driverName(files.format), folder.label());
     if (!dataset)
       throw InputError(file,
                        std::string("the ") + labelFormatName(files.format) +
                            " label describes no image that can be read" +
                            (quiet.message().empty() ? "" : ": " + folder.plain(quiet.message())));
     checkSizes();
-    type = sampleTypeOf(file, dataset->GetRasterBand(1)->GetRasterDataType());
-    label = labelTree(file, files.format, *dataset);
-    if (files.format == LabelFormat::kPds3) correctType();
-    requirePixels(files);
-  }
-
-  /// GDAL takes every PDS3 sample of 32 bits for a floating-point number of IEEE 754.
-  void correctType() {
-    const std::string stated =
-        upperCase(labelText(labelPath(&label, {"IMAGE", "SAMPLE_TYPE"})).value_or(""));
-    if (stated.find("VAX") != std::string::npos || stated.find("COMPLEX") != std::string::npos)
-      throw InputError(file, "SAMPLE_TYPE", "samples of the type " + stated + " are not read");
-    if (type != SampleType::kFloat || stated.find("INTEGER") == std::string::npos) return;
-    integers_as_floats = true;
-    type = stated.find("UNSIGNED") != std::string::npos ? SampleType::kUint32 : SampleType::kInt32;
-  }
-
-  /// A PDS4 label of several arrays is opened one by one.
-  void openFirstArray() {
-    const char* first = dataset->GetMetadataItem("SUBDATASET_1_NAME", "SUBDATASETS");
-    if (first == nullptr) return;
-    const std::string name(first);
-    if (name.find(folder.path("")) == std::string::npos) return;
-    dataset = openWith("PDS4", name);
+    type = sampleTypeOf(file, *dataset->GetRasterBand(1));
+    label = files.elements ? *files.elements : labelTree(file, files.format, *dataset);
+    checkLayout(files);
   }
 
   void checkSizes() const {
@@ -302,21 +202,53 @@ struct LabelRaster::Opened {
                            std::to_string(kMaxImagePixels));
   }
 
+  void checkLayout(const LabelFiles& files) {
+    if (files.format == LabelFormat::kVicar)
+      requirePrefixOfLines(files, label, dataset->GetRasterCount());
+    GDALDataset::RawBinaryLayout raw;
+    if (!dataset->GetRawBinaryLayout(raw)) {
+      if (files.format == LabelFormat::kVicar) return;  // compressed: reading finds what is wrong
+      throw InputError(file, "the label's pixels are not stored plainly");
+    }
+    if (files.format == LabelFormat::kPds3) {
+      if (files.pointer.nested) label["IMAGE"] = label["FILE"]["IMAGE"];
+      const RasterLayout layout = layoutOf(raw);
+      requireStatedLayout(files, label, layout);
+      const SampleType stated = statedSampleType(files, label, layout);
+      integers_as_floats = isFloating(type) && !isFloating(stated);
+      type = stated;
+    }
+    requirePixels(files, raw);
+  }
+
+  RasterLayout layoutOf(const GDALDataset::RawBinaryLayout& raw) const {
+    RasterLayout layout;
+    layout.width = dataset->GetRasterXSize();
+    layout.height = dataset->GetRasterYSize();
+    layout.bands = dataset->GetRasterCount();
+    layout.little_endian = raw.bLittleEndianOrder;
+    layout.offset = raw.nImageOffset;
+    layout.pixel_step = raw.nPixelOffset;
+    layout.line_step = raw.nLineOffset;
+    layout.band_step = raw.nBandOffset;
+    layout.type = type;
+    return layout;
+  }
+
   /// Readers fill what is missing at the end of a file with zeros and go on: found here.
-  void requirePixels(const LabelFiles& files) const {
-    GDALDataset::RawBinaryLayout layout;
-    if (!dataset->GetRawBinaryLayout(layout)) return;  // compressed: reading finds it
-    std::uint64_t size = 0;
-    for (const LabelPart& part : files.parts)
-      if (folder.path(part.name) == layout.osRawFilename) size = part.bytes.size();
+  void requirePixels(const LabelFiles& files, const GDALDataset::RawBinaryLayout& raw) const {
+    const bool apart = files.parts.size() > 1;
+    if (apart != folder.isPixels(raw.osRawFilename))
+      throw InputError(file, "the label's pixels cannot be found where it says that they are");
+    const std::uint64_t size = files.parts.back().bytes.size();
     const auto last = [](std::int64_t count, std::int64_t step) {
       return static_cast<std::uint64_t>((count - 1) * std::max<std::int64_t>(step, 0));
     };
     const std::uint64_t needed =
-        layout.nImageOffset + last(dataset->GetRasterXSize(), layout.nPixelOffset) +
-        last(dataset->GetRasterYSize(), layout.nLineOffset) +
-        last(dataset->GetRasterCount(), layout.nBandOffset) +
-        static_cast<std::uint64_t>(GDALGetDataTypeSizeBytes(layout.eDataType));
+        raw.nImageOffset + last(dataset->GetRasterXSize(), raw.nPixelOffset) +
+        last(dataset->GetRasterYSize(), raw.nLineOffset) +
+        last(dataset->GetRasterCount(), raw.nBandOffset) +
+        static_cast<std::uint64_t>(GDALGetDataTypeSizeBytes(raw.eDataType));
     if (needed > size)
       throw InputError(file, "the pixels are truncated: the label needs " + std::to_string(needed) +
                                  " bytes, there are " + std::to_string(size));
@@ -328,8 +260,8 @@ struct LabelRaster::Opened {
     if (files.format != LabelFormat::kPds3 ||
         asText(bytes).find("LBLSIZE=") == std::string_view::npos)
       return;
-    const Quiet quiet(true);
-    const Dataset header = openWith("VICAR", folder.path(files.parts.front().name));
+    const GdalQuiet quiet(true);
+    const Dataset header = openWith("VICAR", folder.label());
     if (!header) return;
     try {
       vicar_label = labelTree(file, LabelFormat::kVicar, *header);
@@ -342,7 +274,6 @@ struct LabelRaster::Opened {
 LabelRaster::LabelRaster(const LabelFiles& files) {
   registerDrivers();
   if (files.format == LabelFormat::kVicar) requireVicarSizes(files);
-  if (files.format == LabelFormat::kPds4) requireFlat(files.file, asText(files.labelBytes()));
   opened_ = std::make_unique<Opened>(files);
   opened_->open(files);
   opened_->readVicarHeader(files);
@@ -356,10 +287,11 @@ int LabelRaster::bands() const { return opened_->dataset->GetRasterCount(); }
 SampleType LabelRaster::type() const { return opened_->type; }
 const nlohmann::json& LabelRaster::label() const { return opened_->label; }
 const nlohmann::json& LabelRaster::vicarLabel() const { return opened_->vicar_label; }
+const std::string& LabelRaster::remark() const { return opened_->remark; }
 
 void LabelRaster::readRow(int band, int row, std::vector<double>& samples) const {
   samples.resize(static_cast<std::size_t>(width()));
-  const Quiet quiet;
+  const GdalQuiet quiet;
   const auto read = [&](void* target, GDALDataType type) {
     return opened_->dataset->GetRasterBand(band + 1)->RasterIO(GF_Read, 0, row, width(), 1, target,
                                                                width(), 1, type, 0, 0, nullptr);
@@ -377,6 +309,8 @@ void LabelRaster::readRow(int band, int row, std::vector<double>& samples) const
   } else {
     error = read(samples.data(), GDT_Float64);
   }
+  if (opened_->type == SampleType::kInt8)  // of either sign, as GDAL has them
+    for (double& one : samples) one = one > 127.0 ? one - 256.0 : one;
   if (error != CE_None)
     throw InputError(opened_->file,
                      "line " + std::to_string(row) +

@@ -15,8 +15,7 @@ namespace boresight::sessions {
 
 /// An image with a label as GDAL opens it, from bytes in memory alone: nothing that a label says
 /// makes it read another file. The label comes as one tree: of VICAR and PDS3 as GDAL's JSON has
-/// it, of PDS4 its elements by their names without prefix, those with an attribute `unit` as
-/// {"value", "unit"}, repeated ones as arrays.
+/// it (IMAGE at the top also where it stands in an OBJECT = FILE), of PDS4 as readXmlLabel has it.
 class LabelRaster {
  public:
   /// The files must outlive it. InputError: a label that is damaged, sizes out of bounds, pixels
@@ -33,6 +32,8 @@ class LabelRaster {
   const nlohmann::json& label() const;
   /// The label of the VICAR header inside a PDS3 file; null when there is none.
   const nlohmann::json& vicarLabel() const;
+  /// Of several images in the label, which one this is; else empty.
+  const std::string& remark() const;
   /// Samples of a row of a band (from 0), exact in double. InputError.
   void readRow(int band, int row, std::vector<double>& samples) const;
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -159,46 +158,61 @@ std::optional<int> bitDepthOf(const Source& source, const LabelPicture& picture,
   return bits;
 }
 
-/// A number, or the bits of one: 16#FF7FFFFB#.
-std::optional<double> constantOf(const json& value, bool floating) {
-  if (const auto number = labelNumber(&value)) return number;
-  const auto text = labelText(&value);
-  if (!text || !text->starts_with("16#")) return std::nullopt;
-  const auto end = text->find('#', 3);
-  std::uint32_t bits = 0;
-  const char* last = text->data() + (end == std::string::npos ? text->size() : end);
-  const auto [stop, error] = std::from_chars(text->data() + 3, last, bits, 16);
-  if (error != std::errc() || stop != last) return std::nullopt;
-  if (!floating) return static_cast<double>(bits);
-  float number = 0.0f;
-  std::memcpy(&number, &bits, sizeof(number));
-  return static_cast<double>(number);
-}
-
-void addConstants(const json* value, bool floating, std::vector<double>& constants) {
-  if (value == nullptr) return;
-  const json list = value->is_array() ? *value : json::array({*value});
-  for (const json& one : list) {
-    const auto constant = constantOf(one, floating);
-    if (constant && std::isfinite(*constant) && constants.size() < 32 &&
-        std::find(constants.begin(), constants.end(), *constant) == constants.end())
-      constants.push_back(*constant);
+/// Of PDS4 those of the array that is read: the tree has no other.
+std::vector<InvalidValue> invalidValues(const Source& source, const LabelPicture& picture) {
+  std::vector<InvalidValue> values;
+  const auto add = [&](const json* stated) {
+    addInvalidValues(stated, picture.floating, picture.sample_bits, values);
+  };
+  if (!source.elements()) {
+    for (const char* key : {"MISSING_CONSTANT", "MISSING", "INVALID_CONSTANT", "INVALID",
+                            "NULL_CONSTANT", "NULL", "CORE_NULL"})
+      add(source.image(key));
+    return values;
   }
+  const json* area = labelMember(&source.tree, "File_Area_Observational");
+  if (area == nullptr || !area->is_object()) return values;
+  for (auto array = area->begin(); array != area->end(); ++array) {
+    if (!array.key().starts_with("Array")) continue;
+    for (const char* key : {"missing_constant", "invalid_constant", "unknown_constant",
+                            "not_applicable_constant", "error_constant"})
+      add(labelPath(&*array, {"Special_Constants", key}));
+  }
+  return values;
 }
 
-std::vector<double> invalidConstants(const Source& source, bool floating) {
-  std::vector<double> constants;
+/// How the label has the image displayed, where that is not as it is stored; else empty.
+std::string displayOf(const Source& source) {
+  std::vector<std::string> otherwise;
+  const auto expect = [&](const json* value, const char* stored) {
+    const auto text = labelText(value);
+    if (text && upperCase(*text) != stored) otherwise.push_back(*text);
+  };
   if (source.elements()) {
-    for (const json* special : elementsNamed(source.tree, "Special_Constants"))
-      for (const char* key : {"missing_constant", "invalid_constant", "unknown_constant",
-                              "not_applicable_constant", "error_constant"})
-        addConstants(labelMember(special, key), floating, constants);
-    return constants;
+    for (const json* display : elementsNamed(source.tree, "Display_Direction")) {
+      expect(labelMember(display, "vertical_display_axis"), "LINE");
+      expect(labelMember(display, "vertical_display_direction"), "TOP TO BOTTOM");
+      expect(labelMember(display, "horizontal_display_axis"), "SAMPLE");
+      expect(labelMember(display, "horizontal_display_direction"), "LEFT TO RIGHT");
+    }
+  } else {
+    expect(source.image("LINE_DISPLAY_DIRECTION"), "DOWN");
+    expect(source.image("SAMPLE_DISPLAY_DIRECTION"), "RIGHT");
   }
-  for (const char* key : {"MISSING_CONSTANT", "MISSING", "INVALID_CONSTANT", "INVALID",
-                          "NULL_CONSTANT", "NULL", "CORE_NULL"})
-    addConstants(source.image(key), floating, constants);
-  return constants;
+  otherwise.resize(std::min<std::size_t>(otherwise.size(), 4));
+  return joined(otherwise);
+}
+
+void addPictureFlags(const Source& source, const LabelPicture& picture,
+                     std::vector<std::string>& flags) {
+  if (!picture.remark.empty()) flags.push_back(picture.remark);
+  if (const std::string display = displayOf(source); !display.empty())
+    flags.push_back("the label has the image displayed otherwise than it is stored (" + display +
+                    "); it is read as it is stored, in the lines and samples of its camera model");
+  if (source.format != LabelFormat::kPds3 || picture.sample_bits != 8) return;
+  const std::string type = labelText(source.image("SAMPLE_TYPE")).value_or("UNSIGNED");
+  if (upperCase(type).find("UNSIGNED") == std::string::npos)
+    flags.push_back("the label calls samples of 8 bits " + type + "; they are read as unsigned");
 }
 
 std::string bayerPattern(const Source& source, const LabelPicture& picture) {
@@ -278,8 +292,8 @@ void readCamera(const Source& source, const json& vicar_label, ImageLabel& label
 }  // namespace
 
 LabelPicture pictureOf(const LabelRaster& raster) {
-  return {raster.width(), raster.height(), raster.bands(), bitsOf(raster.type()),
-          isFloating(raster.type())};
+  return {raster.width(),        raster.height(),           raster.bands(),
+          bitsOf(raster.type()), isFloating(raster.type()), raster.remark()};
 }
 
 LabelReading readLabelTree(LabelFormat format, const json& tree, const json& vicar_label,
@@ -294,16 +308,11 @@ LabelReading readLabelTree(LabelFormat format, const json& tree, const json& vic
   label.subframe = subframeOf(source);
   label.bit_depth = bitDepthOf(source, picture, label.flags);
   label.bayer_pattern = bayerPattern(source, picture);
-  reading.invalid = invalidConstants(source, picture.floating);
+  reading.invalid = invalidValues(source, picture);
   reading.derived_type = derivedType(source);
   readCamera(source, vicar_label, label);
   label.frames = labelFrames(format, tree, label.flags);
-  if (format == LabelFormat::kPds3 && picture.sample_bits == 8) {
-    const std::string type = labelText(source.image("SAMPLE_TYPE")).value_or("UNSIGNED");
-    if (upperCase(type).find("UNSIGNED") == std::string::npos)
-      label.flags.push_back("the label calls samples of 8 bits " + type +
-                            "; they are read as unsigned");
-  }
+  addPictureFlags(source, picture, label.flags);
   if (!label.bayer_pattern.empty())
     label.flags.push_back("the pixels are a mosaic of colours (" + label.bayer_pattern +
                           "): turn it into gray or colour before matching");

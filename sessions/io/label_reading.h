@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "sessions/io/image_label.h"
+#include "sessions/io/label_constants.h"
 #include "sessions/io/label_files.h"
 
 namespace boresight::sessions {
@@ -19,7 +20,8 @@ struct LabelPicture {
   int height = 0;
   int bands = 1;
   int sample_bits = 8;
-  bool floating = false;  ///< samples are floating-point numbers
+  bool floating = false;    ///< samples are floating-point numbers
+  std::string remark = {};  ///< of several images in the label, which one this is; else empty
 };
 
 LabelPicture pictureOf(const LabelRaster& raster);
@@ -27,8 +29,8 @@ LabelPicture pictureOf(const LabelRaster& raster);
 /// All that a label says which Boresight uses: for people, and for whoever reads the samples.
 struct LabelReading {
   ImageLabel label;
-  std::vector<double> invalid;  ///< samples that stand for no measurement
-  std::string derived_type;     ///< what a product is that is not a picture, e.g. "XYZ_MAP"
+  std::vector<InvalidValue> invalid;  ///< samples that stand for no measurement
+  std::string derived_type;           ///< what a product is that is not a picture, e.g. "XYZ_MAP"
 };
 
 /// Understands the trees of LabelRaster: `vicar_label` is that of the header inside a PDS3 file, or

@@ -22,18 +22,22 @@ constexpr std::int64_t kEnoughSamples = 1'000'000;
 /// Whether a sample is one, by the label's constants.
 class Validity {
  public:
-  Validity(const std::vector<double>& constants, SampleType type) : constants_(constants) {
+  Validity(const std::vector<InvalidValue>& invalid, SampleType type) : invalid_(invalid) {
+    constexpr double kLargest = std::numeric_limits<float>::max();
     // A constant written in decimals is the nearest number of the samples' type.
-    if (type == SampleType::kFloat)
-      for (double& one : constants_) one = static_cast<double>(static_cast<float>(one));
+    for (InvalidValue& one : invalid_)
+      if (type == SampleType::kFloat && std::abs(one.value) <= kLargest)
+        one.value = static_cast<double>(static_cast<float>(one.value));
   }
   bool operator()(double sample) const {
     return std::isfinite(sample) &&
-           std::find(constants_.begin(), constants_.end(), sample) == constants_.end();
+           std::none_of(invalid_.begin(), invalid_.end(), [sample](const InvalidValue& one) {
+             return std::abs(sample - one.value) <= one.tolerance;
+           });
   }
 
  private:
-  std::vector<double> constants_;
+  std::vector<InvalidValue> invalid_;
 };
 
 struct Range {
@@ -223,7 +227,7 @@ LabelSamples readLabelSamples(const LabelFiles& files) {
           numberText(whole.lowest) + " to " + numberText(whole.highest) + ") and are clipped to " +
           numberText(range.lowest) + " .. " + numberText(range.highest));
   }
-  samples.sample_bits = raster.type() == SampleType::kUint8 ? 8 : 16;
+  samples.sample_bits = bitsOf(raster.type()) == 8 && !samples.quantized ? 8 : 16;
   samples.highest = samples.quantized ? 65535 : static_cast<int>(range.highest);
   samples.invalid_count = range.invalid_count;
   if (samples.quantized) {

@@ -7,6 +7,8 @@ const char* sampleTypeName(SampleType type) {
   switch (type) {
     case SampleType::kUint8:
       return "8-bit unsigned integers";
+    case SampleType::kInt8:
+      return "8-bit signed integers";
     case SampleType::kUint16:
       return "16-bit unsigned integers";
     case SampleType::kInt16:
@@ -26,6 +28,7 @@ const char* sampleTypeName(SampleType type) {
 int bitsOf(SampleType type) {
   switch (type) {
     case SampleType::kUint8:
+    case SampleType::kInt8:
       return 8;
     case SampleType::kUint16:
     case SampleType::kInt16:

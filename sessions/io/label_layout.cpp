@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/label_layout.h"
+
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/errors.h"
+#include "sessions/io/label_values.h"
+
+namespace boresight::sessions {
+namespace {
+
+using nlohmann::json;
+
+std::int64_t integerOf(const json* group, const char* key) {
+  return labelInteger(labelMember(group, key)).value_or(0);
+}
+
+std::string wordOf(const json* group, const char* key) {
+  return upperCase(labelText(labelMember(group, key)).value_or(""));
+}
+
+bool contains(const std::string& text, const char* word) {
+  return text.find(word) != std::string::npos;
+}
+
+/// Nothing for types that do not say it.
+std::optional<bool> isLittleEndian(const std::string& type) {
+  for (const char* little : {"LSB", "PC_"})
+    if (type.starts_with(little)) return true;
+  for (const char* big :
+       {"MSB", "MAC_", "SUN_", "IEEE_", "INTEGER", "UNSIGNED_INTEGER", "REAL", "FLOAT"})
+    if (type.starts_with(big)) return false;
+  return std::nullopt;
+}
+
+/// What the label states, as bytes from one sample to the next.
+struct Steps {
+  std::int64_t pixel = 0;
+  std::int64_t line = 0;
+  std::int64_t band = 0;
+};
+
+/// Nothing for an order of bands of another name.
+std::optional<Steps> statedSteps(const std::string& storage, const RasterLayout& layout,
+                                 std::int64_t prefix) {
+  const std::int64_t item = bitsOf(layout.type) / 8;
+  const std::int64_t row = item * layout.width;
+  if (layout.bands == 1) return Steps{item, prefix + row, 0};
+  // Whether a prefix then is of every band, labels do not tell.
+  if (storage == "LINE_INTERLEAVED" && prefix == 0) return Steps{item, row * layout.bands, row};
+  if (storage == "BAND_SEQUENTIAL" || storage.empty())
+    return Steps{item, prefix + row, (prefix + row) * layout.height};
+  return std::nullopt;
+}
+
+/// Bytes before the first record or byte that the pointer names.
+std::int64_t statedOffset(const LabelFiles& files, const json& label, const json* image) {
+  const Pds3Pointer& pointer = files.pointer;
+  if (pointer.in_bytes || pointer.number == 1) return pointer.number - 1;
+  std::int64_t record = integerOf(image, "RECORD_BYTES");
+  if (record == 0)
+    record = integerOf(pointer.nested ? labelMember(&label, "FILE") : &label, "RECORD_BYTES");
+  if (record < 1 || record > std::int64_t{1} << 30 || pointer.number > std::int64_t{1} << 30)
+    throw InputError(files.file, "^IMAGE",
+                     "counts records, but the label states no length of them (RECORD_BYTES)");
+  return (pointer.number - 1) * record;
+}
+
+}  // namespace
+
+SampleType statedSampleType(const LabelFiles& files, const json& label,
+                            const RasterLayout& layout) {
+  const std::string stated = wordOf(labelMember(&label, "IMAGE"), "SAMPLE_TYPE");
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(files.file, "SAMPLE_TYPE", "samples of the type " + stated + what);
+  };
+  if (contains(stated, "VAX") || contains(stated, "COMPLEX")) refuse(" are not read");
+  const bool floating = isFloating(layout.type);
+  const bool integer = contains(stated, "INTEGER") || stated == "MSB" || stated == "LSB";
+  const int bits = bitsOf(layout.type);
+  if (!stated.empty() && integer == floating && (!integer || bits == 64))
+    refuse(" and " + std::to_string(bits) + " bits are not read");
+  const auto little = isLittleEndian(stated);
+  if (bits > 8 && little && *little != layout.little_endian)
+    refuse(" and " + std::to_string(bits) +
+           " bits are not read: the order of their bytes is "
+           "ambiguous");
+  if (!integer || !floating) return layout.type;
+  return contains(stated, "UNSIGNED") ? SampleType::kUint32 : SampleType::kInt32;
+}
+
+void requireStatedLayout(const LabelFiles& files, const json& label, const RasterLayout& layout) {
+  const json* image = labelMember(&label, "IMAGE");
+  if (integerOf(image, "LINE_SUFFIX_BYTES") != 0)
+    throw InputError(files.file, "LINE_SUFFIX_BYTES",
+                     "bytes behind every line of the image are not read");
+  const std::int64_t prefix = integerOf(image, "LINE_PREFIX_BYTES");
+  const std::int64_t offset = statedOffset(files, label, image) + prefix;
+  const std::string storage = wordOf(image, "BAND_STORAGE_TYPE");
+  const auto steps = statedSteps(storage, layout, prefix);
+  const bool same_steps = steps && steps->pixel == layout.pixel_step &&
+                          steps->line == layout.line_step &&
+                          (layout.bands == 1 || steps->band == layout.band_step);
+  if (!same_steps)
+    throw InputError(files.file, "BAND_STORAGE_TYPE",
+                     std::to_string(layout.bands) + " bands stored as " +
+                         (storage.empty() ? "BAND_SEQUENTIAL" : storage) + ", " +
+                         std::to_string(prefix) + " bytes before every line, are not read");
+  if (offset != static_cast<std::int64_t>(layout.offset))
+    throw InputError(files.file, "^IMAGE",
+                     "names byte " + std::to_string(offset) + ", but it would be read as byte " +
+                         std::to_string(layout.offset));
+}
+
+void requirePrefixOfLines(const LabelFiles& files, const json& label, int bands) {
+  if (integerOf(&label, "NBB") <= 0) return;
+  const std::string order = wordOf(&label, "ORG");
+  // A record is then one pixel, and each would have a prefix: nobody reads that right.
+  if (order == "BIP")
+    throw InputError(files.file, "NBB", "a prefix of every pixel (ORG='BIP') is not read");
+  if (order == "BIL" && bands > 1)
+    throw InputError(files.file, "NBB",
+                     "a prefix of every line of every band (ORG='BIL') is not read");
+}
+
+}  // namespace boresight::sessions
