@@ -311,28 +311,79 @@ bool facePlane(const CameraScene& scene, std::int32_t face, Eigen::Vector3d& pla
   return true;
 }
 
+namespace {
+
+/// A rectangle of the image, px, and how far lines may bend out of it.
+struct FaceBox {
+  double x_min = 1e300, x_max = -1e300, y_min = 1e300, y_max = -1e300;
+  double margin = 0.0;
+
+  void include(double x, double y) {
+    x_min = std::min(x_min, x);
+    x_max = std::max(x_max, x);
+    y_min = std::min(y_min, y);
+    y_max = std::max(y_max, y);
+  }
+  double length2() const {
+    return (x_max - x_min) * (x_max - x_min) + (y_max - y_min) * (y_max - y_min);
+  }
+};
+
+/// A line of length L and curvature k stays within k L^2 / 8 of its chord; twice that.
+double bendMargin(const RayGrid& rays, double length2) {
+  return 0.25 * rays.lineBend_per_px() * length2;
+}
+
+/// The box of a face whose edges may bend far, as some at the border of the valid field do: the
+/// bends of an edge's pieces are smaller by the square of their number. False when a piece ends
+/// outside the valid field.
+bool boxByPieces(const CameraScene& scene, const RayGrid& rays, std::int32_t face, FaceBox& box) {
+  constexpr int kPieces = 8;
+  double longest2 = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d& from = scene.vertex(face, i);
+    const Eigen::Vector3d& to = scene.vertex(face, i < 2 ? i + 1 : 0);
+    Eigen::Vector2d before;
+    for (int k = 0; k <= kPieces; ++k) {
+      const double s = k / static_cast<double>(kPieces);
+      Eigen::Vector2d pixel;
+      if (!projectDirection(rays.camera(), from + (to - from) * s, pixel)) return false;
+      box.include(pixel.x(), pixel.y());
+      if (k > 0) longest2 = std::max(longest2, (pixel - before).squaredNorm());
+      before = pixel;
+    }
+  }
+  box.margin = bendMargin(rays, longest2);
+  return true;
+}
+
+}  // namespace
+
 PixelBounds faceBounds(const CameraScene& scene, const RayGrid& rays, std::int32_t face) {
+  constexpr double kFarBend_px = 8.0;
   const Face& indices = scene.mesh.faces[static_cast<std::size_t>(face)];
-  const FixedPixel& a = scene.vertex_px[static_cast<std::size_t>(indices.vertex[0])];
-  const FixedPixel& b = scene.vertex_px[static_cast<std::size_t>(indices.vertex[1])];
-  const FixedPixel& c = scene.vertex_px[static_cast<std::size_t>(indices.vertex[2])];
-  const int low_x = std::min({a.x, b.x, c.x});
-  if (low_x == FixedPixel::kNotProjected) return clippedBounds(scene, rays, face);
+  FaceBox box;
+  for (const std::int32_t vertex : indices.vertex) {
+    const FixedPixel& pixel = scene.vertex_px[static_cast<std::size_t>(vertex)];
+    if (pixel.x == FixedPixel::kNotProjected) return clippedBounds(scene, rays, face);
+    box.include(pixel.x, pixel.y);
+  }
   const double pixels_per_step = 1.0 / scene.scale.steps();
-  const double x_min = scene.scale.middle_x + low_x * pixels_per_step;
-  const double x_max = scene.scale.middle_x + std::max({a.x, b.x, c.x}) * pixels_per_step;
-  const double y_min = scene.scale.middle_y + std::min({a.y, b.y, c.y}) * pixels_per_step;
-  const double y_max = scene.scale.middle_y + std::max({a.y, b.y, c.y}) * pixels_per_step;
-  // A line of length L and curvature k stays within k L^2 / 8 of its chord; twice that. Half a step
-  // for the rounding of the vertices, and as much for all other rounding.
-  const double length2 = (x_max - x_min) * (x_max - x_min) + (y_max - y_min) * (y_max - y_min);
-  const double margin = 0.25 * rays.lineBend_per_px() * length2 + pixels_per_step;
+  box.x_min = scene.scale.middle_x + box.x_min * pixels_per_step;
+  box.x_max = scene.scale.middle_x + box.x_max * pixels_per_step;
+  box.y_min = scene.scale.middle_y + box.y_min * pixels_per_step;
+  box.y_max = scene.scale.middle_y + box.y_max * pixels_per_step;
+  box.margin = bendMargin(rays, box.length2());
+  FaceBox pieces;
+  if (box.margin > kFarBend_px && boxByPieces(scene, rays, face, pieces)) box = pieces;
+  // Half a step for the rounding of the vertices, and as much for all other rounding.
+  const double margin = box.margin + pixels_per_step;
   const Camera& camera = rays.camera();
   PixelBounds bounds;
-  bounds.x_first = ceilClamped(x_min - margin, 0, camera.width);
-  bounds.x_last = floorClamped(x_max + margin, -1, camera.width - 1);
-  bounds.y_first = ceilClamped(y_min - margin, 0, camera.height);
-  bounds.y_last = floorClamped(y_max + margin, -1, camera.height - 1);
+  bounds.x_first = ceilClamped(box.x_min - margin, 0, camera.width);
+  bounds.x_last = floorClamped(box.x_max + margin, -1, camera.width - 1);
+  bounds.y_first = ceilClamped(box.y_min - margin, 0, camera.height);
+  bounds.y_last = floorClamped(box.y_max + margin, -1, camera.height - 1);
   return bounds;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/render/camera_scene.h"
 #include "core/render/ray_stencil.h"
 #include "core/render/rounding.h"
 
@@ -30,6 +31,59 @@ RayGrid::Range pinholeRange(double minimum, double maximum, double focal_px, dou
   range.first = floorClamped(low - 1.0, 0, size);
   range.last = floorClamped(high + 1.0, -1, size - 1);
   return range;
+}
+
+/// Rays of a pixel and of the eight around it, some pixels away.
+struct Patch {
+  Eigen::Vector3d ray[9];
+  Eigen::Vector3d& at(int dx, int dy) { return ray[3 * dy + dx + 4]; }
+  const Eigen::Vector3d& at(int dx, int dy) const { return ray[3 * dy + dx + 4]; }
+};
+
+bool unprojectPatch(const Camera& camera, const Eigen::Vector2d& middle, int step_px,
+                    Patch& patch) {
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx)
+      if (!unproject(camera, middle + step_px * Eigen::Vector2d(dx, dy), patch.at(dx, dy)))
+        return false;
+  return true;
+}
+
+/// First and second differences of a patch at its middle, per step.
+struct Differences {
+  Eigen::Vector3d x, y, xx, xy, yy;
+  explicit Differences(const Patch& patch) {
+    const Eigen::Vector3d& middle = patch.at(0, 0);
+    x = 0.5 * (patch.at(1, 0) - patch.at(-1, 0));
+    y = 0.5 * (patch.at(0, 1) - patch.at(0, -1));
+    xx = patch.at(-1, 0) - 2.0 * middle + patch.at(1, 0);
+    yy = patch.at(0, -1) - 2.0 * middle + patch.at(0, 1);
+    xy = 0.25 * (patch.at(1, 1) - patch.at(-1, 1) - patch.at(1, -1) + patch.at(-1, -1));
+  }
+};
+
+/// Largest second derivative of (x/z, y/z) along an image axis.
+double rayBend(const Patch& patch) {
+  const Differences by(patch);
+  return std::max(by.xx.cwiseAbs().maxCoeff(), by.yy.cwiseAbs().maxCoeff());
+}
+
+/// Bound on the curvature of the images of straight lines. With d(p) the unit ray of pixel p, a
+/// line with the image p(s) lies in a plane of normal n through the pupil: n . d(p(s)) = 0. Twice
+/// differentiated, the curvature in the direction t is -det(d, D t, H[t, t]) / det(d, Dx, Dy), D
+/// and H being the derivatives of d: a cubic form in t. Unit rays stay smooth up to 90 deg off the
+/// axis and beyond, where (x/z, y/z) has a pole.
+double lineBend(Patch patch) {
+  for (Eigen::Vector3d& ray : patch.ray) ray /= std::sqrt(dotProduct(ray, ray));
+  const Differences by(patch);
+  const Eigen::Vector3d a = crossProduct(patch.at(0, 0), by.x);
+  const Eigen::Vector3d b = crossProduct(patch.at(0, 0), by.y);
+  const double along_x = std::max(std::abs(dotProduct(a, by.xx)),
+                                  std::abs(dotProduct(a, by.yy) + 2.0 * dotProduct(b, by.xy)));
+  const double along_y = std::max(std::abs(dotProduct(b, by.yy)),
+                                  std::abs(dotProduct(b, by.xx) + 2.0 * dotProduct(a, by.xy)));
+  const double largest = std::sqrt(along_x * along_x + along_y * along_y);
+  return largest / std::max(std::abs(dotProduct(a, by.y)), 1e-300);
 }
 
 }  // namespace
@@ -94,8 +148,7 @@ void RayGrid::fillNodes() {
 }
 
 /// Second differences over the image and one node beyond; a factor of two covers what happens
-/// between nodes. A straight line a.(r - r0) = 0 in ray space has the image p(s) with
-/// J p'' = -H[p', p'], so its curvature is at most |H| / (smallest singular value of J).
+/// between nodes. At the border of the valid field smaller steps come nearer to it.
 void RayGrid::measureBends() {
   double ray_bend = 0.0;
   double line_bend = 0.0;
@@ -105,60 +158,62 @@ void RayGrid::measureBends() {
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) valid = valid && nodeValid(column + dx, row + dy);
       smooth_ = smooth_ && valid;
-      if (!valid) continue;
-      const Node& centre = node(column, row);
-      const Node& left = node(column - 1, row);
-      const Node& right = node(column + 1, row);
-      const Node& up = node(column, row - 1);
-      const Node& down = node(column, row + 1);
-      const double xx_x = left.x - 2.0 * centre.x + right.x;
-      const double xx_y = left.y - 2.0 * centre.y + right.y;
-      const double yy_x = up.x - 2.0 * centre.x + down.x;
-      const double yy_y = up.y - 2.0 * centre.y + down.y;
-      const double xy_x = 0.25 * (node(column + 1, row + 1).x - node(column - 1, row + 1).x -
-                                  node(column + 1, row - 1).x + node(column - 1, row - 1).x);
-      const double xy_y = 0.25 * (node(column + 1, row + 1).y - node(column - 1, row + 1).y -
-                                  node(column + 1, row - 1).y + node(column - 1, row - 1).y);
-      ray_bend =
-          std::max({ray_bend, std::abs(xx_x), std::abs(xx_y), std::abs(yy_x), std::abs(yy_y)});
-      const double h2 =
-          xx_x * xx_x + xx_y * xx_y + yy_x * yy_x + yy_y * yy_y + 2.0 * (xy_x * xy_x + xy_y * xy_y);
-      const double jxx = 0.5 * (right.x - left.x);
-      const double jyx = 0.5 * (right.y - left.y);
-      const double jxy = 0.5 * (down.x - up.x);
-      const double jyy = 0.5 * (down.y - up.y);
-      const double determinant = std::abs(jxx * jyy - jxy * jyx);
-      const double norm = std::sqrt(jxx * jxx + jyx * jyx + jxy * jxy + jyy * jyy);
-      const double bend = std::sqrt(h2) * norm / std::max(determinant, 1e-300) / kSpacing;
-      line_bend = std::max(line_bend, bend);
+      Patch patch;
+      if (valid) {
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx) {
+            const Node& at = node(column + dx, row + dy);
+            patch.at(dx, dy) = {at.x, at.y, 1.0};
+          }
+        ray_bend = std::max(ray_bend, rayBend(patch));
+        line_bend = std::max(line_bend, lineBend(patch) / kSpacing);
+      } else if (nodeValid(column, row)) {
+        const Eigen::Vector2d pixel((column - kMargin) * kSpacing, (row - kMargin) * kSpacing);
+        int step_px = kSpacing / 2;
+        while (step_px > 0 && !unprojectPatch(camera_, pixel, step_px, patch)) step_px /= 2;
+        if (step_px > 0) line_bend = std::max(line_bend, lineBend(patch) / step_px);
+      }
     }
   }
   ray_bend_per_px2_ = 2.0 * ray_bend / (kSpacing * kSpacing);
   line_bend_per_px_ = std::min(2.0 * line_bend, 1e6);
 }
 
-/// A row (column) of cells lies within the hull of the nodes on its two sides and the next ones;
-/// unbounded where one of those has no ray.
+/// A row (column) of cells lies within the hull of the nodes on its two sides and the next ones.
+/// Cells at which one of those has no ray are unprojected pixel by pixel when they are drawn, and
+/// here: rays at the border of the valid field may be arbitrarily far from the next node's.
 void RayGrid::fillHulls() {
-  for (int cell = 0; cell < cells_y_; ++cell) {
-    Hull hull{kEverything, -kEverything};
-    for (int row = cell + kMargin - 1; row <= cell + kMargin + 2; ++row)
-      for (int column = kMargin - 1; column <= cells_x_ + kMargin + 1; ++column) {
-        const double value = node(column, row).y;
-        hull.minimum = nodeValid(column, row) ? std::min(hull.minimum, value) : -kEverything;
-        hull.maximum = nodeValid(column, row) ? std::max(hull.maximum, value) : kEverything;
+  const auto clear = [](Hull& hull) { hull = {kEverything, -kEverything}; };
+  std::for_each(row_hull_.begin(), row_hull_.end(), clear);
+  std::for_each(column_hull_.begin(), column_hull_.end(), clear);
+  const auto include = [](Hull& hull, double value) {
+    hull.minimum = std::min(hull.minimum, value);
+    hull.maximum = std::max(hull.maximum, value);
+  };
+  for (int cell_y = 0; cell_y < cells_y_; ++cell_y) {
+    for (int cell_x = 0; cell_x < cells_x_; ++cell_x) {
+      Hull& of_row = row_hull_[static_cast<std::size_t>(cell_y)];
+      Hull& of_column = column_hull_[static_cast<std::size_t>(cell_x)];
+      const int first_column = cell_x + kMargin - 1;
+      const int first_row = cell_y + kMargin - 1;
+      bool valid = true;
+      for (int i = 0; i < 16; ++i)
+        valid = valid && nodeValid(first_column + i % 4, first_row + i / 4);
+      for (int i = 0; valid && i < 16; ++i) {
+        const Node& at = node(first_column + i % 4, first_row + i / 4);
+        include(of_row, at.y);
+        include(of_column, at.x);
       }
-    row_hull_[static_cast<std::size_t>(cell)] = hull;
-  }
-  for (int cell = 0; cell < cells_x_; ++cell) {
-    Hull hull{kEverything, -kEverything};
-    for (int column = cell + kMargin - 1; column <= cell + kMargin + 2; ++column)
-      for (int row = kMargin - 1; row <= cells_y_ + kMargin + 1; ++row) {
-        const double value = node(column, row).x;
-        hull.minimum = nodeValid(column, row) ? std::min(hull.minimum, value) : -kEverything;
-        hull.maximum = nodeValid(column, row) ? std::max(hull.maximum, value) : kEverything;
+      for (int i = 0; !valid && i < kSpacing * kSpacing; ++i) {
+        const int x = cell_x * kSpacing + i % kSpacing;
+        const int y = cell_y * kSpacing + i / kSpacing;
+        Eigen::Vector3d ray;
+        if (x >= camera_.width || y >= camera_.height) continue;
+        if (!unproject(camera_, Eigen::Vector2d(x, y), ray)) continue;
+        include(of_row, ray.y());
+        include(of_column, ray.x());
       }
-    column_hull_[static_cast<std::size_t>(cell)] = hull;
+    }
   }
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -14,23 +16,37 @@
 
 #include "sessions/io/camera_file.h"
 #include "sessions/io/json_writer.h"
+#include "sessions/io/rational_start.h"
 
 namespace boresight::sessions {
 namespace {
 
-constexpr int kFitSteps = 48;       ///< along each side of the grid that is fitted
-constexpr int kCheckedSteps = 256;  ///< along each side of the finer one that is checked
-constexpr double kFar_m = 1e6;      ///< 1 um of pupil is 1e-9 px there
+constexpr int kFitSteps = 48;           ///< along each side of the grid that is fitted
+constexpr int kCheckedSteps = 256;      ///< along each side of the finer one that is checked
+constexpr int kMostEvaluations = 4000;  ///< of all residuals, in one fit
+constexpr double kFar_m = 1e6;          ///< 1 um of pupil is 1e-9 px there
 constexpr double kWithoutLimit = 1e3;
+constexpr std::size_t kFewestSights = 16;
+constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
 /// A unit of a coefficient weighs as much as one residual of this size: numerator and denominator
 /// of the rational model could else grow together without end, and their zeros meet the image.
 constexpr double kRidge_px = 0.05;
 constexpr int kPolynomialCount = 5;  ///< k1 k2 p1 p2 k3: no denominator
+/// A fit begins with the points up to the first of these angles off the axis, in degrees, and goes
+/// on from there with those up to the next one: (x/z, y/z) has its pole at 90 deg, and points close
+/// to it, whose powers outweigh all others, would first pull the coefficients anywhere.
+constexpr double kFieldAngles_deg[] = {60.0, 75.0, 84.0, 87.5, 89.0};
+/// A pixel that the fitted camera does not see counts as one that it sees this far off: of two fits
+/// the one with the smaller mean square is better.
+constexpr double kUnseen_px = 20.0;
 
 /// A pixel of the given camera and a point that it sees.
 struct Sight {
   Eigen::Vector2d pixel;
   Eigen::Vector3d point_m;
+
+  /// Tangent of the angle between the point and the axis.
+  double tangent() const { return point_m.head<2>().norm() / point_m.z(); }
 };
 
 /// The point of a pixel's ray at a distance from the camera's centre; false without a ray.
@@ -105,6 +121,7 @@ struct FitResiduals {
     for (std::size_t i = 0; i < sights->size(); ++i) {
       Eigen::Vector2d pixel;
       const Sight& sight = (*sights)[i];
+      // Only a step towards a pole of the model; the solver takes it back.
       const bool seen = project(camera, sight.point_m, pixel) && pixel.allFinite();
       residuals.segment<2>(static_cast<Eigen::Index>(2 * i)) =
           seen ? Eigen::Vector2d(pixel - sight.pixel) : Eigen::Vector2d::Constant(1e6);
@@ -136,39 +153,76 @@ bool fitParameters(const std::vector<Sight>& sights, int coefficient_count, Came
   Eigen::NumericalDiff<FitResiduals, Eigen::Central> residuals(
       FitResiduals{&start, &sights, static_cast<int>(parameters.size())});
   Eigen::LevenbergMarquardt<decltype(residuals)> solver(residuals);
-  solver.parameters.maxfev = 4000;
+  solver.parameters.maxfev = kMostEvaluations;
   solver.parameters.xtol = solver.parameters.ftol = 1e-13;
   solver.minimize(parameters);
   camera = cameraOf(start, parameters);
   return parameters.allFinite() && prepareCamera(camera) == Status::kOk;
 }
 
-void measure(const Camera& given, double distance_m, FittedCamera& fitted) {
-  double squares = 0.0;
-  int seen_count = 0;
-  for (const Eigen::Vector2d& pixel : checkedPixels(given)) {
-    ++fitted.checked_count;
-    Sight sight;
-    Eigen::Vector2d found;
-    if (!sightAt(given, pixel, distance_m, sight)) {
-      ++fitted.without_ray_count;
-      continue;
+/// What a fit is judged by.
+class FitCheck {
+ public:
+  FitCheck(const Camera& given, double distance_m) {
+    for (const Eigen::Vector2d& pixel : checkedPixels(given)) {
+      Sight near, far;
+      if (!sightAt(given, pixel, distance_m, near)) {
+        ++without_ray_count_;
+        continue;
+      }
+      near_.push_back(near);
+      if (sightAt(given, pixel, kFar_m, far)) far_.push_back(far);
     }
-    if (!project(fitted.camera, sight.point_m, found)) {
-      ++fitted.unseen_count;
-      continue;
-    }
-    const double error_px = (found - pixel).norm();
-    squares += error_px * error_px;
-    ++seen_count;
-    if (error_px > fitted.worst_error_px) {
-      fitted.worst_error_px = error_px;
-      fitted.worst_pixel = pixel;
-    }
-    if (sightAt(given, pixel, kFar_m, sight) && project(fitted.camera, sight.point_m, found))
-      fitted.worst_error_far_px = std::max(fitted.worst_error_far_px, (found - pixel).norm());
   }
-  fitted.rms_error_px = std::sqrt(squares / std::max(1, seen_count));
+
+  FittedCamera measured(const Camera& camera) const {
+    FittedCamera fitted;
+    fitted.camera = camera;
+    fitted.without_ray_count = without_ray_count_;
+    fitted.checked_count = without_ray_count_ + static_cast<int>(near_.size());
+    double squares = 0.0;
+    for (const Sight& sight : near_) {
+      double error_px = 0.0;
+      if (!errorOf(camera, sight, error_px)) {
+        ++fitted.unseen_count;
+        continue;
+      }
+      squares += error_px * error_px;
+      if (error_px <= fitted.worst_error_px) continue;
+      fitted.worst_error_px = error_px;
+      fitted.worst_pixel = sight.pixel;
+    }
+    const auto seen_count = static_cast<int>(near_.size()) - fitted.unseen_count;
+    fitted.rms_error_px = std::sqrt(squares / std::max(1, seen_count));
+    return fitted;
+  }
+
+  void measureFar(FittedCamera& fitted) const {
+    double error_px = 0.0;
+    for (const Sight& sight : far_)
+      if (errorOf(fitted.camera, sight, error_px))
+        fitted.worst_error_far_px = std::max(fitted.worst_error_far_px, error_px);
+  }
+
+ private:
+  static bool errorOf(const Camera& camera, const Sight& sight, double& error_px) {
+    Eigen::Vector2d found;
+    if (!project(camera, sight.point_m, found)) return false;
+    error_px = (found - sight.pixel).norm();
+    return true;
+  }
+
+  std::vector<Sight> near_, far_;
+  int without_ray_count_ = 0;
+};
+
+/// Mean square over all pixels that have a ray, the unseen ones included.
+double costOf(const FittedCamera& fitted) {
+  const int with_ray = fitted.checked_count - fitted.without_ray_count;
+  const int seen = with_ray - fitted.unseen_count;
+  return (fitted.rms_error_px * fitted.rms_error_px * seen +
+          kUnseen_px * kUnseen_px * fitted.unseen_count) /
+         std::max(1, with_ray);
 }
 
 /// How many coefficients are tried; 0 of a pinhole.
@@ -180,8 +234,7 @@ std::vector<int> coefficientCounts(CameraModel model) {
 
 /// Whether more coefficients pay: by a thousandth of a pixel and a tenth.
 bool isBetter(const FittedCamera& longer, const FittedCamera& shorter) {
-  if (longer.unseen_count != shorter.unseen_count)
-    return longer.unseen_count < shorter.unseen_count;
+  if (longer.unseen_count != shorter.unseen_count) return costOf(longer) < costOf(shorter);
   return longer.worst_error_px < 0.9 * shorter.worst_error_px - 1e-3;
 }
 
@@ -191,6 +244,76 @@ std::vector<Sight> sightsOf(const Camera& given, double distance_m) {
   for (const Eigen::Vector2d& pixel : pixelGrid(given, kFitSteps))
     if (sightAt(given, pixel, distance_m, sight)) sights.push_back(sight);
   return sights;
+}
+
+/// What a camera sees up to an angle off the axis.
+struct Field {
+  double widest_rad = 0.0;
+  std::vector<Sight> sights;
+};
+
+/// Ever larger ones; the last is all that a model can be fitted to.
+std::vector<Field> growingFields(const std::vector<Sight>& sights, CameraModel model) {
+  std::vector<Field> fields;
+  const auto add = [&](double limit) {
+    Field field{std::atan(limit), {}};
+    std::copy_if(sights.begin(), sights.end(), std::back_inserter(field.sights),
+                 [limit](const Sight& sight) { return sight.tangent() < limit; });
+    const std::size_t before = fields.empty() ? kFewestSights - 1 : fields.back().sights.size();
+    if (field.sights.size() > before) fields.push_back(std::move(field));
+  };
+  for (const double angle_deg : kFieldAngles_deg) add(std::tan(angle_deg * kRadPerDeg));
+  add(model == CameraModel::kBrownConrady ? kWithoutLimit
+                                          : std::numeric_limits<double>::infinity());
+  return fields;
+}
+
+/// The best of some fits, where there is one.
+struct BestFit {
+  bool found = false;
+  FittedCamera fitted;
+
+  void offer(const FittedCamera& other) {
+    if (!found || costOf(other) < costOf(fitted)) fitted = other;
+    found = true;
+  }
+};
+
+/// The best fits to growing fields, for each number of coefficients. Each goes on from the field
+/// before; with more coefficients than the polynomial's also from the polynomial, and in a wide
+/// field from what distorts like `equidistant` (a fitted Kannala-Brandt camera), where there is
+/// one.
+std::vector<BestFit> fitGrowing(const Camera& start, const std::vector<Field>& fields,
+                                const std::vector<int>& counts, const FitCheck& check,
+                                const BestFit& equidistant) {
+  std::vector<BestFit> best(counts.size());
+  std::vector<Camera> reached(counts.size(), start);
+  for (const Field& field : fields)
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      BestFit here;
+      const auto fitFrom = [&](Camera camera) {
+        if (fitParameters(field.sights, counts[i], camera)) here.offer(check.measured(camera));
+      };
+      fitFrom(reached[i]);
+      if (i > 0) fitFrom(reached[i - 1]);
+      if (i > 0 && equidistant.found)
+        fitFrom(rationalStart(equidistant.fitted.camera, field.widest_rad));
+      if (!here.found) continue;
+      reached[i] = here.fitted.camera;
+      best[i].offer(here.fitted);
+    }
+  return best;
+}
+
+/// Fits of a model, with each number of coefficients.
+std::vector<BestFit> fitsOf(const Camera& given, CameraModel model,
+                            const std::vector<Sight>& sights, const FitCheck& check) {
+  const std::vector<Field> fields = growingFields(sights, model);
+  BestFit equidistant;
+  if (model == CameraModel::kBrownConrady && fields.size() > 1)
+    equidistant = fitsOf(given, CameraModel::kKannalaBrandt, sights, check).front();
+  return fitGrowing(startCamera(given, model), fields, coefficientCounts(model), check,
+                    equidistant);
 }
 
 std::string threeDigits(double value) {
@@ -208,24 +331,17 @@ FittedCamera fitCamera(const Camera& given, CameraModel model, double distance_m
     throw std::runtime_error("its image is mirrored, which no model without vectors can say");
   distance_m = std::min(distance_m, kFar_m);
   const std::vector<Sight> sights = sightsOf(given, distance_m);
-  if (sights.size() < 16)
+  if (sights.size() < kFewestSights)
     throw std::runtime_error("hardly a pixel of it sees a point at that distance");
-  FittedCamera best;
-  bool found = false;
-  Camera start = startCamera(given, model);
-  for (const int count : coefficientCounts(model)) {
-    FittedCamera fitted;
-    fitted.camera = start;
-    if (!fitParameters(sights, count, fitted.camera)) continue;
-    start = fitted.camera;
-    measure(given, distance_m, fitted);
-    if (!found || isBetter(fitted, best)) best = fitted;
-    found = true;
-  }
-  if (!found)
+  const FitCheck check(given, distance_m);
+  BestFit best;
+  for (const BestFit& one : fitsOf(given, model, sights, check))
+    if (one.found && (!best.found || isBetter(one.fitted, best.fitted))) best = one;
+  if (!best.found)
     throw std::runtime_error(std::string("no ") + cameraModelName(model) +
                              " camera comes near to it");
-  return best;
+  check.measureFar(best.fitted);
+  return best.fitted;
 }
 
 std::string fitText(const FittedCamera& fitted) {

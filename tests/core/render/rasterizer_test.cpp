@@ -81,6 +81,29 @@ TEST(Rasterizer, SoupInKannalaBrandtCameraLikeRayCasting) {
     expectLikeRayCasting(triangleSoup(random, 60), fisheyeCamera(150, 117, 80.0), Pose());
 }
 
+/// Corners short of 90 deg off the axis, at it and beyond.
+TEST(Rasterizer, SoupInVeryWideFieldsLikeRayCasting) {
+  Random random(5);
+  for (const double focal_px : {54.0, 60.0, 62.0, 66.0, 72.0}) {
+    Camera camera = fisheyeCamera(150, 117, focal_px);
+    camera.distortion = {};
+    ASSERT_EQ(prepareCamera(camera), Status::kOk);
+    expectLikeRayCasting(triangleSoup(random, 60), camera, Pose());
+  }
+}
+
+/// So short a focal length leaves few nodes of rays, and the field ends between them.
+TEST(Rasterizer, SoupInAWideFieldOfFewNodesLikeRayCasting) {
+  Random random(6);
+  Camera camera = fisheyeCamera(45, 47, 19.0);
+  camera.distortion = {-0.02, -0.01, 0.002, 0.0};
+  for (const double focal_px : {19.0, 20.2, 21.4}) {
+    camera.fx = camera.fy = focal_px;
+    ASSERT_EQ(prepareCamera(camera), Status::kOk);
+    for (int i = 0; i < 4; ++i) expectLikeRayCasting(triangleSoup(random, 60), camera, Pose());
+  }
+}
+
 TEST(Rasterizer, WideAndTallTrianglesLikeRayCasting) {
   Random random(4);
   for (int i = 0; i < 2; ++i) {

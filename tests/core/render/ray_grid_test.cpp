@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -84,6 +85,99 @@ TEST(RayGrid, CountsWhatItUses) {
   std::vector<std::byte> memory(counting.used());
   Arena arena(memory);
   EXPECT_EQ(RayGrid::create(camera, arena, grid), Status::kOk);
+}
+
+/// Equidistant, in fact.
+Camera equidistantCamera(int size, double focal_px) {
+  Camera camera = fisheyeCamera(size, size, focal_px);
+  camera.distortion = {};
+  EXPECT_EQ(prepareCamera(camera), Status::kOk);
+  return camera;
+}
+
+/// How far the image of the straight line between two pixels' rays is from their chord, px.
+double bulge(const Camera& camera, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  Eigen::Vector3d from, to;
+  if (!unproject(camera, a, from) || !unproject(camera, b, to)) return 0.0;
+  const Eigen::Vector2d along = (b - a).normalized();
+  double largest = 0.0;
+  for (int i = 1; i < 64; ++i) {
+    Eigen::Vector2d pixel;
+    // Even steps of angle, not of (x/z, y/z), which has its pole near by.
+    const Eigen::Vector3d between =
+        from.normalized() * (64 - i) / 64.0 + to.normalized() * i / 64.0;
+    if (!projectDirection(camera, between, pixel)) continue;
+    const Eigen::Vector2d off = pixel - a;
+    largest = std::max(largest, std::abs(along.x() * off.y() - along.y() * off.x()));
+  }
+  return largest;
+}
+
+TEST(RayGrid, LinesBendByNoMoreThanItsBound) {
+  const Camera cameras[] = {
+      brownCamera(640, 480, 700.0, -0.28), brownCamera(400, 300, 180.0, -0.35),
+      fisheyeCamera(500, 400, 165.0),      equidistantCamera(512, 220.0),
+      equidistantCamera(512, 227.0),       equidistantCamera(512, 300.0),
+      skewMirroredCamera(500, 400, 400.0), pupilCamera(512, 384, 230.0, 0.01)};
+  Random random(17);
+  for (const Camera& camera : cameras) {
+    std::vector<std::byte> memory(std::size_t{8} << 20);
+    Arena arena(memory);
+    RayGrid grid;
+    ASSERT_EQ(RayGrid::create(camera, arena, grid), Status::kOk);
+    for (int i = 0; i < 3000; ++i) {
+      const Eigen::Vector2d a(random.uniform() * camera.width, random.uniform() * camera.height);
+      const double length_px = random.uniform(2.0, 40.0);
+      const double angle_rad = 6.2832 * random.uniform();
+      const Eigen::Vector2d b =
+          a + length_px * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+      if (b.minCoeff() < 0.0 || b.x() > camera.width || b.y() > camera.height) continue;
+      ASSERT_LE(bulge(camera, a, b), 0.125 * grid.lineBend_per_px() * length_px * length_px + 1e-6)
+          << camera.fx << ": " << a.transpose() << " to " << b.transpose();
+    }
+  }
+}
+
+/// The great circles that an equidistant camera shows bend by less than 1 / f wherever they are.
+TEST(RayGrid, ItsBoundOnBendsIsNoLargerAtNinetyDegrees) {
+  for (const double focal_px : {200.0, 220.0, 227.0, 240.0, 260.0, 400.0}) {
+    std::vector<std::byte> memory(std::size_t{8} << 20);
+    Arena arena(memory);
+    RayGrid grid;
+    ASSERT_EQ(RayGrid::create(equidistantCamera(512, focal_px), arena, grid), Status::kOk);
+    EXPECT_LT(grid.lineBend_per_px(), 3.0 / focal_px) << focal_px;
+    EXPECT_GT(grid.lineBend_per_px(), 0.3 / focal_px) << focal_px;
+  }
+}
+
+TEST(RayGrid, RangesHoldEveryPixelAndNotAllBeyondNinetyDegrees) {
+  const Camera camera = equidistantCamera(512, 220.0);  // without rays in the corners
+  std::vector<std::byte> memory(std::size_t{8} << 20);
+  Arena arena(memory);
+  RayGrid grid;
+  ASSERT_EQ(RayGrid::create(camera, arena, grid), Status::kOk);
+  ASSERT_FALSE(grid.smooth());
+  Random random(18);
+  for (int i = 0; i < 200; ++i) {
+    const double low = 12.0 * random.uniform() - 6.0;
+    const double high = low + 2.0 * random.uniform();
+    const RayGrid::Range rows = grid.rowsWithin(low, high);
+    const RayGrid::Range columns = grid.columnsWithin(low, high);
+    for (int k = 0; k < 500; ++k) {
+      const Eigen::Vector2d pixel(std::floor(random.uniform() * camera.width),
+                                  std::floor(random.uniform() * camera.height));
+      Eigen::Vector3d ray;
+      if (!unproject(camera, pixel, ray)) continue;
+      const bool row_held = pixel.y() >= rows.first && pixel.y() <= rows.last;
+      const bool column_held = pixel.x() >= columns.first && pixel.x() <= columns.last;
+      EXPECT_TRUE(row_held || !(ray.y() >= low && ray.y() <= high)) << low << " " << pixel.y();
+      EXPECT_TRUE(column_held || !(ray.x() >= low && ray.x() <= high)) << low << " " << pixel.x();
+    }
+  }
+  // Above the middle y/z is negative, whatever lies at the border of the field.
+  EXPECT_GT(grid.rowsWithin(0.1, 0.2).first, 200);
+  EXPECT_LT(grid.rowsWithin(0.1, 0.2).last, 320);
+  EXPECT_GT(grid.columnsWithin(3.0, 5.0).first, 300);
 }
 
 }  // namespace

@@ -45,6 +45,38 @@ Eigen::Vector2d byOpenCv(const nlohmann::json& json, const Eigen::Vector3d& poin
   return {pixel[0].x, pixel[0].y};
 }
 
+/// Hazard cameras of two rovers, from the labels of published images: their corners lie about 90
+/// deg off the axis.
+std::vector<Camera> hazardCameras() {
+  CahvModel first;
+  first.model = CameraModel::kCahvore;
+  first.c_m = {0.609331, -0.041064, -0.233849};
+  first.a = {0.7034469897398741, -0.005160999924724463, 0.7107289896336624};
+  first.h_px = {351.362, 452.204, 353.494};
+  first.v_px = {35.8065, -1.75143, 682.705};
+  first.o = {0.7044021845276859, -0.00606200158802323, 0.7097751859352164};
+  first.r = {3e-06, -0.012015, -0.007525};
+  first.e_m = {0.001442, 0.001522, 0.000483};
+  first.type = 3;
+  first.parameter = 0.37;
+  CahvModel second = first;
+  second.c_m = {1.03304, -0.17145, -0.707908};
+  second.a = {0.7066621052060955, 0.00032000004764060064, 0.7075511053384475};
+  second.h_px = {356.718, 453.901, 352.1};
+  second.v_px = {43.3011, 3.70251, 685.544};
+  second.o = {0.7047929048180772, -0.000540999926938204, 0.7094129041941484};
+  second.r = {8e-06, -0.013391, -0.007308};
+  second.e_m = {0.001868, 0.001572, 0.001665};
+  std::vector<Camera> cameras;
+  for (const CahvModel& cahv : {first, second}) {
+    Camera camera;
+    Pose camera_from_reference;
+    EXPECT_EQ(cameraFromCahv(cahv, 1024, 1024, camera, camera_from_reference), Status::kOk);
+    cameras.push_back(camera);
+  }
+  return cameras;
+}
+
 TEST(CameraConversion, OfAnOpticalAxisAlongTheCamerasIsExact) {
   const FittedCamera fitted =
       fitCamera(cahvor(Eigen::Vector3d::UnitZ()), CameraModel::kBrownConrady);
@@ -116,6 +148,41 @@ TEST(CameraConversion, OfAMovingPupilHoldsAtItsDistance) {
   Eigen::Vector2d pixel;
   ASSERT_TRUE(project(near.camera, ray.at(low), pixel));
   EXPECT_LT((pixel - Eigen::Vector2d(600.0, 400.0)).norm(), near.worst_error_px + 1e-9);
+}
+
+TEST(CameraConversion, OfAHazardCameraIsAsGoodAtEveryDistance) {
+  for (const Camera& given : hazardCameras()) {
+    for (const double distance_m : {0.3, 0.5, 2.0, 100.0}) {
+      const FittedCamera brown = fitCamera(given, CameraModel::kBrownConrady, distance_m);
+      EXPECT_LT(brown.rms_error_px, 1.5) << distance_m;
+      EXPECT_LT(brown.worst_error_px, 30.0) << distance_m;
+      EXPECT_LT(brown.unseen_count, 0.01 * brown.checked_count) << distance_m;
+      const FittedCamera fisheye = fitCamera(given, CameraModel::kKannalaBrandt, distance_m);
+      EXPECT_LT(fisheye.rms_error_px, 0.7) << distance_m;
+      EXPECT_LT(fisheye.worst_error_px, 3.5) << distance_m;
+      EXPECT_EQ(fisheye.unseen_count, 0) << distance_m;
+    }
+  }
+}
+
+/// A fisheye whose axis is the camera's, with a field up to the pole of (x/z, y/z): where a
+/// point is seen needs no model.
+TEST(CameraConversion, OfAnEquidistantCameraIsWithinTwoPixelsUpToEightyDegrees) {
+  Camera given;
+  given.model = CameraModel::kKannalaBrandt;
+  given.width = given.height = 1024;
+  given.fx = given.fy = 455.0;
+  given.cx = given.cy = 511.5;
+  ASSERT_EQ(prepareCamera(given), Status::kOk);
+  const FittedCamera fitted = fitCamera(given, CameraModel::kBrownConrady);
+  const Eigen::Vector2d middle(given.cx, given.cy);
+  for (double angle_rad = 0.05; angle_rad < 1.396; angle_rad += 0.05) {
+    const Eigen::Vector3d ray(0.6 * std::tan(angle_rad), 0.8 * std::tan(angle_rad), 1.0);
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(project(fitted.camera, ray, pixel)) << angle_rad;
+    EXPECT_LT((pixel - middle - 455.0 * angle_rad * Eigen::Vector2d(0.6, 0.8)).norm(), 2.0)
+        << angle_rad;
+  }
 }
 
 TEST(CameraConversion, RefusesWhatCannotBe) {
