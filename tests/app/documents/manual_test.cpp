@@ -257,7 +257,8 @@ void writeImageOfPages(const TemporaryFolder& folder) {
 /// Runs the page's commands as an operator types them, one after the other.
 void runPage(const std::string& name, const TemporaryFolder& folder) {
   std::string script = "cd \"$HOME\"\n";
-  for (const std::string& block : blocksOf(pages().at(name)).by_kind["sh run"]) script += block;
+  const std::vector<std::string> blocks = blocksOf(pages().at(name)).by_kind["sh run"];
+  for (const std::string& block : blocks) script += block;
   script = std::regex_replace(script, std::regex("/usr/share/boresight/examples"),
                               exampleFolder().parent_path().string());
   if (script.find("1F483288473.IMG") != std::string::npos) writeImageOfPages(folder);
