@@ -14,7 +14,8 @@ namespace {
 constexpr const char* kDescription =
     "Localization of a station in one image: load, run, step, see, review, export.";
 constexpr const char* kFilesHelp =
-    "A session, a dataset.json, results of whs evaluate, or an image, a camera, a mesh and a seed";
+    "A session, a dataset.json, results of whs evaluate, or an image, a camera (unless the image's "
+    "label has one), a mesh and a seed, with transforms where their frames differ";
 
 struct Options {
   QCommandLineOption self_test{
@@ -122,7 +123,9 @@ bool readArguments(const QCoreApplication& application, Arguments& arguments,
   for (const QString& file : parser.positionalArguments())
     arguments.files.emplace_back(file.toStdString());
   if (!arguments.screenshot.out.empty() && arguments.files.size() > 1) {
-    problem = "--screenshot takes one session, or none for an empty window";
+    problem =
+        "--screenshot takes one session (whs new makes one of files), or none for an empty "
+        "window";
     return false;
   }
   return true;

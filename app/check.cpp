@@ -139,7 +139,7 @@ void addCheck(CLI::App& app, int& exit_code) {
   command->add_option("--json", arguments->json, "Write the checks to this file")
       ->type_name("FILE");
   command->add_flag("--sentences", arguments->sentences,
-                    "Say of every check what was found, not of failed ones alone");
+                    "Say what was found of checks that passed, too");
   command->callback([arguments, &exit_code] { exit_code = checkSession(*arguments); });
 }
 

@@ -10,6 +10,9 @@
 
 #include "app/bop_arguments.h"
 #include "app/commands.h"
+#include "app/info_lines.h"
+#include "app/info_poses.h"
+#include "sessions/annotation/landmarks.h"
 #include "sessions/annotation/marks_file.h"
 #include "sessions/io/cahvor_file.h"
 #include "sessions/io/camera_file.h"
@@ -22,6 +25,7 @@
 #include "sessions/report/run_text.h"
 #include "sessions/report/text_table.h"
 #include "sessions/review/standing.h"
+#include "sessions/review/validated_pose_file.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/input_sheet.h"
 #include "sessions/session/session_document.h"
@@ -35,16 +39,8 @@ namespace {
 using sessions::fixedText;
 using std::filesystem::path;
 
-void line(const std::string& text) { std::cout << "  " << text << "\n"; }
-void flag(const std::string& text) { std::cout << "  ! " << text << "\n"; }
-
 std::string sizeText(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
-}
-
-std::string vectorText(const Eigen::Vector3d& vector, int decimals) {
-  return fixedText(vector.x(), decimals) + " " + fixedText(vector.y(), decimals) + " " +
-         fixedText(vector.z(), decimals);
 }
 
 void flagAll(const std::vector<sessions::RedFlag>& flags) {
@@ -64,46 +60,6 @@ void describeCamera(const sessions::CameraFile& file) {
   flagAll(sheet.flags);
 }
 
-void describePose(const sessions::PoseFile& pose) {
-  std::cout << sessions::poseText(pose.camera_from_station, Matrix6d::Zero());
-  const Eigen::Vector3d camera_in_station_m = pose.camera_from_station.inverse().translation_m;
-  line("camera centre in the station frame " + vectorText(camera_in_station_m, 4) + " m");
-  if (pose.uncertainty)
-    line("uncertainty " + vectorText(pose.uncertainty->translation_m, 4) + " m, " +
-         vectorText(pose.uncertainty->rotation_deg, 2) + " deg about the " +
-         (pose.uncertainty->pivot == sessions::UncertaintyPivot::kStation ? "station" : "camera"));
-  const std::string projected = sessions::projectionNote(pose.rotation_deviation);
-  if (!projected.empty()) flag(projected);
-  if (pose.camera_from_station.translation_m.z() <= 0.0)
-    flag("the station's origin lies behind the camera");
-}
-
-/// A pose in the frame of a camera model, which this file alone does not place in the camera.
-void describeReferencePose(const path& file, const sessions::JsonReader& root) {
-  sessions::CameraReference there;
-  if (const auto frame = root.find("reference_frame"))
-    there.frame = sessions::readFrameName(*frame);
-  line("reference_from_station in " +
-       (there.frame.name.empty() ? "the frame of the camera model" : frameText(there.frame)));
-  const sessions::PoseFile pose = sessions::readPose(file, {there, {}});
-  std::cout << sessions::poseText(pose.camera_from_station, Matrix6d::Zero());
-  const std::string projected = sessions::projectionNote(pose.rotation_deviation);
-  if (!projected.empty()) flag(projected);
-}
-
-void describePoseFile(const path& file, const sessions::JsonReader& root) {
-  if (root.has("reference_from_station") && !root.has("camera_from_station"))
-    describeReferencePose(file, root);
-  else
-    describePose(sessions::readPose(file));
-}
-
-void describeTransform(const sessions::FrameTransform& transform) {
-  line("from " + frameText(transform.source) + " to " + frameText(transform.target) + ": " +
-       transform.comment);
-  std::cout << sessions::poseText(transform.target_from_source, Matrix6d::Zero());
-}
-
 void describeRecord(const sessions::OnboardRecord& record) {
   line("onboard record, " + std::to_string(record.iterations.size()) + " iterations" +
        (record.inputs ? ", image " + sizeText(record.inputs->width, record.inputs->height) + " px"
@@ -121,13 +77,14 @@ std::string symmetryText(const sessions::Symmetries& symmetries) {
 }
 
 void describeDataset(const sessions::Dataset& dataset) {
-  line(std::to_string(dataset.cases.size()) + " cases, " + std::to_string(dataset.stations.size()) +
-       " stations, " + std::to_string(dataset.cameras.size()) + " cameras");
-  std::map<std::string, std::int64_t> cases_of;
+  line(countText(dataset.cases.size(), "case") + ", " +
+       countText(dataset.stations.size(), "station") + ", " +
+       countText(dataset.cameras.size(), "camera"));
+  std::map<std::string, std::size_t> cases_of;
   for (const sessions::Case& one : dataset.cases) ++cases_of[one.station];
   for (const auto& [id, station] : dataset.stations)
-    line("station " + id + ": " + std::to_string(cases_of[id]) + " cases, " +
-         std::to_string(station.parts.size()) + " parts" +
+    line("station " + id + ": " + countText(cases_of[id], "case") + ", " +
+         countText(station.parts.size(), "part") +
          (station.feature_size_m ? ", feature size " + millimetresText(*station.feature_size_m)
                                  : "") +
          symmetryText(station.symmetries));
@@ -201,8 +158,8 @@ void describeCase(const sessions::Session& session, const sessions::SessionCase&
 void describeSession(const path& file) {
   const auto document = sessions::SessionDocument::open(file, sessions::Access::kReadOnly);
   const sessions::Session& session = document.session();
-  line(std::to_string(session.cases.size()) + " cases, " + std::to_string(session.runs.size()) +
-       " runs, profile " + session.profile + ", " + std::to_string(session.options.size()) +
+  line(countText(session.cases.size(), "case") + ", " + countText(session.runs.size(), "run") +
+       ", profile " + session.profile + ", " + std::to_string(session.options.size()) +
        " options differ: " + sessions::toJson(session.options).dump());
   if (const auto holder = sessions::readLockFile(sessions::lockFileOf(file)))
     line((sessions::hasEnded(*holder) ? "was left open by " : "is open in ") + holder->text());
@@ -237,6 +194,12 @@ void describeJson(const path& file) {
     sessions::applyConfig(options, config);
     line("profile " + config.profile + ", " + std::to_string(config.options.size()) +
          " options differ: " + sessions::toJson(config.options).dump());
+  } else if (format == sessions::kValidatedPoseFormat) {
+    describeValidatedPose(document.root());
+  } else if (format == "boresight-rig") {
+    describeRig(file);
+  } else if (format == "boresight-landmarks") {
+    line(countText(sessions::readLandmarks(file).size(), "landmark"));
   } else if (format != "boresight-result") {
     throw sessions::InputError(file, "format", "\"" + format + "\" is not known");
   }
@@ -286,7 +249,8 @@ void describeLabel(const sessions::ImageLabel& label) {
 void describeImage(const path& file) {
   const sessions::GrayImage image = sessions::readImage(file);
   line(image.container + ", " + sizeText(image.width, image.height) + " px, " +
-       std::to_string(image.channels) + " channels, " + std::to_string(image.sample_bits) + " bit");
+       countText(static_cast<std::size_t>(image.channels), "channel") + ", " +
+       std::to_string(image.sample_bits) + " bit");
   line("to 8 bit: " + image.rule);
   const sessions::ImageSheet sheet = sessions::imageSheet(image);
   line("gray " + std::to_string(sheet.lowest_gray) + " .. " + std::to_string(sheet.highest_gray) +
@@ -368,8 +332,8 @@ void addInfo(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "files", *files,
-          "Images, cameras, meshes, poses, transforms, datasets, sessions, configs, points, "
-          "traces, onboard records; folders of BOP datasets")
+          "Images, cameras, meshes, poses (validated ones, too), transforms, datasets, sessions, "
+          "configs, points, rigs, landmarks, traces, onboard records; folders of BOP datasets")
       ->required()
       ->type_name("FILE");
   command->add_option("--mesh-unit", *unit, "Unit of meshes that state none")->type_name("UNIT");

@@ -13,6 +13,7 @@
 #include "sessions/report/result_file.h"
 #include "sessions/report/run_text.h"
 #include "sessions/report/text_table.h"
+#include "sessions/session/named_poses.h"
 #include "sessions/trace/record.h"
 #include "sessions/trace/trace_file.h"
 
@@ -70,6 +71,7 @@ sessions::RunProvenance provenance(const LocalizeArguments& arguments, const Inp
   made.camera_file = arguments.cameraFile();
   if (inputs.image.label) made.image_label = inputs.image.label->identifiers;
   made.station_frame = inputs.seed.station_frame;
+  made.camera_reference = inputs.frames.reference;
   made.seed_file = arguments.seed;
   made.truth_file = arguments.truth;
   made.config_file = arguments.options.config;
@@ -101,7 +103,16 @@ std::optional<sessions::PoseError> errorAgainstTruth(const Inputs& inputs, const
   return error;
 }
 
-void printResult(const sessions::LocalizationTrace& trace,
+/// The pose in the frames that have names.
+void printNamedPoses(const Inputs& inputs, const Pose& camera_from_station) {
+  for (const sessions::NamedPose& pose : sessions::namedPoses(
+           inputs.frames.reference, inputs.seed.station_frame, camera_from_station))
+    std::cout << "\n"
+              << sessions::poseText(pose.reference_from_station, Matrix6d::Zero(),
+                                    sessions::namedPoseTitle(pose));
+}
+
+void printResult(const sessions::LocalizationTrace& trace, const Inputs& inputs,
                  const std::optional<sessions::PoseError>& error) {
   using sessions::fixedText;
   std::cout << sessions::iterationTable(trace) << "\n";
@@ -110,6 +121,7 @@ void printResult(const sessions::LocalizationTrace& trace,
               << fixedText(100.0 * trace.support.share(), 1) << " %, "
               << fixedText(trace.seconds.total(), 2) << " s\n\n"
               << sessions::poseText(trace.camera_from_station, trace.covariance);
+    printNamedPoses(inputs, trace.camera_from_station);
   } else {
     std::cout << "not converged: " << localizationStatusText(trace.status)
               << "; the best estimate remains the seed\n";
@@ -184,7 +196,7 @@ int localizeImage(const LocalizeArguments& arguments) {
       arguments.method.methods.front(), inputs.problem(), inputs.options, settings);
   requireAccepted(arguments, trace);
   const auto error = errorAgainstTruth(inputs, trace.camera_from_station);
-  printResult(trace, error);
+  printResult(trace, inputs, error);
   if (settings.memory_limit > 0) std::cout << "\n" << sessions::memoryTable(trace) << std::flush;
   if (!arguments.out.empty())
     sessions::writeResult(arguments.out, trace, error, provenance(arguments, inputs));

@@ -5,7 +5,9 @@
 #include "app/bop_arguments.h"
 #include "app/commands.h"
 #include "app/frame_arguments.h"
+#include "sessions/io/errors.h"
 #include "sessions/record/onboard_record.h"
+#include "sessions/session/case_run.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_maker.h"
@@ -75,6 +77,18 @@ void NewArguments::addTo(CLI::App& command) {
   file("--out", out, "The session file that is made, e.g. sol12.boresight.json")->required();
 }
 
+/// Sizes that do not fit are refused, since no edit mends them; a seed can be moved.
+void requireUsable(const sessions::SessionCase& one) {
+  const auto loaded = sessions::loadCase(one);
+  sessions::requireSameSize(loaded->image, one.camera);
+  try {
+    sessions::requireRunnable(*loaded);
+  } catch (const sessions::InputError& refusal) {
+    note(std::string("no run begins like this: ") + refusal.what() +
+         "; move the seed in the desktop program, or make the session anew with another");
+  }
+}
+
 sessions::Session sessionOf(const NewArguments& arguments) {
   if (!arguments.results.empty()) return sessions::sessionOfResults(arguments.results);
   if (!arguments.dataset.path.empty())
@@ -98,6 +112,7 @@ sessions::Session sessionOf(const NewArguments& arguments) {
   if (arguments.feature_size_m > 0.0) files.feature_size_m = arguments.feature_size_m;
   const sessions::MadeCase made = sessions::makeCase(files);
   for (const std::string& text : made.notes) note(text);
+  requireUsable(made.made);
   return withCase({}, made.made);
 }
 
@@ -118,7 +133,8 @@ int makeNew(const NewArguments& arguments) {
   if (arguments.results.empty())
     session = withOptions(session, arguments.options.profileName(), arguments.options.read());
   const auto document = sessions::SessionDocument::create(arguments.out, session);
-  std::cout << document.file().string() << ": " << session.cases.size() << " cases" << std::endl;
+  std::cout << document.file().string() << ": " << session.cases.size()
+            << (session.cases.size() == 1 ? " case" : " cases") << std::endl;
   return kDone;
 }
 

@@ -40,8 +40,8 @@ std::string posesText(std::span<const MarkedView> views, const MarksSolution& so
     return poseText(solution.camera_from_station[i], cameraCovariance(solution, views[i]));
   };
   if (views.size() == 1) return ofView(0);
-  std::string text = "the rig's pose, as that of a camera:\n" +
-                     poseText(solution.rig_from_station, solution.covariance);
+  std::string text = "the rig's pose:\n" +
+                     poseText(solution.rig_from_station, solution.covariance, "rig_from_station");
   for (std::size_t i = 0; i < views.size(); ++i) text += "\n" + views[i].name + ":\n" + ofView(i);
   return text;
 }
@@ -61,7 +61,8 @@ std::string solutionText(std::span<const MarkedView> views, const MarksSolution&
           " px:\n";
   const Pose twin = views.size() == 1 ? views[0].camera_from_rig * solution.twin->rig_from_station
                                       : solution.twin->rig_from_station;
-  return text + poseText(twin, Matrix6d::Zero());
+  return text + poseText(twin, Matrix6d::Zero(),
+                         views.size() == 1 ? "camera_from_station" : "rig_from_station");
 }
 
 }  // namespace boresight::sessions

@@ -13,7 +13,11 @@ CameraFile readChosenCamera(const std::filesystem::path& camera_file,
     throw InputError(image, "camera",
                      "none is given, and the image has no label that could tell it: give a "
                      "camera.json");
-  return readLabelCamera(image);
+  const ImageLabel label = readImageLabel(image);
+  if (!label.camera)
+    throw InputError(image, "camera",
+                     label.camera_remark + ": give a camera.json or a .cahvor file with --camera");
+  return *label.camera;
 }
 
 }  // namespace boresight::sessions

@@ -126,7 +126,9 @@ ImageHeader checkImageContainer(const std::filesystem::path& file, Bytes bytes) 
   if (startsWith(std::array<std::uint8_t, 3>{0xff, 0xd8, 0xff})) return checkJpeg(file, bytes);
   if (isTiff(bytes)) return checkTiff(file, bytes);
   if (startsWith(std::array<std::uint8_t, 4>{0x89, 'P', 'N', 'G'})) truncated(file, "PNG");
-  throw InputError(file, "not a PNG, JPEG or TIFF image, nor one with a VICAR, PDS3 or PDS4 label");
+  throw InputError(file,
+                   "not a PNG, JPEG or TIFF image, nor one with a VICAR, PDS3 or PDS4 label "
+                   "in it or beside it");
 }
 
 }  // namespace boresight::sessions

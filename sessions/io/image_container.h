@@ -11,6 +11,11 @@ enum class ImageContainer { kPng, kJpeg, kTiff };
 
 const char* imageContainerName(ImageContainer container);
 
+/// Of samples that are signed, floating, or of other lengths.
+inline constexpr const char* kOtherSamples =
+    "samples are not unsigned integers of 8 or 16 bits: write the image as a TIFF or PNG of 16 "
+    "bits, its range spread over 0 .. 65535";
+
 /// What the headers of an image file say, before anything is decoded.
 struct ImageHeader {
   ImageContainer container = ImageContainer::kPng;

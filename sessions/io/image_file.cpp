@@ -45,7 +45,7 @@ cv::Mat decode(const std::filesystem::path& file, const std::vector<std::uint8_t
   if (image.cols != header.width || image.rows != header.height)
     throw InputError(file, "the decoded image has another size than its header says");
   if (image.depth() != CV_8U && image.depth() != CV_16U)
-    throw InputError(file, "samples are not unsigned integers of 8 or 16 bits");
+    throw InputError(file, kOtherSamples);
   if (image.channels() > 4)
     throw InputError(file, std::to_string(image.channels()) + " channels are not supported");
   return image;

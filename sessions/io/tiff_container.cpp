@@ -139,7 +139,7 @@ void requireFaithfulKind(const std::filesystem::path& file, const TiffDirectory&
   const std::uint64_t bits = directory.value(kBitsPerSample, 1);
   const std::uint64_t format = directory.value(kSampleFormat, kUnsigned);
   if ((format != kUnsigned && format != kUntyped) || (bits != 1 && bits != 8 && bits != 16))
-    throw InputError(file, "samples are not unsigned integers of 8 or 16 bits");
+    throw InputError(file, kOtherSamples);
   const std::uint64_t photometric = directory.value(kPhotometric, kBlackIsZero);
   if (photometric > kPalette && photometric != kYCbCr)
     throw InputError(file, "TIFF photometric interpretation " + std::to_string(photometric) +

@@ -20,6 +20,7 @@
 #include "sessions/review/end_effector_pose.h"
 #include "sessions/review/standing.h"
 #include "sessions/session/frame_lines.h"
+#include "sessions/session/named_poses.h"
 #include "sessions/version.h"
 
 namespace boresight::sessions {
@@ -157,6 +158,23 @@ double drawPose(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
   return box.y;
 }
 
+/// Where the pose was asked for in a frame with a name: in that one, the last that there is.
+double drawNamedPose(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
+  const SessionCase& one = caseOf(report);
+  const auto named =
+      namedPoses(one.camera_reference, one.station_frame, report.pose.camera_from_station);
+  if (named.empty()) return box.y;
+  const Pose& pose = named.back().reference_from_station;
+  box.y = drawHeading(canvas, box.x, box.y, box.width, namedPoseTitle(named.back()));
+  const auto row = [&](const char* name, const std::string& value) {
+    box.y = drawRow(canvas, box, name, value, true);
+  };
+  row("translation", vectorText(pose.translation_m, "m", "%.6f"));
+  row("rotation vector", vectorText(rotationLog(pose.rotation) / kDegree_rad, "deg", "%.5f"));
+  row("quaternion wxyz", quaternionText(pose));
+  return box.y + kGap;
+}
+
 double drawEndEffector(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
   const SessionCase& one = caseOf(report);
   if (!one.camera_from_end_effector) return box.y;
@@ -189,9 +207,11 @@ double drawInputs(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
   row("image", one.image.source.file.filename().string() +
                    formatted(", %d x %d px, file %s", one.image.width, one.image.height,
                              one.image.source.sha256.substr(0, 16).c_str()));
-  row("camera", formatted("fx %.3f, fy %.3f, cx %.3f, cy %.3f px; centre of the top-left pixel is "
-                          "(0, 0)",
-                          one.camera.fx, one.camera.fy, one.camera.cx, one.camera.cy));
+  row("to 8 bit", report.loaded->image.rule);
+  row("camera", formatted("%s, fx %.3f, fy %.3f, cx %.3f, cy %.3f px; centre of the top-left pixel "
+                          "is (0, 0)",
+                          cameraModelName(one.camera.model), one.camera.fx, one.camera.fy,
+                          one.camera.cx, one.camera.cy));
   for (const FrameLine& line : frameLines(one)) row(line.label, line.value);
   for (const LabelItem& item : one.image.label)
     if (item.name == "PRODUCT_ID" || item.name == "START_TIME") row(item.name, item.value);
@@ -233,6 +253,7 @@ void drawFirstPage(PdfCanvas& canvas, const PoseReport& report) {
   const double column = 0.5 * (kTextWidth - 2.0 * kGap);
   PdfBox left = {kLeft, below, column, kFoot - below};
   left.y = drawPose(canvas, left, report) + kGap;
+  left.y = drawNamedPose(canvas, left, report);
   (void)drawEndEffector(canvas, left, report);
   PdfBox right = {kLeft + column + 2.0 * kGap, below, column, kFoot - below};
   right.y = drawInputs(canvas, right, report) + kGap;
@@ -264,11 +285,12 @@ double drawCheck(PdfCanvas& canvas, double y, const JudgedCheck& judged) {
   canvas.text(kLeft, y, 14.0, look.sign, {kSize, true, false, look.color, 1});
   const double title =
       canvas.text(kLeft + 14.0, y, 138.0, check.title, {kSize, false, false, ink, 2});
-  canvas.text(kLeft + 156.0, y, 104.0, figureText(check), {kSize, false, false, ink, 1});
+  const double figure =
+      canvas.text(kLeft + 156.0, y, 104.0, figureText(check), {kSize, false, false, ink, 2});
   const double told =
       canvas.text(kLeft + 262.0, y, kTextWidth - 262.0, sentence,
                   {kSize, false, false, ink, check.state == CheckState::kFailed ? 4 : 2});
-  return y + std::max(title, told) + 1.0;
+  return y + std::max({title, figure, told}) + 1.0;
 }
 
 double drawChecks(PdfCanvas& canvas, double y, const PoseReport& report) {

@@ -11,6 +11,7 @@
 #include "sessions/io/json_writer.h"
 #include "sessions/report/run_text.h"
 #include "sessions/session/frames_json.h"
+#include "sessions/session/named_poses.h"
 
 namespace boresight::sessions {
 namespace {
@@ -99,6 +100,9 @@ ordered_json resultJson(const LocalizationTrace& trace, const std::optional<Pose
   json["attempts"] = trace.attempts;
   json["camera_from_station"] = toJson(trace.camera_from_station);
   json["camera_from_station_seed"] = toJson(trace.camera_from_station_seed);
+  if (provenance.camera_reference)
+    json["frames"] = toJson(namedPoses(provenance.camera_reference, provenance.station_frame,
+                                       trace.camera_from_station));
   if (trace.converged()) json["covariance"] = toJson(trace.covariance);
   json["matches"] = result.matches;
   json["inliers"] = result.inliers;

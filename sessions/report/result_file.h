@@ -27,14 +27,16 @@ struct RunProvenance {
   const SceneMesh* scene = nullptr;
   const IgnoreMask* ignore = nullptr;
   std::filesystem::path camera_file, seed_file, truth_file, config_file;
-  std::vector<LabelItem> image_label = {};                   ///< of an image that has a label
-  std::optional<StationFrame> station_frame = std::nullopt;  ///< of a seed in a named frame
+  std::vector<LabelItem> image_label = {};                         ///< of an image that has a label
+  std::optional<StationFrame> station_frame = std::nullopt;        ///< of a seed in a named frame
+  std::optional<CameraReference> camera_reference = std::nullopt;  ///< of a camera of vectors
 };
 
-/// result.json (`boresight-result`, version 1): status, pose, covariance, one line per iteration,
-/// errors against a truth, seconds per stage, and the provenance: hashes of every input (of an
-/// image the file's and the 8-bit pixels'), options, version, digest. InputError when an input is
-/// no longer there to be hashed.
+/// result.json (`boresight-result`, version 1): status, pose, covariance, the pose in the
+/// frames that have names (as in validated_pose.json), one line per iteration, errors against a
+/// truth, seconds per stage, and the provenance: hashes of every input (of an image the file's and
+/// the 8-bit pixels'), options, version, digest. InputError when an input is no longer there to be
+/// hashed.
 nlohmann::ordered_json resultJson(const LocalizationTrace& trace,
                                   const std::optional<PoseError>& error,
                                   const RunProvenance& provenance);

@@ -286,15 +286,15 @@ std::string iterationTable(const LocalizationTrace& trace) {
                              : "");
 }
 
-std::string poseText(const Pose& camera_from_station, const Matrix6d& covariance) {
-  const Eigen::Vector3d rotation_rad = rotationLog(camera_from_station.rotation);
-  Eigen::Quaterniond q = camera_from_station.rotation;
+std::string poseText(const Pose& pose, const Matrix6d& covariance, const std::string& name) {
+  const Eigen::Vector3d rotation_rad = rotationLog(pose.rotation);
+  Eigen::Quaterniond q = pose.rotation;
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
-  const Eigen::Matrix3d matrix = camera_from_station.matrix();
-  std::string text = "camera_from_station\n";
+  const Eigen::Matrix3d matrix = pose.matrix();
+  std::string text = name + "\n";
   for (int row = 0; row < 3; ++row)
     text += format("  %12.9f %12.9f %12.9f %12.9f\n", matrix(row, 0), matrix(row, 1),
-                   matrix(row, 2), camera_from_station.translation_m[row]);
+                   matrix(row, 2), pose.translation_m[row]);
   text += format("rotation vector %.5f %.5f %.5f deg; quaternion wxyz %.9f %.9f %.9f %.9f\n",
                  toDegrees(rotation_rad.x()), toDegrees(rotation_rad.y()),
                  toDegrees(rotation_rad.z()), q.w(), q.x(), q.y(), q.z());

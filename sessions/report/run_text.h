@@ -13,8 +13,9 @@ namespace boresight::sessions {
 std::string iterationTable(const LocalizationTrace& trace);
 
 /// The pose as rotation vector (deg), quaternion (wxyz, w >= 0) and matrix, with its centre in m
-/// and one sigma per axis where a covariance is given (not all zero).
-std::string poseText(const Pose& camera_from_station, const Matrix6d& covariance);
+/// and one sigma per axis where a covariance is given (not all zero). `name` heads it.
+std::string poseText(const Pose& pose, const Matrix6d& covariance,
+                     const std::string& name = "camera_from_station");
 
 /// Why a run ended as it did: what was measured, what was needed, and what to try. One sentence or
 /// two; empty for a run that converged.

@@ -26,6 +26,9 @@ Check rivalCheck(const BasinResult& basin, const CheckLimits& limits) {
   const auto best = std::max_element(
       basin.rivals.begin(), basin.rivals.end(),
       [](const RivalPose& a, const RivalPose& b) { return a.coverage < b.coverage; });
+  if (best == basin.rivals.end() && basin.returned == 0)
+    return notAskedCheck(kRival,
+                         "No other seed came to a pose that this one could be set against.");
   if (best == basin.rivals.end())
     return statedCheck(kRival, true, "No other pose and no mirror image of the station fits.", "");
   const std::string what = best->mirrored ? "a mirror image of the station" : "another pose";

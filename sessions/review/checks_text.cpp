@@ -46,7 +46,7 @@ std::string checksText(std::span<const Check> checks, bool all_sentences) {
     text += mark(check.state);
     text += plain ? check.title : padded(check.title, width) + "  " + figure;
     text += "\n";
-    if (all_sentences || check.state == CheckState::kFailed)
+    if (all_sentences || check.state != CheckState::kPassed)
       text += "      " + check.sentence + "\n";
   }
   return text + checkCountsText(checks) + "\n";

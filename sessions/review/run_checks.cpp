@@ -56,6 +56,8 @@ Check correctionsCheck(const RunSnapshot& run, const CheckLimits& limits) {
   const auto iterations = lastAttempt(run);
   if (iterations.size() < 2)
     return notAskedCheck(kCorrections, "Fewer than two iterations came to a pose.");
+  if (run.iterations.back().get() != iterations.back())
+    return notAskedCheck(kCorrections, "The last iteration came to no pose.");
   const double first_px = iterations.front()->correction_image_px;
   const double last_px = iterations.back()->correction_image_px;
   const std::string found = "The first iteration moved the station by " + sentenceNumber(first_px) +

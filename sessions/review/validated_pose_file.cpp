@@ -18,6 +18,7 @@
 #include "sessions/session/case_run.h"
 #include "sessions/session/decision_json.h"
 #include "sessions/session/frames_json.h"
+#include "sessions/session/named_poses.h"
 #include "sessions/session/rig_links.h"
 #include "sessions/session/session_json.h"
 #include "sessions/version.h"
@@ -114,25 +115,6 @@ void addFrames(const SessionCase& one, ordered_json& chain) {
                            join.file.string() + ", sha256 " + join.file_sha256 + ", from " +
                                frameText(join.source) + " to " + frameText(join.target) + ": " +
                                join.comment));
-}
-
-/// The pose in the frames that the case knows by name; those are never converted silently.
-ordered_json framesJson(const HandedPose& pose, const SessionCase& one) {
-  const Pose reference_from_station =
-      one.camera_reference->camera_from_reference.inverse() * pose.camera_from_station;
-  ordered_json json;
-  json["camera_model"] = {{"frame", frameText(one.camera_reference->frame)},
-                          {"reference_from_station", toJson(reference_from_station)}};
-  if (!one.station_frame || !one.station_frame->joined_by) return json;
-  const FrameTransform& join = *one.station_frame->joined_by;
-  const bool forward = sameFrame(join.target, one.camera_reference->frame);
-  const Pose given_from_reference =
-      forward ? join.target_from_source.inverse() : join.target_from_source;
-  json["station"] = {
-      {"frame", frameText(one.station_frame->frame)},
-      {"reference_from_station", toJson(given_from_reference * reference_from_station)},
-      {"joined_by", join.file.string() + ": " + join.comment}};
-  return json;
 }
 
 /// Every transform that was used, and where it came from.
@@ -268,7 +250,10 @@ ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
   json["station"] = one.station;
   json["conventions"] = conventionsJson();
   json["pose"] = poseJson(pose, one);
-  if (one.camera_reference) json["frames"] = framesJson(pose, one);
+  // Frames are never converted silently: those that the case knows by name are named.
+  if (one.camera_reference)
+    json["frames"] =
+        toJson(namedPoses(one.camera_reference, one.station_frame, pose.camera_from_station));
   if (one.camera_from_end_effector) json["end_effector"] = endEffectorJson(pose, one);
   json["chain"] = chainJson(pose, one, alone);
   json["decision"] = decisionJson(pose, standingOf(alone, one.id));

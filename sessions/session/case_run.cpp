@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sessions/io/errors.h"
+#include "sessions/session/known_image.h"
 #include "sessions/session/session_file.h"
 #include "sessions/trace/record.h"
 #include "sessions/trace/seed_check.h"
@@ -38,8 +39,7 @@ std::optional<IgnoreMask> loadMask(const SessionCase& one, const GrayImage& imag
 }
 
 GrayImage loadImage(const ImageInput& input) {
-  GrayImage image = readImage(input.source.file, input.eight_bit);
-  requireSame(input.source.file, "its bytes", image.file_sha256, input.source.sha256);
+  GrayImage image = readKnownImage(input, input.eight_bit);
   requireSame(input.source.file, "its 8-bit pixels", image.pixels_sha256, input.pixels_sha256);
   return image;
 }

@@ -3,16 +3,12 @@
 
 #include <utility>
 
-#include "sessions/io/errors.h"
+#include "sessions/session/known_image.h"
 
 namespace boresight::sessions {
 
 ImageInput converted(const ImageInput& image, const ImageReadOptions& eight_bit) {
-  const GrayImage read = readImage(image.source.file, eight_bit);
-  if (read.file_sha256 != image.source.sha256)
-    throw InputError(image.source.file,
-                     "its bytes are not those that the session was made with: relink the file, or "
-                     "accept it as it is now");
+  const GrayImage read = readKnownImage(image, eight_bit);
   ImageInput made = image;
   made.eight_bit = eight_bit;
   made.pixels_sha256 = read.pixels_sha256;

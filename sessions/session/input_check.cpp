@@ -12,6 +12,7 @@
 #include "sessions/io/label_files.h"
 #include "sessions/io/mesh_container.h"
 #include "sessions/io/mesh_file.h"
+#include "sessions/session/known_image.h"
 
 namespace boresight::sessions {
 namespace {
@@ -26,20 +27,28 @@ struct Dependency {
   std::string what;
   fs::path file;
   std::string sha256;
-  const PartSource* part = nullptr;  ///< of a mesh
+  const PartSource* part = nullptr;   ///< of a mesh
+  const ImageInput* image = nullptr;  ///< of an image
 };
 
 std::vector<Dependency> dependenciesOf(const SessionCase& one) {
   std::vector<Dependency> all;
-  all.push_back({"image", one.image.source.file, one.image.source.sha256, nullptr});
+  all.push_back({"image", one.image.source.file, one.image.source.sha256, nullptr, &one.image});
   for (std::size_t i = 0; i < one.parts.size(); ++i)
     all.push_back({"parts[" + std::to_string(i) + "]", one.parts[i].source.mesh,
-                   one.parts[i].sha256, &one.parts[i].source});
-  if (one.ignore) all.push_back({"ignore", one.ignore->file, one.ignore->sha256, nullptr});
+                   one.parts[i].sha256, &one.parts[i].source, nullptr});
+  if (one.ignore) all.push_back({"ignore", one.ignore->file, one.ignore->sha256, nullptr, nullptr});
   if (one.onboard_record)
     all.push_back(
-        {"onboard_record", one.onboard_record->file, one.onboard_record->sha256, nullptr});
+        {"onboard_record", one.onboard_record->file, one.onboard_record->sha256, nullptr, nullptr});
   return all;
+}
+
+/// The file, and the one beside it that is part of the same image.
+std::string namesOf(const Dependency& dependency) {
+  const std::string other =
+      dependency.image != nullptr ? otherFileText(dependency.file) : std::string();
+  return dependency.file.string() + (other.empty() ? "" : ", or " + other + ",");
 }
 
 std::string sha256Of(const Dependency& dependency) {
@@ -55,13 +64,17 @@ class Checker {
     finding.case_id = case_id;
     finding.what = dependency.what;
     finding.file = dependency.file;
-    const std::string name = "case " + case_id + ": " + dependency.file.string();
-    if (!state.error.empty()) {
+    const std::string start = "case " + case_id + ": ";
+    const std::string lost = dependency.image != nullptr && state.sha256 != dependency.sha256
+                                 ? lostLabelText(*dependency.image)
+                                 : std::string();
+    if (!state.error.empty() || !lost.empty()) {
       finding.kind = state.missing ? FindingKind::kMissing : FindingKind::kUnreadable;
-      finding.text = name + ": " + state.error;
+      finding.text = start + dependency.file.string() + ": " + (lost.empty() ? state.error : lost);
     } else if (state.sha256 != dependency.sha256) {
       finding.kind = FindingKind::kChanged;
-      finding.text = name + " is not the file that the session was made with (its SHA-256 is " +
+      finding.text = start + namesOf(dependency) +
+                     " is not the file that the session was made with (its SHA-256 is " +
                      state.sha256.substr(0, 12) + "..., not " + dependency.sha256.substr(0, 12) +
                      "...)";
     } else {

@@ -177,8 +177,10 @@ std::vector<std::string> cameraLines(const CameraSheet& sheet, const Camera& cam
               fixedText(camera.cx, 3) + ", cy " + fixedText(camera.cy, 3),
           "field of view " + fixedText(sheet.field_of_view_x_deg, 2) + " x " +
               fixedText(sheet.field_of_view_y_deg, 2) + " deg, diagonal " +
-              fixedText(sheet.field_of_view_diagonal_deg, 2) + " deg; 1 px is " +
-              fixedText(sheet.pixel_at_1_m_mm, 3) + " mm at 1 m"};
+              (std::isfinite(sheet.field_of_view_diagonal_deg)
+                   ? fixedText(sheet.field_of_view_diagonal_deg, 2) + " deg"
+                   : "not to be told, as a corner sees nothing") +
+              "; 1 px is " + fixedText(sheet.pixel_at_1_m_mm, 3) + " mm at 1 m"};
 }
 
 bool looksLikeMosaic(const ImageView& image) {

@@ -35,6 +35,9 @@ fs::path runFileOf(const fs::path& session_file, const std::string& digest) {
 
 SavedSession readSessionFile(const fs::path& file) {
   const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxJsonBytes);
+  if (asText(bytes).starts_with("PK\x03\x04"))
+    throw InputError(file,
+                     "an archive, as whs pack makes it: unpack it, and open the session in it");
   const JsonDocument document(file, asText(bytes));
   return {readSession(document.root()), sha256Text(bytes)};
 }

@@ -95,8 +95,8 @@ TEST_F(WhsBop, EvaluatesAndWritesTheChallengesResults) {
 TEST_F(WhsBop, SaysWhatIsInIt) {
   const ProgramRun run = runWhs({"info", set_});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("BOP dataset\n  1 cases, 1 stations, 1 cameras"));
-  EXPECT_THAT(run.out, HasSubstr("station obj_000005: 1 cases, 1 parts"));
+  EXPECT_THAT(run.out, HasSubstr("BOP dataset\n  1 case, 1 station, 1 camera"));
+  EXPECT_THAT(run.out, HasSubstr("station obj_000005: 1 case, 1 part"));
 }
 
 TEST_F(WhsBop, BecomesASession) {

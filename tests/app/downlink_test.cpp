@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // From an image as a mission sends it, its camera model in the label and the station's seed in
 // another frame, to a pose that is handed over.
-#include <cmath>
-
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/cahvor_file.h"
 #include "sessions/io/json_writer.h"
 #include "tests/app/run_whs.h"
-#include "tests/support/vicar_image.h"
+#include "tests/support/downlink_image.h"
 
 namespace boresight::test {
 namespace {
@@ -29,59 +27,11 @@ Pose siteFromRover() {
   return {Eigen::Quaterniond(0.96, -0.07, -0.04, 0.25).normalized(), {-84.1, -26.1, 3.6}};
 }
 
-/// A CAHVOR camera that sees about what the example's does, its optical axis beside A.
-Camera labelCamera() {
-  Camera camera;
-  camera.model = CameraModel::kCahvor;
-  camera.width = camera.height = 1024;
-  camera.fx = camera.fy = 1560.0;
-  camera.cx = 511.0;
-  camera.cy = 512.5;
-  camera.cahv.optical_axis = Eigen::Vector3d(0.002, -0.001, 1.0).normalized();
-  camera.cahv.radial = {1e-5, -0.08, 0.03};
-  EXPECT_EQ(prepareCamera(camera), Status::kOk);
-  return camera;
-}
-
-/// The example's picture as that camera would have taken it: 12 bits, by bilinear interpolation.
-std::vector<std::uint16_t> seenBy(const Camera& camera, const ExampleCase& example) {
-  std::vector<std::uint16_t> samples;
-  for (int y = 0; y < camera.height; ++y)
-    for (int x = 0; x < camera.width; ++x) {
-      Eigen::Vector3d ray;
-      Eigen::Vector2d p(-1.0, -1.0);
-      const bool seen = unproject(camera, {x, y}, ray) && projectDirection(example.camera, ray, p);
-      const int x0 = static_cast<int>(std::floor(p.x())), y0 = static_cast<int>(std::floor(p.y()));
-      if (!seen || x0 < 0 || y0 < 0 || x0 + 1 >= example.image.width ||
-          y0 + 1 >= example.image.height) {
-        samples.push_back(0);
-        continue;
-      }
-      const auto gray = [&](int dx, int dy) -> double {
-        return example.image
-            .pixels[static_cast<std::size_t>((y0 + dy) * example.image.width + x0 + dx)];
-      };
-      const double fx = p.x() - x0, fy = p.y() - y0;
-      const double value = (1 - fy) * ((1 - fx) * gray(0, 0) + fx * gray(1, 0)) +
-                           fy * ((1 - fx) * gray(0, 1) + fx * gray(1, 1));
-      samples.push_back(static_cast<std::uint16_t>(std::lround(value * 4095.0 / 255.0)));
-    }
-  return samples;
-}
-
 class Downlink : public ::testing::Test {
  protected:
   Downlink() {
     const ExampleCase example("os");
-    const Camera camera = labelCamera();
-    const CahvModel cahv = cahvFromCamera(camera, roverFromCamera().inverse());
-    image_ =
-        folder_.write("1F483288473.IMG",
-                      vicarImage(camera.width, camera.height, seenBy(camera, example),
-                                 "PROPERTY='IMAGE_DATA'  SAMPLE_BIT_MASK='2#0000111111111111#'  "
-                                 "PROPERTY='IDENTIFICATION'  INSTRUMENT_ID='FRONT_HAZCAM_LEFT'  "
-                                 "PRODUCT_ID='1F483288473'  " +
-                                     vicarCamera(cahv, kRover)));
+    image_ = folder_.write("1F483288473.IMG", downlinkImage(example, roverFromCamera(), kRover));
     truth_ = example.truth.camera_from_station;
     seed_ = writeSeed("seed.json", example.seed, kSite);
     const sessions::FrameTransform transform{kSite, kRover, siteFromRover(), "by hand, sol 12",
@@ -164,6 +114,11 @@ TEST_F(Downlink, IsLocalizedJudgedHandedOverAndVerified) {
   const ProgramRun verified = runWhs({"verify", file});
   EXPECT_EQ(verified.exit_code, 0) << verified.out;
 
+  const ProgramRun told = runWhs({"info", file});
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_THAT(told.out, HasSubstr("case sol12: validated by Ada"));
+  EXPECT_THAT(told.out, HasSubstr("in SITE_FRAME (194)\nreference_from_station\n"));
+
   const json pose = json::parse(folder_.read("pose.json"));
   expectNear(poseOf(pose["pose"]["camera_from_station"]), truth_);
   EXPECT_EQ(pose["frames"]["camera_model"]["frame"], "ROVER_FRAME (194, 835, 1)");
@@ -205,6 +160,24 @@ TEST_F(Downlink, IsLocalizedByItsOwnLabel) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const json result = json::parse(folder_.read("result.json"));
   expectNear(poseOf(result["camera_from_station"]), truth_);
+  EXPECT_EQ(result["frames"]["camera_model"]["frame"], "ROVER_FRAME (194, 835, 1)");
+  expectNear(poseOf(result["frames"]["camera_model"]["reference_from_station"]),
+             roverFromCamera() * truth_);
+  EXPECT_THAT(run.out, HasSubstr("\nreference_from_station in ROVER_FRAME (194, 835, 1)\n"));
+}
+
+TEST_F(Downlink, IsLocalizedInTheFrameThatItsSeedIsGivenIn) {
+  const std::string out = (folder_ / "result.json").string();
+  Arguments arguments = localizeArguments(
+      {{"--image", image_.string()}, {"--camera", ""}, {"--seed", seed_}, {"--out", out}});
+  arguments.insert(arguments.end(), {"--transform", transform_.string()});
+  const ProgramRun run = runWhs(arguments);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json frames = json::parse(folder_.read("result.json"))["frames"];
+  EXPECT_EQ(frames["station"]["frame"], "SITE_FRAME (194)");
+  expectNear(poseOf(frames["station"]["reference_from_station"]),
+             siteFromRover() * roverFromCamera() * truth_);
+  EXPECT_THAT(run.out, HasSubstr("\nreference_from_station in SITE_FRAME (194)\n"));
 }
 
 TEST_F(Downlink, IsDescribedWithAllThatBelongsToIt) {
@@ -225,6 +198,24 @@ TEST_F(Downlink, IsDescribedWithAllThatBelongsToIt) {
   EXPECT_THAT(run.out, HasSubstr("image 1024 x 1024 px"));
   EXPECT_THAT(run.out, HasSubstr("converged, digest "));
   EXPECT_THAT(run.out, Not(HasSubstr("missing: ")));
+}
+
+/// Each matrix under the name of what it is.
+TEST_F(Downlink, PosesAreToldInTheFramesThatTheyAreIn) {
+  const ProgramRun run = runWhs({"info", seed_, transform_.string()});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("\nreference_from_station\n"));
+  EXPECT_THAT(run.out, HasSubstr("\ntarget_from_source\n"));
+  EXPECT_THAT(run.out, HasSubstr("  uncertainty "));
+  EXPECT_THAT(run.out, Not(HasSubstr("camera_from_station")));
+}
+
+TEST_F(Downlink, WithoutACameraModelOneIsAskedFor) {
+  const auto bare =
+      folder_.write("bare.vic", vicarImage(16, 12, std::vector<std::uint16_t>(192), ""));
+  const ProgramRun run = runWhs(localizeArguments({{"--image", bare.string()}, {"--camera", ""}}));
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.err, HasSubstr("give a camera.json or a .cahvor file with --camera"));
 }
 
 TEST_F(Downlink, OfADataSetIsEvaluated) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include <nlohmann/json.hpp>
 
 #include "sessions/session/case_run.h"
@@ -77,6 +79,28 @@ TEST(WhsNew, RefusesWhatIsIncompleteOrThere) {
   EXPECT_EQ(runWhs({"new", "--dataset", kDataset, "--case", "x", "--out", out}).exit_code, 3);
   EXPECT_EQ(runWhs({"new", "--dataset", "none.json", "--out", out}).exit_code, 3);
   EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(WhsNew, SaysAtOnceWhatARunWouldRefuse) {
+  const TemporaryFolder folder;
+  const std::filesystem::path os = exampleFolder() / "os";
+  const std::string out = folder / "s.boresight.json";
+  const auto make = [&](const std::string& camera, const std::string& seed) {
+    return runWhs({"new", "--image", os / "image.png", "--camera", camera, "--mesh",
+                   os / "model.ply", "--mesh-unit", "m", "--seed", seed, "--out", out});
+  };
+  nlohmann::json camera = nlohmann::json::parse(std::ifstream(os / "camera.json"));
+  camera["width"] = 700;
+  const ProgramRun cropped =
+      make(folder.write("camera.json", camera.dump()).string(), os / "seed.json");
+  EXPECT_EQ(cropped.exit_code, 3);
+  EXPECT_THAT(cropped.err, HasSubstr("is 1024 x 1024, but the camera is 700 x 1024"));
+  EXPECT_FALSE(std::filesystem::exists(out)) << "nothing is in the way of the next try";
+  nlohmann::json seed = nlohmann::json::parse(std::ifstream(os / "seed.json"));
+  seed["camera_from_station"][2][3] = -0.4;
+  const ProgramRun behind = make(os / "camera.json", folder.write("seed.json", seed.dump()));
+  EXPECT_EQ(behind.exit_code, 0) << "a person can move it";
+  EXPECT_THAT(behind.err, HasSubstr("no run begins like this: case image: seed: "));
 }
 
 TEST(WhsRun, RecordsTheRunOfLocalizeAndInfoTellsIt) {

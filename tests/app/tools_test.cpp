@@ -215,6 +215,24 @@ TEST(WhsInfo, DescribesEveryKindOfFile) {
                     HasSubstr("uncertainty"), HasSubstr("2 cases, 2 stations")));
 }
 
+TEST(WhsInfo, DescribesRigsAndLandmarks) {
+  const TemporaryFolder folder;
+  folder.write("points.json",
+               R"({"format": "boresight-points", "version": 1, "points": [{"id": "p"}]})");
+  const auto rig = folder.write(
+      "rig.json", R"({"format": "boresight-rig", "version": 1, "views": [{"name": "left",
+      "camera": ")" + (kExample / "camera.json").string() +
+                      R"(", "points": "points.json",
+      "camera_from_rig": [[1,0,0,0.1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}]})");
+  const auto landmarks =
+      folder.write("landmarks.json", R"({"format": "boresight-landmarks", "version": 1,
+      "landmarks": [{"name": "screw", "point_in_station_m": [0, 0, 0], "comment": ""}]})");
+  const ProgramRun run = runWhs({"info", rig, landmarks});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("view left: camera of 1024 x 1024 px, 1 point, 0 lines"),
+                             HasSubstr("\ncamera_from_rig\n"), HasSubstr("  1 landmark\n")));
+}
+
 TEST(WhsInfo, GoesOnAfterABadFile) {
   const ProgramRun run = runWhs({"info", "/no/such/file.png", kExample / "camera.json"});
   EXPECT_EQ(run.exit_code, 3);

@@ -26,6 +26,8 @@ QString tooltipOf(const CaseRow& row) {
   QString text = row.id;
   if (!row.station.isEmpty()) text += CasesModel::tr(", station %1").arg(row.station);
   text += QLatin1Char('\n') + CasesModel::stateText(row.state);
+  if (row.stale)
+    text += CasesModel::tr("\nStale: the inputs or options have changed since its run.");
   if (!row.detail.isEmpty()) text += QLatin1Char('\n') + row.detail;
   return text;
 }
@@ -114,7 +116,8 @@ QVariant CasesModel::data(const QModelIndex& index, int role) const {
   switch (role) {
     case Qt::DisplayRole:
       if (column == kCase) return row.id;
-      return column == kState ? stateText(row.state) : numberText(errorOf(row, column), 3);
+      if (column != kState) return numberText(errorOf(row, column), 3);
+      return stateText(row.state) + (row.stale ? tr(", stale") : QString());
     case Qt::DecorationRole:
       if (column != kCase || row.thumbnail.isNull()) return {};
       return QIcon(QPixmap::fromImage(row.thumbnail));  // drawn in the view's size
@@ -138,7 +141,7 @@ QVariant CasesModel::headerData(int section, Qt::Orientation orientation, int ro
   const QString help[] = {
       tr("The image's name."),
       tr("What has become of the case: new, running, converged, failed, annotated, validated, "
-         "rejected."),
+         "rejected. Stale: its inputs or options have changed since its run."),
       tr("Error of the result along the station's normal, in mm, where the truth is known."),
       tr("Error of the result across the station's normal, in mm, where the truth is known."),
       tr("Error of the result's rotation, in degrees, where the truth is known.")};

@@ -57,7 +57,7 @@ LevelsPanel::LevelsPanel(DisplayImage& display, QWidget* parent)
   scroll->setWidget(page);
   connect(&display_, &DisplayImage::levelsChanged, this, &LevelsPanel::showLevels);
   showLevels();
-  setCase(nullptr, {}, 0);
+  setCase(nullptr, nullptr, 0);
 }
 
 void LevelsPanel::buildDisplay(QBoxLayout& layout) {
@@ -165,13 +165,18 @@ void LevelsPanel::showLevels() {
   updateConversion();
 }
 
-void LevelsPanel::setCase(const sessions::SessionCase* one, const QString& rule,
+void LevelsPanel::setCase(const sessions::SessionCase* one, const sessions::GrayImage* image,
                           int cases_of_camera) {
-  const auto next = one ? std::optional(one->image.eight_bit) : std::nullopt;
-  const bool keeps = next == current_ && cases_of_camera == cases_of_camera_;
-  current_ = next;
+  const int bits = image ? image->bit_depth : 8;
+  const bool same_rule = one ? current_ == one->image.eight_bit : !current_;
+  const bool keeps = same_rule && cases_of_camera == cases_of_camera_ && bits == current_bits_;
+  current_.reset();
+  if (one) current_ = one->image.eight_bit;
+  current_bits_ = bits;
+  bits_of_label_ = image && image->bit_depth_of_label;
   cases_of_camera_ = cases_of_camera;
-  rule_->setText(one ? tr("Now: %1").arg(rule) : tr("No case that can be edited is open."));
+  rule_->setText(one && image ? tr("Now: %1").arg(QString::fromStdString(image->rule))
+                              : tr("No case that can be edited is open."));
   if (!keeps) showConversion();
   updateConversion();
 }
@@ -192,7 +197,7 @@ void LevelsPanel::showConversion() {
         kind_->removeItem(kTable);
     }
     kind_->setCurrentIndex(by_table ? kTable : current_->levels ? kLevels : kLinear);
-    bit_depth_->setValue(current_->bit_depth.value_or(sampleBits()));
+    bit_depth_->setValue(current_->bit_depth.value_or(current_bits_));
     const int largest = (1 << bit_depth_->value()) - 1;
     core_black_->setMaximum(largest);
     core_white_->setMaximum(largest);
@@ -207,6 +212,10 @@ sessions::ImageReadOptions LevelsPanel::chosenConversion() const {
   sessions::ImageReadOptions chosen;
   chosen.bit_depth = bit_depth_->value();
   if (kind_->currentIndex() == kTable) return *current_;
+  // What the label states need not be stated again; other images have labels of their own.
+  if (kind_->currentIndex() == kLinear && bits_of_label_ && !current_->bit_depth &&
+      bit_depth_->value() == current_bits_)
+    chosen.bit_depth.reset();
   if (kind_->currentIndex() == kLevels)
     chosen.levels = sessions::GrayLevels{core_black_->value(), core_white_->value()};
   return chosen;

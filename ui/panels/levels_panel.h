@@ -27,8 +27,10 @@ class LevelsPanel : public QWidget {
  public:
   explicit LevelsPanel(DisplayImage& display, QWidget* parent = nullptr);
 
-  /// nullptr: no conversion can be edited. `rule` says how the 8-bit pixels came about.
-  void setCase(const sessions::SessionCase* one, const QString& rule, int cases_of_camera);
+  /// nullptr: no conversion can be edited. `image` is the case's as it was read: its rule and depth
+  /// are those that hold now, which a label may have stated.
+  void setCase(const sessions::SessionCase* one, const sessions::GrayImage* image,
+               int cases_of_camera);
 
  Q_SIGNALS:
   /// For this case, or for all cases of its camera.
@@ -46,6 +48,8 @@ class LevelsPanel : public QWidget {
 
   DisplayImage& display_;
   std::optional<sessions::ImageReadOptions> current_;
+  int current_bits_ = 8;        ///< of the rule that holds now
+  bool bits_of_label_ = false;  ///< nobody stated them but the image's label
   int cases_of_camera_ = 0;
   int shown_bits_ = 0;  ///< of the samples that the conversion was shown for
   QCheckBox* core_ = nullptr;

@@ -15,6 +15,8 @@
 #include <QTableView>
 #include <QVBoxLayout>
 
+#include "sessions/session/named_poses.h"
+#include "ui/models/number_text.h"
 #include "ui/panels/nudge_box.h"
 #include "ui/panels/paste_pose_dialog.h"
 
@@ -40,6 +42,19 @@ QString aligned(const QString& row) {
   QString line;
   for (const QString& number : row.split(QStringLiteral("  "))) line += number.rightJustified(11);
   return line;
+}
+
+/// Of a translation of many metres as of a rotation: six decimals.
+QString matrixRows(const Pose& pose) {
+  const Eigen::Matrix3d rotation = pose.matrix();
+  QString text;
+  for (int row = 0; row < 3; ++row) {
+    text += QLatin1Char('\n');
+    for (int column = 0; column < 3; ++column)
+      text += QString::number(rotation(row, column), 'f', 6).rightJustified(10);
+    text += QString::number(pose.translation_m[row], 'f', 6).rightJustified(13);
+  }
+  return text;
 }
 
 constexpr int kFrame_px = 22;  // of the table, and room for a scroll bar
@@ -130,6 +145,12 @@ QWidget* PosePanel::buildCopyBar() {
   matrix_->setToolTip(
       tr("camera_from_station as a 4x4 matrix, row by row; its last column is in metres"));
   column->addWidget(matrix_);
+  named_ = new QLabel(bar);
+  named_->setObjectName(QStringLiteral("namedPoses"));
+  named_->setFont(matrix_->font());
+  named_->setTextInteractionFlags(matrix_->textInteractionFlags());
+  named_->setToolTip(tr("The same pose in the frames that camera model and seed were given in"));
+  column->addWidget(named_);
   column->addLayout(layout);
   layout->addWidget(new QLabel(tr("Copy as"), bar));
   chooser->addWidget(new QLabel(tr("Matrix of"), bar));
@@ -166,6 +187,18 @@ void PosePanel::showMatrix() {
     rows << aligned(model_.index(row, copied_->currentIndex()).data().toString());
   matrix_->setText(model_.pose(role) ? rows.join(QLatin1Char('\n'))
                                      : tr("There is no pose \"%1\".").arg(poseRoleName(role)));
+  showNamedPoses(role);
+}
+
+void PosePanel::showNamedPoses(PoseRole role) {
+  const ViewState::CasePtr& one = state_.currentCase();
+  QStringList texts;
+  if (one && model_.pose(role))
+    for (const sessions::NamedPose& named : sessions::namedPoses(
+             one->source.camera_reference, one->source.station_frame, *model_.pose(role)))
+      texts << fromText(sessions::namedPoseTitle(named)) + matrixRows(named.reference_from_station);
+  named_->setText(texts.join(QStringLiteral("\n\n")));
+  named_->setVisible(!texts.isEmpty());
 }
 
 void PosePanel::addCopyActions(QMenu& menu, PoseRole role) {

@@ -52,6 +52,7 @@ class PosePanel : public QWidget {
   void showMenu(const QPoint& at);
   void refresh();
   void showMatrix();
+  void showNamedPoses(PoseRole role);
 
   ViewState& state_;
   NudgeController controller_;
@@ -59,6 +60,7 @@ class PosePanel : public QWidget {
   QWidget* page_ = nullptr;
   QTableView* table_ = nullptr;
   QLabel* matrix_ = nullptr;
+  QLabel* named_ = nullptr;  ///< the same pose in frames with names
   QComboBox* copied_ = nullptr;
   PoseComparison* comparison_ = nullptr;
 };

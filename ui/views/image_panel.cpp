@@ -96,7 +96,8 @@ void ImagePanel::setHint(const QString& hint) {
   view_->setHint(
       !hint.isEmpty()
           ? hint
-          : tr("Drop an image, a mesh, a camera and a seed here, or a dataset.json, or a "
+          : tr("Drop an image, a mesh, a camera (unless the image's label has one) and a seed "
+               "here, with transforms where their frames differ; or a dataset.json, or a "
                "session"));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/case_rows.h"
 
+#include <exception>
+
 #include <QCoreApplication>
 
 #include "sessions/review/standing.h"
@@ -20,9 +22,21 @@ QString detailOf(const sessions::Session& session, const std::string& id,
   return text;
 }
 
+/// Options that cannot be read are said where they are shown.
+bool isStale(const sessions::Session& session, const std::string& id,
+             const std::filesystem::path& file) {
+  const sessions::RunRecord* run = session.lastRunOf(id);
+  try {
+    return run && sessions::stalenessOf(*run, session, file).stale();
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 }  // namespace
 
-std::vector<CaseRow> caseRows(const sessions::Session& session, const QString& running) {
+std::vector<CaseRow> caseRows(const sessions::Session& session, const QString& running,
+                              const std::filesystem::path& file) {
   std::vector<CaseRow> rows;
   for (const auto& one : session.cases) {
     CaseRow row;
@@ -30,6 +44,8 @@ std::vector<CaseRow> caseRows(const sessions::Session& session, const QString& r
     row.station = QString::fromStdString(one->station);
     const sessions::Standing standing = sessions::standingOf(session, one->id);
     row.state = row.id == running ? CaseState::kRunning : caseStateOf(standing.state);
+    const bool of_run = row.state == CaseState::kConverged || row.state == CaseState::kFailed;
+    row.stale = of_run && isStale(session, one->id, file);
     row.detail = detailOf(session, one->id, standing);
     rows.push_back(std::move(row));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "sessions/session/session.h"
@@ -9,7 +10,8 @@
 namespace boresight::ui {
 
 /// The session's cases as the list of cases shows them. `running` is the id of the one at work, or
-/// empty.
-std::vector<CaseRow> caseRows(const sessions::Session& session, const QString& running);
+/// empty; `file` is the session's, for messages.
+std::vector<CaseRow> caseRows(const sessions::Session& session, const QString& running,
+                              const std::filesystem::path& file = {});
 
 }  // namespace boresight::ui

@@ -62,6 +62,10 @@ Kind kindOf(const std::filesystem::path& file, std::string& problem) {
   if (extension == ".whsr") return Kind::kRecord;
   if (extension == ".sqlite") return Kind::kResults;
   if (extension == ".json") return kindOfJson(file, problem);
+  if (extension == ".zip") {
+    problem = file.string() + ": an archive: unpack it, and open the session in it";
+    return Kind::kUnknown;
+  }
   if (sessions::isCahvorFile(file)) return Kind::kCamera;
   if (sessions::hasImageLabel(file)) return Kind::kImage;
   problem =
@@ -72,15 +76,20 @@ Kind kindOf(const std::filesystem::path& file, std::string& problem) {
   return Kind::kUnknown;
 }
 
-/// Nothing for an image without a label; else why that has no camera, or "".
-std::optional<std::string> labelCameraRemark(const std::filesystem::path& image) {
-  if (!sessions::hasImageLabel(image)) return std::nullopt;
-  try {
-    const sessions::ImageLabel label = sessions::readImageLabel(image);
-    return label.camera ? std::string() : label.camera_remark;
-  } catch (const std::exception& error) {
-    return error.what();
+/// Takes the image; one whose label cannot be read, or lacks its pixels, is a problem and no image.
+void takeImage(const std::filesystem::path& image, DroppedFiles& made) {
+  std::optional<std::string> remark;
+  if (sessions::hasImageLabel(image)) {
+    try {
+      const sessions::ImageLabel label = sessions::readImageLabel(image);
+      remark = label.camera ? std::string() : label.camera_remark;
+    } catch (const std::exception& error) {
+      made.problems.emplace_back(error.what());
+      return;
+    }
   }
+  made.one.image = image;
+  made.label_camera_remark = remark;
 }
 
 bool isNamedTruth(const std::filesystem::path& file) {
@@ -118,6 +127,27 @@ std::string DroppedFiles::missing() const {
   return text;
 }
 
+bool DroppedFiles::beginsAnew(const DroppedFiles& earlier) const {
+  const bool more =
+      !one.camera.empty() || !one.seed.empty() || !one.parts.empty() || one.truth.has_value();
+  return isCase() || (!one.image.empty() && !earlier.one.image.empty() && more);
+}
+
+std::string DroppedFiles::keptNames(const DroppedFiles& earlier) const {
+  std::string names;
+  const auto add = [&names](const std::filesystem::path& file, bool replaced) {
+    if (!file.empty() && !replaced) names += (names.empty() ? "" : ", ") + file.filename().string();
+  };
+  add(earlier.one.image, !one.image.empty());
+  add(earlier.one.camera, !one.camera.empty());
+  for (const sessions::PartSource& part : earlier.one.parts) add(part.mesh, !one.parts.empty());
+  add(earlier.one.seed, !one.seed.empty());
+  add(earlier.one.truth.value_or(""), one.truth.has_value());
+  for (const std::filesystem::path& file : earlier.one.transforms) add(file, false);
+  add(earlier.record.value_or(""), record.has_value());
+  return names;
+}
+
 DroppedFiles classify(const std::vector<std::filesystem::path>& files,
                       const DroppedFiles& earlier) {
   DroppedFiles made;
@@ -129,8 +159,7 @@ DroppedFiles classify(const std::vector<std::filesystem::path>& files,
     std::string problem;
     switch (kindOf(file, problem)) {
       case Kind::kImage:
-        made.one.image = file;
-        made.label_camera_remark = labelCameraRemark(file);
+        takeImage(file, made);
         break;
       case Kind::kMesh: {
         if (new_mesh) made.one.parts.clear();

@@ -27,6 +27,11 @@ struct DroppedFiles {
   bool isCase() const;         ///< an image, a camera, a mesh and a seed
   bool hasCamera() const;      ///< a file of its own, or the label of the image
   bool isRecordAlone() const;  ///< an onboard record, and nothing of a case
+  /// Whether these have nothing to do with files of an earlier drop: a whole case, or another image
+  /// that comes with files of its own.
+  bool beginsAnew(const DroppedFiles& earlier) const;
+  /// Names of the files of an earlier drop that these leave in place: "a.png, b.json", or "".
+  std::string keptNames(const DroppedFiles& earlier) const;
 };
 
 /// Tells files by their content (JSON by its `format`) and by their extension (".whsr" is a

@@ -62,10 +62,10 @@ void LevelsController::showDocument() {
   const sessions::SessionCase* one =
       editable && shown ? session.findCase(shown->source.id) : nullptr;
   if (!one) {
-    panel_.setCase(nullptr, {}, 0);
+    panel_.setCase(nullptr, nullptr, 0);
     return;
   }
-  panel_.setCase(one, QString::fromStdString(shown->image.rule),
+  panel_.setCase(one, &shown->image,
                  static_cast<int>(sessions::casesOfSameCamera(session, one->id).size()));
 }
 

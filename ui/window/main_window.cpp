@@ -131,6 +131,9 @@ void MainWindow::connectAll() {
   connect(&cases_, &CaseController::failed, this, &MainWindow::showMessage);
   connect(&tasks_, &TaskRunner::failed, this, &MainWindow::showMessage);
   connect(&run_, &RunController::stateChanged, this, &MainWindow::showState);
+  connect(&run_, &RunController::stateChanged, this, [this] {
+    if (run_.state() == RunState::kWorking) statusBar()->clearMessage();  // of what was before
+  });
   connect(&state_, &ViewState::caseChanged, this, &MainWindow::showState);
   connect(&state_, &ViewState::caseChanged, this, &MainWindow::showHint);
 }
@@ -148,6 +151,7 @@ void MainWindow::showHint() {
 
 void MainWindow::showMessage(const QString& message) {
   last_message_ = message;
+  statusBar()->clearMessage();  // of what was under way, and has failed
   showHint();
   if (quiet_) return;
   QMessageBox box(QMessageBox::Warning, tr("Boresight"), message, QMessageBox::Ok, this);

@@ -88,7 +88,8 @@ void PanelLinks::linkPoses() {
 void PanelLinks::showCases() {
   const bool working = parts_.run.state() == RunState::kWorking;
   std::vector<CaseRow> rows =
-      caseRows(parts_.document.session(), working ? parts_.cases.caseId() : QString());
+      caseRows(parts_.document.session(), working ? parts_.cases.caseId() : QString(),
+               parts_.document.file());
   details_->fill(rows);
   docks_.cases().setRows(std::move(rows));
   docks_.cases().setRunnable(!working);

@@ -45,7 +45,7 @@ void SessionFiles::askForSession() {
 
 void SessionFiles::askForFiles() {
   const QStringList files = QFileDialog::getOpenFileNames(
-      &window_, tr("A dataset, results, or an image, a camera, a mesh and a seed"), {},
+      &window_, tr("A dataset, results, or an image, a camera, a mesh, a seed and transforms"), {},
       tr("All (*.json *.sqlite *.whsr *.img *.IMG *.vic *.VIC *.lbl *.LBL *.xml *.cahv *.cahvor "
          "*.cahvore *.png *.jpg *.jpeg *.tif *.tiff *.ply *.obj *.stl *.gltf "
          "*.glb)"));
@@ -55,9 +55,10 @@ void SessionFiles::askForFiles() {
 }
 
 void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
-  // Files that make a case by themselves have nothing to do with earlier ones.
   const DroppedFiles alone = classify(files);
-  const DroppedFiles dropped = alone.isCase() ? alone : classify(files, collected_);
+  const bool anew = alone.beginsAnew(collected_);
+  const DroppedFiles dropped = anew ? alone : classify(files, collected_);
+  const std::string kept = anew ? std::string() : alone.keptNames(collected_);
   for (const std::string& problem : dropped.problems)
     Q_EMIT failed(QString::fromStdString(problem));
   if (dropped.session) {
@@ -86,7 +87,7 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
                         .arg(text(dropped.record->filename())));
     makeFromDataset(*dropped.dataset);
   } else {
-    addCase();
+    addCase(QString::fromStdString(kept));
   }
 }
 
@@ -119,7 +120,8 @@ void SessionFiles::makeFromResults(const std::filesystem::path& results) {
       });
 }
 
-void SessionFiles::addCase() {
+/// `kept`: names of files of earlier drops that the case is made of, too.
+void SessionFiles::addCase(const QString& kept) {
   if (!askForUnits()) return;
   Q_EMIT noted(tr("Reading the files ..."));
   parts_.tasks.start(
@@ -130,10 +132,10 @@ void SessionFiles::addCase() {
           made.onboard_record = {*files.record, sessions::inputSha256(*files.record)};
         return made;
       },
-      [this](sessions::SessionCase made) {
+      [this, kept](sessions::SessionCase made) {
         // Until now: whatever was wrong may be mended by a further file, e.g. a transform.
         collected_ = {};
-        Q_EMIT noted({});
+        Q_EMIT noted(kept.isEmpty() ? QString() : tr("Also of earlier drops: %1").arg(kept));
         takeCase(std::move(made));
       });
 }

@@ -54,7 +54,7 @@ class SessionFiles : public QObject {
  private:
   void makeFromDataset(const std::filesystem::path& dataset);
   void makeFromResults(const std::filesystem::path& results);
-  void addCase();
+  void addCase(const QString& kept);
   void takeCase(sessions::SessionCase made);
   bool askForUnits();
   bool mayLoseRuns();

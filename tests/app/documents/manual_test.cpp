@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manual as it is installed, against the programs and the source that it tells of.
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -11,8 +12,12 @@
 
 #include "core/localizer/localizer_options.h"
 #include "sessions/baselines/methods.h"
+#include "sessions/io/frame_transform.h"
+#include "sessions/io/image_label.h"
 #include "sessions/review/check_limits.h"
+#include "sessions/session/session_file.h"
 #include "tests/app/run_whs.h"
+#include "tests/support/downlink_image.h"
 
 namespace boresight::test {
 namespace {
@@ -92,6 +97,10 @@ std::vector<std::string> linksOf(const std::string& page) {
   // What is between two backticks is code.
   const std::string text = std::regex_replace(blocksOf(page).text, std::regex("`[^`\n]*`"), "code");
   return matches(text, R"(\]\(([^)\s]+)\))", 1);
+}
+
+void expectSamePose(const Pose& a, const Pose& b) {
+  EXPECT_LT(perturbationBetween(a, b).norm(), 1e-5);  // six digits of 84 m are shown
 }
 
 TEST(Manual, LinksLeadToPagesHeadingsAndPicturesThatAreThere) {
@@ -226,26 +235,69 @@ TEST(Manual, JsonIsJson) {
   EXPECT_GE(count, 5);
 }
 
-/// As an operator types them, page by page, each in a folder of its own.
+/// The image that pages speak of. Where the camera is and what the label says of frames is taken
+/// from the label of 1F483288473EFFCMUFP1214L0M1.IMG; the picture is the example's.
+void writeImageOfPages(const TemporaryFolder& folder) {
+  const Pose rover_from_camera{Eigen::Quaterniond(0.6554278649933007, 0.2702906109594101,
+                                                  0.267541568378369, 0.6525172860600358)
+                                   .normalized(),
+                               {0.609331, -0.041064, -0.233849}};
+  folder.write(
+      "1F483288473.IMG",
+      downlinkImage(ExampleCase("os"), rover_from_camera, {"ROVER_FRAME", {194, 835, 1, 0, 0}},
+                    "PROPERTY='ROVER_COORDINATE_SYSTEM'  "
+                    "COORDINATE_SYSTEM_NAME='ROVER_FRAME'  "
+                    "COORDINATE_SYSTEM_INDEX=(194,835,1,0,0)  "
+                    "ORIGIN_OFFSET_VECTOR=(-84.1293,-26.1436,3.59172)  "
+                    "ORIGIN_ROTATION_QUATERNION=(0.965051,-0.0697583,-0.0424514,0.249015)  "
+                    "REFERENCE_COORD_SYSTEM_NAME='SITE_FRAME'  "
+                    "REFERENCE_COORD_SYSTEM_INDEX=194  "));
+}
+
+/// Runs the page's commands as an operator types them, one after the other.
+void runPage(const std::string& name, const TemporaryFolder& folder) {
+  std::string script = "cd \"$HOME\"\n";
+  const std::vector<std::string> blocks = blocksOf(pages().at(name)).by_kind["sh run"];
+  for (const std::string& block : blocks) script += block;
+  script = std::regex_replace(script, std::regex("/usr/share/boresight/examples"),
+                              exampleFolder().parent_path().string());
+  if (script.find("1F483288473.IMG") != std::string::npos) writeImageOfPages(folder);
+  folder.write("page.sh", script);
+  const ProgramRun run =
+      runProgram("env HOME=" + folder.path().string() +
+                     " PATH=" + fs::path(BORESIGHT_WHS).parent_path().string() + ":\"$PATH\" bash",
+                 {"-eu", (folder / "page.sh").string()});
+  EXPECT_EQ(run.exit_code, 0) << name << "\n" << script << run.out << run.err;
+}
+
+/// Page by page, each in a folder of its own.
 TEST(Manual, CommandsDoWhatTheyAreThereFor) {
   int run_pages = 0;
   for (const auto& [name, page] : pages()) {
-    std::string script = "cd \"$HOME\"\n";
-    const std::vector<std::string> blocks = blocksOf(page).by_kind["sh run"];
-    for (const std::string& block : blocks) script += block;
-    if (blocks.empty()) continue;
+    if (blocksOf(page).by_kind["sh run"].empty()) continue;
     ++run_pages;
-    script = std::regex_replace(script, std::regex("/usr/share/boresight/examples"),
-                                exampleFolder().parent_path().string());
     const TemporaryFolder folder;
-    folder.write("page.sh", script);
-    const ProgramRun run = runProgram(
-        "env HOME=" + folder.path().string() +
-            " PATH=" + fs::path(BORESIGHT_WHS).parent_path().string() + ":\"$PATH\" bash",
-        {"-eu", (folder / "page.sh").string()});
-    EXPECT_EQ(run.exit_code, 0) << name << "\n" << script << run.out << run.err;
+    runPage(name, folder);
   }
-  EXPECT_GE(run_pages, 6);
+  EXPECT_GE(run_pages, 7);
+}
+
+/// Whoever copies the example's transform gets that of the label, and both seeds are the same pose.
+TEST(Manual, FramesOfThePlanetaryPageAreThoseOfTheLabel) {
+  const TemporaryFolder folder;
+  runPage("planetary.md", folder);
+  const sessions::ImageLabel label = sessions::readImageLabel(folder / "1F483288473.IMG");
+  const sessions::FrameTransform stated =
+      sessions::readFrameTransform(folder / "site_from_rover.json");
+  const auto told = std::find_if(label.frames.begin(), label.frames.end(), [&](const auto& one) {
+    return one.frame == stated.source && one.reference == stated.target;
+  });
+  ASSERT_NE(told, label.frames.end());
+  expectSamePose(stated.target_from_source, told->reference_from_frame);
+  const auto seedOf = [&folder](const char* session) {
+    return sessions::readSessionFile(folder / session).session.cases[0]->camera_from_station_seed;
+  };
+  expectSamePose(seedOf("sol4000.boresight.json"), seedOf("sol4000_site.boresight.json"));
 }
 
 /// In tables of files, what is named beside a file is in it.

@@ -207,12 +207,14 @@ TEST_F(ReadImage, RefusesWhatIsNotAnImage) {
   EXPECT_EQ(error({}), "image: the file is empty");
   const std::string text = "{\"format\": \"boresight-pose\"}";
   const std::string none =
-      "image: not a PNG, JPEG or TIFF image, nor one with a VICAR, PDS3 or PDS4 label";
+      "image: not a PNG, JPEG or TIFF image, nor one with a VICAR, PDS3 or PDS4 label "
+      "in it or beside it";
   EXPECT_EQ(error(Bytes(text.begin(), text.end())), none);
   EXPECT_EQ(error(encoded(randomImage(CV_8UC1), ".bmp")), none);
   cv::Mat real(4, 4, CV_32FC1, cv::Scalar(1.0));
   EXPECT_EQ(error(encoded(real, ".tiff")),
-            "image: samples are not unsigned integers of 8 or 16 bits");
+            "image: samples are not unsigned integers of 8 or 16 bits: write the image as a TIFF "
+            "or PNG of 16 bits, its range spread over 0 .. 65535");
 }
 
 using Tag = std::array<std::uint32_t, 2>;
@@ -254,11 +256,14 @@ TEST_F(ReadImage, KeepsTheValuesOfTiffOrRefusesThem) {
   EXPECT_EQ(error(smallTiff(four, {{258, 16}, {262, 0}})),
             "image: a TIFF of 16 bits in which 0 is white is not supported");
   EXPECT_EQ(error(smallTiff(four, {{258, 12}})),
-            "image: samples are not unsigned integers of 8 or 16 bits");
+            "image: samples are not unsigned integers of 8 or 16 bits: write the image as a TIFF "
+            "or PNG of 16 bits, its range spread over 0 .. 65535");
   EXPECT_EQ(error(smallTiff(four, {{258, 16}, {339, 2}})),
-            "image: samples are not unsigned integers of 8 or 16 bits");
+            "image: samples are not unsigned integers of 8 or 16 bits: write the image as a TIFF "
+            "or PNG of 16 bits, its range spread over 0 .. 65535");
   EXPECT_EQ(error(smallTiff(eight, {{258, 32}, {339, 3}})),
-            "image: samples are not unsigned integers of 8 or 16 bits");
+            "image: samples are not unsigned integers of 8 or 16 bits: write the image as a TIFF "
+            "or PNG of 16 bits, its range spread over 0 .. 65535");
   EXPECT_EQ(error(smallTiff(eight, {{262, 5}, {277, 4}})),
             "image: TIFF photometric interpretation 5 is not supported");
   EXPECT_EQ(error(smallTiff(eight, {{262, 2}, {277, 4}, {338, 2}})),

@@ -103,6 +103,12 @@ TEST(BasinChecks, SeedsThatDoNotLeadBackFailAtTheLimit) {
   EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kPassed);
 }
 
+TEST(BasinChecks, WhereNoOtherSeedCameToAPoseThereIsNothingToCompareWith) {
+  const BasinResult basin{10, 10, 0, 0.5, {}};
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").state, CheckState::kFailed);
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kNotApplicable);
+}
+
 TEST(BasinChecks, OnlyABetterAnswerElsewhereSpeaksAgainstThePose) {
   BasinResult basin{10, 10, 9, 0.5, {{Pose(), false, 0.3}}};
   EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kPassed);

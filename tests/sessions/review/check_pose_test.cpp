@@ -216,5 +216,17 @@ TEST(ChecksText, FailedOnesSayWhy) {
   EXPECT_NE(text.find(" failed, "), std::string::npos);
 }
 
+TEST(ChecksText, OnesThatAreNotApplicableSayWhyNot) {
+  Check check;
+  check.title = "Other seeds lead back";
+  check.state = CheckState::kNotApplicable;
+  check.sentence = "No other seeds were run.";
+  EXPECT_EQ(checksText(std::vector{check}),
+            "  -   Other seeds lead back\n      No other seeds were run.\n"
+            "0 passed, 0 failed, 1 not applicable\n");
+  check.state = CheckState::kPassed;
+  EXPECT_EQ(checksText(std::vector{check}).find("No other seeds were run."), std::string::npos);
+}
+
 }  // namespace
 }  // namespace boresight::sessions

@@ -98,6 +98,15 @@ TEST(RunChecks, ARunThatDidNotConvergeFailsAndSaysHowItEnded) {
       << check.sentence;
 }
 
+TEST(RunChecks, CorrectionsOfARunWhoseLastIterationFailedAreNotPraised) {
+  ReviewSubject subject = subjectOf({});
+  subject.run->status = LocalizationStatus::kPnpFailed;
+  auto failed = std::make_shared<IterationTrace>();
+  failed->status = LocalizationStatus::kPnpFailed;
+  subject.run->iterations.push_back(failed);
+  EXPECT_EQ(stateOf(subject, "corrections_shrink"), CheckState::kNotApplicable);
+}
+
 TEST(RunChecks, CorrectionsAreComparedWithTheFirstOne) {
   const Check shrinks = findCheck(checksOf(subjectOf({}, 4.0)), "corrections_shrink");
   EXPECT_NEAR(shrinks.figure.value(), 20.0, 1e-9);

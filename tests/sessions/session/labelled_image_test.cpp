@@ -70,6 +70,33 @@ TEST_F(LabelledImage, HasChangedWhenEitherFileHas) {
               HasSubstr("it is not the file that the session was made with"));
 }
 
+/// Whichever of the two files the session names, the other is named too.
+TEST_F(LabelledImage, NamesBothFilesWhereOneHasChanged) {
+  const auto load = [this] { (void)sessions::loadCase(one_); };
+  folder_.write("in/sol12.lbl", labelText("B"));
+  EXPECT_THAT(folder_.message(load), HasSubstr("sol12.lbl: its bytes or its pixels sol12.img are"));
+  EXPECT_THAT(sessions::checkInputs(session())[0].text,
+              HasSubstr("sol12.lbl, or its pixels sol12.img, is not the file"));
+  folder_.write("in/sol12.lbl", labelText("A"));
+  one_.image.source.file = folder_ / "in/sol12.img";
+  EXPECT_EQ(folder_.message(load), "(nothing)");
+  folder_.write("in/sol12.lbl", labelText("B"));
+  EXPECT_THAT(folder_.message(load), HasSubstr("sol12.img: its bytes or its label sol12.lbl are"));
+  EXPECT_THAT(sessions::checkInputs(session())[0].text,
+              HasSubstr("sol12.img, or its label sol12.lbl, is not the file"));
+}
+
+TEST_F(LabelledImage, SaysThatItIsTheLabelThatIsGone) {
+  one_.image.source.file = folder_ / "in/sol12.img";
+  std::filesystem::remove(label_);
+  const std::string wanted = "no longer there: put sol12.lbl (or sol12.xml) back beside it";
+  EXPECT_THAT(folder_.message([this] { (void)sessions::loadCase(one_); }), HasSubstr(wanted));
+  const auto findings = sessions::checkInputs(session());
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_EQ(findings[0].kind, sessions::FindingKind::kUnreadable);
+  EXPECT_THAT(findings[0].text, HasSubstr(wanted));
+}
+
 TEST_F(LabelledImage, IsPackedWithItsPixels) {
   EXPECT_THAT(sessions::packSession(session(), folder_ / "s.boresight.json", folder_ / "s.zip"),
               IsEmpty());

@@ -32,6 +32,13 @@ TEST(SessionFile, ReadsBackWhatItWrote) {
   }
 }
 
+TEST(SessionFile, AnArchiveIsToBeUnpackedFirst) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("s.zip", "PK\x03\x04 and so on");
+  EXPECT_EQ(folder.message([&] { (void)sessions::readSessionFile(file); }),
+            "s.zip: an archive, as whs pack makes it: unpack it, and open the session in it");
+}
+
 TEST(SessionFile, EveryMemberMakesADifference) {
   Random random = randomFor("SessionFileMembers");
   Session session;

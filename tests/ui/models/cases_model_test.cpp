@@ -55,6 +55,18 @@ TEST_F(CasesModelTest, ShowsStateAndErrors) {
   EXPECT_EQ(model_.rowOf(QStringLiteral("none")), -1);
 }
 
+TEST_F(CasesModelTest, SaysThatARunIsStale) {
+  std::vector<CaseRow> rows = someRows();
+  rows[0].stale = true;
+  model_.setRows(rows);
+  EXPECT_EQ(model_.index(0, CasesModel::kState).data().toString(),
+            QStringLiteral("✓ converged, stale"));
+  EXPECT_TRUE(model_.index(0, 0)
+                  .data(Qt::ToolTipRole)
+                  .toString()
+                  .contains(QStringLiteral("Stale: the inputs or options have changed")));
+}
+
 TEST_F(CasesModelTest, EveryStateHasASignOfItsOwn) {
   QSet<QChar> signs;
   for (int i = 0; i < kCaseStateCount; ++i)

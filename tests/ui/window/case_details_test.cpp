@@ -74,6 +74,26 @@ TEST_F(CaseDetailsTest, ErrorsAreThoseOfTheLatestRunAgainstTheTruth) {
   EXPECT_FALSE(rows()[1].normal_mm.has_value()) << "nothing has run";
 }
 
+TEST_F(CaseDetailsTest, ARunOfOtherInputsOrOptionsIsStale) {
+  const std::string id = session_.cases[0]->id;
+  const sessions::LocalizationTrace trace =
+      sessions::runCase(session_, id, sessions::RecordLevel::kSummary);
+  session_ = sessions::withRun(
+      session_, sessions::storeRun(session_, id, trace, folder_.path() / "one.boresight.json"));
+  EXPECT_FALSE(rows()[0].stale);
+  const sessions::Session before = session_;
+  sessions::SessionCase one = *session_.cases[0];
+  one.camera_from_station_seed.translation_m.x() += 0.001;
+  session_ = sessions::withCase(session_, one);
+  EXPECT_TRUE(rows()[0].stale);
+  EXPECT_FALSE(rows()[1].stale) << "nothing has run";
+  EXPECT_FALSE(caseRows(session_, QString::fromStdString(id))[0].stale) << "it is at work";
+  LocalizerOptions options = sessions::sessionOptions(before, {});
+  options.pnp.seed += 1;
+  session_ = sessions::withOptions(before, before.profile, options);
+  EXPECT_TRUE(rows()[0].stale);
+}
+
 TEST_F(CaseDetailsTest, WithoutATruthThereIsNoError) {
   const std::string id = session_.cases[0]->id;
   const sessions::LocalizationTrace trace = sessions::runCase(session_, id);

@@ -64,6 +64,30 @@ TEST(DroppedFiles, AnImageWithALabelBringsItsCamera) {
   EXPECT_FALSE(classify({os / "image.png"}, dropped).isCase()) << "another image has no label";
 }
 
+TEST(DroppedFiles, AnotherImageWithFilesOfItsOwnBeginsAnew) {
+  const std::filesystem::path bc = test::exampleFolder() / "bc", os = test::exampleFolder() / "os";
+  const DroppedFiles failed =
+      classify({bc / "image.png", bc / "camera.json", bc / "model.ply", bc / "seed.json"});
+  EXPECT_TRUE(classify({os / "image.png", os / "seed.json"}).beginsAnew(failed));
+  EXPECT_FALSE(classify({os / "image.png"}).beginsAnew(failed)) << "the image that was wrong";
+  EXPECT_FALSE(classify({os / "camera.json", os / "seed.json"}).beginsAnew(failed));
+  EXPECT_FALSE(classify({os / "image.png", os / "seed.json"}).beginsAnew({}));
+  EXPECT_EQ(classify({os / "camera.json"}).keptNames(failed), "image.png, model.ply, seed.json");
+  EXPECT_EQ(classify({os / "camera.json"}).keptNames({}), "");
+}
+
+TEST(DroppedFiles, ALabelWithoutItsPixelsIsAProblemAndNoImage) {
+  const test::TemporaryFolder folder;
+  const auto label = folder.write("det.lbl",
+                                  "PDS_VERSION_ID = PDS3\r\n^IMAGE = (\"det.dat\", 1)\r\n"
+                                  "OBJECT = IMAGE\r\nEND_OBJECT = IMAGE\r\nEND\r\n");
+  const DroppedFiles dropped = classify({label, test::exampleFolder() / "os/model.ply"});
+  ASSERT_EQ(dropped.problems.size(), 1u);
+  EXPECT_NE(dropped.problems[0].find("the file of its pixels, 'det.dat', is not beside it"),
+            std::string::npos);
+  EXPECT_EQ(dropped.missing(), "an image, a camera (json) and a seed pose (json)");
+}
+
 TEST(DroppedFiles, JsonIsToldByItsFormat) {
   const DroppedFiles dropped = classify({test::exampleFolder() / "dataset.json"});
   EXPECT_TRUE(dropped.dataset.has_value());
@@ -82,6 +106,8 @@ TEST(DroppedFiles, WhatIsNothingKnownIsToldByName) {
   std::ofstream(folder.path() / "notes.txt") << "hello";
   const DroppedFiles dropped = classify(
       {folder.path() / "odd.json", folder.path() / "broken.json", folder.path() / "notes.txt"});
+  EXPECT_NE(classify({folder.path() / "sol12.zip"}).problems.at(0).find("unpack it"),
+            std::string::npos);
   ASSERT_EQ(dropped.problems.size(), 3u);
   EXPECT_NE(dropped.problems[0].find("odd.json"), std::string::npos);
   EXPECT_NE(dropped.problems[1].find("broken.json"), std::string::npos);

@@ -16,6 +16,7 @@
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/vicar_image.h"
 #include "ui/views/display_image.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
@@ -37,7 +38,7 @@ class LevelsEditingTest : public ::testing::Test {
     sessions::CaseFiles files;
     const auto station = test::exampleFolder() / "os";
     files.id = "os";
-    files.image = folder_.path() / "image.png";
+    files.image = folder_.path() / fileName();
     writeDeepImage(station / "image.png", files.image);
     files.camera = station / "camera.json";
     files.parts.resize(1);
@@ -49,7 +50,8 @@ class LevelsEditingTest : public ::testing::Test {
     ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }));
   }
 
-  void writeDeepImage(const std::filesystem::path& from, const std::filesystem::path& to) {
+  virtual const char* fileName() const { return "image.png"; }
+  virtual void writeDeepImage(const std::filesystem::path& from, const std::filesystem::path& to) {
     original_ = sessions::readImage(from);
     QImage deep(original_.width, original_.height, QImage::Format_Grayscale16);
     for (int y = 0; y < deep.height(); ++y) {
@@ -165,6 +167,33 @@ TEST_F(LevelsEditingTest, WhatTheDisplayShowsCanBeGivenToTheCore) {
   EXPECT_EQ(*edited().image.eight_bit.levels, (sessions::GrayLevels{160, 3000}));
   ASSERT_TRUE(wait([&] { return resting(); }));
   EXPECT_EQ(display().corePicture(), display().picture());
+}
+
+/// The same image with a label that says how many bits are used.
+class LabelledLevelsTest : public LevelsEditingTest {
+ protected:
+  const char* fileName() const override { return "sol12.img"; }
+  void writeDeepImage(const std::filesystem::path& from, const std::filesystem::path&) override {
+    original_ = sessions::readImage(from);
+    std::vector<std::uint16_t> samples;
+    for (const std::uint8_t gray : original_.pixels)
+      samples.push_back(static_cast<std::uint16_t>(kFactor * gray));
+    folder_.write(fileName(),
+                  test::vicarImage(original_.width, original_.height, samples,
+                                   "PROPERTY='IMAGE_DATA'  SAMPLE_BIT_MASK='2#0000111111111111#'"));
+  }
+};
+
+TEST_F(LabelledLevelsTest, TheBitsOfTheLabelAreShownAndNotStatedAgain) {
+  ASSERT_TRUE(find<QLabel>("conversionRule").text().contains(QStringLiteral("2^12")));
+  EXPECT_EQ(find<QSpinBox>("conversionBits").value(), 12);
+  EXPECT_EQ(find<QSpinBox>("conversionWhite").value(), 4095);
+  EXPECT_FALSE(find<QPushButton>("applyConversion").isEnabled()) << "nothing differs";
+  apply(13);
+  ASSERT_TRUE(wait([&] { return resting() && edited().image.eight_bit.bit_depth == 13; }));
+  QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(wait([&] { return resting() && !edited().image.eight_bit.bit_depth; }));
+  EXPECT_EQ(find<QSpinBox>("conversionBits").value(), 12);
 }
 
 TEST_F(LevelsEditingTest, TooFewBitsAreRefusedInASentence) {

@@ -80,6 +80,21 @@ TEST_F(MainWindowTest, ADroppedDatasetIsShown) {
   std::filesystem::remove(file);
 }
 
+/// Otherwise the camera of a case that could not be made would quietly become the next one's.
+TEST_F(MainWindowTest, ADropThatFailedIsNotPartOfTheNextCase) {
+  const std::filesystem::path os = test::exampleFolder() / "os";
+  const auto bad = folder_.write("bad.png", "no picture");
+  const auto mesh = folder_.write("box.glb", "no mesh");  // asks for no unit
+  window_.takeFiles({bad, mesh, os / "camera.json", os / "seed.json"});
+  ASSERT_TRUE(wait([&] { return resting() && !window_.lastMessage().isEmpty(); }));
+  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("bad.png")));
+  EXPECT_EQ(window_.statusBar()->currentMessage(), QString()) << "nothing is being read any more";
+  window_.takeFiles({os / "image.png", mesh, os / "seed.json"});
+  EXPECT_TRUE(
+      window_.statusBar()->currentMessage().contains(QStringLiteral("Still missing: a camera")))
+      << window_.statusBar()->currentMessage().toStdString();
+}
+
 TEST_F(MainWindowTest, UndoOfAnotherCasesEditShowsThatCase) {
   openExample();
   const QString first = window_.cases().caseId();
