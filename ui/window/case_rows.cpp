@@ -23,11 +23,12 @@ QString detailOf(const sessions::Session& session, const std::string& id,
 }
 
 /// Options that cannot be read are said where they are shown.
-bool isStale(const sessions::Session& session, const std::string& id,
-             const std::filesystem::path& file) {
-  const sessions::RunRecord* run = session.lastRunOf(id);
+bool isStale(const sessions::Session& session,
+             const sessions::SharedValue<sessions::SessionCase>& one,
+             const std::filesystem::path& file, sessions::StaleRuns& known) {
+  const sessions::RunRecord* run = session.lastRunOf(one->id);
   try {
-    return run && sessions::stalenessOf(*run, session, file).stale();
+    return run && known.isStale(*run, one, session, file);
   } catch (const std::exception&) {
     return false;
   }
@@ -36,7 +37,7 @@ bool isStale(const sessions::Session& session, const std::string& id,
 }  // namespace
 
 std::vector<CaseRow> caseRows(const sessions::Session& session, const QString& running,
-                              const std::filesystem::path& file) {
+                              const std::filesystem::path& file, sessions::StaleRuns& known) {
   std::vector<CaseRow> rows;
   for (const auto& one : session.cases) {
     CaseRow row;
@@ -45,7 +46,7 @@ std::vector<CaseRow> caseRows(const sessions::Session& session, const QString& r
     const sessions::Standing standing = sessions::standingOf(session, one->id);
     row.state = row.id == running ? CaseState::kRunning : caseStateOf(standing.state);
     const bool of_run = row.state == CaseState::kConverged || row.state == CaseState::kFailed;
-    row.stale = of_run && isStale(session, one->id, file);
+    row.stale = of_run && isStale(session, one, file, known);
     row.detail = detailOf(session, one->id, standing);
     rows.push_back(std::move(row));
   }

@@ -89,7 +89,7 @@ void PanelLinks::showCases() {
   const bool working = parts_.run.state() == RunState::kWorking;
   std::vector<CaseRow> rows =
       caseRows(parts_.document.session(), working ? parts_.cases.caseId() : QString(),
-               parts_.document.file());
+               parts_.document.file(), stale_runs_);
   details_->fill(rows);
   docks_.cases().setRows(std::move(rows));
   docks_.cases().setRunnable(!working);

@@ -3,6 +3,7 @@
 
 #include <QObject>
 
+#include "sessions/session/stale_runs.h"
 #include "ui/window/window_parts.h"
 
 namespace boresight::ui {
@@ -37,6 +38,7 @@ class PanelLinks : public QObject {
   const WindowDocks& docks_;
   CaseDetails* details_;
   PoseRenderer* nudged_;
+  sessions::StaleRuns stale_runs_;
 };
 
 }  // namespace boresight::ui

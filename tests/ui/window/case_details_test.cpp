@@ -24,11 +24,12 @@ class CaseDetailsTest : public ::testing::Test {
     ASSERT_TRUE(QTest::qWaitFor([this] { return !tasks_.isBusy(); }, kPatienceMs));
   }
   std::vector<CaseRow> rows() const {
-    std::vector<CaseRow> made = caseRows(session_, {});
+    std::vector<CaseRow> made = caseRows(session_, {}, {}, stale_runs_);
     details_.fill(made);
     return made;
   }
 
+  mutable sessions::StaleRuns stale_runs_;
   TaskRunner tasks_;
   CaseDetails details_{tasks_};
   sessions::Session session_ = sessions::makeSession(test::exampleFolder() / "dataset.json");
@@ -87,7 +88,7 @@ TEST_F(CaseDetailsTest, ARunOfOtherInputsOrOptionsIsStale) {
   session_ = sessions::withCase(session_, one);
   EXPECT_TRUE(rows()[0].stale);
   EXPECT_FALSE(rows()[1].stale) << "nothing has run";
-  EXPECT_FALSE(caseRows(session_, QString::fromStdString(id))[0].stale) << "it is at work";
+  EXPECT_FALSE(caseRows(session_, QString::fromStdString(id), {}, stale_runs_)[0].stale) << "it is at work";
   LocalizerOptions options = sessions::sessionOptions(before, {});
   options.pnp.seed += 1;
   session_ = sessions::withOptions(before, before.profile, options);
