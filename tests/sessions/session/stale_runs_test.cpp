@@ -50,7 +50,10 @@ TEST(StaleRuns, SaysAsStalenessWhateverIsEditedAndUndone) {
   std::vector<Session> history = {asIfRun(makeSession(test::exampleFolder() / "dataset.json"))};
   int stale_count = 0, fresh_count = 0;
   for (int edit = 0; edit < 200; ++edit) {
-    if (history.size() > 1 && random.uniform(0.0, 1.0) < 0.45)
+    const double chance = random.uniform(0.0, 1.0);
+    if (chance < 0.1)
+      history.resize(1);
+    else if (chance < 0.5 && history.size() > 1)
       history.pop_back();
     else
       history.push_back(withRandomEdit(history.back(), random));
