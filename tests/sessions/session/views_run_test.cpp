@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/views/views_localizer.h"
+#include "sessions/io/errors.h"
 #include "sessions/review/review_subject.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/review/verify_pose.h"
