@@ -17,7 +17,7 @@ int pack(const std::string& session, const std::string& out) {
   const sessions::SessionPack pack = sessions::planPack(document.session(), document.file());
   for (const std::string& text : pack.notes) note(text);
   for (const sessions::PackedFile& one : pack.files)
-    std::cout << sessions::oneLine(one.name + "  from  " + one.file.string()) << "\n";
+    std::cout << sessions::oneLine(one.name + " from " + one.file.string()) << "\n";
   std::cout << std::flush;
   sessions::writePack(pack, out);
   std::cout << out << std::endl;

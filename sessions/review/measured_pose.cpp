@@ -21,6 +21,7 @@ namespace boresight::sessions {
 namespace {
 
 constexpr double kFigureTolerance = 1e-6;  ///< of its size; the last bits are the machine's
+constexpr double kFigureRest = 1e-12;      ///< in any unit of a check
 
 RunSnapshot runAgain(const RunRecord& run, const Session& session,
                      const std::filesystem::path& session_file) {
@@ -41,7 +42,7 @@ RunSnapshot runAgain(const RunRecord& run, const Session& session,
 
 bool near(const std::optional<double>& a, const std::optional<double>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
-  return std::abs(*a - *b) <= kFigureTolerance * std::max(std::abs(*a), std::abs(*b));
+  return std::abs(*a - *b) <= kFigureTolerance * std::max(std::abs(*a), std::abs(*b)) + kFigureRest;
 }
 
 bool sameCheck(Check stated, const Check& measured) {
@@ -60,7 +61,7 @@ std::string differenceText(const Check& stated, const Check& measured) {
   const std::string before = shortText(stated);
   const std::string now = shortText(measured);
   return "'" + measured.title + "' is stated as " + before + " and measured as " + now +
-         (before == now ? ", in other words" : "");
+         (before == now ? ", with another sentence" : "");
 }
 
 /// A run that had other options than the session has now names them, so that it can be repeated.

@@ -232,8 +232,8 @@ TEST(WhsPack, ListsWhatItTakesAlongAndRefusesAnyOtherFile) {
   const std::string file = newSession(folder);
   const ProgramRun packed = runWhs({"pack", file, "--out", folder / "s.zip"});
   EXPECT_EQ(packed.exit_code, 0) << packed.err;
-  EXPECT_THAT(packed.out, AllOf(HasSubstr("/image.png  from  " + exampleFolder().string()),
-                                HasSubstr("/model.ply  from  ")));
+  EXPECT_THAT(packed.out, AllOf(HasSubstr("/image.png from " + exampleFolder().string()),
+                                HasSubstr("/model.ply from ")));
   const std::string whole = folder.read("s.boresight.json");
   const auto refusal = [&](const std::function<void(nlohmann::json&)>& edit) {
     nlohmann::json session = nlohmann::json::parse(whole);
