@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 #include <memory>
 
 #include "app/commands.h"
@@ -37,8 +36,7 @@ struct ExchangeArguments {
 };
 
 void tell(const std::vector<std::string>& case_ids, const std::vector<std::string>& notes) {
-  for (const std::string& id : case_ids) std::cout << id << "\n";
-  std::cout << std::flush;
+  for (const std::string& id : case_ids) print(id);
   for (const std::string& text : notes) note(text);
 }
 
@@ -47,7 +45,7 @@ void exportPose(const sessions::Session& session, const ExchangeArguments& argum
   sessions::requireWritable(arguments.pose);
   const sessions::HandedPose pose = sessions::checkedPose(session, arguments.onlyCase());
   sessions::writeValidatedPose(arguments.pose, session, pose);
-  std::cout << pose.case_id << ": " << pose.standing << std::endl;
+  print(pose.case_id + ": " + pose.standing);
 }
 
 sessions::ExportReport exportPoses(const sessions::Session& session,

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 #include <memory>
 
 #include "app/commands.h"
@@ -12,7 +11,7 @@ namespace {
 int pack(const std::string& session, const std::string& out) {
   const sessions::SessionDocument document = openToRead(session);
   for (const std::string& text : packSession(document.session(), document.file(), out)) note(text);
-  std::cout << out << std::endl;
+  print(out);
   return kDone;
 }
 

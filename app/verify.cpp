@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 #include <memory>
 
 #include "app/commands.h"
@@ -16,11 +15,9 @@ struct VerifyArguments {
 int verify(const VerifyArguments& arguments) {
   const sessions::VerifyReport report = sessions::verifyPose(arguments.file, !arguments.no_run);
   for (const sessions::VerifyFinding& finding : report.findings)
-    std::cout << (finding.good ? "good  " : "WRONG ") << finding.what << ": " << finding.text
-              << "\n";
-  std::cout << report.standing << "\n"
-            << (report.good() ? "the document verifies" : "the document does NOT verify")
-            << std::endl;
+    print((finding.good ? "good  " : "WRONG ") + finding.what + ": " + finding.text);
+  print(report.standing);
+  print(report.good() ? "the document verifies" : "the document does NOT verify");
   return report.good() ? kDone : kDifferent;
 }
 

@@ -41,8 +41,9 @@ int refuse(const char* file, const Fault& fault) {
   return kBadInput;
 }
 
-/// The size of the file, or -1; its first byte is next afterwards.
+/// The size of the file, or -1; its first byte is next afterwards. A folder opens like a file.
 long sizeOfFile(std::FILE* stream) {
+  if (std::fgetc(stream) == EOF && std::ferror(stream) != 0) return -1;
   if (std::fseek(stream, 0, SEEK_END) != 0) return -1;
   const long size = std::ftell(stream);
   return std::fseek(stream, 0, SEEK_SET) == 0 ? size : -1;
@@ -52,7 +53,7 @@ long sizeOfFile(std::FILE* stream) {
 Fault readProblem(std::FILE* stream, std::span<std::byte> block, LocalizationProblem& problem,
                   LocalizerOptions& options, std::size_t& used) {
   const long size = sizeOfFile(stream);
-  if (size < 0) return {"cannot be read; give a file, not a pipe"};
+  if (size < 0) return {"cannot be read; give a file, not a folder or a pipe"};
   const auto count = static_cast<std::size_t>(size);
   if (count > block.size()) return {"larger than all memory there is; use a coarser mesh"};
   // It decodes to about as many bytes. As low as that allows: no page more is touched than needed.
@@ -104,6 +105,7 @@ int printResult(const Localizer& localizer, std::size_t input_bytes) {
               static_cast<unsigned long>(input_bytes + localizer.highWaterBytes()),
               static_cast<unsigned long>(kArenaBytes));
   std::printf("digest %s\n", hexText(localizer.digest()).data());
+  if (std::fflush(stdout) != 0) return refuse("standard output", {"cannot be written"});
   return workspace.status == LocalizationStatus::kConverged ? kConverged : kNotConverged;
 }
 

@@ -54,6 +54,14 @@ TEST_F(WhsProblem, HoldsWhatLocalizeRuns) {
   EXPECT_TRUE(folder_.read("problem.bin") == std::string(expected.begin(), expected.end()));
 }
 
+TEST_F(WhsProblem, IsNoFolder) {
+  ASSERT_EQ(runWhs(arguments()).exit_code, 0);
+  const ProgramRun run = runProgram(BORESIGHT_FLIGHT_DRIVER, {folder_.path(), image_});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_EQ(run.err,
+            folder_.path().string() + ": cannot be read; give a file, not a folder or a pipe\n");
+}
+
 TEST_F(WhsProblem, IsTheSameFromADataset) {
   ASSERT_EQ(runWhs(arguments()).exit_code, 0);
   const std::string problem = folder_.read("problem.bin");
