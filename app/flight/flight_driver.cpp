@@ -41,9 +41,8 @@ int refuse(const char* file, const Fault& fault) {
   return kBadInput;
 }
 
-/// The size of the file, or -1; its first byte is next afterwards. A folder opens like a file.
+/// The size of the file, or -1; its first byte is next afterwards.
 long sizeOfFile(std::FILE* stream) {
-  if (std::fgetc(stream) == EOF && std::ferror(stream) != 0) return -1;
   if (std::fseek(stream, 0, SEEK_END) != 0) return -1;
   const long size = std::ftell(stream);
   return std::fseek(stream, 0, SEEK_SET) == 0 ? size : -1;
@@ -53,7 +52,7 @@ long sizeOfFile(std::FILE* stream) {
 Fault readProblem(std::FILE* stream, std::span<std::byte> block, LocalizationProblem& problem,
                   LocalizerOptions& options, std::size_t& used) {
   const long size = sizeOfFile(stream);
-  if (size < 0) return {"cannot be read; give a file, not a folder or a pipe"};
+  if (size < 0) return {"cannot be read; give a file, not a pipe"};
   const auto count = static_cast<std::size_t>(size);
   if (count > block.size()) return {"larger than all memory there is; use a coarser mesh"};
   // It decodes to about as many bytes. As low as that allows: no page more is touched than needed.

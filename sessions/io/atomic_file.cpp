@@ -138,6 +138,7 @@ void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> byt
   temporary.close();
   temporary.renameTo(target);
   syncFolder(folderOf(target));
+  noteOutput(target, use);
 }
 
 void writeFileAtomically(const fs::path& file, std::string_view text, FileUse use) {
@@ -155,6 +156,7 @@ void moveIntoPlace(const fs::path& finished, const fs::path& file, FileUse use) 
   const fs::path target = linkTarget(file);
   if (::rename(finished.c_str(), target.c_str()) != 0) fail(file, errno);
   syncFolder(folderOf(target));
+  noteOutput(target, use);
 }
 
 void requireWritable(const fs::path& file, FileUse use) {

@@ -6,7 +6,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "sessions/io/errors.h"
@@ -50,14 +49,21 @@ Inputs& inputs() {
 
 void noteInput(const fs::path& file, FileUse use) {
   const auto identity = identityOf(file);
-  std::error_code error;
-  const fs::path absolute = fs::absolute(file, error);
-  if (!identity || error || use == FileUse::kPeek) return;
+  if (!identity || use == FileUse::kFree) return;
   const std::lock_guard lock(inputs().mutex);
-  if (Input* known = inputs().find(*identity))
-    known->use = known->use == use ? use : FileUse::kInput;
-  else
-    inputs().noted.insert_or_assign(*identity, Input{absolute, use});
+  Input* known = inputs().find(*identity);
+  if (known == nullptr)
+    inputs().noted.insert_or_assign(*identity, Input{fs::absolute(file), use});
+  else if (known->use != use && known->use != FileUse::kFree)
+    known->use = FileUse::kInput;
+}
+
+void noteOutput(const fs::path& output, FileUse use) {
+  const auto identity = identityOf(output);
+  if (!identity) return;
+  if (use == FileUse::kInput) use = FileUse::kFree;
+  const std::lock_guard lock(inputs().mutex);
+  inputs().noted.insert_or_assign(*identity, Input{fs::absolute(output), use});
 }
 
 void requireNoInput(const fs::path& output, FileUse use) {
@@ -65,7 +71,8 @@ void requireNoInput(const fs::path& output, FileUse use) {
   if (!identity) return;
   const std::lock_guard lock(inputs().mutex);
   const Input* known = inputs().find(*identity);
-  if (known == nullptr || (known->use == use && use != FileUse::kInput)) return;
+  if (known == nullptr || known->use == FileUse::kFree) return;
+  if (known->use == use && use != FileUse::kInput) return;
   throw OverwriteError(output, known->file);
 }
 

@@ -10,7 +10,7 @@ namespace boresight::sessions {
 /// by the program itself: each may be replaced by a file of the same use.
 enum class FileUse {
   kInput,
-  kPeek,  ///< only looked at, to see what it is: not remembered
+  kFree,  ///< may be replaced: only looked at to see what it is, or written by this process
   kSession,
   kRun,
   kResults,
@@ -21,6 +21,9 @@ enum class FileUse {
 /// Remembers that `file` was read, or that a file which was read names it as an input. A file with
 /// two uses counts as an input. Not for what is no regular file.
 void noteInput(const std::filesystem::path& file, FileUse use = FileUse::kInput);
+
+/// Remembers that this process has written `output`: it may do so again, also after reading it.
+void noteOutput(const std::filesystem::path& output, FileUse use = FileUse::kInput);
 
 /// Throws OverwriteError when `output` is a file that was noted, under whatever name, symbolic or
 /// hard link, and is not replaced by one of the same use.

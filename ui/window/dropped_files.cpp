@@ -41,7 +41,7 @@ Kind kindOfJson(const std::filesystem::path& file, std::string& problem) {
   std::string format;
   try {
     const auto bytes =
-        sessions::readFileBytes(file, sessions::kMaxJsonBytes, sessions::FileUse::kPeek);
+        sessions::readFileBytes(file, sessions::kMaxJsonBytes, sessions::FileUse::kFree);
     const sessions::JsonDocument document(file, sessions::asText(bytes));
     format = document.root().at("format").nonEmptyText();
   } catch (const std::exception& error) {

@@ -83,8 +83,16 @@ TEST_F(InputFiles, OfTwoUsesAreNotReplacedByEither) {
 }
 
 TEST_F(InputFiles, ThatWereOnlyLookedAtAreReplaced) {
-  readFileBytes(input_, 100, FileUse::kPeek);
+  readFileBytes(input_, 100, FileUse::kFree);
   EXPECT_FALSE(isRefused("input.png"));
+}
+
+TEST_F(InputFiles, ThatThisProcessWroteAreReplaced) {
+  EXPECT_FALSE(isRefused("made.json"));
+  readFileBytes(folder_ / "made.json", 100);
+  EXPECT_FALSE(isRefused("made.json"));
+  EXPECT_FALSE(isRefused("session.json", FileUse::kSession));
+  EXPECT_TRUE(isRefused("session.json")) << "by another kind of output";
 }
 
 TEST_F(InputFiles, ThatAreGoneLeaveTheirPlaceToOthers) {
