@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include "app/commands.h"
+
 namespace boresight::app {
 
 void DatasetArguments::addTo(CLI::App& command) {
@@ -19,13 +21,9 @@ void DatasetArguments::addTo(CLI::App& command) {
       .add_flag("--every-instance", every_instance,
                 "Also instances that the challenge does not ask for, or that are hardly visible")
       ->group(group);
-  command
-      .add_option("--uncertainty", uncertainty,
-                  "Seeds are drawn about the truth within this along and about x, y, z of the "
-                  "camera: three lengths in m, three angles in deg (else 0.03 m and 10 deg)")
-      ->expected(6)
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("TX TY TZ RX RY RZ")
+  addUncertainty(command, uncertainty,
+                 "Seeds are drawn about the truth within this along and about x, y, z of the "
+                 "camera: three lengths in m, three angles in deg (else 0.03 m and 10 deg)")
       ->group(group);
   command
       .add_option("--pivot", pivot,
@@ -46,13 +44,7 @@ sessions::BopSelection DatasetArguments::selection() const {
   made.scenes = scenes;
   made.objects = objects;
   made.every_instance = every_instance;
-  if (!uncertainty.empty()) {
-    made.uncertainty.translation_m = {uncertainty[0], uncertainty[1], uncertainty[2]};
-    made.uncertainty.rotation_deg = {uncertainty[3], uncertainty[4], uncertainty[5]};
-    if (made.uncertainty.translation_m.maxCoeff() > 1000.0 ||
-        made.uncertainty.rotation_deg.maxCoeff() > 180.0)
-      throw CLI::ValidationError("--uncertainty", "at most 1000 m and 180 deg");
-  }
+  setUncertainty(uncertainty, made.uncertainty);
   if (pivot == "camera") made.uncertainty.pivot = sessions::UncertaintyPivot::kCamera;
   return made;
 }

@@ -12,6 +12,7 @@
 #include "app/documents/markdown_page.h"
 #include "app/documents/write_documents.h"
 #include "app/exit_codes.h"
+#include "app/plain_output.h"
 #include "sessions/version.h"
 #include "ui/window/application.h"
 #include "ui/window/main_window.h"
@@ -54,6 +55,7 @@ int writeDocuments(const std::filesystem::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const PlainOutput plain_errors(std::cerr);
   boresight::ui::prepareApplication(wantsNoDisplay(argc, argv));
   QApplication application(argc, argv);
   boresight::ui::nameApplication(application);

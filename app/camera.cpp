@@ -75,7 +75,7 @@ void convertAs(const CameraArguments& arguments, const sessions::CameraFile& giv
   } catch (const std::runtime_error& error) {
     throw sessions::InputError(arguments.file, "model", error.what());
   }
-  std::cout << arguments.model << ": " << fitText(fitted) << "\n";
+  print(arguments.model + ": " + fitText(fitted));
   if (std::isfinite(arguments.distance_m))
     std::cout << "points " << arguments.distance_m << " m from the camera; of far ones the worst "
               << "error is " << fitted.worst_error_far_px << " px\n";
@@ -87,11 +87,11 @@ void convertAs(const CameraArguments& arguments, const sessions::CameraFile& giv
 }
 
 int convert(const CameraArguments& arguments) {
-  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
   const sessions::CameraFile given = sessions::readCameraFile(path(arguments.file));
+  if (!arguments.model.empty() && sessions::isCahvorFile(path(arguments.out)))
+    throw CLI::ValidationError("--out", "a text file holds vectors, not a fitted model: .json");
+  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
   if (!arguments.model.empty()) {
-    if (sessions::isCahvorFile(path(arguments.out)))
-      throw CLI::ValidationError("--out", "a text file holds vectors, not a fitted model: .json");
     convertAs(arguments, given);
   } else if (arguments.out.empty()) {
     throw CLI::RequiredError("--as, --out or both");
@@ -101,7 +101,7 @@ int convert(const CameraArguments& arguments) {
     sessions::writeCamera(path(arguments.out), given);
     noteLost(arguments);
   }
-  if (!arguments.out.empty()) std::cout << arguments.out << std::endl;
+  if (!arguments.out.empty()) print(arguments.out);
   return kDone;
 }
 
@@ -121,7 +121,7 @@ void addCamera(CLI::App& app, int& exit_code) {
       ->add_option("--distance", arguments->distance_m,
                    "Distance from the camera that the fit is made for, where the entrance pupil "
                    "moves (cahvore), m")
-      ->check(CLI::Range(1e-3, 1e6))
+      ->check(numberIn(1e-3, 1e6))
       ->type_name("M");
   command
       ->add_option("--out", arguments->out,

@@ -79,8 +79,8 @@ void writeJson(const CheckArguments& arguments, const std::string& preset,
 }
 
 int checkSession(const CheckArguments& arguments) {
-  if (!arguments.json.empty()) sessions::requireWritable(arguments.json);
   const sessions::SessionDocument document = openToRead(arguments.session);
+  if (!arguments.json.empty()) sessions::requireWritable(arguments.json);
   const sessions::Session session = judgedBy(document.session(), arguments.preset);
   std::vector<std::string> ids = arguments.cases;
   for (const std::string& id : ids) (void)requireCase(document, id);
@@ -92,7 +92,8 @@ int checkSession(const CheckArguments& arguments) {
     try {
       checked.push_back(checkCase(session, id, arguments));
       const CheckedCase& one = checked.back();
-      std::cout << id << "\n" << sessions::checksText(one.checks, arguments.sentences) << std::endl;
+      print(id);
+      std::cout << sessions::checksText(one.checks, arguments.sentences) << std::endl;
       if (exit_code == kDone && !sessions::allPassed(one.checks)) exit_code = kNotConverged;
     } catch (const sessions::InputError& error) {
       std::cerr << error.what() << std::endl;

@@ -6,6 +6,8 @@
 #include <map>
 
 #include "sessions/baselines/method_options.h"
+#include "sessions/io/mesh_container.h"
+#include "sessions/io/plain_text.h"
 #include "sessions/report/text_table.h"
 #include "sessions/trace/record.h"
 
@@ -46,20 +48,30 @@ void applyTo(Options& options, const std::string& config, const std::vector<std:
 
 }  // namespace
 
-void note(const std::string& line) { std::cerr << "whs: " << line << std::endl; }
+void note(const std::string& line) { std::cerr << "whs: " << sessions::plainLine(line); }
+
+void print(const std::string& line) { std::cout << sessions::plainLine(line) << std::flush; }
 
 std::string millimetresText(double length_m) {
   return sessions::fixedText(length_m * 1e3, 3) + " mm";
+}
+
+CLI::Option* addMeshUnit(CLI::App& command, std::string& unit, const std::string& help) {
+  return command.add_option("--mesh-unit", unit, help)
+      ->check([](const std::string& text) {
+        return sessions::metresPerUnit(text)
+                   ? std::string()
+                   : "unknown unit \"" + text + "\" (m, dm, cm, mm, um, in, ft, yd, km)";
+      })
+      ->type_name("UNIT");
 }
 
 void MeshArguments::addTo(CLI::App& command) {
   command.add_option("--mesh", mesh, "Mesh of the station: PLY, OBJ, STL, glTF or GLB")
       ->required()
       ->type_name("FILE");
-  command
-      .add_option("--mesh-unit", unit,
-                  "Unit of the mesh's coordinates: m, mm, cm, in, ... (required unless glTF)")
-      ->type_name("UNIT");
+  addMeshUnit(command, unit,
+              "Unit of the mesh's coordinates: m, mm, cm, in, ... (required unless glTF)");
 }
 
 sessions::SceneMesh MeshArguments::read() const {
@@ -67,6 +79,34 @@ sessions::SceneMesh MeshArguments::read() const {
   part.mesh = mesh;
   part.mesh_unit = unit;
   return sessions::readScene({&part, 1});
+}
+
+CLI::Validator numberIn(double least, double most) {
+  const std::string first = sessions::numberText(least), last = sessions::numberText(most);
+  return {[=](std::string& text) {
+            double value = 0.0;
+            const bool good =
+                CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+            return good ? std::string()
+                        : "\"" + text + "\" is not a number from " + first + " to " + last;
+          },
+          "FLOAT in [" + first + " - " + last + "]"};
+}
+
+CLI::Option* addUncertainty(CLI::App& command, std::vector<double>& values,
+                            const std::string& help) {
+  return command.add_option("--uncertainty", values, help)
+      ->expected(6)
+      ->check(numberIn(0.0, 1000.0))
+      ->type_name("TX TY TZ RX RY RZ");
+}
+
+void setUncertainty(const std::vector<double>& values, sessions::DeclaredUncertainty& uncertainty) {
+  if (values.empty()) return;
+  uncertainty.translation_m = {values[0], values[1], values[2]};
+  uncertainty.rotation_deg = {values[3], values[4], values[5]};
+  if (uncertainty.rotation_deg.maxCoeff() > 180.0)
+    throw CLI::ValidationError("--uncertainty", "the angles are at most 180 deg");
 }
 
 void addThreads(CLI::App& command, int& threads) {

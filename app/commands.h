@@ -44,8 +44,13 @@ void addImport(CLI::App& app, int& exit_code);
 void addProblem(CLI::App& app, int& exit_code);
 void addDocuments(CLI::App& app, int& exit_code);
 
-/// A line to stderr for people.
+/// A line to stderr for people, and one to stdout. What text from outside has in it does not break
+/// the line.
 void note(const std::string& line);
+void print(const std::string& line);
+
+/// --mesh-unit: a unit of length that is known.
+CLI::Option* addMeshUnit(CLI::App& command, std::string& unit, const std::string& help);
 
 /// --mesh and --mesh-unit.
 struct MeshArguments {
@@ -56,6 +61,15 @@ struct MeshArguments {
   /// One matched part in its own frame. InputError.
   sessions::SceneMesh read() const;
 };
+
+/// What an option must be: a finite number of this range.
+CLI::Validator numberIn(double least, double most);
+
+/// --uncertainty: three lengths in m, three angles in deg.
+CLI::Option* addUncertainty(CLI::App& command, std::vector<double>& values,
+                            const std::string& help);
+/// CLI::ValidationError.
+void setUncertainty(const std::vector<double>& values, sessions::DeclaredUncertainty& uncertainty);
 
 /// --threads: how many a run may use.
 void addThreads(CLI::App& command, int& threads);

@@ -145,16 +145,20 @@ void addLimits(CLI::App& command, sessions::ComparisonLimits& limits) {
   command
       .add_option("--found-px", limits.found_px,
                   "Templates found this near each other count as found alike, px at their level")
+      ->check(numberIn(0.0, 1e6))
       ->capture_default_str();
   command.add_option("--found-share", limits.found_share, "Least share of these, 0 to 1")
+      ->check(numberIn(0.0, 1.0))
       ->capture_default_str();
   command
       .add_option("--inlier-share", limits.inlier_share,
                   "Least share of the inliers of either that both have, 0 to 1")
+      ->check(numberIn(0.0, 1.0))
       ->capture_default_str();
   command
       .add_option("--sigmas", limits.pose_sigmas,
                   "Most that the final poses may be apart, in sigmas of A's covariance")
+      ->check(numberIn(0.0, 1e6))
       ->capture_default_str();
 }
 

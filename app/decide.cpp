@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 #include <memory>
 
 #include "app/commands.h"
@@ -78,8 +77,7 @@ int decide(const DecideArguments& arguments) {
     return kNotConverged;
   }
   document.save();
-  std::cout << arguments.case_id << ": "
-            << standingText(standingOf(document.session(), arguments.case_id)) << std::endl;
+  print(arguments.case_id + ": " + standingText(standingOf(document.session(), arguments.case_id)));
   return kDone;
 }
 

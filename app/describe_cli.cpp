@@ -37,8 +37,6 @@ void describeValue(const std::string& type, Argument& argument) {
     const std::string& check = parts[i];
     if (check.size() > 2 && check.front() == '{' && check.back() == '}') {
       argument.choices = splitAt(check.substr(1, check.size() - 2), ',');
-    } else if (check == "NONNEGATIVE") {
-      argument.limits = "0 or more";
     } else {
       argument.limits = rangeText(check);
     }

@@ -25,6 +25,7 @@
 #include "sessions/evaluation/results_writer.h"
 #include "sessions/evaluation/summary.h"
 #include "sessions/io/atomic_file.h"
+#include "sessions/io/plain_text.h"
 
 namespace boresight::app {
 namespace {
@@ -85,7 +86,7 @@ void EvaluateArguments::addTo(CLI::App& command) {
   command
       .add_option("--reseed-scale", batch.reseed_scale,
                   "Draws further seeds this many times as far; the declared uncertainty stays")
-      ->check(CLI::Range(0.0, 1000.0))
+      ->check(numberIn(0.0, 1000.0))
       ->capture_default_str()
       ->type_name("S");
   command
@@ -148,17 +149,20 @@ class Progress {
   void operator()(const sessions::RunResult& result) {
     ++done_;
     completed_ += result.completed ? 1 : 0;
+    eraseLine();
     if (result.inputFailed() && messages_.insert(result.message).second)
-      std::cerr << (on_terminal_ ? "\r\033[K" : "") << result.message << std::endl;
-    if (!on_terminal_) return;
+      std::cerr << sessions::plainLine(result.message);
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began_;
-    std::cerr << "\r\033[K";
-    if (done_ < total_)
+    if (on_terminal_ && done_ < total_)
       std::cerr << sessions::batchProgressText(done_, total_, completed_, passed.count());
-    std::cerr.flush();
   }
 
  private:
+  /// By std::clog, which is stderr too: std::cerr lets no escape sequence pass.
+  void eraseLine() const {
+    if (on_terminal_) std::clog << "\r\033[K" << std::flush;
+  }
+
   bool on_terminal_ = isatty(STDERR_FILENO) != 0;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::size_t total_ = 0;
@@ -254,7 +258,7 @@ void printSummary(const std::vector<sessions::RunResult>& results) {
   std::map<std::string, std::vector<sessions::RunResult>> by_method;
   for (const sessions::RunResult& result : results) by_method[result.method].push_back(result);
   for (const auto& [method, runs] : by_method) {
-    if (by_method.size() > 1) std::cout << "method " << method << "\n";
+    if (by_method.size() > 1) print("method " + method);
     std::cout << sessions::summaryTable(runs) << "\n"
               << sessions::toleranceTable(runs) << "\n"
               << sessions::failureList(runs, kListedFailures) << std::flush;
@@ -278,9 +282,6 @@ void writeBopCsv(const EvaluateArguments& arguments, const sessions::Dataset& da
 }
 
 void readArguments(EvaluateArguments& arguments) {
-  sessions::requireWritable(arguments.out);
-  for (const std::string& file : {arguments.jsonl, arguments.bop_csv})
-    if (!file.empty()) sessions::requireWritable(file);
   if (!arguments.mirror.empty())
     arguments.batch.mirror = static_cast<sessions::MirrorAxis>(arguments.mirror.front() - 'x');
   if (!arguments.shard.empty())
@@ -293,6 +294,8 @@ void readArguments(EvaluateArguments& arguments) {
 int evaluate(EvaluateArguments& arguments) {
   readArguments(arguments);
   const sessions::Dataset dataset = arguments.dataset.open();
+  for (const std::string& file : {arguments.out, arguments.jsonl, arguments.bop_csv})
+    if (!file.empty()) sessions::requireWritable(file);
   if (!arguments.bop_csv.empty()) requireOneMethodOfBop(arguments, dataset);
   for (const std::string& line : dataset.notes) note(line);
   const std::vector<sessions::PlannedRun> plan = sessions::planBatch(dataset, arguments.batch);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 #include <memory>
 
 #include "app/commands.h"
@@ -36,8 +35,7 @@ struct ExchangeArguments {
 };
 
 void tell(const std::vector<std::string>& case_ids, const std::vector<std::string>& notes) {
-  for (const std::string& id : case_ids) std::cout << id << "\n";
-  std::cout << std::flush;
+  for (const std::string& id : case_ids) print(id);
   for (const std::string& text : notes) note(text);
 }
 
@@ -45,7 +43,7 @@ void exportPose(const sessions::Session& session, const ExchangeArguments& argum
   sessions::requireWritable(arguments.pose);
   const sessions::HandedPose pose =
       sessions::writeValidatedPose(arguments.pose, session, arguments.onlyCase());
-  std::cout << pose.case_id << ": " << pose.standing << std::endl;
+  print(pose.case_id + ": " + pose.standing);
 }
 
 sessions::ExportReport exportPoses(const sessions::Session& session,

@@ -8,7 +8,7 @@ enum ExitCode : int {
   kDone = 0,  ///< and, for localize, converged
   kInternalFault = 1,
   kUsage = 2,
-  kBadInput = 3,
+  kBadInput = 3,  ///< or an output that cannot be written
   kNotConverged = 4,
   kWithinLimits = 5,  ///< compare: not the same, but within the limits
   kDifferent = 6,     ///< compare
@@ -16,6 +16,7 @@ enum ExitCode : int {
 
 /// Of whs, for its help.
 inline constexpr const char* kExitStatusText =
-    "0 done (localize: converged), 2 usage, 3 bad input, 4 did not converge, 1 internal fault.";
+    "0 done (localize: converged), 2 usage, 3 bad input or an output that cannot be written, 4 did "
+    "not converge, 1 internal fault.";
 
 }  // namespace boresight::app

@@ -39,6 +39,9 @@ namespace {
 using sessions::fixedText;
 using std::filesystem::path;
 
+/// Of a session, since the inputs of each are read.
+constexpr std::size_t kDescribedCases = 200;
+
 std::string sizeText(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
@@ -167,7 +170,11 @@ void describeSession(const path& file) {
   if (document.recovery())
     flag(std::to_string(document.recovery()->edits.size()) +
          " edits are in its journal and not in the file, the last of " + document.recovery()->time);
-  for (const auto& one : session.cases) describeCase(session, *one, file);
+  const std::size_t described = std::min(session.cases.size(), kDescribedCases);
+  for (std::size_t i = 0; i < described; ++i) describeCase(session, *session.cases[i], file);
+  if (described < session.cases.size())
+    line("and " + countText(session.cases.size() - described, "more case") +
+         ": whs queue lists them");
   for (const sessions::Finding& finding : sessions::checkInputs(session))
     if (finding.what == "run" || finding.what == "onboard_record") flag(finding.text);
 }
@@ -279,7 +286,7 @@ void describeFolder(const path& folder, DatasetArguments arguments) {
 }
 
 void describe(const path& file, const std::string& mesh_unit, const DatasetArguments& choice) {
-  std::cout << file.string() << "\n";
+  print(file.string());
   if (std::filesystem::is_directory(file)) return describeFolder(file, choice);
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -313,7 +320,6 @@ int describeAll(const std::vector<std::string>& files, const std::string& mesh_u
     try {
       describe(file, mesh_unit, choice);
     } catch (const sessions::FileError& error) {
-      std::cout << std::flush;
       std::cerr << error.what() << std::endl;
       exit_code = kBadInput;
     }
@@ -336,7 +342,7 @@ void addInfo(CLI::App& app, int& exit_code) {
           "configs, points, rigs, landmarks, traces, onboard records; folders of BOP datasets")
       ->required()
       ->type_name("FILE");
-  command->add_option("--mesh-unit", *unit, "Unit of meshes that state none")->type_name("UNIT");
+  addMeshUnit(*command, *unit, "Unit of meshes that state none");
   auto choice = std::make_shared<DatasetArguments>();
   choice->addTo(*command);
   command->callback(

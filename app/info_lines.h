@@ -7,12 +7,13 @@
 
 #include <Eigen/Core>
 
+#include "sessions/io/plain_text.h"
 #include "sessions/report/text_table.h"
 
 namespace boresight::app {
 
-inline void line(const std::string& text) { std::cout << "  " << text << "\n"; }
-inline void flag(const std::string& text) { std::cout << "  ! " << text << "\n"; }
+inline void line(const std::string& text) { std::cout << sessions::plainLine("  " + text); }
+inline void flag(const std::string& text) { line("! " + text); }
 
 inline std::string vectorText(const Eigen::Vector3d& vector, int decimals) {
   using sessions::fixedText;

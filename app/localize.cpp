@@ -13,6 +13,7 @@
 #include "sessions/report/result_file.h"
 #include "sessions/report/run_text.h"
 #include "sessions/report/text_table.h"
+#include "sessions/session/label_agreement.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/trace/record.h"
 #include "sessions/trace/trace_file.h"
@@ -50,10 +51,24 @@ void LocalizeArguments::addTo(CLI::App& command) {
   file("--overlay", overlay, "Writes a PNG: seed red, result green, truth blue over the image");
 }
 
+/// In what the image's label contradicts what was given.
+std::vector<std::string> labelWarnings(const LocalizeArguments& arguments, const Inputs& inputs) {
+  sessions::SessionCase given;
+  given.image.source.file = arguments.image;
+  given.camera = inputs.camera;
+  given.camera_reference = inputs.frames.reference;
+  given.camera_from_station_seed = inputs.seed.camera_from_station;
+  given.station_frame = inputs.seed.station_frame;
+  if (inputs.truth) given.truth_frame = inputs.truth->station_frame;
+  return sessions::labelWarnings(given);
+}
+
 Inputs readInputs(const LocalizeArguments& arguments) {
   Inputs inputs{readProblemInputs(arguments), std::nullopt};
   if (!arguments.truth.empty())
     inputs.truth = sessions::readPose(std::filesystem::path(arguments.truth), inputs.frames);
+  for (const std::string& warning : labelWarnings(arguments, inputs))
+    inputs.notes.push_back(warning);
   return inputs;
 }
 
@@ -75,6 +90,7 @@ sessions::RunProvenance provenance(const LocalizeArguments& arguments, const Inp
   made.seed_file = arguments.seed;
   made.truth_file = arguments.truth;
   made.config_file = arguments.options.config;
+  made.warnings = inputs.notes;
   return made;
 }
 
@@ -174,12 +190,12 @@ void writeRecord(const std::string& file, const RecordWriter& record) {
 }
 
 int localizeImage(const LocalizeArguments& arguments) {
-  for (const std::string& file :
-       {arguments.out, arguments.trace, arguments.record, arguments.overlay})
-    if (!file.empty()) sessions::requireWritable(file);
   if (!arguments.record.empty() && arguments.method.needsSetup())
     throw CLI::ValidationError("--record", "the onboard record is of runs with --method whs alone");
   const Inputs inputs = readInputs(arguments);
+  for (const std::string& file :
+       {arguments.out, arguments.trace, arguments.record, arguments.overlay})
+    if (!file.empty()) sessions::requireWritable(file);
   requireSensibleSeed(inputs, arguments.seed);
   for (const std::string& line : inputs.notes) note(line);
   sessions::RunSettings settings;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 #include <memory>
 
 #include "app/commands.h"
@@ -17,9 +16,10 @@ struct MergeArguments {
 int merge(const MergeArguments& arguments) {
   const sessions::MergeCounts counts =
       sessions::mergeResults(arguments.out, {arguments.inputs.begin(), arguments.inputs.end()});
-  std::cout << arguments.out << ": " << counts.runs << " runs";
-  if (counts.equal > 0) std::cout << "; " << counts.equal << " were there more than once, alike";
-  std::cout << std::endl;
+  print(arguments.out + ": " + std::to_string(counts.runs) + " runs" +
+        (counts.equal > 0
+             ? "; " + std::to_string(counts.equal) + " were there more than once, alike"
+             : ""));
   return kDone;
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 #include <memory>
 
 #include "app/bop_arguments.h"
@@ -9,6 +8,7 @@
 #include "sessions/record/onboard_record.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/input_check.h"
+#include "sessions/session/label_agreement.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_maker.h"
 #include "sessions/session/session_of_results.h"
@@ -54,10 +54,8 @@ void NewArguments::addTo(CLI::App& command) {
       ->needs(from_image)
       ->type_name("FILE");
   file("--mesh", mesh, "Mesh of the station: PLY, OBJ, STL, glTF or GLB")->needs(from_image);
-  command
-      .add_option("--mesh-unit", mesh_unit, "Unit of the mesh's coordinates: m, mm, cm, in, ...")
-      ->needs(from_image)
-      ->type_name("UNIT");
+  addMeshUnit(command, mesh_unit, "Unit of the mesh's coordinates: m, mm, cm, in, ...")
+      ->needs(from_image);
   file("--seed", seed, "pose.json: where the camera is believed to be")->needs(from_image);
   file("--truth", truth, "pose.json with the true pose")->needs(from_image);
   file("--ignore", ignore, "Mask image of the same size: nonzero pixels are not trusted")
@@ -69,7 +67,7 @@ void NewArguments::addTo(CLI::App& command) {
       ->needs(from_image)
       ->type_name("N");
   command.add_option("--feature-size", feature_size_m, "Size of the station's features, m")
-      ->check(CLI::Range(1e-6, 100.0))
+      ->check(numberIn(1e-6, 100.0))
       ->needs(from_image)
       ->type_name("M");
   dataset.addTo(command);
@@ -130,11 +128,14 @@ sessions::Session withRecord(const sessions::Session& session, const std::string
 int makeNew(const NewArguments& arguments) {
   sessions::Session session = sessionOf(arguments);
   if (!arguments.record.empty()) session = withRecord(session, arguments.record);
+  for (const auto& one : session.cases)
+    for (const std::string& warning : sessions::labelWarnings(*one))
+      note("case " + one->id + ": " + warning);
   if (arguments.results.empty())
     session = withOptions(session, arguments.options.profileName(), arguments.options.read());
   const auto document = sessions::SessionDocument::create(arguments.out, session);
-  std::cout << document.file().string() << ": " << session.cases.size()
-            << (session.cases.size() == 1 ? " case" : " cases") << std::endl;
+  print(document.file().string() + ": " + std::to_string(session.cases.size()) +
+        (session.cases.size() == 1 ? " case" : " cases"));
   return kDone;
 }
 

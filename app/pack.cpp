@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 #include <memory>
 
 #include "app/commands.h"
@@ -16,11 +15,9 @@ int pack(const std::string& session, const std::string& out) {
   const sessions::SessionDocument document = openToRead(session);
   const sessions::SessionPack pack = sessions::planPack(document.session(), document.file());
   for (const std::string& text : pack.notes) note(text);
-  for (const sessions::PackedFile& one : pack.files)
-    std::cout << sessions::oneLine(one.name + " from " + one.file.string()) << "\n";
-  std::cout << std::flush;
+  for (const sessions::PackedFile& one : pack.files) print(one.name + " from " + one.file.string());
   sessions::writePack(pack, out);
-  std::cout << out << std::endl;
+  print(out);
   return kDone;
 }
 

@@ -84,10 +84,10 @@ std::string pgmOf(const sessions::GrayImage& image) {
 int writeProblem(const ProblemArguments& arguments) {
   const bool from_dataset = !arguments.dataset.empty();
   if (!from_dataset) requireFilesNamed(arguments);
-  for (const std::string& file : {arguments.out, arguments.image_out})
-    sessions::requireWritable(file);
   const ProblemInputs inputs =
       from_dataset ? readCaseInputs(arguments) : readProblemInputs(arguments);
+  for (const std::string& file : {arguments.out, arguments.image_out})
+    sessions::requireWritable(file);
   requireSensibleSeed(inputs, from_dataset ? arguments.dataset : arguments.seed);
   for (const std::string& line : inputs.notes) note(line);
   const LocalizationProblem problem = inputs.problem();

@@ -11,13 +11,7 @@ sessions::DeclaredUncertainty declaredUncertainty(const InputArguments& argument
                                                   const sessions::PoseFile& seed) {
   sessions::DeclaredUncertainty declared =
       seed.uncertainty.value_or(sessions::DeclaredUncertainty());
-  if (!arguments.uncertainty.empty()) {
-    const std::vector<double>& u = arguments.uncertainty;
-    declared.translation_m = {u[0], u[1], u[2]};
-    declared.rotation_deg = {u[3], u[4], u[5]};
-    if (declared.translation_m.maxCoeff() > 1000.0 || declared.rotation_deg.maxCoeff() > 180.0)
-      throw CLI::ValidationError("--uncertainty", "at most 1000 m and 180 deg");
-  }
+  setUncertainty(arguments.uncertainty, declared);
   if (!arguments.pivot.empty())
     declared.pivot = arguments.pivot == "station" ? sessions::UncertaintyPivot::kStation
                                                   : sessions::UncertaintyPivot::kCamera;
@@ -39,15 +33,11 @@ void InputArguments::addTo(CLI::App& command) {
   command
       .add_option("--feature-size", feature_size_m,
                   "Size of the station's features (sleeves, screws), m; 0: from the mesh's size")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(numberIn(0.0, 100.0))
       ->type_name("M");
-  command
-      .add_option("--uncertainty", uncertainty,
-                  "How far the seed may be off along and about x, y, z of the camera: three "
-                  "lengths in m, three angles in deg (instead of what the seed's file states)")
-      ->expected(6)
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("TX TY TZ RX RY RZ");
+  addUncertainty(command, uncertainty,
+                 "How far the seed may be off along and about x, y, z of the camera: three "
+                 "lengths in m, three angles in deg (instead of what the seed's file states)");
   command
       .add_option("--pivot", pivot,
                   "What the seed's rotation is uncertain about: camera (an arm camera) or station")

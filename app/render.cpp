@@ -22,13 +22,13 @@ struct RenderArguments {
 };
 
 int render(const RenderArguments& arguments) {
-  sessions::requireWritable(arguments.out);
   const sessions::CameraFile camera_file =
       sessions::readCameraFile(std::filesystem::path(arguments.camera));
   const Camera& camera = camera_file.camera;
   const sessions::PoseFile pose =
       sessions::readPose(std::filesystem::path(arguments.pose), arguments.frames.of(camera_file));
   const sessions::SceneMesh scene = arguments.mesh.read();
+  sessions::requireWritable(arguments.out);
   sessions::requirePlausibleScale(scene, pose.camera_from_station);
   const std::string concern = sessions::seedConcern(camera, scene.view(), pose.camera_from_station);
   if (!concern.empty()) throw sessions::InputError(arguments.pose, "camera_from_station", concern);

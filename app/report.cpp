@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 #include <memory>
 
 #include "app/commands.h"
@@ -17,8 +16,8 @@ struct ReportArguments {
 };
 
 int report(const ReportArguments& arguments) {
-  sessions::requireWritable(arguments.out);
   const sessions::SessionDocument document = openToRead(arguments.session);
+  sessions::requireWritable(arguments.out);
   const sessions::Session& session = document.session();
   std::string id = arguments.case_id;
   if (id.empty() && session.cases.size() == 1) id = session.cases.front()->id;
@@ -26,7 +25,7 @@ int report(const ReportArguments& arguments) {
   (void)requireCase(document, id);
   const sessions::PoseReport made = sessions::poseReport(session, id);
   sessions::writePoseReport(arguments.out, made);
-  std::cout << id << ": " << made.pose.standing << std::endl;
+  print(id + ": " + made.pose.standing);
   return kDone;
 }
 

@@ -6,6 +6,7 @@
 #include "app/commands.h"
 #include "app/open_session.h"
 #include "sessions/io/errors.h"
+#include "sessions/io/plain_text.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/views_run.h"
@@ -37,8 +38,8 @@ int runOne(sessions::SessionDocument& document, const std::string& id) {
   const sessions::RunRecord run =
       sessions::storeRun(document.session(), id, trace, document.file());
   document.apply(sessions::withRun(document.session(), run), "Run " + id);
-  std::cout << id << ": " << run.status << ", " << trace.iterations.size() << " iterations, digest "
-            << run.digest << std::endl;
+  print(id + ": " + run.status + ", " + std::to_string(trace.iterations.size()) +
+        " iterations, digest " + run.digest);
   return trace.converged() ? kDone : kNotConverged;
 }
 
@@ -51,9 +52,9 @@ int runTogether(sessions::SessionDocument& document, const std::string& id) {
   document.apply(next, "Run " + id + " with the other views");
   bool converged = false;
   for (std::size_t v = 0; v < runs.size(); ++v) {
-    std::cout << runs[v].case_id << ": " << runs[v].status << ", " << views[v].iterations.size()
-              << " iterations, " << togetherText(views[v].views, runs[v].case_id) << ", digest "
-              << runs[v].digest << std::endl;
+    print(runs[v].case_id + ": " + runs[v].status + ", " +
+          std::to_string(views[v].iterations.size()) + " iterations, " +
+          togetherText(views[v].views, runs[v].case_id) + ", digest " + runs[v].digest);
     converged = converged || views[v].converged();
   }
   return converged ? kDone : kNotConverged;
@@ -77,8 +78,8 @@ int runAgain(const sessions::SessionDocument& document, const std::string& begin
   const sessions::LocalizationTrace trace = sessions::repeatRun(
       run, document.session(), document.file(), sessions::RecordLevel::kSummary);
   const bool same = trace.digest == run.digest;
-  std::cout << run.case_id << ": " << run.status << ", digest " << trace.digest
-            << (same ? ", the same" : ", NOT the same as recorded") << std::endl;
+  print(run.case_id + ": " + run.status + ", digest " + trace.digest +
+        (same ? ", the same" : ", NOT the same as recorded"));
   return same ? kDone : kNotConverged;
 }
 
@@ -99,7 +100,7 @@ int runSession(const RunArguments& arguments) {
     } catch (const sessions::InputError& error) {
       // What a case itself is at fault for names it already.
       const std::string place = "case " + id + ": ", what = error.what();
-      std::cerr << (what.starts_with(place) ? what : place + what) << std::endl;
+      std::cerr << sessions::plainLine(what.starts_with(place) ? what : place + what);
       exit_code = kBadInput;
     }
   }

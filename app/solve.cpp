@@ -74,11 +74,11 @@ sessions::CaseMarksSolution solveSession(const SolveArguments& arguments) {
 }
 
 int solve(const SolveArguments& arguments) {
-  for (const std::string& file : {arguments.out, arguments.json})
-    if (!file.empty()) sessions::requireWritable(file);
   const bool of_session = !arguments.session.empty();
   const sessions::CaseMarksSolution made =
       of_session ? solveSession(arguments) : solveFiles(arguments);
+  for (const std::string& file : {arguments.out, arguments.json})
+    if (!file.empty()) sessions::requireWritable(file);
   const auto& views = made.marks.views;
   if (!arguments.json.empty())
     sessions::writeSolution(arguments.json, views, made.result, made.left_out, made.warnings,

@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/results_commands.h"
 #include "sessions/io/atomic_file.h"
+#include "sessions/io/plain_text.h"
 #include "sessions/tables/failure_sheet.h"
 #include "sessions/tables/method_tables.h"
 #include "sessions/tables/result_figures.h"
@@ -95,20 +96,22 @@ void write(const TablesArguments& arguments, const std::string& text) {
 std::string provenanceText(const sessions::ResultsSet& set) {
   std::string text;
   for (const sessions::ResultsFacts& file : set.files)
-    text += file.file.string() + ": " + file.dataset.dataset + " (SHA-256 " +
-            file.dataset.dataset_sha256.substr(0, 12) + "), version " + file.dataset.version + "\n";
+    text += sessions::plainLine(file.file.string() + ": " + file.dataset.dataset + " (SHA-256 " +
+                                file.dataset.dataset_sha256.substr(0, 12) + "), version " +
+                                file.dataset.version);
   std::set<std::string> machines;
   for (const sessions::ResultsFacts& file : set.files)
     for (const sessions::Sitting& sitting : file.sittings)
       machines.insert(sitting.processor + ", " + std::to_string(sitting.jobs) + " jobs of " +
                       std::to_string(sitting.threads) + " threads");
-  for (const std::string& machine : machines) text += "run on " + machine + "\n";
+  for (const std::string& machine : machines) text += sessions::plainLine("run on " + machine);
   for (const auto& [name, method] : set.methods)
-    text += name + ": profile " + method.profile +
-            (method.options == "{}" ? "" : ", options " + method.options) +
-            (method.mesh_of.empty() ? "" : ", WRONG mesh of " + method.mesh_of) +
-            (method.mirror.empty() ? "" : ", WRONG mesh mirrored across " + method.mirror) +
-            (method.note.empty() ? "" : ", " + method.note) + "\n";
+    text += sessions::plainLine(
+        name + ": profile " + method.profile +
+        (method.options == "{}" ? "" : ", options " + method.options) +
+        (method.mesh_of.empty() ? "" : ", WRONG mesh of " + method.mesh_of) +
+        (method.mirror.empty() ? "" : ", WRONG mesh mirrored across " + method.mirror) +
+        (method.note.empty() ? "" : ", " + method.note));
   return text;
 }
 
@@ -174,9 +177,9 @@ int compareSets(const TablesArguments& arguments, const sessions::ResultsSet& be
 }
 
 int makeTables(const TablesArguments& arguments) {
-  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
   const sessions::ResultsSet set =
       sessions::readResultsSet(paths(arguments.results), arguments.filter);
+  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
   if (!arguments.against.empty()) return compareSets(arguments, set);
   if (set.runs.empty()) {
     note("no run meets all filters");

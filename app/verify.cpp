@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 #include <memory>
 
 #include "app/commands.h"
@@ -18,16 +17,12 @@ struct VerifyArguments {
 int verify(const VerifyArguments& arguments) {
   const sessions::VerifyReport report =
       sessions::verifyPose(arguments.file, !arguments.no_run, arguments.full);
-  const auto print = [](const char* found, const std::string& text) {
-    std::cout << found << sessions::oneLine(text) << "\n";
-  };
   for (const sessions::VerifyFinding& finding : report.findings)
-    print(finding.good ? "good        " : "WRONG       ", finding.what + ": " + finding.text);
-  for (const std::string& text : report.not_proved) print("not proved  ", text);
-  print("", "stated: " + report.standing);
-  std::cout << (report.good() ? "everything that was measured is as stated"
-                              : "the document is NOT as stated")
-            << std::endl;
+    print((finding.good ? "good        " : "WRONG       ") + finding.what + ": " + finding.text);
+  for (const std::string& text : report.not_proved) print("not proved  " + text);
+  print("stated: " + report.standing);
+  print(report.good() ? "everything that was measured is as stated"
+                      : "the document is NOT as stated");
   return report.good() ? kDone : kDifferent;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <iostream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -33,21 +32,19 @@ std::string errorText(const sessions::PoseError& error) {
 void printRig(const sessions::RigViews& rig, const sessions::RigRun& run) {
   using sessions::fixedText;
   const bool converged = run.result.status == LocalizationStatus::kConverged;
-  std::cout << rig.id << ": " << localizationStatusText(run.result.status) << " in "
-            << run.result.iterations << " iterations, " << fixedText(run.seconds, 2) << " s\n";
+  print(rig.id + ": " + localizationStatusText(run.result.status) + " in " +
+        std::to_string(run.result.iterations) + " iterations, " + fixedText(run.seconds, 2) + " s");
   if (run.result.status == LocalizationStatus::kFault)
-    std::cout << "  " << statusText(run.result.fault) << "\n";
+    print(std::string("  ") + statusText(run.result.fault));
   for (std::size_t v = 0; v < run.views; ++v) {
     const ViewReport& view = run.result.views[v];
-    std::cout << "  " << rig.cases[v]->id << " (" << rig.cases[v]->camera
-              << "): " << localizationStatusText(view.status) << ", " << view.inliers << " of "
-              << view.correspondences << " matches agree, " << view.edges_used
-              << " edge places, edge support " << fixedText(100.0 * view.support.share(), 1)
-              << " %";
     const auto error = converged ? sessions::viewError(rig, run, v) : std::nullopt;
-    std::cout << (error ? errorText(*error) : "") << "\n";
+    print("  " + rig.cases[v]->id + " (" + rig.cases[v]->camera +
+          "): " + localizationStatusText(view.status) + ", " + std::to_string(view.inliers) +
+          " of " + std::to_string(view.correspondences) + " matches agree, " +
+          std::to_string(view.edges_used) + " edge places, edge support " +
+          fixedText(100.0 * view.support.share(), 1) + " %" + (error ? errorText(*error) : ""));
   }
-  std::cout << std::flush;
 }
 
 void requireOffered(const LocalizerOptions& options) {
@@ -56,10 +53,10 @@ void requireOffered(const LocalizerOptions& options) {
 }
 
 int localizeRigs(const ViewsArguments& arguments) {
-  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
   const LocalizerOptions options = arguments.options.read();
   requireOffered(options);
   const sessions::Dataset dataset = sessions::readDataset(arguments.dataset);
+  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
   for (const std::string& line : dataset.notes) note(line);
   const std::vector<std::string> ids =
       arguments.rigs.empty() ? sessions::rigIds(dataset) : arguments.rigs;

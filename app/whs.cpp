@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // whs: localization without a window.
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
 #include "app/commands.h"
+#include "app/plain_output.h"
 #include "app/results_commands.h"
 #include "sessions/baselines/matching_method.h"
 #include "sessions/io/errors.h"
@@ -12,6 +14,18 @@
 
 namespace boresight::app {
 namespace {
+
+/// "--image and --overlay" for the options of a command that name this file by any of its links.
+std::string optionsNaming(const CLI::App& command, const std::filesystem::path& file) {
+  std::string names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& value : option->results()) {
+      std::error_code error;
+      if (std::filesystem::equivalent(value, file, error))
+        names += (names.empty() ? "" : " and ") + option->get_name();
+    }
+  return names;
+}
 
 int run(int argc, char** argv) {
   CLI::App app("Localizes a camera relative to a known object by render and compare.", "whs");
@@ -52,28 +66,41 @@ int run(int argc, char** argv) {
     const bool asked = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
     app.exit(error, std::cout, std::cerr);
     return asked ? kDone : kUsage;
+  } catch (const sessions::OverwriteError& error) {
+    const std::string names = optionsNaming(*app.get_subcommands().front(), error.file());
+    throw sessions::InputError(names.empty() ? "whs" : names, error.what());
   }
   return exit_code;
+}
+
+/// The exit status, whatever happens; a failure is told in one line.
+int runGuarded(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const sessions::FileError& error) {
+    std::cerr << error.what() << std::endl;
+    return kBadInput;
+  } catch (const sessions::MethodError& error) {
+    note(error.what());
+    return kNotConverged;
+  } catch (const std::bad_alloc&) {
+    note("not enough memory");
+    return kInternalFault;
+  } catch (const std::exception& error) {
+    note(std::string("internal fault: ") + error.what());
+    return kInternalFault;
+  }
 }
 
 }  // namespace
 }  // namespace boresight::app
 
 int main(int argc, char** argv) {
-  using boresight::app::note;
-  try {
-    return boresight::app::run(argc, argv);
-  } catch (const boresight::sessions::FileError& error) {
-    std::cerr << error.what() << std::endl;
-    return boresight::app::kBadInput;
-  } catch (const boresight::sessions::MethodError& error) {
-    note(error.what());
-    return boresight::app::kNotConverged;
-  } catch (const std::bad_alloc&) {
-    note("not enough memory");
-    return boresight::app::kInternalFault;
-  } catch (const std::exception& error) {
-    note(std::string("internal fault: ") + error.what());
-    return boresight::app::kInternalFault;
-  }
+  using namespace boresight::app;
+  const PlainOutput plain_output(std::cout);
+  const PlainOutput plain_errors(std::cerr);
+  const int exit_code = runGuarded(argc, argv);
+  if (std::cout.flush()) return exit_code;
+  note("cannot write standard output: not all of the output got there; is its device full?");
+  return exit_code == kDone ? kBadInput : exit_code;
 }

@@ -104,6 +104,7 @@ int printResult(const Localizer& localizer, std::size_t input_bytes) {
               static_cast<unsigned long>(input_bytes + localizer.highWaterBytes()),
               static_cast<unsigned long>(kArenaBytes));
   std::printf("digest %s\n", hexText(localizer.digest()).data());
+  if (std::fflush(stdout) != 0) return refuse("standard output", {"cannot be written"});
   return workspace.status == LocalizationStatus::kConverged ? kConverged : kNotConverged;
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/annotation/predicted_place.h"
+#include "sessions/io/atomic_file.h"
 #include "sessions/io/json_document.h"
 #include "sessions/io/json_writer.h"
 
@@ -22,13 +23,23 @@ constexpr int kVersion = 1;
 constexpr double kMaxCoordinate_m = 1e6;
 
 Landmark readLandmark(const JsonReader& json) {
-  json.requireKnown({"name", "point_in_station_m", "comment"});
   Landmark landmark;
   landmark.name = json.at("name").nonEmptyText();
   landmark.point_in_station_m =
       json.at("point_in_station_m").vector3(-kMaxCoordinate_m, kMaxCoordinate_m);
   if (const auto comment = json.find("comment")) landmark.comment = comment->text();
   return landmark;
+}
+
+std::vector<Landmark> readMembers(const JsonReader& root) {
+  std::vector<Landmark> landmarks;
+  std::set<std::string> names;
+  for (const JsonReader& json : root.at("landmarks").elements()) {
+    landmarks.push_back(readLandmark(json));
+    const std::string& name = landmarks.back().name;
+    if (!names.insert(name).second) json.failMember("name", "'" + name + "' is given twice");
+  }
+  return landmarks;
 }
 
 ordered_json landmarkJson(const Landmark& landmark) {
@@ -55,17 +66,8 @@ double largestSigma_px(const PredictedPlace& place, const Matrix6d& covariance) 
 }  // namespace
 
 std::vector<Landmark> readLandmarks(const std::filesystem::path& file) {
-  const JsonDocument document(file);
-  const JsonReader root = document.root(kFormat, kVersion);
-  root.requireKnown({"format", "version", "landmarks"});
-  std::vector<Landmark> landmarks;
-  std::set<std::string> names;
-  for (const JsonReader& json : root.at("landmarks").elements()) {
-    landmarks.push_back(readLandmark(json));
-    const std::string& name = landmarks.back().name;
-    if (!names.insert(name).second) json.failMember("name", "'" + name + "' is given twice");
-  }
-  return landmarks;
+  const auto bytes = readFileBytes(file, kMaxJsonBytes, FileUse::kLandmarks);
+  return JsonDocument(file, asText(bytes)).read(kFormat, kVersion, readMembers);
 }
 
 void writeLandmarks(const std::filesystem::path& file, const std::vector<Landmark>& landmarks) {
@@ -74,7 +76,7 @@ void writeLandmarks(const std::filesystem::path& file, const std::vector<Landmar
   json["version"] = kVersion;
   json["landmarks"] = ordered_json::array();
   for (const Landmark& landmark : landmarks) json["landmarks"].push_back(landmarkJson(landmark));
-  writeJsonFile(file, json);
+  writeFileAtomically(file, prettyJson(json), FileUse::kLandmarks);
 }
 
 std::vector<Landmark> withMarks(std::vector<Landmark> landmarks, const Marks& marks) {

@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "sessions/io/csv_field.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/json_reader.h"
 
@@ -22,16 +23,10 @@ constexpr std::size_t kSigma = 12;
 
 using Row = std::array<std::string, kColumns.size()>;
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of("\",\r\n") == std::string::npos) return text;
-  std::string made = "\"";
-  for (const char c : text) made += c == '"' ? "\"\"" : std::string(1, c);
-  return made + "\"";
-}
-
 std::string lineOf(const Row& row) {
   std::string line;
-  for (const std::string& field : row) line += (&field == &row.front() ? "" : ",") + quoted(field);
+  for (const std::string& field : row)
+    line += (&field == &row.front() ? "" : ",") + csvField(field);
   return line + "\r\n";
 }
 
@@ -83,7 +78,7 @@ class CsvReader {
       while (at_ < text_.size() && text_[at_] != ',' && text_[at_] != '\r' && text_[at_] != '\n')
         field += text_[at_++];
     }
-    record.fields.push_back(field);
+    record.fields.push_back(textOfCsvField(field));
     if (at_ < text_.size() && text_[at_] == ',') return ++at_, true;
     if (at_ < text_.size() && text_[at_] == '\r') ++at_;
     if (at_ < text_.size() && text_[at_] != '\n')

@@ -48,8 +48,6 @@ void writeCommon(const Pair& pair, ordered_json& json) {
 }
 
 PointPair readPoint(const JsonReader& json) {
-  json.requireKnown(
-      {"id", "point_in_station_m", "pixel", "sigma_px", "enabled", "locked", "comment"});
   PointPair point;
   readCommon(json, point);
   if (const auto place = json.find("point_in_station_m"))
@@ -59,8 +57,6 @@ PointPair readPoint(const JsonReader& json) {
 }
 
 LinePair readLine(const JsonReader& json) {
-  json.requireKnown(
-      {"id", "edge_in_station_m", "line_px", "sigma_px", "enabled", "locked", "comment"});
   LinePair line;
   readCommon(json, line);
   if (const auto edge = json.find("edge_in_station_m")) {
@@ -133,23 +129,23 @@ ordered_json toJson(const Marks& marks) {
 }
 
 Marks readMarks(const std::filesystem::path& file) {
-  if (isTable(file)) return parseMarksCsv(file, asText(readFileBytes(file, kMaxJsonBytes)));
-  const JsonDocument document(file);
-  const JsonReader root = document.root(kFormat, kVersion);
-  root.requireKnown({"format", "version", "points", "lines"});
-  return readMarks(root);
+  const auto bytes = readFileBytes(file, kMaxJsonBytes, FileUse::kMarks);
+  if (isTable(file)) return parseMarksCsv(file, asText(bytes));
+  return JsonDocument(file, asText(bytes)).read(kFormat, kVersion, [](const JsonReader& root) {
+    return readMarks(root);
+  });
 }
 
 void writeMarks(const std::filesystem::path& file, const Marks& marks) {
   if (isTable(file)) {
-    writeFileAtomically(file, marksCsv(marks));
+    writeFileAtomically(file, marksCsv(marks), FileUse::kMarks);
     return;
   }
   ordered_json json;
   json["format"] = kFormat;
   json["version"] = kVersion;
   json.update(toJson(marks));
-  writeJsonFile(file, json);
+  writeFileAtomically(file, prettyJson(json), FileUse::kMarks);
 }
 
 }  // namespace boresight::sessions

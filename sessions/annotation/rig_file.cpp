@@ -10,14 +10,12 @@
 
 namespace boresight::sessions {
 
-std::vector<MarkedView> readRig(const std::filesystem::path& file) {
-  const JsonDocument document(file);
-  const JsonReader root = document.root("boresight-rig", 1);
-  root.requireKnown({"format", "version", "views"});
+namespace {
+
+std::vector<MarkedView> readViews(const JsonReader& root) {
   std::vector<MarkedView> views;
   std::set<std::string> names;
   for (const JsonReader& json : root.at("views").elements()) {
-    json.requireKnown({"name", "camera", "points", "camera_from_rig"});
     MarkedView view;
     view.name = json.at("name").nonEmptyText();
     if (!names.insert(view.name).second)
@@ -29,6 +27,12 @@ std::vector<MarkedView> readRig(const std::filesystem::path& file) {
   }
   if (views.empty()) root.failMember("views", "there is none");
   return views;
+}
+
+}  // namespace
+
+std::vector<MarkedView> readRig(const std::filesystem::path& file) {
+  return JsonDocument(file).read("boresight-rig", 1, readViews);
 }
 
 }  // namespace boresight::sessions

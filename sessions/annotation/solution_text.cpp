@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/annotation/solution_text.h"
 
+#include "sessions/io/plain_text.h"
 #include "sessions/report/run_text.h"
 #include "sessions/report/text_table.h"
 
@@ -42,7 +43,8 @@ std::string posesText(std::span<const MarkedView> views, const MarksSolution& so
   if (views.size() == 1) return ofView(0);
   std::string text = "the rig's pose:\n" +
                      poseText(solution.rig_from_station, solution.covariance, "rig_from_station");
-  for (std::size_t i = 0; i < views.size(); ++i) text += "\n" + views[i].name + ":\n" + ofView(i);
+  for (std::size_t i = 0; i < views.size(); ++i)
+    text += "\n" + plainLine(views[i].name + ":") + ofView(i);
   return text;
 }
 
@@ -54,7 +56,7 @@ std::string solutionText(std::span<const MarkedView> views, const MarksSolution&
   std::string text = markTable(views, solution, left_out).text();
   text += "(dx, dy: seen minus predicted; of a line, both ends across the edge; !: stands out)\n\n";
   text += summaryLine(solution) + "\n";
-  for (const GeometryWarning& warning : warnings) text += "weak: " + warning.text + "\n";
+  for (const GeometryWarning& warning : warnings) text += plainLine("weak: " + warning.text);
   text += "\n" + posesText(views, solution);
   if (!solution.twin) return text;
   text += "\nanother pose explains these marks with rms " + fixedText(solution.twin->rms_px, 3) +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/evaluation/results_file.h"
 
+#include <algorithm>
 #include <map>
 
 #include "sessions/evaluation/run_rows.h"
@@ -37,6 +38,37 @@ std::string schema() {
          ", PRIMARY KEY (run, step)) WITHOUT ROWID;"
          "CREATE TABLE match (run INTEGER NOT NULL REFERENCES run(id), step INTEGER NOT NULL, " +
          matchColumnsSql() + ", PRIMARY KEY (run, step, template)) WITHOUT ROWID;";
+}
+
+/// Every object of a database, by type and name, with the SQL that created it.
+std::vector<std::vector<SqlValue>> objectsOf(SqlDatabase& database) {
+  SqlStatement statement(database,
+                         "SELECT type, name, tbl_name, sql FROM sqlite_master ORDER BY type, name");
+  std::vector<std::vector<SqlValue>> objects;
+  while (statement.step()) objects.push_back(statement.row());
+  return objects;
+}
+
+/// Throws what the access calls for when `database` holds other objects than a results file.
+void requireOwnObjects(SqlDatabase& database) {
+  SqlDatabase model(":memory:", SqlAccess::kWrite);
+  model.execute(schema());
+  const auto wanted = objectsOf(model);
+  const auto found = objectsOf(database);
+  const auto isIn = [](const auto& list) {
+    return [&list](const auto& object) {
+      return std::find(list.begin(), list.end(), object) != list.end();
+    };
+  };
+  const auto extra = std::find_if_not(found.begin(), found.end(), isIn(wanted));
+  const auto lost = std::find_if_not(wanted.begin(), wanted.end(), isIn(found));
+  const std::string remedy = "; it was changed by another program: evaluate again into a new file";
+  if (extra != found.end())
+    database.fail("its " + textOf((*extra)[0]) + " \"" + textOf((*extra)[1]) +
+                  "\" is not one that whs evaluate makes" + remedy);
+  if (lost != wanted.end())
+    database.fail("it lacks the " + textOf((*lost)[0]) + " \"" + textOf((*lost)[1]) + "\"" +
+                  remedy);
 }
 
 std::vector<MethodFacts> readMethods(SqlDatabase& database) {
@@ -151,6 +183,7 @@ void requireResultsFile(SqlDatabase& database) {
   if (version != kResultsVersion)
     database.fail("it is a results file of version " + std::to_string(version) +
                   ", this program reads version " + std::to_string(kResultsVersion));
+  requireOwnObjects(database);
 }
 
 ResultsFacts factsOf(SqlDatabase& database) {

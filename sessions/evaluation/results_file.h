@@ -45,7 +45,8 @@ Results readResults(const std::filesystem::path& file);
 
 /// Of an open file that is one: what it says.
 ResultsFacts factsOf(SqlDatabase& database);
-/// Throws what the database's access calls for, unless it is a results file of this version.
+/// Throws what the database's access calls for, unless it is a results file of this version with
+/// the tables and indexes of one and nothing else.
 void requireResultsFile(SqlDatabase& database);
 /// Whether nothing was written into it yet.
 bool isEmptyDatabase(SqlDatabase& database);

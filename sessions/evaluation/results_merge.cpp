@@ -72,7 +72,7 @@ class Merge {
   Merge(const fs::path& draft, const ResultsFacts& first)
       : first_(first.file), out_(draft, SqlAccess::kWrite) {
     out_.execute("PRAGMA synchronous = OFF");  // it is synchronized before it gets its name
-    out_.execute("PRAGMA journal_mode = OFF");
+    out_.execute("PRAGMA journal_mode = MEMORY");
     makeResultsTables(out_, first.dataset);
     dataset_ = first.dataset;
   }
@@ -219,7 +219,7 @@ class Merge {
 }  // namespace
 
 MergeCounts mergeResults(const fs::path& out, const std::vector<fs::path>& inputs) {
-  requireWritable(out);
+  requireWritable(out, FileUse::kResults);
   std::vector<fs::path> files;
   std::error_code error;
   if (fs::exists(out, error)) files.push_back(out);
@@ -232,7 +232,7 @@ MergeCounts mergeResults(const fs::path& out, const std::vector<fs::path>& input
     for (const fs::path& file : files) merge.take(file);
     counts = merge.counts();
   }
-  moveIntoPlace(draft.file(), out);
+  moveIntoPlace(draft.file(), out, FileUse::kResults);
   return *counts;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sessions/io/errors.h"
+#include "sessions/io/input_files.h"
 
 namespace boresight::sessions {
 namespace {
@@ -17,6 +18,14 @@ int flagsOf(SqlAccess access) {
   // cannot be written SQLite opens it for reading by itself.
   return access == SqlAccess::kRead ? SQLITE_OPEN_READWRITE
                                     : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+}
+
+/// What a file from outside brings along is data: it runs nothing and reaches no other file.
+void distrust(sqlite3* handle) {
+  for (const auto& [setting, value] :
+       {std::pair(SQLITE_DBCONFIG_DEFENSIVE, 1), std::pair(SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0),
+        std::pair(SQLITE_DBCONFIG_ENABLE_TRIGGER, 0), std::pair(SQLITE_DBCONFIG_ENABLE_VIEW, 0)})
+    sqlite3_db_config(handle, setting, value, nullptr);
 }
 
 }  // namespace
@@ -50,12 +59,14 @@ SqlDatabase::SqlDatabase(const std::filesystem::path& file, SqlAccess access)
   std::error_code error;
   if (access == SqlAccess::kRead && !std::filesystem::exists(file, error))
     throw InputError(file, "there is no such file");
+  if (access == SqlAccess::kRead) noteInput(file, FileUse::kResults);
   if (std::filesystem::is_directory(file, error)) fail("it is a folder");
   sqlite3* handle = nullptr;
   const int code = sqlite3_open_v2(file.c_str(), &handle, flagsOf(access), nullptr);
   handle_.reset(handle);
   if (code != SQLITE_OK && handle == nullptr) throw std::bad_alloc();
   require(code);
+  distrust(handle);
   sqlite3_extended_result_codes(handle, 1);
   sqlite3_busy_timeout(handle, kPatience_ms);
   if (access == SqlAccess::kRead) execute("PRAGMA query_only = 1");

@@ -32,8 +32,8 @@ enum class SqlAccess {
   kWrite,  ///< made when it is not there; what goes wrong is an OutputError
 };
 
-/// An open SQLite file. What another process has locked is waited for, a while. Not for several
-/// threads at a time.
+/// An open SQLite file, read as data: its triggers and views are disabled. A file that another
+/// process has locked is waited for, up to 10 s. Not for several threads at a time.
 class SqlDatabase {
  public:
   SqlDatabase(const std::filesystem::path& file, SqlAccess access);

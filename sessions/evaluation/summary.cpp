@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "sessions/io/plain_text.h"
 #include "sessions/report/text_table.h"
 
 namespace boresight::sessions {
@@ -152,17 +153,17 @@ std::string failureList(std::span<const RunResult> results, std::size_t limit) {
   for (const RunResult& result : results) {
     if (result.inputFailed() || result.success.value_or(true)) continue;
     if (++count > limit) continue;
-    text += "  " + result.case_id +
-            (result.reseed > 0 ? " reseed " + std::to_string(result.reseed) : "") + ": " +
-            result.status;
+    std::string line = "  " + result.case_id +
+                       (result.reseed > 0 ? " reseed " + std::to_string(result.reseed) : "") +
+                       ": " + result.status;
     if (result.completed && result.error)
-      text += ", normal " + fixedText(result.error->normal_mm, 3) + " mm, lateral " +
+      line += ", normal " + fixedText(result.error->normal_mm, 3) + " mm, lateral " +
               fixedText(result.error->lateral_mm, 3) + " mm, rotation " +
               fixedText(result.error->rotation_mrad, 2) + " mrad";
     if (result.completed && result.error && result.error->projection_px)
-      text += ", " + fixedText(*result.error->projection_px, 1) + " px";
-    if (!result.message.empty()) text += ": " + result.message;
-    text += "\n";
+      line += ", " + fixedText(*result.error->projection_px, 1) + " px";
+    if (!result.message.empty()) line += ": " + result.message;
+    text += plainLine(line);
   }
   if (count > limit) text += "  and " + std::to_string(count - limit) + " more\n";
   return count > 0 ? "not successful:\n" + text : "";

@@ -115,8 +115,9 @@ void syncFolder(const fs::path& folder) {
 
 }  // namespace
 
-void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> bytes) {
+void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> bytes, FileUse use) {
   if (file.empty()) throw OutputError("(no name)", "a file name is empty");
+  requireNoInput(file, use);
   const fs::path target = linkTarget(file);
   struct stat existing {};
   const bool exists = ::stat(target.c_str(), &existing) == 0;
@@ -137,14 +138,16 @@ void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> byt
   temporary.close();
   temporary.renameTo(target);
   syncFolder(folderOf(target));
+  noteOutput(target, use);
 }
 
-void writeFileAtomically(const fs::path& file, std::string_view text) {
-  writeFileAtomically(file,
-                      std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+void writeFileAtomically(const fs::path& file, std::string_view text, FileUse use) {
+  writeFileAtomically(
+      file, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()), use);
 }
 
-void moveIntoPlace(const fs::path& finished, const fs::path& file) {
+void moveIntoPlace(const fs::path& finished, const fs::path& file, FileUse use) {
+  requireNoInput(file, use);
   const int descriptor = ::open(finished.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) fail(file, errno);
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
@@ -153,10 +156,12 @@ void moveIntoPlace(const fs::path& finished, const fs::path& file) {
   const fs::path target = linkTarget(file);
   if (::rename(finished.c_str(), target.c_str()) != 0) fail(file, errno);
   syncFolder(folderOf(target));
+  noteOutput(target, use);
 }
 
-void requireWritable(const fs::path& file) {
+void requireWritable(const fs::path& file, FileUse use) {
   if (file.empty()) throw OutputError("(no name)", "a file name is empty");
+  requireNoInput(file, use);
   const fs::path target = linkTarget(file);
   struct stat info {};
   if (::stat(target.c_str(), &info) == 0) {

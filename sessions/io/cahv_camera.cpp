@@ -29,6 +29,7 @@ CahvModel readVectors(CameraModel model, const JsonReader& json) {
   if (model == CameraModel::kCahvor) return cahv;
   cahv.e_m = vector("E");
   cahv.type = static_cast<int>(json.at("cahvore_type").integer(1, 3));
+  (void)json.has("cahvore_parameter");  // stated with every type, used with one
   if (cahv.type == 3) cahv.parameter = json.at("cahvore_parameter").number(-kLargest, kLargest);
   return cahv;
 }

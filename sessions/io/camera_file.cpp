@@ -82,6 +82,8 @@ const char* cameraModelName(CameraModel model) {
 }
 
 CameraFile readCameraFile(const JsonReader& json) {
+  if (json.has("format")) json.requireFormat(kFormat, kVersion);  // a file's content in a dataset
+  (void)json.has("fitted_from");  // for people: the camera that this one was fitted to
   Camera camera;
   camera.model = readModel(json);
   if (isCahvFamily(camera.model)) return readCahvCamera(camera.model, json);
@@ -103,7 +105,8 @@ CameraFile readCameraFile(const std::filesystem::path& file) {
   if (isCahvorFile(file)) return readCahvorCamera(file);
   if (hasImageLabel(file)) return readLabelCamera(file);
   const JsonDocument document(file);
-  return readCameraFile(document.root(kFormat, kVersion));
+  return document.read(kFormat, kVersion,
+                       [](const JsonReader& json) { return readCameraFile(json); });
 }
 
 Camera readCamera(const JsonReader& json) { return readCameraFile(json).camera; }

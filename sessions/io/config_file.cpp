@@ -38,12 +38,13 @@ OptionList readOptions(const JsonReader& json) {
 
 Config readConfig(const std::filesystem::path& file) {
   const JsonDocument document(file);
-  const JsonReader json = document.root(kFormat, kVersion);
-  Config config;
-  config.file = file;
-  if (const auto profile = json.find("profile")) config.profile = profile->nonEmptyText();
-  if (const auto options = json.find("options")) config.options = readOptions(*options);
-  return config;
+  return document.read(kFormat, kVersion, [&file](const JsonReader& json) {
+    Config config;
+    config.file = file;
+    if (const auto profile = json.find("profile")) config.profile = profile->nonEmptyText();
+    if (const auto options = json.find("options")) config.options = readOptions(*options);
+    return config;
+  });
 }
 
 nlohmann::ordered_json toJson(const OptionList& options) {

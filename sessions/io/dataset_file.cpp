@@ -176,6 +176,27 @@ Case readCase(const JsonReader& json, Dataset& dataset) {
   return one;
 }
 
+Dataset readMembers(const JsonReader& json) {
+  Dataset dataset;
+  if (const auto requirement = json.find("requirement"))
+    dataset.requirement = readRequirement(*requirement);
+  for (const auto& [id, station] : json.at("stations").members())
+    dataset.stations.emplace(id, readStation(id, station, dataset));
+  if (const auto transforms = json.find("transforms"))
+    for (const JsonReader& one : transforms->elements())
+      dataset.transforms.push_back(readFrameTransform(one.path()));
+  if (const auto cameras = json.find("cameras"))
+    for (const auto& [id, camera] : cameras->members())
+      addCamera(id, readCameraFile(camera), dataset);
+  std::set<std::string> ids;
+  for (const JsonReader& one : json.at("cases").elements()) {
+    dataset.cases.push_back(readCase(one, dataset));
+    if (!ids.insert(dataset.cases.back().id).second)
+      one.failMember("id", "'" + dataset.cases.back().id + "' is given twice");
+  }
+  return dataset;
+}
+
 void requireFile(const Dataset& dataset, const std::string& place,
                  const std::filesystem::path& file) {
   std::error_code error;
@@ -228,27 +249,10 @@ nlohmann::ordered_json toJson(const Requirement& requirement) {
 }
 
 Dataset readDataset(const std::filesystem::path& file) {
-  const JsonDocument document(file);
-  const JsonReader json = document.root(kFormat, kVersion);
-  Dataset dataset;
+  const auto bytes = readFileBytes(file, kMaxJsonBytes);
+  Dataset dataset = JsonDocument(file, asText(bytes)).read(kFormat, kVersion, readMembers);
   dataset.file = file;
-  dataset.sha256 = sha256Text(readFileBytes(file, kMaxJsonBytes));
-  if (const auto requirement = json.find("requirement"))
-    dataset.requirement = readRequirement(*requirement);
-  for (const auto& [id, station] : json.at("stations").members())
-    dataset.stations.emplace(id, readStation(id, station, dataset));
-  if (const auto transforms = json.find("transforms"))
-    for (const JsonReader& one : transforms->elements())
-      dataset.transforms.push_back(readFrameTransform(one.path()));
-  if (const auto cameras = json.find("cameras"))
-    for (const auto& [id, camera] : cameras->members())
-      addCamera(id, readCameraFile(camera), dataset);
-  std::set<std::string> ids;
-  for (const JsonReader& one : json.at("cases").elements()) {
-    dataset.cases.push_back(readCase(one, dataset));
-    if (!ids.insert(dataset.cases.back().id).second)
-      one.failMember("id", "'" + dataset.cases.back().id + "' is given twice");
-  }
+  dataset.sha256 = sha256Text(bytes);
   return dataset;
 }
 

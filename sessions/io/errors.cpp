@@ -13,19 +13,6 @@ std::string inputLine(const std::string& file, const std::string& field,
 
 }  // namespace
 
-std::string oneLine(std::string_view text) {
-  std::string line;
-  line.reserve(text.size());
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    const char printable = code < 0x20 || code == 0x7f ? ' ' : c;
-    if (printable == ' ' && (line.empty() || line.back() == ' ')) continue;
-    line.push_back(printable);
-  }
-  while (!line.empty() && line.back() == ' ') line.pop_back();
-  return line;
-}
-
 FileError::FileError(const std::string& line, std::string file, std::string field,
                      std::string reason)
     : std::runtime_error(line),
@@ -43,5 +30,10 @@ InputError::InputError(const std::filesystem::path& file, const std::string& rea
 OutputError::OutputError(const std::filesystem::path& file, const std::string& reason)
     : FileError(oneLine("cannot write " + file.string() + ": " + reason), file.string(), "",
                 reason) {}
+
+OverwriteError::OverwriteError(const std::filesystem::path& file,
+                               const std::filesystem::path& input)
+    : OutputError(
+          file, "it is the input " + input.string() + ", which would be lost; name another file") {}
 
 }  // namespace boresight::sessions

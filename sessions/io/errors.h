@@ -4,12 +4,10 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
-#include <string_view>
+
+#include "sessions/io/plain_text.h"
 
 namespace boresight::sessions {
-
-/// `text` on one line: control characters become spaces, runs of blanks one blank.
-std::string oneLine(std::string_view text);
 
 /// What is wrong with a file from outside; `what()` is one line for stderr.
 class FileError : public std::runtime_error {
@@ -40,6 +38,12 @@ class InputError : public FileError {
 class OutputError : public FileError {
  public:
   OutputError(const std::filesystem::path& file, const std::string& reason);
+};
+
+/// An output that would replace an input: "cannot write FILE: it is the input INPUT, ...".
+class OverwriteError : public OutputError {
+ public:
+  OverwriteError(const std::filesystem::path& file, const std::filesystem::path& input);
 };
 
 }  // namespace boresight::sessions

@@ -45,12 +45,14 @@ std::string tooLarge(std::size_t max_bytes) {
 
 }  // namespace
 
-std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file, std::size_t max_bytes) {
+std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file, std::size_t max_bytes,
+                                        FileUse use) {
   if (file.empty()) throw InputError("(no name)", "a file name is empty");
   const Descriptor descriptor(file);
   struct stat info {};
   if (::fstat(descriptor.number(), &info) != 0) throw InputError(file, readReason(errno));
   if (S_ISDIR(info.st_mode)) throw InputError(file, readReason(EISDIR));
+  noteInput(file, use);
   const auto stated_size = info.st_size > 0 ? static_cast<std::size_t>(info.st_size) : 0;
   if (stated_size > max_bytes) throw InputError(file, tooLarge(max_bytes));
 

@@ -9,13 +9,17 @@
 #include <string_view>
 #include <vector>
 
+#include "sessions/io/input_files.h"
+
 namespace boresight::sessions {
 
 inline constexpr std::size_t kMegabyte = std::size_t{1} << 20;
 
 /// The whole file, read once: what is hashed is what is parsed. InputError when it is missing, a
-/// folder, not readable, empty, or longer than `max_bytes`.
-std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file, std::size_t max_bytes);
+/// folder, not readable, empty, or longer than `max_bytes`. From then on no output replaces it
+/// (input_files.h).
+std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file, std::size_t max_bytes,
+                                        FileUse use = FileUse::kInput);
 
 std::string_view asText(std::span<const std::uint8_t> bytes);
 

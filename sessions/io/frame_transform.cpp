@@ -43,6 +43,17 @@ std::optional<Pose> joinBy(const FrameTransform& transform, const FrameName& a,
   return std::nullopt;
 }
 
+FrameTransform readTransformMembers(const JsonReader& root) {
+  FrameTransform transform;
+  transform.target = readFrameName(root.at("target"));
+  transform.source = readFrameName(root.at("source"));
+  if (sameFrame(transform.target, transform.source))
+    root.failMember("source", "is the same frame as the target");
+  transform.target_from_source = readTransform(root.at("target_from_source"));
+  transform.comment = root.at("comment").nonEmptyText();
+  return transform;
+}
+
 /// As two files of one transform agree whose digits were rounded.
 bool nearlySame(const Pose& a, const Pose& b) {
   return (a.translation_m - b.translation_m).norm() <= kSameTranslation_m &&
@@ -53,15 +64,8 @@ bool nearlySame(const Pose& a, const Pose& b) {
 
 FrameTransform readFrameTransform(const std::filesystem::path& file) {
   const auto bytes = readFileBytes(file, kMaxJsonBytes);
-  const JsonDocument document(file, asText(bytes));
-  const JsonReader root = document.root(kFormat, kVersion);
-  FrameTransform transform;
-  transform.target = readFrameName(root.at("target"));
-  transform.source = readFrameName(root.at("source"));
-  if (sameFrame(transform.target, transform.source))
-    root.failMember("source", "is the same frame as the target");
-  transform.target_from_source = readTransform(root.at("target_from_source"));
-  transform.comment = root.at("comment").nonEmptyText();
+  FrameTransform transform =
+      JsonDocument(file, asText(bytes)).read(kFormat, kVersion, readTransformMembers);
   transform.file = file;
   transform.file_sha256 = sha256Text(bytes);
   return transform;

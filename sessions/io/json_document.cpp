@@ -168,18 +168,4 @@ JsonDocument::~JsonDocument() = default;
 
 JsonReader JsonDocument::root() const { return {file_, *value_, ""}; }
 
-JsonReader JsonDocument::root(std::string_view format, int version) const {
-  JsonReader top = root();
-  if (!top.isObject()) top.fail("not a JSON object");
-  const std::string found = top.at("format").text();
-  if (found != format)
-    top.failMember("format", "is '" + found + "', not '" + std::string(format) + "'");
-  const std::int64_t found_version = top.at("version").integer();
-  if (found_version != version)
-    top.failMember("version", "version " + std::to_string(found_version) +
-                                  " is not supported (this program reads version " +
-                                  std::to_string(version) + ")");
-  return top;
-}
-
 }  // namespace boresight::sessions

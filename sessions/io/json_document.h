@@ -30,10 +30,17 @@ class JsonDocument {
   JsonDocument& operator=(JsonDocument&&) noexcept;
   ~JsonDocument();
 
-  /// The value at the top; lives as long as the document.
+  /// The value at the top, of a format that others define; lives as long as the document.
   JsonReader root() const;
-  /// Checks that the top is an object of this `format` and `version` and returns it.
-  JsonReader root(std::string_view format, int version) const;
+  /// What `read` makes of the top, an object of this `format` and `version` without members that
+  /// `read` does not ask for. InputError.
+  template <class Read>
+  auto read(std::string_view format, int version, Read&& read) const {
+    return root().whole([&](const JsonReader& top) {
+      top.requireFormat(format, version);
+      return read(top);
+    });
+  }
 
   const std::filesystem::path& file() const { return file_; }
 

@@ -10,6 +10,63 @@
 #include "sessions/io/errors.h"
 
 namespace boresight::sessions {
+namespace {
+
+constexpr const char* kUnknown = "is not known to this version of the format";
+
+/// Characters inserted, deleted, replaced, or exchanged with their neighbour between two words
+/// (optimal string alignment distance).
+std::size_t typingErrors(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> errors(a.size() + 1,
+                                               std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) {
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      errors[i][j] = std::max(i, j);
+      if (i == 0 || j == 0) continue;
+      errors[i][j] = std::min({errors[i - 1][j] + 1, errors[i][j - 1] + 1,
+                               errors[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        errors[i][j] = std::min(errors[i][j], errors[i - 2][j - 2] + 1);
+    }
+  }
+  return errors.back().back();
+}
+
+bool isMisspelt(std::string_view word, std::string_view wanted) {
+  return word != wanted &&
+         typingErrors(word, wanted) <= std::min<std::size_t>(2, wanted.size() / 3);
+}
+
+bool isCutShort(std::string_view word, std::string_view wanted) {
+  return word.size() > 2 && wanted.starts_with(word);
+}
+
+std::string unknownText(std::string_view meant) {
+  return std::string(kUnknown) + "; did you mean \"" + std::string(meant) + "\"?";
+}
+
+}  // namespace
+
+void JsonUse::note(const nlohmann::json& object, std::string_view key) {
+  auto known = names_.find(key);
+  if (known == names_.end()) known = names_.emplace(key).first;
+  std::vector<const std::string*>& names = asked_[&object].names;
+  if (std::find(names.begin(), names.end(), &*known) == names.end()) names.push_back(&*known);
+}
+
+void JsonUse::noteAll(const nlohmann::json& object) { asked_[&object].all = true; }
+
+std::string JsonUse::refusal(const nlohmann::json& object, const std::string& key) const {
+  const auto found = asked_.find(&object);
+  if (found == asked_.end() || found->second.all) return "";
+  const std::vector<const std::string*>& names = found->second.names;
+  const auto is = [&key](const std::string* name) { return *name == key; };
+  if (std::any_of(names.begin(), names.end(), is)) return "";
+  const auto meant = std::find_if(names.begin(), names.end(), [&](const std::string* name) {
+    return !object.contains(*name) && (isMisspelt(key, *name) || isCutShort(key, *name));
+  });
+  return meant == names.end() ? kUnknown : unknownText(**meant);
+}
 
 std::string numberText(double value) {
   char buffer[40];
@@ -32,7 +89,35 @@ std::string JsonReader::mismatch(const char* wanted) const {
 }
 
 JsonReader JsonReader::member(std::string_view key, const nlohmann::json& value) const {
-  return {*file_, value, place_.empty() ? std::string(key) : place_ + "." + std::string(key)};
+  return {*file_, value, place_.empty() ? std::string(key) : place_ + "." + std::string(key), use_};
+}
+
+JsonReader JsonReader::element(std::size_t index) const {
+  return {*file_, (*value_)[index], place_ + "[" + std::to_string(index) + "]", use_};
+}
+
+void JsonReader::requireUsed() const {
+  if (value_->is_array())
+    for (std::size_t i = 0; i < value_->size(); ++i)
+      if ((*value_)[i].is_structured()) element(i).requireUsed();
+  if (!value_->is_object()) return;
+  for (auto it = value_->begin(); it != value_->end(); ++it) {
+    const std::string refusal = use_->refusal(*value_, it.key());
+    if (!refusal.empty()) failMember(it.key(), refusal);
+    if (it->is_structured()) member(it.key(), *it).requireUsed();
+  }
+}
+
+void JsonReader::requireFormat(std::string_view format, int version) const {
+  if (!isObject()) fail("not a JSON object");
+  const std::string found = at("format").text();
+  if (found != format)
+    failMember("format", "is '" + found + "', not '" + std::string(format) + "'");
+  const std::int64_t found_version = at("version").integer();
+  if (found_version != version)
+    failMember("version", "version " + std::to_string(found_version) +
+                              " is not supported (this program reads version " +
+                              std::to_string(version) + ")");
 }
 
 void JsonReader::requireObject() const {
@@ -41,12 +126,15 @@ void JsonReader::requireObject() const {
 
 JsonReader JsonReader::at(std::string_view key) const {
   const std::optional<JsonReader> found = find(key);
-  if (!found) failMember(key, "missing");
-  return *found;
+  if (found) return *found;
+  for (const auto& [name, value] : value_->items())
+    if (use_ != nullptr && isMisspelt(name, key)) failMember(name, unknownText(key));
+  failMember(key, "missing");
 }
 
 std::optional<JsonReader> JsonReader::find(std::string_view key) const {
   requireObject();
+  if (use_ != nullptr) use_->note(*value_, key);
   const auto found = value_->find(key);
   if (found == value_->end() || found->is_null()) return std::nullopt;
   return member(key, *found);
@@ -54,24 +142,18 @@ std::optional<JsonReader> JsonReader::find(std::string_view key) const {
 
 std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
   requireObject();
+  if (use_ != nullptr) use_->noteAll(*value_);
   std::vector<std::pair<std::string, JsonReader>> all;
   for (auto it = value_->begin(); it != value_->end(); ++it)
     all.emplace_back(it.key(), member(it.key(), it.value()));
   return all;
 }
 
-void JsonReader::requireKnown(std::initializer_list<std::string_view> known) const {
-  for (const auto& [name, value] : members())
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      value.fail("is not known to this version of the format");
-}
-
 std::vector<JsonReader> JsonReader::elements() const {
   if (!value_->is_array()) fail(mismatch("a list"));
   std::vector<JsonReader> all;
   all.reserve(value_->size());
-  for (const nlohmann::json& element : *value_)
-    all.emplace_back(*file_, element, place_ + "[" + std::to_string(all.size()) + "]");
+  for (std::size_t i = 0; i < value_->size(); ++i) all.push_back(element(i));
   return all;
 }
 
@@ -182,9 +264,12 @@ Eigen::Matrix4d JsonReader::matrix4() const {
   return matrix;
 }
 
-std::filesystem::path JsonReader::path() const {
+std::filesystem::path JsonReader::path(FileUse use) const {
   const std::filesystem::path named = nonEmptyText();
-  return (named.is_absolute() ? named : file_->parent_path() / named).lexically_normal();
+  const auto whole =
+      (named.is_absolute() ? named : file_->parent_path() / named).lexically_normal();
+  noteInput(whole, use);
+  return whole;
 }
 
 }  // namespace boresight::sessions

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <initializer_list>
 #include <limits>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,7 +16,26 @@
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
+#include "sessions/io/input_files.h"
+
 namespace boresight::sessions {
+
+/// The members of a document's objects that its reader asked for.
+class JsonUse {
+ public:
+  void note(const nlohmann::json& object, std::string_view key);
+  void noteAll(const nlohmann::json& object);
+  /// "is not known ..." where a reader opened `object` and did not ask for `key`; else "".
+  std::string refusal(const nlohmann::json& object, const std::string& key) const;
+
+ private:
+  struct Asked {
+    bool all = false;
+    std::vector<const std::string*> names;  ///< in names_
+  };
+  std::set<std::string, std::less<>> names_;
+  std::map<const nlohmann::json*, Asked> asked_;
+};
 
 /// A value inside a JSON document together with its place, e.g. `cases[3].seed`. Every accessor
 /// throws InputError (file, place, reason) when the value is not what is asked for, so a reader
@@ -22,7 +43,20 @@ namespace boresight::sessions {
 class JsonReader {
  public:
   JsonReader(const std::filesystem::path& file, const nlohmann::json& value, std::string place)
-      : file_(&file), value_(&value), place_(std::move(place)) {}
+      : JsonReader(file, value, std::move(place), nullptr) {}
+
+  /// What `read` makes of this value. InputError for each member that `read` did not ask for: a
+  /// misspelt one would be ignored, and a program that writes the file again would lose it.
+  template <class Read>
+  auto whole(Read&& read) const {
+    JsonUse use;
+    const JsonReader tracked(*file_, *value_, place_, &use);
+    auto made = read(tracked);
+    tracked.requireUsed();
+    return made;
+  }
+  /// InputError unless this is an object of this `format` and `version`.
+  void requireFormat(std::string_view format, int version) const;
 
   /// Throws InputError for this place.
   [[noreturn]] void fail(const std::string& reason) const;
@@ -35,10 +69,8 @@ class JsonReader {
   /// Member of an object, or nothing. A null counts as absent.
   std::optional<JsonReader> find(std::string_view key) const;
   std::vector<std::pair<std::string, JsonReader>> members() const;  ///< of an object, by key
-  /// An object has no other members: a program that writes the file anew would lose them.
-  void requireKnown(std::initializer_list<std::string_view> known) const;
-  std::vector<JsonReader> elements() const;                   ///< of an array
-  std::vector<JsonReader> elements(std::size_t count) const;  ///< of an array of `count`
+  std::vector<JsonReader> elements() const;                         ///< of an array
+  std::vector<JsonReader> elements(std::size_t count) const;        ///< of an array of `count`
 
   bool isObject() const;
   bool isText() const;
@@ -67,14 +99,21 @@ class JsonReader {
   /// Four rows of four numbers.
   Eigen::Matrix4d matrix4() const;
 
-  /// A file named relative to the document's folder (or absolute).
-  std::filesystem::path path() const;
+  /// A file named relative to the document's folder (or absolute): no output replaces it from now
+  /// on (input_files.h).
+  std::filesystem::path path(FileUse use = FileUse::kInput) const;
 
   const std::filesystem::path& file() const { return *file_; }
   const std::string& place() const { return place_; }
 
  private:
+  JsonReader(const std::filesystem::path& file, const nlohmann::json& value, std::string place,
+             JsonUse* use)
+      : file_(&file), value_(&value), place_(std::move(place)), use_(use) {}
   JsonReader member(std::string_view key, const nlohmann::json& value) const;
+  JsonReader element(std::size_t index) const;
+  /// Refuses, here and below, members of opened objects that were not asked for.
+  void requireUsed() const;
   void requireObject() const;
   /// "not a number (a string)" and the like.
   std::string mismatch(const char* wanted) const;
@@ -82,6 +121,7 @@ class JsonReader {
   const std::filesystem::path* file_;
   const nlohmann::json* value_;
   std::string place_;
+  JsonUse* use_;  ///< or null
 };
 
 /// Shortest text that reads back as the same double.

@@ -77,6 +77,7 @@ void readReferencePose(const JsonReader& json, const PoseFrames& frames, PoseFil
 }  // namespace
 
 PoseFile readPose(const JsonReader& json, const PoseFrames& frames) {
+  if (json.has("format")) json.requireFormat(kFormat, kVersion);  // a file's content in a dataset
   PoseFile pose;
   if (json.has("reference_from_station") && json.has("camera_from_station"))
     json.failMember("reference_from_station",
@@ -97,7 +98,8 @@ PoseFile readPose(const JsonReader& json, const PoseFrames& frames) {
 
 PoseFile readPose(const std::filesystem::path& file, const PoseFrames& frames) {
   const JsonDocument document(file);
-  return readPose(document.root(kFormat, kVersion), frames);
+  return document.read(kFormat, kVersion,
+                       [&frames](const JsonReader& json) { return readPose(json, frames); });
 }
 
 std::string projectionNote(double rotation_deviation) {

@@ -2,6 +2,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "sessions/io/plain_text.h"
 #include "sessions/record/compare_records.h"
 
 namespace boresight::sessions {
@@ -58,11 +59,11 @@ std::string comparisonText(const RecordComparison& comparison) {
       break;
   }
   if (comparison.first)
-    text << "first difference: " << runPartText(comparison.first->part) << ": "
-         << comparison.first->text << "\n";
+    text << plainLine("first difference: " + std::string(runPartText(comparison.first->part)) +
+                      ": " + comparison.first->text);
   for (const std::string& sentence : comparison.beyond)
-    text << "beyond limits: " << sentence << "\n";
-  for (const std::string& sentence : comparison.missing) text << "missing: " << sentence << "\n";
+    text << plainLine("beyond limits: " + sentence);
+  for (const std::string& sentence : comparison.missing) text << plainLine("missing: " + sentence);
   if (comparison.verdict == RunVerdict::kEqual) return text.str();
   text << "iteration  templates  found alike  inliers either  both  apart mm    mrad\n";
   for (const IterationComparison& one : comparison.iterations)

@@ -108,6 +108,7 @@ ordered_json resultJson(const LocalizationTrace& trace, const std::optional<Pose
   json["inliers"] = result.inliers;
   json["edge_support"] = result.edge_support;
   if (error) json["error"] = toJson(*error);
+  if (!provenance.warnings.empty()) json["warnings"] = provenance.warnings;
   json["seconds"] = toJson(trace.seconds);
   json["arena_bytes"] = trace.arena_bytes;
   json["input_bytes"] = trace.memory.inputs;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -27,8 +28,9 @@ struct RunProvenance {
   const SceneMesh* scene = nullptr;
   const IgnoreMask* ignore = nullptr;
   std::filesystem::path camera_file, seed_file, truth_file, config_file;
-  std::vector<LabelItem> image_label = {};                         ///< of an image that has a label
-  std::optional<StationFrame> station_frame = std::nullopt;        ///< of a seed in a named frame
+  std::vector<std::string> warnings;                         ///< that were printed before the run
+  std::vector<LabelItem> image_label = {};                   ///< of an image that has a label
+  std::optional<StationFrame> station_frame = std::nullopt;  ///< of a seed in a named frame
   std::optional<CameraReference> camera_reference = std::nullopt;  ///< of a camera of vectors
 };
 

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "core/base/math.h"
+#include "sessions/io/plain_text.h"
 #include "sessions/report/text_table.h"
 
 namespace boresight::sessions {
@@ -291,7 +292,7 @@ std::string poseText(const Pose& pose, const Matrix6d& covariance, const std::st
   Eigen::Quaterniond q = pose.rotation;
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   const Eigen::Matrix3d matrix = pose.matrix();
-  std::string text = name + "\n";
+  std::string text = plainLine(name);
   for (int row = 0; row < 3; ++row)
     text += format("  %12.9f %12.9f %12.9f %12.9f\n", matrix(row, 0), matrix(row, 1),
                    matrix(row, 2), pose.translation_m[row]);

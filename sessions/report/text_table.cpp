@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "sessions/io/plain_text.h"
+
 namespace boresight::sessions {
 
 std::string fixedText(double value, int decimals) {
@@ -13,6 +15,11 @@ std::string fixedText(double value, int decimals) {
   std::array<char, 400> text{};
   std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
   return text.data();
+}
+
+void TextTable::add(const std::vector<std::string>& row) {
+  std::vector<std::string>& cells = rows_.emplace_back();
+  for (const std::string& cell : row) cells.push_back(plainText(cell));
 }
 
 std::string TextTable::text() const {

@@ -6,11 +6,12 @@
 
 namespace boresight::sessions {
 
-/// Columns of equal width for a terminal: the first column left, the others right aligned.
+/// Columns of equal width for a terminal: the first column left, the others right aligned. A cell
+/// stays on its line, whatever text from outside is in it.
 class TextTable {
  public:
-  explicit TextTable(std::vector<std::string> header) { rows_.push_back(std::move(header)); }
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  explicit TextTable(const std::vector<std::string>& header) { add(header); }
+  void add(const std::vector<std::string>& row);
   /// One line per row, two blanks between columns, a rule under the header.
   std::string text() const;
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sessions/io/plain_text.h"
+
 namespace boresight::sessions {
 namespace {
 
@@ -47,7 +49,7 @@ std::string checksText(std::span<const Check> checks, bool all_sentences) {
     text += plain ? check.title : padded(check.title, width) + "  " + figure;
     text += "\n";
     if (all_sentences || check.state != CheckState::kPassed)
-      text += "      " + check.sentence + "\n";
+      text += plainLine("      " + check.sentence);
   }
   return text + checkCountsText(checks) + "\n";
 }

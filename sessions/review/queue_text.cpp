@@ -2,6 +2,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "sessions/io/csv_field.h"
+#include "sessions/io/plain_text.h"
 #include "sessions/report/text_table.h"
 #include "sessions/review/queue.h"
 
@@ -9,13 +11,6 @@ namespace boresight::sessions {
 namespace {
 
 constexpr double kPercent = 100.0;
-
-std::string quoted(const std::string& field) {
-  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
-  std::string text = "\"";
-  for (const char c : field) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return text + '"';
-}
 
 std::string marginText(const QueueRow& row) {
   return row.margin ? fixedText(kPercent * *row.margin, 0) + " %" : "-";
@@ -50,7 +45,7 @@ std::string queueText(const std::vector<QueueRow>& rows) {
                    : std::to_string(row.opens_at + 1) + "/" + std::to_string(row.iterations)});
   }
   std::string text = table.text() + "\n";
-  for (const QueueRow& row : rows) text += row.case_id + ": " + troubleText(row) + "\n";
+  for (const QueueRow& row : rows) text += plainLine(row.case_id + ": " + troubleText(row));
   return text;
 }
 
@@ -73,7 +68,7 @@ std::string queueCsv(const std::vector<QueueRow>& rows) {
                                   row.opens_at < 0 ? "" : std::to_string(row.opens_at + 1),
                                   row.run_digest,
                                   troubleText(row)};
-    for (const std::string& each : fields) text += (&each == fields ? "" : ",") + quoted(each);
+    for (const std::string& each : fields) text += (&each == fields ? "" : ",") + csvField(each);
     text += "\r\n";
   }
   return text;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cctype>
 
+#include "sessions/io/plain_text.h"
 #include "sessions/report/text_table.h"
 #include "sessions/review/run_difference.h"
 
@@ -62,7 +63,7 @@ std::string differenceText(const RunDifference& made) {
   if (made.before.converged && made.after.converged)
     apart = "Final poses " + fixedText(made.comparison.translation_mm, 3) + " mm and " +
             fixedText(made.comparison.rotation_mrad, 3) + " mrad apart at the camera.\n";
-  return table.text() + apart + changeText(made) + "\n";
+  return table.text() + apart + plainLine(changeText(made));
 }
 
 }  // namespace boresight::sessions

@@ -59,7 +59,8 @@ HandedPose readHandedPose(const JsonReader& root) {
 Document readDocument(const fs::path& file) {
   const auto bytes = readFileBytes(file, kMaxJsonBytes);
   const JsonDocument strict(file, asText(bytes));
-  const JsonReader root = strict.root(kValidatedPoseFormat, kValidatedPoseVersion);
+  const JsonReader root = strict.root();
+  root.requireFormat(kValidatedPoseFormat, kValidatedPoseVersion);
   Document document;
   document.file = file;
   document.json = ordered_json::parse(asText(bytes));  // keeps the order, which is signed

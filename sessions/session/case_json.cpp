@@ -39,7 +39,9 @@ std::string readSha256(const JsonReader& json) {
   return text;
 }
 
-fs::path readPath(const JsonReader& json) { return fs::absolute(json.path()).lexically_normal(); }
+fs::path readPath(const JsonReader& json, FileUse use) {
+  return fs::absolute(json.path(use)).lexically_normal();
+}
 
 ordered_json exactPoseJson(const Pose& pose) {
   const Eigen::Quaterniond& q = pose.rotation;
@@ -50,7 +52,6 @@ ordered_json exactPoseJson(const Pose& pose) {
 }
 
 Pose readExactPose(const JsonReader& json) {
-  json.requireKnown({"rotation_wxyz", "translation_m"});
   const JsonReader rotation = json.at("rotation_wxyz");
   const std::vector<JsonReader> q = rotation.elements(4);
   Pose pose;
@@ -154,7 +155,6 @@ void addExtras(const SessionCase& one, const PathWriter& path, ordered_json& jso
 // ---- reading
 
 InputFile readInput(const JsonReader& json) {
-  json.requireKnown({"file", "sha256"});
   return {readPath(json.at("file")), readSha256(json.at("sha256"))};
 }
 
@@ -184,8 +184,6 @@ ImageReadOptions readEightBit(const JsonReader& json) {
 }
 
 ImageInput readImageInput(const JsonReader& json) {
-  json.requireKnown({"file", "sha256", "width", "height", "pixels_sha256", "label", "rule",
-                     "bit_depth", "table", "black", "white"});
   ImageInput image;
   image.source = {readPath(json.at("file")), readSha256(json.at("sha256"))};
   image.width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
@@ -197,8 +195,6 @@ ImageInput readImageInput(const JsonReader& json) {
 }
 
 MeshInput readMeshInput(const JsonReader& json) {
-  json.requireKnown({"file", "sha256", "mesh_unit", "station_from_mesh", "normal_threshold_rad",
-                     "depth_threshold_m", "match"});
   MeshInput part;
   part.source.mesh = readPath(json.at("file"));
   const std::optional<MeshFormat> format = knownMeshFormat(part.source.mesh);
@@ -221,7 +217,6 @@ MeshInput readMeshInput(const JsonReader& json) {
 }
 
 MaskStroke readStroke(const JsonReader& json) {
-  json.requireKnown({"kind", "erase", "name", "radius_px", "level", "points"});
   MaskStroke stroke;
   const std::string kind = json.at("kind").choice({"brush", "polygon", "saturation"});
   while (kind != kStrokeNames[static_cast<int>(stroke.kind)])
@@ -255,19 +250,16 @@ void readExtras(const JsonReader& json, SessionCase& one) {
     for (const JsonReader& stroke : strokes->elements())
       one.ignore_strokes.push_back(readStroke(stroke));
   if (const auto record = json.find("onboard_record")) one.onboard_record = readInput(*record);
-  if (const auto rig = json.find("rig")) {
-    rig->requireKnown({"id", "camera_from_rig"});
+  if (const auto rig = json.find("rig"))
     one.rig = Rig{rig->at("id").nonEmptyText(), readExactPose(rig->at("camera_from_rig"))};
-  }
   if (const auto tags = json.find("tags"))
     for (const JsonReader& tag : tags->elements()) one.tags.push_back(tag.nonEmptyText());
-  if (const auto requirement = json.find("requirement")) {
-    requirement->requireKnown({"normal_mm", "lateral_mm", "rotation_deg", "projection_px"});
+  if (const auto requirement = json.find("requirement"))
     one.requirement = readRequirement(*requirement);
-  }
   if (const auto pose = json.find("camera_from_end_effector"))
     one.camera_from_end_effector = readExactPose(*pose);
-  if (const auto landmarks = json.find("landmarks")) one.landmarks = readPath(*landmarks);
+  if (const auto landmarks = json.find("landmarks"))
+    one.landmarks = readPath(*landmarks, FileUse::kLandmarks);
 }
 
 }  // namespace
@@ -288,27 +280,6 @@ ordered_json toJson(const SessionCase& one, const PathWriter& path) {
 }
 
 SessionCase readSessionCase(const JsonReader& json) {
-  json.requireKnown({"id",
-                     "station",
-                     "image",
-                     "camera",
-                     "parts",
-                     "feature_size_m",
-                     "seed",
-                     "uncertainty",
-                     "truth",
-                     "working",
-                     "ignore",
-                     "ignore_strokes",
-                     "onboard_record",
-                     "rig",
-                     "tags",
-                     "requirement",
-                     "camera_from_end_effector",
-                     "landmarks",
-                     "camera_reference",
-                     "station_frame",
-                     "truth_frame"});
   SessionCase one;
   one.id = json.at("id").nonEmptyText();
   if (const auto station = json.find("station")) one.station = station->nonEmptyText();
@@ -321,7 +292,6 @@ SessionCase readSessionCase(const JsonReader& json) {
     parts.fail("no part is to be matched");
   if (const auto size = json.find("feature_size_m")) one.feature_size_m = size->number(1e-6, 100.0);
   one.camera_from_station_seed = readExactPose(json.at("seed"));
-  json.at("uncertainty").requireKnown({"translation_m", "rotation_deg", "pivot"});
   one.uncertainty = readUncertainty(json.at("uncertainty"));
   readExtras(json, one);
   return one;

@@ -36,6 +36,6 @@ Pose readExactPose(const JsonReader& json);
 /// 64 lower-case hexadecimal digits. InputError.
 std::string readSha256(const JsonReader& json);
 /// Absolute and without detours. InputError.
-std::filesystem::path readPath(const JsonReader& json);
+std::filesystem::path readPath(const JsonReader& json, FileUse use = FileUse::kInput);
 
 }  // namespace boresight::sessions

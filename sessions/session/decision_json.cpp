@@ -39,7 +39,6 @@ ordered_json approvalJson(const Approval& approval) {
 }
 
 Approval readApproval(const JsonReader& json) {
-  json.requireKnown({"by", "comment", "time"});
   return {json.at("by").nonEmptyText(), json.at("comment").text(), readTime(json.at("time"))};
 }
 
@@ -52,7 +51,6 @@ ordered_json judgedPoseJson(const JudgedPose& pose) {
 }
 
 JudgedPose readJudgedPose(const JsonReader& json) {
-  json.requireKnown({"source", "camera_from_station", "covariance"});
   JudgedPose pose;
   pose.source = valueOf<PoseSource>(kSourceNames, json.at("source").choice({"run", "annotation"}));
   pose.camera_from_station = readExactPose(json.at("camera_from_station"));
@@ -97,8 +95,6 @@ ordered_json toJson(const JudgedCheck& judged) {
 }
 
 JudgedCheck readJudgedCheck(const JsonReader& json) {
-  json.requireKnown(
-      {"id", "title", "state", "figure", "limit", "side", "unit", "sentence", "override_reason"});
   JudgedCheck judged;
   Check& check = judged.check;
   check.id = json.at("id").nonEmptyText();
@@ -133,8 +129,6 @@ ordered_json toJson(const Decision& decision) {
 }
 
 Decision readDecision(const JsonReader& json) {
-  json.requireKnown({"case", "verdict", "by", "comment", "time", "run", "pose", "grounds", "checks",
-                     "basin_seeds", "approval"});
   Decision decision;
   decision.case_id = json.at("case").text();
   decision.verdict = valueOf<Verdict>(
@@ -165,7 +159,6 @@ ordered_json toJson(const ReviewSettings& settings) {
 }
 
 ReviewSettings readReviewSettings(const JsonReader& json) {
-  json.requireKnown({"preset", "limits", "second_person"});
   ReviewSettings settings;
   settings.preset = json.at("preset").text();
   settings.limits = readOptions(json.at("limits"));

@@ -30,7 +30,6 @@ ordered_json transformJson(const FrameTransform& transform) {
 }
 
 FrameTransform readTransformMember(const JsonReader& json) {
-  json.requireKnown({"target", "source", "target_from_source", "comment", "file", "sha256"});
   FrameTransform transform;
   transform.target = readFrameName(json.at("target"));
   transform.source = readFrameName(json.at("source"));
@@ -50,7 +49,6 @@ ordered_json toJson(const CameraReference& reference) {
 }
 
 CameraReference readCameraReference(const JsonReader& json) {
-  json.requireKnown({"name", "index", "camera_from_reference"});
   return {readExactPose(json.at("camera_from_reference")), readFrame(json)};
 }
 
@@ -61,7 +59,6 @@ ordered_json toJson(const StationFrame& frame) {
 }
 
 StationFrame readStationFrame(const JsonReader& json) {
-  json.requireKnown({"name", "index", "joined_by"});
   StationFrame frame{readFrame(json)};
   if (const auto joined = json.find("joined_by")) frame.joined_by = readTransformMember(*joined);
   return frame;

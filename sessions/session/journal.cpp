@@ -123,7 +123,7 @@ JournalContents readJournal(const std::filesystem::path& file) {
     contents.problem = "the file is empty";
     return contents;
   }
-  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxJournalBytes);
+  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxJournalBytes, FileUse::kSession);
   std::string_view rest = asText(bytes);
   std::string last_crc;
   json value;
@@ -161,7 +161,7 @@ Journal::Journal(const std::filesystem::path& file, const std::string& base_sha2
     entry.sequence = ++sequence_;
     addLine(entryJson(entry), last_crc_, text);
   }
-  writeFileAtomically(file, text);
+  writeFileAtomically(file, text, FileUse::kSession);
   size_bytes_ = static_cast<std::int64_t>(text.size());
   descriptor_ = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   if (descriptor_ < 0) throw OutputError(file, writeReason(errno));

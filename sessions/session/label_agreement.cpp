@@ -94,4 +94,13 @@ void flagLabel(const SessionCase& one, const ImageLabel& label, std::vector<RedF
   }
 }
 
+std::vector<std::string> labelWarnings(const SessionCase& one) {
+  if (!hasImageLabel(one.image.source.file)) return {};
+  std::vector<RedFlag> flags;
+  flagLabel(one, readImageLabel(one.image.source.file), flags);
+  std::vector<std::string> warnings;
+  for (const RedFlag& flag : flags) warnings.push_back(flag.text);
+  return warnings;
+}
+
 }  // namespace boresight::sessions

@@ -2,6 +2,7 @@
 // Whether what people gave for a case agrees with what the label of its image says.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "sessions/io/image_label.h"
@@ -14,5 +15,8 @@ namespace boresight::sessions {
 /// label elsewhere than the label does; takes `camera_off_centre` away where the camera is that of
 /// the sub-frame which the label states. Nothing is changed by it: what people gave counts.
 void flagLabel(const SessionCase& one, const ImageLabel& label, std::vector<RedFlag>& flags);
+
+/// The same of the label of the case's image, as sentences; none where it has no label. InputError.
+std::vector<std::string> labelWarnings(const SessionCase& one);
 
 }  // namespace boresight::sessions

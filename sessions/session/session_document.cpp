@@ -61,7 +61,8 @@ void copyRuns(Session& session, const fs::path& to_session) {
   for (RunRecord& run : session.runs) {
     const fs::path copy = runFileOf(to_session, run.digest);
     if (!fs::exists(run.file, error)) continue;  // is reported by checkInputs
-    if (!fs::exists(copy, error)) writeFileAtomically(copy, readFileBytes(run.file, SIZE_MAX));
+    if (!fs::exists(copy, error))
+      writeFileAtomically(copy, readFileBytes(run.file, SIZE_MAX, FileUse::kRun), FileUse::kRun);
     run.file = copy;
   }
 }
@@ -76,7 +77,8 @@ SessionDocument::~SessionDocument() = default;
 
 SessionDocument SessionDocument::open(const fs::path& file, Access access) {
   SessionDocument document(file);
-  (void)readFileBytes(document.file_, SIZE_MAX);  // no lock file beside what is not there
+  // No lock file beside what is not there.
+  (void)readFileBytes(document.file_, SIZE_MAX, FileUse::kSession);
   if (access == Access::kEdit)
     document.takeLock();
   else
@@ -209,7 +211,7 @@ void SessionDocument::acceptRecovery() {
   if (readOnly()) throw OutputError(file_, read_only_reason_);
   const fs::path file = journalFileOf(file_);
   if (recovery_->lost_lines > 1)
-    writeFileAtomically(asideName(file), readFileBytes(file, SIZE_MAX));
+    writeFileAtomically(asideName(file), readFileBytes(file, SIZE_MAX, FileUse::kSession));
   const std::string text = sessionText(recovery_->session, file_);
   json after = json::parse(text);
   JournalEntry entry;
@@ -254,7 +256,8 @@ void SessionDocument::apply(const Session& next, const std::string& text) {
 void SessionDocument::save() {
   requireEditable();
   std::error_code error;
-  if (fs::exists(file_, error) && sha256Text(readFileBytes(file_, SIZE_MAX)) != file_sha256_)
+  if (fs::exists(file_, error) &&
+      sha256Text(readFileBytes(file_, SIZE_MAX, FileUse::kSession)) != file_sha256_)
     throw OutputError(file_,
                       "another program has changed the file since it was opened; save under "
                       "another name");
@@ -268,7 +271,7 @@ void SessionDocument::saveAs(const fs::path& file) {
   SessionDocument other(file);
   if (other.file_ == file_) return save();
   if (recovery_) requireEditable();
-  requireWritable(other.file_);
+  requireWritable(other.file_, FileUse::kSession);
   other.takeLock();
   other.requireEditable();
   other.notices_.clear();

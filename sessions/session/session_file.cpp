@@ -34,7 +34,7 @@ fs::path runFileOf(const fs::path& session_file, const std::string& digest) {
 }
 
 SavedSession readSessionFile(const fs::path& file) {
-  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxJsonBytes);
+  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxJsonBytes, FileUse::kSession);
   if (asText(bytes).starts_with("PK\x03\x04"))
     throw InputError(file,
                      "an archive, as whs pack makes it: unpack it, and open the session in it");
@@ -47,7 +47,7 @@ std::string writeSessionFile(const fs::path& file, const Session& session) {
   if (text.size() > kMaxJsonBytes)
     throw OutputError(file, "the session is larger than the limit of " +
                                 std::to_string(kMaxJsonBytes / kMegabyte) + " MB");
-  writeFileAtomically(file, text);
+  writeFileAtomically(file, text, FileUse::kSession);
   return textSha256(text);
 }
 

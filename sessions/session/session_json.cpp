@@ -75,7 +75,6 @@ std::string readCaseReference(const JsonReader& json, const Session& session) {
 }
 
 AnnotationPass readPass(const JsonReader& json) {
-  json.requireKnown({"by", "time", "points", "lines"});
   return {json.at("by").nonEmptyText(), readTime(json.at("time")), readMarks(json)};
 }
 
@@ -86,7 +85,6 @@ void readMarksOf(const JsonReader& json, Session& session) {
   };
   for (const auto& [id, annotation] : json.at("annotations").members()) {
     requireCase(id, annotation);
-    annotation.requireKnown({"points", "lines"});
     session.annotations.insert_or_assign(id, readMarks(annotation));
   }
   const auto passes = json.find("passes");
@@ -101,19 +99,16 @@ void readMarksOf(const JsonReader& json, Session& session) {
 }
 
 RunRecord readRun(const JsonReader& json, const Session& session) {
-  json.requireKnown({"case", "digest", "file", "status", "version", "time", "inputs_sha256",
-                     "options_sha256", "rerun", "together"});
   RunRecord run;
   run.case_id = readCaseReference(json.at("case"), session);
   run.digest = readSha256(json.at("digest"));
-  run.file = readPath(json.at("file"));
+  run.file = readPath(json.at("file"), FileUse::kRun);
   run.status = readRunStatus(json.at("status"));
   run.version = json.at("version").nonEmptyText();
   run.time = readTime(json.at("time"));
   run.inputs_sha256 = readSha256(json.at("inputs_sha256"));
   run.options_sha256 = readSha256(json.at("options_sha256"));
   if (const auto rerun = json.find("rerun")) {
-    rerun->requireKnown({"from", "options", "changes"});
     if (const auto from = rerun->find("from")) (void)readSha256(*from);
     run.rerun = readRerun(*rerun);
   }
@@ -122,7 +117,6 @@ RunRecord readRun(const JsonReader& json, const Session& session) {
 }
 
 DocumentView readView(const JsonReader& json, const Session& session) {
-  json.requireKnown({"case", "run", "iteration"});
   DocumentView view;
   if (const auto one = json.find("case")) view.case_id = readCaseReference(*one, session);
   if (const auto run = json.find("run")) view.digest = readSha256(*run);
@@ -150,6 +144,28 @@ void readOptionsOf(const JsonReader& json, Session& session) {
   session.profile = json.at("profile").nonEmptyText();
   session.options = readOptions(json.at("options"));
   (void)sessionOptions(session, json.file());  // throws when one does not exist or fit
+}
+
+Session readMembers(const JsonReader& json) {
+  requireVersion(json);
+  Session session;
+  readOptionsOf(json, session);
+  std::set<std::string> ids;
+  for (const JsonReader& one : json.at("cases").elements()) {
+    session.cases.emplace_back(readSessionCase(one));
+    if (!ids.insert(session.cases.back()->id).second)
+      one.failMember("id", "'" + session.cases.back()->id + "' is given twice");
+  }
+  readMarksOf(json, session);
+  if (const auto review = json.find("review")) session.review = readReviewSettings(*review);
+  for (const JsonReader& decision : json.at("decisions").elements()) {
+    session.decisions.push_back(readDecision(decision));
+    (void)readCaseReference(decision.at("case"), session);
+  }
+  for (const JsonReader& run : json.at("runs").elements())
+    session.runs.push_back(readRun(run, session));
+  session.view = readView(json.at("view"), session);
+  return session;
 }
 
 }  // namespace
@@ -183,28 +199,6 @@ std::string sessionText(const Session& session, const fs::path& file) {
   return prettyJson(json);
 }
 
-Session readSession(const JsonReader& json) {
-  requireVersion(json);
-  json.requireKnown({"format", "version", "profile", "options", "cases", "annotations", "passes",
-                     "review", "decisions", "runs", "view"});
-  Session session;
-  readOptionsOf(json, session);
-  std::set<std::string> ids;
-  for (const JsonReader& one : json.at("cases").elements()) {
-    session.cases.emplace_back(readSessionCase(one));
-    if (!ids.insert(session.cases.back()->id).second)
-      one.failMember("id", "'" + session.cases.back()->id + "' is given twice");
-  }
-  readMarksOf(json, session);
-  if (const auto review = json.find("review")) session.review = readReviewSettings(*review);
-  for (const JsonReader& decision : json.at("decisions").elements()) {
-    session.decisions.push_back(readDecision(decision));
-    (void)readCaseReference(decision.at("case"), session);
-  }
-  for (const JsonReader& run : json.at("runs").elements())
-    session.runs.push_back(readRun(run, session));
-  session.view = readView(json.at("view"), session);
-  return session;
-}
+Session readSession(const JsonReader& json) { return json.whole(readMembers); }
 
 }  // namespace boresight::sessions

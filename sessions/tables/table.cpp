@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "sessions/io/csv_field.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/report/text_table.h"
 
@@ -42,25 +43,18 @@ std::string plainText(const Table& table) {
   return made;
 }
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string made = "\"";
-  for (const char letter : text) made += letter == '"' ? "\"\"" : std::string(1, letter);
-  return made + "\"";
-}
-
 std::string csvText(const Table& table) {
   std::string header;
   for (const TableColumn& column : table.columns) {
-    if (column.parts.empty()) header += (header.empty() ? "" : ",") + quoted(column.name);
+    if (column.parts.empty()) header += (header.empty() ? "" : ",") + csvField(column.name);
     for (const std::string& part : column.parts)
-      header += (header.empty() ? "" : ",") + quoted(column.name + " " + part);
+      header += (header.empty() ? "" : ",") + csvField(column.name + " " + part);
   }
   std::string made = header + "\r\n";
   for (const auto& row : table.rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
-      if (row[i].values.empty()) line += (i > 0 ? "," : "") + quoted(row[i].text);
+      if (row[i].values.empty()) line += (i > 0 ? "," : "") + csvField(row[i].text);
       for (std::size_t part = 0; part < row[i].values.size(); ++part)
         line += (i + part > 0 ? "," : "") +
                 (row[i].values[part] ? numberText(*row[i].values[part]) : std::string());

@@ -41,11 +41,11 @@ void saveTrace(const std::filesystem::path& file, const LocalizationTrace& trace
   bytes.insert(bytes.end(), payload.bytes().begin(), payload.bytes().end());
   const auto sum = checksum(bytes);
   bytes.insert(bytes.end(), sum.begin(), sum.end());
-  writeFileAtomically(file, bytes);
+  writeFileAtomically(file, bytes, FileUse::kRun);
 }
 
 LocalizationTrace loadTrace(const std::filesystem::path& file) {
-  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxTraceBytes);
+  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxTraceBytes, FileUse::kRun);
   const std::span<const std::uint8_t> all(bytes);
   if (bytes.size() < kMagic.size() || !std::equal(kMagic.begin(), kMagic.end(), bytes.begin()))
     throw InputError(file, "not a trace of boresight");

@@ -88,7 +88,9 @@ TEST_F(BadInput, NamesBothSizesWhenImageAndCameraDisagree) {
 
 TEST_F(BadInput, AsksForTheUnitOfAMeshThatStatesNone) {
   expectRefused({{"--mesh-unit", ""}}, "model.ply", "unit");
-  expectRefused({{"--mesh-unit", "furlong"}}, "model.ply", "furlong");
+  const ProgramRun refused = run({{"--mesh-unit", "furlong"}});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--mesh-unit: unknown unit \"furlong\""));
 }
 
 TEST_F(BadInput, DoubtsTheUnitOfAMeshAThousandTimesTooSmallOrTooLarge) {
@@ -131,6 +133,42 @@ TEST_F(BadInput, NamesAnOutputThatCannotBeWritten) {
   expectRefused({{"--out", "/no/such/folder/result.json"}}, "/no/such/folder/result.json", "");
   expectRefused({{"--overlay", "/no/such/folder/o.png"}}, "/no/such/folder/o.png", "");
   expectRefused({{"--trace", "/no/such/folder/t"}}, "/no/such/folder/t", "");
+}
+
+TEST_F(BadInput, NamesAnOptionWhoseNumberIsNotFiniteOrOutOfRange) {
+  const std::string record = (example_ / "none.whsr").string();
+  const std::string dataset = (exampleFolder() / "dataset.json").string();
+  const auto expectUsage = [](const Arguments& arguments, const std::string& option,
+                              const std::string& value) {
+    const ProgramRun refused = runWhs(arguments);
+    EXPECT_EQ(refused.exit_code, 2) << arguments[0] << " " << option << " " << value;
+    EXPECT_THAT(refused.err, HasSubstr(option)) << value;
+    EXPECT_THAT(refused.err, HasSubstr(value)) << option;
+    EXPECT_EQ(refused.out, "");
+  };
+  for (const std::string value : {"nan", "inf", "-nan", "1e999", "-1"}) {
+    expectUsage(localizeArguments({{"--feature-size", value}}), "--feature-size", value);
+    Arguments uncertain = localizeArguments();
+    uncertain.insert(uncertain.end(), {"--uncertainty", value, "0.01", "0.01", "1", "1", "1"});
+    expectUsage(uncertain, "--uncertainty", value);
+    expectUsage({"new", "--image", "i.png", "--feature-size", value, "--out", "s.json"},
+                "--feature-size", value);
+    expectUsage(
+        {"camera", (example_ / "camera.json").string(), "--as", "pinhole", "--distance", value},
+        "--distance", value);
+    expectUsage({"evaluate", "--dataset", dataset, "--out", (outputs_ / "r.sqlite").string(),
+                 "--reseed-scale", value},
+                "--reseed-scale", value);
+    for (const std::string option : {"--found-px", "--found-share", "--inlier-share", "--sigmas"})
+      expectUsage({"compare", record, record, option, value}, option, value);
+    expectUsage(localizeArguments({{"--set", "templates.feature_size_m=" + value}}), "--set",
+                value == "1e999" ? "templates.feature_size_m" : value);
+    expectUsage(localizeArguments({{"--threads", value}}), "--threads", value);
+  }
+  Arguments turned = localizeArguments();
+  turned.insert(turned.end(), {"--uncertainty", "0.01", "0.01", "0.01", "1", "1", "181"});
+  expectUsage(turned, "--uncertainty", "180 deg");
+  EXPECT_EQ(outputs_.fileCount(), 0u);
 }
 
 TEST_F(BadInput, CallsWrongUseUsage) {

@@ -180,6 +180,48 @@ TEST_F(Downlink, IsLocalizedInTheFrameThatItsSeedIsGivenIn) {
   EXPECT_THAT(run.out, HasSubstr("\nreference_from_station in SITE_FRAME (194)\n"));
 }
 
+TEST_F(Downlink, ATransformThatTheLabelContradictsIsReported) {
+  // The label states where the rover is in the site; the transform that is given later lies 50 mm
+  // beside it.
+  const Eigen::Quaterniond& turn = siteFromRover().rotation;
+  folder_.write(
+      "1F483288473.IMG",
+      downlinkImage(ExampleCase("os"), roverFromCamera(), kRover,
+                    "PROPERTY='ROVER_COORDINATE_SYSTEM'  COORDINATE_SYSTEM_NAME='ROVER_FRAME'  "
+                    "COORDINATE_SYSTEM_INDEX=(194,835,1)  "
+                    "REFERENCE_COORD_SYSTEM_NAME='SITE_FRAME'  REFERENCE_COORD_SYSTEM_INDEX=194  "
+                    "ORIGIN_OFFSET_VECTOR=" +
+                        vicarVector(siteFromRover().translation_m) +
+                        "  ORIGIN_ROTATION_QUATERNION=(" + vicarNumber(turn.w()) + "," +
+                        vicarNumber(turn.x()) + "," + vicarNumber(turn.y()) + "," +
+                        vicarNumber(turn.z()) + ")  "));
+  const auto localized = [this](const std::string& transform) {
+    Arguments arguments = localizeArguments({{"--image", image_.string()},
+                                             {"--camera", ""},
+                                             {"--seed", seed_},
+                                             {"--out", (folder_ / "result.json").string()}});
+    arguments.insert(arguments.end(), {"--transform", transform});
+    return runWhs(arguments);
+  };
+  const ProgramRun agrees = localized(transform_.string());
+  EXPECT_EQ(agrees.err, "");
+  EXPECT_FALSE(json::parse(folder_.read("result.json")).contains("warnings"));
+
+  Pose moved = siteFromRover();
+  moved.translation_m.z() += 0.05;
+  sessions::writeFrameTransform(transform_, {kSite, kRover, moved, "by hand, sol 12", {}, {}});
+  const std::string warning =
+      "site_from_rover.json and the image's label differ about where ROVER_FRAME (194, 835, 1) is "
+      "in SITE_FRAME (194): by 50.0 mm and 0.00 deg";
+  const ProgramRun warned = localized(transform_.string());
+  EXPECT_EQ(warned.exit_code, 0) << warned.err;
+  EXPECT_EQ(warned.err, "whs: " + warning + "\n");
+  EXPECT_EQ(json::parse(folder_.read("result.json"))["warnings"], json::array({warning}));
+  const ProgramRun made = runWhs(newArguments(true));
+  EXPECT_EQ(made.exit_code, 0);
+  EXPECT_EQ(made.err, "whs: case sol12: " + warning + "\n");
+}
+
 TEST_F(Downlink, IsDescribedWithAllThatBelongsToIt) {
   const std::string rover = writeSeed("rover.json", ExampleCase("os").seed, kRover);
   const std::string record = (folder_ / "run.whsr").string();

@@ -54,6 +54,13 @@ TEST_F(WhsProblem, HoldsWhatLocalizeRuns) {
   EXPECT_TRUE(folder_.read("problem.bin") == std::string(expected.begin(), expected.end()));
 }
 
+TEST_F(WhsProblem, DriverDoesNotPassOverLostOutput) {
+  ASSERT_EQ(runWhs(arguments()).exit_code, 0);
+  const std::string command = std::string(BORESIGHT_FLIGHT_DRIVER) + " '" + problem_ + "' '" +
+                              image_ + "' >/dev/full 2>/dev/null";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 3);
+}
+
 TEST_F(WhsProblem, IsTheSameFromADataset) {
   ASSERT_EQ(runWhs(arguments()).exit_code, 0);
   const std::string problem = folder_.read("problem.bin");

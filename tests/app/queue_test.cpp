@@ -36,6 +36,17 @@ TEST_F(QueueCommand, ListsWhatWaitsBeforeWhatWasNotRun) {
   EXPECT_THAT(folder_.read("queue.csv"), HasSubstr("\r\nos-000038,converged,"));
 }
 
+TEST_F(QueueCommand, WritesTextThatLooksLikeAFormulaAsText) {
+  std::string session = folder_.read("s.boresight.json");
+  for (std::size_t at = session.find("\"os-000038\""); at != std::string::npos;
+       at = session.find("\"os-000038\""))
+    session.replace(at, 11, R"j("=HYPERLINK(\"x\")")j");
+  folder_.write("s.boresight.json", session);
+  const std::string csv = (folder_ / "queue.csv").string();
+  EXPECT_EQ(runWhs({"queue", session_, "--csv", csv}).exit_code, 0);
+  EXPECT_THAT(folder_.read("queue.csv"), HasSubstr("\r\n\"'=HYPERLINK(\"\"x\"\")\",converged,"));
+}
+
 TEST_F(QueueCommand, DifferencesNeedTwoRuns) {
   const ProgramRun run = runWhs({"queue", session_, "--differences"});
   EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -208,6 +208,26 @@ TEST(WhsPack, MakesAnArchiveAndRefusesChangedInputs) {
   EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("! "));
 }
 
+TEST(WhsInfo, ReadsTheInputsOfABoundedNumberOfCases) {
+  const TemporaryFolder folder;
+  const std::string file = newSession(folder);
+  Session session = sessions::readSessionFile(file).session;
+  sessions::SessionCase one = *session.cases[0];
+  one.image.source.file = folder / "none.png";
+  session.cases.clear();
+  for (int i = 0; i < 250; ++i) {
+    one.id = "case-" + std::to_string(i);
+    session.cases.emplace_back(one);
+  }
+  sessions::writeSessionFile(file, session);
+  const ProgramRun run = runWhs({"info", file});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("250 cases, 0 runs"));
+  EXPECT_THAT(run.out, HasSubstr("and 50 more cases: whs queue lists them"));
+  EXPECT_THAT(run.out, HasSubstr("case case-199,"));
+  EXPECT_THAT(run.out, Not(HasSubstr("case case-200,")));
+}
+
 TEST(WhsPack, TakesLandmarksAlongWhereTheyAre) {
   const TemporaryFolder folder;
   const std::string file = newSession(folder);

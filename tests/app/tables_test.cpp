@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sessions/evaluation/sqlite.h"
 #include "tests/app/run_whs.h"
 
 namespace boresight::test {
@@ -67,6 +68,35 @@ TEST_F(WhsTables, AreOfRunsThatASessionRepeatsAndItsQueueLists) {
   EXPECT_THAT(folder_.read("q.boresight.json"), HasSubstr("loop.max_iterations"));
   EXPECT_THAT(runWhs({"queue", file("q.boresight.json")}).out,
               HasSubstr("not run here; in the results: iteration_limit"));
+}
+
+TEST_F(WhsTables, WithATriggerOrAViewAreRefusedByEveryCommand) {
+  const std::string dataset = (exampleFolder() / "dataset.json").string();
+  for (const char* object :
+       {"CREATE TRIGGER stop BEFORE INSERT ON run BEGIN SELECT RAISE(IGNORE); END",
+        "DROP TABLE tag; CREATE VIEW tag AS WITH RECURSIVE n(run) AS (SELECT 1 UNION ALL SELECT "
+        "run FROM n) SELECT run, 'a' AS tag FROM n"}) {
+    evaluate("good.sqlite", "1");
+    std::filesystem::copy(file("good.sqlite"), file("r.sqlite"),
+                          std::filesystem::copy_options::overwrite_existing);
+    sessions::SqlDatabase(file("r.sqlite"), sessions::SqlAccess::kWrite).execute(object);
+    for (const Arguments& arguments :
+         {Arguments{"tables", file("r.sqlite")},
+          Arguments{"tables", file("good.sqlite"), "--against", file("r.sqlite")},
+          Arguments{"merge", file("m.sqlite"), file("good.sqlite"), file("r.sqlite")},
+          Arguments{"merge", file("r.sqlite"), file("good.sqlite")},
+          Arguments{"new", "--results", file("r.sqlite"), "--out", file("q.boresight.json")},
+          Arguments{"evaluate", "--dataset", dataset, "--out", file("r.sqlite"), "--set",
+                    "loop.max_iterations=1"}}) {
+      const ProgramRun run = runWhs(arguments);
+      EXPECT_EQ(run.exit_code, 3) << arguments[0] << run.out;
+      EXPECT_EQ(run.errorLines(), 1) << run.err;
+      EXPECT_THAT(run.err, AllOf(HasSubstr("r.sqlite: its "), HasSubstr("is not one that whs "
+                                                                        "evaluate makes")));
+      EXPECT_EQ(run.out, "");
+    }
+    EXPECT_FALSE(std::filesystem::exists(file("m.sqlite")));
+  }
 }
 
 TEST_F(WhsTables, RefusesWhatIsNoResults) {

@@ -40,7 +40,10 @@ bool isOneOf(const std::string& text, const std::array<const char*, N>& known) {
 Kind kindOfJson(const std::filesystem::path& file, std::string& problem) {
   std::string format;
   try {
-    format = sessions::JsonDocument(file).root().at("format").nonEmptyText();
+    const auto bytes =
+        sessions::readFileBytes(file, sessions::kMaxJsonBytes, sessions::FileUse::kFree);
+    const sessions::JsonDocument document(file, sessions::asText(bytes));
+    format = document.root().at("format").nonEmptyText();
   } catch (const std::exception& error) {
     problem = error.what();
     return Kind::kUnknown;

@@ -11,6 +11,8 @@
 #include <QPixmap>
 #include <QTimer>
 
+#include "sessions/io/atomic_file.h"
+#include "sessions/io/errors.h"
 #include "ui/panels/match_view.h"
 #include "ui/panels/rivals_panel.h"
 #include "ui/review/queue_panel.h"
@@ -136,6 +138,11 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
     return QObject::tr("the shown case has no mark '%1'").arg(order.mark);
   waitUntil(resting);
   QApplication::processEvents();
+  try {
+    sessions::requireWritable(order.out);
+  } catch (const sessions::FileError& error) {
+    return QString::fromUtf8(error.what());
+  }
   const QPixmap picture = shown->grab();
   if (picture.isNull() || !picture.save(QString::fromStdString(order.out.string()), "PNG"))
     return QObject::tr("cannot write %1").arg(QString::fromStdString(order.out.string()));

@@ -18,6 +18,22 @@ TEST(MarksCsv, RoundTripIsExact) {
   }
 }
 
+TEST(MarksCsv, TextThatLooksLikeAFormulaIsTextInASpreadsheetAndComesBack) {
+  Random random(14);
+  Marks marks = test::randomMarks(random, 3, 1);
+  marks.points[0].id = "=HYPERLINK(\"http://example.org\")";
+  marks.points[0].comment = "-2+3";
+  marks.points[1].id = "'=1";
+  marks.points[1].comment = "@SUM(A1)";
+  marks.points[2].pixel = Eigen::Vector2d(-1.5, -2.5);
+  marks.lines[0].comment = "\t+1";
+  const std::string text = marksCsv(marks);
+  for (const char* begin : {",\"'=HYPERLINK", ",'-2+3\r", ",''=1,", ",'@SUM(A1)\r", ",'\t+1\r"})
+    EXPECT_NE(text.find(begin), std::string::npos) << begin << "\n" << text;
+  EXPECT_NE(text.find(",-1.5,-2.5,"), std::string::npos) << "numbers stay numbers";
+  EXPECT_EQ(parseMarksCsv("marks.csv", text), marks);
+}
+
 TEST(MarksCsv, LinesMayEndWithALineFeedAlone) {
   Random random(12);
   const Marks marks = test::randomMarks(random, 3, 0);

@@ -24,7 +24,7 @@ using testing::HasSubstr;
 /// The cells of a query, row by row, separated by '|'; NULL as "NULL". By SQLite itself.
 std::string query(const std::filesystem::path& file, const char* sql) {
   sqlite3* raw = nullptr;
-  EXPECT_EQ(sqlite3_open_v2(file.c_str(), &raw, SQLITE_OPEN_READONLY, nullptr), SQLITE_OK);
+  EXPECT_EQ(sqlite3_open_v2(file.c_str(), &raw, SQLITE_OPEN_READWRITE, nullptr), SQLITE_OK);
   const std::unique_ptr<sqlite3, int (*)(sqlite3*)> database(raw, sqlite3_close);
   std::string text;
   const auto add = [](void* out, int count, char** cells, char**) {
@@ -209,6 +209,49 @@ TEST_F(ResultsFile, LeavesOtherFilesAlone) {
   EXPECT_THROW(readResults(folder_ / "none.sqlite"), InputError);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none.sqlite"));
   EXPECT_THROW(ResultsWriter(folder_ / "no/such/r.sqlite", sampleDataset()), OutputError);
+}
+
+TEST_F(ResultsFile, WithATriggerIsRefusedByReadersAndWriters) {
+  write({sampleRun("bc-1", 0, 0)});
+  query(file_, "CREATE TRIGGER stop BEFORE INSERT ON run BEGIN SELECT RAISE(IGNORE); END");
+  const std::string reason =
+      "r.sqlite: its trigger \"stop\" is not one that whs evaluate makes; it was changed by "
+      "another program: evaluate again into a new file";
+  EXPECT_EQ(folder_.message([&] { (void)readResults(file_); }), reason);
+  EXPECT_EQ(refusal(sampleDataset(), sampleMethod("whs")), "cannot write " + reason);
+}
+
+TEST_F(ResultsFile, WithAViewInPlaceOfATableIsRefusedWithoutReadingTheView) {
+  write({sampleRun()});
+  query(file_,
+        "DROP TABLE tag; CREATE VIEW tag AS WITH RECURSIVE n(run) AS (SELECT 1 UNION ALL SELECT "
+        "run FROM n) SELECT run, 'a' AS tag FROM n");
+  EXPECT_THAT(folder_.message([&] { (void)readResults(file_); }), HasSubstr("its view \"tag\""));
+  EXPECT_THAT(folder_.message([&] { (void)readSteps(file_, sampleRun()); }), HasSubstr("view"));
+  EXPECT_THAT(folder_.message([&] { forEachRun(file_, [](const RunResult&) {}); }),
+              HasSubstr("its view \"tag\""));
+}
+
+TEST_F(ResultsFile, WithOtherColumnsOrWithoutATableIsRefused) {
+  write({sampleRun()});
+  query(file_, "ALTER TABLE fact ADD COLUMN more TEXT DEFAULT 'x'");
+  EXPECT_THAT(folder_.message([&] { (void)readResults(file_); }), HasSubstr("table \"fact\""));
+  query(file_, "ALTER TABLE fact DROP COLUMN more; DROP INDEX run_order");
+  EXPECT_THAT(folder_.message([&] { (void)readResults(file_); }),
+              HasSubstr("it lacks the index \"run_order\""));
+}
+
+TEST_F(ResultsFile, DisablesTriggersAndViewsOfTheConnection) {
+  {
+    SqlDatabase database(file_, SqlAccess::kWrite);
+    database.execute("CREATE TABLE a (x); CREATE VIEW b AS SELECT 1 AS x");
+    database.execute("CREATE TRIGGER t AFTER INSERT ON a BEGIN DELETE FROM a; END");
+    database.execute("INSERT INTO a VALUES (1)");
+    EXPECT_EQ(integerOf(database.value("SELECT count(*) FROM a")), 1);
+    EXPECT_THROW(database.value("SELECT x FROM b"), OutputError);
+    EXPECT_THROW(database.execute("PRAGMA writable_schema = 1; DELETE FROM sqlite_master"),
+                 OutputError);
+  }
 }
 
 }  // namespace

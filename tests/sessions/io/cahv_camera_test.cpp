@@ -32,11 +32,15 @@ nlohmann::ordered_json written(const PlanetaryCamera& camera) {
   json["A"] = toJson(cahv.a);
   json["H"] = toJson(cahv.h_px);
   json["V"] = toJson(cahv.v_px);
-  json["O"] = toJson(cahv.o);
-  json["R"] = toJson(cahv.r);
-  json["E"] = toJson(cahv.e_m);
-  json["cahvore_type"] = cahv.type;
-  json["cahvore_parameter"] = cahv.parameter;
+  if (cahv.model != CameraModel::kCahv) {
+    json["O"] = toJson(cahv.o);
+    json["R"] = toJson(cahv.r);
+  }
+  if (cahv.model == CameraModel::kCahvore) {
+    json["E"] = toJson(cahv.e_m);
+    json["cahvore_type"] = cahv.type;
+    json["cahvore_parameter"] = cahv.parameter;
+  }
   json["reference_frame"] = {{"name", "ROVER_NAV_FRAME"}, {"index", {14, 1262, 6}}};
   return json;
 }

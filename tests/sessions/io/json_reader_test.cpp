@@ -88,9 +88,7 @@ TEST(JsonDocument, ReadsAFile) {
 
 TEST(JsonDocument, ChecksFormatAndVersion) {
   const auto message = [](const std::string& text) {
-    return messageOf(text, [&text](const JsonReader&) {
-      (void)JsonDocument("f.json", text).root("boresight-pose", 1);
-    });
+    return messageOf(text, [](const JsonReader& json) { json.requireFormat("boresight-pose", 1); });
   };
   EXPECT_EQ(message(R"({"format": "boresight-pose", "version": 1})"), "(nothing)");
   EXPECT_EQ(message(R"({"version": 1})"), "f.json: format: missing");
@@ -100,6 +98,45 @@ TEST(JsonDocument, ChecksFormatAndVersion) {
   EXPECT_EQ(message(R"({"format": "boresight-pose", "version": 2})"),
             "f.json: version: version 2 is not supported (this program reads version 1)");
   EXPECT_EQ(message("[]"), "f.json: not a JSON object");
+}
+
+/// Reads an object of a required `seed`, an optional `profile`, and `parts` with a `name` each.
+std::string wholeMessage(const std::string& text) {
+  return messageOf(text, [](const JsonReader& json) {
+    json.whole([](const JsonReader& top) {
+      (void)top.at("seed").number();
+      (void)top.find("profile");
+      if (const auto parts = top.find("parts"))
+        for (const JsonReader& part : parts->elements()) (void)part.at("name");
+      if (const auto any = top.find("any")) (void)any->members();
+      return 0;
+    });
+  });
+}
+
+TEST(JsonReader, RefusesMembersThatTheReaderDoesNotAskFor) {
+  EXPECT_EQ(wholeMessage(R"({"seed": 1, "parts": [{"name": 1}], "any": {"x": 1}})"), "(nothing)");
+  EXPECT_EQ(wholeMessage(R"({"seed": 1, "zoom": 2})"),
+            "f.json: zoom: is not known to this version of the format");
+  EXPECT_EQ(wholeMessage(R"({"seed": 1, "zoom": null})"),
+            "f.json: zoom: is not known to this version of the format");
+  EXPECT_EQ(wholeMessage(R"({"seed": 1, "parts": [{"name": 1}, {"name": 2, "size": 3}]})"),
+            "f.json: parts[1].size: is not known to this version of the format");
+}
+
+TEST(JsonReader, NamesTheNearestMemberThatTheFormatHas) {
+  const std::string unknown = " is not known to this version of the format; did you mean ";
+  EXPECT_EQ(wholeMessage(R"({"seed": 1, "porfile": "x"})"),
+            "f.json: porfile:" + unknown + "\"profile\"?");
+  EXPECT_EQ(wholeMessage(R"({"seed": 1, "profilee": "x"})"),
+            "f.json: profilee:" + unknown + "\"profile\"?");
+  EXPECT_EQ(wholeMessage(R"({"seed": 1, "prof": "x"})"),
+            "f.json: prof:" + unknown + "\"profile\"?");
+  EXPECT_EQ(wholeMessage(R"({"sede": 1})"), "f.json: sede:" + unknown + "\"seed\"?")
+      << "rather than that the seed is missing";
+  EXPECT_EQ(wholeMessage(R"({"seed": 1, "profile": 1, "profil": 2})"),
+            "f.json: profil: is not known to this version of the format")
+      << "the member that was meant is there";
 }
 
 TEST(JsonReader, NamesMissingAndMistypedMembers) {

@@ -71,6 +71,19 @@ TEST(SessionDocument, SavesWhatWasEditedAndLeavesNothingBeside) {
   EXPECT_THAT(again.notices(), IsEmpty());
 }
 
+TEST(SessionDocument, IsNotSavedOverAnInputAndMaySaveOverASession) {
+  const TemporaryFolder folder;
+  Random random = randomFor("inputs");
+  sessions::SessionCase one = randomCase(random, "a");
+  one.image.source.file = folder.write("image.png", "pixels");
+  SessionDocument document = SessionDocument::create(folder / "s.json", withCase({}, one));
+  EXPECT_THROW(document.saveAs(folder / "image.png"), sessions::OverwriteError);
+  EXPECT_EQ(folder.read("image.png"), "pixels");
+  document.saveAs(folder / "t.json");
+  document.saveAs(folder / "s.json");
+  EXPECT_TRUE(SessionDocument::open(folder / "t.json").session() == document.session());
+}
+
 TEST(SessionDocument, CreateTouchesNoFileThatIsThere) {
   const TemporaryFolder folder;
   folder.write("s.json", "mine");

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ostream>
+#include <streambuf>
+#include <string>
+
+namespace boresight::app {
+
+/// While it exists, a stream shows text only: what a terminal would act on comes out as blanks
+/// (sessions/io/plain_text.h). Line feeds stay, so a line must be made of text without any.
+class PlainOutput : private std::streambuf {
+ public:
+  explicit PlainOutput(std::ostream& stream);
+  PlainOutput(const PlainOutput&) = delete;
+  PlainOutput& operator=(const PlainOutput&) = delete;
+  ~PlainOutput() override;
+
+ private:
+  int_type overflow(int_type character) override;
+  int sync() override;
+  bool writeLine();
+
+  std::ostream& stream_;
+  std::streambuf* target_;
+  std::string line_;
+};
+
+}  // namespace boresight::app

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// What whs prints: text that came in files cannot act on the terminal or begin a line of its own,
+// and output that is lost is not passed over.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/run_whs.h"
+
+namespace boresight::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// A name that would colour, clear and turn round the terminal, and forge a line.
+std::string hostile(const std::string& name) {
+  return name +
+         "\x1b[31m\t\x7f\xc2\x9b"
+         "2J\xe2\x80\xae\r\nFORGED\xe2\x80\xa8 line";
+}
+
+/// Nothing but text, and no line that a name began.
+void expectPlain(const ProgramRun& run, const std::string& command) {
+  const std::string text = run.out + run.err;
+  EXPECT_THAT(text, HasSubstr("FORGED")) << command << " prints none of the names";
+  for (const char c : text)
+    EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20) << command << "\n" << text;
+  for (const char* sequence : {"\x7f", "\xc2\x9b", "\xe2\x80\xae", "\xe2\x80\xa8", "\nFORGED"})
+    EXPECT_EQ(text.find(sequence), std::string::npos) << command << "\n" << text;
+}
+
+class PlainOutput : public testing::Test {
+ protected:
+  PlainOutput() {
+    json dataset = json::parse(std::ifstream(exampleFolder() / "dataset.json"));
+    const auto rename = [](json& object, const std::string& from, const std::string& to) {
+      object[to] = object[from];
+      object.erase(from);
+    };
+    for (json& one : dataset["cases"]) {
+      const std::string folder = one["image"].get<std::string>().substr(0, 2);
+      const std::string image = hostile(folder) + ".png";
+      std::filesystem::copy(exampleFolder() / one["image"].get<std::string>(), folder_ / image);
+      one["id"] = hostile(one["id"]);
+      one["image"] = image;
+      one["station"] = hostile(one["station"]);
+      one["camera"] = hostile(one["camera"]);
+      one["tags"] = {hostile("tag")};
+    }
+    for (const std::string station : {"bc", "os"}) {
+      const std::string mesh = hostile(station) + ".ply";
+      std::filesystem::copy(exampleFolder() / station / "model.ply", folder_ / mesh);
+      dataset["stations"][station]["mesh"] = mesh;
+      rename(dataset["stations"], station, hostile(station));
+    }
+    json cameras = json::object();
+    for (const auto& [name, camera] : dataset["cameras"].items()) cameras[hostile(name)] = camera;
+    dataset["cameras"] = cameras;
+    case_ = dataset["cases"][0]["id"];
+    folder_.write("dataset.json", dataset.dump());
+  }
+
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  /// Runs a command that is to end with one of these, and looks at what it prints.
+  ProgramRun run(const Arguments& arguments, int exit_code = 0) const {
+    const ProgramRun ended = runWhs(arguments);
+    EXPECT_EQ(ended.exit_code, exit_code) << arguments[0] << ": " << ended.err;
+    expectPlain(ended, arguments[0]);
+    return ended;
+  }
+
+  TemporaryFolder folder_;
+  std::string case_;
+};
+
+TEST_F(PlainOutput, OfSessionsIsText) {
+  const std::string session = file("s.boresight.json");
+  run({"info", file("dataset.json")});
+  ASSERT_EQ(runWhs({"new", "--dataset", file("dataset.json"), "--out", session}).exit_code, 0);
+  run({"run", session});
+  run({"check", session, "--case", case_, "--basin", "0", "--sentences"}, 0);
+  run({"decide", session, "--case", case_, "--validate", "--basin", "8", "--by", hostile("Ada"),
+       "--comment", hostile("right")});
+  run({"info", session});
+  run({"queue", session, "--csv", file("q.csv")});
+  run({"run", session, "--case", case_});
+  run({"queue", session, "--differences"});
+  run({"report", session, "--case", case_, "--out", file("r.pdf")});
+  run({"export", session, "--case", case_, "--pose", file("p.json")});
+  run({"verify", file("p.json")});
+  run({"info", file("p.json")});
+  run({"run", session, "--case", "none" + hostile("")}, 3);
+}
+
+TEST_F(PlainOutput, OfResultsIsText) {
+  const std::string results = file("r.sqlite");
+  run({"evaluate", "--dataset", file("dataset.json"), "--out", results, "--set",
+       "loop.max_iterations=1"});
+  run({"tables", results});
+  run({"tables", results, "--against", results, "--all"});
+  run({"tables", results, "--format", "csv", "--against", results, "--all"}, 0);
+  run({"problem", "--dataset", file("dataset.json"), "--case", hostile("none"), "--out",
+       file("p.bin"), "--image-out", file("p.pgm")},
+      3);
+}
+
+TEST_F(PlainOutput, OfUsageErrorsIsText) {
+  run({"localize", hostile("--what")}, 2);
+  run({"info", file(hostile("none.json"))}, 3);
+}
+
+class LostOutput : public testing::Test {
+ protected:
+  /// The exit status and stderr of whs with its output on a full device.
+  ProgramRun run(const Arguments& arguments) const {
+    std::string command = BORESIGHT_WHS;
+    for (const std::string& argument : arguments) command += " '" + argument + "'";
+    const int status =
+        std::system((command + " >/dev/full 2>'" + (folder_ / "err").string() + "'").c_str());
+    ProgramRun made;
+    if (WIFEXITED(status)) made.exit_code = WEXITSTATUS(status);
+    made.err = folder_.read("err");
+    return made;
+  }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(LostOutput, IsNotPassedOver) {
+  const std::filesystem::path example = exampleFolder() / "os";
+  for (const Arguments& arguments :
+       {localizeArguments(), Arguments{"info", example / "image.png"}, Arguments{"options"},
+        Arguments{"--help"}, Arguments{"localize", "--help"}, Arguments{"--version"},
+        Arguments{"camera", example / "camera.json", "--as", "pinhole"}}) {
+    const ProgramRun lost = run(arguments);
+    EXPECT_EQ(lost.exit_code, 3) << arguments[0] << lost.err;
+    EXPECT_THAT(lost.err, HasSubstr("cannot write standard output")) << arguments[0];
+    EXPECT_EQ(lost.errorLines(), 1) << lost.err;
+  }
+}
+
+TEST_F(LostOutput, DoesNotHideAnotherFailure) {
+  const ProgramRun lost = run(localizeArguments({{"--set", "loop.max_iterations=1"}}));
+  EXPECT_EQ(lost.exit_code, 4) << "it did not converge either";
+  EXPECT_THAT(lost.err, HasSubstr("cannot write standard output"));
+}
+
+}  // namespace
+}  // namespace boresight::test
