@@ -50,7 +50,8 @@ SqlDatabase::SqlDatabase(const std::filesystem::path& file, SqlAccess access)
   std::error_code error;
   if (access == SqlAccess::kRead && !std::filesystem::exists(file, error))
     throw InputError(file, "there is no such file");
-  if (std::filesystem::is_directory(file, error)) fail("it is a folder");
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+    fail("it is a folder, a pipe or a device, not a file");
   sqlite3* handle = nullptr;
   const int code = sqlite3_open_v2(file.c_str(), &handle, flagsOf(access), nullptr);
   handle_.reset(handle);
