@@ -39,6 +39,10 @@ MeshDeclaration checkStl(const std::filesystem::path& file, Bytes bytes) {
   if (!may_be_binary) throw InputError(file, "not an STL mesh");
   if (facets == 0) throw InputError(file, "the mesh has no faces");
   if (bytes.size() < kHeader + facets * kFacet) truncated(file, "STL");
+  if (const std::uint64_t there = (bytes.size() - kHeader) / kFacet; there != facets)
+    throw InputError(file, "header",
+                     "declares " + std::to_string(facets) + " facets, but the file has room for " +
+                         std::to_string(there));
   declaration.polygon_count = static_cast<std::int64_t>(facets);
   return declaration;
 }
@@ -59,26 +63,41 @@ std::optional<std::int64_t> gltfTriangles(const JsonReader& primitive,
   return mode == kTriangles ? count / 3 : std::max<std::int64_t>(0, count - 2);
 }
 
+/// Importers follow children by calling themselves: deeper nodes would exhaust the stack.
+constexpr std::size_t kMaxNodeDepth = 256;
+constexpr std::size_t kMaxNodes = 100'000;
+
 /// The nodes must form trees (glTF 2.0, 3.5): an importer follows shared or circular children to
 /// the end of memory.
 void checkGltfNodes(const JsonReader& json) {
   const auto nodes_json = json.find("nodes");
   if (!nodes_json) return;
   const std::vector<JsonReader> nodes = nodes_json->elements();
+  if (nodes.size() > kMaxNodes)
+    nodes_json->fail(std::to_string(nodes.size()) + " nodes exceed the limit of " +
+                     std::to_string(kMaxNodes));
   const auto last = static_cast<std::int64_t>(nodes.size()) - 1;
-  std::vector<bool> has_parent(nodes.size(), false);
-  for (const JsonReader& node : nodes)
-    if (const auto children = node.find("children"))
+  const std::size_t none = nodes.size();
+  std::vector<std::size_t> parent(nodes.size(), none);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (const auto children = nodes[i].find("children"))
       for (const JsonReader& child : children->elements()) {
         const auto index = static_cast<std::size_t>(child.integer(0, last));
-        if (has_parent[index]) child.fail("the node has two parents");
-        has_parent[index] = true;
+        if (parent[index] != none) child.fail("the node has two parents");
+        parent[index] = i;
       }
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    std::size_t depth = 1;
+    for (std::size_t at = parent[i]; at != none && depth <= kMaxNodeDepth; at = parent[at]) ++depth;
+    if (depth > kMaxNodeDepth)
+      nodes[i].fail("is nested deeper than " + std::to_string(kMaxNodeDepth) +
+                    " nodes, or is its own ancestor");
+  }
   if (const auto scenes = json.find("scenes"))
     for (const JsonReader& scene : scenes->elements())
       if (const auto roots = scene.find("nodes"))
         for (const JsonReader& root : roots->elements())
-          if (has_parent[static_cast<std::size_t>(root.integer(0, last))])
+          if (parent[static_cast<std::size_t>(root.integer(0, last))] != none)
             root.fail("the scene's root is another node's child");
 }
 

@@ -3,10 +3,17 @@
 
 #include <assimp/scene.h>
 
+#include <assimp/BaseImporter.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <Eigen/LU>
 #include <algorithm>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <exception>
+#include <map>
+#include <set>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -24,6 +31,41 @@ namespace {
 
 constexpr double kMaxCoordinate_m = 1e6;
 
+/// The files of a mesh, under the names by which an importer asks for them, and no others.
+class MemoryFiles final : public Assimp::IOSystem {
+ public:
+  MemoryFiles(const MeshFiles& files, std::span<const std::uint8_t> mesh) {
+    for (const MeshBuffer& buffer : files.buffers) files_[buffer.uri] = buffer.bytes;
+    files_[files.file.filename()] = mesh;
+  }
+  bool Exists(const char* name) const override { return files_.contains(name); }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* name, const char*) override {
+    const auto found = files_.find(name);
+    if (found == files_.end()) return nullptr;
+    return new Assimp::MemoryIOStream(found->second.data(), found->second.size());
+  }
+  void Close(Assimp::IOStream* stream) override { delete stream; }
+
+ private:
+  std::map<std::string, std::span<const std::uint8_t>, std::less<>> files_;
+};
+
+/// Importers of other formats would try to read what the format's own does not recognize.
+void keepImportersOf(MeshFormat format, Assimp::Importer& importer) {
+  std::string extension = meshFormatName(format);
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (std::size_t i = importer.GetImporterCount(); i > 0; --i) {
+    Assimp::BaseImporter* other = importer.GetImporter(i - 1);
+    std::set<std::string> extensions;
+    other->GetExtensionList(extensions);
+    if (extensions.contains(extension)) continue;
+    importer.UnregisterLoader(other);
+    delete other;  // NOLINT: the importer gave it up
+  }
+}
+
 /// The importer takes a first data byte of 10 for the second half of the header's line end and
 /// drops it, which moves all that follows: it gets one more to drop.
 std::vector<std::uint8_t> withNewlineToDrop(const std::vector<std::uint8_t>& bytes,
@@ -34,25 +76,21 @@ std::vector<std::uint8_t> withNewlineToDrop(const std::vector<std::uint8_t>& byt
 }
 
 /// The importer's scene, polygons as they are in the file.
-const aiScene* import(Assimp::Importer& importer, const std::filesystem::path& file,
-                      const std::vector<std::uint8_t>& bytes, MeshFormat format) {
+const aiScene* import(Assimp::Importer& importer, const MeshFiles& files,
+                      std::span<const std::uint8_t> mesh) {
   const aiScene* scene = nullptr;
   std::string problem;
   try {
-    // glTF refers to buffers beside it, so it needs the path; the others come from what was hashed.
-    if (format == MeshFormat::kGltf) {
-      scene = importer.ReadFile(file.string(), 0);
-    } else {
-      const std::string hint = file.extension().string().substr(1);
-      scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, hint.c_str());
-    }
+    keepImportersOf(files.format, importer);
+    importer.SetIOHandler(new MemoryFiles(files, mesh));  // NOLINT: the importer's own
+    scene = importer.ReadFile(files.file.filename().string(), 0);
     problem = importer.GetErrorString();
   } catch (const std::exception& error) {
     problem = error.what();
   }
   if (scene == nullptr || scene->mRootNode == nullptr)
-    throw InputError(file, std::string("not a readable ") + meshFormatName(format) + " mesh" +
-                               (problem.empty() ? "" : ": " + problem));
+    throw InputError(files.file, std::string("not a readable ") + meshFormatName(files.format) +
+                                     " mesh" + (problem.empty() ? "" : ": " + problem));
   return scene;
 }
 
@@ -163,18 +201,16 @@ void requireAtMost(const std::filesystem::path& file, std::int64_t count, std::i
                          ": decimate the mesh");
 }
 
-ImportedMesh importMesh(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes,
-                        MeshFormat format, const MeshDeclaration& declared,
+ImportedMesh importMesh(const MeshFiles& files, const MeshDeclaration& declared,
                         double metres_per_unit) {
   ImportedMesh imported;
+  std::vector<std::uint8_t> longer;
+  if (declared.newline_as_data) longer = withNewlineToDrop(files.bytes, *declared.newline_as_data);
   Assimp::Importer importer;
-  const aiScene* scene =
-      declared.newline_as_data
-          ? import(importer, file, withNewlineToDrop(bytes, *declared.newline_as_data), format)
-          : import(importer, file, bytes, format);
-  checkIndices(file, *scene);
-  countPrimitives(file, *scene, declared, imported);
-  placeNodes(file, *scene, metres_per_unit, imported);
+  const aiScene* scene = import(importer, files, longer.empty() ? files.bytes : longer);
+  checkIndices(files.file, *scene);
+  countPrimitives(files.file, *scene, declared, imported);
+  placeNodes(files.file, *scene, metres_per_unit, imported);
   return imported;
 }
 

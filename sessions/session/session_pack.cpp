@@ -3,12 +3,10 @@
 
 #include <system_error>
 
-#include <nlohmann/json.hpp>
-
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/label_files.h"
-#include "sessions/io/mesh_container.h"
+#include "sessions/io/mesh_files.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_json.h"
@@ -21,25 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxPackedBytes = 4096 * kMegabyte;
 constexpr std::size_t kHashDigits = 16;
-
-/// The file name, which may hold %20 and the like, of a buffer that lies beside a glTF file; empty
-/// for one that is inside it.
-std::string bufferName(const nlohmann::json& buffer) {
-  const std::string uri = buffer.is_object() ? buffer.value("uri", "") : "";
-  if (uri.starts_with("data:")) return "";
-  std::string name;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const std::string digits = uri[i] == '%' ? uri.substr(i + 1, 2) : "";
-    if (digits.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos &&
-        digits.size() == 2) {
-      name += static_cast<char>(std::stoi(digits, nullptr, 16));
-      i += 2;
-    } else {
-      name += uri[i];
-    }
-  }
-  return name;
-}
 
 /// Packs files and moves their paths into a folder of the archive.
 class Packer {
@@ -84,21 +63,16 @@ class Packer {
 
   void packMesh(MeshInput& part) {
     fs::path& file = part.source.mesh;
-    if (knownMeshFormat(file) != MeshFormat::kGltf) return pack(file, part.sha256);
-    requireSame(file, meshSha256(part.source), part.sha256);
     const std::string folder = inputFolder(part.sha256);
-    const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxPackedBytes);
-    zip_.add(top_ + "/" + folder + "/" + file.filename().string(), bytes);
-    const auto json = nlohmann::json::parse(asText(bytes), nullptr, false);
-    for (const auto& buffer : json.value("buffers", nlohmann::json::array())) {
-      const std::string name = bufferName(buffer);
-      if (name.find("..") != std::string::npos || fs::path(name).is_absolute())
-        throw InputError(file, "buffers", "'" + name + "' lies outside the mesh's folder");
-      if (!name.empty())
-        zip_.add(top_ + "/" + folder + "/" + name,
-                 readFileBytes(file.parent_path() / name, kMaxPackedBytes));
+    const std::string name = folder + "/" + file.filename().string();
+    if (!zip_.has(top_ + "/" + name)) {
+      const MeshFiles files = readMeshFiles(file);
+      requireSame(file, files.sha256, part.sha256);
+      zip_.add(top_ + "/" + name, files.bytes);
+      for (const MeshBuffer& buffer : files.buffers)
+        zip_.add(top_ + "/" + folder + "/" + buffer.name, buffer.bytes);
     }
-    file = place(folder + "/" + file.filename().string());
+    file = place(name);
   }
 
   /// False when the trace is not there.

@@ -51,6 +51,20 @@ TEST(CaseRun, RefusesWhatCannotBeRun) {
               HasSubstr("options.pnp.nonsense: there is no such option"));
 }
 
+/// Parsing what somebody put in the mesh's place is a risk without a use.
+TEST(CaseRun, AMeshWithAnotherHashIsNotParsed) {
+  const TemporaryFolder folder;
+  Session session = sessionOfOs(exampleFolder());
+  SessionCase one = *session.cases[0];
+  one.parts[0].source.mesh = folder.write("m.ply", "this is no mesh");
+  const std::string expected =
+      "m.ply: its bytes are not those that the session was made with: relink the file, or accept "
+      "it as it is now";
+  EXPECT_EQ(folder.message([&] { (void)sessions::loadCase(one); }), expected);
+  session = withCase(session, one);
+  EXPECT_EQ(sessions::checkInputs(session).front().kind, sessions::FindingKind::kChanged);
+}
+
 TEST(CaseRun, StrokesAndMaskFileTogetherAreTheMask) {
   const TemporaryFolder folder;
   SessionCase one = *sessionOfOs(exampleFolder()).cases[0];
