@@ -67,6 +67,17 @@ std::optional<std::int64_t> gltfTriangles(const JsonReader& primitive,
 constexpr std::size_t kMaxNodeDepth = 256;
 constexpr std::size_t kMaxNodes = 100'000;
 
+void checkDepth(const std::vector<JsonReader>& nodes, const std::vector<std::size_t>& parent) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    std::size_t depth = 1;
+    for (std::size_t at = parent[i]; at < nodes.size() && depth <= kMaxNodeDepth; at = parent[at])
+      ++depth;
+    if (depth > kMaxNodeDepth)
+      nodes[i].fail("is nested deeper than " + std::to_string(kMaxNodeDepth) +
+                    " nodes, or is its own ancestor");
+  }
+}
+
 /// The nodes must form trees (glTF 2.0, 3.5): an importer follows shared or circular children to
 /// the end of memory.
 void checkGltfNodes(const JsonReader& json) {
@@ -86,19 +97,13 @@ void checkGltfNodes(const JsonReader& json) {
         if (parent[index] != none) child.fail("the node has two parents");
         parent[index] = i;
       }
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    std::size_t depth = 1;
-    for (std::size_t at = parent[i]; at != none && depth <= kMaxNodeDepth; at = parent[at]) ++depth;
-    if (depth > kMaxNodeDepth)
-      nodes[i].fail("is nested deeper than " + std::to_string(kMaxNodeDepth) +
-                    " nodes, or is its own ancestor");
-  }
   if (const auto scenes = json.find("scenes"))
     for (const JsonReader& scene : scenes->elements())
       if (const auto roots = scene.find("nodes"))
         for (const JsonReader& root : roots->elements())
           if (parent[static_cast<std::size_t>(root.integer(0, last))] != none)
             root.fail("the scene's root is another node's child");
+  checkDepth(nodes, parent);
 }
 
 /// Importers leave out faces with bad indices; the count that the file declares shows it.
