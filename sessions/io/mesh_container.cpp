@@ -47,6 +47,14 @@ MeshDeclaration checkStl(const std::filesystem::path& file, Bytes bytes) {
   return declaration;
 }
 
+const JsonReader& accessorAt(const JsonReader& index, const std::vector<JsonReader>& accessors) {
+  const std::int64_t last = static_cast<std::int64_t>(accessors.size()) - 1;
+  const JsonReader& accessor = accessors[static_cast<std::size_t>(index.integer(0, last))];
+  if (accessor.has("sparse"))
+    accessor.failMember("sparse", "is not read: write the mesh without sparse accessors");
+  return accessor;
+}
+
 /// Triangles of one glTF primitive; nothing for lines and points.
 std::optional<std::int64_t> gltfTriangles(const JsonReader& primitive,
                                           const std::vector<JsonReader>& accessors) {
@@ -55,11 +63,10 @@ std::optional<std::int64_t> gltfTriangles(const JsonReader& primitive,
   const auto mode_json = primitive.find("mode");
   const std::int64_t mode = mode_json ? mode_json->integer(0, kFan) : kTriangles;
   if (mode < kTriangles) return std::nullopt;
-  const JsonReader accessor = primitive.has("indices") ? primitive.at("indices")
-                                                       : primitive.at("attributes").at("POSITION");
-  const std::int64_t index = accessor.integer(0, static_cast<std::int64_t>(accessors.size()) - 1);
-  const std::int64_t count = accessors[static_cast<std::size_t>(index)].at("count").integer(
-      0, std::numeric_limits<std::int32_t>::max());
+  JsonReader corners = accessorAt(primitive.at("attributes").at("POSITION"), accessors);
+  if (const auto indices = primitive.find("indices")) corners = accessorAt(*indices, accessors);
+  const std::int64_t count =
+      corners.at("count").integer(0, std::numeric_limits<std::int32_t>::max());
   return mode == kTriangles ? count / 3 : std::max<std::int64_t>(0, count - 2);
 }
 

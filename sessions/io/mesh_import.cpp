@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "sessions/io/errors.h"
+#include "sessions/io/gltf_geometry.h"
 #include "sessions/io/mesh_file.h"
 #include "sessions/io/triangulate.h"
 
@@ -66,12 +67,14 @@ void keepImportersOf(MeshFormat format, Assimp::Importer& importer) {
   }
 }
 
-/// The importer takes a first data byte of 10 for the second half of the header's line end and
-/// drops it, which moves all that follows: it gets one more to drop.
-std::vector<std::uint8_t> withNewlineToDrop(const std::vector<std::uint8_t>& bytes,
-                                            std::size_t body) {
-  std::vector<std::uint8_t> longer = bytes;
-  longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(body), '\n');
+/// What the importer gets in place of the mesh's file; empty: the file as it is. It takes a first
+/// data byte of 10 for the second half of a PLY header's line end and drops it, which moves all
+/// that follows: it gets one more to drop.
+std::vector<std::uint8_t> rewrittenFor(const MeshFiles& files, const MeshDeclaration& declared) {
+  if (carriesUnit(files.format)) return gltfGeometry(files.bytes, files.format);
+  if (!declared.newline_as_data) return {};
+  std::vector<std::uint8_t> longer = files.bytes;
+  longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(*declared.newline_as_data), '\n');
   return longer;
 }
 
@@ -204,10 +207,9 @@ void requireAtMost(const std::filesystem::path& file, std::int64_t count, std::i
 ImportedMesh importMesh(const MeshFiles& files, const MeshDeclaration& declared,
                         double metres_per_unit) {
   ImportedMesh imported;
-  std::vector<std::uint8_t> longer;
-  if (declared.newline_as_data) longer = withNewlineToDrop(files.bytes, *declared.newline_as_data);
+  const std::vector<std::uint8_t> rewritten = rewrittenFor(files, declared);
   Assimp::Importer importer;
-  const aiScene* scene = import(importer, files, longer.empty() ? files.bytes : longer);
+  const aiScene* scene = import(importer, files, rewritten.empty() ? files.bytes : rewritten);
   checkIndices(files.file, *scene);
   countPrimitives(files.file, *scene, declared, imported);
   placeNodes(files.file, *scene, metres_per_unit, imported);

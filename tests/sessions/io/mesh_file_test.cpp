@@ -191,6 +191,30 @@ TEST_F(ReadMesh, RefusesNodesInACircle) {
       "circle.glb: nodes[1]: is nested deeper than 256 nodes, or is its own ancestor");
 }
 
+/// Skins, images and animations made importers crash, and are of no use here.
+TEST_F(ReadMesh, ReadsNothingButTheGeometryOfGltf) {
+  const std::string rest =
+      R"("skins":[{"joints":[1e-320]}],"animations":7,"images":[{"bufferView":99}],)"
+      R"("materials":[{"extensions":{"KHR_none":[{}]}}],"asset":)";
+  const auto with = [&](std::string json) {
+    return json.replace(json.find("\"asset\":"), 8, rest);
+  };
+  const std::string nodes = R"([{"mesh":0,"skin":0,"camera":-1,"extras":[[]]}])";
+  std::size_t count = 0;
+  folder_.write("cube.bin", gltfBuffer(cube(), &count));
+  expectCube(read("cube.gltf", with(gltf(cube(), nodes, R"("uri":"cube.bin",)")), ""));
+  expectCube(read("cube.glb", glb(cube(), nodes), ""));
+}
+
+/// The importer follows what their members name without a look.
+TEST_F(ReadMesh, RefusesSparseAccessors) {
+  std::string json = gltf(cube(), R"([{"mesh":0}])", "");
+  json.insert(json.find("{\"bufferView\":0") + 1, R"("sparse":{"count":1,"values":{}},)");
+  EXPECT_EQ(
+      error("sparse.gltf", json, ""),
+      "sparse.gltf: accessors[0].sparse: is not read: write the mesh without sparse accessors");
+}
+
 /// A file whose format's own importer does not know it is not offered to the others.
 TEST_F(ReadMesh, RefusesOtherFormatsUnderAKnownName) {
   const std::string collada =
