@@ -56,7 +56,7 @@ Session validatedCase(const Session& session, const DecideArguments& arguments) 
   std::optional<sessions::BasinResult> basin;
   if (arguments.basin > 0) basin = sessions::basinTest(subject, arguments.basin);
   return sessions::validated(session, subject, sessions::checkPose(subject, limits, basin),
-                             overrides, arguments.signature());
+                             overrides, arguments.signature(), basin ? basin->seeds : 0);
 }
 
 Session decided(const Session& session, const DecideArguments& arguments) {

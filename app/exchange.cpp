@@ -5,7 +5,6 @@
 #include "app/commands.h"
 #include "app/open_session.h"
 #include "sessions/io/atomic_file.h"
-#include "sessions/review/handed_pose.h"
 #include "sessions/review/pose_exchange.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/annotation_exchange.h"
@@ -42,11 +41,10 @@ void tell(const std::vector<std::string>& case_ids, const std::vector<std::strin
   for (const std::string& text : notes) note(text);
 }
 
-/// A pose that nobody judged is handed over with its checks as they are now.
 void exportPose(const sessions::Session& session, const ExchangeArguments& arguments) {
   sessions::requireWritable(arguments.pose);
-  const sessions::HandedPose pose = sessions::checkedPose(session, arguments.onlyCase());
-  sessions::writeValidatedPose(arguments.pose, session, pose);
+  const sessions::HandedPose pose =
+      sessions::writeValidatedPose(arguments.pose, session, arguments.onlyCase());
   std::cout << pose.case_id << ": " << pose.standing << std::endl;
 }
 
@@ -121,8 +119,11 @@ void addExport(CLI::App& app, int& exit_code) {
           "New folder with the poses as a BOP scene: scene_gt.json, scene_camera.json, and "
           "undistorted images in gray/")
       ->type_name("DIR");
-  what->add_option("--pose", arguments->pose,
-                   "The pose of one case with its checks, hashes and decision: validated_pose.json")
+  what->add_option(
+          "--pose", arguments->pose,
+          "The pose of one case with its checks, hashes and decision: validated_pose.json. "
+          "Pose, covariance and checks are measured again; a decision that states others "
+          "is refused")
       ->type_name("FILE");
   what->add_option("--bop-results", arguments->bop_results,
                    "The poses that cases are handed over with, as a BOP19 results file")

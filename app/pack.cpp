@@ -4,14 +4,22 @@
 
 #include "app/commands.h"
 #include "app/open_session.h"
+#include "sessions/io/atomic_file.h"
+#include "sessions/io/errors.h"
 #include "sessions/session/session_pack.h"
 
 namespace boresight::app {
 namespace {
 
 int pack(const std::string& session, const std::string& out) {
+  sessions::requireWritable(out);
   const sessions::SessionDocument document = openToRead(session);
-  for (const std::string& text : packSession(document.session(), document.file(), out)) note(text);
+  const sessions::SessionPack pack = sessions::planPack(document.session(), document.file());
+  for (const std::string& text : pack.notes) note(text);
+  for (const sessions::PackedFile& one : pack.files)
+    std::cout << sessions::oneLine(one.name + "  from  " + one.file.string()) << "\n";
+  std::cout << std::flush;
+  sessions::writePack(pack, out);
   std::cout << out << std::endl;
   return kDone;
 }
@@ -20,7 +28,10 @@ int pack(const std::string& session, const std::string& out) {
 
 void addPack(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "pack", "Makes one archive of a session, its inputs and its runs, which opens elsewhere");
+      "pack",
+      "Makes one archive of a session, its inputs and its runs, which opens elsewhere. Lists each "
+      "file first; a file that is not what the session says it is, or lies outside the folders of "
+      "session and inputs, is refused");
   auto session = std::make_shared<std::string>();
   auto out = std::make_shared<std::string>();
   command->add_option("session", *session, "Session file")->required()->type_name("FILE");

@@ -51,8 +51,9 @@ void readBuffers(MeshFiles& files) {
     const std::string name = nameOf(uri->nonEmptyText());
     if (!staysBeside(files.file, name))
       uri->fail("'" + name + "' is not in the mesh's folder: only buffers there are read");
-    files.buffers.push_back(
-        {uri->text(), name, readFileBytes(files.file.parent_path() / name, room)});
+    const auto stated = static_cast<std::size_t>(buffer.at("byteLength").integer(0));
+    files.buffers.push_back({buffer.place(), uri->text(), name, stated,
+                             readFileBytes(files.file.parent_path() / name, room)});
     room -= files.buffers.back().bytes.size();
   }
 }

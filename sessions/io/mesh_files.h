@@ -17,8 +17,10 @@ inline constexpr std::size_t kMaxMeshFileBytes = 512 * kMegabyte;
 
 /// A file that a glTF file names as one of its buffers.
 struct MeshBuffer {
-  std::string uri;   ///< as the glTF file has it
-  std::string name;  ///< relative to the mesh's folder
+  std::string place;             ///< of its entry in the glTF file, e.g. "buffers[0]"
+  std::string uri;               ///< as the glTF file has it
+  std::string name;              ///< relative to the mesh's folder
+  std::size_t stated_bytes = 0;  ///< `byteLength`; the file may be longer
   std::vector<std::uint8_t> bytes;
 };
 

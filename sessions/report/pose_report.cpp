@@ -6,11 +6,11 @@
 #include <cstdarg>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "core/base/math.h"
 #include "sessions/evaluation/pose_sigma.h"
 #include "sessions/io/atomic_file.h"
-#include "sessions/io/errors.h"
 #include "sessions/report/pdf_canvas.h"
 #include "sessions/report/pdf_plot.h"
 #include "sessions/report/report_pictures.h"
@@ -18,6 +18,7 @@
 #include "sessions/review/checks.h"
 #include "sessions/review/checks_text.h"
 #include "sessions/review/end_effector_pose.h"
+#include "sessions/review/measured_pose.h"
 #include "sessions/review/standing.h"
 #include "sessions/session/frame_lines.h"
 #include "sessions/session/named_poses.h"
@@ -392,8 +393,7 @@ void drawPlots(PdfCanvas& canvas, double y, const PoseReport& report) {
   const double room = kFoot - y - kGap;
   const double right = kLeft + column + 2.0 * kGap;
   if (residuals.all.empty()) {
-    canvas.text(kLeft, y, kTextWidth,
-                "No residuals and no course: the run's trace could not be read.", kFaint);
+    canvas.text(kLeft, y, kTextWidth, "No residuals: nothing was matched.", kFaint);
     return;
   }
   drawResidualPicture(canvas, {kLeft, y, column, 0.62 * room}, report, residuals);
@@ -408,11 +408,10 @@ void drawPlots(PdfCanvas& canvas, double y, const PoseReport& report) {
 PoseReport poseReport(const Session& session, const std::string& case_id) {
   PoseReport report;
   report.session = &session;
-  if (session.findCase(case_id) == nullptr)
-    throw InputError("session", "cases", "there is no case '" + case_id + "'");
-  report.loaded = loadCase(*session.findCase(case_id));
-  report.pose = checkedPose(session, case_id, report.loaded);
-  report.trace = traceOf(session, report.pose);
+  CheckedPose checked = checkedPose(session, case_id);
+  report.pose = std::move(checked.pose);
+  report.loaded = std::move(checked.subject.loaded);
+  if (checked.subject.run) report.trace = traceOf(*checked.subject.run);
   return report;
 }
 

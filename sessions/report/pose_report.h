@@ -19,11 +19,11 @@ struct PoseReport {
   const Session* session = nullptr;
   HandedPose pose;  ///< with its checks, judged or as they are now
   std::shared_ptr<const LoadedCase> loaded;
-  std::optional<LocalizationTrace> trace;  ///< of the pose's run; without it there are no plots
+  std::optional<LocalizationTrace> trace;  ///< of the pose's run; none of a pose from marks
 };
 
-/// What there is to report of a case: its pose as `handedPose` gives it, checked now unless it was
-/// judged, its image and its run. InputError.
+/// What there is to report of a case: its pose, measured again (checkedPose), its image and its
+/// run. InputError.
 PoseReport poseReport(const Session& session, const std::string& case_id);
 
 /// The PDF: overlay, pose, end effector, inputs and decision on the first page, checks, residuals

@@ -63,6 +63,9 @@ BasinResult basinTest(const ReviewSubject& subject, int seeds, const std::stop_t
   if (subject.loaded == nullptr) return result;
   const RunPlan plan = planFor(subject);
   result.coverage = coverageOfPose(*subject.loaded, subject.camera_from_station).value();
+  // First, so that a stop leaves what `seeds` alone says: running this many again gives the same.
+  for (int axis = 0; axis < 3 && seeds > 0 && !stop.stop_requested(); ++axis)
+    tryMirrorImage(subject, plan, axis, stop, result);
   for (int number = 1; number <= seeds && !stop.stop_requested(); ++number) {
     const SessionCase& one = subject.loaded->source;
     const Vector6d offset = drawOffset(one.uncertainty, 1.0, one.id, number);
@@ -72,8 +75,6 @@ BasinResult basinTest(const ReviewSubject& subject, int seeds, const std::stop_t
     count(subject, trace, result);
     if (after_each) after_each(result);
   }
-  for (int axis = 0; axis < 3 && seeds > 0 && !stop.stop_requested(); ++axis)
-    tryMirrorImage(subject, plan, axis, stop, result);
   return result;
 }
 

@@ -43,6 +43,10 @@ Check rivalCheck(const BasinResult& basin, const CheckLimits& limits) {
 
 }  // namespace
 
+bool isBasinCheck(const std::string& check_id) {
+  return check_id == kReturned.id || check_id == kRival.id;
+}
+
 void addBasinChecks(const std::optional<BasinResult>& basin, const CheckLimits& limits,
                     std::vector<Check>& checks) {
   if (!basin || basin->seeds == 0) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sessions/review/check_limits.h"
@@ -11,6 +12,7 @@
 namespace boresight::sessions {
 
 /// What became of other seeds: enough lead back, and none to another pose.
+bool isBasinCheck(const std::string& check_id);
 void addBasinChecks(const std::optional<BasinResult>& basin, const CheckLimits& limits,
                     std::vector<Check>& checks);
 

@@ -33,7 +33,8 @@ struct BasinResult {
 
 /// Runs the case's localization from `seeds` further seeds, drawn evenly in its uncertainty, and
 /// of the station's three mirror images from the pose in question. Deterministic. A stop leaves
-/// what was done by then. `after_each` is told what was found so far.
+/// what was done by then; as many seeds as it counts give the same result again. `after_each` is
+/// told what was found so far.
 BasinResult basinTest(const ReviewSubject& subject, int seeds, const std::stop_token& stop = {},
                       const std::function<void(const BasinResult&)>& after_each = {});
 

@@ -122,7 +122,7 @@ std::string validationConcern(const Session& session, const ReviewSubject& subje
 
 Session validated(const Session& session, const ReviewSubject& subject,
                   const std::vector<Check>& checks, const CheckOverrides& overrides,
-                  const Signature& who) {
+                  const Signature& who, int basin_seeds) {
   const Signature signature = requireSigned(who, "validates");
   const std::string concern = validationConcern(session, subject);
   if (!concern.empty()) throw DecisionError(concern);
@@ -130,6 +130,7 @@ Session validated(const Session& session, const ReviewSubject& subject,
   const std::string& id = subject.loaded->source.id;
   Decision decision = newDecision(id, Verdict::kValidated, signature);
   decision.checks = judgedChecks(checks, overrides);
+  decision.basin_seeds = basin_seeds;
   requireAnswered(decision.checks);
   if (subject.run) decision.digest = subject.run->digest;
   decision.pose = JudgedPose{subject.source, subject.camera_from_station, subject.covariance};

@@ -35,10 +35,11 @@ using CheckOverrides = std::map<std::string, std::string>;
 std::string validationConcern(const Session& session, const ReviewSubject& subject);
 
 /// Vouches for a pose: with a name, a comment, and every check passed or passed over with a reason.
-/// DecisionError otherwise.
+/// `basin_seeds` is the number of further seeds that the checks rest on, 0: none. DecisionError
+/// otherwise.
 Session validated(const Session& session, const ReviewSubject& subject,
                   const std::vector<Check>& checks, const CheckOverrides& overrides,
-                  const Signature& who);
+                  const Signature& who, int basin_seeds = 0);
 
 /// The second person's yes to a validation that holds. DecisionError when there is none, or when it
 /// is the first person again (whatever the case or blanks of the name).

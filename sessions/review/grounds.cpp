@@ -47,6 +47,14 @@ ordered_json rigJson(const Session& session, const SessionCase& one) {
   return json;
 }
 
+/// The runs that the check against the rig's other cameras asks.
+ordered_json otherRunsJson(const Session& session, const std::string& case_id) {
+  ordered_json json = ordered_json::object();
+  for (const std::string& id : casesOfRig(session, case_id))
+    if (const RunRecord* run = ownRunOf(session, id, case_id)) json[id] = run->digest;
+  return json;
+}
+
 const char* groundText(const std::string& name) {
   static const std::map<std::string, const char*> kTexts = {
       {"inputs", "the image, camera, mesh, seed or mask"},
@@ -56,6 +64,7 @@ const char* groundText(const std::string& name) {
       {"requirement", "the requirement"},
       {"end_effector", "the end effector"},
       {"rig", "the rig"},
+      {"other_runs", "the runs of the rig's other cameras"},
       {"onboard_record", "the onboard record"},
       {"limits", "the limits of the checks"}};
   const auto found = kTexts.find(name);
@@ -86,6 +95,8 @@ std::map<std::string, std::string> judgedGrounds(const Session& session, const s
   ReviewSettings limits = session.review;
   limits.second_person = false;  // who has to sign does not change what was measured
   grounds["limits"] = sha256Of(toJson(limits));
+  const ordered_json other_runs = otherRunsJson(session, case_id);
+  if (!other_runs.empty()) grounds["other_runs"] = sha256Of(other_runs);
   if (!run_digest.empty()) grounds["run"] = sha256Of(run_digest);
   return grounds;
 }
@@ -100,10 +111,12 @@ std::string changedGroundsText(const std::map<std::string, std::string>& before,
   for (const auto& [name, sha256] : now)
     if (before.count(name) == 0) changed.emplace_back(groundText(name));
   if (changed.empty()) return "";
-  return listText(changed) + (changed.size() == 1 && changed.front() != "the marks" &&
-                                      changed.front() != "the limits of the checks"
-                                  ? " has changed"
-                                  : " have changed");
+  const auto plural = [](const std::string& text) {
+    return text.starts_with("the marks") || text.starts_with("the limits") ||
+           text.starts_with("the runs");
+  };
+  const bool one_thing = changed.size() == 1 && !plural(changed.front());
+  return listText(changed) + (one_thing ? " has changed" : " have changed");
 }
 
 }  // namespace boresight::sessions

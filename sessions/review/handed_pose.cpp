@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "sessions/io/errors.h"
-#include "sessions/review/checks.h"
+#include "sessions/review/measured_pose.h"
 #include "sessions/review/standing.h"
 #include "sessions/session/case_marks.h"
 #include "sessions/session/case_run.h"
@@ -12,12 +12,8 @@
 namespace boresight::sessions {
 namespace {
 
-void takeDecision(const Decision& decision, HandedPose& pose) {
-  pose.source = decision.pose->source;
-  pose.camera_from_station = decision.pose->camera_from_station;
-  pose.covariance = decision.pose->covariance;
-  pose.run_digest = decision.digest;
-  pose.checks = decision.checks;
+bool converged(const RunRecord* run) {
+  return run != nullptr && run->status == localizationStatusText(LocalizationStatus::kConverged);
 }
 
 void takeRun(const SessionCase& one, const RunRecord& run, HandedPose& pose) {
@@ -47,6 +43,19 @@ void takeMarks(const Session& session, const SessionCase& one, HandedPose& pose)
   pose.covariance = cameraCovariance(*solved.result.solution, marks.views.front());
 }
 
+/// What was decided on, which is what its source gives.
+void takeDecision(const Decision& decision, HandedPose& pose) {
+  const Pose camera_from_station = pose.camera_from_station;
+  const Matrix6d covariance = pose.covariance;
+  pose.camera_from_station = decision.pose->camera_from_station;
+  pose.covariance = decision.pose->covariance;
+  std::string difference = poseDifference(pose, camera_from_station);
+  if (difference.empty()) difference = covarianceDifference(pose, covariance);
+  requireAsMeasured(pose.case_id, difference);
+  pose.score = 1.0;
+  pose.checks = decision.checks;
+}
+
 }  // namespace
 
 HandedPose handedPose(const Session& session, const std::string& case_id) {
@@ -58,37 +67,18 @@ HandedPose handedPose(const Session& session, const std::string& case_id) {
   pose.validated = standing.state == CaseStanding::kValidated;
   pose.standing = standingText(standing);
   const RunRecord* run = session.lastRunOf(case_id);
-  if (standing.holds() && standing.decision->pose)
-    takeDecision(*standing.decision, pose);
-  else if (run != nullptr && run->status == "converged")
+  const Decision* decision = standing.judgedPose();
+  const bool of_run =
+      decision != nullptr ? decision->pose->source == PoseSource::kRun : converged(run);
+  if (of_run && !converged(run))
+    throw InputError("session", "decisions",
+                     "the decision on case '" + case_id + "' is of a run that did not converge");
+  if (of_run)
     takeRun(*one, *run, pose);
   else
     takeMarks(session, *one, pose);
+  if (decision != nullptr) takeDecision(*decision, pose);
   return pose;
-}
-
-HandedPose checkedPose(const Session& session, const std::string& case_id,
-                       std::shared_ptr<const LoadedCase> loaded) {
-  HandedPose pose = handedPose(session, case_id);
-  if (!pose.checks.empty()) return pose;
-  if (!loaded) loaded = loadCase(*session.findCase(case_id));
-  const ReviewSubject subject =
-      reviewSubject(session, std::move(loaded), pose.source, pose.run_digest);
-  const CheckLimits limits = checkLimits(session.review.preset, session.review.limits);
-  for (const Check& check : checkPose(subject, limits)) pose.checks.push_back({check, ""});
-  return pose;
-}
-
-std::optional<LocalizationTrace> traceOf(const Session& session, const HandedPose& pose) {
-  const auto run = std::find_if(session.runs.begin(), session.runs.end(), [&](const auto& one) {
-    return one.case_id == pose.case_id && one.digest == pose.run_digest;
-  });
-  if (run == session.runs.end()) return {};
-  try {
-    return loadRun(*run);
-  } catch (const InputError&) {  // the pose stands without it
-    return {};
-  }
 }
 
 HandedPoses handedPoses(const Session& session, const std::vector<std::string>& case_ids) {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "sessions/session/case_run.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {
@@ -26,16 +23,9 @@ struct HandedPose {
 };
 
 /// The pose of a decision that holds, else that of the last run if it converged, else the marks'.
-/// InputError when there is none, or a run's trace cannot be read.
+/// InputError when there is none, a run's trace cannot be read, or the decision states another pose
+/// or covariance than its run's trace (or the marks).
 HandedPose handedPose(const Session& session, const std::string& case_id);
-
-/// The same with checks: as they were judged, else as they are now. `loaded` is the case; nullptr:
-/// it is read. InputError.
-HandedPose checkedPose(const Session& session, const std::string& case_id,
-                       std::shared_ptr<const LoadedCase> loaded = nullptr);
-
-/// The trace of the pose's run; nothing when it is the marks', or can no longer be read.
-std::optional<LocalizationTrace> traceOf(const Session& session, const HandedPose& pose);
 
 /// The same for several cases (all of them when none is named), in the order of the session; those
 /// without a pose are told in `notes`.

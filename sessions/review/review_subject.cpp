@@ -51,48 +51,33 @@ std::optional<OtherPose> poseOfMarks(const Session& session, const LoadedCase& l
                    cameraCovariance(*solved.result.solution, solved.marks.views.front())};
 }
 
-/// The last run of the other case in which this one had no say: poses that were solved for as one
-/// always agree.
-const RunRecord* ownRunOf(const Session& session, const std::string& other,
-                          const std::string& case_id) {
-  const RunRecord* last = nullptr;
-  for (const RunRecord& run : session.runs) {
-    const std::vector<ViewOutcome> views =
-        run.together ? run.together->views : std::vector<ViewOutcome>();
-    const bool shared = std::any_of(views.begin(), views.end(), [&](const ViewOutcome& view) {
-      return view.case_id == case_id;
-    });
-    if (run.case_id == other && !shared) last = &run;
-  }
-  return last;
-}
-
 /// Another camera's pose as this camera sees the station. Nothing unless its last run of its own
 /// converged with the inputs that it has now.
 std::optional<OtherPose> seenByOther(const Session& session, const SessionCase& one,
-                                     const SessionCase& other) {
+                                     const SessionCase& other, const RunReader& read_run) {
   const RunRecord* run = ownRunOf(session, other.id, one.id);
   if (run == nullptr || run->inputs_sha256 != inputsDigest(other) ||
       run->status != localizationStatusText(LocalizationStatus::kConverged))
     return {};
-  const LocalizationTrace trace = loadRun(*run);
+  const RunSnapshot seen = read_run(*run);
   const Pose one_from_other = one.rig->camera_from_rig * other.rig->camera_from_rig.inverse();
   const Matrix6d turned = adjoint(one_from_other);
-  return OtherPose{other.id, one_from_other * trace.camera_from_station,
-                   Matrix6d(turned * trace.covariance * turned.transpose())};
+  return OtherPose{other.id, one_from_other * seen.camera_from_station,
+                   Matrix6d(turned * seen.covariance * turned.transpose())};
 }
 
-std::vector<OtherPose> otherCameras(const Session& session, const SessionCase& one) {
+std::vector<OtherPose> otherCameras(const Session& session, const SessionCase& one,
+                                    const RunReader& read_run) {
   std::vector<OtherPose> found;
   for (const std::string& id : casesOfRig(session, one.id)) {
-    auto other = seenByOther(session, one, *session.findCase(id));
+    auto other = seenByOther(session, one, *session.findCase(id), read_run);
     if (other) found.push_back(std::move(*other));
   }
   return found;
 }
 
-void takeRun(const RunRecord& record, ReviewSubject& subject) {
-  subject.run = loadSnapshot(record);
+void takeRun(RunSnapshot run, ReviewSubject& subject) {
+  subject.run = std::move(run);
   subject.camera_from_station = subject.run->camera_from_station;
   subject.covariance = subject.run->covariance;
 }
@@ -113,7 +98,8 @@ std::optional<RecordComparison> againstOnboard(const LoadedCase& loaded, const R
 }  // namespace
 
 ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const LoadedCase> loaded,
-                            PoseSource source, const std::string& digest) {
+                            PoseSource source, const std::string& digest,
+                            const RunReader& read_run) {
   ReviewSubject subject;
   const SessionCase& one = loaded->source;
   subject.requirement = requirementFor(session, one);
@@ -121,7 +107,7 @@ ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const Loaded
   std::string reason;
   auto marked = poseOfMarks(session, *loaded, reason);
   if (source == PoseSource::kRun) {
-    takeRun(runToReview(session, one.id, digest), subject);
+    takeRun(read_run(runToReview(session, one.id, digest)), subject);
     subject.onboard = againstOnboard(*loaded, *subject.run);
     subject.annotated = std::move(marked);
   } else {
@@ -129,7 +115,7 @@ ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const Loaded
     subject.camera_from_station = marked->camera_from_station;
     subject.covariance = marked->covariance;
   }
-  if (one.rig) subject.other_cameras = otherCameras(session, one);
+  if (one.rig) subject.other_cameras = otherCameras(session, one, read_run);
   subject.loaded = std::move(loaded);
   return subject;
 }

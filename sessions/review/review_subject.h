@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,10 +36,14 @@ struct ReviewSubject {
       onboard;  ///< the case's onboard record with the run, if it has one
 };
 
-/// What there is to check of a case: its last run (or this one), or the pose of its marks. Reads
-/// the traces of the rig's other cameras. InputError when there is no pose of this source, or
-/// something cannot be read.
+/// Where a recorded run comes from: its trace, or a second run of the same inputs.
+using RunReader = std::function<RunSnapshot(const RunRecord&)>;
+
+/// What there is to check of a case: its last run (or this one), or the pose of its marks.
+/// `read_run` is asked for the case's run and for those of the rig's other cameras. InputError when
+/// there is no pose of this source, or something cannot be read.
 ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const LoadedCase> loaded,
-                            PoseSource source, const std::string& digest = {});
+                            PoseSource source, const std::string& digest = {},
+                            const RunReader& read_run = loadSnapshot);
 
 }  // namespace boresight::sessions

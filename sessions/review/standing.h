@@ -21,6 +21,8 @@ struct Standing {
   bool awaits_approval = false;  ///< validated by one person where two are asked for
 
   bool holds() const { return decision != nullptr && dropped.empty(); }
+  /// The decision where it holds and is of a pose, else nullptr.
+  const Decision* judgedPose() const { return holds() && decision->pose ? decision : nullptr; }
 };
 
 /// A decision holds while everything that was judged is what it was then, and no other run has

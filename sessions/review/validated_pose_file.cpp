@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -10,16 +11,15 @@
 #include "core/base/math.h"
 #include "sessions/annotation/marks_file.h"
 #include "sessions/evaluation/pose_sigma.h"
-#include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/review/end_effector_pose.h"
+#include "sessions/review/measured_pose.h"
 #include "sessions/review/standing.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/decision_json.h"
 #include "sessions/session/frames_json.h"
 #include "sessions/session/named_poses.h"
-#include "sessions/session/rig_links.h"
 #include "sessions/session/session_json.h"
 #include "sessions/version.h"
 
@@ -146,39 +146,40 @@ ordered_json pixelJson(const Eigen::Vector2d& pixel) {
 }
 
 /// Of the last iteration that matched templates.
-ordered_json matchesJson(const LocalizationTrace& trace) {
+ordered_json matchesJson(const RunSnapshot& run) {
   const auto last =
-      std::find_if(trace.iterations.rbegin(), trace.iterations.rend(),
-                   [](const IterationTrace& one) { return one.kind == IterationKind::kMatch; });
+      std::find_if(run.iterations.rbegin(), run.iterations.rend(),
+                   [](const auto& one) { return one->kind == IterationKind::kMatch; });
   ordered_json list = ordered_json::array();
-  if (last == trace.iterations.rend()) return list;
-  for (std::size_t i = 0; i < last->correspondences.size(); ++i) {
-    const Correspondence& one = last->correspondences[i];
+  if (last == run.iterations.rend()) return list;
+  const IterationTrace& iteration = **last;
+  for (std::size_t i = 0; i < iteration.correspondences.size(); ++i) {
+    const Correspondence& one = iteration.correspondences[i];
     ordered_json json;
     json["point_in_station_m"] = toJson(one.point_in_station_m);
     json["pixel"] = pixelJson(one.pixel);
-    if (i < last->pnp.inlier.size()) {
-      json["inlier"] = last->pnp.inlier[i] != 0;
-      json["residual_px"] = last->pnp.residual_px[i];
+    if (i < iteration.pnp.inlier.size()) {
+      json["inlier"] = iteration.pnp.inlier[i] != 0;
+      json["residual_px"] = iteration.pnp.residual_px[i];
     }
     list.push_back(std::move(json));
   }
   return list;
 }
 
-ordered_json runJson(const LocalizationTrace& trace) {
+ordered_json runJson(const RunSnapshot& run) {
   ordered_json json;
-  json["digest"] = trace.digest;
-  json["status"] = localizationStatusText(trace.status);
-  json["version"] = trace.version;
-  json["iterations"] = trace.iterations.size();
-  json["edge_support"] = trace.support.share();
-  json["edge_coverage"] = trace.support.coverage();
+  json["digest"] = run.digest;
+  json["status"] = localizationStatusText(run.status);
+  json["version"] = run.version;
+  json["iterations"] = run.iterations.size();
+  json["edge_support"] = run.support.share();
+  json["edge_coverage"] = run.support.coverage();
   ordered_json options;
-  for (const OptionDescription& option : listOptions(trace.lastOptions()))
+  for (const OptionDescription& option : listOptions(run.lastOptions()))
     std::visit([&](const auto& value) { options[option.name] = value; }, option.value);
   json["options"] = options;
-  json["matches"] = matchesJson(trace);
+  json["matches"] = matchesJson(run);
   return json;
 }
 
@@ -209,22 +210,6 @@ ordered_json hashesJson(const SessionCase& one) {
 
 }  // namespace
 
-Session sessionOfCase(const Session& session, const std::string& case_id,
-                      const std::string& run_digest) {
-  const std::vector<std::string> linked = casesOfRig(session, case_id);
-  Session made = session;
-  for (const auto& one : session.cases)
-    if (one->id != case_id && std::find(linked.begin(), linked.end(), one->id) == linked.end())
-      made = withoutCase(made, one->id);
-  std::erase_if(made.runs, [&](const RunRecord& run) {
-    return run.case_id != case_id || run.digest != run_digest;
-  });
-  std::erase_if(made.decisions, [&](const Decision& one) { return one.case_id != case_id; });
-  made.passes.clear();
-  made.view = {};
-  return made;
-}
-
 ordered_json signatureOf(const ordered_json& json) {
   ordered_json rest = json;
   rest.erase("signature");
@@ -237,7 +222,7 @@ ordered_json signatureOf(const ordered_json& json) {
 }
 
 ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
-                               const std::optional<LocalizationTrace>& trace,
+                               const std::optional<RunSnapshot>& run,
                                const std::filesystem::path& file) {
   const SessionCase& one = *session.findCase(pose.case_id);
   const Session alone = sessionOfCase(session, pose.case_id, pose.run_digest);
@@ -262,7 +247,7 @@ ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
   if (one.requirement) json["requirement"] = toJson(*one.requirement);
   if (!one.image.label.empty()) json["image_label"] = toJson(one.image.label);
   json["sha256"] = hashesJson(one);
-  if (trace) json["run"] = runJson(*trace);
+  if (run) json["run"] = runJson(*run);
   if (const auto marks = session.annotations.find(one.id);
       pose.source == PoseSource::kAnnotation && marks != session.annotations.end())
     json["marks"] = toJson(*marks->second);
@@ -272,9 +257,11 @@ ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
   return json;
 }
 
-void writeValidatedPose(const std::filesystem::path& file, const Session& session,
-                        const HandedPose& pose) {
-  writeJsonFile(file, validatedPoseJson(session, pose, traceOf(session, pose), file));
+HandedPose writeValidatedPose(const std::filesystem::path& file, const Session& session,
+                              const std::string& case_id) {
+  CheckedPose checked = checkedPose(session, case_id);
+  writeJsonFile(file, validatedPoseJson(checked.session, checked.pose, checked.subject.run, file));
+  return std::move(checked.pose);
 }
 
 }  // namespace boresight::sessions

@@ -10,7 +10,7 @@
 
 #include "sessions/review/handed_pose.h"
 #include "sessions/session/session.h"
-#include "sessions/trace/trace.h"
+#include "sessions/trace/run_snapshot.h"
 
 namespace boresight::sessions {
 
@@ -19,22 +19,19 @@ inline constexpr int kValidatedPoseVersion = 1;
 
 /// The file as JSON (README.md beside this file tells its members). It holds a session of this one
 /// case and its rig, so that whoever has the inputs can run it again and look; paths are relative
-/// to `file`. `trace` is that of the pose's run, for its matches; without it they are left out.
+/// to `file`. `run` is the pose's, for its matches; without it they are left out.
 /// A pose that is not validated says so in `state` and `standing`.
 nlohmann::ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
-                                         const std::optional<LocalizationTrace>& trace,
+                                         const std::optional<RunSnapshot>& run,
                                          const std::filesystem::path& file);
 
-/// Writes it, atomically, with the trace of its run where that can still be read. OutputError.
-void writeValidatedPose(const std::filesystem::path& file, const Session& session,
-                        const HandedPose& pose);
+/// Measures the case's pose again (checkedPose), writes it atomically and returns it. InputError
+/// when something cannot be measured, or is not as the session states; OutputError.
+HandedPose writeValidatedPose(const std::filesystem::path& file, const Session& session,
+                              const std::string& case_id);
 
 /// The member `signature`: SHA-256 over the JSON without it, as compact text. `json` as it was
 /// parsed: text may have lost what numbers were made of (1.0 is written 1).
 nlohmann::ordered_json signatureOf(const nlohmann::ordered_json& json);
-
-/// The session with this case and those of its rig alone, and the run of this digest if any.
-Session sessionOfCase(const Session& session, const std::string& case_id,
-                      const std::string& run_digest);
 
 }  // namespace boresight::sessions

@@ -11,15 +11,12 @@
 #include "sessions/io/json_document.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/review/decide.h"
+#include "sessions/review/measured_pose.h"
 #include "sessions/review/standing.h"
 #include "sessions/review/validated_pose_file.h"
-#include "sessions/session/case_marks.h"
-#include "sessions/session/case_run.h"
 #include "sessions/session/decision_json.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_json.h"
-#include "sessions/session/views_run.h"
-#include "sessions/version.h"
 
 namespace boresight::sessions {
 namespace {
@@ -122,56 +119,46 @@ void verifyDecision(const Standing& standing, Findings& findings) {
   if (decision.approval && samePerson(decision.approval->by, decision.by))
     wrong = decision.by + " approved what the same person had validated";
   findings.add(wrong.empty(), "decision",
-               wrong.empty() ? "the decision could be made, and holds" : wrong);
+               wrong.empty() ? "it rests on what the document holds" : wrong);
 }
 
-/// Nothing when it cannot be run.
-std::optional<LocalizationTrace> runAgain(const Document& document, Findings& findings) {
-  const RunRecord* run = document.session.lastRunOf(document.pose.case_id);
-  if (run == nullptr) {
-    findings.add(false, "run", "the document does not say which run its pose is of");
+void verifyMeasured(const Document& document, const MeasuredPose& measured, bool with_basin,
+                    Findings& findings) {
+  const auto add = [&findings](const std::string& what, const std::string& wrong,
+                               const std::string& good) {
+    findings.add(wrong.empty(), what, wrong.empty() ? good : wrong);
+  };
+  if (document.pose.source == PoseSource::kRun) {
+    const auto& together = document.session.lastRunOf(document.pose.case_id)->together;
+    add("run", validationConcern(document.session, measured.subject),
+        "the run" + (together ? " " + togetherText(together->views, document.pose.case_id) : "") +
+            " gives the same digest again");
+  }
+  add("pose", poseDifference(document.pose, measured.subject.camera_from_station),
+      "it is the pose that comes out again");
+  add("covariance", covarianceDifference(document.pose, measured.subject.covariance),
+      "it is the covariance that comes out again");
+  add("checks", checksDifference(document.pose, measured.checks, with_basin),
+      "made again they are as stated");
+}
+
+/// Nothing when it cannot be measured, which is then found wrong.
+std::optional<MeasuredPose> measureAgain(const Document& document, int basin_seeds,
+                                         Findings& findings) {
+  try {
+    return measurePose(document.session, document.pose, basin_seeds, document.file);
+  } catch (const InputError& error) {
+    findings.add(false, "run", std::string("it cannot be measured again: ") + error.what());
     return {};
   }
-  LocalizationTrace trace = repeatRun(*run, document.session, document.file);
-  const bool same = trace.digest == run->digest;
-  const std::string together =
-      run->together ? " " + togetherText(run->together->views, run->case_id) : "";
-  std::string text = same ? "the run" + together + " gives the same digest again"
-                          : "the run" + together + " gives another digest: " + trace.digest +
-                                " instead of " + run->digest;
-  if (!same && run->version != kVersion)
-    text += "; it was made by version " + run->version + ", this is " + kVersion;
-  findings.add(same, "run", text);
-  return trace;
-}
-
-void comparePoses(const Document& document, const Pose& computed, Findings& findings) {
-  const Vector6d apart = perturbationBetween(document.pose.camera_from_station, computed);
-  // A quaternion and its negative are one rotation; of marks the last bits are the machine's.
-  const double limit = document.pose.source == PoseSource::kRun ? 1e-15 : 1e-9;
-  const bool same = apart.head<3>().norm() <= limit && apart.tail<3>().norm() <= limit;
-  findings.add(same, "pose",
-               same ? "it is the pose that comes out again"
-                    : "another pose comes out: " + numberText(apart.tail<3>().norm() * 1e3) +
-                          " mm and " + numberText(apart.head<3>().norm() * 1e3) +
-                          " mrad from the one stated");
-}
-
-void solveAgain(const Document& document, Findings& findings) {
-  const SessionCase& one = *document.session.findCase(document.pose.case_id);
-  const CaseMarksSolution solved =
-      solveCaseMarks(caseMarks(document.session, one.id), marksGuess(one), {}, false);
-  if (const auto pose = solved.camera_from_station())
-    comparePoses(document, *pose, findings);
-  else
-    findings.add(false, "pose", "its marks give no pose: " + solved.result.reason);
 }
 
 /// Everything that follows from the session inside and the pose must be what is stated.
-void verifyMembers(const Document& document, const std::optional<LocalizationTrace>& trace,
+void verifyMembers(const Document& document, const std::optional<MeasuredPose>& measured,
                    Findings& findings) {
+  const auto run = measured ? measured->subject.run : std::nullopt;
   const ordered_json anew = ordered_json::parse(
-      prettyJson(validatedPoseJson(document.session, document.pose, trace, document.file)));
+      prettyJson(validatedPoseJson(document.session, document.pose, run, document.file)));
   std::string wrong;
   for (const auto& [name, value] : anew.items()) {
     if (name == "written" || name == "signature") continue;
@@ -179,10 +166,20 @@ void verifyMembers(const Document& document, const std::optional<LocalizationTra
       wrong += (wrong.empty() ? "" : ", ") + name;
   }
   for (const auto& [name, value] : document.json.items())
-    if (!anew.contains(name) && name != "run") wrong += (wrong.empty() ? "" : ", ") + name;
+    if (!anew.contains(name) && (measured || name != "run"))
+      wrong += (wrong.empty() ? "" : ", ") + name;
   findings.add(wrong.empty(), "contents",
-               wrong.empty() ? "poses, chain, checks and hashes follow from each other"
+               wrong.empty() ? "the members follow from each other"
                              : "these members do not follow from the rest: " + wrong);
+}
+
+/// The run of a pose that has one, and what the document says of it.
+void verifyRunStated(const Document& document, Findings& findings) {
+  if (document.pose.source != PoseSource::kRun) return;
+  if (document.session.lastRunOf(document.pose.case_id) == nullptr)
+    findings.add(false, "run", "the session inside does not have the run that the pose is of");
+  if (!document.json.contains("run"))
+    findings.add(false, "run", "the member run, with options and matches, is missing");
 }
 
 /// What the session inside says of the pose; the document's own where nobody decided.
@@ -190,14 +187,35 @@ void takeStanding(Document& document, const Standing& standing) {
   HandedPose& pose = document.pose;
   pose.validated = standing.state == CaseStanding::kValidated;
   pose.standing = standingText(standing);
+  if (const Decision* decision = standing.judgedPose()) {
+    pose.source = decision->pose->source;
+    pose.camera_from_station = decision->pose->camera_from_station;
+    pose.covariance = decision->pose->covariance;
+    pose.checks = decision->checks;
+  }
   if (const RunRecord* run = document.session.lastRunOf(pose.case_id);
       run != nullptr && pose.source == PoseSource::kRun)
     pose.run_digest = run->digest;
-  if (!standing.holds() || !standing.decision->pose) return;
-  pose.source = standing.decision->pose->source;
-  pose.camera_from_station = standing.decision->pose->camera_from_station;
-  pose.covariance = standing.decision->pose->covariance;
-  pose.checks = standing.decision->checks;
+}
+
+/// No measurement tells a person, a time or a reason.
+void listNotProved(const Decision* decision, bool measured, bool with_basin,
+                   std::vector<std::string>& list) {
+  if (!measured)
+    list.emplace_back("run, pose, covariance and checks: they were not measured again");
+  if (decision == nullptr) return;
+  const std::string approved = decision->approval ? " and " + decision->approval->by : "";
+  list.push_back("who: " + decision->by + approved +
+                 " (a name is text, and the signature is a checksum that anybody can write)");
+  list.push_back("when: " + decision->time +
+                 (decision->approval ? " and " + decision->approval->time : ""));
+  for (const JudgedCheck& judged : decision->checks)
+    if (!judged.override_reason.empty())
+      list.push_back("reason: why the failed check '" + judged.check.title +
+                     "' was passed over: " + judged.override_reason);
+  if (measured && decision->basin_seeds > 0 && !with_basin)
+    list.push_back("convergence test: its " + std::to_string(decision->basin_seeds) +
+                   " further seeds were not run again (--full runs them)");
 }
 
 }  // namespace
@@ -207,7 +225,7 @@ bool VerifyReport::good() const {
                      [](const VerifyFinding& one) { return one.good; });
 }
 
-VerifyReport verifyPose(const fs::path& file, bool run_again) {
+VerifyReport verifyPose(const fs::path& file, bool run_again, bool basin_again) {
   Document document = readDocument(file);
   VerifyReport report;
   Findings findings(report);
@@ -217,19 +235,15 @@ VerifyReport verifyPose(const fs::path& file, bool run_again) {
   report.standing = document.pose.standing;
   const bool inputs = verifyInputs(document, findings);
   verifyDecision(standing, findings);
-  std::optional<LocalizationTrace> trace;
-  if (run_again && inputs && document.pose.source == PoseSource::kRun) {
-    try {
-      trace = runAgain(document, findings);
-    } catch (const InputError& error) {
-      findings.add(false, "run", std::string("it cannot be run again: ") + error.what());
-    }
-    if (trace) comparePoses(document, trace->camera_from_station, findings);
-    if (!document.json.contains("run")) trace.reset();  // it was written without its matches
-  } else if (run_again && document.pose.source == PoseSource::kAnnotation) {
-    solveAgain(document, findings);
-  }
-  verifyMembers(document, trace, findings);
+  verifyRunStated(document, findings);
+  const Decision* decision = standing.judgedPose();
+  const int basin_seeds = basin_again && decision != nullptr ? decision->basin_seeds : 0;
+  const bool with_basin = basin_again || decision == nullptr || decision->basin_seeds == 0;
+  std::optional<MeasuredPose> measured;
+  if (run_again && inputs) measured = measureAgain(document, basin_seeds, findings);
+  if (measured) verifyMeasured(document, *measured, with_basin, findings);
+  verifyMembers(document, measured, findings);
+  listNotProved(standing.decision, measured.has_value(), with_basin, report.not_proved);
   return report;
 }
 

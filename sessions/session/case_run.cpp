@@ -195,6 +195,10 @@ LocalizationTrace loadRun(const RunRecord& run) {
   if (trace.digest != run.digest)
     throw InputError(run.file, "digest",
                      "is " + trace.digest + ", but the session names " + run.digest);
+  if (localizationStatusText(trace.status) != run.status)
+    throw InputError(run.file, "status",
+                     std::string("is ") + localizationStatusText(trace.status) +
+                         ", but the session states " + run.status);
   return trace;
 }
 

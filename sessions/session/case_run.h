@@ -72,7 +72,8 @@ RunRecord storeRun(const Session& session, const std::string& case_id,
 /// Notes a run; one of the same case, digest, inputs and options is moved to the end.
 Session withRun(const Session& session, RunRecord run);
 
-/// The trace of a run. InputError when the file is missing, damaged, or of another run.
+/// The trace of a run. InputError when the file is missing, damaged, of another run, or ended
+/// otherwise than the record states.
 LocalizationTrace loadRun(const RunRecord& run);
 /// The same to be looked at, with the views that it was made together with.
 RunSnapshot loadSnapshot(const RunRecord& run);

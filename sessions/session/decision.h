@@ -57,6 +57,7 @@ struct Decision {
   std::map<std::string, std::string> grounds = {};
   std::vector<JudgedCheck> checks = {};
   std::optional<Approval> approval = std::nullopt;
+  int basin_seeds = 0;  ///< further seeds that the checks rest on, to measure them again; 0: none
 
   bool operator==(const Decision&) const = default;
 };

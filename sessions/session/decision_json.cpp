@@ -127,13 +127,14 @@ ordered_json toJson(const Decision& decision) {
   if (decision.pose) json["pose"] = judgedPoseJson(*decision.pose);
   if (!decision.grounds.empty()) json["grounds"] = decision.grounds;
   for (const JudgedCheck& judged : decision.checks) json["checks"].push_back(toJson(judged));
+  if (decision.basin_seeds > 0) json["basin_seeds"] = decision.basin_seeds;
   if (decision.approval) json["approval"] = approvalJson(*decision.approval);
   return json;
 }
 
 Decision readDecision(const JsonReader& json) {
-  json.requireKnown(
-      {"case", "verdict", "by", "comment", "time", "run", "pose", "grounds", "checks", "approval"});
+  json.requireKnown({"case", "verdict", "by", "comment", "time", "run", "pose", "grounds", "checks",
+                     "basin_seeds", "approval"});
   Decision decision;
   decision.case_id = json.at("case").text();
   decision.verdict = valueOf<Verdict>(
@@ -149,6 +150,8 @@ Decision readDecision(const JsonReader& json) {
   if (const auto checks = json.find("checks"))
     for (const JsonReader& check : checks->elements())
       decision.checks.push_back(readJudgedCheck(check));
+  if (const auto seeds = json.find("basin_seeds"))
+    decision.basin_seeds = static_cast<int>(seeds->integer(1, 1000));
   if (const auto approval = json.find("approval")) decision.approval = readApproval(*approval);
   return decision;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/rig_links.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -34,6 +35,18 @@ std::vector<std::string> casesOfRig(const Session& session, const std::string& c
   for (const auto& one : session.cases)
     if (one->id != case_id && one->rig && one->rig->id == chosen->rig->id) ids.push_back(one->id);
   return ids;
+}
+
+const RunRecord* ownRunOf(const Session& session, const std::string& other,
+                          const std::string& case_id) {
+  const RunRecord* last = nullptr;
+  for (const RunRecord& run : session.runs) {
+    const std::vector<std::string> together =
+        run.together ? casesOf(*run.together) : std::vector<std::string>();
+    const bool shared = std::find(together.begin(), together.end(), case_id) != together.end();
+    if (run.case_id == other && !shared) last = &run;
+  }
+  return last;
 }
 
 std::optional<Pose> linkOfTruths(const SessionCase& one, const SessionCase& other) {

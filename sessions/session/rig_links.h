@@ -13,6 +13,11 @@ namespace boresight::sessions {
 /// Ids of the other cases of a case's rig, in the order of the session.
 std::vector<std::string> casesOfRig(const Session& session, const std::string& case_id);
 
+/// The last run of another case in which this one had no part: poses that were solved for together
+/// always agree. nullptr when there is none.
+const RunRecord* ownRunOf(const Session& session, const std::string& other,
+                          const std::string& case_id);
+
 /// How one case's camera lies from another's as the true poses of both say; nothing where one of
 /// them has none.
 std::optional<Pose> linkOfTruths(const SessionCase& one, const SessionCase& other);

@@ -107,7 +107,7 @@ RunRecord readRun(const JsonReader& json, const Session& session) {
   run.case_id = readCaseReference(json.at("case"), session);
   run.digest = readSha256(json.at("digest"));
   run.file = readPath(json.at("file"));
-  run.status = json.at("status").nonEmptyText();
+  run.status = readRunStatus(json.at("status"));
   run.version = json.at("version").nonEmptyText();
   run.time = readTime(json.at("time"));
   run.inputs_sha256 = readSha256(json.at("inputs_sha256"));

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/session_pack.h"
 
+#include <functional>
+#include <set>
 #include <system_error>
 
+#include "sessions/annotation/landmarks.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/label_files.h"
-#include "sessions/io/mesh_files.h"
-#include "sessions/session/input_check.h"
+#include "sessions/io/mesh_file.h"
+#include "sessions/record/onboard_record.h"
+#include "sessions/session/case_run.h"
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_json.h"
 #include "sessions/session/zip_writer.h"
@@ -19,129 +23,226 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxPackedBytes = 4096 * kMegabyte;
 constexpr std::size_t kHashDigits = 16;
+constexpr std::size_t kMostPadding = 3;  ///< of a glTF buffer, to a multiple of four bytes
 
-/// Packs files and moves their paths into a folder of the archive.
-class Packer {
+void requireSame(const fs::path& file, const std::string& found, const std::string& known) {
+  if (found != known)
+    throw InputError(file,
+                     "it is not the file that the session was made with: accept it as it is now, "
+                     "or bring back the other one");
+}
+
+/// Folders below which a session may take files along.
+class Folders {
  public:
-  Packer(const fs::path& session_file, const fs::path& archive)
-      : name_(session_file.filename()), top_(runsFolderOf(name_).stem().string()), zip_(archive) {}
-
-  void pack(fs::path& file, const std::string& sha256) {
-    const std::string folder = inputFolder(sha256);
-    const std::string name = folder + "/" + file.filename().string();
-    if (!zip_.has(top_ + "/" + name)) {
-      const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxPackedBytes);
-      requireSame(file, sha256Text(bytes), sha256);
-      zip_.add(top_ + "/" + name, bytes);
-    }
-    file = place(name);
-  }
-
-  /// An image, and where its label is another file that, too.
-  void packImage(InputFile& image) {
-    const auto label = labelFileOf(image.file);
-    if (!label) return pack(image.file, image.sha256);
-    const LabelFiles files = readLabelFiles(*label);
-    requireSame(image.file, files.sha256, image.sha256);
-    const std::string folder = inputFolder(image.sha256);
-    for (const LabelPart& part : files.parts) {
-      const bool own = &part == &files.parts.front();
-      const std::string name = own ? label->filename().string() : part.name;
-      if (const std::string place = top_ + "/" + folder + "/" + name; !zip_.has(place))
-        zip_.add(place, part.bytes);
-    }
-    image.file = place(folder + "/" + image.file.filename().string());
-  }
-
-  /// Takes a file along as it is now; false when it is not there.
-  bool packIfThere(fs::path& file) {
+  void add(const fs::path& folder) {
     std::error_code error;
-    if (!fs::exists(file, error)) return false;
-    pack(file, inputSha256(file));
-    return true;
+    const fs::path real = fs::canonical(folder, error);
+    if (!error) folders_.insert(real);
   }
 
-  void packMesh(MeshInput& part) {
-    fs::path& file = part.source.mesh;
-    const std::string folder = inputFolder(part.sha256);
-    const std::string name = folder + "/" + file.filename().string();
-    if (!zip_.has(top_ + "/" + name)) {
-      const MeshFiles files = readMeshFiles(file);
-      requireSame(file, files.sha256, part.sha256);
-      zip_.add(top_ + "/" + name, files.bytes);
-      for (const MeshBuffer& buffer : files.buffers)
-        zip_.add(top_ + "/" + folder + "/" + buffer.name, buffer.bytes);
-    }
-    file = place(name);
-  }
-
-  /// False when the trace is not there.
-  bool packRun(RunRecord& run) {
+  /// The file with its links resolved. InputError when it is no file, or lies elsewhere.
+  fs::path resolved(const fs::path& file) const {
     std::error_code error;
-    if (!fs::exists(run.file, error)) return false;
-    const std::string name = runFileOf(name_, run.digest).string();
-    zip_.add(top_ + "/" + name, readFileBytes(run.file, kMaxPackedBytes));
-    run.file = place(name);
-    return true;
-  }
-
-  void finish(const Session& session) {
-    zip_.add(top_ + "/" + name_.string(), sessionText(session, place(name_.string())));
-    zip_.commit();
+    const fs::path real = fs::canonical(file, error);
+    if (error) throw InputError(file, "no such file");
+    if (!fs::is_regular_file(real, error)) throw InputError(file, "not a file");
+    for (fs::path above = real; above.has_relative_path();) {
+      above = above.parent_path();
+      if (folders_.contains(above)) return real;
+    }
+    throw InputError(file, (real == file ? "it lies" : "it leads to " + real.string() + ",") +
+                               " outside the session's folder and those of its inputs: copy it "
+                               "there, and name the copy");
   }
 
  private:
-  static void requireSame(const fs::path& file, const std::string& found,
-                          const std::string& known) {
-    if (found != known)
-      throw InputError(file,
-                       "it is not the file that the session was made with: accept it as it "
-                       "is now, or bring back the other one");
+  std::set<fs::path> folders_;
+};
+
+/// Plans an archive and moves the session's paths into it.
+class Packer {
+ public:
+  Packer(const Session& session, const fs::path& session_file)
+      : session_file_(session_file),
+        name_(session_file.filename()),
+        top_(runsFolderOf(name_).stem().string()) {
+    folders_.add(fs::absolute(session_file).parent_path());
+    for (const auto& one : session.cases) {
+      folders_.add(one->image.source.file.parent_path());
+      for (const MeshInput& part : one->parts) folders_.add(part.source.mesh.parent_path());
+      if (one->ignore) folders_.add(one->ignore->file.parent_path());
+      if (one->onboard_record) folders_.add(one->onboard_record->file.parent_path());
+    }
   }
+
+  SessionPack pack(Session session) {
+    for (std::size_t i = 0; i < session.cases.size(); ++i) {
+      SessionCase changed = *session.cases[i];
+      packCase(changed, "cases[" + std::to_string(i) + "]");
+      session.cases[i] = std::move(changed);
+    }
+    std::vector<RunRecord> runs;
+    for (std::size_t i = 0; i < session.runs.size(); ++i)
+      inMember("runs[" + std::to_string(i) + "].file", [&] { packRun(session.runs[i], runs); });
+    session.runs = std::move(runs);
+    made_.session_name = top_ + "/" + name_.string();
+    made_.session_text = sessionText(session, place(name_.string()));
+    return std::move(made_);
+  }
+
+ private:
+  /// What goes wrong names the member of the session.
+  void inMember(const std::string& member, const std::function<void()>& act) const {
+    try {
+      act();
+    } catch (const InputError& error) {
+      throw InputError(session_file_, member, error.what());
+    }
+  }
+
+  void packCase(SessionCase& one, const std::string& member) {
+    inMember(member + ".image", [&] { packImage(one.image); });
+    for (std::size_t i = 0; i < one.parts.size(); ++i)
+      inMember(member + ".parts[" + std::to_string(i) + "]", [&] { packMesh(one.parts[i]); });
+    if (one.ignore)
+      inMember(member + ".ignore", [&] {
+        packInput(*one.ignore, [&](const fs::path& file) {
+          (void)readIgnoreMask(file, one.image.width, one.image.height);
+        });
+      });
+    if (one.onboard_record)
+      inMember(member + ".onboard_record", [&] {
+        packInput(*one.onboard_record, [](const fs::path& file) {
+          (void)parseRecord(file, readFileBytes(file, kMaxPackedBytes));
+        });
+      });
+    if (one.landmarks) inMember(member + ".landmarks", [&] { packLandmarks(one); });
+  }
+
+  /// Where a label is another file than the pixels, both.
+  void packImage(ImageInput& image) {
+    const fs::path file = image.source.file;
+    const auto label = labelFileOf(file);
+    const auto read = [&image](const fs::path& named) { (void)readImage(named, image.eight_bit); };
+    if (!label) return packInput(image.source, read);
+    (void)folders_.resolved(file);
+    const LabelFiles files = readLabelFiles(*label);
+    requireSame(file, files.sha256, image.source.sha256);
+    read(file);
+    const std::string folder = inputFolder(files.sha256) + "/";
+    for (const LabelPart& part : files.parts) {
+      const bool own = &part == &files.parts.front();
+      const fs::path from = own ? *label : label->parent_path() / part.name;
+      add(folder + (own ? label->filename().string() : part.name), from, sha256Text(part.bytes));
+    }
+    image.source.file = place(folder + file.filename().string());
+  }
+
+  /// The hash of glTF is that of the file and its buffers together.
+  void packMesh(MeshInput& part) {
+    const fs::path file = part.source.mesh;
+    const std::string folder = inputFolder(part.sha256) + "/";
+    const std::string name = folder + file.filename().string();
+    part.source.mesh = place(name);
+    if (!isNew(name)) return;
+    (void)folders_.resolved(file);
+    const MeshFiles files = readMeshFiles(file);
+    requireSame(file, files.sha256, part.sha256);
+    (void)readMesh(files, part.source.mesh_unit);
+    add(name, file, sha256Text(files.bytes));
+    for (const MeshBuffer& buffer : files.buffers) {
+      if (buffer.bytes.size() > buffer.stated_bytes + kMostPadding)
+        throw InputError(file, buffer.place + ".byteLength",
+                         "is " + std::to_string(buffer.stated_bytes) + ", but '" + buffer.name +
+                             "' has " + std::to_string(buffer.bytes.size()) + " bytes");
+      add(folder + buffer.name, file.parent_path() / buffer.name, sha256Text(buffer.bytes));
+    }
+  }
+
+  /// A file that the session knows by its hash; `read` throws InputError unless it is of its kind.
+  void packInput(InputFile& input, const std::function<void(const fs::path&)>& read) {
+    const fs::path file = input.file;
+    const std::string name = inputFolder(input.sha256) + "/" + file.filename().string();
+    if (isNew(name)) {
+      const fs::path real = folders_.resolved(file);
+      requireSame(file, sha256Text(readFileBytes(real, kMaxPackedBytes)), input.sha256);
+      read(file);
+      add(name, file, input.sha256);
+    }
+    input.file = place(name);
+  }
+
+  /// As they are now: the session does not know their hash.
+  void packLandmarks(SessionCase& one) {
+    const fs::path file = *one.landmarks;
+    std::error_code error;
+    if (!fs::exists(file, error)) {
+      made_.notes.push_back("the landmarks of case " + one.id +
+                            " are missing and were left out: " + file.string());
+      one.landmarks.reset();
+      return;
+    }
+    const fs::path real = folders_.resolved(file);
+    (void)readLandmarks(real);
+    const std::string sha256 = sha256Text(readFileBytes(real, kMaxPackedBytes));
+    const std::string name = inputFolder(sha256) + "/" + file.filename().string();
+    add(name, file, sha256);
+    one.landmarks = place(name);
+  }
+
+  void packRun(RunRecord run, std::vector<RunRecord>& runs) {
+    std::error_code error;
+    if (!fs::exists(run.file, error)) {
+      made_.notes.push_back("the trace of a run of case " + run.case_id +
+                            " is missing and was left out: " + run.file.string());
+      return;
+    }
+    const fs::path real = folders_.resolved(run.file);
+    (void)loadRun(run);
+    const std::string name = runFileOf(name_, run.digest).string();
+    add(name, run.file, sha256Text(readFileBytes(real, kMaxPackedBytes)));
+    run.file = place(name);
+    runs.push_back(std::move(run));
+  }
+
+  bool isNew(const std::string& name) const { return !names_.contains(name); }
+
+  void add(const std::string& name, const fs::path& file, const std::string& sha256) {
+    if (names_.insert(name).second)
+      made_.files.push_back({top_ + "/" + name, folders_.resolved(file), sha256});
+  }
+
   static std::string inputFolder(const std::string& sha256) {
     return "inputs/" + sha256.substr(0, kHashDigits);
   }
   /// Only what is relative to the session's own folder is written.
   static fs::path place(const std::string& name) { return fs::path("/session") / name; }
 
+  fs::path session_file_;
   fs::path name_;
   std::string top_;
-  ZipWriter zip_;
+  Folders folders_;
+  std::set<std::string> names_;
+  SessionPack made_;
 };
 
 }  // namespace
 
-std::vector<std::string> packSession(const Session& session, const fs::path& session_file,
-                                     const fs::path& archive) {
-  Packer packer(session_file, archive);
-  Session packed = session;
-  std::vector<std::string> notes;
-  for (auto& one : packed.cases) {
-    SessionCase changed = *one;
-    packer.packImage(changed.image.source);
-    for (MeshInput& part : changed.parts) packer.packMesh(part);
-    if (changed.ignore) packer.pack(changed.ignore->file, changed.ignore->sha256);
-    if (changed.onboard_record)
-      packer.pack(changed.onboard_record->file, changed.onboard_record->sha256);
-    if (changed.landmarks && !packer.packIfThere(*changed.landmarks)) {
-      notes.push_back("the landmarks of case " + changed.id +
-                      " are missing and were left out: " + changed.landmarks->string());
-      changed.landmarks.reset();
-    }
-    one = std::move(changed);
+SessionPack planPack(const Session& session, const fs::path& session_file) {
+  return Packer(session, session_file).pack(session);
+}
+
+void writePack(const SessionPack& pack, const fs::path& archive) {
+  ZipWriter zip(archive);
+  for (const PackedFile& one : pack.files) {
+    const std::vector<std::uint8_t> bytes = readFileBytes(one.file, kMaxPackedBytes);
+    if (sha256Text(bytes) != one.sha256)
+      throw InputError(one.file, "it has changed while it was packed: pack again");
+    zip.add(one.name, bytes);
   }
-  std::vector<RunRecord> runs;
-  for (RunRecord& run : packed.runs) {
-    const fs::path file = run.file;
-    if (packer.packRun(run))
-      runs.push_back(run);
-    else
-      notes.push_back("the trace of a run of case " + run.case_id +
-                      " is missing and was left out: " + file.string());
-  }
-  packed.runs = std::move(runs);
-  packer.finish(packed);
-  return notes;
+  zip.add(pack.session_name, pack.session_text);
+  zip.commit();
 }
 
 }  // namespace boresight::sessions

@@ -9,14 +9,32 @@
 
 namespace boresight::sessions {
 
-/// Writes one zip archive that opens elsewhere: below a folder of the session's name the session,
-/// `inputs/` with every file that it names (once, under the beginning of its hash, so that files of
-/// the same name do not meet), and the traces of its runs. The session in it names its files
-/// relatively. The archive is read again before it gets its name. Returns what people should know:
-/// traces and landmarks that are missing and were left out. InputError when an input is missing or
-/// not the one that the session was made with; OutputError.
-std::vector<std::string> packSession(const Session& session,
-                                     const std::filesystem::path& session_file,
-                                     const std::filesystem::path& archive);
+/// A file that an archive takes along.
+struct PackedFile {
+  std::string name;            ///< in the archive
+  std::filesystem::path file;  ///< absolute, its links resolved
+  std::string sha256;          ///< of its bytes
+};
+
+/// What an archive of a session holds: below a folder of the session's name the session, `inputs/`
+/// with every file that it names (once, under the beginning of its hash, so that files of the same
+/// name do not meet), and the traces of its runs.
+struct SessionPack {
+  std::vector<PackedFile> files;   ///< besides the session
+  std::string session_name;        ///< in the archive
+  std::string session_text;        ///< names its files relatively
+  std::vector<std::string> notes;  ///< traces and landmarks that are missing and are left out
+};
+
+/// Reads every file as what the session's member says it is: an image, a mesh with its buffers, a
+/// mask, an onboard record, landmarks, the trace of a run. InputError, naming the member, when one
+/// is something else, is not the one that the session was made with, or lies (links resolved)
+/// neither below the session's folder nor below that of an image, mesh, mask or record. Nothing is
+/// written.
+SessionPack planPack(const Session& session, const std::filesystem::path& session_file);
+
+/// Writes the zip archive, which is read again before it gets its name. InputError when a file has
+/// changed since it was planned; OutputError.
+void writePack(const SessionPack& pack, const std::filesystem::path& archive);
 
 }  // namespace boresight::sessions

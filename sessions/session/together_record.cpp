@@ -35,6 +35,17 @@ std::string viewsDigest(const Session& session, const std::vector<std::string>& 
   return hexText(writer.digest()).data();
 }
 
+std::string readRunStatus(const JsonReader& json) {
+  const std::string text = json.text();
+  std::string known;
+  for (int i = 0; i <= static_cast<int>(kLastLocalizationStatus); ++i) {
+    const std::string status = localizationStatusText(static_cast<LocalizationStatus>(i));
+    if (text == status) return text;
+    known += (known.empty() ? "" : ", ") + status;
+  }
+  json.fail("'" + text + "' is not a status of a run: use one of " + known);
+}
+
 ordered_json toJson(const TogetherRecord& record) {
   ordered_json json;
   json["views"] = ordered_json::array();
@@ -53,7 +64,7 @@ TogetherRecord readTogether(const JsonReader& json) {
   TogetherRecord record;
   for (const JsonReader& view : json.at("views").elements()) {
     view.requireKnown({"case", "status"});
-    record.views.push_back({view.at("case").nonEmptyText(), view.at("status").nonEmptyText()});
+    record.views.push_back({view.at("case").nonEmptyText(), readRunStatus(view.at("status"))});
   }
   if (record.views.size() < 2) json.failMember("views", "names less than two");
   record.inputs_sha256 = readSha256(json.at("inputs_sha256"));

@@ -30,6 +30,9 @@ std::vector<std::string> casesOf(const TogetherRecord& record);
 /// there any more, or is of no rig.
 std::string viewsDigest(const Session& session, const std::vector<std::string>& case_ids);
 
+/// A text that localizationStatusText gives; InputError for any other.
+std::string readRunStatus(const JsonReader& json);
+
 nlohmann::ordered_json toJson(const TogetherRecord& record);
 /// InputError.
 TogetherRecord readTogether(const JsonReader& json);

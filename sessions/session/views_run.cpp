@@ -151,8 +151,13 @@ LocalizationTrace repeatRun(const RunRecord& run, const Session& session,
   std::vector<SessionCase> others;
   for (std::size_t i = 1; i < ids.size(); ++i) others.push_back(*session.findCase(ids[i]));
   const auto views = loadViews(loadCase(*session.findCase(ids.front())), others);
-  for (const RunSnapshot& one : runLoaded(*views, plan.options, {}))
-    if (one.views[one.own_view].case_id == run.case_id) return traceOf(one);
+  for (const RunSnapshot& one : runLoaded(*views, plan.options, {})) {
+    if (one.views[one.own_view].case_id != run.case_id) continue;
+    if (one.views != run.together->views)
+      throw InputError(session_file, "run " + run.digest,
+                       "its views do not end as its member together states");
+    return traceOf(one);
+  }
   throw InputError(session_file, "run " + run.digest, "its own case is not among its views");
 }
 

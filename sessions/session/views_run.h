@@ -57,7 +57,7 @@ std::vector<RunRecord> storeViews(const Session& session, const std::vector<RunS
                                   const std::filesystem::path& session_file);
 
 /// Runs a recorded run once more by the options that it had, with the other views if there were
-/// any. InputError when its inputs are no longer its own.
+/// any. InputError when its inputs are no longer its own, or its views end otherwise than recorded.
 LocalizationTrace repeatRun(const RunRecord& run, const Session& session,
                             const std::filesystem::path& session_file,
                             RecordLevel level = RecordLevel::kFull);

@@ -23,7 +23,6 @@ class ZipWriter {
   /// Adds a file; one of the same name as before is left out. OutputError.
   void add(const std::string& name, std::span<const std::uint8_t> bytes);
   void add(const std::string& name, std::string_view text);
-  bool has(const std::string& name) const { return names_.contains(name); }
 
   /// OutputError; then the old file of that name is as it was.
   void commit();

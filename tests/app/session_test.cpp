@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <functional>
 
 #include <nlohmann/json.hpp>
 
@@ -212,7 +213,8 @@ TEST(WhsPack, TakesLandmarksAlongWhereTheyAre) {
   const std::string file = newSession(folder);
   sessions::Session session = sessions::readSessionFile(file).session;
   sessions::SessionCase one = *session.cases[0];
-  one.landmarks = folder.write("named points.json", "{}");
+  one.landmarks = folder.write(
+      "named points.json", R"({"format": "boresight-landmarks", "version": 1, "landmarks": []})");
   sessions::writeSessionFile(file, withCase(session, one));
   const ProgramRun packed = runWhs({"pack", file, "--out", folder / "s.zip"});
   EXPECT_EQ(packed.exit_code, 0) << packed.err;
@@ -223,6 +225,41 @@ TEST(WhsPack, TakesLandmarksAlongWhereTheyAre) {
   EXPECT_EQ(without.exit_code, 0);
   EXPECT_THAT(without.err, HasSubstr("the landmarks of case " + one.id + " are missing"));
   EXPECT_THAT(folder.read("t.zip"), Not(HasSubstr("/named points.json")));
+}
+
+TEST(WhsPack, ListsWhatItTakesAlongAndRefusesAnyOtherFile) {
+  const TemporaryFolder folder;
+  const std::string file = newSession(folder);
+  const ProgramRun packed = runWhs({"pack", file, "--out", folder / "s.zip"});
+  EXPECT_EQ(packed.exit_code, 0) << packed.err;
+  EXPECT_THAT(packed.out, AllOf(HasSubstr("/image.png  from  " + exampleFolder().string()),
+                                HasSubstr("/model.ply  from  ")));
+  const std::string whole = folder.read("s.boresight.json");
+  const auto refusal = [&](const std::function<void(nlohmann::json&)>& edit) {
+    nlohmann::json session = nlohmann::json::parse(whole);
+    edit(session);
+    folder.write("s.boresight.json", session.dump());
+    const ProgramRun run = runWhs({"pack", file, "--out", folder / "t.zip"});
+    EXPECT_EQ(run.exit_code, 3) << run.out;
+    EXPECT_EQ(run.out, "");
+    EXPECT_FALSE(std::filesystem::exists(folder / "t.zip"));
+    return run.err;
+  };
+  EXPECT_THAT(
+      refusal([](auto& s) { s["cases"][0]["landmarks"] = "../../../../../../../../etc/passwd"; }),
+      HasSubstr("s.boresight.json: cases[0].landmarks: /etc/passwd: "));
+  EXPECT_THAT(refusal([](auto& s) {
+                const std::string digest(64, 'd');
+                s["runs"] = {{{"case", s["cases"][0]["id"]},
+                              {"digest", digest},
+                              {"file", "/etc/passwd"},
+                              {"status", "converged"},
+                              {"version", "0.1.0"},
+                              {"time", "2026-01-31T23:59:59Z"},
+                              {"inputs_sha256", digest},
+                              {"options_sha256", digest}}};
+              }),
+              HasSubstr("s.boresight.json: runs[0].file: /etc/passwd: "));
 }
 
 }  // namespace

@@ -320,8 +320,17 @@ void AnnotationPanel::askForName() {
   if (accepted) controller_.putAside(name);
 }
 
-/// Letters typed at the table look for a row; they do not switch layers.
+/// Letters typed at the table look for a row; they do not switch layers. Enter goes on to the
+/// chosen mark in the image.
 bool AnnotationPanel::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == table_ && event->type() == QEvent::KeyPress) {
+    const int key = static_cast<QKeyEvent*>(event)->key();
+    if ((key == Qt::Key_Return || key == Qt::Key_Enter) && !controller_.selected().empty()) {
+      controller_.setMode(controller_.selectedLine() ? PlaceMode::kLine : PlaceMode::kPoint);
+      Q_EMIT imageRequested();
+      return true;
+    }
+  }
   if (watched == table_ && event->type() == QEvent::ShortcutOverride) {
     const auto& key = *static_cast<QKeyEvent*>(event);
     const bool plain = (key.modifiers() & ~Qt::ShiftModifier) == Qt::NoModifier;

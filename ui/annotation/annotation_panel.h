@@ -53,6 +53,8 @@ class AnnotationPanel : public QWidget {
   void importBopRequested();
   void openLandmarksRequested();
   void saveLandmarksRequested();
+  /// Keys go to the image from now on.
+  void imageRequested();
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;

@@ -290,6 +290,7 @@ void MarkTool::placeImage() {
   if (!marksLines()) {
     controller_.placeInImage(aim_.pixel);
   } else if (!line_start_) {
+    if (!lacksImageSide()) controller_.select({});  // the line that is begun is another mark
     line_start_ = aim_.pixel;
   } else if ((aim_.pixel - *line_start_).norm() * view_.transform().scale() < kShortestLine) {
     Q_EMIT told(tr("The two places of a line must lie apart; click farther along the edge."));

@@ -81,14 +81,12 @@ QString PoseExport::inSessionFolder(const QString& name) const {
   return QString::fromStdString(document_.file().parent_path().string()) + QLatin1Char('/') + name;
 }
 
-/// Inputs are hashed and a trace is read: off this thread.
+/// The pose is measured again: off this thread.
 void PoseExport::exportPose(const std::filesystem::path& file) {
   tasks_.start(
       QStringLiteral("export pose"),
       [file, session = document_.session(), id = caseId()](const std::stop_token&) {
-        const sessions::HandedPose pose = sessions::checkedPose(session, id);
-        sessions::writeValidatedPose(file, session, pose);
-        return pose.standing;
+        return sessions::writeValidatedPose(file, session, id).standing;
       },
       [this, file, id = fromText(caseId())](const std::string& standing) {
         Q_EMIT noted(

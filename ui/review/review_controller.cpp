@@ -7,7 +7,6 @@
 
 #include "sessions/review/grounds.h"
 #include "sessions/review/review_settings.h"
-#include "sessions/session/rig_links.h"
 #include "ui/models/number_text.h"
 #include "ui/state/document.h"
 
@@ -103,9 +102,6 @@ std::optional<ReviewController::Question> ReviewController::question() const {
   made.source = source_;
   if (source_ == PoseSource::kRun) made.run_digest = runDigest();
   made.grounds = sessions::judgedGrounds(session, id, made.run_digest);
-  for (const std::string& other : sessions::casesOfRig(session, id))
-    if (const sessions::RunRecord* run = session.lastRunOf(other))
-      made.other_digests.push_back(other + " " + run->digest);
   return made;
 }
 
@@ -208,7 +204,8 @@ sessions::Session ReviewController::after(Act act, const sessions::Signature& wh
   const std::string id = caseId();
   switch (act) {
     case Act::kValidate:
-      return sessions::validated(session, *subject_, checks_, overrides(), who);
+      return sessions::validated(session, *subject_, checks_, overrides(), who,
+                                 basin_ ? basin_->seeds : 0);
     case Act::kApprove:
       return sessions::approved(session, id, who);
     case Act::kReject:

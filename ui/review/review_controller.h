@@ -94,7 +94,6 @@ class ReviewController : public QObject {
     sessions::PoseSource source = sessions::PoseSource::kRun;
     std::string run_digest;
     std::map<std::string, std::string> grounds;
-    std::vector<std::string> other_digests;  ///< of the rig's other cameras
 
     bool operator==(const Question&) const = default;
   };

@@ -37,12 +37,13 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
   connect(&run_, &RunController::failed, this, [this](const QString& message) {
     run_is_prepared_ = false;
     Q_EMIT failed(message);
+    runNext();
   });
 }
 
 void CaseController::documentOpened() {
   case_id_.clear();
-  queue_.clear();
+  endBatch();
   unstored_.clear();
   const sessions::Session& session = document_.session();
   QString first = QString::fromStdString(session.view.case_id);
@@ -74,6 +75,11 @@ void CaseController::documentChanged() {
 
 void CaseController::chooseCase(const QString& id) {
   if (id == case_id_) return;
+  endBatch();
+  show(id);
+}
+
+void CaseController::show(const QString& id) {
   case_id_ = id;
   run_.reset({});
   run_is_prepared_ = false;
@@ -137,6 +143,8 @@ void CaseController::loadFailed(const QString& id, const QString& message) {
 
 void CaseController::loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one) {
   if (id != case_id_) return;
+  // A case that was edited while a batch ran it is run again.
+  if (batch_ && run_.state() == RunState::kWorking) run_when_loaded_ = StepUntil::kEnd;
   run_.reset({});
   run_is_prepared_ = false;
   const ViewState::CasePtr& before = state_.currentCase();
@@ -155,7 +163,7 @@ void CaseController::loaded(const QString& id, std::shared_ptr<const sessions::L
 
 void CaseController::loadLatestRun(const QString& id) {
   const sessions::RunRecord* record = document_.session().lastRunOf(id.toStdString());
-  if (!record) {
+  if (!record || run_when_loaded_) {  // it is run now
     Q_EMIT stalenessChanged();
     runIfWaiting();
     return;
@@ -169,7 +177,6 @@ void CaseController::loadLatestRun(const QString& id) {
         if (id != case_id_ || run_is_prepared_) return;
         state_.setSnapshot(std::move(snapshot));
         Q_EMIT stalenessChanged();
-        runIfWaiting();
       });
 }
 
@@ -214,6 +221,7 @@ void CaseController::advance(StepUntil until) {
     if (!run_is_prepared_ || run_.state() == RunState::kFinished) prepareRun(options());
   } catch (const std::exception& error) {
     Q_EMIT failed(QString::fromUtf8(error.what()));
+    runNext();
     return;
   }
   run_.advance(until);
@@ -303,7 +311,7 @@ void CaseController::prepareRerun(int iteration) {
 }
 
 void CaseController::stop() {
-  queue_.clear();
+  endBatch();
   run_when_loaded_.reset();
   run_.stop();
 }
@@ -330,13 +338,28 @@ void CaseController::storeRun() {
 
 void CaseController::runAll(const QStringList& ids) {
   queue_.assign(ids.begin(), ids.end());
+  batch_ = BatchRun{0, static_cast<int>(ids.size())};
   runNext();
 }
 
+void CaseController::endBatch() {
+  queue_.clear();
+  if (!std::exchange(batch_, std::nullopt)) return;
+  run_when_loaded_.reset();
+  Q_EMIT batchChanged();
+}
+
+/// Goes on with the batch, if there is one.
 void CaseController::runNext() {
-  if (queue_.empty()) return;
+  if (!batch_) return;
+  if (queue_.empty()) {
+    endBatch();
+    return;
+  }
   const QString next = queue_.front();
   queue_.erase(queue_.begin());
+  ++batch_->at;
+  Q_EMIT batchChanged();
   if (next == case_id_ && state_.currentCase()) {
     advance(StepUntil::kEnd);
     return;
@@ -345,7 +368,7 @@ void CaseController::runNext() {
   if (next == case_id_)
     load(next);
   else
-    chooseCase(next);
+    show(next);
 }
 
 void CaseController::runIfWaiting() {

@@ -21,6 +21,12 @@ namespace boresight::ui {
 class Document;
 class TaskRunner;
 
+/// Several cases that are run one after another.
+struct BatchRun {
+  int at = 0;  ///< the case at work, from 1
+  int of = 0;  ///< number of cases
+};
+
 /// What happens between document, worker and view state: a case that is chosen is read and shown
 /// with its latest run, a run is shown as it goes and stored when it ends.
 class CaseController : public QObject {
@@ -39,10 +45,11 @@ class CaseController : public QObject {
   QString staleness() const;
   /// Why the case cannot be run together with other views, one sentence; empty when it can.
   QString whyAlone() const;
-  /// Runs of all cases that wait or are under way.
-  int queued() const { return static_cast<int>(queue_.size()); }
+  /// The batch under way, from its first case's reading to its last run's storing; else nothing.
+  const std::optional<BatchRun>& batch() const { return batch_; }
 
  public Q_SLOTS:
+  /// Shows another case. A batch ends here.
   void chooseCase(const QString& id);
   void advance(boresight::sessions::StepUntil until);
   /// Keeps the shown run's iterations before this one and computes those from it on with the
@@ -50,6 +57,7 @@ class CaseController : public QObject {
   void rerunFrom(int iteration);
   /// Runs the case by a plan of its own instead of the session's options.
   void runPlan(const boresight::sessions::RunPlan& plan);
+  /// Halts the run and ends the batch, also while a case of it is read or stored.
   void stop();
   /// Drops the shown run; the next step begins anew.
   void reset();
@@ -74,6 +82,8 @@ class CaseController : public QObject {
   /// There is no room for a run where the session lies; one sentence.
   void storeFailed(const QString& message);
   void stalenessChanged();
+  /// A batch has begun, gone on to its next case, or ended.
+  void batchChanged();
 
  private:
   /// All that is needed to store a run.
@@ -87,6 +97,7 @@ class CaseController : public QObject {
 
   void documentOpened();
   void documentChanged();
+  void show(const QString& id);
   bool isLoaded() const;
   void load(const QString& id);
   void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one);
@@ -101,6 +112,7 @@ class CaseController : public QObject {
   void store(const EndedRun& ended);
   void storeAgain();
   void runNext();
+  void endBatch();
   void runIfWaiting();
   void showNudgedPose();
 
@@ -118,7 +130,8 @@ class CaseController : public QObject {
   std::filesystem::path unstored_file_;  ///< where there was no room
   sessions::Session run_session_;        ///< what the run that is prepared is made from
   std::optional<sessions::StepUntil> run_when_loaded_;
-  std::vector<QString> queue_;
+  std::vector<QString> queue_;  ///< cases of the batch that wait
+  std::optional<BatchRun> batch_;
 };
 
 }  // namespace boresight::ui

@@ -58,14 +58,15 @@ void CaseController::store(const EndedRun& ended) {
         unstored_.push_back(ended);
         if (stored.records.empty()) {
           Q_EMIT storeFailed(stored.problem);
-          if (!unstored_.empty()) queue_.clear();  // nor is there room for the next
+          if (!unstored_.empty()) endBatch();  // nor is there room for the next
         } else if (document_.note(withRuns(document_.session(), stored.records),
                                   tr("Run %1").arg(QString::fromStdString(ended.case_id)))) {
           std::erase_if(unstored_,
                         [&](const EndedRun& one) { return one.snapshot == ended.snapshot; });
           Q_EMIT stalenessChanged();
         }
-        runNext();
+        // A run that was begun meanwhile goes on.
+        if (run_.state() != RunState::kWorking && !run_when_loaded_) runNext();
       });
 }
 

@@ -34,7 +34,9 @@ constexpr const char* kLayoutKey = "window/state";
 constexpr int kNote_ms = 15'000;   // that a remark stays in the status bar
 constexpr int kLayoutVersion = 8;  // of another set of panels, a layout is not taken over
 
-QString stateText(RunState state) {
+QString stateText(RunState state, const std::optional<BatchRun>& batch) {
+  if (batch && batch->of > 1)
+    return MainWindow::tr("Running %1 of %2...").arg(batch->at).arg(batch->of);
   switch (state) {
     case RunState::kEmpty:
     case RunState::kReady:
@@ -79,6 +81,7 @@ void MainWindow::buildStatusBar() {
   auto* place = new QLabel;
   place->setObjectName(QStringLiteral("place"));
   run_label_ = new QLabel;
+  run_label_->setObjectName(QStringLiteral("runState"));
   statusBar()->addWidget(place, 1);
   statusBar()->addPermanentWidget(run_label_);
   connect(&image(), &ImagePanel::placeText, place, &QLabel::setText);
@@ -129,6 +132,7 @@ void MainWindow::connectAll() {
     offer_elsewhere(m);
   });
   connect(&cases_, &CaseController::failed, this, &MainWindow::showMessage);
+  connect(&cases_, &CaseController::batchChanged, this, &MainWindow::showState);
   connect(&tasks_, &TaskRunner::failed, this, &MainWindow::showMessage);
   connect(&run_, &RunController::stateChanged, this, &MainWindow::showState);
   connect(&run_, &RunController::stateChanged, this, [this] {
@@ -216,7 +220,7 @@ void MainWindow::showDocument() {
 
 void MainWindow::showState() {
   menus_->update();
-  run_label_->setText(stateText(run_.state()));
+  run_label_->setText(stateText(run_.state(), cases_.batch()));
   const bool read_only = document_.isOpen() && !document_.readOnlyReason().isEmpty();
   const QString name = document_.isUntitled() ? tr("Untitled")
                        : document_.isOpen()

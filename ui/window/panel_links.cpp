@@ -18,6 +18,7 @@
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
 #include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/case_details.h"
 #include "ui/window/case_rows.h"
@@ -58,6 +59,7 @@ void PanelLinks::linkCases() {
   connect(&parts_.document, &Document::changed, this, document_shown);
   connect(details_, &CaseDetails::changed, this, &PanelLinks::showCases);
   connect(&parts_.run, &RunController::stateChanged, this, &PanelLinks::showCases);
+  connect(&cases, &CaseController::batchChanged, this, &PanelLinks::showCases);
 }
 
 void PanelLinks::linkConfiguration() {
@@ -78,6 +80,8 @@ void PanelLinks::linkPoses() {
           &CaseController::chooseCase);
   connect(&docks_.annotation(), &AnnotationPanel::useAsSeedRequested, &parts_.cases,
           &CaseController::useAsSeed);
+  connect(&docks_.annotation(), &AnnotationPanel::imageRequested, this,
+          [this] { docks_.image().view().setFocus(); });
   connect(&docks_.poses(), &PosePanel::gestureFinished, &parts_.cases,
           &CaseController::keepNudgedPose);
   connect(&parts_.state, &ViewState::caseChanged, this, &PanelLinks::showJudgement);
@@ -86,7 +90,7 @@ void PanelLinks::linkPoses() {
 }
 
 void PanelLinks::showCases() {
-  const bool working = parts_.run.state() == RunState::kWorking;
+  const bool working = parts_.run.state() == RunState::kWorking || parts_.cases.batch();
   std::vector<CaseRow> rows =
       caseRows(parts_.document.session(), working ? parts_.cases.caseId() : QString(),
                parts_.document.file(), stale_runs_);

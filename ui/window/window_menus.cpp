@@ -99,6 +99,10 @@ void WindowMenus::buildEditMenu() {
   redo_ = action(tr("&Redo"), QKeySequence::Redo, tr("Make the change again"));
   connect(undo_, &QAction::triggered, this, &WindowMenus::undo);
   connect(redo_, &QAction::triggered, this, &WindowMenus::redo);
+  connect(&parts_.document, &Document::changed, this, [this] {
+    // An undo is no longer the last change.
+    if (window_.statusBar()->currentMessage() == shown_change_) window_.statusBar()->clearMessage();
+  });
   menu->addAction(undo_);
   menu->addAction(redo_);
   menu->addSeparator();
@@ -297,6 +301,7 @@ void WindowMenus::showChange(const sessions::Session& before, const QString& tol
     parts_.cases.chooseCase(other);
   }
   window_.statusBar()->showMessage(message);
+  shown_change_ = message;
 }
 
 void WindowMenus::showRecent() {
@@ -315,7 +320,7 @@ void WindowMenus::update() {
   const Document& document = parts_.document;
   const bool open = document.isOpen();
   const bool editable = open && document.readOnlyReason().isEmpty();
-  const bool working = parts_.run.state() == RunState::kWorking;
+  const bool working = parts_.run.state() == RunState::kWorking || parts_.cases.batch();
   const bool has_case = parts_.state.currentCase() != nullptr;
   save_->setEnabled(editable && (document.isModified() || document.isUntitled() ||
                                  !parts_.cases.unstoredRuns().isEmpty()));

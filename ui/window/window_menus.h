@@ -73,6 +73,7 @@ class WindowMenus : public QObject {
   QAction* rerun_record_ = nullptr;
   QAction* first_difference_ = nullptr;
   QMenu* recent_menu_ = nullptr;
+  QString shown_change_;  ///< what the status bar says of the last undo or redo
   QList<QAction*> mask_actions_;
   QList<QAction*> annotation_actions_;
 };

@@ -148,6 +148,25 @@ TEST(Decide, ALaterChangeDropsADecisionAndSaysWhichOne) {
   }
 }
 
+TEST(Decide, ARunOfTheRigsOtherCameraDropsAValidation) {
+  Random random = randomFor("Decide.OtherCamera");
+  JudgedCase judged(random);
+  sessions::SessionCase one = *judged.session.findCase("a");
+  one.rig = sessions::Rig{"rig", Pose()};
+  sessions::SessionCase other = one;
+  other.id = "b";
+  judged.session = withCase(withCase(judged.session, one), other);
+  Session after = judged.validatedBy("Ada");
+  EXPECT_TRUE(standingOf(after, "a").holds());
+  sessions::RunRecord run = after.runs.back();
+  run.case_id = "b";
+  after.runs.push_back(run);
+  EXPECT_EQ(standingOf(after, "a").dropped, "the runs of the rig's other cameras have changed");
+  after.runs.back().together =
+      sessions::TogetherRecord{{{"b", "converged"}, {"a", "converged"}}, ""};
+  EXPECT_TRUE(standingOf(after, "a").holds()) << "a run in which it had a part is no witness";
+}
+
 TEST(Decide, WhatIsNoInputChangesNothing) {
   Random random = randomFor("Decide.Stands");
   const JudgedCase judged(random);

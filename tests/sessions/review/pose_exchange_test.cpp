@@ -28,12 +28,8 @@ std::string textOf(const std::filesystem::path& file) {
 Session halfValidated() {
   const Session marked = markedExample(0.1);
   const std::string id = caseOfStation(marked, "os");
-  sessions::ReviewSubject subject;
-  auto loaded = std::make_shared<sessions::LoadedCase>();
-  loaded->source = *marked.findCase(id);
-  subject.loaded = loaded;
-  subject.source = sessions::PoseSource::kAnnotation;
-  subject.camera_from_station = sessions::handedPose(marked, id).camera_from_station;
+  const auto subject = reviewSubject(marked, sessions::loadCase(*marked.findCase(id)),
+                                     sessions::PoseSource::kAnnotation);
   return validated(marked, subject, {JudgedCase::check("coverage", sessions::CheckState::kPassed)},
                    {}, {"Ada", "right"});
 }
@@ -66,6 +62,16 @@ TEST(PoseExchange, ResultsThatNobodyValidatedNeedANameThatSaysSo) {
   const auto read = sessions::readBopResults(folder / "a-NOT-VALIDATED_os-test.csv");
   EXPECT_EQ(read[0].scene_id, 7);
   EXPECT_NE(read[0].object_id, read[1].object_id);
+}
+
+TEST(PoseExchange, APoseThatItsMarksDoNotGiveIsLeftOut) {
+  Session session = halfValidated();
+  const std::string os = caseOfStation(session, "os");
+  session.decisions.back().pose->camera_from_station.translation_m.z() = 0.5;
+  EXPECT_THROW(posesToHandOver(session, {os}), sessions::InputError);
+  const sessions::CasePoses others = posesToHandOver(session, {});
+  EXPECT_EQ(others.poses.size(), 1u);
+  EXPECT_THAT(others.notes, testing::ElementsAre(HasSubstr("another pose comes out")));
 }
 
 TEST(PoseExchange, AnotherPoseOfAValidatedCaseIsNotTheValidatedOne) {

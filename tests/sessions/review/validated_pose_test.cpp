@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/review/validated_pose_file.h"
 
+#include <algorithm>
 #include <fstream>
 #include <functional>
+#include <optional>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -11,10 +13,13 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_writer.h"
+#include "sessions/review/checks.h"
 #include "sessions/review/decide.h"
+#include "sessions/review/review_settings.h"
 #include "sessions/review/standing.h"
 #include "sessions/review/verify_pose.h"
-#include "tests/sessions/review/judged_case.h"
+#include "sessions/session/case_run.h"
+#include "sessions/trace/trace_file.h"
 #include "tests/support/marked_example.h"
 #include "tests/support/temporary_folder.h"
 
@@ -26,7 +31,10 @@ using nlohmann::ordered_json;
 using sessions::HandedPose;
 using sessions::Session;
 using sessions::VerifyReport;
+using testing::AllOf;
+using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 /// The example's OS station, run and marked, in a folder of its own with its files.
 class ValidatedPose : public testing::Test {
@@ -48,23 +56,58 @@ class ValidatedPose : public testing::Test {
     const auto trace = runCase(session_, id_, sessions::RecordLevel::kFull);
     ASSERT_TRUE(trace.converged());
     session_ = withRun(session_, storeRun(session_, id_, trace, folder_ / "s.boresight.json"));
-    subject_.loaded = sessions::loadCase(*session_.findCase(id_));
-    subject_.camera_from_station = trace.camera_from_station;
-    subject_.covariance = trace.covariance;
-    subject_.run = sessions::snapshotOf(sessions::LocalizationTrace(trace));
   }
 
-  void validate() {
-    session_ = validated(session_, subject_,
-                         {JudgedCase::check("converged", sessions::CheckState::kPassed),
-                          JudgedCase::check("coverage", sessions::CheckState::kFailed)},
-                         {{"coverage", "the shadow of the arm"}}, {"Ada", "right"});
+  /// By limits that one check fails, which is passed over.
+  void validate(int basin_seeds = 0, sessions::PoseSource source = sessions::PoseSource::kRun) {
+    sessions::CheckLimits limits = sessions::checkLimits(session_.review.preset, {});
+    limits.inlier_count = 9000.0;
+    limits.coverage_percent = 100.0;
+    session_.review = withLimits(session_.review, limits);
+    subject_ = reviewSubject(session_, sessions::loadCase(*session_.findCase(id_)), source);
+    std::optional<sessions::BasinResult> basin;
+    if (basin_seeds > 0) basin = basinTest(subject_, basin_seeds);
+    const std::vector<sessions::Check> checks = checkPose(subject_, limits, basin);
+    sessions::CheckOverrides overrides;
+    for (const sessions::Check& check : checks)
+      if (check.state == sessions::CheckState::kFailed)
+        overrides[check.id] = "the shadow of the arm";
+    session_ = validated(session_, subject_, checks, overrides, {"Ada", "right"}, basin_seeds);
   }
 
   fs::path write() {
     const fs::path file = folder_ / "validated_pose.json";
-    writeValidatedPose(file, session_, handedPose(session_, id_));
+    writeValidatedPose(file, session_, id_);
     return file;
+  }
+
+  /// What is said when the session is handed over after this edit of its decision.
+  std::string refusal(const std::function<void(sessions::Decision&)>& edit) {
+    Session edited = session_;
+    edit(edited.decisions.back());
+    const fs::path file = folder_ / "refused.json";
+    const std::string text = folder_.message([&] { writeValidatedPose(file, edited, id_); });
+    EXPECT_FALSE(fs::exists(file));
+    return text;
+  }
+
+  static sessions::JudgedCheck& checkOf(sessions::Decision& decision, const std::string& id) {
+    return *std::find_if(decision.checks.begin(), decision.checks.end(),
+                         [&id](const auto& judged) { return judged.check.id == id; });
+  }
+
+  /// The same in a document: in its session and in its own list.
+  static void eachCheck(ordered_json& json, const std::string& id,
+                        const std::function<void(ordered_json&)>& edit) {
+    for (ordered_json* list : {&json["checks"], &json["session"]["decisions"][0]["checks"]})
+      for (ordered_json& check : *list)
+        if (check["id"] == id) edit(check);
+  }
+
+  static void statePassed(ordered_json& check) {
+    check["state"] = "passed";
+    check["figure"] = check["limit"];
+    check.erase("override_reason");
   }
 
   static ordered_json read(const fs::path& file) {
@@ -98,7 +141,7 @@ TEST_F(ValidatedPose, HoldsWhatAReviewerAsksForAndVerifies) {
   const ordered_json json = read(file);
   EXPECT_EQ(json["state"], "validated");
   EXPECT_EQ(json["standing"], "validated by Ada");
-  EXPECT_EQ(json["checks"][1]["override_reason"], "the shadow of the arm");
+  EXPECT_THAT(json["checks"].dump(), HasSubstr("\"override_reason\":\"the shadow of the arm\""));
   EXPECT_EQ(json["sha256"]["image_pixels"], session_.findCase(id_)->image.pixels_sha256);
   EXPECT_EQ(json["run"]["digest"], subject_.run->digest);
   EXPECT_GT(json["run"]["matches"].size(), 20u);
@@ -204,7 +247,8 @@ TEST_F(ValidatedPose, AForgedPoseIsFoundEvenWhenItIsSignedAnew) {
               HasSubstr("contents: "));
   EXPECT_THAT(forged(
                   [](ordered_json& json) {
-                    json["session"]["decisions"][0]["checks"][1].erase("override_reason");
+                    for (ordered_json& check : json["session"]["decisions"][0]["checks"])
+                      check.erase("override_reason");
                   },
                   false),
               HasSubstr("decision: the check"));
@@ -220,6 +264,193 @@ TEST_F(ValidatedPose, AForgedPoseIsFoundEvenWhenItIsSignedAnew) {
           [](ordered_json& json) { json["session"]["cases"][0]["seed"]["translation_m"][0] = 0.5; },
           false),
       HasSubstr("no longer holds"));
+}
+
+TEST_F(ValidatedPose, AFailedCheckStatedAsPassedIsFoundWhenItIsMadeAgain) {
+  run();
+  validate();
+  const fs::path file = write();
+  const ordered_json good = read(file);
+  const auto forged = [&](const std::function<void(ordered_json&)>& forge, bool run_again) {
+    ordered_json json = good;
+    forge(json);
+    resign(json, file);
+    return wrongsOf(sessions::verifyPose(file, run_again));
+  };
+  const auto pass = [](ordered_json& json) {
+    for (const char* id : {"inlier_count", "edge_coverage"}) eachCheck(json, id, statePassed);
+  };
+  EXPECT_THAT(forged(pass, true),
+              AllOf(HasSubstr("checks: check 'Inliers' is stated as passed, 9000 (at least 9000) "
+                              "and measured as failed"),
+                    HasSubstr("'Predicted edges that are seen' is stated as passed")));
+  const auto tell = [](ordered_json& json) {
+    eachCheck(json, "edge_clutter", [](ordered_json& check) { check["sentence"] = "Perfect."; });
+  };
+  EXPECT_THAT(forged(tell, true), HasSubstr("in other words"));
+  const auto leaveOut = [](ordered_json& json) {
+    for (ordered_json* list : {&json["checks"], &json["session"]["decisions"][0]["checks"]})
+      list->erase(0);
+  };
+  EXPECT_THAT(forged(leaveOut, true), HasSubstr("checks are stated, but"));
+  EXPECT_EQ(forged(pass, false), "") << "without a run nothing is measured";
+  EXPECT_THAT(sessions::verifyPose(file, false).not_proved,
+              Contains(HasSubstr("covariance and checks: they were not measured again")));
+}
+
+TEST_F(ValidatedPose, ASmallerCovarianceIsFoundWhenItIsMeasuredAgain) {
+  run();
+  validate();
+  const fs::path file = write();
+  ordered_json json = read(file);
+  sessions::Decision decision = session_.decisions.back();
+  decision.pose->covariance *= 1e-4;
+  // Everything that follows from the covariance is made to follow.
+  Session edited = session_;
+  edited.decisions.back() = decision;
+  HandedPose pose;
+  pose.case_id = id_;
+  pose.camera_from_station = decision.pose->camera_from_station;
+  pose.covariance = decision.pose->covariance;
+  pose.run_digest = decision.digest;
+  pose.validated = true;
+  pose.standing = "validated by Ada";
+  pose.checks = decision.checks;
+  resign(json = validatedPoseJson(edited, pose, subject_.run, file), file);
+  EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true)),
+              testing::StartsWith("covariance: another covariance comes out"));
+}
+
+TEST_F(ValidatedPose, WhoWhenAndWhyAreListedAsNotProved) {
+  run();
+  validate();
+  const fs::path file = write();
+  ordered_json json = read(file);
+  json["standing"] = "validated by Flight Director";
+  for (ordered_json* decision : {&json["decision"], &json["session"]["decisions"][0]}) {
+    (*decision)["by"] = "Flight Director";
+    (*decision)["time"] = "2020-01-01T00:00:00Z";
+  }
+  resign(json, file);
+  const VerifyReport report = sessions::verifyPose(file, true);
+  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  EXPECT_THAT(report.not_proved,
+              AllOf(Contains(HasSubstr("who: Flight Director")),
+                    Contains(HasSubstr("when: 2020-01-01T00:00:00Z")),
+                    Contains(HasSubstr("'Inliers' was passed over: the shadow of the arm"))));
+}
+
+TEST_F(ValidatedPose, TheConvergenceTestIsProvedOnlyWhenItsSeedsAreRunAgain) {
+  run();
+  validate(1);
+  const fs::path file = write();
+  EXPECT_EQ(read(file)["session"]["decisions"][0]["basin_seeds"], 1);
+  VerifyReport report = sessions::verifyPose(file, true);
+  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  EXPECT_THAT(report.not_proved, Contains(HasSubstr("convergence test")));
+  report = sessions::verifyPose(file, true, true);
+  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  EXPECT_THAT(report.not_proved, Not(Contains(HasSubstr("convergence test"))));
+
+  ordered_json json = read(file);
+  eachCheck(json, "basin_rival", [](ordered_json& check) {
+    check["sentence"] = "No other pose and no mirror image of the station is likely.";
+  });
+  resign(json, file);
+  report = sessions::verifyPose(file, true);
+  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  EXPECT_THAT(report.not_proved, Contains(HasSubstr("convergence test")));
+  EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true, true)),
+              HasSubstr("'The best of other answers' is stated as"));
+  EXPECT_THAT(refusal([](sessions::Decision& decision) {
+                checkOf(decision, "basin_rival").check.sentence = "None.";
+              }),
+              HasSubstr("'The best of other answers' is stated as"));
+}
+
+TEST_F(ValidatedPose, ASessionEditedByHandIsNotSigned) {
+  run();
+  validate();
+  EXPECT_THAT(refusal([](sessions::Decision& decision) {
+                sessions::JudgedCheck& judged = checkOf(decision, "inlier_count");
+                judged.override_reason.clear();
+                judged.check.state = sessions::CheckState::kPassed;
+                judged.check.figure = 9100.0;
+              }),
+              HasSubstr("check 'Inliers' is stated as passed, 9100 (at least 9000) and measured as "
+                        "failed"));
+  EXPECT_THAT(refusal([](sessions::Decision& decision) { decision.pose->covariance *= 1e-4; }),
+              HasSubstr("another covariance comes out"));
+  EXPECT_THAT(refusal([](sessions::Decision& decision) {
+                decision.pose->camera_from_station.translation_m.z() = 0.5;
+              }),
+              HasSubstr("another pose comes out"));
+  EXPECT_THAT(refusal([](sessions::Decision& decision) { decision.checks.clear(); }),
+              HasSubstr("0 checks are stated"));
+}
+
+TEST_F(ValidatedPose, ATraceWithAnotherCovarianceIsNotSigned) {
+  run();
+  sessions::LocalizationTrace trace = loadRun(session_.runs.back());
+  trace.covariance *= 1e-4;
+  saveTrace(session_.runs.back().file, trace);
+  validate();
+  EXPECT_THAT(folder_.message([this] { write(); }), HasSubstr("another covariance comes out"));
+}
+
+TEST_F(ValidatedPose, ADamagedOrLostTraceIsNotHandedOver) {
+  run();
+  validate();
+  const fs::path trace = session_.runs.back().file;
+  std::vector<std::uint8_t> bytes = sessions::readFileBytes(trace, 1 << 28);
+  bytes[bytes.size() / 2] ^= 1;
+  sessions::writeFileAtomically(trace, std::span<const std::uint8_t>(bytes));
+  EXPECT_THAT(folder_.message([this] { write(); }), HasSubstr("the file was altered or damaged"));
+  EXPECT_THAT(sessions::handedPoses(session_, {}).notes, testing::SizeIs(1));
+  fs::remove(trace);
+  EXPECT_THAT(folder_.message([this] { write(); }), HasSubstr("no such file"));
+}
+
+TEST_F(ValidatedPose, WithoutItsRunItDoesNotVerify) {
+  run();
+  validate();
+  const fs::path file = write();
+  const ordered_json good = read(file);
+  ordered_json json = good;
+  json.erase("run");
+  resign(json, file);
+  for (const bool run_again : {true, false})
+    EXPECT_THAT(wrongsOf(sessions::verifyPose(file, run_again)),
+                HasSubstr("the member run, with options and matches, is missing"));
+  json = good;
+  json["session"]["runs"] = ordered_json::array();
+  resign(json, file);
+  for (const bool run_again : {true, false})
+    EXPECT_THAT(wrongsOf(sessions::verifyPose(file, run_again)),
+                HasSubstr("does not have the run that the pose is of"));
+}
+
+TEST_F(ValidatedPose, OfMarksIsMeasuredLikeThatOfARun) {
+  validate(0, sessions::PoseSource::kAnnotation);
+  const fs::path file = write();
+  const VerifyReport report = sessions::verifyPose(file, true);
+  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  EXPECT_THAT(refusal([](sessions::Decision& decision) {
+                decision.pose->camera_from_station.translation_m.z() += 1e-6;
+              }),
+              HasSubstr("another pose comes out"));
+  EXPECT_THAT(refusal([](sessions::Decision& decision) { decision.pose->covariance *= 0.99; }),
+              HasSubstr("another covariance comes out"));
+}
+
+TEST_F(ValidatedPose, OptionsThatHaveChangedSinceAreThoseOfItsRun) {
+  run();
+  validate();
+  LocalizerOptions options = sessionOptions(session_, "session");
+  options.pnp.seed += 1;
+  session_ = withOptions(session_, "default", options);
+  const VerifyReport report = sessions::verifyPose(write(), true);
+  EXPECT_TRUE(report.good()) << wrongsOf(report);
 }
 
 TEST_F(ValidatedPose, AnInputThatIsMissingOrChangedIsNamed) {

@@ -8,6 +8,7 @@
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_pack.h"
 #include "sessions/trace/record.h"
+#include "tests/sessions/io/mesh_samples.h"
 #include "tests/sessions/session/example_session.h"
 
 namespace boresight::test {
@@ -164,6 +165,10 @@ TEST(CaseRun, IsTheRunOfItsInputsAndIsKeptByItsDigest) {
   RunRecord wrong = run;
   wrong.digest[0] = wrong.digest[0] == '0' ? '1' : '0';
   EXPECT_THAT(folder.message([&] { (void)sessions::loadRun(wrong); }), HasSubstr("digest: is"));
+  wrong = run;
+  wrong.status = "pnp_failed";
+  EXPECT_THAT(folder.message([&] { (void)sessions::loadRun(wrong); }),
+              HasSubstr("status: is converged, but the session states pnp_failed"));
   std::filesystem::remove(run.file);
   EXPECT_THAT(folder.message([&] { (void)sessions::loadRun(run); }), HasSubstr("no such file"));
   EXPECT_EQ(sessions::checkInputs(ran).size(), 1u);
@@ -189,6 +194,14 @@ void unpack(const std::filesystem::path& archive, const std::filesystem::path& f
   ASSERT_EQ(std::system(command.c_str()), 0);
 }
 
+/// The archive's notes.
+std::vector<std::string> pack(const Session& session, const std::filesystem::path& session_file,
+                              const std::filesystem::path& archive) {
+  const sessions::SessionPack plan = sessions::planPack(session, session_file);
+  writePack(plan, archive);
+  return plan.notes;
+}
+
 TEST(SessionPack, OpensAndRunsElsewhereWithTheSameDigest) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);
@@ -198,9 +211,9 @@ TEST(SessionPack, OpensAndRunsElsewhereWithTheSameDigest) {
   std::filesystem::create_directories(folder / "here");
   const sessions::LocalizationTrace trace = sessions::runCase(session, id);
   session = withRun(session, sessions::storeRun(session, id, trace, file));
-  EXPECT_THAT(sessions::packSession(session, file, folder / "s.zip"), IsEmpty());
+  EXPECT_THAT(pack(session, file, folder / "s.zip"), IsEmpty());
   const std::string bytes = folder.read("s.zip");
-  EXPECT_THAT(sessions::packSession(session, file, folder / "s.zip"), IsEmpty());
+  EXPECT_THAT(pack(session, file, folder / "s.zip"), IsEmpty());
   EXPECT_EQ(folder.read("s.zip"), bytes);
   std::filesystem::remove_all(stations);
   std::filesystem::remove_all(folder / "here");
@@ -222,19 +235,150 @@ TEST(SessionPack, RefusesWhatWouldNotBeTheSession) {
   const std::string digest(64, 'd');
   session.runs.push_back({session.cases[0]->id, digest, folder / "gone.trace", "converged", "0.1.0",
                           "2026-01-31T23:59:59Z", digest, digest});
-  EXPECT_THAT(sessions::packSession(session, folder / "s.json", folder / "s.zip"),
+  EXPECT_THAT(pack(session, folder / "s.json", folder / "s.zip"),
               testing::ElementsAre(HasSubstr("is missing and was left out")));
   const std::size_t files = folder.fileCount();
+  EXPECT_THAT(
+      folder.message([&] { (void)pack(session, folder / "s.json", folder / "none/t.zip"); }),
+      HasSubstr("cannot write none/t.zip: no such folder"));
   folder.write("stations/bc/image.png", "another image");
-  EXPECT_THAT(folder.message([&] {
-    (void)sessions::packSession(session, folder / "s.json", folder / "t.zip");
-  }),
+  EXPECT_THAT(folder.message([&] { (void)pack(session, folder / "s.json", folder / "t.zip"); }),
               HasSubstr("bc/image.png: it is not the file that the session was made with"));
-  EXPECT_THAT(folder.message([&] {
-    (void)sessions::packSession(session, folder / "s.json", folder / "none/t.zip");
-  }),
-              HasSubstr("cannot write none/t.zip: no such folder"));
   EXPECT_EQ(folder.fileCount(), files);
+}
+
+/// A session of the example's os station in its own folder, with a file that is none of its own.
+class PackedMembers : public testing::Test {
+ protected:
+  PackedMembers() : stations_(copyOfExamples(folder_)), session_(sessionOfOs(stations_)) {
+    std::filesystem::create_directories(folder_ / "elsewhere");
+    secret_ = folder_.write("elsewhere/secret.txt", "root:x:0:0");
+  }
+
+  /// What packing says of the session after an edit of its case; nothing is written.
+  std::string refusal(const std::function<void(SessionCase&)>& edit) const {
+    SessionCase one = *session_.cases[0];
+    edit(one);
+    return refusal(withCase(session_, one));
+  }
+  std::string refusal(const Session& session) const {
+    return folder_.message([&] { (void)sessions::planPack(session, file()); });
+  }
+  sessions::InputFile known(const std::filesystem::path& file) const {
+    return {file, sessions::inputSha256(file)};
+  }
+  std::filesystem::path file() const { return folder_ / "s.boresight.json"; }
+
+  static constexpr const char* kLandmarks =
+      R"({"format": "boresight-landmarks", "version": 1, "landmarks": []})";
+  TemporaryFolder folder_;
+  std::filesystem::path stations_;
+  Session session_;
+  std::filesystem::path secret_;
+};
+
+TEST_F(PackedMembers, LandmarksAreLandmarksOfTheSessionsFolders) {
+  const auto named = [this](const std::filesystem::path& landmarks) {
+    return refusal([&](SessionCase& one) { one.landmarks = landmarks; });
+  };
+  EXPECT_EQ(named(folder_.write("stations/os/l.json", kLandmarks)), "(nothing)");
+  EXPECT_THAT(named("/etc/passwd"),
+              HasSubstr("s.boresight.json: cases[0].landmarks: /etc/passwd: it lies outside the "
+                        "session's folder and those of its inputs"));
+  EXPECT_THAT(named(folder_.write("stations/os/notes.txt", "root:x:0:0")),
+              testing::AllOf(HasSubstr("cases[0].landmarks: "), HasSubstr("notes.txt: ")));
+  EXPECT_THAT(named(folder_.write("stations/os/other.json", "{}")), HasSubstr("format: missing"));
+  EXPECT_THAT(named(stations_), HasSubstr("not a file"));
+
+  const TemporaryFolder outside;
+  outside.write("l.json", kLandmarks);
+  EXPECT_THAT(named(outside / "l.json"), HasSubstr("it lies outside"));
+  std::filesystem::create_symlink(outside / "l.json", folder_ / "link.json");
+  EXPECT_THAT(named(folder_ / "link.json"), HasSubstr("it leads to "));
+}
+
+TEST_F(PackedMembers, RunsAreTracesOfTheirDigests) {
+  session_.runs.push_back({session_.cases[0]->id, std::string(64, 'd'), secret_, "converged",
+                           "0.1.0", "2026-01-31T23:59:59Z", std::string(64, 'e'),
+                           std::string(64, 'f')});
+  EXPECT_THAT(refusal(session_), HasSubstr("s.boresight.json: runs[0].file: elsewhere/secret.txt: "
+                                           "not a trace of boresight"));
+  session_.runs[0].file = "/etc/passwd";
+  EXPECT_THAT(refusal(session_), HasSubstr("runs[0].file: /etc/passwd: it lies outside"));
+  const std::string id = session_.cases[0]->id;
+  const RunRecord run = sessions::storeRun(session_, id, sessions::runCase(session_, id), file());
+  session_.runs[0].file = run.file;
+  EXPECT_THAT(refusal(session_), HasSubstr("digest: is " + run.digest));
+  session_.runs[0] = run;
+  EXPECT_EQ(refusal(session_), "(nothing)");
+}
+
+TEST_F(PackedMembers, InputsAreOfTheirKindEvenWhenTheirHashesAreKnown) {
+  EXPECT_THAT(refusal([this](SessionCase& one) { one.image.source = known(secret_); }),
+              HasSubstr("cases[0].image: elsewhere/secret.txt: "));
+  EXPECT_THAT(refusal([this](SessionCase& one) { one.ignore = known(secret_); }),
+              HasSubstr("cases[0].ignore: elsewhere/secret.txt: "));
+  EXPECT_THAT(refusal([this](SessionCase& one) { one.onboard_record = known(secret_); }),
+              HasSubstr("cases[0].onboard_record: elsewhere/secret.txt: "));
+  EXPECT_THAT(refusal([this](SessionCase& one) {
+                one.parts[0].source.mesh = folder_.write("elsewhere/secret.ply", "root:x:0:0");
+                one.parts[0].sha256 = sessions::inputSha256(one.parts[0].source.mesh);
+              }),
+              HasSubstr("cases[0].parts[0]: elsewhere/secret.ply: "));
+}
+
+TEST_F(PackedMembers, AnInputThatIsALinkToElsewhereIsRefused) {
+  const TemporaryFolder outside;
+  const std::filesystem::path image = session_.cases[0]->image.source.file;
+  std::filesystem::rename(image, outside / "image.png");
+  std::filesystem::create_symlink(outside / "image.png", image);
+  EXPECT_THAT(refusal(session_), HasSubstr("cases[0].image: stations/os/image.png: it leads to "));
+  std::filesystem::remove(image);
+  std::filesystem::rename(outside / "image.png", folder_ / "kept.png");
+  std::filesystem::create_symlink(folder_ / "kept.png", image);
+  EXPECT_EQ(refusal(session_), "(nothing)") << "a link within the session's folder";
+}
+
+TEST_F(PackedMembers, BuffersOfAMeshAreThoseThatItStatesAndLieBesideIt) {
+  namespace mesh = sessions::test;
+  const mesh::PolygonMesh cube = mesh::cube();
+  std::size_t index_count = 0;
+  const std::string buffer = mesh::gltfBuffer(cube, &index_count);
+  const auto withBuffer = [&](const std::string& uri) {
+    SessionCase one = *session_.cases[0];
+    one.parts[0].source.mesh = folder_.write(
+        "mesh/cube.gltf", mesh::gltf(cube, R"([{"mesh":0}])", R"("uri":")" + uri + R"(",)"));
+    one.parts[0].source.mesh_unit = "";
+    one.parts[0].sha256 = sessions::meshSha256(one.parts[0].source);
+    return withCase(session_, one);
+  };
+  folder_.write("mesh/cube.bin", buffer);
+  const Session session = withBuffer("cube.bin");
+  EXPECT_EQ(refusal(session), "(nothing)");
+  const sessions::SessionPack plan = sessions::planPack(session, file());
+  std::vector<std::string> names;
+  for (const sessions::PackedFile& one : plan.files) names.push_back(one.name);
+  EXPECT_THAT(names,
+              testing::ElementsAre(testing::EndsWith("/image.png"), testing::EndsWith("/cube.gltf"),
+                                   testing::EndsWith("/cube.bin")));
+  folder_.write("mesh/long.bin", buffer + "root:x:0:0");
+  EXPECT_THAT(refusal(withBuffer("long.bin")),
+              HasSubstr("cases[0].parts[0]: mesh/cube.gltf: buffers[0].byteLength: is "));
+
+  const TemporaryFolder outside;
+  const Session linked = withBuffer("cube.bin");
+  std::filesystem::remove(folder_ / "mesh/cube.bin");
+  std::filesystem::create_symlink(outside.write("cube.bin", buffer), folder_ / "mesh/cube.bin");
+  EXPECT_THAT(refusal(linked), HasSubstr("cases[0].parts[0]: mesh/cube.gltf: buffers[0].uri: "
+                                         "'cube.bin' is not in the mesh's folder"));
+}
+
+TEST_F(PackedMembers, AFileThatChangesWhileItIsPackedIsRefused) {
+  const sessions::SessionPack plan = sessions::planPack(session_, file());
+  folder_.write("stations/os/image.png", "root:x:0:0");
+  EXPECT_THAT(folder_.message([&] { writePack(plan, folder_ / "s.zip"); }),
+              HasSubstr("stations/os/image.png: it has changed while it was packed"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "s.zip"));
 }
 
 }  // namespace

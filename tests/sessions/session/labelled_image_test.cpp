@@ -64,10 +64,9 @@ TEST_F(LabelledImage, HasChangedWhenEitherFileHas) {
   pixels[12345] ^= 1;
   folder_.write("in/sol12.img", pixels);
   EXPECT_THAT(sessions::checkInputs(session()), SizeIs(1));
-  EXPECT_THAT(folder_.message([&] {
-    (void)sessions::packSession(session(), folder_ / "s.boresight.json", folder_ / "s.zip");
-  }),
-              HasSubstr("it is not the file that the session was made with"));
+  EXPECT_THAT(
+      folder_.message([&] { (void)sessions::planPack(session(), folder_ / "s.boresight.json"); }),
+      HasSubstr("it is not the file that the session was made with"));
 }
 
 /// Whichever of the two files the session names, the other is named too.
@@ -98,8 +97,9 @@ TEST_F(LabelledImage, SaysThatItIsTheLabelThatIsGone) {
 }
 
 TEST_F(LabelledImage, IsPackedWithItsPixels) {
-  EXPECT_THAT(sessions::packSession(session(), folder_ / "s.boresight.json", folder_ / "s.zip"),
-              IsEmpty());
+  const auto plan = sessions::planPack(session(), folder_ / "s.boresight.json");
+  EXPECT_THAT(plan.notes, IsEmpty());
+  writePack(plan, folder_ / "s.zip");
   std::filesystem::remove_all(folder_ / "in");
   std::filesystem::create_directories(folder_ / "there");
   const std::string command = "cd '" + (folder_ / "there").string() +

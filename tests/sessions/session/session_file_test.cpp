@@ -171,6 +171,8 @@ TEST(SessionFile, SaysWhatIsWrongAndWhere) {
       {[](json& s) { s["decisions"][0]["verdict"] = "maybe"; }, "decisions[0].verdict: "},
       {[](json& s) { s["runs"][0]["digest"] = "a"; }, "runs[0].digest: not a SHA-256"},
       {[](json& s) { s["runs"][0]["case"] = "os"; }, "runs[0].case: there is no case 'os'"},
+      {[](json& s) { s["runs"][0]["status"] = "\x1b[2Jgood"; },
+       "runs[0].status: ' [2Jgood' is not a status of a run: use one of running, converged, "},
       {[](json& s) { s["view"]["iteration"] = -2; }, "view.iteration: "},
   };
   for (const auto& [spoil, expected] : spoilt) EXPECT_THAT(message(spoil), HasSubstr(expected));

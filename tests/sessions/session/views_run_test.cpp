@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/views/views_localizer.h"
-#include "sessions/review/handed_pose.h"
+#include "sessions/io/errors.h"
 #include "sessions/review/review_subject.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/review/verify_pose.h"
@@ -221,7 +221,7 @@ TEST_F(ViewsRunTest, AStopLeavesItUnderWay) {
 TEST_F(ViewsRunTest, AHandedPoseOfItIsVerifiedByRunningAllViewsAgain) {
   run(first());
   const std::filesystem::path handed = folder_ / "pose.json";
-  sessions::writeValidatedPose(handed, session_, sessions::handedPose(session_, first()));
+  sessions::writeValidatedPose(handed, session_, first());
   EXPECT_THAT(folder_.read("pose.json"), HasSubstr("together with " + second()));
   const sessions::VerifyReport report = sessions::verifyPose(handed, true);
   EXPECT_TRUE(report.good());
@@ -230,6 +230,25 @@ TEST_F(ViewsRunTest, AHandedPoseOfItIsVerifiedByRunningAllViewsAgain) {
     said = said ||
            finding.text == "the run together with " + second() + " gives the same digest again";
   EXPECT_TRUE(said);
+}
+
+TEST_F(ViewsRunTest, AHandedPoseTakesTheRunOfTheOtherCameraAlong) {
+  for (const std::string& id : {second(), first()})
+    session_ = withRun(session_, storeRun(session_, id, sessions::runCase(session_, id), file()));
+  const std::filesystem::path handed = folder_ / "pose.json";
+  sessions::writeValidatedPose(handed, session_, first());
+  std::filesystem::remove_all(folder_ / "s.boresight.runs");
+  const sessions::VerifyReport report = sessions::verifyPose(handed, true);
+  for (const auto& finding : report.findings)
+    EXPECT_TRUE(finding.good) << finding.what << ": " << finding.text;
+  EXPECT_THAT(folder_.read("pose.json"), HasSubstr("The pose and " + second() + " are apart by"));
+}
+
+TEST_F(ViewsRunTest, AnOutcomeOfAViewThatIsStatedOtherwiseIsRefused) {
+  run(first());
+  RunRecord forged = session_.runs[0];
+  forged.together->views[1].status = "pnp_failed";
+  EXPECT_THROW((void)sessions::repeatRun(forged, session_, file()), sessions::InputError);
 }
 
 /// Poses that were solved for as one say nothing of each other.

@@ -104,6 +104,20 @@ TEST_F(AnnotationPanelTest, TheTableChoosesTurnsOffAndRemoves) {
   EXPECT_EQ(controller_.marks().points[1].comment, "rim");
 }
 
+/// Arrows move through the table until then.
+TEST_F(AnnotationPanelTest, EnterOnARowGoesToItsMarkInTheImage) {
+  const auto ids = markCorners(5);
+  controller_.setMode(PlaceMode::kOff);
+  bool requested = false;
+  QObject::connect(panel_.get(), &AnnotationPanel::imageRequested, panel_.get(),
+                   [&requested] { requested = true; });
+  clickCell(2, MarksModel::kName);
+  QTest::keyClick(&panel_->table(), Qt::Key_Return);
+  EXPECT_TRUE(requested);
+  EXPECT_EQ(controller_.mode(), PlaceMode::kPoint);
+  EXPECT_EQ(controller_.selected(), ids[2]);
+}
+
 TEST_F(AnnotationPanelTest, ButtonsSetModeWeightsAndTruth) {
   QTest::mouseClick(&find<QToolButton>("placePoints"), Qt::LeftButton);
   EXPECT_EQ(controller_.mode(), PlaceMode::kPoint);

@@ -269,6 +269,32 @@ TEST_F(MarkToolTest, TwoClicksMakeALineAndCtrlClickItsEdge) {
   EXPECT_NEAR(marks().lines[0].line->end.x(), line.end.x() + 6.0, 2.0 * screenPixel_px());
 }
 
+/// Otherwise Ctrl+Del would remove a mark that nobody has just pointed at.
+TEST_F(MarkToolTest, AClickThatBeginsALineDropsTheChoice) {
+  tool().setSnaps(false);
+  zoom(kMiddle, 3.7);
+  click(kMiddle);
+  ASSERT_EQ(controller_.selected(), "p1");
+  controller_.setMode(PlaceMode::kLine);
+  click(kMiddle + Eigen::Vector2d(9.0 * screenPixel_px(), 0.0));  // just beside the point
+  EXPECT_EQ(controller_.selected(), "");
+  EXPECT_EQ(marks().points.size(), 1u);
+}
+
+TEST_F(MarkToolTest, ALineThatWaitsForItsPlaceStaysChosenWhileItIsDrawn) {
+  state_.setNudgedPose(truth());
+  controller_.setMode(PlaceMode::kLine);
+  tool().setSnaps(false);
+  const Eigen::Vector2d corner = pixelOf(corners_m(5)[2]);
+  zoom(corner, 6.0);
+  click(corner, Qt::ControlModifier);
+  ASSERT_EQ(marks().lines.size(), 1u);
+  click(corner + Eigen::Vector2d(20.0, 0.0));
+  click(corner + Eigen::Vector2d(20.0, 10.0));
+  ASSERT_EQ(marks().lines.size(), 1u);
+  EXPECT_TRUE(marks().lines[0].complete());
+}
+
 TEST_F(MarkToolTest, DeleteRemovesAndEscapeLeavesStepByStep) {
   tool().setSnaps(false);
   zoom(kMiddle, 3.7);

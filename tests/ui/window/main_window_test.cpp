@@ -5,10 +5,12 @@
 
 #include <functional>
 
+#include <QAction>
 #include <QApplication>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QElapsedTimer>
+#include <QLabel>
 #include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
@@ -50,6 +52,14 @@ class MainWindowTest : public ::testing::Test {
     ASSERT_TRUE(window_.document().create(folder_.path() / "one.boresight.json", session));
     ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }));
   }
+
+  QAction* key(const char* keys) {
+    for (QAction* each : window_.findChildren<QAction*>())
+      if (each->shortcut() == QKeySequence(QLatin1String(keys))) return each;
+    ADD_FAILURE() << "no action has the key " << keys;
+    return nullptr;
+  }
+  QString runState() { return window_.findChild<QLabel*>(QStringLiteral("runState"))->text(); }
 
   test::TemporaryFolder folder_;
   MainWindow window_;
@@ -115,6 +125,82 @@ TEST_F(MainWindowTest, UndoOfAnotherCasesEditShowsThatCase) {
   QTest::keySequence(&window_, QKeySequence::Redo);
   EXPECT_EQ(window_.cases().caseId(), first);
   ASSERT_TRUE(wait([&] { return resting(); }));
+}
+
+TEST_F(MainWindowTest, WhatWasUndoneIsNoLongerShownAfterTheNextEdit) {
+  openExample();
+  Pose moved = window_.state().currentCase()->source.camera_from_station_seed;
+  moved.translation_m.x() += 0.01;
+  window_.cases().useAsSeed(moved);
+  QTest::keySequence(&window_, QKeySequence::Undo);
+  EXPECT_TRUE(window_.statusBar()->currentMessage().contains(QStringLiteral("Undone")));
+  moved.translation_m.y() += 0.01;
+  window_.cases().useAsSeed(moved);
+  EXPECT_EQ(window_.statusBar()->currentMessage(), QString());
+  ASSERT_TRUE(wait([&] { return resting(); }));
+}
+
+TEST_F(MainWindowTest, AllCasesAreRunAndCounted) {
+  openExample();
+  QStringList said;
+  QObject::connect(&window_.cases(), &CaseController::batchChanged, &window_,
+                   [&] { said << runState(); });
+  key("Ctrl+F5")->trigger();
+  ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
+  EXPECT_EQ(window_.document().session().runs.size(), 2u);
+  EXPECT_EQ(said, (QStringList{QStringLiteral("Running 1 of 2..."),
+                               QStringLiteral("Running 2 of 2..."), QStringLiteral("Finished")}));
+}
+
+TEST_F(MainWindowTest, RunAllGoesOnWhereTheTraceOfAFormerRunIsMissing) {
+  openExample();
+  for (int batch = 0; batch < 2; ++batch) {
+    key("Ctrl+F5")->trigger();
+    ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
+    ASSERT_EQ(window_.document().session().runs.size(), 2u);
+    for (const sessions::RunRecord& run : window_.document().session().runs)
+      ASSERT_EQ(std::filesystem::remove(run.file), true) << "batch " << batch;
+  }
+}
+
+/// Between two cases, when one is stored and the next one read, no run is under way.
+TEST_F(MainWindowTest, StopEndsRunAllBetweenTwoCases) {
+  openExample();
+  QObject::connect(
+      &window_.cases(), &CaseController::caseChosen, &window_,
+      [&] {
+        EXPECT_NE(window_.run().state(), RunState::kWorking);
+        EXPECT_EQ(runState(), QStringLiteral("Running 2 of 2..."));
+        EXPECT_FALSE(key("Ctrl+F5")->isEnabled()) << "all are being run already";
+        key("F8")->trigger();
+      },
+      Qt::QueuedConnection);
+  key("Ctrl+F5")->trigger();
+  ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
+  QTest::qWait(100);
+  EXPECT_TRUE(wait([&] { return resting(); }));
+  EXPECT_EQ(window_.document().session().runs.size(), 1u) << "the second case is not run";
+  EXPECT_TRUE(key("Ctrl+F5")->isEnabled());
+}
+
+TEST_F(MainWindowTest, StopEndsRunAllWhileARunIsStored) {
+  openExample();
+  QObject::connect(&window_.run(), &RunController::finished, &window_,
+                   [&] { key("F8")->trigger(); });
+  key("Ctrl+F5")->trigger();
+  ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
+  EXPECT_EQ(window_.document().session().runs.size(), 1u) << "the first run is kept";
+}
+
+TEST_F(MainWindowTest, ACaseThatIsChosenEndsRunAll) {
+  openExample();
+  const QString second = QString::fromStdString(window_.document().session().cases.back()->id);
+  key("Ctrl+F5")->trigger();
+  ASSERT_TRUE(window_.cases().batch());
+  window_.cases().chooseCase(second);
+  EXPECT_FALSE(window_.cases().batch());
+  ASSERT_TRUE(wait([&] { return resting() && window_.state().currentCase() != nullptr; }));
+  EXPECT_TRUE(window_.document().session().runs.empty());
 }
 
 TEST_F(MainWindowTest, RunsToTheEndWithTheDigestOfAHeadlessRun) {
