@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
-#include <fstream>
 #include <iostream>
 #include <memory>
 
 #include "app/commands.h"
 #include "app/open_session.h"
 #include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
 #include "sessions/record/compare_records.h"
 #include "sessions/record/record_of_run.h"
 #include "sessions/record/recorded_plan.h"
@@ -32,9 +31,8 @@ enum class SideKind { kRecord, kTrace, kSession };
 
 /// By its first bytes. What is none of the three is refused by whoever reads it as a record.
 SideKind kindOf(const std::string& file) {
-  std::array<char, 8> begin{};
-  std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
-  const std::string_view text(begin.data(), begin.size());
+  const auto begin = sessions::readBeginning(file, 8);
+  const std::string_view text = sessions::asText(begin);
   if (text.starts_with("BSTRACE\n")) return SideKind::kTrace;
   return text.starts_with("{") ? SideKind::kSession : SideKind::kRecord;
 }

@@ -275,8 +275,7 @@ void describeTrace(const path& file) {
 }
 
 bool beginsLikeTrace(const path& file) {
-  const auto bytes = sessions::readFileBytes(file, 4096 * sessions::kMegabyte);
-  return sessions::asText(bytes).substr(0, 8) == "BSTRACE\n";
+  return sessions::asText(sessions::readBeginning(file, 8)) == "BSTRACE\n";
 }
 
 void describeFolder(const path& folder, DatasetArguments arguments) {

@@ -2,6 +2,7 @@
 // Runs one localization as a flight computer would: the core alone, all memory one static block,
 // pixels and problem already decoded. Prints what the ground can compare: pose and digest.
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -39,6 +40,23 @@ int refuse(const char* file, const Fault& fault) {
     std::fprintf(stderr, "%s: %s\n", file, fault.reason);
   }
   return kBadInput;
+}
+
+/// The file at its first byte; nullptr, and what is wrong. A folder can be opened, but not read.
+std::FILE* openFile(const char* file, Fault& wrong) {
+  std::FILE* stream = std::fopen(file, "rb");
+  if (stream == nullptr) {
+    wrong = {"cannot be opened"};
+    return nullptr;
+  }
+  const int first = std::fgetc(stream);
+  if (first == EOF && std::ferror(stream) != 0) {
+    wrong = {errno == EISDIR ? "is a folder; give a file" : "cannot be read"};
+    std::fclose(stream);
+    return nullptr;
+  }
+  std::ungetc(first, stream);
+  return stream;
 }
 
 /// The size of the file, or -1; its first byte is next afterwards.
@@ -130,17 +148,18 @@ int localize(const LocalizationProblem& problem, const LocalizerOptions& options
 
 int run(const char* problem_file, const char* image_file) {
   const std::span<std::byte> block(arena_block);
-  std::FILE* problem_stream = std::fopen(problem_file, "rb");
-  if (problem_stream == nullptr) return refuse(problem_file, {"cannot be opened"});
+  Fault wrong;
+  std::FILE* problem_stream = openFile(problem_file, wrong);
+  if (problem_stream == nullptr) return refuse(problem_file, wrong);
   LocalizationProblem problem;
   LocalizerOptions options;
   std::size_t used = 0;
-  Fault wrong = readProblem(problem_stream, block, problem, options, used);
+  wrong = readProblem(problem_stream, block, problem, options, used);
   std::fclose(problem_stream);
   if (wrong.reason != nullptr) return refuse(problem_file, wrong);
 
-  std::FILE* image_stream = std::fopen(image_file, "rb");
-  if (image_stream == nullptr) return refuse(image_file, {"cannot be opened"});
+  std::FILE* image_stream = openFile(image_file, wrong);
+  if (image_stream == nullptr) return refuse(image_file, wrong);
   Arena arena(block.subspan(used));
   wrong = readImage(image_stream, arena, problem);
   std::fclose(image_stream);

@@ -59,8 +59,9 @@ SqlDatabase::SqlDatabase(const std::filesystem::path& file, SqlAccess access)
   std::error_code error;
   if (access == SqlAccess::kRead && !std::filesystem::exists(file, error))
     throw InputError(file, "there is no such file");
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+    fail("it is a folder, a pipe or a device, not a file");
   if (access == SqlAccess::kRead) noteInput(file, FileUse::kResults);
-  if (std::filesystem::is_directory(file, error)) fail("it is a folder");
   sqlite3* handle = nullptr;
   const int code = sqlite3_open_v2(file.c_str(), &handle, flagsOf(access), nullptr);
   handle_.reset(handle);

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <utility>
 
 #include "core/base/digest.h"
 #include "sessions/io/errors.h"
@@ -16,61 +15,73 @@
 namespace boresight::sessions {
 namespace {
 
+constexpr const char* kSpecial = "is a pipe, a socket or a device: give a regular file";
+
 std::string readReason(int error) {
   if (error == ENOENT) return "no such file";
   if (error == EISDIR) return "is a folder, not a file";
+  if (error == ENXIO) return kSpecial;  // a socket
   if (error == EACCES) return "permission denied";
   return std::strerror(error);
 }
 
-/// A file descriptor that closes itself.
-class Descriptor {
+/// An open regular file. Opening does not wait for the other end of a pipe.
+class RegularFile {
  public:
-  explicit Descriptor(const std::filesystem::path& file)
-      : number_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+  explicit RegularFile(const std::filesystem::path& file)
+      : file_(file), number_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
     if (number_ < 0) throw InputError(file, readReason(errno));
   }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() { ::close(number_); }
-  int number() const { return number_; }
+  RegularFile(const RegularFile&) = delete;
+  RegularFile& operator=(const RegularFile&) = delete;
+  ~RegularFile() { ::close(number_); }
+
+  std::size_t size() const {
+    struct stat info {};
+    if (::fstat(number_, &info) != 0) throw InputError(file_, readReason(errno));
+    if (S_ISDIR(info.st_mode)) throw InputError(file_, readReason(EISDIR));
+    if (!S_ISREG(info.st_mode)) throw InputError(file_, kSpecial);
+    return static_cast<std::size_t>(info.st_size);
+  }
+
+  /// The first `count` bytes, or as many as there are; InputError when there is none.
+  std::vector<std::uint8_t> beginning(std::size_t count) const {
+    std::vector<std::uint8_t> bytes(count);
+    std::size_t used = 0;
+    while (used < count) {
+      const ssize_t got = ::read(number_, bytes.data() + used, count - used);
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) throw InputError(file_, readReason(errno));
+      if (got == 0) break;
+      used += static_cast<std::size_t>(got);
+    }
+    if (used == 0) throw InputError(file_, "the file is empty");
+    bytes.resize(used);
+    return bytes;
+  }
 
  private:
+  const std::filesystem::path& file_;
   int number_;
 };
-
-std::string tooLarge(std::size_t max_bytes) {
-  return "larger than the limit of " + std::to_string(max_bytes / kMegabyte) + " MB";
-}
 
 }  // namespace
 
 std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file, std::size_t max_bytes,
                                         FileUse use) {
   if (file.empty()) throw InputError("(no name)", "a file name is empty");
-  const Descriptor descriptor(file);
-  struct stat info {};
-  if (::fstat(descriptor.number(), &info) != 0) throw InputError(file, readReason(errno));
-  if (S_ISDIR(info.st_mode)) throw InputError(file, readReason(EISDIR));
+  const RegularFile opened(file);
   noteInput(file, use);
-  const auto stated_size = info.st_size > 0 ? static_cast<std::size_t>(info.st_size) : 0;
-  if (stated_size > max_bytes) throw InputError(file, tooLarge(max_bytes));
+  const std::size_t size = opened.size();
+  if (size > max_bytes)
+    throw InputError(file,
+                     "larger than the limit of " + std::to_string(max_bytes / kMegabyte) + " MB");
+  return opened.beginning(size);
+}
 
-  // A pipe states no size, so the buffer grows; one byte more than stated finds the end at once.
-  std::vector<std::uint8_t> bytes(std::max(stated_size, std::size_t{65535}) + 1);
-  std::size_t used = 0;
-  while (true) {
-    if (used == bytes.size()) bytes.resize(2 * bytes.size());
-    const ssize_t count = ::read(descriptor.number(), bytes.data() + used, bytes.size() - used);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw InputError(file, readReason(errno));
-    if (count == 0) break;
-    used += static_cast<std::size_t>(count);
-    if (used > max_bytes) throw InputError(file, tooLarge(max_bytes));
-  }
-  bytes.resize(used);
-  if (bytes.empty()) throw InputError(file, "the file is empty");
-  return bytes;
+std::vector<std::uint8_t> readBeginning(const std::filesystem::path& file, std::size_t count) {
+  const RegularFile opened(file);
+  return opened.beginning(std::min(count, opened.size()));
 }
 
 std::string_view asText(std::span<const std::uint8_t> bytes) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
 
 #include "sessions/io/byte_cursor.h"
 #include "sessions/io/crc32.h"
@@ -45,6 +46,7 @@ ImageHeader checkPng(const std::filesystem::path& file, Bytes bytes) {
       header.height = static_cast<std::int64_t>(readUnsigned(type_and_data, 8, 4, true));
     }
     has_data = has_data || type == "IDAT";
+    if (type == "eXIf") header.orientation = tiffOrientation(file, type_and_data.subspan(4));
     if (type == "IEND") break;
     offset += 12 + length;
   }
@@ -74,6 +76,7 @@ std::uint64_t endOfScan(Bytes bytes, std::uint64_t offset) {
 }
 
 ImageHeader checkJpeg(const std::filesystem::path& file, Bytes bytes) {
+  constexpr std::string_view kExif("Exif\0\0", 6);
   ImageHeader header{ImageContainer::kJpeg, 0, 0};
   std::uint64_t offset = 2;
   bool has_scan = false;
@@ -87,11 +90,15 @@ ImageHeader checkJpeg(const std::filesystem::path& file, Bytes bytes) {
     if (standsAlone(marker)) continue;
     if (!holds(bytes, offset, 2)) truncated(file, "JPEG");
     const std::uint64_t length = readUnsigned(bytes, offset, 2, true);
+    if (length < 2) damaged(file, "a JPEG segment without its length");
     if (!holds(bytes, offset, length)) truncated(file, "JPEG");
     if (isStartOfFrame(marker) && length >= 7) {
       header.height = static_cast<std::int64_t>(readUnsigned(bytes, offset + 3, 2, true));
       header.width = static_cast<std::int64_t>(readUnsigned(bytes, offset + 5, 2, true));
     }
+    const Bytes segment = bytes.subspan(offset + 2, length - 2);
+    if (marker == 0xe1 && asText(segment).starts_with(kExif))
+      header.orientation = tiffOrientation(file, segment.subspan(kExif.size()));
     offset += length;
     if (marker == 0xda) {
       has_scan = true;

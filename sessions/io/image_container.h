@@ -21,6 +21,8 @@ struct ImageHeader {
   ImageContainer container = ImageContainer::kPng;
   std::int64_t width = 0;
   std::int64_t height = 0;
+  int orientation = 1;              ///< that EXIF or a TIFF states, 1 .. 8; 1: as stored
+  bool has_further_images = false;  ///< of TIFF: pages
 };
 
 /// Reads the structure of a PNG, JPEG or TIFF from the first byte to the last that matters.

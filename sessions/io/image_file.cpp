@@ -8,10 +8,12 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "sessions/io/atomic_file.h"
+#include "sessions/io/decoder_messages.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/image_container.h"
 #include "sessions/io/image_label.h"
 #include "sessions/io/label_samples.h"
+#include "sessions/io/tiff_container.h"
 
 namespace boresight::sessions {
 namespace {
@@ -30,12 +32,28 @@ void checkSize(const std::filesystem::path& file, const ImageHeader& header) {
                          std::to_string(kMaxImagePixels) + " px in all)");
 }
 
-/// Decodes bytes that passed checkImageContainer; samples as stored, 8 or 16 bits.
-cv::Mat decode(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes,
-               const ImageHeader& header) {
-  cv::Mat image;
+/// OpenCV's decoder turns a TIFF by the orientation that it states, whatever it is asked for.
+cv::Mat decodeAsStored(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes,
+                       const ImageHeader& header) {
+  const int flags = cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION;
+  if (header.container == ImageContainer::kTiff && header.orientation != 1)
+    return cv::imdecode(uprightTiff(file, bytes), flags);
+  return cv::imdecode(bytes, flags);
+}
+
+struct DecodedImage {
+  cv::Mat pixels;        ///< samples as stored, 8 or 16 bits
+  std::string messages;  ///< of the decoder
+};
+
+/// Decodes bytes that passed checkImageContainer.
+DecodedImage decode(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes,
+                    const ImageHeader& header) {
+  DecodedImage decoded;
+  cv::Mat& image = decoded.pixels;
   try {
-    image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
+    const DecoderMessages kept(decoded.messages);
+    image = decodeAsStored(file, bytes, header);
   } catch (const cv::Exception& error) {
     throw InputError(file, "the image cannot be decoded: " + error.err);
   }
@@ -44,11 +62,22 @@ cv::Mat decode(const std::filesystem::path& file, const std::vector<std::uint8_t
                                " image cannot be decoded (damaged, or of an unsupported kind)");
   if (image.cols != header.width || image.rows != header.height)
     throw InputError(file, "the decoded image has another size than its header says");
-  if (image.depth() != CV_8U && image.depth() != CV_16U)
-    throw InputError(file, kOtherSamples);
-  if (image.channels() > 4)
-    throw InputError(file, std::to_string(image.channels()) + " channels are not supported");
-  return image;
+  if (image.depth() != CV_8U && image.depth() != CV_16U) throw InputError(file, kOtherSamples);
+  return decoded;
+}
+
+/// What a person should know of an image file: what is in it and not used, what is damaged.
+std::vector<std::string> notesOf(const ImageHeader& header, const std::string& messages) {
+  std::vector<std::string> notes;
+  if (header.orientation != 1)
+    notes.push_back("EXIF orientation " + std::to_string(header.orientation) +
+                    " is not applied: pixels are used as they are stored");
+  if (header.has_further_images)
+    notes.push_back("the file holds further images (pages): only the first is read");
+  // A decoder of JPEG fills what is damaged; those of the others refuse it.
+  if (header.container == ImageContainer::kJpeg && !messages.empty())
+    notes.push_back("the image may be damaged: " + oneLine(messages));
+  return notes;
 }
 
 template <class Sample>
@@ -221,7 +250,7 @@ ImageSamples readSamples(const std::filesystem::path& file) {
   if (const auto labelled = labelledSamples(file, bytes)) return samplesOf(*labelled);
   const ImageHeader header = checkImageContainer(file, bytes);
   checkSize(file, header);
-  const cv::Mat image = decode(file, bytes, header);
+  const cv::Mat image = decode(file, bytes, header).pixels;
   ImageSamples samples;
   samples.width = image.cols;
   samples.height = image.rows;
@@ -249,7 +278,8 @@ GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& o
   if (const auto labelled = labelledSamples(file, bytes)) return grayOf(file, *labelled, options);
   const ImageHeader header = checkImageContainer(file, bytes);
   checkSize(file, header);
-  const cv::Mat image = decode(file, bytes, header);
+  const DecodedImage decoded = decode(file, bytes, header);
+  const cv::Mat& image = decoded.pixels;
 
   GrayImage gray;
   gray.file = file;
@@ -260,6 +290,7 @@ GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& o
   gray.sample_bits = image.depth() == CV_16U ? 16 : 8;
   gray.bit_depth = options.bit_depth.value_or(gray.sample_bits);
   gray.bit_depth_stated = options.bit_depth.has_value();
+  gray.notes = notesOf(header, decoded.messages);
   requireDepth(file, gray);
   gray.pixels.resize(image.total());
   const std::vector<std::uint8_t> table = sampleTable(file, gray.bit_depth, options);
@@ -302,7 +333,7 @@ IgnoreMask readIgnoreMask(const std::filesystem::path& file, int width, int heig
     throw InputError(file, "mask size",
                      "is " + sizeText(header.width, header.height) + ", but the image is " +
                          sizeText(width, height));
-  cv::Mat image = decode(file, bytes, header);
+  cv::Mat image = decode(file, bytes, header).pixels;
   if (image.depth() == CV_16U) {
     cv::Mat nonzero;
     cv::compare(image.reshape(1), 0, nonzero, cv::CMP_NE);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
 
 #include "core/base/digest.h"
 #include "sessions/io/camera_file.h"
@@ -81,12 +80,23 @@ void rewrite(LabelFiles& files, const std::vector<LabelEdit>& edits) {
               files.rewritten.begin() + static_cast<std::ptrdiff_t>(edit.at));
 }
 
+/// A blank ORG is the default, BSQ, for which GDAL takes a missing one alone.
+void editBlankOrganization(std::string_view label, std::vector<LabelEdit>& edits) {
+  constexpr std::string_view kBegin = " ORG='";
+  const auto at = label.find(kBegin);
+  if (at == std::string_view::npos) return;
+  const auto end = label.find_first_not_of(' ', at + kBegin.size());
+  if (end != std::string_view::npos && label[end] == '\'')
+    edits.push_back({at, std::string(end + 1 - at, ' ')});
+}
+
 void readVicarLabel(LabelFiles& files) {
   const std::string_view text = asText(files.parts.front().bytes);
   const auto stated = vicarInteger(text.substr(0, 64), "LBLSIZE").value_or(0);
+  const auto label = text.substr(0, static_cast<std::size_t>(std::max<std::int64_t>(stated, 0)));
   std::vector<LabelEdit> edits;
-  editExponents(text.substr(0, static_cast<std::size_t>(std::max<std::int64_t>(stated, 0))), '\'',
-                edits);
+  editExponents(label, '\'', edits);
+  editBlankOrganization(label, edits);
   rewrite(files, edits);
 }
 
@@ -137,14 +147,13 @@ fs::path fileBeside(const fs::path& label_file, const std::string& name) {
   return found.empty() ? folder / name : found.front();
 }
 
+/// None of a file that cannot be read.
 std::vector<std::uint8_t> beginningOf(const fs::path& file, std::size_t count) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) return {};
-  std::ifstream stream(file, std::ios::binary);
-  std::vector<std::uint8_t> bytes(count);
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
-  bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
-  return bytes;
+  try {
+    return readBeginning(file, count);
+  } catch (const InputError&) {
+    return {};
+  }
 }
 
 bool isOtherPicture(std::span<const std::uint8_t> bytes) {
@@ -211,18 +220,23 @@ std::optional<LabelFormat> labelFormatOf(std::span<const std::uint8_t> bytes) {
   return std::nullopt;
 }
 
-std::optional<std::int64_t> vicarInteger(std::string_view label, std::string_view key) {
+std::optional<std::string_view> vicarWord(std::string_view label, std::string_view key) {
   const std::string wanted = std::string(key) + "=";
   for (auto at = label.find(wanted); at != std::string_view::npos;
        at = label.find(wanted, at + 1)) {
     if (at > 0 && !isBlank(label[at - 1])) continue;
-    std::string_view rest = label.substr(at + wanted.size());
-    std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
-    if (error == std::errc()) return value;
-    return std::nullopt;
+    const std::string_view rest = label.substr(at + wanted.size());
+    return rest.substr(0, rest.find_first_of(std::string_view(" \t\r\n\0", 5)));
   }
   return std::nullopt;
+}
+
+std::optional<std::int64_t> vicarInteger(std::string_view label, std::string_view key) {
+  const std::string_view word = vicarWord(label, key).value_or("");
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
 }
 
 void requireVicarSizes(const LabelFiles& files) {
@@ -236,17 +250,21 @@ void requireVicarSizes(const LabelFiles& files) {
         "is not the length of a label in this file of " + std::to_string(bytes.size()) + " bytes");
   const std::string_view label = asText(bytes.first(static_cast<std::size_t>(*size)));
   const auto require = [&](const char* key, std::int64_t least, std::int64_t most) {
+    const auto word = vicarWord(label, key);
     const auto value = vicarInteger(label, key);
-    if (value && (*value < least || *value > most))
+    if (word && (!value || *value < least || *value > most))
       throw InputError(files.file, key,
-                       std::to_string(*value) + " is outside of " + std::to_string(least) + " .. " +
-                           std::to_string(most));
+                       std::string(*word) + " is no whole number from " + std::to_string(least) +
+                           " to " + std::to_string(most));
   };
+  constexpr std::int64_t kMostPrefix = kMaxImageSide_px * 8;
+  constexpr std::int64_t kMostBytesOfSample = 8;
   require("NL", 1, kMaxImageSide_px);
   require("NS", 1, kMaxImageSide_px);
   require("NB", 1, kMostLabelBands);
-  require("NBB", 0, kMaxImageSide_px * 8);
+  require("NBB", 0, kMostPrefix);
   require("NLB", 0, kMaxImageSide_px);
+  require("RECSIZE", 1, kMostPrefix + kMaxImageSide_px * kMostBytesOfSample);
 }
 
 std::optional<fs::path> labelFileOf(const fs::path& file) {

@@ -23,7 +23,9 @@ const char* labelFormatName(LabelFormat format);  ///< "VICAR", "PDS3", "PDS4"
 /// The label that the bytes begin with, if any.
 std::optional<LabelFormat> labelFormatOf(std::span<const std::uint8_t> bytes);
 
-/// The value of `key` where a VICAR label of this text states it as a plain integer, e.g. NL=1024.
+/// What a VICAR label of this text sets `key` to, up to the next blank; nothing where it does not.
+std::optional<std::string_view> vicarWord(std::string_view label, std::string_view key);
+/// The same as an integer, e.g. 1024 of NL=1024; nothing where it is none.
 std::optional<std::int64_t> vicarInteger(std::string_view label, std::string_view key);
 
 /// A file that an image with a label consists of, read once.
@@ -45,7 +47,8 @@ struct LabelFiles {
   std::shared_ptr<const nlohmann::json> elements;  ///< of PDS4, readXmlLabel's tree
   std::string remark;  ///< of several images in the label, which one is read; else empty
 
-  /// The first part as GDAL gets it: exponents D written E, of PDS4 the one array that is read.
+  /// The first part as GDAL gets it: exponents D written E, of VICAR without a blank ORG, of PDS4
+  /// the one array that is read.
   std::span<const std::uint8_t> labelBytes() const {
     return rewritten.empty() ? parts.front().bytes : rewritten;
   }

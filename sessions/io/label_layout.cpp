@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/io/label_layout.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
 #include "sessions/io/label_values.h"
 
 namespace boresight::sessions {
@@ -69,6 +72,16 @@ std::int64_t statedOffset(const LabelFiles& files, const json& label, const json
   return (pointer.number - 1) * record;
 }
 
+/// The label's items at the end of a VICAR file, which begin at this byte, are there to the last.
+void requireEndLabel(const LabelFiles& files, std::int64_t at) {
+  const std::string_view text = asText(files.labelBytes());
+  const std::string_view end = text.substr(std::min(static_cast<std::size_t>(at), text.size()));
+  const auto size = vicarInteger(end.substr(0, 64), "LBLSIZE");
+  if (!size || *size < 1 || static_cast<std::uint64_t>(*size) > end.size())
+    throw InputError(files.file, "EOL",
+                     "the part of the label at the file's end is not there in full");
+}
+
 }  // namespace
 
 SampleType statedSampleType(const LabelFiles& files, const json& label,
@@ -115,15 +128,35 @@ void requireStatedLayout(const LabelFiles& files, const json& label, const Raste
                          std::to_string(layout.offset));
 }
 
-void requirePrefixOfLines(const LabelFiles& files, const json& label, int bands) {
-  if (integerOf(&label, "NBB") <= 0) return;
+void requireStatedRecords(const LabelFiles& files, const json& label, const RasterLayout& layout) {
+  const std::string_view text = asText(files.labelBytes());
+  const std::int64_t label_size = vicarInteger(text, "LBLSIZE").value_or(0);
+  const auto stated = [own = text.substr(0, static_cast<std::size_t>(label_size))](
+                          const char* key) { return vicarInteger(own, key).value_or(0); };
   const std::string order = wordOf(&label, "ORG");
+  const bool by_pixel = order == "BIP";
   // A record is then one pixel, and each would have a prefix: nobody reads that right.
-  if (order == "BIP")
+  if (stated("NBB") > 0 && by_pixel)
     throw InputError(files.file, "NBB", "a prefix of every pixel (ORG='BIP') is not read");
-  if (order == "BIL" && bands > 1)
+  if (stated("NBB") > 0 && order == "BIL" && layout.bands > 1)
     throw InputError(files.file, "NBB",
                      "a prefix of every line of every band (ORG='BIL') is not read");
+  const std::int64_t record =
+      stated("NBB") + (by_pixel ? layout.bands : layout.width) * (bitsOf(layout.type) / 8);
+  if (stated("RECSIZE") != record)
+    throw InputError(files.file, "RECSIZE",
+                     std::to_string(stated("RECSIZE")) +
+                         " contradicts the label's other sizes, by which a record has " +
+                         std::to_string(record) + " bytes");
+  if (label_size % record != 0)
+    throw InputError(files.file, "LBLSIZE",
+                     std::to_string(label_size) + " is no multiple of the " +
+                         std::to_string(record) + " bytes of a record");
+  if (stated("EOL") != 1) return;
+  const std::int64_t lines = std::int64_t{layout.height} * (by_pixel ? layout.width : layout.bands);
+  const std::int64_t compressed_end = stated("EOCI1");  // EOCI2 is of files beyond 4 GB
+  requireEndLabel(
+      files, compressed_end > 0 ? compressed_end : label_size + record * (stated("NLB") + lines));
 }
 
 }  // namespace boresight::sessions

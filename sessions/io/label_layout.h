@@ -33,7 +33,10 @@ SampleType statedSampleType(const LabelFiles& files, const nlohmann::json& label
 void requireStatedLayout(const LabelFiles& files, const nlohmann::json& label,
                          const RasterLayout& layout);
 
-/// InputError where every line of every band, or every pixel, has a prefix (VICAR).
-void requirePrefixOfLines(const LabelFiles& files, const nlohmann::json& label, int bands);
+/// InputError where a VICAR label's sizes contradict each other (a record is NBB bytes and N1
+/// samples, the label a number of records), its items at the file's end are not all there, or
+/// every line of every band, or every pixel, has a prefix. Of the layout size and type count.
+void requireStatedRecords(const LabelFiles& files, const nlohmann::json& label,
+                          const RasterLayout& layout);
 
 }  // namespace boresight::sessions

@@ -67,8 +67,23 @@ void requireOnce(const fs::path& file, const std::string& key, ImageObject& imag
       throw InputError(file, key, "is stated twice in the label's object IMAGE");
 }
 
+/// GDAL reads 1 of 1e3, and of numbers beyond 32 bits what is left of them.
+void requirePlainNumber(const fs::path& file, const OdlStatement& statement) {
+  constexpr std::string_view kDigits = "0123456789";
+  constexpr std::size_t kMostDigits = 9;
+  for (const char* size : {"LINES", "LINE_SAMPLES", "SAMPLE_BITS", "BANDS", "LINE_PREFIX_BYTES",
+                           "LINE_SUFFIX_BYTES", "RECORD_BYTES"})
+    if (statement.key == size && statement.value.find_first_of(kDigits) != std::string_view::npos &&
+        (statement.value.find_first_not_of(kDigits) != std::string_view::npos ||
+         statement.value.size() > kMostDigits))
+      throw InputError(
+          file, statement.key,
+          oneLine(statement.value.substr(0, 80)) + " is no whole number of at most nine digits");
+}
+
 void noteImage(const fs::path& file, const OdlStatement& statement, ImageObject& image) {
   if (noteExtent(statement, image.extents) || image.extents.size() != 1) return;
+  requirePlainNumber(file, statement);
   requireOnce(file, statement.key, image);
   if (statement.key == "LINE_SAMPLES") image.has_samples = true;
   if (statement.key == "BAND_STORAGE_TYPE") image.storage = statement;
@@ -80,6 +95,7 @@ void noteImage(const fs::path& file, const OdlStatement& statement, ImageObject&
 void note(const fs::path& file, const OdlStatement& statement, Objects& objects) {
   if (statement.object == "COMPRESSED_FILE" || statement.object == "UNCOMPRESSED_FILE")
     throw InputError(file, std::string(statement.object), "compressed pixels are not read");
+  if (statement.key == "RECORD_BYTES") requirePlainNumber(file, statement);
   if (statement.object.empty() && statement.key == "^IMAGE" && !objects.top.pointer)
     objects.top.pointer = statement;
   if (statement.object == "IMAGE") noteImage(file, statement, objects.top);

@@ -203,9 +203,8 @@ struct LabelRaster::Opened {
   }
 
   void checkLayout(const LabelFiles& files) {
-    if (files.format == LabelFormat::kVicar)
-      requirePrefixOfLines(files, label, dataset->GetRasterCount());
     GDALDataset::RawBinaryLayout raw;
+    if (files.format == LabelFormat::kVicar) requireStatedRecords(files, label, layoutOf(raw));
     if (!dataset->GetRawBinaryLayout(raw)) {
       if (files.format == LabelFormat::kVicar) return;  // compressed: reading finds what is wrong
       throw InputError(file, "the label's pixels are not stored plainly");

@@ -39,8 +39,20 @@ MeshDeclaration checkStl(const std::filesystem::path& file, Bytes bytes) {
   if (!may_be_binary) throw InputError(file, "not an STL mesh");
   if (facets == 0) throw InputError(file, "the mesh has no faces");
   if (bytes.size() < kHeader + facets * kFacet) truncated(file, "STL");
+  if (const std::uint64_t there = (bytes.size() - kHeader) / kFacet; there != facets)
+    throw InputError(file, "header",
+                     "declares " + std::to_string(facets) + " facets, but the file has room for " +
+                         std::to_string(there));
   declaration.polygon_count = static_cast<std::int64_t>(facets);
   return declaration;
+}
+
+const JsonReader& accessorAt(const JsonReader& index, const std::vector<JsonReader>& accessors) {
+  const std::int64_t last = static_cast<std::int64_t>(accessors.size()) - 1;
+  const JsonReader& accessor = accessors[static_cast<std::size_t>(index.integer(0, last))];
+  if (accessor.has("sparse"))
+    accessor.failMember("sparse", "is not read: write the mesh without sparse accessors");
+  return accessor;
 }
 
 /// Triangles of one glTF primitive; nothing for lines and points.
@@ -51,12 +63,26 @@ std::optional<std::int64_t> gltfTriangles(const JsonReader& primitive,
   const auto mode_json = primitive.find("mode");
   const std::int64_t mode = mode_json ? mode_json->integer(0, kFan) : kTriangles;
   if (mode < kTriangles) return std::nullopt;
-  const JsonReader accessor = primitive.has("indices") ? primitive.at("indices")
-                                                       : primitive.at("attributes").at("POSITION");
-  const std::int64_t index = accessor.integer(0, static_cast<std::int64_t>(accessors.size()) - 1);
-  const std::int64_t count = accessors[static_cast<std::size_t>(index)].at("count").integer(
-      0, std::numeric_limits<std::int32_t>::max());
+  JsonReader corners = accessorAt(primitive.at("attributes").at("POSITION"), accessors);
+  if (const auto indices = primitive.find("indices")) corners = accessorAt(*indices, accessors);
+  const std::int64_t count =
+      corners.at("count").integer(0, std::numeric_limits<std::int32_t>::max());
   return mode == kTriangles ? count / 3 : std::max<std::int64_t>(0, count - 2);
+}
+
+/// Importers follow children by calling themselves: deeper nodes would exhaust the stack.
+constexpr std::size_t kMaxNodeDepth = 256;
+constexpr std::size_t kMaxNodes = 100'000;
+
+void checkDepth(const std::vector<JsonReader>& nodes, const std::vector<std::size_t>& parent) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    std::size_t depth = 1;
+    for (std::size_t at = parent[i]; at < nodes.size() && depth <= kMaxNodeDepth; at = parent[at])
+      ++depth;
+    if (depth > kMaxNodeDepth)
+      nodes[i].fail("is nested deeper than " + std::to_string(kMaxNodeDepth) +
+                    " nodes, or is its own ancestor");
+  }
 }
 
 /// The nodes must form trees (glTF 2.0, 3.5): an importer follows shared or circular children to
@@ -65,21 +91,26 @@ void checkGltfNodes(const JsonReader& json) {
   const auto nodes_json = json.find("nodes");
   if (!nodes_json) return;
   const std::vector<JsonReader> nodes = nodes_json->elements();
+  if (nodes.size() > kMaxNodes)
+    nodes_json->fail(std::to_string(nodes.size()) + " nodes exceed the limit of " +
+                     std::to_string(kMaxNodes));
   const auto last = static_cast<std::int64_t>(nodes.size()) - 1;
-  std::vector<bool> has_parent(nodes.size(), false);
-  for (const JsonReader& node : nodes)
-    if (const auto children = node.find("children"))
+  const std::size_t none = nodes.size();
+  std::vector<std::size_t> parent(nodes.size(), none);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (const auto children = nodes[i].find("children"))
       for (const JsonReader& child : children->elements()) {
         const auto index = static_cast<std::size_t>(child.integer(0, last));
-        if (has_parent[index]) child.fail("the node has two parents");
-        has_parent[index] = true;
+        if (parent[index] != none) child.fail("the node has two parents");
+        parent[index] = i;
       }
   if (const auto scenes = json.find("scenes"))
     for (const JsonReader& scene : scenes->elements())
       if (const auto roots = scene.find("nodes"))
         for (const JsonReader& root : roots->elements())
-          if (has_parent[static_cast<std::size_t>(root.integer(0, last))])
+          if (parent[static_cast<std::size_t>(root.integer(0, last))] != none)
             root.fail("the scene's root is another node's child");
+  checkDepth(nodes, parent);
 }
 
 /// Importers leave out faces with bad indices; the count that the file declares shows it.

@@ -9,9 +9,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/base/digest.h"
 #include "sessions/io/errors.h"
-#include "sessions/io/json_document.h"
 #include "sessions/io/mesh_container.h"
 #include "sessions/io/mesh_import.h"
 #include "sessions/io/mesh_weld.h"
@@ -77,20 +75,6 @@ void measure(const std::filesystem::path& file, Mesh& mesh) {
   info.longest_edge_m = *std::max_element(lengths_m.begin(), lengths_m.end());
 }
 
-/// Hash of a .gltf together with the buffers it names, which hold the geometry.
-std::string hashWithBuffers(const std::filesystem::path& file,
-                            const std::vector<std::uint8_t>& bytes, MeshFormat format) {
-  if (format != MeshFormat::kGltf) return sha256Text(bytes);
-  Sha256 sha;
-  sha.update(bytes);
-  const JsonDocument document(file, asText(bytes));
-  if (const auto buffers = document.root().find("buffers"))
-    for (const JsonReader& buffer : buffers->elements())
-      if (const auto uri = buffer.find("uri"); uri && !uri->text().starts_with("data:"))
-        sha.update(readFileBytes(uri->path(), kMaxMeshFileBytes));
-  return hexText(sha.digest()).data();
-}
-
 }  // namespace
 
 std::string lengthText(double length_m) {
@@ -113,21 +97,26 @@ std::optional<double> metresPerUnit(const std::string& unit) {
 }
 
 Mesh readMesh(const std::filesystem::path& file, const std::string& unit) {
+  std::string used_unit;
+  (void)unitScale(file, meshFormatOf(file), unit, used_unit);  // before a large file is read
+  return readMesh(readMeshFiles(file), unit);
+}
+
+Mesh readMesh(const MeshFiles& files, const std::string& unit) {
+  const std::filesystem::path& file = files.file;
   Mesh mesh;
   MeshInfo& info = mesh.info;
-  const MeshFormat format = meshFormatOf(file);
   info.file = file;
-  info.format = meshFormatName(format);
-  info.metres_per_unit = unitScale(file, format, unit, info.unit);
-  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxMeshFileBytes);
-  const MeshDeclaration declared = checkMeshContainer(file, bytes, format);
+  info.format = meshFormatName(files.format);
+  info.metres_per_unit = unitScale(file, files.format, unit, info.unit);
+  info.file_sha256 = files.sha256;
+  const MeshDeclaration declared = checkMeshContainer(file, files.bytes, files.format);
   requireAtMost(file, declared.vertex_count.value_or(0), kMaxMeshVertices, "vertices");
   requireAtMost(file, declared.polygon_count.value_or(0), kMaxMeshFaces, "faces");
   if (declared.polygon_count.value_or(1) == 0 || (declared.vertex_count && !declared.polygon_count))
     throw InputError(file, "the mesh has no faces (a point cloud cannot be rendered)");
-  info.file_sha256 = hashWithBuffers(file, bytes, format);
 
-  const ImportedMesh imported = importMesh(file, bytes, format, declared, info.metres_per_unit);
+  const ImportedMesh imported = importMesh(files, declared, info.metres_per_unit);
   info.file_vertices = imported.file_vertices;
   info.file_polygons = imported.file_polygons;
   info.lines_and_points = imported.lines_and_points;

@@ -10,11 +10,10 @@
 #include <Eigen/Core>
 
 #include "core/geometry/mesh.h"
-#include "sessions/io/file_bytes.h"
+#include "sessions/io/mesh_files.h"
 
 namespace boresight::sessions {
 
-inline constexpr std::size_t kMaxMeshFileBytes = 512 * kMegabyte;
 inline constexpr std::int64_t kMaxMeshVertices = 3'000'000;  ///< in the file, before welding
 inline constexpr std::int64_t kMaxMeshFaces = 1'000'000;     ///< triangles
 
@@ -64,6 +63,8 @@ std::optional<double> metresPerUnit(const std::string& unit);
 /// range, coordinates that are not finite or beyond 1000 km, only slivers, or more than the limits
 /// above.
 Mesh readMesh(const std::filesystem::path& file, const std::string& unit);
+/// The same of files that are already read.
+Mesh readMesh(const MeshFiles& files, const std::string& unit);
 
 /// "12.3 mm" below a metre, else "4.56 m".
 std::string lengthText(double length_m);

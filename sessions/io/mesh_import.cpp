@@ -3,14 +3,22 @@
 
 #include <assimp/scene.h>
 
+#include <assimp/BaseImporter.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <Eigen/LU>
 #include <algorithm>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <exception>
+#include <map>
+#include <set>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "sessions/io/errors.h"
+#include "sessions/io/gltf_geometry.h"
 #include "sessions/io/mesh_file.h"
 #include "sessions/io/triangulate.h"
 
@@ -24,35 +32,68 @@ namespace {
 
 constexpr double kMaxCoordinate_m = 1e6;
 
-/// The importer takes a first data byte of 10 for the second half of the header's line end and
-/// drops it, which moves all that follows: it gets one more to drop.
-std::vector<std::uint8_t> withNewlineToDrop(const std::vector<std::uint8_t>& bytes,
-                                            std::size_t body) {
-  std::vector<std::uint8_t> longer = bytes;
-  longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(body), '\n');
+/// The files of a mesh, under the names by which an importer asks for them, and no others.
+class MemoryFiles final : public Assimp::IOSystem {
+ public:
+  MemoryFiles(const MeshFiles& files, std::span<const std::uint8_t> mesh) {
+    for (const MeshBuffer& buffer : files.buffers) files_[buffer.uri] = buffer.bytes;
+    files_[files.file.filename()] = mesh;
+  }
+  bool Exists(const char* name) const override { return files_.contains(name); }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* name, const char*) override {
+    const auto found = files_.find(name);
+    if (found == files_.end()) return nullptr;
+    return new Assimp::MemoryIOStream(found->second.data(), found->second.size());
+  }
+  void Close(Assimp::IOStream* stream) override { delete stream; }
+
+ private:
+  std::map<std::string, std::span<const std::uint8_t>, std::less<>> files_;
+};
+
+/// Importers of other formats would try to read what the format's own does not recognize.
+void keepImportersOf(MeshFormat format, Assimp::Importer& importer) {
+  std::string extension = meshFormatName(format);
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (std::size_t i = importer.GetImporterCount(); i > 0; --i) {
+    Assimp::BaseImporter* other = importer.GetImporter(i - 1);
+    std::set<std::string> extensions;
+    other->GetExtensionList(extensions);
+    if (extensions.contains(extension)) continue;
+    importer.UnregisterLoader(other);
+    delete other;  // NOLINT: the importer gave it up
+  }
+}
+
+/// What the importer gets in place of the mesh's file; empty: the file as it is. It takes a first
+/// data byte of 10 for the second half of a PLY header's line end and drops it, which moves all
+/// that follows: it gets one more to drop.
+std::vector<std::uint8_t> rewrittenFor(const MeshFiles& files, const MeshDeclaration& declared) {
+  if (carriesUnit(files.format)) return gltfGeometry(files.bytes, files.format);
+  if (!declared.newline_as_data) return {};
+  std::vector<std::uint8_t> longer = files.bytes;
+  longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(*declared.newline_as_data), '\n');
   return longer;
 }
 
 /// The importer's scene, polygons as they are in the file.
-const aiScene* import(Assimp::Importer& importer, const std::filesystem::path& file,
-                      const std::vector<std::uint8_t>& bytes, MeshFormat format) {
+const aiScene* import(Assimp::Importer& importer, const MeshFiles& files,
+                      std::span<const std::uint8_t> mesh) {
   const aiScene* scene = nullptr;
   std::string problem;
   try {
-    // glTF refers to buffers beside it, so it needs the path; the others come from what was hashed.
-    if (format == MeshFormat::kGltf) {
-      scene = importer.ReadFile(file.string(), 0);
-    } else {
-      const std::string hint = file.extension().string().substr(1);
-      scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, hint.c_str());
-    }
+    keepImportersOf(files.format, importer);
+    importer.SetIOHandler(new MemoryFiles(files, mesh));  // NOLINT: the importer's own
+    scene = importer.ReadFile(files.file.filename().string(), 0);
     problem = importer.GetErrorString();
   } catch (const std::exception& error) {
     problem = error.what();
   }
   if (scene == nullptr || scene->mRootNode == nullptr)
-    throw InputError(file, std::string("not a readable ") + meshFormatName(format) + " mesh" +
-                               (problem.empty() ? "" : ": " + problem));
+    throw InputError(files.file, std::string("not a readable ") + meshFormatName(files.format) +
+                                     " mesh" + (problem.empty() ? "" : ": " + problem));
   return scene;
 }
 
@@ -163,18 +204,15 @@ void requireAtMost(const std::filesystem::path& file, std::int64_t count, std::i
                          ": decimate the mesh");
 }
 
-ImportedMesh importMesh(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes,
-                        MeshFormat format, const MeshDeclaration& declared,
+ImportedMesh importMesh(const MeshFiles& files, const MeshDeclaration& declared,
                         double metres_per_unit) {
   ImportedMesh imported;
+  const std::vector<std::uint8_t> rewritten = rewrittenFor(files, declared);
   Assimp::Importer importer;
-  const aiScene* scene =
-      declared.newline_as_data
-          ? import(importer, file, withNewlineToDrop(bytes, *declared.newline_as_data), format)
-          : import(importer, file, bytes, format);
-  checkIndices(file, *scene);
-  countPrimitives(file, *scene, declared, imported);
-  placeNodes(file, *scene, metres_per_unit, imported);
+  const aiScene* scene = import(importer, files, rewritten.empty() ? files.bytes : rewritten);
+  checkIndices(files.file, *scene);
+  countPrimitives(files.file, *scene, declared, imported);
+  placeNodes(files.file, *scene, metres_per_unit, imported);
   return imported;
 }
 

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/geometry/mesh.h"
-#include "sessions/io/mesh_container.h"
+#include "sessions/io/mesh_files.h"
 
 namespace boresight::sessions {
 
@@ -22,11 +22,11 @@ struct ImportedMesh {
   std::int64_t irregular_polygons = 0;  ///< could only be cut into a fan
 };
 
-/// Reads the bytes of a file that passed checkMeshContainer, places every mesh by the transforms of
+/// Reads files of which the first passed checkMeshContainer, places every mesh by the transforms of
 /// its nodes, scales to metres, and triangulates. Importer and damaged files: every index and
-/// coordinate is checked here. InputError.
-ImportedMesh importMesh(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes,
-                        MeshFormat format, const MeshDeclaration& declared, double metres_per_unit);
+/// coordinate is checked here. Opens no file. InputError.
+ImportedMesh importMesh(const MeshFiles& files, const MeshDeclaration& declared,
+                        double metres_per_unit);
 
 /// InputError when a mesh has more of something than can be handled.
 void requireAtMost(const std::filesystem::path& file, std::int64_t count, std::int64_t limit,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -50,6 +51,13 @@ int plyTypeSize(std::string_view type) {
   return 0;
 }
 
+std::optional<std::uint64_t> wholeNumber(std::string_view word) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
 void readPlyLine(const std::filesystem::path& file, const std::string& line, PlyHeader& header) {
   std::istringstream words(line);
   std::string keyword;
@@ -65,10 +73,13 @@ void readPlyLine(const std::filesystem::path& file, const std::string& line, Ply
       throw InputError(file, "header", "unknown PLY encoding '" + encoding + "'");
   } else if (keyword == "element") {
     PlyElement element;
-    std::int64_t count = -1;
+    std::string count;
     words >> element.name >> count;
-    if (!words || count < 0) throw InputError(file, "header", "bad line '" + line + "'");
-    element.count = static_cast<std::uint64_t>(count);
+    const auto whole = wholeNumber(count);
+    if (!whole)
+      throw InputError(file, "header",
+                       "bad line '" + line + "': '" + count + "' is not a whole number");
+    element.count = *whole;
     header.elements.push_back(element);
   } else if (keyword == "property") {
     std::string type;
@@ -151,6 +162,8 @@ class WordReader {
     return true;
   }
 
+  std::size_t position() const { return at_; }
+
   std::string_view next() {
     while (at_ < text_.size() && isBlank(text_[at_])) ++at_;
     const std::size_t start = at_;
@@ -165,8 +178,9 @@ class WordReader {
   std::size_t at_ = 0;
 };
 
-void walkPlyText(const std::filesystem::path& file, const PlyHeader& header,
-                 std::string_view body) {
+/// Returns the offset after the last element.
+std::uint64_t walkPlyText(const std::filesystem::path& file, const PlyHeader& header,
+                          std::string_view body) {
   WordReader words(body);
   for (const PlyElement& element : header.elements)
     for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i)
@@ -174,14 +188,26 @@ void walkPlyText(const std::filesystem::path& file, const PlyHeader& header,
         std::uint64_t values = 1;
         if (property.count_size != 0) {
           const std::string_view count = words.next();
-          const auto result = std::from_chars(count.data(), count.data() + count.size(), values);
           if (count.empty()) truncated(file);
-          if (result.ec != std::errc() || values > body.size())
+          values = wholeNumber(count).value_or(body.size() + 1);
+          if (values > body.size())
             throw InputError(file, element.name + " " + std::to_string(i),
                              "'" + std::string(count) + "' is not the length of a list");
         }
         if (!words.skip(values)) truncated(file);
       }
+  return header.body + words.position();
+}
+
+/// A count that is too small would leave out what is behind.
+void requireEnd(const std::filesystem::path& file, const PlyHeader& header, Bytes rest) {
+  if (asText(rest).find_first_not_of(" \t\r\n") == std::string_view::npos) return;
+  std::string declared;
+  for (const PlyElement& element : header.elements)
+    declared += (declared.empty() ? "" : ", ") + element.name + " " + std::to_string(element.count);
+  throw InputError(file, "header",
+                   "declares " + declared + ", but " + std::to_string(rest.size()) +
+                       " more bytes follow these elements");
 }
 
 }  // namespace
@@ -201,16 +227,17 @@ MeshDeclaration checkPly(const std::filesystem::path& file, Bytes bytes) {
       declaration.polygon_count = static_cast<std::int64_t>(element.count);
   }
   if (declaration.vertex_count.value_or(0) == 0) throw InputError(file, "the mesh has no vertices");
-  if (header.encoding == PlyEncoding::kAscii) {
-    walkPlyText(file, header, asText(bytes.subspan(header.body)));
-    return declaration;
-  }
   std::uint64_t offset = header.body;
-  if (offset < bytes.size() && bytes[offset] == '\n' && bytes[offset - 2] != '\r')
-    declaration.newline_as_data = static_cast<std::size_t>(offset);
-  for (const PlyElement& element : header.elements)
-    offset =
-        walkPlyElement(file, bytes, element, header.encoding == PlyEncoding::kBigEndian, offset);
+  if (header.encoding == PlyEncoding::kAscii) {
+    offset = walkPlyText(file, header, asText(bytes.subspan(header.body)));
+  } else {
+    if (offset < bytes.size() && bytes[offset] == '\n' && bytes[offset - 2] != '\r')
+      declaration.newline_as_data = static_cast<std::size_t>(offset);
+    for (const PlyElement& element : header.elements)
+      offset =
+          walkPlyElement(file, bytes, element, header.encoding == PlyEncoding::kBigEndian, offset);
+  }
+  requireEnd(file, header, bytes.subspan(offset));
   return declaration;
 }
 

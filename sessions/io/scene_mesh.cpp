@@ -48,10 +48,13 @@ void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& station_from_mesh,
   scene.infos.push_back(mesh.info);
 }
 
-SceneMesh readScene(std::span<const PartSource> parts) {
+SceneMesh readScene(std::span<const PartSource> parts, const PartCheck& check) {
   SceneMesh scene;
-  for (const PartSource& source : parts)
-    addPart(scene, readMesh(source.mesh, source.mesh_unit), source.station_from_mesh, source.part);
+  for (const PartSource& source : parts) {
+    const MeshFiles files = readMeshFiles(source.mesh);
+    if (check) check(scene.parts.size(), files.sha256);
+    addPart(scene, readMesh(files, source.mesh_unit), source.station_from_mesh, source.part);
+  }
   const bool any_matched = std::any_of(parts.begin(), parts.end(),
                                        [](const PartSource& source) { return source.part.match; });
   if (!any_matched)

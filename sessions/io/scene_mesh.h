@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,8 +42,12 @@ struct SceneMesh {
 void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& station_from_mesh,
              const ScenePart& part);
 
-/// Reads all parts. InputError, also when no part is to be matched.
-SceneMesh readScene(std::span<const PartSource> parts);
+/// Throws to refuse a part, of whose files this is the SHA-256.
+using PartCheck = std::function<void(std::size_t part, const std::string& sha256)>;
+
+/// Reads all parts; `check`, if any, is called before a part is parsed. InputError, also when no
+/// part is to be matched.
+SceneMesh readScene(std::span<const PartSource> parts, const PartCheck& check = {});
 
 /// Vertices of the faces of matched parts, each once: what projection errors are averaged over.
 std::vector<Eigen::Vector3f> matchedVertices(const MeshView& mesh);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sessions/io/byte_cursor.h"
@@ -20,6 +22,7 @@ enum Tag : std::uint64_t {
   kBitsPerSample = 258,
   kPhotometric = 262,
   kStripOffsets = 273,
+  kOrientation = 274,
   kSamplesPerPixel = 277,
   kStripBytes = 279,
   kPlanarConfiguration = 284,
@@ -54,7 +57,17 @@ class TiffDirectory {
     for (std::uint64_t i = 0; i < entry_count_; ++i)
       (void)placeOfValues(first_entry_ + i * entry_size_);
     // The link to the next directory ends this one; what it leads to is not read.
-    (void)number(first_entry_ + entry_count_ * entry_size_, word);
+    has_next_ = number(first_entry_ + entry_count_ * entry_size_, word) != 0;
+  }
+
+  bool hasNext() const { return has_next_; }
+  bool bigEndian() const { return big_endian_; }
+
+  /// Offset and length of the first value of a tag; length 0 when it is absent.
+  std::pair<std::uint64_t, std::uint64_t> firstValue(std::uint64_t tag) const {
+    const auto entry = entryOf(tag);
+    if (!entry) return {0, 0};
+    return {placeOfValues(*entry), typeSize(number(*entry + 2, 2))};
   }
 
   /// The first value of an unsigned tag, or `otherwise`.
@@ -65,14 +78,19 @@ class TiffDirectory {
 
   /// The values of an unsigned tag; empty when it is absent.
   std::vector<std::uint64_t> values(std::uint64_t tag) const {
-    for (std::uint64_t i = 0; i < entry_count_; ++i) {
-      const std::uint64_t entry = first_entry_ + i * entry_size_;
-      if (number(entry, 2) == tag) return entryValues(entry);
-    }
-    return {};
+    const auto entry = entryOf(tag);
+    return entry ? entryValues(*entry) : std::vector<std::uint64_t>();
   }
 
  private:
+  std::optional<std::uint64_t> entryOf(std::uint64_t tag) const {
+    for (std::uint64_t i = 0; i < entry_count_; ++i) {
+      const std::uint64_t entry = first_entry_ + i * entry_size_;
+      if (number(entry, 2) == tag) return entry;
+    }
+    return std::nullopt;
+  }
+
   std::uint64_t number(std::uint64_t offset, int size) const {
     if (!holds(bytes_, offset, static_cast<std::uint64_t>(size))) truncated(file_);
     return readUnsigned(bytes_, offset, size, big_endian_);
@@ -116,6 +134,7 @@ class TiffDirectory {
   Bytes bytes_;
   bool big_endian_ = false;
   bool big_ = false;
+  bool has_next_ = false;
   std::uint64_t entry_count_ = 0;
   std::uint64_t first_entry_ = 0;
   std::uint64_t entry_size_ = 0;
@@ -136,6 +155,7 @@ void requireFaithfulKind(const std::filesystem::path& file, const TiffDirectory&
   constexpr std::uint64_t kWhiteIsZero = 0, kBlackIsZero = 1, kRgb = 2, kPalette = 3, kYCbCr = 6;
   constexpr std::uint64_t kUnsigned = 1, kUntyped = 4;
   constexpr std::uint64_t kStraightAlpha = 2;
+  constexpr std::uint64_t kMostChannels = 4;
   const std::uint64_t bits = directory.value(kBitsPerSample, 1);
   const std::uint64_t format = directory.value(kSampleFormat, kUnsigned);
   if ((format != kUnsigned && format != kUntyped) || (bits != 1 && bits != 8 && bits != 16))
@@ -146,7 +166,10 @@ void requireFaithfulKind(const std::filesystem::path& file, const TiffDirectory&
                                " is not supported");
   if (photometric == kWhiteIsZero && bits == 16)
     throw InputError(file, "a TIFF of 16 bits in which 0 is white is not supported");
-  if (directory.value(kSamplesPerPixel, 1) > 1 && directory.value(kPlanarConfiguration, 1) != 1)
+  const std::uint64_t channels = directory.value(kSamplesPerPixel, 1);
+  if (channels < 1 || channels > kMostChannels)
+    throw InputError(file, std::to_string(channels) + " channels are not supported");
+  if (channels > 1 && directory.value(kPlanarConfiguration, 1) != 1)
     throw InputError(file, "a TIFF with separate colour planes is not supported");
   if (photometric == kRgb && bits == 8 && directory.value(kExtraSamples, 0) == kStraightAlpha)
     throw InputError(file,
@@ -155,6 +178,26 @@ void requireFaithfulKind(const std::filesystem::path& file, const TiffDirectory&
 }
 
 }  // namespace
+
+int tiffOrientation(const std::filesystem::path& file, Bytes bytes) {
+  constexpr std::uint64_t kUpright = 1, kLast = 8;
+  if (!isTiff(bytes)) return kUpright;
+  try {
+    const std::uint64_t stated = TiffDirectory(file, bytes).value(kOrientation, kUpright);
+    return static_cast<int>(stated >= kUpright && stated <= kLast ? stated : kUpright);
+  } catch (const InputError&) {
+    return kUpright;  // no pixel depends on it
+  }
+}
+
+std::vector<std::uint8_t> uprightTiff(const std::filesystem::path& file, Bytes bytes) {
+  std::vector<std::uint8_t> upright(bytes.begin(), bytes.end());
+  const TiffDirectory directory(file, bytes);
+  const auto [place, size] = directory.firstValue(kOrientation);
+  for (std::uint64_t i = 0; i < size; ++i) upright[place + i] = 0;
+  if (size > 0) upright[place + (directory.bigEndian() ? size - 1 : 0)] = 1;
+  return upright;
+}
 
 bool isTiff(Bytes bytes) {
   if (bytes.size() < 8) return false;
@@ -172,9 +215,13 @@ ImageHeader checkTiff(const std::filesystem::path& file, Bytes bytes) {
   requirePixelsInFile(file, directory, bytes);
   requireFaithfulKind(file, directory);
   constexpr std::uint64_t kAnyTooLarge = std::uint64_t{1} << 40;
-  return {ImageContainer::kTiff,
-          static_cast<std::int64_t>(std::min(directory.value(kWidth, 0), kAnyTooLarge)),
-          static_cast<std::int64_t>(std::min(directory.value(kHeight, 0), kAnyTooLarge))};
+  ImageHeader header{
+      ImageContainer::kTiff,
+      static_cast<std::int64_t>(std::min(directory.value(kWidth, 0), kAnyTooLarge)),
+      static_cast<std::int64_t>(std::min(directory.value(kHeight, 0), kAnyTooLarge))};
+  header.orientation = tiffOrientation(file, bytes);
+  header.has_further_images = directory.hasNext();
+  return header;
 }
 
 }  // namespace boresight::sessions

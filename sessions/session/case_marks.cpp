@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "sessions/io/errors.h"
-#include "sessions/io/scene_mesh.h"
+#include "sessions/session/known_image.h"
 
 namespace boresight::sessions {
 namespace {
@@ -83,9 +83,7 @@ CaseMarksSolution solveCaseMarks(const Session& session, const std::string& case
                                  bool robust) {
   CaseMarks marks = caseMarks(session, case_id, together);
   const SessionCase& one = *session.findCase(case_id);
-  std::vector<PartSource> parts;
-  for (const MeshInput& part : one.parts) parts.push_back(part.source);
-  const SceneMesh scene = readScene(parts);
+  const SceneMesh scene = readKnownScene(one.parts);
   return solveCaseMarks(std::move(marks), marksGuess(one), boxCorners(matchedBounds(scene.view())),
                         robust);
 }

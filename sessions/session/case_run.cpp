@@ -19,20 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void requireSame(const fs::path& file, const char* what, const std::string& found,
-                 const std::string& known) {
-  if (found != known)
-    throw InputError(file, std::string(what) +
-                               " are not those that the session was made with: relink the file, "
-                               "or accept it as it is now");
-}
-
 std::optional<IgnoreMask> loadMask(const SessionCase& one, const GrayImage& image) {
   if (!one.ignore && one.ignore_strokes.empty()) return std::nullopt;
   IgnoreMask mask = emptyMask(image.width, image.height);
   if (one.ignore) {
     mask = readIgnoreMask(one.ignore->file, image.width, image.height);
-    requireSame(one.ignore->file, "its bytes", mask.file_sha256, one.ignore->sha256);
+    requireKnown(one.ignore->file, "its bytes", mask.file_sha256, one.ignore->sha256);
   }
   applyStrokes(one.ignore_strokes, image.view(), mask);
   return mask;
@@ -40,17 +32,8 @@ std::optional<IgnoreMask> loadMask(const SessionCase& one, const GrayImage& imag
 
 GrayImage loadImage(const ImageInput& input) {
   GrayImage image = readKnownImage(input, input.eight_bit);
-  requireSame(input.source.file, "its 8-bit pixels", image.pixels_sha256, input.pixels_sha256);
+  requireKnown(input.source.file, "its 8-bit pixels", image.pixels_sha256, input.pixels_sha256);
   return image;
-}
-
-SceneMesh loadScene(const std::vector<MeshInput>& inputs) {
-  std::vector<PartSource> parts;
-  for (const MeshInput& part : inputs) parts.push_back(part.source);
-  SceneMesh scene = readScene(parts);
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    requireSame(parts[i].mesh, "its bytes", scene.infos[i].file_sha256, inputs[i].sha256);
-  return scene;
 }
 
 std::shared_ptr<const LoadedCase> completed(const SessionCase& one, GrayImage image,
@@ -103,14 +86,14 @@ LocalizationProblem LoadedCase::problem() const {
 
 std::shared_ptr<const LoadedCase> loadCase(const SessionCase& one) {
   GrayImage image = loadImage(one.image);
-  return completed(one, std::move(image), loadScene(one.parts));
+  return completed(one, std::move(image), readKnownScene(one.parts));
 }
 
 std::shared_ptr<const LoadedCase> reloadCase(const LoadedCase& before, const SessionCase& one) {
   const bool same_image = one.image == before.source.image;
   const bool same_scene = one.parts == before.source.parts;
   GrayImage image = same_image ? before.image : loadImage(one.image);
-  return completed(one, std::move(image), same_scene ? before.scene : loadScene(one.parts));
+  return completed(one, std::move(image), same_scene ? before.scene : readKnownScene(one.parts));
 }
 
 void requireRunnable(const LoadedCase& loaded) {

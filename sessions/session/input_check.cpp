@@ -10,8 +10,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/label_files.h"
-#include "sessions/io/mesh_container.h"
-#include "sessions/io/mesh_file.h"
+#include "sessions/io/mesh_files.h"
 #include "sessions/session/known_image.h"
 
 namespace boresight::sessions {
@@ -180,11 +179,7 @@ std::string inputSha256(const fs::path& file) {
   return sha256Text(readFileBytes(file, kMaxInputBytes));
 }
 
-std::string meshSha256(const PartSource& part) {
-  if (knownMeshFormat(part.mesh) == MeshFormat::kGltf)
-    return readMesh(part.mesh, part.mesh_unit).info.file_sha256;
-  return inputSha256(part.mesh);
-}
+std::string meshSha256(const PartSource& part) { return readMeshFiles(part.mesh).sha256; }
 
 std::vector<Finding> checkInputs(const Session& session) {
   Checker checker;

@@ -228,7 +228,7 @@ ImageSheet imageSheet(const GrayImage& image) {
   if (*high - *low < 64)
     sheet.flags.push_back(
         {"image_few_grays", "the image uses few gray levels: is its bit depth stated right?"});
-  for (const std::string& note : image.notes) sheet.flags.push_back({"image_label", note});
+  for (const std::string& note : image.notes) sheet.flags.push_back({"image_note", note});
   if (image.sample_bits > 8 && !image.bit_depth_stated && !image.bit_depth_of_label)
     sheet.flags.push_back({"image_bit_depth",
                            "the samples have 16 bits and nothing says how many of them are used: "

@@ -52,7 +52,7 @@ struct ImageSheet {
   int highest_gray = 0;
   double saturated_share = 0.0;  ///< of all pixels
   std::vector<RedFlag> flags;  ///< image_saturated, image_few_grays, image_bit_depth, image_mosaic,
-                               ///< image_label
+                               ///< image_note
 };
 ImageSheet imageSheet(const GrayImage& image);
 

@@ -27,9 +27,25 @@ GrayImage readKnownImage(const ImageInput& image, const ImageReadOptions& eight_
   GrayImage read = readOrName(image, eight_bit);
   if (read.file_sha256 == image.source.sha256) return read;
   const std::string other = otherFileText(image.source.file);
-  throw InputError(image.source.file, (other.empty() ? "its bytes" : "its bytes or " + other) +
-                                          " are not those that the session was made with: relink "
-                                          "the file, or accept it as it is now");
+  requireKnown(image.source.file, other.empty() ? "its bytes" : "its bytes or " + other,
+               read.file_sha256, image.source.sha256);
+  return read;
+}
+
+SceneMesh readKnownScene(const std::vector<MeshInput>& inputs) {
+  std::vector<PartSource> parts;
+  for (const MeshInput& input : inputs) parts.push_back(input.source);
+  return readScene(parts, [&inputs](std::size_t part, const std::string& sha256) {
+    requireKnown(inputs[part].source.mesh, "its bytes", sha256, inputs[part].sha256);
+  });
+}
+
+void requireKnown(const fs::path& file, const std::string& what, const std::string& found_sha256,
+                  const std::string& known_sha256) {
+  if (found_sha256 != known_sha256)
+    throw InputError(file, what +
+                               " are not those that the session was made with: relink the file, "
+                               "or accept it as it is now");
 }
 
 std::string otherFileText(const fs::path& image) {

@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {
@@ -77,10 +78,9 @@ std::string LockHolder::text() const {
 }
 
 std::optional<LockHolder> readLockFile(const fs::path& lock_file) {
-  std::ifstream stream(lock_file);
-  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
-  if (!json.is_object()) return std::nullopt;
+  constexpr std::size_t kMost = 4096;
   try {
+    const nlohmann::json json = nlohmann::json::parse(readBeginning(lock_file, kMost));
     LockHolder holder;
     holder.process = json.at("process").get<std::int64_t>();
     holder.host = json.at("host").get<std::string>();
@@ -88,6 +88,8 @@ std::optional<LockHolder> readLockFile(const fs::path& lock_file) {
     holder.process_start = json.at("process_start").get<std::int64_t>();
     return holder;
   } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  } catch (const InputError&) {
     return std::nullopt;
   }
 }

@@ -3,15 +3,12 @@
 
 #include <functional>
 #include <set>
-#include <span>
 #include <system_error>
 
 #include "sessions/annotation/landmarks.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/io/json_document.h"
 #include "sessions/io/label_files.h"
-#include "sessions/io/mesh_container.h"
 #include "sessions/io/mesh_file.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/session/case_run.h"
@@ -26,23 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxPackedBytes = 4096 * kMegabyte;
 constexpr std::size_t kHashDigits = 16;
-constexpr std::uintmax_t kMostPadding = 3;  ///< of a glTF buffer, to a multiple of four bytes
-
-/// The file name, which may hold %20 and the like, of a buffer that lies beside a glTF file.
-std::string bufferName(const std::string& uri) {
-  std::string name;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const std::string digits = uri[i] == '%' ? uri.substr(i + 1, 2) : "";
-    if (digits.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos &&
-        digits.size() == 2) {
-      name += static_cast<char>(std::stoi(digits, nullptr, 16));
-      i += 2;
-    } else {
-      name += uri[i];
-    }
-  }
-  return name;
-}
+constexpr std::size_t kMostPadding = 3;  ///< of a glTF buffer, to a multiple of four bytes
 
 void requireSame(const fs::path& file, const std::string& found, const std::string& known) {
   if (found != known)
@@ -158,55 +139,24 @@ class Packer {
     image.source.file = place(folder + file.filename().string());
   }
 
+  /// The hash of glTF is that of the file and its buffers together.
   void packMesh(MeshInput& part) {
-    InputFile mesh = {part.source.mesh, part.sha256};
-    const auto read = [&part](const fs::path& file) {
-      requireSame(file, readMesh(file, part.source.mesh_unit).info.file_sha256, part.sha256);
-    };
-    if (knownMeshFormat(mesh.file) == MeshFormat::kGltf)
-      packGltf(mesh, read);
-    else
-      packInput(mesh, read);
-    part.source.mesh = mesh.file;
-  }
-
-  /// The names of the buffers beside a glTF file, which are of the sizes that it states.
-  std::vector<std::string> buffersOf(const fs::path& file,
-                                     std::span<const std::uint8_t> bytes) const {
-    std::vector<std::string> names;
-    const JsonDocument document(file, asText(bytes));
-    const auto buffers = document.root().find("buffers");
-    if (!buffers) return names;
-    for (const JsonReader& buffer : buffers->elements()) {
-      const auto uri = buffer.find("uri");
-      if (!uri || uri->text().starts_with("data:")) continue;
-      const std::string name = bufferName(uri->text());
-      if (name.find("..") != std::string::npos || fs::path(name).is_absolute())
-        uri->fail("'" + name + "' lies outside the mesh's folder");
-      const std::uintmax_t size = fs::file_size(folders_.resolved(file.parent_path() / name));
-      const auto stated = static_cast<std::uintmax_t>(buffer.at("byteLength").integer(0));
-      if (size < stated || size > stated + kMostPadding)
-        buffer.failMember("byteLength", "is " + std::to_string(stated) + ", but '" + name +
-                                            "' has " + std::to_string(size) + " bytes");
-      names.push_back(name);
-    }
-    return names;
-  }
-
-  /// Its hash is that of the file and its buffers together.
-  void packGltf(InputFile& mesh, const std::function<void(const fs::path&)>& read) {
-    const fs::path file = mesh.file;
-    const std::string folder = inputFolder(mesh.sha256) + "/";
-    mesh.file = place(folder + file.filename().string());
-    if (!isNew(folder + file.filename().string())) return;
-    const fs::path real = folders_.resolved(file);
-    const std::vector<std::uint8_t> bytes = readFileBytes(real, kMaxPackedBytes);
-    const std::vector<std::string> buffers = buffersOf(file, bytes);
-    read(file);
-    add(folder + file.filename().string(), file, sha256Text(bytes));
-    for (const std::string& name : buffers) {
-      const fs::path buffer = file.parent_path() / name;
-      add(folder + name, buffer, sha256Text(readFileBytes(buffer, kMaxPackedBytes)));
+    const fs::path file = part.source.mesh;
+    const std::string folder = inputFolder(part.sha256) + "/";
+    const std::string name = folder + file.filename().string();
+    part.source.mesh = place(name);
+    if (!isNew(name)) return;
+    (void)folders_.resolved(file);
+    const MeshFiles files = readMeshFiles(file);
+    requireSame(file, files.sha256, part.sha256);
+    (void)readMesh(files, part.source.mesh_unit);
+    add(name, file, sha256Text(files.bytes));
+    for (const MeshBuffer& buffer : files.buffers) {
+      if (buffer.bytes.size() > buffer.stated_bytes + kMostPadding)
+        throw InputError(file, buffer.place + ".byteLength",
+                         "is " + std::to_string(buffer.stated_bytes) + ", but '" + buffer.name +
+                             "' has " + std::to_string(buffer.bytes.size()) + " bytes");
+      add(folder + buffer.name, file.parent_path() / buffer.name, sha256Text(buffer.bytes));
     }
   }
 

@@ -3,6 +3,7 @@
 // field and reason, the exit status, and nothing written.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <iterator>
@@ -62,6 +63,16 @@ TEST_F(BadInput, NamesAFileThatIsMissing) {
   expectRefused({{"--config", "/no/such/config.json"}}, "/no/such/config.json: ", "");
   expectRefused({{"--ignore", "/no/such/mask.png"}}, "/no/such/mask.png: ", "");
   expectRefused({{"--truth", "/no/such/truth.json"}}, "/no/such/truth.json: ", "");
+}
+
+/// Whose other end nobody opens: reading would wait for ever.
+TEST_F(BadInput, NamesAPipeAndADeviceWithoutReadingThem) {
+  const std::filesystem::path pipe = inputs_ / "pipe.ply";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const char* option :
+       {"--image", "--camera", "--mesh", "--seed", "--config", "--ignore", "--truth"})
+    expectRefused({{option, pipe.string()}}, "pipe.ply: ", "is a pipe, a socket or a device");
+  expectRefused({{"--image", "/dev/zero"}}, "/dev/zero: ", "is a pipe, a socket or a device");
 }
 
 TEST_F(BadInput, NamesAFileThatIsEmptyCutOrOfAnotherFormat) {

@@ -113,6 +113,12 @@ TEST_F(WhsProblem, TheDriverRefusesDamageInOneSentence) {
   expectRefused(image_, "width and height");
   folder_.write("image.pgm", "P5\n# by hand\n512 2048 255\n" + image.substr(17));
   expectRefused(image_, "not the camera's");
+  const std::string folder = folder_.path();
+  for (const Arguments& arguments : {Arguments{folder, image_}, Arguments{problem_, folder}}) {
+    const ProgramRun run = runProgram(BORESIGHT_FLIGHT_DRIVER, arguments);
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_EQ(run.err, folder + ": is a folder; give a file\n");
+  }
   EXPECT_EQ(runProgram(BORESIGHT_FLIGHT_DRIVER, {problem_, "/no/such.pgm"}).exit_code, 3);
   EXPECT_EQ(runProgram(BORESIGHT_FLIGHT_DRIVER, {"/no/such.bin", image_}).exit_code, 3);
   EXPECT_EQ(runProgram(BORESIGHT_FLIGHT_DRIVER, {problem_}).exit_code, 2);

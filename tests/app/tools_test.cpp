@@ -2,6 +2,7 @@
 // render, solve, info, options, --help and --version.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 
@@ -231,6 +232,77 @@ TEST(WhsInfo, DescribesRigsAndLandmarks) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(HasSubstr("view left: camera of 1024 x 1024 px, 1 point, 0 lines"),
                              HasSubstr("\ncamera_from_rig\n"), HasSubstr("  1 landmark\n")));
+}
+
+/// A tree of nodes so deep that an importer's recursion ended the program.
+TEST(WhsInfo, RefusesADeepChainOfNodesInOneSentence) {
+  const TemporaryFolder folder;
+  std::string nodes;
+  for (int i = 1; i < 100'000; ++i) nodes += R"({"children":[)" + std::to_string(i) + "]},";
+  const auto file = folder.write(
+      "deep.gltf",
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"meshes":[],"accessors":[],)"
+      R"("nodes":[)" +
+          nodes + "{}]}");
+  const ProgramRun run = runWhs({"info", file});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_EQ(run.errorLines(), 1) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("deep.gltf: nodes[256]: is nested deeper than 256 nodes"));
+}
+
+TEST(WhsInfo, TellsOfWhatIsInAnImageAndNotUsed) {
+  const TemporaryFolder folder;
+  // A TIFF of one pixel that states orientation 6 and has a second directory.
+  std::string tiff("II*\0\x0a\0\0\0\x50\0\x0a\0", 12);
+  const std::pair<char, int> tags[] = {{'\0', 1},   {'\1', 1},   {'\2', 8},   {'\3', 1},
+                                       {'\6', 1},   {'\x11', 8}, {'\x12', 6}, {'\x15', 1},
+                                       {'\x16', 1}, {'\x17', 1}};
+  for (const auto& [tag, value] : tags)
+    tiff +=
+        {tag, '\1', '\4', '\0', '\1', '\0', '\0', '\0', static_cast<char>(value), '\0', '\0', '\0'};
+  tiff += std::string("\x0a\0\0\0", 4);
+  const ProgramRun run = runWhs({"info", folder.write("turned.tif", tiff)});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("EXIF orientation 6 is not applied"),
+                             HasSubstr("the file holds further images (pages)")));
+}
+
+/// Whose other end nobody opens: reading would wait for ever.
+TEST(Whs, RefusesPipesOfEveryKindOfInput) {
+  const TemporaryFolder folder;
+  const auto pipe = [&folder](const std::string& name) {
+    const std::string file = folder / name;
+    EXPECT_EQ(::mkfifo(file.c_str(), 0600), 0);
+    return file;
+  };
+  std::vector<Arguments> all;
+  for (const char* name : {"a.png", "a.img", "a.ply", "a.json", "a.cahvor", "a.trace", "a.whsr"})
+    all.push_back({"info", pipe(name)});
+  const std::string session = pipe("s.boresight.json");
+  const std::string record = folder / "a.whsr";
+  all.insert(all.end(),
+             {{"info", session},
+              {"run", session},
+              {"queue", session},
+              {"evaluate", "--dataset", folder / "a.json", "--out", folder / "r.sqlite"},
+              {"solve", "--points", folder / "a.json", "--camera", kExample / "camera.json"},
+              {"compare", record, record},
+              {"verify", folder / "a.json"},
+              {"tables", pipe("p.sqlite")},
+              {"merge", folder / "m.sqlite", folder / "p.sqlite"}});
+  const auto label =
+      folder.write("d.lbl",
+                   "PDS_VERSION_ID = PDS3\r\n^IMAGE = \"a.img\"\r\nOBJECT = IMAGE\r\n LINES = 8\r\n"
+                   " LINE_SAMPLES = 8\r\n SAMPLE_BITS = 8\r\n SAMPLE_TYPE = UNSIGNED_INTEGER\r\n"
+                   "END_OBJECT = IMAGE\r\nEND\r\n");
+  all.push_back({"info", label});
+  for (const Arguments& arguments : all) {
+    const ProgramRun run = runWhs(arguments);
+    const std::string command = arguments[0] + " " + arguments[1];
+    EXPECT_EQ(run.exit_code, 3) << command << ": " << run.err;
+    EXPECT_EQ(run.errorLines(), 1) << command << ": " << run.err;
+    EXPECT_THAT(run.err, HasSubstr("a pipe")) << command;
+  }
 }
 
 TEST(WhsInfo, GoesOnAfterABadFile) {

@@ -88,9 +88,18 @@ function matchesOf(confidence, columns, rows, threshold) {
   return matches.sort((a, b) => b.score - a.score);
 }
 
+function loadRuntime() {
+  try {
+    return require('onnxruntime-node');
+  } catch (error) {
+    if (error.code !== 'MODULE_NOT_FOUND') throw error;
+    throw new Error(`the package onnxruntime-node is not installed: run npm install in ${__dirname}`);
+  }
+}
+
 class Matcher {
   static async create(options) {
-    const ort = require('onnxruntime-node');
+    const ort = loadRuntime();
     const matcher = new Matcher();
     matcher.ort = ort;
     matcher.threshold = options.threshold;
@@ -182,6 +191,6 @@ async function main() {
 }
 
 main().catch(error => {
-  process.stderr.write(error.message + '\n');
+  process.stderr.write(error.message.split('\n')[0] + '\n');
   process.exit(1);
 });

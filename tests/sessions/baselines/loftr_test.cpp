@@ -7,6 +7,7 @@
 
 #include "sessions/baselines/matcher_client.h"
 #include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
 
 namespace boresight::test {
 namespace {
@@ -51,6 +52,20 @@ TEST(Loftr, FindsAShift) {
   // A cell is 16 px of 640 x 480.
   EXPECT_NEAR(median(dx), -kShift, 0.5 * 16.0 * first.width / 640.0);
   EXPECT_NEAR(median(dy), -kShift, 0.5 * 16.0 * first.height / 480.0);
+}
+
+TEST(Loftr, MissingPackageIsNamedWithWhatToDo) {
+  if (std::system("node --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "node is not installed";
+  const TemporaryFolder folder;
+  std::filesystem::copy(std::filesystem::path(BORESIGHT_MATCHERS) / "loftr/loftr.js",
+                        folder / "loftr.js");
+  const std::string command =
+      "env -u NODE_PATH node '" + (folder / "loftr.js").string() + "' --model model.onnx";
+  EXPECT_EQ(
+      folder.message([&] { const sessions::MatcherClient client(command, 120.0, {}); }),
+      "the matcher (env -u NODE_PATH node 'loftr.js' --model model.onnx) ended with status 1, "
+      "saying: the package onnxruntime-node is not installed: run npm install in " +
+          std::filesystem::canonical(folder.path()).string());
 }
 
 }  // namespace

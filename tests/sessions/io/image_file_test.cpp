@@ -7,13 +7,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <iostream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/base/random.h"
+#include "sessions/io/decoder_messages.h"
 #include "sessions/io/errors.h"
 #include "tests/support/temporary_folder.h"
 
@@ -22,7 +26,9 @@ namespace {
 
 using boresight::test::TemporaryFolder;
 using ::testing::AnyOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::StartsWith;
 using Bytes = std::vector<std::uint8_t>;
 
@@ -271,6 +277,111 @@ TEST_F(ReadImage, KeepsTheValuesOfTiffOrRefusesThem) {
             "colours");
   EXPECT_EQ(error(smallTiff(eight, {{262, 2}, {277, 3}, {284, 2}})),
             "image: a TIFF with separate colour planes is not supported");
+}
+
+/// OpenCV's decoder turns and mirrors a TIFF by its orientation.
+TEST_F(ReadImage, OrientationOfTiffIsReportedAndNotApplied) {
+  const Bytes stored = {1, 2, 3, 4, 5, 6};
+  Bytes wide;
+  for (const std::uint8_t value : stored) wide.insert(wide.end(), {0, value});
+  for (std::uint32_t orientation = 1; orientation <= 8; ++orientation) {
+    const std::vector<Tag> tags = {{256, 3}, {257, 2}, {274, orientation}, {278, 2}};
+    const GrayImage image = read(smallTiff(stored, tags));
+    EXPECT_EQ(image.width, 3);
+    EXPECT_EQ(image.pixels, stored) << orientation;
+    std::vector<Tag> deep = tags;
+    deep.push_back({258, 16});
+    EXPECT_EQ(read(smallTiff(wide, deep)).pixels, stored) << orientation;
+    if (orientation == 1) {
+      EXPECT_THAT(image.notes, IsEmpty());
+    } else {
+      EXPECT_THAT(image.notes, ElementsAre("EXIF orientation " + std::to_string(orientation) +
+                                           " is not applied: pixels are used as they are stored"));
+    }
+  }
+  EXPECT_THAT(read(smallTiff(stored, {{256, 3}, {257, 2}, {274, 9}, {278, 2}})).notes, IsEmpty());
+}
+
+/// A TIFF without an image that states an orientation, in the order of bytes of its sender.
+Bytes exifBlock(std::uint8_t orientation) {
+  return {'M', 'M', 0, 42, 0, 0, 0,           8, 0, 1, 0x01, 0x12, 0,
+          3,   0,   0, 0,  1, 0, orientation, 0, 0, 0, 0,    0,    0};
+}
+
+/// `bytes` with the segment APP1 behind the two bytes that begin a JPEG.
+Bytes withExif(Bytes bytes, const Bytes& exif) {
+  Bytes segment = {0xff, 0xe1, 0, static_cast<std::uint8_t>(exif.size() + 8), 'E', 'x', 'i',
+                   'f',  0,    0};
+  segment.insert(segment.end(), exif.begin(), exif.end());
+  bytes.insert(bytes.begin() + 2, segment.begin(), segment.end());
+  return bytes;
+}
+
+TEST_F(ReadImage, OrientationOfJpegIsReportedAndNotApplied) {
+  const Bytes plain = encoded(randomImage(CV_8UC1), ".jpg");
+  const GrayImage expected = read(plain);
+  const GrayImage turned = read(withExif(plain, exifBlock(6)));
+  EXPECT_EQ(turned.width, expected.width);
+  EXPECT_EQ(turned.pixels, expected.pixels);
+  EXPECT_THAT(turned.notes,
+              ElementsAre("EXIF orientation 6 is not applied: pixels are used as they are stored"));
+  EXPECT_THAT(read(withExif(plain, exifBlock(1))).notes, IsEmpty());
+  Bytes damaged = exifBlock(6);
+  damaged[9] = 200;
+  EXPECT_THAT(read(withExif(plain, damaged)).notes, IsEmpty());
+}
+
+TEST_F(ReadImage, FurtherPagesOfTiffAreReported) {
+  Bytes bytes = smallTiff({10, 20}, {});
+  bytes[bytes.size() - 4] = 8;
+  EXPECT_EQ(read(bytes).pixels, (Bytes{10, 20}));
+  EXPECT_THAT(read(bytes).notes,
+              ElementsAre("the file holds further images (pages): only the first is read"));
+}
+
+TEST_F(ReadImage, DecodersPrintNothing) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(error(smallTiff({1, 2, 3, 4, 5, 6, 7, 8}, {{277, 65535}})),
+            "image: 65535 channels are not supported");
+  EXPECT_EQ(error(smallTiff({1, 2, 3, 4}, {{259, 7}})),
+            "image: the TIFF image cannot be decoded (damaged, or of an unsupported kind)");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+/// The decoder fills what it cannot read and goes on.
+TEST_F(ReadImage, DamagedJpegIsReported) {
+  Bytes bytes = encoded(randomImage(CV_8UC1), ".jpg");
+  const Bytes start_of_scan = {0xff, 0xda};
+  const auto scan =
+      std::search(bytes.begin(), bytes.end(), start_of_scan.begin(), start_of_scan.end());
+  ASSERT_LT(scan - bytes.begin(), std::ssize(bytes) - 400);
+  std::fill(scan + 200, scan + 300, std::uint8_t{0x7f});
+  testing::internal::CaptureStderr();
+  EXPECT_THAT(read(bytes).notes, ElementsAre(HasSubstr("the image may be damaged: Corrupt JPEG")));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(DecoderMessages, AreKeptInTheirThreadAndPrintedInOthers) {
+  std::string kept;
+  testing::internal::CaptureStderr();
+  {
+    const DecoderMessages messages(kept);
+    std::cerr << "kept " << 1 << ' ';
+    std::fprintf(stderr, "kept %d", 2);
+    std::thread([] {
+      std::cerr << "printed " << 1 << ' ';
+      std::fprintf(stderr, "printed %d ", 2);
+    }).join();
+  }
+  std::cerr << "printed 3 ";
+  std::fprintf(stderr, "printed %d", 4);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "printed 1 printed 2 printed 3 printed 4");
+  EXPECT_EQ(kept, "kept 1 kept 2");
+  {
+    const DecoderMessages messages(kept);
+    std::cerr << std::string(5000, 'x');
+  }
+  EXPECT_EQ(kept.size(), 1000u);
 }
 
 /// Wherever a file is cut, it is refused: decoders alone would fill the rest with gray.

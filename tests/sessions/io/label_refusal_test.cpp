@@ -57,11 +57,12 @@ TEST(LabelRefusal, WhatIsNoPictureIsRefusedInOneSentence) {
     text.replace(text.find(from), from.size(), to);
     return message(Bytes(text.begin(), text.end()));
   };
-  EXPECT_THAT(altered("  NL=8  ", "  NL=0  "), HasSubstr("NL: 0 is outside of 1 .. 16384"));
-  EXPECT_THAT(altered("  NL=8  ", "  NL=99999999  "), HasSubstr("NL: 99999999 is outside"));
-  EXPECT_THAT(altered("  NS=8  ", "  NS=-8  "), HasSubstr("NS: -8 is outside"));
+  EXPECT_THAT(altered("  NL=8  ", "  NL=0  "),
+              HasSubstr("NL: 0 is no whole number from 1 to 16384"));
+  EXPECT_THAT(altered("  NL=8  ", "  NL=99999999  "), HasSubstr("NL: 99999999 is no whole"));
+  EXPECT_THAT(altered("  NS=8  ", "  NS=-8  "), HasSubstr("NS: -8 is no whole"));
   EXPECT_THAT(altered("  NS=8  ", "  NS=9999  "), HasSubstr("x.vic"));
-  EXPECT_THAT(altered("  NB=1  ", "  NB=1000000  "), HasSubstr("NB: 1000000 is outside"));
+  EXPECT_THAT(altered("  NB=1  ", "  NB=1000000  "), HasSubstr("NB: 1000000 is no whole"));
   EXPECT_THAT(altered("FORMAT='BYTE'", "FORMAT='COMP'"), HasSubstr("x.vic: "));
   vicar.organization = "BIP";
   vicar.prefix_bytes = 4;
@@ -73,6 +74,76 @@ TEST(LabelRefusal, WhatIsNoPictureIsRefusedInOneSentence) {
   EXPECT_THAT(message(vicar.bytes(colour)), HasSubstr("NBB: a prefix of every line of every band"));
   vicar = VicarFile();
   EXPECT_THAT(altered("ORG='BSQ'", "ORG='XYZ'"), HasSubstr("x.vic: "));
+}
+
+std::string altered(const Bytes& bytes, const std::string& from, const std::string& to) {
+  std::string text(bytes.begin(), bytes.end());
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+TEST(LabelRefusal, VicarSizesThatContradictEachOtherOrTheFileAreRefused) {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::string& bytes) {
+    return folder.message([&] { readImage(folder.write("x.vic", bytes)); });
+  };
+  const Raster gray = Raster::filled(8, 8, 1, [](std::size_t i) { return double(i); });
+  VicarFile vicar;
+  const Bytes whole = vicar.bytes(gray);
+  ASSERT_EQ(message(altered(whole, "RECSIZE=8 ", "RECSIZE=8 ")), "(nothing)");
+  EXPECT_EQ(message(altered(whole, "RECSIZE=8 ", "RECSIZE=9 ")),
+            "x.vic: RECSIZE: 9 contradicts the label's other sizes, by which a record has 8 bytes");
+  EXPECT_THAT(message(altered(whole, "RECSIZE=8 ", "RECSIZE=0 ")),
+              HasSubstr("x.vic: RECSIZE: 0 is no whole number from 1 to"));
+  EXPECT_THAT(message(altered(whole, "RECSIZE=8 ", "RECSIZE=2147483648 ")),
+              HasSubstr("x.vic: RECSIZE: 2147483648 is no whole number from 1 to"));
+  EXPECT_THAT(message(altered(whole, "  NL=8  ", "  NL=8e0  ")),
+              HasSubstr("x.vic: NL: 8e0 is no whole number from 1 to"));
+  EXPECT_THAT(message(altered(whole, "  NS=8  ", "  NS=4294967304  ")),
+              HasSubstr("x.vic: NS: 4294967304 is no whole number from 1 to"));
+  const auto label_size = std::stoi(std::string(whole.begin() + 8, whole.begin() + 16));
+  EXPECT_EQ(message(altered(whole, "LBLSIZE=" + std::to_string(label_size),
+                            "LBLSIZE=" + std::to_string(label_size - 1))),
+            "x.vic: LBLSIZE: " + std::to_string(label_size - 1) +
+                " is no multiple of the 8 bytes of a record");
+  vicar.items_at_end = true;
+  vicar.items = "PROPERTY='IMAGE_DATA'  FIRST_LINE=1  ";
+  Bytes at_end = vicar.bytes(gray);
+  EXPECT_EQ(message(altered(at_end, "EOL=1", "EOL=1")), "(nothing)");
+  at_end.pop_back();
+  EXPECT_EQ(message(altered(at_end, "EOL=1", "EOL=1")),
+            "x.vic: EOL: the part of the label at the file's end is not there in full");
+}
+
+/// The default of ORG is BSQ.
+TEST(LabelRefusal, VicarWithABlankOrganizationIsReadAsBandSequential) {
+  const TemporaryFolder folder;
+  const Raster gray = Raster::filled(8, 8, 1, [](std::size_t i) { return double(i); });
+  const Bytes whole = VicarFile().bytes(gray);
+  const auto pixels = readImage(folder.write("x.vic", whole)).pixels;
+  for (const char* blank : {"ORG='    ' ", "ORG='   '  ", "ORG=''     "})
+    EXPECT_EQ(readImage(folder.write("x.vic", altered(whole, "ORG='BSQ'  ", blank))).pixels, pixels)
+        << blank;
+}
+
+TEST(LabelRefusal, Pds3SizesThatAreNoPlainNumbersAreRefused) {
+  const TemporaryFolder folder;
+  Pds3File pds;
+  const Raster raster = Raster::filled(8, 8, 1, [](std::size_t i) { return double(i); });
+  const Bytes whole = pds.bytes(raster);
+  const auto message = [&](const std::string& from, const std::string& to) {
+    const auto file = folder.write("x.img", altered(whole, from, to));
+    return folder.message([&] { readImage(file); });
+  };
+  const std::string reason = " is no whole number of at most nine digits";
+  EXPECT_EQ(message(" LINE_SAMPLES = 8", " LINE_SAMPLES = 4294967304"),
+            "x.img: LINE_SAMPLES: 4294967304" + reason);
+  EXPECT_EQ(message(" LINES = 8", " LINES = 8e0"), "x.img: LINES: 8e0" + reason);
+  EXPECT_EQ(message(" SAMPLE_BITS = 16", " SAMPLE_BITS = 16.0"),
+            "x.img: SAMPLE_BITS: 16.0" + reason);
+  EXPECT_EQ(message("RECORD_BYTES = 128", "RECORD_BYTES = 4294967424"),
+            "x.img: RECORD_BYTES: 4294967424" + reason);
 }
 
 TEST(LabelRefusal, LabelsThatLieOfTheirPixelsAreRefused) {

@@ -3,10 +3,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <string>
 
@@ -19,6 +21,7 @@ namespace boresight::sessions {
 namespace {
 
 using boresight::test::TemporaryFolder;
+using ::testing::AllOf;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -161,6 +164,129 @@ TEST_F(ReadMesh, RefusesNodesThatAreNotTrees) {
             "mesh.glb: nodes[0].children[0]: 2 is outside 0 .. 1");
 }
 
+/// Nodes that each have the next one as their child, the last with the mesh.
+std::string chainOfNodes(int count) {
+  std::string nodes = "[";
+  for (int i = 1; i < count; ++i) nodes += "{\"children\":[" + std::to_string(i) + "]},";
+  return nodes + "{\"mesh\":0}]";
+}
+
+TEST_F(ReadMesh, RefusesNodesNestedSoDeepThatAnImporterWouldExhaustItsStack) {
+  expectCube(read("deep.glb", glb(cube(), chainOfNodes(256)), ""));
+  const std::string expected = " is nested deeper than 256 nodes, or is its own ancestor";
+  EXPECT_EQ(error("deep.glb", glb(cube(), chainOfNodes(257)), ""),
+            "deep.glb: nodes[256]:" + expected);
+  EXPECT_EQ(error("deep.glb", glb(cube(), chainOfNodes(100'000)), ""),
+            "deep.glb: nodes[256]:" + expected);
+  EXPECT_EQ(error("deep.gltf", gltf(cube(), chainOfNodes(100'000), ""), ""),
+            "deep.gltf: nodes[256]:" + expected);
+  EXPECT_EQ(error("many.glb", glb(cube(), chainOfNodes(100'001)), ""),
+            "many.glb: nodes: 100001 nodes exceed the limit of 100000");
+}
+
+/// No scene has the circle, but skins and animations may lead to it.
+TEST_F(ReadMesh, RefusesNodesInACircle) {
+  EXPECT_EQ(
+      error("circle.glb", glb(cube(), R"([{"mesh":0},{"children":[2]},{"children":[1]}])"), ""),
+      "circle.glb: nodes[1]: is nested deeper than 256 nodes, or is its own ancestor");
+}
+
+/// Skins, images and animations made importers crash, and are of no use here.
+TEST_F(ReadMesh, ReadsNothingButTheGeometryOfGltf) {
+  const std::string rest =
+      R"("skins":[{"joints":[1e-320]}],"animations":7,"images":[{"bufferView":99}],)"
+      R"("materials":[{"extensions":{"KHR_none":[{}]}}],"asset":)";
+  const auto with = [&](std::string json) {
+    return json.replace(json.find("\"asset\":"), 8, rest);
+  };
+  const std::string nodes = R"([{"mesh":0,"skin":0,"camera":-1,"extras":[[]]}])";
+  std::size_t count = 0;
+  folder_.write("cube.bin", gltfBuffer(cube(), &count));
+  expectCube(read("cube.gltf", with(gltf(cube(), nodes, R"("uri":"cube.bin",)")), ""));
+  expectCube(read("cube.glb", glb(cube(), nodes), ""));
+}
+
+/// The importer follows what their members name without a look.
+TEST_F(ReadMesh, RefusesSparseAccessors) {
+  std::string json = gltf(cube(), R"([{"mesh":0}])", "");
+  json.insert(json.find("{\"bufferView\":0") + 1, R"("sparse":{"count":1,"values":{}},)");
+  EXPECT_EQ(
+      error("sparse.gltf", json, ""),
+      "sparse.gltf: accessors[0].sparse: is not read: write the mesh without sparse accessors");
+}
+
+/// A file whose format's own importer does not know it is not offered to the others.
+TEST_F(ReadMesh, RefusesOtherFormatsUnderAKnownName) {
+  const std::string collada =
+      R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" )"
+      R"(version="1.4.1"><library_visual_scenes><visual_scene id="s"><node id="n"/>)"
+      R"(</visual_scene></library_visual_scenes></COLLADA>)";
+  for (const char* name : {"scene.obj", "scene.gltf", "scene.glb", "scene.stl"})
+    EXPECT_THAT(error(name, collada, "m"), StartsWith(name)) << name;
+}
+
+class GltfBuffer : public ReadMesh {
+ protected:
+  /// What is said of a mesh in a folder of its own with this buffer.
+  std::string errorOf(const std::string& uri) {
+    return error("mesh/cube.gltf", gltf(cube(), R"([{"mesh":0}])", R"("uri":")" + uri + R"(",)"),
+                 "");
+  }
+  std::string bytes() const {
+    std::size_t count = 0;
+    return gltfBuffer(cube(), &count);
+  }
+};
+
+TEST_F(GltfBuffer, IsReadOnlyInTheMeshsFolder) {
+  const auto outside = folder_.write("outside.bin", bytes());
+  folder_.write("mesh/inside.bin", bytes());
+  folder_.write("mesh/below/cube 1.bin", bytes());
+  std::filesystem::create_symlink("../outside.bin", folder_ / "mesh/link.bin");
+  std::filesystem::create_symlink("..", folder_ / "mesh/up");
+  std::filesystem::create_symlink("inside.bin", folder_ / "mesh/alias.bin");
+  for (const char* uri : {"inside.bin", "./inside.bin", "below/cube%201.bin", "alias.bin"})
+    EXPECT_EQ(errorOf(uri), "(nothing)") << uri;
+  for (const std::string& uri :
+       {std::string("../outside.bin"), std::string("below/../../outside.bin"),
+        std::string("%2e%2e/outside.bin"), outside.string(), std::string("/dev/zero"),
+        std::string("link.bin"), std::string("up/outside.bin")})
+    EXPECT_THAT(errorOf(uri), AllOf(StartsWith("mesh/cube.gltf: buffers[0].uri: '"),
+                                    HasSubstr("is not in the mesh's folder")))
+        << uri;
+}
+
+TEST_F(GltfBuffer, IsRefusedWhenItIsAPipe) {
+  std::filesystem::create_directory(folder_ / "mesh");
+  ASSERT_EQ(::mkfifo((folder_ / "mesh/pipe.bin").c_str(), 0600), 0);
+  EXPECT_EQ(errorOf("pipe.bin"),
+            "mesh/pipe.bin: is a pipe, a socket or a device: give a regular file");
+}
+
+TEST_F(GltfBuffer, TogetherWithTheOthersIsNotLargerThanAMeshMayBe) {
+  std::filesystem::create_directory(folder_ / "mesh");
+  std::ofstream(folder_ / "mesh/large.bin");
+  std::filesystem::resize_file(folder_ / "mesh/large.bin", kMaxMeshFileBytes / 2 + 1);
+  const std::string buffer = R"({"uri":"large.bin","byteLength":8})";
+  EXPECT_THAT(error("mesh/cube.gltf",
+                    R"({"asset":{"version":"2.0"},"buffers":[)" + buffer + "," + buffer + "]}", ""),
+              HasSubstr("large.bin: larger than the limit of 255 MB"));
+}
+
+/// Importers read other files by themselves where they are let.
+TEST_F(GltfBuffer, OfABinaryFileIsNotReadFromElsewhere) {
+  folder_.write("cube.bin", bytes());
+  std::string json =
+      gltf(cube(), R"([{"mesh":0}])", R"("uri":")" + (folder_ / "cube.bin").string() + R"(",)");
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  std::string file = "glTF";
+  appendNumber(file, std::uint32_t{2}, false);
+  appendNumber(file, static_cast<std::uint32_t>(20 + json.size()), false);
+  appendNumber(file, static_cast<std::uint32_t>(json.size()), false);
+  EXPECT_THAT(error("cube.glb", file + "JSON" + json, ""),
+              StartsWith("cube.glb: not a readable GLB"));
+}
+
 TEST_F(ReadMesh, HashesTheFileAndTheBuffersOfGltf) {
   const std::string text = asciiPly(cube());
   const auto bytes = std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
@@ -296,6 +422,33 @@ TEST_F(ReadMesh, RefusesOtherFiles) {
     EXPECT_THAT(error(name, "\x89PNG\r\n\x1a\n nothing of the kind"), StartsWith(name)) << name;
     EXPECT_THAT(error(name, std::string(500, '\0')), StartsWith(name)) << name;
   }
+}
+
+/// A count that leaves data over would drop faces without a word.
+TEST_F(ReadMesh, RefusesCountsThatTheFileContradicts) {
+  const auto with = [](std::string content, const std::string& count) {
+    return content.replace(content.find("face 6") + 5, 1, count);
+  };
+  EXPECT_EQ(error("a.ply", with(asciiPly(cube()), "5")),
+            "a.ply: header: declares vertex 8, face 5, but 11 more bytes follow these elements");
+  for (const bool big_endian : {false, true})
+    EXPECT_EQ(error("b.ply", with(binaryPly(cube(), big_endian), "5")),
+              "b.ply: header: declares vertex 8, face 5, but 17 more bytes follow these elements");
+  for (const char* count : {"5.5", "6.0", "1e9", "0x6", "-6", "", "six"})
+    for (const std::string& content : {asciiPly(cube()), binaryPly(cube(), false)}) {
+      EXPECT_THAT(error("c.ply", with(content, count)),
+                  AllOf(StartsWith("c.ply: header: bad line 'element face"),
+                        HasSubstr(std::string("'") + count + "' is not a whole number")))
+          << count;
+    }
+  EXPECT_THAT(
+      error("d.ply", asciiPly(cube()).replace(asciiPly(cube()).rfind("\n4 ") + 1, 1, "4.0")),
+      HasSubstr("d.ply: face 5: '4.0' is not the length of a list"));
+  expectCube(read("e.ply", asciiPly(cube()) + " \r\n\n"));
+  expectCube(read("f.ply", binaryPly(cube(), false) + "\n"));
+  std::string stl = binaryStl(cube());
+  stl[80] = 11;
+  EXPECT_EQ(error("g.stl", stl), "g.stl: header: declares 11 facets, but the file has room for 12");
 }
 
 TEST_F(ReadMesh, RefusesHugeDeclarationsBeforeReading) {

@@ -52,6 +52,20 @@ TEST(CaseRun, RefusesWhatCannotBeRun) {
               HasSubstr("options.pnp.nonsense: there is no such option"));
 }
 
+/// Parsing what somebody put in the mesh's place is a risk without a use.
+TEST(CaseRun, AMeshWithAnotherHashIsNotParsed) {
+  const TemporaryFolder folder;
+  Session session = sessionOfOs(exampleFolder());
+  SessionCase one = *session.cases[0];
+  one.parts[0].source.mesh = folder.write("m.ply", "this is no mesh");
+  const std::string expected =
+      "m.ply: its bytes are not those that the session was made with: relink the file, or accept "
+      "it as it is now";
+  EXPECT_EQ(folder.message([&] { (void)sessions::loadCase(one); }), expected);
+  session = withCase(session, one);
+  EXPECT_EQ(sessions::checkInputs(session).front().kind, sessions::FindingKind::kChanged);
+}
+
 TEST(CaseRun, StrokesAndMaskFileTogetherAreTheMask) {
   const TemporaryFolder folder;
   SessionCase one = *sessionOfOs(exampleFolder()).cases[0];
@@ -352,10 +366,11 @@ TEST_F(PackedMembers, BuffersOfAMeshAreThoseThatItStatesAndLieBesideIt) {
               HasSubstr("cases[0].parts[0]: mesh/cube.gltf: buffers[0].byteLength: is "));
 
   const TemporaryFolder outside;
-  outside.write("cube.bin", buffer);
-  std::filesystem::create_symlink(outside / "cube.bin", folder_ / "mesh/link.bin");
-  EXPECT_THAT(refusal(withBuffer("link.bin")),
-              HasSubstr("cases[0].parts[0]: mesh/link.bin: it leads to "));
+  const Session linked = withBuffer("cube.bin");
+  std::filesystem::remove(folder_ / "mesh/cube.bin");
+  std::filesystem::create_symlink(outside.write("cube.bin", buffer), folder_ / "mesh/cube.bin");
+  EXPECT_THAT(refusal(linked), HasSubstr("cases[0].parts[0]: mesh/cube.gltf: buffers[0].uri: "
+                                         "'cube.bin' is not in the mesh's folder"));
 }
 
 TEST_F(PackedMembers, AFileThatChangesWhileItIsPackedIsRefused) {
