@@ -71,8 +71,8 @@ std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file, std::
                                         FileUse use) {
   if (file.empty()) throw InputError("(no name)", "a file name is empty");
   const RegularFile opened(file);
-  noteInput(file, use);
   const std::size_t size = opened.size();
+  noteInput(file, use);
   if (size > max_bytes)
     throw InputError(file,
                      "larger than the limit of " + std::to_string(max_bytes / kMegabyte) + " MB");
