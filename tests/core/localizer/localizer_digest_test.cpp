@@ -56,7 +56,7 @@ TEST(LocalizerDigest, DoesNotDependOnTheKernels) {
     const Kernels kernels = static_cast<Kernels>(k);
     std::size_t bytes = 0;
     const Status sized =
-        Localizer::requiredBytes(sizeOf(scene.problem()), options, 1, bytes, kernels);
+        requiredBytes(sizeOf(scene.problem()), options, 1, bytes, kernels);
     if (!kernelsAvailable(kernels)) {
       std::cout << "not available here: " << kernelsName(kernels) << "\n";
       EXPECT_EQ(sized, Status::kInvalidOption);
