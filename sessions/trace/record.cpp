@@ -259,8 +259,8 @@ LocalizationTrace localize(const LocalizationProblem& problem, const RunPlan& pl
   trace.memory.limit = settings.memory_limit;
   const bool limited = settings.memory_limit > 0;
   const Kernels kernels = limited ? Kernels::kPortable : settings.kernels;
-  Status sized = requiredMemory(sizeOf(problem), options, settings.threads,
-                                           trace.memory.use, kernels);
+  Status sized =
+      requiredMemory(sizeOf(problem), options, settings.threads, trace.memory.use, kernels);
   if (sized == Status::kOk && limited && trace.memory.total() > settings.memory_limit)
     sized = Status::kArenaTooSmall;
   if (sized == Status::kOk && !planProblem(plan).empty()) sized = Status::kInvalidOption;

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <span>
 
-
 namespace boresight::sessions {
 namespace {
 

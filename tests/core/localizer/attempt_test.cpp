@@ -14,12 +14,12 @@ using test::seedInFront;
 
 class AttemptTest : public testing::Test {
  protected:
-  Ruling takeMatch(const Pose& found, int inliers) {
-    const Agreement agreement = pass.match(attempt.plan(pass.context()), found, inliers);
+  Ruling takeMatch(const Pose& pose, int inliers) {
+    const Agreement agreement = pass.match(attempt.plan(pass.context()), pose, inliers);
     return attempt.take(pass.outcome, agreement, pass.context(), pass.records);
   }
-  Ruling takeRefinement(const Pose& found) {
-    pass.refine(attempt.plan(pass.context()), found);
+  Ruling takeRefinement(const Pose& pose) {
+    pass.refine(attempt.plan(pass.context()), pose);
     return attempt.take(pass.outcome, {}, pass.context(), pass.records);
   }
 

@@ -18,7 +18,8 @@ class CompetingPosesTest : public testing::Test {
  protected:
   CompetingPosesTest() {
     pass.options.ambiguity.enabled = true;
-    const Agreement agreement = pass.match(first.plan(pass.context()), seed.camera_from_station, 80);
+    const Agreement agreement =
+        pass.match(first.plan(pass.context()), seed.camera_from_station, 80);
     (void)first.take(pass.outcome, agreement, pass.context(), pass.records);
     for (const double x_m : {0.02, -0.02}) {
       SelfShift shift;

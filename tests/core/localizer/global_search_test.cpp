@@ -81,8 +81,7 @@ TEST_F(GlobalSearchTest, Finalists_AreUsedOnceEach) {
 TEST_F(GlobalSearchTest, NoRestartSolved_Fails) {
   Ruling ruling;
   while (ruling.next == Ruling::Next::kPass) {
-    (void)pass.fail(search.plan(pass.context()), Stage::kMatch,
-                    LocalizationStatus::kTooFewMatches);
+    (void)pass.fail(search.plan(pass.context()), Stage::kMatch, LocalizationStatus::kTooFewMatches);
     ruling = search.take(pass.outcome, pass.context(), pass.records, digest);
   }
   EXPECT_EQ(ruling.status, LocalizationStatus::kTooFewMatches);

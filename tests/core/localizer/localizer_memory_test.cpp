@@ -73,8 +73,7 @@ TEST(LocalizerMemory, IsExactlyWhatWasAnnounced) {
       for (const Variant& variant : variants()) {
         SCOPED_TRACE(variant.name);
         std::size_t bytes = 0;
-        ASSERT_EQ(requiredBytes(sizeOf(scene.problem()), variant.options, bytes),
-                  Status::kOk);
+        ASSERT_EQ(requiredBytes(sizeOf(scene.problem()), variant.options, bytes), Status::kOk);
         Fenced enough(bytes);
         Localizer localizer(scene.problem(), variant.options, enough.block());
         EXPECT_EQ(localizer.status(), Status::kOk);
@@ -182,8 +181,7 @@ TEST(LocalizerMemory, IsDividedAmongTheStages) {
   for (const Variant& variant : variants()) {
     SCOPED_TRACE(variant.name);
     MemoryUse use;
-    ASSERT_EQ(requiredMemory(sizeOf(scene.problem()), variant.options, use),
-              Status::kOk);
+    ASSERT_EQ(requiredMemory(sizeOf(scene.problem()), variant.options, 1, use), Status::kOk);
     std::size_t most = use.kept + use.construction;
     for (int i = 0; i < static_cast<int>(Stage::kFinished); ++i) {
       const auto stage = static_cast<Stage>(i);

@@ -456,8 +456,7 @@ int OwnedRun::finish() {
 std::array<std::uint8_t, 32> sharedDigest(const LocalizationProblem& problem,
                                           const LocalizerOptions& options, int workers) {
   std::size_t bytes = 0;
-  EXPECT_EQ(requiredBytes(sizeOf(problem), options, workers, bytes, bestKernels()),
-            Status::kOk);
+  EXPECT_EQ(requiredBytes(sizeOf(problem), options, workers, bytes, bestKernels()), Status::kOk);
   std::vector<std::byte> memory(bytes + Arena::kAlignment);
   Localizer shared(problem, options, memory, workers, bestKernels());
   do {

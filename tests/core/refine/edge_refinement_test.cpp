@@ -9,7 +9,7 @@
 
 #include "core/base/random.h"
 #include "tests/core/localizer/scene.h"
-#include "tests/core/localizer/step_edge.h"
+#include "tests/core/refine/step_edge.h"
 
 namespace boresight::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
-#include "tests/core/localizer/step_edge.h"
+#include "tests/core/refine/step_edge.h"
 
 namespace boresight::test {
 namespace {
