@@ -131,7 +131,7 @@ int localize(const LocalizationProblem& problem, const LocalizerOptions& options
   Localizer localizer(problem, options, memory);
   if (localizer.status() == Status::kArenaTooSmall) {
     std::size_t needed = 0;
-    if (Localizer::requiredBytes(sizeOf(problem), options, needed) != Status::kOk) needed = 0;
+    if (requiredBytes(sizeOf(problem), options, needed) != Status::kOk) needed = 0;
     std::fprintf(stderr,
                  "%s: needs %lu bytes beside its inputs, and there are %lu; use a smaller "
                  "image or a coarser mesh\n",

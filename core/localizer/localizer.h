@@ -6,109 +6,48 @@
 #include <cstdint>
 #include <span>
 
-#include "core/base/digest.h"
 #include "core/base/kernels.h"
-#include "core/localizer/linked_view.h"
+#include "core/localizer/attempt.h"
+#include "core/localizer/competing_poses.h"
+#include "core/localizer/global_search.h"
 #include "core/localizer/localizer_options.h"
+#include "core/localizer/pass.h"
 #include "core/localizer/problem.h"
-#include "core/localizer/rival.h"
-#include "core/localizer/self_similarity.h"
-#include "core/localizer/wide_search.h"
+#include "core/localizer/stage.h"
 #include "core/localizer/workspace.h"
-#include "core/match/warped_search.h"
 
 namespace boresight {
 
-enum class Stage : std::uint8_t {
-  kEdges = 0,
-  kRender,
-  kTemplates,
-  kMatch,
-  kPose,
-  kRefine,
-  kSupport,
-  kFinished,
-};
-const char* stageText(Stage stage);
-
-/// Bytes of a localizer's block: what lives throughout, what construction takes besides (given back
-/// before the first step), and what each stage takes besides; these share the same memory.
-struct MemoryUse {
-  std::size_t kept = 0;          ///< bytes that live throughout
-  std::size_t construction = 0;  ///< bytes that construction takes besides
-  /// Bytes that each stage takes besides.
-  std::array<std::size_t, static_cast<std::size_t>(Stage::kFinished)> stage{};
-
-  /// High-water mark of a stage.
-  std::size_t of(Stage at) const {
-    return at < Stage::kFinished ? kept + stage[static_cast<std::size_t>(at)] : kept;
-  }
-  /// High-water mark of the whole: what the block must hold.
-  std::size_t total() const;
-};
-
-/// What one step did.
-struct StepReport {
-  Stage stage = Stage::kEdges;      ///< the stage that was worked on
-  bool stage_complete = false;      ///< the stage is done
-  bool iteration_complete = false;  ///< its record is whole, up to the stage that failed
-  bool finished = false;            ///< the run has ended; further steps do nothing
-
-  /// A step on a stage inside an iteration.
-  static StepReport of(Stage stage, bool stage_complete) { return {stage, stage_complete}; }
-};
-
 /// Render-and-compare localization (Pham 2025), one bounded slice per call. The flight loop, the
-/// command line, a window's worker and a recorder are callers of the same `step()`; nothing in here
-/// calls back, pauses, draws or logs. After construction nothing allocates.
+/// command line, a window's worker and a recorder call the same `step()`; it never calls back,
+/// pauses, draws or logs. After construction nothing allocates: all memory is one block
+/// (PassMemory).
 ///
-/// All memory is one block: first what lives throughout (adjacency, ray grids, edge maps from the
-/// finest level that is matched on, renders, matches), then one piece that the stages use in turn.
-/// What a stage leaves in it stays until the next step that works on another stage: edge maps finer
-/// than the finest level until the first render, the samples of a refinement until the next render.
+/// The pass runs the stages; the policies decide which pass comes next: the iterations of an
+/// attempt, the global search before them, and competing poses after convergence.
 ///
-/// A caller with threads of its own may share out the stages that consist of independent pieces:
+/// A caller with threads may share out the independent tasks of a stage:
 ///
 ///     while (!finished) {
-///       for piece in 0 ... pieces() - 1, at the same time:  work(piece, worker)
+///       for task in 0 ... tasks() - 1, at the same time:  runTask(task, worker)
 ///       finished = step().finished
 ///     }
 ///
-/// Whatever has not been done by then, `step()` does itself: the results are the same bits with any
-/// number of workers, and without any.
+/// Tasks that are left are done by `step()`: the results have the same bits with any number of
+/// workers.
 class Localizer {
  public:
-  /// Bytes of arena for a problem of this size, in a block aligned to Arena::kAlignment (one less
-  /// aligned loses its first bytes); kInvalidOption for options out of range and for kernels that
-  /// are not available.
-  static Status requiredBytes(const ProblemSize& size, const LocalizerOptions& options,
-                              std::size_t& bytes) {
-    return requiredBytes(size, options, 1, bytes);
-  }
-  /// The same with scratch for so many workers, 1 ... kMaxWorkers.
-  static Status requiredBytes(const ProblemSize& size, const LocalizerOptions& options, int workers,
-                              std::size_t& bytes, Kernels kernels = Kernels::kPortable);
-  /// The same in detail.
-  static Status requiredMemory(const ProblemSize& size, const LocalizerOptions& options,
-                               int workers, MemoryUse& use, Kernels kernels = Kernels::kPortable);
-  /// The same in detail.
-  static Status requiredMemory(const ProblemSize& size, const LocalizerOptions& options,
-                               MemoryUse& use) {
-    return requiredMemory(size, options, 1, use);
-  }
-  static constexpr int kMaxWorkers = 256;  ///< most workers that can share a run
+  static constexpr int kMaxWorkers = PassMemory::kMaxWorkers;
 
-  /// `memory` and everything `problem` points to must outlive the localizer. `status()` tells
+  /// `memory` (requiredBytes() of it) and everything `problem` points to must outlive the
+  /// localizer. `status()` tells
   /// whether it can run: kInvalidOption, kInvalidImage (its size is not the camera's or the ignore
   /// mask's), kInvalidCamera (not prepared), kInvalidPose (not finite, a quaternion not of unit
   /// length, an uncertainty that is negative), kInvalidMesh, kArenaTooSmall. If not, the first step
-  /// ends the run as a fault. `kernels` (those that the memory was asked for) change nothing but
-  /// the time taken.
+  /// ends the run as a fault. `kernels` (those that the memory was measured for) change only the
+  /// time taken.
   Localizer(const LocalizationProblem& problem, const LocalizerOptions& options,
             std::span<std::byte> memory, int workers = 1, Kernels kernels = Kernels::kPortable);
-
-  Localizer(const Localizer&) = delete;
-  Localizer& operator=(const Localizer&) = delete;
 
   /// kOk when it can run.
   Status status() const { return status_; }
@@ -116,223 +55,70 @@ class Localizer {
   /// One slice; after `finished` it does nothing.
   StepReport step();
 
-  /// Pieces of the work before the next step that may be done at the same time; 0 where there is
-  /// nothing to share out.
-  int pieces() const;
-  /// Does one of them, in the scratch of one of the workers. Each piece at most once between two
-  /// steps; calls at the same time need different pieces and different workers.
-  void work(int piece, int worker);
+  /// Number of tasks that may run at the same time before the next step.
+  int tasks() const { return pass_.tasks(); }
+  /// Runs a task with the scratch of a worker. Each task at most once between two steps; calls at
+  /// the same time need different tasks and different workers.
+  void runTask(int task, int worker) { pass_.runTask(task, worker); }
 
-  /// Begins anew from another pose with other options, as a fresh localizer would. Memory is what
-  /// it was: kArenaTooSmall when the new options ask for more.
+  /// Restarts from another seed with other options, without reallocating. kArenaTooSmall when the
+  /// new options need more memory.
   Status restart(const Pose& camera_from_station_seed, const LocalizerOptions& options);
 
-  /// Whether the run stands before an iteration: its edges are there, the last iteration (or
-  /// attempt) has ended and the next has not begun.
-  bool isBetweenIterations() const { return status_ == Status::kOk && iteration_pending_; }
-  /// The iterations that come have other options; those that were stay what they are. False when
-  /// not between iterations, or when an option is out of range or holds for a whole run
-  /// (firstFixedOption); then nothing has changed. The digest hears of it unless none differs.
+  /// Whether the next step starts an iteration.
+  bool isBetweenIterations() const;
+  /// Takes other options for the iterations that follow. False, and nothing has changed, when not
+  /// between iterations, or when an option is out of range or must hold for a whole run
+  /// (firstFixedOption). Options that differ are included in the digest.
   [[nodiscard]] bool changeOptions(const LocalizerOptions& options);
 
   /// Leaves the matching to the caller, for methods other than WHS in the same loop; before the
-  /// first step. Every match stage then waits for supplyMatches(), and the renders also give
-  /// `surfaces` (of the level's size, or larger), which must outlive the run. Everything else, and
-  /// a run without this call, stays what it is. The digest hears of it.
-  void matchOutside(const SurfaceRender& surfaces);
+  /// first step. Every match stage then waits for supplyMatches(), and the renders also fill
+  /// `surfaces` (of the level's size, or larger), which must outlive the run. Included in the
+  /// digest.
+  void matchOutside(const SurfaceRender& surfaces) { pass_.matchOutside(surfaces); }
   /// Whether step() waits for matches: then the workspace's iteration holds render and templates.
-  bool awaitsMatches() const;
-  /// One entry per template, in their order; or any other items of the render, which then stand for
-  /// the templates. What is not finite counts as not found. kCapacityExceeded for more than
-  /// templates.count, kInvalidOption when none are awaited; then nothing has changed.
-  Status supplyMatches(std::span<const SuppliedMatch> supplied);
+  bool awaitsMatches() const { return pass_.needs() == PassNeed::kMatches; }
+  /// One entry per template, in their order; or any other items of the render, which then replace
+  /// the templates. Entries that are not finite count as not found. kCapacityExceeded for more than
+  /// templates.count, kInvalidOption when no matches are awaited; then nothing has changed.
+  Status supplyMatches(std::span<const SuppliedMatch> supplied) {
+    return pass_.supplyMatches(supplied);
+  }
 
   /// To be looked at between two steps.
   ///@{
-  const Workspace& workspace() const { return workspace_; }
-  const LocalizationProblem& problem() const { return problem_; }
-  const LocalizerOptions& options() const { return options_; }
-  std::size_t highWaterBytes() const { return kept_.highWater() + scratch_.highWater(); }
+  const Workspace& workspace() const { return pass_.workspace(); }
+  const LocalizationProblem& problem() const { return pass_.problem(); }
+  const LocalizerOptions& options() const { return pass_.options(); }
+  const MemoryUse& memoryUse() const { return pass_.memory().use(); }
+  std::size_t highWaterBytes() const { return pass_.memory().highWaterBytes(); }
   ///@}
-  /// What the stages need of the memory; known from the start.
-  const MemoryUse& memoryUse() const { return memory_use_; }
-  /// SHA-256 over options, inputs and every intermediate up to now, whoever looks or not.
-  std::array<std::uint8_t, 32> digest() const { return digest_.digest(); }
+  /// SHA-256 over options, inputs and every intermediate up to now.
+  std::array<std::uint8_t, 32> digest() const { return pass_.digest().digest(); }
 
  private:
-  friend class ViewLink;
+  /// Which policy plans the next pass.
+  enum class Phase : std::uint8_t { kEdges = 0, kSearch, kIterate, kAccept, kCompare, kEnded };
 
-  void begin();
-  Status build();
-  Status layOut(const ProblemSize& size);
-  Status layOutKept();
-  void layOutRenders();
-  EdgeRender createRender(int level);
-  Status layOutStages(const ProblemSize& size);
-  void shareScratch(std::size_t& bytes);
-  void openPieces(int count);
-  std::size_t& bytesOf(Stage stage) { return memory_use_.stage[static_cast<std::size_t>(stage)]; }
-  void startIteration();
-  void startHypothesis();
-  void placeIteration(Iteration& now);
-  void placeRestart(Iteration& now);
-  StepReport stepEdges();
-  StepReport stepRender();
-  StepReport stepTemplates();
-  StepReport stepMatch();
-  StepReport stepPose();
-  StepReport stepRefine();
-  Status beginRefinement();
-  StepReport stepSupport();
-  StepReport finishSupported();
-  StepReport failUnsupported();
-  StepReport fail(Stage stage, LocalizationStatus status);
-  bool canTryAgain() const;
-  void startAttempt();
-  StepReport faulted(Stage stage, Status fault);
-  bool beginMatch(int index, WarpedSearch& search);
-  void finishMatch(int index, const WarpedSearch& search);
-  WarpGrid warpsOf(const Iteration& now, const Eigen::Vector3d& point_in_camera_m) const;
-  void dropIndistinct();
-  void learn();
-  bool nextUndone();
-  void collectCorrespondences();
-  void noteHypothesis();
-  HypothesisSummary summaryOf(const Iteration& iteration) const;
-  Status continueRender(bool& complete);
-  void layOutWideSearch();
-  bool isWide() const { return wide_round_ != WideRound::kNone; }
-  int restartCount() const;
-  StepReport beginEvidence();
-  StepReport stepEvidence();
-  StepReport finishRestart(Stage stage, const EdgeSupport& support);
-  void noteRestart(const EdgeSupport& support);
-  StepReport finishWideRound();
-  void chooseRestarts();
-  int bestFinalistLeft() const;
-  void startFinalist(int finalist);
-  void layOutRivals();
-  bool weighsRivals() const;
-  StepReport weighRivals();
-  void takeLead();
-  void beginScan();
-  StepReport stepScan();
-  void noteRivals();
-  bool isKnown(const Pose& camera_from_station, double within_px) const;
-  StepReport nextRival(StepReport made);
-  void startRival();
-  StepReport endRival(Stage stage, LocalizationStatus status);
-  StepReport concludeRivals(StepReport made);
-  void returnToLead();
-  bool isInSeedsBox(const Pose& camera_from_station) const;
-  LocalizationStatus verdict() const;
-  double templateFactorNow() const;
-  bool isConvincing(int buffer) const;
-  StepReport leaveToOthers(Stage stage, LocalizationStatus status);
-  StepReport stepLinkedRefine();
-  bool canReuseRender(const Iteration& now) const;
-  StepReport failHypothesis(Stage stage, LocalizationStatus status);
-  StepReport finishHypothesis(Stage stage);
-  StepReport finishIteration(Stage stage, const Pose& camera_from_station,
-                             const Matrix6d& covariance);
-  void finish(LocalizationStatus status);
-  void measureCorrection(const Pose& before, const Pose& after);
-  bool isSmall(const Iteration& iteration) const;
-  const PosePrior* anchor() const;
-  double featureSize() const;
+  Status begin(const LocalizationProblem& problem, const LocalizerOptions& options);
+  PassPlan plan() const;
+  StepReport decide(const StepReport& slice);
+  Ruling rule(const PassOutcome& outcome);
+  StepReport retry(const Ruling& ruling, StepReport report);
+  StepReport follow(CompetingPoses::Next next, StepReport report);
+  StepReport finish(LocalizationStatus status, StepReport report);
+  void iterate(const Attempt& attempt);
 
-  LocalizationProblem problem_;
-  LocalizationProblem started_;  ///< from the seed of this attempt: what the wide search found
-  LocalizerOptions options_;
   std::span<std::byte> memory_;
-  Arena kept_;
-  int workers_ = 1;
-  Kernels kernels_ = Kernels::kPortable;
-  Arena scratch_;  ///< of construction and of the stages, one after the other
-  MemoryUse memory_use_;
+  int workers_;
+  Kernels kernels_;
   Status status_ = Status::kOk;
-
-  MeshAdjacency adjacency_;
-  BoundingBox bounds_;
-  EdgeDetector detector_;
-  EdgeRenderer renderer_;
-  TemplateSelector selector_;
-  std::span<Eigen::Vector3d> failed_in_station_m_;  ///< where the last templates were of no use
-  int failed_count_ = 0;
-  std::span<WarpedSearch> searches_;  ///< one per worker
-  bool match_outside_ = false;
-  bool supplied_ = false;   ///< for the match stage at hand
-  SurfaceRender surfaces_;  ///< for those who match outside
-  LinkedView link_;
-  PnpRansac ransac_;
-  EdgeRefinement refinement_;
-  std::array<RayGrid, kPyramidLevels> rays_;
-
-  std::array<Iteration, 2> buffers_;  ///< the current hypothesis and the best of this iteration
-  std::array<Stage, 2> reached_{};    ///< by each of them
-  struct Agreement {
-    std::int32_t inliers = 0;
-    std::int32_t correspondences = 0;
-  };
-  std::array<Agreement, 2> agreement_;  ///< of each of them; of all views when there are several
-  std::array<EdgeRender, 2> coarse_render_;  ///< of the first iteration, one per buffer
-  EdgeRender fine_render_;  ///< of later ones, in the same memory unless it is the same level
-  int current_ = 0;
-  bool has_best_ = false;
-
-  enum class WideRound : std::uint8_t { kNone = 0, kRestarts, kFinalists };
-  RestartGrid grid_;
-  WideRound wide_round_ = WideRound::kNone;
-  bool weighing_ = false;                      ///< a restart's pose is being looked at
-  std::array<EdgeRender, 2> wide_render_;      ///< of restarts, one per buffer
-  std::array<EdgeRender, 2> evidence_render_;  ///< of poses found, by restarts and by finalists
-  std::span<HypothesisSummary> restarts_;
-  std::span<HypothesisSummary> finalists_;
-  int finalist_count_ = 0;
-  std::uint32_t finalists_used_ = 0;  ///< bits
-
-  /// The pose with the most evidence up to now, and what it takes to do its last iteration again.
-  struct Lead {
-    Pose camera_from_station;
-    Pose camera_from_station_before;
-    PoseEstimate matched;
-    LocalizationProblem started;
-    int iteration = 0;
-    int rival = -1;  ///< that it was; -1: the first
-  };
-  enum class RivalRound : std::uint8_t { kNone = 0, kScan, kRivals, kReturn };
-  RivalRound rival_round_ = RivalRound::kNone;
-  SelfSimilarity similarity_;
-  EdgeRender lead_render_;
-  Lead lead_;
-  LocalizationProblem first_started_;  ///< of the attempt that converged first
-  int first_attempt_ = 0;
-  std::span<Rival> rivals_;
-  int rival_count_ = 0;
-  int rival_ = 0;               ///< being tried
-  bool lead_is_shown_ = false;  ///< the latest iteration is the lead's
-  int hypothesis_ = 0;
-  std::span<std::uint8_t> done_;  ///< pieces of the stage, or of its round
-  int piece_count_ = 0;
-  int piece_ = 0;             ///< none before it is left to do
-  bool piece_begun_ = false;  ///< by step() itself
-
-  Stage stage_ = Stage::kEdges;
-  bool stage_begun_ = false;
-  bool iteration_pending_ = false;
-  bool hypothesis_pending_ = false;
-  int attempt_ = 0;
-  int iteration_ = 0;  ///< of this attempt
-  int small_corrections_ = 0;
-  int coarse_level_ = 0;
-  int wide_level_ = 0;  ///< of restarts; the coarse level when there are none
-  int fine_level_ = 0;
-  PosePrior anchor_;          ///< the seed with its uncertainty as a Gaussian
-  PoseEstimate matched_;      ///< from the latest templates
-  Pose camera_from_station_;  ///< the hypothesis
-  Matrix6d covariance_ = Matrix6d::Zero();
-  Workspace workspace_;
-  DigestWriter digest_;
+  Pass pass_;
+  Phase phase_ = Phase::kEdges;
+  GlobalSearch search_;
+  Attempt attempt_;
+  CompetingPoses competing_;
 };
 
 }  // namespace boresight

@@ -11,16 +11,12 @@ namespace {
 
 /// Whether an option makes the test edges or the rendered ones, or sizes the memory.
 bool holdsForWholeRun(std::string_view name) {
-  constexpr std::string_view kNames[] = {"templates.count",
-                                         "templates.max_side_px",
-                                         "refinement.enabled",
-                                         "refinement.max_samples",
-                                         "loop.coarse_size_px",
-                                         "loop.halved_size_px",
-                                         "loop.max_rolled_hypotheses",
-                                         "templates.learn"};
+  constexpr std::string_view kNames[] = {"templates.count",           "templates.max_side_px",
+                                         "refinement.enabled",        "refinement.max_samples",
+                                         "loop.coarse_size_px",       "loop.halved_size_px",
+                                         "loop.max_rolled_hypotheses"};
   return name.starts_with("edges.") || name.starts_with("render.") || name.starts_with("wide.") ||
-         name.starts_with("ambiguity.") || name == "warp.enabled" ||
+         name.starts_with("ambiguity.") ||
          std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
@@ -39,15 +35,11 @@ void visitDifferences(const LocalizerOptions& before, const LocalizerOptions& af
 
 }  // namespace
 
-int LocalizerOptions::roundOf(const OptionInfo& info) {
+bool LocalizerOptions::isDigestedOnlyIfChanged(const OptionInfo& info) {
   const std::string_view name = info.name;
-  if (name.starts_with("wide.") || name == "refinement.covariance") return 1;
-  if (name.starts_with("ambiguity.") || name.starts_with("support.partial") ||
-      name == "refinement.rising_weight")
-    return 2;
-  if (name.starts_with("warp.") || name == "templates.min_margin" || name == "templates.learn")
-    return 3;
-  return 0;
+  return name.starts_with("wide.") || name.starts_with("ambiguity.") ||
+         name.starts_with("support.partial") || name == "refinement.covariance" ||
+         name == "refinement.rising_weight";
 }
 
 bool sameOptions(const LocalizerOptions& one, const LocalizerOptions& other) {
@@ -62,6 +54,28 @@ const char* firstFixedOption(const LocalizerOptions& before, const LocalizerOpti
     if (fixed == nullptr && holdsForWholeRun(name)) fixed = name;
   });
   return fixed;
+}
+
+LocalizerOptions defaultProfile() { return {}; }
+
+LocalizerOptions paperProfile() {
+  LocalizerOptions options;
+  options.render.max_edge_pixels = 200000;  // of the whole resolution
+  options.templates.size_factor = 1.0;
+  options.pnp.sampler = PnpSampler::kP3p;
+  options.loop.match_iterations = options.loop.max_iterations;
+  options.loop.coarse_size_px = 16384;
+  options.loop.halved_size_px = 16384;
+  options.loop.max_rolled_hypotheses = 1;
+  options.loop.max_attempts = 1;
+  options.loop.correction_point = CorrectionPoint::kCamera;
+  options.loop.converged_image_px = 0.0;
+  options.loop.enough_inliers = 2.0;
+  options.loop.render_again_px = 0.0;
+  options.loop.anchored = false;
+  options.refinement.enabled = false;
+  options.support.gate = false;
+  return options;
 }
 
 }  // namespace boresight

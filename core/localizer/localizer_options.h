@@ -5,14 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/accept/ambiguity_options.h"
+#include "core/accept/edge_support.h"
 #include "core/base/options.h"
 #include "core/edges/edge_map.h"
-#include "core/localizer/ambiguity_options.h"
-#include "core/localizer/edge_refinement.h"
-#include "core/localizer/edge_support.h"
 #include "core/localizer/wide_options.h"
-#include "core/match/template_warp.h"
 #include "core/pnp/pnp.h"
+#include "core/refine/edge_refinement.h"
 #include "core/render/edge_render.h"
 #include "core/templates/template_selection.h"
 
@@ -146,7 +145,6 @@ struct LocalizerOptions {
   SupportOptions support;        ///< what a pose must show
   WideOptions wide;              ///< seeds far off
   AmbiguityOptions ambiguity;    ///< other poses that look alike
-  WarpOptions warp;              ///< turned and scaled templates
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -159,12 +157,10 @@ struct LocalizerOptions {
     SupportOptions::visitFields(self.support, visit);
     WideOptions::visitFields(self.wide, visit);
     AmbiguityOptions::visitFields(self.ambiguity, visit);
-    WarpOptions::visitFields(self.warp, visit);
   }
 
-  /// Which round of additions brought an option, 0: there from the start. For files that were
-  /// written before.
-  static int roundOf(const OptionInfo& info);
+  /// Whether digests include the option only where it differs from its default.
+  static bool isDigestedOnlyIfChanged(const OptionInfo& info);
 };
 
 /// Values of all options in the order of the visitor.
@@ -182,16 +178,16 @@ struct OptionValues {
   }
 };
 
-/// Visits what digests are made of: all options, but those that came later only where they are not
-/// as they stand by themselves. Runs without them keep the digests that they had.
+/// Visits the options that a digest includes: all original ones, and newer ones that differ from
+/// their defaults. So runs that do not use a newer option keep their digests.
 template <class Visitor>
 void visitDigested(const LocalizerOptions& options, Visitor&& visit) {
-  const OptionValues plain{LocalizerOptions()};
+  const OptionValues defaults{LocalizerOptions()};
   std::size_t at = 0;
   LocalizerOptions::visitFields(options, [&](const OptionInfo& info, const auto& field) {
-    const bool as_it_stands =
-        at < OptionValues::kMost && plain.value[at] == static_cast<double>(field);
-    if (LocalizerOptions::roundOf(info) == 0 || !as_it_stands) visit(info, field);
+    const bool is_default =
+        at < OptionValues::kMost && defaults.value[at] == static_cast<double>(field);
+    if (!is_default || !LocalizerOptions::isDigestedOnlyIfChanged(info)) visit(info, field);
     ++at;
   });
 }
@@ -203,7 +199,7 @@ const char* firstFixedOption(const LocalizerOptions& before, const LocalizerOpti
 
 /// As published: full resolution from the start, P3P samples, no refinement on edges, no gate.
 LocalizerOptions paperProfile();
-/// Whatever is best.
+/// Recommended settings.
 LocalizerOptions defaultProfile();
 
 }  // namespace boresight

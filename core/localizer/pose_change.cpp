@@ -14,11 +14,6 @@ Vector6d limitsOf(const SeedUncertainty& uncertainty) {
   return limits;
 }
 
-Vector6d offsetFromSeed(const LocalizationProblem& problem, const Pose& camera_from_station) {
-  return offsetAboutPivot(problem.camera_from_station_seed, camera_from_station,
-                          problem.uncertainty.pivot_in_camera_m);
-}
-
 }  // namespace
 
 double translationBetween_m(const Pose& before, const Pose& after, const BoundingBox& scene,
@@ -61,31 +56,35 @@ Pose rolledAboutScene(const Pose& camera_from_station, double roll_rad, const Bo
   return rolled;
 }
 
-bool leftUncertainty(const LocalizationProblem& problem, const Pose& camera_from_station,
-                     double factor) {
-  const Vector6d offset = offsetFromSeed(problem, camera_from_station);
-  const Vector6d limits = limitsOf(problem.uncertainty);
+bool leftUncertainty(const Seed& seed, const Pose& camera_from_station, double factor) {
+  const Vector6d offset = offsetAboutPivot(seed.camera_from_station, camera_from_station,
+                                           seed.uncertainty.pivot_in_camera_m);
+  const Vector6d limits = limitsOf(seed.uncertainty);
   for (int i = 0; i < 6; ++i)
     if (std::abs(offset[i]) > factor * limits[i]) return true;
   return false;
 }
 
-Pose pulledBack(const LocalizationProblem& problem, const Pose& camera_from_station) {
-  return pulledBack(PosePrior{problem.camera_from_station_seed, problem.uncertainty},
-                    camera_from_station);
-}
-
-Pose pulledBack(const PosePrior& seed, const Pose& camera_from_station) {
+Pose pulledBack(const Seed& seed, const Pose& camera_from_station) {
+  const Eigen::Vector3d& pivot_in_camera_m = seed.uncertainty.pivot_in_camera_m;
   Vector6d offset =
-      offsetAboutPivot(seed.camera_from_station, camera_from_station, seed.sigma.pivot_in_camera_m);
-  const Vector6d limits = limitsOf(seed.sigma);
+      offsetAboutPivot(seed.camera_from_station, camera_from_station, pivot_in_camera_m);
+  const Vector6d limits = limitsOf(seed.uncertainty);
   bool outside = false;
   for (int i = 0; i < 6; ++i) {
     outside = outside || std::abs(offset[i]) > limits[i];
     offset[i] = std::clamp(offset[i], -limits[i], limits[i]);
   }
   if (!outside) return camera_from_station;
-  return displacedAboutPivot(seed.camera_from_station, offset, seed.sigma.pivot_in_camera_m);
+  return displacedAboutPivot(seed.camera_from_station, offset, pivot_in_camera_m);
+}
+
+void measureCorrection(const Pose& before, const Pose& after, const RunContext& run,
+                       Iteration& iteration) {
+  iteration.correction_translation_m =
+      translationBetween_m(before, after, run.scene, run.options.loop.correction_point);
+  iteration.correction_image_px = displacementBetween_px(before, after, run.scene, run.camera);
+  iteration.correction_rotation_rad = rotationBetween_rad(before, after);
 }
 
 }  // namespace boresight

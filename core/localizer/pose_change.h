@@ -5,8 +5,8 @@
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
 #include "core/localizer/localizer_options.h"
+#include "core/localizer/pass_plan.h"
 #include "core/localizer/problem.h"
-#include "core/pnp/correspondence.h"
 
 // How far two poses are apart, as the loop sees it.
 namespace boresight {
@@ -26,12 +26,13 @@ double displacementBetween_px(const Pose& before, const Pose& after, const Bound
 Pose rolledAboutScene(const Pose& camera_from_station, double roll_rad, const BoundingBox& scene);
 
 /// Whether the pose lies outside the seed's uncertainty, `factor` times as large.
-bool leftUncertainty(const LocalizationProblem& problem, const Pose& camera_from_station,
-                     double factor);
+bool leftUncertainty(const Seed& seed, const Pose& camera_from_station, double factor);
 /// The nearest pose inside the seed's uncertainty, axis by axis: a coarse estimate may overshoot
 /// where the image says little.
-Pose pulledBack(const LocalizationProblem& problem, const Pose& camera_from_station);
-/// The same with the box in place of sigma.
-Pose pulledBack(const PosePrior& seed, const Pose& camera_from_station);
+Pose pulledBack(const Seed& seed, const Pose& camera_from_station);
+
+/// Fills in the corrections of an iteration that moved a pose.
+void measureCorrection(const Pose& before, const Pose& after, const RunContext& run,
+                       Iteration& iteration);
 
 }  // namespace boresight

@@ -18,6 +18,15 @@ struct LocalizationProblem {
   SeedUncertainty uncertainty;       ///< how far the truth may be from the seed
 };
 
+/// Where a search begins, and how far the truth may be from there.
+struct Seed {
+  Pose camera_from_station;
+  SeedUncertainty uncertainty;
+};
+inline Seed seedOf(const LocalizationProblem& problem) {
+  return {problem.camera_from_station_seed, problem.uncertainty};
+}
+
 /// Sizes that decide how much memory a run needs.
 struct ProblemSize {
   int width = 0;                              ///< px
@@ -28,6 +37,14 @@ struct ProblemSize {
   CameraModel model = CameraModel::kPinhole;  ///< of the camera
   bool ignore = false;                        ///< whether there is an ignore mask
 };
-ProblemSize sizeOf(const LocalizationProblem& problem);
+inline ProblemSize sizeOf(const LocalizationProblem& problem) {
+  return {problem.image.width,
+          problem.image.height,
+          static_cast<int>(problem.mesh.vertices_in_station_m.size()),
+          static_cast<int>(problem.mesh.faces.size()),
+          static_cast<int>(problem.mesh.parts.size()),
+          problem.camera.model,
+          problem.ignore != nullptr};
+}
 
 }  // namespace boresight

@@ -164,16 +164,6 @@ void digestMatches(const MatchSet& matches, DigestWriter& writer) {
   }
 }
 
-void digestWarps(const MatchSet& matches, DigestWriter& writer) {
-  writer.tag("warps");
-  for (std::int32_t i = 0; i < matches.count; ++i) {
-    const Match& match = matches.matches[static_cast<std::size_t>(i)];
-    writer.f64(match.warp.roll_rad);
-    writer.f64(match.warp.scale);
-    writer.u8(match.dropped ? 1 : 0);
-  }
-}
-
 void digestPnp(const PnpSolution& solution, DigestWriter& writer) {
   writer.tag("pose");
   digestPose(solution.camera_from_station, writer);

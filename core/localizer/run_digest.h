@@ -19,8 +19,6 @@ void digestEdgeMap(const EdgeMap& edges, DigestWriter& writer);
 void digestRender(const EdgeRender& render, DigestWriter& writer);
 void digestTemplates(const TemplateSet& templates, DigestWriter& writer);
 void digestMatches(const MatchSet& matches, DigestWriter& writer);
-/// How templates were warped, and which matches were dropped.
-void digestWarps(const MatchSet& matches, DigestWriter& writer);
 void digestPnp(const PnpSolution& solution, DigestWriter& writer);
 void digestSupport(const EdgeSupport& support, DigestWriter& writer);
 void digestPartialSupport(const PartialSupport& partial, DigestWriter& writer);

@@ -17,20 +17,19 @@ int levelOfSize(int longer, int size_px, int level) {
 
 }  // namespace
 
-int coarseLevel(int width, int height, const LoopOptions& loop) {
-  const int longer = std::max(width, height);
-  return levelOfSize(longer, loop.coarse_size_px, longer > loop.halved_size_px ? 1 : 0);
-}
-
-int wideLevel(int width, int height, const LocalizerOptions& options) {
-  const int coarse = coarseLevel(width, height, options.loop);
-  if (!options.wide.isOn()) return coarse;
-  return levelOfSize(std::max(width, height), options.wide.size_px, coarse);
+RunLevels levelsOf(const ProblemSize& size, const LocalizerOptions& options) {
+  const int longer = std::max(size.width, size.height);
+  const int finest = longer > options.loop.halved_size_px ? 1 : 0;
+  RunLevels levels;
+  levels.coarse = levelOfSize(longer, options.loop.coarse_size_px, finest);
+  levels.fine = std::max(0, levels.coarse - 1);
+  levels.global = options.wide.isOn() ? levelOfSize(longer, options.wide.size_px, levels.coarse)
+                                      : levels.coarse;
+  return levels;
 }
 
 bool comparesHypotheses(const LocalizerOptions& options) {
-  const bool rolled = options.loop.max_rolled_hypotheses > 1 && !options.warp.enabled;
-  return rolled || options.wide.isOn();
+  return options.loop.max_rolled_hypotheses > 1 || options.wide.isOn();
 }
 
 bool isRefinement(const LocalizerOptions& options, int iteration) {
@@ -54,21 +53,21 @@ double thresholdAt(const LocalizerOptions& options, int iteration, int level) {
   return radius_px * static_cast<double>(1 << level);
 }
 
-SeedUncertainty uncertaintyAt(const LocalizationProblem& problem, const LoopOptions& loop,
-                              int iteration, const Pose& camera_from_station) {
-  const SeedUncertainty& seed = problem.uncertainty;
-  SeedUncertainty now = scaled(seed, shrinkAt(loop.uncertainty_shrink, loop, iteration));
+SeedUncertainty uncertaintyAt(const Seed& seed, const LoopOptions& loop, int iteration,
+                              const Pose& camera_from_station) {
+  SeedUncertainty now =
+      scaled(seed.uncertainty, shrinkAt(loop.uncertainty_shrink, loop, iteration));
   // The pivot belongs to the scene: it goes where the hypothesis takes it, unless it is the
   // camera's centre.
-  if (seed.pivot_in_camera_m.squaredNorm() > 0.0) {
+  const Eigen::Vector3d& pivot_in_camera_m = seed.uncertainty.pivot_in_camera_m;
+  if (pivot_in_camera_m.squaredNorm() > 0.0) {
     now.pivot_in_camera_m =
-        camera_from_station * (problem.camera_from_station_seed.inverse() * seed.pivot_in_camera_m);
+        camera_from_station * (seed.camera_from_station.inverse() * pivot_in_camera_m);
   }
   return now;
 }
 
 int rolledHypotheses(const LocalizerOptions& options, const SeedUncertainty& uncertainty) {
-  if (options.warp.enabled) return 1;
   const LoopOptions& loop = options.loop;
   const double half_rad = 0.5 * loop.roll_spacing_rad;
   const double uncovered_rad = uncertainty.rotation_rad.z() - half_rad;

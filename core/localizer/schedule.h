@@ -9,11 +9,13 @@
 // within an iteration.
 namespace boresight {
 
-/// Level of the image pyramid that the first iteration matches on; later ones work one level finer.
-int coarseLevel(int width, int height, const LoopOptions& loop);
-
-/// Level that restarts match on; the same when the wide search is off.
-int wideLevel(int width, int height, const LocalizerOptions& options);
+/// Pyramid levels of a run.
+struct RunLevels {
+  int fine = 0;    ///< of later iterations and refinements: one finer than the first iteration's
+  int coarse = 0;  ///< of the first iteration
+  int global = 0;  ///< of the global search; the coarse one when it is off
+};
+RunLevels levelsOf(const ProblemSize& size, const LocalizerOptions& options);
 
 /// Whether the best of several hypotheses is kept while another one is tried.
 bool comparesHypotheses(const LocalizerOptions& options);
@@ -29,11 +31,11 @@ double shrinkAt(double factor, const LoopOptions& loop, int iteration);
 double thresholdAt(const LocalizerOptions& options, int iteration, int level);
 
 /// How far the pose may be off in this iteration, about a pivot that moves with the hypothesis.
-SeedUncertainty uncertaintyAt(const LocalizationProblem& problem, const LoopOptions& loop,
-                              int iteration, const Pose& camera_from_station);
+SeedUncertainty uncertaintyAt(const Seed& seed, const LoopOptions& loop, int iteration,
+                              const Pose& camera_from_station);
 
 /// Renders that the first iteration compares, turned about the view axis, so that each serves half
-/// a spacing to either side and all of them the seed's uncertainty; 1 where templates are warped.
+/// a spacing to either side and all of them the seed's uncertainty.
 int rolledHypotheses(const LocalizerOptions& options, const SeedUncertainty& uncertainty);
 /// Turn of one of them: 0, +s, -s, +2s, -2s, ...
 double rollOf(int hypothesis, double spacing_rad);

@@ -5,12 +5,11 @@
 #include <cstdint>
 #include <span>
 
+#include "core/accept/edge_support.h"
 #include "core/edges/edge_map.h"
-#include "core/localizer/edge_refinement.h"
-#include "core/localizer/edge_support.h"
-#include "core/match/template_warp.h"
 #include "core/match/whs.h"
 #include "core/pnp/pnp.h"
+#include "core/refine/edge_refinement.h"
 #include "core/render/edge_render.h"
 #include "core/templates/template_selection.h"
 
@@ -24,8 +23,6 @@ struct Match {
   double x = 0.0, y = 0.0;  ///< sub-pixel place at the level
   bool searched = false;    ///< the window was searched; otherwise there is no peak
   bool at_border = false;   ///< the peak lies on the window's border: the truth may lie beyond
-  TemplateWarp warp;        ///< with warp.enabled: what fitted best; the norms are its own
-  bool dropped = false;     ///< not used for the pose: less distinct than templates.min_margin
 };
 
 /// Where the templates of an iteration were found.

@@ -66,8 +66,6 @@ Status TemplateSelector::create(int max_width, int max_height, const TemplateOpt
   sums_ = arena.allocate<Scatter>(static_cast<std::size_t>(blocks * blocks));
   cells_ = arena.allocate<std::uint16_t>(static_cast<std::size_t>(kMaxCells * kMaxCells));
   best_ = arena.allocate<Best>(static_cast<std::size_t>(options.count));
-  if (options.learn)
-    avoided_px_ = arena.allocate<Eigen::Vector2d>(static_cast<std::size_t>(options.count));
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 
@@ -132,25 +130,6 @@ float TemplateSelector::distinctnessOf(const EdgePixel& pixel, int side_px) cons
   return static_cast<float>(std::max(0.0, smaller / (kNormalScale * kNormalScale)));
 }
 
-void TemplateSelector::placeAvoided(const EdgeRender& render,
-                                    std::span<const Eigen::Vector3d> avoided_in_station_m) {
-  avoided_count_ = 0;
-  for (const Eigen::Vector3d& point_m : avoided_in_station_m) {
-    if (avoided_count_ >= avoided_px_.size()) return;
-    Eigen::Vector2d& pixel = avoided_px_[avoided_count_];
-    if (project(render.camera, render.camera_from_station * point_m, pixel)) ++avoided_count_;
-  }
-}
-
-bool TemplateSelector::isAvoided(const EdgePixel& pixel, int side_px) const {
-  const double near_px = 0.25 * side_px;
-  for (std::size_t i = 0; i < avoided_count_; ++i) {
-    const Eigen::Vector2d away = avoided_px_[i] - Eigen::Vector2d(pixel.x, pixel.y);
-    if (away.squaredNorm() < near_px * near_px) return true;
-  }
-  return false;
-}
-
 bool TemplateSelector::tooMuchIgnored(const EdgePixel& pixel, int side_px, const BitImage* ignore,
                                       int level) const {
   if (ignore == nullptr) return false;
@@ -212,7 +191,7 @@ void TemplateSelector::chooseBest(const EdgeRender& render, int side_px, int cel
       best_[cell] = Best{};
     }
     const float distinctness = distinctnessOf(pixel, side_px);
-    if (distinctness <= best_[cell].distinctness || isAvoided(pixel, side_px) ||
+    if (distinctness <= best_[cell].distinctness ||
         tooMuchIgnored(pixel, side_px, ignore, level))
       continue;
     best_[cell] = {distinctness, i};
@@ -220,9 +199,8 @@ void TemplateSelector::chooseBest(const EdgeRender& render, int side_px, int cel
 }
 
 Status TemplateSelector::select(const EdgeRender& render, int side_px, const BitImage* ignore,
-                                int level, std::span<const Eigen::Vector3d> avoided_in_station_m,
+                                int level,
                                 TemplateSet& output) {
-  placeAvoided(render, avoided_in_station_m);
   output.count = 0;
   output.side_px = side_px;
   sumScatter(render, side_px);

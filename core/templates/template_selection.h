@@ -24,8 +24,6 @@ struct TemplateOptions {
   std::int32_t max_side_px = 256;
   std::int32_t min_edge_pixels = 12;
   double max_ignored_share = 0.3;
-  double min_margin = 0.0;
-  bool learn = false;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -53,14 +51,6 @@ struct TemplateOptions {
     visit(OptionInfo{"templates.max_ignored_share", "", 0.0, 1.0,
                      "Templates whose predicted area is ignored beyond this share are rejected."},
           self.max_ignored_share);
-    visit(OptionInfo{"templates.min_margin", "", 0.0, 2.0,
-                     "A match whose score is not better than that of the next best place by this "
-                     "much is not used for the pose; 0: all are."},
-          self.min_margin);
-    visit(OptionInfo{"templates.learn", "", 0, 1,
-                     "Templates keep away from where those of the iteration before were indistinct "
-                     "or contradicted the pose: they move within their cell, or are left out."},
-          self.learn);
   }
 };
 
@@ -91,8 +81,7 @@ int templateSide(const TemplateOptions& options, double feature_size_m, double d
 /// in every cell of a square grid over the render, the edge pixel whose surrounding square has the
 /// largest smaller eigenvalue of the scatter of edge normals, sum of n n'. The cell size is the
 /// smallest one that yields no more than `options.count` templates. Pham 2025, Sec. III-B, chooses
-/// at random instead. With `options.learn` it keeps away, by a quarter of a side, from where the
-/// points avoided (station frame, m) are in the render. `ignore` (full resolution, may be nullptr)
+/// at random instead. `ignore` (full resolution, may be nullptr)
 /// belongs to the image at `level` 0.
 class TemplateSelector {
  public:
@@ -102,7 +91,7 @@ class TemplateSelector {
   void setOptions(const TemplateOptions& options) { options_ = options; }
   /// kTooFewTemplates when fewer than options.min_count can be placed; `output` then holds those.
   Status select(const EdgeRender& render, int side_px, const BitImage* ignore, int level,
-                std::span<const Eigen::Vector3d> avoided_in_station_m, TemplateSet& output);
+                TemplateSet& output);
 
  private:
   struct Scatter {
@@ -117,9 +106,6 @@ class TemplateSelector {
   void sumScatter(const EdgeRender& render, int side_px);
   Scatter scatterAround(int x, int y, int side_px) const;
   float distinctnessOf(const EdgePixel& pixel, int side_px) const;
-  void placeAvoided(const EdgeRender& render,
-                    std::span<const Eigen::Vector3d> avoided_in_station_m);
-  bool isAvoided(const EdgePixel& pixel, int side_px) const;
   bool tooMuchIgnored(const EdgePixel& pixel, int side_px, const BitImage* ignore, int level) const;
   int countCells(const EdgeRender& render, int side_px, int cell_px);
   int cellSize(const EdgeRender& render, int side_px);
@@ -131,8 +117,6 @@ class TemplateSelector {
 
   std::span<std::uint16_t> cells_;  ///< per cell its place in best_, or kUnoccupied
   std::span<Best> best_;            ///< one for each occupied cell
-  std::span<Eigen::Vector2d> avoided_px_;
-  std::size_t avoided_count_ = 0;
   int block_px_ = 0;
   int blocks_x_ = 0;
   int blocks_y_ = 0;

@@ -18,6 +18,16 @@ Matrix6d movedBy(const Pose& a_from_b, const Matrix6d& covariance_in_b) {
   return adjoint * covariance_in_b * adjoint.transpose();
 }
 
+/// The first view's box in another camera's axes, in a box; the pivot is a point of the first view.
+SeedUncertainty turnedInto(const Pose& camera_from_first, const SeedUncertainty& in_first) {
+  const Eigen::Matrix3d sizes = camera_from_first.matrix().cwiseAbs();
+  SeedUncertainty turned;
+  turned.rotation_rad = sizes * in_first.rotation_rad;
+  turned.translation_m = sizes * in_first.translation_m;
+  turned.pivot_in_camera_m = camera_from_first * in_first.pivot_in_camera_m;
+  return turned;
+}
+
 }  // namespace
 
 Status ViewsLocalizer::validate(const ViewsProblem& problem, const LocalizerOptions& options) {
@@ -65,7 +75,7 @@ Status ViewsLocalizer::requiredBytes(const ViewsProblem& problem, const Localize
     one.camera = view.camera;
     one.mesh = problem.mesh;
     std::size_t own = 0;
-    const Status sized = Localizer::requiredBytes(sizeOf(one), options, 1, own, kernels);
+    const Status sized = boresight::requiredBytes(sizeOf(one), options, 1, own, kernels);
     if (sized != Status::kOk) return sized;
     bytes += (own + Arena::kAlignment - 1) / Arena::kAlignment * Arena::kAlignment;
   }
@@ -80,7 +90,7 @@ LocalizationProblem ViewsLocalizer::problemOf(std::size_t index) const {
   made.camera = view.camera;
   made.mesh = problem_.mesh;
   made.camera_from_station_seed = inCamera(view.camera_from_rig, problem_.rig_from_station_seed);
-  made.uncertainty = problem_.uncertainty;  // a follower is told its own at each iteration
+  made.uncertainty = problem_.uncertainty;  // the other views' depends on the hypothesis
   return made;
 }
 
@@ -97,20 +107,40 @@ ViewsLocalizer::ViewsLocalizer(const ViewsProblem& problem, const LocalizerOptio
   for (std::size_t v = 0; v < views_.size() && status_ == Status::kOk; ++v) {
     const LocalizationProblem own = problemOf(v);
     std::size_t bytes = 0;
-    status_ = Localizer::requiredBytes(sizeOf(own), options_, 1, bytes, kernels);
+    status_ = boresight::requiredBytes(sizeOf(own), options_, 1, bytes, kernels);
     if (status_ != Status::kOk) return;
     views_[v].camera_from_first =
         problem_.views[v].camera_from_rig * problem_.views[0].camera_from_rig.inverse();
-    views_[v].localizer.emplace(own, options_, arena.allocate<std::byte>(bytes), 1, kernels);
-    status_ = views_[v].localizer->status();
-    link(v).join(v == 0 ? ViewRole::kLeads : ViewRole::kFollows);
+    status_ = views_[v].pass.create(own, options_, arena.allocate<std::byte>(bytes), 1, kernels);
+    views_[v].pass.solveOutside();
   }
+  if (status_ == Status::kOk) attempt_ = Attempt(0, seedOf(first().problem()));
 }
 
 bool ViewsLocalizer::takesPart(std::size_t index) const {
-  const Linked& one = views_[index];
-  if (leading().kind == IterationKind::kRefine) return one.refines;
-  return one.dropped_in_attempt != leading().attempt;
+  const Linked& view = views_[index];
+  if (leading().kind == IterationKind::kRefine) return view.refines;
+  return view.dropped_in_attempt != attempt_.index();
+}
+
+/// The first view's plan in another view: the same hypothesis, within a box that holds the first
+/// view's box.
+PassPlan ViewsLocalizer::planOf(std::size_t index) const {
+  const Linked& view = views_[index];
+  if (index == 0 || accepts_) return plan_;
+  PassPlan plan = attempt_.plan(view.pass.context());
+  plan.camera_from_station = view.camera_from_first * plan_.camera_from_station;
+  plan.uncertainty = turnedInto(view.camera_from_first, plan_.uncertainty);
+  return plan;
+}
+
+/// Starts the pass that the attempt plans next.
+void ViewsLocalizer::startPlan() {
+  plan_ = PassPlan();
+  plan_.kind = PassKind::kSupport;
+  plan_.record = attempt_.record();
+  if (!accepts_) plan_ = attempt_.plan(first().context());
+  for (Linked& view : views_) view.has_begun = false;
 }
 
 StepReport ViewsLocalizer::step() {
@@ -118,57 +148,89 @@ StepReport ViewsLocalizer::step() {
   report.finished = true;
   if (finished_) return report;
   if (status_ != Status::kOk) return finishFault(0);
-  if (stepView(0, report)) return report;
-  for (std::size_t v = 1; v < views_.size(); ++v) {
-    if (!takesPart(v)) continue;
-    if (link(v).need() == ViewNeed::kPlace) {
-      if (link(0).need() == ViewNeed::kSupport)
-        link(v).measureSupport();
-      else
-        link(v).follow(view(0), views_[v].camera_from_first);
-    }
+  for (std::size_t v = 0; v < views_.size(); ++v) {
+    if (v > 0 && !takesPart(v)) continue;
     if (stepView(v, report)) return report;
   }
-  switch (link(0).need()) {
-    case ViewNeed::kPose:
-      return noted(stepPose());
-    case ViewNeed::kRound:
-      return noted(stepRound());
+  switch (plan_.kind) {
+    case PassKind::kMatch:
+      return stepPose();
+    case PassKind::kRefine:
+      return stepRound();
     default:
-      return noted(stepSupport());
+      return stepSupport();
   }
 }
 
 /// False when the view waits for the others.
 bool ViewsLocalizer::stepView(std::size_t index, StepReport& report) {
-  Localizer& one = *views_[index].localizer;
-  if (link(index).need() != ViewNeed::kNothing) return false;
-  report = one.step();
-  if (one.workspace().status == LocalizationStatus::kFault)
+  Linked& view = views_[index];
+  Pass& pass = view.pass;
+  if (!view.has_edges && !pass.running()) {
+    pass.begin(PassPlan());
+  } else if (view.has_edges && !view.has_begun) {
+    pass.workspace().iterations = first().workspace().iterations;
+    pass.workspace().attempts = attempt_.index() + 1;
+    pass.begin(planOf(index));
+    view.has_begun = true;
+  }
+  if (!pass.running() || pass.needs() != PassNeed::kNothing) return false;
+  report = pass.step();
+  if (pass.running()) return true;
+  if (pass.outcome().fault != Status::kOk) {
     report = finishFault(index);
-  else if (index > 0)
-    report.iteration_complete = false;
+  } else if (!view.has_edges) {
+    view.has_edges = true;
+    if (index == 0) startPlan();
+  }
   return true;
 }
 
 /// A capacity or the memory did not suffice for one view: that is the run's.
 StepReport ViewsLocalizer::finishFault(std::size_t index) {
-  const bool built = index < views_.size() && views_[index].localizer.has_value();
+  const bool ran = status_ == Status::kOk;
   result_.status = LocalizationStatus::kFault;
-  result_.fault =
-      status_ != Status::kOk || !built ? status_ : views_[index].localizer->workspace().fault;
-  if (built) result_.views[index].status = LocalizationStatus::kFault;
+  result_.fault = ran ? view(static_cast<int>(index)).workspace().fault : status_;
+  if (index < views_.size()) result_.views[index].status = LocalizationStatus::kFault;
+  if (ran) {
+    Pass& pass = views_[index].pass;
+    pass.show({Ruling::Next::kFailed, LocalizationStatus::kFault, pass.outcome().reached, true,
+               pass.plan().record});
+    pass.finish(LocalizationStatus::kFault, Pose(), Matrix6d::Zero());
+  }
   finished_ = true;
   StepReport report = StepReport::of(Stage::kFinished, true);
   report.finished = true;
   return report;
 }
 
-StepReport ViewsLocalizer::noted(const StepReport& report) {
-  result_.iterations = view(0).workspace().iterations;
-  result_.attempts = view(0).workspace().attempts;
+/// What follows from the attempt's ruling, or from the support of all views.
+StepReport ViewsLocalizer::decide(const Ruling& ruling) {
+  first().show(ruling);
+  StepReport report = StepReport::of(ruling.stage, true);
+  report.iteration_complete = ruling.iteration_complete;
+  const bool more = attempt_.index() + 1 < options_.loop.max_attempts;
+  if (ruling.failed() && !more) {
+    report = finish(ruling.status, report);
+  } else if (ruling.found() && accepts_) {
+    report = finish(LocalizationStatus::kConverged, report);
+  } else {
+    accepts_ = ruling.found();
+    if (ruling.failed()) attempt_.restart();
+    first().workspace().attempts = attempt_.index() + 1;
+    startPlan();
+  }
+  result_.iterations = first().workspace().iterations;
+  result_.attempts = first().workspace().attempts;
   if (report.iteration_complete) noteViews();
-  if (report.finished) finish();
+  if (report.finished) finishResult();
+  return report;
+}
+
+StepReport ViewsLocalizer::finish(LocalizationStatus status, StepReport report) {
+  first().finish(status, attempt_.camera_from_station(), attempt_.covariance());
+  finished_ = true;
+  report.finished = true;
   return report;
 }
 
@@ -180,17 +242,19 @@ void ViewsLocalizer::chooseRefining() {
 
 StepReport ViewsLocalizer::stepRound() {
   for (std::size_t v = 0; v < views_.size(); ++v) {
-    if (!views_[v].refines || link(v).failed() == LocalizationStatus::kRunning) continue;
+    Pass& pass = views_[v].pass;
+    if (!views_[v].refines || pass.failed() == LocalizationStatus::kRunning) continue;
     views_[v].refines = false;
-    latest_[v].status = link(v).failed();
-    if (v > 0) (void)link(v).finishRound(Status::kTooFewEdges, true);
+    latest_[v].status = pass.failed();
+    if (v > 0) pass.endRound(Status::kTooFewEdges, true);
   }
   bool settled = true;
   const Status status = advance(settled);
-  const bool ends = link(0).refinementEnds(status, settled);
-  for (std::size_t v = 1; v < views_.size(); ++v)
-    if (views_[v].refines) (void)link(v).finishRound(status, ends);
-  return link(0).finishRound(status, ends);
+  const bool ends = settled || first().refinement().roundsAreOver() || status != Status::kOk;
+  for (std::size_t v = 0; v < views_.size(); ++v)
+    if (v == 0 || views_[v].refines) views_[v].pass.endRound(status, ends);
+  if (!ends) return StepReport::of(Stage::kRefine, false);
+  return decide(attempt_.take(first().outcome(), {}, first().context(), first().memory().records));
 }
 
 /// One step of all views, by the sum of their equations in the first one's frame.
@@ -200,21 +264,22 @@ Status ViewsLocalizer::advance(bool& settled) {
   for (std::size_t v = 0; v < views_.size(); ++v) {
     if (!views_[v].refines) continue;
     if (v == 0)
-      sum = link(v).round();
+      sum = first().round();
     else
-      addTo(sum, inFirst(link(v).round(), views_[v].camera_from_first));
+      addTo(sum, inFirst(views_[v].pass.round(), views_[v].camera_from_first));
     any = true;
   }
   if (!any) return Status::kTooFewEdges;
-  const Status status = link(0).advance(sum, settled);
+  const Status status = first().refinement().advance(sum, settled);
   if (status != Status::kOk) return status;
   settled = settled || !views_[0].refines;
   const RefinementResult& refined = leading().refinement;
   for (std::size_t v = 1; v < views_.size(); ++v) {
     if (!views_[v].refines) continue;
     const Pose& camera_from_first = views_[v].camera_from_first;
-    const bool still = link(v).moveTo(camera_from_first * refined.camera_from_station,
-                                      movedBy(camera_from_first, refined.covariance));
+    Pass& pass = views_[v].pass;
+    pass.record().refinement.covariance = movedBy(camera_from_first, refined.covariance);
+    const bool still = pass.refinement().moveTo(camera_from_first * refined.camera_from_station);
     settled = settled && still;
   }
   return status;
@@ -237,19 +302,17 @@ StepReport ViewsLocalizer::stepSupport() {
     latest_[v].status = LocalizationStatus::kNotSupported;
   }
   noteViews();
-  for (std::size_t v = 1; v < views_.size(); ++v)
-    if (link(v).need() == ViewNeed::kSupport) link(v).rest();
-  const SupportVerdict verdict = supported == 0 ? SupportVerdict::kNotSupported
-                                 : refused > 0  ? SupportVerdict::kGoOn
-                                                : SupportVerdict::kSupported;
-  return link(0).conclude(verdict);
+  if (supported > 0 && refused > 0) return decide(attempt_.goOn(first().context()));
+  return decide({supported > 0 ? Ruling::Next::kPose : Ruling::Next::kFailed,
+                 LocalizationStatus::kNotSupported, Stage::kSupport, false, attempt_.record()});
 }
 
 const Iteration* ViewsLocalizer::iterationOf(int index) const {
   if (status_ != Status::kOk || view(0).workspace().iteration == nullptr) return nullptr;
   if (index == 0) return &leading();
-  // A view that was not asked still has an earlier iteration there.
-  const Iteration& own = ViewLink::record(view(index), ViewLink::shownBuffer(view(0)));
+  // A view without part in it still holds an earlier iteration.
+  const bool second = &leading() == &view(0).recordAt(1);
+  const Iteration& own = view(index).recordAt(second ? 1 : 0);
   const bool began = view(index).workspace().iteration != nullptr;
   const bool same = own.index == leading().index && own.attempt == leading().attempt;
   return began && same ? &own : nullptr;
@@ -270,10 +333,9 @@ void ViewsLocalizer::noteViews() {
   }
 }
 
-void ViewsLocalizer::finish() {
+void ViewsLocalizer::finishResult() {
   const Workspace& leader = view(0).workspace();
   const bool converged = leader.status == LocalizationStatus::kConverged;
-  finished_ = true;
   result_.status = leader.status;
   result_.fault = leader.fault;
   if (converged) {
@@ -298,7 +360,7 @@ std::array<std::uint8_t, 32> ViewsLocalizer::digest() const {
   writer.u32(static_cast<std::uint32_t>(views_.size()));
   for (std::size_t v = 0; v < views_.size(); ++v) {
     digestPose(problem_.views[v].camera_from_rig, writer);
-    if (views_[v].localizer) writer.bytes(views_[v].localizer->digest());
+    writer.bytes(views_[v].pass.digest().digest());
     writer.tag(localizationStatusText(result_.views[v].status));
   }
   writer.tag(localizationStatusText(result_.status));

@@ -41,8 +41,8 @@ void ViewsLocalizer::chooseViews() {
     share = {};
     if (!takesPart(v)) {
       share.status = LocalizationStatus::kNotSupported;
-    } else if (link(v).failed() != LocalizationStatus::kRunning) {
-      share.status = link(v).failed();
+    } else if (views_[v].pass.failed() != LocalizationStatus::kRunning) {
+      share.status = views_[v].pass.failed();
     } else if (views_.size() > 1 && seeing(v) < options_.pnp.min_inliers) {
       share.status = LocalizationStatus::kTooFewMatches;
     }
@@ -123,43 +123,40 @@ bool ViewsLocalizer::leaveOutDissenters() {
 
 StepReport ViewsLocalizer::supplyPose(Status status) {
   JointPose joint;
+  Agreement agreement;
   const bool solved = status == Status::kOk;
   for (const Share& one : std::span(shares()).first(views_.size())) {
-    joint.inliers += solved ? one.inliers : 0;
-    joint.correspondences += one.correspondences;
+    agreement.inliers += solved ? one.inliers : 0;
+    agreement.correspondences += one.correspondences;
   }
-  // With nobody left the leader's own reason is as good as any.
-  const LocalizationStatus own = link(0).failed();
+  // With no view left, the first view's reason is reported.
+  const LocalizationStatus own = first().failed();
   if (solved)
     joint.status = LocalizationStatus::kRunning;
-  else if (joint.correspondences == 0 && own != LocalizationStatus::kRunning)
+  else if (agreement.correspondences == 0 && own != LocalizationStatus::kRunning)
     joint.status = own;
   joint.samples = pnp_.samples;
-  for (std::size_t v = views_.size(); v-- > 0;) {
-    const bool waits = link(v).need() == ViewNeed::kPose;
-    if (v > 0 && !waits) continue;
+  for (std::size_t v = 0; v < views_.size(); ++v) {
+    Pass& pass = views_[v].pass;
+    if (pass.needs() != PassNeed::kPose) continue;
     fillSolution(v, status);
-    const Pose& camera_from_first = views_[v].camera_from_first;
-    const Matrix6d adjoint = adjointOf(camera_from_first);
+    const Matrix6d adjoint = adjointOf(views_[v].camera_from_first);
     joint.camera_from_station =
         poseOfView(std::span(pnp_views_).first(views_.size()), v, pnp_.camera_from_station);
     joint.covariance =
         v == 0 ? pnp_.covariance : Matrix6d(adjoint * pnp_.covariance * adjoint.transpose());
-    if (v > 0) {
-      (void)link(v).supplyPose(joint);
-      continue;
-    }
-    const StepReport report = link(0).supplyPose(joint);
-    latest_ = shares();  // of the hypothesis that the leader kept, once it has chosen
-    chooseRefining();
-    return report;
+    pass.supplyPose(joint);
   }
-  return {};
+  const Ruling ruling =
+      attempt_.take(first().outcome(), agreement, first().context(), first().memory().records);
+  latest_ = shares_[static_cast<std::size_t>(ruling.record)];
+  chooseRefining();
+  return decide(ruling);
 }
 
 /// Inliers and residuals of the view's own list. What was left out is no inlier.
 void ViewsLocalizer::fillSolution(std::size_t index, Status status) {
-  PnpSolution& own = link(index).solution();
+  PnpSolution& own = views_[index].pass.record().pnp;
   const Iteration& now = *view(static_cast<int>(index)).workspace().iteration;
   const auto count = static_cast<std::size_t>(now.correspondence_count);
   own.inlier = {own.inlier.data(), count};

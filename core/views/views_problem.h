@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <span>
 
+#include "core/accept/edge_support.h"
 #include "core/base/image.h"
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
-#include "core/localizer/edge_support.h"
 #include "core/localizer/workspace.h"
 #include "core/pnp/pnp_view.h"
 

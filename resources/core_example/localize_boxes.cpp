@@ -62,7 +62,7 @@ int fail(const char* why) {
 int localize(const LocalizationProblem& problem, const Pose& truth) {
   const LocalizerOptions options = boresight::defaultProfile();
   std::size_t bytes = 0;
-  const auto asked = Localizer::requiredBytes(boresight::sizeOf(problem), options, bytes);
+  const auto asked = requiredBytes(boresight::sizeOf(problem), options, bytes);
   if (asked != boresight::Status::kOk) return fail(boresight::statusText(asked));
   // All that the core works with is this block; it never asks for more.
   std::vector<std::byte> memory(bytes);

@@ -310,7 +310,7 @@ IterationTrace Replayer::headOf(const RecordedIteration& one) const {
   made.camera_from_station = one.camera_from_station;
   if (attempt_begin_)
     made.uncertainty =
-        uncertaintyAt(given_, optionsAt(one.index).loop, std::max(0, one.index - *attempt_begin_),
+        uncertaintyAt(seedOf(given_), optionsAt(one.index).loop, std::max(0, one.index - *attempt_begin_),
                       one.camera_from_station_before);
   made.edge_pixel_count = one.edge_pixels;
   made.template_count = one.templates_count;

@@ -43,7 +43,7 @@ std::vector<Template> ReplayScene::choose(const RenderTrace& render, int level, 
   Arena arena({memory.get(), bytes});
   if (selector.create(width, height, options, arena) != Status::kOk) return {};
   TemplateSet chosen = createTemplateSet(options, arena);
-  (void)selector.select(render.view(), side_px, ground_.ignore, level, {}, chosen);
+  (void)selector.select(render.view(), side_px, ground_.ignore, level, chosen);
   const auto count = static_cast<std::size_t>(chosen.count);
   return {chosen.templates.begin(), chosen.templates.begin() + static_cast<std::ptrdiff_t>(count)};
 }

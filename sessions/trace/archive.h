@@ -50,10 +50,6 @@ class ArchiveWriter {
 
   std::vector<std::uint8_t>& bytes() { return bytes_; }
 
-  /// Whether the format has what came with this version of it; by itself it is the newest.
-  bool has(std::uint32_t version) const { return format_ >= version; }
-  void setFormat(std::uint32_t version) { format_ = version; }
-
  private:
   template <class U>
   void put(U value) {
@@ -62,7 +58,6 @@ class ArchiveWriter {
   }
 
   std::vector<std::uint8_t> bytes_;
-  std::uint32_t format_ = std::numeric_limits<std::uint32_t>::max();
 };
 
 /// Reads what ArchiveWriter wrote; throws InputError where bytes are missing or impossible. A list
@@ -71,9 +66,6 @@ class ArchiveReader {
  public:
   ArchiveReader(std::filesystem::path file, std::span<const std::uint8_t> bytes)
       : file_(std::move(file)), bytes_(bytes) {}
-
-  bool has(std::uint32_t version) const { return format_ >= version; }
-  void setFormat(std::uint32_t version) { format_ = version; }
 
   template <class T>
   void number(T& value) {
@@ -127,7 +119,6 @@ class ArchiveReader {
   std::filesystem::path file_;
   std::span<const std::uint8_t> bytes_;
   std::size_t place_ = 0;
-  std::uint32_t format_ = std::numeric_limits<std::uint32_t>::max();
 };
 
 }  // namespace boresight::sessions

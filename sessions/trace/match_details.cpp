@@ -31,8 +31,6 @@ void describeMatch(const Match& match, int level, MatchDetails& made) {
   made.searched = match.searched;
   if (!match.searched) return;
   made.at_border = match.at_border;
-  made.warp = match.warp;
-  made.dropped = match.dropped;
   made.found_px = fullImagePixel(match.x, match.y, level);
   made.edge_share = share(match.peak.counts.edge_hits, match.norms.edges);
   made.empty_share = share(match.peak.counts.empty_hits, match.norms.empties);

@@ -25,8 +25,6 @@ struct MatchDetails {
   Eigen::Vector2d found_px = Eigen::Vector2d::Zero();  ///< sub-pixel
   bool searched = false;
   bool at_border = false;     ///< the peak lies on the window's border
-  TemplateWarp warp;          ///< how it was turned and scaled to be found
-  bool dropped = false;       ///< too little margin: not used for the pose
   double score = 0.0;         ///< S = edge_share + empty_share, in [0, 2]
   double edge_share = 0.0;    ///< S+ / c+
   double empty_share = 0.0;   ///< S- / c-

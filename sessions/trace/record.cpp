@@ -136,7 +136,7 @@ void runSteps(Localizer& localizer, const RunSettings& settings, const std::stop
   const RecordLevel level = settings.level;
   WorkerPool pool(settings.threads);
   const WorkerPool::Work work = [&localizer](int piece, int worker) {
-    localizer.work(piece, worker);
+    localizer.runTask(piece, worker);
   };
   Stopwatch watch;
   StageSeconds iteration_seconds;
@@ -147,8 +147,8 @@ void runSteps(Localizer& localizer, const RunSettings& settings, const std::stop
   while (!finished && !stop.stop_requested()) {
     if (changes.takeUp(localizer, trace.iterations.size()) && settings.onboard_record != nullptr)
       settings.onboard_record->changeOptions(localizer.options(), localizer.workspace().iterations);
-    if (pool.workers() > 1 && localizer.pieces() > 1) {
-      pool.run(localizer.pieces(), work, stop);
+    if (pool.workers() > 1 && localizer.tasks() > 1) {
+      pool.run(localizer.tasks(), work, stop);
       if (stop.stop_requested()) break;
     }
     if (outside) outside->serve();
@@ -259,8 +259,8 @@ LocalizationTrace localize(const LocalizationProblem& problem, const RunPlan& pl
   trace.memory.limit = settings.memory_limit;
   const bool limited = settings.memory_limit > 0;
   const Kernels kernels = limited ? Kernels::kPortable : settings.kernels;
-  Status sized = Localizer::requiredMemory(sizeOf(problem), options, settings.threads,
-                                           trace.memory.use, kernels);
+  Status sized =
+      requiredMemory(sizeOf(problem), options, settings.threads, trace.memory.use, kernels);
   if (sized == Status::kOk && limited && trace.memory.total() > settings.memory_limit)
     sized = Status::kArenaTooSmall;
   if (sized == Status::kOk && !planProblem(plan).empty()) sized = Status::kInvalidOption;

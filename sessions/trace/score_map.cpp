@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <span>
 
-#include "sessions/trace/searched_template.h"
-
 namespace boresight::sessions {
 namespace {
 
@@ -43,7 +41,11 @@ std::optional<ScoreMap> scoreMap(const EdgeMapTrace& edges, const IterationTrace
                                  int template_index, const std::stop_token& stop) {
   const Match* match = searchedMatch(edges, iteration, template_index);
   if (match == nullptr) return std::nullopt;
-  const SearchedTemplate searched(iteration, static_cast<std::size_t>(template_index));
+  const Template& item = iteration.templates[static_cast<std::size_t>(template_index)];
+  const BitImage edges_of_render = iteration.render.edges.view();
+  const BitImage mask = iteration.render.mask.view();
+  const TemplateView view{&edges_of_render, &mask, item.center_x, item.center_y,
+                          iteration.template_side_px};
   const BitImage test_edges = edges.level[static_cast<std::size_t>(iteration.level)].view();
   ScoreMap map;
   map.window = match->window;
@@ -56,7 +58,7 @@ std::optional<ScoreMap> scoreMap(const EdgeMapTrace& edges, const IterationTrace
     if (stop.stop_requested()) return std::nullopt;
     row.y_min = row.y_max = y;
     const std::size_t begin = static_cast<std::size_t>(y - map.window.y_min) * width;
-    whsScoreMap(searched.view(), test_edges, row, std::span(map.counts).subspan(begin, width));
+    whsScoreMap(view, test_edges, row, std::span(map.counts).subspan(begin, width));
   }
   measureRange(map);
   return map;

@@ -19,8 +19,7 @@ SteppedRun::SteppedRun(const LocalizationProblem& problem, const RunPlan& plan)
   snapshot_.uncertainty = problem.uncertainty;
   snapshot_.memory.inputs = inputBytes(problem);
   const Kernels kernels = bestKernels();
-  Status sized =
-      Localizer::requiredMemory(sizeOf(problem), options, 1, snapshot_.memory.use, kernels);
+  Status sized = requiredMemory(sizeOf(problem), options, 1, snapshot_.memory.use, kernels);
   if (sized == Status::kOk && !planProblem(plan).empty()) sized = Status::kInvalidOption;
   if (sized != Status::kOk) {
     snapshot_.status = LocalizationStatus::kFault;

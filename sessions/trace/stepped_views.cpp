@@ -82,12 +82,12 @@ void SteppedViews::refuse(Status status) {
 /// As the core has their seeds, to the bit.
 void SteppedViews::describeViews() {
   for (std::size_t v = 0; v < snapshots_.size(); ++v) {
-    const Localizer& of_view = localizer_->view(static_cast<int>(v));
+    const Pass& of_view = localizer_->view(static_cast<int>(v));
     RunSnapshot& one = snapshots_[v];
     one.camera_from_station_seed = of_view.problem().camera_from_station_seed;
     one.camera_from_station = one.camera_from_station_seed;
     one.memory.inputs = inputBytes(of_view.problem());
-    one.memory.use = of_view.memoryUse();
+    one.memory.use = of_view.memory().use();
   }
 }
 
@@ -202,10 +202,10 @@ void SteppedViews::finish(std::size_t view) {
   one.attempts = result.attempts;
   one.digest = viewDigest(*localizer_, view);
   if (result.status == LocalizationStatus::kFault) return;
-  const Localizer& of_view = localizer_->view(static_cast<int>(view));
+  const Pass& of_view = localizer_->view(static_cast<int>(view));
   one.status = report.status;
   one.support = report.support;
-  one.arena_bytes = of_view.highWaterBytes();
+  one.arena_bytes = of_view.memory().highWaterBytes();
   for (std::size_t v = 0; v < one.views.size(); ++v)
     one.views[v].status = localizationStatusText(result.views[v].status);
   if (!report.tookPart()) return;

@@ -13,14 +13,6 @@
 
 namespace boresight::sessions {
 
-/// The trace's format before options were added; each round of them has the next.
-inline constexpr std::uint32_t kFormatBeforeRounds = 3;
-inline constexpr std::uint32_t kFormatOfWideSearch = 4;
-/// The one that brought rivals, what is seen of an object in parts, and their options.
-inline constexpr std::uint32_t kFormatOfRivals = 5;
-/// The one that brought warped templates, dropped matches, and their options.
-inline constexpr std::uint32_t kFormatOfWarps = 6;
-
 template <class Self, class Record>
 concept Is = std::same_as<std::remove_const_t<Self>, Record>;
 
@@ -132,12 +124,11 @@ void fields(Archive& archive, Self& peak) {
 
 template <class Archive, Is<Match> Self>
 void fields(Archive& archive, Self& match) {
-  auto& [window, norms, peak, x, y, searched, at_border, warp, dropped] = match;
+  auto& [window, norms, peak, x, y, searched, at_border] = match;
   numbers(archive, window.x_min, window.y_min, window.x_max, window.y_max, norms.edges,
           norms.empties);
   fields(archive, peak);
   numbers(archive, x, y, searched, at_border);
-  if (archive.has(kFormatOfWarps)) numbers(archive, warp.roll_rad, warp.scale, dropped);
 }
 
 template <class Archive, Is<Correspondence> Self>
@@ -185,8 +176,7 @@ void fields(Archive& archive, Self& hypothesis) {
   numbers(archive, roll_rad, templates, matches, inliers, cost);
   fields(archive, camera_from_station);
   archive.number(solved);
-  if (archive.has(kFormatOfWideSearch))
-    numbers(archive, depth_offset_m, support, inlier_nats, edge_nats);
+  numbers(archive, depth_offset_m, support, inlier_nats, edge_nats);
 }
 
 template <class Archive, Is<StageSeconds> Self>
@@ -262,7 +252,7 @@ void fields(Archive& archive, Self& iteration) {
   fields(archive, iteration.refinement);
   archive.list(iteration.hypotheses, [&](auto& hypothesis) { fields(archive, hypothesis); });
   archive.number(iteration.chosen_hypothesis);
-  if (archive.has(kFormatOfWideSearch)) archive.number(iteration.wide);
+  archive.number(iteration.wide);
   fields(archive, iteration.camera_from_station);
   archive.number(iteration.correction_translation_m);
   archive.number(iteration.correction_rotation_rad);
@@ -273,8 +263,6 @@ void fields(Archive& archive, Self& iteration) {
 template <class Archive, Is<LocalizerOptions> Self>
 void fields(Archive& archive, Self& options) {
   LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
-    const int round = LocalizerOptions::roundOf(info);
-    if (!archive.has(kFormatBeforeRounds + static_cast<std::uint32_t>(round))) return;
     std::string name = info.name;
     archive.text(name);
     archive.require(name == info.name, "an option that this version does not know");
@@ -311,10 +299,9 @@ void fields(Archive& archive, Self& trace) {
   fields(archive, trace.edges);
   archive.list(trace.iterations, [&](auto& iteration) { fields(archive, iteration); });
   archive.number(trace.attempts);
-  if (archive.has(kFormatOfRivals))
-    archive.list(trace.rivals, [&](auto& rival) { fields(archive, rival); });
+  archive.list(trace.rivals, [&](auto& rival) { fields(archive, rival); });
   fields(archive, trace.support);
-  if (archive.has(kFormatOfRivals)) fields(archive, trace.partial);
+  fields(archive, trace.partial);
   archive.choice(trace.status, kLastLocalizationStatus);
   archive.choice(trace.fault, Status::kNoConsensus);
   fields(archive, trace.camera_from_station);
@@ -323,11 +310,6 @@ void fields(Archive& archive, Self& trace) {
   fields(archive, trace.seconds);
   archive.number(trace.arena_bytes);
   fields(archive, trace.memory);
-}
-
-/// What version 3 has besides.
-template <class Archive, Is<LocalizationTrace> Self>
-void changeFields(Archive& archive, Self& trace) {
   archive.list(trace.changes, [&](auto& change) { fields(archive, change); });
 }
 

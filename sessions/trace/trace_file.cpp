@@ -15,8 +15,7 @@ namespace boresight::sessions {
 namespace {
 
 constexpr std::string_view kMagic = "BSTRACE\n";
-constexpr std::uint32_t kFormatVersion = 6;
-constexpr std::uint32_t kVersionWithoutChanges = 2;
+constexpr std::uint32_t kFormatVersion = 7;
 constexpr std::size_t kHeaderBytes = 8 + 4 + 8;
 constexpr std::size_t kChecksumBytes = 32;
 constexpr std::size_t kMaxTraceBytes = 2048 * kMegabyte;
@@ -32,7 +31,6 @@ std::array<std::uint8_t, kChecksumBytes> checksum(std::span<const std::uint8_t> 
 void saveTrace(const std::filesystem::path& file, const LocalizationTrace& trace) {
   ArchiveWriter payload;
   fields(payload, trace);
-  changeFields(payload, trace);
   ArchiveWriter whole;
   whole.bytes().assign(kMagic.begin(), kMagic.end());
   whole.number(kFormatVersion);
@@ -55,7 +53,7 @@ LocalizationTrace loadTrace(const std::filesystem::path& file) {
   std::uint64_t length = 0;
   header.number(version);
   header.number(length);
-  if (version < kVersionWithoutChanges || version > kFormatVersion)
+  if (version != kFormatVersion)
     throw InputError(file, "version",
                      std::to_string(version) + ", but this program reads version " +
                          std::to_string(kFormatVersion));
@@ -65,10 +63,8 @@ LocalizationTrace loadTrace(const std::filesystem::path& file) {
   if (!std::equal(sum.begin(), sum.end(), bytes.end() - kChecksumBytes))
     throw InputError(file, "checksum", "the file was altered or damaged");
   ArchiveReader payload(file, all.subspan(kHeaderBytes, static_cast<std::size_t>(length)));
-  payload.setFormat(version);
   LocalizationTrace trace;
   fields(payload, trace);
-  if (version != kVersionWithoutChanges) changeFields(payload, trace);
   payload.require(payload.atEnd(), "more bytes than the record has fields");
   return trace;
 }

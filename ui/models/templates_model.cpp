@@ -73,8 +73,7 @@ constexpr std::array<ColumnInfo, TemplatesModel::kColumnCount> kColumns = {{
     {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "Verdict"),
      QT_TRANSLATE_NOOP(
          "boresight::ui::TemplatesModel",
-         "Whether the match agrees with the solved pose within the threshold; dropped: its "
-         "margin is too low for the pose (templates.min_margin)."),
+         "Whether the match agrees with the solved pose within the threshold."),
      -1},
     {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "Border"),
      QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel",
@@ -134,7 +133,6 @@ void TemplatesModel::setIteration(const sessions::IterationTrace* iteration) {
 QString TemplatesModel::verdictOf(const MatchDetails& details) {
   if (details.inlier) return tr("inlier");
   if (details.solved) return tr("outlier");
-  if (details.dropped) return tr("dropped");
   return details.searched ? tr("found") : tr("not searched");
 }
 

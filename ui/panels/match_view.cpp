@@ -8,7 +8,6 @@
 #include <QVBoxLayout>
 
 #include "core/base/math.h"
-#include "sessions/trace/searched_template.h"
 #include "ui/models/number_text.h"
 #include "ui/models/templates_model.h"
 #include "ui/panels/patch_pictures.h"
@@ -131,10 +130,10 @@ void MatchView::showMap(const ScoreMapper::MapPtr& map) {
 void MatchView::showPictures(const sessions::EdgeMapTrace& edges,
                              const sessions::IterationTrace& iteration, std::size_t index,
                              const Match* match) {
-  const sessions::SearchedTemplate searched(iteration, index);
-  const TemplateView& view = searched.view();
-  const PatchPlace place{view.center_x, view.center_y, view.side_px};
-  template_->setPicture(templatePicture(*view.edges, *view.mask, place));
+  const Template& item = iteration.templates[index];
+  const PatchPlace place{item.center_x, item.center_y, iteration.template_side_px};
+  template_->setPicture(
+      templatePicture(iteration.render.edges.view(), iteration.render.mask.view(), place));
   template_->setNote(
       tr("%1 x %1 px, level %2").arg(iteration.template_side_px).arg(iteration.level));
   if (match == nullptr) {
@@ -172,10 +171,6 @@ void MatchView::showFigures(const sessions::IterationTrace& iteration,
     places += rowText(tr("Found at"),
                       tr("%1 px, moved by %2 px")
                           .arg(pairText(details.found_px, 2), pairText(details.moved_px(), 2)));
-    if (!(details.warp == TemplateWarp()))
-      places += rowText(tr("Warped"), tr("turned by %1 deg, scaled by %2")
-                                          .arg(numberText(details.warp.roll_rad / kDegree_rad, 1),
-                                               numberText(details.warp.scale, 3)));
     scores += rowText(tr("Score S"), scoreText(details));
     const bool counted = iteration.recorded_scores.empty();
     const QString unknown = tr("not in the onboard record");

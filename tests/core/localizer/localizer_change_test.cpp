@@ -83,8 +83,6 @@ LocalizerOptions changeable(const LocalizerOptions& base, LocalizerOptions wante
   wanted.loop.max_rolled_hypotheses = base.loop.max_rolled_hypotheses;
   wanted.wide = base.wide;
   wanted.ambiguity = base.ambiguity;
-  wanted.warp.enabled = base.warp.enabled;
-  wanted.templates.learn = base.templates.learn;
   return wanted;
 }
 

@@ -55,8 +55,7 @@ TEST(LocalizerDigest, DoesNotDependOnTheKernels) {
   for (int k = 1; k < kKernelSets; ++k) {
     const Kernels kernels = static_cast<Kernels>(k);
     std::size_t bytes = 0;
-    const Status sized =
-        Localizer::requiredBytes(sizeOf(scene.problem()), options, 1, bytes, kernels);
+    const Status sized = requiredBytes(sizeOf(scene.problem()), options, 1, bytes, kernels);
     if (!kernelsAvailable(kernels)) {
       std::cout << "not available here: " << kernelsName(kernels) << "\n";
       EXPECT_EQ(sized, Status::kInvalidOption);

@@ -56,7 +56,7 @@ TEST(LocalizerFault, Options) {
   std::size_t bytes = 0;
   LocalizerOptions options;
   options.templates.count = -1;
-  EXPECT_EQ(Localizer::requiredBytes({512, 512, 8, 12, 1}, options, bytes), expected);
+  EXPECT_EQ(requiredBytes({512, 512, 8, 12, 1}, options, bytes), expected);
 }
 
 TEST(LocalizerFault, Image) {
@@ -73,8 +73,8 @@ TEST(LocalizerFault, Camera) {
   expectFault({"not prepared", expected, [](Input& i) { i.problem.camera.valid_radius = 0.0; }});
   std::size_t bytes = 0;
   for (const int width : {0, -5}) {
-    EXPECT_EQ(Localizer::requiredBytes({width, 512, 8, 12, 1}, {}, bytes), expected);
-    EXPECT_EQ(Localizer::requiredBytes({512, width, 8, 12, 1}, {}, bytes), expected);
+    EXPECT_EQ(requiredBytes({width, 512, 8, 12, 1}, {}, bytes), expected);
+    EXPECT_EQ(requiredBytes({512, width, 8, 12, 1}, {}, bytes), expected);
   }
 }
 

@@ -73,8 +73,7 @@ TEST(LocalizerMemory, IsExactlyWhatWasAnnounced) {
       for (const Variant& variant : variants()) {
         SCOPED_TRACE(variant.name);
         std::size_t bytes = 0;
-        ASSERT_EQ(Localizer::requiredBytes(sizeOf(scene.problem()), variant.options, bytes),
-                  Status::kOk);
+        ASSERT_EQ(requiredBytes(sizeOf(scene.problem()), variant.options, bytes), Status::kOk);
         Fenced enough(bytes);
         Localizer localizer(scene.problem(), variant.options, enough.block());
         EXPECT_EQ(localizer.status(), Status::kOk);
@@ -100,7 +99,7 @@ TEST(LocalizerMemory, IsExactlyWhatWasAnnounced) {
 TEST(LocalizerMemory, IsNeverLeftHoweverSmallItIs) {
   const Case scene = stationCase(1, true);
   std::size_t bytes = 0;
-  ASSERT_EQ(Localizer::requiredBytes(sizeOf(scene.problem()), {}, bytes), Status::kOk);
+  ASSERT_EQ(requiredBytes(sizeOf(scene.problem()), {}, bytes), Status::kOk);
   Random random(11);
   for (int i = 0; i < 60; ++i) {
     const std::size_t few =
@@ -116,7 +115,7 @@ TEST(LocalizerMemory, IsNeverLeftHoweverSmallItIs) {
 TEST(LocalizerMemory, MayBeginAnywhere) {
   const Case scene = stationCase(1);
   std::size_t bytes = 0;
-  ASSERT_EQ(Localizer::requiredBytes(sizeOf(scene.problem()), {}, bytes), Status::kOk);
+  ASSERT_EQ(requiredBytes(sizeOf(scene.problem()), {}, bytes), Status::kOk);
   OwnedRun aligned(scene.problem(), {});
   aligned.finish();
   for (const std::size_t shift : {1u, 4u, 8u, 15u}) {
@@ -143,13 +142,13 @@ TEST(LocalizerMemory, HoldsAnyOfTheSizes) {
     size.faces = 1 + static_cast<int>(random.below(40000));
     LocalizerOptions options;
     std::size_t bytes = 0;
-    ASSERT_EQ(Localizer::requiredBytes(size, options, bytes), Status::kOk);
+    ASSERT_EQ(requiredBytes(size, options, bytes), Status::kOk);
     EXPECT_EQ(bytes % Arena::kAlignment, 0u);
     EXPECT_GT(bytes, static_cast<std::size_t>(size.faces) * 12);
     std::size_t more = 0;
     size.width += 200;
     size.faces += 1000;
-    ASSERT_EQ(Localizer::requiredBytes(size, options, more), Status::kOk);
+    ASSERT_EQ(requiredBytes(size, options, more), Status::kOk);
     EXPECT_GE(more, bytes);
   }
 }
@@ -172,7 +171,7 @@ TEST(LocalizerMemory, FitsTheFlightBudget) {
        {CameraModel::kPinhole, CameraModel::kBrownConrady, CameraModel::kKannalaBrandt}) {
     size.model = model;
     std::size_t bytes = 0;
-    ASSERT_EQ(Localizer::requiredBytes(size, defaultProfile(), bytes), Status::kOk);
+    ASSERT_EQ(requiredBytes(size, defaultProfile(), bytes), Status::kOk);
     EXPECT_LE(bytes + inputBytes(size), 10'000'000u);
   }
 }
@@ -182,8 +181,7 @@ TEST(LocalizerMemory, IsDividedAmongTheStages) {
   for (const Variant& variant : variants()) {
     SCOPED_TRACE(variant.name);
     MemoryUse use;
-    ASSERT_EQ(Localizer::requiredMemory(sizeOf(scene.problem()), variant.options, use),
-              Status::kOk);
+    ASSERT_EQ(requiredMemory(sizeOf(scene.problem()), variant.options, 1, use), Status::kOk);
     std::size_t most = use.kept + use.construction;
     for (int i = 0; i < static_cast<int>(Stage::kFinished); ++i) {
       const auto stage = static_cast<Stage>(i);
@@ -252,7 +250,7 @@ TEST(LocalizerMemory, NothingIsAllocated) {
       }
       const Status restarted = localizer.restart(scene.seed, variant.options);
       std::size_t bytes = 0;
-      const Status sized = Localizer::requiredBytes(sizeOf(problem), variant.options, bytes);
+      const Status sized = requiredBytes(sizeOf(problem), variant.options, bytes);
       const auto digest = localizer.digest();
       const int after = heapAllocations();
       EXPECT_EQ(after, before);

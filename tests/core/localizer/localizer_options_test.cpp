@@ -59,12 +59,11 @@ TEST(LocalizerOptions, EveryFieldIsVisited) {
   expectEveryFieldVisited<SupportOptions>("support");
   expectEveryFieldVisited<WideOptions>("wide");
   expectEveryFieldVisited<AmbiguityOptions>("ambiguity");
-  expectEveryFieldVisited<WarpOptions>("warp");
   const int parts = extentOf<EdgeOptions>().count + extentOf<RenderOptions>().count +
                     extentOf<TemplateOptions>().count + extentOf<PnpOptions>().count +
                     extentOf<LoopOptions>().count + extentOf<RefinementOptions>().count +
                     extentOf<SupportOptions>().count + extentOf<WideOptions>().count +
-                    extentOf<AmbiguityOptions>().count + extentOf<WarpOptions>().count;
+                    extentOf<AmbiguityOptions>().count;
   EXPECT_EQ(extentOf<LocalizerOptions>().count, parts);
 }
 
@@ -91,7 +90,7 @@ TEST(LocalizerOptions, WhatCameLaterIsHeardOfInDigestsOnlyWhereItIsNotAsItStands
   first_ones.tag("options");
   std::set<std::array<std::uint8_t, 32>> digests;
   LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
-    if (LocalizerOptions::roundOf(info) == 0) {
+    if (!LocalizerOptions::isDigestedOnlyIfChanged(info)) {
       first_ones.tag(info.name);
       first_ones.f64(static_cast<double>(field));
       return;

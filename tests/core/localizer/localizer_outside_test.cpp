@@ -128,7 +128,7 @@ TEST(LocalizerOutside, WaitsUntilThereAreMatches) {
   WaitingRun waiting;
   Localizer& localizer = waiting.run.localizer;
   ASSERT_TRUE(localizer.awaitsMatches());
-  EXPECT_EQ(localizer.pieces(), 0);
+  EXPECT_EQ(localizer.tasks(), 0);
   for (int i = 0; i < 3; ++i) {
     const StepReport report = localizer.step();
     EXPECT_EQ(report.stage, Stage::kMatch);

@@ -87,13 +87,13 @@ TEST(PoseChange, WhatLiesInsideTheUncertaintyStaysAndTheRestComesToItsEdge) {
       most = std::max(most, std::abs(offset[i]) / limit);
       clamped[i] = std::clamp(offset[i], -limit, limit);
     }
-    EXPECT_FALSE(leftUncertainty(problem, pose, most * 1.000001));
-    EXPECT_TRUE(leftUncertainty(problem, pose, most * 0.999999));
-    const Pose back = pulledBack(problem, pose);
+    EXPECT_FALSE(leftUncertainty(seedOf(problem), pose, most * 1.000001));
+    EXPECT_TRUE(leftUncertainty(seedOf(problem), pose, most * 0.999999));
+    const Pose back = pulledBack(seedOf(problem), pose);
     if (most < 1.0) {
       EXPECT_EQ(back, pose);
     } else {
-      EXPECT_FALSE(leftUncertainty(problem, back, 1.000001));
+      EXPECT_FALSE(leftUncertainty(seedOf(problem), back, 1.000001));
       const Pose expected = displacedAboutPivot(problem.camera_from_station_seed, clamped,
                                                 problem.uncertainty.pivot_in_camera_m);
       EXPECT_LT((back.translation_m - expected.translation_m).norm(), 1e-12);

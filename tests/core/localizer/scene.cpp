@@ -438,7 +438,7 @@ Case occludedCase(std::uint64_t seed) {
 std::vector<std::byte> blockFor(const LocalizationProblem& problem,
                                 const LocalizerOptions& options) {
   std::size_t bytes = 0;
-  EXPECT_EQ(Localizer::requiredBytes(sizeOf(problem), options, bytes), Status::kOk);
+  EXPECT_EQ(requiredBytes(sizeOf(problem), options, bytes), Status::kOk);
   return std::vector<std::byte>(bytes);
 }
 
@@ -456,16 +456,15 @@ int OwnedRun::finish() {
 std::array<std::uint8_t, 32> sharedDigest(const LocalizationProblem& problem,
                                           const LocalizerOptions& options, int workers) {
   std::size_t bytes = 0;
-  EXPECT_EQ(Localizer::requiredBytes(sizeOf(problem), options, workers, bytes, bestKernels()),
-            Status::kOk);
+  EXPECT_EQ(requiredBytes(sizeOf(problem), options, workers, bytes, bestKernels()), Status::kOk);
   std::vector<std::byte> memory(bytes + Arena::kAlignment);
   Localizer shared(problem, options, memory, workers, bestKernels());
   do {
-    const int pieces = shared.pieces();
+    const int pieces = shared.tasks();
     std::vector<std::jthread> threads;
     for (int worker = 0; worker < workers && pieces > 0; ++worker) {
       threads.emplace_back([&shared, pieces, worker, workers] {
-        for (int piece = worker; piece < pieces; piece += workers) shared.work(piece, worker);
+        for (int piece = worker; piece < pieces; piece += workers) shared.runTask(piece, worker);
       });
     }
   } while (!shared.step().finished);

@@ -10,15 +10,21 @@ namespace boresight {
 namespace {
 
 TEST(Schedule, TheFirstLevelIsTheFinestThatIsSmallEnough) {
-  LoopOptions loop;
-  loop.coarse_size_px = 512;
-  loop.halved_size_px = 400;
-  EXPECT_EQ(coarseLevel(2048, 1536, loop), 2);
-  EXPECT_EQ(coarseLevel(1024, 1024, loop), 1);
-  EXPECT_EQ(coarseLevel(1025, 16, loop), 1);  // 1025 >> 1
-  EXPECT_EQ(coarseLevel(401, 401, loop), 1);
-  EXPECT_EQ(coarseLevel(400, 400, loop), 0);
-  EXPECT_EQ(coarseLevel(1 << 14, 1 << 14, loop), kPyramidLevels - 1);
+  LocalizerOptions options;
+  options.loop.coarse_size_px = 512;
+  options.loop.halved_size_px = 400;
+  const auto coarseLevel = [&](int width, int height) {
+    ProblemSize size;
+    size.width = width;
+    size.height = height;
+    return levelsOf(size, options).coarse;
+  };
+  EXPECT_EQ(coarseLevel(2048, 1536), 2);
+  EXPECT_EQ(coarseLevel(1024, 1024), 1);
+  EXPECT_EQ(coarseLevel(1025, 16), 1);  // 1025 >> 1
+  EXPECT_EQ(coarseLevel(401, 401), 1);
+  EXPECT_EQ(coarseLevel(400, 400), 0);
+  EXPECT_EQ(coarseLevel(1 << 14, 1 << 14), kPyramidLevels - 1);
 }
 
 TEST(Schedule, ThresholdsShrinkWhileMatchingAndAreARadiusWhenRefining) {
@@ -72,11 +78,11 @@ TEST(Schedule, ThePivotMovesWithTheHypothesis) {
   loop.shrink_iterations = 3;
   Pose moved = problem.camera_from_station_seed;
   moved.translation_m.x() += 0.5;
-  const SeedUncertainty now = uncertaintyAt(problem, loop, 2, moved);
+  const SeedUncertainty now = uncertaintyAt(seedOf(problem), loop, 2, moved);
   EXPECT_TRUE(now.pivot_in_camera_m.isApprox(Eigen::Vector3d(0.6, 0.0, 2.0)));
   EXPECT_TRUE(now.translation_m.isApprox(0.25 * problem.uncertainty.translation_m));
   problem.uncertainty.pivot_in_camera_m.setZero();  // an arm camera turns about itself
-  EXPECT_TRUE(uncertaintyAt(problem, loop, 2, moved).pivot_in_camera_m.isZero());
+  EXPECT_TRUE(uncertaintyAt(seedOf(problem), loop, 2, moved).pivot_in_camera_m.isZero());
 }
 
 TEST(Schedule, ARunMayEndAfterTheIterationsThatItNeeds) {

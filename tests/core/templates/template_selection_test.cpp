@@ -81,8 +81,8 @@ class Selector {
     set = createTemplateSet(options, arena_);
   }
   Status select(const EdgeRender& render, int side_px, const BitImage* ignore = nullptr,
-                int level = 0, std::span<const Eigen::Vector3d> avoided_in_station_m = {}) {
-    return selector_.select(render, side_px, ignore, level, avoided_in_station_m, set);
+                int level = 0) {
+    return selector_.select(render, side_px, ignore, level, set);
   }
   TemplateSet set;
 
@@ -91,27 +91,6 @@ class Selector {
   Arena arena_;
   TemplateSelector selector_;
 };
-
-/// The corner that failed is left; its cell takes another place, or none.
-TEST(TemplateSelector, KeepsAwayFromWhatIsToBeAvoided) {
-  DrawnRender drawn(512, 512);
-  drawn.set(squareOutline(100, 100, 300));
-  TemplateOptions options;
-  options.count = 4;
-  options.learn = true;
-  Selector selector(options);
-  ASSERT_EQ(selector.select(drawn.render, 32), Status::kTooFewTemplates);
-  ASSERT_EQ(selector.set.count, 4);
-  const Eigen::Vector3d avoided_m = selector.set.templates[1].point_in_station_m;
-  const Eigen::Vector2d avoided_px(selector.set.templates[1].center_x,
-                                   selector.set.templates[1].center_y);
-  (void)selector.select(drawn.render, 32, nullptr, 0, std::span(&avoided_m, 1));
-  ASSERT_EQ(selector.set.count, 4);
-  for (const Template& item : selector.set.templates.first(4)) {
-    const Eigen::Vector2d away = Eigen::Vector2d(item.center_x, item.center_y) - avoided_px;
-    EXPECT_GE(away.norm(), 8.0 - 1e-6);
-  }
-}
 
 TEST(TemplateSelector, PrefersCornersToStraightEdges) {
   DrawnRender drawn(512, 512);

@@ -31,7 +31,7 @@ struct RecordedRun {
     options.templates.feature_size_m = 0.018;
     const LocalizationProblem problem = example.problem();
     std::size_t size = 0;
-    EXPECT_EQ(Localizer::requiredBytes(sizeOf(problem), options, size), Status::kOk);
+    EXPECT_EQ(requiredBytes(sizeOf(problem), options, size), Status::kOk);
     std::vector<std::byte> memory(size);
     Localizer localizer(problem, options, memory);
     bytes.resize(room);

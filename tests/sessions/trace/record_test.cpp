@@ -39,7 +39,7 @@ TEST(Localize, EndsNearTheTruth) {
 TEST(Localize, GivesWhatAPlainLoopOfStepsGives) {
   const LocalizationProblem problem = runs().example.problem();
   std::size_t bytes = 0;
-  ASSERT_EQ(Localizer::requiredBytes(sizeOf(problem), defaultProfile(), bytes), Status::kOk);
+  ASSERT_EQ(requiredBytes(sizeOf(problem), defaultProfile(), bytes), Status::kOk);
   std::vector<std::byte> memory(bytes);
   Localizer localizer(problem, defaultProfile(), memory);
   while (!localizer.step().finished) {
@@ -166,7 +166,7 @@ TEST(Localize, RecordsEveryAttempt) {
 TEST(Localize, GivesTheSameWithinALimit) {
   const LocalizationProblem problem = runs().example.problem();
   std::size_t bytes = 0;
-  ASSERT_EQ(Localizer::requiredBytes(sizeOf(problem), defaultProfile(), bytes), Status::kOk);
+  ASSERT_EQ(requiredBytes(sizeOf(problem), defaultProfile(), bytes), Status::kOk);
   RunSettings settings;
   settings.level = RecordLevel::kSummary;
   settings.memory_limit = bytes + inputBytes(problem);

@@ -62,26 +62,6 @@ TEST(ScoreMap, IsWhatCountingPixelByPixelGives) {
   }
 }
 
-/// The template as it was looked for: the peak of a warped one is the map's.
-TEST(ScoreMap, OfAWarpedTemplateIsThatOfItsWarp) {
-  const test::ExampleCase example("os");
-  LocalizerOptions options = defaultProfile();
-  options.warp.enabled = true;
-  options.warp.tolerance_px = 0.75;
-  const LocalizationTrace trace = localize(example.problem(), options, RecordLevel::kFull);
-  const IterationTrace& first = trace.iterations.front();
-  int warped = 0;
-  for (int i = 0; i < first.template_count; i += 5) {
-    const Match& match = first.matches[static_cast<std::size_t>(i)];
-    const auto map = scoreMap(trace.edges, first, i);
-    if (!map || match.warp == TemplateWarp()) continue;
-    ++warped;
-    EXPECT_EQ(map->countsAt(match.peak.x, match.peak.y), match.peak.counts);
-    EXPECT_EQ(map->highest, map->scoreAt(match.peak.x, match.peak.y));
-  }
-  EXPECT_GT(warped, 2);
-}
-
 TEST(ScoreMap, IsNothingWhereNothingCanBeSearched) {
   const IterationTrace& first = exampleTrace().iterations.front();
   EXPECT_FALSE(scoreMap(exampleTrace().edges, first, -1));

@@ -74,73 +74,14 @@ TEST(TraceFile, GivesBackTheOptionsTakenUpOnTheWay) {
   EXPECT_TRUE(sameOptions(loaded.lastOptions(), other));
 }
 
-TEST(TraceFile, ReadsTheVersionBeforeTheChanges) {
+TEST(TraceFile, OlderVersion_IsRefused) {
   const test::TemporaryFolder folder;
   saveTrace(folder / "run.trace", exampleTrace());
-  std::string bytes = folder.read("run.trace").substr(0, kHeaderBytes);
-  bytes[11] = 2;
-  const std::vector<std::uint8_t> payload = bytesOf(exampleTrace(), 2);  // no count of changes
-  folder.write("old.trace", sealed(bytes.append(payload.begin(), payload.end())));
-  const LocalizationTrace loaded = loadTrace(folder / "old.trace");
-  EXPECT_EQ(bytesOf(loaded), bytesOf(exampleOfOldFormats()));
-  EXPECT_TRUE(loaded.changes.empty());
-}
-
-/// Format 3 as it was written: options by name, none of the later ones among them.
-TEST(TraceFile, ReadsTheVersionBeforeTheWideSearch) {
-  const test::TemporaryFolder folder;
-  saveTrace(folder / "run.trace", exampleTrace());
-  std::string bytes = folder.read("run.trace").substr(0, kHeaderBytes);
-  bytes[11] = 3;
-  const std::vector<std::uint8_t> payload = bytesOf(exampleTrace(), 3);
-  bytes.append(payload.begin(), payload.end()).append(4, '\0');  // no changes
-  EXPECT_EQ(bytes.find("wide."), std::string::npos);
+  std::string bytes = folder.read("run.trace");
+  bytes.resize(bytes.size() - kChecksumBytes);
+  bytes[11] = 6;
   folder.write("old.trace", sealed(bytes));
-  EXPECT_EQ(bytesOf(loadTrace(folder / "old.trace")), bytesOf(exampleOfOldFormats()));
-}
-
-/// Format 4 likewise, without what came with rivals and partial support.
-TEST(TraceFile, ReadsTheVersionBeforeRivalsAndPartialSupport) {
-  const test::TemporaryFolder folder;
-  saveTrace(folder / "run.trace", exampleTrace());
-  std::string bytes = folder.read("run.trace").substr(0, kHeaderBytes);
-  bytes[11] = 4;
-  const std::vector<std::uint8_t> payload = bytesOf(exampleTrace(), 4);
-  bytes.append(payload.begin(), payload.end()).append(4, '\0');  // no changes
-  EXPECT_NE(bytes.find("wide."), std::string::npos);
-  EXPECT_EQ(bytes.find("support.partial"), std::string::npos);
-  EXPECT_EQ(bytes.find("ambiguity."), std::string::npos);
-  folder.write("old.trace", sealed(bytes));
-  EXPECT_EQ(bytesOf(loadTrace(folder / "old.trace")), bytesOf(exampleOfOldFormats()));
-  EXPECT_GT(exampleTrace().partial.rendered, 0);
-}
-
-/// Format 5 likewise, without what came with warped templates.
-TEST(TraceFile, ReadsTheVersionBeforeWarpedTemplates) {
-  const test::TemporaryFolder folder;
-  saveTrace(folder / "run.trace", exampleTrace());
-  std::string bytes = folder.read("run.trace").substr(0, kHeaderBytes);
-  bytes[11] = 5;
-  const std::vector<std::uint8_t> payload = bytesOf(exampleTrace(), 5);
-  bytes.append(payload.begin(), payload.end()).append(4, '\0');  // no changes
-  EXPECT_NE(bytes.find("ambiguity."), std::string::npos);
-  EXPECT_EQ(bytes.find("warp."), std::string::npos);
-  EXPECT_EQ(bytes.find("templates.learn"), std::string::npos);
-  folder.write("old.trace", sealed(bytes));
-  EXPECT_EQ(bytesOf(loadTrace(folder / "old.trace")), bytesOf(exampleTrace()));
-}
-
-TEST(TraceFile, KeepsHowTemplatesWereWarpedAndWhichWereDropped) {
-  const test::TemporaryFolder folder;
-  LocalizationTrace trace = exampleTrace();
-  trace.iterations.front().matches[2].warp = {0.25, 1.125};
-  trace.iterations.front().matches[3].dropped = true;
-  saveTrace(folder / "run.trace", trace);
-  const LocalizationTrace loaded = loadTrace(folder / "run.trace");
-  EXPECT_EQ(loaded.iterations.front().matches[2].warp, (TemplateWarp{0.25, 1.125}));
-  EXPECT_EQ(loaded.iterations.front().matches[1].warp, TemplateWarp());
-  EXPECT_TRUE(loaded.iterations.front().matches[3].dropped);
-  EXPECT_FALSE(loaded.iterations.front().matches[2].dropped);
+  EXPECT_THROW((void)loadTrace(folder / "old.trace"), InputError);
 }
 
 TEST(TraceFile, GivesBackEveryFieldExactly) {

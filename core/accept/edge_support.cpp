@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/accept/edge_support.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace boresight {
+namespace {
+
+constexpr std::int32_t kMaxPlaces =
+    6000;  ///< so many tell the share to half a percent, in one slice
+
+/// Displacements of the render that tell what comes about by chance, px of the render: beyond any
+/// search radius in use, and no multiple of a power of two that a raster might have.
+constexpr int kDisplacements[4][2] = {{11, 0}, {0, 11}, {-11, 0}, {0, -11}};
+
+/// A place of the render in the image, and what is looked for there.
+struct Place {
+  Eigen::Vector2d position_px;
+  Eigen::Vector2d normal;
+};
+
+Place placeOf(const EdgePixel& pixel, double scale, const int displacement[2]) {
+  Place place;
+  place.normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
+  const Eigen::Vector2d line =
+      Eigen::Vector2d(pixel.x + displacement[0], pixel.y + displacement[1]) +
+      0.01 * pixel.offset * place.normal;
+  place.position_px = (line.array() + 0.5).matrix() * scale - Eigen::Vector2d::Constant(0.5);
+  return place;
+}
+
+/// Places looked at, with an edge about them, and with one that is near.
+struct Counts {
+  std::int32_t looked = 0;
+  std::int32_t found = 0;
+  std::int32_t near = 0;
+};
+
+/// Counts one place; ignored ones are left out.
+void countPlace(const Place& place, const EdgeSearch& search, double scale, const ImageView& image,
+                const BitImage* ignore, const SupportOptions& options, Counts& counts) {
+  const int x = std::clamp(static_cast<int>(place.position_px.x() + 0.5), 0, image.width - 1);
+  const int y = std::clamp(static_cast<int>(place.position_px.y() + 0.5), 0, image.height - 1);
+  if (ignore != nullptr && ignore->get(x, y)) return;
+  ++counts.looked;
+  const EdgePeak peak = search.find(image, ignore, place.position_px, place.normal,
+                                    options.search_radius_px * scale, options.min_gradient);
+  if (peak.gradient == 0.0) return;
+  ++counts.found;
+  if (std::abs(peak.offset_px) <= options.near_px * scale) ++counts.near;
+}
+
+/// A cell of the box around the rendered edges, with the render in place and displaced.
+struct Cell {
+  Counts in_place;
+  Counts displaced;
+};
+
+/// The box and its cells, row by row.
+struct Cells {
+  static constexpr int kSide = 8;
+  std::array<Cell, kSide * kSide> cell{};
+  int left = 0;
+  int top = 0;
+  int width = 1;
+  int height = 1;
+
+  explicit Cells(const EdgeRender& render) {
+    if (render.pixel_count == 0) return;
+    int right = left = render.pixels[0].x;
+    int bottom = top = render.pixels[0].y;
+    for (const EdgePixel& pixel :
+         render.pixels.first(static_cast<std::size_t>(render.pixel_count))) {
+      left = std::min<int>(left, pixel.x);
+      right = std::max<int>(right, pixel.x);
+      top = std::min<int>(top, pixel.y);
+      bottom = std::max<int>(bottom, pixel.y);
+    }
+    width = right - left + 1;
+    height = bottom - top + 1;
+  }
+  Cell& of(const EdgePixel& pixel) {
+    const int column = (pixel.x - left) * kSide / width;
+    const int row = (pixel.y - top) * kSide / height;
+    return cell[static_cast<std::size_t>(row * kSide + column)];
+  }
+};
+
+void measureCoverage(const EdgeRender& render, int level, const ImageView& image,
+                     const BitImage* ignore, const SupportOptions& options, Cells& cells) {
+  constexpr int kInPlace[2] = {0, 0};
+  const EdgeSearch search(options.derivative_sigma_px);
+  const double scale = static_cast<double>(1 << level);
+  const std::int32_t stride = std::max(1, (render.pixel_count + kMaxPlaces - 1) / kMaxPlaces);
+  int direction = 0;
+  for (std::int32_t i = 0; i < render.pixel_count; i += stride) {
+    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+    Cell& cell = cells.of(pixel);
+    countPlace(placeOf(pixel, scale, kInPlace), search, scale, image, ignore, options,
+               cell.in_place);
+    countPlace(placeOf(pixel, scale, kDisplacements[direction]), search, scale, image, ignore,
+               options, cell.displaced);
+    direction = (direction + 1) % 4;
+  }
+}
+
+void addUp(const Cells& cells, EdgeSupport& support) {
+  for (const Cell& cell : cells.cell) {
+    support.rendered += cell.in_place.looked;
+    support.covered += cell.in_place.near;
+    support.displaced += cell.displaced.looked;
+    support.displaced_covered += cell.displaced.near;
+  }
+}
+
+void addUp(const Cells& cells, PartialSupport& partial) {
+  partial = {};
+  for (const Cell& cell : cells.cell) {
+    partial.rendered += cell.in_place.looked;
+    partial.found += cell.in_place.found;
+    partial.covered += cell.in_place.near;
+    partial.displaced_found += cell.displaced.found;
+    partial.displaced_covered += cell.displaced.near;
+    if (cell.in_place.looked < PartialSupport::kVisibleFrom_places) continue;
+    ++partial.cells;
+    const double beyond_chance = beyondChance(shareOf(cell.in_place.near, cell.in_place.looked),
+                                              shareOf(cell.displaced.near, cell.displaced.looked));
+    if (beyond_chance < PartialSupport::kVisibleExcess) continue;
+    ++partial.visible_cells;
+    partial.visible += cell.in_place.looked;
+  }
+}
+
+/// The 64 bits from pixel x on of a row; pixels outside the image are 0.
+std::uint64_t bitsFrom(const BitImage& image, int x, int y) {
+  if (y < 0 || y >= image.height) return 0;
+  const std::uint64_t* row = image.row(y);
+  const int word = x >= 0 ? x / 64 : -((63 - x) / 64);
+  const int bit = x - 64 * word;
+  const auto wordAt = [&](int w) {
+    return w >= 0 && w < image.words_per_row ? row[w] : std::uint64_t{0};
+  };
+  return bit == 0 ? wordAt(word) : (wordAt(word) >> bit) | (wordAt(word + 1) << (64 - bit));
+}
+
+/// The same, dilated by one pixel in all directions.
+std::uint64_t dilatedBitsFrom(const BitImage& image, int x, int y) {
+  std::uint64_t bits = 0;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) bits |= bitsFrom(image, x + dx, y + dy);
+  }
+  return bits;
+}
+
+void measureExplanation(const EdgeRender& render, const BitImage& test_edges,
+                        EdgeSupport& support) {
+  const int height = std::min(render.edges.height, test_edges.height);
+  const int words = std::min(render.edges.words_per_row, test_edges.words_per_row);
+  for (int y = 0; y < height; ++y) {
+    for (int w = 0; w < words; ++w) {
+      const std::uint64_t seen = test_edges.row(y)[w] & render.mask.row(y)[w];
+      if (seen == 0) continue;
+      support.seen += std::popcount(seen);
+      support.explained += std::popcount(seen & dilatedBitsFrom(render.edges, 64 * w, y));
+      for (const auto& displacement : kDisplacements) {
+        const std::uint64_t moved =
+            dilatedBitsFrom(render.edges, 64 * w - displacement[0], y - displacement[1]);
+        support.displaced_explained += std::popcount(seen & moved);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void countEdge(const EdgePixel& pixel, int direction, int level, const EdgeSearch& search,
+               const ImageView& image, const BitImage* ignore, const SupportOptions& options,
+               std::int32_t& looked, std::int32_t& covered) {
+  constexpr int kInPlace[2] = {0, 0};
+  const double scale = static_cast<double>(1 << level);
+  Counts counts;
+  countPlace(placeOf(pixel, scale, direction < 0 ? kInPlace : kDisplacements[direction]), search,
+             scale, image, ignore, options, counts);
+  looked += counts.looked;
+  covered += counts.near;
+}
+
+EdgeSupport measureEdgeSupport(const EdgeRender& render, int level, const EdgeMap& edges,
+                               const ImageView& image, const BitImage* ignore,
+                               const SupportOptions& options, PartialSupport* partial) {
+  EdgeSupport support;
+  Cells cells(render);
+  measureCoverage(render, level, image, ignore, options, cells);
+  addUp(cells, support);
+  if (partial != nullptr) addUp(cells, *partial);
+  measureExplanation(render, edges.level[static_cast<std::size_t>(level)], support);
+  return support;
+}
+
+}  // namespace boresight

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "core/accept/chance.h"
+#include "core/accept/partial_support.h"
+#include "core/accept/support_options.h"
+#include "core/base/image.h"
+#include "core/edges/edge_map.h"
+#include "core/refine/edge_search.h"
+#include "core/render/edge_render.h"
+
+namespace boresight {
+
+/// How well a pose explains the image, not resting on any match. Two sides, kept apart:
+/// *coverage*, how much of what the pose predicts is seen: rendered edge pixels where the strongest
+/// derivative of the raw image along the edge's normal, within the search radius, lies near the
+/// edge; *explained*, how much of what is seen on the object is predicted: test edges inside the
+/// mask with a rendered edge within one pixel (the rest is texture, shadow, or somebody else's
+/// edge). Both also come about by chance, the more the denser the edges: the same counts with the
+/// render displaced in four directions say how much. What exceeds chance counts. A wrong pose
+/// covers a part and explains little; a dark or textured object is strong in one of the two.
+struct EdgeSupport {
+  std::int32_t rendered =
+      0;  ///< rendered edge pixels looked at (an even subset of many), not ignored
+  std::int32_t covered = 0;            ///< of those, seen in the image
+  std::int32_t displaced = 0;          ///< the same for the displaced render
+  std::int32_t displaced_covered = 0;  ///< of those, seen in the image
+  std::int32_t seen = 0;               ///< test edge pixels inside the mask, at the render's level
+  std::int32_t explained = 0;          ///< of those, predicted by the render
+  std::int32_t displaced_explained = 0;  ///< over four displacements
+
+  /// Share of the rendered edges that is seen.
+  double coverage() const { return shareOf(covered, rendered); }
+  /// The same by chance.
+  double chanceCoverage() const { return shareOf(displaced_covered, displaced); }
+  /// Share of the edges seen on the object that is predicted.
+  double explanation() const { return shareOf(explained, seen); }
+  /// The same by chance.
+  double chanceExplanation() const { return 0.25 * shareOf(displaced_explained, seen); }
+  /// (2 coverage + explanation) / 3, each as its excess over chance, in [0, 1].
+  double share() const {
+    return (2.0 * beyondChance(coverage(), chanceCoverage()) +
+            beyondChance(explanation(), chanceExplanation())) /
+           3.0;
+  }
+};
+
+/// Whether the image supports a pose; always when the options ask for no support.
+inline bool isSupported(const EdgeSupport& support, const PartialSupport& partial,
+                        const SupportOptions& options) {
+  return !options.gate || support.share() >= options.min_support ||
+         (options.partial && partial.suffices(options));
+}
+
+/// Counts a rendered edge pixel as looked at and, when its counterpart is near, as covered; ignored
+/// ones not at all. `direction` 0 ... 3 displaces it by one of those that tell what comes about by
+/// chance, -1 leaves it in place.
+void countEdge(const EdgePixel& pixel, int direction, int level, const EdgeSearch& search,
+               const ImageView& image, const BitImage* ignore, const SupportOptions& options,
+               std::int32_t& looked, std::int32_t& covered);
+
+/// `image` is raw, at full resolution; `level` is the render's. `ignore` may be nullptr, `partial`
+/// too.
+EdgeSupport measureEdgeSupport(const EdgeRender& render, int level, const EdgeMap& edges,
+                               const ImageView& image, const BitImage* ignore,
+                               const SupportOptions& options, PartialSupport* partial = nullptr);
+
+}  // namespace boresight

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/localizer/pass_plan.h"
+#include "core/localizer/problem.h"
+#include "core/localizer/workspace.h"
+
+namespace boresight {
+
+/// One attempt of a run: the iterations from a seed until they converge or fail (Pham 2025,
+/// Sec. III). The first iteration compares renders rolled about the view axis and keeps the one
+/// with most inliers; windows and thresholds shrink from iteration to iteration (schedule.h); after
+/// the matching iterations the pose is refined on edges. A plain value: a copy continues alike.
+class Attempt {
+ public:
+  Attempt() = default;
+  /// `index` counts the attempts of a run, `iteration` the first one to do.
+  Attempt(int index, const Seed& seed, int iteration = 0);
+
+  /// What the next pass works on.
+  PassPlan plan(const RunContext& run) const;
+  /// Takes the outcome of that pass; kPose: the attempt has converged. Fills in the records'
+  /// hypotheses, pose and corrections.
+  Ruling take(const PassOutcome& outcome, const Agreement& agreement, const RunContext& run,
+              std::span<Iteration, 2> records);
+
+  /// Starts again from the seed with templates of another size: they may have caused the failure.
+  void restart();
+  /// After convergence: goes on without being converged (a view was dropped). kFailed at the
+  /// iteration limit.
+  Ruling goOn(const RunContext& run);
+
+  /// The attempt that starts from a pose competing with this one's, within `seed`'s uncertainty
+  /// after the shrinking so far.
+  Attempt competing(int index, const Seed& seed, const LocalizerOptions& options) const;
+  /// The attempt before its last iteration, which started from this pose.
+  Attempt beforeLastIteration(int index, const Pose& camera_from_station_before,
+                              const LocalizerOptions& options) const;
+
+  int index() const { return index_; }
+  /// Whether the next pass starts an iteration.
+  bool atIterationStart() const { return hypothesis_ == 0; }
+  const Seed& seed() const { return seed_; }
+  const Pose& camera_from_station() const { return camera_from_station_; }
+  const Matrix6d& covariance() const { return covariance_; }
+  /// The record of the latest iteration.
+  int record() const { return record_; }
+
+ private:
+  Ruling takeHypothesis(const PassOutcome& outcome, const Agreement& agreement,
+                        const RunContext& run, std::span<Iteration, 2> records);
+  Ruling finishIteration(Stage stage, const Pose& camera_from_station, const Matrix6d& covariance,
+                         const RunContext& run, Iteration& record);
+  bool isConvincing(int record, const Iteration& iteration, const LoopOptions& loop) const;
+  void startIteration();
+
+  int index_ = 0;
+  int size_index_ = 0;  ///< which of the template sizes
+  int iteration_ = 0;
+  int hypothesis_ = 0;  ///< of the iteration
+  int record_ = 0;
+  bool has_best_ = false;  ///< the other record holds the best hypothesis so far
+  int small_corrections_ = 0;
+  Seed seed_;
+  PosePrior anchor_;      ///< the seed with its uncertainty as a Gaussian
+  PoseEstimate matched_;  ///< from the latest templates
+  Pose camera_from_station_;
+  Matrix6d covariance_ = Matrix6d::Zero();
+  std::array<Agreement, 2> agreement_;  ///< of each record
+  std::array<Stage, 2> reached_{};      ///< by each record
+};
+
+/// Counts of a match iteration and the cost of its pose.
+HypothesisSummary summaryOf(const Iteration& iteration);
+
+}  // namespace boresight

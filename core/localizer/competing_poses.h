@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/accept/self_similarity.h"
+#include "core/localizer/attempt.h"
+#include "core/localizer/pass_plan.h"
+#include "core/localizer/workspace.h"
+
+namespace boresight {
+
+/// Policy that tests, after a pose has converged, the poses under which the edge pattern of the
+/// model repeats. An attempt is made from each of them, within a box that does not reach the next;
+/// of two supported poses the one with more evidence is the best pose. The last iteration of the
+/// best pose is repeated at the end, so that the run ends with its record. Off unless
+/// options.ambiguity.enabled.
+class CompetingPoses {
+ public:
+  enum class Next : std::uint8_t {
+    kCompare = 0,  ///< a self-similarity pass of the best pose
+    kTry,          ///< the attempt of competitor()
+    kReturn,       ///< the attempt of best(): its last iteration again
+    kConclude,     ///< the run ends with the best pose, which the latest record shows
+  };
+
+  CompetingPoses() = default;
+  /// `poses` holds ambiguity.max_rivals entries and must outlive this.
+  explicit CompetingPoses(std::span<Rival> poses) : poses_(poses) {}
+
+  /// Whether a competing pose is being tried.
+  bool isTrying() const { return round_ == Round::kTrials; }
+  bool hasStarted() const { return round_ != Round::kNone; }
+  bool hasEnded() const { return round_ == Round::kEnd; }
+
+  /// A supported pose. `best_margin_nats` is the evidence of the best pose beyond it (not used for
+  /// the first pose). `leads`: it is the best pose now, and its render must be kept.
+  Next takePose(const Attempt& attempt, const Pose& camera_from_station_before,
+                double best_margin_nats, const RunContext& run, bool& leads);
+  /// The attempt of a competing pose failed.
+  Next takeFailure(LocalizationStatus status);
+  /// The displacements of the self-similarity pass.
+  Next takeShifts(std::span<const SelfShift> shifts, const RunContext& run);
+
+  PassPlan comparison(const LocalizerOptions& options) const;
+  /// The attempt from the competing pose to try.
+  Attempt competitor(int index, const RunContext& run) const;
+  /// The attempt that repeats the last iteration of the best pose.
+  Attempt best(int index, const LocalizerOptions& options) const;
+
+  std::span<const Rival> poses() const { return poses_.first(static_cast<std::size_t>(count_)); }
+  /// kConverged, kAmbiguous, or kLeftUncertainty for a best pose outside the seed's uncertainty:
+  /// that one must be clearly better than those inside, and the seed is wrong.
+  LocalizationStatus verdict(const Pose& camera_from_station,
+                             const LocalizerOptions& options) const;
+
+ private:
+  enum class Round : std::uint8_t { kNone = 0, kComparison, kTrials, kEnd };
+
+  bool isInSeedsBox(const Pose& camera_from_station, const LocalizerOptions& options) const;
+  bool isKnown(const Pose& camera_from_station, double within_px, const RunContext& run) const;
+  void lead(const Attempt& attempt, const Pose& camera_from_station_before);
+  Next next();
+
+  Round round_ = Round::kNone;
+  std::span<Rival> poses_;
+  int count_ = 0;
+  int trial_ = 0;        ///< index of the pose being tried
+  int best_index_ = -1;  ///< of the best pose; -1: the first that converged
+  Attempt best_;
+  Pose best_before_;  ///< where the last iteration of the best pose started
+  bool best_is_shown_ = false;
+  Seed seed_;  ///< of the attempt that converged first
+};
+
+}  // namespace boresight

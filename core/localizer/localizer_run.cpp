@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a run begins, ends, and is changed on the way.
+#include <algorithm>
+#include <cstdint>
+
+#include "core/localizer/localizer.h"
+
+namespace boresight {
+namespace {
+
+/// The block from its first aligned byte on.
+std::span<std::byte> alignedBlock(std::span<std::byte> memory) {
+  const std::size_t past = reinterpret_cast<std::uintptr_t>(memory.data()) % Arena::kAlignment;
+  const std::size_t skipped = past > 0 ? Arena::kAlignment - past : 0;
+  return memory.subspan(std::min(skipped, memory.size()));
+}
+
+}  // namespace
+
+Localizer::Localizer(const LocalizationProblem& problem, const LocalizerOptions& options,
+                     std::span<std::byte> memory, int workers, Kernels kernels)
+    : memory_(alignedBlock(memory)), workers_(workers), kernels_(kernels) {
+  status_ = memory_.empty() ? Status::kArenaTooSmall : begin(problem, options);
+}
+
+Status Localizer::begin(const LocalizationProblem& problem, const LocalizerOptions& options) {
+  const Status status = pass_.create(problem, options, memory_, workers_, kernels_);
+  phase_ = Phase::kEdges;
+  pass_.workspace().fault = status;
+  if (status != Status::kOk) return status;
+  const PassMemory& memory = pass_.memory();
+  search_ = GlobalSearch(pass_.problem(), pass_.context(), memory.restarts, memory.finalists);
+  attempt_ = Attempt(0, seedOf(pass_.problem()));
+  competing_ = CompetingPoses(memory.competing);
+  return status;
+}
+
+Status Localizer::restart(const Pose& camera_from_station_seed, const LocalizerOptions& options) {
+  LocalizationProblem problem = pass_.problem();
+  problem.camera_from_station_seed = camera_from_station_seed;
+  if (!isUsable(PosePrior{camera_from_station_seed, problem.uncertainty}))
+    return Status::kInvalidPose;
+  std::size_t bytes = 0;
+  Status status = requiredBytes(sizeOf(problem), options, workers_, bytes, kernels_);
+  if (status == Status::kOk && bytes > memory_.size()) status = Status::kArenaTooSmall;
+  if (status == Status::kOk) status_ = status = begin(problem, options);
+  return status;
+}
+
+bool Localizer::isBetweenIterations() const {
+  if (status_ != Status::kOk || pass_.running()) return false;
+  return phase_ == Phase::kSearch ? search_.atIterationStart()
+                                  : phase_ == Phase::kIterate && attempt_.atIterationStart();
+}
+
+bool Localizer::changeOptions(const LocalizerOptions& options) {
+  if (!isBetweenIterations() || firstInvalidOption(options) != nullptr ||
+      firstFixedOption(pass_.options(), options) != nullptr)
+    return false;
+  if (!sameOptions(pass_.options(), options)) pass_.changeOptions(options);
+  return true;
+}
+
+/// Goes on with the first iteration of an attempt.
+void Localizer::iterate(const Attempt& attempt) {
+  attempt_ = attempt;
+  phase_ = Phase::kIterate;
+  pass_.workspace().attempts = attempt_.index() + 1;
+}
+
+StepReport Localizer::finish(LocalizationStatus status, StepReport report) {
+  pass_.finish(status, attempt_.camera_from_station(), attempt_.covariance());
+  phase_ = Phase::kEnded;
+  report.finished = true;
+  return report;
+}
+
+}  // namespace boresight

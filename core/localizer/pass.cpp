@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+// Begins and ends passes; pass_stages.cpp has the stages.
+#include "core/localizer/pass.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/localizer/pose_change.h"
+#include "core/localizer/run_digest.h"
+
+namespace boresight {
+namespace {
+
+Status validateProblem(const LocalizationProblem& problem, const LocalizerOptions& options) {
+  if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
+  if (problem.image.data == nullptr || problem.image.width != problem.camera.width ||
+      problem.image.height != problem.camera.height) {
+    return Status::kInvalidImage;
+  }
+  if (!(problem.camera.valid_radius > 0.0)) return Status::kInvalidCamera;  // not prepared
+  if (!isUsable(PosePrior{problem.camera_from_station_seed, problem.uncertainty}))
+    return Status::kInvalidPose;
+  return validateMesh(problem.mesh);
+}
+
+}  // namespace
+
+Status Pass::create(const LocalizationProblem& problem, const LocalizerOptions& options,
+                    std::span<std::byte> block, int workers, Kernels kernels) {
+  problem_ = problem;
+  options_ = options;
+  workspace_ = {};
+  workspace_.camera_from_station = problem.camera_from_station_seed;
+  digest_ = DigestWriter();
+  running_ = false;
+  const Status valid = validateProblem(problem_, options_);
+  if (valid != Status::kOk) return valid;
+  const Status laid_out =
+      memory_.create(problem_, options_, workers, kernels, block, workspace_.edges);
+  if (laid_out != Status::kOk) return laid_out;
+  levels_ = levelsOf(sizeOf(problem_), options_);
+  scene_ = matchedBounds(problem_.mesh);
+  digestOptions(options_, digest_);
+  digestProblem(problem_, digest_);
+  if (match_outside_) matchOutside(surfaces_);
+  return Status::kOk;
+}
+
+void Pass::begin(const PassPlan& plan) {
+  plan_ = plan;
+  outcome_ = {};
+  running_ = true;
+  stage_begun_ = false;
+  task_begun_ = false;
+  measures_ = false;
+  solver_waits_ = false;
+  failed_ = LocalizationStatus::kRunning;
+  memory_.tasks.open(0);
+  switch (plan_.kind) {
+    case PassKind::kEdges:
+      stage_ = Stage::kEdges;
+      break;
+    case PassKind::kMatch:
+    case PassKind::kRefine:
+      prepareRecord();
+      stage_ = Stage::kRender;
+      break;
+    case PassKind::kSelfSimilarity:
+      beginSelfSimilarity();
+      stage_ = Stage::kSupport;
+      break;
+    case PassKind::kSupport:
+      stage_ = Stage::kSupport;
+      break;
+  }
+}
+
+void Pass::prepareRecord() {
+  // The renderer works in the memory of the finer edge maps.
+  for (int level = 0; level < levels_.fine; ++level)
+    workspace_.edges.level[static_cast<std::size_t>(level)] = BitImage();
+  Iteration& now = record();
+  now.index = workspace_.iterations;
+  now.attempt = plan_.attempt;
+  now.status = LocalizationStatus::kRunning;
+  now.kind = plan_.kind == PassKind::kRefine ? IterationKind::kRefine : IterationKind::kMatch;
+  now.level = plan_.level;
+  now.camera_from_station_before = plan_.camera_from_station;
+  now.uncertainty = plan_.uncertainty;
+  now.threshold_px = plan_.threshold_px;
+  if (plan_.measures_support)
+    now.hypothesis_count = 0;
+  else
+    now.restarts = {};
+  if (!keepsRender(now)) now.render = renderMemory();
+  now.templates.count = 0;
+  now.matches.count = 0;
+  now.matches.searched = 0;
+  now.correspondence_count = 0;
+  now.pnp.inlier_count = 0;
+  now.refinement.sample_count = 0;
+  now.refinement.found_count = 0;
+  now.refinement.used_count = 0;
+  workspace_.iteration = &now;
+}
+
+EdgeRender& Pass::renderMemory() {
+  const auto record = static_cast<std::size_t>(plan_.record);
+  if (plan_.level > levels_.coarse) return memory_.global_render[record];
+  return plan_.level == levels_.coarse ? memory_.coarse_render[record] : memory_.fine_render;
+}
+
+EdgeRender& Pass::evidenceRender() {
+  return memory_.evidence_render[plan_.level > levels_.coarse ? 0 : 1];
+}
+
+/// Whether the last refinement's render shows the scene as a new render would.
+bool Pass::keepsRender(const Iteration& now) const {
+  return plan_.keep_render_px > 0.0 &&
+         displacementBetween_px(now.render.camera_from_station, plan_.camera_from_station, scene_,
+                                problem_.camera) < plan_.keep_render_px;
+}
+
+void Pass::beginSelfSimilarity() {
+  const EdgeRender& render = memory_.best_render;
+  const double depth_m = (render.camera_from_station * scene_.centre()).z();
+  const auto inPixels = [&](double reach_m, double focal_px, int most) {
+    const double px = depth_m > 0.0 ? reach_m * focal_px / depth_m : 0.0;
+    return static_cast<int>(std::clamp(px, 0.0, static_cast<double>(most)));
+  };
+  const Camera& camera = render.camera;
+  memory_.similarity.begin(render, inPixels(plan_.reach_x_m, camera.fx, camera.width),
+                           inPixels(plan_.reach_y_m, std::abs(camera.fy), camera.height),
+                           options_.ambiguity.min_similarity);
+}
+
+int Pass::tasks() const { return running_ && !task_begun_ ? memory_.tasks.count() : 0; }
+
+void Pass::runTask(int task, int worker) {
+  if (task < 0 || task >= tasks() || worker < 0 ||
+      static_cast<std::size_t>(worker) >= memory_.searches.size())
+    return;
+  if (memory_.tasks.isDone(task)) return;
+  if (stage_ == Stage::kRender || measures_) {
+    memory_.renderer.work(task, worker);
+  } else if (stage_ == Stage::kMatch) {
+    WhsSearch& search = memory_.searches[static_cast<std::size_t>(worker)];
+    if (beginMatch(task, search)) {
+      while (!search.step()) {
+      }
+      finishMatch(task, search);
+    }
+  } else {
+    memory_.refinement.searchChunk(task);
+  }
+  memory_.tasks.markDone(task);
+}
+
+PassNeed Pass::needs() const {
+  if (!running_) return PassNeed::kNothing;
+  if (match_outside_ && !matches_supplied_ && stage_ == Stage::kMatch) return PassNeed::kMatches;
+  if (!solver_waits_) return PassNeed::kNothing;
+  return stage_ == Stage::kPose ? PassNeed::kPose : PassNeed::kRound;
+}
+
+/// Ends the pass.
+StepReport Pass::end(Stage stage) {
+  outcome_.reached = stage;
+  running_ = false;
+  memory_.tasks.open(0);
+  return StepReport::of(stage, true);
+}
+
+/// Too little data for a pose.
+StepReport Pass::endFailed(Stage stage, LocalizationStatus status) {
+  Iteration& now = record();
+  now.status = status;
+  if (solve_outside_) {
+    failed_ = status;
+    outcome_.reached = stage;
+    now.correspondence_count = 0;
+    stage_ = plan_.kind == PassKind::kRefine ? Stage::kRefine : Stage::kPose;
+    stage_begun_ = false;
+    return StepReport::of(stage, true);
+  }
+  if (plan_.kind == PassKind::kMatch) {
+    now.pnp.inlier_count = 0;
+    now.pnp.camera_from_station = plan_.camera_from_station;
+  }
+  return end(stage);
+}
+
+StepReport Pass::endFaulted(Stage stage, Status fault) {
+  outcome_.fault = workspace_.fault = fault;
+  return end(stage);
+}
+
+void Pass::show(const Ruling& ruling) {
+  Iteration& shown = memory_.records[static_cast<std::size_t>(ruling.record)];
+  workspace_.iteration = &shown;
+  if (ruling.failed()) shown.status = ruling.status;
+  if ((ruling.iteration_complete || ruling.failed()) && shown.index == workspace_.iterations)
+    ++workspace_.iterations;
+}
+
+void Pass::restoreBestRender() {
+  copyRender(memory_.best_render, memory_.fine_render);
+  memory_.records[0].render = memory_.fine_render;
+}
+
+double Pass::bestMargin_nats() const {
+  const Iteration& now = record();
+  return comparePredictions(memory_.best_render, now.render, now.level, problem_.image,
+                            problem_.ignore, options_.support)
+      .nats();
+}
+
+void Pass::changeOptions(const LocalizerOptions& options) {
+  options_ = options;
+  memory_.selector.setOptions(options.templates);
+  memory_.refinement.setOptions(options.refinement);
+  digest_.tag("changed");
+  digestOptions(options, digest_);
+}
+
+void Pass::finish(LocalizationStatus status, const Pose& camera_from_station,
+                  const Matrix6d& covariance) {
+  const bool converged = status == LocalizationStatus::kConverged;
+  workspace_.status = status;
+  workspace_.camera_from_station =
+      converged ? camera_from_station : problem_.camera_from_station_seed;
+  if (converged) workspace_.covariance = covariance;
+  digest_.tag(localizationStatusText(status));
+  digestPose(workspace_.camera_from_station, digest_);
+}
+
+}  // namespace boresight

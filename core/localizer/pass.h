@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/accept/paired_support.h"
+#include "core/base/digest.h"
+#include "core/localizer/localizer_options.h"
+#include "core/localizer/pass_memory.h"
+#include "core/localizer/pass_plan.h"
+#include "core/localizer/problem.h"
+#include "core/localizer/stage.h"
+#include "core/localizer/workspace.h"
+#include "core/pnp/normal_equations.h"
+
+namespace boresight {
+
+/// What a pass waits for from outside.
+enum class PassNeed : std::uint8_t {
+  kNothing = 0,
+  kMatches,  ///< supplyMatches(), after matchOutside()
+  kPose,   ///< supplyPose(), after solveOutside(): its matches are there, or failed() says why not
+  kRound,  ///< endRound(), after solveOutside(): the edges of a refinement round are searched
+};
+
+/// The pose of a hypothesis that several views share, in the frame of one of them.
+struct JointPose {
+  LocalizationStatus status = LocalizationStatus::kPnpFailed;  ///< kRunning: there is a pose
+  Pose camera_from_station;
+  /// Over (rotation rad, translation m), left perturbation.
+  Matrix6d covariance = Matrix6d::Zero();
+  std::int32_t samples = 0;  ///< drawn by RANSAC
+};
+
+/// Runs the stages of one pass, one bounded slice per step: edges, or render -> templates -> match
+/// -> pose, or render -> refine, or support. It fills the plan's record and the digest. It knows
+/// neither why it runs nor what comes next.
+///
+/// A caller with threads may share out the tasks of a stage between two steps; tasks that are left
+/// are done by step(). The results have the same bits with any number of workers.
+class Pass {
+ public:
+  Pass() = default;
+  Pass(const Pass&) = delete;
+  Pass& operator=(const Pass&) = delete;
+
+  /// Checks the problem and lays out the memory: as Localizer::status().
+  Status create(const LocalizationProblem& problem, const LocalizerOptions& options,
+                std::span<std::byte> block, int workers, Kernels kernels);
+
+  /// Starts a pass; the last one must have ended.
+  void begin(const PassPlan& plan);
+  bool running() const { return running_; }
+  /// One slice; while it needs something from outside it does nothing.
+  StepReport step();
+  const PassOutcome& outcome() const { return outcome_; }
+
+  /// Number of tasks that may run now at the same time; 0 between two passes.
+  int tasks() const;
+  /// Runs a task with the scratch of a worker. Each task at most once between two steps.
+  void runTask(int task, int worker);
+
+  PassNeed needs() const;
+  /// Leaves matching to the caller; renders also fill `surfaces`. See Localizer::matchOutside.
+  void matchOutside(const SurfaceRender& surfaces);
+  Status supplyMatches(std::span<const SuppliedMatch> supplied);
+
+  /// Leaves poses and refinement rounds to the caller, who solves several views as one. A pass that
+  /// fails before its pose then goes on without matches: other views may have more.
+  void solveOutside() { solve_outside_ = true; }
+  /// Why the view has no share in the pass; kRunning: it has.
+  LocalizationStatus failed() const { return failed_; }
+  /// Ends a match pass with the pose of all views. Inliers and residuals of this view's
+  /// correspondences are filled in before, in record().pnp.
+  void supplyPose(const JointPose& joint);
+  /// The view's own normal equations of the refinement round.
+  const NormalEquations& round() const { return round_; }
+  EdgeRefinement& refinement() { return memory_.refinement; }
+  /// Ends a round after the refinement was moved; `ends`: it was the last one.
+  void endRound(Status status, bool ends);
+
+  /// The best pose so far, for comparison with competing ones.
+  ///@{
+  void keepBestRender() { copyRender(record().render, memory_.best_render); }
+  void restoreBestRender();
+  /// Evidence for the best pose beyond that of the record's pose, nats.
+  double bestMargin_nats() const;
+  std::span<const SelfShift> selfShifts() const { return memory_.similarity.shifts(); }
+  ///@}
+
+  /// Shows the record of a ruling, and counts it when it is complete.
+  void show(const Ruling& ruling);
+  /// Takes other options from the next pass on; see firstFixedOption.
+  void changeOptions(const LocalizerOptions& options);
+  /// Sets how the run ended and writes it to the digest.
+  void finish(LocalizationStatus status, const Pose& camera_from_station,
+              const Matrix6d& covariance);
+
+  RunContext context() const { return {options_, problem_.camera, scene_, levels_}; }
+  const LocalizationProblem& problem() const { return problem_; }
+  const LocalizerOptions& options() const { return options_; }
+  const PassPlan& plan() const { return plan_; }
+  const Workspace& workspace() const { return workspace_; }
+  Workspace& workspace() { return workspace_; }
+  const PassMemory& memory() const { return memory_; }
+  PassMemory& memory() { return memory_; }
+  const Iteration& recordAt(int index) const {
+    return memory_.records[static_cast<std::size_t>(index)];
+  }
+  Iteration& record() { return memory_.records[static_cast<std::size_t>(plan_.record)]; }
+  const Iteration& record() const { return recordAt(plan_.record); }
+  const DigestWriter& digest() const { return digest_; }
+  DigestWriter& digest() { return digest_; }
+
+ private:
+  void prepareRecord();
+  void beginSelfSimilarity();
+  EdgeRender& renderMemory();
+  EdgeRender& evidenceRender();
+  bool keepsRender(const Iteration& now) const;
+
+  StepReport stepEdges();
+  StepReport stepRender();
+  StepReport stepTemplates();
+  StepReport stepMatch();
+  StepReport stepPose();
+  StepReport stepEvidence();
+  StepReport stepRefine();
+  StepReport stepOutsideRound();
+  StepReport stepSupport();
+  StepReport stepSelfSimilarity();
+  Status beginPose();
+  Status beginEvidence();
+  Status beginRefinement();
+  Status continueRender(bool& complete);
+  bool beginMatch(int index, WhsSearch& search);
+  void finishMatch(int index, const WhsSearch& search);
+  void collectCorrespondences();
+
+  StepReport end(Stage stage);
+  StepReport endFailed(Stage stage, LocalizationStatus status);
+  StepReport endFaulted(Stage stage, Status fault);
+
+  LocalizationProblem problem_;
+  LocalizerOptions options_;
+  PassMemory memory_;
+  RunLevels levels_;
+  BoundingBox scene_;  ///< of the matched parts, station frame
+  Workspace workspace_;
+  DigestWriter digest_;
+
+  PassPlan plan_;
+  PassOutcome outcome_;
+  bool running_ = false;
+  Stage stage_ = Stage::kEdges;
+  bool stage_begun_ = false;
+  bool task_begun_ = false;  ///< by step(), which then also ends it
+  bool measures_ = false;    ///< the pose found is rendered and its support measured
+
+  bool match_outside_ = false;
+  bool matches_supplied_ = false;
+  SurfaceRender surfaces_;
+  bool solve_outside_ = false;
+  bool solver_waits_ = false;  ///< a pose or a round is needed
+  LocalizationStatus failed_ = LocalizationStatus::kRunning;
+  NormalEquations round_;
+};
+
+}  // namespace boresight

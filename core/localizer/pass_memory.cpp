@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/localizer/pass_memory.h"
+
+#include <algorithm>
+
+#include "core/edges/edge_map.h"
+#include "core/localizer/schedule.h"
+
+namespace boresight {
+namespace {
+
+/// Everything but the render and the samples.
+Iteration createIteration(const LocalizerOptions& options, Arena& arena) {
+  Iteration iteration;
+  const auto templates = static_cast<std::size_t>(options.templates.count);
+  iteration.templates = createTemplateSet(options.templates, arena);
+  iteration.matches.matches = arena.allocate<Match>(templates);
+  iteration.correspondences = arena.allocate<Correspondence>(templates);
+  iteration.template_of = arena.allocate<std::int32_t>(templates);
+  iteration.pnp.inlier = arena.allocate<std::uint8_t>(templates);
+  iteration.pnp.residual_px = arena.allocate<double>(templates);
+  return iteration;
+}
+
+/// Any camera of that model and size, for counting.
+Camera placeholderCamera(const ProblemSize& size) {
+  Camera camera;
+  camera.model = size.model;
+  camera.width = size.width;
+  camera.height = size.height;
+  camera.fx = camera.fy = std::max(size.width, size.height);
+  camera.cx = 0.5 * size.width;
+  camera.cy = 0.5 * size.height;
+  return camera;
+}
+
+/// An empty mesh of the right size, for counting.
+MeshView placeholderMesh(const ProblemSize& size) {
+  MeshView mesh;
+  mesh.vertices_in_station_m = {static_cast<const Eigen::Vector3f*>(nullptr),
+                                static_cast<std::size_t>(size.vertices)};
+  mesh.faces = {static_cast<const Face*>(nullptr), static_cast<std::size_t>(size.faces)};
+  mesh.parts = {static_cast<const ScenePart*>(nullptr), static_cast<std::size_t>(size.parts)};
+  return mesh;
+}
+
+}  // namespace
+
+/// Runs twice: with counting arenas, then in the block.
+struct PassMemory::Layout {
+  const LocalizationProblem& problem;
+  const LocalizerOptions& options;
+  int workers;
+  Kernels kernels;
+  RunLevels levels;
+  PassMemory& to;
+  EdgeMap& edges;
+
+  Status run();
+  Status layOutKept();
+  Status layOutStages();
+  Status layOutSearches(int longest_px);
+  void layOutRenders();
+  EdgeRender createRender(int level);
+  void shareScratch(std::size_t& bytes);
+  std::size_t& bytesOf(Stage stage) { return to.use_.stage[static_cast<std::size_t>(stage)]; }
+};
+
+std::size_t MemoryUse::total() const {
+  return kept + std::max(construction, *std::max_element(stage.begin(), stage.end()));
+}
+
+Status PassMemory::measure(const ProblemSize& size, const LocalizerOptions& options, int workers,
+                           Kernels kernels, MemoryUse& use) {
+  LocalizationProblem problem;
+  problem.image.width = size.width;
+  problem.image.height = size.height;
+  problem.camera = placeholderCamera(size);
+  problem.mesh = placeholderMesh(size);
+  if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
+  if (prepareCamera(problem.camera) != Status::kOk) return Status::kInvalidCamera;
+  PassMemory counter;
+  EdgeMap edges;
+  const Status status =
+      Layout{problem, options, workers, kernels, levelsOf(size, options), counter, edges}.run();
+  use = counter.use_;
+  return status;
+}
+
+Status PassMemory::create(const LocalizationProblem& problem, const LocalizerOptions& options,
+                          int workers, Kernels kernels, std::span<std::byte> block,
+                          EdgeMap& edges) {
+  kept_ = Arena();
+  scratch_ = Arena();
+  Layout layout{problem, options, workers, kernels, levelsOf(sizeOf(problem), options),
+                *this,   edges};
+  const Status counted = layout.run();
+  if (counted != Status::kOk) return counted;
+  if (use_.total() > block.size()) return Status::kArenaTooSmall;
+  kept_ = Arena(block.first(use_.kept));
+  scratch_ = Arena(block.subspan(use_.kept));
+  return layout.run();
+}
+
+Status PassMemory::Layout::run() {
+  if (workers < 1 || workers > kMaxWorkers) return Status::kInvalidOption;
+  Status status = layOutKept();
+  if (status == Status::kOk) status = layOutStages();
+  if (to.kept_.countsOnly()) to.use_.kept = to.kept_.highWater();
+  if (status == Status::kOk && (to.kept_.exhausted() || to.scratch_.exhausted()))
+    status = Status::kArenaTooSmall;
+  return status;
+}
+
+Status PassMemory::Layout::layOutKept() {
+  Arena& kept = to.kept_;
+  Status status = buildAdjacency(problem.mesh, kept, to.scratch_, to.adjacency_);
+  shareScratch(to.use_.construction);
+  for (int level = levels.fine; level <= levels.global && status == Status::kOk; ++level) {
+    if (level > levels.coarse && level < levels.global) continue;
+    status = RayGrid::create(cameraAtLevel(problem.camera, level), kept,
+                             to.rays[static_cast<std::size_t>(level)]);
+  }
+  layOutRenders();
+  to.searches = kept.allocate<WhsSearch>(static_cast<std::size_t>(workers));
+  to.tasks.create(static_cast<std::size_t>(std::max({options.templates.count,
+                                                     EdgeRefinement::chunksOf(options.refinement),
+                                                     EdgeRenderer::mostPieces(workers)})),
+                  kept);
+  to.records[0] = createIteration(options, kept);
+  if (comparesHypotheses(options)) to.records[1] = createIteration(options, kept);
+  return status;
+}
+
+EdgeRender PassMemory::Layout::createRender(int level) {
+  const Camera camera = cameraAtLevel(problem.camera, level);
+  const std::int32_t capacity = options.render.max_edge_pixels >> (level - levels.fine);
+  return createEdgeRender(camera.width, camera.height,
+                          std::min(capacity, camera.width * camera.height), to.kept_);
+}
+
+/// The first iteration compares two coarse renders; later ones have one fine render in their place.
+void PassMemory::Layout::layOutRenders() {
+  Arena& kept = to.kept_;
+  const std::size_t start = kept.mark();
+  to.coarse_render[0] = createRender(levels.coarse);
+  if (comparesHypotheses(options)) to.coarse_render[1] = createRender(levels.coarse);
+  to.fine_render = to.coarse_render[0];
+  if (levels.fine != levels.coarse) {
+    const std::size_t end = kept.mark();
+    kept.rewind(start);
+    to.fine_render = createRender(levels.fine);
+    kept.rewind(std::max(end, kept.mark()));
+  }
+  if (options.wide.isOn()) {
+    const bool coarser = levels.global != levels.coarse;
+    for (std::size_t i = 0; i < to.global_render.size(); ++i)
+      to.global_render[i] = coarser ? createRender(levels.global) : to.coarse_render[i];
+    to.evidence_render[1] = createRender(levels.coarse);
+    to.evidence_render[0] = coarser ? createRender(levels.global) : to.evidence_render[1];
+    to.restarts =
+        kept.allocate<HypothesisSummary>(static_cast<std::size_t>(options.wide.max_restarts));
+    to.finalists =
+        kept.allocate<HypothesisSummary>(static_cast<std::size_t>(options.wide.finalists));
+  }
+  if (options.ambiguity.enabled) {
+    to.best_render = createRender(levels.fine);
+    const Camera camera = cameraAtLevel(problem.camera, levels.fine);
+    to.similarity.create(camera.width, camera.height, kept);
+    to.competing = kept.allocate<Rival>(static_cast<std::size_t>(options.ambiguity.max_rivals));
+  }
+}
+
+/// One after the other in the same memory; the edges last, as that stage is the first to run.
+Status PassMemory::Layout::layOutStages() {
+  Arena& kept = to.kept_;
+  Arena& scratch = to.scratch_;
+  const int width = ((problem.image.width - 1) >> levels.fine) + 1;
+  const int height = ((problem.image.height - 1) >> levels.fine) + 1;
+  Status status = to.renderer.create(problem.mesh, to.adjacency_, width, height, options.render,
+                                     kept, scratch, EdgeRenderer::kBandRows, workers);
+  shareScratch(bytesOf(Stage::kRender));
+  if (status == Status::kOk) status = to.selector.create(width, height, options.templates, scratch);
+  shareScratch(bytesOf(Stage::kTemplates));
+  if (status == Status::kOk) status = layOutSearches(std::max(width, height));
+  shareScratch(bytesOf(Stage::kMatch));
+  if (status == Status::kOk) status = to.ransac.create(options.templates.count, scratch);
+  shareScratch(bytesOf(Stage::kPose));
+  // The global search renders the poses that it finds.
+  if (options.wide.isOn() && scratch.countsOnly())
+    bytesOf(Stage::kPose) = std::max(bytesOf(Stage::kPose), bytesOf(Stage::kRender));
+  if (status == Status::kOk) status = to.refinement.create(options.refinement, scratch);
+  if (options.refinement.enabled) {
+    to.records[0].refinement.samples =
+        scratch.allocate<EdgeSample>(static_cast<std::size_t>(options.refinement.max_samples));
+  }
+  shareScratch(bytesOf(Stage::kRefine));
+  if (status == Status::kOk) {
+    status = to.detector.begin(problem.image, problem.ignore, options.edges, kept, scratch,
+                               levels.fine, edges);
+  }
+  if (scratch.countsOnly()) shareScratch(bytesOf(Stage::kEdges));
+  return status;
+}
+
+Status PassMemory::Layout::layOutSearches(int longest_px) {
+  const int side_px = std::min(options.templates.max_side_px, 512);
+  WhsSearch counted;
+  Status status = Status::kOk;
+  for (int worker = 0; worker < workers && status == Status::kOk; ++worker) {
+    WhsSearch& search =
+        to.searches.empty() ? counted : to.searches[static_cast<std::size_t>(worker)];
+    status = search.create(side_px, longest_px, kernels, to.scratch_);
+  }
+  return status;
+}
+
+/// The next stage takes the same memory.
+void PassMemory::Layout::shareScratch(std::size_t& bytes) {
+  if (to.scratch_.countsOnly()) {
+    bytes = to.scratch_.highWater();
+    to.scratch_ = Arena();
+  } else {
+    to.scratch_.rewind(0);
+  }
+}
+
+}  // namespace boresight

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "core/accept/self_similarity.h"
+#include "core/base/arena.h"
+#include "core/base/kernels.h"
+#include "core/localizer/localizer_options.h"
+#include "core/localizer/pass_plan.h"
+#include "core/localizer/problem.h"
+#include "core/localizer/stage.h"
+#include "core/localizer/task_list.h"
+#include "core/localizer/workspace.h"
+#include "core/match/whs.h"
+#include "core/pnp/pnp.h"
+#include "core/refine/edge_refinement.h"
+#include "core/render/edge_render.h"
+#include "core/templates/template_selection.h"
+
+namespace boresight {
+
+/// Bytes of a localizer's block: memory that lives throughout, additional memory of construction
+/// (returned before the first step), and additional memory of each stage; these share one place.
+struct MemoryUse {
+  std::size_t kept = 0;          ///< bytes that live throughout
+  std::size_t construction = 0;  ///< additional bytes during construction
+  /// Additional bytes of each stage.
+  std::array<std::size_t, static_cast<std::size_t>(Stage::kFinished)> stage{};
+
+  /// High-water mark of a stage.
+  std::size_t of(Stage at) const {
+    return at < Stage::kFinished ? kept + stage[static_cast<std::size_t>(at)] : kept;
+  }
+  /// High-water mark of the whole run: what the block must hold.
+  std::size_t total() const;
+};
+
+/// The memory of a localization, laid out once in one block: first what lives throughout (mesh
+/// adjacency, ray grids, edge maps from the finest matched level on, renders, records), then one
+/// piece that the stages use in turn. Edge maps finer than the finest matched level last until the
+/// first render; the samples of a refinement last until the next render.
+///
+/// The stages keep pointers into this object: it must not move.
+class PassMemory {
+ public:
+  static constexpr int kMaxWorkers = 256;
+
+  PassMemory() = default;
+  PassMemory(const PassMemory&) = delete;
+  PassMemory& operator=(const PassMemory&) = delete;
+
+  /// Counts the bytes that create() needs. kInvalidOption for options out of range and for kernels
+  /// that are not available.
+  static Status measure(const ProblemSize& size, const LocalizerOptions& options, int workers,
+                        Kernels kernels, MemoryUse& use);
+  /// Lays everything out in `block` (aligned to Arena::kAlignment); `edges` is filled by the
+  /// detector. What the problem points to must outlive this. kArenaTooSmall and as measure().
+  Status create(const LocalizationProblem& problem, const LocalizerOptions& options, int workers,
+                Kernels kernels, std::span<std::byte> block, EdgeMap& edges);
+
+  const MemoryUse& use() const { return use_; }
+  std::size_t highWaterBytes() const { return kept_.highWater() + scratch_.highWater(); }
+
+  EdgeDetector detector;
+  EdgeRenderer renderer;
+  TemplateSelector selector;
+  std::span<WhsSearch> searches;  ///< one per worker
+  PnpRansac ransac;
+  EdgeRefinement refinement;
+  SelfSimilarity similarity;  ///< with ambiguity.enabled
+  TaskList tasks;
+  std::array<RayGrid, kPyramidLevels> rays;  ///< of the levels that are rendered
+  std::array<Iteration, 2> records;          ///< the current hypothesis and the best one so far
+  std::array<EdgeRender, 2> coarse_render;   ///< of the first iteration, one per record
+  EdgeRender fine_render;  ///< of later iterations, in the same memory unless the level is the same
+  std::array<EdgeRender, 2> global_render;    ///< of the global search, one per record
+  std::array<EdgeRender, 2> evidence_render;  ///< of poses found, at the global and coarse level
+  EdgeRender best_render;                     ///< of the best pose, with ambiguity.enabled
+  // For the policies:
+  std::span<HypothesisSummary> restarts;   ///< of the global search
+  std::span<HypothesisSummary> finalists;  ///< of the global search
+  std::span<Rival> competing;              ///< poses that compete with the converged one
+
+ private:
+  struct Layout;
+
+  MeshAdjacency adjacency_;
+  Arena kept_;
+  Arena scratch_;  ///< of construction and of the stages, one after the other
+  MemoryUse use_;
+};
+
+/// What a localizer needs for a problem of this size; see PassMemory::measure.
+inline Status requiredMemory(const ProblemSize& size, const LocalizerOptions& options, int workers,
+                             MemoryUse& use, Kernels kernels = Kernels::kPortable) {
+  return PassMemory::measure(size, options, workers, kernels, use);
+}
+/// The sum of it: bytes of a block aligned to Arena::kAlignment (a block aligned to less loses its
+/// first bytes).
+inline Status requiredBytes(const ProblemSize& size, const LocalizerOptions& options, int workers,
+                            std::size_t& bytes, Kernels kernels = Kernels::kPortable) {
+  MemoryUse use;
+  const Status status = requiredMemory(size, options, workers, use, kernels);
+  bytes = use.total();
+  return status;
+}
+/// The same for one worker.
+inline Status requiredBytes(const ProblemSize& size, const LocalizerOptions& options,
+                            std::size_t& bytes) {
+  return requiredBytes(size, options, 1, bytes);
+}
+
+}  // namespace boresight

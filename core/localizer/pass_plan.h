@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "core/accept/edge_support.h"
+#include "core/base/status.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/mesh.h"
+#include "core/geometry/pose.h"
+#include "core/localizer/localizer_options.h"
+#include "core/localizer/schedule.h"
+#include "core/localizer/stage.h"
+#include "core/localizer/workspace.h"
+
+// What policies and passes tell each other: a policy plans a pass, the pass is run, and the policy
+// rules on its outcome.
+namespace boresight {
+
+enum class PassKind : std::uint8_t {
+  kEdges = 0,       ///< detects the edges of the image; once per run
+  kMatch,           ///< renders, selects templates, matches them, solves for the pose
+  kRefine,          ///< renders, refines the pose on the edges of the image
+  kSupport,         ///< measures the edge support of the pose of the record
+  kSelfSimilarity,  ///< finds displacements of the best pose whose renders look alike
+};
+
+/// What a pass works on.
+struct PassPlan {
+  PassKind kind = PassKind::kEdges;
+  int record = 0;  ///< 0 or 1: the record, and the render memory, that the pass fills
+  std::int32_t attempt = 0;
+  int level = 0;                 ///< pyramid level, 0 full resolution
+  Pose camera_from_station;      ///< the hypothesis
+  double roll_rad = 0.0;         ///< turns the render about the ray through the scene's centre
+  SeedUncertainty uncertainty;   ///< of the hypothesis; sizes the search windows
+  double threshold_px = 0.0;     ///< inlier threshold or search radius, px of the full image
+  double template_factor = 1.0;  ///< on the size of the templates
+  /// A refinement keeps the last render when the hypothesis moved less since; px.
+  double keep_render_px = 0.0;
+  /// Renders the pose that was found and measures its edge support.
+  bool measures_support = false;
+  bool anchored = false;                    ///< whether the two below constrain a refinement
+  PosePrior anchor;                         ///< the seed with its uncertainty as a Gaussian
+  PoseEstimate matched;                     ///< from the latest templates
+  double reach_x_m = 0.0, reach_y_m = 0.0;  ///< of self-similarity, along the camera's axes
+};
+
+/// How a pass ended. Its record (Iteration) holds the results; `status` there is kRunning when
+/// there is a pose.
+struct PassOutcome {
+  Stage reached = Stage::kEdges;  ///< the last stage that ran
+  Status fault = Status::kOk;     ///< a capacity that did not suffice
+  EdgeSupport support;            ///< with measures_support or kSupport
+};
+
+/// How many matches agree with a pose: of all views when several are solved as one.
+struct Agreement {
+  std::int32_t inliers = 0;
+  std::int32_t correspondences = 0;
+};
+
+/// What a policy decided after a pass.
+struct Ruling {
+  enum class Next : std::uint8_t { kPass = 0, kPose, kFailed };
+
+  Next next = Next::kPass;  ///< another pass, a pose to go on with, or a failure
+  LocalizationStatus status = LocalizationStatus::kRunning;  ///< why it failed
+  Stage stage = Stage::kEdges;                               ///< the stage to report
+  bool iteration_complete = false;                           ///< the shown record is complete
+  int record = 0;                                            ///< the record to show
+
+  bool found() const { return next == Next::kPose; }
+  bool failed() const { return next == Next::kFailed; }
+};
+
+/// What does not change during a run and what all policies know.
+struct RunContext {
+  const LocalizerOptions& options;
+  const Camera& camera;
+  const BoundingBox& scene;  ///< of the matched parts, station frame
+  RunLevels levels;
+};
+
+}  // namespace boresight

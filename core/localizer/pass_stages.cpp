@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stages of a pass, in their order.
+#include <algorithm>
+
+#include "core/localizer/pass.h"
+#include "core/localizer/pose_change.h"
+#include "core/localizer/run_digest.h"
+
+namespace boresight {
+
+StepReport Pass::step() {
+  if (!running_ || needs() != PassNeed::kNothing) return StepReport::of(stage_, false);
+  switch (stage_) {
+    case Stage::kEdges:
+      return stepEdges();
+    case Stage::kRender:
+      return stepRender();
+    case Stage::kTemplates:
+      return stepTemplates();
+    case Stage::kMatch:
+      return stepMatch();
+    case Stage::kPose:
+      return measures_ ? stepEvidence() : stepPose();
+    case Stage::kRefine:
+      return solve_outside_ ? stepOutsideRound() : stepRefine();
+    case Stage::kSupport:
+      return plan_.kind == PassKind::kSupport ? stepSupport() : stepSelfSimilarity();
+    case Stage::kFinished:
+      break;
+  }
+  return StepReport::of(stage_, false);
+}
+
+StepReport Pass::stepEdges() {
+  if (!memory_.detector.step()) return StepReport::of(Stage::kEdges, false);
+  digestEdgeMap(workspace_.edges, digest_);
+  return end(Stage::kEdges);
+}
+
+StepReport Pass::stepRender() {
+  Iteration& now = record();
+  if (!stage_begun_ && keepsRender(now)) {
+    stage_ = Stage::kRefine;
+    return StepReport::of(Stage::kRender, true);
+  }
+  if (!stage_begun_) {
+    // A pose that is not rolled keeps its bits.
+    const Pose rendered = plan_.roll_rad == 0.0
+                              ? plan_.camera_from_station
+                              : rolledAboutScene(plan_.camera_from_station, plan_.roll_rad, scene_);
+    const Status status = memory_.renderer.begin(memory_.rays[static_cast<std::size_t>(now.level)],
+                                                 rendered, now.render, surfaces_);
+    if (status != Status::kOk) return endFaulted(Stage::kRender, status);
+    stage_begun_ = true;
+    memory_.tasks.open(memory_.renderer.pieces());
+    if (memory_.tasks.count() > 0) return StepReport::of(Stage::kRender, false);
+  }
+  bool complete = false;
+  const Status status = continueRender(complete);
+  if (status != Status::kOk) return endFaulted(Stage::kRender, status);
+  if (!complete) return StepReport::of(Stage::kRender, false);
+  digestRender(now.render, digest_);
+  stage_ = plan_.kind == PassKind::kRefine ? Stage::kRefine : Stage::kTemplates;
+  stage_begun_ = false;
+  if (now.render.pixel_count < options_.templates.min_edge_pixels)
+    return endFailed(Stage::kRender, LocalizationStatus::kTooFewEdges);
+  return StepReport::of(Stage::kRender, true);
+}
+
+/// Runs one task of the render, or what follows when there is none.
+Status Pass::continueRender(bool& complete) {
+  TaskList& tasks = memory_.tasks;
+  complete = false;
+  if (tasks.findNext()) {
+    memory_.renderer.work(tasks.next(), 0);
+    tasks.markDone(tasks.next());
+    if (tasks.findNext()) return Status::kOk;
+  }
+  const Status status = memory_.renderer.step(complete);
+  tasks.open(memory_.renderer.pieces());
+  return status;
+}
+
+StepReport Pass::stepTemplates() {
+  Iteration& now = record();
+  const double depth_m = (now.render.camera_from_station * scene_.centre()).z();
+  const double feature_size_m = options_.templates.feature_size_m > 0.0
+                                    ? options_.templates.feature_size_m
+                                    : scene_.diagonal() / 8.0;
+  const int side_px = templateSide(options_.templates, plan_.template_factor * feature_size_m,
+                                   depth_m, now.render.camera);
+  const Status status =
+      memory_.selector.select(now.render, side_px, problem_.ignore, now.level, now.templates);
+  digestTemplates(now.templates, digest_);
+  if (status == Status::kTooFewTemplates)
+    return endFailed(Stage::kTemplates, LocalizationStatus::kTooFewTemplates);
+  if (status != Status::kOk) return endFaulted(Stage::kTemplates, status);
+  now.matches.count = now.templates.count;
+  memory_.tasks.open(match_outside_ ? 0 : now.templates.count);
+  matches_supplied_ = false;
+  stage_ = Stage::kMatch;
+  return StepReport::of(Stage::kTemplates, true);
+}
+
+StepReport Pass::stepMatch() {
+  Iteration& now = record();
+  TaskList& tasks = memory_.tasks;
+  if (tasks.findNext()) {
+    WhsSearch& search = memory_.searches.front();
+    if (!task_begun_) task_begun_ = beginMatch(tasks.next(), search);
+    if (task_begun_ && !search.step()) return StepReport::of(Stage::kMatch, false);
+    if (task_begun_) finishMatch(tasks.next(), search);
+    task_begun_ = false;
+    tasks.markDone(tasks.next());
+    if (tasks.findNext()) return StepReport::of(Stage::kMatch, false);
+  }
+  tasks.open(0);
+  for (std::int32_t i = 0; i < now.matches.count; ++i) {
+    if (now.matches.matches[static_cast<std::size_t>(i)].searched) ++now.matches.searched;
+  }
+  digestMatches(now.matches, digest_);
+  collectCorrespondences();
+  stage_ = Stage::kPose;
+  stage_begun_ = false;
+  if (now.correspondence_count < options_.pnp.min_inliers)
+    return endFailed(Stage::kMatch, LocalizationStatus::kTooFewMatches);
+  return StepReport::of(Stage::kMatch, true);
+}
+
+/// False when the template cannot be searched for.
+bool Pass::beginMatch(int index, WhsSearch& search) {
+  Iteration& now = record();
+  const Template& item = now.templates.templates[static_cast<std::size_t>(index)];
+  Match& match = now.matches.matches[static_cast<std::size_t>(index)];
+  match = Match{};
+  // The window lies around the hypothesis that is not rolled: the uncertainty refers to it.
+  match.window =
+      searchWindow(now.render.camera, plan_.camera_from_station * item.point_in_station_m,
+                   now.uncertainty, now.templates.side_px);
+  if (match.window.empty()) return false;
+  const TemplateView view{&now.render.edges, &now.render.mask, item.center_x, item.center_y,
+                          now.templates.side_px};
+  return search.begin(view, workspace_.edges.level[static_cast<std::size_t>(now.level)],
+                      match.window, item.center_x, item.center_y,
+                      options_.loop.second_peak_exclusion_px) == Status::kOk;
+}
+
+void Pass::finishMatch(int index, const WhsSearch& search) {
+  Iteration& now = record();
+  const Template& item = now.templates.templates[static_cast<std::size_t>(index)];
+  Match& match = now.matches.matches[static_cast<std::size_t>(index)];
+  match.peak = search.peak();
+  match.norms = search.norms();
+  match.x = match.peak.x;
+  match.y = match.peak.y;
+  if (options_.loop.subpixel_matches) {
+    const TemplateView view{&now.render.edges, &now.render.mask, item.center_x, item.center_y,
+                            now.templates.side_px};
+    subpixelPeak(view, workspace_.edges.level[static_cast<std::size_t>(now.level)], match.peak,
+                 match.x, match.y);
+  }
+  match.searched = true;
+  match.at_border = match.peak.x == match.window.x_min || match.peak.x == match.window.x_max ||
+                    match.peak.y == match.window.y_min || match.peak.y == match.window.y_max;
+}
+
+void Pass::collectCorrespondences() {
+  Iteration& now = record();
+  now.correspondence_count = 0;
+  const double scale = static_cast<double>(1 << now.level);
+  for (std::int32_t i = 0; i < now.matches.count; ++i) {
+    const Match& match = now.matches.matches[static_cast<std::size_t>(i)];
+    if (!match.searched) continue;
+    const auto at = static_cast<std::size_t>(now.correspondence_count++);
+    Correspondence& correspondence = now.correspondences[at];
+    correspondence.point_in_station_m =
+        now.templates.templates[static_cast<std::size_t>(i)].point_in_station_m;
+    correspondence.pixel =
+        Eigen::Vector2d((match.x + 0.5) * scale - 0.5, (match.y + 0.5) * scale - 0.5);
+    correspondence.sigma_px = options_.loop.match_sigma_px * scale;
+    now.template_of[at] = i;
+  }
+}
+
+Status Pass::beginPose() {
+  Iteration& now = record();
+  const auto count = static_cast<std::size_t>(now.correspondence_count);
+  now.pnp.inlier = {now.pnp.inlier.data(), count};
+  now.pnp.residual_px = {now.pnp.residual_px.data(), count};
+  stage_begun_ = true;
+  return memory_.ransac.begin(now.correspondences.first(count), problem_.camera,
+                              {plan_.camera_from_station, now.uncertainty}, now.threshold_px,
+                              options_.pnp, now.pnp);
+}
+
+StepReport Pass::stepPose() {
+  if (solve_outside_) {
+    solver_waits_ = true;
+    return StepReport::of(Stage::kPose, false);
+  }
+  Iteration& now = record();
+  Status status = stage_begun_ ? Status::kOk : beginPose();
+  bool complete = false;
+  if (status == Status::kOk) status = memory_.ransac.step(complete);
+  if (status == Status::kOk && !complete) return StepReport::of(Stage::kPose, false);
+  const bool solved = status == Status::kOk;
+  if (!solved) {
+    now.pnp.inlier_count = 0;
+    now.pnp.camera_from_station = plan_.camera_from_station;
+  }
+  digestPnp(now.pnp, digest_);
+  now.status = solved ? LocalizationStatus::kRunning : LocalizationStatus::kPnpFailed;
+  if (!solved || !plan_.measures_support) return end(Stage::kPose);
+  const Status begun = beginEvidence();
+  return begun == Status::kOk ? StepReport::of(Stage::kPose, false)
+                              : endFaulted(Stage::kPose, begun);
+}
+
+/// Renders the pose that was found: matches alone may agree on the edges of something else.
+Status Pass::beginEvidence() {
+  Iteration& now = record();
+  now.camera_from_station =
+      pulledBack({now.camera_from_station_before, now.uncertainty}, now.pnp.camera_from_station);
+  const Status status = memory_.renderer.begin(memory_.rays[static_cast<std::size_t>(now.level)],
+                                               now.camera_from_station, evidenceRender());
+  measures_ = status == Status::kOk;
+  if (measures_) memory_.tasks.open(memory_.renderer.pieces());
+  return status;
+}
+
+StepReport Pass::stepEvidence() {
+  bool complete = false;
+  const Status status = continueRender(complete);
+  if (status != Status::kOk) return endFaulted(Stage::kPose, status);
+  if (!complete) return StepReport::of(Stage::kPose, false);
+  measures_ = false;
+  outcome_.support = measureEdgeSupport(evidenceRender(), record().level, workspace_.edges,
+                                        problem_.image, problem_.ignore, options_.support);
+  return end(Stage::kPose);
+}
+
+Status Pass::beginRefinement() {
+  Iteration& now = record();
+  const Status status = memory_.refinement.begin(
+      problem_.image, problem_.ignore, problem_.camera, problem_.mesh, now.render, now.threshold_px,
+      plan_.anchored ? &plan_.anchor : nullptr, plan_.anchored ? &plan_.matched : nullptr,
+      now.refinement);
+  memory_.refinement.startFrom(plan_.camera_from_station);
+  stage_begun_ = true;
+  return status;
+}
+
+StepReport Pass::stepRefine() {
+  Iteration& now = record();
+  TaskList& tasks = memory_.tasks;
+  EdgeRefinement& refinement = memory_.refinement;
+  Status status = Status::kOk;
+  bool complete = false;
+  if (!stage_begun_) {
+    status = beginRefinement();
+  } else {
+    for (; tasks.findNext(); tasks.markDone(tasks.next())) refinement.searchChunk(tasks.next());
+    status = refinement.finishRound(complete);
+  }
+  if (status == Status::kOk && !complete) {
+    tasks.open(refinement.chunks());
+    return StepReport::of(Stage::kRefine, false);
+  }
+  digestRefinement(now.refinement, digest_);
+  if (status != Status::kOk) return endFailed(Stage::kRefine, LocalizationStatus::kPnpFailed);
+  return end(Stage::kRefine);
+}
+
+StepReport Pass::stepSupport() {
+  const Iteration& now = record();
+  workspace_.support = measureEdgeSupport(now.render, now.level, workspace_.edges, problem_.image,
+                                          problem_.ignore, options_.support, &workspace_.partial);
+  outcome_.support = workspace_.support;
+  digest_.tag("support");
+  digestSupport(workspace_.support, digest_);
+  if (options_.support.partial) digestPartialSupport(workspace_.partial, digest_);
+  return end(Stage::kSupport);
+}
+
+StepReport Pass::stepSelfSimilarity() {
+  if (memory_.similarity.step()) (void)end(Stage::kSupport);
+  return StepReport::of(Stage::kSupport, false);
+}
+
+}  // namespace boresight

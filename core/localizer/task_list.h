@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.h"
+
+namespace boresight {
+
+/// Independent tasks of a stage, which may run at the same time in any order.
+class TaskList {
+ public:
+  /// Takes the memory for at most `most` tasks.
+  void create(std::size_t most, Arena& arena) { done_ = arena.allocate<std::uint8_t>(most); }
+  /// Starts a list of `count` tasks, none of them done.
+  void open(int count) {
+    count_ = count;
+    next_ = 0;
+    std::fill_n(done_.begin(), count, std::uint8_t{0});
+  }
+  int count() const { return count_; }
+  bool isDone(int task) const { return done_[static_cast<std::size_t>(task)] != 0; }
+  void markDone(int task) { done_[static_cast<std::size_t>(task)] = 1; }
+  /// Moves next() to the first task that is not done; false when there is none.
+  bool findNext() {
+    while (next_ < count_ && isDone(next_)) ++next_;
+    return next_ < count_;
+  }
+  int next() const { return next_; }
+
+ private:
+  std::span<std::uint8_t> done_;
+  int count_ = 0;
+  int next_ = 0;
+};
+
+}  // namespace boresight

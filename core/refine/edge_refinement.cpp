@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/refine/edge_refinement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+
+namespace boresight {
+namespace {
+
+constexpr double kTukey = 4.685;  ///< 95 % efficiency on Gaussian residuals (Huber 1981)
+constexpr double kMadToSigma = 1.4826;
+constexpr double kMinScale_px = 0.15;
+constexpr double kSettled_px = 0.003;  ///< a step below this moves nothing that is measured
+
+/// The lower triangle of a symmetric matrix is filled.
+double quadraticForm(const Matrix6d& lower, const Vector6d& x) {
+  double sum = 0.0;
+  for (int a = 0; a < 6; ++a) {
+    for (int b = 0; b <= a; ++b) sum += (a == b ? 1.0 : 2.0) * lower(a, b) * x[a] * x[b];
+  }
+  return sum;
+}
+
+/// d(normal . pixel) / d xi for p -> p + r x p + t
+Vector6d rowOf(const EdgeSample& sample, const Eigen::Vector3d& point_in_camera_m,
+               const Eigen::Matrix<double, 2, 3>& jacobian) {
+  const Eigen::Vector3d slope = (sample.normal.transpose() * jacobian).transpose();
+  Vector6d row;
+  row << point_in_camera_m.cross(slope), slope;
+  return row;
+}
+
+void addRow(const EdgeSample& sample, double weight, const Vector6d& row,
+            NormalEquations& equations) {
+  for (int a = 0; a < 6; ++a) {
+    const double weighted = weight * row[a];
+    equations.gradient[a] += weighted * sample.residual_px;
+    for (int b = 0; b <= a; ++b) equations.information(a, b) += weighted * row[b];
+  }
+  equations.squares += weight * sample.residual_px * sample.residual_px;
+  ++equations.projected;
+}
+
+}  // namespace
+
+void EdgeRefinement::setOptions(const RefinementOptions& options) {
+  options_ = options;
+  search_ = EdgeSearch(options.derivative_sigma_px);
+}
+
+Status EdgeRefinement::create(const RefinementOptions& options, Arena& arena) {
+  if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
+  setOptions(options);
+  absolute_residuals_ = arena.allocate<float>(static_cast<std::size_t>(options.max_samples));
+  found_at_px_ = arena.allocate<double>(static_cast<std::size_t>(options.max_samples));
+  if (groups_.create(arena) != Status::kOk) return Status::kArenaTooSmall;
+  return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
+}
+
+Status EdgeRefinement::begin(const ImageView& image, const BitImage* ignore, const Camera& camera,
+                             const MeshView& mesh, const EdgeRender& render, double radius_px,
+                             const PosePrior* anchor, const PoseEstimate* matched,
+                             RefinementResult& result) {
+  image_ = image;
+  ignore_ = ignore;
+  camera_ = camera;
+  radius_px_ = radius_px;
+  result_ = &result;
+  round_ = 0;
+  moved_px_ = 0.0;
+  anchored_ = anchor != nullptr;
+  if (anchored_) anchor_ = *anchor;
+  has_matched_ = matched != nullptr;
+  if (has_matched_) matched_ = *matched;
+  result.camera_from_station = render.camera_from_station;
+  result.covariance = Matrix6d::Zero();
+  result.found_count = 0;
+  result.used_count = 0;
+  result.rms_px = 0.0;
+  takeSamples(mesh, render);
+  return result.sample_count < options_.min_found ? Status::kTooFewEdges : Status::kOk;
+}
+
+void EdgeRefinement::takeSamples(const MeshView& mesh, const EdgeRender& render) {
+  // The render's pixels are 2^level pixels of the image long.
+  const double scale = static_cast<double>(camera_.width) / std::max(1, render.camera.width);
+  const int by_spacing = static_cast<int>(options_.sample_spacing_px / scale + 0.5);
+  const int by_capacity = (render.pixel_count + options_.max_samples - 1) / options_.max_samples;
+  const int by_need =
+      render.pixel_count / options_.min_samples;  // a small object needs every place
+  const int stride = std::max({1, std::min(by_spacing, by_need), by_capacity});
+  RefinementResult& result = *result_;
+  result.sample_count = 0;
+  box_px_.setEmpty();
+  for (std::int32_t i = 0; i < render.pixel_count; i += stride) {
+    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+    Eigen::Vector2d position_px;
+    EdgeSample sample;
+    if (!edgeLinePoint(render, mesh, pixel, position_px, sample.point_in_station_m)) continue;
+    sample.normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
+    sample.kind = pixel.kind;
+    box_px_.extend(scale * position_px);
+    result.samples[static_cast<std::size_t>(result.sample_count)] = sample;
+    ++result.sample_count;
+  }
+}
+
+double EdgeRefinement::robustScale() {
+  const RefinementResult& result = *result_;
+  std::size_t count = 0;
+  for (std::int32_t i = 0; i < result.sample_count; ++i) {
+    const EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
+    if (sample.gradient == 0.0) continue;
+    absolute_residuals_[count] = static_cast<float>(std::abs(sample.residual_px));
+    ++count;
+  }
+  const auto middle = absolute_residuals_.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(absolute_residuals_.begin(), middle,
+                   absolute_residuals_.begin() + static_cast<std::ptrdiff_t>(count));
+  return std::max(kMinScale_px, kMadToSigma * static_cast<double>(*middle));
+}
+
+Status EdgeRefinement::step(bool& done) {
+  for (int chunk = 0; chunk < chunks(); ++chunk) searchChunk(chunk);
+  return finishRound(done);
+}
+
+Status EdgeRefinement::finishRound(bool& done) {
+  NormalEquations found;
+  bool settled = false;
+  done = true;
+  Status status = gather(found);
+  if (status == Status::kOk) status = advance(found, settled);
+  done = settled || roundsAreOver() || status != Status::kOk;
+  return status;
+}
+
+Status EdgeRefinement::gather(NormalEquations& made) {
+  RefinementResult& result = *result_;
+  const bool search = searches();
+  ++round_;
+  motion_ = Matrix6d::Zero();
+  if (search) {
+    moved_px_ = 0.0;
+    result.found_count = 0;
+    for (std::int32_t i = 0; i < result.sample_count; ++i) {
+      if (result.samples[static_cast<std::size_t>(i)].gradient != 0.0) ++result.found_count;
+    }
+  }
+  if (result.found_count < options_.min_found) return Status::kTooFewEdges;
+  if (search) scale_px_ = robustScale();
+  double weights = 0.0;
+  made = weightedEquations(weights);
+  if (result.used_count < options_.min_found) return Status::kTooFewEdges;
+  const double variance_px2 = made.squares / weights;
+  result.rms_px = std::sqrt(variance_px2);
+  motion_ = made.information / weights;
+  // Neighbouring places share their errors: each counts for less than one measurement.
+  const double noise_px2 =
+      std::max(variance_px2, kMinScale_px * kMinScale_px) * options_.covariance_inflation;
+  made.information /= noise_px2;
+  made.gradient /= noise_px2;
+  return Status::kOk;
+}
+
+void EdgeRefinement::searchChunk(int chunk) {
+  RefinementResult& result = *result_;
+  const Eigen::Matrix3d rotation = result.camera_from_station.matrix();
+  const Eigen::Vector3d translation_m = result.camera_from_station.translation_m;
+  const std::int32_t end = std::min(result.sample_count, (chunk + 1) * kChunk);
+  for (std::int32_t i = chunk * kChunk; i < end; ++i) {
+    EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
+    sample.gradient = 0.0;
+    Eigen::Vector2d predicted_px;
+    if (!project(camera_, rotation * sample.point_in_station_m + translation_m, predicted_px))
+      continue;
+    const EdgePeak peak = search_.find(image_, ignore_, predicted_px, sample.normal, radius_px_,
+                                       options_.min_gradient);
+    sample.residual_px = peak.offset_px;
+    sample.gradient = peak.gradient;
+    found_at_px_[static_cast<std::size_t>(i)] = sample.normal.dot(predicted_px) + peak.offset_px;
+  }
+}
+
+Status EdgeRefinement::advance(NormalEquations equations, bool& settled) {
+  RefinementResult& result = *result_;
+  const bool determined = invert(equations.information, result.covariance);
+  if (determined && options_.covariance == CovarianceModel::kGrouped) {
+    Matrix6d grouped;  // stays the inflated one where the groups do not give any
+    if (groups_.covariance(curvature_, grouped)) result.covariance = grouped;
+  }
+  addKnowledge(equations);
+  // What the edges alone leave open is known as well as it was before.
+  if (!determined && !invert(equations.information, result.covariance)) return Status::kDegenerate;
+  Vector6d xi;
+  if (!solve(equations, 0.0, xi)) return Status::kDegenerate;
+  Pose moved = perturbed(xi, result.camera_from_station);
+  moved.rotation.normalize();
+  if (!moved.isFinite()) return Status::kDegenerate;
+  result.camera_from_station = moved;
+  settled = noteMove(xi);
+  return Status::kOk;
+}
+
+bool EdgeRefinement::moveTo(const Pose& camera_from_station) {
+  const Vector6d xi = perturbationBetween(result_->camera_from_station, camera_from_station);
+  result_->camera_from_station = camera_from_station;
+  return noteMove(xi);
+}
+
+bool EdgeRefinement::noteMove(const Vector6d& xi) {
+  const double step_px = std::sqrt(std::max(0.0, quadraticForm(motion_, xi)));
+  moved_px_ += step_px;
+  return step_px < kSettled_px;
+}
+
+/// The seed's uncertainty and the matched pose: weak beside thousands of edges, but where the edges
+/// are few or ambiguous they keep the pose from drifting.
+void EdgeRefinement::addKnowledge(NormalEquations& equations) const {
+  const Pose& now = result_->camera_from_station;
+  if (anchored_) addPrior(anchor_, now, equations);
+  if (!has_matched_) return;
+  equations.information += matched_.information;
+  equations.gradient +=
+      matched_.information * perturbationBetween(now, matched_.camera_from_station);
+}
+
+/// Of the edges found, at the pose as it is now, with Tukey's weights; counts the used ones.
+NormalEquations EdgeRefinement::weightedEquations(double& weights) {
+  RefinementResult& result = *result_;
+  const Eigen::Matrix3d rotation = result.camera_from_station.matrix();
+  const Eigen::Vector3d translation_m = result.camera_from_station.translation_m;
+  const double cut_px = kTukey * scale_px_;
+  NormalEquations equations;
+  curvature_ = Matrix6d::Zero();
+  if (options_.covariance == CovarianceModel::kGrouped) groups_.clear();
+  result.used_count = 0;
+  for (std::int32_t i = 0; i < result.sample_count; ++i) {
+    EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
+    sample.weight = 0.0;
+    if (sample.gradient == 0.0) continue;
+    const Eigen::Vector3d point_in_camera_m = rotation * sample.point_in_station_m + translation_m;
+    Eigen::Vector2d pixel;
+    Eigen::Matrix<double, 2, 3> jacobian;
+    if (!projectWithJacobian(camera_, point_in_camera_m, pixel, jacobian)) continue;
+    sample.residual_px = found_at_px_[static_cast<std::size_t>(i)] - sample.normal.dot(pixel);
+    if (std::abs(sample.residual_px) >= cut_px) continue;
+    const double ratio = sample.residual_px / cut_px;
+    sample.weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
+    const Vector6d row = rowOf(sample, point_in_camera_m, jacobian);
+    const double weight = shareOf(sample) * sample.weight;
+    addRow(sample, weight, row, equations);
+    if (options_.covariance == CovarianceModel::kGrouped) noteGroups(sample, pixel, row, ratio);
+    weights += weight;
+    if (sample.weight > 0.5) ++result.used_count;
+  }
+  return equations;
+}
+
+/// What the covariance needs of a sample whose residual is this part of where weights end.
+void EdgeRefinement::noteGroups(const EdgeSample& sample, const Eigen::Vector2d& pixel,
+                                const Vector6d& row, double ratio) {
+  const double squared = ratio * ratio;
+  const double share = shareOf(sample);
+  const double bend = share * (1.0 - squared) * (1.0 - 5.0 * squared);  // of Tukey's influence
+  for (int a = 0; a < 6; ++a)
+    for (int b = 0; b <= a; ++b) curvature_(a, b) += bend * row[a] * row[b];
+  const Eigen::Vector2d sizes_px = box_px_.sizes().cwiseMax(1.0);
+  const Eigen::Vector2d place = (pixel - box_px_.min()).cwiseQuotient(sizes_px);
+  groups_.add({place, sample.normal, sample.gradient > 0.0, sample.kind},
+              share * sample.weight * sample.residual_px * row);
+}
+
+}  // namespace boresight

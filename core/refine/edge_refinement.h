@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include <Eigen/Geometry>
+
+#include "core/base/arena.h"
+#include "core/base/image.h"
+#include "core/base/options.h"
+#include "core/base/status.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/mesh.h"
+#include "core/geometry/pose.h"
+#include "core/pnp/normal_equations.h"
+#include "core/pnp/pnp.h"
+#include "core/refine/edge_search.h"
+#include "core/refine/error_groups.h"
+#include "core/render/edge_render.h"
+
+namespace boresight {
+
+/// Where the covariance of a refined pose comes from.
+enum class CovarianceModel : std::int32_t {
+  kInflated = 0,  ///< independent errors, a factor for what they share
+  kGrouped = 1,   ///< ErrorGroups: the sums of errors that were measured
+};
+inline constexpr const char* kCovarianceModelNames[] = {"inflated", "grouped"};
+
+/// Of the last step, which meets the image's own edges.
+struct RefinementOptions {
+  bool enabled = true;
+  std::int32_t max_samples = 12000;
+  std::int32_t min_samples = 4000;
+  double first_radius_px = 3.0;
+  double last_radius_px = 0.7;
+  std::int32_t min_passes = 2;
+  std::int32_t rounds = 10;
+  double search_again_px = 0.1;
+  double derivative_sigma_px = 1.0;
+  double min_gradient = 2.0;
+  double rising_weight = 1.0;
+  double sample_spacing_px = 2.0;
+  std::int32_t min_found = 60;
+  double covariance_inflation = 4.0;
+  CovarianceModel covariance = CovarianceModel::kInflated;
+
+  template <class Self, class Visitor>
+  static void visitFields(Self& self, Visitor&& visit) {
+    visit(OptionInfo{"refinement.enabled", "", 0, 1,
+                     "Refine the matched pose on the raw image's edges."},
+          self.enabled);
+    visit(OptionInfo{"refinement.max_samples", "", 100, 100000, "Edge places used, at most."},
+          self.max_samples);
+    visit(OptionInfo{"refinement.min_samples", "", 100, 100000,
+                     "Places are taken nearer than the spacing when there are fewer than these."},
+          self.min_samples);
+    visit(OptionInfo{"refinement.first_radius_px", "px", 0.5, 50.0,
+                     "Search along the edge's normal, first refinement, in pixels of the finest "
+                     "level matched."},
+          self.first_radius_px);
+    visit(OptionInfo{"refinement.last_radius_px", "px", 0.5, 50.0,
+                     "Search radius of later refinements."},
+          self.last_radius_px);
+    visit(OptionInfo{"refinement.min_passes", "", 1, 10, "Refinements of a run, at least."},
+          self.min_passes);
+    visit(
+        OptionInfo{"refinement.rounds", "", 1, 20, "Gauss-Newton rounds per refinement, at most."},
+        self.rounds);
+    visit(OptionInfo{"refinement.search_again_px", "px", 0.0, 50.0,
+                     "Edges are looked for anew once the rendered ones have moved by this along "
+                     "their normals (root mean square); until then those found serve."},
+          self.search_again_px);
+    visit(OptionInfo{"refinement.derivative_sigma_px", "px", 0.3, 5.0,
+                     "Scale of the derivative along the normal."},
+          self.derivative_sigma_px);
+    visit(
+        OptionInfo{"refinement.min_gradient", "gray/px", 0.0, 255.0, "Weaker edges are not used."},
+        self.min_gradient);
+    visit(OptionInfo{"refinement.rising_weight", "", 0.01, 1.0,
+                     "Weight of edges beyond which the image is brighter than on the nearer "
+                     "surface, beside 1 of the others."},
+          self.rising_weight);
+    visit(OptionInfo{"refinement.sample_spacing_px", "px", 0.5, 50.0,
+                     "Distance between edge places."},
+          self.sample_spacing_px);
+    visit(OptionInfo{"refinement.min_found", "", 6, 100000, "Fewer edges found are no pose."},
+          self.min_found);
+    visit(OptionInfo{"refinement.covariance_inflation", "", 1.0, 1000.0,
+                     "Factor on the covariance for the correlation of neighbouring edge places."},
+          self.covariance_inflation);
+    visit(OptionInfo{"refinement.covariance", "", 0, 1,
+                     "Independent errors and a factor for what neighbours share, or the measured "
+                     "sums of errors by place, by direction and by kind of edge.",
+                     kCovarianceModelNames},
+          self.covariance);
+  }
+};
+
+/// What is known of a pose already: xi' information xi with xi the perturbation from it.
+struct PoseEstimate {
+  Pose camera_from_station;                 ///< the estimate
+  Matrix6d information = Matrix6d::Zero();  ///< inverse of its covariance, over xi
+};
+
+/// One place on a rendered edge and what the image shows there.
+struct EdgeSample {
+  Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();  ///< on the model's edge
+  Eigen::Vector2d normal =
+      Eigen::Vector2d::Zero();  ///< in the image, from the nearer surface outwards
+  double residual_px = 0.0;     ///< along the normal, found minus predicted
+  double gradient = 0.0;        ///< signed, gray/px along the normal; 0 where nothing was found
+  double weight = 0.0;          ///< robust, of the last round
+  std::uint8_t kind = 0;        ///< EdgeKind bits
+};
+
+/// What the refinement of a pose gives.
+struct RefinementResult {
+  Pose camera_from_station;  ///< the pose refined; where it began, before
+  /// As in PnpSolution: of the edges alone; of edges, anchor and matched pose together where the
+  /// edges alone leave a direction open.
+  Matrix6d covariance = Matrix6d::Zero();
+  std::span<EdgeSample> samples;  ///< capacity; the first `sample_count` are valid
+  std::int32_t sample_count = 0;  ///< places looked at
+  std::int32_t found_count = 0;   ///< samples with an edge within the radius
+  std::int32_t used_count = 0;    ///< samples with a weight above one half
+  double rms_px = 0.0;            ///< weighted residual
+};
+
+/// Moves the pose so that the rendered edges meet the image's own (RAPID, Harris and Stennett 1990,
+/// with robust weights, Drummond and Cipolla 2002): places along the salient edges, searched along
+/// the line's normal for the largest derivative of the raw image, Tukey's weights, Gauss-Newton.
+/// What was found serves until the pose has moved so far that the search could find otherwise; the
+/// pose returned is at most that far from where the edges were looked for.
+class EdgeRefinement {
+ public:
+  /// Takes the memory of a localization from `arena`. kArenaTooSmall, kInvalidOption.
+  Status create(const RefinementOptions& options, Arena& arena);
+  /// Other options from the next begin() on, except the one that sizes the memory (max_samples).
+  void setOptions(const RefinementOptions& options);
+  /// Takes the samples from a render of the same pose; `image` is raw, at full resolution, `camera`
+  /// its camera; `ignore` may be nullptr. `anchor` and `matched` (each may be nullptr) are what is
+  /// known of the pose besides the edges: where these leave a direction open, it stays there.
+  Status begin(const ImageView& image, const BitImage* ignore, const Camera& camera,
+               const MeshView& mesh, const EdgeRender& render, double radius_px,
+               const PosePrior* anchor, const PoseEstimate* matched, RefinementResult& result);
+  /// Another pose than the render's to start from, after begin().
+  void startFrom(const Pose& camera_from_station) {
+    result_->camera_from_station = camera_from_station;
+  }
+  /// A round that looks for the image's edges does so in chunks of samples that do not depend on
+  /// each other: different ones may be searched at the same time. 0 when what was found still
+  /// serves.
+  int chunks() const { return searches() ? (result_->sample_count + kChunk - 1) / kChunk : 0; }
+  /// Most chunks that a round can have.
+  static int chunksOf(const RefinementOptions& options) {
+    return (options.max_samples + kChunk - 1) / kChunk;
+  }
+  void searchChunk(int chunk);  ///< Looks for the image's edges at the samples of one chunk
+  /// Ends the round when all chunks have been searched; kTooFewEdges when too little is found,
+  /// kDegenerate when the edges and what is known besides do not fix the pose.
+  Status finishRound(bool& done);
+  /// A whole round.
+  Status step(bool& done);
+
+  // finishRound() in parts, for those who refine several views as one (core/views). A round is
+  // then: searchChunk() of every chunk, gather(), and either advance() by the sum of all views'
+  // equations, or moveTo() where that led.
+
+  /// Ends the search: what the edges found say of the pose, H and g in px / px of noise (the factor
+  /// for what neighbours share included). kTooFewEdges when too little is found.
+  Status gather(NormalEquations& made);
+  /// Moves the pose to what solves `equations` together with anchor and matched pose, and gives its
+  /// covariance. kDegenerate when they do not fix it.
+  Status advance(NormalEquations equations, bool& settled);
+  /// Takes a pose from elsewhere; whether that hardly moved what is seen.
+  bool moveTo(const Pose& camera_from_station);
+  /// Whether this was the last round that the options allow.
+  bool roundsAreOver() const { return round_ >= options_.rounds; }
+
+ private:
+  static constexpr std::int32_t kChunk = 256;
+  void takeSamples(const MeshView& mesh, const EdgeRender& render);
+  bool searches() const { return round_ == 0 || moved_px_ > options_.search_again_px; }
+  double robustScale();
+  void addKnowledge(NormalEquations& equations) const;
+  bool noteMove(const Vector6d& xi);
+  NormalEquations weightedEquations(double& weights);
+  void noteGroups(const EdgeSample& sample, const Eigen::Vector2d& pixel, const Vector6d& row,
+                  double ratio);
+  /// What a place counts for, besides its robust weight.
+  double shareOf(const EdgeSample& sample) const {
+    return sample.gradient > 0.0 ? options_.rising_weight : 1.0;
+  }
+
+  RefinementOptions options_;
+  ImageView image_;
+  const BitImage* ignore_ = nullptr;
+  Camera camera_;
+  double radius_px_ = 0.0;
+  bool anchored_ = false;
+  PosePrior anchor_;
+  bool has_matched_ = false;
+  PoseEstimate matched_;
+  RefinementResult* result_ = nullptr;
+  EdgeSearch search_;
+  ErrorGroups groups_;
+  Matrix6d motion_ = Matrix6d::Zero();     ///< xi' motion xi: mean square along the normals, px^2
+  Matrix6d curvature_ = Matrix6d::Zero();  ///< of half of the robust cost; the lower triangle
+  Eigen::AlignedBox2d box_px_;             ///< of the edge places where they begin
+  std::span<float> absolute_residuals_;
+  /// Per sample, where the edge was found: the image's coordinate along the sample's normal.
+  std::span<double> found_at_px_;
+  std::int32_t round_ = 0;
+  double moved_px_ = 0.0;  ///< since the edges were looked for
+  double scale_px_ = 0.0;  ///< of the residuals then
+};
+
+}  // namespace boresight

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/refine/error_groups.h"
+
+#include <algorithm>
+
+#include "core/pnp/normal_equations.h"
+
+namespace boresight {
+namespace {
+
+constexpr double kTangent22 = 0.41421356237309503;  ///< tan 22.5 deg
+
+}  // namespace
+
+Status ErrorGroups::create(Arena& arena) {
+  scores_ = arena.allocate<Vector6d>(static_cast<std::size_t>(kByPlace + kBySide + kByKind));
+  return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
+}
+
+void ErrorGroups::clear() { std::fill(scores_.begin(), scores_.end(), Vector6d::Zero()); }
+
+int ErrorGroups::sectorOf(const Eigen::Vector2d& direction) {
+  double along = direction.x();
+  double across = direction.y();
+  int quarter = 0;
+  for (; quarter < 3 && !(along > 0.0 && across >= 0.0); ++quarter) {
+    const double turned = across;  // by -90 deg
+    across = -along;
+    along = turned;
+  }
+  const int eighth = across < along ? 0 : 2;
+  const double low = std::min(along, across);
+  const double high = std::max(along, across);
+  const bool near_axis = low < kTangent22 * high;
+  const int within = eighth == 0 ? (near_axis ? 0 : 1) : (near_axis ? 3 : 2);
+  return 4 * quarter + within;
+}
+
+void ErrorGroups::add(const GroupedError& error, const Vector6d& score) {
+  const auto cell = [](double place) {
+    return std::clamp(static_cast<int>(place * kCells), 0, kCells - 1);
+  };
+  const int sector = sectorOf(error.normal);
+  const int groups[] = {cell(error.place.x()) * kCells + cell(error.place.y()),
+                        kByPlace + (sector / 2) * 2 + (error.brighter ? 1 : 0),
+                        kByPlace + kBySide + sector * kKinds + (error.kind & (kKinds - 1))};
+  for (const int group : groups) scores_[static_cast<std::size_t>(group)] += score;
+}
+
+bool ErrorGroups::addSquares(int first, int count, Matrix6d& squares) const {
+  Matrix6d sum = Matrix6d::Zero();
+  int filled = 0;
+  for (int i = first; i < first + count; ++i) {
+    const Vector6d& score = scores_[static_cast<std::size_t>(i)];
+    if (score.squaredNorm() == 0.0) continue;
+    ++filled;
+    for (int a = 0; a < 6; ++a)
+      for (int b = 0; b < 6; ++b) sum(a, b) += score[a] * score[b];
+  }
+  if (filled < 2) return false;
+  squares += sum * (static_cast<double>(filled) / (filled - 1));
+  return true;
+}
+
+bool ErrorGroups::covariance(const Matrix6d& curvature, Matrix6d& covariance) const {
+  Matrix6d inverse;
+  if (!invert(curvature, inverse)) return false;
+  Matrix6d squares = Matrix6d::Zero();
+  if (!addSquares(0, kByPlace, squares) || !addSquares(kByPlace, kBySide, squares) ||
+      !addSquares(kByPlace + kBySide, kByKind, squares))
+    return false;
+  const Matrix6d made = inverse * squares * inverse;
+  for (int a = 0; a < 6; ++a)
+    for (int b = 0; b <= a; ++b)
+      covariance(a, b) = covariance(b, a) = 0.5 * (made(a, b) + made(b, a));
+  return covariance.squaredNorm() < 1e300;
+}
+
+}  // namespace boresight

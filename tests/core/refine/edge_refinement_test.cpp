@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/refine/edge_refinement.h"
+
+#include <cmath>
+#include <memory>
+
+#include <gtest/gtest.h>
+#include <Eigen/Cholesky>
+
+#include "core/base/random.h"
+#include "tests/core/localizer/scene.h"
+#include "tests/core/refine/step_edge.h"
+
+namespace boresight::test {
+namespace {
+
+/// A refinement with all its memory.
+struct Refined {
+  std::vector<std::byte> memory;
+  EdgeRefinement refinement;
+  RefinementResult result;
+  Status status = Status::kOk;
+  int rounds = 0;
+
+  explicit Refined(const RefinementOptions& options = {}) : memory(std::size_t{4} << 20) {
+    Arena arena(memory);
+    EXPECT_EQ(refinement.create(options, arena), Status::kOk);
+    result.samples = arena.allocate<EdgeSample>(static_cast<std::size_t>(options.max_samples));
+    EXPECT_FALSE(arena.exhausted());
+  }
+
+  /// One pass from a pose.
+  void pass(const Case& scene, const Pose& from, double radius_px,
+            const PosePrior* anchor = nullptr, const PoseEstimate* matched = nullptr) {
+    const Rendering rendering = renderEdges(scene.solid, scene.camera, from);
+    status = refinement.begin(scene.picture->view(), scene.ignore, scene.camera, scene.solid.view(),
+                              rendering.edges, radius_px, anchor, matched, result);
+    rounds = 0;
+    bool done = false;
+    while (status == Status::kOk && !done && rounds < 1000) {
+      status = refinement.step(done);
+      ++rounds;
+    }
+    EXPECT_TRUE(done || rounds == 0);
+  }
+};
+
+/// A pose whose image is `displacement_px` off on average.
+Pose poseOff(const Case& scene, double displacement_px, std::uint64_t seed) {
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    const Pose pose = displacedSeed(scene.truth, scene.uncertainty, middle, seed);
+    const bool beyond =
+        meanDisplacement_px(scene.solid, scene.camera, scene.truth, pose) > displacement_px;
+    (beyond ? high : low) = middle;
+  }
+  return displacedSeed(scene.truth, scene.uncertainty, low, seed);
+}
+
+TEST(EdgeRefinement, ConvergesFromPixelsAway) {
+  for (const bool distorted : {false, true}) {
+    const Case scene = stationCase(1, distorted);
+    std::uint64_t seed = 0;
+    for (const double displacement_px : {0.5, 1.0, 1.5, 2.0}) {
+      SCOPED_TRACE(displacement_px);
+      const Pose start = poseOff(scene, displacement_px, ++seed);
+      Refined refined;
+      refined.pass(scene, start, 3.0);
+      ASSERT_EQ(refined.status, Status::kOk);
+      EXPECT_LT(meanDisplacement_px(scene.solid, scene.camera, scene.truth,
+                                    refined.result.camera_from_station),
+                0.05);
+      refined.pass(scene, refined.result.camera_from_station, 0.7);
+      ASSERT_EQ(refined.status, Status::kOk);
+      EXPECT_LT(meanDisplacement_px(scene.solid, scene.camera, scene.truth,
+                                    refined.result.camera_from_station),
+                0.03);
+    }
+  }
+}
+
+TEST(EdgeRefinement, EdgesFoundServeUntilThePoseHasMoved) {
+  const Case scene = stationCase(1);
+  const Pose start = poseOff(scene, 1.0, 5);
+  RefinementOptions always;
+  always.search_again_px = 0.0;
+  RefinementOptions once;
+  once.search_again_px = 50.0;
+  Refined each_round(always);
+  Refined spared;
+  Refined first_only(once);
+  for (Refined* refined : {&each_round, &spared, &first_only}) {
+    refined->pass(scene, start, 3.0);
+    ASSERT_EQ(refined->status, Status::kOk);
+  }
+  const auto between_px = [&scene](const Refined& a, const Refined& b) {
+    return meanDisplacement_px(scene.solid, scene.camera, a.result.camera_from_station,
+                               b.result.camera_from_station);
+  };
+  EXPECT_LT(between_px(each_round, spared), 0.02);
+  // Searched from a pixel away alone they are others.
+  EXPECT_GT(between_px(each_round, first_only), 0.05);
+}
+
+TEST(EdgeRefinement, CountsWhatItUses) {
+  const Case scene = stationCase(1);
+  Refined refined;
+  refined.pass(scene, poseOff(scene, 1.0, 9), 3.0);
+  ASSERT_EQ(refined.status, Status::kOk);
+  const RefinementResult& result = refined.result;
+  int found = 0;
+  int used = 0;
+  double squares = 0.0;
+  double weights = 0.0;
+  for (int i = 0; i < result.sample_count; ++i) {
+    const EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
+    EXPECT_NEAR(sample.normal.norm(), 1.0, 0.02);
+    EXPECT_NE(sample.kind, 0);
+    EXPECT_GE(sample.weight, 0.0);
+    EXPECT_LE(sample.weight, 1.0);
+    found += sample.gradient != 0.0 ? 1 : 0;
+    used += sample.weight > 0.5 ? 1 : 0;
+    squares += sample.weight * sample.residual_px * sample.residual_px;
+    weights += sample.weight;
+    EXPECT_TRUE(sample.gradient != 0.0 || sample.weight == 0.0);
+    EXPECT_TRUE(sample.gradient == 0.0 || std::abs(sample.gradient) >= 2.0);
+    EXPECT_LE(std::abs(sample.residual_px), 3.25);
+  }
+  EXPECT_EQ(result.found_count, found);
+  EXPECT_EQ(result.used_count, used);
+  EXPECT_NEAR(result.rms_px, std::sqrt(squares / weights), 1e-9);
+  EXPECT_LT(result.rms_px, 0.3);
+  EXPECT_GT(used, 500);
+}
+
+TEST(EdgeRefinement, CovarianceIsSymmetricAndPositive) {
+  const Case scene = stationCase(1);
+  RefinementOptions options;
+  Refined refined(options);
+  refined.pass(scene, poseOff(scene, 1.0, 4), 3.0);
+  ASSERT_EQ(refined.status, Status::kOk);
+  const Matrix6d covariance = refined.result.covariance;
+  EXPECT_EQ(covariance, covariance.transpose().eval());
+  EXPECT_EQ(covariance.llt().info(), Eigen::Success);
+  // Of the size of the errors: within a tenth of a millimetre and of a degree.
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_LT(std::sqrt(covariance(i, i)), i < 3 ? 2e-3 : 5e-4);
+    EXPECT_GT(std::sqrt(covariance(i, i)), i < 3 ? 1e-6 : 1e-7);
+  }
+  options.covariance_inflation *= 2.0;
+  Refined inflated(options);
+  inflated.pass(scene, poseOff(scene, 1.0, 4), 3.0);
+  EXPECT_LT((inflated.result.covariance - 2.0 * covariance).norm(), 1e-9 * covariance.norm());
+}
+
+TEST(EdgeRefinement, TheCovariancesModelMovesNoPose) {
+  const Case scene = stationCase(1);
+  const Pose start = poseOff(scene, 1.0, 4);
+  Refined inflated;
+  inflated.pass(scene, start, 3.0);
+  RefinementOptions options;
+  options.covariance = CovarianceModel::kGrouped;
+  Refined grouped(options);
+  grouped.pass(scene, start, 3.0);
+  ASSERT_EQ(grouped.status, Status::kOk);
+  EXPECT_EQ(grouped.result.camera_from_station.translation_m,
+            inflated.result.camera_from_station.translation_m);
+  EXPECT_EQ(grouped.result.camera_from_station.rotation.coeffs(),
+            inflated.result.camera_from_station.rotation.coeffs());
+  const Matrix6d& covariance = grouped.result.covariance;
+  EXPECT_EQ(covariance, covariance.transpose());
+  EXPECT_EQ(Eigen::LLT<Matrix6d>(covariance).info(), Eigen::Success);
+  EXPECT_GT((covariance - inflated.result.covariance).norm(), 0.01 * covariance.norm());
+}
+
+TEST(EdgeRefinement, FindsTooFewEdgesInAFlatImage) {
+  Case scene = stationCase(1);
+  const Picture flat = flatPicture(512, 512, 100);
+  scene.picture = &flat;
+  Refined refined;
+  refined.pass(scene, scene.truth, 3.0);
+  EXPECT_EQ(refined.status, Status::kTooFewEdges);
+  EXPECT_EQ(refined.rounds, 1);
+  EXPECT_EQ(refined.result.found_count, 0);
+  EXPECT_EQ(refined.result.used_count, 0);
+  EXPECT_EQ(refined.result.camera_from_station.translation_m, scene.truth.translation_m);
+}
+
+TEST(EdgeRefinement, SeesThatTheRenderHoldsTooFewEdges) {
+  const Case scene = stationCase(1);
+  RefinementOptions options;
+  options.min_found = 100000;
+  Refined refined(options);
+  refined.pass(scene, scene.truth, 3.0);
+  EXPECT_EQ(refined.status, Status::kTooFewEdges);
+  EXPECT_EQ(refined.rounds, 0);  // at once
+}
+
+TEST(EdgeRefinement, KeepsToItsLimits) {
+  const Case scene = stationCase(1);
+  RefinementOptions options;
+  options.max_samples = 300;
+  options.min_samples = 100;
+  options.rounds = 2;
+  Refined refined(options);
+  refined.pass(scene, poseOff(scene, 2.0, 3), 3.0);
+  EXPECT_EQ(refined.status, Status::kOk);
+  EXPECT_LE(refined.result.sample_count, 300);
+  EXPECT_GE(refined.result.sample_count, 100);
+  EXPECT_EQ(refined.rounds, 2);
+}
+
+TEST(EdgeRefinement, IgnoredEdgesAreNotUsed) {
+  Case scene = stationCase(1);
+  Mask mask(512, 512);
+  mask.fill(100, 100, 300, 260);
+  scene.ignore = &mask.bits;
+  Refined refined;
+  const Pose start = poseOff(scene, 1.0, 5);
+  refined.pass(scene, start, 3.0);
+  ASSERT_EQ(refined.status, Status::kOk);
+  int inside = 0;
+  for (int i = 0; i < refined.result.sample_count; ++i) {
+    const EdgeSample& sample = refined.result.samples[static_cast<std::size_t>(i)];
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(project(scene.camera, scene.truth * sample.point_in_station_m, pixel));
+    // Some way inside, so that the edge that was found was, too.
+    if (pixel.x() < 105 || pixel.x() > 294 || pixel.y() < 105 || pixel.y() > 254) continue;
+    EXPECT_EQ(sample.gradient, 0.0);
+    ++inside;
+  }
+  EXPECT_GT(inside, 100);
+  EXPECT_LT(meanDisplacement_px(scene.solid, scene.camera, scene.truth,
+                                refined.result.camera_from_station),
+            0.08);
+}
+
+/// As `picture`, white on black.
+Picture negativeOf(Picture picture) {
+  for (std::uint8_t& gray : picture.gray) gray = static_cast<std::uint8_t>(255 - gray);
+  return picture;
+}
+
+/// A sheet that covers the left of the image: one straight edge, all else out of sight.
+struct OneEdge {
+  Picture picture;
+  Case scene;
+
+  OneEdge() {
+    scene.solid.addPrism({{-1.0, -1.0}, {0.01, -1.0}, {0.01, 1.0}, {-1.0, 1.0}}, -0.001, 0.0, 0.9);
+    scene.camera = pinholeCamera();
+    // Not along the columns: there all rays of the picture's edge pixels would err alike.
+    scene.truth.rotation = rotationExp({0.0, 0.0, 0.11}) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+    scene.truth.translation_m = {0.0, 0.0, 0.45};
+    picture = takePicture(scene.solid, scene.camera, scene.truth);
+    scene.picture = &picture;
+  }
+  Eigen::Vector2d placeOf(const Pose& camera_from_station, double y_m) const {
+    Eigen::Vector2d pixel;
+    EXPECT_TRUE(
+        project(scene.camera, camera_from_station * Eigen::Vector3d(0.01, y_m, 0.0), pixel));
+    return pixel;
+  }
+};
+
+TEST(EdgeRefinement, OneEdgeAloneIsDegenerate) {
+  const OneEdge one;
+  Refined refined;
+  refined.pass(one.scene, one.scene.truth, 3.0);
+  EXPECT_EQ(refined.status, Status::kDegenerate);
+}
+
+/// The edge is met, and what it leaves open stays where it was.
+void expectHeld(const OneEdge& one, const Pose& start, const Pose& end) {
+  const Eigen::Vector2d along =
+      (one.placeOf(one.scene.truth, 0.05) - one.placeOf(one.scene.truth, -0.05)).normalized();
+  const Eigen::Vector2d across(-along.y(), along.x());
+  for (const double y_m : {-0.05, 0.0, 0.06}) {
+    const Eigen::Vector2d end_px = one.placeOf(end, y_m);
+    EXPECT_NEAR(across.dot(end_px - one.placeOf(one.scene.truth, y_m)), 0.0, 0.05);
+    EXPECT_NEAR(along.dot(end_px - one.placeOf(start, y_m)), 0.0, 0.5);  // 2 px from the truth
+    EXPECT_GT(std::abs(along.dot(end_px - one.placeOf(one.scene.truth, y_m))), 1.0);
+  }
+  EXPECT_NEAR(end.translation_m.z(), start.translation_m.z(), 1e-4);
+}
+
+Pose startOf(const OneEdge& one) {
+  Pose start = one.scene.truth;
+  start.translation_m += Eigen::Vector3d(0.0006, 0.001, 0.002);
+  start.rotation = (rotationExp({0.0, 0.0, 0.004}) * start.rotation).normalized();
+  return start;
+}
+
+TEST(EdgeRefinement, AnAnchorHoldsWhatOneEdgeLeavesOpen) {
+  const OneEdge one;
+  const Pose start = startOf(one);
+  PosePrior anchor;
+  anchor.camera_from_station = start;
+  anchor.sigma.translation_m.setConstant(0.005);
+  anchor.sigma.rotation_rad.setConstant(0.02);
+  anchor.sigma.pivot_in_camera_m = {0.0, 0.0, 0.45};
+  Refined refined;
+  refined.pass(one.scene, start, 4.0, &anchor);
+  ASSERT_EQ(refined.status, Status::kOk);
+  expectHeld(one, start, refined.result.camera_from_station);
+  // Along the edge it is known as well as before, across it far better.
+  const Matrix6d& covariance = refined.result.covariance;
+  EXPECT_EQ(covariance.llt().info(), Eigen::Success);
+  EXPECT_GT(std::sqrt(covariance(4, 4)), 0.004);
+}
+
+TEST(EdgeRefinement, AMatchedPoseHoldsWhatOneEdgeLeavesOpen) {
+  const OneEdge one;
+  const Pose start = startOf(one);
+  PoseEstimate matched;
+  matched.camera_from_station = start;
+  matched.information.diagonal() << 2500.0, 2500.0, 2500.0, 4e4, 4e4, 4e4;
+  Refined refined;
+  refined.pass(one.scene, start, 4.0, nullptr, &matched);
+  ASSERT_EQ(refined.status, Status::kOk);
+  expectHeld(one, start, refined.result.camera_from_station);
+}
+
+/// Holds all but the translation along the image's rows.
+PoseEstimate holdingAllButX(const Pose& camera_from_station) {
+  PoseEstimate held;
+  held.camera_from_station = camera_from_station;
+  held.information.diagonal() << 1e14, 1e14, 1e14, 1.0, 1e14, 1e14;
+  return held;
+}
+
+/// A strip across the image, gray before black on the left and before white on the right, where
+/// its edge stands `aside_px` further out than the mesh has it.
+struct Strip {
+  static constexpr double kHalf_m = 0.03;
+  Picture picture;
+  Case scene;
+
+  explicit Strip(double aside_px) {
+    scene.solid.addPrism({{-kHalf_m, -1.0}, {kHalf_m, -1.0}, {kHalf_m, 1.0}, {-kHalf_m, 1.0}},
+                         -0.001, 0.0, 0.9);
+    scene.camera = pinholeCamera();
+    scene.truth.rotation = rotationExp({0.0, 0.0, 0.11}) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+    scene.truth.translation_m = {0.0, 0.0, 0.45};
+    const StepEdge one = edgeAlong(kHalf_m, 0.0, 60.0);
+    const StepEdge other = edgeAlong(-kHalf_m, 0.0, 60.0);
+    const bool one_is_right = one.distance_px > other.distance_px;
+    picture = drawSteps(scene.camera.width, scene.camera.height, 60.0,
+                        {edgeAlong(one_is_right ? -kHalf_m : kHalf_m, 0.0, 60.0),
+                         edgeAlong(one_is_right ? kHalf_m : -kHalf_m, aside_px, 60.0)});
+    scene.picture = &picture;
+  }
+  StepEdge edgeAlong(double x_m, double aside_px, double contrast) const {
+    Eigen::Vector2d from;
+    Eigen::Vector2d to;
+    EXPECT_TRUE(project(scene.camera, scene.truth * Eigen::Vector3d(x_m, -0.01, 0.0), from));
+    EXPECT_TRUE(project(scene.camera, scene.truth * Eigen::Vector3d(x_m, 0.01, 0.0), to));
+    StepEdge edge;
+    edge.normal = Eigen::Vector2d(to.y() - from.y(), from.x() - to.x()).normalized();
+    if (edge.normal.x() < 0.0) edge.normal = -edge.normal;
+    edge.distance_px = edge.normal.dot(from) + aside_px;
+    edge.contrast = contrast;
+    return edge;
+  }
+  /// How far to the right the strip ends up, in pixels along the edges' normal.
+  double shift_px(double rising_weight) const {
+    RefinementOptions options;
+    options.rising_weight = rising_weight;
+    Refined refined(options);
+    const PoseEstimate held = holdingAllButX(scene.truth);
+    refined.pass(scene, scene.truth, 2.0, nullptr, &held);
+    EXPECT_EQ(refined.status, Status::kOk);
+    const Pose& pose = refined.result.camera_from_station;
+    Eigen::Vector2d before;
+    Eigen::Vector2d after;
+    EXPECT_TRUE(project(scene.camera, scene.truth.translation_m, before));
+    EXPECT_TRUE(project(scene.camera, pose.translation_m, after));
+    return edgeAlong(kHalf_m, 0.0, 1.0).normal.dot(after - before);
+  }
+};
+
+/// Both edges are as long: the one that rises pulls by its weight.
+TEST(EdgeRefinement, RisingEdgesCountAsMuchAsTheirWeight) {
+  constexpr double kAside_px = 0.3;
+  const Strip strip(kAside_px);
+  const Strip true_to_mesh(0.0);
+  for (const double weight : {1.0, 0.5, 0.2, 0.05}) {
+    const double pulled_px = strip.shift_px(weight) - true_to_mesh.shift_px(weight);
+    EXPECT_NEAR(pulled_px, kAside_px * weight / (1.0 + weight), 0.02) << weight;
+  }
+}
+
+TEST(EdgeRefinement, WhereAllEdgesRiseTheirWeightChangesNoPose) {
+  OneEdge one;
+  const Picture negative = negativeOf(one.picture);
+  one.scene.picture = &negative;
+  const PoseEstimate held = holdingAllButX(startOf(one));
+  std::vector<double> across_px;
+  for (const double weight : {1.0, 0.2}) {
+    RefinementOptions options;
+    options.rising_weight = weight;
+    Refined refined(options);
+    refined.pass(one.scene, startOf(one), 4.0, nullptr, &held);
+    ASSERT_EQ(refined.status, Status::kOk) << "they are used however little they weigh";
+    EXPECT_GT(refined.result.used_count, 60);
+    across_px.push_back(one.placeOf(refined.result.camera_from_station, 0.0).x());
+  }
+  EXPECT_NEAR(across_px[0], across_px[1], 2e-3);
+}
+
+}  // namespace
+}  // namespace boresight::test

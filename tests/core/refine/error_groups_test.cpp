@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/refine/error_groups.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "core/base/random.h"
+
+namespace boresight {
+namespace {
+
+constexpr double kNoise_px = 0.3;
+
+struct Sample {
+  GroupedError error;
+  Vector6d row;
+  double residual_px = 0.0;
+};
+
+Sample randomSample(Random& random) {
+  Sample sample;
+  const double angle = random.uniform(-std::numbers::pi, std::numbers::pi);
+  sample.error.place = {random.uniform(), random.uniform()};
+  sample.error.normal = {std::cos(angle), std::sin(angle)};
+  sample.error.brighter = random.below(2) == 1;
+  sample.error.kind = static_cast<std::uint8_t>(1 + random.below(3));
+  for (int i = 0; i < 6; ++i) sample.row[i] = random.normal();
+  return sample;
+}
+
+int sectorByAngle(const Eigen::Vector2d& direction) {
+  const double angle = std::atan2(direction.y(), direction.x());
+  const double turn = (angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle) / std::numbers::pi;
+  return static_cast<int>(turn * 8.0) % 16;
+}
+
+/// Memory and groups of a problem; the unit weights' curvature.
+class Grouped {
+ public:
+  explicit Grouped(const std::vector<Sample>& samples) {
+    Arena arena(memory_);
+    EXPECT_EQ(groups_.create(arena), Status::kOk);
+    groups_.clear();
+    for (const Sample& sample : samples) {
+      groups_.add(sample.error, sample.residual_px * sample.row);
+      curvature_ += sample.row * sample.row.transpose();
+    }
+    solved_ = groups_.covariance(curvature_, covariance_);
+  }
+  bool solved() const { return solved_; }
+  const Matrix6d& covariance() const { return covariance_; }
+  const Matrix6d& curvature() const { return curvature_; }
+
+ private:
+  std::array<std::byte, 16384> memory_{};
+  ErrorGroups groups_;
+  Matrix6d curvature_ = Matrix6d::Zero();
+  Matrix6d covariance_ = Matrix6d::Zero();
+  bool solved_ = false;
+};
+
+TEST(ErrorGroups, SectorsAreThoseOfTheAngle) {
+  Random random(1);
+  for (int i = 0; i < 20000; ++i) {
+    const Sample sample = randomSample(random);
+    ASSERT_EQ(ErrorGroups::sectorOf(3.0 * sample.error.normal), sectorByAngle(sample.error.normal))
+        << sample.error.normal.transpose();
+  }
+  EXPECT_EQ(ErrorGroups::sectorOf({1.0, 0.0}), 0);
+  EXPECT_EQ(ErrorGroups::sectorOf({0.0, 1.0}), 4);
+  EXPECT_EQ(ErrorGroups::sectorOf({-1.0, 0.0}), 8);
+  EXPECT_EQ(ErrorGroups::sectorOf({0.0, -1.0}), 12);
+}
+
+TEST(ErrorGroups, IsWhatSumsOverMapsGive) {
+  Random random(2);
+  std::vector<Sample> samples;
+  for (int i = 0; i < 3000; ++i) {
+    samples.push_back(randomSample(random));
+    samples.back().residual_px = kNoise_px * random.normal();
+  }
+  const Grouped grouped(samples);
+  ASSERT_TRUE(grouped.solved());
+  std::array<std::map<std::array<int, 2>, Vector6d>, 3> ways;
+  for (const Sample& sample : samples) {
+    const int sector = sectorByAngle(sample.error.normal);
+    const std::array<std::array<int, 2>, 3> keys = {
+        {{static_cast<int>(8.0 * sample.error.place.x()),
+          static_cast<int>(8.0 * sample.error.place.y())},
+         {sector / 2, sample.error.brighter ? 1 : 0},
+         {sector, sample.error.kind}}};
+    for (std::size_t way = 0; way < 3; ++way) {
+      const auto at = ways[way].try_emplace(keys[way], Vector6d::Zero()).first;
+      at->second += sample.residual_px * sample.row;
+    }
+  }
+  Matrix6d squares = Matrix6d::Zero();
+  for (const auto& way : ways) {
+    const auto count = static_cast<double>(way.size());
+    for (const auto& [key, sum] : way) squares += sum * sum.transpose() * count / (count - 1.0);
+  }
+  const Matrix6d inverse = grouped.curvature().inverse();
+  const Matrix6d expected = inverse * squares * inverse;
+  EXPECT_LT((grouped.covariance() - expected).norm(), 1e-9 * expected.norm());
+  EXPECT_EQ(grouped.covariance(), grouped.covariance().transpose());
+}
+
+/// Mean normalized squared error of least squares over many draws: six when the covariance is what
+/// the estimates' scatter is.
+double meanSquaredError(double shared_px, std::uint64_t seed) {
+  constexpr int kDraws = 400;
+  Random random(seed);
+  double sum = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    std::vector<Sample> samples;
+    std::array<double, 64> of_cell{};
+    for (double& error : of_cell) error = shared_px * random.normal();
+    Vector6d gradient = Vector6d::Zero();
+    Matrix6d information = Matrix6d::Zero();
+    for (int i = 0; i < 2000; ++i) {
+      Sample sample = randomSample(random);
+      // Rows that neighbours share, too, as those of a pose: else shared errors average out.
+      sample.row.head<2>() = sample.error.normal;
+      sample.row[2] = sample.error.place.x() - 0.5;
+      const auto cell =
+          static_cast<std::size_t>(8 * static_cast<int>(8.0 * sample.error.place.x()) +
+                                   static_cast<int>(8.0 * sample.error.place.y()));
+      sample.residual_px = kNoise_px * random.normal() + of_cell[cell];
+      gradient += sample.residual_px * sample.row;
+      information += sample.row * sample.row.transpose();
+      samples.push_back(sample);
+    }
+    const Vector6d error = information.ldlt().solve(gradient);
+    for (Sample& sample : samples) sample.residual_px -= sample.row.dot(error);
+    const Grouped grouped(samples);
+    EXPECT_TRUE(grouped.solved());
+    sum += error.dot(grouped.covariance().ldlt().solve(error));
+  }
+  return sum / kDraws;
+}
+
+TEST(ErrorGroups, IndependentErrorsCountInEachWayOfGrouping) {
+  const double mean = meanSquaredError(0.0, 3);
+  EXPECT_GT(mean, 0.8 * 6.0 / 3.0);
+  EXPECT_LT(mean, 1.4 * 6.0 / 3.0);
+}
+
+TEST(ErrorGroups, ErrorsThatNeighboursShareAreCovered) {
+  const double mean = meanSquaredError(0.3, 4);
+  EXPECT_GT(mean, 2.0);
+  EXPECT_LT(mean, 6.6) << "larger would be a covariance that is too small";
+}
+
+TEST(ErrorGroups, NothingIsToldOfOneGroup) {
+  Random random(5);
+  std::vector<Sample> samples(20, randomSample(random));
+  for (Sample& sample : samples) {
+    sample.residual_px = 0.1;
+    for (int i = 0; i < 6; ++i) sample.row[i] = random.normal();
+  }
+  EXPECT_FALSE(Grouped(samples).solved());
+  EXPECT_FALSE(Grouped({}).solved());
+}
+
+}  // namespace
+}  // namespace boresight
