@@ -23,9 +23,11 @@ struct ViewsArguments {
   Kernels kernels = bestKernels();
 };
 
-std::string errorText(const sessions::PoseError& error) {
+std::string errorText(const sessions::PoseError& error,
+                      const std::optional<Pose>& camera_from_end_effector) {
   using sessions::fixedText;
-  return ", normal " + fixedText(error.normal_mm, 3) + " mm, lateral " +
+  return std::string("; off the truth at the ") + sessions::judgedPlace(camera_from_end_effector) +
+         ": normal " + fixedText(error.normal_mm, 3) + " mm, lateral " +
          fixedText(error.lateral_mm, 3) + " mm, rotation " + fixedText(error.rotation_mrad, 3) +
          " mrad";
 }
@@ -45,7 +47,7 @@ void printRig(const sessions::RigViews& rig, const sessions::RigRun& run) {
               << " edge places, edge support " << fixedText(100.0 * view.support.share(), 1)
               << " %";
     const auto error = converged ? sessions::viewError(rig, run, v) : std::nullopt;
-    std::cout << (error ? errorText(*error) : "") << "\n";
+    std::cout << (error ? errorText(*error, rig.cases[v]->camera_from_end_effector) : "") << "\n";
   }
   std::cout << std::flush;
 }

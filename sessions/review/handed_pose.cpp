@@ -28,15 +28,14 @@ void takeRun(const SessionCase& one, const RunRecord& run, HandedPose& pose) {
   const LocalizationTrace trace = loadRun(run);
   pose.source = PoseSource::kRun;
   pose.camera_from_station = trace.camera_from_station;
-  pose.covariance = trace.covariance;
   pose.run_digest = run.digest;
   pose.score = trace.support.share();
   pose.seconds = trace.seconds.total();
 }
 
 void takeMarks(const Session& session, const SessionCase& one, HandedPose& pose) {
-  const CaseMarks marks = caseMarks(session, one.id);
-  const CaseMarksSolution solved = solveCaseMarks(marks, marksGuess(one), {}, false);
+  const CaseMarksSolution solved =
+      solveCaseMarks(caseMarks(session, one.id), marksGuess(one), {}, false);
   const auto camera_from_station = solved.camera_from_station();
   if (!camera_from_station)
     throw InputError("session", "cases",
@@ -44,7 +43,6 @@ void takeMarks(const Session& session, const SessionCase& one, HandedPose& pose)
                          solved.result.reason);
   pose.source = PoseSource::kAnnotation;
   pose.camera_from_station = *camera_from_station;
-  pose.covariance = cameraCovariance(*solved.result.solution, marks.views.front());
 }
 
 }  // namespace
@@ -74,6 +72,7 @@ HandedPose checkedPose(const Session& session, const std::string& case_id,
   if (!loaded) loaded = loadCase(*session.findCase(case_id));
   const ReviewSubject subject =
       reviewSubject(session, std::move(loaded), pose.source, pose.run_digest);
+  pose.covariance = subject.covariance;
   const CheckLimits limits = checkLimits(session.review.preset, session.review.limits);
   for (const Check& check : checkPose(subject, limits)) pose.checks.push_back({check, ""});
   return pose;

@@ -16,8 +16,8 @@ struct HandedPose {
   std::string case_id;
   PoseSource source = PoseSource::kRun;
   Pose camera_from_station;
-  Matrix6d covariance = Matrix6d::Zero();  ///< left perturbation, camera frame; zero: none
-  std::string run_digest;                  ///< empty: the pose is the marks'
+  PoseCovariance covariance;
+  std::string run_digest;  ///< empty: the pose is the marks'
   bool validated = false;
   std::string standing;   ///< standingText: who validated it, or NOT VALIDATED and why
   double score = 1.0;     ///< 1 of a decided or annotated one, else the edge support of its run
@@ -25,12 +25,13 @@ struct HandedPose {
   std::vector<JudgedCheck> checks;  ///< as they were judged; none without a decision that holds
 };
 
-/// The pose of a decision that holds, else that of the last run if it converged, else the marks'.
-/// InputError when there is none, or a run's trace cannot be read.
+/// The pose of a decision that holds, else that of the last run if it converged, else the marks';
+/// without checks and covariance where nobody decided. InputError when there is none, or a run's
+/// trace cannot be read.
 HandedPose handedPose(const Session& session, const std::string& case_id);
 
-/// The same with checks: as they were judged, else as they are now. `loaded` is the case; nullptr:
-/// it is read. InputError.
+/// The same with checks and covariance: as judged, else as they are now. `loaded` is the case;
+/// nullptr: it is read. InputError.
 HandedPose checkedPose(const Session& session, const std::string& case_id,
                        std::shared_ptr<const LoadedCase> loaded = nullptr);
 

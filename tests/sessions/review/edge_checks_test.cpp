@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "sessions/review/calibration_share.h"
 #include "sessions/review/camera_fit.h"
 #include "sessions/review/edge_evidence.h"
+#include "sessions/review/pose_uncertainty.h"
 #include "tests/sessions/review/drawn_box.h"
 #include "tests/sessions/review/find_check.h"
 
@@ -208,7 +208,13 @@ TEST(EdgeChecks, ACameraThatNeitherItsCalibrationNorTheImageVouchesForFails) {
   CheckLimits limits;
   limits.focal_percent = 0.001;
   EXPECT_EQ(focalCheck(limits).state, CheckState::kFailed);
-  limits.focal_sigma_px = 50.0;  // known, to five percent: what the edges ask for is within that
+  auto stated = std::make_shared<LoadedCase>();
+  stated->source = subject.loaded->source;
+  stated->scene = subject.loaded->scene;
+  stated->image = subject.loaded->image;
+  // Known, to five percent: what the edges ask for is within that.
+  stated->source.calibration_sigma = CalibrationSigma{0.05, 0.3};
+  subject.loaded = stated;
   EXPECT_EQ(focalCheck(limits).state, CheckState::kPassed);
   subject.requirement = {{}, {}, {}, 3.0};
   EXPECT_EQ(focalCheck(limits).state, CheckState::kNotApplicable);
