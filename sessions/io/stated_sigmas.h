@@ -16,7 +16,7 @@ inline constexpr double kAssumedMeshScaleSigma = 2e-4;
 /// calibration from many pictures of a target reaches.
 struct CalibrationSigma {
   double focal_relative = 2e-4;     ///< of fx and fy together, as a share of them
-  double principal_point_px = 0.3;  ///< per axis
+  double principal_point_px = 0.5;  ///< per axis
 
   bool operator==(const CalibrationSigma&) const = default;
 };

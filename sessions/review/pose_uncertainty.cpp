@@ -23,11 +23,11 @@ ByCamera pointByCamera(const Camera& camera, const Eigen::Vector3d& point_in_cam
 
 }  // namespace
 
-std::optional<ByCamera> poseByCamera(std::span<const PredictedPlace> places, const Camera& camera,
+std::optional<ByCamera> poseByCamera(std::span<const EdgePlace> places, const Camera& camera,
                                      const Pose& camera_from_station) {
   Matrix6d information = Matrix6d::Zero();
   ByCamera right = ByCamera::Zero();
-  for (const PredictedPlace& place : places) {
+  for (const EdgePlace& place : places) {
     PlaceDerivative by;
     if (!placeDerivative(camera, camera_from_station, place.point_in_station_m, by)) continue;
     const Vector6d row = by.by_pose.transpose() * place.normal;

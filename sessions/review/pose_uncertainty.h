@@ -15,7 +15,7 @@ namespace boresight::sessions {
 /// How a pose that is fitted to edges follows an error of the camera: d xi / d (focal length, cx,
 /// cy in px) of the least squares over the places' distances along their normals,
 /// -(J' J)^-1 J' K. Nothing when the places do not determine the pose.
-std::optional<Eigen::Matrix<double, 6, 3>> poseByCamera(std::span<const PredictedPlace> places,
+std::optional<Eigen::Matrix<double, 6, 3>> poseByCamera(std::span<const EdgePlace> places,
                                                         const Camera& camera,
                                                         const Pose& camera_from_station);
 

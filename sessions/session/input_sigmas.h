@@ -21,7 +21,7 @@ struct InputSigmas {
 };
 /// "0.02 %, assumed".
 std::string meshScaleText(const InputSigmas& sigmas);
-/// "0.02 % and 0.3 px, assumed".
+/// "0.02 % and 0.5 px, assumed".
 std::string calibrationText(const InputSigmas& sigmas);
 
 /// The same session with these sigmas stated (nothing: assumed): the mesh's for all cases of the

@@ -54,7 +54,7 @@ TEST(EdgeChecks, PlacesAreOnTheDrawnLinesToATenthOfAPixel) {
   const PredictedEdges edges =
       predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
   double length_px = 0.0;
-  for (const PredictedPlace& place : edges.places) length_px += place.length_px;
+  for (const EdgePlace& place : edges.places) length_px += place.length_px;
   EXPECT_NEAR(length_px, box.visibleLength_px(), 0.02 * box.visibleLength_px());
   const auto subject = box.subject(box.camera_from_station_);
   const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges, settings));
@@ -154,10 +154,10 @@ TEST(EdgeChecks, AWayThatTheEdgesDoNotDetermineIsFound) {
   DrawnBox box;
   const PredictedEdges edges =
       predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
-  std::vector<PredictedPlace> parallel;
+  std::vector<EdgePlace> parallel;
   const Eigen::Vector2d along =
       (box.pixelOf({0.06, 0.04, 0.025}) - box.pixelOf({-0.06, 0.04, 0.025})).normalized();
-  for (const PredictedPlace& place : edges.places)
+  for (const EdgePlace& place : edges.places)
     if (std::abs(place.normal.dot(along)) < 0.1) parallel.push_back(place);
   ASSERT_GT(parallel.size(), 200U);
   const EvidenceSettings settings;

@@ -72,7 +72,7 @@ TEST(PoseUncertainty, AMeshThatIsTooLargeMovesTheFittedPoseByTheSigmaOfItsScale)
   const DrawnBox box;
   const double too_large = 0.001;
   PredictedEdges edges = predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
-  for (PredictedPlace& place : edges.places) place.point_in_station_m *= 1.0 + too_large;
+  for (EdgePlace& place : edges.places) place.point_in_station_m *= 1.0 + too_large;
   const Vector6d moved = perturbationBetween(box.camera_from_station_,
                                              fitted(edges, box.camera_, box.camera_from_station_));
   EXPECT_NEAR(moved(5), 0.5e-3, 1e-6) << "a thousandth of half a metre";
