@@ -93,7 +93,7 @@ void describeDataset(const sessions::Dataset& dataset) {
          symmetryText(station.symmetries));
   for (const auto& [id, camera] : dataset.cameras) {
     line("camera " + id + ":");
-    sessions::CameraFile described{camera, std::nullopt};
+    sessions::CameraFile described{camera};
     if (const auto known = dataset.camera_references.find(id);
         known != dataset.camera_references.end())
       described.reference = known->second;

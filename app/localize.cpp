@@ -136,7 +136,9 @@ void printResult(const sessions::LocalizationTrace& trace, const Inputs& inputs,
     std::cout << "converged in " << trace.iterations.size() << " iterations, edge support "
               << fixedText(100.0 * trace.support.share(), 1) << " %, "
               << fixedText(trace.seconds.total(), 2) << " s\n\n"
-              << sessions::poseText(trace.camera_from_station, trace.covariance);
+              << sessions::poseText(trace.camera_from_station, trace.covariance)
+              << "(by the picture alone: errors of the mesh's scale and of the calibration are not "
+                 "in it)\n";
     printNamedPoses(inputs, trace.camera_from_station);
   } else {
     std::cout << "not converged: " << localizationStatusText(trace.status)

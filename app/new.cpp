@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
+#include <optional>
 
 #include "app/bop_arguments.h"
 #include "app/commands.h"
@@ -24,6 +25,7 @@ struct NewArguments {
   std::vector<std::string> transforms;
   int bit_depth = 0;
   double feature_size_m = 0.0;
+  std::optional<double> mesh_scale_sigma;
   OptionArguments options;
 
   void addTo(CLI::App& command);
@@ -70,6 +72,12 @@ void NewArguments::addTo(CLI::App& command) {
       ->check(numberIn(1e-6, 100.0))
       ->needs(from_image)
       ->type_name("M");
+  command
+      .add_option("--mesh-scale-sigma", mesh_scale_sigma,
+                  "One sigma of the mesh's scale, relative: 0.0002 where it is not stated")
+      ->check(CLI::Range(0.0, sessions::kMaxScaleSigma))
+      ->needs(from_image)
+      ->type_name("S");
   dataset.addTo(command);
   options.addTo(command);
   file("--out", out, "The session file that is made, e.g. sol12.boresight.json")->required();
@@ -108,6 +116,7 @@ sessions::Session sessionOf(const NewArguments& arguments) {
   if (!arguments.truth.empty()) files.truth = arguments.truth;
   if (!arguments.ignore.empty()) files.ignore = arguments.ignore;
   if (arguments.feature_size_m > 0.0) files.feature_size_m = arguments.feature_size_m;
+  files.mesh_scale_sigma = arguments.mesh_scale_sigma;
   const sessions::MadeCase made = sessions::makeCase(files);
   for (const std::string& text : made.notes) note(text);
   requireUsable(made.made);

@@ -89,8 +89,10 @@ int solve(const SolveArguments& arguments) {
   }
   std::cout << sessions::solutionText(views, *made.result.solution, made.left_out, made.warnings);
   if (!arguments.out.empty())
-    sessions::writePose(arguments.out, of_session ? *made.camera_from_station()
-                                                  : made.result.solution->rig_from_station);
+    sessions::writePose(
+        arguments.out,
+        of_session ? *made.camera_from_station() : made.result.solution->rig_from_station, {},
+        of_session ? made.covariance() : made.result.solution->covariance);
   return kDone;
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "sessions/evaluation/pose_sigma.h"
 #include "sessions/evaluation/rig_views.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
@@ -22,9 +23,11 @@ struct ViewsArguments {
   Kernels kernels = bestKernels();
 };
 
-std::string errorText(const sessions::PoseError& error) {
+std::string errorText(const sessions::PoseError& error,
+                      const std::optional<Pose>& camera_from_end_effector) {
   using sessions::fixedText;
-  return ", normal " + fixedText(error.normal_mm, 3) + " mm, lateral " +
+  return std::string("; off the truth at the ") + sessions::judgedPlace(camera_from_end_effector) +
+         ": normal " + fixedText(error.normal_mm, 3) + " mm, lateral " +
          fixedText(error.lateral_mm, 3) + " mm, rotation " + fixedText(error.rotation_mrad, 3) +
          " mrad";
 }
@@ -43,7 +46,7 @@ void printRig(const sessions::RigViews& rig, const sessions::RigRun& run) {
           "): " + localizationStatusText(view.status) + ", " + std::to_string(view.inliers) +
           " of " + std::to_string(view.correspondences) + " matches agree, " +
           std::to_string(view.edges_used) + " edge places, edge support " +
-          fixedText(100.0 * view.support.share(), 1) + " %" + (error ? errorText(*error) : ""));
+          fixedText(100.0 * view.support.share(), 1) + " %" + (error ? errorText(*error, rig.cases[v]->camera_from_end_effector) : ""));
   }
 }
 

@@ -147,4 +147,9 @@ std::vector<GeometryWarning> geometryWarnings(std::span<const MarkedView> views,
   return warnings;
 }
 
+GeometryWarning imprecisionWarning(const std::string& excess) {
+  return {GeometryWeakness::kImprecise, false,
+          "one sigma is " + excess + ": mark more exactly, and far from each other"};
+}
+
 }  // namespace boresight::sessions

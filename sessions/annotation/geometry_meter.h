@@ -30,6 +30,7 @@ enum class GeometryWeakness {
   kCoplanar,   ///< all places in a plane: two poses may explain them
   kClustered,  ///< the marks cover little of the station's image
   kOneDepth,   ///< all at one distance from the camera
+  kImprecise,  ///< one sigma of the solved pose exceeds the requirement
 };
 
 struct GeometryWarning {
@@ -43,5 +44,8 @@ struct GeometryWarning {
 /// that span the station (its mesh's box corners), or empty.
 std::vector<GeometryWarning> geometryWarnings(std::span<const MarkedView> views, const Pose* guess,
                                               std::span<const Eigen::Vector3d> station_m);
+
+/// Of a solved pose whose one sigma exceeds the requirement; `excess` is `sigmaExcessText`.
+GeometryWarning imprecisionWarning(const std::string& excess);
 
 }  // namespace boresight::sessions

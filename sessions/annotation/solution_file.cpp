@@ -30,6 +30,8 @@ const char* kindName(GeometryWeakness weakness) {
       return "clustered";
     case GeometryWeakness::kOneDepth:
       return "one_depth";
+    case GeometryWeakness::kImprecise:
+      return "imprecise";
   }
   throw std::logic_error("no such weakness");
 }

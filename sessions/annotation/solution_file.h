@@ -26,8 +26,8 @@ namespace boresight::sessions {
 /// Poses map metres, row by row. Covariances are of xi = (rotation rad, translation m), the left
 /// perturbation in the frame of the rig or of the camera; sigmas are the roots of their diagonals.
 /// Residuals are seen minus predicted, of a line both ends across the edge. `twin` only where there
-/// is one. Kinds of warnings: too_few, few, collinear, coplanar, clustered, one_depth. Numbers read
-/// back as the same bits. OutputError.
+/// is one. Kinds of warnings: too_few, few, collinear, coplanar, clustered, one_depth, imprecise.
+/// Numbers read back as the same bits. OutputError.
 void writeSolution(const std::filesystem::path& file, std::span<const MarkedView> views,
                    const MarksResult& result, std::span<const LeftOut> left_out,
                    std::span<const GeometryWarning> warnings, bool robust);

@@ -54,7 +54,9 @@ std::string solutionText(std::span<const MarkedView> views, const MarksSolution&
                          std::span<const LeftOut> left_out,
                          std::span<const GeometryWarning> warnings) {
   std::string text = markTable(views, solution, left_out).text();
-  text += "(dx, dy: seen minus predicted; of a line, both ends across the edge; !: stands out)\n\n";
+  text +=
+      "(dx, dy: seen minus predicted; of a line, both ends across the edge; !: stands out;\n"
+      "without: how far the middle of the marked places moves, and the pose turns)\n\n";
   text += summaryLine(solution) + "\n";
   for (const GeometryWarning& warning : warnings) text += plainLine("weak: " + warning.text);
   text += "\n" + posesText(views, solution);

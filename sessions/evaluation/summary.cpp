@@ -116,7 +116,8 @@ std::string summaryTable(std::span<const RunResult> results) {
   if (groups.size() > 1) table.add(rowOf(all, ""));
   std::string text =
       table.text() +
-      "errors: mean / std / max over completed runs (max of |normal|); px: projection error\n";
+      "errors: mean / std / max over completed runs (max of |normal|), at the end effector, or at "
+      "the camera\nof a case without one; px: projection error\n";
   if (all.input_errors > 0)
     text += std::to_string(all.input_errors) + " runs could not start: their input was refused\n";
   return text;

@@ -210,6 +210,19 @@ CahvorFile readCahvorFile(const std::filesystem::path& file) {
   return read;
 }
 
+namespace {
+
+/// Nothing where the file's covariance over Hs Hc Vs Vc Theta says nothing.
+std::optional<CalibrationSigma> calibrationSigmaOf(const CahvorFile& file, const Camera& camera) {
+  if (file.internal_covariance.isZero(0.0)) return std::nullopt;
+  const Eigen::VectorXd sigma = file.internal_covariance.diagonal().cwiseSqrt();
+  return CalibrationSigma{
+      std::min(std::max(sigma(0) / camera.fx, sigma(2) / camera.fy), kMaxFocalSigma),
+      std::min(std::max(sigma(1), sigma(3)), kMaxPrincipalPointSigma_px)};
+}
+
+}  // namespace
+
 CameraFile readCahvorCamera(const std::filesystem::path& file) {
   const CahvorFile read = readCahvorFile(file);
   CameraFile made;
@@ -220,6 +233,7 @@ CameraFile readCahvorCamera(const std::filesystem::path& file) {
                      "the camera cannot project with these vectors: A and O must have length 1 and "
                      "lie within 60 deg, H and V must not lie along A or along each other");
   made.reference = reference;
+  made.calibration_sigma = calibrationSigmaOf(read, made.camera);
   return made;
 }
 

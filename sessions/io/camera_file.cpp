@@ -61,6 +61,23 @@ void readDistortion(const JsonReader& json, Camera& camera) {
     camera.distortion[i] = coefficients[i].number();
 }
 
+CameraFile readLensCamera(CameraModel model, const JsonReader& json) {
+  Camera camera;
+  camera.model = model;
+  camera.width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
+  camera.height = static_cast<int>(json.at("height").integer(1, kMaxImageSide_px));
+  camera.fx = json.at("fx").number(kMinFocalLength_px, kMaxFocalLength_px);
+  camera.fy = json.at("fy").number(kMinFocalLength_px, kMaxFocalLength_px);
+  camera.cx = json.at("cx").number(-kMaxPrincipalPoint_px, kMaxPrincipalPoint_px);
+  camera.cy = json.at("cy").number(-kMaxPrincipalPoint_px, kMaxPrincipalPoint_px);
+  readDistortion(json, camera);
+  const Status status = prepareCamera(camera);
+  if (status != Status::kOk)
+    json.fail(std::string("the camera cannot project with these parameters (") +
+              statusText(status) + ")");
+  return {camera};
+}
+
 }  // namespace
 
 const char* cameraModelName(CameraModel model) {
@@ -84,21 +101,11 @@ const char* cameraModelName(CameraModel model) {
 CameraFile readCameraFile(const JsonReader& json) {
   if (json.has("format")) json.requireFormat(kFormat, kVersion);  // a file's content in a dataset
   (void)json.has("fitted_from");  // for people: the camera that this one was fitted to
-  Camera camera;
-  camera.model = readModel(json);
-  if (isCahvFamily(camera.model)) return readCahvCamera(camera.model, json);
-  camera.width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
-  camera.height = static_cast<int>(json.at("height").integer(1, kMaxImageSide_px));
-  camera.fx = json.at("fx").number(kMinFocalLength_px, kMaxFocalLength_px);
-  camera.fy = json.at("fy").number(kMinFocalLength_px, kMaxFocalLength_px);
-  camera.cx = json.at("cx").number(-kMaxPrincipalPoint_px, kMaxPrincipalPoint_px);
-  camera.cy = json.at("cy").number(-kMaxPrincipalPoint_px, kMaxPrincipalPoint_px);
-  readDistortion(json, camera);
-  const Status status = prepareCamera(camera);
-  if (status != Status::kOk)
-    json.fail(std::string("the camera cannot project with these parameters (") +
-              statusText(status) + ")");
-  return {camera, std::nullopt};
+  const CameraModel model = readModel(json);
+  CameraFile file = isCahvFamily(model) ? readCahvCamera(model, json) : readLensCamera(model, json);
+  if (const auto sigma = json.find("calibration_sigma"))
+    file.calibration_sigma = readCalibrationSigma(*sigma);
+  return file;
 }
 
 CameraFile readCameraFile(const std::filesystem::path& file) {
@@ -114,11 +121,14 @@ Camera readCamera(const JsonReader& json) { return readCameraFile(json).camera; 
 Camera readCamera(const std::filesystem::path& file) { return readCameraFile(file).camera; }
 
 nlohmann::ordered_json toJson(const CameraFile& file) {
-  return isCahvFamily(file.camera.model) ? cahvJson(file) : toJson(file.camera);
+  nlohmann::ordered_json json =
+      isCahvFamily(file.camera.model) ? cahvJson(file) : toJson(file.camera);
+  if (file.calibration_sigma) json["calibration_sigma"] = toJson(*file.calibration_sigma);
+  return json;
 }
 
 nlohmann::ordered_json toJson(const Camera& camera) {
-  if (isCahvFamily(camera.model)) return cahvJson({camera, std::nullopt});
+  if (isCahvFamily(camera.model)) return cahvJson({camera});
   nlohmann::ordered_json json;
   json["model"] = cameraModelName(camera.model);
   json["width"] = camera.width;
@@ -140,7 +150,7 @@ nlohmann::ordered_json toJson(const Camera& camera) {
 }
 
 void writeCamera(const std::filesystem::path& file, const Camera& camera) {
-  writeCamera(file, CameraFile{camera, std::nullopt});
+  writeCamera(file, CameraFile{camera});
 }
 
 void writeCamera(const std::filesystem::path& file, const CameraFile& camera) {

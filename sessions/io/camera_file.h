@@ -12,6 +12,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "sessions/io/json_reader.h"
+#include "sessions/io/stated_sigmas.h"
 
 namespace boresight::sessions {
 
@@ -44,7 +45,8 @@ struct CameraReference {
 /// A camera in its own frame and, of the CAHV family, where that is.
 struct CameraFile {
   Camera camera;
-  std::optional<CameraReference> reference;
+  std::optional<CameraReference> reference = std::nullopt;
+  std::optional<CalibrationSigma> calibration_sigma = std::nullopt;  ///< where the file states it
 };
 
 /// Reads camera.json (`boresight-camera`, version 1): pinhole, brown_conrady with 4, 5 or 8

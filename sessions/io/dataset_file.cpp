@@ -89,6 +89,8 @@ Station readStation(const std::string& id, const JsonReader& json, Dataset& data
   station.parts = readParts(json, dataset);
   if (const auto size = json.find("feature_size_m"))
     station.feature_size_m = size->number(1e-6, kMaxFeatureSize_m);
+  if (const auto sigma = json.find("mesh_scale_sigma"))
+    station.mesh_scale_sigma = readMeshScaleSigma(*sigma);
   if (const auto uncertainty = json.find("uncertainty"))
     station.uncertainty = readUncertainty(*uncertainty);
   if (const auto transform = json.find("camera_from_end_effector"))
@@ -125,6 +127,7 @@ void readPoses(const JsonReader& json, Case& one, Dataset& dataset) {
     const PoseFile truth = read(*given);
     one.truth_camera_from_station = truth.camera_from_station;
     one.truth_frame = truth.station_frame;
+    one.truth_covariance = truth.covariance;
   }
   if (const auto rig = json.find("rig"))
     one.rig =
@@ -147,6 +150,7 @@ void readOverrides(const JsonReader& json, const Station& station, Case& one, Da
 void addCamera(const std::string& id, const CameraFile& camera, Dataset& dataset) {
   dataset.cameras.emplace(id, camera.camera);
   if (camera.reference) dataset.camera_references.emplace(id, *camera.reference);
+  if (camera.calibration_sigma) dataset.calibration_sigmas.emplace(id, *camera.calibration_sigma);
 }
 
 /// One of the data set's cameras, or that of the image's own label.

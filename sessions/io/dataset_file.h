@@ -13,6 +13,7 @@
 #include "sessions/io/json_reader.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/io/scene_mesh.h"
+#include "sessions/io/stated_sigmas.h"
 #include "sessions/io/symmetries.h"
 
 namespace boresight::sessions {
@@ -31,6 +32,7 @@ struct Station {
   std::string id;
   std::vector<PartSource> parts;  ///< at least one
   std::optional<double> feature_size_m;
+  std::optional<double> mesh_scale_sigma;  ///< relative, one sigma
   std::optional<DeclaredUncertainty> uncertainty;
   std::optional<Pose> camera_from_end_effector;
   Symmetries symmetries;  ///< poses that differ by one of them count as the same
@@ -63,6 +65,7 @@ struct Case {
   std::optional<Pose> truth_camera_from_station;
   /// Of a truth that was given in a named frame.
   std::optional<StationFrame> truth_frame = std::nullopt;
+  std::optional<Matrix6d> truth_covariance = std::nullopt;  ///< nothing: it is exact
   std::optional<Rig> rig;
   std::vector<std::string> tags;
   /// What holds for the case: its own, else its seed's (uncertainty), its station's or the
@@ -82,7 +85,8 @@ struct Dataset {
   std::optional<Requirement> requirement;
   std::map<std::string, Station> stations;
   std::map<std::string, Camera> cameras;
-  std::map<std::string, CameraReference> camera_references;  ///< of those that have one
+  std::map<std::string, CameraReference> camera_references;    ///< of those that have one
+  std::map<std::string, CalibrationSigma> calibration_sigmas;  ///< of those that state one
   std::vector<FrameTransform> transforms;  ///< between frames of camera models and of poses
   std::vector<Case> cases;
   std::vector<std::string> notes;  ///< e.g. matrices that were projected to rotations

@@ -15,6 +15,7 @@ constexpr int kVersion = 1;
 constexpr double kLastRowTolerance = 1e-9;
 constexpr double kNotedDeviation = 1e-6;
 constexpr double kMaxTranslation_m = 1e6;
+constexpr double kMostAsymmetry = 1e-6;  ///< of a covariance, of its diagonal
 
 }  // namespace
 
@@ -39,6 +40,27 @@ Pose readTransform(const JsonReader& json, double* rotation_deviation) {
   }
   if (rotation_deviation != nullptr) *rotation_deviation = deviation;
   return pose;
+}
+
+Matrix6d readMatrix6(const JsonReader& json) {
+  Matrix6d matrix;
+  const auto rows = json.elements(6);
+  for (int row = 0; row < 6; ++row) {
+    const auto numbers = rows[static_cast<std::size_t>(row)].elements(6);
+    for (int column = 0; column < 6; ++column)
+      matrix(row, column) = numbers[static_cast<std::size_t>(column)].number();
+  }
+  return matrix;
+}
+
+Matrix6d readCovariance(const JsonReader& json) {
+  const Matrix6d matrix = readMatrix6(json);
+  const Vector6d sigma = matrix.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Matrix6d asymmetry = matrix - matrix.transpose();
+  const Matrix6d allowed = kMostAsymmetry * sigma * sigma.transpose();
+  if (matrix.diagonal().minCoeff() < 0.0 || (asymmetry.cwiseAbs() - allowed).maxCoeff() > 0.0)
+    json.fail("not a covariance: not symmetric, or below 0 on its diagonal");
+  return matrix;
 }
 
 DeclaredUncertainty readUncertainty(const JsonReader& json) {
@@ -93,6 +115,8 @@ PoseFile readPose(const JsonReader& json, const PoseFrames& frames) {
   }
   if (const auto uncertainty = json.find("uncertainty"))
     pose.uncertainty = readUncertainty(*uncertainty);
+  if (const auto covariance = json.find("covariance"))
+    pose.covariance = readCovariance(*covariance);
   return pose;
 }
 
@@ -129,12 +153,14 @@ nlohmann::ordered_json toJson(const DeclaredUncertainty& uncertainty) {
 }
 
 void writePose(const std::filesystem::path& file, const Pose& camera_from_station,
-               const std::optional<DeclaredUncertainty>& uncertainty) {
+               const std::optional<DeclaredUncertainty>& uncertainty,
+               const std::optional<Matrix6d>& covariance) {
   nlohmann::ordered_json json;
   json["format"] = kFormat;
   json["version"] = kVersion;
   json["camera_from_station"] = toJson(camera_from_station);
   if (uncertainty) json["uncertainty"] = toJson(*uncertainty);
+  if (covariance) json["covariance"] = toJson(*covariance);
   writeJsonFile(file, json);
 }
 

@@ -32,6 +32,8 @@ struct PoseFile {
   /// |R'R - I| (Frobenius) of the matrix in the file, before it was projected to a rotation.
   double rotation_deviation = 0.0;
   std::optional<DeclaredUncertainty> uncertainty;
+  /// Over (rotation rad, translation m), left perturbation, camera frame; nothing: not stated.
+  std::optional<Matrix6d> covariance = std::nullopt;
   /// Of a pose that was given as `reference_from_station`.
   std::optional<StationFrame> station_frame = std::nullopt;
 };
@@ -57,6 +59,11 @@ PoseFile readPose(const JsonReader& json, const PoseFrames& frames = {});
 /// `rotation_deviation` may be nullptr.
 Pose readTransform(const JsonReader& json, double* rotation_deviation = nullptr);
 
+/// Six rows of six numbers. InputError.
+Matrix6d readMatrix6(const JsonReader& json);
+/// The same, symmetric and nowhere below 0 on its diagonal. InputError.
+Matrix6d readCovariance(const JsonReader& json);
+
 /// Translations 0 .. 1000 m, rotations 0 .. 180 deg; `pivot` is "camera" where it is not given.
 DeclaredUncertainty readUncertainty(const JsonReader& json);
 
@@ -73,6 +80,7 @@ SeedUncertainty seedUncertainty(const DeclaredUncertainty& declared,
 nlohmann::ordered_json toJson(const DeclaredUncertainty& uncertainty);
 /// Writes pose.json; OutputError.
 void writePose(const std::filesystem::path& file, const Pose& camera_from_station,
-               const std::optional<DeclaredUncertainty>& uncertainty = std::nullopt);
+               const std::optional<DeclaredUncertainty>& uncertainty = std::nullopt,
+               const std::optional<Matrix6d>& covariance = std::nullopt);
 
 }  // namespace boresight::sessions

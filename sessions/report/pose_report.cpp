@@ -21,6 +21,7 @@
 #include "sessions/review/measured_pose.h"
 #include "sessions/review/standing.h"
 #include "sessions/session/frame_lines.h"
+#include "sessions/session/input_sigmas.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/version.h"
 
@@ -137,10 +138,14 @@ double drawPose(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
   row("rotation vector", vectorText(rotationLog(pose.rotation) / kDegree_rad, "deg", "%.5f"));
   row("quaternion wxyz", quaternionText(pose));
   const auto& end_effector = caseOf(report).camera_from_end_effector;
-  if (const auto sigma = poseSigma(report.pose.covariance, end_effector)) {
+  if (const auto sigma = poseSigma(report.pose.covariance.total(), end_effector)) {
     row("1 sigma", formatted("normal %.4f mm, lateral %.4f mm, axis %.4f mrad", sigma->normal_mm,
                              sigma->lateral_mm, sigma->out_of_plane_mrad));
     row("1 sigma of", end_effector ? "the end effector's origin" : "the camera's centre");
+    if (const auto picture = poseSigma(report.pose.covariance.picture, end_effector))
+      row("picture alone", formatted("normal %.4f mm, lateral %.4f mm, axis %.4f mrad",
+                                     picture->normal_mm, picture->lateral_mm,
+                                     picture->out_of_plane_mrad));
   } else {
     row("1 sigma", "not known");
   }
@@ -181,7 +186,7 @@ double drawEndEffector(PdfCanvas& canvas, PdfBox box, const PoseReport& report) 
   if (!one.camera_from_end_effector) return box.y;
   const EndEffectorPose made =
       endEffectorPose(one.camera_from_station_seed, report.pose.camera_from_station,
-                      *one.camera_from_end_effector, report.pose.covariance);
+                      *one.camera_from_end_effector, report.pose.covariance.total());
   const Pose& correction = made.end_effector_seed_from_end_effector_estimated;
   box.y = drawHeading(canvas, box.x, box.y, box.width, "Correction to what was commanded");
   box.y +=
@@ -191,7 +196,7 @@ double drawEndEffector(PdfCanvas& canvas, PdfBox box, const PoseReport& report) 
   };
   row("translation", vectorText(1e3 * correction.translation_m, "mm", "%.4f"));
   row("rotation vector", vectorText(rotationLog(correction.rotation) / kDegree_rad, "deg", "%.5f"));
-  if (!report.pose.covariance.isZero()) {
+  if (report.pose.covariance.known()) {
     const Vector6d sigma = made.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
     row("1 sigma", vectorText(1e3 * sigma.tail<3>(), "mm", "%.4f"));
     row("", vectorText(1e3 * sigma.head<3>(), "mrad", "%.4f"));
@@ -220,6 +225,8 @@ double drawInputs(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
     row("mesh", part.source.mesh.filename().string() + " in " +
                     (part.source.mesh_unit.empty() ? "its own unit" : part.source.mesh_unit) +
                     ", " + part.sha256.substr(0, 16));
+  const InputSigmas sigmas(one);
+  row("known to", "scale " + meshScaleText(sigmas) + "; calibration " + calibrationText(sigmas));
   if (one.ignore || !one.ignore_strokes.empty()) row("ignored pixels", "a mask");
   row("seed", vectorText(1e3 * one.camera_from_station_seed.translation_m, "mm", "%.1f"));
   if (report.trace) {

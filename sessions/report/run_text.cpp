@@ -26,11 +26,14 @@ namespace {
 double toDegrees(double angle_rad) { return angle_rad / kDegree_rad; }
 double toMillimetres(double length_m) { return length_m * 1e3; }
 
-std::string sigmaText(const Matrix6d& covariance) {
+/// `place` has the origin and the axes.
+std::string sigmaText(const Matrix6d& covariance, const char* place) {
   const auto sigma = [&](int i) { return std::sqrt(std::max(0.0, covariance(i, i))); };
-  return format("1 sigma (camera axes x y z): %.4f %.4f %.4f mm, %.4f %.4f %.4f mrad\n",
-                toMillimetres(sigma(3)), toMillimetres(sigma(4)), toMillimetres(sigma(5)),
-                1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2));
+  return format(
+      "1 sigma at the %s, along and about its x y z: %.4f %.4f %.4f mm, %.4f %.4f %.4f "
+      "mrad\n",
+      place, toMillimetres(sigma(3)), toMillimetres(sigma(4)), toMillimetres(sigma(5)),
+      1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2));
 }
 
 bool wentOnFromRestarts(const LocalizationTrace& trace) {
@@ -216,8 +219,8 @@ std::string convergedText(const RunSnapshot& snapshot) {
     text += format(" The best of the poses that look alike has %.0f nats less evidence.",
                    rival->margin_nats);
   return text + format(
-                    " 1 sigma along x, y, z of the camera: %.3f, %.3f, %.3f mm; about them: "
-                    "%.3f, %.3f, %.3f mrad.",
+                    " 1 sigma by the picture alone, at the camera, along its x, y, z: %.3f, %.3f, "
+                    "%.3f mm; about them: %.3f, %.3f, %.3f mrad.",
                     toMillimetres(sigma(3)), toMillimetres(sigma(4)), toMillimetres(sigma(5)),
                     1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2));
 }
@@ -299,7 +302,8 @@ std::string poseText(const Pose& pose, const Matrix6d& covariance, const std::st
   text += format("rotation vector %.5f %.5f %.5f deg; quaternion wxyz %.9f %.9f %.9f %.9f\n",
                  toDegrees(rotation_rad.x()), toDegrees(rotation_rad.y()),
                  toDegrees(rotation_rad.z()), q.w(), q.x(), q.y(), q.z());
-  if (!covariance.isZero(0.0)) text += sigmaText(covariance);
+  if (!covariance.isZero(0.0))
+    text += sigmaText(covariance, name.starts_with("rig") ? "rig's origin" : "camera");
   return text;
 }
 

@@ -21,14 +21,12 @@ struct CheckLimits {
   double border_percent = 40.0;
   double peak_margin_percent = 2.0;
   double sigmas = 3.0;
-  double focal_sigma_px = 0.0;
-  double centre_sigma_px = 0.0;
   double coverage_percent = 30.0;
   double clutter_percent = 95.0;
   double explained_percent = 40.0;
   double fall_off_percent = 15.0;
-  double focal_percent = 1.0;
-  double centre_px = 10.0;
+  double focal_percent = 0.6;
+  double centre_px = 4.0;
   double agreement_percent = 100.0;
   double basin_percent = 90.0;
   double rival_percent = 115.0;
@@ -74,15 +72,6 @@ struct CheckLimits {
     visit(OptionInfo{"check.sigmas", "", 0.0, 100.0,
                      "So many standard deviations of the pose must fit into the requirement."},
           self.sigmas);
-    visit(OptionInfo{"check.focal_sigma_px", "px", 0.0, 1000.0,
-                     "Standard deviation of the calibrated focal length; 0: not known, and left "
-                     "out of the pose's."},
-          self.focal_sigma_px);
-    visit(
-        OptionInfo{"check.centre_sigma_px", "px", 0.0, 1000.0,
-                   "Standard deviation of the calibrated principal point, per axis; 0: not known, "
-                   "and left out."},
-        self.centre_sigma_px);
   }
   template <class Self, class Visitor>
   static void edgeFields(Self& self, Visitor&& visit) {
@@ -102,13 +91,13 @@ struct CheckLimits {
           self.fall_off_percent);
     visit(OptionInfo{"check.focal_percent", "%", 0.0, 100.0,
                      "Most that the focal length may change, beyond chance, when the edges may "
-                     "choose it; and most that they may leave open where the calibration is not "
-                     "known."},
+                     "choose it; and most that they may leave open where no calibration_sigma is "
+                     "stated."},
           self.focal_percent);
     visit(OptionInfo{"check.centre_px", "px", 0.0, 10000.0,
                      "Most that the principal point may move, beyond chance, when the edges may "
-                     "choose it; and most that they may leave open where the calibration is not "
-                     "known."},
+                     "choose it; and most that they may leave open where no calibration_sigma is "
+                     "stated."},
           self.centre_px);
   }
   template <class Self, class Visitor>

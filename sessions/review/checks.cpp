@@ -19,7 +19,7 @@ std::vector<Check> checkPose(const ReviewSubject& subject, const CheckLimits& li
     edges = predictEdges(subject.loaded->source.camera, subject.loaded->scene.view(),
                          subject.camera_from_station);
   addRunChecks(subject, limits, checks);
-  addPrecisionChecks(subject, limits, edges, checks);
+  addPrecisionChecks(subject, limits, checks);
   addEdgeChecks(subject, limits, edges, checks);
   addBasinChecks(basin, limits, checks);
   addAgreementChecks(subject, limits, checks);

@@ -9,6 +9,7 @@
 #include "sessions/review/camera_fit.h"
 #include "sessions/review/check_making.h"
 #include "sessions/review/edge_evidence.h"
+#include "sessions/session/input_sigmas.h"
 
 namespace boresight::sessions {
 namespace {
@@ -25,8 +26,8 @@ constexpr const char* kCameraRemedy =
     "of this focus setting and image size, and that the mesh is this station's.";
 
 constexpr const char* kUndecidedRemedy =
-    "The image cannot vouch for the camera: state how well it is calibrated (check.focal_sigma_px, "
-    "check.centre_sigma_px), or use a nearer image.";
+    "The image cannot confirm the camera: state how well it is calibrated (calibration_sigma), or "
+    "use a nearer image.";
 
 Check coverageCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
   const double seen = evidence.coverage.value();
@@ -81,30 +82,30 @@ Check fallOffCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
 struct AskedChange {
   double change = 0.0;
   double sigma = 0.0;
-  double calibrated_sigma = 0.0;  ///< 0: not known
+  double calibrated_sigma = 0.0;
+  bool stated = false;  ///< that sigma; else it is assumed
   std::string unit;
 };
 
-/// What exceeds chance. Where nothing is known of the calibration the image must vouch for it: then
+/// What exceeds chance. Where nothing is stated of the calibration the image must confirm it: then
 /// what the image cannot exclude counts as well.
 double unexplained(const AskedChange& asked, double sigmas) {
   const double chance = sigmas * std::hypot(asked.sigma, asked.calibrated_sigma);
   const double beyond = std::max(0.0, std::abs(asked.change) - chance);
-  return asked.calibrated_sigma > 0.0 ? beyond : std::max(beyond, sigmas * asked.sigma);
+  return asked.stated ? beyond : std::max(beyond, sigmas * asked.sigma);
 }
 
 Check cameraCheck(const CheckName& name, const std::string& what, const AskedChange& asked,
                   double limit, double sigmas) {
   const double figure = unexplained(asked, sigmas);
-  const bool known = asked.calibrated_sigma > 0.0;
-  const bool undecided = !known && std::abs(asked.change) <= limit + sigmas * asked.sigma;
+  const bool undecided = !asked.stated && std::abs(asked.change) <= limit + sigmas * asked.sigma;
   return measuredCheck(name, asked.unit, figure, limit, LimitSide::kAtMost,
                        "Left free, the " + what + sentenceNumber(asked.change) + " " + asked.unit +
                            " (one sigma " + sentenceNumber(asked.sigma) + " " + asked.unit + ").",
                        undecided ? kUndecidedRemedy : kCameraRemedy);
 }
 
-void addCameraChecks(const std::optional<CameraFit>& fit, const Camera& camera,
+void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& one,
                      const CheckLimits& limits, std::vector<Check>& checks) {
   if (!fit) {
     const char* why = "The edges do not determine the camera together with the pose.";
@@ -112,14 +113,18 @@ void addCameraChecks(const std::optional<CameraFit>& fit, const Camera& camera,
     checks.push_back(notAskedCheck(kCentre, why));
     return;
   }
-  const double percent = 100.0 / camera.fx;
-  checks.push_back(cameraCheck(kFocal, "focal length changes by ",
-                               {percent * fit->focal_px, percent * fit->focal_sigma_px,
-                                percent * limits.focal_sigma_px, "%"},
-                               limits.focal_percent, limits.sigmas));
-  checks.push_back(cameraCheck(kCentre, "principal point moves by ",
-                               {fit->centre_px, fit->centre_sigma_px, limits.centre_sigma_px, "px"},
-                               limits.centre_px, limits.sigmas));
+  const double percent = 100.0 / one.camera.fx;
+  const InputSigmas known(one);
+  checks.push_back(
+      cameraCheck(kFocal, "focal length changes by ",
+                  {percent * fit->focal_px, percent * fit->focal_sigma_px,
+                   100.0 * known.calibration.focal_relative, known.calibration_stated, "%"},
+                  limits.focal_percent, limits.sigmas));
+  checks.push_back(
+      cameraCheck(kCentre, "principal point moves by ",
+                  {fit->centre_px, fit->centre_sigma_px, known.calibration.principal_point_px,
+                   known.calibration_stated, "px"},
+                  limits.centre_px, limits.sigmas));
 }
 
 /// A requirement in pixels says nothing of millimetres, and a wrong camera hardly moves the image.
@@ -170,7 +175,7 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
   checks.push_back(fallOffCheck(evidence, limits));
   if (asksForMetric(subject.requirement)) {
     addCameraChecks(fitCamera(looked, loaded.source.camera, subject.camera_from_station),
-                    loaded.source.camera, limits, checks);
+                    loaded.source, limits, checks);
     return;
   }
   for (const CheckName& name : {kFocal, kCentre})

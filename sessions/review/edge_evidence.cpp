@@ -16,7 +16,7 @@ constexpr double kShareOfSlope = 0.5;
 /// Which predicted place is nearest to a pixel of a region, within kExplained_px.
 class NearestPlace {
  public:
-  NearestPlace(const ImageRegion& region, const std::vector<PredictedPlace>& places)
+  NearestPlace(const ImageRegion& region, const std::vector<EdgePlace>& places)
       : region_(region),
         nearest_(
             static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height()),
@@ -32,7 +32,7 @@ class NearestPlace {
            static_cast<std::size_t>(x - region_.x_min);
   }
 
-  void spread(std::int32_t index, const std::vector<PredictedPlace>& places) {
+  void spread(std::int32_t index, const std::vector<EdgePlace>& places) {
     const Eigen::Vector2d& pixel = places[static_cast<std::size_t>(index)].pixel;
     const int reach = static_cast<int>(std::ceil(kExplained_px));
     const int x0 = static_cast<int>(std::lround(pixel.x()));
@@ -67,11 +67,11 @@ double clutterSlope(const std::vector<LookedPlace>& looked, const EvidenceSettin
 
 }  // namespace
 
-std::vector<LookedPlace> lookAt(const ImageEdges& image, const std::vector<PredictedPlace>& places,
+std::vector<LookedPlace> lookAt(const ImageEdges& image, const std::vector<EdgePlace>& places,
                                 const EvidenceSettings& settings) {
   std::vector<LookedPlace> looked;
   looked.reserve(places.size());
-  for (const PredictedPlace& place : places) {
+  for (const EdgePlace& place : places) {
     if (!image.canLook(place.pixel, settings.radius_px)) continue;
     looked.push_back(
         {place, image.across(place.pixel, place.normal, settings.radius_px, settings.least_slope)});
@@ -126,7 +126,7 @@ ImageRegion regionOf(const PredictedEdges& edges, const EvidenceSettings& settin
   if (edges.places.empty()) return {};
   Eigen::Vector2d least = edges.places.front().pixel;
   Eigen::Vector2d most = least;
-  for (const PredictedPlace& place : edges.places) {
+  for (const EdgePlace& place : edges.places) {
     least = least.cwiseMin(place.pixel);
     most = most.cwiseMax(place.pixel);
   }

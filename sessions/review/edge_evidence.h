@@ -47,12 +47,12 @@ struct EdgeEvidence {
 
 /// One place and what was found there.
 struct LookedPlace {
-  PredictedPlace place;
+  EdgePlace place;
   std::optional<FoundEdge> found;
 };
 
 /// Places that can be looked at, in their order, with what the image shows across them.
-std::vector<LookedPlace> lookAt(const ImageEdges& image, const std::vector<PredictedPlace>& places,
+std::vector<LookedPlace> lookAt(const ImageEdges& image, const std::vector<EdgePlace>& places,
                                 const EvidenceSettings& settings);
 Share coverageOf(const std::vector<LookedPlace>& looked, double near_px);
 
@@ -68,7 +68,7 @@ Share clutterOf(const ImageEdges& image, const PredictedEdges& edges,
 /// The region in which a pose's edges are looked for, displaced ones as well.
 ImageRegion regionOf(const PredictedEdges& edges, const EvidenceSettings& settings);
 
-std::vector<FallOff> fallOffOf(const ImageEdges& image, const std::vector<PredictedPlace>& places,
+std::vector<FallOff> fallOffOf(const ImageEdges& image, const std::vector<EdgePlace>& places,
                                const Camera& camera, const Pose& camera_from_station,
                                const EvidenceSettings& settings);
 

@@ -23,10 +23,9 @@ struct Motion {
   Matrix6d across = Matrix6d::Zero();  ///< mean of that along the edges' normals alone
 };
 
-Eigen::Vector3d middleOf(const std::vector<PredictedPlace>& places,
-                         const Pose& camera_from_station) {
+Eigen::Vector3d middleOf(const std::vector<EdgePlace>& places, const Pose& camera_from_station) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const PredictedPlace& place : places) sum += camera_from_station * place.point_in_station_m;
+  for (const EdgePlace& place : places) sum += camera_from_station * place.point_in_station_m;
   return sum / static_cast<double>(places.size());
 }
 
@@ -37,14 +36,14 @@ Vector6d aboutCamera(const Vector6d& xi, const Eigen::Vector3d& middle_m) {
   return made;
 }
 
-Motion motionOf(const std::vector<PredictedPlace>& places, const Camera& camera,
+Motion motionOf(const std::vector<EdgePlace>& places, const Camera& camera,
                 const Pose& camera_from_station, const Eigen::Vector3d& middle_m) {
   Matrix6d shift = Matrix6d::Identity();  // d (about the camera) / d (about the middle)
   for (int i = 0; i < 3; ++i)
     shift.block<3, 1>(3, i) = middle_m.cross(Eigen::Vector3d(Eigen::Vector3d::Unit(i)));
   Motion motion;
   double count = 0.0;
-  for (const PredictedPlace& place : places) {
+  for (const EdgePlace& place : places) {
     PlaceDerivative by;
     if (!placeDerivative(camera, camera_from_station, place.point_in_station_m, by)) continue;
     const Eigen::Matrix<double, 2, 6> rows = by.by_pose * shift;
@@ -70,12 +69,11 @@ Vector6d leastDetermined(const Motion& motion) {
 }
 
 /// The places as a displaced pose predicts them; which are hidden is left as it was.
-std::vector<PredictedPlace> displacedPlaces(const std::vector<PredictedPlace>& places,
-                                            const Camera& camera,
-                                            const Pose& displaced_camera_from_station) {
-  std::vector<PredictedPlace> moved;
+std::vector<EdgePlace> displacedPlaces(const std::vector<EdgePlace>& places, const Camera& camera,
+                                       const Pose& displaced_camera_from_station) {
+  std::vector<EdgePlace> moved;
   moved.reserve(places.size());
-  for (PredictedPlace place : places) {
+  for (EdgePlace place : places) {
     Eigen::Vector2d pixel;
     if (!project(camera, displaced_camera_from_station * place.point_in_station_m, pixel)) continue;
     place.pixel = pixel;
@@ -94,7 +92,7 @@ std::string mainlyText(const Vector6d& xi, const Motion& motion) {
 
 }  // namespace
 
-std::vector<FallOff> fallOffOf(const ImageEdges& image, const std::vector<PredictedPlace>& places,
+std::vector<FallOff> fallOffOf(const ImageEdges& image, const std::vector<EdgePlace>& places,
                                const Camera& camera, const Pose& camera_from_station,
                                const EvidenceSettings& settings) {
   std::vector<FallOff> all;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/review/grounds.h"
 
+#include <set>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 
 #include "sessions/annotation/marks_file.h"
 #include "sessions/io/file_bytes.h"
+#include "sessions/io/json_writer.h"
 #include "sessions/session/case_json.h"
 #include "sessions/session/decision_json.h"
 #include "sessions/session/rig_links.h"
@@ -25,6 +27,19 @@ std::string sha256Of(const ordered_json& json) { return sha256Of(json.dump()); }
 
 ordered_json poseJson(const std::optional<Pose>& pose) {
   return pose ? exactPoseJson(*pose) : ordered_json();
+}
+
+ordered_json truthJson(const SessionCase& one) {
+  ordered_json json = poseJson(one.camera_from_station_truth);
+  if (one.truth_covariance) json["covariance"] = toJson(*one.truth_covariance);
+  return json;
+}
+
+ordered_json inputSigmasJson(const SessionCase& one) {
+  ordered_json json = ordered_json::object();
+  if (one.mesh_scale_sigma) json["mesh_scale"] = *one.mesh_scale_sigma;
+  if (one.calibration_sigma) json["calibration"] = toJson(*one.calibration_sigma);
+  return json;
 }
 
 ordered_json marksJson(const Session& session, const std::string& case_id) {
@@ -61,6 +76,7 @@ const char* groundText(const std::string& name) {
       {"run", "the run"},
       {"marks", "the marks"},
       {"truth", "the truth"},
+      {"input_sigmas", "the stated sigmas of mesh and camera"},
       {"requirement", "the requirement"},
       {"end_effector", "the end effector"},
       {"rig", "the rig"},
@@ -87,7 +103,8 @@ std::map<std::string, std::string> judgedGrounds(const Session& session, const s
   std::map<std::string, std::string> grounds;
   grounds["inputs"] = inputsDigest(*one);
   grounds["marks"] = sha256Of(marksJson(session, case_id));
-  grounds["truth"] = sha256Of(poseJson(one->camera_from_station_truth));
+  grounds["truth"] = sha256Of(truthJson(*one));
+  grounds["input_sigmas"] = sha256Of(inputSigmasJson(*one));
   grounds["requirement"] = sha256Of(one->requirement ? toJson(*one->requirement) : ordered_json());
   grounds["end_effector"] = sha256Of(poseJson(one->camera_from_end_effector));
   grounds["rig"] = sha256Of(rigJson(session, *one));
@@ -113,7 +130,7 @@ std::string changedGroundsText(const std::map<std::string, std::string>& before,
   if (changed.empty()) return "";
   const auto plural = [](const std::string& text) {
     return text.starts_with("the marks") || text.starts_with("the limits") ||
-           text.starts_with("the runs");
+           text.starts_with("the runs") || text.starts_with("the stated sigmas");
   };
   const bool one_thing = changed.size() == 1 && !plural(changed.front());
   return listText(changed) + (one_thing ? " has changed" : " have changed");

@@ -24,15 +24,14 @@ void takeRun(const SessionCase& one, const RunRecord& run, HandedPose& pose) {
   const LocalizationTrace trace = loadRun(run);
   pose.source = PoseSource::kRun;
   pose.camera_from_station = trace.camera_from_station;
-  pose.covariance = trace.covariance;
   pose.run_digest = run.digest;
   pose.score = trace.support.share();
   pose.seconds = trace.seconds.total();
 }
 
 void takeMarks(const Session& session, const SessionCase& one, HandedPose& pose) {
-  const CaseMarks marks = caseMarks(session, one.id);
-  const CaseMarksSolution solved = solveCaseMarks(marks, marksGuess(one), {}, false);
+  const CaseMarksSolution solved =
+      solveCaseMarks(caseMarks(session, one.id), marksGuess(one), {}, false);
   const auto camera_from_station = solved.camera_from_station();
   if (!camera_from_station)
     throw InputError("session", "cases",
@@ -40,18 +39,14 @@ void takeMarks(const Session& session, const SessionCase& one, HandedPose& pose)
                          solved.result.reason);
   pose.source = PoseSource::kAnnotation;
   pose.camera_from_station = *camera_from_station;
-  pose.covariance = cameraCovariance(*solved.result.solution, marks.views.front());
 }
 
 /// What was decided on, which is what its source gives.
 void takeDecision(const Decision& decision, HandedPose& pose) {
   const Pose camera_from_station = pose.camera_from_station;
-  const Matrix6d covariance = pose.covariance;
   pose.camera_from_station = decision.pose->camera_from_station;
   pose.covariance = decision.pose->covariance;
-  std::string difference = poseDifference(pose, camera_from_station);
-  if (difference.empty()) difference = covarianceDifference(pose, covariance);
-  requireAsMeasured(pose.case_id, difference);
+  requireAsMeasured(pose.case_id, poseDifference(pose, camera_from_station));
   pose.score = 1.0;
   pose.checks = decision.checks;
 }

@@ -13,8 +13,8 @@ struct HandedPose {
   std::string case_id;
   PoseSource source = PoseSource::kRun;
   Pose camera_from_station;
-  Matrix6d covariance = Matrix6d::Zero();  ///< left perturbation, camera frame; zero: none
-  std::string run_digest;                  ///< empty: the pose is the marks'
+  PoseCovariance covariance;
+  std::string run_digest;  ///< empty: the pose is the marks'
   bool validated = false;
   std::string standing;   ///< standingText: who validated it, or NOT VALIDATED and why
   double score = 1.0;     ///< 1 of a decided or annotated one, else the edge support of its run
@@ -22,9 +22,9 @@ struct HandedPose {
   std::vector<JudgedCheck> checks;  ///< as they were judged; none without a decision that holds
 };
 
-/// The pose of a decision that holds, else that of the last run if it converged, else the marks'.
-/// InputError when there is none, a run's trace cannot be read, or the decision states another pose
-/// or covariance than its run's trace (or the marks).
+/// The pose of a decision that holds, else that of the last run if it converged, else the marks';
+/// without covariance and checks where nobody decided. InputError when there is none, a run's trace
+/// cannot be read, or the decision states another pose than its run's trace (or the marks).
 HandedPose handedPose(const Session& session, const std::string& case_id);
 
 /// The same for several cases (all of them when none is named), in the order of the session; those

@@ -46,7 +46,7 @@ Session sessionOfCase(const Session& session, const std::string& case_id,
 /// What of a stated pose is not as measured, as a sentence; "" when nothing. A run's pose and
 /// covariance agree to the last bits; those of marks, and figures of checks, to 1e-6 of their size.
 std::string poseDifference(const HandedPose& stated, const Pose& measured);
-std::string covarianceDifference(const HandedPose& stated, const Matrix6d& measured);
+std::string covarianceDifference(const HandedPose& stated, const PoseCovariance& measured);
 /// `with_basin` false leaves the checks of the convergence test out.
 std::string checksDifference(const HandedPose& stated, const std::vector<Check>& measured,
                              bool with_basin);

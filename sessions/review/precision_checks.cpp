@@ -8,8 +8,8 @@
 #include <string>
 
 #include "sessions/evaluation/pose_sigma.h"
-#include "sessions/review/calibration_share.h"
 #include "sessions/review/check_making.h"
+#include "sessions/session/input_sigmas.h"
 
 namespace boresight::sessions {
 namespace {
@@ -21,19 +21,17 @@ constexpr CheckName kProjection{"covariance_projection", "Covariance in the imag
 
 constexpr const char* kNotRequired = "The requirement does not name it.";
 constexpr const char* kNoCovariance = "The pose has no covariance.";
-constexpr const char* kRemedy =
+constexpr const char* kPictureRemedy =
     "The edges seen do not fix the pose so well: take a nearer image, or one that shows more of "
     "the station.";
-constexpr const char* kCalibrationRemedy =
-    "Without the calibration's share it would pass: calibrate the camera better.";
-/// So many places give the sums to a percent.
-constexpr std::size_t kPlaces = 4000;
+constexpr const char* kInputsRemedy =
+    "The picture alone would pass: measure the part, calibrate the camera, and state how well "
+    "(mesh_scale_sigma, calibration_sigma); or take a nearer image.";
 
-/// One sigma of what is judged, of the matching alone and with the calibration.
+/// One sigma of what is judged, of the picture alone and with mesh and camera.
 struct Sigmas {
-  double alone = 0.0;
-  double with_calibration = 0.0;
-  bool calibration_known = false;
+  double picture = 0.0;
+  double total = 0.0;
 };
 
 /// "3", "2.5".
@@ -45,74 +43,41 @@ std::string sigmasText(double sigmas) {
   return text;
 }
 
-std::string shareText(const Sigmas& sigma, const CheckLimits& limits, const std::string& unit) {
-  if (!sigma.calibration_known) return " The calibration's share is not known and left out.";
-  const double share = std::sqrt(
-      std::max(0.0, sigma.with_calibration * sigma.with_calibration - sigma.alone * sigma.alone));
-  return " The calibration's share of it is " + sentenceNumber(limits.sigmas * share) + " " + unit +
-         ".";
-}
-
-Check sigmaCheck(const CheckName& name, const std::optional<Sigmas>& sigma,
-                 std::optional<double> required, const std::string& unit,
-                 const CheckLimits& limits) {
-  if (!required) return notAskedCheck(name, kNotRequired);
-  if (!sigma) return notAskedCheck(name, kNoCovariance);
-  const double figure = limits.sigmas * sigma->with_calibration;
-  const bool calibration_only = limits.sigmas * sigma->alone <= *required;
-  return measuredCheck(name, unit, figure, *required, LimitSide::kAtMost,
-                       sigmasText(limits.sigmas) + " sigma are " + sentenceNumber(figure) + " " +
-                           unit + "." + shareText(*sigma, limits, unit),
-                       calibration_only ? kCalibrationRemedy : kRemedy);
-}
-
-/// Root of the mean variance of a place's two coordinates together, px.
-std::optional<double> projectionSigma(const ReviewSubject& subject,
-                                      const std::vector<PredictedPlace>& places,
-                                      const Matrix6d& covariance) {
-  double variance = 0.0;
-  double seen = 0.0;
-  for (const PredictedPlace& place : places) {
-    PlaceDerivative by;
-    if (!placeDerivative(subject.loaded->source.camera, subject.camera_from_station,
-                         place.point_in_station_m, by))
-      continue;
-    variance += (by.by_pose * covariance * by.by_pose.transpose()).trace();
-    seen += 1.0;
-  }
-  if (seen == 0.0 || !(variance >= 0.0)) return {};
-  return std::sqrt(variance / seen);
-}
-
-/// A pose's sigmas with and without the calibration.
-class SigmaPair {
+class PrecisionChecks {
  public:
-  SigmaPair(const ReviewSubject& subject, const CheckLimits& limits, const PredictedEdges& edges)
-      : subject_(subject), places_(thinned(edges.places, kPlaces)) {
-    const bool asked = limits.focal_sigma_px > 0.0 || limits.centre_sigma_px > 0.0;
-    std::optional<Matrix6d> calibration;
-    if (asked && subject.loaded != nullptr)
-      calibration =
-          calibrationCovariance(places_, subject.loaded->source.camera, subject.camera_from_station,
-                                limits.focal_sigma_px, limits.centre_sigma_px);
-    known_ = calibration.has_value();
-    whole_ = subject.covariance;
-    if (calibration) whole_ += *calibration;
-    alone_sigma_ = poseSigma(subject.covariance, endEffector());
-    if (alone_sigma_) whole_sigma_ = poseSigma(whole_, endEffector());
+  PrecisionChecks(const ReviewSubject& subject, const CheckLimits& limits)
+      : subject_(subject), limits_(limits) {
+    if (!subject.covariance.known()) return;
+    picture_ = poseSigma(subject.covariance.picture, endEffector());
+    total_ = poseSigma(subject.covariance.total(), endEffector());
   }
 
-  std::optional<Sigmas> of(double PoseSigma::*member) const {
-    if (!alone_sigma_ || !whole_sigma_) return {};
-    return Sigmas{*alone_sigma_.*member, *whole_sigma_.*member, known_};
+  /// At the end effector, or at the camera.
+  Check ofTranslation(const CheckName& name, double PoseSigma::*member,
+                      std::optional<double> required_mm) const {
+    return check(name, sigmasOf(member), required_mm, "mm",
+                 std::string(" at the ") + judgedPlace(endEffector()));
   }
 
-  std::optional<Sigmas> ofProjection() const {
-    if (!alone_sigma_ || subject_.loaded == nullptr) return {};
-    const auto alone = projectionSigma(subject_, places_, subject_.covariance);
-    const auto with_calibration = projectionSigma(subject_, places_, whole_);
-    if (!alone || !with_calibration) return {};
-    return Sigmas{*alone, *with_calibration, known_};
+  Check ofRotation(std::optional<double> required_deg) const {
+    std::optional<double> required_mrad;
+    if (required_deg) required_mrad = *required_deg * 1e3 * std::numbers::pi / 180.0;
+    return check(kRotation, sigmasOf(&PoseSigma::out_of_plane_mrad), required_mrad, "mrad", "");
+  }
+
+  Check inImage(std::optional<double> required_px) const {
+    std::optional<Sigmas> sigmas;
+    if (required_px && picture_ && total_ && subject_.loaded != nullptr) {
+      const auto vertices = matchedVertices(subject_.loaded->scene.view());
+      const auto sigma_px = [&](const Matrix6d& covariance) {
+        return projectionSigma(subject_.loaded->source.camera, subject_.camera_from_station,
+                               vertices, covariance);
+      };
+      const auto picture_px = sigma_px(subject_.covariance.picture);
+      const auto total_px = sigma_px(subject_.covariance.total());
+      if (picture_px && total_px) sigmas = {*picture_px, *total_px};
+    }
+    return check(kProjection, sigmas, required_px, "px", "");
   }
 
  private:
@@ -121,31 +86,52 @@ class SigmaPair {
     return subject_.loaded->source.camera_from_end_effector;
   }
 
+  std::optional<Sigmas> sigmasOf(double PoseSigma::*member) const {
+    if (!picture_ || !total_) return {};
+    return Sigmas{*picture_.*member, *total_.*member};
+  }
+
+  Check check(const CheckName& name, const std::optional<Sigmas>& sigma,
+              std::optional<double> required, const std::string& unit,
+              const std::string& place) const {
+    if (!required) return notAskedCheck(name, kNotRequired);
+    if (!sigma) return notAskedCheck(name, kNoCovariance);
+    const double figure = limits_.sigmas * sigma->total;
+    const bool by_inputs = limits_.sigmas * sigma->picture <= *required;
+    return measuredCheck(name, unit, figure, *required, LimitSide::kAtMost,
+                         sigmasText(limits_.sigmas) + " sigma" + place + " are " +
+                             sentenceNumber(figure) + " " + unit + ". " + inputsText(*sigma, unit),
+                         by_inputs ? kInputsRemedy : kPictureRemedy);
+  }
+
+  std::string inputsText(const Sigmas& sigma, const std::string& unit) const {
+    const double inputs =
+        std::sqrt(std::max(0.0, sigma.total * sigma.total - sigma.picture * sigma.picture));
+    std::string text = "The picture alone says " + sentenceNumber(limits_.sigmas * sigma.picture) +
+                       " " + unit + "; the pose is no better than the mesh's scale";
+    if (subject_.loaded == nullptr) return text + " and the camera's calibration allow.";
+    const InputSigmas known(subject_.loaded->source);
+    return text + " (" + meshScaleText(known) + ") and the camera's calibration (" +
+           calibrationText(known) + ") allow: " + sentenceNumber(limits_.sigmas * inputs) + " " +
+           unit + ".";
+  }
+
   const ReviewSubject& subject_;
-  std::vector<PredictedPlace> places_;
-  bool known_ = false;
-  Matrix6d whole_ = Matrix6d::Zero();
-  std::optional<PoseSigma> alone_sigma_;
-  std::optional<PoseSigma> whole_sigma_;
+  const CheckLimits& limits_;
+  std::optional<PoseSigma> picture_;
+  std::optional<PoseSigma> total_;
 };
 
 }  // namespace
 
 void addPrecisionChecks(const ReviewSubject& subject, const CheckLimits& limits,
-                        const PredictedEdges& edges, std::vector<Check>& checks) {
-  const SigmaPair sigmas(subject, limits, edges);
+                        std::vector<Check>& checks) {
+  const PrecisionChecks made(subject, limits);
   const Requirement& required = subject.requirement;
-  std::optional<double> rotation_mrad;
-  if (required.rotation_deg)
-    rotation_mrad = *required.rotation_deg * 1e3 * std::numbers::pi / 180.0;
-  checks.push_back(
-      sigmaCheck(kNormal, sigmas.of(&PoseSigma::normal_mm), required.normal_mm, "mm", limits));
-  checks.push_back(
-      sigmaCheck(kLateral, sigmas.of(&PoseSigma::lateral_mm), required.lateral_mm, "mm", limits));
-  checks.push_back(sigmaCheck(kRotation, sigmas.of(&PoseSigma::out_of_plane_mrad), rotation_mrad,
-                              "mrad", limits));
-  const auto in_image = required.projection_px ? sigmas.ofProjection() : std::nullopt;
-  checks.push_back(sigmaCheck(kProjection, in_image, required.projection_px, "px", limits));
+  checks.push_back(made.ofTranslation(kNormal, &PoseSigma::normal_mm, required.normal_mm));
+  checks.push_back(made.ofTranslation(kLateral, &PoseSigma::lateral_mm, required.lateral_mm));
+  checks.push_back(made.ofRotation(required.rotation_deg));
+  checks.push_back(made.inImage(required.projection_px));
 }
 
 }  // namespace boresight::sessions

@@ -16,7 +16,7 @@ PredictedEdges predictEdges(const Camera& camera, const MeshView& mesh,
   const EdgeRender view = render.view();
   made.places.reserve(render.pixels.size());
   for (const EdgePixel& pixel : render.pixels) {
-    PredictedPlace place;
+    EdgePlace place;
     if (!edgeLinePoint(view, mesh, pixel, place.pixel, place.point_in_station_m)) continue;
     place.normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y).normalized();
     place.kind = pixel.kind;
@@ -45,9 +45,9 @@ bool placeDerivative(const Camera& camera, const Pose& camera_from_station,
   return true;
 }
 
-std::vector<PredictedPlace> thinned(const std::vector<PredictedPlace>& places, std::size_t most) {
+std::vector<EdgePlace> thinned(const std::vector<EdgePlace>& places, std::size_t most) {
   if (most == 0 || places.size() <= most) return places;
-  std::vector<PredictedPlace> kept;
+  std::vector<EdgePlace> kept;
   kept.reserve(most);
   for (std::size_t i = 0; i < most; ++i) kept.push_back(places[i * places.size() / most]);
   return kept;

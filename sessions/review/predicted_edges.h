@@ -14,7 +14,7 @@
 namespace boresight::sessions {
 
 /// A piece of an edge that a pose predicts to be seen, in one pixel.
-struct PredictedPlace {
+struct EdgePlace {
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();   ///< on the line, sub-pixel
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< of the line, unit
@@ -24,7 +24,7 @@ struct PredictedPlace {
 
 /// The station's visible edges at full resolution, in raster order.
 struct PredictedEdges {
-  std::vector<PredictedPlace> places;
+  std::vector<EdgePlace> places;
   BitMap mask;  ///< the station's silhouette with its edges
 };
 
@@ -43,6 +43,6 @@ struct PlaceDerivative {
                                    PlaceDerivative& derivative);
 
 /// At most `most` places, evenly along the order in which they are.
-std::vector<PredictedPlace> thinned(const std::vector<PredictedPlace>& places, std::size_t most);
+std::vector<EdgePlace> thinned(const std::vector<EdgePlace>& places, std::size_t most);
 
 }  // namespace boresight::sessions

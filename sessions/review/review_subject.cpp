@@ -9,7 +9,8 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/record/record_of_run.h"
-#include "sessions/review/check_limits.h"
+#include "sessions/review/pose_uncertainty.h"
+#include "sessions/review/review_settings.h"
 #include "sessions/session/case_marks.h"
 #include "sessions/session/rig_links.h"
 
@@ -28,15 +29,6 @@ const RunRecord& runToReview(const Session& session, const std::string& case_id,
                                   : "there is no run of the digest " + digest);
 }
 
-Requirement requirementFor(const Session& session, const SessionCase& one) {
-  if (one.requirement) return *one.requirement;
-  const CheckPreset* preset = findCheckPreset(session.review.preset);
-  if (preset == nullptr)
-    throw InputError("session", "review.preset",
-                     "there is no preset '" + session.review.preset + "'");
-  return preset->requirement;
-}
-
 std::optional<OtherPose> poseOfMarks(const Session& session, const LoadedCase& loaded,
                                      std::string& reason) {
   const std::string& id = loaded.source.id;
@@ -47,30 +39,35 @@ std::optional<OtherPose> poseOfMarks(const Session& session, const LoadedCase& l
                      boxCorners(matchedBounds(loaded.scene.view())), false);
   reason = solved.result.reason;
   if (!solved.result.solution) return {};
-  return OtherPose{"the annotation", *solved.camera_from_station(),
-                   cameraCovariance(*solved.result.solution, solved.marks.views.front())};
+  return OtherPose{"the annotation", *solved.camera_from_station(), {*solved.covariance()}};
 }
 
 /// Another camera's pose as this camera sees the station. Nothing unless its last run of its own
 /// converged with the inputs that it has now.
-std::optional<OtherPose> seenByOther(const Session& session, const SessionCase& one,
+std::optional<OtherPose> seenByOther(const Session& session, const LoadedCase& loaded,
                                      const SessionCase& other, const RunReader& read_run) {
+  const SessionCase& one = loaded.source;
   const RunRecord* run = ownRunOf(session, other.id, one.id);
   if (run == nullptr || run->inputs_sha256 != inputsDigest(other) ||
       run->status != localizationStatusText(LocalizationStatus::kConverged))
     return {};
   const RunSnapshot seen = read_run(*run);
   const Pose one_from_other = one.rig->camera_from_rig * other.rig->camera_from_rig.inverse();
-  const Matrix6d turned = adjoint(one_from_other);
-  return OtherPose{other.id, one_from_other * seen.camera_from_station,
-                   Matrix6d(turned * seen.covariance * turned.transpose())};
+  const PoseCovariance own =
+      poseCovariance(other, loaded.scene.view(), seen.camera_from_station, seen.covariance);
+  const auto turned = [turn = adjoint(one_from_other)](const Matrix6d& covariance) {
+    return Matrix6d(turn * covariance * turn.transpose());
+  };
+  return OtherPose{other.id,
+                   one_from_other * seen.camera_from_station,
+                   {turned(own.picture), turned(own.mesh_scale), turned(own.calibration)}};
 }
 
-std::vector<OtherPose> otherCameras(const Session& session, const SessionCase& one,
+std::vector<OtherPose> otherCameras(const Session& session, const LoadedCase& loaded,
                                     const RunReader& read_run) {
   std::vector<OtherPose> found;
-  for (const std::string& id : casesOfRig(session, one.id)) {
-    auto other = seenByOther(session, one, *session.findCase(id), read_run);
+  for (const std::string& id : casesOfRig(session, loaded.source.id)) {
+    auto other = seenByOther(session, loaded, *session.findCase(id), read_run);
     if (other) found.push_back(std::move(*other));
   }
   return found;
@@ -79,7 +76,7 @@ std::vector<OtherPose> otherCameras(const Session& session, const SessionCase& o
 void takeRun(RunSnapshot run, ReviewSubject& subject) {
   subject.run = std::move(run);
   subject.camera_from_station = subject.run->camera_from_station;
-  subject.covariance = subject.run->covariance;
+  subject.covariance.picture = subject.run->covariance;
 }
 
 /// InputError when the record cannot be read, or is no longer the one that the session knows.
@@ -102,7 +99,7 @@ ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const Loaded
                             const RunReader& read_run) {
   ReviewSubject subject;
   const SessionCase& one = loaded->source;
-  subject.requirement = requirementFor(session, one);
+  subject.requirement = requirementOf(session, one);
   subject.source = source;
   std::string reason;
   auto marked = poseOfMarks(session, *loaded, reason);
@@ -115,7 +112,9 @@ ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const Loaded
     subject.camera_from_station = marked->camera_from_station;
     subject.covariance = marked->covariance;
   }
-  if (one.rig) subject.other_cameras = otherCameras(session, one, read_run);
+  subject.covariance = poseCovariance(one, loaded->scene.view(), subject.camera_from_station,
+                                      subject.covariance.picture);
+  if (one.rig) subject.other_cameras = otherCameras(session, *loaded, read_run);
   subject.loaded = std::move(loaded);
   return subject;
 }

@@ -10,6 +10,7 @@
 #include "core/geometry/pose.h"
 #include "sessions/record/compare_records.h"
 #include "sessions/session/case_run.h"
+#include "sessions/session/pose_covariance.h"
 #include "sessions/session/session.h"
 #include "sessions/trace/run_snapshot.h"
 
@@ -19,7 +20,7 @@ namespace boresight::sessions {
 struct OtherPose {
   std::string from;  ///< for people: "the annotation", "bc-right"
   Pose camera_from_station;
-  Matrix6d covariance = Matrix6d::Zero();  ///< left perturbation, camera frame; zero: not known
+  PoseCovariance covariance = {};  ///< of the annotation only the marks' own part
 };
 
 /// A pose of a case, and all that it can be checked by. A value: it may be checked on any thread.
@@ -28,7 +29,7 @@ struct ReviewSubject {
   Requirement requirement;  ///< the case's own, else the preset's
   PoseSource source = PoseSource::kRun;
   Pose camera_from_station;
-  Matrix6d covariance = Matrix6d::Zero();
+  PoseCovariance covariance;
   std::optional<RunSnapshot> run;        ///< that the pose came from; nothing of annotated ones
   std::optional<OtherPose> annotated;    ///< by the case's marks, unless these are the source
   std::vector<OtherPose> other_cameras;  ///< as the other cameras of the rig see the station

@@ -54,7 +54,9 @@ void takeError(const ReviewSubject& subject, RunSide& side) {
     side.error->projection_px =
         projectionError(one.camera, *one.camera_from_station_truth, subject.camera_from_station,
                         matchedVertices(subject.loaded->scene.view()));
-  side.error_share = requirementShare(*side.error, subject.requirement);
+  const Matrix6d truth_covariance = one.truth_covariance.value_or(Matrix6d::Zero());
+  if (sigmaExcessText(truth_covariance, one.camera_from_end_effector, subject.requirement).empty())
+    side.error_share = requirementShare(*side.error, subject.requirement);
 }
 
 RunSide sideOf(const ReadRun& run) {

@@ -28,7 +28,8 @@ struct RunSide {
   int checks_failed = 0;
   /// Against the truth; nothing where that is not known or the run did not converge.
   std::optional<PoseError> error;
-  /// The largest part of the requirement that the error takes up; above 1: beyond it.
+  /// The largest part of the requirement that the error takes up; above 1: beyond it. Nothing, too,
+  /// where the truth's own sigma exceeds the requirement: such a truth does not judge.
   std::optional<double> error_share;
 };
 

@@ -19,6 +19,7 @@
 #include "sessions/session/case_run.h"
 #include "sessions/session/decision_json.h"
 #include "sessions/session/frames_json.h"
+#include "sessions/session/input_sigmas.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/session/session_json.h"
 #include "sessions/version.h"
@@ -39,7 +40,8 @@ ordered_json conventionsJson() {
           {"quaternion", "w x y z, unit length, w >= 0"},
           {"covariance",
            "6x6 over (rotation rad, translation m); of camera_from_station: left "
-           "perturbation in the camera frame, Exp(xi) * camera_from_station"}};
+           "perturbation in the camera frame, Exp(xi) * camera_from_station; the sum of its terms: "
+           "picture (or marks), the mesh's scale, the camera's calibration"}};
 }
 
 ordered_json quaternionJson(const Pose& pose) {
@@ -59,15 +61,25 @@ ordered_json sigmaJson(const Matrix6d& covariance, const std::optional<Pose>& en
           {"of", end_effector ? "end effector" : "camera centre"}};
 }
 
+/// By what the terms of the covariance were made that the picture does not tell.
+ordered_json inputSigmasJson(const InputSigmas& sigmas) {
+  return {{"mesh_scale_sigma", sigmas.mesh_scale},
+          {"mesh_scale_is", sigmas.mesh_scale_stated ? "stated" : "assumed"},
+          {"calibration_sigma", toJson(sigmas.calibration)},
+          {"calibration_is", sigmas.calibration_stated ? "stated" : "assumed"}};
+}
+
 ordered_json poseJson(const HandedPose& pose, const SessionCase& one) {
   ordered_json json;
   json["source"] = pose.source == PoseSource::kRun ? "run" : "annotation";
   json["camera_from_station"] = toJson(pose.camera_from_station);
   json["station_from_camera"] = toJson(pose.camera_from_station.inverse());
   json["camera_from_station_quaternion_wxyz"] = quaternionJson(pose.camera_from_station);
-  if (!pose.covariance.isZero()) {
-    json["covariance"] = toJson(pose.covariance);
-    json["one_sigma"] = sigmaJson(pose.covariance, one.camera_from_end_effector);
+  if (pose.covariance.known()) {
+    json["covariance"] = toJson(pose.covariance.total());
+    json["covariance_terms"] = toJson(pose.covariance);
+    json["one_sigma"] = sigmaJson(pose.covariance.total(), one.camera_from_end_effector);
+    json["input_sigmas"] = inputSigmasJson(InputSigmas(one));
   }
   return json;
 }
@@ -75,7 +87,7 @@ ordered_json poseJson(const HandedPose& pose, const SessionCase& one) {
 ordered_json endEffectorJson(const HandedPose& pose, const SessionCase& one) {
   const EndEffectorPose made =
       endEffectorPose(one.camera_from_station_seed, pose.camera_from_station,
-                      *one.camera_from_end_effector, pose.covariance);
+                      *one.camera_from_end_effector, pose.covariance.total());
   const Pose& correction = made.end_effector_seed_from_end_effector_estimated;
   ordered_json json;
   json["station_from_end_effector"] = toJson(made.station_from_end_effector);
@@ -83,7 +95,7 @@ ordered_json endEffectorJson(const HandedPose& pose, const SessionCase& one) {
   json["correction_translation_m"] = toJson(correction.translation_m);
   json["correction_rotation_deg"] =
       toJson(Eigen::Vector3d(rotationLog(correction.rotation) / kDegree_rad));
-  if (!pose.covariance.isZero()) {
+  if (pose.covariance.known()) {
     json["covariance"] = toJson(made.covariance);
     json["covariance_is_of"] =
         "(rotation rad, translation m), right perturbation in the end effector's frame";

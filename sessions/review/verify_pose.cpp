@@ -50,7 +50,8 @@ HandedPose readHandedPose(const JsonReader& root) {
                       ? PoseSource::kRun
                       : PoseSource::kAnnotation;
   handed.camera_from_station = readPlainPose(pose);
-  if (const auto covariance = pose.find("covariance")) handed.covariance = readMatrix6(*covariance);
+  if (const auto terms = pose.find("covariance_terms"))
+    handed.covariance = readPoseCovariance(*terms);
   for (const JsonReader& check : root.at("checks").elements())
     handed.checks.push_back(readJudgedCheck(check));
   return handed;

@@ -138,7 +138,7 @@ void setTruth(ImportReport& report, const std::string& case_id, const Pose& trut
     throw InputError("session", "cases",
                      "case '" + case_id +
                          "' has another truth already; ask for it to be replaced (whs: --replace)");
-  changed.camera_from_station_truth = truth;
+  if (!known || !(*known == truth)) boresight::sessions::setTruth(changed, truth);
   report.session = withCase(report.session, std::move(changed));
   report.case_ids.push_back(case_id);
 }

@@ -135,6 +135,7 @@ void addExtras(const SessionCase& one, const PathWriter& path, ordered_json& jso
   if (one.station_frame) json["station_frame"] = toJson(*one.station_frame);
   if (one.truth_frame) json["truth_frame"] = toJson(*one.truth_frame);
   if (one.camera_from_station_truth) json["truth"] = exactPoseJson(*one.camera_from_station_truth);
+  if (one.truth_covariance) json["truth_covariance"] = toJson(*one.truth_covariance);
   if (one.camera_from_station_working)
     json["working"] = exactPoseJson(*one.camera_from_station_working);
   if (one.ignore) json["ignore"] = inputJson(*one.ignore, path);
@@ -243,6 +244,8 @@ void readExtras(const JsonReader& json, SessionCase& one) {
   if (const auto frame = json.find("station_frame")) one.station_frame = readStationFrame(*frame);
   if (const auto frame = json.find("truth_frame")) one.truth_frame = readStationFrame(*frame);
   if (const auto truth = json.find("truth")) one.camera_from_station_truth = readExactPose(*truth);
+  if (const auto covariance = json.find("truth_covariance"))
+    one.truth_covariance = readCovariance(*covariance);
   if (const auto working = json.find("working"))
     one.camera_from_station_working = readExactPose(*working);
   if (const auto ignore = json.find("ignore")) one.ignore = readInput(*ignore);
@@ -269,10 +272,11 @@ ordered_json toJson(const SessionCase& one, const PathWriter& path) {
   json["id"] = one.id;
   if (!one.station.empty()) json["station"] = one.station;
   json["image"] = imageJson(one.image, path);
-  json["camera"] = toJson(one.camera);
+  json["camera"] = toJson(CameraFile{one.camera, std::nullopt, one.calibration_sigma});
   json["parts"] =
       listJson(one.parts, [&path](const MeshInput& part) { return partJson(part, path); });
   if (one.feature_size_m) json["feature_size_m"] = *one.feature_size_m;
+  if (one.mesh_scale_sigma) json["mesh_scale_sigma"] = *one.mesh_scale_sigma;
   json["seed"] = exactPoseJson(one.camera_from_station_seed);
   json["uncertainty"] = toJson(one.uncertainty);
   addExtras(one, path, json);
@@ -284,13 +288,17 @@ SessionCase readSessionCase(const JsonReader& json) {
   one.id = json.at("id").nonEmptyText();
   if (const auto station = json.find("station")) one.station = station->nonEmptyText();
   one.image = readImageInput(json.at("image"));
-  one.camera = readCamera(json.at("camera"));
+  const CameraFile camera = readCameraFile(json.at("camera"));
+  one.camera = camera.camera;
+  one.calibration_sigma = camera.calibration_sigma;
   const JsonReader parts = json.at("parts");
   for (const JsonReader& part : parts.elements()) one.parts.push_back(readMeshInput(part));
   if (std::none_of(one.parts.begin(), one.parts.end(),
                    [](const MeshInput& part) { return part.source.part.match; }))
     parts.fail("no part is to be matched");
   if (const auto size = json.find("feature_size_m")) one.feature_size_m = size->number(1e-6, 100.0);
+  if (const auto sigma = json.find("mesh_scale_sigma"))
+    one.mesh_scale_sigma = readMeshScaleSigma(*sigma);
   one.camera_from_station_seed = readExactPose(json.at("seed"));
   one.uncertainty = readUncertainty(json.at("uncertainty"));
   readExtras(json, one);

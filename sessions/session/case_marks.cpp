@@ -3,7 +3,10 @@
 
 #include <utility>
 
+#include "sessions/evaluation/requirement_share.h"
 #include "sessions/io/errors.h"
+#include "sessions/io/scene_mesh.h"
+#include "sessions/review/review_settings.h"
 #include "sessions/session/known_image.h"
 
 namespace boresight::sessions {
@@ -31,6 +34,8 @@ CaseMarks caseMarks(const Session& session, const std::string& case_id, bool tog
   const SessionCase* chosen = session.findCase(case_id);
   if (chosen == nullptr) throw InputError("session", "cases", "there is no case '" + case_id + "'");
   CaseMarks made;
+  made.requirement = requirementOf(session, *chosen);
+  made.camera_from_end_effector = chosen->camera_from_end_effector;
   const auto add = [&](const SessionCase& one, const Pose& camera_from_rig) {
     made.case_ids.push_back(one.id);
     made.views.push_back(viewOf(session, one, camera_from_rig));
@@ -49,6 +54,16 @@ CaseMarks caseMarks(const Session& session, const std::string& case_id, bool tog
 std::optional<Pose> CaseMarksSolution::camera_from_station() const {
   if (!result.solution) return {};
   return result.solution->camera_from_station[0];
+}
+
+std::optional<Matrix6d> CaseMarksSolution::covariance() const {
+  if (!result.solution) return {};
+  return cameraCovariance(*result.solution, marks.views[0]);
+}
+
+std::string CaseMarksSolution::sigmaExcess() const {
+  return sigmaExcessText(covariance().value_or(Matrix6d::Zero()), marks.camera_from_end_effector,
+                         marks.requirement);
 }
 
 std::optional<Pose> CaseMarksSolution::twin_camera_from_station() const {
@@ -76,6 +91,8 @@ CaseMarksSolution solveCaseMarks(CaseMarks marks, const Pose& camera_from_statio
   made.warnings = geometryWarnings(views, &*options.rig_from_station_guess, station_m);
   made.result = solveMarks(views, options);
   if (made.result.solution) made.left_out = leaveOneOut(views, *made.result.solution);
+  const std::string excess = made.sigmaExcess();
+  if (!excess.empty()) made.warnings.push_back(imprecisionWarning(excess));
   return made;
 }
 

@@ -24,6 +24,8 @@ struct CaseMarks {
   std::vector<std::string> case_ids;  ///< by view
   std::vector<MarkedView> views;      ///< cameras prepared; `name` is the case's id
   bool rigid = false;                 ///< several: the pose is the rig's
+  Requirement requirement;            ///< of the case itself, as is the next
+  std::optional<Pose> camera_from_end_effector;
 };
 
 /// `together` false leaves the other cases of the rig out. A case alone is its own rig
@@ -40,6 +42,10 @@ struct CaseMarksSolution {
 
   /// The pose of the case itself (of view 0), or nothing.
   std::optional<Pose> camera_from_station() const;
+  /// Its covariance as the marks alone say: left perturbation, camera frame.
+  std::optional<Matrix6d> covariance() const;
+  /// What of its one sigma exceeds the requirement: `sigmaExcessText`; "" when nothing does.
+  std::string sigmaExcess() const;
   /// The other one that explains coplanar marks, or nothing.
   std::optional<Pose> twin_camera_from_station() const;
   /// Normalized residuals (in standard deviations) of those marks of the case itself that stand

@@ -9,6 +9,7 @@
 #include "core/geometry/pose.h"
 #include "sessions/io/option_value.h"
 #include "sessions/session/check.h"
+#include "sessions/session/pose_covariance.h"
 
 namespace boresight::sessions {
 
@@ -39,7 +40,7 @@ struct Approval {
 struct JudgedPose {
   PoseSource source = PoseSource::kRun;
   Pose camera_from_station;
-  Matrix6d covariance = Matrix6d::Zero();  ///< left perturbation, camera frame; zero: none
+  PoseCovariance covariance;
 
   bool operator==(const JudgedPose&) const = default;
 };

@@ -7,6 +7,7 @@
 
 #include "sessions/io/config_file.h"
 #include "sessions/io/json_writer.h"
+#include "sessions/io/pose_file.h"
 #include "sessions/review/check_limits.h"
 #include "sessions/session/case_json.h"
 #include "sessions/session/session.h"
@@ -42,6 +43,22 @@ Approval readApproval(const JsonReader& json) {
   return {json.at("by").nonEmptyText(), json.at("comment").text(), readTime(json.at("time"))};
 }
 
+}  // namespace
+
+ordered_json toJson(const PoseCovariance& covariance) {
+  return {{"picture", toJson(covariance.picture)},
+          {"mesh_scale", toJson(covariance.mesh_scale)},
+          {"calibration", toJson(covariance.calibration)}};
+}
+
+PoseCovariance readPoseCovariance(const JsonReader& json) {
+  json.requireKnown({"picture", "mesh_scale", "calibration"});
+  return {readMatrix6(json.at("picture")), readMatrix6(json.at("mesh_scale")),
+          readMatrix6(json.at("calibration"))};
+}
+
+namespace {
+
 ordered_json judgedPoseJson(const JudgedPose& pose) {
   ordered_json json;
   json["source"] = nameOf(kSourceNames, pose.source);
@@ -54,22 +71,11 @@ JudgedPose readJudgedPose(const JsonReader& json) {
   JudgedPose pose;
   pose.source = valueOf<PoseSource>(kSourceNames, json.at("source").choice({"run", "annotation"}));
   pose.camera_from_station = readExactPose(json.at("camera_from_station"));
-  pose.covariance = readMatrix6(json.at("covariance"));
+  pose.covariance = readPoseCovariance(json.at("covariance"));
   return pose;
 }
 
 }  // namespace
-
-Matrix6d readMatrix6(const JsonReader& json) {
-  Matrix6d matrix;
-  const auto rows = json.elements(6);
-  for (int row = 0; row < 6; ++row) {
-    const auto numbers = rows[static_cast<std::size_t>(row)].elements(6);
-    for (int column = 0; column < 6; ++column)
-      matrix(row, column) = numbers[static_cast<std::size_t>(column)].number();
-  }
-  return matrix;
-}
 
 std::string readTime(const JsonReader& json) {
   std::string text = json.text();

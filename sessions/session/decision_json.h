@@ -23,8 +23,10 @@ nlohmann::ordered_json toJson(const ReviewSettings& settings);
 /// The reverse. InputError, also for a preset or limit that does not exist.
 ReviewSettings readReviewSettings(const JsonReader& json);
 
-/// Six rows of six numbers. InputError.
-Matrix6d readMatrix6(const JsonReader& json);
+/// {"picture", "mesh_scale", "calibration"}, six rows of six numbers each.
+nlohmann::ordered_json toJson(const PoseCovariance& covariance);
+/// The reverse. InputError.
+PoseCovariance readPoseCovariance(const JsonReader& json);
 
 /// UTC, as `utcNowText` says it. InputError.
 std::string readTime(const JsonReader& json);

@@ -9,6 +9,7 @@
 #include "sessions/io/image_label.h"
 #include "sessions/report/text_table.h"
 #include "sessions/session/frame_lines.h"
+#include "sessions/session/input_sigmas.h"
 #include "sessions/session/label_agreement.h"
 #include "sessions/trace/seed_check.h"
 
@@ -129,6 +130,11 @@ void describe(const LoadedCase& loaded, InputSheet& sheet) {
   for (const MeshInfo& info : loaded.scene.infos)
     add("mesh", info.file.filename().string() + ", " + info.format + " in " + info.unit + ", " +
                     fixedText(info.diagonal_m() * 1e3, 1) + " mm across");
+  const InputSigmas sigmas(one);
+  add("scale, one sigma", meshScaleText(sigmas));
+  add("calibration, one sigma", calibrationText(sigmas) +
+                                    ": of the focal length and of the "
+                                    "principal point");
   add("station", fixedText(sheet.station_extent_mm.x(), 1) + " x " +
                      fixedText(sheet.station_extent_mm.y(), 1) + " x " +
                      fixedText(sheet.station_extent_mm.z(), 1) + " mm; the view is " +

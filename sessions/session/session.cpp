@@ -85,6 +85,13 @@ const RunRecord* Session::lastRunOf(const std::string& case_id) const {
   return found == runs.rend() ? nullptr : &*found;
 }
 
+void setTruth(SessionCase& one, const Pose& camera_from_station,
+              const std::optional<Matrix6d>& covariance) {
+  one.camera_from_station_truth = camera_from_station;
+  one.truth_frame.reset();
+  one.truth_covariance = covariance;
+}
+
 Session withCase(const Session& session, SessionCase changed) {
   Session next = session;
   const auto found = std::find_if(next.cases.begin(), next.cases.end(),

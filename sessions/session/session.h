@@ -66,6 +66,10 @@ struct SessionCase {
   std::optional<CameraReference> camera_reference;
   std::vector<MeshInput> parts;  ///< at least one that is matched
   std::optional<double> feature_size_m;
+  /// Relative, one sigma; nothing: kAssumedMeshScaleSigma. No input of a run.
+  std::optional<double> mesh_scale_sigma;
+  /// Nothing: that of a CalibrationSigma by default. No input of a run.
+  std::optional<CalibrationSigma> calibration_sigma;
   Pose camera_from_station_seed;
   /// Of a seed that was given in a named frame. No input of a run.
   std::optional<StationFrame> station_frame;
@@ -73,6 +77,9 @@ struct SessionCase {
   std::optional<Pose> camera_from_station_truth;
   /// Of a truth that was given in a named frame. No input of a run.
   std::optional<StationFrame> truth_frame;
+  /// Of a truth that was measured (by annotations): left perturbation, camera frame, as the marks
+  /// alone say. Nothing: it is exact. No input of a run.
+  std::optional<Matrix6d> truth_covariance;
   std::optional<Pose> camera_from_station_working;  ///< nudged by hand; no input of a run
   std::optional<InputFile> ignore;                  ///< mask image
   MaskStrokes ignore_strokes;                       ///< edits of the mask, applied in their order
@@ -87,6 +94,10 @@ struct SessionCase {
 
   bool operator==(const SessionCase&) const = default;
 };
+
+/// Gives a case this truth in place of a former one, with all that was said of that.
+void setTruth(SessionCase& one, const Pose& camera_from_station,
+              const std::optional<Matrix6d>& covariance = std::nullopt);
 
 /// What a person marked in one case.
 using Annotation = Marks;

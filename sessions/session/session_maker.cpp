@@ -55,13 +55,18 @@ SessionCase caseOf(const Dataset& dataset, const Case& one, const std::vector<Me
   if (const auto known = dataset.camera_references.find(one.camera);
       known != dataset.camera_references.end())
     made.camera_reference = known->second;
+  if (const auto known = dataset.calibration_sigmas.find(one.camera);
+      known != dataset.calibration_sigmas.end())
+    made.calibration_sigma = known->second;
   made.parts = parts;
   made.feature_size_m = dataset.stations.at(one.station).feature_size_m;
+  made.mesh_scale_sigma = dataset.stations.at(one.station).mesh_scale_sigma;
   made.camera_from_station_seed = one.seed_camera_from_station;
   made.station_frame = one.station_frame;
   made.uncertainty = *one.uncertainty;
   made.camera_from_station_truth = one.truth_camera_from_station;
   made.truth_frame = one.truth_frame;
+  made.truth_covariance = one.truth_covariance;
   if (one.ignore) made.ignore = maskInput(*one.ignore, made.image);
   made.rig = one.rig;
   made.tags = one.tags;
@@ -91,8 +96,10 @@ MadeCase makeCase(const CaseFiles& files) {
   const CameraFile camera = readChosenCamera(files.camera, files.image);
   made.camera = camera.camera;
   made.camera_reference = camera.reference;
+  made.calibration_sigma = camera.calibration_sigma;
   made.parts = meshInputs(files.parts);
   made.feature_size_m = files.feature_size_m;
+  made.mesh_scale_sigma = files.mesh_scale_sigma;
   PoseFrames frames{camera.reference};
   for (const fs::path& file : files.transforms)
     frames.transforms.push_back(readFrameTransform(file));
@@ -109,6 +116,7 @@ MadeCase makeCase(const CaseFiles& files) {
     const PoseFile truth = readPose(*files.truth, frames);
     made.camera_from_station_truth = truth.camera_from_station;
     made.truth_frame = truth.station_frame;
+    made.truth_covariance = truth.covariance;
   }
   if (files.ignore) made.ignore = maskInput(*files.ignore, made.image);
   return result;

@@ -26,6 +26,7 @@ struct CaseFiles {
   std::optional<std::filesystem::path> truth;
   std::optional<std::filesystem::path> ignore;
   std::optional<double> feature_size_m;
+  std::optional<double> mesh_scale_sigma;
 };
 
 /// A case with the hashes of its files as they are now, and what people should be told (a seed that

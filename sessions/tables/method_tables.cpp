@@ -211,7 +211,8 @@ Table errorTable(std::span<const RunResult> runs, bool with_paper) {
                {"lateral mm", parts, 3},
                {"rotation mrad", parts, 3}},
               {},
-              {"The maximum of the normal error is that of its absolute value."}};
+              {"Errors are those of the end effector, or of the camera where a case has none.",
+               "The maximum of the normal error is that of its absolute value."}};
   std::string station;
   for (const MethodFigures& row : methodFigures(runs)) {
     if (with_paper && row.station != station)

@@ -99,6 +99,21 @@ TEST(WhsSolve, FindsThePoseDespiteAMistakenPoint) {
   EXPECT_LT(error.norm(), 1e-6);
 }
 
+TEST(WhsSolve, SaysWhereItsSigmasAreAndKeepsTheCovarianceWithThePose) {
+  const TemporaryFolder folder;
+  sessions::Marks marks = trueMarks(10);
+  *marks.points[3].pixel += Eigen::Vector2d(1.0, -1.0);
+  sessions::writeMarks(folder / "points.json", marks);
+  const ProgramRun run = runWhs({"solve", "--points", folder / "points.json", "--camera",
+                                 kExample / "camera.json", "--out", folder / "pose.json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("1 sigma at the camera"),
+                             HasSubstr("without: how far the middle of the marked places moves")));
+  const auto covariance = sessions::readPose(folder / "pose.json").covariance;
+  ASSERT_TRUE(covariance);
+  EXPECT_GT(covariance->diagonal().minCoeff(), 0.0);
+}
+
 TEST(WhsSolve, LeavesOutDisabledPointsAndAsksForFour) {
   const TemporaryFolder folder;
   sessions::Marks marks = trueMarks(5);

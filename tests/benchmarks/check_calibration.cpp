@@ -26,6 +26,7 @@
 #include "sessions/io/json_writer.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/review/checks.h"
+#include "sessions/review/pose_uncertainty.h"
 #include "sessions/session/case_json.h"
 #include "sessions/session/decision_json.h"
 #include "sessions/session/session_maker.h"
@@ -123,7 +124,8 @@ ordered_json measured(const CheckedVariant& variant) {
         !variant.wrong_mesh && meetsInImage(variant, trace.camera_from_station);
     json["pose"] = sessions::exactPoseJson(trace.camera_from_station);
     sessions::ReviewSubject subject = subjectOf(variant, trace.camera_from_station);
-    subject.covariance = trace.covariance;
+    subject.covariance = poseCovariance(variant.loaded->source, variant.loaded->scene.view(),
+                                        trace.camera_from_station, trace.covariance);
     subject.run = sessions::snapshotOf(std::move(trace));
     json["checks"] = checksJson(subject);
   } catch (const sessions::FileError& error) {

@@ -38,9 +38,9 @@ void scaleFocal(Camera& camera, double factor) {
   if (prepareCamera(camera) != Status::kOk) throw std::runtime_error("camera");
 }
 
-void moveCentre(Camera& camera, double share) {
-  camera.cx += share * camera.fx;
-  camera.cy -= 0.6 * share * camera.fx;
+void moveCentre(Camera& camera, double x_px, double y_px) {
+  camera.cx += x_px;
+  camera.cy += y_px;
   if (prepareCamera(camera) != Status::kOk) throw std::runtime_error("camera");
 }
 
@@ -82,11 +82,16 @@ void change(LoadedCase& loaded, const SessionCase& other, const Pose& truth,
   if (variant == "seed 2x") reseed(loaded, truth, 2.0, 3);
   if (variant == "seed 3x") reseed(loaded, truth, 3.0, 4);
   if (variant == "seed 4x") reseed(loaded, truth, 4.0, 5);
+  if (variant == "focal +1 %") scaleFocal(loaded.source.camera, 1.01);
+  if (variant == "focal -1 %") scaleFocal(loaded.source.camera, 0.99);
+  if (variant == "centre +10 px") moveCentre(loaded.source.camera, 10.0, 0.0);
+  if (variant == "centre -10 px") moveCentre(loaded.source.camera, 0.0, -10.0);
   if (variant == "focal +3 %") scaleFocal(loaded.source.camera, 1.03);
   if (variant == "focal -3 %") scaleFocal(loaded.source.camera, 0.97);
   if (variant == "focal +8 %") scaleFocal(loaded.source.camera, 1.08);
-  if (variant == "centre +1 %") moveCentre(loaded.source.camera, 0.01);
-  if (variant == "centre +4 %") moveCentre(loaded.source.camera, 0.04);
+  const double fx = loaded.source.camera.fx;
+  if (variant == "centre +1 %") moveCentre(loaded.source.camera, 0.01 * fx, -0.006 * fx);
+  if (variant == "centre +4 %") moveCentre(loaded.source.camera, 0.04 * fx, -0.024 * fx);
   if (variant == "mirrored in x") mirrorMesh(loaded.scene, 0, !photograph);
   if (variant == "mirrored in y") mirrorMesh(loaded.scene, 1, !photograph);
   if (variant == "hidden 50 %") occlude(loaded, truth, 0.5);
@@ -101,7 +106,9 @@ void change(LoadedCase& loaded, const SessionCase& other, const Pose& truth,
 
 std::vector<std::string> variantNames(bool photographs) {
   std::vector<std::string> names = {"right"};
-  if (!photographs) names.insert(names.end(), {"reseed 1", "reseed 2"});
+  if (!photographs)
+    names.insert(names.end(), {"reseed 1", "reseed 2", "focal +1 %", "focal -1 %", "centre +10 px",
+                               "centre -10 px"});
   names.insert(names.end(), {"other mesh", "mirrored in x", "mirrored in y", "focal +3 %",
                              "focal -3 %", "focal +8 %", "centre +1 %", "centre +4 %", "seed 2x",
                              "seed 3x", "seed 4x", "hidden 50 %", "hidden 75 %"});

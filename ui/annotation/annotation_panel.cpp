@@ -265,14 +265,11 @@ void AnnotationPanel::chooseRow(const QModelIndex& current) {
   controller_.select(model_.idOf(filter_.mapToSource(current).row()));
 }
 
-SolutionContext AnnotationPanel::context() const {
-  SolutionContext made;
-  const ViewState::CasePtr& one = state_.currentCase();
-  if (!one) return made;
-  made.requirement = one->source.requirement;
-  made.camera_from_end_effector = one->source.camera_from_end_effector;
+std::vector<ComparedPose> AnnotationPanel::otherPoses() const {
+  std::vector<ComparedPose> made;
+  if (!state_.currentCase()) return made;
   const auto add = [&](const QString& name, PoseRole role) {
-    if (const auto pose = poseOf(state_, role)) made.others.push_back({name, *pose});
+    if (const auto pose = poseOf(state_, role)) made.push_back({name, *pose});
   };
   add(tr("seed"), PoseRole::kSeed);
   add(tr("run, iteration %1").arg(state_.cursor().iteration + 1), PoseRole::kEstimate);
@@ -288,7 +285,7 @@ void AnnotationPanel::showSolution() {
   meter_->setText(geometryMeterText(answer));
   summary_->setEnabled(!controller_.stale());  // dimmed until it is true again
   const int place = summary_->verticalScrollBar()->value();
-  summary_->setHtml(solutionHtml(answer, context()));
+  summary_->setHtml(solutionHtml(answer, otherPoses()));
   summary_->verticalScrollBar()->setValue(place);
   const bool solved = controller_.solvedPose().has_value();
   use_as_truth_->setEnabled(solved && !controller_.stale());

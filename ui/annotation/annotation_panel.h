@@ -75,7 +75,7 @@ class AnnotationPanel : public QWidget {
   void showSolution();
   void showPasses();
   void chooseRow(const QModelIndex& current);
-  SolutionContext context() const;
+  std::vector<ComparedPose> otherPoses() const;
 
   AnnotationController& controller_;
   ViewState& state_;

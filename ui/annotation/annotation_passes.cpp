@@ -62,15 +62,19 @@ void AnnotationController::useAsTruth() {
     return;
   }
   const bool replaces = one->camera_from_station_truth.has_value();
+  const std::string excess = answer_.solution->sigmaExcess();
   sessions::SessionCase changed = *one;
-  changed.camera_from_station_truth = solved;
+  sessions::setTruth(changed, *solved, answer_.covariance);
   document_.edit(sessions::withCase(document_.session(), std::move(changed)),
                  tr("Take the annotated pose of %1 as its truth").arg(fromText(case_id_)));
-  Q_EMIT told((replaces
-                   ? tr("The annotated pose has replaced the truth that %1 had; Undo brings it "
-                        "back.")
-                   : tr("The annotated pose is the truth of %1 now."))
-                  .arg(fromText(case_id_)));
+  QString text =
+      (replaces ? tr("The annotated pose has replaced the truth that %1 had; Undo brings it "
+                     "back.")
+                : tr("The annotated pose is the truth of %1 now."))
+          .arg(fromText(case_id_));
+  if (!excess.empty())
+    text += tr(" Its one sigma is %1: it can hardly judge a result.").arg(fromText(excess));
+  Q_EMIT told(text);
 }
 
 void AnnotationController::linkCase(const std::string& other_id, const Pose& other_from_case) {

@@ -36,7 +36,7 @@ AnnotationSolver::Answer answer(const AnnotationSolver::Question& asked) {
                                sessions::boxCorners(matchedBounds(mesh)), asked.robust));
   if (const auto pose = solution->camera_from_station()) {
     const sessions::MarkedView& view = solution->marks.views.front();
-    made.covariance = sessions::cameraCovariance(*solution->result.solution, view);
+    made.covariance = solution->covariance();
     made.proposals = sessions::proposeMarks(asked.landmarks, view.marks, mesh, view.camera, *pose,
                                             &*made.covariance);
   }

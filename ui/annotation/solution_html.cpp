@@ -56,6 +56,8 @@ QString weaknessText(sessions::GeometryWeakness weakness) {
       return tr("all in one corner of the station");
     case GeometryWeakness::kOneDepth:
       return tr("all at one depth");
+    case GeometryWeakness::kImprecise:
+      return tr("imprecise");
   }
   return {};
 }
@@ -71,21 +73,21 @@ QString warningsHtml(const sessions::CaseMarksSolution& solution) {
       .arg(tr("Geometry"), items.join(QString()));
 }
 
-QString sigmaHtml(const AnnotationSolver::Answer& answer, const SolutionContext& context) {
+/// Where translations are judged.
+QString placeText(const sessions::CaseMarks& marks) {
+  return marks.camera_from_end_effector ? tr("end effector") : tr("camera");
+}
+
+QString sigmaHtml(const AnnotationSolver::Answer& answer) {
   const MarksSolution& solution = *answer.solution->result.solution;
+  const sessions::CaseMarks& marks = answer.solution->marks;
   const auto sigma = answer.covariance
-                         ? sessions::poseSigma(*answer.covariance, context.camera_from_end_effector)
+                         ? sessions::poseSigma(*answer.covariance, marks.camera_from_end_effector)
                          : std::nullopt;
   if (!sigma) return {};
-  std::optional<double> normal_mm;
-  std::optional<double> lateral_mm;
+  const sessions::Requirement& required = marks.requirement;
   std::optional<double> rotation_mrad;
-  if (context.requirement) {
-    normal_mm = context.requirement->normal_mm;
-    lateral_mm = context.requirement->lateral_mm;
-    if (context.requirement->rotation_deg)
-      rotation_mrad = *context.requirement->rotation_deg * kDegree_mrad;
-  }
+  if (required.rotation_deg) rotation_mrad = *required.rotation_deg * kDegree_mrad;
   const QString mm = tr("mm");
   const QString mrad = tr("mrad");
   const auto line = [](const QString& name, double value, const QString& unit,
@@ -98,20 +100,22 @@ QString sigmaHtml(const AnnotationSolver::Answer& answer, const SolutionContext&
         .arg(cell(name), QString::number(values.x(), 'f', 4), QString::number(values.y(), 'f', 4),
              QString::number(values.z(), 'f', 4), unit);
   };
-  const bool at_effector = context.camera_from_end_effector.has_value();
-  const QString title = tr("One sigma at the %1 (noise %2 times what the marks' sigmas say)")
-                            .arg(at_effector ? tr("end effector") : tr("camera"))
+  const bool at_effector = marks.camera_from_end_effector.has_value();
+  const QString title = tr("One sigma at the %1, by the marks alone (noise %2 times what their "
+                           "sigmas say)")
+                            .arg(placeText(marks))
                             .arg(QString::number(solution.noise_factor, 'f', 2));
   QStringList rows = {
-      line(tr("normal"), sigma->normal_mm, mm, judged(sigma->normal_mm, normal_mm, mm)),
-      line(tr("lateral"), sigma->lateral_mm, mm, judged(sigma->lateral_mm, lateral_mm, mm)),
+      line(tr("normal"), sigma->normal_mm, mm, judged(sigma->normal_mm, required.normal_mm, mm)),
+      line(tr("lateral"), sigma->lateral_mm, mm,
+           judged(sigma->lateral_mm, required.lateral_mm, mm)),
       line(tr("rotation"), sigma->out_of_plane_mrad, mrad,
            judged(sigma->out_of_plane_mrad, rotation_mrad, mrad)),
       axes(tr("along x, y, z"), sigma->translation_mm, mm)};
   // Without an end effector the row above is the camera's own already.
   const auto at_camera =
       at_effector ? sessions::poseSigma(*answer.covariance, std::nullopt) : std::nullopt;
-  if (at_camera) rows << axes(tr("camera's own"), at_camera->translation_mm, mm);
+  if (at_camera) rows << axes(tr("at the camera"), at_camera->translation_mm, mm);
   rows << axes(tr("about x, y, z"), sigma->rotation_mrad, mrad);
   return table(title, rows);
 }
@@ -161,20 +165,21 @@ QString viewsHtml(const sessions::CaseMarksSolution& solved) {
 }
 
 QString differenceRow(const QString& name, const Pose& other, const Pose& annotated,
-                      const SolutionContext& context, const QString& more) {
+                      const sessions::CaseMarks& marks, const QString& more) {
   const sessions::PoseError error =
-      sessions::poseError(other, annotated, context.camera_from_end_effector);
+      sessions::poseError(other, annotated, marks.camera_from_end_effector);
   return rowOf({cell(name.toHtmlEscaped()), cell(QString::number(error.normal_mm, 'f', 3), true),
                 cell(QString::number(error.lateral_mm, 'f', 3), true),
                 cell(QString::number(error.geodesic_mrad / kDegree_mrad, 'f', 4), true),
                 cell(more)});
 }
 
-QString comparedHtml(const AnnotationSolver::Answer& answer, const SolutionContext& context,
-                     const Pose& annotated) {
+QString comparedHtml(const AnnotationSolver::Answer& answer,
+                     const std::vector<ComparedPose>& others, const Pose& annotated) {
+  const sessions::CaseMarks& marks = answer.solution->marks;
   QStringList rows;
-  for (const ComparedPose& other : context.others)
-    rows << differenceRow(other.name, other.camera_from_station, annotated, context, {});
+  for (const ComparedPose& other : others)
+    rows << differenceRow(other.name, other.camera_from_station, annotated, marks, {});
   for (const AnnotationSolver::PassAnswer& pass : answer.passes) {
     const int shared = static_cast<int>(pass.repeatability.marks.size());
     const QString repeated = shared > 0
@@ -184,7 +189,7 @@ QString comparedHtml(const AnnotationSolver::Answer& answer, const SolutionConte
                                  : tr("no mark in common");
     const QString name = tr("pass of %1").arg(fromText(pass.by));
     if (pass.camera_from_station)
-      rows << differenceRow(name, *pass.camera_from_station, annotated, context, repeated);
+      rows << differenceRow(name, *pass.camera_from_station, annotated, marks, repeated);
     else
       rows << rowOf(
           {cell(name.toHtmlEscaped()), cell(tr("no pose")), cell({}), cell({}), cell(repeated)});
@@ -192,7 +197,7 @@ QString comparedHtml(const AnnotationSolver::Answer& answer, const SolutionConte
   if (rows.isEmpty()) return {};
   rows.prepend(rowOf({cell(QString()), cell(tr("normal, mm"), true), cell(tr("lateral, mm"), true),
                       cell(tr("angle, deg"), true), cell(QString())}));
-  return table(tr("The annotated pose is from"), rows);
+  return table(tr("The annotated pose is from, at the %1").arg(placeText(marks)), rows);
 }
 
 }  // namespace
@@ -214,22 +219,25 @@ QString geometryMeterText(const AnnotationSolver::Answer& answer) {
   if (!answer.solution) return {};
   QStringList weak;
   for (const sessions::GeometryWarning& warning : answer.solution->warnings)
-    weak << weaknessText(warning.weakness);
+    weak << (warning.weakness == sessions::GeometryWeakness::kImprecise
+                 ? tr("one sigma is %1").arg(fromText(answer.solution->sigmaExcess()))
+                 : weaknessText(warning.weakness));
   const QChar sign(weak.isEmpty() ? 0x2713 : 0x26a0);
   return tr("Geometry: %1 %2")
       .arg(sign)
       .arg(weak.isEmpty() ? tr("nothing weak") : weak.join(QStringLiteral(", ")));
 }
 
-QString solutionHtml(const AnnotationSolver::Answer& answer, const SolutionContext& context) {
+QString solutionHtml(const AnnotationSolver::Answer& answer,
+                     const std::vector<ComparedPose>& others) {
   if (!answer.solution) return {};
   QString html = warningsHtml(*answer.solution);
   const auto annotated = answer.solution->camera_from_station();
   if (!annotated) return html;
-  html += sigmaHtml(answer, context);
+  html += sigmaHtml(answer);
   html += twinHtml(*answer.solution);
   html += viewsHtml(*answer.solution);
-  html += comparedHtml(answer, context, *annotated);
+  html += comparedHtml(answer, others, *annotated);
   return html;
 }
 

@@ -17,13 +17,6 @@ struct ComparedPose {
   Pose camera_from_station;
 };
 
-/// What the annotated pose is judged by.
-struct SolutionContext {
-  std::optional<sessions::Requirement> requirement;
-  std::optional<Pose> camera_from_end_effector;
-  std::vector<ComparedPose> others;  ///< seed, run, truth
-};
-
 /// "Solved from 8 marks, 0.21 px rms.", or why there is no pose.
 QString solutionHeadline(const AnnotationSolver::Answer& answer, bool stale);
 
@@ -33,7 +26,8 @@ QString geometryMeterText(const AnnotationSolver::Answer& answer);
 
 /// Everything else that an annotator reads of a solution: what is weak in the marks, one sigma
 /// against the requirement, the second pose of a plane beside the first, residuals per camera, and
-/// how far the other poses and passes are. Colour never says anything alone.
-QString solutionHtml(const AnnotationSolver::Answer& answer, const SolutionContext& context);
+/// how far the other poses (seed, run, truth) and passes are. Colour never says anything alone.
+QString solutionHtml(const AnnotationSolver::Answer& answer,
+                     const std::vector<ComparedPose>& others);
 
 }  // namespace boresight::ui

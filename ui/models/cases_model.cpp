@@ -142,9 +142,12 @@ QVariant CasesModel::headerData(int section, Qt::Orientation orientation, int ro
       tr("The image's name."),
       tr("What has become of the case: new, running, converged, failed, annotated, validated, "
          "rejected. Stale: its inputs or options have changed since its run."),
-      tr("Error of the result along the station's normal, in mm, where the truth is known."),
-      tr("Error of the result across the station's normal, in mm, where the truth is known."),
-      tr("Error of the result's rotation, in degrees, where the truth is known.")};
+      tr("Error of the result along the view axis at the end effector (at the camera where that is "
+         "not known), in mm, where the truth is known."),
+      tr("Error of the result across the view axis at the end effector (at the camera where that "
+         "is not known), in mm, where the truth is known."),
+      tr("Angle between the view axes of the result and the truth, in degrees, where that is "
+         "known.")};
   if (role == Qt::DisplayRole) return titles[section];
   if (role == Qt::ToolTipRole) return help[section];
   return {};

@@ -26,7 +26,7 @@ const std::array<ColumnInfo, MarksModel::kColumnCount> kMarksColumns = {{
      2},
     {TEXT("Sigmas"),
      TEXT("The residual in units of its own standard deviation; above 3 the mark stands out."), 1},
-    {TEXT("Without, mm"),
+    {TEXT("Middle without, mm"),
      TEXT("How far the middle of the marked places moves when the pose is solved without this "
           "mark, in millimetres."),
      3},

@@ -6,6 +6,7 @@
 #include <QClipboard>
 #include <QHeaderView>
 #include <QLabel>
+#include <QPushButton>
 #include <QTableWidget>
 #include <QVBoxLayout>
 
@@ -40,6 +41,10 @@ InputSheetPanel::InputSheetPanel(QWidget* parent) : QWidget(parent) {
   table_->addAction(copy);
   table_->setContextMenuPolicy(Qt::ActionsContextMenu);
   connect(copy, &QAction::triggered, this, &InputSheetPanel::copyChosen);
+  sigmas_ = new QPushButton(tr("How well mesh and camera are known ..."), this);
+  sigmas_->setObjectName(QStringLiteral("inputSigmas"));
+  connect(sigmas_, &QPushButton::clicked, this, &InputSheetPanel::sigmasRequested);
+  column->addWidget(sigmas_);
   setSheet(std::nullopt);
 }
 
@@ -55,6 +60,7 @@ void InputSheetPanel::showFlags(const std::vector<sessions::RedFlag>& flags) {
 }
 
 void InputSheetPanel::setSheet(const std::optional<sessions::InputSheet>& sheet) {
+  sigmas_->setEnabled(sheet.has_value());
   if (!sheet) {
     flags_->setText(tr("No case is open."));
     table_->setRowCount(0);

@@ -72,42 +72,40 @@ PoseComparison::PoseComparison(QWidget* parent) : QWidget(parent) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
 
-  auto* sure = new QGroupBox(tr("Uncertainty of the current pose (one sigma)"), this);
-  auto* sure_layout = new QVBoxLayout(sure);
-  sigma_ = new QLabel(sure);
+  sure_ = new QGroupBox(this);
+  auto* sure_layout = new QVBoxLayout(sure_);
+  sigma_ = new QLabel(sure_);
   sigma_->setObjectName(QStringLiteral("sigma"));
   sigma_->setTextFormat(Qt::RichText);
   sigma_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   sigma_->setToolTip(
       tr("From the covariance of the fit: it says how well the matches determine "
-         "the pose, not whether they are right. Translations are those of the end "
-         "effector, or of the camera where none is known."));
+         "the pose, not whether they are right. Errors of the mesh's scale and of the "
+         "calibration are not in it: the checks add them."));
   sure_layout->addWidget(sigma_);
-  layout->addWidget(sure);
+  layout->addWidget(sure_);
 
-  auto* apart = new QGroupBox(tr("Difference"), this);
-  auto* apart_layout = new QVBoxLayout(apart);
+  apart_ = new QGroupBox(this);
+  auto* apart_layout = new QVBoxLayout(apart_);
   auto* chooser = new QHBoxLayout;
   to_ = roleBox(PoseRole::kEstimate, "differenceOf");
   from_ = roleBox(PoseRole::kTruth, "differenceFrom");
   chooser->addWidget(to_);
-  chooser->addWidget(new QLabel(tr("from"), apart));
+  chooser->addWidget(new QLabel(tr("from"), apart_));
   chooser->addWidget(from_);
   chooser->addStretch(1);
   apart_layout->addLayout(chooser);
-  difference_ = new QLabel(apart);
+  difference_ = new QLabel(apart_);
   difference_->setObjectName(QStringLiteral("difference"));
   difference_->setTextFormat(Qt::RichText);
   difference_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   difference_->setToolTip(
       tr("The second pose counts as the truth. Normal: along its camera's axis; "
          "lateral: across it; rotation: between the axes; twist: about the "
-         "axis. Translations are judged at the end effector, or at the camera "
-         "where none is known."));
+         "axis."));
   apart_layout->addWidget(difference_);
-  layout->addWidget(apart);
-  showSigma();
-  showDifference();
+  layout->addWidget(apart_);
+  setJudgement({});
 }
 
 QComboBox* PoseComparison::roleBox(PoseRole role, const char* name) {
@@ -132,6 +130,10 @@ void PoseComparison::setCovariance(const std::optional<Matrix6d>& covariance) {
 
 void PoseComparison::setJudgement(const PoseJudgement& judgement) {
   judgement_ = judgement;
+  const QString place =
+      QString::fromUtf8(sessions::judgedPlace(judgement_.camera_from_end_effector));
+  sure_->setTitle(tr("One sigma of the current pose at the %1, by the picture alone").arg(place));
+  apart_->setTitle(tr("Difference at the %1").arg(place));
   showSigma();
   showDifference();
 }
@@ -176,7 +178,21 @@ void PoseComparison::showDifference() {
                 limitOf(judgement_, &sessions::Requirement::lateral_mm)) +
             row(tr("rotation"), error.rotation_mrad, mrad, rotationLimit_mrad(judgement_)) +
             row(tr("twist"), error.in_plane_mrad, mrad) +
-            row(tr("whole angle"), error.geodesic_mrad, mrad)));
+            row(tr("whole angle"), error.geodesic_mrad, mrad) +
+            truthRows(from_role == PoseRole::kTruth || to_role == PoseRole::kTruth)));
+}
+
+/// How well a truth is known that annotations gave.
+QString PoseComparison::truthRows(bool compared) const {
+  const auto sigma =
+      compared && judgement_.truth_covariance
+          ? sessions::poseSigma(*judgement_.truth_covariance, judgement_.camera_from_end_effector)
+          : std::nullopt;
+  if (!sigma) return {};
+  return row(tr("one sigma of the truth, normal"), sigma->normal_mm, tr("mm"),
+             limitOf(judgement_, &sessions::Requirement::normal_mm)) +
+         row(tr("one sigma of the truth, lateral"), sigma->lateral_mm, tr("mm"),
+             limitOf(judgement_, &sessions::Requirement::lateral_mm));
 }
 
 }  // namespace boresight::ui

@@ -11,6 +11,7 @@
 
 QT_BEGIN_NAMESPACE
 class QComboBox;
+class QGroupBox;
 class QLabel;
 QT_END_NAMESPACE
 
@@ -19,7 +20,8 @@ namespace boresight::ui {
 /// What poses are judged by.
 struct PoseJudgement {
   std::optional<sessions::Requirement> requirement;
-  std::optional<Pose> camera_from_end_effector;  ///< where translations are judged
+  std::optional<Pose> camera_from_end_effector;   ///< where translations are judged
+  std::optional<Matrix6d> truth_covariance = {};  ///< of a truth that annotations gave
 };
 
 /// The covariance of what the state shows: the run's own at its end, else the iteration's. Nothing
@@ -42,7 +44,10 @@ class PoseComparison : public QWidget {
   QComboBox* roleBox(PoseRole role, const char* name);
   void showSigma();
   void showDifference();
+  QString truthRows(bool compared) const;
 
+  QGroupBox* sure_ = nullptr;
+  QGroupBox* apart_ = nullptr;
   QLabel* sigma_ = nullptr;
   QComboBox* from_ = nullptr;
   QComboBox* to_ = nullptr;

@@ -6,7 +6,10 @@
 
 #include "core/base/math.h"
 #include "sessions/evaluation/pose_error.h"
+#include "sessions/evaluation/requirement_share.h"
+#include "sessions/review/review_settings.h"
 #include "sessions/session/case_run.h"
+#include "ui/models/number_text.h"
 #include "ui/run/task_runner.h"
 
 namespace boresight::ui {
@@ -91,6 +94,12 @@ void CaseDetails::fillErrors(const sessions::SessionCase& one, CaseRow& row) con
   row.normal_mm = std::abs(error.normal_mm);
   row.lateral_mm = error.lateral_mm;
   row.rotation_deg = 1e-3 * error.rotation_mrad / kDegree_rad;
+  const std::string excess = sessions::sigmaExcessText(
+      one.truth_covariance.value_or(Matrix6d::Zero()), one.camera_from_end_effector,
+      sessions::requirementOf(session_, one));
+  if (excess.empty()) return;
+  row.detail += (row.detail.isEmpty() ? QString() : QStringLiteral("\n")) +
+                tr("One sigma of its truth is %1: the errors say little.").arg(fromText(excess));
 }
 
 void CaseDetails::fill(std::vector<CaseRow>& rows) const {

@@ -5,11 +5,13 @@
 #include <vector>
 
 #include "sessions/session/input_sheet.h"
+#include "sessions/session/input_sigmas.h"
 #include "ui/annotation/annotation_panel.h"
 #include "ui/models/number_text.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/input_sheet_panel.h"
+#include "ui/panels/input_sigmas_dialog.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/warning_bar.h"
 #include "ui/run/pose_renderer.h"
@@ -36,6 +38,7 @@ PanelLinks::PanelLinks(const WindowParts& parts, const WindowDocks& docks, QObje
   linkConfiguration();
   linkPoses();
   connect(&parts_.state, &ViewState::caseChanged, this, &PanelLinks::showInputs);
+  connect(&docks_.inputs(), &InputSheetPanel::sigmasRequested, this, &PanelLinks::askForSigmas);
   connect(&docks_.warnings(), &WarningBar::actionRequested, this,
           [this] { docks_.raise(QStringLiteral("inputs")); });
 }
@@ -131,12 +134,27 @@ void PanelLinks::showInputs() {
       });
 }
 
+void PanelLinks::askForSigmas() {
+  const ViewState::CasePtr& shown = parts_.state.currentCase();
+  const sessions::SessionCase* one =
+      shown ? parts_.document.session().findCase(shown->source.id) : nullptr;
+  if (!one) return;
+  const std::string id = one->id;
+  InputSigmasDialog dialog(*one, docks_.inputs().window());
+  if (dialog.exec() != QDialog::Accepted) return;
+  parts_.document.edit(
+      sessions::withInputSigmas(parts_.document.session(), id, dialog.meshScaleSigma(),
+                                dialog.calibrationSigma()),
+      tr("State how well mesh and camera of %1 are known").arg(fromText(id)));
+}
+
 void PanelLinks::showJudgement() {
   const ViewState::CasePtr& one = parts_.state.currentCase();
   nudged_->setCase(one);
   PoseJudgement judgement;
   if (one) {
     judgement.requirement = one->source.requirement;
+    judgement.truth_covariance = one->source.truth_covariance;
     judgement.camera_from_end_effector = one->source.camera_from_end_effector;
   }
   docks_.poses().setJudgement(judgement);

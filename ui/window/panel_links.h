@@ -31,6 +31,7 @@ class PanelLinks : public QObject {
   void showCases();
   void showConfiguration();
   void showInputs();
+  void askForSigmas();
   void showJudgement();
   void showNudgedPose();
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sessions/evaluation/pose_error.h"
+#include "sessions/evaluation/requirement_share.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::sessions {
@@ -47,6 +48,21 @@ TEST(PoseSigma, IsNothingWithoutACovariance) {
   EXPECT_FALSE(poseSigma(covariance, std::nullopt));
   covariance(2, 2) = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(poseSigma(covariance, std::nullopt));
+}
+
+TEST(SigmaExcess, NamesWhatIsWorstByFiguresAndWhere) {
+  Vector6d sigma;
+  sigma << 1e-3, 0.0, 0.0, 3e-3, 0.0, 10.4e-3;
+  const Matrix6d covariance = sigma.cwiseAbs2().asDiagonal();
+  EXPECT_EQ(sigmaExcessText(covariance, {}, {0.4, 0.4, 0.25, {}}),
+            "10.4 mm along the view axis at the camera, 26 times the 0.4 mm required");
+  Pose effector;
+  EXPECT_EQ(sigmaExcessText(covariance, effector, {11.0, 0.5, 0.25, {}}),
+            "3 mm across the view axis at the end effector, 6 times the 0.5 mm required");
+  EXPECT_EQ(sigmaExcessText(covariance, effector, {11.0, {}, 0.01, {}}),
+            "0.0573 deg of the view axis, 5.73 times the 0.01 deg required");
+  EXPECT_EQ(sigmaExcessText(covariance, effector, {11.0, 4.0, 0.25, {}}), "");
+  EXPECT_EQ(sigmaExcessText(Matrix6d::Zero(), effector, {0.0, 0.0, 0.0, {}}), "");
 }
 
 }  // namespace

@@ -90,6 +90,7 @@ TEST(SummaryTable, AddsUpSeveralGroups) {
   const std::string table = summaryTable(results);
   EXPECT_THAT(table.substr(table.find("\nall")),
               AllOf(HasSubstr("3 "), HasSubstr("66.7"), HasSubstr("0.200 / 0.100 / 0.300")));
+  EXPECT_THAT(table, HasSubstr("at the end effector"));
   EXPECT_THAT(summaryTable(std::vector<RunResult>{results.front()}), Not(HasSubstr("\nall")));
 }
 

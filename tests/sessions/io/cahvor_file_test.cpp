@@ -109,6 +109,22 @@ TEST_F(CahvorText, StatesScalesAndCentres) {
   EXPECT_THAT(text, HasSubstr("Theta = -1.57079632679"));
 }
 
+TEST_F(CahvorText, StatesHowWellItIsCalibratedWhereItHasAnInternalCovariance) {
+  const auto sigma = [this](const std::string& text) {
+    return readCahvorCamera(folder_.write("a.cahvor", text)).calibration_sigma;
+  };
+  EXPECT_FALSE(sigma(kText));
+  const std::string rest =
+      " 0 0 0 0\n 0 0.25 0 0 0\n 0 0 0.0324 0 0\n 0 0 0 0.16 0\n 0 0 0 0 1e-9\n";
+  const auto stated = sigma(kText + ("\nS internal =\n 0.0081" + rest));
+  ASSERT_TRUE(stated);
+  EXPECT_DOUBLE_EQ(stated->focal_relative, 0.18 / 450.0) << "the worse of Hs and Vs";
+  EXPECT_DOUBLE_EQ(stated->principal_point_px, 0.5) << "the worse of Hc and Vc";
+  std::string zeros = "\nS internal =\n";
+  for (int i = 0; i < 25; ++i) zeros += " 0";
+  EXPECT_FALSE(sigma(kText + zeros + "\n")) << "it says nothing";
+}
+
 TEST_F(CahvorText, NamesWhatIsWrong) {
   EXPECT_EQ(error("hello"),
             "a.cahvor: not a camera file: it begins with 'hello' instead of Model = ...");

@@ -93,6 +93,29 @@ TEST_F(ReadCamera, RefusesAWrongNumberOfCoefficients) {
             "camera.json: dist: missing");
 }
 
+TEST_F(ReadCamera, TakesAStatedSigmaOfTheCalibrationAndWritesItBack) {
+  const std::string begin =
+      R"({"format": "boresight-camera", "version": 1, "model": "pinhole", "width": 8, "height": 6,
+          "fx": 10, "fy": 10, "cx": 3.5, "cy": 2.5)";
+  const TemporaryFolder folder;
+  EXPECT_FALSE(readCameraFile(folder.write("a.json", begin + "}")).calibration_sigma);
+  const auto with = [&](const std::string& sigma) {
+    return folder.write("b.json", begin + ", \"calibration_sigma\": " + sigma + "}");
+  };
+  const CameraFile read =
+      readCameraFile(with(R"({"focal_relative": 0.001, "principal_point_px": 0.7})"));
+  EXPECT_EQ(read.calibration_sigma, (CalibrationSigma{0.001, 0.7}));
+  writeCamera(folder / "c.json", read);
+  EXPECT_EQ(readCameraFile(folder / "c.json").calibration_sigma, read.calibration_sigma);
+  for (const char* wrong :
+       {R"({"focal_relative": 0.001})", R"({"focal_relative": -1, "principal_point_px": 0})",
+        R"({"focal_relative": 0.5, "principal_point_px": 0})",
+        R"({"focal_relative": 0, "principal_point_px": 0, "focal_px": 1})"})
+    EXPECT_THAT(folder.message([&] { (void)readCameraFile(with(wrong)); }),
+                HasSubstr("calibration_sigma"))
+        << wrong;
+}
+
 TEST_F(ReadCamera, RefusesOtherFiles) {
   const auto message = [this](const std::string& name) {
     return folder_.message([&] { (void)readCamera(folder_ / name); });

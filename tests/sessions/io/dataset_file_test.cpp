@@ -119,6 +119,29 @@ TEST_F(ReadDataset, GivesACaseWhatItsStationAndTheDatasetSay) {
   EXPECT_EQ(a.camera_from_end_effector->translation_m.z(), 0.39);
 }
 
+TEST_F(ReadDataset, TakesHowWellMeshAndCameraAndATruthAreKnown) {
+  const Dataset unstated = readSample();
+  EXPECT_FALSE(unstated.stations.at("bc").mesh_scale_sigma);
+  EXPECT_TRUE(unstated.calibration_sigmas.empty());
+  json content = sampleDataset();
+  content["stations"]["bc"]["mesh_scale_sigma"] = 0.001;
+  content["cameras"]["left"]["calibration_sigma"] = {{"focal_relative", 0.002},
+                                                     {"principal_point_px", 0.5}};
+  json covariance = json::array();
+  for (int row = 0; row < 6; ++row) {
+    covariance.push_back(json::array({0, 0, 0, 0, 0, 0}));
+    covariance[static_cast<std::size_t>(row)][static_cast<std::size_t>(row)] = 1e-6;
+  }
+  content["cases"][1]["truth"]["covariance"] = covariance;
+  const Dataset dataset = read(content);
+  EXPECT_EQ(dataset.stations.at("bc").mesh_scale_sigma, 0.001);
+  EXPECT_EQ(dataset.calibration_sigmas.at("left"), (CalibrationSigma{0.002, 0.5}));
+  EXPECT_FALSE(unstated.findCase("b")->truth_covariance) << "exact";
+  EXPECT_EQ(dataset.findCase("b")->truth_covariance, Matrix6d(1e-6 * Matrix6d::Identity()));
+  EXPECT_THAT(error([](json& d) { d["stations"]["bc"]["mesh_scale_sigma"] = 0.2; }),
+              HasSubstr("stations.bc.mesh_scale_sigma"));
+}
+
 TEST_F(ReadDataset, LetsACaseOverride) {
   const Dataset dataset = readSample();
   const Case& b = *dataset.findCase("b");

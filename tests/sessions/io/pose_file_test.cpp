@@ -123,6 +123,24 @@ TEST(WritePose, RoundTrips) {
   }
 }
 
+TEST(WritePose, KeepsACovarianceAndRefusesWhatIsNone) {
+  const TemporaryFolder folder;
+  writePose(folder / "pose.json", Pose());
+  EXPECT_FALSE(readPose(folder / "pose.json").covariance);
+  Matrix6d covariance = 1e-6 * Matrix6d::Identity();
+  covariance(0, 4) = covariance(4, 0) = 5e-7;
+  writePose(folder / "pose.json", Pose(), {}, covariance);
+  EXPECT_EQ(readPose(folder / "pose.json").covariance, covariance);
+  const auto message = [&] { return folder.message([&] { readPose(folder / "pose.json"); }); };
+  Matrix6d asymmetric = covariance;
+  asymmetric(0, 4) = 0.0;
+  writePose(folder / "pose.json", Pose(), {}, asymmetric);
+  EXPECT_THAT(message(), HasSubstr("covariance: not a covariance"));
+  covariance(2, 2) = -1e-6;
+  writePose(folder / "pose.json", Pose(), {}, covariance);
+  EXPECT_THAT(message(), HasSubstr("covariance: not a covariance"));
+}
+
 TEST(SeedUncertaintyOf, TurnsDegreesAndThePivotIntoTheCoresTerms) {
   DeclaredUncertainty declared;
   declared.translation_m = Eigen::Vector3d(0.01, 0.02, 0.03);

@@ -35,6 +35,15 @@ LocalizationTrace endedWith(LocalizationStatus status) {
   return trace;
 }
 
+TEST(PoseText, SaysWhereItsSigmasAre) {
+  const Matrix6d covariance = 1e-6 * Matrix6d::Identity();
+  EXPECT_THAT(
+      poseText(Pose(), covariance),
+      HasSubstr("1 sigma at the camera, along and about its x y z: 1.0000 1.0000 1.0000 mm"));
+  EXPECT_THAT(poseText(Pose(), covariance, "rig_from_station"),
+              HasSubstr("1 sigma at the rig's origin"));
+}
+
 TEST(Explanation, IsEmptyForAConvergedRun) {
   EXPECT_THAT(explanation(endedWith(LocalizationStatus::kConverged)), IsEmpty());
 }

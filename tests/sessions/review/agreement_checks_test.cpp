@@ -52,13 +52,59 @@ TEST(AgreementChecks, TheTruthIsHeldToTheRequirement) {
   EXPECT_EQ(checkOf(subject, "agreement_truth").state, CheckState::kFailed);
 }
 
+TEST(AgreementChecks, ACoarseTruthOfAnnotationsAllowsItsOwnSigmasAndSaysThatItTellsLittle) {
+  ReviewSubject subject = someSubject();
+  auto loaded = std::make_shared<LoadedCase>();
+  setTruth(loaded->source, movedBy(subject, 0.0, 8.0));
+  subject.loaded = loaded;
+  EXPECT_NEAR(checkOf(subject, "agreement_truth").figure.value(), 2000.0, 1e-6) << "it is exact";
+  // 3 sigma of 10 mm along the view axis, of the truth and of the pose together.
+  setTruth(loaded->source, movedBy(subject, 0.0, 8.0), Matrix6d(9.9e-5 * Matrix6d::Identity()));
+  subject.covariance.picture = 1e-6 * Matrix6d::Identity();
+  const Check check = checkOf(subject, "agreement_truth");
+  EXPECT_NEAR(check.figure.value(), 100.0 * 8.0 / std::hypot(0.4, 30.0), 1e-6);
+  EXPECT_EQ(check.state, CheckState::kPassed);
+  EXPECT_NE(check.sentence.find("says little"), std::string::npos) << check.sentence;
+}
+
+TEST(AgreementChecks, AnnotationAndRunShareTheErrorsOfMeshAndCamera) {
+  ReviewSubject subject = someSubject();
+  subject.covariance = {1e-12 * Matrix6d::Identity(), Matrix6d::Identity(), Matrix6d::Identity()};
+  subject.annotated.emplace();
+  subject.annotated->camera_from_station = movedBy(subject, 0.0, 0.8);
+  subject.annotated->covariance.picture = 1e-12 * Matrix6d::Identity();
+  EXPECT_NEAR(checkOf(subject, "agreement_annotation").figure.value(), 200.0, 0.1);
+}
+
+TEST(AgreementChecks, CalibrationsOfTwoCamerasAreIndependent) {
+  ReviewSubject subject = someSubject();
+  OtherPose other{"left", movedBy(subject, 0.0, 0.8), {1e-12 * Matrix6d::Identity(), {}, {}}};
+  other.covariance.mesh_scale = other.covariance.calibration = Matrix6d::Zero();
+  other.covariance.calibration(5, 5) = 1e-8;
+  subject.covariance = other.covariance;
+  subject.other_cameras = {other};
+  EXPECT_NEAR(checkOf(subject, "agreement_camera").figure.value(),
+              100.0 * 0.8 / std::hypot(0.4, 0.3 * std::sqrt(2.0)), 0.1);
+}
+
+TEST(AgreementChecks, TheSentenceSaysWhereThePosesAreApart) {
+  ReviewSubject subject = someSubject();
+  auto loaded = std::make_shared<LoadedCase>();
+  setTruth(loaded->source, movedBy(subject, 0.1, -0.3));
+  subject.loaded = loaded;
+  const auto sentence = [&] { return checkOf(subject, "agreement_truth").sentence; };
+  EXPECT_NE(sentence().find("across the view axis at the camera"), std::string::npos) << sentence();
+  loaded->source.camera_from_end_effector = Pose();
+  EXPECT_NE(sentence().find("at the end effector"), std::string::npos) << sentence();
+}
+
 TEST(AgreementChecks, ACoarseAnnotationAllowsItsOwnSigmasAndSaysThatItTellsLittle) {
   ReviewSubject subject = someSubject();
   subject.annotated.emplace();
   subject.annotated->camera_from_station = movedBy(subject, 0.6, 0.0);
   EXPECT_EQ(checkOf(subject, "agreement_annotation").state, CheckState::kFailed);
   // 3 sigma of 0.4 mm per axis: across the axis 3 sqrt(2) 0.4 mm and the requirement together.
-  subject.annotated->covariance = 1.6e-7 * Matrix6d::Identity();
+  subject.annotated->covariance.picture = 1.6e-7 * Matrix6d::Identity();
   const Check check = checkOf(subject, "agreement_annotation");
   EXPECT_NEAR(check.figure.value(), 100.0 * 0.6 / std::hypot(0.4, 1.2 * std::sqrt(2.0)), 1e-6);
   EXPECT_EQ(check.state, CheckState::kPassed);
@@ -67,7 +113,7 @@ TEST(AgreementChecks, ACoarseAnnotationAllowsItsOwnSigmasAndSaysThatItTellsLittl
 
 TEST(AgreementChecks, OfSeveralCamerasTheFarthestCounts) {
   ReviewSubject subject = someSubject();
-  const Matrix6d unknown = Matrix6d::Zero();
+  const PoseCovariance unknown;
   subject.other_cameras = {{"left", movedBy(subject, 0.1, 0.0), unknown},
                            {"top", movedBy(subject, 0.0, 0.8), unknown},
                            {"right", movedBy(subject, 0.2, 0.0), unknown}};

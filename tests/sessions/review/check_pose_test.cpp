@@ -5,10 +5,13 @@
 #include <filesystem>
 #include <set>
 
+#include "sessions/evaluation/pose_error.h"
+#include "sessions/evaluation/pose_sigma.h"
 #include "sessions/io/errors.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/checks_text.h"
 #include "sessions/review/mirror_image.h"
+#include "sessions/review/pose_uncertainty.h"
 #include "tests/sessions/review/find_check.h"
 #include "tests/support/loaded_example.h"
 #include "tests/support/marked_example.h"
@@ -66,6 +69,79 @@ TEST(CheckPose, TheExamplesPassAll) {
     EXPECT_TRUE(allPassed(checks)) << station << "\n" << checksText(checks, true);
     EXPECT_EQ(findCheck(checks, "agreement_truth").state, CheckState::kPassed);
     EXPECT_EQ(findCheck(checks, "edge_coverage").state, CheckState::kPassed);
+  }
+}
+
+/// The station's case with another mesh scale or camera, run anew from the same seed.
+ReviewSubject runWith(const std::string& station, double mesh_scale,
+                      const std::function<void(SessionCase&)>& change) {
+  const ExampleReview& review = example(station);
+  auto loaded = std::make_shared<LoadedCase>();
+  loaded->source = review.subject.loaded->source;
+  loaded->source.camera_from_station_truth.reset();
+  change(loaded->source);
+  EXPECT_EQ(prepareCamera(loaded->source.camera), Status::kOk);
+  loaded->image = review.subject.loaded->image;
+  loaded->scene = review.subject.loaded->scene;
+  for (Eigen::Vector3f& vertex : loaded->scene.vertices_in_station_m)
+    vertex *= static_cast<float>(mesh_scale);
+  const LocalizationTrace trace =
+      runCase(*loaded, caseOptions(review.session, loaded->source, "session"));
+  EXPECT_TRUE(trace.converged());
+  ReviewSubject subject = review.subject;
+  subject.loaded = loaded;
+  subject.camera_from_station = trace.camera_from_station;
+  subject.covariance = poseCovariance(loaded->source, loaded->scene.view(),
+                                      trace.camera_from_station, trace.covariance);
+  subject.run = snapshotOf(LocalizationTrace(trace));
+  return subject;
+}
+
+/// One sigma against the true error, along the view axis at the end effector, mm.
+struct Along {
+  double sigma_mm = 0.0;
+  double error_mm = 0.0;
+};
+
+Along alongOf(const std::string& station, const ReviewSubject& subject) {
+  const SessionCase& one = example(station).subject.loaded->source;
+  const auto sigma = poseSigma(subject.covariance.total(), one.camera_from_end_effector);
+  const PoseError error = poseError(*one.camera_from_station_truth, subject.camera_from_station,
+                                    one.camera_from_end_effector);
+  return {sigma.value().normal_mm, std::abs(error.normal_mm)};
+}
+
+TEST(CheckPose, AMeshHalfAPercentTooLargeIsCoveredByItsStatedScaleAndFails) {
+  for (const char* station : {"bc", "os"}) {
+    const auto subject =
+        runWith(station, 1.005, [](SessionCase& one) { one.mesh_scale_sigma = 0.005; });
+    const Along along = alongOf(station, subject);
+    EXPECT_GT(along.error_mm, 1.5) << station;
+    EXPECT_LT(along.error_mm, 1.2 * along.sigma_mm) << station;
+    const Check check = findCheck(checkPose(subject, presetLimits()), "covariance_normal");
+    EXPECT_EQ(check.state, CheckState::kFailed) << check.sentence;
+    EXPECT_NE(check.sentence.find("scale (0.5 %)"), std::string::npos) << check.sentence;
+  }
+}
+
+TEST(CheckPose, APrincipalPointTenPixelsOffIsFoundByTheEdges) {
+  for (const char* station : {"bc", "os"})
+    for (const double shift_px : {10.0, -10.0}) {
+      const auto subject =
+          runWith(station, 1.0, [&](SessionCase& one) { one.camera.cx += shift_px; });
+      const Check check = findCheck(checkPose(subject, presetLimits()), "camera_centre");
+      EXPECT_EQ(check.state, CheckState::kFailed) << station << ": " << check.sentence;
+    }
+}
+
+TEST(CheckPose, AFocalLengthOnePercentOffIsFoundByTheEdges) {
+  for (const char* station : {"bc", "os"}) {
+    const auto subject = runWith(station, 1.0, [](SessionCase& one) {
+      one.camera.fx *= 1.01;
+      one.camera.fy *= 1.01;
+    });
+    const Check check = findCheck(checkPose(subject, presetLimits()), "camera_focal");
+    EXPECT_EQ(check.state, CheckState::kFailed) << station << ": " << check.sentence;
   }
 }
 
@@ -145,8 +221,8 @@ TEST(CheckPose, AnotherCamerasPoseIsTakenThroughTheRig) {
   EXPECT_LT(perturbationBetween(same.other_cameras[0].camera_from_station, same.camera_from_station)
                 .norm(),
             1e-9);
-  EXPECT_LT((same.other_cameras[0].covariance - same.covariance).norm(),
-            1e-6 * same.covariance.norm());
+  EXPECT_LT((same.other_cameras[0].covariance.total() - same.covariance.total()).norm(),
+            1e-6 * same.covariance.total().norm());
   twin.rig->camera_from_rig.translation_m.x() += 0.002;
   review.session = withCase(review.session, twin);
   const auto apart = reviewSubject(review.session, loaded, PoseSource::kRun);

@@ -110,6 +110,8 @@ TEST(Decide, ALaterChangeDropsADecisionAndSaysWhichOne) {
       {"the image, camera, mesh, seed or mask has",
        [](Session&, auto& one) { one.camera_from_station_seed.translation_m.x() += 1e-12; }},
       {"the truth has", [&](Session&, auto& one) { one.camera_from_station_truth = Pose(); }},
+      {"the stated sigmas of mesh and camera have",
+       [](Session&, auto& one) { one.mesh_scale_sigma = 1e-3; }},
       {"the requirement has",
        [](Session&, auto& one) {
          one.requirement = {1.0, {}, {}, {}};

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "sessions/review/calibration_share.h"
 #include "sessions/review/camera_fit.h"
 #include "sessions/review/edge_evidence.h"
+#include "sessions/review/pose_uncertainty.h"
 #include "tests/sessions/review/drawn_box.h"
 #include "tests/sessions/review/find_check.h"
 
@@ -54,7 +54,7 @@ TEST(EdgeChecks, PlacesAreOnTheDrawnLinesToATenthOfAPixel) {
   const PredictedEdges edges =
       predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
   double length_px = 0.0;
-  for (const PredictedPlace& place : edges.places) length_px += place.length_px;
+  for (const EdgePlace& place : edges.places) length_px += place.length_px;
   EXPECT_NEAR(length_px, box.visibleLength_px(), 0.02 * box.visibleLength_px());
   const auto subject = box.subject(box.camera_from_station_);
   const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges, settings));
@@ -154,10 +154,10 @@ TEST(EdgeChecks, AWayThatTheEdgesDoNotDetermineIsFound) {
   DrawnBox box;
   const PredictedEdges edges =
       predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
-  std::vector<PredictedPlace> parallel;
+  std::vector<EdgePlace> parallel;
   const Eigen::Vector2d along =
       (box.pixelOf({0.06, 0.04, 0.025}) - box.pixelOf({-0.06, 0.04, 0.025})).normalized();
-  for (const PredictedPlace& place : edges.places)
+  for (const EdgePlace& place : edges.places)
     if (std::abs(place.normal.dot(along)) < 0.1) parallel.push_back(place);
   ASSERT_GT(parallel.size(), 200U);
   const EvidenceSettings settings;
@@ -208,7 +208,13 @@ TEST(EdgeChecks, ACameraThatNeitherItsCalibrationNorTheImageVouchesForFails) {
   CheckLimits limits;
   limits.focal_percent = 0.001;
   EXPECT_EQ(focalCheck(limits).state, CheckState::kFailed);
-  limits.focal_sigma_px = 50.0;  // known, to five percent: what the edges ask for is within that
+  auto stated = std::make_shared<LoadedCase>();
+  stated->source = subject.loaded->source;
+  stated->scene = subject.loaded->scene;
+  stated->image = subject.loaded->image;
+  // Known, to five percent: what the edges ask for is within that.
+  stated->source.calibration_sigma = CalibrationSigma{0.05, 0.3};
+  subject.loaded = stated;
   EXPECT_EQ(focalCheck(limits).state, CheckState::kPassed);
   subject.requirement = {{}, {}, {}, 3.0};
   EXPECT_EQ(focalCheck(limits).state, CheckState::kNotApplicable);

@@ -28,7 +28,7 @@ struct JudgedCase {
     loaded->source = one;
     subject.loaded = loaded;
     subject.camera_from_station = randomPose(random);
-    subject.covariance = Matrix6d::Identity();
+    subject.covariance.picture = Matrix6d::Identity();
     subject.run.emplace();
     subject.run->status = LocalizationStatus::kConverged;
     subject.run->digest = digest;

@@ -3,9 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
-
-#include "sessions/review/calibration_share.h"
+#include "sessions/review/pose_uncertainty.h"
 #include "tests/sessions/review/drawn_box.h"
 #include "tests/sessions/review/find_check.h"
 
@@ -23,17 +21,15 @@ Matrix6d someCovariance() {
 }
 
 std::vector<Check> checksOf(const ReviewSubject& subject, const CheckLimits& limits) {
-  const PredictedEdges edges = predictEdges(
-      subject.loaded->source.camera, subject.loaded->scene.view(), subject.camera_from_station);
   std::vector<Check> checks;
-  addPrecisionChecks(subject, limits, edges, checks);
+  addPrecisionChecks(subject, limits, checks);
   return checks;
 }
 
 TEST(PrecisionChecks, SigmasAreSetAgainstWhatTheRequirementNames) {
   const DrawnBox box;
   ReviewSubject subject = box.subject(box.camera_from_station_);
-  subject.covariance = someCovariance();
+  subject.covariance.picture = someCovariance();
   subject.requirement = {0.5, 0.5, {}, {}};
   const auto checks = checksOf(subject, CheckLimits());
   EXPECT_NEAR(findCheck(checks, "covariance_normal").figure.value(), 0.6, 1e-9);
@@ -48,7 +44,7 @@ TEST(PrecisionChecks, InTheImageTheyAreTheSpreadOfTheEdges) {
   ReviewSubject subject = box.subject(box.camera_from_station_);
   // 0.5 mm along x at half a metre with f = 1000 px: a pixel, whatever the place's depth makes of
   // it.
-  subject.covariance(3, 3) = 0.5e-3 * 0.5e-3;
+  subject.covariance.picture(3, 3) = 0.5e-3 * 0.5e-3;
   subject.requirement = {{}, {}, {}, 3.5};
   const Check check = findCheck(checksOf(subject, CheckLimits()), "covariance_projection");
   EXPECT_NEAR(check.figure.value(), 3.0, 0.25);
@@ -62,65 +58,51 @@ TEST(PrecisionChecks, WithoutACovarianceThereIsNothingToAsk) {
             CheckState::kNotApplicable);
 }
 
-TEST(PrecisionChecks, TheCalibrationsShareIsAddedAndTold) {
+TEST(PrecisionChecks, ScaleAndCalibrationCountWhereNobodyStatedThem) {
   const DrawnBox box;
   ReviewSubject subject = box.subject(box.camera_from_station_);
-  subject.covariance = 1e-12 * Matrix6d::Identity();
-  CheckLimits limits;
-  limits.focal_sigma_px = 1.0;
-  // A per mille of the focal length is one of the distance: 0.5 mm, less what the box's own depth
-  // tells otherwise.
-  const Check check = findCheck(checksOf(subject, limits), "covariance_normal");
-  EXPECT_NEAR(check.figure.value(), 1.5, 0.15);
-  EXPECT_EQ(check.state, CheckState::kFailed);
-  EXPECT_NE(check.sentence.find("calibrat"), std::string::npos) << check.sentence;
+  const SessionCase& one = subject.loaded->source;
+  subject.covariance = poseCovariance(one, subject.loaded->scene.view(),
+                                      subject.camera_from_station, 1e-12 * Matrix6d::Identity());
+  // 0.02 % of half a metre twice over, less what the box's own depth tells of the focal length.
+  const Check check = findCheck(checksOf(subject, CheckLimits()), "covariance_normal");
+  EXPECT_NEAR(check.figure.value(), 3.0 * 0.1 * std::sqrt(2.0), 0.02);
+  EXPECT_EQ(check.state, CheckState::kFailed) << "0.4 mm are required";
+  EXPECT_NE(check.sentence.find("no better than the mesh's scale (0.02 %, assumed) and the "
+                                "camera's calibration (0.02 % and 0.5 px, assumed) allow: 0.4"),
+            std::string::npos)
+      << check.sentence;
+  EXPECT_NE(check.sentence.find("state how well"), std::string::npos) << check.sentence;
 }
 
-/// Distances along the normals between what a wrong camera predicts from a pose and the true
-/// places.
-Eigen::VectorXd misfit(const PredictedEdges& edges, const Camera& camera, const Pose& pose) {
-  Eigen::VectorXd distances(static_cast<Eigen::Index>(edges.places.size()));
-  for (std::size_t i = 0; i < edges.places.size(); ++i) {
-    Eigen::Vector2d pixel;
-    EXPECT_TRUE(project(camera, pose * edges.places[i].point_in_station_m, pixel));
-    distances(static_cast<Eigen::Index>(i)) =
-        edges.places[i].normal.dot(pixel - edges.places[i].pixel);
-  }
-  return distances;
-}
-
-/// The pose of least squares, by derivatives that are differences.
-Pose fitted(const PredictedEdges& edges, const Camera& camera, Pose pose) {
-  for (int round = 0; round < 8; ++round) {
-    const Eigen::VectorXd now = misfit(edges, camera, pose);
-    Eigen::MatrixXd slopes(now.size(), 6);
-    for (int i = 0; i < 6; ++i)
-      slopes.col(i) =
-          (misfit(edges, camera, perturbed(1e-6 * Vector6d::Unit(i), pose)) - now) / 1e-6;
-    const Eigen::VectorXd step = slopes.colPivHouseholderQr().solve(-now);
-    pose = perturbed(Vector6d(step), pose);
-  }
-  return pose;
-}
-
-TEST(CalibrationShare, ThePoseFollowsTheCameraAsAFitWithTheWrongCameraDoes) {
+TEST(PrecisionChecks, WhatIsStatedTakesThePlaceOfWhatIsAssumed) {
   const DrawnBox box;
-  const PredictedEdges edges =
-      predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
-  const auto follow = poseByCamera(edges.places, box.camera_, box.camera_from_station_);
-  ASSERT_TRUE(follow);
-  for (int parameter = 0; parameter < 3; ++parameter) {
-    Camera wrong = box.camera_;
-    const double change_px = 0.2;
-    if (parameter == 0) wrong.fx = wrong.fy = box.camera_.fx + change_px;
-    if (parameter == 1) wrong.cx += change_px;
-    if (parameter == 2) wrong.cy += change_px;
-    ASSERT_EQ(prepareCamera(wrong), Status::kOk);
-    const Vector6d found = perturbationBetween(box.camera_from_station_,
-                                               fitted(edges, wrong, box.camera_from_station_));
-    const Vector6d expected = change_px * follow->col(parameter);
-    EXPECT_LT((found - expected).norm(), 0.01 * expected.norm()) << parameter;
-  }
+  ReviewSubject subject = box.subject(box.camera_from_station_);
+  SessionCase one = subject.loaded->source;
+  const auto figure = [&](double mesh_scale, const CalibrationSigma& calibration) {
+    one.mesh_scale_sigma = mesh_scale;
+    one.calibration_sigma = calibration;
+    subject.covariance = poseCovariance(one, subject.loaded->scene.view(),
+                                        subject.camera_from_station, 1e-12 * Matrix6d::Identity());
+    return findCheck(checksOf(subject, CheckLimits()), "covariance_normal").figure.value();
+  };
+  EXPECT_NEAR(figure(0.0, {0.0, 0.0}), 0.003, 1e-6);
+  EXPECT_NEAR(figure(0.005, {0.0, 0.0}), 3.0 * 2.5, 1e-3) << "half a percent of half a metre";
+  EXPECT_NEAR(figure(0.0, {0.001, 0.0}), 3.0 * 0.5, 0.15);
+}
+
+TEST(PrecisionChecks, TheSentenceSaysWhere) {
+  const DrawnBox box;
+  ReviewSubject subject = box.subject(box.camera_from_station_);
+  subject.covariance.picture = someCovariance();
+  const auto sentence = [&] {
+    return findCheck(checksOf(subject, CheckLimits()), "covariance_normal").sentence;
+  };
+  EXPECT_EQ(sentence().rfind("3 sigma at the camera are ", 0), 0U) << sentence();
+  auto loaded = std::make_shared<LoadedCase>();
+  loaded->source.camera_from_end_effector = Pose();
+  subject.loaded = loaded;
+  EXPECT_EQ(sentence().rfind("3 sigma at the end effector are ", 0), 0U) << sentence();
 }
 
 }  // namespace

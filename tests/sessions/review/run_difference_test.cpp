@@ -115,6 +115,18 @@ TEST_F(RunDifferenceTest, NamesTheOptionTheFirstDifferenceAndWhoIsBetter) {
   EXPECT_THAT(changeText(made), ::testing::StartsWith("Worse"));
 }
 
+TEST_F(RunDifferenceTest, ATruthThatIsCoarserThanTheRequirementDoesNotJudge) {
+  run({});
+  run({{"loop.max_iterations", std::int64_t{30}}});
+  EXPECT_TRUE(compare().after.error_share);
+  SessionCase one = *session_.findCase(id_);
+  one.truth_covariance = 1e-4 * Matrix6d::Identity();
+  session_ = withCase(session_, one);
+  const RunDifference made = compare();
+  EXPECT_TRUE(made.after.error);
+  EXPECT_FALSE(made.after.error_share);
+}
+
 TEST_F(RunDifferenceTest, ARunWithOtherInputsSaysSo) {
   run({});
   SessionCase moved = *session_.findCase(id_);

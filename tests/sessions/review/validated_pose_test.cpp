@@ -15,6 +15,7 @@
 #include "sessions/io/json_writer.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/decide.h"
+#include "sessions/review/pose_uncertainty.h"
 #include "sessions/review/review_settings.h"
 #include "sessions/review/standing.h"
 #include "sessions/review/verify_pose.h"
@@ -155,6 +156,36 @@ TEST_F(ValidatedPose, HoldsWhatAReviewerAsksForAndVerifies) {
   const VerifyReport report = sessions::verifyPose(file, true);
   EXPECT_TRUE(report.good()) << wrongsOf(report);
   EXPECT_EQ(report.standing, "validated by Ada");
+}
+
+Matrix6d matrixOf(const ordered_json& json) {
+  Matrix6d matrix;
+  for (std::size_t row = 0; row < 6; ++row)
+    for (std::size_t column = 0; column < 6; ++column)
+      matrix(static_cast<int>(row), static_cast<int>(column)) = json[row][column].get<double>();
+  return matrix;
+}
+
+TEST_F(ValidatedPose, ItsCovarianceIsTheSumOfNamedTermsAndSaysByWhichSigmas) {
+  sessions::SessionCase one = *session_.findCase(id_);
+  one.mesh_scale_sigma = 0.001;
+  session_ = withCase(session_, one);
+  run();
+  validate();
+  const ordered_json pose = read(write())["pose"];
+  const ordered_json& terms = pose["covariance_terms"];
+  const Matrix6d picture = matrixOf(terms["picture"]);
+  const Matrix6d mesh_scale = matrixOf(terms["mesh_scale"]);
+  const Matrix6d calibration = matrixOf(terms["calibration"]);
+  EXPECT_EQ(matrixOf(pose["covariance"]), picture + mesh_scale + calibration);
+  EXPECT_EQ(picture, subject_.covariance.picture);
+  const double distance_m = subject_.camera_from_station.translation_m.z();
+  EXPECT_NEAR(std::sqrt(mesh_scale(5, 5)), 0.001 * distance_m, 0.0001 * distance_m);
+  EXPECT_GT(calibration(5, 5), picture(5, 5)) << "the picture is not what limits it";
+  EXPECT_EQ(pose["input_sigmas"]["mesh_scale_sigma"], 0.001);
+  EXPECT_EQ(pose["input_sigmas"]["mesh_scale_is"], "stated");
+  EXPECT_EQ(pose["input_sigmas"]["calibration_is"], "assumed");
+  EXPECT_EQ(pose["one_sigma"]["of"], "end effector");
 }
 
 TEST_F(ValidatedPose, WhatNobodyValidatedSaysSoAndStillVerifies) {

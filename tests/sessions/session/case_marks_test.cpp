@@ -148,6 +148,32 @@ TEST(CaseMarks, SaysWhyThereIsNoPose) {
   EXPECT_EQ(none.result.reason, none.warnings[0].text);
 }
 
+TEST(CaseMarks, ASigmaBeyondTheRequirementIsCalledWeakAndByHowMuch) {
+  const RigSession rig(3.0);
+  Session session = rig.session;
+  const auto warningsFor = [&](double required_mm) {
+    sessions::SessionCase one = *session.findCase("left");
+    one.requirement = {required_mm, {}, {}, {}};
+    one.camera_from_end_effector = Pose();
+    session = withCase(session, one);
+    const Pose guess = rig.views[0].camera_from_rig * rig.rig_from_station;
+    return sessions::solveCaseMarks(caseMarks(session, "left", false), guess, {}, false);
+  };
+  const auto made = warningsFor(0.001);
+  ASSERT_TRUE(made.result.solution);
+  const double sigma_mm = 1e3 * std::sqrt((*made.covariance())(5, 5));
+  const auto& weak = made.warnings;
+  ASSERT_FALSE(weak.empty());
+  EXPECT_EQ(weak.back().weakness, sessions::GeometryWeakness::kImprecise);
+  EXPECT_FALSE(weak.back().prevents);
+  char begin[80];
+  std::snprintf(begin, sizeof begin, "one sigma is %.3g mm along the view axis at the end effector",
+                sigma_mm);
+  EXPECT_EQ(weak.back().text.rfind(begin, 0), 0u) << weak.back().text;
+  EXPECT_THAT(weak.back().text, testing::HasSubstr("times the 0.001 mm required"));
+  EXPECT_EQ(warningsFor(1e6).warnings.size(), weak.size() - 1);
+}
+
 TEST(CaseMarks, NamesTheCornersOfABox) {
   const auto corners = sessions::boxCorners({{-1, -2, -3}, {1, 2, 3}});
   ASSERT_EQ(corners.size(), 8u);

@@ -116,6 +116,19 @@ TEST(InputSheet, KnowsAMosaicFromNoiseAndPictures) {
     EXPECT_FALSE(sessions::looksLikeMosaic(ExampleCase(station).image.view())) << station;
 }
 
+TEST(InputSheet, SaysHowWellMeshAndCameraAreKnownAndWhetherThatIsAssumed) {
+  SessionCase one = exampleOs();
+  const auto lineOf = [&one](const std::string& label) {
+    for (const sessions::SheetLine& line : sessions::inputSheet(*sessions::loadCase(one)).lines)
+      if (line.label == label) return line.value;
+    return std::string("none");
+  };
+  EXPECT_EQ(lineOf("scale, one sigma"), "0.02 %, assumed");
+  EXPECT_EQ(lineOf("calibration, one sigma").rfind("0.02 % and 0.5 px, assumed", 0), 0u);
+  one.mesh_scale_sigma = 0.001;
+  EXPECT_EQ(lineOf("scale, one sigma"), "0.1 %");
+}
+
 TEST(InputSheet, FlagsSixteenBitsWithoutARule) {
   const TemporaryFolder folder;
   cv::Mat image(100, 100, CV_16UC1);

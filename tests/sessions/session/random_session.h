@@ -75,6 +75,17 @@ inline void addRandomFrames(Random& random, sessions::SessionCase& one) {
   if (coin(random)) one.truth_frame = one.station_frame;
 }
 
+/// How well mesh, camera and truth are known.
+inline void addRandomSigmas(Random& random, sessions::SessionCase& one) {
+  if (coin(random)) one.mesh_scale_sigma = random.uniform(0.0, 0.1);
+  if (coin(random))
+    one.calibration_sigma =
+        sessions::CalibrationSigma{random.uniform(0.0, 0.1), random.uniform(0.0, 9.0)};
+  if (!coin(random)) return;
+  const Vector6d sigma = Vector6d::Constant(random.uniform(1e-4, 1e-2));
+  one.truth_covariance = sigma * sigma.transpose();
+}
+
 inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
   sessions::SessionCase one;
   one.id = id;
@@ -107,6 +118,7 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
   one.uncertainty.rotation_deg = randomVector(random, 9.0).cwiseAbs();
   if (coin(random)) one.uncertainty.pivot = sessions::UncertaintyPivot::kStation;
   if (coin(random)) one.camera_from_station_truth = randomPose(random);
+  addRandomSigmas(random, one);
   if (coin(random)) one.camera_from_station_working = randomPose(random);
   if (coin(random)) one.ignore = randomInput(random, ".png");
   for (std::uint32_t i = random.below(3); i > 0; --i)
@@ -209,7 +221,8 @@ inline sessions::Decision randomDecision(Random& random, const std::string& case
     decision.pose.emplace();
     decision.pose->source = static_cast<sessions::PoseSource>(random.below(2));
     decision.pose->camera_from_station = randomPose(random);
-    decision.pose->covariance(1, 2) = random.uniform(-1.0, 1.0);
+    decision.pose->covariance.picture(1, 2) = random.uniform(-1.0, 1.0);
+    decision.pose->covariance.mesh_scale(5, 5) = random.uniform(0.0, 1.0);
   }
   if (coin(random)) decision.grounds["truth"] = randomSha256(random);
   if (coin(random)) decision.approval = {"Bob", "", "2026-01-31T23:59:59Z"};

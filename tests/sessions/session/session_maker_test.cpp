@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "sessions/io/pose_file.h"
 #include "sessions/session/input_check.h"
+#include "sessions/session/input_sigmas.h"
 #include "sessions/session/session_file.h"
 #include "tests/sessions/session/example_session.h"
 
@@ -71,6 +73,50 @@ TEST(SessionMaker, TheChecksAreThoseOfWhatTheDatasetAsksFor) {
       {"normal_mm", 1.0}, {"lateral_mm", 1.0}, {"rotation_deg", 1.0}};
   folder.write("stations/dataset.json", json.dump());
   EXPECT_EQ(sessions::makeSession(file).review.preset, "sample_transfer") << "they differ";
+}
+
+TEST(SessionMaker, WhatIsStatedOfMeshCameraAndTruthComesAlong) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = copyOfExamples(folder) / "dataset.json";
+  auto json = nlohmann::json::parse(folder.read("stations/dataset.json"));
+  for (auto& station : json["stations"]) station["mesh_scale_sigma"] = 0.001;
+  for (auto& camera : json["cameras"])
+    camera["calibration_sigma"] = {{"focal_relative", 0.003}, {"principal_point_px", 2.0}};
+  folder.write("stations/dataset.json", json.dump());
+  for (const auto& one : sessions::makeSession(file).cases) {
+    EXPECT_EQ(one->mesh_scale_sigma, 0.001);
+    EXPECT_EQ(one->calibration_sigma, (sessions::CalibrationSigma{0.003, 2.0}));
+  }
+  sessions::CaseFiles files = filesOf(file.parent_path() / "os");
+  files.mesh_scale_sigma = 0.002;
+  Matrix6d covariance = 1e-6 * Matrix6d::Identity();
+  files.truth = folder / "truth.json";
+  sessions::writePose(*files.truth, Pose(), {}, covariance);
+  const sessions::SessionCase made = sessions::makeCase(files).made;
+  EXPECT_EQ(made.mesh_scale_sigma, 0.002);
+  EXPECT_EQ(made.truth_covariance, covariance);
+}
+
+TEST(InputSigmas, AreStatedForAllCasesOfTheMeshAndOfTheCamera) {
+  Session session = sessions::makeSession(exampleFolder() / "dataset.json");
+  sessions::SessionCase twin = *session.cases[0];
+  twin.id = "same mesh";
+  twin.camera.fx += 1.0;
+  session = withCase(session, twin);
+  twin = *session.cases[1];
+  twin.id = "same camera";
+  twin.camera = session.cases[0]->camera;
+  session = withCase(session, twin);
+  const Session stated =
+      sessions::withInputSigmas(session, session.cases[0]->id, 1e-3, sessions::CalibrationSigma{});
+  EXPECT_EQ(stated.cases[0]->mesh_scale_sigma, 1e-3);
+  EXPECT_EQ(stated.findCase("same mesh")->mesh_scale_sigma, 1e-3);
+  EXPECT_FALSE(stated.findCase("same mesh")->calibration_sigma);
+  EXPECT_FALSE(stated.findCase("same camera")->mesh_scale_sigma);
+  EXPECT_TRUE(stated.findCase("same camera")->calibration_sigma);
+  EXPECT_TRUE(sessions::withInputSigmas(stated, session.cases[0]->id, {}, {}) == session);
+  EXPECT_EQ(sessions::inputsDigest(*stated.cases[0]), sessions::inputsDigest(*session.cases[0]))
+      << "no run depends on them";
 }
 
 TEST(SessionMaker, TheSessionThatShipsIsMadeOfTheDatasetThatShips) {

@@ -161,6 +161,30 @@ TEST_F(AnnotationControllerTest, TheSolvedPoseBecomesTheTruthAndUndoTakesItBack)
   EXPECT_EQ(document_.session().findCase(source().id)->camera_from_station_truth, before);
 }
 
+TEST_F(AnnotationControllerTest, ATruthKeepsItsCovarianceAndACoarseOneWarnsWithFigures) {
+  QStringList said;
+  QObject::connect(&controller_, &AnnotationController::told,
+                   [&said](const QString& sentence) { said << sentence; });
+  const auto ids = markCorners(5);
+  ASSERT_TRUE(solved());
+  controller_.useAsTruth();
+  ASSERT_EQ(said.size(), 1);
+  EXPECT_FALSE(said[0].contains(QStringLiteral("sigma"))) << said[0].toStdString();
+  controller_.dragInImage(ids[0], pixelOf(corners_m(5)[0]) + Eigen::Vector2d(30.0, 40.0));
+  controller_.finishMove();
+  ASSERT_TRUE(solved());
+  controller_.useAsTruth();
+  ASSERT_EQ(said.size(), 2);
+  EXPECT_TRUE(said[1].contains(QStringLiteral("Its one sigma is"))) << said[1].toStdString();
+  EXPECT_TRUE(said[1].contains(QStringLiteral("required"))) << said[1].toStdString();
+  const sessions::SessionCase& one = *document_.session().findCase(source().id);
+  EXPECT_EQ(one.camera_from_station_truth, controller_.solvedPose()) << "the operator may go on";
+  EXPECT_EQ(one.truth_covariance, controller_.covariance());
+  ASSERT_TRUE(one.truth_covariance);
+  ASSERT_TRUE(document_.undo());
+  ASSERT_TRUE(document_.undo());
+}
+
 TEST_F(AnnotationControllerTest, MarksBelongToTheirCaseAndSurviveTheProgram) {
   controller_.placeInImage({12.0, 34.0});
   const std::string id = source().id;

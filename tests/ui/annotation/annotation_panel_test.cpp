@@ -77,12 +77,35 @@ TEST_F(AnnotationPanelTest, SaysWhatIsMissingThenWhatWasSolvedAndWhenThatIsOutOf
 TEST_F(AnnotationPanelTest, TellsTheCamerasOwnSigmaOnlyBesideTheEndEffectors) {
   markCorners(8);
   ASSERT_TRUE(solved());
-  SolutionContext context;
-  const QString own = QStringLiteral("camera's own");
-  EXPECT_FALSE(solutionHtml(controller_.answer(), context).contains(own)) << "said once";
-  context.camera_from_end_effector = Pose();
-  context.camera_from_end_effector->translation_m = {0.0, 0.1, 0.2};
-  EXPECT_TRUE(solutionHtml(controller_.answer(), context).contains(own));
+  const auto htmlWith = [this](const std::optional<Pose>& camera_from_end_effector) {
+    AnnotationSolver::Answer answer = controller_.answer();
+    auto solution = std::make_shared<sessions::CaseMarksSolution>(*answer.solution);
+    solution->marks.camera_from_end_effector = camera_from_end_effector;
+    answer.solution = solution;
+    return solutionHtml(answer, {{QStringLiteral("seed"), Pose()}});
+  };
+  const QString at_camera = QStringLiteral(">at the camera");
+  const QString without = htmlWith({});
+  EXPECT_FALSE(without.contains(at_camera)) << "said once";
+  EXPECT_TRUE(without.contains(QStringLiteral("One sigma at the camera")));
+  EXPECT_TRUE(without.contains(QStringLiteral("The annotated pose is from, at the camera")));
+  Pose camera_from_end_effector;
+  camera_from_end_effector.translation_m = {0.0, 0.1, 0.2};
+  const QString with = htmlWith(camera_from_end_effector);
+  EXPECT_TRUE(with.contains(at_camera));
+  EXPECT_TRUE(with.contains(QStringLiteral("One sigma at the end effector")));
+}
+
+TEST_F(AnnotationPanelTest, GeometryIsWeakWhereTheSigmaExceedsTheRequirement) {
+  const auto ids = markCorners(5);
+  ASSERT_TRUE(solved());
+  const auto meter = [this] { return find<QLabel>("geometryMeter").text(); };
+  EXPECT_FALSE(meter().contains(QStringLiteral("one sigma"))) << meter().toStdString();
+  controller_.dragInImage(ids[0], pixelOf(corners_m(5)[0]) + Eigen::Vector2d(30.0, 40.0));
+  controller_.finishMove();
+  ASSERT_TRUE(solved());
+  EXPECT_TRUE(meter().contains(QStringLiteral("times the"))) << meter().toStdString();
+  EXPECT_FALSE(meter().contains(QStringLiteral("nothing weak")));
 }
 
 TEST_F(AnnotationPanelTest, TheTableChoosesTurnsOffAndRemoves) {

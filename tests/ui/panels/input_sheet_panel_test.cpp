@@ -4,9 +4,14 @@
 #include <gtest/gtest.h>
 #include <QApplication>
 #include <QClipboard>
+#include <QDoubleSpinBox>
+#include <QGroupBox>
 #include <QLabel>
+#include <QPushButton>
 #include <QTableWidget>
 #include <QtTest/QTest>
+
+#include "ui/panels/input_sigmas_dialog.h"
 
 namespace boresight::ui {
 namespace {
@@ -43,6 +48,31 @@ TEST_F(InputSheetPanelTest, RedFlagsComeFirstInPlainSentences) {
   panel_.setSheet(sheet);
   EXPECT_EQ(flags(), QStringLiteral("⚠ the station is 1000 times too large\n⚠ also this"));
   EXPECT_TRUE(panel_.text().startsWith(flags()));
+}
+
+TEST_F(InputSheetPanelTest, ASheetsButtonAsksForWhatNoImageTells) {
+  auto* button = panel_.findChild<QPushButton*>(QStringLiteral("inputSigmas"));
+  EXPECT_FALSE(button->isEnabled());
+  panel_.setSheet(someSheet());
+  int asked = 0;
+  QObject::connect(&panel_, &InputSheetPanel::sigmasRequested, [&asked] { ++asked; });
+  button->click();
+  EXPECT_EQ(asked, 1);
+}
+
+TEST(InputSigmasDialogTest, ShowsWhatIsAssumedAndGivesWhatIsStated) {
+  sessions::SessionCase one;
+  one.mesh_scale_sigma = 0.001;
+  InputSigmasDialog dialog(one, nullptr);
+  EXPECT_EQ(dialog.meshScaleSigma(), 0.001);
+  EXPECT_FALSE(dialog.calibrationSigma());
+  auto* focal = dialog.findChild<QDoubleSpinBox*>(QStringLiteral("focal"));
+  EXPECT_NEAR(focal->value(), 0.02, 1e-12) << "what is assumed, in percent";
+  dialog.findChild<QGroupBox*>(QStringLiteral("cameraStated"))->setChecked(true);
+  focal->setValue(0.05);
+  ASSERT_TRUE(dialog.calibrationSigma());
+  EXPECT_NEAR(dialog.calibrationSigma()->focal_relative, 5e-4, 1e-12);
+  EXPECT_EQ(dialog.calibrationSigma()->principal_point_px, 0.5);
 }
 
 TEST_F(InputSheetPanelTest, CopiesWhatIsChosen) {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
+#include "sessions/review/predicted_edges.h"
+#include "sessions/session/input_sigmas.h"
+#include "sessions/session/pose_covariance.h"
+
+namespace boresight::sessions {
+
+/// How a pose that is fitted to edges follows an error of the camera: d xi / d (focal length, cx,
+/// cy in px) of the least squares over the places' distances along their normals,
+/// -(J' J)^-1 J' K. Nothing when the places do not determine the pose.
+std::optional<Eigen::Matrix<double, 6, 3>> poseByCamera(std::span<const EdgePlace> places,
+                                                        const Camera& camera,
+                                                        const Pose& camera_from_station);
+
+/// The covariance of a case's pose with all of its causes: the one function behind checks,
+/// decisions and exports. `picture` is what the run or the marks say.
+/// - A mesh that is larger by s about the middle of its box looks the same from 1 + s times the
+///   distance: xi is s times that point in the camera frame, as a translation.
+/// - Errors of focal length and principal point are independent; the pose follows them as
+///   `poseByCamera` says at the edges that it shows, or where these do not determine it as a shift
+///   of the same point that undoes the error.
+PoseCovariance poseCovariance(const SessionCase& one, const MeshView& mesh,
+                              const Pose& camera_from_station, const Matrix6d& picture);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/input_sigmas.h"
+
+#include <cstdio>
+
+namespace boresight::sessions {
+namespace {
+
+/// "0.02": at most three significant digits.
+std::string shortNumber(double value) {
+  char text[32];
+  (void)std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+const char* sourceText(bool stated) { return stated ? "" : ", assumed"; }
+
+}  // namespace
+
+InputSigmas::InputSigmas(const SessionCase& one)
+    : mesh_scale(one.mesh_scale_sigma.value_or(kAssumedMeshScaleSigma)),
+      calibration(one.calibration_sigma.value_or(CalibrationSigma())),
+      mesh_scale_stated(one.mesh_scale_sigma.has_value()),
+      calibration_stated(one.calibration_sigma.has_value()) {}
+
+std::string meshScaleText(const InputSigmas& sigmas) {
+  return shortNumber(100.0 * sigmas.mesh_scale) + " %" + sourceText(sigmas.mesh_scale_stated);
+}
+
+std::string calibrationText(const InputSigmas& sigmas) {
+  return shortNumber(100.0 * sigmas.calibration.focal_relative) + " % and " +
+         shortNumber(sigmas.calibration.principal_point_px) + " px" +
+         sourceText(sigmas.calibration_stated);
+}
+
+Session withInputSigmas(const Session& session, const std::string& case_id,
+                        const std::optional<double>& mesh_scale_sigma,
+                        const std::optional<CalibrationSigma>& calibration_sigma) {
+  const SessionCase* chosen = session.findCase(case_id);
+  if (chosen == nullptr) return session;
+  Session next = session;
+  for (const auto& one : session.cases) {
+    SessionCase changed = *one;
+    if (one->parts == chosen->parts) changed.mesh_scale_sigma = mesh_scale_sigma;
+    if (one->camera == chosen->camera) changed.calibration_sigma = calibration_sigma;
+    if (!(changed == *one)) next = withCase(next, std::move(changed));
+  }
+  return next;
+}
+
+}  // namespace boresight::sessions

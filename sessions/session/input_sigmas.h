@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// How well a case's mesh scale and calibration are known.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "sessions/io/stated_sigmas.h"
+#include "sessions/session/session.h"
+
+namespace boresight::sessions {
+
+/// One sigma of each as it counts: stated, or else assumed.
+struct InputSigmas {
+  double mesh_scale = kAssumedMeshScaleSigma;  ///< relative
+  CalibrationSigma calibration;
+  bool mesh_scale_stated = false;
+  bool calibration_stated = false;
+
+  explicit InputSigmas(const SessionCase& one);
+};
+/// "0.02 %, assumed".
+std::string meshScaleText(const InputSigmas& sigmas);
+/// "0.02 % and 0.5 px, assumed".
+std::string calibrationText(const InputSigmas& sigmas);
+
+/// The same session with these sigmas stated (nothing: assumed): the mesh's for all cases of the
+/// same parts as this case, the camera's for all cases of the same camera.
+Session withInputSigmas(const Session& session, const std::string& case_id,
+                        const std::optional<double>& mesh_scale_sigma,
+                        const std::optional<CalibrationSigma>& calibration_sigma);
+
+}  // namespace boresight::sessions
