@@ -8,7 +8,6 @@ namespace boresight::sessions {
 double readMeshScaleSigma(const JsonReader& json) { return json.number(0.0, kMaxScaleSigma); }
 
 CalibrationSigma readCalibrationSigma(const JsonReader& json) {
-  json.requireKnown({"focal_relative", "principal_point_px"});
   return {json.at("focal_relative").number(0.0, kMaxFocalSigma),
           json.at("principal_point_px").number(0.0, kMaxPrincipalPointSigma_px)};
 }
