@@ -212,14 +212,15 @@ ordered_json hashesJson(const SessionCase& one) {
 Session sessionOfCase(const Session& session, const std::string& case_id,
                       const std::string& run_digest) {
   const std::vector<std::string> linked = casesOfRig(session, case_id);
+  const auto isOther = [&](const std::string& id) {
+    return id != case_id && std::find(linked.begin(), linked.end(), id) == linked.end();
+  };
   Session made = session;
-  for (const auto& one : session.cases)
-    if (one->id != case_id && std::find(linked.begin(), linked.end(), one->id) == linked.end())
-      made = withoutCase(made, one->id);
-  std::erase_if(made.runs, [&](const RunRecord& run) {
-    return run.case_id != case_id || run.digest != run_digest;
-  });
-  std::erase_if(made.decisions, [&](const Decision& one) { return one.case_id != case_id; });
+  made.cases.eraseIf([&](const auto& one) { return isOther(one->id); });
+  std::erase_if(made.annotations, [&](const auto& entry) { return isOther(entry.first); });
+  made.runs.eraseIf(
+      [&](const RunRecord& run) { return run.case_id != case_id || run.digest != run_digest; });
+  made.decisions.eraseIf([&](const Decision& one) { return one.case_id != case_id; });
   made.passes.clear();
   made.view = {};
   return made;
