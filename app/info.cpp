@@ -27,7 +27,7 @@
 #include "sessions/review/standing.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/input_check.h"
-#include "sessions/session/input_sheet.h"
+#include "sessions/session/input_sheets.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_json.h"
@@ -136,22 +136,32 @@ std::string rerunText(const sessions::RunRecord& run) {
          (run.rerun->from.empty() ? "" : ", going on from run " + run.rerun->from);
 }
 
-void describeCase(const sessions::Session& session, const sessions::SessionCase& one,
-                  const path& file) {
+/// Of a session's cases: what several of them have is read or looked for once.
+struct CaseSources {
+  const sessions::Session& session;
+  const path& file;
+  sessions::InputSheets sheets = {};
+  std::multimap<std::string, const sessions::RunRecord*> runs = {};  ///< by case, in their order
+};
+
+void describeCase(const sessions::SessionCase& one, CaseSources& sources) {
+  const auto& session = sources.session;
   line("case " + one.id + (one.station.empty() ? "" : ", station " + one.station));
   try {
-    const sessions::InputSheet sheet = sessions::inputSheet(*sessions::loadCase(one));
+    const sessions::InputSheet sheet = sources.sheets.of(one);
     for (const sessions::SheetLine& entry : sheet.lines)
       line("  " + entry.label + ": " + entry.value);
     flagAll(sheet.flags);
   } catch (const sessions::InputError& error) {
     flag(error.what());
   }
-  for (const sessions::RunRecord& run : session.runs)
-    if (run.case_id == one.id)
-      line("  run " + run.digest + ": " + run.status + ", " + run.time + ", whs " + run.version +
-           stalenessText(sessions::stalenessOf(run, session, file)) + rerunText(run) +
-           (run.together ? ", " + togetherText(run.together->views, one.id) : ""));
+  const auto [first, last] = sources.runs.equal_range(one.id);
+  for (auto place = first; place != last; ++place) {
+    const sessions::RunRecord& run = *place->second;
+    line("  run " + run.digest + ": " + run.status + ", " + run.time + ", whs " + run.version +
+         stalenessText(sessions::stalenessOf(run, session, sources.file)) + rerunText(run) +
+         (run.together ? ", " + togetherText(run.together->views, one.id) : ""));
+  }
   const sessions::Standing standing = sessions::standingOf(session, one.id);
   if (standing.decision != nullptr)
     line("  " + standingText(standing) + ", " + standing.decision->time +
@@ -170,8 +180,10 @@ void describeSession(const path& file) {
   if (document.recovery())
     flag(std::to_string(document.recovery()->edits.size()) +
          " edits are in its journal and not in the file, the last of " + document.recovery()->time);
+  CaseSources sources{session, file};
+  for (const sessions::RunRecord& run : session.runs) sources.runs.emplace(run.case_id, &run);
   const std::size_t described = std::min(session.cases.size(), kDescribedCases);
-  for (std::size_t i = 0; i < described; ++i) describeCase(session, *session.cases[i], file);
+  for (std::size_t i = 0; i < described; ++i) describeCase(*session.cases[i], sources);
   if (described < session.cases.size())
     line("and " + countText(session.cases.size() - described, "more case") +
          ": whs queue lists them");

@@ -171,6 +171,8 @@ void requireAccepted(const LocalizeArguments& arguments, const sessions::Localiz
   switch (trace.fault) {
     case Status::kInvalidMesh:
       throw sessions::InputError(arguments.mesh.mesh, reason);
+    case Status::kTooManyLayers:
+      throw sessions::InputError(arguments.mesh.mesh, sessions::explanation(trace));
     case Status::kInvalidCamera:
       throw sessions::InputError(arguments.cameraFile(), reason);
     case Status::kInvalidImage:

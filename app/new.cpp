@@ -5,6 +5,7 @@
 #include "app/bop_arguments.h"
 #include "app/commands.h"
 #include "app/frame_arguments.h"
+#include "sessions/io/camera_field.h"
 #include "sessions/io/errors.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/session/case_run.h"
@@ -83,10 +84,11 @@ void NewArguments::addTo(CLI::App& command) {
   file("--out", out, "The session file that is made, e.g. sol12.boresight.json")->required();
 }
 
-/// Sizes that do not fit are refused, since no edit mends them; a seed can be moved.
+/// What no edit mends is refused: sizes that do not fit, a camera that folds. A seed can be moved.
 void requireUsable(const sessions::SessionCase& one) {
   const auto loaded = sessions::loadCase(one);
   sessions::requireSameSize(loaded->image, one.camera);
+  sessions::requireField("case " + one.id, "camera", one.camera);
   try {
     sessions::requireRunnable(*loaded);
   } catch (const sessions::InputError& refusal) {

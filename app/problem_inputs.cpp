@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/problem_inputs.h"
 
+#include "sessions/io/camera_field.h"
 #include "sessions/io/chosen_camera.h"
 #include "sessions/trace/seed_check.h"
 
@@ -75,6 +76,7 @@ ProblemInputs readProblemInputs(const InputArguments& arguments) {
   if (arguments.bit_depth > 0) reading.bit_depth = arguments.bit_depth;
   inputs.image = sessions::readImage(arguments.image, reading);
   sessions::requireSameSize(inputs.image, inputs.camera);
+  sessions::requireField(arguments.cameraFile(), "distortion", inputs.camera);
   if (!arguments.ignore.empty()) {
     inputs.ignore_mask =
         sessions::readIgnoreMask(arguments.ignore, inputs.image.width, inputs.image.height);

@@ -31,6 +31,8 @@ const char* statusText(Status status) {
       return "degenerate";
     case Status::kNoConsensus:
       return "no_consensus";
+    case Status::kTooManyLayers:
+      return "too_many_layers";
   }
   return "unknown";
 }

@@ -21,7 +21,11 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kTooFewPoints,      ///< too few correspondences for a pose
     kDegenerate,        ///< the correspondences do not determine a pose
     kNoConsensus,       ///< no pose found enough inliers
+    kTooManyLayers,     ///< faces cover rows of the image many hundred times over
 };
+
+/// The last one.
+inline constexpr Status kLastStatus = Status::kTooManyLayers;
 
 /// A short lower-case word or two, for messages and result files.
 const char* statusText(Status status);

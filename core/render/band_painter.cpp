@@ -66,8 +66,14 @@ void BandPainter::open(const BandSource& source, int band, int y, int rows) {
   drawn_band_ = band;
 }
 
-/// Draws faces of the open band; true when all are drawn. Bands that hold very many faces take
-/// several slices.
+/// Whether more faces than kMostLayers cover the open band. Of some of its rows alone it is true
+/// only if it is of all.
+bool BandPainter::overdrawn(const BandSource& source) const {
+  return raster_.work_px > kMostLayers * source.band_rows * source.rays.camera().width;
+}
+
+/// Draws faces of the open band; true when all are drawn, or it is overdrawn. Bands that hold very
+/// many faces take several slices.
 bool BandPainter::drawSome(const BandSource& source) {
   const FaceBins& bins = source.bins;
   int work = 0;
@@ -86,6 +92,7 @@ bool BandPainter::drawSome(const BandSource& source) {
     }
     const PixelBounds bounds = faceBounds(source.scene, source.rays, face);
     drawFace(source.scene, source.rays, face, bounds, raster_);
+    if (overdrawn(source)) return true;
     work += (bounds.x_last - bounds.x_first) / 16;
   }
   return false;
@@ -99,6 +106,8 @@ Status BandPainter::step(const BandSource& source, EdgeRender& output, bool& don
   if (!open_) open(source, band_, y, std::min(source.band_rows, camera.height - y));
   if (!drawSome(source)) return Status::kOk;
   open_ = false;
+  done = overdrawn(source);
+  if (done) return Status::kTooManyLayers;
   if (source.surfaces.wanted()) {
     resolveDepths(source.scene, raster_);
     copySurfaces(source.scene, raster_, camera, source.surfaces);

@@ -32,6 +32,11 @@ struct BandSource {
 /// a row does not depend on where the others begin.
 class BandPainter {
  public:
+  /// Faces that may cover the pixels of a band, on average over the image's width. What is made of
+  /// real surfaces stays far below, and without a bound a render would take as long as it has faces
+  /// times pixels.
+  static constexpr std::int64_t kMostLayers = 512;
+
   /// Takes the memory of one band from `arena`.
   static BandPainter create(int max_width, int band_rows, Arena& arena);
 
@@ -42,7 +47,7 @@ class BandPainter {
   void begin(const BandSource& source, int first_band, int end_band, EdgeRender& output);
   /// One slice: a band, or a part of one that holds very many faces; `done` when all bands are.
   /// Complete rows are appended to the output. kCapacityExceeded when its pixels are not enough:
-  /// the rows before are valid, `done` set.
+  /// the rows before are valid, `done` set. kTooManyLayers likewise.
   Status step(const BandSource& source, EdgeRender& output, bool& done);
 
   /// The first row that a painter of bands from `first_band` on completes.
@@ -53,6 +58,7 @@ class BandPainter {
  private:
   void open(const BandSource& source, int band, int y, int rows);
   bool drawSome(const BandSource& source);
+  bool overdrawn(const BandSource& source) const;
 
   RasterBand raster_;
   SalientEdges salient_edges_;

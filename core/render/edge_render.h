@@ -95,7 +95,8 @@ class EdgeRenderer {
   Status begin(const RayGrid& rays, const Pose& camera_from_station, EdgeRender& output,
                const SurfaceRender& surfaces = {});
   /// One slice: some thousand vertices or faces, or a band; `done` when the render is complete.
-  /// kCapacityExceeded when max_edge_pixels is not enough: the rows before are valid, `done` set.
+  /// kCapacityExceeded when max_edge_pixels is not enough, kTooManyLayers when a band has more than
+  /// BandPainter::kMostLayers: the rows before are valid, `done` set.
   /// With several workers it ends a phase all of whose pieces have been done.
   Status step(bool& done);
 

@@ -17,6 +17,8 @@ constexpr int kNarrow_px = 8;
 constexpr int kShort_px = 8;
 /// Columns that are tested together: inside all edges, outside one, or across some.
 constexpr int kChunk_px = 64;
+/// What a chunk takes that the face does not cover.
+constexpr int kChunkWork_px = 16;
 
 /// Columns of a row that may be inside (possible) and that surely are (certain).
 struct Span {
@@ -113,6 +115,7 @@ class FaceDrawer {
 
   /// drawPixel for a run, without branches so that several pixels can be drawn at once.
   void drawRun(const RowOfFace<kLevel>& row, int x_first, int x_last) const {
+    band_.work_px += x_last - x_first + 1;
     if (kClamped) {
       for (int x = x_first; x <= x_last; ++x) drawPixel(row, x);
       return;
@@ -143,12 +146,15 @@ class FaceDrawer {
   }
 
   void drawTested(const RowOfFace<kLevel>& row, int x_first, int x_last) const {
+    int covered = 0;
     for (int x = x_first; x <= x_last; ++x) {
       if (!(row.edge(drawn_, 0, x) >= drawn_.limit[0])) continue;
       if (!(row.edge(drawn_, 1, x) >= drawn_.limit[1])) continue;
       if (!(row.edge(drawn_, 2, x) >= drawn_.limit[2])) continue;
       drawPixel(row, x);
+      ++covered;
     }
+    band_.work_px += covered;
   }
 
   void drawSpan(const RowOfFace<kLevel>& row, const Span& span) const {
@@ -164,6 +170,7 @@ class FaceDrawer {
   /// The edges' values at both ends of the rows are linear from the first row to the last, within
   /// the slack.
   void drawChunk(int x_first, int x_last, int row_first, int row_last) const {
+    band_.work_px += kChunkWork_px;
     const RowOfFace<kLevel> top(drawn_, band_, row_first);
     const RowOfFace<kLevel> bottom(drawn_, band_, row_last);
     const double per_row = row_last > row_first ? 1.0 / (row_last - row_first) : 0.0;
@@ -253,6 +260,7 @@ void RasterBand::advance(const RayGrid& rays, int y, int count, int x_first, int
   }
   first_y = y;
   rows = count;
+  work_px = 0;
   x_begin = x_first;
   x_end = x_last + 1;
   const int length = x_end - x_begin;

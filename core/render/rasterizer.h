@@ -31,6 +31,9 @@ struct RasterBand {
 
   int first_y = 0;  ///< image row of band row 1
   int rows = 0;     ///< new rows, carried row excluded
+  /// What drawing the new rows took: their pixels, each for every face that covers it, and some for
+  /// every chunk of columns in which a face's edges are looked for.
+  std::int64_t work_px = 0;
   int x_begin = 0;  ///< columns x_begin .. x_end - 1 are prepared
   int x_end = 0;    ///< the column after the last one drawn
 

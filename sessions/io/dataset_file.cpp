@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/math.h"
+#include "sessions/io/camera_field.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/image_label.h"
@@ -273,6 +274,7 @@ void requireFiles(const Dataset& dataset) {
 GrayImage readCaseImage(const Dataset& dataset, const Case& one) {
   GrayImage image = readImage(one.image);
   requireSameSize(image, dataset.cameras.at(one.camera));
+  requireField(dataset.file, "cameras." + one.camera, dataset.cameras.at(one.camera));
   return image;
 }
 

@@ -156,7 +156,7 @@ bool readSupport(ByteReader& reader, OnboardRecord& record) {
 RecordedEnd readEnd(ByteReader& reader) {
   RecordedEnd end;
   end.status = readChoice(reader, kLastLocalizationStatus);
-  end.fault = readChoice(reader, Status::kNoConsensus);
+  end.fault = readChoice(reader, kLastStatus);
   end.iterations = reader.i32();
   end.attempts = reader.i32();
   end.camera_from_station = readPose(reader);

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "core/base/math.h"
+#include "core/render/band_painter.h"
 #include "sessions/io/plain_text.h"
 #include "sessions/report/text_table.h"
 
@@ -98,6 +99,12 @@ std::string faultText(const LocalizationTrace& trace) {
         "; the render has more than %d edge pixels: raise render.max_edge_pixels, or "
         "check the mesh",
         trace.lastOptions().render.max_edge_pixels);
+  if (trace.fault == Status::kTooManyLayers)
+    text += format(
+        "; in rows of the image more than %d faces of the mesh lie behind each other: use a "
+        "coarser "
+        "mesh, or its outer surfaces only",
+        static_cast<int>(BandPainter::kMostLayers));
   if (trace.fault == Status::kArenaTooSmall) {
     text += format(
         "; image, mask and mesh take %zu bytes and the options ask for %zu more, of %zu in all: "

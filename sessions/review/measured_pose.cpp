@@ -99,17 +99,20 @@ CheckedPose checkedPose(const Session& session, const std::string& case_id) {
 Session sessionOfCase(const Session& session, const std::string& case_id,
                       const std::string& run_digest) {
   const std::vector<std::string> linked = casesOfRig(session, case_id);
+  const auto isOther = [&](const std::string& id) {
+    return id != case_id && std::find(linked.begin(), linked.end(), id) == linked.end();
+  };
   Session made = session;
-  for (const auto& one : session.cases)
-    if (one->id != case_id && std::find(linked.begin(), linked.end(), one->id) == linked.end())
-      made = withoutCase(made, one->id);
-  std::erase_if(made.runs, [&](const RunRecord& run) {
+  made.cases.eraseIf([&](const auto& one) { return isOther(one->id); });
+  std::erase_if(made.annotations, [&](const auto& entry) { return isOther(entry.first); });
+  made.runs.eraseIf([&](const RunRecord& run) {
+    if (isOther(run.case_id)) return true;
     if (run.case_id == case_id) return run.digest != run_digest;
     const RunRecord* asked = ownRunOf(session, run.case_id, case_id);
     return asked == nullptr || run != *asked;
   });
   made.decisions.clear();
-  if (const Decision* last = session.decisionOn(case_id)) made.decisions = {*last};
+  if (const Decision* last = session.decisionOn(case_id)) made.decisions.push_back(*last);
   if (!made.decisions.empty() && standingOf(session, case_id).judgedPose() == nullptr)
     made.decisions.front().checks.clear();
   made.passes.clear();

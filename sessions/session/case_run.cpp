@@ -7,7 +7,9 @@
 #include <system_error>
 #include <utility>
 
+#include "sessions/io/camera_field.h"
 #include "sessions/io/errors.h"
+#include "sessions/report/run_text.h"
 #include "sessions/session/known_image.h"
 #include "sessions/session/session_file.h"
 #include "sessions/trace/record.h"
@@ -30,12 +32,6 @@ std::optional<IgnoreMask> loadMask(const SessionCase& one, const GrayImage& imag
   return mask;
 }
 
-GrayImage loadImage(const ImageInput& input) {
-  GrayImage image = readKnownImage(input, input.eight_bit);
-  requireKnown(input.source.file, "its 8-bit pixels", image.pixels_sha256, input.pixels_sha256);
-  return image;
-}
-
 std::shared_ptr<const LoadedCase> completed(const SessionCase& one, GrayImage image,
                                             SceneMesh scene) {
   auto loaded = std::make_shared<LoadedCase>();
@@ -53,6 +49,8 @@ void requireAccepted(const LoadedCase& loaded, const LocalizationTrace& trace) {
   switch (trace.fault) {
     case Status::kInvalidMesh:
       throw InputError(loaded.source.parts.front().source.mesh, reason);
+    case Status::kTooManyLayers:
+      throw InputError(loaded.source.parts.front().source.mesh, explanation(trace));
     case Status::kInvalidCamera:
       throw InputError(loaded.source.image.source.file, "camera", reason);
     case Status::kInvalidImage:
@@ -71,6 +69,12 @@ const SessionCase& requireCase(const Session& session, const std::string& case_i
 }
 
 }  // namespace
+
+GrayImage loadImage(const ImageInput& input) {
+  GrayImage image = readKnownImage(input, input.eight_bit);
+  requireKnown(input.source.file, "its 8-bit pixels", image.pixels_sha256, input.pixels_sha256);
+  return image;
+}
 
 LocalizationProblem LoadedCase::problem() const {
   LocalizationProblem made;
@@ -99,6 +103,7 @@ std::shared_ptr<const LoadedCase> reloadCase(const LoadedCase& before, const Ses
 void requireRunnable(const LoadedCase& loaded) {
   const SessionCase& one = loaded.source;
   requireSameSize(loaded.image, one.camera);
+  requireField("case " + one.id, "camera", one.camera);
   requirePlausibleScale(loaded.scene, one.camera_from_station_seed);
   const std::string concern =
       seedConcern(one.camera, loaded.scene.view(), one.camera_from_station_seed);
@@ -173,7 +178,7 @@ RunRecord storeRun(const Session& session, const std::string& case_id,
 
 Session withRun(const Session& session, RunRecord run) {
   Session next = session;
-  std::erase_if(next.runs, [&run](const RunRecord& other) {
+  next.runs.eraseIf([&run](const RunRecord& other) {
     return other.case_id == run.case_id && other.digest == run.digest &&
            other.inputs_sha256 == run.inputs_sha256 && other.options_sha256 == run.options_sha256;
   });

@@ -33,6 +33,9 @@ struct LoadedCase {
   LoadedCase& operator=(const LoadedCase&) = delete;
 };
 
+/// The image of a case, which is the one that the session knows. InputError.
+GrayImage loadImage(const ImageInput& input);
+
 /// Reads a case's inputs. InputError when one is missing, wrong, or no longer the one that the
 /// session was made with. An image of another size than its camera is loaded all the same.
 std::shared_ptr<const LoadedCase> loadCase(const SessionCase& one);
@@ -40,8 +43,9 @@ std::shared_ptr<const LoadedCase> loadCase(const SessionCase& one);
 /// before.
 std::shared_ptr<const LoadedCase> reloadCase(const LoadedCase& before, const SessionCase& one);
 
-/// InputError when a run makes no sense: image and camera differ in size, the station is out of
-/// view, behind the camera, or of a size that only a wrong unit explains.
+/// InputError when a run makes no sense: image and camera differ in size, the camera's distortion
+/// folds back in the image, the station is out of view, behind the camera, or of a size that only a
+/// wrong unit explains.
 void requireRunnable(const LoadedCase& loaded);
 
 /// Runs a case of the session as it is: the one function behind `whs run` and the desktop program,

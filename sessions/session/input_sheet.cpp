@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "sessions/io/camera_field.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/image_label.h"
 #include "sessions/report/text_table.h"
@@ -51,9 +52,11 @@ void flagCamera(const Camera& camera, CameraSheet& sheet) {
        {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(right, 0.0), Eigen::Vector2d(0.0, bottom),
         Eigen::Vector2d(right, bottom)})
     if (!unproject(camera, corner, ray)) {
+      const std::string concern = fieldConcern(camera);
       sheet.flags.push_back(
           {"camera_corners",
-           "a corner of the image lies outside the valid field of the distortion"});
+           concern.empty() ? "a corner of the image lies outside the valid field of the distortion"
+                           : concern});
       return;
     }
 }
@@ -73,17 +76,23 @@ void flagMeshes(const SceneMesh& scene, InputSheet& sheet) {
       sheet.flags.push_back({"mesh", info.file.filename().string() + ": " + note});
 }
 
-void flagSeed(const LoadedCase& loaded, const BoundingBox& bounds, InputSheet& sheet) {
-  const SessionCase& one = loaded.source;
+bool contains(const BoundingBox& bounds, const Eigen::Vector3d& point_m) {
+  return (point_m.array() >= bounds.minimum_m.array()).all() &&
+         (point_m.array() <= bounds.maximum_m.array()).all();
+}
+
+void flagSeed(const SheetSources& sources, InputSheet& sheet) {
+  const auto& [one, image, image_sheet, scene, bounds, ignored_count] = sources;
   const Pose& seed = one.camera_from_station_seed;
   const std::string scale = scaleConcern(bounds, seed);
   if (!scale.empty()) sheet.flags.push_back({"mesh_scale", scale + ": is the mesh's unit right?"});
-  const std::string concern = seedConcern(one.camera, loaded.scene.view(), seed);
+  const std::string concern = seedConcern(one.camera, scene.view(), seed);
   if (!concern.empty()) {
     const bool behind = concern.find("behind") != std::string::npos;
     sheet.flags.push_back({behind ? "station_behind_camera" : "station_out_of_view", concern});
   }
-  if (isInside(loaded.scene.view(), seed.inverse().translation_m))
+  const Eigen::Vector3d camera_in_station_m = seed.inverse().translation_m;
+  if (contains(bounds, camera_in_station_m) && isInside(scene.view(), camera_in_station_m))
     sheet.flags.push_back({"camera_in_station",
                            "the seed puts the camera inside the station: is the mesh's unit "
                            "right, and the seed camera_from_station?"});
@@ -94,10 +103,10 @@ void flagSeed(const LoadedCase& loaded, const BoundingBox& bounds, InputSheet& s
                                                 "unit right?"});
 }
 
-void measure(const LoadedCase& loaded, const BoundingBox& bounds, InputSheet& sheet) {
-  const Camera& camera = loaded.source.camera;
-  const Eigen::Vector3d centre_in_camera_m =
-      loaded.source.camera_from_station_seed * bounds.centre();
+void measure(const SheetSources& sources, InputSheet& sheet) {
+  const Camera& camera = sources.one.camera;
+  const BoundingBox& bounds = sources.bounds;
+  const Eigen::Vector3d centre_in_camera_m = sources.one.camera_from_station_seed * bounds.centre();
   sheet.station_extent_mm = (bounds.maximum_m - bounds.minimum_m) * 1e3;
   sheet.station_diagonal_mm = bounds.diagonal() * 1e3;
   sheet.seed_distance_m = centre_in_camera_m.norm();
@@ -106,9 +115,9 @@ void measure(const LoadedCase& loaded, const BoundingBox& bounds, InputSheet& sh
   sheet.station_share = sheet.station_diagonal_mm / std::hypot(sheet.view_width_mm, view_height_mm);
 }
 
-void describe(const LoadedCase& loaded, InputSheet& sheet) {
-  const SessionCase& one = loaded.source;
-  const GrayImage& image = loaded.image;
+void describe(const SheetSources& sources, InputSheet& sheet) {
+  const SessionCase& one = sources.one;
+  const GrayImage& image = sources.image;
   const auto add = [&sheet](const char* label, const std::string& value) {
     sheet.lines.push_back({label, value});
   };
@@ -127,7 +136,7 @@ void describe(const LoadedCase& loaded, InputSheet& sheet) {
   for (const FrameLine& line : frameLines(one)) add(line.label.c_str(), line.value);
   add("field of view", fixedText(sheet.camera.field_of_view_x_deg, 2) + " x " +
                            fixedText(sheet.camera.field_of_view_y_deg, 2) + " deg");
-  for (const MeshInfo& info : loaded.scene.infos)
+  for (const MeshInfo& info : sources.scene.infos)
     add("mesh", info.file.filename().string() + ", " + info.format + " in " + info.unit + ", " +
                     fixedText(info.diagonal_m() * 1e3, 1) + " mm across");
   const InputSigmas sigmas(one);
@@ -140,10 +149,10 @@ void describe(const LoadedCase& loaded, InputSheet& sheet) {
                      fixedText(sheet.station_extent_mm.z(), 1) + " mm; the view is " +
                      fixedText(sheet.view_width_mm, 1) + " mm wide at its distance");
   add("seed", fixedText(sheet.seed_distance_m, 4) + " m from the camera to the station's middle");
-  if (loaded.ignore)
-    add("ignored", std::to_string(loaded.ignore->ignored_count) + " px, " +
-                       fixedText(100.0 * static_cast<double>(loaded.ignore->ignored_count) /
-                                     static_cast<double>(image.pixels.size()),
+  if (sources.ignored_count)
+    add("ignored", std::to_string(*sources.ignored_count) + " px, " +
+                       fixedText(100.0 * static_cast<double>(*sources.ignored_count) /
+                                     (static_cast<double>(image.width) * image.height),
                                  2) +
                        " % of the image");
 }
@@ -246,26 +255,34 @@ ImageSheet imageSheet(const GrayImage& image) {
   return sheet;
 }
 
-InputSheet inputSheet(const LoadedCase& loaded) {
+InputSheet inputSheet(const SheetSources& sources) {
   InputSheet sheet;
-  const SessionCase& one = loaded.source;
+  const SessionCase& one = sources.one;
+  const GrayImage& image = sources.image;
   sheet.case_id = one.id;
   sheet.camera = cameraSheet(one.camera);
-  sheet.image = imageSheet(loaded.image);
-  const BoundingBox bounds = matchedBounds(loaded.scene.view());
-  measure(loaded, bounds, sheet);
-  describe(loaded, sheet);
+  sheet.image = sources.image_sheet;
+  measure(sources, sheet);
+  describe(sources, sheet);
   sheet.flags = sheet.image.flags;
-  if (loaded.image.width != one.camera.width || loaded.image.height != one.camera.height)
-    sheet.flags.push_back({"camera_size", "the camera is of " +
-                                              sizeText(one.camera.width, one.camera.height) +
-                                              " px, but the image has " +
-                                              sizeText(loaded.image.width, loaded.image.height)});
+  if (image.width != one.camera.width || image.height != one.camera.height)
+    sheet.flags.push_back(
+        {"camera_size", "the camera is of " + sizeText(one.camera.width, one.camera.height) +
+                            " px, but the image has " + sizeText(image.width, image.height)});
   sheet.flags.insert(sheet.flags.end(), sheet.camera.flags.begin(), sheet.camera.flags.end());
-  flagMeshes(loaded.scene, sheet);
-  flagSeed(loaded, bounds, sheet);
-  if (loaded.image.label) flagLabel(one, *loaded.image.label, sheet.flags);
+  flagMeshes(sources.scene, sheet);
+  flagSeed(sources, sheet);
+  if (image.label) flagLabel(one, *image.label, sheet.flags);
   return sheet;
+}
+
+InputSheet inputSheet(const LoadedCase& loaded) {
+  const ImageSheet image_sheet = imageSheet(loaded.image);
+  const BoundingBox bounds = matchedBounds(loaded.scene.view());
+  std::optional<std::int64_t> ignored_count;
+  if (loaded.ignore) ignored_count = loaded.ignore->ignored_count;
+  return inputSheet(
+      {loaded.source, loaded.image, image_sheet, loaded.scene, bounds, ignored_count});
 }
 
 bool isInside(const MeshView& mesh, const Eigen::Vector3d& point_in_station_m) {

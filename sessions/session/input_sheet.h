@@ -3,6 +3,8 @@
 // `whs info` and for the desktop program.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,7 +80,18 @@ struct InputSheet {
   std::vector<RedFlag> flags;    ///< of image, camera, meshes, and of how they fit each other
 };
 
+/// What a sheet is made from. Of the image all but its pixels, which are looked at once.
+struct SheetSources {
+  const SessionCase& one;
+  const GrayImage& image;
+  const ImageSheet& image_sheet;  ///< of that image
+  const SceneMesh& scene;
+  const BoundingBox& bounds;                  ///< of its matched parts, station frame
+  std::optional<std::int64_t> ignored_count;  ///< px, of a case with a mask
+};
+
 /// Also of inputs that could not be run: sizes that do not fit are a flag, not an error.
+InputSheet inputSheet(const SheetSources& sources);
 InputSheet inputSheet(const LoadedCase& loaded);
 
 /// Whether the point is inside the surface, by its winding number: holes do not matter much.

@@ -68,22 +68,15 @@ void add(InputsDigest& digest, const MaskStroke& stroke) {
 }  // namespace
 
 const SessionCase* Session::findCase(const std::string& id) const {
-  const auto found =
-      std::find_if(cases.begin(), cases.end(), [&id](const auto& one) { return one->id == id; });
-  return found == cases.end() ? nullptr : &**found;
+  const SharedValue<SessionCase>* found = cases.find(id);
+  return found == nullptr ? nullptr : &**found;
 }
 
 const Decision* Session::decisionOn(const std::string& case_id) const {
-  const auto found = std::find_if(decisions.rbegin(), decisions.rend(),
-                                  [&](const Decision& one) { return one.case_id == case_id; });
-  return found == decisions.rend() ? nullptr : &*found;
+  return decisions.find(case_id);
 }
 
-const RunRecord* Session::lastRunOf(const std::string& case_id) const {
-  const auto found = std::find_if(runs.rbegin(), runs.rend(),
-                                  [&](const RunRecord& run) { return run.case_id == case_id; });
-  return found == runs.rend() ? nullptr : &*found;
-}
+const RunRecord* Session::lastRunOf(const std::string& case_id) const { return runs.find(case_id); }
 
 void setTruth(SessionCase& one, const Pose& camera_from_station,
               const std::optional<Matrix6d>& covariance) {
@@ -105,11 +98,11 @@ Session withCase(const Session& session, SessionCase changed) {
 
 Session withoutCase(const Session& session, const std::string& case_id) {
   Session next = session;
-  std::erase_if(next.cases, [&](const auto& one) { return one->id == case_id; });
+  next.cases.eraseIf([&](const auto& one) { return one->id == case_id; });
   next.annotations.erase(case_id);
   next.passes.erase(case_id);
-  std::erase_if(next.decisions, [&](const Decision& one) { return one.case_id == case_id; });
-  std::erase_if(next.runs, [&](const RunRecord& run) { return run.case_id == case_id; });
+  next.decisions.eraseIf([&](const Decision& one) { return one.case_id == case_id; });
+  next.runs.eraseIf([&](const RunRecord& run) { return run.case_id == case_id; });
   if (next.view.case_id == case_id) next.view = {};
   return next;
 }

@@ -22,6 +22,7 @@
 #include "sessions/io/option_value.h"
 #include "sessions/session/decision.h"
 #include "sessions/session/ignore_strokes.h"
+#include "sessions/session/keyed_list.h"
 #include "sessions/session/rerun_record.h"
 #include "sessions/session/shared_value.h"
 #include "sessions/session/together_record.h"
@@ -129,16 +130,23 @@ struct DocumentView {
   bool operator==(const DocumentView&) const = default;
 };
 
+/// The case that something of a session is or belongs to.
+struct CaseIdOf {
+  const std::string& operator()(const SharedValue<SessionCase>& one) const { return one->id; }
+  const std::string& operator()(const Decision& decision) const { return decision.case_id; }
+  const std::string& operator()(const RunRecord& run) const { return run.case_id; }
+};
+
 struct Session {
   std::string profile = "default";
   OptionList options;  ///< what differs from the profile, by name in the order of the alphabet
-  std::vector<SharedValue<SessionCase>> cases;
+  KeyedList<SharedValue<SessionCase>, CaseIdOf> cases;
   std::map<std::string, SharedValue<Annotation>> annotations;  ///< by case; none is empty
   /// By case: what people marked who are done, in that order; none is empty.
   std::map<std::string, SharedValue<AnnotationPasses>> passes;
   ReviewSettings review;
-  std::vector<Decision> decisions;  ///< in the order in which they were made
-  std::vector<RunRecord> runs;      ///< in the order in which they were made
+  KeyedList<Decision, CaseIdOf> decisions;  ///< in the order in which they were made
+  KeyedList<RunRecord, CaseIdOf> runs;      ///< in the order in which they were made
   DocumentView view;
 
   /// nullptr when there is none of this id.

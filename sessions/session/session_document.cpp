@@ -132,7 +132,14 @@ void SessionDocument::readSaved() {
 
 void SessionDocument::become(const Session& session) {
   session_ = session;
-  json_ = std::make_unique<json>(json::parse(sessionText(session_, file_)));
+  json_.reset();
+}
+
+/// What an edit is compared with. Of a large session it takes longer to make than the session to
+/// read, and who only looks never needs it.
+const json& SessionDocument::sessionJson() const {
+  if (!json_) json_ = std::make_unique<json>(json::parse(sessionText(session_, file_)));
+  return *json_;
 }
 
 void SessionDocument::readJournalBeside() {
@@ -158,7 +165,7 @@ void SessionDocument::readJournalBeside() {
 /// The session after the journal's entries `first` to `end`; nothing when they do not fit.
 std::optional<Session> SessionDocument::replayed(const JournalContents& contents, std::size_t first,
                                                  std::size_t end) const {
-  json value = *json_;
+  json value = sessionJson();
   for (std::size_t i = first; i < end; ++i)
     if (!applyJsonPatch(json::parse(contents.entries[i].patch), value)) return std::nullopt;
   try {
@@ -218,7 +225,7 @@ void SessionDocument::acceptRecovery() {
   entry.text = "Recover " + countText(recovery_->edits.size(), "edit");
   entry.time = recovery_->time;
   entry.after_sha256 = textSha256(text);
-  entry.patch = jsonPatch(*json_, after).dump();
+  entry.patch = jsonPatch(sessionJson(), after).dump();
   journal_ = std::make_unique<Journal>(file, file_sha256_, std::vector<JournalEntry>{entry});
   session_ = std::move(recovery_->session);
   *json_ = std::move(after);
@@ -237,7 +244,7 @@ void SessionDocument::apply(const Session& next, const std::string& text) {
   const Session wanted = ordered(next);
   const std::string written = sessionText(wanted, file_);
   json after = provenJson(wanted, file_, written);
-  const json patch = jsonPatch(*json_, after);
+  const json patch = jsonPatch(sessionJson(), after);
   if (patch.empty()) return;
   JournalEntry entry;
   entry.text = text;

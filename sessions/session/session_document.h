@@ -83,12 +83,13 @@ class SessionDocument {
   void setJournalAside(const std::string& why);
   void requireEditable() const;
   void become(const Session& session);
+  const nlohmann::json& sessionJson() const;
 
   std::filesystem::path file_;
   std::string file_sha256_;  ///< of the file as it was read or written last
   Session session_;
   Session saved_;
-  std::unique_ptr<nlohmann::json> json_;  ///< of session_
+  mutable std::unique_ptr<nlohmann::json> json_;  ///< of session_, once it is needed
   std::unique_ptr<SessionLock> lock_;
   std::unique_ptr<Journal> journal_;  ///< nullptr while there are no edits
   std::optional<Recovery> recovery_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <set>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
@@ -150,11 +149,11 @@ Session readMembers(const JsonReader& json) {
   requireVersion(json);
   Session session;
   readOptionsOf(json, session);
-  std::set<std::string> ids;
-  for (const JsonReader& one : json.at("cases").elements()) {
-    session.cases.emplace_back(readSessionCase(one));
-    if (!ids.insert(session.cases.back()->id).second)
-      one.failMember("id", "'" + session.cases.back()->id + "' is given twice");
+  for (const JsonReader& json_of_one : json.at("cases").elements()) {
+    SessionCase one = readSessionCase(json_of_one);
+    if (session.findCase(one.id) != nullptr)
+      json_of_one.failMember("id", "'" + one.id + "' is given twice");
+    session.cases.push_back(std::move(one));
   }
   readMarksOf(json, session);
   if (const auto review = json.find("review")) session.review = readReviewSettings(*review);

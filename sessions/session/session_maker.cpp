@@ -43,14 +43,15 @@ InputFile maskInput(const fs::path& file, const ImageInput& image) {
   return {wholePath(file), readIgnoreMask(file, image.width, image.height).file_sha256};
 }
 
-SessionCase caseOf(const Dataset& dataset, const Case& one, const std::vector<MeshInput>& parts) {
+SessionCase caseOf(const Dataset& dataset, const Case& one, const ImageInput& image,
+                   const std::vector<MeshInput>& parts) {
   if (!one.uncertainty)
     throw InputError(dataset.file, "cases." + one.id + ".uncertainty",
                      "neither the case nor its station states one");
   SessionCase made;
   made.id = one.id;
   made.station = one.station;
-  made.image = imageInput(one.image, {});
+  made.image = image;
   made.camera = dataset.cameras.at(one.camera);
   if (const auto known = dataset.camera_references.find(one.camera);
       known != dataset.camera_references.end())
@@ -131,13 +132,15 @@ Session makeSession(const Dataset& dataset, const std::vector<std::string>& case
     if (dataset.findCase(id) == nullptr)
       throw InputError(dataset.file, "cases", "there is no case '" + id + "'");
   Session session;
+  std::map<fs::path, ImageInput> images;
   std::map<std::string, std::vector<MeshInput>> parts;
   for (const Case& one : dataset.cases) {
     if (!case_ids.empty() && std::find(case_ids.begin(), case_ids.end(), one.id) == case_ids.end())
       continue;
     if (!parts.contains(one.station))
       parts[one.station] = meshInputs(dataset.stations.at(one.station).parts);
-    session.cases.emplace_back(caseOf(dataset, one, parts[one.station]));
+    if (!images.contains(one.image)) images[one.image] = imageInput(one.image, {});
+    session.cases.push_back(caseOf(dataset, one, images[one.image], parts[one.station]));
   }
   session.review.preset = presetOfAll(session);
   return session;

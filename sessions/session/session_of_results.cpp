@@ -123,7 +123,7 @@ Session sessionOfResults(const std::filesystem::path& results_file) {
     one.id = resultCaseId(run);
     if (run.reseed > 0) one.camera_from_station_seed = run.camera_from_station_seed;
     one.tags.push_back(resultTag(listedResult(run)));
-    session.cases.emplace_back(std::move(one));
+    session.cases.push_back(std::move(one));
   }
   return withOptionsOf(session, facts, method);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "sessions/io/camera_field.h"
 #include "sessions/io/errors.h"
 #include "sessions/session/rig_links.h"
 #include "sessions/trace/stepped_views.h"
@@ -114,6 +115,7 @@ std::shared_ptr<const LoadedViews> loadViews(std::shared_ptr<const LoadedCase> f
     loaded->cases.push_back(reloadCase(*loaded->cases.front(), one));
   for (const auto& one : loaded->cases) {
     requireSameSize(one->image, one->source.camera);
+    requireField("case " + one->source.id, "camera", one->source.camera);
     loaded->views.push_back(viewOf(*one));
   }
   return loaded;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdio>
 
-#include "sessions/io/scene_mesh.h"
 #include "sessions/trace/scene_render.h"
 
 namespace boresight::sessions {
@@ -39,14 +38,19 @@ std::string centreText(const Eigen::Vector3d& centre_in_camera_m) {
 
 std::string seedConcern(const Camera& camera, const MeshView& mesh,
                         const Pose& camera_from_station_seed) {
+  bool in_front = false;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    if (!mesh.parts[mesh.part_of_face[f]].match) continue;
+    for (const std::int32_t index : mesh.faces[f].vertex) {
+      const Eigen::Vector3d point_in_camera_m =
+          camera_from_station_seed *
+          mesh.vertices_in_station_m[static_cast<std::size_t>(index)].cast<double>();
+      if (insideImage(camera, point_in_camera_m)) return "";
+      in_front = in_front || point_in_camera_m.z() > 0.0;
+    }
+  }
   const Eigen::Vector3d centre_in_camera_m =
       camera_from_station_seed * matchedBounds(mesh).centre();
-  bool in_front = false;
-  for (const Eigen::Vector3f& vertex : matchedVertices(mesh)) {
-    const Eigen::Vector3d point_in_camera_m = camera_from_station_seed * vertex.cast<double>();
-    if (insideImage(camera, point_in_camera_m)) return "";
-    in_front = in_front || point_in_camera_m.z() > 0.0;
-  }
   if (!in_front)
     return "the station lies behind the camera at the seed" + centreText(centre_in_camera_m);
   if (anythingRendered(camera, mesh, camera_from_station_seed)) return "";

@@ -303,7 +303,7 @@ void fields(Archive& archive, Self& trace) {
   fields(archive, trace.support);
   fields(archive, trace.partial);
   archive.choice(trace.status, kLastLocalizationStatus);
-  archive.choice(trace.fault, Status::kNoConsensus);
+  archive.choice(trace.fault, kLastStatus);
   fields(archive, trace.camera_from_station);
   vectorFields(archive, trace.covariance);
   archive.text(trace.digest);

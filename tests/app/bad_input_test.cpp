@@ -97,6 +97,36 @@ TEST_F(BadInput, NamesBothSizesWhenImageAndCameraDisagree) {
   expectRefused({{"--camera", inputs_.write("camera.json", camera).string()}}, "image.png", "2048");
 }
 
+/// Beyond the fold no pixel has a ray: the run could only search in vain.
+TEST_F(BadInput, RefusesADistortionThatFoldsBackWithinTheImage) {
+  for (const char* k1 : {"-5.0", "-2.0"}) {
+    std::string camera = contentOf(example_ / "camera.json");
+    const auto begin = camera.find('[', camera.find("\"dist\""));
+    camera.replace(begin, camera.find(']', begin) - begin,
+                   std::string("[") + k1 + ", 0.0, 0.0, 0.0, 0.0");
+    expectRefused({{"--camera", inputs_.write("camera.json", camera).string()}},
+                  "camera.json: distortion", "folds back");
+  }
+}
+
+/// Each face hides the next: a run would take as long as the image has pixels times faces.
+TEST_F(BadInput, RefusesAMeshOfManyFacesBehindEachOther) {
+  std::string mesh =
+      "ply\nformat ascii 1.0\nelement vertex 6000\nproperty float x\n"
+      "property float y\nproperty float z\nelement face 2000\n"
+      "property list uchar int vertex_indices\nend_header\n";
+  for (int i = 0; i < 2000; ++i) {
+    const std::string z = " " + std::to_string(1e-4 * i) + "\n";
+    mesh += "-9 -9" + z + "9 -9" + z + "0 18" + z;
+  }
+  for (int i = 0; i < 2000; ++i)
+    mesh += "3 " + std::to_string(3 * i) + " " + std::to_string(3 * i + 1) + " " +
+            std::to_string(3 * i + 2) + "\n";
+  expectRefused({{"--mesh", inputs_.write("layers.ply", mesh).string()},
+                 {"--seed", seedWith("[[1,0,0,0],[0,-1,0,0],[0,0,-1,1.0],[0,0,0,1]]")}},
+                "layers.ply", "behind each other");
+}
+
 TEST_F(BadInput, AsksForTheUnitOfAMeshThatStatesNone) {
   expectRefused({{"--mesh-unit", ""}}, "model.ply", "unit");
   const ProgramRun refused = run({{"--mesh-unit", "furlong"}});

@@ -217,7 +217,7 @@ TEST(WhsInfo, ReadsTheInputsOfABoundedNumberOfCases) {
   session.cases.clear();
   for (int i = 0; i < 250; ++i) {
     one.id = "case-" + std::to_string(i);
-    session.cases.emplace_back(one);
+    session.cases.push_back(one);
   }
   sessions::writeSessionFile(file, session);
   const ProgramRun run = runWhs({"info", file});

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <exception>
+#include <utility>
 
 #include "core/base/math.h"
 #include "sessions/evaluation/pose_error.h"
@@ -16,6 +17,7 @@ namespace boresight::ui {
 namespace {
 
 constexpr int kThumbnail_px = 128;  // also sharp on a screen of double density
+constexpr int kPause_ms = 200;      // the list is filled as a whole
 
 /// Null when the file cannot be read: whoever opens the case is told why.
 QImage thumbnailOf(const sessions::ImageInput& input) {
@@ -41,22 +43,38 @@ std::optional<Pose> resultOf(const sessions::RunRecord& run) {
 
 }  // namespace
 
-CaseDetails::CaseDetails(TaskRunner& tasks, QObject* parent) : QObject(parent), tasks_(tasks) {}
+CaseDetails::CaseDetails(TaskRunner& tasks, QObject* parent) : QObject(parent), tasks_(tasks) {
+  pause_.setSingleShot(true);
+  pause_.setInterval(kPause_ms);
+  connect(&pause_, &QTimer::timeout, this, &CaseDetails::changed);
+}
 
 void CaseDetails::setSession(const sessions::Session& session) {
   session_ = session;
+  next_ = 0;
   if (!reading_) readNext();
 }
 
 void CaseDetails::readNext() {
+  const auto& cases = std::as_const(session_).cases;
   reading_ = true;
-  for (const auto& one : session_.cases)
-    if (readThumbnail(one->image)) return;
-  for (const auto& one : session_.cases) {
-    const sessions::RunRecord* run = session_.lastRunOf(one->id);
-    if (run && one->camera_from_station_truth && readPose(*run)) return;
+  for (; next_ < cases.size(); ++next_)
+    if (readThumbnail(cases[next_]->image)) return;
+  for (; next_ < 2 * cases.size(); ++next_) {
+    const sessions::SessionCase& one = *cases[next_ - cases.size()];
+    const sessions::RunRecord* run = session_.lastRunOf(one.id);
+    if (run && one.camera_from_station_truth && readPose(*run)) return;
   }
   reading_ = false;
+  if (!pause_.isActive()) return;
+  pause_.stop();
+  Q_EMIT changed();
+}
+
+/// Of a thousand files it is told some times a second, and at the end.
+void CaseDetails::tellSoon() {
+  if (!pause_.isActive()) pause_.start();
+  readNext();
 }
 
 bool CaseDetails::readThumbnail(const sessions::ImageInput& image) {
@@ -66,8 +84,7 @@ bool CaseDetails::readThumbnail(const sessions::ImageInput& image) {
       [image](const std::stop_token&) { return thumbnailOf(image); },
       [this, key = image.source.sha256](QImage picture) {
         thumbnails_[key] = std::move(picture);
-        Q_EMIT changed();
-        readNext();
+        tellSoon();
       });
   return true;
 }
@@ -78,8 +95,7 @@ bool CaseDetails::readPose(const sessions::RunRecord& run) {
       QStringLiteral("case details"), [run](const std::stop_token&) { return resultOf(run); },
       [this, key = run.digest](const std::optional<Pose>& camera_from_station) {
         poses_[key] = camera_from_station;
-        Q_EMIT changed();
-        readNext();
+        tellSoon();
       });
   return true;
 }

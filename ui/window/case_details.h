@@ -9,6 +9,7 @@
 
 #include <QImage>
 #include <QObject>
+#include <QTimer>
 
 #include "core/geometry/pose.h"
 #include "sessions/session/session.h"
@@ -38,6 +39,7 @@ class CaseDetails : public QObject {
 
  private:
   void readNext();
+  void tellSoon();
   bool readThumbnail(const sessions::ImageInput& image);
   bool readPose(const sessions::RunRecord& run);
   void fillErrors(const sessions::SessionCase& one, CaseRow& row) const;
@@ -47,6 +49,8 @@ class CaseDetails : public QObject {
   std::map<std::string, QImage> thumbnails_;          ///< by hash of the file; null: cannot be read
   std::map<std::string, std::optional<Pose>> poses_;  ///< by digest of the run; nothing: no result
   bool reading_ = false;
+  std::size_t next_ = 0;  ///< case to look at next, for its picture, then again for its run
+  QTimer pause_;          ///< between two signals
 };
 
 }  // namespace boresight::ui

@@ -14,7 +14,7 @@ TEST(StatusText, IsDifferentForEveryStatus) {
   int count = 0;
   for (; statusText(static_cast<Status>(count)) != std::string("unknown"); ++count)
     texts.insert(statusText(static_cast<Status>(count)));
-  EXPECT_EQ(count, static_cast<int>(Status::kNoConsensus) + 1);
+  EXPECT_EQ(count, static_cast<int>(kLastStatus) + 1);
   EXPECT_EQ(texts.size(), static_cast<std::size_t>(count));
 }
 

@@ -181,6 +181,30 @@ TEST(EdgeRendererPieces, CapacityExceededLeavesWhatOneAloneLeaves) {
   }
 }
 
+TEST(EdgeRendererPieces, TooManyLayersAreRefusedAsByOneAlone) {
+  Random random(12);
+  SceneMesh mesh = scattered(6, 64);
+  // The lower half of the image is covered again and again.
+  for (int i = 0; i < 2 * BandPainter::kMostLayers; ++i)
+    mesh.addFace(mesh.addVertex({-20.0, 0.05, 1.0 + 1e-3 * i}),
+                 mesh.addVertex({20.0, 0.05, 1.0 + 1e-3 * i}),
+                 mesh.addVertex({0.0, 40.0, 1.0 + 1e-3 * i}));
+  const Camera camera = brownCamera(320, 240, 320.0, -0.2);
+  const Pose pose = poseOf({0.0, 0.0, 0.0}, {0.01, 0.0, 0.5});
+  Shared alone(mesh, camera, {}, 1);
+  int most = 0;
+  ASSERT_EQ(alone.begin(pose, false), Status::kOk);
+  ASSERT_EQ(finishShuffled(alone, 1, random, most), Status::kTooManyLayers);
+  EXPECT_GT(alone.output.pixel_count, 0) << "the rows before are there";
+  for (const int workers : {2, 3, 8}) {
+    Shared shared(mesh, camera, {}, workers);
+    ASSERT_EQ(shared.begin(pose, false), Status::kOk);
+    EXPECT_EQ(finishShuffled(shared, workers, random, most), Status::kTooManyLayers);
+    EXPECT_EQ(shared.output.pixel_count, alone.output.pixel_count);
+    EXPECT_TRUE(std::ranges::equal(alone.output.edges.words, shared.output.edges.words));
+  }
+}
+
 TEST(EdgeRendererPieces, NothingInSightIsNothing) {
   Random random(13);
   const SceneMesh mesh = scattered(6, 64);

@@ -178,6 +178,55 @@ TEST(EdgeRenderer, CapacityExceededIsSaid) {
   EXPECT_EQ(output.pixel_count, 1000);
 }
 
+/// Faces one behind the other that all cover the whole image; a sliver each when `slivers`.
+SceneMesh layers(int count, bool slivers = false) {
+  SceneMesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1.0 + 1e-3 * i;
+    const double width = slivers ? 1e-4 : 10.0;
+    mesh.addFace(mesh.addVertex({-20.0 - width, -20.0, z}), mesh.addVertex({20.0, 20.0, z}),
+                 mesh.addVertex({-20.0, -20.0 + (slivers ? 1e-4 : 60.0), z}));
+  }
+  return mesh;
+}
+
+/// Steps until the render is done.
+Status stepsOf(EdgeRenderer& renderer, int& steps) {
+  Status status = Status::kOk;
+  bool done = false;
+  for (steps = 0; !done; ++steps) status = renderer.step(done);
+  return status;
+}
+
+TEST(EdgeRenderer, RefusesFacesThatCoverTheImageManyHundredTimesOver) {
+  struct Expected {
+    int faces;
+    bool slivers;
+    Status status;
+  };
+  const int most = static_cast<int>(BandPainter::kMostLayers);
+  for (const auto& [faces, slivers, expected] :
+       {Expected{most / 2, false, Status::kOk}, Expected{2 * most, false, Status::kTooManyLayers},
+        Expected{100 * most, false, Status::kTooManyLayers},
+        Expected{8 * most, true, Status::kOk}}) {
+    const SceneMesh mesh = layers(faces, slivers);
+    const Camera camera = pinholeCamera(128, 64, 100.0);
+    std::vector<std::byte> memory(std::size_t{64} << 20);
+    Arena arena{memory};
+    MeshAdjacency adjacency;
+    RayGrid rays;
+    ASSERT_EQ(buildAdjacency(mesh.view(), arena, adjacency), Status::kOk);
+    ASSERT_EQ(RayGrid::create(camera, arena, rays), Status::kOk);
+    EdgeRender output = createEdgeRender(128, 64, RenderOptions(), arena);
+    EdgeRenderer renderer;
+    ASSERT_EQ(renderer.create(mesh.view(), adjacency, 128, 64, {}, arena), Status::kOk);
+    ASSERT_EQ(renderer.begin(rays, Pose(), output), Status::kOk);
+    int steps = 0;
+    EXPECT_EQ(stepsOf(renderer, steps), expected) << faces << " faces";
+    EXPECT_LT(steps, 40) << faces << " faces: the first band is enough to know";
+  }
+}
+
 TEST(EdgeRenderer, CountsWhatItUses) {
   Bench bench;
   Arena counting;

@@ -8,6 +8,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/base/math.h"
+#include "sessions/io/errors.h"
+#include "sessions/session/input_sheets.h"
 #include "tests/sessions/session/example_session.h"
 #include "tests/support/random_pose.h"
 
@@ -67,6 +69,43 @@ TEST(InputSheet, FlagsWhatIsProbablyWrong) {
                                       c.camera.fx, {-3.0, 0.0, 0.0, 0.0});
               }),
               Contains("camera_corners"));
+}
+
+TEST(InputSheets, ReadAnImageAndAStationOnceForAllCasesThatShareThem) {
+  SessionCase one = exampleOs();
+  const SessionCase other = sessions::makeCase(filesOf(exampleFolder() / "bc")).made;
+  sessions::InputSheets sheets;
+  for (int i = 0; i < 20; ++i) {
+    one.camera_from_station_seed.translation_m.x() += 1e-4;
+    const InputSheet sheet = sheets.of(one);
+    const InputSheet alone = sessions::inputSheet(*sessions::loadCase(one));
+    EXPECT_EQ(sheet.lines, alone.lines);
+    EXPECT_EQ(sheet.flags, alone.flags);
+    (void)sheets.of(other);
+  }
+  EXPECT_EQ(sheets.filesRead(), 4) << "two images, two stations";
+}
+
+TEST(InputSheets, AreThoseOfTheCasesOwnMaskRuleAndParts) {
+  SessionCase one = exampleOs();
+  sessions::InputSheets sheets;
+  (void)sheets.of(one);
+  sessions::MaskStroke stroke;
+  stroke.kind = sessions::StrokeKind::kSaturation;
+  stroke.level = 200;
+  one.ignore_strokes.push_back(stroke);
+  EXPECT_EQ(sheets.of(one).lines, sessions::inputSheet(*sessions::loadCase(one)).lines);
+  one.ignore_strokes.clear();
+  one.parts[0].source.mesh_unit = "km";
+  EXPECT_THAT(codes(sheets.of(one).flags), Contains("mesh_scale"));
+}
+
+TEST(InputSheets, SayOfEveryCaseThatItsImageIsAnotherButReadItOnce) {
+  SessionCase one = exampleOs();
+  one.image.source.sha256 = std::string(64, '0');
+  sessions::InputSheets sheets;
+  for (int i = 0; i < 3; ++i) EXPECT_THROW((void)sheets.of(one), sessions::InputError);
+  EXPECT_EQ(sheets.filesRead(), 1);
 }
 
 TEST(InputSheet, TellsTheInsideOfASurface) {

@@ -40,7 +40,7 @@ class LabelledImage : public ::testing::Test {
   }
   Session session() const {
     Session made;
-    made.cases.emplace_back(one_);
+    made.cases.push_back(one_);
     return made;
   }
   TemporaryFolder folder_;

@@ -236,7 +236,7 @@ inline sessions::Session randomSession(Random& random) {
   if (coin(random)) session.review.preset = "photographs";
   for (std::uint32_t i = random.below(5); i > 0; --i) {
     const std::string id = "case " + std::to_string(i);
-    session.cases.emplace_back(randomCase(random, id));
+    session.cases.push_back(randomCase(random, id));
     if (coin(random)) session = withAnnotation(session, id, randomAnnotation(random));
     if (coin(random)) session = withPasses(session, id, randomPasses(random));
     if (coin(random)) session.decisions.push_back(randomDecision(random, id));

@@ -48,7 +48,7 @@ class ScriptedAnnotator : public testing::TestWithParam<double> {
     window_.resize(1280, 800);
     window_.show();
     sessions::Session session = sessions::makeSession(dataset);
-    std::erase_if(session.cases, [&](const auto& one) { return one->station != station; });
+    session.cases.eraseIf([&](const auto& one) { return one->station != station; });
     ASSERT_FALSE(session.cases.empty());
     session.cases.resize(1);
     ASSERT_TRUE(window_.document().create(folder_.path() / "one.boresight.json", session));

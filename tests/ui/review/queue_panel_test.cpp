@@ -96,9 +96,7 @@ class QueuePanelTest : public ::testing::Test {
   /// On whatever has the focus.
   void press(Qt::Key key) { QTest::keyClick(QApplication::focusWidget(), key); }
   void type(const QString& text) { QTest::keyClicks(QApplication::focusWidget(), text); }
-  const std::vector<sessions::Decision>& decisions() const {
-    return window_->document().session().decisions;
-  }
+  const auto& decisions() const { return window_->document().session().decisions; }
 
   test::TemporaryFolder folder_;
   std::unique_ptr<MainWindow> window_;

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace boresight::sessions {
+
+/// A list of which the last element of a key, `KeyOf()(element)`, is found without a search:
+/// sessions hold tens of thousands of cases and runs, and each is asked for by its case. Otherwise
+/// like std::vector. After access to elements that may change them `find` searches, until the list
+/// is copied.
+template <class T, class KeyOf>
+class KeyedList {
+ public:
+  using value_type = T;
+
+  KeyedList() = default;
+  KeyedList(std::vector<T> values) : values_(std::move(values)) { index(); }  // NOLINT: a list
+  KeyedList(const KeyedList& other)
+      : values_(other.values_), places_(other.places_), indexed_(other.indexed_) {
+    if (!indexed_) index();
+  }
+  KeyedList(KeyedList&&) noexcept = default;
+  KeyedList& operator=(const KeyedList& other) { return *this = KeyedList(other); }
+  KeyedList& operator=(KeyedList&&) noexcept = default;
+  ~KeyedList() = default;
+
+  std::size_t size() const { return values_.size(); }
+  bool empty() const { return values_.empty(); }
+  const T& operator[](std::size_t i) const { return values_[i]; }
+  const T& front() const { return values_.front(); }
+  const T& back() const { return values_.back(); }
+  auto begin() const { return values_.begin(); }
+  auto end() const { return values_.end(); }
+  auto rbegin() const { return values_.rbegin(); }
+  auto rend() const { return values_.rend(); }
+
+  /// Elements that may be changed.
+  ///@{
+  T& operator[](std::size_t i) { return changeable()[i]; }
+  T& front() { return changeable().front(); }
+  T& back() { return changeable().back(); }
+  auto begin() { return changeable().begin(); }
+  auto end() { return changeable().end(); }
+  ///@}
+
+  void push_back(T value) {
+    values_.push_back(std::move(value));
+    if (indexed_) enter(values_.size() - 1);
+  }
+  void clear() { *this = KeyedList(); }
+  void resize(std::size_t size) {
+    values_.resize(size);
+    index();
+  }
+  template <class Predicate>
+  void eraseIf(Predicate&& predicate) {
+    std::erase_if(values_, predicate);
+    index();
+  }
+
+  /// The last element of a key, or nullptr.
+  const T* find(const std::string& key) const {
+    if (indexed_) {
+      const auto place = places_.find(key);
+      return place == places_.end() ? nullptr : &values_[place->second];
+    }
+    const auto found = std::find_if(values_.rbegin(), values_.rend(),
+                                    [&key](const T& value) { return KeyOf()(value) == key; });
+    return found == values_.rend() ? nullptr : &*found;
+  }
+
+  bool operator==(const KeyedList& other) const { return values_ == other.values_; }
+
+ private:
+  std::vector<T>& changeable() {
+    indexed_ = false;
+    return values_;
+  }
+  void enter(std::size_t i) { places_.insert_or_assign(KeyOf()(values_[i]), i); }
+  void index() {
+    places_.clear();
+    for (std::size_t i = 0; i < values_.size(); ++i) enter(i);
+    indexed_ = true;
+  }
+
+  std::vector<T> values_;
+  std::unordered_map<std::string, std::size_t> places_;  ///< of the last element of each key
+  bool indexed_ = true;
+};
+
+}  // namespace boresight::sessions
