@@ -10,20 +10,25 @@
 #include "app/results_commands.h"
 #include "sessions/baselines/matching_method.h"
 #include "sessions/io/errors.h"
+#include "sessions/io/plain_text.h"
 #include "sessions/version.h"
 
 namespace boresight::app {
 namespace {
 
-/// "--image and --overlay" for the options of a command that name this file by any of its links.
+/// "--image and --overlay": the options of a command, and of its groups, that name this file by any
+/// of its links.
 std::string optionsNaming(const CLI::App& command, const std::filesystem::path& file) {
   std::string names;
+  const auto add = [&names](const std::string& name) {
+    if (!name.empty()) names += (names.empty() ? "" : " and ") + name;
+  };
+  std::error_code error;
   for (const CLI::Option* option : command.get_options())
-    for (const std::string& value : option->results()) {
-      std::error_code error;
-      if (std::filesystem::equivalent(value, file, error))
-        names += (names.empty() ? "" : " and ") + option->get_name();
-    }
+    for (const std::string& value : option->results())
+      if (std::filesystem::equivalent(value, file, error)) add(option->get_name());
+  for (const CLI::App* group : command.get_subcommands([](const CLI::App*) { return true; }))
+    add(optionsNaming(*group, file));
   return names;
 }
 
@@ -33,6 +38,10 @@ int run(int argc, char** argv) {
   app.set_help_all_flag("--help-all", "Help of every subcommand");
   app.require_subcommand(1);
   app.footer(std::string("Exit status: ") + kExitStatusText);
+  app.failure_message([](const CLI::App* parsed, const CLI::Error& error) {
+    const std::string what = sessions::plainText(error.what());
+    return CLI::FailureMessage::simple(parsed, {error.get_name(), what, error.get_exit_code()});
+  });
   int exit_code = kDone;
   addLocalize(app, exit_code);
   addEvaluate(app, exit_code);

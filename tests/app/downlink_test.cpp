@@ -181,7 +181,7 @@ TEST_F(Downlink, IsLocalizedInTheFrameThatItsSeedIsGivenIn) {
 }
 
 TEST_F(Downlink, ATransformThatTheLabelContradictsIsReported) {
-  // The label states where the rover is in the site; the transform that is given later lies 50 mm
+  // The label states where the rover is in the site; the transform that is given later lies 10 mm
   // beside it.
   const Eigen::Quaterniond& turn = siteFromRover().rotation;
   folder_.write(
@@ -208,11 +208,11 @@ TEST_F(Downlink, ATransformThatTheLabelContradictsIsReported) {
   EXPECT_FALSE(json::parse(folder_.read("result.json")).contains("warnings"));
 
   Pose moved = siteFromRover();
-  moved.translation_m.z() += 0.05;
+  moved.translation_m.z() += 0.01;
   sessions::writeFrameTransform(transform_, {kSite, kRover, moved, "by hand, sol 12", {}, {}});
   const std::string warning =
       "site_from_rover.json and the image's label differ about where ROVER_FRAME (194, 835, 1) is "
-      "in SITE_FRAME (194): by 50.0 mm and 0.00 deg";
+      "in SITE_FRAME (194): by 10.0 mm and 0.00 deg";
   const ProgramRun warned = localized(transform_.string());
   EXPECT_EQ(warned.exit_code, 0) << warned.err;
   EXPECT_EQ(warned.err, "whs: " + warning + "\n");

@@ -100,14 +100,13 @@ TEST_F(PlainOutput, OfResultsIsText) {
        "loop.max_iterations=1"});
   run({"tables", results});
   run({"tables", results, "--against", results, "--all"});
-  run({"tables", results, "--format", "csv", "--against", results, "--all"}, 0);
   run({"problem", "--dataset", file("dataset.json"), "--case", hostile("none"), "--out",
        file("p.bin"), "--image-out", file("p.pgm")},
       3);
 }
 
 TEST_F(PlainOutput, OfUsageErrorsIsText) {
-  run({"localize", hostile("--what")}, 2);
+  run({"options", hostile("--what")}, 2);
   run({"info", file(hostile("none.json"))}, 3);
 }
 

@@ -61,7 +61,8 @@ TEST(MarksFile, NamesWhatIsWrong) {
   EXPECT_EQ(error(R"([{"id": "a", "sigma_px": 0, )" + good + "}]"),
             "points.json: points[0].sigma_px: 0 is outside 1e-06 .. 10000");
   EXPECT_EQ(error(R"([{"id": "a", "pixle": [4, 5]}])"),
-            "points.json: points[0].pixle: is not known to this version of the format");
+            "points.json: points[0].pixle: is not known to this version of the format; did you mean "
+            "\"pixel\"?");
   EXPECT_EQ(error("[]", R"([{"id": "l", "line_px": [[1, 1], [1, 1]]}])"),
             "points.json: lines[0].line_px: both ends are the same place");
 }
