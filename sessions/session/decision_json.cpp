@@ -52,7 +52,6 @@ ordered_json toJson(const PoseCovariance& covariance) {
 }
 
 PoseCovariance readPoseCovariance(const JsonReader& json) {
-  json.requireKnown({"picture", "mesh_scale", "calibration"});
   return {readMatrix6(json.at("picture")), readMatrix6(json.at("mesh_scale")),
           readMatrix6(json.at("calibration"))};
 }
