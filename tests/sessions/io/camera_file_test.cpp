@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/io/camera_file.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -11,6 +12,7 @@
 namespace boresight::sessions {
 namespace {
 
+using testing::HasSubstr;
 using boresight::test::TemporaryFolder;
 
 std::string cameraText(const std::string& rest) {

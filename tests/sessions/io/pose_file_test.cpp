@@ -13,6 +13,7 @@
 namespace boresight::sessions {
 namespace {
 
+using testing::HasSubstr;
 using boresight::test::TemporaryFolder;
 using ::testing::StartsWith;
 
