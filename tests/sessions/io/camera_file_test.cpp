@@ -12,8 +12,8 @@
 namespace boresight::sessions {
 namespace {
 
-using testing::HasSubstr;
 using boresight::test::TemporaryFolder;
+using testing::HasSubstr;
 
 std::string cameraText(const std::string& rest) {
   return R"({"format": "boresight-camera", "version": 1, )" + rest + "}";

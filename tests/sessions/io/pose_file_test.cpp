@@ -13,8 +13,8 @@
 namespace boresight::sessions {
 namespace {
 
-using testing::HasSubstr;
 using boresight::test::TemporaryFolder;
+using testing::HasSubstr;
 using ::testing::StartsWith;
 
 std::string poseText(const std::string& matrix, const std::string& rest = "") {

@@ -335,7 +335,7 @@ TEST_F(ValidatedPose, ASmallerCovarianceIsFoundWhenItIsMeasuredAgain) {
   const fs::path file = write();
   ordered_json json = read(file);
   sessions::Decision decision = session_.decisions.back();
-  decision.pose->covariance *= 1e-4;
+  decision.pose->covariance.picture *= 1e-4;
   // Everything that follows from the covariance is made to follow.
   Session edited = session_;
   edited.decisions.back() = decision;
@@ -410,8 +410,9 @@ TEST_F(ValidatedPose, ASessionEditedByHandIsNotSigned) {
               }),
               HasSubstr("check 'Inliers' is stated as passed, 9100 (at least 9000) and measured as "
                         "failed"));
-  EXPECT_THAT(refusal([](sessions::Decision& decision) { decision.pose->covariance *= 1e-4; }),
-              HasSubstr("another covariance comes out"));
+  EXPECT_THAT(
+      refusal([](sessions::Decision& decision) { decision.pose->covariance.picture *= 1e-4; }),
+      HasSubstr("another covariance comes out"));
   EXPECT_THAT(refusal([](sessions::Decision& decision) {
                 decision.pose->camera_from_station.translation_m.z() = 0.5;
               }),
@@ -470,8 +471,9 @@ TEST_F(ValidatedPose, OfMarksIsMeasuredLikeThatOfARun) {
                 decision.pose->camera_from_station.translation_m.z() += 1e-6;
               }),
               HasSubstr("another pose comes out"));
-  EXPECT_THAT(refusal([](sessions::Decision& decision) { decision.pose->covariance *= 0.99; }),
-              HasSubstr("another covariance comes out"));
+  EXPECT_THAT(
+      refusal([](sessions::Decision& decision) { decision.pose->covariance.mesh_scale *= 0.99; }),
+      HasSubstr("another covariance comes out"));
 }
 
 TEST_F(ValidatedPose, OptionsThatHaveChangedSinceAreThoseOfItsRun) {

@@ -32,17 +32,9 @@ const LocalizationTrace& exampleTrace() {
   return trace;
 }
 
-/// What formats before 5 know of it.
-LocalizationTrace exampleOfOldFormats() {
-  LocalizationTrace trace = exampleTrace();
-  trace.partial = {};
-  return trace;
-}
-
 /// All fields as bytes: equal bytes, equal traces.
-std::vector<std::uint8_t> bytesOf(const LocalizationTrace& trace, std::uint32_t format = ~0U) {
+std::vector<std::uint8_t> bytesOf(const LocalizationTrace& trace) {
   ArchiveWriter writer;
-  writer.setFormat(format);
   fields(writer, trace);
   return writer.bytes();
 }
