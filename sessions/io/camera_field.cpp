@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include <Eigen/Geometry>
+
 #include "core/base/math.h"
 #include "sessions/io/errors.h"
 

@@ -132,8 +132,9 @@ void MatchView::showPictures(const sessions::EdgeMapTrace& edges,
                              const Match* match) {
   const Template& item = iteration.templates[index];
   const PatchPlace place{item.center_x, item.center_y, iteration.template_side_px};
-  template_->setPicture(
-      templatePicture(iteration.render.edges.view(), iteration.render.mask.view(), place));
+  const BitImage rendered = iteration.render.edges.view();
+  const BitImage mask = iteration.render.mask.view();
+  template_->setPicture(templatePicture(rendered, mask, place));
   template_->setNote(
       tr("%1 x %1 px, level %2").arg(iteration.template_side_px).arg(iteration.level));
   if (match == nullptr) {
@@ -147,7 +148,7 @@ void MatchView::showPictures(const sessions::EdgeMapTrace& edges,
   const PatchPlace there{match->peak.x, match->peak.y, iteration.template_side_px};
   found_->setPicture(seenPicture(seen, there));
   found_->setNote(tr("edges of the image"));
-  agreement_->setPicture(agreementPicture(*view.edges, *view.mask, place, seen, there));
+  agreement_->setPicture(agreementPicture(rendered, mask, place, seen, there));
   agreement_->setLegend({{patch_colors::kEdge, tr("both")},
                          {patch_colors::kOnlyRendered, tr("render")},
                          {patch_colors::kOnlySeen, tr("image")}});
