@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/input_sigmas.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace boresight::sessions {
@@ -13,13 +14,20 @@ std::string shortNumber(double value) {
   return text;
 }
 
+/// Where none is stated: the principal point to half a pixel of 2048, or as much of other images.
+CalibrationSigma assumedCalibration(const Camera& camera) {
+  CalibrationSigma sigma;
+  sigma.principal_point_px *= std::max(camera.width, camera.height) / 2048.0;
+  return sigma;
+}
+
 const char* sourceText(bool stated) { return stated ? "" : ", assumed"; }
 
 }  // namespace
 
 InputSigmas::InputSigmas(const SessionCase& one)
     : mesh_scale(one.mesh_scale_sigma.value_or(kAssumedMeshScaleSigma)),
-      calibration(one.calibration_sigma.value_or(CalibrationSigma())),
+      calibration(one.calibration_sigma ? *one.calibration_sigma : assumedCalibration(one.camera)),
       mesh_scale_stated(one.mesh_scale_sigma.has_value()),
       calibration_stated(one.calibration_sigma.has_value()) {}
 

@@ -163,7 +163,7 @@ TEST(InputSheet, SaysHowWellMeshAndCameraAreKnownAndWhetherThatIsAssumed) {
     return std::string("none");
   };
   EXPECT_EQ(lineOf("scale, one sigma"), "0.02 %, assumed");
-  EXPECT_EQ(lineOf("calibration, one sigma").rfind("0.02 % and 0.5 px, assumed", 0), 0u);
+  EXPECT_EQ(lineOf("calibration, one sigma").rfind("0.02 % and 0.25 px, assumed", 0), 0u);
   one.mesh_scale_sigma = 0.001;
   EXPECT_EQ(lineOf("scale, one sigma"), "0.1 %");
 }

@@ -47,7 +47,7 @@ class RerunTest : public ::testing::Test {
     window_.state().setCursor({kFrom, Stage::kFinished});
   }
 
-  const auto& runs() { return window_.document().session().runs; }
+  decltype(sessions::Session::runs) const& runs() { return window_.document().session().runs; }
 
   LocalizerOptions otherOptions() {
     LocalizerOptions options = first_->options;
