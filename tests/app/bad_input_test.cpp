@@ -122,9 +122,12 @@ TEST_F(BadInput, RefusesAMeshOfManyFacesBehindEachOther) {
   for (int i = 0; i < 2000; ++i)
     mesh += "3 " + std::to_string(3 * i) + " " + std::to_string(3 * i + 1) + " " +
             std::to_string(3 * i + 2) + "\n";
-  expectRefused({{"--mesh", inputs_.write("layers.ply", mesh).string()},
-                 {"--seed", seedWith("[[1,0,0,0],[0,-1,0,0],[0,0,-1,1.0],[0,0,0,1]]")}},
-                "layers.ply", "behind each other");
+  const ProgramRun refused =
+      run({{"--mesh", inputs_.write("layers.ply", mesh).string()},
+           {"--seed", seedWith("[[1,0,0,0],[0,-1,0,0],[0,0,-1,1.0],[0,0,0,1]]")}});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("layers.ply"));
+  EXPECT_THAT(refused.err, HasSubstr("behind each other"));
 }
 
 TEST_F(BadInput, AsksForTheUnitOfAMeshThatStatesNone) {
