@@ -62,6 +62,7 @@ TEST_F(InputSheetPanelTest, ASheetsButtonAsksForWhatNoImageTells) {
 
 TEST(InputSigmasDialogTest, ShowsWhatIsAssumedAndGivesWhatIsStated) {
   sessions::SessionCase one;
+  one.camera.width = one.camera.height = 2048;
   one.mesh_scale_sigma = 0.001;
   InputSigmasDialog dialog(one, nullptr);
   EXPECT_EQ(dialog.meshScaleSigma(), 0.001);
