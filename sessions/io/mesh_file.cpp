@@ -97,8 +97,6 @@ std::optional<double> metresPerUnit(const std::string& unit) {
 }
 
 Mesh readMesh(const std::filesystem::path& file, const std::string& unit) {
-  std::string used_unit;
-  (void)unitScale(file, meshFormatOf(file), unit, used_unit);  // before a large file is read
   return readMesh(readMeshFiles(file), unit);
 }
 
