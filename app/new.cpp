@@ -76,7 +76,7 @@ void NewArguments::addTo(CLI::App& command) {
   command
       .add_option("--mesh-scale-sigma", mesh_scale_sigma,
                   "One sigma of the mesh's scale, relative: 0.0002 where it is not stated")
-      ->check(CLI::Range(0.0, sessions::kMaxScaleSigma))
+      ->check(numberIn(0.0, sessions::kMaxScaleSigma))
       ->needs(from_image)
       ->type_name("S");
   dataset.addTo(command);

@@ -195,8 +195,8 @@ TEST_F(BadInput, NamesAnOptionWhoseNumberIsNotFiniteOrOutOfRange) {
     Arguments uncertain = localizeArguments();
     uncertain.insert(uncertain.end(), {"--uncertainty", value, "0.01", "0.01", "1", "1", "1"});
     expectUsage(uncertain, "--uncertainty", value);
-    expectUsage({"new", "--image", "i.png", "--feature-size", value, "--out", "s.json"},
-                "--feature-size", value);
+    for (const std::string option : {"--feature-size", "--mesh-scale-sigma"})
+      expectUsage({"new", "--image", "i.png", option, value, "--out", "s.json"}, option, value);
     expectUsage(
         {"camera", (example_ / "camera.json").string(), "--as", "pinhole", "--distance", value},
         "--distance", value);
