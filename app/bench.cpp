@@ -12,8 +12,8 @@
 #include "sessions/evaluation/run_result.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
-#include "sessions/report/text_table.h"
 #include "sessions/session/examples.h"
+#include "sessions/text/text_table.h"
 #include "sessions/version.h"
 
 namespace boresight::app {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sessions/io/dataset_file.h"
-#include "sessions/trace/record.h"
+#include "sessions/run/record.h"
 
 namespace boresight::app {
 

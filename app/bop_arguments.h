@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sessions/exchange/bop_dataset.h"
+#include "sessions/evaluation/bop_dataset.h"
 
 namespace boresight::app {
 

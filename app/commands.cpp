@@ -7,9 +7,9 @@
 
 #include "sessions/baselines/method_options.h"
 #include "sessions/io/mesh_container.h"
-#include "sessions/io/plain_text.h"
-#include "sessions/report/text_table.h"
-#include "sessions/trace/record.h"
+#include "sessions/run/record.h"
+#include "sessions/text/plain_text.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::app {
 namespace {

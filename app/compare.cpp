@@ -9,8 +9,8 @@
 #include "sessions/record/compare_records.h"
 #include "sessions/record/record_of_run.h"
 #include "sessions/record/recorded_plan.h"
+#include "sessions/run/trace_file.h"
 #include "sessions/session/case_run.h"
-#include "sessions/trace/trace_file.h"
 
 namespace boresight::app {
 namespace {

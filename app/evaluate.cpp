@@ -25,7 +25,7 @@
 #include "sessions/evaluation/results_writer.h"
 #include "sessions/evaluation/summary.h"
 #include "sessions/io/atomic_file.h"
-#include "sessions/io/plain_text.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::app {
 namespace {

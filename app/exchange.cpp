@@ -3,10 +3,10 @@
 
 #include "app/commands.h"
 #include "app/open_session.h"
+#include "sessions/exchange/annotation_exchange.h"
+#include "sessions/exchange/pose_exchange.h"
 #include "sessions/io/atomic_file.h"
-#include "sessions/review/pose_exchange.h"
 #include "sessions/review/validated_pose_file.h"
-#include "sessions/session/annotation_exchange.h"
 
 namespace boresight::app {
 namespace {

@@ -4,7 +4,7 @@
 #include "app/info_lines.h"
 #include "sessions/annotation/rig_file.h"
 #include "sessions/io/pose_file.h"
-#include "sessions/report/run_text.h"
+#include "sessions/run/run_text.h"
 
 namespace boresight::app {
 namespace {

@@ -9,14 +9,14 @@
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/image_file.h"
-#include "sessions/report/overlay.h"
 #include "sessions/report/result_file.h"
-#include "sessions/report/run_text.h"
-#include "sessions/report/text_table.h"
+#include "sessions/run/overlay.h"
+#include "sessions/run/record.h"
+#include "sessions/run/run_text.h"
+#include "sessions/run/trace_file.h"
 #include "sessions/session/label_agreement.h"
 #include "sessions/session/named_poses.h"
-#include "sessions/trace/record.h"
-#include "sessions/trace/trace_file.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::app {
 namespace {

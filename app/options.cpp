@@ -5,7 +5,7 @@
 #include "app/commands.h"
 #include "app/options_page.h"
 #include "sessions/baselines/methods.h"
-#include "sessions/report/text_table.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::app {
 namespace {

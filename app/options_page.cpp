@@ -4,8 +4,8 @@
 #include "app/commands.h"
 #include "app/documents/markdown_page.h"
 #include "sessions/baselines/methods.h"
-#include "sessions/report/text_table.h"
-#include "sessions/review/check_limits.h"
+#include "sessions/session/check_limits.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::app {
 namespace {

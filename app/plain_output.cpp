@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/plain_output.h"
 
-#include "sessions/io/plain_text.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::app {
 

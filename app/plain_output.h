@@ -8,7 +8,7 @@
 namespace boresight::app {
 
 /// While it exists, a stream shows text only: what a terminal would act on comes out as blanks
-/// (sessions/io/plain_text.h). Line feeds stay, so a line must be made of text without any.
+/// (sessions/text/plain_text.h). Line feeds stay, so a line must be made of text without any.
 class PlainOutput : private std::streambuf {
  public:
   explicit PlainOutput(std::ostream& stream);

@@ -7,7 +7,7 @@
 #include "core/localizer/problem_bytes.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/dataset_file.h"
-#include "sessions/io/image_label.h"
+#include "sessions/io/labels/image_label.h"
 
 namespace boresight::app {
 namespace {

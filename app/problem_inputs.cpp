@@ -3,7 +3,7 @@
 
 #include "sessions/io/camera_field.h"
 #include "sessions/io/chosen_camera.h"
-#include "sessions/trace/seed_check.h"
+#include "sessions/run/seed_check.h"
 
 namespace boresight::app {
 namespace {

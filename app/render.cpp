@@ -7,8 +7,8 @@
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/image_file.h"
-#include "sessions/trace/scene_render.h"
-#include "sessions/trace/seed_check.h"
+#include "sessions/run/scene_render.h"
+#include "sessions/run/seed_check.h"
 
 namespace boresight::app {
 namespace {

@@ -6,10 +6,10 @@
 #include "app/commands.h"
 #include "app/open_session.h"
 #include "sessions/io/errors.h"
-#include "sessions/io/plain_text.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/views_run.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::app {
 namespace {

@@ -7,12 +7,12 @@
 #include "app/commands.h"
 #include "app/results_commands.h"
 #include "sessions/io/atomic_file.h"
-#include "sessions/io/plain_text.h"
 #include "sessions/tables/failure_sheet.h"
 #include "sessions/tables/method_tables.h"
 #include "sessions/tables/result_figures.h"
 #include "sessions/tables/results_difference.h"
 #include "sessions/tables/results_set.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::app {
 namespace {

@@ -10,8 +10,8 @@
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/json_writer.h"
-#include "sessions/report/text_table.h"
 #include "sessions/session/views_run.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::app {
 namespace {
@@ -46,7 +46,8 @@ void printRig(const sessions::RigViews& rig, const sessions::RigRun& run) {
           "): " + localizationStatusText(view.status) + ", " + std::to_string(view.inliers) +
           " of " + std::to_string(view.correspondences) + " matches agree, " +
           std::to_string(view.edges_used) + " edge places, edge support " +
-          fixedText(100.0 * view.support.share(), 1) + " %" + (error ? errorText(*error, rig.cases[v]->camera_from_end_effector) : ""));
+          fixedText(100.0 * view.support.share(), 1) + " %" +
+          (error ? errorText(*error, rig.cases[v]->camera_from_end_effector) : ""));
   }
 }
 

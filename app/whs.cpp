@@ -8,9 +8,9 @@
 #include "app/commands.h"
 #include "app/plain_output.h"
 #include "app/results_commands.h"
-#include "sessions/baselines/matching_method.h"
 #include "sessions/io/errors.h"
-#include "sessions/io/plain_text.h"
+#include "sessions/run/matching_method.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/version.h"
 
 namespace boresight::app {

@@ -41,11 +41,15 @@ class Attempt {
   Attempt beforeLastIteration(int index, const Pose& camera_from_station_before,
                               const LocalizerOptions& options) const;
 
+  /// Number of the attempt, from 0.
   int index() const { return index_; }
   /// Whether the next pass starts an iteration.
   bool atIterationStart() const { return hypothesis_ == 0; }
+  /// Where the attempt started.
   const Seed& seed() const { return seed_; }
+  /// The estimate so far.
   const Pose& camera_from_station() const { return camera_from_station_; }
+  /// Covariance of the estimate, as PnP or the refinement gives it.
   const Matrix6d& covariance() const { return covariance_; }
   /// The record of the latest iteration.
   int record() const { return record_; }

@@ -18,6 +18,7 @@ namespace boresight {
 /// options.ambiguity.enabled.
 class CompetingPoses {
  public:
+  /// What follows a pass of this policy.
   enum class Next : std::uint8_t {
     kCompare = 0,  ///< a self-similarity pass of the best pose
     kTry,          ///< the attempt of competitor()
@@ -31,7 +32,9 @@ class CompetingPoses {
 
   /// Whether a competing pose is being tried.
   bool isTrying() const { return round_ == Round::kTrials; }
+  /// Whether a converged pose was taken up.
   bool hasStarted() const { return round_ != Round::kNone; }
+  /// Whether all poses were compared.
   bool hasEnded() const { return round_ == Round::kEnd; }
 
   /// A supported pose. `best_margin_nats` is the evidence of the best pose beyond it (not used for
@@ -43,12 +46,14 @@ class CompetingPoses {
   /// The displacements of the self-similarity pass.
   Next takeShifts(std::span<const SelfShift> shifts, const RunContext& run);
 
+  /// The pass that compares a pose with the best one.
   PassPlan comparison(const LocalizerOptions& options) const;
   /// The attempt from the competing pose to try.
   Attempt competitor(int index, const RunContext& run) const;
   /// The attempt that repeats the last iteration of the best pose.
   Attempt best(int index, const LocalizerOptions& options) const;
 
+  /// The poses compared so far, with their evidence.
   std::span<const Rival> poses() const { return poses_.first(static_cast<std::size_t>(count_)); }
   /// kConverged, kAmbiguous, or kLeftUncertainty for a best pose outside the seed's uncertainty:
   /// that one must be clearly better than those inside, and the seed is wrong.

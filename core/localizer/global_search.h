@@ -24,7 +24,9 @@ class GlobalSearch {
 
   /// Whether passes are left to do.
   bool isSearching() const { return round_ != Round::kNone; }
+  /// Whether no restart of the iteration was tried yet.
   bool atIterationStart() const { return place_ == 0; }
+  /// The pass that tries the next restart.
   PassPlan plan(const RunContext& run) const;
   /// kPose: the search has ended and hasFinalist().
   Ruling take(const PassOutcome& outcome, const RunContext& run, std::span<Iteration, 2> records,

@@ -37,6 +37,7 @@ namespace boresight {
 /// workers.
 class Localizer {
  public:
+  /// Largest number of workers.
   static constexpr int kMaxWorkers = PassMemory::kMaxWorkers;
 
   /// `memory` (requiredBytes() of it) and everything `problem` points to must outlive the

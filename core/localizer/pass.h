@@ -29,7 +29,7 @@ enum class PassNeed : std::uint8_t {
 /// The pose of a hypothesis that several views share, in the frame of one of them.
 struct JointPose {
   LocalizationStatus status = LocalizationStatus::kPnpFailed;  ///< kRunning: there is a pose
-  Pose camera_from_station;
+  Pose camera_from_station;                                    ///< of the view
   /// Over (rotation rad, translation m), left perturbation.
   Matrix6d covariance = Matrix6d::Zero();
   std::int32_t samples = 0;  ///< drawn by RANSAC
@@ -53,9 +53,11 @@ class Pass {
 
   /// Starts a pass; the last one must have ended.
   void begin(const PassPlan& plan);
+  /// Whether a pass has begun and not ended.
   bool running() const { return running_; }
   /// One slice; while it needs something from outside it does nothing.
   StepReport step();
+  /// What the last pass gave.
   const PassOutcome& outcome() const { return outcome_; }
 
   /// Number of tasks that may run now at the same time; 0 between two passes.
@@ -63,9 +65,12 @@ class Pass {
   /// Runs a task with the scratch of a worker. Each task at most once between two steps.
   void runTask(int task, int worker);
 
+  /// What the pass waits for from outside.
   PassNeed needs() const;
   /// Leaves matching to the caller; renders also fill `surfaces`. See Localizer::matchOutside.
   void matchOutside(const SurfaceRender& surfaces);
+  /// Takes matches in place of those of WHS. kInvalidOption when the pass waits for none,
+  /// kCapacityExceeded when there are more than its memory holds.
   Status supplyMatches(std::span<const SuppliedMatch> supplied);
 
   /// Leaves poses and refinement rounds to the caller, who solves several views as one. A pass that
@@ -78,6 +83,7 @@ class Pass {
   void supplyPose(const JointPose& joint);
   /// The view's own normal equations of the refinement round.
   const NormalEquations& round() const { return round_; }
+  /// The refinement stage, for a refinement of several views.
   EdgeRefinement& refinement() { return memory_.refinement; }
   /// Ends a round after the refinement was moved; `ends`: it was the last one.
   void endRound(Status status, bool ends);
@@ -99,20 +105,33 @@ class Pass {
   void finish(LocalizationStatus status, const Pose& camera_from_station,
               const Matrix6d& covariance);
 
+  /// What policies may look at.
   RunContext context() const { return {options_, problem_.camera, scene_, levels_}; }
+  /// The problem of the run.
   const LocalizationProblem& problem() const { return problem_; }
+  /// The options of the run.
   const LocalizerOptions& options() const { return options_; }
+  /// The plan of the pass under way.
   const PassPlan& plan() const { return plan_; }
+  /// Everything computed on the way.
   const Workspace& workspace() const { return workspace_; }
+  /// Everything computed on the way.
   Workspace& workspace() { return workspace_; }
+  /// The stages and their memory.
   const PassMemory& memory() const { return memory_; }
+  /// The stages and their memory.
   PassMemory& memory() { return memory_; }
+  /// The record of an iteration, by its place in memory.
   const Iteration& recordAt(int index) const {
     return memory_.records[static_cast<std::size_t>(index)];
   }
+  /// The record of the iteration under way.
   Iteration& record() { return memory_.records[static_cast<std::size_t>(plan_.record)]; }
+  /// The record of the iteration under way.
   const Iteration& record() const { return recordAt(plan_.record); }
+  /// The digest of all that was computed so far.
   const DigestWriter& digest() const { return digest_; }
+  /// The digest of all that was computed so far.
   DigestWriter& digest() { return digest_; }
 
  private:

@@ -46,6 +46,7 @@ struct MemoryUse {
 /// The stages keep pointers into this object: it must not move.
 class PassMemory {
  public:
+  /// Largest number of workers.
   static constexpr int kMaxWorkers = 256;
 
   PassMemory() = default;
@@ -61,17 +62,19 @@ class PassMemory {
   Status create(const LocalizationProblem& problem, const LocalizerOptions& options, int workers,
                 Kernels kernels, std::span<std::byte> block, EdgeMap& edges);
 
+  /// Bytes, by what they are for.
   const MemoryUse& use() const { return use_; }
+  /// Bytes that were used at most.
   std::size_t highWaterBytes() const { return kept_.highWater() + scratch_.highWater(); }
 
-  EdgeDetector detector;
-  EdgeRenderer renderer;
-  TemplateSelector selector;
-  std::span<WhsSearch> searches;  ///< one per worker
-  PnpRansac ransac;
-  EdgeRefinement refinement;
-  SelfSimilarity similarity;  ///< with ambiguity.enabled
-  TaskList tasks;
+  EdgeDetector detector;                     ///< of the image
+  EdgeRenderer renderer;                     ///< of the mesh
+  TemplateSelector selector;                 ///< of templates
+  std::span<WhsSearch> searches;             ///< one per worker
+  PnpRansac ransac;                          ///< of poses from matches
+  EdgeRefinement refinement;                 ///< of poses on edges
+  SelfSimilarity similarity;                 ///< with ambiguity.enabled
+  TaskList tasks;                            ///< of the stage under way
   std::array<RayGrid, kPyramidLevels> rays;  ///< of the levels that are rendered
   std::array<Iteration, 2> records;          ///< the current hypothesis and the best one so far
   std::array<EdgeRender, 2> coarse_render;   ///< of the first iteration, one per record

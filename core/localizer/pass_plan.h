@@ -27,9 +27,9 @@ enum class PassKind : std::uint8_t {
 
 /// What a pass works on.
 struct PassPlan {
-  PassKind kind = PassKind::kEdges;
-  int record = 0;  ///< 0 or 1: the record, and the render memory, that the pass fills
-  std::int32_t attempt = 0;
+  PassKind kind = PassKind::kEdges;  ///< what the pass does
+  int record = 0;                ///< 0 or 1: the record, and the render memory, that the pass fills
+  std::int32_t attempt = 0;      ///< that it belongs to, from 0
   int level = 0;                 ///< pyramid level, 0 full resolution
   Pose camera_from_station;      ///< the hypothesis
   double roll_rad = 0.0;         ///< turns the render about the ray through the scene's centre
@@ -56,12 +56,13 @@ struct PassOutcome {
 
 /// How many matches agree with a pose: of all views when several are solved as one.
 struct Agreement {
-  std::int32_t inliers = 0;
-  std::int32_t correspondences = 0;
+  std::int32_t inliers = 0;          ///< of PnP, or edge places used
+  std::int32_t correspondences = 0;  ///< of which they are
 };
 
 /// What a policy decided after a pass.
 struct Ruling {
+  /// What follows: another pass, a pose, or a failure.
   enum class Next : std::uint8_t { kPass = 0, kPose, kFailed };
 
   Next next = Next::kPass;  ///< another pass, a pose to go on with, or a failure
@@ -70,16 +71,18 @@ struct Ruling {
   bool iteration_complete = false;                           ///< the shown record is complete
   int record = 0;                                            ///< the record to show
 
+  /// Whether a pose was found.
   bool found() const { return next == Next::kPose; }
+  /// Whether there is no pose.
   bool failed() const { return next == Next::kFailed; }
 };
 
 /// What does not change during a run and what all policies know.
 struct RunContext {
-  const LocalizerOptions& options;
-  const Camera& camera;
-  const BoundingBox& scene;  ///< of the matched parts, station frame
-  RunLevels levels;
+  const LocalizerOptions& options;  ///< of the run
+  const Camera& camera;             ///< of the full image
+  const BoundingBox& scene;         ///< of the matched parts, station frame
+  RunLevels levels;                 ///< of the image pyramid
 };
 
 }  // namespace boresight

@@ -20,8 +20,8 @@ struct LocalizationProblem {
 
 /// Where a search begins, and how far the truth may be from there.
 struct Seed {
-  Pose camera_from_station;
-  SeedUncertainty uncertainty;
+  Pose camera_from_station;     ///< the pose itself
+  SeedUncertainty uncertainty;  ///< how far it may be off
 };
 inline Seed seedOf(const LocalizationProblem& problem) {
   return {problem.camera_from_station_seed, problem.uncertainty};

@@ -21,14 +21,18 @@ class TaskList {
     next_ = 0;
     std::fill_n(done_.begin(), count, std::uint8_t{0});
   }
+  /// Number of tasks in the list.
   int count() const { return count_; }
+  /// Whether a task is done; tasks count from 0.
   bool isDone(int task) const { return done_[static_cast<std::size_t>(task)] != 0; }
+  /// Notes a task as done.
   void markDone(int task) { done_[static_cast<std::size_t>(task)] = 1; }
   /// Moves next() to the first task that is not done; false when there is none.
   bool findNext() {
     while (next_ < count_ && isDone(next_)) ++next_;
     return next_ < count_;
   }
+  /// The first task that is not done, as of findNext().
   int next() const { return next_; }
 
  private:

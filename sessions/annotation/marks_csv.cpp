@@ -7,9 +7,9 @@
 #include <set>
 #include <vector>
 
-#include "sessions/io/csv_field.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/json_reader.h"
+#include "sessions/text/csv_field.h"
 
 namespace boresight::sessions {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "sessions/trace/surface_point.h"
+#include "sessions/run/surface_point.h"
 
 namespace boresight::sessions {
 

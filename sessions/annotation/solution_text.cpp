@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/annotation/solution_text.h"
 
-#include "sessions/io/plain_text.h"
-#include "sessions/report/run_text.h"
-#include "sessions/report/text_table.h"
+#include "sessions/run/run_text.h"
+#include "sessions/text/plain_text.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "sessions/baselines/matching_method.h"
 #include "sessions/baselines/method_options.h"
+#include "sessions/run/matching_method.h"
 
 namespace boresight::sessions {
 

@@ -6,7 +6,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "sessions/baselines/matching_method.h"
+#include "sessions/run/matching_method.h"
 
 namespace boresight::sessions {
 

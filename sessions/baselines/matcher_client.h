@@ -8,7 +8,7 @@
 
 #include "core/base/image.h"
 #include "sessions/baselines/child_process.h"
-#include "sessions/baselines/matching_method.h"
+#include "sessions/run/matching_method.h"
 
 namespace boresight::sessions {
 

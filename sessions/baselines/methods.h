@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "sessions/baselines/matching_method.h"
 #include "sessions/baselines/method_options.h"
-#include "sessions/trace/record.h"
+#include "sessions/run/matching_method.h"
+#include "sessions/run/record.h"
 
 namespace boresight::sessions {
 

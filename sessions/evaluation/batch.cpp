@@ -14,8 +14,8 @@
 #include "sessions/evaluation/model_error.h"
 #include "sessions/evaluation/reseed.h"
 #include "sessions/io/errors.h"
-#include "sessions/trace/record.h"
-#include "sessions/trace/seed_check.h"
+#include "sessions/run/record.h"
+#include "sessions/run/seed_check.h"
 
 namespace boresight::sessions {
 namespace {

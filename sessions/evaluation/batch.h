@@ -11,7 +11,7 @@
 #include "sessions/baselines/methods.h"
 #include "sessions/evaluation/run_result.h"
 #include "sessions/io/dataset_file.h"
-#include "sessions/trace/record.h"
+#include "sessions/run/record.h"
 
 namespace boresight::sessions {
 

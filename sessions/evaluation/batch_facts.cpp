@@ -12,8 +12,9 @@
 
 #include "sessions/io/config_file.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/session/session.h"
 #include "sessions/version.h"
+
+#include "sessions/text/utc_time.h"
 
 namespace boresight::sessions {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sessions/report/text_table.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 

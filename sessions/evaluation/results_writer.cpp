@@ -7,7 +7,8 @@
 #include "sessions/evaluation/results_file.h"
 #include "sessions/evaluation/run_rows.h"
 #include "sessions/io/errors.h"
-#include "sessions/session/session.h"
+
+#include "sessions/text/utc_time.h"
 
 namespace boresight::sessions {
 namespace {
@@ -16,10 +17,10 @@ std::string keyOf(const std::string& method, const std::string& case_id, std::in
   return method + '\n' + std::to_string(reseed) + '\n' + case_id;
 }
 
-std::unique_ptr<SessionLock> locked(const std::filesystem::path& file) {
+std::unique_ptr<FileLock> locked(const std::filesystem::path& file) {
   std::filesystem::path lock_file = file;
   lock_file += ".lock";
-  auto lock = std::make_unique<SessionLock>(lock_file);
+  auto lock = std::make_unique<FileLock>(lock_file);
   if (!lock->held())
     throw OutputError(file, "another run is writing it" +
                                 (lock->other() ? " (" + lock->other()->text() + ")" : ""));

@@ -11,7 +11,7 @@
 #include "sessions/evaluation/batch_facts.h"
 #include "sessions/evaluation/run_result.h"
 #include "sessions/evaluation/sqlite.h"
-#include "sessions/session/session_lock.h"
+#include "sessions/io/file_lock.h"
 
 namespace boresight::sessions {
 
@@ -47,7 +47,7 @@ class ResultsWriter {
   void insertSteps(std::int64_t run_id, const RunResult& run);
   void noteSitting();
 
-  std::unique_ptr<SessionLock> lock_;
+  std::unique_ptr<FileLock> lock_;
   SqlDatabase database_;
   std::unique_ptr<Insertions> insertions_;
   std::unordered_set<std::string> known_;  ///< runs that need not be done again

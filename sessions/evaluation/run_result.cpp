@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/json_writer.h"
-#include "sessions/report/run_text.h"
+#include "sessions/run/run_text.h"
 
 namespace boresight::sessions {
 

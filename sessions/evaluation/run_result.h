@@ -11,7 +11,7 @@
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/evaluation/run_step.h"
 #include "sessions/io/dataset_file.h"
-#include "sessions/trace/trace.h"
+#include "sessions/run/trace.h"
 
 namespace boresight::sessions {
 

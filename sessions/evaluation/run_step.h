@@ -8,8 +8,8 @@
 
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/dataset_file.h"
-#include "sessions/trace/match_details.h"
-#include "sessions/trace/trace.h"
+#include "sessions/run/match_details.h"
+#include "sessions/run/trace.h"
 
 namespace boresight::sessions {
 

@@ -7,8 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "sessions/io/plain_text.h"
-#include "sessions/report/text_table.h"
+#include "sessions/text/plain_text.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "sessions/exchange/posed_image.h"
+#include "sessions/evaluation/posed_image.h"
 
 namespace boresight::sessions {
 

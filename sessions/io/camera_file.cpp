@@ -9,9 +9,9 @@
 
 #include "sessions/io/cahv_camera.h"
 #include "sessions/io/cahvor_file.h"
-#include "sessions/io/image_label.h"
 #include "sessions/io/json_document.h"
 #include "sessions/io/json_writer.h"
+#include "sessions/io/labels/image_label.h"
 
 namespace boresight::sessions {
 namespace {

@@ -2,7 +2,7 @@
 #include "sessions/io/chosen_camera.h"
 
 #include "sessions/io/errors.h"
-#include "sessions/io/image_label.h"
+#include "sessions/io/labels/image_label.h"
 
 namespace boresight::sessions {
 

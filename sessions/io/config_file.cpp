@@ -6,6 +6,8 @@
 #include "sessions/io/json_document.h"
 #include "sessions/io/json_writer.h"
 
+#include "core/base/digest.h"
+
 namespace boresight::sessions {
 namespace {
 
@@ -61,6 +63,15 @@ void writeConfig(const std::filesystem::path& file, const Config& config) {
   json["profile"] = config.profile;
   json["options"] = toJson(config.options);
   writeJsonFile(file, json);
+}
+
+std::string optionsDigest(const LocalizerOptions& options) {
+  DigestWriter writer;
+  visitDigested(options, [&writer](const OptionInfo& info, const auto& field) {
+    writer.tag(info.name);
+    writer.f64(static_cast<double>(field));
+  });
+  return hexText(writer.digest()).data();
 }
 
 }  // namespace boresight::sessions

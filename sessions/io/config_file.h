@@ -53,4 +53,7 @@ void applyConfig(Options& options, const Config& config) {
   options = changed;
 }
 
+/// SHA-256 over every option, by name and value: whatever differs makes a run stale.
+std::string optionsDigest(const LocalizerOptions& options);
+
 }  // namespace boresight::sessions

@@ -10,8 +10,8 @@
 #include "sessions/io/camera_field.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
-#include "sessions/io/image_label.h"
 #include "sessions/io/json_document.h"
+#include "sessions/io/labels/image_label.h"
 #include "sessions/io/mesh_container.h"
 
 namespace boresight::sessions {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sessions/io/plain_text.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 

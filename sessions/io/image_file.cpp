@@ -11,8 +11,8 @@
 #include "sessions/io/decoder_messages.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/image_container.h"
-#include "sessions/io/image_label.h"
-#include "sessions/io/label_samples.h"
+#include "sessions/io/labels/image_label.h"
+#include "sessions/io/labels/label_samples.h"
 #include "sessions/io/tiff_container.h"
 
 namespace boresight::sessions {

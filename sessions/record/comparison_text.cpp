@@ -2,8 +2,8 @@
 #include <iomanip>
 #include <sstream>
 
-#include "sessions/io/plain_text.h"
 #include "sessions/record/compare_records.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 

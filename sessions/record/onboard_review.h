@@ -13,7 +13,7 @@
 #include "sessions/record/compare_records.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/record/recorded_plan.h"
-#include "sessions/trace/run_snapshot.h"
+#include "sessions/run/run_snapshot.h"
 
 namespace boresight::sessions {
 

@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "core/record/record_hashes.h"
-#include "sessions/record/record_inputs.h"
+#include "sessions/run/record_inputs.h"
 
 namespace boresight::sessions {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sessions/record/onboard_record.h"
-#include "sessions/trace/run_plan.h"
+#include "sessions/run/run_plan.h"
 
 namespace boresight::sessions {
 

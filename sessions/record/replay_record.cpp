@@ -11,10 +11,10 @@
 #include "core/match/search_window.h"
 #include "core/pnp/correspondence.h"
 #include "core/record/record_hashes.h"
-#include "sessions/record/record_inputs.h"
 #include "sessions/record/recorded_plan.h"
 #include "sessions/record/replay_scene.h"
-#include "sessions/trace/edge_detection.h"
+#include "sessions/run/edge_detection.h"
+#include "sessions/run/record_inputs.h"
 
 namespace boresight::sessions {
 namespace {
@@ -310,8 +310,8 @@ IterationTrace Replayer::headOf(const RecordedIteration& one) const {
   made.camera_from_station = one.camera_from_station;
   if (attempt_begin_)
     made.uncertainty =
-        uncertaintyAt(seedOf(given_), optionsAt(one.index).loop, std::max(0, one.index - *attempt_begin_),
-                      one.camera_from_station_before);
+        uncertaintyAt(seedOf(given_), optionsAt(one.index).loop,
+                      std::max(0, one.index - *attempt_begin_), one.camera_from_station_before);
   made.edge_pixel_count = one.edge_pixels;
   made.template_count = one.templates_count;
   made.template_side_px = one.template_side_px;

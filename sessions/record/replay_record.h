@@ -5,7 +5,7 @@
 
 #include "core/localizer/problem.h"
 #include "sessions/record/onboard_record.h"
-#include "sessions/trace/run_snapshot.h"
+#include "sessions/run/run_snapshot.h"
 
 namespace boresight::sessions {
 

@@ -8,7 +8,7 @@
 #include "core/localizer/localizer_options.h"
 #include "core/localizer/problem.h"
 #include "core/templates/template_selection.h"
-#include "sessions/trace/scene_render.h"
+#include "sessions/run/scene_render.h"
 
 namespace boresight::sessions {
 

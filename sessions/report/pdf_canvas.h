@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sessions/report/overlay.h"
+#include "sessions/run/overlay.h"
 
 namespace boresight::sessions {
 

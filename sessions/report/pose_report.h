@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "sessions/review/handed_pose.h"
+#include "sessions/run/trace.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session.h"
-#include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
 

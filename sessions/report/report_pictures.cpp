@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "sessions/annotation/predicted_place.h"
-#include "sessions/report/overlay.h"
+#include "sessions/run/overlay.h"
 #include "sessions/session/case_marks.h"
 
 namespace boresight::sessions {

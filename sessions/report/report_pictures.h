@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "sessions/report/overlay.h"
 #include "sessions/report/pose_report.h"
+#include "sessions/run/overlay.h"
 
 namespace boresight::sessions {
 

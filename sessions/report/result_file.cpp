@@ -9,7 +9,7 @@
 #include "sessions/io/config_file.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_writer.h"
-#include "sessions/report/run_text.h"
+#include "sessions/run/run_text.h"
 #include "sessions/session/frames_json.h"
 #include "sessions/session/named_poses.h"
 

@@ -10,11 +10,11 @@
 
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/image_file.h"
-#include "sessions/io/image_label.h"
+#include "sessions/io/labels/image_label.h"
 #include "sessions/io/option_value.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/io/scene_mesh.h"
-#include "sessions/trace/trace.h"
+#include "sessions/run/trace.h"
 
 namespace boresight::sessions {
 

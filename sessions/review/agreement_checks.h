@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "sessions/review/check_limits.h"
 #include "sessions/review/review_subject.h"
 #include "sessions/session/check.h"
+#include "sessions/session/check_limits.h"
 
 namespace boresight::sessions {
 

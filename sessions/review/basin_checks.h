@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "sessions/review/check_limits.h"
 #include "sessions/review/checks.h"
 #include "sessions/session/check.h"
+#include "sessions/session/check_limits.h"
 
 namespace boresight::sessions {
 

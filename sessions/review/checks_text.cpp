@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "sessions/io/plain_text.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 namespace {

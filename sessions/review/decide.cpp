@@ -7,6 +7,8 @@
 #include "sessions/review/grounds.h"
 #include "sessions/review/standing.h"
 
+#include "sessions/text/utc_time.h"
+
 namespace boresight::sessions {
 namespace {
 

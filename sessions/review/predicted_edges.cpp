@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/render/edge_render.h"
-#include "sessions/trace/scene_render.h"
+#include "sessions/run/scene_render.h"
 
 namespace boresight::sessions {
 

@@ -9,7 +9,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
-#include "sessions/trace/trace.h"
+#include "sessions/run/trace.h"
 
 namespace boresight::sessions {
 

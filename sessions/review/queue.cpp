@@ -14,15 +14,15 @@
 
 #include "core/localizer/localizer.h"
 #include "sessions/io/errors.h"
-#include "sessions/report/run_text.h"
-#include "sessions/report/text_table.h"
-#include "sessions/review/check_limits.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/decide.h"
 #include "sessions/review/grounds.h"
 #include "sessions/review/run_figures.h"
+#include "sessions/run/run_text.h"
+#include "sessions/session/check_limits.h"
 #include "sessions/session/rig_links.h"
 #include "sessions/session/session_of_results.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sessions/io/csv_field.h"
-#include "sessions/io/plain_text.h"
-#include "sessions/report/text_table.h"
 #include "sessions/review/queue.h"
+#include "sessions/text/csv_field.h"
+#include "sessions/text/plain_text.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {

@@ -10,8 +10,8 @@
 #include "sessions/io/file_bytes.h"
 #include "sessions/record/record_of_run.h"
 #include "sessions/review/pose_uncertainty.h"
-#include "sessions/review/review_settings.h"
 #include "sessions/session/case_marks.h"
+#include "sessions/session/review_settings.h"
 #include "sessions/session/rig_links.h"
 
 namespace boresight::sessions {

@@ -9,10 +9,10 @@
 
 #include "core/geometry/pose.h"
 #include "sessions/record/compare_records.h"
+#include "sessions/run/run_snapshot.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/pose_covariance.h"
 #include "sessions/session/session.h"
-#include "sessions/trace/run_snapshot.h"
 
 namespace boresight::sessions {
 

@@ -7,7 +7,7 @@
 
 #include "sessions/review/check_making.h"
 #include "sessions/review/inlier_spread.h"
-#include "sessions/trace/match_details.h"
+#include "sessions/run/match_details.h"
 
 namespace boresight::sessions {
 namespace {

@@ -10,9 +10,9 @@
 #include "sessions/evaluation/requirement_share.h"
 #include "sessions/io/option_value.h"
 #include "sessions/record/record_of_run.h"
-#include "sessions/report/text_table.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/run_figures.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cctype>
 
-#include "sessions/io/plain_text.h"
-#include "sessions/report/text_table.h"
 #include "sessions/review/run_difference.h"
+#include "sessions/text/plain_text.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {

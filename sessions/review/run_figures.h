@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "sessions/trace/run_snapshot.h"
+#include "sessions/run/run_snapshot.h"
 
 namespace boresight::sessions {
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "sessions/report/overlay.h"
+#include "sessions/run/overlay.h"
 
 namespace boresight::sessions {
 

@@ -24,6 +24,8 @@
 #include "sessions/session/session_json.h"
 #include "sessions/version.h"
 
+#include "sessions/text/utc_time.h"
+
 namespace boresight::sessions {
 namespace {
 

@@ -9,8 +9,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "sessions/review/handed_pose.h"
+#include "sessions/run/run_snapshot.h"
 #include "sessions/session/session.h"
-#include "sessions/trace/run_snapshot.h"
 
 namespace boresight::sessions {
 

@@ -6,8 +6,8 @@
 #include "sessions/evaluation/requirement_share.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/scene_mesh.h"
-#include "sessions/review/review_settings.h"
 #include "sessions/session/known_image.h"
+#include "sessions/session/review_settings.h"
 
 namespace boresight::sessions {
 namespace {

@@ -9,12 +9,14 @@
 
 #include "sessions/io/camera_field.h"
 #include "sessions/io/errors.h"
-#include "sessions/report/run_text.h"
+#include "sessions/run/record.h"
+#include "sessions/run/run_text.h"
+#include "sessions/run/seed_check.h"
+#include "sessions/run/trace_file.h"
 #include "sessions/session/known_image.h"
 #include "sessions/session/session_file.h"
-#include "sessions/trace/record.h"
-#include "sessions/trace/seed_check.h"
-#include "sessions/trace/trace_file.h"
+
+#include "sessions/text/utc_time.h"
 
 namespace boresight::sessions {
 namespace {

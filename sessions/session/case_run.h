@@ -10,9 +10,9 @@
 
 #include "sessions/io/image_file.h"
 #include "sessions/io/scene_mesh.h"
+#include "sessions/run/run_snapshot.h"
+#include "sessions/run/trace.h"
 #include "sessions/session/session.h"
-#include "sessions/trace/run_snapshot.h"
-#include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
 

@@ -65,7 +65,7 @@ struct Decision {
 
 /// By what the poses of a session are judged.
 struct ReviewSettings {
-  std::string preset = "sample_transfer";  ///< of limits (sessions/review/check_limits.h)
+  std::string preset = "sample_transfer";  ///< of limits (sessions/session/check_limits.h)
   OptionList limits;  ///< what differs from the preset, by name in the order of the alphabet
   bool second_person = false;  ///< a validation counts once somebody else has approved it
 

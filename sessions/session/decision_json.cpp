@@ -8,8 +8,8 @@
 #include "sessions/io/config_file.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/io/pose_file.h"
-#include "sessions/review/check_limits.h"
 #include "sessions/session/case_json.h"
+#include "sessions/session/check_limits.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {

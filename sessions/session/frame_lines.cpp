@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/frame_lines.h"
 
-#include "sessions/report/text_table.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 

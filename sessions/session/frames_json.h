@@ -7,7 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "sessions/io/frame_transform.h"
-#include "sessions/io/image_label.h"
+#include "sessions/io/labels/image_label.h"
 #include "sessions/session/case_json.h"
 
 namespace boresight::sessions {

@@ -9,7 +9,7 @@
 
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/io/label_files.h"
+#include "sessions/io/labels/label_files.h"
 #include "sessions/io/mesh_files.h"
 #include "sessions/session/known_image.h"
 

@@ -7,12 +7,12 @@
 #include "core/base/math.h"
 #include "sessions/io/camera_field.h"
 #include "sessions/io/camera_file.h"
-#include "sessions/io/image_label.h"
-#include "sessions/report/text_table.h"
+#include "sessions/io/labels/image_label.h"
+#include "sessions/run/seed_check.h"
 #include "sessions/session/frame_lines.h"
 #include "sessions/session/input_sigmas.h"
 #include "sessions/session/label_agreement.h"
-#include "sessions/trace/seed_check.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {

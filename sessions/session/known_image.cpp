@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "sessions/io/errors.h"
-#include "sessions/io/label_files.h"
+#include "sessions/io/labels/label_files.h"
 
 namespace boresight::sessions {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/base/math.h"
-#include "sessions/report/text_table.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sessions/io/image_label.h"
+#include "sessions/io/labels/image_label.h"
 #include "sessions/session/input_sheet.h"
 
 namespace boresight::sessions {

@@ -10,7 +10,7 @@
 
 #include "sessions/io/json_reader.h"
 #include "sessions/io/option_value.h"
-#include "sessions/trace/run_plan.h"
+#include "sessions/run/run_plan.h"
 
 namespace boresight::sessions {
 

@@ -157,15 +157,6 @@ LocalizerOptions caseOptions(const Session& session, const SessionCase& one,
   return options;
 }
 
-std::string optionsDigest(const LocalizerOptions& options) {
-  DigestWriter writer;
-  visitDigested(options, [&writer](const OptionInfo& info, const auto& field) {
-    writer.tag(info.name);
-    writer.f64(static_cast<double>(field));
-  });
-  return hexText(writer.digest()).data();
-}
-
 std::string inputsDigest(const SessionCase& one) {
   InputsDigest digest;
   digest.text("pixels", one.image.pixels_sha256);
@@ -188,15 +179,6 @@ Staleness stalenessOf(const RunRecord& run, const Session& session,
       run.together && run.together->inputs_sha256 != viewsDigest(session, casesOf(*run.together));
   return {others_changed || run.inputs_sha256 != inputsDigest(*one),
           run.options_sha256 != optionsDigest(caseOptions(session, *one, file))};
-}
-
-std::string utcNowText() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm utc{};
-  ::gmtime_r(&now, &utc);
-  std::array<char, 32> text{};
-  (void)std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text.data();
 }
 
 bool isUtcText(const std::string& text) {

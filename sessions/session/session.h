@@ -15,10 +15,11 @@
 #include "core/localizer/localizer_options.h"
 #include "sessions/annotation/annotation_pass.h"
 #include "sessions/annotation/marks.h"
+#include "sessions/io/config_file.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/frame_transform.h"
 #include "sessions/io/image_file.h"
-#include "sessions/io/image_label.h"
+#include "sessions/io/labels/image_label.h"
 #include "sessions/io/option_value.h"
 #include "sessions/session/decision.h"
 #include "sessions/session/ignore_strokes.h"
@@ -179,8 +180,6 @@ LocalizerOptions sessionOptions(const Session& session, const std::filesystem::p
 LocalizerOptions caseOptions(const Session& session, const SessionCase& one,
                              const std::filesystem::path& file);
 
-/// SHA-256 over every option, by name and value: whatever differs makes a run stale.
-std::string optionsDigest(const LocalizerOptions& options);
 /// SHA-256 over what a run of the case depends on: pixels, mask, camera, parts, seed, uncertainty;
 /// not names, truth, tags or requirement.
 std::string inputsDigest(const SessionCase& one);
@@ -196,8 +195,6 @@ struct Staleness {
 Staleness stalenessOf(const RunRecord& run, const Session& session,
                       const std::filesystem::path& file);
 
-/// "2026-01-31T23:59:59Z", now.
-std::string utcNowText();
 /// Whether `text` has that form.
 bool isUtcText(const std::string& text);
 /// Whether `text` is a SHA-256 in lower-case hexadecimal digits.

@@ -15,6 +15,8 @@
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_json.h"
 
+#include "sessions/text/utc_time.h"
+
 namespace boresight::sessions {
 namespace {
 
@@ -109,7 +111,7 @@ SessionDocument SessionDocument::create(const fs::path& file, const Session& ses
 
 void SessionDocument::takeLock() {
   try {
-    lock_ = std::make_unique<SessionLock>(lockFileOf(file_));
+    lock_ = std::make_unique<FileLock>(lockFileOf(file_));
   } catch (const OutputError& error) {
     read_only_reason_ = "nothing can be written beside it (" + error.reason() + ")";
     return;

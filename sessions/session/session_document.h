@@ -10,9 +10,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "sessions/io/file_lock.h"
 #include "sessions/session/journal.h"
 #include "sessions/session/session.h"
-#include "sessions/session/session_lock.h"
 
 namespace boresight::sessions {
 
@@ -90,7 +90,7 @@ class SessionDocument {
   Session session_;
   Session saved_;
   mutable std::unique_ptr<nlohmann::json> json_;  ///< of session_, once it is needed
-  std::unique_ptr<SessionLock> lock_;
+  std::unique_ptr<FileLock> lock_;
   std::unique_ptr<Journal> journal_;  ///< nullptr while there are no edits
   std::optional<Recovery> recovery_;
   std::string read_only_reason_;

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <map>
 
-#include "sessions/exchange/bop_dataset.h"
+#include "sessions/evaluation/bop_dataset.h"
 #include "sessions/io/chosen_camera.h"
 #include "sessions/io/errors.h"
-#include "sessions/review/check_limits.h"
+#include "sessions/session/check_limits.h"
 #include "sessions/session/input_check.h"
 
 namespace boresight::sessions {

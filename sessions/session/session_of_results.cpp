@@ -14,8 +14,8 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_document.h"
-#include "sessions/report/text_table.h"
 #include "sessions/session/session_maker.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {

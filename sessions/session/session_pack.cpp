@@ -8,7 +8,7 @@
 #include "sessions/annotation/landmarks.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/io/label_files.h"
+#include "sessions/io/labels/label_files.h"
 #include "sessions/io/mesh_file.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/session/case_run.h"

@@ -7,7 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "sessions/io/json_reader.h"
-#include "sessions/trace/view_outcome.h"
+#include "sessions/run/view_outcome.h"
 
 namespace boresight::sessions {
 

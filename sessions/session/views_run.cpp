@@ -6,8 +6,8 @@
 
 #include "sessions/io/camera_field.h"
 #include "sessions/io/errors.h"
+#include "sessions/run/stepped_views.h"
 #include "sessions/session/rig_links.h"
-#include "sessions/trace/stepped_views.h"
 
 namespace boresight::sessions {
 namespace {

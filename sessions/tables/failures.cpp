@@ -10,7 +10,7 @@
 
 #include "sessions/evaluation/requirement_share.h"
 #include "sessions/evaluation/results_file.h"
-#include "sessions/report/text_table.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {

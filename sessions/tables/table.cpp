@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "sessions/io/csv_field.h"
 #include "sessions/io/json_reader.h"
-#include "sessions/report/text_table.h"
+#include "sessions/text/csv_field.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "sessions/exchange/bop_results.h"
-#include "sessions/exchange/bop_scene.h"
+#include "sessions/evaluation/bop_results.h"
+#include "sessions/evaluation/bop_scene.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/session/session_file.h"
 #include "tests/app/run_whs.h"

@@ -8,7 +8,7 @@
 
 #include "sessions/io/image_file.h"
 #include "sessions/record/onboard_record.h"
-#include "sessions/trace/trace_file.h"
+#include "sessions/run/trace_file.h"
 #include "tests/app/run_whs.h"
 
 namespace boresight::test {

@@ -27,10 +27,10 @@
 #include "sessions/io/pose_file.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/pose_uncertainty.h"
+#include "sessions/run/record.h"
 #include "sessions/session/case_json.h"
 #include "sessions/session/decision_json.h"
 #include "sessions/session/session_maker.h"
-#include "sessions/trace/record.h"
 #include "tests/benchmarks/check_cases.h"
 #include "tests/benchmarks/check_judgement.h"
 

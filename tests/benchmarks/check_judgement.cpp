@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/review/check_limits.h"
+#include "sessions/session/check_limits.h"
 
 namespace boresight::test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "sessions/annotation/landmarks.h"
 #include "sessions/annotation/marks_file.h"
-#include "sessions/exchange/bop_results.h"
+#include "sessions/evaluation/bop_results.h"
 #include "sessions/io/cahvor_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/config_file.h"
@@ -15,14 +15,14 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/image_file.h"
-#include "sessions/io/image_label.h"
-#include "sessions/io/label_reading.h"
+#include "sessions/io/labels/image_label.h"
+#include "sessions/io/labels/label_reading.h"
 #include "sessions/io/mesh_file.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/record/onboard_record.h"
+#include "sessions/run/trace_file.h"
 #include "sessions/session/journal.h"
 #include "sessions/session/session_file.h"
-#include "sessions/trace/trace_file.h"
 #include "tests/fuzz/seals.h"
 
 namespace boresight::test {

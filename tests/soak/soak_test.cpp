@@ -14,8 +14,8 @@
 
 #include "sessions/evaluation/reseed.h"
 #include "sessions/record/onboard_record.h"
-#include "sessions/trace/record.h"
-#include "sessions/trace/trace_file.h"
+#include "sessions/run/record.h"
+#include "sessions/run/trace_file.h"
 #include "tests/soak/process_figures.h"
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "sessions/trace/record.h"
-#include "sessions/trace/stepped_run.h"
+#include "sessions/run/record.h"
+#include "sessions/run/stepped_run.h"
 #include "tests/support/example_case.h"
 
 namespace boresight::test {

@@ -8,6 +8,8 @@
 #include "ui/models/number_text.h"
 #include "ui/state/document.h"
 
+#include "sessions/text/utc_time.h"
+
 namespace boresight::ui {
 
 sessions::AnnotationPasses AnnotationController::passesOfCase() const {

@@ -6,7 +6,7 @@
 #include <QCoreApplication>
 
 #include "sessions/annotation/marks_on_image.h"
-#include "sessions/trace/surface_point.h"
+#include "sessions/run/surface_point.h"
 
 namespace boresight::ui {
 namespace {

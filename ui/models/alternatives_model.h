@@ -5,7 +5,7 @@
 
 #include <QAbstractTableModel>
 
-#include "sessions/trace/alternatives.h"
+#include "sessions/run/alternatives.h"
 
 namespace boresight::ui {
 

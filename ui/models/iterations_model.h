@@ -6,7 +6,7 @@
 
 #include <QAbstractTableModel>
 
-#include "sessions/trace/run_snapshot.h"
+#include "sessions/run/run_snapshot.h"
 
 namespace boresight::ui {
 

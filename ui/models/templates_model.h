@@ -5,7 +5,7 @@
 
 #include <QAbstractTableModel>
 
-#include "sessions/trace/match_details.h"
+#include "sessions/run/match_details.h"
 
 namespace boresight::ui {
 

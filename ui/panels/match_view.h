@@ -3,7 +3,7 @@
 
 #include <QWidget>
 
-#include "sessions/trace/match_details.h"
+#include "sessions/run/match_details.h"
 #include "ui/panels/score_mapper.h"
 
 QT_BEGIN_NAMESPACE

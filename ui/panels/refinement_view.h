@@ -3,7 +3,7 @@
 
 #include <QWidget>
 
-#include "sessions/trace/sample_statistics.h"
+#include "sessions/run/sample_statistics.h"
 
 QT_BEGIN_NAMESPACE
 class QTableWidget;

@@ -5,7 +5,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 
-#include "sessions/report/run_text.h"
+#include "sessions/run/run_text.h"
 #include "ui/models/number_text.h"
 #include "ui/panels/tint.h"
 #include "ui/plots/plot_colors.h"

@@ -3,7 +3,7 @@
 
 #include <QFrame>
 
-#include "sessions/trace/run_snapshot.h"
+#include "sessions/run/run_snapshot.h"
 
 QT_BEGIN_NAMESPACE
 class QLabel;

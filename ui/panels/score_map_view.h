@@ -8,7 +8,7 @@
 #include <QWidget>
 
 #include "core/match/whs_types.h"
-#include "sessions/trace/score_map.h"
+#include "sessions/run/score_map.h"
 
 namespace boresight::ui {
 

@@ -6,8 +6,8 @@
 
 #include <QObject>
 
-#include "sessions/trace/run_snapshot.h"
-#include "sessions/trace/score_map.h"
+#include "sessions/run/run_snapshot.h"
+#include "sessions/run/score_map.h"
 #include "ui/run/task_runner.h"
 
 namespace boresight::ui {

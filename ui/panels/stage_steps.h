@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "sessions/trace/run_snapshot.h"
+#include "sessions/run/run_snapshot.h"
 #include "ui/state/view_state.h"
 
 namespace boresight::ui {

@@ -6,7 +6,7 @@
 #include <QAbstractTableModel>
 #include <QString>
 
-#include "sessions/review/check_limits.h"
+#include "sessions/session/check_limits.h"
 
 namespace boresight::ui {
 

@@ -9,8 +9,8 @@
 #include <QInputDialog>
 #include <QMenu>
 
+#include "sessions/exchange/pose_exchange.h"
 #include "sessions/report/pose_report.h"
-#include "sessions/review/pose_exchange.h"
 #include "sessions/review/standing.h"
 #include "sessions/review/validated_pose_file.h"
 #include "ui/models/number_text.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "sessions/review/grounds.h"
-#include "sessions/review/review_settings.h"
+#include "sessions/session/review_settings.h"
 #include "ui/models/number_text.h"
 #include "ui/state/document.h"
 

@@ -8,9 +8,9 @@
 #include <QObject>
 #include <QString>
 
+#include "sessions/run/run_snapshot.h"
+#include "sessions/run/stepped_views.h"
 #include "sessions/session/views_run.h"
-#include "sessions/trace/run_snapshot.h"
-#include "sessions/trace/stepped_views.h"
 #include "ui/run/task_runner.h"
 
 namespace boresight::ui {

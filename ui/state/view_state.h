@@ -6,9 +6,9 @@
 #include <QObject>
 
 #include "core/geometry/pose.h"
+#include "sessions/run/alternatives.h"
+#include "sessions/run/run_snapshot.h"
 #include "sessions/session/case_run.h"
-#include "sessions/trace/alternatives.h"
-#include "sessions/trace/run_snapshot.h"
 
 namespace boresight::ui {
 

@@ -10,8 +10,8 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include "sessions/trace/scene_render.h"
-#include "sessions/trace/surface_point.h"
+#include "sessions/run/scene_render.h"
+#include "sessions/run/surface_point.h"
 #include "ui/models/alternatives_model.h"
 #include "ui/run/task_runner.h"
 #include "ui/views/display_image.h"

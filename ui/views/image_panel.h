@@ -7,7 +7,7 @@
 #include <QTimer>
 #include <QWidget>
 
-#include "sessions/trace/picture_data.h"
+#include "sessions/run/picture_data.h"
 #include "ui/state/view_state.h"
 #include "ui/views/layer.h"
 

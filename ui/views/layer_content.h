@@ -4,9 +4,9 @@
 
 #include <memory>
 
+#include "sessions/run/picture_data.h"
+#include "sessions/run/run_snapshot.h"
 #include "sessions/session/case_run.h"
-#include "sessions/trace/picture_data.h"
-#include "sessions/trace/run_snapshot.h"
 #include "ui/views/layer.h"
 
 namespace boresight::ui {

@@ -8,7 +8,7 @@
 #include <QObject>
 #include <QString>
 
-#include "sessions/session/annotation_exchange.h"
+#include "sessions/exchange/annotation_exchange.h"
 #include "ui/window/window_parts.h"
 
 class QWidget;

@@ -10,7 +10,7 @@
 #include <QStyleOption>
 
 #include "sessions/version.h"
-#include "ui/vtk/scene_backend.h"
+#include "ui/scene/scene_backend.h"
 
 namespace boresight::ui {
 

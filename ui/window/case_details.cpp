@@ -8,8 +8,8 @@
 #include "core/base/math.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/evaluation/requirement_share.h"
-#include "sessions/review/review_settings.h"
 #include "sessions/session/case_run.h"
+#include "sessions/session/review_settings.h"
 #include "ui/models/number_text.h"
 #include "ui/run/task_runner.h"
 

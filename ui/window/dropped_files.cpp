@@ -7,8 +7,8 @@
 #include <exception>
 
 #include "sessions/io/cahvor_file.h"
-#include "sessions/io/image_label.h"
 #include "sessions/io/json_document.h"
+#include "sessions/io/labels/image_label.h"
 
 namespace boresight::ui {
 namespace {

@@ -14,8 +14,8 @@
 
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
+#include "ui/scene/scene_view.h"
 #include "ui/views/image_panel.h"
-#include "ui/vtk/scene_view.h"
 #include "ui/window/annotation_files.h"
 #include "ui/window/input_findings.h"
 #include "ui/window/levels_controller.h"

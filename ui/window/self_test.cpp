@@ -10,11 +10,11 @@
 
 #include <QTemporaryDir>
 
+#include "sessions/run/stepped_run.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/examples.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_maker.h"
-#include "sessions/trace/stepped_run.h"
 #include "ui/views/image_view.h"
 #include "ui/window/main_window.h"
 

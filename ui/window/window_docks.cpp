@@ -23,11 +23,11 @@
 #include "ui/review/onboard_panel.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
+#include "ui/scene/scene_view.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/views/layers_panel.h"
 #include "ui/views/mask_editor.h"
-#include "ui/vtk/scene_view.h"
 
 namespace boresight::ui {
 namespace {

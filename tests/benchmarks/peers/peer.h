@@ -10,7 +10,7 @@
 
 #include "core/geometry/pose.h"
 #include "sessions/io/scene_mesh.h"
-#include "sessions/trace/trace.h"
+#include "sessions/run/trace.h"
 #include "tests/benchmarks/peers/settings.h"
 
 namespace boresight::peers {

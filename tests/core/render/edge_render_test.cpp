@@ -183,9 +183,10 @@ SceneMesh layers(int count, bool slivers = false) {
   SceneMesh mesh;
   for (int i = 0; i < count; ++i) {
     const double z = 1.0 + 1e-3 * i;
-    const double width = slivers ? 1e-4 : 10.0;
-    mesh.addFace(mesh.addVertex({-20.0 - width, -20.0, z}), mesh.addVertex({20.0, 20.0, z}),
-                 mesh.addVertex({-20.0, -20.0 + (slivers ? 1e-4 : 60.0), z}));
+    const Eigen::Vector3d corner = slivers ? Eigen::Vector3d(-20.0001, -20.0, z)  // on a diagonal
+                                           : Eigen::Vector3d(20.0, -20.0, z);
+    mesh.addFace(mesh.addVertex(corner), mesh.addVertex({20.0, 20.0, z}),
+                 mesh.addVertex({-20.0, slivers ? -20.0 : 0.0, z}));
   }
   return mesh;
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "sessions/io/errors.h"
-#include "sessions/trace/surface_point.h"
+#include "sessions/run/surface_point.h"
 #include "tests/sessions/annotation/box_scene.h"
 #include "tests/support/random_pose.h"
 

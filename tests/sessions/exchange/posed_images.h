@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sessions/exchange/posed_image.h"
+#include "sessions/evaluation/posed_image.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::test {

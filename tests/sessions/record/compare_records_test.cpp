@@ -6,8 +6,8 @@
 
 #include <functional>
 
-#include "sessions/record/record_inputs.h"
-#include "sessions/trace/record.h"
+#include "sessions/run/record.h"
+#include "sessions/run/record_inputs.h"
 #include "tests/support/example_case.h"
 
 namespace boresight::test {

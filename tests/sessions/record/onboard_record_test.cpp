@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "sessions/io/errors.h"
-#include "sessions/trace/record.h"
+#include "sessions/run/record.h"
 #include "tests/support/example_case.h"
 #include "tests/support/random_pose.h"
 #include "tests/support/temporary_folder.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sessions/record/compare_records.h"
-#include "sessions/trace/stepped_run.h"
+#include "sessions/run/stepped_run.h"
 #include "tests/sessions/record/recorded_run.h"
 
 namespace boresight::test {

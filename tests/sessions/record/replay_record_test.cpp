@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "sessions/record/recorded_plan.h"
-#include "sessions/report/run_text.h"
-#include "sessions/trace/match_details.h"
+#include "sessions/run/match_details.h"
+#include "sessions/run/run_text.h"
 #include "tests/sessions/record/recorded_run.h"
 #include "tests/support/random_pose.h"
 

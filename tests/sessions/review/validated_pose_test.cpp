@@ -16,11 +16,11 @@
 #include "sessions/review/checks.h"
 #include "sessions/review/decide.h"
 #include "sessions/review/pose_uncertainty.h"
-#include "sessions/review/review_settings.h"
 #include "sessions/review/standing.h"
 #include "sessions/review/verify_pose.h"
+#include "sessions/run/trace_file.h"
 #include "sessions/session/case_run.h"
-#include "sessions/trace/trace_file.h"
+#include "sessions/session/review_settings.h"
 #include "tests/support/marked_example.h"
 #include "tests/support/temporary_folder.h"
 

@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sessions/run/record.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_pack.h"
-#include "sessions/trace/record.h"
 #include "tests/sessions/io/mesh_samples.h"
 #include "tests/sessions/session/example_session.h"
 

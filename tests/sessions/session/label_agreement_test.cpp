@@ -7,7 +7,7 @@
 #include "core/base/math.h"
 #include "core/geometry/cahv_model.h"
 #include "sessions/io/camera_conversion.h"
-#include "tests/sessions/io/label_fixture.h"
+#include "tests/sessions/io/labels/label_fixture.h"
 
 namespace boresight::sessions {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/session/session_lock.h"
+#include "sessions/io/file_lock.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,16 +13,16 @@
 namespace boresight::test {
 namespace {
 
-using sessions::SessionLock;
+using sessions::FileLock;
 using testing::HasSubstr;
 
-TEST(SessionLock, IsHeldByOneAndSaysByWhom) {
+TEST(FileLock, IsHeldByOneAndSaysByWhom) {
   const TemporaryFolder folder;
   {
-    const SessionLock first(folder / "s.lock");
+    const FileLock first(folder / "s.lock");
     EXPECT_TRUE(first.held());
     EXPECT_FALSE(first.stale());
-    const SessionLock second(folder / "s.lock");
+    const FileLock second(folder / "s.lock");
     EXPECT_FALSE(second.held());
     ASSERT_TRUE(second.other());
     EXPECT_EQ(second.other()->process, ::getpid());
@@ -30,34 +30,34 @@ TEST(SessionLock, IsHeldByOneAndSaysByWhom) {
     EXPECT_THAT(second.other()->text(), HasSubstr("process " + std::to_string(::getpid())));
     const std::string pid = std::to_string(::getpid());
     EXPECT_EQ(inChild([&] {
-                const SessionLock third(folder / "s.lock");
+                const FileLock third(folder / "s.lock");
                 return third.held() ? "held" : std::to_string(third.other()->process);
               }),
               pid);
   }
   EXPECT_EQ(folder.fileCount(), 0u);
-  EXPECT_TRUE(SessionLock(folder / "s.lock").held());
+  EXPECT_TRUE(FileLock(folder / "s.lock").held());
 }
 
-TEST(SessionLock, IsTakenOverFromAKilledProgram) {
+TEST(FileLock, IsTakenOverFromAKilledProgram) {
   const TemporaryFolder folder;
   const std::string ended = inChild([&]() -> std::string {
-    const SessionLock lock(folder / "s.lock");
+    const FileLock lock(folder / "s.lock");
     ::kill(::getpid(), SIGKILL);
     return "";
   });
   EXPECT_EQ(ended, "the child did not end by itself");
   ASSERT_EQ(folder.fileCount(), 1u);
-  const SessionLock lock(folder / "s.lock");
+  const FileLock lock(folder / "s.lock");
   EXPECT_TRUE(lock.held());
   ASSERT_TRUE(lock.stale());
   EXPECT_NE(lock.stale()->process, ::getpid());
   EXPECT_TRUE(sessions::hasEnded(*lock.stale()));
 }
 
-TEST(SessionLock, KnowsAProcessByItsStartToo) {
+TEST(FileLock, KnowsAProcessByItsStartToo) {
   const TemporaryFolder folder;
-  const SessionLock lock(folder / "s.lock");
+  const FileLock lock(folder / "s.lock");
   sessions::LockHolder holder = sessions::readLockFile(folder / "s.lock").value();
   EXPECT_FALSE(sessions::hasEnded(holder));
   holder.process_start += 1;  // the number was given to another process
@@ -66,18 +66,18 @@ TEST(SessionLock, KnowsAProcessByItsStartToo) {
   EXPECT_FALSE(sessions::hasEnded(holder));
 }
 
-TEST(SessionLock, ARubbishLockFileIsTaken) {
+TEST(FileLock, ARubbishLockFileIsTaken) {
   const TemporaryFolder folder;
   for (const char* text : {"", "{", "{}", "[1]", R"({"process": "x"})"}) {
     folder.write("s.lock", text);
     EXPECT_FALSE(sessions::readLockFile(folder / "s.lock")) << text;
-    EXPECT_TRUE(SessionLock(folder / "s.lock").held()) << text;
+    EXPECT_TRUE(FileLock(folder / "s.lock").held()) << text;
   }
 }
 
-TEST(SessionLock, SaysWhenItCannotBeWritten) {
+TEST(FileLock, SaysWhenItCannotBeWritten) {
   const TemporaryFolder folder;
-  EXPECT_THAT(folder.message([&] { SessionLock lock(folder / "none/s.lock"); }),
+  EXPECT_THAT(folder.message([&] { FileLock lock(folder / "none/s.lock"); }),
               HasSubstr("cannot write none/s.lock: No such file"));
 }
 

@@ -276,7 +276,7 @@ TEST_F(MarkToolTest, AClickThatBeginsALineDropsTheChoice) {
   click(kMiddle);
   ASSERT_EQ(controller_.selected(), "p1");
   controller_.setMode(PlaceMode::kLine);
-  click(kMiddle + Eigen::Vector2d(9.0 * screenPixel_px(), 0.0));  // just beside the point
+  click(kMiddle + Eigen::Vector2d(15.0 * screenPixel_px(), 0.0));  // just beside the point
   EXPECT_EQ(controller_.selected(), "");
   EXPECT_EQ(marks().points.size(), 1u);
 }

@@ -11,8 +11,8 @@
 
 #include "tests/ui/annotation/annotation_fixture.h"
 #include "ui/annotation/station_snapper.h"
-#include "ui/vtk/scene_annotator.h"
-#include "ui/vtk/scene_view.h"
+#include "ui/scene/scene_annotator.h"
+#include "ui/scene/scene_view.h"
 #include "ui/window/application.h"
 #include "ui/window/main_window.h"
 

@@ -12,7 +12,7 @@
 #include <QPushButton>
 #include <QTemporaryDir>
 
-#include "sessions/trace/score_map.h"
+#include "sessions/run/score_map.h"
 #include "tests/ui/pictures/stage_pictures.h"
 #include "ui/manual/manual_folder.h"
 #include "ui/manual/manual_window.h"

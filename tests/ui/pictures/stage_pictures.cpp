@@ -9,9 +9,9 @@
 #include <QPainter>
 
 #include "core/localizer/localizer_options.h"
-#include "sessions/report/overlay.h"
-#include "sessions/trace/edge_detection.h"
-#include "sessions/trace/scene_render.h"
+#include "sessions/run/edge_detection.h"
+#include "sessions/run/overlay.h"
+#include "sessions/run/scene_render.h"
 
 namespace boresight::ui {
 namespace {

@@ -7,9 +7,9 @@
 #include <QSpinBox>
 #include <QTextBrowser>
 
-#include "sessions/review/review_settings.h"
 #include "sessions/review/standing.h"
 #include "sessions/review/verify_pose.h"
+#include "sessions/session/review_settings.h"
 #include "sessions/session/session_document.h"
 #include "tests/support/marked_example.h"
 #include "tests/ui/review/review_fixture.h"

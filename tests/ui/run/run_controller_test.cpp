@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "sessions/trace/record.h"
+#include "sessions/run/record.h"
 #include "tests/support/loaded_example.h"
 
 namespace boresight::ui {

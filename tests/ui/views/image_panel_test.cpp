@@ -10,7 +10,7 @@
 #include <QRegularExpression>
 #include <QtTest/QTest>
 
-#include "sessions/trace/scene_render.h"
+#include "sessions/run/scene_render.h"
 #include "tests/support/loaded_example.h"
 #include "tests/support/rival_run.h"
 #include "ui/run/task_runner.h"

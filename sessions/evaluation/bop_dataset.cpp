@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/evaluation/bop_dataset.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "sessions/evaluation/bop_folder.h"
+#include "sessions/evaluation/bop_scene.h"
+#include "sessions/evaluation/reseed.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/image_container.h"
+#include "sessions/io/json_document.h"
+
+namespace boresight::sessions {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMillimetres = 1000.0;
+constexpr double kLeastVisible = 0.1;  ///< share of an object that the challenge asks for
+
+/// An entry of models_info.json.
+struct Model {
+  Station station;
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
+};
+
+std::map<int, Model> readModels(const fs::path& folder) {
+  std::map<int, Model> models;
+  const JsonDocument document(folder / "models_info.json");
+  for (const auto& [key, entry] : document.root().members()) {
+    const int number = bopImageId(key, entry);
+    Model model;
+    model.station.id = "obj_" + bopNumber(number);
+    model.station.parts.resize(1);
+    model.station.parts[0].mesh = folder / (model.station.id + ".ply");
+    model.station.parts[0].mesh_unit = "mm";
+    model.station.symmetries = readBopSymmetries(entry);
+    int i = 0;
+    for (const char* axis : {"x", "y", "z"})
+      model.centre_m[i++] = (entry.at(std::string("min_") + axis).number() +
+                             0.5 * entry.at(std::string("size_") + axis).number()) /
+                            kMillimetres;
+    models.emplace(number, std::move(model));
+  }
+  return models;
+}
+
+/// Visible share of each instance, by image; empty when the scene does not say.
+std::map<int, std::vector<double>> readVisibility(const fs::path& file) {
+  std::map<int, std::vector<double>> shares;
+  if (!fs::exists(file)) return shares;
+  const JsonDocument document(file);
+  for (const auto& [key, list] : document.root().members())
+    for (const JsonReader& entry : list.elements()) {
+      const auto share = entry.find("visib_fract");
+      shares[bopImageId(key, list)].push_back(share ? share->number() : 1.0);
+    }
+  return shares;
+}
+
+/// Of what matters to the runs: which cases there are, their seeds, truths and cameras.
+std::string digestOf(const Dataset& dataset) {
+  std::string text;
+  const auto add = [&text](const Pose& pose) {
+    const Eigen::Quaterniond& q = pose.rotation;
+    const Eigen::Vector3d& t = pose.translation_m;
+    for (const double v : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()})
+      text += " " + numberText(v);
+  };
+  for (const Case& one : dataset.cases) {
+    text += one.id;
+    add(one.seed_camera_from_station);
+    add(*one.truth_camera_from_station);
+    const Camera& camera = dataset.cameras.at(one.camera);
+    for (const double v : {camera.fx, camera.fy, camera.cx, camera.cy}) text += " " + numberText(v);
+    text += "\n";
+  }
+  return sha256Text({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+class Reader {
+ public:
+  Reader(const fs::path& root, const BopSelection& selection)
+      : root_(root), selection_(selection), models_(readModels(bopModels(root))) {}
+
+  Dataset read();
+
+ private:
+  struct Instance {
+    const BopObject* object = nullptr;
+    double visible = 1.0;
+  };
+
+  void readScene(int scene_id, const fs::path& folder);
+  std::vector<Instance> chosen(int scene_id, int image_id, std::vector<Instance> instances) const;
+  void addCase(int scene_id, const Instance& instance, int repetition, const fs::path& image);
+  std::string cameraOf(const Camera& camera);
+  bool wants(const std::vector<int>& list, int number) const {
+    return list.empty() || std::find(list.begin(), list.end(), number) != list.end();
+  }
+  void requireKnown() const;
+
+  fs::path root_;
+  const BopSelection& selection_;
+  std::map<int, Model> models_;
+  std::optional<BopTargets> targets_;
+  Dataset dataset_;
+  std::vector<std::pair<std::string, Camera>> cameras_;
+};
+
+Dataset Reader::read() {
+  dataset_.file = root_;
+  requireKnown();
+  const fs::path split = bopSplitFolder(root_, selection_.split, selection_.sensor);
+  if (split.filename() == "test" && !selection_.every_instance) targets_ = bopTargets(root_);
+  const std::map<int, fs::path> scenes = bopScenes(split, selection_.sensor);
+  for (const int scene : selection_.scenes)
+    if (!scenes.contains(scene)) throw InputError(split, "", "has no scene " + bopNumber(scene));
+  for (const auto& [id, folder] : scenes)
+    if (wants(selection_.scenes, id)) readScene(id, folder);
+  if (dataset_.cases.empty()) throw InputError(split, "", "nothing in it is chosen");
+  for (const auto& [id, camera] : cameras_) dataset_.cameras.emplace(id, camera);
+  dataset_.sha256 = digestOf(dataset_);
+  return std::move(dataset_);
+}
+
+void Reader::requireKnown() const {
+  for (const int object : selection_.objects)
+    if (!models_.contains(object))
+      throw InputError(root_, "models_info.json", "there is no object " + std::to_string(object));
+}
+
+void Reader::readScene(int scene_id, const fs::path& folder) {
+  const std::string& sensor = selection_.sensor;
+  const fs::path truth = bopSceneFile(folder, "scene_gt", sensor);
+  if (!fs::exists(truth))
+    throw InputError(truth, "",
+                     "is not there: without true poses there is nothing to draw seeds about");
+  const auto objects = readBopScene(bopSceneFile(folder, "scene_camera", sensor), truth);
+  const auto visible = readVisibility(bopSceneFile(folder, "scene_gt_info", sensor));
+  const auto images = bopImages(folder, sensor);
+  std::map<int, std::vector<Instance>> instances;
+  for (const BopObject& object : objects) {
+    auto& list = instances[object.image.id];
+    const auto shares = visible.find(object.image.id);
+    const bool known = shares != visible.end() && list.size() < shares->second.size();
+    list.push_back({&object, known ? shares->second[list.size()] : 1.0});
+  }
+  std::optional<ImageHeader> size;  // BOP does not state it; a scene is taken by one camera
+  for (const auto& [image_id, list] : instances) {
+    const std::vector<Instance> wanted = chosen(scene_id, image_id, list);
+    if (wanted.empty()) continue;
+    const auto image = images.find(image_id);
+    if (image == images.end()) throw InputError(folder, "", "has no image " + bopNumber(image_id));
+    if (!size)
+      size = checkImageContainer(image->second, readFileBytes(image->second, kMaxImageFileBytes));
+    std::map<int, int> repetitions;
+    for (Instance instance : wanted) {
+      BopObject sized = *instance.object;
+      sized.image.camera.width = static_cast<int>(size->width);
+      sized.image.camera.height = static_cast<int>(size->height);
+      instance.object = &sized;
+      addCase(scene_id, instance, ++repetitions[sized.object_id], image->second);
+    }
+  }
+}
+
+std::vector<Reader::Instance> Reader::chosen(int scene_id, int image_id,
+                                             std::vector<Instance> instances) const {
+  std::erase_if(instances, [this](const Instance& one) {
+    return !wants(selection_.objects, one.object->object_id);
+  });
+  if (selection_.every_instance) return instances;
+  if (!targets_) {
+    std::erase_if(instances, [](const Instance& one) { return one.visible < kLeastVisible; });
+    return instances;
+  }
+  // Of several instances the challenge asks for the ones that are seen best.
+  std::stable_sort(instances.begin(), instances.end(),
+                   [](const Instance& a, const Instance& b) { return a.visible > b.visible; });
+  std::map<int, int> taken;
+  std::erase_if(instances, [&](const Instance& one) {
+    const int object = one.object->object_id;
+    const auto target = targets_->find({scene_id, image_id, object});
+    return target == targets_->end() || ++taken[object] > target->second;
+  });
+  return instances;
+}
+
+std::string Reader::cameraOf(const Camera& camera) {
+  for (const auto& [id, known] : cameras_)
+    if (known == camera) return id;
+  cameras_.emplace_back("camera_" + bopNumber(static_cast<int>(cameras_.size()) + 1), camera);
+  return cameras_.back().first;
+}
+
+void Reader::addCase(int scene_id, const Instance& instance, int repetition,
+                     const fs::path& image) {
+  const BopObject& object = *instance.object;
+  const auto model = models_.find(object.object_id);
+  if (model == models_.end())
+    throw InputError(root_, "models_info.json",
+                     "there is no object " + std::to_string(object.object_id) +
+                         ", which is in scene " + bopNumber(scene_id));
+  Camera camera = object.image.camera;
+  if (prepareCamera(camera) != Status::kOk)
+    throw InputError(image, "scene_camera.json", "cam_K cannot be a camera's");
+  dataset_.stations.emplace(model->second.station.id, model->second.station);
+  Case one;
+  one.id = bopNumber(scene_id) + "-" + bopNumber(object.image.id) + "-" +
+           bopNumber(object.object_id) + (repetition > 1 ? "-" + std::to_string(repetition) : "");
+  one.station = model->second.station.id;
+  one.camera = cameraOf(camera);
+  one.image = image;
+  one.uncertainty = selection_.uncertainty;
+  one.truth_camera_from_station = object.image.camera_from_station;
+  one.seed_camera_from_station = seedForOffset(
+      object.image.camera_from_station, drawOffset(selection_.uncertainty, 1.0, one.id, 0),
+      selection_.uncertainty.pivot, model->second.centre_m);
+  one.tags = {"scene_" + bopNumber(scene_id)};
+  one.bop = BopKey{scene_id, object.image.id, object.object_id};
+  dataset_.cases.push_back(std::move(one));
+}
+
+}  // namespace
+
+Dataset readBopDataset(const fs::path& folder, const BopSelection& selection) {
+  return Reader(folder, selection).read();
+}
+
+Dataset openDataset(const fs::path& path, const BopSelection& selection) {
+  return fs::is_directory(path) ? readBopDataset(path, selection) : readDataset(path);
+}
+
+std::vector<BopResult> bopResults(const Dataset& dataset, std::span<const RunResult> runs) {
+  for (const Case& one : dataset.cases)
+    if (!one.bop) throw InputError(dataset.file, "cases." + one.id, "is not of a BOP dataset");
+  std::map<std::pair<int, int>, double> seconds;
+  std::vector<BopResult> results;
+  for (const RunResult& run : runs) {
+    const Case* one = dataset.findCase(run.case_id);
+    if (run.reseed != 0 || one == nullptr) continue;
+    seconds[{one->bop->scene_id, one->bop->image_id}] += run.seconds.total();
+    if (run.completed)
+      results.push_back({one->bop->scene_id, one->bop->image_id, one->bop->object_id,
+                         run.edge_support, run.camera_from_station, 0.0});
+  }
+  for (BopResult& result : results) result.seconds = seconds[{result.scene_id, result.image_id}];
+  return results;
+}
+
+}  // namespace boresight::sessions

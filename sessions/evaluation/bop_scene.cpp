@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/evaluation/bop_scene.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/errors.h"
+#include "sessions/io/json_document.h"
+#include "sessions/io/json_writer.h"
+
+namespace boresight::sessions {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr double kMillimetres = 1000.0;
+constexpr double kMaxRotationDeviation = 1e-4;
+
+ordered_json cameraEntry(const Camera& camera) {
+  ordered_json json;
+  json["cam_K"] = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
+  json["depth_scale"] = 1.0;
+  return json;
+}
+
+ordered_json objectEntry(const PosedImage& image, int object_id) {
+  const Pose& camera_from_station = image.camera_from_station;
+  ordered_json rotation = ordered_json::array();
+  ordered_json translation = ordered_json::array();
+  const Eigen::Matrix3d matrix = camera_from_station.matrix();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) rotation.push_back(matrix(row, column));
+    translation.push_back(kMillimetres * camera_from_station.translation_m[row]);
+  }
+  ordered_json json;
+  json["cam_R_m2c"] = rotation;
+  json["cam_t_m2c"] = translation;
+  json["obj_id"] = object_id;
+  if (!image.remark.empty()) json["remark"] = image.remark;  // readers take what they know
+  return json;
+}
+
+Camera readCameraEntry(const JsonReader& entry) {
+  if (entry.has("cam_model"))
+    entry.failMember("cam_model", "this camera model cannot be read, only pinhole cameras (cam_K)");
+  const std::vector<JsonReader> k = entry.at("cam_K").elements(9);
+  for (const std::size_t zero : {1u, 3u, 6u, 7u})
+    if (k[zero].number() != 0.0) k[zero].fail("a camera with skew cannot be read");
+  Camera camera;
+  camera.fx = k[0].numberAbove(0.0);
+  camera.cx = k[2].number();
+  camera.fy = k[4].numberAbove(0.0);
+  camera.cy = k[5].number();
+  return camera;
+}
+
+Pose readPoseEntry(const JsonReader& entry) {
+  const std::vector<JsonReader> numbers = entry.at("cam_R_m2c").elements(9);
+  Eigen::Matrix3d rotation;
+  for (int i = 0; i < 9; ++i)
+    rotation(i / 3, i % 3) = numbers[static_cast<std::size_t>(i)].number();
+  Pose pose;
+  double deviation = 0.0;
+  const Eigen::Vector3d translation_m = entry.at("cam_t_m2c").vector3() / kMillimetres;
+  if (poseFromMatrix(rotation, translation_m, pose, deviation) != Status::kOk ||
+      deviation > kMaxRotationDeviation)
+    entry.failMember("cam_R_m2c", "is not a rotation");
+  return pose;
+}
+
+void requireWritableAsBop(const std::filesystem::path& folder, const PosedImage& image,
+                          std::set<int>& ids) {
+  const std::string name = "image " + std::to_string(image.id);
+  if (image.id < 0 || !ids.insert(image.id).second)
+    throw OutputError(folder / "scene_gt.json", name + " needs an id of its own");
+  const bool distorted = image.camera.model != CameraModel::kPinhole &&
+                         std::any_of(image.camera.distortion.begin(), image.camera.distortion.end(),
+                                     [](double value) { return value != 0.0; });
+  if (distorted || image.camera.model == CameraModel::kKannalaBrandt ||
+      isCahvFamily(image.camera.model))
+    throw OutputError(folder / "scene_camera.json",
+                      name +
+                          ": its camera distorts, which the format does not know; undistort "
+                          "the image, the pose stays");
+}
+
+}  // namespace
+
+void writeBopScene(const std::filesystem::path& folder, std::span<const BopObject> objects) {
+  ordered_json cameras = ordered_json::object();
+  ordered_json truth = ordered_json::object();
+  std::set<int> ids;
+  for (const auto& [image, object_id] : objects) {
+    requireWritableAsBop(folder, image, ids);
+    const std::string key = std::to_string(image.id);
+    cameras[key] = cameraEntry(image.camera);
+    truth[key] = ordered_json::array({objectEntry(image, object_id)});
+  }
+  writeJsonFile(folder / "scene_camera.json", cameras);
+  writeJsonFile(folder / "scene_gt.json", truth);
+}
+
+int bopImageId(const std::string& key, const JsonReader& entry) {
+  int id = -1;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), id);
+  if (error != std::errc() || end != key.data() + key.size() || id < 0)
+    entry.fail("'" + key + "' is not a number from 0 on");
+  return id;
+}
+
+std::vector<BopObject> readBopScene(const std::filesystem::path& folder) {
+  return readBopScene(folder / "scene_camera.json", folder / "scene_gt.json");
+}
+
+std::vector<BopObject> readBopScene(const std::filesystem::path& camera_file,
+                                    const std::filesystem::path& truth_file) {
+  std::map<int, Camera> cameras;
+  const JsonDocument camera_document(camera_file);
+  for (const auto& [key, entry] : camera_document.root().members())
+    cameras[bopImageId(key, entry)] = readCameraEntry(entry);
+  std::vector<BopObject> made;
+  const JsonDocument document(truth_file);
+  for (const auto& [key, list] : document.root().members()) {
+    const int id = bopImageId(key, list);
+    const auto camera = cameras.find(id);
+    if (camera == cameras.end()) list.fail(camera_file.filename().string() + " has no such image");
+    for (const JsonReader& entry : list.elements()) {
+      BopObject object;
+      object.image.id = id;
+      object.image.camera = camera->second;
+      object.image.camera_from_station = readPoseEntry(entry);
+      object.object_id = static_cast<int>(entry.at("obj_id").integer(0, 1 << 30));
+      made.push_back(object);
+    }
+  }
+  std::stable_sort(made.begin(), made.end(),
+                   [](const BopObject& a, const BopObject& b) { return a.image.id < b.image.id; });
+  return made;
+}
+
+}  // namespace boresight::sessions

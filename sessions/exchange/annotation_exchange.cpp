@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/exchange/annotation_exchange.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "sessions/annotation/landmarks.h"
+#include "sessions/annotation/marks_file.h"
+#include "sessions/annotation/predicted_place.h"
+#include "sessions/evaluation/bop_scene.h"
+#include "sessions/exchange/colmap_text.h"
+#include "sessions/io/atomic_folder.h"
+#include "sessions/io/camera_conversion.h"
+#include "sessions/io/camera_file.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/image_file.h"
+#include "sessions/io/undistort.h"
+#include "sessions/review/standing.h"
+#include "sessions/session/case_marks.h"
+#include "sessions/session/image_names.h"
+
+namespace boresight::sessions {
+namespace {
+
+namespace fs = std::filesystem;
+
+const SessionCase& requireCase(const Session& session, const std::string& case_id) {
+  const SessionCase* found = session.findCase(case_id);
+  if (found == nullptr) throw InputError("session", "cases", "there is no case '" + case_id + "'");
+  return *found;
+}
+
+const Marks& requireMarks(const Session& session, const std::string& case_id) {
+  (void)requireCase(session, case_id);
+  const auto found = session.annotations.find(case_id);
+  if (found == session.annotations.end())
+    throw InputError("session", "annotations", "case '" + case_id + "' has no marks");
+  return *found->second;
+}
+
+std::size_t placeOf(const Session& session, const std::string& case_id) {
+  std::size_t place = 0;
+  while (session.cases[place]->id != case_id) ++place;
+  return place;
+}
+
+/// Poses to write; there must be one.
+CasePoses posesToExport(const Session& session, const std::vector<std::string>& case_ids,
+                        bool robust) {
+  CasePoses made = annotatedPoses(session, case_ids, robust);
+  if (made.poses.empty())
+    throw InputError("session", "annotations",
+                     made.notes.empty() ? "no case has marks to make a pose of"
+                                        : "no case has a pose to export: " + made.notes.front());
+  return made;
+}
+
+ExportReport reportOf(const CasePoses& made) {
+  ExportReport report;
+  for (const CasePose& pose : made.poses) report.case_ids.push_back(pose.case_id);
+  report.notes = made.notes;
+  return report;
+}
+
+void requireOneStation(const Session& session, const CasePoses& made) {
+  const std::vector<int> stations = stationNumbers(session);
+  const int first = stations[placeOf(session, made.poses[0].case_id)];
+  for (const CasePose& pose : made.poses)
+    if (stations[placeOf(session, pose.case_id)] != first)
+      throw InputError("session", "cases",
+                       "'" + made.poses[0].case_id + "' and '" + pose.case_id +
+                           "' are of different stations, and a COLMAP model has one world: choose "
+                           "the cases of one station");
+}
+
+/// Who validated this very pose, or that nobody has.
+std::string remarkOf(const Session& session, const CasePose& pose) {
+  const Standing standing = standingOf(session, pose.case_id);
+  const bool judged = standing.holds() && standing.decision->pose &&
+                      standing.decision->pose->camera_from_station == pose.camera_from_station;
+  if (standing.state == CaseStanding::kValidated && !judged)
+    return "NOT VALIDATED: another pose of the case was";
+  return standingText(standing);
+}
+
+Camera prepared(const SessionCase& one) {
+  Camera camera = one.camera;
+  if (prepareCamera(camera) != Status::kOk)
+    throw InputError("case " + one.id, "camera", "its parameters are not those of a camera");
+  return camera;
+}
+
+/// What formats without vectors are given, and what is said of it.
+struct ExchangeCamera {
+  Camera camera;
+  std::string remark;  ///< empty: it is the case's own
+};
+
+/// A camera of the CAHV family is fitted at the distance of the seed, and says with what error.
+ExchangeCamera exchangeCamera(const SessionCase& one) {
+  const Camera own = prepared(one);
+  if (!isCahvFamily(own.model)) return {own, ""};
+  try {
+    const FittedCamera fitted = fitCamera(own, CameraModel::kBrownConrady,
+                                          one.camera_from_station_seed.translation_m.norm());
+    return {fitted.camera, std::string("its ") + cameraModelName(own.model) +
+                               " camera is written as brown_conrady, " + fitText(fitted)};
+  } catch (const std::runtime_error& error) {
+    throw InputError("session", "cases",
+                     "the camera of case '" + one.id + "' cannot be written: " + error.what());
+  }
+}
+
+/// The image as a camera without distortion would have taken it, where BOP has images.
+void writeBopImage(const fs::path& folder, const SessionCase& one, int number) {
+  const GrayImage image = readImage(one.image.source.file, one.image.eight_bit);
+  const ImageView view = image.view();
+  const Camera camera = prepared(one);
+  if (view.width != camera.width || view.height != camera.height)
+    throw InputError(one.image.source.file, "has another size than the camera of case " + one.id);
+  const UndistortedImage made = undistort(camera, view);
+  char name[32];
+  (void)std::snprintf(name, sizeof name, "%06d.png", number);
+  writePng(folder / name, made.pixels, camera.width, camera.height, 1);
+}
+
+/// Gives a case a truth, unless it has another one that is to stay.
+void setTruth(ImportReport& report, const std::string& case_id, const Pose& truth, bool replace) {
+  SessionCase changed = *report.session.findCase(case_id);
+  const auto& known = changed.camera_from_station_truth;
+  if (std::count(report.case_ids.begin(), report.case_ids.end(), case_id) > 0)
+    throw InputError("session", "cases", "two of the poses are of case '" + case_id + "'");
+  if (known && !(*known == truth) && !replace)
+    throw InputError("session", "cases",
+                     "case '" + case_id +
+                         "' has another truth already; ask for it to be replaced (whs: --replace)");
+  if (!known || !(*known == truth)) boresight::sessions::setTruth(changed, truth);
+  report.session = withCase(report.session, std::move(changed));
+  report.case_ids.push_back(case_id);
+}
+
+/// Whether two cameras are the same but for the last bits of their numbers.
+bool sameCamera(const Camera& a, const Camera& b, bool distortion) {
+  const auto near = [](double x, double y) {
+    return std::abs(x - y) <= 1e-9 * std::max({1.0, std::abs(x), std::abs(y)});
+  };
+  const bool same_lens = a.model == b.model && std::equal(a.distortion.begin(), a.distortion.end(),
+                                                          b.distortion.begin(), near);
+  return near(a.fx, b.fx) && near(a.fy, b.fy) && near(a.cx, b.cx) && near(a.cy, b.cy) &&
+         (!distortion || (same_lens && a.width == b.width && a.height == b.height));
+}
+
+std::string otherCamera(const std::string& image, const std::string& case_id) {
+  return image + " was left out: its camera is not that of case '" + case_id + "'";
+}
+
+void requireSome(const ImportReport& report, const fs::path& folder) {
+  if (!report.case_ids.empty()) return;
+  throw InputError(folder, report.notes.empty() ? "has no pose" : report.notes.front());
+}
+
+/// The case whose image has this name, or nullptr.
+const SessionCase* caseOfImage(const Session& session, const fs::path& file,
+                               const std::string& name) {
+  const std::vector<std::string> names = imageNames(session);
+  std::vector<const SessionCase*> exact;
+  std::vector<const SessionCase*> ending;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == name) exact.push_back(&*session.cases[i]);
+    if (isEndOf(name, session.cases[i]->image.source.file)) ending.push_back(&*session.cases[i]);
+  }
+  const auto& found = exact.empty() ? ending : exact;
+  if (found.size() > 1)
+    throw InputError(file, "'" + name + "' may be the image of case '" + found[0]->id +
+                               "' and of case '" + found[1]->id + "'");
+  return found.empty() ? nullptr : found[0];
+}
+
+}  // namespace
+
+CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids,
+                         bool robust) {
+  for (const std::string& id : case_ids) (void)requireCase(session, id);
+  CasePoses made;
+  for (const auto& one : session.cases) {
+    const bool asked = std::find(case_ids.begin(), case_ids.end(), one->id) != case_ids.end();
+    if (!case_ids.empty() && !asked) continue;
+    const CaseMarks marks = caseMarks(session, one->id);
+    const bool marked = std::any_of(marks.views.begin(), marks.views.end(),
+                                    [](const MarkedView& view) { return !view.marks.empty(); });
+    if (!marked && !asked) continue;
+    const CaseMarksSolution solved = solveCaseMarks(marks, marksGuess(*one), {}, robust);
+    if (const auto pose = solved.camera_from_station())
+      made.poses.push_back({one->id, *pose});
+    else
+      made.notes.push_back("case '" + one->id + "' has no pose: " + solved.result.reason);
+  }
+  return made;
+}
+
+ExportReport exportColmap(const Session& session, const fs::path& folder,
+                          const std::vector<std::string>& case_ids, bool robust) {
+  return writeColmapOf(session, folder, posesToExport(session, case_ids, robust));
+}
+
+ExportReport exportBop(const Session& session, const fs::path& folder,
+                       const std::vector<std::string>& case_ids, bool robust) {
+  return writeBopOf(session, folder, posesToExport(session, case_ids, robust));
+}
+
+ExportReport writeColmapOf(const Session& session, const fs::path& folder, const CasePoses& poses) {
+  requireOneStation(session, poses);
+  const std::vector<std::string> names = imageNames(session);
+  std::vector<PosedImage> images;
+  std::vector<std::string> notes;
+  for (const CasePose& pose : poses.poses) {
+    const std::size_t place = placeOf(session, pose.case_id);
+    const ExchangeCamera camera = exchangeCamera(*session.cases[place]);
+    const std::string remark = remarkOf(session, pose);
+    images.push_back(
+        {static_cast<int>(place) + 1, names[place], camera.camera, pose.camera_from_station,
+         remark + (remark.empty() || camera.remark.empty() ? "" : "; ") + camera.remark});
+    if (!camera.remark.empty()) notes.push_back("case " + pose.case_id + ": " + camera.remark);
+  }
+  writeFolderAtomically(folder, [&](const fs::path& to) { writeColmapText(to, images); });
+  ExportReport report = reportOf(poses);
+  report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+  return report;
+}
+
+ExportReport writeBopOf(const Session& session, const fs::path& folder, const CasePoses& poses) {
+  const std::vector<int> numbers = imageNumbers(session);
+  const std::vector<int> stations = stationNumbers(session);
+  writeFolderAtomically(folder, [&](const fs::path& to) {
+    std::error_code error;
+    if (!fs::create_directory(to / "gray", error)) throw OutputError(to / "gray", error.message());
+    std::vector<BopObject> objects;
+    for (const CasePose& pose : poses.poses) {
+      const std::size_t place = placeOf(session, pose.case_id);
+      const SessionCase& one = *session.cases[place];
+      objects.push_back({{numbers[place], "", pinholeOf(prepared(one)), pose.camera_from_station,
+                          remarkOf(session, pose)},
+                         stations[place]});
+      writeBopImage(to / "gray", one, numbers[place]);
+    }
+    writeBopScene(to, objects);
+  });
+  return reportOf(poses);
+}
+
+void exportMarks(const Session& session, const std::string& case_id, const fs::path& file) {
+  writeMarks(file, requireMarks(session, case_id));
+}
+
+void exportLandmarks(const Session& session, const std::string& case_id, const fs::path& file) {
+  const Marks& marks = requireMarks(session, case_id);
+  std::error_code error;
+  std::vector<Landmark> landmarks;
+  if (fs::exists(file, error)) landmarks = readLandmarks(file);
+  landmarks = withMarks(std::move(landmarks), marks);
+  if (landmarks.empty())
+    throw InputError("session", "annotations",
+                     "case '" + case_id + "' has no point with a place on the station");
+  writeLandmarks(file, landmarks);
+}
+
+ImportReport importMarks(const Session& session, const std::string& case_id, const fs::path& file,
+                         bool replace) {
+  const SessionCase& one = requireCase(session, case_id);
+  const Marks marks = readMarks(file);
+  for (const PointPair& point : marks.points)
+    if (point.pixel && !isInImage(one.camera, *point.pixel))
+      throw InputError(file, point.id,
+                       "lies outside of the image of case '" + case_id + "', which has " +
+                           std::to_string(one.camera.width) + " x " +
+                           std::to_string(one.camera.height) + " pixels; are these its marks?");
+  const auto known = session.annotations.find(case_id);
+  if (marks.empty()) throw InputError(file, "has no marks");
+  if (known != session.annotations.end() && !(*known->second == marks) && !replace)
+    throw InputError("session", "annotations",
+                     "case '" + case_id +
+                         "' has other marks already; ask for them to be replaced (whs: --replace)");
+  return {withAnnotation(session, case_id, marks), {case_id}, {}};
+}
+
+ImportReport importColmap(const Session& session, const fs::path& folder, bool replace) {
+  ImportReport report{session, {}, {}};
+  for (const PosedImage& image : readColmapText(folder)) {
+    const SessionCase* one = caseOfImage(session, folder / "images.txt", image.name);
+    if (one == nullptr)
+      report.notes.push_back("image '" + image.name + "' is no case's");
+    else if (!sameCamera(image.camera, exchangeCamera(*one).camera, true))
+      report.notes.push_back(otherCamera("image '" + image.name + "'", one->id));
+    else
+      setTruth(report, one->id, image.camera_from_station, replace);
+  }
+  requireSome(report, folder);
+  return report;
+}
+
+ImportReport importBop(const Session& session, const fs::path& folder, bool replace) {
+  ImportReport report{session, {}, {}};
+  const std::vector<int> numbers = imageNumbers(session);
+  const std::vector<int> stations = stationNumbers(session);
+  const std::vector<BopObject> objects = readBopScene(folder);
+  for (const BopObject& object : objects) {
+    const std::string image = "image " + std::to_string(object.image.id);
+    const auto found = std::find(numbers.begin(), numbers.end(), object.image.id);
+    if (found == numbers.end()) {
+      report.notes.push_back(image + " is no case's");
+      continue;
+    }
+    const auto place = static_cast<std::size_t>(found - numbers.begin());
+    const SessionCase& one = *session.cases[place];
+    const auto in_image = std::count_if(
+        objects.begin(), objects.end(),
+        [&object](const BopObject& other) { return other.image.id == object.image.id; });
+    if (in_image > 1 && object.object_id != stations[place])
+      report.notes.push_back(image + ": object " + std::to_string(object.object_id) +
+                             " is not the station of case '" + one.id + "'");
+    else if (!sameCamera(object.image.camera, one.camera, false))
+      report.notes.push_back(otherCamera(image, one.id));
+    else
+      setTruth(report, one.id, object.image.camera_from_station, replace);
+  }
+  requireSome(report, folder);
+  return report;
+}
+
+}  // namespace boresight::sessions

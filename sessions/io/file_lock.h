@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace boresight::sessions {
+
+/// Who has a session open.
+struct LockHolder {
+  std::int64_t process = 0;
+  std::string host;
+  std::string time;  ///< UTC, when it was opened
+  /// When the process began, in clock ticks since its host started: process numbers are used again.
+  std::int64_t process_start = 0;
+
+  bool operator==(const LockHolder&) const = default;
+  /// "process 4711 on host grace, since 2026-01-31T23:59:59Z"
+  std::string text() const;
+};
+
+/// The right to write a session, held as long as the object lives: an exclusive flock on the lock
+/// file, which says who holds it. The kernel drops the flock when the holder dies, however it dies.
+class FileLock {
+ public:
+  /// Takes the lock, or leaves it with whoever has it. OutputError when the lock file cannot be
+  /// written at all.
+  explicit FileLock(const std::filesystem::path& lock_file);
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+  ~FileLock();
+
+  bool held() const { return descriptor_ >= 0; }
+  /// Who holds it instead; nothing when this object does, or when they have not said yet.
+  const std::optional<LockHolder>& other() const { return other_; }
+  /// Who held it before and ended without giving it back (it was killed); nothing as a rule.
+  const std::optional<LockHolder>& stale() const { return stale_; }
+
+ private:
+  bool take();
+  void judgeWithoutFlock(int descriptor);
+
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  std::optional<LockHolder> other_;
+  std::optional<LockHolder> stale_;
+};
+
+/// What a lock file says; nothing when it is missing, empty or not one.
+std::optional<LockHolder> readLockFile(const std::filesystem::path& lock_file);
+
+/// Whether the holder is known to have ended: its process is of this host and is no longer there.
+/// Nothing can be known of another host's processes.
+bool hasEnded(const LockHolder& holder);
+
+}  // namespace boresight::sessions

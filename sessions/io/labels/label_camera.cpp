@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/labels/label_camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/labels/label_frame_names.h"
+#include "sessions/io/labels/label_groups.h"
+#include "sessions/io/labels/label_values.h"
+
+namespace boresight::sessions {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kMostComponents = 9;
+const std::string kNone = "the label's camera model is NONE";
+
+/// What a component of the model is called.
+struct Component {
+  char letter;
+  const char* name;
+};
+constexpr Component kComponents[] = {
+    {'C', "CENTER"}, {'A', "AXIS"},     {'H', "HORIZONTAL"}, {'V', "VERTICAL"}, {'O', "OPTICAL"},
+    {'R', "RADIAL"}, {'E', "ENTRANCE"}, {'T', "MTYPE"},      {'P', "MPARM"},
+};
+
+char letterOf(const std::string& text) {
+  const std::string name = upperCase(text);
+  for (const Component& one : kComponents)
+    if (name == one.name || (name.size() == 1 && name[0] == one.letter)) return one.letter;
+  if (name == "CENTRE") return 'C';
+  return '\0';
+}
+
+/// The values of a group's components by letter.
+struct Components {
+  std::array<const json*, 128> values{};
+  std::array<std::string, 128> units{};
+  std::string remark;
+
+  const json* value(char letter) const { return values[static_cast<unsigned char>(letter)]; }
+};
+
+Components componentsOf(const json& group) {
+  Components components;
+  const auto letters = labelTexts(labelMember(&group, "MODEL_COMPONENT_ID"));
+  const auto names = labelTexts(labelMember(&group, "MODEL_COMPONENT_NAME"));
+  const auto units =
+      labelTexts(labelMember(&group, {"MODEL_COMPONENT_UNIT", "MODEL_COMPONENT__UNIT"}));
+  for (int i = 0; i < kMostComponents; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const std::string key = "MODEL_COMPONENT_" + std::to_string(i + 1);
+    const json* value = labelMember(&group, key);
+    if (value == nullptr) continue;
+    const char by_letter = at < letters.size() ? letterOf(letters[at]) : '\0';
+    const char by_name = at < names.size() ? letterOf(names[at]) : '\0';
+    if (by_letter != '\0' && by_name != '\0' && by_letter != by_name) {
+      components.remark = "the label's camera model calls component " + std::to_string(i + 1) +
+                          " both " + letters[at] + " and " + names[at];
+      return components;
+    }
+    const char letter = by_letter != '\0' ? by_letter : by_name;
+    if (letter == '\0') continue;
+    const auto place = static_cast<unsigned char>(letter);
+    if (components.values[place] != nullptr) {
+      components.remark =
+          "the label's camera model has the component " + std::string(1, letter) + " twice";
+      return components;
+    }
+    components.values[place] = value;
+    std::string unit = labelUnit(value);
+    if (unit.empty()) unit = upperCase(labelText(labelMember(&group, key + "__UNIT")).value_or(""));
+    if (unit.empty() && at < units.size()) unit = upperCase(units[at]);
+    components.units[place] = unit;
+  }
+  return components;
+}
+
+bool isOneOf(const std::string& text, std::initializer_list<const char*> words) {
+  return std::any_of(words.begin(), words.end(),
+                     [&text](const char* word) { return text == word; });
+}
+
+/// Metres for the centre and the pupil, pixels for H and V, nothing else.
+std::string unitRemark(const Components& components) {
+  for (const Component& one : kComponents) {
+    const std::string& unit = components.units[static_cast<unsigned char>(one.letter)];
+    if (unit.empty()) continue;
+    const bool length = one.letter == 'C' || one.letter == 'E';
+    const bool picture = one.letter == 'H' || one.letter == 'V';
+    const bool known = (length && isOneOf(unit, {"M", "METER", "METERS", "METRE", "METRES"})) ||
+                       (picture && isOneOf(unit, {"PIXEL", "PIXELS", "PX"})) ||
+                       isOneOf(unit, {"N/A", "NONE", "UNITLESS", "DIMENSIONLESS"});
+    if (!known && (length || picture))
+      return "the unit '" + unit + "' of the label's camera model (component " +
+             std::string(1, one.letter) + ") is not known";
+  }
+  return "";
+}
+
+std::optional<CameraModel> modelOf(const std::string& type) {
+  const std::string name = upperCase(type);
+  if (name == "CAHV") return CameraModel::kCahv;
+  if (name == "CAHVOR") return CameraModel::kCahvor;
+  if (name == "CAHVORE") return CameraModel::kCahvore;
+  return std::nullopt;
+}
+
+/// Every vector of the model through `vector(letter)`, type and parameter through `number(letter)`.
+/// False with a remark when one is missing.
+template <class Vector, class Number>
+bool fillModel(const Vector& vector, const Number& number, CahvModel& cahv, std::string& remark) {
+  const auto fill = [&](char letter, Eigen::Vector3d& target) {
+    const std::optional<Eigen::Vector3d> found = vector(letter);
+    if (!found) {
+      remark = std::string("the label's camera model has no usable component ") + letter;
+      return false;
+    }
+    target = *found;
+    return true;
+  };
+  if (!fill('C', cahv.c_m) || !fill('A', cahv.a) || !fill('H', cahv.h_px) || !fill('V', cahv.v_px))
+    return false;
+  if (cahv.model == CameraModel::kCahv) return true;
+  if (!fill('O', cahv.o) || !fill('R', cahv.r)) return false;
+  if (cahv.model == CameraModel::kCahvor) return true;
+  if (!fill('E', cahv.e_m)) return false;
+  const std::optional<double> type = number('T');
+  if (!type || !(*type == 1.0 || *type == 2.0 || *type == 3.0)) {
+    remark = "the label's CAHVORE model does not say its type (1, 2 or 3)";
+    return false;
+  }
+  cahv.type = static_cast<int>(*type);
+  if (cahv.type != 3) return true;
+  const std::optional<double> parameter = number('P');
+  if (!parameter) {
+    remark = "the label's CAHVORE model of type 3 has no parameter";
+    return false;
+  }
+  cahv.parameter = *parameter;
+  return true;
+}
+
+std::vector<LabelItem> itemsOf(const json& group) {
+  std::vector<LabelItem> items;
+  for (const char* key :
+       {"CALIBRATION_SOURCE_ID", "GEOMETRY_SOURCE_ID", "SOLUTION_ID", "CAMERA_SERIAL_NUMBER",
+        "FILTER_NAME", "FILTER_NUMBER", "MODEL_DESC", "^MODEL_DESC", "MODEL_DESC__PTR",
+        "MODEL_TRANSFORM_VECTOR", "MODEL_TRANSFORM_QUATERNION", "INTERPOLATION_METHOD",
+        "INTERPOLATION_VALUE"}) {
+    const std::string text = joined(labelTexts(labelMember(&group, key)));
+    const std::string name = std::string_view(key).find("MODEL_DESC") == std::string_view::npos
+                                 ? std::string(key)
+                                 : "MODEL_DESC";
+    if (!text.empty()) items.push_back({name, text});
+  }
+  return items;
+}
+
+StatedCamera groupCamera(const json& group) {
+  StatedCamera stated;
+  stated.items = itemsOf(group);
+  stated.frame = groupFrame(group, "REFERENCE_COORD_SYSTEM_NAME", "REFERENCE_COORD_SYSTEM_INDEX",
+                            stated.frame_flag);
+  const std::string type = labelText(labelMember(&group, "MODEL_TYPE")).value_or("NONE");
+  const auto model = modelOf(type);
+  if (!model) {
+    stated.remark = type == "NONE" ? kNone
+                                   : "the label's camera model, '" + type +
+                                         "', is not one of CAHV, CAHVOR and CAHVORE";
+    return stated;
+  }
+  const Components components = componentsOf(group);
+  stated.remark = components.remark.empty() ? unitRemark(components) : components.remark;
+  if (!stated.remark.empty()) return stated;
+  CahvModel cahv;
+  cahv.model = *model;
+  if (fillModel([&](char letter) { return labelVector(components.value(letter)); },
+                [&](char letter) {
+                  const auto numbers = labelNumbers(components.value(letter));
+                  return numbers.empty() ? std::nullopt : std::optional(numbers.front());
+                },
+                cahv, stated.remark))
+    stated.cahv = cahv;
+  return stated;
+}
+
+std::vector<StatedCamera> groupCameras(LabelFormat format, const json& label) {
+  std::vector<StatedCamera> cameras;
+  for (const auto& [name, group] : labelGroups(format, label))
+    if (name == "GEOMETRIC_CAMERA_MODEL" || name == "GEOMETRIC_CAMERA_MODEL_PARMS" ||
+        name == "CAMERA_MODEL")
+      cameras.push_back(groupCamera(*group));
+  return cameras;
+}
+
+// PDS4: the classes of the geometry dictionary.
+
+const char* elementOf(char letter) {
+  switch (letter) {
+    case 'C':
+      return "Vector_Center";
+    case 'A':
+      return "Vector_Axis";
+    case 'H':
+      return "Vector_Horizontal";
+    case 'V':
+      return "Vector_Vertical";
+    case 'O':
+      return "Vector_Optical";
+    case 'R':
+      return "Radial_Terms";
+    case 'E':
+      return "Entrance_Terms";
+    case 'T':
+      return "cahvore_model_type";
+    default:
+      return "cahvore_model_parameter";
+  }
+}
+
+/// Three members called PREFIXx.., by the first set of names that is whole.
+std::optional<Eigen::Vector3d> elementVector(const json* element) {
+  constexpr const char* kNames[][3] = {{"x_position", "y_position", "z_position"},
+                                       {"x_unit", "y_unit", "z_unit"},
+                                       {"x_pixel", "y_pixel", "z_pixel"},
+                                       {"c0", "c1", "c2"},
+                                       {"x", "y", "z"}};
+  for (const auto& names : kNames) {
+    Eigen::Vector3d vector;
+    bool whole = true;
+    for (int i = 0; i < 3 && whole; ++i) {
+      const auto number = labelNumber(labelMember(element, names[i]));
+      whole = number.has_value();
+      if (whole) vector[i] = *number;
+    }
+    if (whole) return vector;
+  }
+  return std::nullopt;
+}
+
+/// Metres for the centre, pixels for H and V, where a unit is stated.
+std::string elementUnitRemark(const json& model) {
+  const auto other = [&model](const char* element, std::initializer_list<const char*> names,
+                              std::initializer_list<const char*> known) {
+    for (const char* name : names) {
+      const std::string unit = labelUnit(labelPath(&model, {element, name}));
+      if (!unit.empty() && !isOneOf(unit, known)) return unit;
+    }
+    return std::string();
+  };
+  const std::string centre =
+      other("Vector_Center", {"x_position", "y_position", "z_position"}, {"M"});
+  if (!centre.empty())
+    return "the centre of the label's camera model is in " + centre + ", not in m";
+  for (const char* element : {"Vector_Horizontal", "Vector_Vertical"}) {
+    const std::string unit =
+        other(element, {"x_pixel", "y_pixel", "z_pixel"}, {"PIXEL", "PIXELS", "PX"});
+    if (!unit.empty())
+      return std::string("the element ") + element + " of the label's camera model is in " + unit +
+             ", not in pixels";
+  }
+  return "";
+}
+
+/// The element of the model, of the type that is stated where one is.
+const json* modelElement(const json& parameters, CameraModel& model) {
+  constexpr std::pair<const char*, CameraModel> kModels[] = {
+      {"CAHVORE_Model", CameraModel::kCahvore},
+      {"CAHVOR_Model", CameraModel::kCahvor},
+      {"CAHV_Model", CameraModel::kCahv}};
+  const auto stated_type = labelText(labelMember(&parameters, "model_type"));
+  for (const auto& [name, one] : kModels) {
+    const json* element = labelMember(&parameters, name);
+    if (element == nullptr || element->is_array()) continue;
+    if (stated_type && modelOf(*stated_type) && *modelOf(*stated_type) != one) continue;
+    model = one;
+    return element;
+  }
+  return nullptr;
+}
+
+StatedCamera elementCamera(const json& parameters) {
+  StatedCamera stated;
+  for (const char* key : {"calibration_source_id", "model_desc", "solution_id"})
+    if (const auto text = labelText(labelMember(&parameters, key)))
+      stated.items.push_back({key, *text});
+  if (const json* space =
+          labelPath(&parameters, {"Coordinate_Space_Reference", "Coordinate_Space_Indexed"}))
+    stated.frame = indexedFrame(*space, stated.frame_flag);
+  CahvModel cahv;
+  const json* element = modelElement(parameters, cahv.model);
+  if (element == nullptr) {
+    const auto type = labelText(labelMember(&parameters, "model_type"));
+    stated.remark = type == "NONE"
+                        ? kNone
+                        : "the label's camera model" + (type ? ", '" + *type + "'," : "") +
+                              " is not one of CAHV, CAHVOR and CAHVORE";
+    return stated;
+  }
+  stated.remark = elementUnitRemark(*element);
+  if (!stated.remark.empty()) return stated;
+  if (fillModel([&](char c) { return elementVector(labelMember(element, elementOf(c))); },
+                [&](char c) { return labelNumber(labelMember(element, elementOf(c))); }, cahv,
+                stated.remark))
+    stated.cahv = cahv;
+  return stated;
+}
+
+/// Of several models that agree the first; models that differ are none.
+StatedCamera onlyCamera(const std::vector<StatedCamera>& cameras) {
+  const StatedCamera* chosen = nullptr;
+  for (const StatedCamera& one : cameras) {
+    if (!one.cahv) continue;
+    if (chosen != nullptr && !sameModel(*chosen, one)) {
+      StatedCamera none;
+      none.remark =
+          "the label states several camera models that differ; give a camera file with "
+          "that of the image";
+      return none;
+    }
+    if (chosen == nullptr) chosen = &one;
+  }
+  if (chosen != nullptr) return *chosen;
+  for (const StatedCamera& one : cameras)
+    if (one.remark != kNone) return one;
+  if (!cameras.empty()) return cameras.front();
+  StatedCamera none;
+  none.remark = "the label has no camera model";
+  return none;
+}
+
+}  // namespace
+
+bool sameModel(const StatedCamera& a, const StatedCamera& b) {
+  if (!a.cahv || !b.cahv || a.cahv->model != b.cahv->model || !(a.frame == b.frame)) return false;
+  const auto near = [](const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
+    return (u - v).norm() <= 2e-6 * std::max(1.0, u.norm());
+  };
+  return near(a.cahv->c_m, b.cahv->c_m) && near(a.cahv->a, b.cahv->a) &&
+         near(a.cahv->h_px, b.cahv->h_px) && near(a.cahv->v_px, b.cahv->v_px) &&
+         near(a.cahv->o, b.cahv->o) && near(a.cahv->r, b.cahv->r) &&
+         near(a.cahv->e_m, b.cahv->e_m) && a.cahv->type == b.cahv->type &&
+         std::abs(a.cahv->parameter - b.cahv->parameter) <= 2e-6;
+}
+
+StatedCamera statedCamera(LabelFormat format, const json& label) {
+  if (format != LabelFormat::kPds4) return onlyCamera(groupCameras(format, label));
+  std::vector<StatedCamera> cameras;
+  for (const json* parameters : elementsNamed(label, "Camera_Model_Parameters"))
+    cameras.push_back(elementCamera(*parameters));
+  return onlyCamera(cameras);
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/geometry/cahv_model.h"
+#include "sessions/io/labels/image_label.h"
+#include "sessions/io/labels/label_detector.h"
+#include "sessions/io/labels/label_files.h"
+
+namespace boresight::sessions {
+
+/// The camera model of a label as it stands there, or why there is none.
+struct StatedCamera {
+  std::optional<CahvModel> cahv;
+  FrameName frame;
+  std::vector<LabelItem> items;  ///< source, filter, solution
+  std::string remark;            ///< one sentence where there is no model
+  std::string frame_flag;        ///< one sentence where the frame's name is not usable
+};
+
+/// Of a VICAR or PDS3 label: the group GEOMETRIC_CAMERA_MODEL, GEOMETRIC_CAMERA_MODEL_PARMS or
+/// CAMERA_MODEL; components by their names or letters, never by place alone; models that differ are
+/// none. Of a PDS4 label: Camera_Model_Parameters with its CAHV_Model, CAHVOR_Model or
+/// CAHVORE_Model.
+StatedCamera statedCamera(LabelFormat format, const nlohmann::json& label);
+
+/// Whether two labels state one model in one frame, as far as their digits go.
+bool sameModel(const StatedCamera& a, const StatedCamera& b);
+
+/// What is wrong with the model for an image of this size and sub-frame: one sentence, or nothing.
+/// Where it is not known that labels of this mission state the model of the sub-frame, a cut
+/// image's model must show it by itself.
+std::string cameraMisfit(const CahvModel& cahv, int width, int height,
+                         const std::optional<LabelSubframe>& subframe,
+                         const LabelDetector& detector);
+
+}  // namespace boresight::sessions

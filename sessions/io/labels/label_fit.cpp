@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a label's camera model is that of the image it stands in.
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "sessions/io/labels/label_camera.h"
+#include "sessions/io/labels/label_values.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kFarOff = 0.35;         ///< of a side: an uncut image's principal point
+constexpr double kFarOutside = 0.5;      ///< of a side beyond the border, where nothing is said
+constexpr double kMostUnequal = 1.25;    ///< of focal lengths on the detector
+constexpr double kShortestFocal = 0.05;  ///< of the image's longer side
+constexpr double kLongestFocal_px = 1e6;
+constexpr double kFarthestCentre_m = 1e6;
+constexpr double kMostSkew = 0.02;  ///< of rows against columns
+
+constexpr const char* kAdvice = "; give a camera file that fits";
+
+/// Along one side of the image.
+struct Side {
+  double size_px;
+  double principal_px;    ///< in the image
+  double first = 0.0;     ///< of the detector
+  double step = 1.0;      ///< detector samples a pixel
+  double detector = 0.0;  ///< at most so many samples has the detector; 0 where not known
+
+  double onDetector() const { return first + (principal_px + 0.5) * step - 0.5; }
+  /// The detector has at least these samples.
+  double end() const { return first + size_px * step; }
+  bool isPart() const { return first > 0.0 || end() < detector; }
+  /// Whether a detector that holds the image, and is no larger than is known of it, can have its
+  /// principal point here.
+  bool fitsDetector() const {
+    const double at = onDetector() + 0.5;
+    if (at < (0.5 - kFarOff) * end()) return false;
+    return detector == 0.0 || at <= (0.5 + kFarOff) * std::max(detector, end());
+  }
+};
+
+std::string place(const Side& x, const Side& y) {
+  return "(" + fixedNumber(x.principal_px, 1) + ", " + fixedNumber(y.principal_px, 1) + ")";
+}
+
+std::string sizeText(const Side& x, const Side& y) {
+  return fixedNumber(x.size_px, 0) + " x " + fixedNumber(y.size_px, 0);
+}
+
+std::string uncutMisfit(const Side& x, const Side& y, bool stated) {
+  const double most = stated ? kFarOff : 0.5 + kFarOutside;
+  const auto off = [most](const Side& side) {
+    return std::abs(side.principal_px - 0.5 * (side.size_px - 1.0)) > most * side.size_px;
+  };
+  if (!off(x) && !off(y)) return "";
+  return "the label's camera model does not fit the image: its principal point would be at " +
+         place(x, y) + " of " + sizeText(x, y) + " px" +
+         (stated ? ", although the image is said to be uncut" : ", and no sub-frame is stated") +
+         kAdvice;
+}
+
+std::string firstText(const Side& x, const Side& y) {
+  return "sample " + fixedNumber(x.first, 0) + ", line " + fixedNumber(y.first, 0);
+}
+
+/// Of a part of the detector the principal point may lie outside. Read as the model of the part it
+/// has a place on the detector; of missions that state those it must be one, of others it must not
+/// be possible to read it as the model of the whole detector.
+std::string partMisfit(const Side& x, const Side& y, bool of_subframe) {
+  if (!x.fitsDetector() || !y.fitsDetector()) {
+    const bool known = x.detector > 0.0 && y.detector > 0.0;
+    return "the label's camera model does not fit the sub-frame at " + firstText(x, y) +
+           ": its principal point would be at (" + fixedNumber(x.onDetector(), 1) + ", " +
+           fixedNumber(y.onDetector(), 1) + ") of the detector, which has " +
+           (known ? "up to " : "at least ") + fixedNumber(known ? x.detector : x.end(), 0) + " x " +
+           fixedNumber(known ? y.detector : y.end(), 0) + " samples" + kAdvice;
+  }
+  const bool beyond_as_whole = x.principal_px < -0.5 || y.principal_px < -0.5;
+  if (of_subframe || beyond_as_whole) return "";
+  return "the label does not show whether its camera model is that of the whole detector or of the "
+         "sub-frame at " +
+         firstText(x, y) + kAdvice;
+}
+
+std::string focalMisfit(const Side& x, const Side& y, double fx, double fy, bool stated) {
+  const double longest = std::max(x.size_px, y.size_px);
+  const auto absurd = [longest](double focal_px) {
+    return !(focal_px >= kShortestFocal * longest && focal_px <= kLongestFocal_px);
+  };
+  if (absurd(fx) || absurd(fy))
+    return "the label's camera model is no camera's: focal lengths of " + fixedNumber(fx, 3) +
+           " and " + fixedNumber(fy, 3) + " px for an image of " + sizeText(x, y) + " px";
+  const double ratio = fx * x.step / (fy * y.step);
+  if (stated && (ratio > kMostUnequal || ratio < 1.0 / kMostUnequal))
+    return "the label's camera model does not fit the down-sampling by " + fixedNumber(x.step, 2) +
+           " x " + fixedNumber(y.step, 2) + ": focal lengths of " + fixedNumber(fx, 1) + " and " +
+           fixedNumber(fy, 1) + " px" + kAdvice;
+  return "";
+}
+
+std::string vectorsMisfit(const CahvModel& cahv) {
+  if (!(std::abs(cahv.a.norm() - 1.0) <= 1e-3))
+    return "the label's camera model is no camera's: its axis A has the length " +
+           fixedNumber(cahv.a.norm(), 4) + " instead of 1";
+  if (!(cahv.c_m.norm() <= kFarthestCentre_m))
+    return "the label's camera model is no camera's: its centre is over " +
+           fixedNumber(kFarthestCentre_m, 0) + " m from the origin of its frame";
+  return "";
+}
+
+/// A picture is not mirrored, and its rows and columns are square to each other.
+std::string axesMisfit(const Camera& camera) {
+  if (camera.fx * camera.fy < 0.0)
+    return "the label's camera model is that of a mirrored image (H and V are swapped, or one of "
+           "them points the other way); give a camera file that fits";
+  if (!(std::abs(camera.cahv.skew_px) <= kMostSkew * std::abs(camera.fy)))
+    return "the label's camera model is no camera's: H and V are " +
+           fixedNumber(std::atan2(std::abs(camera.cahv.skew_px), std::abs(camera.fy)) / kDegree_rad,
+                       1) +
+           " deg off square";
+  return "";
+}
+
+}  // namespace
+
+std::string cameraMisfit(const CahvModel& cahv, int width, int height,
+                         const std::optional<LabelSubframe>& subframe,
+                         const LabelDetector& detector) {
+  const std::string vectors = vectorsMisfit(cahv);
+  if (!vectors.empty()) return vectors;
+  Camera camera;
+  Pose camera_from_reference;
+  if (cameraFromCahv(cahv, width, height, camera, camera_from_reference) != Status::kOk)
+    return "the label's camera model cannot project: O must have length 1 and lie within 60 deg of "
+           "A, H and V must not lie along A or along each other, and 1 + r0 must be positive";
+  const std::string axes = axesMisfit(camera);
+  if (!axes.empty()) return axes;
+  Side x{static_cast<double>(width), camera.cx};
+  Side y{static_cast<double>(height), camera.cy};
+  if (subframe) {
+    x.first = subframe->first_sample;
+    x.step = subframe->samples_per_pixel;
+    y.first = subframe->first_line;
+    y.step = subframe->lines_per_pixel;
+  }
+  const std::string focal =
+      focalMisfit(x, y, std::abs(camera.fx), std::abs(camera.fy), subframe.has_value());
+  if (!focal.empty()) return focal;
+  if (detector.model_of_subframe) {
+    x.detector = detector.width;
+    y.detector = detector.height;
+  }
+  const bool part = subframe && (x.isPart() || y.isPart());
+  return part ? partMisfit(x, y, detector.model_of_subframe)
+              : uncutMisfit(x, y, subframe.has_value());
+}
+
+}  // namespace boresight::sessions

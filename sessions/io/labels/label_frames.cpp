@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/labels/label_frames.h"
+
+#include <cmath>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/labels/label_frame_names.h"
+#include "sessions/io/labels/label_groups.h"
+#include "sessions/io/labels/label_values.h"
+
+namespace boresight::sessions {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kMostQuaternionError = 1e-3;
+constexpr double kLargest_m = 1e9;
+constexpr std::size_t kMostFrames = 200;
+
+/// The unit of an offset where it is stated: of one in mm no place is read.
+std::optional<Eigen::Vector3d> offsetIn_m(const json* value) {
+  const std::string unit = labelUnit(value);
+  if (!unit.empty() && unit != "M" && unit != "METER" && unit != "METERS") return std::nullopt;
+  return labelVector(value);
+}
+
+/// A flag of a frame's name, if there is one.
+void addFlag(const std::string& flag, std::vector<std::string>& flags) {
+  if (!flag.empty()) flags.push_back(flag);
+}
+
+std::optional<Pose> poseOf(const std::optional<Eigen::Vector3d>& offset_m,
+                           const std::vector<double>& wxyz) {
+  if (!offset_m || wxyz.size() != 4 || !(offset_m->norm() <= kLargest_m)) return std::nullopt;
+  const Eigen::Quaterniond rotation(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+  if (!(std::abs(rotation.norm() - 1.0) <= kMostQuaternionError)) return std::nullopt;
+  return Pose{rotation.normalized(), *offset_m};
+}
+
+void add(FrameName frame, FrameName reference, const std::optional<Pose>& pose,
+         std::vector<LabelFrame>& frames, std::vector<std::string>& flags) {
+  if (frame.name.empty() || frames.size() >= kMostFrames) return;
+  if (!pose) {
+    flags.push_back("the label's place of " + frameText(frame) +
+                    " cannot be read (3 offsets in m and a quaternion of length 1 are needed)");
+    return;
+  }
+  frames.push_back({std::move(frame), std::move(reference), *pose});
+}
+
+void groupFrames(LabelFormat format, const json& label, std::vector<LabelFrame>& frames,
+                 std::vector<std::string>& flags) {
+  for (const auto& [name, group] : labelGroups(format, label)) {
+    if (name.find("COORDINATE_SYSTEM") == std::string::npos) continue;
+    if (labelMember(group, "ORIGIN_OFFSET_VECTOR") == nullptr &&
+        labelMember(group, "ORIGIN_ROTATION_QUATERNION") == nullptr)
+      continue;
+    std::string flag;
+    const FrameName frame =
+        groupFrame(*group, "COORDINATE_SYSTEM_NAME", "COORDINATE_SYSTEM_INDEX", flag);
+    addFlag(flag, flags);
+    std::string reference_flag;
+    const FrameName reference = groupFrame(*group, "REFERENCE_COORD_SYSTEM_NAME",
+                                           "REFERENCE_COORD_SYSTEM_INDEX", reference_flag);
+    addFlag(reference_flag, flags);
+    add(frame, reference,
+        poseOf(offsetIn_m(labelMember(group, "ORIGIN_OFFSET_VECTOR")),
+               labelNumbers(labelMember(group, "ORIGIN_ROTATION_QUATERNION"))),
+        frames, flags);
+  }
+}
+
+std::vector<double> elementQuaternion(const json* element) {
+  std::vector<double> wxyz;
+  for (const char* name : {"qcos", "qsin1", "qsin2", "qsin3"})
+    if (const auto number = labelNumber(labelMember(element, name))) wxyz.push_back(*number);
+  return wxyz;
+}
+
+std::optional<Eigen::Vector3d> elementOffset(const json* element) {
+  Eigen::Vector3d offset_m;
+  int axis = 0;
+  for (const char* name : {"x_position", "y_position", "z_position"}) {
+    const json* value = labelMember(element, name);
+    const auto number = labelNumber(value);
+    const std::string unit = labelUnit(value);
+    if (!number || (!unit.empty() && unit != "M")) return std::nullopt;
+    offset_m[axis++] = *number;
+  }
+  return offset_m;
+}
+
+/// The reference is named whole, or by the identifier of another definition.
+FrameName elementReference(const json& definition, const std::vector<const json*>& all,
+                           std::string& flag) {
+  const json* reference = labelMember(&definition, "Coordinate_Space_Reference");
+  if (const json* space = labelMember(reference, "Coordinate_Space_Indexed"))
+    return indexedFrame(*space, flag);
+  const auto id =
+      labelText(labelPath(reference, {"Local_Internal_Reference", "local_identifier_reference"}));
+  if (!id) return {};
+  for (const json* other : all)
+    for (const std::string& known : labelTexts(labelMember(other, "local_identifier")))
+      if (known == *id)
+        if (const json* space =
+                labelPath(other, {"Coordinate_Space_Present", "Coordinate_Space_Indexed"}))
+          return indexedFrame(*space, flag);
+  return {*id, {}};
+}
+
+void elementFrames(const json& label, std::vector<LabelFrame>& frames,
+                   std::vector<std::string>& flags) {
+  const auto definitions = elementsNamed(label, "Coordinate_Space_Definition");
+  for (const json* definition : definitions) {
+    const json* present =
+        labelPath(definition, {"Coordinate_Space_Present", "Coordinate_Space_Indexed"});
+    if (present == nullptr) continue;
+    const json* quaternion = labelMember(definition, "Quaternion_Plus_Direction");
+    std::optional<Pose> pose =
+        poseOf(elementOffset(labelMember(definition, "Vector_Origin_Offset")),
+               elementQuaternion(quaternion));
+    // "Forward" maps the frame's vectors into its reference, as the groups of PDS3 do.
+    const auto direction = labelText(labelMember(quaternion, "rotation_direction"));
+    if (pose && direction && upperCase(*direction) != "FORWARD")
+      pose->rotation = pose->rotation.conjugate();
+    std::string flag;
+    const FrameName frame = indexedFrame(*present, flag);
+    addFlag(flag, flags);
+    std::string reference_flag;
+    const FrameName reference = elementReference(*definition, definitions, reference_flag);
+    addFlag(reference_flag, flags);
+    add(frame, reference, pose, frames, flags);
+  }
+}
+
+}  // namespace
+
+std::vector<LabelFrame> labelFrames(LabelFormat format, const json& label,
+                                    std::vector<std::string>& flags) {
+  std::vector<LabelFrame> frames;
+  if (format == LabelFormat::kPds4)
+    elementFrames(label, frames, flags);
+  else
+    groupFrames(format, label, frames, flags);
+  return frames;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/labels/label_layout.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
+#include "sessions/io/labels/label_values.h"
+
+namespace boresight::sessions {
+namespace {
+
+using nlohmann::json;
+
+std::int64_t integerOf(const json* group, const char* key) {
+  return labelInteger(labelMember(group, key)).value_or(0);
+}
+
+std::string wordOf(const json* group, const char* key) {
+  return upperCase(labelText(labelMember(group, key)).value_or(""));
+}
+
+bool contains(const std::string& text, const char* word) {
+  return text.find(word) != std::string::npos;
+}
+
+/// Nothing for types that do not say it.
+std::optional<bool> isLittleEndian(const std::string& type) {
+  for (const char* little : {"LSB", "PC_"})
+    if (type.starts_with(little)) return true;
+  for (const char* big :
+       {"MSB", "MAC_", "SUN_", "IEEE_", "INTEGER", "UNSIGNED_INTEGER", "REAL", "FLOAT"})
+    if (type.starts_with(big)) return false;
+  return std::nullopt;
+}
+
+/// What the label states, as bytes from one sample to the next.
+struct Steps {
+  std::int64_t pixel = 0;
+  std::int64_t line = 0;
+  std::int64_t band = 0;
+};
+
+/// Nothing for an order of bands of another name.
+std::optional<Steps> statedSteps(const std::string& storage, const RasterLayout& layout,
+                                 std::int64_t prefix) {
+  const std::int64_t item = bitsOf(layout.type) / 8;
+  const std::int64_t row = item * layout.width;
+  if (layout.bands == 1) return Steps{item, prefix + row, 0};
+  // Whether a prefix then is of every band, labels do not tell.
+  if (storage == "LINE_INTERLEAVED" && prefix == 0) return Steps{item, row * layout.bands, row};
+  if (storage == "BAND_SEQUENTIAL" || storage.empty())
+    return Steps{item, prefix + row, (prefix + row) * layout.height};
+  return std::nullopt;
+}
+
+/// Bytes before the first record or byte that the pointer names.
+std::int64_t statedOffset(const LabelFiles& files, const json& label, const json* image) {
+  const Pds3Pointer& pointer = files.pointer;
+  if (pointer.in_bytes || pointer.number == 1) return pointer.number - 1;
+  std::int64_t record = integerOf(image, "RECORD_BYTES");
+  if (record == 0)
+    record = integerOf(pointer.nested ? labelMember(&label, "FILE") : &label, "RECORD_BYTES");
+  if (record < 1 || record > std::int64_t{1} << 30 || pointer.number > std::int64_t{1} << 30)
+    throw InputError(files.file, "^IMAGE",
+                     "counts records, but the label states no length of them (RECORD_BYTES)");
+  return (pointer.number - 1) * record;
+}
+
+/// The label's items at the end of a VICAR file, which begin at this byte, are there to the last.
+void requireEndLabel(const LabelFiles& files, std::int64_t at) {
+  const std::string_view text = asText(files.labelBytes());
+  const std::string_view end = text.substr(std::min(static_cast<std::size_t>(at), text.size()));
+  const auto size = vicarInteger(end.substr(0, 64), "LBLSIZE");
+  if (!size || *size < 1 || static_cast<std::uint64_t>(*size) > end.size())
+    throw InputError(files.file, "EOL",
+                     "the part of the label at the file's end is not there in full");
+}
+
+}  // namespace
+
+SampleType statedSampleType(const LabelFiles& files, const json& label,
+                            const RasterLayout& layout) {
+  const std::string stated = wordOf(labelMember(&label, "IMAGE"), "SAMPLE_TYPE");
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(files.file, "SAMPLE_TYPE", "samples of the type " + stated + what);
+  };
+  if (contains(stated, "VAX") || contains(stated, "COMPLEX")) refuse(" are not read");
+  const bool floating = isFloating(layout.type);
+  const bool integer = contains(stated, "INTEGER") || stated == "MSB" || stated == "LSB";
+  const int bits = bitsOf(layout.type);
+  if (!stated.empty() && integer == floating && (!integer || bits == 64))
+    refuse(" and " + std::to_string(bits) + " bits are not read");
+  const auto little = isLittleEndian(stated);
+  if (bits > 8 && little && *little != layout.little_endian)
+    refuse(" and " + std::to_string(bits) +
+           " bits are not read: the order of their bytes is "
+           "ambiguous");
+  if (!integer || !floating) return layout.type;
+  return contains(stated, "UNSIGNED") ? SampleType::kUint32 : SampleType::kInt32;
+}
+
+void requireStatedLayout(const LabelFiles& files, const json& label, const RasterLayout& layout) {
+  const json* image = labelMember(&label, "IMAGE");
+  if (integerOf(image, "LINE_SUFFIX_BYTES") != 0)
+    throw InputError(files.file, "LINE_SUFFIX_BYTES",
+                     "bytes behind every line of the image are not read");
+  const std::int64_t prefix = integerOf(image, "LINE_PREFIX_BYTES");
+  const std::int64_t offset = statedOffset(files, label, image) + prefix;
+  const std::string storage = wordOf(image, "BAND_STORAGE_TYPE");
+  const auto steps = statedSteps(storage, layout, prefix);
+  const bool same_steps = steps && steps->pixel == layout.pixel_step &&
+                          steps->line == layout.line_step &&
+                          (layout.bands == 1 || steps->band == layout.band_step);
+  if (!same_steps)
+    throw InputError(files.file, "BAND_STORAGE_TYPE",
+                     std::to_string(layout.bands) + " bands stored as " +
+                         (storage.empty() ? "BAND_SEQUENTIAL" : storage) + ", " +
+                         std::to_string(prefix) + " bytes before every line, are not read");
+  if (offset != static_cast<std::int64_t>(layout.offset))
+    throw InputError(files.file, "^IMAGE",
+                     "names byte " + std::to_string(offset) + ", but it would be read as byte " +
+                         std::to_string(layout.offset));
+}
+
+void requireStatedRecords(const LabelFiles& files, const json& label, const RasterLayout& layout) {
+  const std::string_view text = asText(files.labelBytes());
+  const std::int64_t label_size = vicarInteger(text, "LBLSIZE").value_or(0);
+  const auto stated = [own = text.substr(0, static_cast<std::size_t>(label_size))](
+                          const char* key) { return vicarInteger(own, key).value_or(0); };
+  const std::string order = wordOf(&label, "ORG");
+  const bool by_pixel = order == "BIP";
+  // A record is then one pixel, and each would have a prefix: nobody reads that right.
+  if (stated("NBB") > 0 && by_pixel)
+    throw InputError(files.file, "NBB", "a prefix of every pixel (ORG='BIP') is not read");
+  if (stated("NBB") > 0 && order == "BIL" && layout.bands > 1)
+    throw InputError(files.file, "NBB",
+                     "a prefix of every line of every band (ORG='BIL') is not read");
+  const std::int64_t record =
+      stated("NBB") + (by_pixel ? layout.bands : layout.width) * (bitsOf(layout.type) / 8);
+  if (stated("RECSIZE") != record)
+    throw InputError(files.file, "RECSIZE",
+                     std::to_string(stated("RECSIZE")) +
+                         " contradicts the label's other sizes, by which a record has " +
+                         std::to_string(record) + " bytes");
+  if (label_size % record != 0)
+    throw InputError(files.file, "LBLSIZE",
+                     std::to_string(label_size) + " is no multiple of the " +
+                         std::to_string(record) + " bytes of a record");
+  if (stated("EOL") != 1) return;
+  const std::int64_t lines = std::int64_t{layout.height} * (by_pixel ? layout.width : layout.bands);
+  const std::int64_t compressed_end = stated("EOCI1");  // EOCI2 is of files beyond 4 GB
+  requireEndLabel(
+      files, compressed_end > 0 ? compressed_end : label_size + record * (stated("NLB") + lines));
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "sessions/io/labels/label_files.h"
+#include "sessions/io/labels/sample_type.h"
+
+namespace boresight::sessions {
+
+/// Where a reader takes the samples from; in bytes.
+struct RasterLayout {
+  int width = 0;
+  int height = 0;
+  int bands = 1;
+  bool little_endian = false;
+  std::uint64_t offset = 0;  ///< of the first sample in its file
+  std::int64_t pixel_step = 0;
+  std::int64_t line_step = 0;
+  std::int64_t band_step = 0;
+  SampleType type = SampleType::kUint8;
+};
+
+/// The type of a PDS3 image's samples, of which GDAL knows the size alone: it takes all of 32 bits
+/// for floating-point numbers. InputError: types that nobody reads right.
+SampleType statedSampleType(const LabelFiles& files, const nlohmann::json& label,
+                            const RasterLayout& layout);
+
+/// InputError where samples would be taken from other places than the label states: PDS3 with bytes
+/// behind every line, or bands stored in an order of its own.
+void requireStatedLayout(const LabelFiles& files, const nlohmann::json& label,
+                         const RasterLayout& layout);
+
+/// InputError where a VICAR label's sizes contradict each other (a record is NBB bytes and N1
+/// samples, the label a number of records), its items at the file's end are not all there, or
+/// every line of every band, or every pixel, has a prefix. Of the layout size and type count.
+void requireStatedRecords(const LabelFiles& files, const nlohmann::json& label,
+                          const RasterLayout& layout);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/labels/label_reading.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/labels/label_camera.h"
+#include "sessions/io/labels/label_frames.h"
+#include "sessions/io/labels/label_groups.h"
+#include "sessions/io/labels/label_raster.h"
+#include "sessions/io/labels/label_repeats.h"
+#include "sessions/io/labels/label_values.h"
+
+namespace boresight::sessions {
+namespace {
+
+using nlohmann::json;
+
+/// The label's tree, and where things stand in it.
+struct Source {
+  LabelFormat format;
+  const json& tree;
+
+  bool elements() const { return format == LabelFormat::kPds4; }
+  /// The group of the picture itself, not one of a request.
+  const json* image(std::string_view key) const {
+    return format == LabelFormat::kVicar ? labelItem(format, tree, {"IMAGE_DATA", "IMAGE"}, key)
+                                         : labelItem(format, tree, {"IMAGE", "IMAGE_DATA"}, key);
+  }
+  const json* state(std::string_view key) const {
+    return labelItem(format, tree, {"INSTRUMENT_STATE_PARMS", "INSTRUMENT_STATE"}, key);
+  }
+  const json* identification(std::string_view key) const {
+    if (format == LabelFormat::kVicar) return labelItem(format, tree, {"IDENTIFICATION"}, key);
+    const json* found = labelMember(&tree, key);
+    return found != nullptr ? found : labelItem(format, tree, {"IDENTIFICATION"}, key);
+  }
+  /// Of PDS4: below Imaging, but not what was only asked for.
+  const json* imaging(std::string_view group, std::string_view key) const {
+    for (const json* imaging : elementsNamed(tree, "Imaging", "Commanded_Parameters"))
+      if (const json* found = labelPath(imaging, {group, key})) return found;
+    return nullptr;
+  }
+};
+
+void addItem(std::vector<LabelItem>& items, std::string name, const json* value) {
+  std::string text = joined(labelTexts(value));
+  if (!text.empty() && text.find_first_not_of(", ") != std::string::npos)
+    items.push_back({std::move(name), std::move(text)});
+}
+
+std::vector<LabelItem> elementIdentifiers(const json& tree) {
+  std::vector<LabelItem> items;
+  const json* area = labelMember(&tree, "Observation_Area");
+  const auto add = [&](const char* name, const json* value) { addItem(items, name, value); };
+  add("Investigation_Area", labelPath(area, {"Investigation_Area", "name"}));
+  std::vector<std::string> system;
+  if (const json* components =
+          labelPath(area, {"Observing_System", "Observing_System_Component"})) {
+    const json list = components->is_array() ? *components : json::array({*components});
+    for (const json& one : list)
+      if (const auto name = labelText(labelMember(&one, "name"))) system.push_back(*name);
+  }
+  if (!system.empty()) items.push_back({"Observing_System_Component", joined(system)});
+  add("logical_identifier", labelPath(&tree, {"Identification_Area", "logical_identifier"}));
+  add("start_date_time", labelPath(area, {"Time_Coordinates", "start_date_time"}));
+  for (const char* name :
+       {"spacecraft_clock_start", "start_sol_number", "sequence_id", "geometry_projection_type"})
+    if (const auto found = elementsNamed(tree, name, "Commanded_Parameters"); !found.empty())
+      add(name, found.front());
+  add("Target_Identification", labelPath(area, {"Target_Identification", "name"}));
+  return items;
+}
+
+std::vector<LabelItem> identifiersOf(const Source& source) {
+  if (source.elements()) return elementIdentifiers(source.tree);
+  std::vector<LabelItem> items;
+  for (const char* key : {"MISSION_NAME", "INSTRUMENT_HOST_ID", "INSTRUMENT_ID", "INSTRUMENT_NAME",
+                          "PRODUCT_ID", "IMAGE_ID", "START_TIME", "SPACECRAFT_CLOCK_START_COUNT",
+                          "PLANET_DAY_NUMBER", "LOCAL_TRUE_SOLAR_TIME", "ROVER_MOTION_COUNTER",
+                          "SEQUENCE_ID", "TARGET_NAME", "GEOMETRY_PROJECTION_TYPE"})
+    addItem(items, key, source.identification(key));
+  return items;
+}
+
+std::optional<LabelSubframe> subframeOf(const Source& source) {
+  const auto first = [&](const char* key, const char* element) {
+    return labelInteger(source.elements() ? source.imaging("Subframe", element)
+                                          : source.image(key));
+  };
+  const auto averaged = [&](const char* key, const char* element) -> std::optional<double> {
+    const json* value = nullptr;
+    if (source.elements())
+      value = labelPath(source.imaging("Downsampling", "Pixel_Averaging_Dimensions"), {element});
+    else
+      value = source.state(key) != nullptr ? source.state(key) : source.image(key);
+    const auto number = labelNumber(value);
+    if (!number || !(*number >= 1.0 && *number <= 1024.0)) return std::nullopt;
+    return number;
+  };
+  const auto line = first("FIRST_LINE", "first_line");
+  const auto sample = first("FIRST_LINE_SAMPLE", "first_sample");
+  const auto width = averaged("PIXEL_AVERAGING_WIDTH", "width_pixels");
+  const auto height = averaged("PIXEL_AVERAGING_HEIGHT", "height_pixels");
+  if (!line && !sample && !width && !height) return std::nullopt;
+  // Counted from 1 in labels.
+  const auto from0 = [](const std::optional<std::int64_t>& value) {
+    return value && *value >= 1 && *value <= 1000000 ? static_cast<int>(*value - 1) : 0;
+  };
+  return LabelSubframe{from0(sample), from0(line), width.value_or(1.0), height.value_or(1.0)};
+}
+
+/// 2#0000111111111111# uses 12 bits.
+std::optional<int> bitsOfMask(const std::string& mask) {
+  const auto hash = mask.find('#');
+  int base = 2;
+  std::string digits = mask;
+  if (hash != std::string::npos) {
+    const auto [end, error] = std::from_chars(mask.data(), mask.data() + hash, base);
+    if (error != std::errc() || (base != 2 && base != 16)) return std::nullopt;
+    digits = mask.substr(hash + 1);
+    if (digits.ends_with('#')) digits.pop_back();
+  } else if (mask.size() < 8) {
+    return std::nullopt;  // a plain number of bits or a decimal mask: not told apart
+  }
+  std::uint64_t value = 0;
+  const auto [end, error] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
+  if (error != std::errc() || end != digits.data() + digits.size() || value == 0)
+    return std::nullopt;
+  int bits = 0;
+  while (bits < 64 && value >> bits != 0) ++bits;
+  return bits;
+}
+
+std::optional<int> bitDepthOf(const Source& source, const LabelPicture& picture,
+                              std::vector<std::string>& flags) {
+  if (picture.floating) return std::nullopt;
+  const json* mask = source.elements() ? source.imaging("Sampling", "sample_bit_mask")
+                                       : source.image("SAMPLE_BIT_MASK");
+  std::optional<int> bits;
+  if (const auto text = labelText(mask)) bits = bitsOfMask(*text);
+  if (!bits && source.elements())
+    if (const auto stated = labelInteger(source.imaging("Sampling", "sample_bits")))
+      bits = static_cast<int>(std::clamp<std::int64_t>(*stated, 0, 64));
+  if (!bits) return std::nullopt;
+  if (*bits < 1 || *bits > std::min(picture.sample_bits, 16)) {
+    if (*bits > picture.sample_bits)
+      flags.push_back("the label says that " + std::to_string(*bits) +
+                      " bits are used, but a sample has " + std::to_string(picture.sample_bits));
+    return std::nullopt;
+  }
+  return bits;
+}
+
+/// Of PDS4 those of the array that is read: the tree has no other.
+std::vector<InvalidValue> invalidValues(const Source& source, const LabelPicture& picture) {
+  std::vector<InvalidValue> values;
+  const auto add = [&](const json* stated) {
+    addInvalidValues(stated, picture.floating, picture.sample_bits, values);
+  };
+  if (!source.elements()) {
+    for (const char* key : {"MISSING_CONSTANT", "MISSING", "INVALID_CONSTANT", "INVALID",
+                            "NULL_CONSTANT", "NULL", "CORE_NULL"})
+      add(source.image(key));
+    return values;
+  }
+  const json* area = labelMember(&source.tree, "File_Area_Observational");
+  if (area == nullptr || !area->is_object()) return values;
+  for (auto array = area->begin(); array != area->end(); ++array) {
+    if (!array.key().starts_with("Array")) continue;
+    for (const char* key : {"missing_constant", "invalid_constant", "unknown_constant",
+                            "not_applicable_constant", "error_constant"})
+      add(labelPath(&*array, {"Special_Constants", key}));
+  }
+  return values;
+}
+
+/// How the label has the image displayed, where that is not as it is stored; else empty.
+std::string displayOf(const Source& source) {
+  std::vector<std::string> otherwise;
+  const auto expect = [&](const json* value, const char* stored) {
+    const auto text = labelText(value);
+    if (text && upperCase(*text) != stored) otherwise.push_back(*text);
+  };
+  if (source.elements()) {
+    for (const json* display : elementsNamed(source.tree, "Display_Direction")) {
+      expect(labelMember(display, "vertical_display_axis"), "LINE");
+      expect(labelMember(display, "vertical_display_direction"), "TOP TO BOTTOM");
+      expect(labelMember(display, "horizontal_display_axis"), "SAMPLE");
+      expect(labelMember(display, "horizontal_display_direction"), "LEFT TO RIGHT");
+    }
+  } else {
+    expect(source.image("LINE_DISPLAY_DIRECTION"), "DOWN");
+    expect(source.image("SAMPLE_DISPLAY_DIRECTION"), "RIGHT");
+  }
+  otherwise.resize(std::min<std::size_t>(otherwise.size(), 4));
+  return joined(otherwise);
+}
+
+void addPictureFlags(const Source& source, const LabelPicture& picture,
+                     std::vector<std::string>& flags) {
+  if (!picture.remark.empty()) flags.push_back(picture.remark);
+  if (const std::string display = displayOf(source); !display.empty())
+    flags.push_back("the label has the image displayed otherwise than it is stored (" + display +
+                    "); it is read as it is stored, in the lines and samples of its camera model");
+  if (source.format != LabelFormat::kPds3 || picture.sample_bits != 8) return;
+  const std::string type = labelText(source.image("SAMPLE_TYPE")).value_or("UNSIGNED");
+  if (upperCase(type).find("UNSIGNED") == std::string::npos)
+    flags.push_back("the label calls samples of 8 bits " + type + "; they are read as unsigned");
+}
+
+std::string bayerPattern(const Source& source, const LabelPicture& picture) {
+  if (picture.bands != 1) return "";
+  if (source.elements()) {
+    const auto type = labelText(source.imaging("Color_Filter_Array", "color_filter_array_type"));
+    const auto state = labelText(source.imaging("Color_Filter_Array", "color_filter_array_state"));
+    if (!type || upperCase(*type).find("BAYER") == std::string::npos) return "";
+    return state && upperCase(*state) == "DECODED" ? "" : *type;
+  }
+  for (const char* key : {"CFA_TYPE", "BAYER_PATTERN", "BAYER_TYPE"}) {
+    const auto type = labelText(source.state(key));
+    if (!type || upperCase(*type).find("BAYER") == std::string::npos) continue;
+    for (const char* done : {"CFA_METHOD", "BAYER_METHOD"}) {
+      const std::string method = upperCase(labelText(source.state(done)).value_or("NONE"));
+      if (method != "NONE" && method.find("RAW") == std::string::npos) return "";
+    }
+    return *type;
+  }
+  return "";
+}
+
+std::string derivedType(const Source& source) {
+  std::optional<std::string> type;
+  if (source.elements()) {
+    const auto found = elementsNamed(source.tree, "derived_image_type_name");
+    if (!found.empty()) type = labelText(found.front());
+  } else {
+    type = labelText(labelItem(source.format, source.tree, {"DERIVED_IMAGE_PARMS", "DERIVED_IMAGE"},
+                               "DERIVED_IMAGE_TYPE"));
+  }
+  const std::string name = upperCase(type.value_or(""));
+  return name == "NONE" || name == "IMAGE" || name == "IMAGE MAP" ? "" : name;
+}
+
+/// Of two labels in one file the PDS3 label counts; the other where only it has a model.
+StatedCamera chosenCamera(const Source& source, const json& vicar_label,
+                          std::vector<std::string>& flags) {
+  StatedCamera stated = statedCamera(source.format, source.tree);
+  if (!vicar_label.is_object()) return stated;
+  StatedCamera other = statedCamera(LabelFormat::kVicar, vicar_label);
+  if (!stated.cahv && other.cahv) {
+    flags.push_back(
+        "the camera model is that of the VICAR header inside the file; of the PDS3 "
+        "label: " +
+        stated.remark);
+    return other;
+  }
+  if (stated.cahv && other.cahv && !sameModel(stated, other))
+    flags.push_back(
+        "the VICAR header inside the file states another camera model than the PDS3 label, which "
+        "is the one used");
+  return stated;
+}
+
+void readCamera(const Source& source, const json& vicar_label, ImageLabel& label) {
+  const StatedCamera stated = chosenCamera(source, vicar_label, label.flags);
+  label.camera_items = stated.items;
+  label.camera_remark = stated.remark;
+  if (!stated.frame_flag.empty()) label.flags.push_back(stated.frame_flag);
+  if (!stated.cahv) return;
+  label.camera_remark = cameraMisfit(*stated.cahv, label.width, label.height, label.subframe,
+                                     detectorOf(label.identifiers));
+  if (!label.camera_remark.empty()) return;
+  CameraFile file;
+  CameraReference reference;
+  if (cameraFromCahv(*stated.cahv, label.width, label.height, file.camera,
+                     reference.camera_from_reference) != Status::kOk)
+    return;  // cameraMisfit asked the same
+  reference.frame = stated.frame;
+  file.reference = reference;
+  label.camera = file;
+  if (stated.frame.name.empty())
+    label.flags.push_back("the label does not name the frame of its camera model");
+}
+
+}  // namespace
+
+LabelPicture pictureOf(const LabelRaster& raster) {
+  return {raster.width(),        raster.height(),           raster.bands(),
+          bitsOf(raster.type()), isFloating(raster.type()), raster.remark()};
+}
+
+LabelReading readLabelTree(LabelFormat format, const json& tree, const json& vicar_label,
+                           const LabelPicture& picture) {
+  const Source source{format, tree};
+  LabelReading reading;
+  ImageLabel& label = reading.label;
+  label.format = labelFormatName(format);
+  label.width = picture.width;
+  label.height = picture.height;
+  label.identifiers = identifiersOf(source);
+  label.subframe = subframeOf(source);
+  label.bit_depth = bitDepthOf(source, picture, label.flags);
+  label.bayer_pattern = bayerPattern(source, picture);
+  reading.invalid = invalidValues(source, picture);
+  reading.derived_type = derivedType(source);
+  readCamera(source, vicar_label, label);
+  label.frames = labelFrames(format, tree, label.flags);
+  addPictureFlags(source, picture, label.flags);
+  if (!label.bayer_pattern.empty())
+    label.flags.push_back("the pixels are a mosaic of colours (" + label.bayer_pattern +
+                          "): turn it into gray or colour before matching");
+  if (!reading.derived_type.empty())
+    label.flags.push_back("the label calls this a " + reading.derived_type +
+                          ", not a picture of the scene");
+  return reading;
+}
+
+LabelReading readLabel(const LabelFiles& files, const LabelRaster& raster) {
+  LabelReading reading =
+      readLabelTree(files.format, raster.label(), raster.vicarLabel(), pictureOf(raster));
+  const std::string repeated = repeatedInCameraModel(files);
+  if (repeated.empty()) return reading;
+  reading.label.camera.reset();
+  reading.label.camera_remark = repeated + ": which one holds is not known; give a camera file";
+  return reading;
+}
+
+}  // namespace boresight::sessions

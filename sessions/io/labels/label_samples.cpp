@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/labels/label_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sessions/io/errors.h"
+#include "sessions/io/json_reader.h"
+#include "sessions/io/labels/label_raster.h"
+#include "sessions/io/labels/label_reading.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kLargestWhole = 65535.0;
+constexpr double kOutlierShare = 1e-3;  ///< of the samples, half of it at each end
+constexpr double kMostFill = 0.05;      ///< of the samples, the lowest or the highest value itself
+constexpr double kOutlierRoom = 0.5;    ///< of what all others span, beyond them
+constexpr std::int64_t kEnoughSamples = 1'000'000;
+
+/// Whether a sample is one, by the label's constants.
+class Validity {
+ public:
+  Validity(const std::vector<InvalidValue>& invalid, SampleType type) : invalid_(invalid) {
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    // A constant written in decimals is the nearest number of the samples' type.
+    for (InvalidValue& one : invalid_)
+      if (type == SampleType::kFloat && std::abs(one.value) <= kLargest)
+        one.value = static_cast<double>(static_cast<float>(one.value));
+  }
+  bool operator()(double sample) const {
+    return std::isfinite(sample) &&
+           std::none_of(invalid_.begin(), invalid_.end(), [sample](const InvalidValue& one) {
+             return std::abs(sample - one.value) <= one.tolerance;
+           });
+  }
+
+ private:
+  std::vector<InvalidValue> invalid_;
+};
+
+struct Range {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+  std::int64_t invalid_count = 0;
+  std::int64_t clipped_count = 0;  ///< outliers, below the lowest or above the highest
+};
+
+Range rangeOf(const LabelRaster& raster, const Validity& valid) {
+  Range range;
+  std::vector<double> row;
+  for (int band = 0; band < raster.bands(); ++band)
+    for (int y = 0; y < raster.height(); ++y) {
+      raster.readRow(band, y, row);
+      for (const double sample : row) {
+        if (!valid(sample)) {
+          ++range.invalid_count;
+          continue;
+        }
+        range.lowest = std::min(range.lowest, sample);
+        range.highest = std::max(range.highest, sample);
+      }
+    }
+  return range;
+}
+
+template <class Visit>
+void forValidSamples(const LabelRaster& raster, const Validity& valid, const Visit& visit) {
+  std::vector<double> row;
+  for (int band = 0; band < raster.bands(); ++band)
+    for (int y = 0; y < raster.height(); ++y) {
+      raster.readRow(band, y, row);
+      for (const double sample : row)
+        if (valid(sample)) visit(sample);
+    }
+}
+
+/// Samples to 16 bits.
+class Quantizer {
+ public:
+  Quantizer(const Range& range, bool quantized)
+      : quantized_(quantized),
+        lowest_(0.5 * range.lowest),
+        span_(0.5 * range.highest - 0.5 * range.lowest) {}
+  /// Halves keep the difference of the largest numbers finite.
+  std::uint16_t operator()(double sample) const {
+    if (!quantized_) return static_cast<std::uint16_t>(sample);
+    if (!(span_ > 0.0)) return 0;
+    const double share = (0.5 * sample - lowest_) / span_;
+    return static_cast<std::uint16_t>(
+        std::clamp(std::floor(share * kLargestWhole + 0.5), 0.0, kLargestWhole));
+  }
+
+ private:
+  bool quantized_;
+  double lowest_;
+  double span_;
+};
+
+/// Every so many of the valid samples, enough to know between which values nearly all lie.
+std::vector<double> someSamples(const LabelRaster& raster, const Validity& valid) {
+  const std::int64_t all = std::int64_t{raster.width()} * raster.height() * raster.bands();
+  const std::int64_t step = (all / kEnoughSamples) | 1;  // odd: not one column of an even width
+  std::vector<double> samples;
+  std::int64_t number = 0;
+  forValidSamples(raster, valid, [&](double sample) {
+    if (number++ % step == 0) samples.push_back(sample);
+  });
+  return samples;
+}
+
+/// Takes one value out where it is a small part of the samples: what a program writes for nothing
+/// comes many times, and alike.
+void dropIfRare(std::vector<double>& samples, double value) {
+  const auto count = std::count(samples.begin(), samples.end(), value);
+  if (static_cast<double>(count) <= kMostFill * static_cast<double>(samples.size()))
+    std::erase(samples, value);
+}
+
+/// The value below which a share of the samples lies.
+double quantile(std::vector<double>& samples, double share) {
+  const auto at = samples.begin() + static_cast<std::ptrdiff_t>(
+                                        share * static_cast<double>(samples.size() - 1) + 0.5);
+  std::nth_element(samples.begin(), at, samples.end());
+  return *at;
+}
+
+/// Without samples far off nearly all others, a hot pixel or a value for nothing that the label
+/// does not name: they would take the levels from the picture.
+Range withoutOutliers(const LabelRaster& raster, const Validity& valid, const Range& all) {
+  std::vector<double> samples = someSamples(raster, valid);
+  dropIfRare(samples, all.lowest);
+  dropIfRare(samples, all.highest);
+  if (samples.empty()) return all;
+  const double low = quantile(samples, 0.5 * kOutlierShare);
+  const double high = quantile(samples, 1.0 - 0.5 * kOutlierShare);
+  const double room = kOutlierRoom * (high - low);
+  if (!(high > low) || !std::isfinite(room)) return all;
+  Range range = all;
+  range.lowest = std::max(all.lowest, low - room);
+  range.highest = std::min(all.highest, high + room);
+  forValidSamples(raster, valid, [&range](double sample) {
+    range.clipped_count += sample < range.lowest || sample > range.highest ? 1 : 0;
+  });
+  return range;
+}
+
+std::uint16_t luma(std::uint32_t red, std::uint32_t green, std::uint32_t blue) {
+  return static_cast<std::uint16_t>((9798u * red + 19235u * green + 3735u * blue + 16384u) >> 15);
+}
+
+void readValues(const LabelRaster& raster, const Validity& valid, const Quantizer& quantize,
+                std::vector<std::uint16_t>& values) {
+  const auto width = static_cast<std::size_t>(raster.width());
+  values.reserve(width * static_cast<std::size_t>(raster.height()));
+  std::vector<double> row;
+  std::vector<std::uint16_t> bands[3];
+  for (int y = 0; y < raster.height(); ++y) {
+    for (int band = 0; band < raster.bands(); ++band) {
+      raster.readRow(band, y, row);
+      bands[band].resize(width);
+      for (std::size_t x = 0; x < width; ++x)
+        bands[band][x] = valid(row[x]) ? quantize(row[x]) : std::uint16_t{0};
+    }
+    if (raster.bands() == 1)
+      values.insert(values.end(), bands[0].begin(), bands[0].end());
+    else
+      for (std::size_t x = 0; x < width; ++x)
+        values.push_back(luma(bands[0][x], bands[1][x], bands[2][x]));
+  }
+}
+
+void requirePicture(const LabelFiles& files, const LabelRaster& raster,
+                    const LabelReading& reading) {
+  const int bands = raster.bands();
+  if (bands != 1 && bands != 3)
+    throw InputError(files.file, "the image has " + std::to_string(bands) +
+                                     " bands; 1 (gray) or 3 (red, green, blue) are needed: write "
+                                     "the wanted band into a file of its own");
+  if (bands == 3 && !reading.derived_type.empty())
+    throw InputError(
+        files.file, "the label calls this a " + reading.derived_type + ", not a picture in colour");
+}
+
+std::string ruleOf(const LabelSamples& samples, const Range& range, SampleType type) {
+  std::string rule;
+  if (samples.quantized)
+    rule = std::string(sampleTypeName(type)) +
+           " v as q = floor((v - low) / (high - low) * 65535 + " + "0.5), low " +
+           numberText(range.lowest) + ", high " + numberText(range.highest) +
+           (range.clipped_count == 0
+                ? ""
+                : " (" + std::to_string(range.clipped_count) + " outliers beyond are clipped)");
+  if (range.invalid_count > 0 && (samples.quantized || range.lowest > 0.0))
+    rule += (rule.empty() ? "" : "; ") + std::to_string(range.invalid_count) +
+            " samples without a value as 0";
+  return rule;
+}
+
+}  // namespace
+
+LabelSamples readLabelSamples(const LabelFiles& files) {
+  const LabelRaster raster(files);
+  const LabelReading reading = readLabel(files, raster);
+  requirePicture(files, raster, reading);
+  const Validity valid(reading.invalid, raster.type());
+  Range range = rangeOf(raster, valid);
+  if (!(range.lowest <= range.highest))
+    throw InputError(files.file,
+                     "no sample of the image has a value: all are missing, invalid or "
+                     "no numbers");
+  LabelSamples samples;
+  samples.container = labelFormatName(files.format);
+  samples.width = raster.width();
+  samples.height = raster.height();
+  samples.bands = raster.bands();
+  samples.quantized =
+      isFloating(raster.type()) || range.lowest < 0.0 || range.highest > kLargestWhole;
+  ImageLabel label = reading.label;
+  if (samples.quantized) {
+    const Range whole = range;
+    range = withoutOutliers(raster, valid, whole);
+    if (range.clipped_count > 0)
+      label.flags.push_back(
+          std::to_string(range.clipped_count) + " samples lie far off all others (all go from " +
+          numberText(whole.lowest) + " to " + numberText(whole.highest) + ") and are clipped to " +
+          numberText(range.lowest) + " .. " + numberText(range.highest));
+  }
+  samples.sample_bits = bitsOf(raster.type()) == 8 && !samples.quantized ? 8 : 16;
+  samples.highest = samples.quantized ? 65535 : static_cast<int>(range.highest);
+  samples.invalid_count = range.invalid_count;
+  if (samples.quantized) {
+    samples.offset = range.lowest;
+    samples.scale = (range.highest / kLargestWhole) - (range.lowest / kLargestWhole);
+  }
+  samples.rule = ruleOf(samples, range, raster.type());
+  samples.label = std::make_shared<const ImageLabel>(label);
+  samples.sha256 = files.sha256;
+  readValues(raster, valid, Quantizer(range, samples.quantized), samples.values);
+  return samples;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/run/alternatives.h"
+
+#include <limits>
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+void compare(const Pose& chosen, Alternative& made) {
+  made.camera_from_station_chosen = chosen;
+  made.apart_m = made.apart_rad = kUnknown;
+  if (!made.has_pose) return;
+  made.apart_m = (made.camera_from_station.translation_m - chosen.translation_m).norm();
+  made.apart_rad = made.camera_from_station.rotation.angularDistance(chosen.rotation);
+}
+
+Alternative ofHypothesis(const IterationTrace& iteration, std::size_t index) {
+  const HypothesisSummary& from = iteration.hypotheses[index];
+  Alternative made;
+  made.kind = iteration.wide ? AlternativeKind::kRestart : AlternativeKind::kRolled;
+  made.number = static_cast<std::int32_t>(index) + 1;
+  made.chosen = static_cast<std::int32_t>(index) == iteration.chosen_hypothesis;
+  // A render that was only rolled has no pose of its own.
+  made.has_pose = from.solved || iteration.wide;
+  made.camera_from_station = from.camera_from_station;
+  made.roll_rad = from.roll_rad;
+  made.depth_offset_m = from.depth_offset_m;
+  made.matches = from.matches;
+  made.inliers = from.inliers;
+  const bool weighed = iteration.wide && from.solved;
+  made.support = weighed ? from.support : kUnknown;
+  made.evidence_nats = weighed ? from.evidence() : kUnknown;
+  made.similarity = made.margin_nats = kUnknown;
+  made.ended = from.solved ? LocalizationStatus::kRunning : LocalizationStatus::kPnpFailed;
+  return made;
+}
+
+Alternative ofRival(const Rival& from, std::size_t index) {
+  const bool converged = from.ended == LocalizationStatus::kConverged;
+  Alternative made;
+  made.kind = AlternativeKind::kRival;
+  made.number = static_cast<std::int32_t>(index) + 1;
+  made.has_pose = true;
+  made.camera_from_station = converged ? from.camera_from_station : from.camera_from_station_before;
+  made.roll_rad = made.depth_offset_m = made.support = made.evidence_nats = kUnknown;
+  made.similarity = from.similarity;
+  made.margin_nats = converged ? from.margin_nats : kUnknown;
+  made.ended = from.ended;
+  return made;
+}
+
+/// The pose that rivals are rivals of. A run that ends as ambiguous has its seed for a result, but
+/// its last iteration is the one that led.
+Pose leadOf(const RunSnapshot& run) {
+  if (run.converged() || run.iterations.empty()) return run.camera_from_station;
+  return run.iterations.back()->camera_from_station;
+}
+
+void addHypotheses(const RunSnapshot& run, std::size_t index, std::vector<Alternative>& all) {
+  const IterationTrace& iteration = *run.iterations[index];
+  if (iteration.hypotheses.size() < 2) return;
+  const auto chosen = static_cast<std::size_t>(iteration.chosen_hypothesis);
+  for (std::size_t i = 0; i < iteration.hypotheses.size(); ++i) {
+    Alternative made = ofHypothesis(iteration, i);
+    made.iteration = static_cast<std::int32_t>(index);
+    const bool known = chosen < iteration.hypotheses.size();
+    compare(
+        known ? iteration.hypotheses[chosen].camera_from_station : iteration.camera_from_station,
+        made);
+    all.push_back(made);
+  }
+}
+
+}  // namespace
+
+std::vector<Alternative> alternativesOf(const RunSnapshot& run) {
+  std::vector<Alternative> all;
+  const Pose lead = leadOf(run);
+  for (std::size_t i = 0; i < run.rivals.size(); ++i) {
+    all.push_back(ofRival(run.rivals[i], i));
+    compare(lead, all.back());
+  }
+  for (std::size_t i = 0; i < run.iterations.size(); ++i) addHypotheses(run, i, all);
+  return all;
+}
+
+int rivalOfIteration(const RunSnapshot& run, const std::vector<Alternative>& alternatives,
+                     int iteration) {
+  if (iteration < 0 || iteration >= static_cast<int>(run.iterations.size())) return -1;
+  const auto at = [&run](int index) -> const IterationTrace& {
+    return *run.iterations[static_cast<std::size_t>(index)];
+  };
+  int first = iteration;
+  while (first > 0 && at(first - 1).attempt == at(iteration).attempt) --first;
+  // The attempt of a rival begins exactly where self-similarity predicts it.
+  for (std::size_t i = 0; i < alternatives.size() && i < run.rivals.size(); ++i)
+    if (at(first).camera_from_station_before == run.rivals[i].camera_from_station_before)
+      return static_cast<int>(i);
+  return -1;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/run/run_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "core/base/math.h"
+#include "core/render/band_painter.h"
+#include "sessions/text/plain_text.h"
+#include "sessions/text/text_table.h"
+
+namespace boresight::sessions {
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  std::array<char, 640> text{};
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text.data(), text.size(), pattern, arguments);
+  va_end(arguments);
+  return text.data();
+}
+
+double toDegrees(double angle_rad) { return angle_rad / kDegree_rad; }
+double toMillimetres(double length_m) { return length_m * 1e3; }
+
+/// `place` has the origin and the axes.
+std::string sigmaText(const Matrix6d& covariance, const char* place) {
+  const auto sigma = [&](int i) { return std::sqrt(std::max(0.0, covariance(i, i))); };
+  return format(
+      "1 sigma at the %s, along and about its x y z: %.4f %.4f %.4f mm, %.4f %.4f %.4f "
+      "mrad\n",
+      place, toMillimetres(sigma(3)), toMillimetres(sigma(4)), toMillimetres(sigma(5)),
+      1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2));
+}
+
+bool wentOnFromRestarts(const LocalizationTrace& trace) {
+  return std::any_of(trace.iterations.begin(), trace.iterations.end(),
+                     [](const IterationTrace& one) { return one.wide; });
+}
+
+/// The axis that is furthest beyond its limit.
+std::string leftUncertaintyText(const LocalizationTrace& trace) {
+  if (wentOnFromRestarts(trace))
+    return "the pose moved away from what the restarts had found, further than they leave open; "
+           "check the mesh, or run it without wide.* if the truth is within the seed's uncertainty";
+  constexpr const char* kAxes[] = {"x", "y", "z"};
+  const Pose& last = trace.iterations.back().camera_from_station;
+  const Vector6d offset =
+      offsetAboutPivot(trace.camera_from_station_seed, last, trace.uncertainty.pivot_in_camera_m);
+  int worst = 0;
+  double worst_ratio = -1.0;
+  for (int i = 0; i < 6; ++i) {
+    const double allowed =
+        i < 3 ? trace.uncertainty.rotation_rad[i] : trace.uncertainty.translation_m[i - 3];
+    const double ratio = std::abs(offset[i]) / std::max(1e-12, allowed);
+    if (ratio > worst_ratio) {
+      worst = i;
+      worst_ratio = ratio;
+    }
+  }
+  const double factor = trace.lastOptions().loop.leave_factor;
+  const std::string measured =
+      worst < 3 ? format("%.2f deg about %s, allowed %.2f deg (%.2f x %.2f)",
+                         toDegrees(std::abs(offset[worst])), kAxes[worst],
+                         factor * toDegrees(trace.uncertainty.rotation_rad[worst]), factor,
+                         toDegrees(trace.uncertainty.rotation_rad[worst]))
+                : format("%.2f mm along %s, allowed %.2f mm (%.2f x %.2f)",
+                         toMillimetres(std::abs(offset[worst])), kAxes[worst - 3],
+                         factor * toMillimetres(trace.uncertainty.translation_m[worst - 3]), factor,
+                         toMillimetres(trace.uncertainty.translation_m[worst - 3]));
+  return "the pose moved away from the seed by " + measured +
+         "; check the seed and the mesh, or state a larger uncertainty if the seed may be that far "
+         "off";
+}
+
+std::string pnpFailedText(const LocalizationTrace& trace, const IterationTrace& last) {
+  if (last.kind == IterationKind::kRefine) {
+    return format(
+        "refinement found an image edge at %d of %d places along the rendered edges and used %d, "
+        "needed %d within %.1f px; lower refinement.min_gradient if the image is faint",
+        last.refinement.found_count, last.refinement.sample_count, last.refinement.used_count,
+        trace.lastOptions().refinement.min_found, last.threshold_px);
+  }
+  return format(
+      "no pose agrees with enough matches: %d matches, at most %d inliers at %.1f px, needed %d; "
+      "check seed and uncertainty, or the edges found in the image",
+      last.correspondence_count, last.pnp.inlier_count, last.threshold_px,
+      trace.lastOptions().pnp.min_inliers);
+}
+
+std::string faultText(const LocalizationTrace& trace) {
+  std::string text = std::string("the run could not go on: ") + statusText(trace.fault);
+  if (trace.fault == Status::kCapacityExceeded)
+    text += format(
+        "; the render has more than %d edge pixels: raise render.max_edge_pixels, or "
+        "check the mesh",
+        trace.lastOptions().render.max_edge_pixels);
+  if (trace.fault == Status::kTooManyLayers)
+    text += format(
+        "; in rows of the image more than %d faces of the mesh lie behind each other: use a "
+        "coarser "
+        "mesh, or its outer surfaces only",
+        static_cast<int>(BandPainter::kMostLayers));
+  if (trace.fault == Status::kArenaTooSmall) {
+    text += format(
+        "; image, mask and mesh take %zu bytes and the options ask for %zu more, of %zu in all: "
+        "lower render.max_edge_pixels or loop.coarse_size_px, or use a coarser mesh or the default "
+        "profile",
+        trace.memory.inputs, trace.memory.use.total(), trace.memory.limit);
+  }
+  return text;
+}
+
+/// What is visible of an object in parts, when that was asked for.
+std::string partialText(const PartialSupport& partial, const SupportOptions& options) {
+  if (!options.partial) return "";
+  return format(
+      "; %.1f %% of the rendered edges lie where the object is visible, needed %.1f %%, and %.1f "
+      "%% of the edges about them are met beyond chance, needed %.1f %%",
+      100.0 * partial.visibleShare(), 100.0 * options.partial_visible, 100.0 * partial.precision(),
+      100.0 * options.partial_precision);
+}
+
+std::string notSupportedText(const LocalizationTrace& trace) {
+  const EdgeSupport& support = trace.support;
+  const std::string partial = partialText(trace.partial, trace.lastOptions().support);
+  return format(
+      "edge support is %.1f %%, needed %.1f %%: %.1f %% of the rendered edges are seen (%.1f %% by "
+      "chance), %.1f %% of the edges seen on the object are rendered (%.1f %% by chance)%s; the "
+      "pose is probably wrong: check seed and mesh",
+      100.0 * support.share(), 100.0 * trace.lastOptions().support.min_support,
+      100.0 * support.coverage(), 100.0 * support.chanceCoverage(), 100.0 * support.explanation(),
+      100.0 * support.chanceExplanation(), partial.c_str());
+}
+
+/// The rival that came nearest to the best pose, or nullptr.
+const Rival* closestRival(const std::vector<Rival>& rivals) {
+  const Rival* closest = nullptr;
+  for (const Rival& rival : rivals) {
+    if (rival.ended != LocalizationStatus::kConverged) continue;
+    if (closest == nullptr || rival.margin_nats < closest->margin_nats) closest = &rival;
+  }
+  return closest;
+}
+
+std::string ambiguousText(const LocalizationTrace& trace) {
+  const Rival* rival = closestRival(trace.rivals);
+  if (rival == nullptr || trace.iterations.empty())
+    return "another pose explains the image as well";
+  const Pose& ahead = trace.iterations.back().camera_from_station;
+  const Pose& behind = rival->camera_from_station;
+  const Eigen::Quaterniond turn = (behind.rotation * ahead.rotation.conjugate()).normalized();
+  return format(
+      "a pose %.1f mm away, turned by %.2f deg, explains the image nearly as well: %.1f nats less "
+      "evidence, needed %.1f; the station looks alike from both: show more of what tells its "
+      "features apart, or give a closer seed",
+      toMillimetres((behind.translation_m - ahead.translation_m).norm()),
+      toDegrees(rotationLog(turn).norm()), rival->margin_nats,
+      trace.lastOptions().ambiguity.min_margin_nats);
+}
+
+std::string iterationLimitText(const LocalizationTrace& trace, const IterationTrace& last) {
+  const LoopOptions& loop = trace.lastOptions().loop;
+  return format(
+      "after %d iterations the last correction was %.3f mm and %.3f deg; needed under %.3f mm and "
+      "%.3f deg %d times in a row; raise loop.max_iterations if corrections still shrink",
+      loop.max_iterations, toMillimetres(last.correction_translation_m),
+      toDegrees(last.correction_rotation_rad), toMillimetres(loop.converged_translation_m),
+      toDegrees(loop.converged_rotation_rad), loop.converged_iterations);
+}
+
+std::string tooFewText(const LocalizationTrace& trace, const IterationTrace& last) {
+  const LocalizerOptions& options = trace.lastOptions();
+  if (trace.status == LocalizationStatus::kTooFewEdges)
+    return format(
+        "the render shows %d salient edge pixels, needed %d; is the station in view, and "
+        "is the mesh's unit right?",
+        last.edge_pixel_count, options.templates.min_edge_pixels);
+  if (trace.status == LocalizationStatus::kTooFewTemplates)
+    return format(
+        "%d templates of %d px could be placed on %d rendered edge pixels, needed %d; "
+        "try a smaller feature size, or a less strict ignore mask",
+        last.template_count, last.template_side_px, last.edge_pixel_count,
+        options.templates.min_count);
+  return format(
+      "%d of %d templates could be searched inside the image, needed %d; the station may "
+      "be at the image's border, or the template (%d px) too large",
+      last.correspondence_count, last.template_count, options.pnp.min_inliers,
+      last.template_side_px);
+}
+
+/// The run without what `explanation` does not look at: all iterations but the last.
+LocalizationTrace endOf(const RunSnapshot& snapshot) {
+  RunSnapshot end = snapshot;
+  if (end.iterations.size() > 1)
+    end.iterations.erase(end.iterations.begin(), end.iterations.end() - 1);
+  return traceOf(end);
+}
+
+std::string sentence(std::string text) {
+  if (text.empty()) return text;
+  if (text.front() >= 'a' && text.front() <= 'z')
+    text.front() = static_cast<char>(text.front() - 'a' + 'A');
+  return text.back() == '.' ? text : text + ".";
+}
+
+std::string countText(std::size_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string convergedText(const RunSnapshot& snapshot) {
+  const auto sigma = [&](int i) { return std::sqrt(std::max(0.0, snapshot.covariance(i, i))); };
+  std::string text =
+      "Converged in " + countText(snapshot.iterations.size(), "iteration", "iterations");
+  if (snapshot.attempts > 1) text += format(" and %d attempts", snapshot.attempts);
+  text += snapshot.replayed ? "." : format(", %.2f s.", snapshot.seconds.total());
+  const SupportOptions& asked = snapshot.lastOptions().support;
+  if (asked.gate)
+    text += format(" Edge support is %.1f %%, needed %.1f %%%s.", 100.0 * snapshot.support.share(),
+                   100.0 * asked.min_support, partialText(snapshot.partial, asked).c_str());
+  if (const Rival* rival = closestRival(snapshot.rivals))
+    text += format(" The best of the poses that look alike has %.0f nats less evidence.",
+                   rival->margin_nats);
+  return text + format(
+                    " 1 sigma by the picture alone, at the camera, along its x, y, z: %.3f, %.3f, "
+                    "%.3f mm; about them: %.3f, %.3f, %.3f mrad.",
+                    toMillimetres(sigma(3)), toMillimetres(sigma(4)), toMillimetres(sigma(5)),
+                    1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2));
+}
+
+/// An onboard run, so that nobody takes it for one of the ground.
+std::string replayedText(const RunSnapshot& snapshot) {
+  const std::string begin = "Onboard record, replayed. ";
+  if (snapshot.converged()) return begin + convergedText(snapshot);
+  if (snapshot.finished && snapshot.iterations.empty())
+    return begin + "It ended as " + localizationStatusText(snapshot.status) +
+           "; none of its iterations is known.";
+  if (snapshot.finished)
+    return begin + "Did not converge. " + sentence(explanation(endOf(snapshot)));
+  return begin + "It ends after " +
+         countText(snapshot.iterations.size(), "iteration", "iterations") +
+         ": how the run ended is not known.";
+}
+
+std::string aloneText(const RunSnapshot& snapshot) {
+  if (snapshot.converged()) return convergedText(snapshot);
+  if (snapshot.finished) return "Did not converge. " + sentence(explanation(endOf(snapshot)));
+  if (snapshot.iterations.empty())
+    return snapshot.edges ? "The image's edges are found." : "Nothing has run yet.";
+  const std::string number = std::to_string(snapshot.iterations.size());
+  if (!snapshot.last_under_way) return "Iteration " + number + " is complete.";
+  return "Iteration " + number + " is under way, its last complete stage is " +
+         stageText(snapshot.iterations.back()->reached) + ".";
+}
+
+/// Of one of several views; one that was left out says why, and what is known all the same.
+std::string viewText(const RunSnapshot& snapshot) {
+  const ViewOutcome& own = snapshot.views[snapshot.own_view];
+  const std::string with = sentence(togetherText(snapshot.views, own.case_id)) + " ";
+  const std::string good = localizationStatusText(LocalizationStatus::kConverged);
+  const bool others = std::any_of(snapshot.views.begin(), snapshot.views.end(),
+                                  [&](const ViewOutcome& one) { return one.status == good; });
+  if (!snapshot.finished || snapshot.converged() || !others) return with + aloneText(snapshot);
+  return with + "This view was left out: " + leftOutText(own.status) +
+         ". The pose of the others is its last iteration's.";
+}
+
+}  // namespace
+
+std::string iterationTable(const LocalizationTrace& trace) {
+  int number = 0;
+  TextTable table({"iteration", "attempt", "kind", "level", "templates", "matches", "inliers",
+                   "threshold px", "correction mm", "deg", "rms px"});
+  for (const IterationTrace& iteration : trace.iterations) {
+    const bool refines = iteration.kind == IterationKind::kRefine;
+    table.add({std::to_string(++number), std::to_string(iteration.attempt + 1),
+               refines ? "refine" : "match", std::to_string(iteration.level),
+               refines ? std::to_string(iteration.refinement.sample_count)
+                       : std::to_string(iteration.template_count),
+               refines ? std::to_string(iteration.refinement.found_count)
+                       : std::to_string(iteration.searched_count),
+               std::to_string(iteration.support()), fixedText(iteration.threshold_px, 1),
+               fixedText(toMillimetres(iteration.correction_translation_m), 3),
+               fixedText(toDegrees(iteration.correction_rotation_rad), 3),
+               fixedText(iteration.rms_px(), 2)});
+  }
+  return table.text() + (std::any_of(trace.iterations.begin(), trace.iterations.end(),
+                                     [](const IterationTrace& iteration) {
+                                       return iteration.kind == IterationKind::kRefine;
+                                     })
+                             ? "(refine: places along rendered edges, places where an edge was "
+                               "found, places used)\n"
+                             : "");
+}
+
+std::string poseText(const Pose& pose, const Matrix6d& covariance, const std::string& name) {
+  const Eigen::Vector3d rotation_rad = rotationLog(pose.rotation);
+  Eigen::Quaterniond q = pose.rotation;
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  const Eigen::Matrix3d matrix = pose.matrix();
+  std::string text = plainLine(name);
+  for (int row = 0; row < 3; ++row)
+    text += format("  %12.9f %12.9f %12.9f %12.9f\n", matrix(row, 0), matrix(row, 1),
+                   matrix(row, 2), pose.translation_m[row]);
+  text += format("rotation vector %.5f %.5f %.5f deg; quaternion wxyz %.9f %.9f %.9f %.9f\n",
+                 toDegrees(rotation_rad.x()), toDegrees(rotation_rad.y()),
+                 toDegrees(rotation_rad.z()), q.w(), q.x(), q.y(), q.z());
+  if (!covariance.isZero(0.0))
+    text += sigmaText(covariance, name.starts_with("rig") ? "rig's origin" : "camera");
+  return text;
+}
+
+std::string explanation(const LocalizationTrace& trace) {
+  if (trace.converged()) return "";
+  if (trace.status == LocalizationStatus::kRunning) return "the run was stopped";
+  if (trace.status == LocalizationStatus::kFault || trace.iterations.empty())
+    return faultText(trace);
+  if (trace.edges.edge_count == 0)
+    return "the image has no edges; check its exposure and the options under edges";
+  const IterationTrace& last = trace.iterations.back();
+  switch (trace.status) {
+    case LocalizationStatus::kLeftUncertainty:
+      return leftUncertaintyText(trace);
+    case LocalizationStatus::kPnpFailed:
+      return pnpFailedText(trace, last);
+    case LocalizationStatus::kNotSupported:
+      return notSupportedText(trace);
+    case LocalizationStatus::kAmbiguous:
+      return ambiguousText(trace);
+    case LocalizationStatus::kIterationLimit:
+      return iterationLimitText(trace, last);
+    case LocalizationStatus::kTooFewEdges:
+    case LocalizationStatus::kTooFewTemplates:
+    case LocalizationStatus::kTooFewMatches:
+      return tooFewText(trace, last);
+    case LocalizationStatus::kRunning:
+    case LocalizationStatus::kConverged:
+    case LocalizationStatus::kFault:
+      break;
+  }
+  return "";
+}
+
+std::string memoryTable(const LocalizationTrace& trace) {
+  const MemoryTrace& memory = trace.memory;
+  TextTable table({"memory", "bytes", "high water"});
+  const auto add = [&](const char* name, std::size_t bytes, std::size_t high_water) {
+    table.add({name, std::to_string(bytes), std::to_string(high_water)});
+  };
+  const std::size_t lasting = memory.inputs + memory.use.kept;
+  add("image, mask, mesh", memory.inputs, memory.inputs);
+  add("kept throughout", memory.use.kept, lasting);
+  add("construction", memory.use.construction, lasting + memory.use.construction);
+  for (std::size_t i = 0; i < memory.use.stage.size(); ++i)
+    add(stageText(static_cast<Stage>(i)), memory.use.stage[i], lasting + memory.use.stage[i]);
+  std::string text = table.text();
+  text += format("all: %zu bytes", memory.total());
+  if (memory.limit > 0) text += format(" of %zu", memory.limit);
+  return text + "\n";
+}
+
+std::string standingText(const RunSnapshot& snapshot) {
+  if (snapshot.replayed) return replayedText(snapshot);
+  return snapshot.views.empty() ? aloneText(snapshot) : viewText(snapshot);
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/run/sample_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace boresight::sessions {
+namespace {
+
+bool isFound(const EdgeSample& sample) { return sample.gradient != 0.0; }
+bool isUsed(const EdgeSample& sample) { return isFound(sample) && sample.weight > 0.5; }
+
+void count(const EdgeSample& sample, SampleCounts& counts) {
+  ++counts.places;
+  if (isFound(sample)) ++counts.found;
+  if (isUsed(sample)) ++counts.used;
+}
+
+SampleCounts& ofKind(const EdgeSample& sample, SampleStatistics& statistics) {
+  if ((sample.kind & kEdgeBorder) != 0) return statistics.border;
+  if ((sample.kind & kEdgeOccluding) != 0) return statistics.occluding;
+  return statistics.creases;
+}
+
+std::size_t binOf(double residual_px, double radius_px, std::size_t bins) {
+  if (!(radius_px > 0.0)) return bins / 2;
+  const double place =
+      std::floor((residual_px / radius_px + 1.0) * 0.5 * static_cast<double>(bins));
+  return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(bins - 1)));
+}
+
+double medianOf(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+SampleStatistics sampleStatistics(const IterationTrace& iteration, int bins) {
+  SampleStatistics made;
+  made.radius_px = iteration.threshold_px;
+  const auto bin_count = static_cast<std::size_t>(std::max(1, bins));
+  made.found_in_bin.assign(bin_count, 0);
+  made.used_in_bin.assign(bin_count, 0);
+  std::vector<double> residuals;
+  for (const EdgeSample& sample : iteration.refinement.samples) {
+    count(sample, made.all);
+    count(sample, ofKind(sample, made));
+    if (!isFound(sample)) continue;
+    residuals.push_back(sample.residual_px);
+    const std::size_t bin = binOf(sample.residual_px, made.radius_px, bin_count);
+    ++made.found_in_bin[bin];
+    if (isUsed(sample)) ++made.used_in_bin[bin];
+  }
+  made.median_px = medianOf(std::move(residuals));
+  return made;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/run/scene_render.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "sessions/run/record.h"
+
+namespace boresight::sessions {
+namespace {
+
+RenderOptions optionsFor(const Camera& camera, double near_plane_m) {
+  RenderOptions options;
+  options.near_plane_m = near_plane_m;
+  options.max_edge_pixels = std::clamp(camera.width * camera.height / 4, 200000, 4000000);
+  return options;
+}
+
+}  // namespace
+
+/// What renders need besides the mesh.
+struct SceneRenderer::Equipment {
+  std::unique_ptr<std::byte[]> memory;
+  MeshAdjacency adjacency;
+  RayGrid rays;
+  EdgeRenderer renderer;
+  EdgeRender render;
+
+  Status create(const Camera& camera, const MeshView& mesh, double near_plane_m, Arena& arena) {
+    const RenderOptions options = optionsFor(camera, near_plane_m);
+    Status status = buildAdjacency(mesh, arena, adjacency);
+    if (status == Status::kOk) status = RayGrid::create(camera, arena, rays);
+    if (status == Status::kOk)
+      status = renderer.create(mesh, adjacency, camera.width, camera.height, options, arena);
+    if (status == Status::kOk)
+      render = createEdgeRender(camera.width, camera.height, options, arena);
+    return status == Status::kOk && arena.exhausted() ? Status::kArenaTooSmall : status;
+  }
+};
+
+SceneRenderer::SceneRenderer() = default;
+SceneRenderer::~SceneRenderer() = default;
+SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
+SceneRenderer& SceneRenderer::operator=(SceneRenderer&&) noexcept = default;
+
+Status SceneRenderer::create(const Camera& camera, const MeshView& mesh, double near_plane_m) {
+  equipment_.reset();
+  Status status = validateMesh(mesh);
+  if (status != Status::kOk) return status;
+  Arena counter;
+  Equipment counted;
+  status = counted.create(camera, mesh, near_plane_m, counter);
+  if (status != Status::kOk) return status;
+  auto made = std::make_unique<Equipment>();
+  made->memory = std::make_unique_for_overwrite<std::byte[]>(counter.highWater());
+  Arena arena({made->memory.get(), counter.highWater()});
+  status = made->create(camera, mesh, near_plane_m, arena);
+  if (status == Status::kOk) equipment_ = std::move(made);
+  return status;
+}
+
+Status SceneRenderer::begin(const Pose& camera_from_station, const SurfaceRender& surfaces) {
+  if (!equipment_) return Status::kInvalidMesh;
+  return equipment_->renderer.begin(equipment_->rays, camera_from_station, equipment_->render,
+                                    surfaces);
+}
+
+Status SceneRenderer::step(bool& done) {
+  if (!equipment_) return Status::kInvalidMesh;
+  return equipment_->renderer.step(done);
+}
+
+RenderTrace SceneRenderer::record() const {
+  return equipment_ ? recordRender(equipment_->render) : RenderTrace();
+}
+
+Status renderScene(const Camera& camera, const MeshView& mesh, const Pose& camera_from_station,
+                   RenderTrace& output, const SurfaceRender& surfaces) {
+  SceneRenderer renderer;
+  Status status = renderer.create(camera, mesh);
+  if (status == Status::kOk) status = renderer.begin(camera_from_station, surfaces);
+  bool done = false;
+  while (status == Status::kOk && !done) status = renderer.step(done);
+  if (status == Status::kOk) output = renderer.record();
+  return status;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+// The fields of every record in the order in which a trace file holds them. `Self` is a record, or
+// a const record when writing; the archive is an ArchiveWriter or an ArchiveReader. The core's
+// records are taken apart by structured bindings: a member that is added there does not compile
+// here until it has its place in the file.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <type_traits>
+
+#include "sessions/run/trace.h"
+
+namespace boresight::sessions {
+
+template <class Self, class Record>
+concept Is = std::same_as<std::remove_const_t<Self>, Record>;
+
+template <class Archive, class... Number>
+void numbers(Archive& archive, Number&... values) {
+  (archive.number(values), ...);
+}
+
+template <class Archive, class Vector>
+void vectorFields(Archive& archive, Vector& vector) {
+  for (Eigen::Index i = 0; i < vector.size(); ++i) archive.number(vector.data()[i]);
+}
+
+template <class Archive, Is<Pose> Self>
+void fields(Archive& archive, Self& pose) {
+  vectorFields(archive, pose.rotation.coeffs());
+  vectorFields(archive, pose.translation_m);
+}
+
+template <class Archive, Is<SeedUncertainty> Self>
+void fields(Archive& archive, Self& uncertainty) {
+  auto& [translation_m, rotation_rad, pivot_in_camera_m] = uncertainty;
+  vectorFields(archive, translation_m);
+  vectorFields(archive, rotation_rad);
+  vectorFields(archive, pivot_in_camera_m);
+}
+
+template <class Archive, Is<CahvLens> Self>
+void fields(Archive& archive, Self& lens) {
+  auto& [skew_px, optical_axis, radial, entrance_m, linearity, pupil_low_m, pupil_high_m] = lens;
+  archive.number(skew_px);
+  vectorFields(archive, optical_axis);
+  vectorFields(archive, radial);
+  vectorFields(archive, entrance_m);
+  numbers(archive, linearity, pupil_low_m, pupil_high_m);
+}
+
+template <class Archive, Is<Camera> Self>
+void fields(Archive& archive, Self& camera) {
+  auto& [model, width, height, fx, fy, cx, cy, distortion, cahv, valid_radius] = camera;
+  archive.choice(model, kLastCameraModel);
+  numbers(archive, width, height, fx, fy, cx, cy);
+  for (auto& coefficient : distortion) archive.number(coefficient);
+  // A camera of another model says nothing of it: files from before are read as they are.
+  if (isCahvFamily(model)) fields(archive, cahv);
+  archive.number(valid_radius);
+}
+
+template <class Archive, Is<BitMap> Self>
+void fields(Archive& archive, Self& map) {
+  archive.number(map.width);
+  archive.number(map.height);
+  archive.list(map.words, [&](auto& word) { archive.number(word); });
+  archive.require(
+      map.width >= 0 && map.height >= 0 && map.width <= 32767 && map.height <= 32767 &&
+          map.words.size() == static_cast<std::size_t>(BitImage::wordsPerRow(map.width)) *
+                                  static_cast<std::size_t>(map.height),
+      "a binary image whose size contradicts its words");
+}
+
+template <class Archive, Is<EdgePixel> Self>
+void fields(Archive& archive, Self& pixel) {
+  auto& [x, y, depth_m, face, normal_x, normal_y, offset, kind] = pixel;
+  numbers(archive, x, y, depth_m, face, normal_x, normal_y, offset, kind);
+}
+
+template <class Archive, Is<RenderTrace> Self>
+void fields(Archive& archive, Self& render) {
+  fields(archive, render.edges);
+  fields(archive, render.mask);
+  archive.list(render.pixels, [&](auto& pixel) {
+    fields(archive, pixel);
+    archive.require(pixel.x >= 0 && pixel.y >= 0 && pixel.x < render.edges.width &&
+                        pixel.y < render.edges.height,
+                    "an edge pixel outside its image");
+  });
+  archive.list(render.row_begin, [&](auto& index) { archive.number(index); });
+  archive.require(render.row_begin.empty() ||
+                      render.row_begin.size() == static_cast<std::size_t>(render.edges.height) + 1,
+                  "rows of edge pixels that do not fit their image");
+  for (const auto index : render.row_begin)
+    archive.require(index >= 0 && static_cast<std::size_t>(index) <= render.pixels.size(),
+                    "a row of edge pixels that does not exist");
+  fields(archive, render.camera);
+  fields(archive, render.camera_from_station);
+}
+
+template <class Archive, Is<EdgeMapTrace> Self>
+void fields(Archive& archive, Self& edges) {
+  for (auto& level : edges.level) fields(archive, level);
+  archive.number(edges.low_threshold);
+  archive.number(edges.high_threshold);
+  archive.number(edges.edge_count);
+}
+
+template <class Archive, Is<Template> Self>
+void fields(Archive& archive, Self& item) {
+  auto& [center_x, center_y, depth_m, distinctness, point_in_station_m] = item;
+  numbers(archive, center_x, center_y, depth_m, distinctness);
+  vectorFields(archive, point_in_station_m);
+}
+
+template <class Archive, Is<WhsPeak> Self>
+void fields(Archive& archive, Self& peak) {
+  auto& [x, y, counts, second_x, second_y, second_counts, has_second] = peak;
+  numbers(archive, x, y, counts.edge_hits, counts.empty_hits, second_x, second_y,
+          second_counts.edge_hits, second_counts.empty_hits, has_second);
+}
+
+template <class Archive, Is<Match> Self>
+void fields(Archive& archive, Self& match) {
+  auto& [window, norms, peak, x, y, searched, at_border] = match;
+  numbers(archive, window.x_min, window.y_min, window.x_max, window.y_max, norms.edges,
+          norms.empties);
+  fields(archive, peak);
+  numbers(archive, x, y, searched, at_border);
+}
+
+template <class Archive, Is<Correspondence> Self>
+void fields(Archive& archive, Self& correspondence) {
+  auto& [point_in_station_m, pixel, sigma_px] = correspondence;
+  vectorFields(archive, point_in_station_m);
+  vectorFields(archive, pixel);
+  archive.number(sigma_px);
+}
+
+template <class Archive, Is<PnpTrace> Self>
+void fields(Archive& archive, Self& pnp) {
+  fields(archive, pnp.camera_from_station);
+  archive.list(pnp.inlier, [&](auto& flag) { archive.number(flag); });
+  archive.list(pnp.residual_px, [&](auto& residual) { archive.number(residual); });
+  archive.number(pnp.inlier_count);
+  archive.number(pnp.rms_px);
+  vectorFields(archive, pnp.covariance);
+  archive.number(pnp.samples);
+}
+
+template <class Archive, Is<EdgeSample> Self>
+void fields(Archive& archive, Self& sample) {
+  auto& [point_in_station_m, normal, residual_px, gradient, weight, kind] = sample;
+  vectorFields(archive, point_in_station_m);
+  vectorFields(archive, normal);
+  numbers(archive, residual_px, gradient, weight, kind);
+}
+
+template <class Archive, Is<RefinementTrace> Self>
+void fields(Archive& archive, Self& refinement) {
+  fields(archive, refinement.camera_from_station);
+  vectorFields(archive, refinement.covariance);
+  archive.list(refinement.samples, [&](auto& sample) { fields(archive, sample); });
+  archive.number(refinement.sample_count);
+  archive.number(refinement.found_count);
+  archive.number(refinement.used_count);
+  archive.number(refinement.rms_px);
+}
+
+template <class Archive, Is<HypothesisSummary> Self>
+void fields(Archive& archive, Self& hypothesis) {
+  auto& [roll_rad, templates, matches, inliers, cost, camera_from_station, solved, depth_offset_m,
+         support, inlier_nats, edge_nats] = hypothesis;
+  numbers(archive, roll_rad, templates, matches, inliers, cost);
+  fields(archive, camera_from_station);
+  archive.number(solved);
+  numbers(archive, depth_offset_m, support, inlier_nats, edge_nats);
+}
+
+template <class Archive, Is<StageSeconds> Self>
+void fields(Archive& archive, Self& seconds) {
+  auto& [initialization, rendering, matching, pose, refinement] = seconds;
+  numbers(archive, initialization, rendering, matching, pose, refinement);
+}
+
+template <class Archive, Is<EdgeSupport> Self>
+void fields(Archive& archive, Self& support) {
+  auto& [rendered, covered, displaced, displaced_covered, seen, explained, displaced_explained] =
+      support;
+  numbers(archive, rendered, covered, displaced, displaced_covered, seen, explained,
+          displaced_explained);
+}
+
+template <class Archive, Is<Rival> Self>
+void fields(Archive& archive, Self& rival) {
+  auto& [camera_from_station_before, camera_from_station, similarity, ended, margin_nats] = rival;
+  fields(archive, camera_from_station_before);
+  fields(archive, camera_from_station);
+  archive.number(similarity);
+  archive.choice(ended, kLastLocalizationStatus);
+  archive.number(margin_nats);
+}
+
+template <class Archive, Is<PartialSupport> Self>
+void fields(Archive& archive, Self& partial) {
+  auto& [rendered, visible, cells, visible_cells, found, covered, displaced_found,
+         displaced_covered] = partial;
+  numbers(archive, rendered, visible, cells, visible_cells, found, covered, displaced_found,
+          displaced_covered);
+}
+
+template <class Archive, Is<IterationTrace> Self>
+void matchingFields(Archive& archive, Self& iteration) {
+  archive.list(iteration.templates, [&](auto& item) { fields(archive, item); });
+  archive.number(iteration.template_count);
+  archive.number(iteration.template_side_px);
+  archive.list(iteration.matches, [&](auto& match) { fields(archive, match); });
+  archive.number(iteration.searched_count);
+  archive.number(iteration.best_score);
+  archive.number(iteration.mean_score);
+  archive.list(iteration.correspondences, [&](auto& item) { fields(archive, item); });
+  archive.list(iteration.template_of, [&](auto& index) { archive.number(index); });
+  archive.number(iteration.correspondence_count);
+  fields(archive, iteration.pnp);
+  const std::size_t points = iteration.correspondences.size();
+  archive.require(iteration.matches.size() <= iteration.templates.size() &&
+                      iteration.template_of.size() == points &&
+                      (iteration.pnp.inlier.empty() || iteration.pnp.inlier.size() == points) &&
+                      iteration.pnp.residual_px.size() == iteration.pnp.inlier.size(),
+                  "lists of templates, matches and inliers that do not fit together");
+  for (const auto index : iteration.template_of)
+    archive.require(index >= 0 && static_cast<std::size_t>(index) < iteration.templates.size(),
+                    "a match of a template that does not exist");
+}
+
+template <class Archive, Is<IterationTrace> Self>
+void fields(Archive& archive, Self& iteration) {
+  archive.number(iteration.index);
+  archive.number(iteration.attempt);
+  archive.choice(iteration.kind, IterationKind::kRefine);
+  archive.number(iteration.level);
+  archive.choice(iteration.reached, Stage::kFinished);
+  archive.choice(iteration.status, kLastLocalizationStatus);
+  archive.number(iteration.threshold_px);
+  fields(archive, iteration.camera_from_station_before);
+  fields(archive, iteration.uncertainty);
+  fields(archive, iteration.render);
+  archive.number(iteration.edge_pixel_count);
+  matchingFields(archive, iteration);
+  fields(archive, iteration.refinement);
+  archive.list(iteration.hypotheses, [&](auto& hypothesis) { fields(archive, hypothesis); });
+  archive.number(iteration.chosen_hypothesis);
+  archive.number(iteration.wide);
+  fields(archive, iteration.camera_from_station);
+  archive.number(iteration.correction_translation_m);
+  archive.number(iteration.correction_rotation_rad);
+  archive.number(iteration.correction_image_px);
+  fields(archive, iteration.seconds);
+}
+
+template <class Archive, Is<LocalizerOptions> Self>
+void fields(Archive& archive, Self& options) {
+  LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
+    std::string name = info.name;
+    archive.text(name);
+    archive.require(name == info.name, "an option that this version does not know");
+    double value = static_cast<double>(field);
+    archive.number(value);
+    archive.require(value >= info.minimum && value <= info.maximum, "an option out of its range");
+    using Field = std::remove_reference_t<decltype(field)>;
+    if constexpr (!std::is_const_v<Field>) field = static_cast<Field>(value);
+  });
+}
+
+template <class Archive, Is<OptionChange> Self>
+void fields(Archive& archive, Self& change) {
+  archive.number(change.iteration);
+  archive.require(change.iteration > 0, "options that change before the run");
+  fields(archive, change.options);
+}
+
+template <class Archive, Is<MemoryTrace> Self>
+void fields(Archive& archive, Self& memory) {
+  auto& [kept, construction, stage] = memory.use;
+  numbers(archive, kept, construction);
+  for (auto& bytes : stage) archive.number(bytes);
+  numbers(archive, memory.inputs, memory.limit);
+}
+
+template <class Archive, Is<LocalizationTrace> Self>
+void fields(Archive& archive, Self& trace) {
+  archive.text(trace.version);
+  fields(archive, trace.options);
+  fields(archive, trace.camera);
+  fields(archive, trace.camera_from_station_seed);
+  fields(archive, trace.uncertainty);
+  fields(archive, trace.edges);
+  archive.list(trace.iterations, [&](auto& iteration) { fields(archive, iteration); });
+  archive.number(trace.attempts);
+  archive.list(trace.rivals, [&](auto& rival) { fields(archive, rival); });
+  fields(archive, trace.support);
+  fields(archive, trace.partial);
+  archive.choice(trace.status, kLastLocalizationStatus);
+  archive.choice(trace.fault, kLastStatus);
+  fields(archive, trace.camera_from_station);
+  vectorFields(archive, trace.covariance);
+  archive.text(trace.digest);
+  fields(archive, trace.seconds);
+  archive.number(trace.arena_bytes);
+  fields(archive, trace.memory);
+  archive.list(trace.changes, [&](auto& change) { fields(archive, change); });
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/check_limits.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace boresight::sessions {
+namespace {
+
+CheckPreset sampleTransfer() {
+  CheckPreset preset;
+  preset.name = kDefaultCheckPreset;
+  preset.help = "Putting a tube into its place: 0.4 mm and 0.25 deg.";
+  preset.requirement.normal_mm = 0.4;
+  preset.requirement.lateral_mm = 0.4;
+  preset.requirement.rotation_deg = 0.25;
+  return preset;
+}
+
+CheckPreset photographs() {
+  CheckPreset preset;
+  preset.name = "photographs";
+  preset.help = "Photographs whose truth and calibration are good to some pixels only.";
+  preset.requirement.projection_px = 5.0;
+  // Meshes of toys and castings, glossy or printed surfaces: less is seen, more is not predicted.
+  preset.limits.inlier_ratio_percent = 14.0;
+  preset.limits.coverage_percent = 25.0;
+  preset.limits.clutter_percent = 90.0;
+  preset.limits.fall_off_percent = 8.0;
+  // Printed boxes and things that look alike from many sides are hard to find.
+  preset.limits.basin_percent = 30.0;
+  return preset;
+}
+
+}  // namespace
+
+const std::vector<CheckPreset>& checkPresets() {
+  static const std::vector<CheckPreset> presets = {sampleTransfer(), photographs()};
+  return presets;
+}
+
+const CheckPreset* findCheckPreset(const std::string& name) {
+  const auto& all = checkPresets();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&name](const CheckPreset& one) { return one.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+const CheckPreset& presetFor(const Requirement& requirement) {
+  const auto names = [](const Requirement& one) {
+    return std::array{one.normal_mm.has_value(), one.lateral_mm.has_value(),
+                      one.rotation_deg.has_value(), one.projection_px.has_value()};
+  };
+  const auto& all = checkPresets();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const CheckPreset& one) {
+    return names(one.requirement) == names(requirement);
+  });
+  return found == all.end() ? all.front() : *found;
+}
+
+CheckLimits checkLimits(const std::string& preset, const OptionList& changed) {
+  const CheckPreset* found = findCheckPreset(preset);
+  if (found == nullptr) throw std::invalid_argument("there is no preset '" + preset + "'");
+  CheckLimits limits = found->limits;
+  for (const auto& [name, value] : changed) applyOption(limits, name, value);
+  return limits;
+}
+
+}  // namespace boresight::sessions

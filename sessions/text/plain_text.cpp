@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/text/plain_text.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+namespace boresight::sessions {
+namespace {
+
+struct Character {
+  std::uint32_t code = 0;
+  std::size_t bytes = 1;
+  bool valid = false;
+};
+
+/// The first character of `text`, which is not empty; a single byte where it is not UTF-8.
+Character firstCharacter(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text.front());
+  if (lead < 0x80) return {lead, 1, true};
+  const auto bytes = static_cast<std::size_t>(std::countl_one(lead));
+  if (bytes < 2 || bytes > 4 || bytes > text.size()) return {};
+  std::uint32_t code = lead & (0x7fU >> bytes);
+  for (const char c : text.substr(1, bytes - 1)) {
+    const auto next = static_cast<unsigned char>(c);
+    if ((next & 0xc0U) != 0x80U) return {};
+    code = code << 6U | (next & 0x3fU);
+  }
+  constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
+  return {code, bytes, code >= kLeast[bytes]};
+}
+
+bool isShown(const Character& character) {
+  const std::uint32_t code = character.code;
+  const auto within = [code](std::uint32_t first, std::uint32_t last) {
+    return code >= first && code <= last;
+  };
+  const bool control = code < 0x20 || within(0x7f, 0x9f) || within(0x2028, 0x2029);
+  const bool direction =
+      code == 0x61c || within(0x200e, 0x200f) || within(0x202a, 0x202e) || within(0x2066, 0x2069);
+  return character.valid && !control && !direction;
+}
+
+}  // namespace
+
+std::string plainText(std::string_view text) {
+  std::string plain;
+  plain.reserve(text.size());
+  while (!text.empty()) {
+    const Character first = firstCharacter(text);
+    plain += isShown(first) ? text.substr(0, first.bytes) : std::string_view(" ");
+    text.remove_prefix(first.valid ? first.bytes : 1);
+  }
+  return plain;
+}
+
+std::string plainLine(std::string_view text) { return plainText(text) + "\n"; }
+
+std::string oneLine(std::string_view text) {
+  std::string line = plainText(text);
+  line.erase(
+      std::unique(line.begin(), line.end(), [](char a, char b) { return a == ' ' && b == ' '; }),
+      line.end());
+  if (line.ends_with(' ')) line.pop_back();
+  return line.starts_with(' ') ? line.substr(1) : line;
+}
+
+}  // namespace boresight::sessions

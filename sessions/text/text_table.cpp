@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/text/text_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "sessions/text/plain_text.h"
+
+namespace boresight::sessions {
+
+std::string fixedText(double value, int decimals) {
+  if (!std::isfinite(value)) return "-";
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return text.data();
+}
+
+void TextTable::add(const std::vector<std::string>& row) {
+  std::vector<std::string>& cells = rows_.emplace_back();
+  for (const std::string& cell : row) cells.push_back(plainText(cell));
+}
+
+std::string TextTable::text() const {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows_) {
+    widths.resize(std::max(widths.size(), row.size()), 0);
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string made;
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    std::string line;
+    for (std::size_t i = 0; i < rows_[r].size(); ++i) {
+      const std::string& cell = rows_[r][i];
+      const std::string padding(widths[i] - cell.size(), ' ');
+      line += (i > 0 ? "  " : "") + (i == 0 ? cell + padding : padding + cell);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    made += line + "\n";
+    if (r > 0) continue;
+    std::size_t total = 0;
+    for (const std::size_t width : widths) total += width + 2;
+    made += std::string(total > 2 ? total - 2 : 0, '-') + "\n";
+  }
+  return made;
+}
+
+}  // namespace boresight::sessions

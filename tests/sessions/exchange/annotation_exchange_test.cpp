@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/exchange/annotation_exchange.h"
+
+#include <gmock/gmock.h>
+
+#include "sessions/annotation/landmarks.h"
+#include "sessions/annotation/marks_file.h"
+#include "sessions/evaluation/bop_scene.h"
+#include "sessions/exchange/colmap_text.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/undistort.h"
+#include "sessions/session/case_marks.h"
+#include "sessions/session/image_names.h"
+#include "tests/sessions/session/random_session.h"
+#include "tests/support/marked_example.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::Session;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class AnnotationExchange : public testing::Test {
+ protected:
+  Pose solved(const std::string& id) const {
+    return *sessions::solveCaseMarks(session_, id, true, false).camera_from_station();
+  }
+  std::string message(const std::function<void()>& call) const { return folder_.message(call); }
+
+  TemporaryFolder folder_;
+  Session session_ = markedExample(0.2);
+  std::string bc_ = caseOfStation(session_, "bc");
+  std::string os_ = caseOfStation(session_, "os");
+};
+
+TEST_F(AnnotationExchange, ColmapComesBackBitByBit) {
+  const auto made = sessions::exportColmap(session_, folder_ / "model", {bc_}, false);
+  EXPECT_THAT(made.case_ids, ElementsAre(bc_));
+  const auto images = sessions::readColmapText(folder_ / "model");
+  ASSERT_EQ(images.size(), 1u);
+  EXPECT_EQ(images[0].name, "bc/image.png");
+  const auto read = sessions::importColmap(session_, folder_ / "model", true);
+  EXPECT_THAT(read.case_ids, ElementsAre(bc_));
+  EXPECT_TRUE(read.notes.empty());
+  EXPECT_EQ(*read.session.findCase(bc_)->camera_from_station_truth, solved(bc_));
+  // Nothing else has changed.
+  sessions::SessionCase before = *session_.findCase(bc_);
+  before.camera_from_station_truth = solved(bc_);
+  EXPECT_TRUE(read.session == withCase(session_, before));
+}
+
+TEST_F(AnnotationExchange, BopComesBackWithUndistortedImages) {
+  const auto made = sessions::exportBop(session_, folder_ / "scene", {}, false);
+  EXPECT_EQ(made.case_ids.size(), 2u);
+  const auto objects = sessions::readBopScene(folder_ / "scene");
+  ASSERT_EQ(objects.size(), 2u);
+  EXPECT_NE(objects[0].object_id, objects[1].object_id);
+  const auto read = sessions::importBop(session_, folder_ / "scene", true);
+  EXPECT_EQ(read.case_ids.size(), 2u);
+  for (const std::string& id : {bc_, os_}) {
+    const Pose& truth = *read.session.findCase(id)->camera_from_station_truth;
+    EXPECT_LT(perturbationBetween(solved(id), truth).norm(), 1e-12);
+  }
+  // A pinhole with BOP's numbers sees a corner where the undistorted image has it.
+  const auto& one = *session_.cases[0];
+  Camera camera = one.camera;
+  ASSERT_EQ(prepareCamera(camera), Status::kOk);
+  const auto image = sessions::readImage(one.image.source.file);
+  const auto gray = sessions::readImage(folder_ / "scene/gray/000001.png");
+  EXPECT_EQ(gray.pixels, sessions::undistort(camera, image.view()).pixels);
+}
+
+TEST_F(AnnotationExchange, MarksComeBackAsTheyWere) {
+  for (const char* name : {"points.json", "points.csv"}) {
+    sessions::exportMarks(session_, bc_, folder_ / name);
+    const Session without = withAnnotation(session_, bc_, {});
+    const auto read = sessions::importMarks(without, bc_, folder_ / name, false);
+    EXPECT_TRUE(read.session == session_) << name;
+    // The same marks once more are no others.
+    EXPECT_TRUE(sessions::importMarks(session_, bc_, folder_ / name, false).session == session_);
+    EXPECT_THAT(message([&] { (void)sessions::importMarks(session_, os_, folder_ / name, false); }),
+                HasSubstr("has other marks already"));
+    EXPECT_EQ(
+        *sessions::importMarks(session_, os_, folder_ / name, true).session.annotations.at(os_),
+        *session_.annotations.at(bc_));
+  }
+}
+
+TEST_F(AnnotationExchange, LandmarksAreAddedToThoseOfTheFile) {
+  const std::vector<sessions::Landmark> before = {{"kept", {1, 2, 3}, "mine"},
+                                                  {"p1", {9, 9, 9}, "old"}};
+  sessions::writeLandmarks(folder_ / "l.json", before);
+  sessions::exportLandmarks(session_, bc_, folder_ / "l.json");
+  const auto after = sessions::readLandmarks(folder_ / "l.json");
+  EXPECT_EQ(after, sessions::withMarks(before, *session_.annotations.at(bc_)));
+  EXPECT_EQ(after.size(), 11u);
+  EXPECT_EQ(after[0], before[0]);
+  folder_.write("broken.json", std::string_view("{"));
+  EXPECT_THROW(sessions::exportLandmarks(session_, bc_, folder_ / "broken.json"),
+               sessions::InputError);
+  EXPECT_EQ(folder_.read("broken.json"), "{");
+}
+
+TEST_F(AnnotationExchange, SaysWhatCannotBeExported) {
+  const auto colmap = [&](const Session& session, const std::vector<std::string>& ids) {
+    return message([&] { (void)sessions::exportColmap(session, folder_ / "m", ids, false); });
+  };
+  EXPECT_THAT(colmap(session_, {}), HasSubstr("are of different stations"));
+  EXPECT_THAT(colmap(session_, {"x"}), HasSubstr("there is no case 'x'"));
+  const Session none = withAnnotation(withAnnotation(session_, bc_, {}), os_, {});
+  EXPECT_THAT(colmap(none, {}), HasSubstr("no case has marks"));
+  EXPECT_THAT(colmap(none, {bc_}), HasSubstr("case '" + bc_ + "' has no pose: "));
+  EXPECT_THAT(message([&] { sessions::exportMarks(none, bc_, folder_ / "p.json"); }),
+              HasSubstr("has no marks"));
+  sessions::SessionCase moved = *session_.findCase(os_);
+  moved.image.source.file = folder_ / "gone.png";
+  EXPECT_THAT(message([&] {
+                (void)sessions::exportBop(withCase(session_, moved), folder_ / "s", {}, false);
+              }),
+              HasSubstr("gone.png"));
+  // No half-written folder.
+  EXPECT_EQ(folder_.fileCount(), 0u);
+  // One case without a pose does not keep the others from being written.
+  const auto made = sessions::exportBop(withAnnotation(session_, os_,
+                                                       [&] {
+                                                         auto few = *session_.annotations.at(os_);
+                                                         few.points.resize(2);
+                                                         return few;
+                                                       }()),
+                                        folder_ / "s", {}, false);
+  EXPECT_THAT(made.case_ids, ElementsAre(bc_));
+  EXPECT_THAT(made.notes, ElementsAre(HasSubstr("case '" + os_ + "' has no pose: ")));
+}
+
+TEST_F(AnnotationExchange, SaysWhatCannotBeImported) {
+  sessions::PosedImage image{1, "bc/image.png", session_.findCase(bc_)->camera, Pose()};
+  ASSERT_EQ(prepareCamera(image.camera), Status::kOk);
+  image.camera_from_station.translation_m.z() = 0.5;
+  const auto read = [&](std::vector<sessions::PosedImage> images, bool replace) {
+    sessions::writeColmapText(folder_ / "", images);
+    return message([&] { (void)sessions::importColmap(session_, folder_ / "", replace); });
+  };
+  EXPECT_EQ(read({image}, true), "(nothing)");
+  EXPECT_THAT(read({image}, false), HasSubstr("has another truth already"));
+  sessions::PosedImage other = image;
+  other.id = 2;
+  EXPECT_THAT(read({image, other}, true), HasSubstr("two of the poses"));
+  other.name = "image.png";
+  EXPECT_THAT(read({other}, true), HasSubstr("may be the image of case"));
+  other.name = "stranger.png";
+  EXPECT_THAT(read({other}, true), HasSubstr("'stranger.png' is no case's"));
+  EXPECT_EQ(read({image, other}, true), "(nothing)");
+  other = image;
+  other.camera.fx += 0.01;
+  EXPECT_THAT(read({other}, true), HasSubstr("its camera is not that of case"));
+  EXPECT_THAT(message([&] { (void)sessions::importBop(session_, folder_ / "none", true); }),
+              HasSubstr("scene_camera.json"));
+}
+
+TEST(ImageNames, AreRelativeToWhatHoldsAllImages) {
+  Session session;
+  Random random = randomFor("ImageNames");
+  for (const char* file : {"/data/a/000012.png", "/data/b/7.png", "/data/b/c/3.png"}) {
+    sessions::SessionCase one = randomCase(random, file);
+    one.image.source.file = file;
+    session = withCase(session, one);
+  }
+  EXPECT_THAT(sessions::imageNames(session), ElementsAre("a/000012.png", "b/7.png", "b/c/3.png"));
+  EXPECT_THAT(sessions::imageNumbers(session), ElementsAre(12, 7, 3));
+  EXPECT_THAT(sessions::stationNumbers(session), ElementsAre(1, 2, 3));
+  sessions::SessionCase again = *session.cases[0];
+  again.id = "again";
+  again.image.source.file = "/data/a/left.png";
+  session = withCase(session, again);
+  EXPECT_THAT(sessions::imageNumbers(session), ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(sessions::stationNumbers(session), ElementsAre(1, 2, 3, 1));
+  EXPECT_TRUE(sessions::isEndOf("b/7.png", "/data/b/7.png"));
+  EXPECT_TRUE(sessions::isEndOf("./7.png", "/data/b/7.png"));
+  EXPECT_FALSE(sessions::isEndOf("7.png", "/data/b/17.png"));
+  EXPECT_FALSE(sessions::isEndOf("a/7.png", "/data/b/7.png"));
+  EXPECT_FALSE(sessions::isEndOf("", "/data/b/7.png"));
+}
+
+}  // namespace
+}  // namespace boresight::test

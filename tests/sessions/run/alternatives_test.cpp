@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/run/alternatives.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/example_run.h"
+#include "tests/support/random_pose.h"
+
+namespace boresight::sessions {
+namespace {
+
+HypothesisSummary hypothesis(const Pose& pose, int inliers, bool solved) {
+  HypothesisSummary made;
+  made.camera_from_station = pose;
+  made.inliers = inliers;
+  made.matches = 20;
+  made.solved = solved;
+  made.support = 0.5;
+  made.inlier_nats = 3.0;
+  made.edge_nats = 4.0;
+  return made;
+}
+
+/// An iteration of restarts, one of rolled hypotheses, and two plain ones.
+RunSnapshot runWith(Random& random) {
+  RunSnapshot run;
+  for (int i = 0; i < 4; ++i) {
+    IterationTrace one;
+    one.index = i;
+    one.wide = i == 0;
+    one.camera_from_station_before = test::randomPose(random);
+    one.camera_from_station = test::randomPose(random);
+    const int count = i == 0 ? 3 : i == 1 ? 2 : 1;
+    for (int k = 0; k < count; ++k)
+      one.hypotheses.push_back(hypothesis(test::randomPose(random), 5 + k, k != 1));
+    one.chosen_hypothesis = i == 0 ? 2 : 0;
+    run.iterations.push_back(std::make_shared<const IterationTrace>(one));
+  }
+  run.finished = true;
+  run.status = LocalizationStatus::kConverged;
+  run.camera_from_station = run.iterations.back()->camera_from_station;
+  return run;
+}
+
+Rival rivalAt(const Pose& before, const Pose& after, LocalizationStatus ended) {
+  Rival rival;
+  rival.camera_from_station_before = before;
+  rival.camera_from_station = after;
+  rival.similarity = 0.4;
+  rival.ended = ended;
+  rival.margin_nats = 25.0;
+  return rival;
+}
+
+TEST(Alternatives, AreTheHypothesesOfIterationsThatHadSeveral) {
+  Random random = test::randomFor("Alternatives 1");
+  const RunSnapshot run = runWith(random);
+  const std::vector<Alternative> all = alternativesOf(run);
+  ASSERT_EQ(all.size(), 5u);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t iteration = i < 3 ? 0 : 1;
+    const std::size_t k = i < 3 ? i : i - 3;
+    const auto& hypotheses = run.iterations[iteration]->hypotheses;
+    EXPECT_EQ(all[i].kind, i < 3 ? AlternativeKind::kRestart : AlternativeKind::kRolled);
+    EXPECT_EQ(all[i].iteration, static_cast<int>(iteration));
+    EXPECT_EQ(all[i].camera_from_station, hypotheses[k].camera_from_station);
+    EXPECT_EQ(all[i].inliers, hypotheses[k].inliers);
+    const Pose& chosen = hypotheses[iteration == 0 ? 2 : 0].camera_from_station;
+    EXPECT_EQ(all[i].camera_from_station_chosen, chosen);
+    EXPECT_EQ(all[i].chosen, k == (iteration == 0 ? 2u : 0u));
+    EXPECT_TRUE(std::isnan(all[i].similarity));
+  }
+  EXPECT_EQ(all[0].evidence_nats, 7.0);
+  EXPECT_TRUE(std::isnan(all[1].evidence_nats)) << "it has no pose";
+  EXPECT_TRUE(std::isnan(all[3].evidence_nats)) << "nobody weighs rolled hypotheses so";
+  EXPECT_TRUE(all[1].has_pose) << "where the restart began";
+  EXPECT_FALSE(all[4].has_pose);
+  EXPECT_TRUE(std::isnan(all[4].apart_m));
+}
+
+TEST(Alternatives, TellHowFarTheyAreApart) {
+  Random random = test::randomFor("Alternatives 2");
+  RunSnapshot run = runWith(random);
+  Pose moved = run.camera_from_station;
+  moved.rotation = rotationExp({0.0, 0.0, 0.25}) * moved.rotation;
+  moved.translation_m += Eigen::Vector3d(0.003, 0.0, 0.004);
+  run.rivals = {rivalAt(test::randomPose(random), moved, LocalizationStatus::kConverged)};
+  const Alternative rival = alternativesOf(run).front();
+  EXPECT_NEAR(rival.apart_m, 0.005, 1e-12);
+  EXPECT_NEAR(rival.apart_rad, 0.25, 1e-9);
+  EXPECT_EQ(rival.camera_from_station_chosen, run.camera_from_station);
+}
+
+TEST(Alternatives, ARivalIsWhereTheImagePutsItOrWhereItWasExpected) {
+  Random random = test::randomFor("Alternatives 3");
+  RunSnapshot run = runWith(random);
+  const Pose before = test::randomPose(random);
+  const Pose after = test::randomPose(random);
+  run.rivals = {rivalAt(before, after, LocalizationStatus::kConverged),
+                rivalAt(before, after, LocalizationStatus::kNotSupported),
+                rivalAt(before, after, LocalizationStatus::kRunning)};
+  // A run that ends as ambiguous has its seed for a result.
+  run.status = LocalizationStatus::kAmbiguous;
+  run.camera_from_station = test::randomPose(random);
+  const std::vector<Alternative> all = alternativesOf(run);
+  ASSERT_EQ(all.size(), 8u);
+  EXPECT_EQ(all[0].camera_from_station, after);
+  EXPECT_EQ(all[0].margin_nats, 25.0);
+  EXPECT_EQ(all[1].camera_from_station, before);
+  EXPECT_TRUE(std::isnan(all[1].margin_nats)) << "nothing was weighed";
+  EXPECT_EQ(all[2].ended, LocalizationStatus::kRunning);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(all[static_cast<std::size_t>(i)].number, i + 1);
+    EXPECT_EQ(all[static_cast<std::size_t>(i)].camera_from_station_chosen,
+              run.iterations.back()->camera_from_station);
+  }
+}
+
+TEST(Alternatives, AnIterationOfARivalsAttemptIsFound) {
+  Random random = test::randomFor("Alternatives 4");
+  RunSnapshot run = runWith(random);
+  const Pose before = test::randomPose(random);
+  run.rivals = {rivalAt(test::randomPose(random), Pose(), LocalizationStatus::kPnpFailed),
+                rivalAt(before, Pose(), LocalizationStatus::kConverged)};
+  for (int i = 0; i < 2; ++i) {
+    IterationTrace one;
+    one.index = 4 + i;
+    one.attempt = 1;
+    one.camera_from_station_before = i == 0 ? before : test::randomPose(random);
+    run.iterations.push_back(std::make_shared<const IterationTrace>(one));
+  }
+  const std::vector<Alternative> all = alternativesOf(run);
+  for (int i = -1; i < 7; ++i)
+    EXPECT_EQ(rivalOfIteration(run, all, i), i == 4 || i == 5 ? 1 : -1) << i;
+}
+
+TEST(Alternatives, OfAWideSearchAreItsRestarts) {
+  LocalizerOptions options = defaultProfile();
+  options.wide.rotation_rad = 0.4;
+  const auto run = test::runOfExample("os", options);
+  const std::vector<Alternative> all = alternativesOf(*run);
+  ASSERT_GT(all.size(), 2u);
+  int chosen = 0;
+  for (const Alternative& one : all) {
+    EXPECT_EQ(one.kind, AlternativeKind::kRestart);
+    chosen += one.chosen && one.iteration == 0 ? 1 : 0;
+  }
+  EXPECT_EQ(chosen, 1);
+  // The one that the first level went on with has the most evidence.
+  for (const Alternative& one : all)
+    if (one.iteration == 0 && one.has_pose && !std::isnan(one.evidence_nats)) {
+      const auto best = std::find_if(all.begin(), all.end(), [](const Alternative& each) {
+        return each.chosen && each.iteration == 0;
+      });
+      EXPECT_LE(one.evidence_nats, best->evidence_nats);
+    }
+}
+
+}  // namespace
+}  // namespace boresight::sessions

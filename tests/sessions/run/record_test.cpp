@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/run/record.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <numeric>
+
+#include "tests/support/example_case.h"
+
+namespace boresight::sessions {
+namespace {
+
+/// One run, recorded in full and in summary, shared by the tests below.
+struct Runs {
+  test::ExampleCase example{"os"};
+  LocalizationTrace full = localize(example.problem(), defaultProfile(), RecordLevel::kFull);
+  LocalizationTrace summary = localize(example.problem(), defaultProfile(), RecordLevel::kSummary);
+};
+
+const Runs& runs() {
+  static const Runs made;
+  return made;
+}
+
+TEST(Localize, RecordingDoesNotChangeTheRun) {
+  ASSERT_EQ(runs().full.status, LocalizationStatus::kConverged);
+  EXPECT_EQ(runs().full.digest.size(), 64u);
+  EXPECT_EQ(runs().full.digest, runs().summary.digest);
+}
+
+TEST(Localize, EndsNearTheTruth) {
+  const Vector6d error = perturbationBetween(runs().example.truth.camera_from_station,
+                                             runs().full.camera_from_station);
+  EXPECT_LT(error.head<3>().norm(), 2e-3);
+  EXPECT_LT(error.tail<3>().norm(), 1e-3);
+}
+
+TEST(Localize, GivesWhatAPlainLoopOfStepsGives) {
+  const LocalizationProblem problem = runs().example.problem();
+  std::size_t bytes = 0;
+  ASSERT_EQ(requiredBytes(sizeOf(problem), defaultProfile(), bytes), Status::kOk);
+  std::vector<std::byte> memory(bytes);
+  Localizer localizer(problem, defaultProfile(), memory);
+  while (!localizer.step().finished) {
+  }
+  EXPECT_EQ(hexText(localizer.digest()).data(), runs().full.digest);
+  EXPECT_EQ(static_cast<std::size_t>(localizer.workspace().iterations),
+            runs().full.iterations.size());
+}
+
+TEST(Localize, KeepsEverythingOfAnIterationInFull) {
+  for (const IterationTrace& iteration : runs().full.iterations) {
+    EXPECT_EQ(iteration.render.pixels.size(), static_cast<std::size_t>(iteration.edge_pixel_count));
+    EXPECT_EQ(iteration.templates.size(), static_cast<std::size_t>(iteration.template_count));
+    EXPECT_EQ(iteration.matches.size(), iteration.templates.size());
+    EXPECT_EQ(iteration.correspondences.size(),
+              static_cast<std::size_t>(iteration.correspondence_count));
+    EXPECT_EQ(iteration.pnp.inlier.size(), iteration.correspondences.size());
+    EXPECT_EQ(std::accumulate(iteration.pnp.inlier.begin(), iteration.pnp.inlier.end(), 0),
+              iteration.pnp.inlier_count);
+    EXPECT_EQ(iteration.refinement.samples.size(),
+              static_cast<std::size_t>(iteration.refinement.sample_count));
+  }
+  EXPECT_EQ(runs().full.iterations.front().kind, IterationKind::kMatch);
+  EXPECT_GT(runs().full.iterations.front().template_count, 6);
+  EXPECT_EQ(runs().full.iterations.back().kind, IterationKind::kRefine);
+  EXPECT_GT(runs().full.iterations.back().refinement.sample_count, 100);
+}
+
+TEST(Localize, KeepsTheCountsInSummary) {
+  ASSERT_EQ(runs().summary.iterations.size(), runs().full.iterations.size());
+  EXPECT_EQ(runs().summary.edges.edge_count, runs().full.edges.edge_count);
+  EXPECT_TRUE(runs().summary.edges.level[0].words.empty());
+  for (std::size_t i = 0; i < runs().full.iterations.size(); ++i) {
+    const IterationTrace& brief = runs().summary.iterations[i];
+    const IterationTrace& whole = runs().full.iterations[i];
+    EXPECT_TRUE(brief.render.pixels.empty());
+    EXPECT_TRUE(brief.templates.empty());
+    EXPECT_TRUE(brief.refinement.samples.empty());
+    EXPECT_EQ(brief.edge_pixel_count, whole.edge_pixel_count);
+    EXPECT_EQ(brief.template_count, whole.template_count);
+    EXPECT_EQ(brief.searched_count, whole.searched_count);
+    EXPECT_EQ(brief.support(), whole.support());
+    EXPECT_EQ(brief.rms_px(), whole.rms_px());
+    EXPECT_EQ(brief.correction_translation_m, whole.correction_translation_m);
+  }
+}
+
+TEST(Localize, ChainsThePosesOfItsIterations) {
+  const auto& iterations = runs().full.iterations;
+  const auto same = [](const Pose& a, const Pose& b) {
+    return a.rotation.coeffs() == b.rotation.coeffs() && a.translation_m == b.translation_m;
+  };
+  EXPECT_TRUE(
+      same(iterations.front().camera_from_station_before, runs().full.camera_from_station_seed));
+  for (std::size_t i = 1; i < iterations.size(); ++i)
+    EXPECT_TRUE(
+        same(iterations[i].camera_from_station_before, iterations[i - 1].camera_from_station));
+  EXPECT_TRUE(same(iterations.back().camera_from_station, runs().full.camera_from_station));
+}
+
+TEST(Localize, AccountsForItsTime) {
+  StageSeconds sum;
+  for (const IterationTrace& iteration : runs().full.iterations) {
+    EXPECT_GT(iteration.seconds.rendering, 0.0);
+    sum.rendering += iteration.seconds.rendering;
+    sum.matching += iteration.seconds.matching;
+  }
+  EXPECT_NEAR(sum.rendering, runs().full.seconds.rendering, 1e-9);
+  EXPECT_NEAR(sum.matching, runs().full.seconds.matching, 1e-9);
+  EXPECT_GT(runs().full.seconds.initialization, 0.0);
+}
+
+TEST(Localize, StopsWhenAsked) {
+  std::stop_source source;
+  source.request_stop();
+  const LocalizationTrace trace =
+      localize(runs().example.problem(), defaultProfile(), RecordLevel::kFull, source.get_token());
+  EXPECT_EQ(trace.status, LocalizationStatus::kRunning);
+  EXPECT_TRUE(trace.iterations.empty());
+}
+
+TEST(Localize, RecordsAFailedIterationUpToItsStage) {
+  LocalizerOptions options = defaultProfile();
+  options.templates.min_count = 1000;
+  options.templates.count = 1024;
+  options.loop.max_attempts = 1;
+  const LocalizationTrace trace = localize(runs().example.problem(), options, RecordLevel::kFull);
+  ASSERT_EQ(trace.status, LocalizationStatus::kTooFewTemplates);
+  ASSERT_EQ(trace.iterations.size(), 1u);
+  const IterationTrace& failed = trace.iterations.front();
+  EXPECT_EQ(failed.status, LocalizationStatus::kTooFewTemplates);
+  EXPECT_EQ(failed.reached, Stage::kTemplates);
+  EXPECT_GT(failed.edge_pixel_count, 0);
+  EXPECT_GT(failed.template_count, 0);
+  EXPECT_TRUE(failed.matches.empty());
+  EXPECT_TRUE(failed.pnp.inlier.empty());
+  EXPECT_EQ(failed.correction_translation_m, 0.0);
+  EXPECT_EQ(trace.camera_from_station.translation_m, trace.camera_from_station_seed.translation_m);
+}
+
+TEST(Localize, RecordsEveryAttempt) {
+  LocalizerOptions options = defaultProfile();
+  options.support.min_support = 1.0;
+  options.loop.max_attempts = 2;
+  const LocalizationTrace trace =
+      localize(runs().example.problem(), options, RecordLevel::kSummary);
+  EXPECT_EQ(trace.status, LocalizationStatus::kNotSupported);
+  EXPECT_EQ(trace.attempts, 2);
+  std::array<int, 2> unsupported{};
+  for (std::size_t i = 0; i < trace.iterations.size(); ++i) {
+    const IterationTrace& iteration = trace.iterations[i];
+    ASSERT_LT(iteration.attempt, 2);
+    const bool last_of_attempt =
+        i + 1 == trace.iterations.size() || trace.iterations[i + 1].attempt != iteration.attempt;
+    EXPECT_EQ(iteration.status == LocalizationStatus::kNotSupported, last_of_attempt) << i;
+    unsupported[static_cast<std::size_t>(iteration.attempt)] += last_of_attempt ? 1 : 0;
+    if (i > 0) {
+      EXPECT_NE(iteration.index, trace.iterations[i - 1].index);
+    }
+  }
+  EXPECT_EQ(unsupported, (std::array<int, 2>{1, 1}));
+}
+
+TEST(Localize, GivesTheSameWithinALimit) {
+  const LocalizationProblem problem = runs().example.problem();
+  std::size_t bytes = 0;
+  ASSERT_EQ(requiredBytes(sizeOf(problem), defaultProfile(), bytes), Status::kOk);
+  RunSettings settings;
+  settings.level = RecordLevel::kSummary;
+  settings.memory_limit = bytes + inputBytes(problem);
+  const LocalizationTrace exact = localize(problem, defaultProfile(), settings);
+  EXPECT_EQ(exact.digest, runs().full.digest);
+  EXPECT_EQ(exact.memory.total(), settings.memory_limit);
+  EXPECT_EQ(exact.arena_bytes, bytes);
+  settings.memory_limit = kFlightMemoryBytes;
+  EXPECT_EQ(localize(problem, defaultProfile(), settings).digest, runs().full.digest);
+
+  settings.memory_limit = bytes + inputBytes(problem) - 1;
+  const LocalizationTrace refused = localize(problem, defaultProfile(), settings);
+  EXPECT_EQ(refused.status, LocalizationStatus::kFault);
+  EXPECT_EQ(refused.fault, Status::kArenaTooSmall);
+  EXPECT_TRUE(refused.iterations.empty());
+  EXPECT_EQ(refused.memory.total(), settings.memory_limit + 1);
+}
+
+TEST(Localize, GivesTheSameWithAnyNumberOfThreads) {
+  RunSettings settings;
+  settings.level = RecordLevel::kSummary;
+  for (const int threads : {2, 3, 8}) {
+    settings.threads = threads;
+    const LocalizationTrace trace = localize(runs().example.problem(), defaultProfile(), settings);
+    EXPECT_EQ(trace.digest, runs().full.digest) << threads;
+  }
+  settings.threads = 0;
+  const LocalizationTrace none = localize(runs().example.problem(), defaultProfile(), settings);
+  EXPECT_EQ(none.fault, Status::kInvalidOption);
+}
+
+TEST(Localize, CountsWhatTheProblemPointsTo) {
+  LocalizationProblem problem = runs().example.problem();
+  const std::size_t bytes = inputBytes(problem);
+  const auto pixels = static_cast<std::size_t>(problem.image.width * problem.image.height);
+  EXPECT_EQ(bytes, pixels + problem.mesh.vertices_in_station_m.size() * 12 +
+                       problem.mesh.faces.size() * 14 +
+                       problem.mesh.parts.size() * sizeof(ScenePart));
+  std::vector<std::uint64_t> words(100);
+  BitImage ignore;
+  ignore.words = words;
+  problem.ignore = &ignore;
+  EXPECT_EQ(inputBytes(problem), bytes + 800);
+}
+
+TEST(Localize, ReportsWhatCannotRunAsAFault) {
+  LocalizationProblem problem = runs().example.problem();
+  LocalizerOptions options = defaultProfile();
+  options.templates.count = -1;
+  const LocalizationTrace invalid = localize(problem, options, RecordLevel::kFull);
+  EXPECT_EQ(invalid.status, LocalizationStatus::kFault);
+  EXPECT_EQ(invalid.fault, Status::kInvalidOption);
+  problem.mesh.faces = {};
+  problem.mesh.part_of_face = {};
+  const LocalizationTrace empty = localize(problem, defaultProfile(), RecordLevel::kFull);
+  EXPECT_EQ(empty.status, LocalizationStatus::kFault);
+  EXPECT_EQ(empty.fault, Status::kInvalidMesh);
+  EXPECT_TRUE(empty.iterations.empty());
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/run/run_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/math.h"
+#include "sessions/text/text_table.h"
+
+namespace boresight::sessions {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+/// A run of one iteration that ended with this status.
+LocalizationTrace endedWith(LocalizationStatus status) {
+  LocalizationTrace trace;
+  trace.status = status;
+  trace.edges.edge_count = 1000;
+  IterationTrace iteration;
+  iteration.status = status;
+  iteration.edge_pixel_count = 7;
+  iteration.template_count = 5;
+  iteration.template_side_px = 64;
+  iteration.searched_count = 4;
+  iteration.correspondence_count = 4;
+  iteration.threshold_px = 8.0;
+  iteration.pnp.inlier_count = 3;
+  iteration.correction_translation_m = 0.0123;
+  iteration.correction_rotation_rad = 2.0 * kDegree_rad;
+  trace.iterations.push_back(iteration);
+  return trace;
+}
+
+TEST(PoseText, SaysWhereItsSigmasAre) {
+  const Matrix6d covariance = 1e-6 * Matrix6d::Identity();
+  EXPECT_THAT(
+      poseText(Pose(), covariance),
+      HasSubstr("1 sigma at the camera, along and about its x y z: 1.0000 1.0000 1.0000 mm"));
+  EXPECT_THAT(poseText(Pose(), covariance, "rig_from_station"),
+              HasSubstr("1 sigma at the rig's origin"));
+}
+
+TEST(Explanation, IsEmptyForAConvergedRun) {
+  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kConverged)), IsEmpty());
+}
+
+TEST(Explanation, NamesWhatWasMeasuredAndNeeded) {
+  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewEdges)),
+              AllOf(HasSubstr("7 salient edge pixels"), HasSubstr("needed 12")));
+  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewTemplates)),
+              AllOf(HasSubstr("5 templates of 64 px"), HasSubstr("needed 6")));
+  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewMatches)),
+              AllOf(HasSubstr("4 of 5 templates"), HasSubstr("needed 6")));
+  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kPnpFailed)),
+              AllOf(HasSubstr("4 matches"), HasSubstr("3 inliers at 8.0 px")));
+  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kIterationLimit)),
+              AllOf(HasSubstr("12.300 mm"), HasSubstr("2.000 deg")));
+}
+
+TEST(Explanation, NamesTheAxisThatLeftTheUncertainty) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kLeftUncertainty);
+  trace.uncertainty.translation_m = {0.03, 0.02, 0.03};
+  trace.iterations.back().camera_from_station.translation_m = {0.030, -0.025, 0.0};
+  EXPECT_THAT(explanation(trace),
+              AllOf(HasSubstr("25.00 mm along y"), HasSubstr("allowed 22.00 mm")));
+  trace.iterations.back().camera_from_station.rotation =
+      rotationExp(Eigen::Vector3d(0.0, 0.0, 20.0 * kDegree_rad));
+  EXPECT_THAT(explanation(trace), HasSubstr("20.00 deg about z"));
+}
+
+TEST(Explanation, SpeaksOfRestartsWhereTheRunWentOnFromThem) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kLeftUncertainty);
+  trace.iterations.front().wide = true;
+  EXPECT_THAT(explanation(trace), HasSubstr("what the restarts had found"));
+  EXPECT_THAT(explanation(trace), Not(HasSubstr("allowed")));
+}
+
+TEST(Explanation, GivesTheShareOfSupportedEdges) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kNotSupported);
+  trace.support.rendered = 200;
+  trace.support.covered = 30;
+  trace.support.seen = 400;
+  trace.support.explained = 80;
+  EXPECT_THAT(explanation(trace),
+              AllOf(HasSubstr(fixedText(100.0 * trace.support.share(), 1) + " %, needed"),
+                    HasSubstr("15.0 % of the rendered edges are seen"),
+                    HasSubstr("20.0 % of the edges seen")));
+}
+
+TEST(Explanation, SaysHowFarTheRivalOfAnAmbiguousRunIs) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kAmbiguous);
+  trace.rivals.resize(3);
+  for (Rival& rival : trace.rivals) {
+    rival.camera_from_station = trace.iterations.back().camera_from_station;
+    rival.camera_from_station.translation_m.x() += 0.02;
+    rival.ended = LocalizationStatus::kConverged;
+    rival.margin_nats = 5.5;
+  }
+  trace.rivals[1].camera_from_station.translation_m.x() += 0.02;
+  trace.rivals[1].margin_nats = 2.5;
+  trace.rivals[2].ended = LocalizationStatus::kNotSupported;
+  trace.rivals[2].margin_nats = 0.0;
+  EXPECT_THAT(explanation(trace), HasSubstr("a pose 40.0 mm away, turned by 0.00 deg"));
+  EXPECT_THAT(explanation(trace), HasSubstr("2.5 nats less evidence, needed 10.0"));
+}
+
+TEST(Explanation, BlamesAnImageWithoutEdges) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kPnpFailed);
+  trace.edges.edge_count = 0;
+  EXPECT_THAT(explanation(trace), HasSubstr("image has no edges"));
+}
+
+TEST(Explanation, NamesTheOptionThatACapacityNeeds) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kFault);
+  trace.fault = Status::kCapacityExceeded;
+  EXPECT_THAT(explanation(trace), HasSubstr("render.max_edge_pixels"));
+}
+
+TEST(IterationTable, HasOneLineForEachIteration) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kConverged);
+  const std::string matched = iterationTable(trace);
+  EXPECT_THAT(matched, AllOf(HasSubstr("match"), HasSubstr("12.300"), HasSubstr("8.0")));
+  EXPECT_THAT(matched, Not(HasSubstr("refine")));
+  trace.iterations.push_back(trace.iterations.back());
+  trace.iterations.back().kind = IterationKind::kRefine;
+  trace.iterations.back().refinement.used_count = 4321;
+  EXPECT_THAT(iterationTable(trace), AllOf(HasSubstr("refine"), HasSubstr("4321")));
+}
+
+TEST(PoseText, LabelsTheQuaternionAndKeepsItsScalarPositive) {
+  Pose pose;
+  pose.rotation = Eigen::Quaterniond(-0.5, 0.5, -0.5, 0.5);
+  EXPECT_THAT(poseText(pose, Matrix6d::Zero()),
+              AllOf(HasSubstr("wxyz 0.500000000 -0.500000000 0.500000000 -0.500000000"),
+                    Not(HasSubstr("sigma"))));
+}
+
+TEST(PoseText, GivesSigmasInMillimetresAndMilliradians) {
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance(0, 0) = 4e-6;  // rotation about x: 2 mrad
+  covariance(5, 5) = 9e-8;  // translation along z: 0.3 mm
+  EXPECT_THAT(poseText(Pose(), covariance),
+              HasSubstr("0.0000 0.0000 0.3000 mm, 2.0000 0.0000 0.0000 mrad"));
+}
+
+/// The same as it comes from a run that is watched.
+RunSnapshot snapshotWith(LocalizationStatus status) { return snapshotOf(endedWith(status)); }
+
+TEST(StandingText, ExplainsARunThatFailed) {
+  EXPECT_THAT(standingText(snapshotWith(LocalizationStatus::kTooFewEdges)),
+              AllOf(HasSubstr("Did not converge. The render shows 7 salient edge pixels"),
+                    testing::EndsWith(".")));
+}
+
+TEST(StandingText, SaysWhatSpeaksForAPose) {
+  RunSnapshot snapshot = snapshotWith(LocalizationStatus::kConverged);
+  snapshot.covariance(3, 3) = 4e-10;  // 0.02 mm
+  snapshot.support.rendered = snapshot.support.covered = 10;
+  snapshot.support.seen = snapshot.support.explained = 10;
+  EXPECT_THAT(standingText(snapshot),
+              AllOf(HasSubstr("Converged in 1 iteration,"), HasSubstr("0.020, 0.000, 0.000 mm"),
+                    HasSubstr("Edge support is 100.0 %")));
+  snapshot.options.support.gate = false;
+  EXPECT_THAT(standingText(snapshot), Not(HasSubstr("Edge support")));
+}
+
+TEST(StandingText, SaysHowFarARunIs) {
+  RunSnapshot snapshot;
+  EXPECT_EQ(standingText(snapshot), "Nothing has run yet.");
+  snapshot = snapshotWith(LocalizationStatus::kRunning);
+  EXPECT_EQ(standingText(snapshot), "Iteration 1 is complete.");
+  snapshot.last_under_way = true;
+  EXPECT_THAT(standingText(snapshot), AllOf(HasSubstr("under way"), HasSubstr("render")));
+}
+
+TEST(StandingText, NamesTheOtherViews) {
+  RunSnapshot snapshot = snapshotWith(LocalizationStatus::kConverged);
+  snapshot.views = {{"a", "converged"}, {"b", "too_few_matches"}, {"c", "converged"}};
+  EXPECT_THAT(standingText(snapshot),
+              testing::StartsWith("Together with b (left out: too few of its templates meet edges "
+                                  "of the image) and c. Converged in"));
+  snapshot = snapshotWith(LocalizationStatus::kTooFewMatches);
+  snapshot.views = {{"a", "converged"}, {"b", "too_few_matches"}};
+  snapshot.own_view = 1;
+  EXPECT_THAT(standingText(snapshot),
+              testing::StartsWith("Together with a. This view was left out: too few of"));
+  snapshot.views[0].status = "pnp_failed";
+  EXPECT_THAT(standingText(snapshot), testing::StartsWith("Together with a. Did not converge. "));
+  snapshot.views = {{"a", "running"}, {"b", "running"}};
+  snapshot.finished = false;
+  EXPECT_EQ(standingText(snapshot), "Together with a. Iteration 1 is complete.");
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/run/stepped_views.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <stop_token>
+
+#include "core/base/digest.h"
+#include "tests/support/example_run.h"
+
+namespace boresight::sessions {
+namespace {
+
+const std::vector<std::string> kNames = {"left", "right"};
+
+/// The example's image by two cameras in one place; the second may have another image.
+class SteppedViewsTest : public testing::Test {
+ protected:
+  SteppedViewsTest() : example_("os") {
+    const LocalizationProblem one = example_.problem();
+    for (View& view : views_) {
+      view.image = one.image;
+      view.camera = one.camera;
+    }
+    problem_.views = views_;
+    problem_.mesh = one.mesh;
+    problem_.rig_from_station_seed = one.camera_from_station_seed;
+    problem_.uncertainty = one.uncertainty;
+  }
+
+  void blacken(std::size_t view) {
+    black_ = example_.image;
+    std::fill(black_.pixels.begin(), black_.pixels.end(), std::uint8_t{0});
+    views_[view].image = black_.view();
+  }
+
+  /// What the core makes of it without anybody looking.
+  std::unique_ptr<ViewsLocalizer> unwatched() {
+    std::size_t bytes = 0;
+    EXPECT_EQ(ViewsLocalizer::requiredBytes(problem_, options_, bestKernels(), bytes), Status::kOk);
+    memory_ = std::make_unique<std::byte[]>(bytes);
+    auto made = std::make_unique<ViewsLocalizer>(
+        problem_, options_, std::span<std::byte>(memory_.get(), bytes), bestKernels());
+    while (!made->step().finished) {
+    }
+    return made;
+  }
+
+  std::vector<RunSnapshot> watched() {
+    SteppedViews run(problem_, options_, kNames);
+    run.advance(StepUntil::kEnd);
+    return run.snapshots();
+  }
+
+  test::ExampleCase example_;
+  GrayImage black_;
+  std::array<View, 2> views_;
+  ViewsProblem problem_;
+  LocalizerOptions options_ = defaultProfile();
+  std::unique_ptr<std::byte[]> memory_;
+};
+
+std::string digestOfView(const ViewsLocalizer& all, std::uint32_t view) {
+  DigestWriter writer;
+  writer.tag("view of several");
+  writer.bytes(all.digest());
+  writer.u32(view);
+  return hexText(writer.digest()).data();
+}
+
+TEST_F(SteppedViewsTest, WatchingChangesNoBit) {
+  const auto expected = unwatched();
+  ASSERT_EQ(expected->result().status, LocalizationStatus::kConverged);
+  const std::vector<RunSnapshot> views = watched();
+  ASSERT_EQ(views.size(), 2u);
+  for (std::uint32_t v = 0; v < 2; ++v) {
+    const ViewReport& report = expected->result().views[v];
+    EXPECT_EQ(views[v].camera_from_station, report.camera_from_station);
+    EXPECT_EQ(views[v].status, report.status);
+    EXPECT_EQ(views[v].support.rendered, report.support.rendered);
+    EXPECT_EQ(views[v].digest, digestOfView(*expected, v));
+    EXPECT_EQ(views[v].own_view, v);
+    EXPECT_EQ(views[v].views,
+              (std::vector<ViewOutcome>{{"left", "converged"}, {"right", "converged"}}));
+    EXPECT_EQ(static_cast<int>(views[v].iterations.size()), expected->result().iterations);
+  }
+  EXPECT_NE(views[0].digest, views[1].digest);
+  EXPECT_NE(views[0].digest, test::exampleRun()->digest);
+  EXPECT_LT(views[0].covariance(3, 3), test::exampleRun()->covariance(3, 3));
+  EXPECT_NEAR(views[1].covariance(3, 3) / views[0].covariance(3, 3), 1.0, 1e-9);
+}
+
+/// What one camera sees the other sees, too: whatever is recorded of one is there of the other.
+TEST_F(SteppedViewsTest, RecordsOfTheSameImageAreTheSame) {
+  options_.loop.max_rolled_hypotheses = 5;
+  options_.loop.roll_spacing_rad = 0.01;
+  options_.loop.enough_inliers = 2.0;
+  const std::vector<RunSnapshot> views = watched();
+  ASSERT_EQ(views[0].iterations.size(), views[1].iterations.size());
+  ASSERT_TRUE(views[0].edges && views[1].edges);
+  for (std::size_t level = 0; level < views[0].edges->level.size(); ++level)
+    EXPECT_EQ(views[0].edges->level[level].words, views[1].edges->level[level].words);
+  for (std::size_t i = 0; i < views[0].iterations.size(); ++i) {
+    const IterationTrace& left = *views[0].iterations[i];
+    const IterationTrace& right = *views[1].iterations[i];
+    EXPECT_EQ(left.index, right.index);
+    EXPECT_EQ(left.kind, right.kind);
+    EXPECT_EQ(left.render.edges.words, right.render.edges.words) << i;
+    EXPECT_EQ(left.templates.size(), right.templates.size());
+    EXPECT_EQ(left.pnp.inlier, right.pnp.inlier);
+    EXPECT_EQ(left.correspondence_count, right.correspondence_count);
+    EXPECT_EQ(left.refinement.used_count, right.refinement.used_count);
+    EXPECT_LT(perturbationBetween(left.camera_from_station, right.camera_from_station).norm(),
+              1e-12);
+    if (i == 0) {
+      EXPECT_GT(left.hypotheses.size(), 1u) << "several were tried, so that one had to be kept";
+    }
+  }
+}
+
+TEST_F(SteppedViewsTest, ABlackViewIsLeftOutAndTheOtherKeepsItsBits) {
+  blacken(1);
+  const std::vector<RunSnapshot> views = watched();
+  EXPECT_EQ(views[0].camera_from_station, test::exampleRun()->camera_from_station);
+  EXPECT_EQ(views[0].status, LocalizationStatus::kConverged);
+  EXPECT_EQ(views[1].status, LocalizationStatus::kTooFewMatches);
+  EXPECT_EQ(views[1].camera_from_station, views[1].camera_from_station_seed);
+  EXPECT_TRUE(views[1].covariance.isZero(0.0));
+  EXPECT_EQ(views[0].views[1].status, "too_few_matches");
+  ASSERT_EQ(views[1].iterations.size(), views[0].iterations.size());
+  const IterationTrace& matched = *views[1].iterations.front();
+  EXPECT_GT(matched.template_count, 0) << "what it tried is there";
+  EXPECT_EQ(matched.status, LocalizationStatus::kTooFewMatches);
+  const IterationTrace& last = *views[1].iterations.back();
+  EXPECT_EQ(last.kind, IterationKind::kRefine);
+  EXPECT_TRUE(last.render.edges.words.empty()) << "it was not asked";
+  const Pose& pose = views[0].iterations.back()->camera_from_station;
+  EXPECT_LT(perturbationBetween(pose, last.camera_from_station).norm(), 1e-12);
+}
+
+TEST_F(SteppedViewsTest, ABlackFirstViewLeadsAllTheSame) {
+  blacken(0);
+  const std::vector<RunSnapshot> views = watched();
+  EXPECT_EQ(views[0].status, LocalizationStatus::kTooFewMatches);
+  EXPECT_EQ(views[1].status, LocalizationStatus::kConverged);
+  EXPECT_LT(perturbationBetween(views[1].camera_from_station, example_.truth.camera_from_station)
+                .tail<3>()
+                .norm(),
+            1e-3);
+}
+
+TEST_F(SteppedViewsTest, HaltsBetweenIterationsAndSlicesAndGoesOn) {
+  const std::string expected = watched().front().digest;
+  SteppedViews run(problem_, options_, kNames);
+  std::stop_source stopped;
+  stopped.request_stop();
+  run.advance(StepUntil::kEnd, stopped.get_token());
+  EXPECT_FALSE(run.finished());
+  EXPECT_EQ(run.complete(), 0u);
+  EXPECT_EQ(run.snapshots()[1].status, LocalizationStatus::kRunning);
+  for (std::size_t i = 1; !run.finished() && i < 100; ++i) {
+    run.advance(StepUntil::kIteration);
+    if (run.finished()) break;
+    EXPECT_EQ(run.complete(), i);
+    EXPECT_EQ(run.snapshots()[1].iterations.size(), i);
+    EXPECT_TRUE(run.snapshots()[0].digest.empty());
+  }
+  EXPECT_EQ(run.snapshots()[0].digest, expected);
+}
+
+TEST_F(SteppedViewsTest, WhatCannotRunSaysSo) {
+  options_.ambiguity.enabled = true;
+  for (const RunSnapshot& one : watched()) {
+    EXPECT_TRUE(one.finished);
+    EXPECT_EQ(one.status, LocalizationStatus::kFault);
+    EXPECT_EQ(one.fault, Status::kInvalidOption);
+  }
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/text/plain_text.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "sessions/io/errors.h"
+
+namespace boresight::sessions {
+namespace {
+
+TEST(PlainText, KeepsWhatIsShown) {
+  const std::string text = "Sol 12, \xc3\xa9\xc4\x9b \xe2\x82\xac \xf0\x9f\x9b\xb0  50 %";
+  EXPECT_EQ(plainText(text), text);
+  EXPECT_EQ(plainText(""), "");
+}
+
+TEST(PlainText, HasBlanksForControlCharacters) {
+  EXPECT_EQ(plainText("a\x1b[31mb\nc\td\re\x7f"), "a [31mb c d e ");
+  EXPECT_EQ(plainText(std::string("a\0b", 3)), "a b");
+  EXPECT_EQ(plainText("a\xc2\x80z \xc2\x9b"
+                      "31m \xc2\x9f."),
+            "a z  31m  .")
+      << "U+0080, U+009B and U+009F";
+  EXPECT_EQ(plainText("\xc2\xa0"), "\xc2\xa0") << "U+00A0 is the first behind them";
+}
+
+TEST(PlainText, HasBlanksForMarksOfDirectionAndLineSeparators) {
+  EXPECT_EQ(plainText("a\xe2\x80\xae"
+                      "b\xe2\x81\xa6"
+                      "c\xe2\x80\x8f"
+                      "d\xd8\x9c"
+                      "e"),
+            "a b c d e")
+      << "U+202E, U+2066, U+200F, U+061C";
+  EXPECT_EQ(plainText("a\xe2\x80\xa8"
+                      "b\xe2\x80\xa9"
+                      "c"),
+            "a b c")
+      << "U+2028, U+2029";
+}
+
+TEST(PlainText, HasBlanksForBytesThatAreNotUtf8) {
+  EXPECT_EQ(plainText("a\x9b"
+                      "31m"),
+            "a 31m")
+      << "a control sequence of a terminal of eight bits";
+  EXPECT_EQ(plainText("\xc0\x9b."), "  .") << "overlong";
+  EXPECT_EQ(plainText("\xe0\x82\x9b."), "   .") << "overlong";
+  EXPECT_EQ(plainText("\xe2\x80"), "  ") << "cut";
+  EXPECT_EQ(plainText("\xff\xfe"), "  ");
+}
+
+TEST(OneLine, MergesBlanks) {
+  EXPECT_EQ(oneLine("\n a \x1b\x1b b\r\n"), "a b");
+  EXPECT_EQ(oneLine(" \n"), "");
+}
+
+TEST(InputErrors, AreOneLineOfPlainText) {
+  EXPECT_STREQ(InputError("a\n.json", "id",
+                          "'\xc2\x9b"
+                          "2J' is \x1b[1m bad")
+                   .what(),
+               "a .json: id: ' 2J' is [1m bad");
+}
+
+}  // namespace
+}  // namespace boresight::sessions

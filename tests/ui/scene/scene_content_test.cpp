@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/scene/scene_content.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "sessions/run/scene_render.h"
+#include "tests/ui/scene/scene_fixture.h"
+
+namespace boresight::ui {
+namespace {
+
+TEST(SceneContent, IsEmptyWithoutACase) {
+  const ViewState state;
+  EXPECT_TRUE(sceneContent(state).empty());
+}
+
+TEST(SceneContent, HoldsTheCamerasOfTheRunAtTheCursor) {
+  ViewState state;
+  test::showRun(state);
+  const SceneContent content = sceneContent(state);
+  ASSERT_EQ(content.frusta.size(), 3u);
+  for (const Frustum& frustum : content.frusta) {
+    const Pose pose = poseOf(state, frustum.role).value();
+    EXPECT_LT((pose * frustum.apex_m).norm(), 1e-12);
+    // Its corners project to the image's.
+    const Camera& camera = content.one->source.camera;
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(project(camera, pose * frustum.corner_m[2], pixel));
+    EXPECT_NEAR(pixel.x(), camera.width - 0.5, 1e-4);
+    EXPECT_NEAR(pixel.y(), camera.height - 0.5, 1e-4);
+  }
+  EXPECT_EQ(content.trail_m.size(), state.snapshot()->iterations.size() + 1);
+  EXPECT_EQ(content.trail_now, state.cursor().iteration + 1);
+  state.setNudgedPose(state.shownPose());
+  EXPECT_EQ(sceneContent(state).frusta.size(), 4u);
+}
+
+TEST(SceneContent, TellsInliersFromOutliersAsThePoseDid) {
+  ViewState state;
+  test::showRun(state);
+  const SceneContent content = sceneContent(state);
+  const sessions::IterationTrace& iteration = *state.iteration();
+  ASSERT_EQ(content.points.size(), iteration.templates.size());
+  int inliers = 0;
+  for (const ScenePoint& point : content.points)
+    if (point.kind == ScenePointKind::kInlier) ++inliers;
+  EXPECT_EQ(inliers, iteration.pnp.inlier_count);
+  for (std::size_t i = 0; i < iteration.template_of.size(); ++i) {
+    const auto of = static_cast<std::size_t>(iteration.template_of[i]);
+    EXPECT_EQ(content.points[of].residual_px, iteration.pnp.residual_px[i]);
+    EXPECT_EQ(content.points[of].at_m, iteration.templates[of].point_in_station_m);
+  }
+}
+
+TEST(SceneContent, ShowsTheEdgePlacesOfARefinement) {
+  ViewState state;
+  test::showRun(state);
+  for (int i = 0; i < static_cast<int>(state.snapshot()->iterations.size()); ++i) {
+    state.setCursor({i, Stage::kFinished});
+    if (state.iteration()->kind != IterationKind::kRefine) continue;
+    const SceneContent content = sceneContent(state);
+    EXPECT_EQ(content.points.size(), state.iteration()->refinement.samples.size());
+    for (const ScenePoint& point : content.points) EXPECT_EQ(point.template_index, -1);
+    return;
+  }
+  GTEST_SKIP() << "this run has no refinement";
+}
+
+TEST(Dashed, CoversTheShareThatTheDashesSay) {
+  const SceneLine line = {Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 6, 3)};
+  std::set<std::size_t> counts;
+  for (int i = 0; i < kPoseRoles; ++i) {
+    const auto& dashes = poseRoleStyle(static_cast<PoseRole>(i)).dashes;
+    double drawn = 0.0;
+    double period = 0.0;
+    double length = 0.0;
+    for (std::size_t part = 0; part < dashes.size(); ++part) {
+      period += dashes[part];
+      if (part % 2 == 0) drawn += dashes[part];
+    }
+    const auto pieces = dashed(line, dashes);
+    for (const SceneLine& piece : pieces) length += (piece.second - piece.first).norm();
+    EXPECT_NEAR(length, 5.0 * (dashes.empty() ? 1.0 : drawn / period), 1e-9);
+    EXPECT_EQ(pieces.front().first, line.first);
+    counts.insert(pieces.size() * 100 + static_cast<std::size_t>(length * 10));
+  }
+  EXPECT_EQ(counts.size(), static_cast<std::size_t>(kPoseRoles)) << "two roles look alike";
+}
+
+TEST(ResidualColor, GrowsLighterAllTheWay) {
+  double last = -1.0;
+  for (double share = 0.0; share <= 1.0; share += 0.05) {
+    const QColor color = residualColor(share);
+    const double luma = 0.2126 * color.redF() + 0.7152 * color.greenF() + 0.0722 * color.blueF();
+    EXPECT_GT(luma, last);
+    last = luma;
+  }
+  EXPECT_EQ(residualColor(7.0), residualColor(1.0));
+}
+
+TEST(SharpEdges, OfACubeAreItsTwelve) {
+  std::vector<Eigen::Vector3f> vertices;
+  for (int i = 0; i < 8; ++i)
+    vertices.emplace_back(static_cast<float>(i & 1), static_cast<float>((i >> 1) & 1),
+                          static_cast<float>((i >> 2) & 1));
+  const std::vector<Face> faces = {{{0, 1, 3}}, {{0, 3, 2}}, {{4, 5, 7}}, {{4, 7, 6}},
+                                   {{0, 1, 5}}, {{0, 5, 4}}, {{2, 3, 7}}, {{2, 7, 6}},
+                                   {{0, 2, 6}}, {{0, 6, 4}}, {{1, 3, 7}}, {{1, 7, 5}}};
+  const std::vector<std::uint16_t> part_of_face(12, 0);
+  const std::vector<ScenePart> parts(1);
+  const MeshView cube = {vertices, faces, part_of_face, parts};
+  const auto edges = sharpEdges(cube);
+  EXPECT_EQ(edges.size(), 12u);
+  for (const auto& edge : edges)
+    EXPECT_EQ(
+        (vertices[static_cast<std::size_t>(edge[0])] - vertices[static_cast<std::size_t>(edge[1])])
+            .norm(),
+        1.0F);
+}
+
+TEST(HitSurface, AgreesWithTheCoresDepth) {
+  const auto& one = test::sceneCase();
+  const Pose& pose = *one->source.camera_from_station_truth;
+  const auto pixels =
+      static_cast<std::size_t>(one->source.camera.width * one->source.camera.height);
+  std::vector<float> depth_m(pixels);
+  SurfaceRender wanted;
+  wanted.depth_m = depth_m;
+  sessions::RenderTrace render;
+  ASSERT_EQ(sessions::renderScene(one->source.camera, one->scene.view(), pose, render, wanted),
+            Status::kOk);
+  const Pose station_from_camera = pose.inverse();
+  int compared = 0;
+  for (int y = 20; y < one->source.camera.height; y += 97)
+    for (int x = 20; x < one->source.camera.width; x += 97) {
+      Eigen::Vector3d ray;
+      ASSERT_TRUE(unproject(one->source.camera, Eigen::Vector2d(x, y), ray));
+      const auto hit = hitSurface(one->scene.view(), station_from_camera.translation_m,
+                                  station_from_camera.rotation * ray);
+      const float expected_m = depth_m[static_cast<std::size_t>(y * one->source.camera.width + x)];
+      ASSERT_EQ(hit.has_value(), expected_m > 0.0F) << x << ' ' << y;
+      if (!hit) continue;
+      EXPECT_NEAR(hit->depth_m, static_cast<double>(expected_m), 1e-6);
+      ++compared;
+    }
+  EXPECT_GT(compared, 20);
+}
+
+}  // namespace
+}  // namespace boresight::ui

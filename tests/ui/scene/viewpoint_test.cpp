@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/scene/viewpoint.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random_pose.h"
+
+namespace boresight::ui {
+namespace {
+
+const QSizeF kCanvas(640.0, 480.0);
+
+BoundingBox someBox() {
+  BoundingBox box;
+  box.minimum_m = {-0.1, 0.05, -0.02};
+  box.maximum_m = {0.3, 0.25, 0.1};
+  return box;
+}
+
+QPointF place(const Viewpoint& view, const Eigen::Vector3d& at_m) {
+  QPointF pixel(-1e9, -1e9);
+  double depth_m = 0.0;
+  EXPECT_TRUE(view.toCanvas(at_m, pixel, depth_m));
+  return pixel;
+}
+
+TEST(OrbitCamera, KeepsTheStationUprightHoweverItIsTurned) {
+  Random random = test::randomFor("KeepsTheStationUpright");
+  OrbitCamera orbit;
+  orbit.frame(someBox());
+  for (int i = 0; i < 100; ++i) {
+    orbit.orbit({random.uniform(-300, 300), random.uniform(-300, 300)}, kCanvas.height());
+    const Viewpoint view = orbit.viewpoint(kCanvas);
+    const QPointF base = place(view, orbit.target_m());
+    const QPointF above = place(view, orbit.target_m() + Eigen::Vector3d(0, 0, 0.05));
+    EXPECT_NEAR(above.x(), base.x(), 1e-6);
+    EXPECT_LE(above.y(), base.y() + 1e-6);
+    EXPECT_NEAR(view.view_from_station.rotation.norm(), 1.0, 1e-12);
+  }
+}
+
+TEST(OrbitCamera, FramesTheWholeBoxFromEverywhere) {
+  Random random = test::randomFor("FramesTheWholeBox");
+  for (const QSizeF canvas : {QSizeF(640, 480), QSizeF(200, 600)}) {
+    OrbitCamera orbit;
+    orbit.frame(someBox());
+    for (int i = 0; i < 50; ++i) {
+      orbit.orbit({random.uniform(-300, 300), random.uniform(-300, 300)}, canvas.height());
+      const Viewpoint view = orbit.viewpoint(canvas);
+      const BoundingBox box = someBox();
+      for (int corner = 0; corner < 8; ++corner) {
+        const QPointF at = place(view, {(corner & 1 ? box.maximum_m : box.minimum_m).x(),
+                                        (corner & 2 ? box.maximum_m : box.minimum_m).y(),
+                                        (corner & 4 ? box.maximum_m : box.minimum_m).z()});
+        EXPECT_TRUE(QRectF(QPointF(0, 0), canvas).contains(at)) << at.x() << ' ' << at.y();
+      }
+    }
+  }
+}
+
+TEST(OrbitCamera, LooksAlongTheAxesThatTheViewsName) {
+  OrbitCamera orbit;
+  orbit.frame(someBox());
+  const auto forward = [&](StandardView view) -> Eigen::Vector3d {
+    orbit.lookFrom(view);
+    const Viewpoint made = orbit.viewpoint(kCanvas);
+    return made.view_from_station.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  };
+  EXPECT_TRUE(forward(StandardView::kTop).isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
+  EXPECT_TRUE(forward(StandardView::kBottom).isApprox(Eigen::Vector3d::UnitZ(), 1e-9));
+  EXPECT_TRUE(forward(StandardView::kFront).isApprox(Eigen::Vector3d::UnitY(), 1e-9));
+  EXPECT_TRUE(forward(StandardView::kBack).isApprox(-Eigen::Vector3d::UnitY(), 1e-9));
+  EXPECT_TRUE(forward(StandardView::kLeft).isApprox(Eigen::Vector3d::UnitX(), 1e-9));
+  EXPECT_TRUE(forward(StandardView::kRight).isApprox(-Eigen::Vector3d::UnitX(), 1e-9));
+}
+
+TEST(OrbitCamera, PansSoThatTheTargetFollowsTheMouse) {
+  OrbitCamera orbit;
+  orbit.frame(someBox());
+  const Eigen::Vector3d before_m = orbit.target_m();
+  const QPointF was = place(orbit.viewpoint(kCanvas), before_m);
+  orbit.pan({37.0, -21.0}, kCanvas.height());
+  const QPointF is = place(orbit.viewpoint(kCanvas), before_m);
+  EXPECT_NEAR(is.x() - was.x(), 37.0, 1e-6);
+  EXPECT_NEAR(is.y() - was.y(), -21.0, 1e-6);
+}
+
+TEST(Viewpoint, SendsRaysThroughWhatItProjects) {
+  Random random = test::randomFor("SendsRays");
+  OrbitCamera orbit;
+  orbit.frame(someBox());
+  orbit.orbit({100.0, 40.0}, kCanvas.height());
+  const Viewpoint view = orbit.viewpoint(kCanvas);
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Vector3d at_m = someBox().centre() + test::randomVector(random, 0.1);
+    QPointF pixel;
+    double depth_m = 0.0;
+    ASSERT_TRUE(view.toCanvas(at_m, pixel, depth_m));
+    EXPECT_LT((view.eyeInStation_m() + depth_m * view.rayInStation(pixel) - at_m).norm(), 1e-12);
+  }
+}
+
+TEST(ThroughCamera, PutsEveryPointWhereTheImageHasIt) {
+  Random random = test::randomFor("ThroughCamera");
+  Camera camera = test::randomCamera(random, CameraModel::kPinhole);  // principal point off centre
+  const Pose pose = test::randomCameraFromStation(random, 0.5);
+  ViewTransform image;
+  image.fit(QSizeF(camera.width, camera.height), kCanvas);
+  image.zoomAt({100.0, 60.0}, 1.7 * image.scale());
+  const Viewpoint view = throughCamera(camera, pose, image, kCanvas);
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Vector3d at_m = test::randomVector(random, 0.05);
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(project(camera, pose * at_m, pixel));
+    const QPointF expected = image.toWidget(QPointF(pixel.x(), pixel.y())) - QPointF(0.5, 0.5);
+    const QPointF at = place(view, at_m);
+    EXPECT_NEAR(at.x(), expected.x(), 1e-9);
+    EXPECT_NEAR(at.y(), expected.y(), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace boresight::ui

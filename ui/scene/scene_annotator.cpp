@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/scene/scene_annotator.h"
+
+#include <cmath>
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QWheelEvent>
+
+#include "ui/annotation/annotation_controller.h"
+#include "ui/annotation/station_snapper.h"
+#include "ui/views/pointer_place.h"
+
+namespace boresight::ui {
+namespace {
+
+/// Pixel (0, 0) of the canvas has its centre at (0.5, 0.5).
+QPointF pixelAt(const QPointF& at) { return at - QPointF(0.5, 0.5); }
+
+}  // namespace
+
+SceneAnnotator::SceneAnnotator(QWidget& canvas, AnnotationController& annotation,
+                               StationSnapper& snapper)
+    : QObject(&canvas),
+      canvas_(canvas),
+      annotation_(annotation),
+      snapper_(snapper),
+      loupe_(new SceneLoupe(&canvas, [this](QPainter& painter, const Viewpoint& view) {
+        const SceneMarkPainter marks(painter, view, mesh());
+        marks.paintMarks(marks_);
+        const double middle = 0.5 * (view.camera.width - 1);
+        if (aim_) marks.paintAim(*aim_, {middle, middle});
+      })) {
+  canvas_.installEventFilter(this);
+  connect(&annotation_, &AnnotationController::modeChanged, this, &SceneAnnotator::showMode);
+  connect(&annotation_, &AnnotationController::marksChanged, this, &SceneAnnotator::showMarks);
+  connect(&annotation_, &AnnotationController::selectionChanged, this, &SceneAnnotator::showMarks);
+  connect(&annotation_, &AnnotationController::solutionChanged, this, &SceneAnnotator::showMarks);
+  connect(&snapper_, &StationSnapper::meshChanged, this, &SceneAnnotator::updateAim);
+  showMode();
+  showMarks();
+}
+
+bool SceneAnnotator::places() const { return annotation_.mode() != PlaceMode::kOff; }
+
+const sessions::MeshSnapper* SceneAnnotator::mesh() const {
+  return shot_.look.shown.mesh ? snapper_.mesh().get() : nullptr;
+}
+
+void SceneAnnotator::setShot(const SceneShot& shot) {
+  shot_ = shot;
+  updateAim();
+}
+
+void SceneAnnotator::showMode() {
+  canvas_.setMouseTracking(places());
+  if (places() && canvas_.underMouse()) canvas_.setFocus(Qt::MouseFocusReason);  // for the keys
+  turn_ = 0;
+  updateAim();
+}
+
+void SceneAnnotator::showMarks() {
+  marks_ = sceneMarks(annotation_);
+  updateAim();
+}
+
+bool SceneAnnotator::eventFilter(QObject* watched, QEvent* event) {
+  if (!places()) return QObject::eventFilter(watched, event);
+  switch (event->type()) {
+    case QEvent::MouseMove:
+      hover(*static_cast<QMouseEvent*>(event));
+      return false;
+    case QEvent::Enter:
+      canvas_.setFocus(Qt::MouseFocusReason);  // for the keys
+      return false;
+    case QEvent::Leave:
+      leave();
+      return false;
+    case QEvent::MouseButtonDblClick:
+      return true;  // the second place follows with a click of its own, not with another view
+    case QEvent::Wheel: {
+      const auto& wheel = *static_cast<QWheelEvent*>(event);
+      if (!loupe_->isVisible() || !wheel.modifiers().testFlag(Qt::ControlModifier)) return false;
+      loupe_->setMagnification(loupe_->magnification() *
+                               std::pow(SceneLoupe::kStep, wheel.angleDelta().y() / 120.0));
+      return true;
+    }
+    case QEvent::ShortcutOverride:
+      if (takesKey(*static_cast<QKeyEvent*>(event))) event->accept();
+      return false;
+    case QEvent::KeyPress:
+    case QEvent::KeyRelease: {
+      const auto& key = *static_cast<QKeyEvent*>(event);
+      if (key.key() == Qt::Key_Alt)
+        setModifiers(event->type() == QEvent::KeyPress ? Qt::AltModifier : Qt::NoModifier);
+      return event->type() == QEvent::KeyPress && pressKey(key);
+    }
+    default:
+      return QObject::eventFilter(watched, event);
+  }
+}
+
+void SceneAnnotator::hover(const QMouseEvent& event) {
+  if (event.buttons() != Qt::NoButton) return leave();  // the view is being turned
+  pointer_ = pixelAt(pointerPlace(event, canvas_));
+  modifiers_ = event.modifiers();
+  const QPointF moved = *pointer_ - turned_at_;
+  if (std::hypot(moved.x(), moved.y()) > kSceneSnap_px) turn_ = 0;
+  updateAim();
+}
+
+void SceneAnnotator::leave() {
+  pointer_.reset();
+  updateAim();
+}
+
+bool SceneAnnotator::takesKey(const QKeyEvent& event) const {
+  switch (event.key()) {
+    case Qt::Key_Tab:
+    case Qt::Key_Escape:
+    case Qt::Key_Delete:
+    case Qt::Key_Alt:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool SceneAnnotator::pressKey(const QKeyEvent& event) {
+  if (!takesKey(event)) return false;
+  if (event.key() == Qt::Key_Tab && pointer_) {
+    ++turn_;
+    turned_at_ = *pointer_;
+    updateAim();
+  } else if (event.key() == Qt::Key_Escape) {
+    escape();
+  } else if (event.key() == Qt::Key_Delete && !annotation_.selected().empty()) {
+    annotation_.remove(annotation_.selected());
+  }
+  return true;
+}
+
+/// First the choice, then the mode.
+void SceneAnnotator::escape() {
+  if (annotation_.selected().empty())
+    annotation_.setMode(PlaceMode::kOff);
+  else
+    annotation_.select({});
+}
+
+void SceneAnnotator::setModifiers(Qt::KeyboardModifiers modifiers) {
+  modifiers_ = modifiers;
+  updateAim();
+}
+
+void SceneAnnotator::updateAim() {
+  aim_.reset();
+  const bool aims = places() && pointer_ && snapper_.mesh() && shot_.content;
+  if (aims) {
+    SceneAimRules rules;
+    rules.snaps = !modifiers_.testFlag(Qt::AltModifier);
+    rules.line = annotation_.mode() == PlaceMode::kLine;
+    rules.turn = turn_;
+    aim_ = sceneAim(*snapper_.mesh(), annotation_.proposals(), shot_.view, *pointer_, rules);
+  }
+  loupe_->lookAt(shot_, places() ? pointer_ : std::nullopt);
+  Q_EMIT changed();
+}
+
+bool SceneAnnotator::click(const QPointF& at, Qt::KeyboardModifiers modifiers) {
+  if (!places()) {
+    if (!snapper_.mesh()) return false;
+    const std::string id = pickMark(marks_, shot_.view, *snapper_.mesh(), pixelAt(at));
+    if (!id.empty()) annotation_.select(id);
+    return !id.empty();
+  }
+  pointer_ = pixelAt(at);
+  modifiers_ = modifiers;
+  updateAim();
+  placeAim();
+  return true;
+}
+
+bool SceneAnnotator::completesPoint() const {
+  const auto* point = annotation_.selectedPoint();
+  return point && !point->point_in_station_m;
+}
+
+void SceneAnnotator::placeAim() {
+  if (!snapper_.mesh()) {
+    Q_EMIT told(
+        tr("The station's corners and edges are still being looked for; click again in a "
+           "moment."));
+  } else if (!aim_) {
+    Q_EMIT told(annotation_.mode() == PlaceMode::kLine
+                    ? tr("No edge is near; click on an edge of the station.")
+                    : tr("Nothing is there; click on the station itself."));
+  } else if (annotation_.mode() == PlaceMode::kLine) {
+    annotation_.placeEdgeOnStation(*aim_->edge);
+  } else if (aim_->landmark && !completesPoint()) {
+    annotation_.begin(*aim_->landmark);
+  } else {
+    annotation_.placeOnStation(aim_->point_in_station_m);
+  }
+  turn_ = 0;
+}
+
+std::vector<Frustum> SceneAnnotator::rigFrusta(const Eigen::Vector3d& centre_m) const {
+  std::vector<Frustum> made;
+  const auto& solution = annotation_.solution();
+  if (!solution || !solution->result.solution) return made;
+  const auto& poses = solution->result.solution->camera_from_station;
+  const auto& views = solution->marks.views;
+  for (std::size_t i = 1; i < std::min(views.size(), poses.size()); ++i)
+    made.push_back(frustumOf(PoseRole::kAnnotated, QString::fromStdString(views[i].name),
+                             views[i].camera, poses[i], centre_m));
+  return made;
+}
+
+QString SceneAnnotator::place() const {
+  if (!aim_) return tr("Point at the station: Tab snaps to another thing, Alt to none.");
+  return stationPlaceText(aim_->point_in_station_m, aim_->text);
+}
+
+QString SceneAnnotator::nextStep() const {
+  if (!places()) return {};
+  if (!snapper_.mesh()) return tr("Looking for the station's corners and edges ...");
+  if (annotation_.mode() == PlaceMode::kLine) {
+    const auto* line = annotation_.selectedLine();
+    if (line && !line->edge)
+      return tr("Click the edge of %1").arg(QString::fromStdString(line->id));
+    return tr("Click an edge of the station");
+  }
+  if (completesPoint())
+    return tr("Click the place of %1 on the station")
+        .arg(QString::fromStdString(annotation_.selected()));
+  return tr("Click a place of the station");
+}
+
+void SceneAnnotator::paint(QPainter& painter, const QRectF& area) const {
+  const SceneMarkPainter marks(painter, shot_.view, mesh());
+  marks.paintMarks(marks_);
+  if (!pointer_ || !aim_) return;
+  marks.paintAim(*aim_, *pointer_);
+  QString text = aim_->text;
+  if (aim_->found > 1) text = tr("%1 (Tab: %2 more)").arg(text).arg(aim_->found - 1);
+  paintSceneNote(painter, area, *pointer_, text);
+}
+
+}  // namespace boresight::ui

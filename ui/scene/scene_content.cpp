@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/scene/scene_content.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <QCoreApplication>
+
+#include "core/base/math.h"
+#include "ui/models/number_text.h"
+#include "ui/views/layer.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr double kFrustumShare = 0.3;  ///< of the way to the scene's centre
+constexpr double kDashesPerLine = 12.0;
+
+QString text(const char* source) { return QCoreApplication::translate("Scene", source); }
+
+BoundingBox boundsOf(const MeshView& mesh) {
+  BoundingBox box;
+  if (mesh.vertices_in_station_m.empty()) return box;
+  box.minimum_m = box.maximum_m = mesh.vertices_in_station_m.front().cast<double>();
+  for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m) {
+    box.minimum_m = box.minimum_m.cwiseMin(vertex.cast<double>());
+    box.maximum_m = box.maximum_m.cwiseMax(vertex.cast<double>());
+  }
+  return box;
+}
+
+Eigen::Vector3d rayOf(const Camera& camera, double x, double y) {
+  Eigen::Vector3d ray;
+  if (unproject(camera, {x, y}, ray)) return ray;
+  return {(x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0};
+}
+
+void addDashed(std::vector<SceneLine>& lines, const SceneLine& line, PoseRole role) {
+  for (const SceneLine& dash : dashed(line, poseRoleStyle(role).dashes)) lines.push_back(dash);
+}
+
+void addFrusta(const ViewState& state, SceneContent& content) {
+  const sessions::LoadedCase& one = *content.one;
+  const Eigen::Vector3d centre_m = content.bounds.centre();
+  const std::array<QString, kPoseRoles> labels = {
+      text("seed"), text("iteration %1").arg(state.cursor().iteration + 1), text("nudged"),
+      text("truth"), text("annotated")};
+  for (int i = 0; i < kPoseRoles; ++i) {
+    const auto role = static_cast<PoseRole>(i);
+    const std::optional<Pose> pose = poseOf(state, role);
+    if (pose && pose->isFinite())
+      content.frusta.push_back(
+          frustumOf(role, labels[static_cast<std::size_t>(i)], one.source.camera, *pose, centre_m));
+  }
+}
+
+void addTrail(const ViewState& state, SceneContent& content) {
+  const auto& snapshot = state.snapshot();
+  if (!snapshot) return;
+  const auto centre = [](const Pose& pose) { return pose.inverse().translation_m; };
+  content.trail_m.push_back(centre(snapshot->camera_from_station_seed));
+  for (const auto& iteration : snapshot->iterations)
+    content.trail_m.push_back(centre(iteration->camera_from_station));
+  content.trail_now = state.cursor().iteration + 1;
+}
+
+void addTemplates(const sessions::IterationTrace& iteration, SceneContent& content) {
+  std::vector<std::size_t> place_of(iteration.templates.size(), SIZE_MAX);
+  for (std::size_t i = 0; i < iteration.templates.size(); ++i) {
+    ScenePoint point;
+    point.at_m = iteration.templates[i].point_in_station_m;
+    if (!point.at_m.allFinite()) continue;  // an onboard record's, on another mesh
+    place_of[i] = content.points.size();
+    point.template_index = static_cast<int>(i);
+    content.points.push_back(point);
+  }
+  const std::size_t solved = std::min({iteration.template_of.size(), iteration.pnp.inlier.size(),
+                                       iteration.pnp.residual_px.size()});
+  for (std::size_t i = 0; i < solved; ++i) {
+    const auto of = place_of.at(static_cast<std::size_t>(iteration.template_of[i]));
+    if (of >= content.points.size()) continue;
+    content.points[of].kind =
+        iteration.pnp.inlier[i] != 0 ? ScenePointKind::kInlier : ScenePointKind::kOutlier;
+    content.points[of].residual_px = iteration.pnp.residual_px[i];
+  }
+}
+
+void addEdgePlaces(const sessions::IterationTrace& iteration, SceneContent& content) {
+  for (const EdgeSample& sample : iteration.refinement.samples) {
+    ScenePoint point;
+    point.at_m = sample.point_in_station_m;
+    const bool found = sample.gradient != 0.0;
+    if (found)
+      point.kind = sample.weight > 0.5 ? ScenePointKind::kInlier : ScenePointKind::kOutlier;
+    point.residual_px = found ? std::abs(sample.residual_px) : 0.0;
+    content.points.push_back(point);
+  }
+}
+
+/// Nineteen of twenty inliers lie below it, so that one stray value doesn't make all others alike.
+double residualLimit(const std::vector<ScenePoint>& points) {
+  std::vector<double> residuals_px;
+  for (const ScenePoint& point : points)
+    if (point.kind == ScenePointKind::kInlier) residuals_px.push_back(point.residual_px);
+  if (residuals_px.empty()) return 1.0;
+  const auto at = residuals_px.begin() + static_cast<std::ptrdiff_t>(residuals_px.size() * 19 / 20);
+  std::nth_element(residuals_px.begin(), at, residuals_px.end());
+  return roundedUp(std::max(*at, 0.01));
+}
+
+}  // namespace
+
+const PoseRoleStyle& poseRoleStyle(PoseRole role) {
+  static const std::array<PoseRoleStyle, kPoseRoles> styles = {{
+      {"seed", layerInfo(LayerId::kSeedEdges).style.color, {0.6, 0.4}, 2.0},
+      {"estimate", layerInfo(LayerId::kIterationEdges).style.color, {}, 3.0},
+      {"nudged", layerInfo(LayerId::kNudgedEdges).style.color, {0.5, 0.2, 0.1, 0.2}, 2.5},
+      {"truth", layerInfo(LayerId::kTruthEdges).style.color, {0.25, 0.25}, 2.0},
+      {"annotated", kAnnotatedColor, {0.7, 0.1, 0.1, 0.1}, 2.5},
+  }};
+  return styles[static_cast<std::size_t>(role)];
+}
+
+std::vector<SceneLine> dashed(const SceneLine& line, const std::vector<double>& dashes) {
+  double period = 0.0;
+  for (const double length : dashes) period += length;
+  if (dashes.size() < 2 || !(period > 0.0)) return {line};
+  const Eigen::Vector3d along = line.second - line.first;
+  std::vector<SceneLine> made;
+  double from = 0.0;  // in periods of the whole line
+  for (std::size_t i = 0; from < kDashesPerLine; ++i) {
+    const double to = std::min(from + dashes[i % dashes.size()] / period, kDashesPerLine);
+    if (i % 2 == 0)
+      made.emplace_back(line.first + from / kDashesPerLine * along,
+                        line.first + to / kDashesPerLine * along);
+    from = to;
+  }
+  return made;
+}
+
+Frustum frustumOf(PoseRole role, const QString& label, const Camera& camera,
+                  const Pose& camera_from_station, const Eigen::Vector3d& centre_m) {
+  Frustum made;
+  made.role = role;
+  made.label = label;
+  made.color = poseRoleStyle(role).color;
+  const Pose station_from_camera = camera_from_station.inverse();
+  made.apex_m = station_from_camera.translation_m;
+  const double depth_m = std::max(kFrustumShare * (centre_m - made.apex_m).norm(), 1e-6);
+  const double right = camera.width - 0.5;
+  const double bottom = camera.height - 0.5;
+  const std::array<Eigen::Vector2d, 4> corners = {
+      {{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}}};
+  for (std::size_t i = 0; i < 4; ++i)
+    made.corner_m[i] =
+        station_from_camera * (depth_m * rayOf(camera, corners[i].x(), corners[i].y()));
+  for (std::size_t i = 0; i < 4; ++i) {
+    addDashed(made.lines, {made.apex_m, made.corner_m[i]}, role);
+    addDashed(made.lines, {made.corner_m[i], made.corner_m[(i + 1) % 4]}, role);
+  }
+  const Eigen::Vector3d& left_m = made.corner_m[0];
+  const Eigen::Vector3d& right_m = made.corner_m[1];
+  const Eigen::Vector3d roof_m =
+      0.5 * (left_m + right_m) +
+      0.15 * (0.5 * (left_m + right_m) - 0.5 * (made.corner_m[2] + made.corner_m[3]));
+  addDashed(made.lines, {left_m, roof_m}, role);
+  addDashed(made.lines, {roof_m, right_m}, role);
+  // The frusta of a good run nearly coincide, so each role has its label in a place of its own.
+  const std::array<Eigen::Vector3d, kPoseRoles> places = {left_m, made.apex_m, made.corner_m[3],
+                                                          right_m, made.corner_m[2]};
+  made.label_at_m = places[static_cast<std::size_t>(role)];
+  return made;
+}
+
+SceneContent sceneContent(const ViewState& state) {
+  SceneContent content;
+  content.one = state.currentCase();
+  if (!content.one) return content;
+  content.bounds = boundsOf(content.mesh());
+  content.axis_length_m = roundedUp(0.2 * content.bounds.diagonal());
+  addFrusta(state, content);
+  addTrail(state, content);
+  if (const sessions::IterationTrace* shown = state.iteration()) {
+    if (!shown->templates.empty()) {
+      addTemplates(*shown, content);
+    } else {
+      addEdgePlaces(*shown, content);
+      content.point_radius_px = 2.0;
+    }
+  }
+  content.residual_limit_px = residualLimit(content.points);
+  content.selected_template = state.selectedTemplate();
+  return content;
+}
+
+QColor residualColor(double share) {
+  constexpr std::array<std::array<double, 3>, 6> kColors = {{{0.267, 0.005, 0.329},
+                                                             {0.254, 0.265, 0.530},
+                                                             {0.164, 0.471, 0.558},
+                                                             {0.135, 0.659, 0.518},
+                                                             {0.478, 0.821, 0.318},
+                                                             {0.993, 0.906, 0.144}}};
+  const double place = std::clamp(share, 0.0, 1.0) * (kColors.size() - 1);
+  const std::size_t low = std::min(static_cast<std::size_t>(place), kColors.size() - 2);
+  const double rest = place - static_cast<double>(low);
+  std::array<double, 3> mixed{};
+  for (std::size_t i = 0; i < 3; ++i)
+    mixed[i] = (1.0 - rest) * kColors[low][i] + rest * kColors[low + 1][i];
+  return QColor::fromRgbF(mixed[0], mixed[1], mixed[2]);
+}
+
+QColor axisColor(int axis) {
+  static const std::array<QColor, 3> colors = {QColor(235, 90, 80), QColor(110, 200, 90),
+                                               QColor(90, 150, 245)};
+  return colors[static_cast<std::size_t>(axis)];
+}
+
+std::vector<std::array<std::int32_t, 2>> sharpEdges(const MeshView& mesh) {
+  struct Side {
+    std::array<std::int32_t, 2> ends{};
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  };
+  const float least_cosine = std::cos(static_cast<float>(kPi / 6.0));
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.faces.size());
+  const auto at = [&mesh](std::int32_t vertex) {
+    return mesh.vertices_in_station_m[static_cast<std::size_t>(vertex)];
+  };
+  for (const Face& face : mesh.faces) {
+    const Eigen::Vector3f first = at(face.vertex[0]);
+    const Eigen::Vector3f normal =
+        (at(face.vertex[1]) - first).cross(at(face.vertex[2]) - first).stableNormalized();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(face.vertex[i], face.vertex[(i + 1) % 3]);
+      sides.push_back({{low, high}, normal});
+    }
+  }
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return a.ends < b.ends; });
+  std::vector<std::array<std::int32_t, 2>> edges;
+  for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {
+    while (end < sides.size() && sides[end].ends == sides[first].ends) ++end;
+    // Coarse meshes are not always oriented, so the normals' signs do not count.
+    const bool smooth = end - first == 2 &&
+                        std::abs(sides[first].normal.dot(sides[first + 1].normal)) >= least_cosine;
+    if (!smooth) edges.push_back(sides[first].ends);
+  }
+  return edges;
+}
+
+std::optional<SurfaceHit> hitSurface(const MeshView& mesh, const Eigen::Vector3d& eye_m,
+                                     const Eigen::Vector3d& ray) {
+  std::optional<SurfaceHit> nearest;
+  const auto at = [&mesh](std::int32_t vertex) -> Eigen::Vector3d {
+    return mesh.vertices_in_station_m[static_cast<std::size_t>(vertex)].cast<double>();
+  };
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {  // Moeller and Trumbore 1997, both sides
+    const auto& vertex = mesh.faces[i].vertex;
+    const Eigen::Vector3d a = at(vertex[0]);
+    const Eigen::Vector3d ab = at(vertex[1]) - a;
+    const Eigen::Vector3d ac = at(vertex[2]) - a;
+    const Eigen::Vector3d p = ray.cross(ac);
+    const double determinant = ab.dot(p);
+    if (determinant == 0.0) continue;
+    const Eigen::Vector3d from_a = eye_m - a;
+    const double u = from_a.dot(p) / determinant;
+    const Eigen::Vector3d q = from_a.cross(ab);
+    const double v = ray.dot(q) / determinant;
+    const double depth = ac.dot(q) / determinant;
+    if (!(u >= 0.0 && v >= 0.0 && u + v <= 1.0 && depth > 0.0)) continue;
+    if (nearest && nearest->depth_m <= depth) continue;
+    nearest = SurfaceHit{eye_m + depth * ray, static_cast<std::int32_t>(i), depth};
+  }
+  return nearest;
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/scene/scene_input.h"
+
+#include <QApplication>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QWheelEvent>
+#include <QWidget>
+
+#include "ui/scene/scene_bar.h"
+#include "ui/views/pointer_place.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr double kKeyTurn_px = 24.0;
+
+bool takesKey(const QKeyEvent& event) {
+  if ((event.modifiers() & ~Qt::KeypadModifier) != 0) return false;
+  if (event.key() >= Qt::Key_1 && event.key() <= Qt::Key_7) return true;
+  switch (event.key()) {
+    case Qt::Key_Home:
+    case Qt::Key_V:
+    case Qt::Key_Plus:
+    case Qt::Key_Minus:
+    case Qt::Key_Left:
+    case Qt::Key_Right:
+    case Qt::Key_Up:
+    case Qt::Key_Down:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+SceneInput::SceneInput(QWidget& canvas) : QObject(&canvas), canvas_(canvas) {
+  canvas_.installEventFilter(this);
+}
+
+bool SceneInput::eventFilter(QObject* watched, QEvent* event) {
+  switch (event->type()) {
+    case QEvent::Resize:
+      Q_EMIT resized();
+      return false;
+    case QEvent::MouseButtonPress:
+      press(*static_cast<QMouseEvent*>(event));
+      return true;
+    case QEvent::MouseMove:
+      move(*static_cast<QMouseEvent*>(event));
+      return true;
+    case QEvent::MouseButtonRelease:
+      release(*static_cast<QMouseEvent*>(event));
+      return true;
+    case QEvent::MouseButtonDblClick:
+      Q_EMIT resetAsked();
+      return true;
+    case QEvent::Wheel: {
+      const auto* wheel = static_cast<QWheelEvent*>(event);
+      Q_EMIT zoomed(wheel->position(), wheel->angleDelta().y() / 120.0);
+      return true;
+    }
+    case QEvent::ShortcutOverride:
+      if (takesKey(*static_cast<QKeyEvent*>(event))) event->accept();
+      return false;
+    case QEvent::KeyPress:
+      return pressKey(*static_cast<QKeyEvent*>(event));
+    default:
+      return QObject::eventFilter(watched, event);
+  }
+}
+
+void SceneInput::press(const QMouseEvent& event) {
+  canvas_.setFocus(Qt::MouseFocusReason);
+  press_ = last_ = pointerPlace(event, canvas_);
+  pressed_ = true;
+  dragging_ = false;
+}
+
+void SceneInput::move(const QMouseEvent& event) {
+  if (!pressed_ || event.buttons() == Qt::NoButton) return;
+  const QPointF at = pointerPlace(event, canvas_);
+  if (!dragging_ && (at - press_).manhattanLength() < QApplication::startDragDistance()) return;
+  dragging_ = true;
+  const QPointF moved = at - last_;
+  last_ = at;
+  Q_EMIT dragged(moved, event.buttons(), event.modifiers());
+}
+
+/// A double click's second release is no click.
+void SceneInput::release(const QMouseEvent& event) {
+  const bool click = pressed_ && !dragging_ && event.button() == Qt::LeftButton;
+  pressed_ = dragging_ = false;
+  if (click) Q_EMIT clicked(pointerPlace(event, canvas_), event.modifiers());
+}
+
+bool SceneInput::pressKey(const QKeyEvent& event) {
+  if (!takesKey(event)) return false;
+  for (const StandardKey& standard : standardKeys())
+    if (standard.key == event.key()) {
+      Q_EMIT lookFromAsked(standard.view);
+      return true;
+    }
+  const QPointF middle(0.5 * canvas_.width(), 0.5 * canvas_.height());
+  switch (event.key()) {
+    case Qt::Key_Home:
+      Q_EMIT resetAsked();
+      break;
+    case Qt::Key_V:
+      Q_EMIT throughCameraToggled();
+      break;
+    case Qt::Key_Plus:
+      Q_EMIT zoomed(middle, 1.0);
+      break;
+    case Qt::Key_Minus:
+      Q_EMIT zoomed(middle, -1.0);
+      break;
+    case Qt::Key_Left:
+      Q_EMIT turned({-kKeyTurn_px, 0.0});
+      break;
+    case Qt::Key_Right:
+      Q_EMIT turned({kKeyTurn_px, 0.0});
+      break;
+    case Qt::Key_Up:
+      Q_EMIT turned({0.0, -kKeyTurn_px});
+      break;
+    default:
+      Q_EMIT turned({0.0, kKeyTurn_px});
+      break;
+  }
+  return true;
+}
+
+}  // namespace boresight::ui

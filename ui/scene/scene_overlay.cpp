@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/scene/scene_overlay.h"
+
+#include <QCoreApplication>
+#include <QPainter>
+#include <QPainterPath>
+#include <algorithm>
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kLegendOfCameras_px = 480;
+
+QString text(const char* source) { return QCoreApplication::translate("SceneOverlay", source); }
+
+/// Readable on any background of the scene.
+bool isDark(const QColor& color) { return color.lightnessF() < 0.5; }
+
+/// One line of the legend: a sign and what it means.
+struct Entry {
+  enum Sign { kLine, kInlier, kOutlier, kUnmatched, kMatched, kOccluding } sign = kLine;
+  PoseRole role = PoseRole::kSeed;
+  QString meaning;
+};
+
+std::vector<Entry> entries(const SceneContent& content, const SceneLook& look, bool with_cameras) {
+  std::vector<Entry> made;
+  if (look.shown.frusta && with_cameras)
+    for (const Frustum& frustum : content.frusta)
+      made.push_back({Entry::kLine, frustum.role, frustum.label});
+  const auto has_part = [&](bool match) {
+    const MeshView mesh = content.mesh();
+    return std::any_of(mesh.parts.begin(), mesh.parts.end(),
+                       [match](const ScenePart& part) { return part.match == match; });
+  };
+  if (look.shown.mesh && has_part(false)) {
+    made.push_back({Entry::kMatched, PoseRole::kSeed, text("matched part")});
+    made.push_back({Entry::kOccluding, PoseRole::kSeed, text("occluding part")});
+  }
+  if (!look.shown.points) return made;
+  const auto has = [&](ScenePointKind kind) {
+    return std::any_of(content.points.begin(), content.points.end(),
+                       [kind](const ScenePoint& point) { return point.kind == kind; });
+  };
+  if (has(ScenePointKind::kInlier))
+    made.push_back({Entry::kInlier, PoseRole::kSeed, text("inlier")});
+  if (has(ScenePointKind::kOutlier))
+    made.push_back({Entry::kOutlier, PoseRole::kSeed, text("outlier")});
+  if (has(ScenePointKind::kUnmatched))
+    made.push_back({Entry::kUnmatched, PoseRole::kSeed, text("not used")});
+  return made;
+}
+
+void paintSign(QPainter& painter, const Entry& entry, const QRectF& box) {
+  const QPointF centre = box.center();
+  painter.setBrush(Qt::NoBrush);
+  switch (entry.sign) {
+    case Entry::kLine: {
+      const PoseRoleStyle& style = poseRoleStyle(entry.role);
+      painter.setPen(QPen(style.color, 2.0));
+      // The same dashes as in the scene, three times along the sign.
+      double period = 0.0;
+      for (const double length : style.dashes) period += length;
+      double x = box.left();
+      const double unit = period > 0.0 ? box.width() / 3.0 / period : 0.0;
+      if (period <= 0.0) painter.drawLine(QPointF(x, centre.y()), QPointF(box.right(), centre.y()));
+      for (std::size_t i = 0; period > 0.0 && x < box.right() - 0.5; ++i) {
+        const double to = x + unit * style.dashes[i % style.dashes.size()];
+        if (i % 2 == 0) painter.drawLine(QPointF(x, centre.y()), QPointF(to, centre.y()));
+        x = to;
+      }
+      return;
+    }
+    case Entry::kInlier:
+      painter.setPen(QPen(Qt::black, 0.8));
+      painter.setBrush(residualColor(0.6));
+      painter.drawEllipse(centre, 4.5, 4.5);
+      return;
+    case Entry::kOutlier:
+      painter.setPen(QPen(residualColor(1.0), 2.2));
+      painter.drawLine(centre - QPointF(5, 5), centre + QPointF(5, 5));
+      painter.drawLine(centre - QPointF(5, -5), centre + QPointF(5, -5));
+      return;
+    case Entry::kUnmatched:
+      painter.setPen(Qt::NoPen);
+      painter.setBrush(QColor(150, 150, 150));
+      painter.drawEllipse(centre, 2.5, 2.5);
+      return;
+    case Entry::kMatched:
+    case Entry::kOccluding:
+      painter.setPen(QPen(Qt::black, 0.8));
+      painter.setBrush(entry.sign == Entry::kMatched ? kMatchedColor : kOccludingColor);
+      painter.drawRect(QRectF(centre - QPointF(8, 5), centre + QPointF(8, 5)));
+      return;
+  }
+}
+
+/// The bar of residuals, with its ends and its middle in px.
+void paintBar(QPainter& painter, const QRectF& area, double limit_px, const QColor& ink) {
+  const QFontMetricsF metrics(painter.font());
+  const double line = metrics.height();
+  const QRectF bar(area.left(), area.top() + line + 2.0, area.width(), 10.0);
+  painter.setPen(ink);
+  painter.drawText(QRectF(area.left(), area.top(), area.width(), line), Qt::AlignCenter,
+                   text("residual, px"));
+  QLinearGradient gradient(bar.topLeft(), bar.topRight());
+  for (int i = 0; i <= 10; ++i) gradient.setColorAt(0.1 * i, residualColor(0.1 * i));
+  painter.setBrush(gradient);
+  painter.drawRect(bar);
+  painter.setBrush(Qt::NoBrush);
+  const QRectF numbers(area.left(), bar.bottom() + 1.0, area.width(), line);
+  painter.drawText(numbers, Qt::AlignLeft, QStringLiteral("0"));
+  painter.drawText(numbers, Qt::AlignHCenter, QString::number(0.5 * limit_px, 'g', 3));
+  painter.drawText(numbers, Qt::AlignRight,
+                   QString(QChar(0x2265)) + QString::number(limit_px, 'g', 3));
+}
+
+}  // namespace
+
+SceneOverlay::SceneOverlay(QWidget* canvas) : QWidget(canvas) {
+  setAttribute(Qt::WA_TransparentForMouseEvents);
+  setAttribute(Qt::WA_NoSystemBackground);
+  setFocusPolicy(Qt::NoFocus);
+}
+
+void SceneOverlay::setContent(std::shared_ptr<const SceneContent> content, const SceneLook& look) {
+  content_ = std::move(content);
+  look_ = look;
+  update();
+}
+
+void SceneOverlay::setView(const Viewpoint& view) {
+  view_ = view;
+  update();
+}
+
+void SceneOverlay::setNote(const QString& note) {
+  note_ = note;
+  update();
+}
+
+void SceneOverlay::setMark(const std::optional<Eigen::Vector3d>& at_m) {
+  mark_ = at_m;
+  update();
+}
+
+void SceneOverlay::setOver(std::function<void(QPainter&)> over) {
+  over_ = std::move(over);
+  update();
+}
+
+void SceneOverlay::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QColor ink = isDark(look_.background) ? QColor(230, 230, 230) : QColor(30, 30, 30);
+  if (!content_ || content_->empty()) {
+    painter.setPen(ink);
+    painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
+                     text("Open a case to see its station and cameras here."));
+    return;
+  }
+  paintNames(painter);
+  paintMark(painter);
+  paintLegend(painter);
+  if (over_) over_(painter);
+  if (!note_.isEmpty()) {
+    const QFontMetricsF metrics(font());
+    paintText(painter, {8.0, 6.0 + metrics.ascent()}, note_, ink);
+  }
+}
+
+/// With an outline in the background's colour, so that it is legible over everything.
+void SceneOverlay::paintText(QPainter& painter, const QPointF& at, const QString& written,
+                             const QColor& color) const {
+  QPainterPath path;
+  path.addText(at, painter.font(), written);
+  painter.setPen(QPen(isDark(look_.background) ? QColor(0, 0, 0, 200) : QColor(255, 255, 255, 220),
+                      3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawPath(path);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(color);
+  painter.drawPath(path);
+  painter.setBrush(Qt::NoBrush);
+}
+
+void SceneOverlay::paintNames(QPainter& painter) const {
+  QPointF at;
+  double depth_m = 0.0;
+  const bool dark = isDark(look_.background);
+  const auto legible = [dark](const QColor& color) {
+    return dark ? color.lighter(115) : color.darker(170);
+  };
+  if (look_.shown.axes)
+    for (int axis = 0; axis < 3; ++axis)
+      if (view_.toCanvas(1.08 * content_->axis_length_m * Eigen::Vector3d::Unit(axis), at, depth_m))
+        paintText(painter, at + QPointF(-4.0, 5.0), QStringLiteral("xyz").mid(axis, 1),
+                  legible(axisColor(axis)));
+  if (look_.shown.frusta)
+    for (const Frustum& frustum : content_->frusta)
+      if (view_.toCanvas(frustum.label_at_m, at, depth_m))
+        paintText(painter, at + QPointF(6.0, -5.0), frustum.label, legible(frustum.color));
+}
+
+void SceneOverlay::paintMark(QPainter& painter) const {
+  QPointF at;
+  double depth_m = 0.0;
+  if (!mark_ || !view_.toCanvas(*mark_, at, depth_m)) return;
+  at += QPointF(0.5, 0.5);
+  for (const auto& [color, width] : {std::pair(QColor(0, 0, 0), 3.5), {QColor(255, 210, 0), 1.5}}) {
+    painter.setPen(QPen(color, width));
+    painter.drawEllipse(at, 6.0, 6.0);
+    painter.drawLine(at - QPointF(10.0, 0.0), at - QPointF(3.0, 0.0));
+    painter.drawLine(at + QPointF(3.0, 0.0), at + QPointF(10.0, 0.0));
+    painter.drawLine(at - QPointF(0.0, 10.0), at - QPointF(0.0, 3.0));
+    painter.drawLine(at + QPointF(0.0, 3.0), at + QPointF(0.0, 10.0));
+  }
+}
+
+void SceneOverlay::paintLegend(QPainter& painter) const {
+  // Cameras have their names beside them in the scene too.
+  const std::vector<Entry> lines = entries(*content_, look_, width() >= kLegendOfCameras_px);
+  const bool bar = look_.shown.points && !content_->points.empty();
+  if (lines.empty() && !bar) return;
+  const QFontMetricsF metrics(painter.font());
+  const double line = metrics.height() + 2.0;
+  double wide = bar ? metrics.horizontalAdvance(text("residual, px")) + 20.0 : 60.0;
+  for (const Entry& entry : lines)
+    wide = std::max(wide, 42.0 + metrics.horizontalAdvance(entry.meaning));
+  const double bar_height = bar ? 2.0 * metrics.height() + 20.0 : 0.0;
+  const double high = line * static_cast<double>(lines.size()) + bar_height + 12.0;
+  const QRectF box(width() - wide - 24.0, height() - high - 8.0, wide + 16.0, high);
+  if (box.left() < 0.4 * width() || box.top() < 0.0) return;  // a small scene is not covered up
+  const bool dark = isDark(look_.background);
+  const QColor ink = dark ? QColor(230, 230, 230) : QColor(30, 30, 30);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(dark ? QColor(20, 22, 26, 200) : QColor(250, 250, 250, 215));
+  painter.drawRoundedRect(box, 4.0, 4.0);
+  double y = box.top() + 6.0;
+  for (const Entry& entry : lines) {
+    paintSign(painter, entry, {box.left() + 8.0, y, 30.0, line});
+    painter.setPen(ink);
+    painter.drawText(QRectF(box.left() + 46.0, y, wide, line), Qt::AlignVCenter | Qt::AlignLeft,
+                     entry.meaning);
+    y += line;
+  }
+  if (bar)
+    paintBar(painter, {box.left() + 8.0, y + 2.0, wide, bar_height}, content_->residual_limit_px,
+             ink);
+}
+
+}  // namespace boresight::ui

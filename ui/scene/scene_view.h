@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <QPoint>
+#include <QWidget>
+
+#include "ui/scene/scene_backdrop.h"
+#include "ui/scene/scene_backend.h"
+#include "ui/scene/scene_canvas.h"
+#include "ui/scene/scene_navigation.h"
+#include "ui/scene/scene_picker.h"
+#include "ui/state/view_state.h"
+
+class QLabel;
+
+namespace boresight::ui {
+
+class AnnotationController;
+class SceneAnnotator;
+class SceneBar;
+class SceneInput;
+class SceneOverlay;
+class StationSnapper;
+
+/// The station with its cameras in space. It follows the view state; dragging orbits (the station's
+/// z axis stays upright), the middle button or Shift pans, the wheel zooms, a click picks a
+/// template or a point of the mesh. Looking through the camera it lies over the camera's image,
+/// undistorted where the camera distorts, and dragging and the wheel move that picture.
+class SceneView : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit SceneView(ViewState& state, QWidget* parent = nullptr,
+                     SceneBackend backend = sceneBackend());
+  ~SceneView() override;
+
+  /// Lets somebody annotate in it; both must outlive it.
+  void setAnnotation(AnnotationController& annotation, StationSnapper& snapper);
+  /// nullptr before.
+  SceneAnnotator* annotator() const { return annotator_; }
+
+  SceneBackend backend() const { return backend_; }
+  QWidget* canvas() const { return canvas_->widget(); }
+  const SceneContent& content() const { return *content_; }
+  Viewpoint viewpoint() const;
+  const OrbitCamera& orbitCamera() const { return navigation_.orbit(); }
+  const SceneLook& look() const { return look_; }
+  /// Where the image lies while looking through the camera.
+  const ViewTransform& imageTransform() const { return navigation_.image(); }
+
+  /// The image lies behind the mesh while looking through the camera.
+  bool backdropReady() const { return throughCamera() && !backdrop_.gray().isNull(); }
+
+  /// Shows the whole scene again (through the camera: the whole image).
+  void resetView();
+  void lookFrom(StandardView view);
+  bool throughCamera() const { return navigation_.throughCamera(); }
+  void setThroughCamera(bool through);
+  /// Whose camera is looked through: kEstimate is what the views show, nudged or not.
+  void setThroughRole(PoseRole role);
+  void setShown(const SceneShown& shown);
+  void setMeshOpacity(double opacity);
+  /// The view state as it is now, without waiting for the event loop.
+  void refresh();
+
+ Q_SIGNALS:
+  /// A click on the mesh: the place in the station frame, and its vertex when it snapped to one.
+  void meshPointPicked(const Eigen::Vector3d& point_in_station_m, int vertex);
+  void throughCameraChanged(bool through);
+  /// One sentence for people.
+  void told(const QString& sentence);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void build();
+  void buildBar();
+  void connectInput(const SceneInput& input);
+  void refreshSoon();
+  void updateLook();
+  void updateView();
+  void updateNote();
+  Pose throughPose() const;
+  void pick(const QPointF& at, Qt::KeyboardModifiers modifiers);
+  void pickInScene(const QPointF& pixel);
+
+  ViewState& state_;
+  SceneBackend backend_;
+  std::unique_ptr<SceneCanvas> canvas_;
+  SceneBar* bar_ = nullptr;
+  SceneOverlay* overlay_ = nullptr;
+  SceneAnnotator* annotator_ = nullptr;
+  QLabel* readout_ = nullptr;
+
+  std::shared_ptr<const SceneContent> content_;
+  SceneLook look_;
+  SceneNavigation navigation_;
+  SceneBackdrop backdrop_;
+  PoseRole role_ = PoseRole::kEstimate;
+  double free_opacity_ = 1.0;
+  double through_opacity_ = 0.35;
+  bool refresh_pending_ = false;
+};
+
+}  // namespace boresight::ui

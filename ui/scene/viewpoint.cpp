@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/scene/viewpoint.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+
+namespace boresight::ui {
+namespace {
+
+/// A prepared pinhole of the canvas' size.
+Camera pinhole(const QSizeF& canvas, double focal_px, double cx, double cy) {
+  Camera camera;
+  camera.width = std::max(1, static_cast<int>(std::lround(canvas.width())));
+  camera.height = std::max(1, static_cast<int>(std::lround(canvas.height())));
+  camera.fx = camera.fy = focal_px;
+  camera.cx = cx;
+  camera.cy = cy;
+  if (prepareCamera(camera) != Status::kOk) camera.valid_radius = 0.0;
+  return camera;
+}
+
+}  // namespace
+
+bool Viewpoint::toCanvas(const Eigen::Vector3d& point_in_station_m, QPointF& pixel,
+                         double& depth_m) const {
+  const Eigen::Vector3d seen = view_from_station * point_in_station_m;
+  if (!(seen.z() > 0.0)) return false;
+  depth_m = seen.z();
+  pixel = {camera.fx * seen.x() / seen.z() + camera.cx,
+           camera.fy * seen.y() / seen.z() + camera.cy};
+  return true;
+}
+
+Eigen::Vector3d Viewpoint::rayInStation(const QPointF& pixel) const {
+  const Eigen::Vector3d ray((pixel.x() - camera.cx) / camera.fx,
+                            (pixel.y() - camera.cy) / camera.fy, 1.0);
+  return view_from_station.rotation.conjugate() * ray;
+}
+
+Eigen::Vector3d Viewpoint::eyeInStation_m() const {
+  return view_from_station.inverse().translation_m;
+}
+
+void OrbitCamera::frame(const BoundingBox& bounds) {
+  target_m_ = bounds.centre();
+  radius_m_ = std::max(0.5 * bounds.diagonal(), 1e-6);
+  distance_m_ = 1.1 * radius_m_ / std::sin(0.5 * kFieldOfView_rad);
+}
+
+void OrbitCamera::lookFrom(StandardView view) {
+  const auto set = [this](double azimuth_rad, double elevation_rad) {
+    azimuth_rad_ = azimuth_rad;
+    elevation_rad_ = elevation_rad;
+  };
+  switch (view) {
+    case StandardView::kTop:
+      return set(-0.5 * kPi, 0.5 * kPi);
+    case StandardView::kBottom:
+      return set(-0.5 * kPi, -0.5 * kPi);
+    case StandardView::kFront:
+      return set(-0.5 * kPi, 0.0);
+    case StandardView::kBack:
+      return set(0.5 * kPi, 0.0);
+    case StandardView::kLeft:
+      return set(kPi, 0.0);
+    case StandardView::kRight:
+      return set(0.0, 0.0);
+    case StandardView::kOblique:
+      return set(-0.9, 0.6);
+  }
+}
+
+void OrbitCamera::lookLike(const Pose& camera_from_station) {
+  const Eigen::Vector3d backward =
+      camera_from_station.rotation.conjugate() * -Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d right = camera_from_station.rotation.conjugate() * Eigen::Vector3d::UnitX();
+  elevation_rad_ = std::asin(std::clamp(backward.z(), -1.0, 1.0));
+  // Near the vertical the image's x axis says more about the azimuth than the line of sight does.
+  azimuth_rad_ = std::hypot(backward.x(), backward.y()) > 0.3
+                     ? std::atan2(backward.y(), backward.x())
+                     : std::atan2(-right.x(), right.y());
+}
+
+void OrbitCamera::orbit(const QPointF& pixels, double canvas_height) {
+  const double rad_per_px = kPi / std::max(canvas_height, 1.0);
+  azimuth_rad_ = std::remainder(azimuth_rad_ - rad_per_px * pixels.x(), 2.0 * kPi);
+  elevation_rad_ = std::clamp(elevation_rad_ + rad_per_px * pixels.y(), -0.5 * kPi, 0.5 * kPi);
+}
+
+void OrbitCamera::pan(const QPointF& pixels, double canvas_height) {
+  const Eigen::Matrix3d station_from_view = viewFromStation().transpose();
+  target_m_ -= metresPerPixel(canvas_height) *
+               (station_from_view.col(0) * pixels.x() + station_from_view.col(1) * pixels.y());
+}
+
+void OrbitCamera::dolly(double factor) {
+  distance_m_ = std::clamp(distance_m_ * factor, 1e-3 * radius_m_, 1e3 * radius_m_);
+}
+
+double OrbitCamera::metresPerPixel(double canvas_height) const {
+  return 2.0 * distance_m_ * std::tan(0.5 * kFieldOfView_rad) / std::max(canvas_height, 1.0);
+}
+
+Eigen::Matrix3d OrbitCamera::viewFromStation() const {
+  const double ca = std::cos(azimuth_rad_);
+  const double sa = std::sin(azimuth_rad_);
+  const double ce = std::cos(elevation_rad_);
+  const double se = std::sin(elevation_rad_);
+  Eigen::Matrix3d rows;  // right, down, forward; well defined at the poles too
+  rows.row(0) = Eigen::Vector3d(-sa, ca, 0.0);
+  rows.row(1) = Eigen::Vector3d(se * ca, se * sa, -ce);
+  rows.row(2) = Eigen::Vector3d(-ce * ca, -ce * sa, -se);
+  return rows;
+}
+
+Viewpoint OrbitCamera::viewpoint(const QSizeF& canvas) const {
+  Viewpoint view;
+  const Eigen::Matrix3d rotation = viewFromStation();
+  view.view_from_station.rotation = Eigen::Quaterniond(rotation).normalized();
+  view.view_from_station.translation_m =
+      Eigen::Vector3d(0.0, 0.0, distance_m_) - rotation * target_m_;
+  // The field of view is that of the smaller side, so that a narrow canvas shows the scene too.
+  const double side = std::max(1.0, std::min(canvas.width(), canvas.height()));
+  view.camera = pinhole(canvas, 0.5 * side / std::tan(0.5 * kFieldOfView_rad),
+                        0.5 * (canvas.width() - 1.0), 0.5 * (canvas.height() - 1.0));
+  return view;
+}
+
+Viewpoint throughCamera(const Camera& camera, const Pose& camera_from_station,
+                        const ViewTransform& image, const QSizeF& canvas) {
+  // A canvas pixel's centre (u, v) lies at (u + 0.5, v + 0.5) in the canvas' coordinates.
+  const QPointF centre = image.toWidget(QPointF(camera.cx, camera.cy));
+  Viewpoint view;
+  view.view_from_station = camera_from_station;
+  view.camera = pinhole(canvas, camera.fx * image.scale(), centre.x() - 0.5, centre.y() - 0.5);
+  view.camera.fy = camera.fy * image.scale();
+  if (prepareCamera(view.camera) != Status::kOk) view.camera.valid_radius = 0.0;
+  return view;
+}
+
+}  // namespace boresight::ui
