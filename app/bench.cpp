@@ -32,7 +32,7 @@ struct BenchArguments {
 };
 
 std::vector<sessions::RunSettings> BenchArguments::settings() const {
-  std::vector<sessions::RunSettings> made(2);
+  std::vector<sessions::RunSettings> made(2, {.threads = 1});
   made[0].kernels = Kernels::kPortable;
   for (const int threads : {2, 4, 8}) {
     if (quick || threads > static_cast<int>(std::thread::hardware_concurrency())) break;

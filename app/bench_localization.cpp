@@ -7,6 +7,7 @@
 
 #include "sessions/evaluation/reseed.h"
 #include "sessions/io/errors.h"
+#include "sessions/run/problem.h"
 
 namespace boresight::app {
 namespace {
@@ -24,14 +25,8 @@ struct Loaded {
   LocalizerOptions options;
 
   LocalizationProblem problem() const {
-    LocalizationProblem made;
-    made.image = image.view();
-    made.camera = camera;
-    made.mesh = scene.view();
-    made.camera_from_station_seed = camera_from_station_seed;
-    made.uncertainty = sessions::seedUncertainty(uncertainty, camera_from_station_seed,
-                                                 matchedBounds(scene.view()).centre());
-    return made;
+    return sessions::problemOf(image.view(), nullptr, camera, scene.view(),
+                               camera_from_station_seed, uncertainty);
   }
 };
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sessions/io/dataset_file.h"
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 
 namespace boresight::app {
 

@@ -7,7 +7,7 @@
 
 #include "sessions/baselines/method_options.h"
 #include "sessions/io/mesh_container.h"
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 
@@ -111,8 +111,9 @@ void setUncertainty(const std::vector<double>& values, sessions::DeclaredUncerta
 
 void addThreads(CLI::App& command, int& threads) {
   command
-      .add_option("--threads", threads, "Threads of a run; the result is the same with any number")
-      ->check(CLI::Range(1, Localizer::kMaxWorkers))
+      .add_option("--threads", threads,
+                  "Threads of a run; 0: one per core. The result is the same with any number")
+      ->check(CLI::Range(0, Localizer::kMaxWorkers))
       ->capture_default_str()
       ->type_name("N");
 }

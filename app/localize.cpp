@@ -11,8 +11,9 @@
 #include "sessions/io/image_file.h"
 #include "sessions/report/result_file.h"
 #include "sessions/run/overlay.h"
-#include "sessions/run/record.h"
+#include "sessions/run/problem.h"
 #include "sessions/run/run_text.h"
+#include "sessions/run/runner.h"
 #include "sessions/run/trace_file.h"
 #include "sessions/session/label_agreement.h"
 #include "sessions/session/named_poses.h"
@@ -24,7 +25,7 @@ namespace {
 struct LocalizeArguments : InputArguments {
   std::string truth;
   MethodArguments method;
-  int threads = 1;
+  int threads = 0;
   Kernels kernels = bestKernels();
   std::string out, trace, record, overlay;
 
@@ -102,7 +103,7 @@ void writeOverlay(const std::string& file, const Inputs& inputs,
     layers.push_back({"result", trace.camera_from_station, sessions::kResultColor});
   } else if (!trace.iterations.empty()) {
     layers.push_back({std::string("last hypothesis, ") + localizationStatusText(trace.status),
-                      trace.iterations.back().camera_from_station, sessions::kResultColor});
+                      trace.iterations.back()->camera_from_station, sessions::kResultColor});
   }
   if (inputs.truth)
     layers.push_back({"truth", inputs.truth->camera_from_station, sessions::kTruthColor, true});
@@ -165,25 +166,6 @@ int exitCodeOf(const sessions::LocalizationTrace& trace) {
   return too_little ? kNotConverged : kInternalFault;
 }
 
-/// What the core refuses although the readers let it pass.
-void requireAccepted(const LocalizeArguments& arguments, const sessions::LocalizationTrace& trace) {
-  const std::string reason = statusText(trace.fault);
-  switch (trace.fault) {
-    case Status::kInvalidMesh:
-      throw sessions::InputError(arguments.mesh.mesh, reason);
-    case Status::kTooManyLayers:
-      throw sessions::InputError(arguments.mesh.mesh, sessions::explanation(trace));
-    case Status::kInvalidCamera:
-      throw sessions::InputError(arguments.cameraFile(), reason);
-    case Status::kInvalidImage:
-      throw sessions::InputError(arguments.image, reason);
-    case Status::kInvalidPose:
-      throw sessions::InputError(arguments.seed, reason);
-    default:
-      break;
-  }
-}
-
 /// Most that is downlinked of a run.
 constexpr std::size_t kRecordRoomBytes = 64000;
 
@@ -214,7 +196,10 @@ int localizeImage(const LocalizeArguments& arguments) {
   sessions::Methods methods(arguments.method.setup(arguments.options));
   const sessions::LocalizationTrace trace = methods.localize(
       arguments.method.methods.front(), inputs.problem(), inputs.options, settings);
-  requireAccepted(arguments, trace);
+  sessions::requireAccepted(trace, {{arguments.image, ""},
+                                    {arguments.cameraFile(), ""},
+                                    {arguments.mesh.mesh, ""},
+                                    {arguments.seed, ""}});
   const auto error = errorAgainstTruth(inputs, trace.camera_from_station);
   printResult(trace, inputs, error);
   if (settings.memory_limit > 0) std::cout << "\n" << sessions::memoryTable(trace) << std::flush;

@@ -3,7 +3,7 @@
 
 #include "sessions/io/camera_field.h"
 #include "sessions/io/chosen_camera.h"
-#include "sessions/run/seed_check.h"
+#include "sessions/run/problem.h"
 
 namespace boresight::app {
 namespace {
@@ -52,15 +52,8 @@ void InputArguments::addTo(CLI::App& command) {
 }
 
 LocalizationProblem ProblemInputs::problem() const {
-  LocalizationProblem made;
-  made.image = image.view();
-  made.ignore = ignore_mask ? &ignore : nullptr;
-  made.camera = camera;
-  made.mesh = scene.view();
-  made.camera_from_station_seed = seed.camera_from_station;
-  made.uncertainty = sessions::seedUncertainty(uncertainty, seed.camera_from_station,
-                                               matchedBounds(scene.view()).centre());
-  return made;
+  return sessions::problemOf(image.view(), ignore_mask ? &ignore : nullptr, camera, scene.view(),
+                             seed.camera_from_station, uncertainty);
 }
 
 ProblemInputs readProblemInputs(const InputArguments& arguments) {
@@ -93,10 +86,8 @@ ProblemInputs readProblemInputs(const InputArguments& arguments) {
 }
 
 void requireSensibleSeed(const ProblemInputs& inputs, const std::string& seed_file) {
-  const Pose& seed = inputs.seed.camera_from_station;
-  sessions::requirePlausibleScale(inputs.scene, seed);
-  const std::string concern = sessions::seedConcern(inputs.camera, inputs.scene.view(), seed);
-  if (!concern.empty()) throw sessions::InputError(seed_file, "camera_from_station", concern);
+  sessions::requireSensibleSeed(inputs.camera, inputs.scene, inputs.seed.camera_from_station,
+                                seed_file, "camera_from_station");
 }
 
 }  // namespace boresight::app

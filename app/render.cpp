@@ -7,8 +7,8 @@
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/image_file.h"
+#include "sessions/run/problem.h"
 #include "sessions/run/scene_render.h"
-#include "sessions/run/seed_check.h"
 
 namespace boresight::app {
 namespace {
@@ -29,9 +29,8 @@ int render(const RenderArguments& arguments) {
       sessions::readPose(std::filesystem::path(arguments.pose), arguments.frames.of(camera_file));
   const sessions::SceneMesh scene = arguments.mesh.read();
   sessions::requireWritable(arguments.out);
-  sessions::requirePlausibleScale(scene, pose.camera_from_station);
-  const std::string concern = sessions::seedConcern(camera, scene.view(), pose.camera_from_station);
-  if (!concern.empty()) throw sessions::InputError(arguments.pose, "camera_from_station", concern);
+  sessions::requireSensibleSeed(camera, scene, pose.camera_from_station, arguments.pose,
+                                "camera_from_station");
   sessions::RenderTrace made;
   const Status status = sessions::renderScene(camera, scene.view(), pose.camera_from_station, made);
   if (status != Status::kOk)

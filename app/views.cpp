@@ -20,6 +20,7 @@ struct ViewsArguments {
   std::string dataset, out;
   std::vector<std::string> rigs;
   OptionArguments options;
+  int threads = 0;
   Kernels kernels = bestKernels();
 };
 
@@ -70,7 +71,8 @@ int localizeRigs(const ViewsArguments& arguments) {
   bool all_converged = true;
   for (const std::string& id : ids) {
     const sessions::RigViews rig = sessions::readRigViews(dataset, id);
-    const sessions::RigRun run = sessions::localizeViews(rig, options, arguments.kernels);
+    const sessions::RigRun run = sessions::localizeViews(
+        rig, options, {.threads = arguments.threads, .kernels = arguments.kernels});
     printRig(rig, run);
     json["rigs"].push_back(sessions::toJson(rig, run));
     all_converged = all_converged && run.result.status == LocalizationStatus::kConverged;
@@ -93,6 +95,7 @@ void addViews(CLI::App& app, int& exit_code) {
   command->add_option("--rig", arguments->rigs, "Which of its rigs; without it all")
       ->type_name("ID");
   arguments->options.addTo(*command);
+  addThreads(*command, arguments->threads);
   addKernels(*command, arguments->kernels);
   command->add_option("--out", arguments->out, "Writes the results as JSON")->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = localizeRigs(*arguments); });

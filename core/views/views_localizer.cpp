@@ -62,7 +62,7 @@ void ViewsLocalizer::layOut(const ViewsProblem& problem, const LocalizerOptions&
 }
 
 Status ViewsLocalizer::requiredBytes(const ViewsProblem& problem, const LocalizerOptions& options,
-                                     Kernels kernels, std::size_t& bytes) {
+                                     int workers, Kernels kernels, std::size_t& bytes) {
   const Status status = validate(problem, options);
   if (status != Status::kOk) return status;
   Arena counter;
@@ -75,7 +75,7 @@ Status ViewsLocalizer::requiredBytes(const ViewsProblem& problem, const Localize
     one.camera = view.camera;
     one.mesh = problem.mesh;
     std::size_t own = 0;
-    const Status sized = boresight::requiredBytes(sizeOf(one), options, 1, own, kernels);
+    const Status sized = boresight::requiredBytes(sizeOf(one), options, workers, own, kernels);
     if (sized != Status::kOk) return sized;
     bytes += (own + Arena::kAlignment - 1) / Arena::kAlignment * Arena::kAlignment;
   }
@@ -95,10 +95,10 @@ LocalizationProblem ViewsLocalizer::problemOf(std::size_t index) const {
 }
 
 ViewsLocalizer::ViewsLocalizer(const ViewsProblem& problem, const LocalizerOptions& options,
-                               std::span<std::byte> memory, Kernels kernels)
+                               std::span<std::byte> memory, int workers, Kernels kernels)
     : problem_(problem), options_(options) {
   std::size_t needed = 0;
-  status_ = requiredBytes(problem, options, kernels, needed);
+  status_ = requiredBytes(problem, options, workers, kernels, needed);
   if (status_ == Status::kOk && memory.size() < needed) status_ = Status::kArenaTooSmall;
   result_.rig_from_station = problem.rig_from_station_seed;
   if (status_ != Status::kOk) return;
@@ -107,11 +107,12 @@ ViewsLocalizer::ViewsLocalizer(const ViewsProblem& problem, const LocalizerOptio
   for (std::size_t v = 0; v < views_.size() && status_ == Status::kOk; ++v) {
     const LocalizationProblem own = problemOf(v);
     std::size_t bytes = 0;
-    status_ = boresight::requiredBytes(sizeOf(own), options_, 1, bytes, kernels);
+    status_ = boresight::requiredBytes(sizeOf(own), options_, workers, bytes, kernels);
     if (status_ != Status::kOk) return;
     views_[v].camera_from_first =
         problem_.views[v].camera_from_rig * problem_.views[0].camera_from_rig.inverse();
-    status_ = views_[v].pass.create(own, options_, arena.allocate<std::byte>(bytes), 1, kernels);
+    status_ =
+        views_[v].pass.create(own, options_, arena.allocate<std::byte>(bytes), workers, kernels);
     views_[v].pass.solveOutside();
   }
   if (status_ == Status::kOk) attempt_ = Attempt(0, seedOf(first().problem()));
@@ -160,6 +161,30 @@ StepReport ViewsLocalizer::step() {
     default:
       return stepSupport();
   }
+}
+
+/// The view whose pass the next step works on; none between two passes, and while views wait for
+/// the pose of all.
+std::optional<std::size_t> ViewsLocalizer::workingView() const {
+  if (finished_ || status_ != Status::kOk) return std::nullopt;
+  for (std::size_t v = 0; v < views_.size(); ++v) {
+    if (v > 0 && !takesPart(v)) continue;
+    const Linked& view = views_[v];
+    const bool begins = view.has_edges ? !view.has_begun : !view.pass.running();
+    if (begins) return std::nullopt;
+    if (view.pass.running() && view.pass.needs() == PassNeed::kNothing) return v;
+  }
+  return std::nullopt;
+}
+
+int ViewsLocalizer::tasks() const {
+  const std::optional<std::size_t> working = workingView();
+  return working ? views_[*working].pass.tasks() : 0;
+}
+
+void ViewsLocalizer::runTask(int task, int worker) {
+  const std::optional<std::size_t> working = workingView();
+  if (working) views_[*working].pass.runTask(task, worker);
 }
 
 /// False when the view waits for the others.

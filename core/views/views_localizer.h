@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/base/arena.h"
@@ -32,28 +33,33 @@ namespace boresight {
 /// pose for which all remaining views have support.
 ///
 /// Not offered: the global search, competing poses, partial support, matches from outside,
-/// covariances by groups of errors (kInvalidOption) and more than one worker.
+/// covariances by groups of errors (kInvalidOption).
 class ViewsLocalizer {
  public:
   /// Bytes of arena, in a block aligned to Arena::kAlignment: the sum of each view's, and some ten
   /// kB a view.
   static Status requiredBytes(const ViewsProblem& problem, const LocalizerOptions& options,
                               std::size_t& bytes) {
-    return requiredBytes(problem, options, Kernels::kPortable, bytes);
+    return requiredBytes(problem, options, 1, Kernels::kPortable, bytes);
   }
-  /// The same with these kernels.
+  /// The same for a number of workers, with these kernels.
   static Status requiredBytes(const ViewsProblem& problem, const LocalizerOptions& options,
-                              Kernels kernels, std::size_t& bytes);
+                              int workers, Kernels kernels, std::size_t& bytes);
 
   /// As Localizer's constructor. kCapacityExceeded: no view, or more than kMaxViews.
   ViewsLocalizer(const ViewsProblem& problem, const LocalizerOptions& options,
-                 std::span<std::byte> memory, Kernels kernels = Kernels::kPortable);
+                 std::span<std::byte> memory, int workers = 1,
+                 Kernels kernels = Kernels::kPortable);
 
   /// kOk when it can run.
   Status status() const { return status_; }
   /// One slice of one view, or of the pose of all; after `finished` it does nothing. An iteration
   /// is complete when the first view's is.
   StepReport step();
+  /// Number of tasks that may run now at the same time, those of one view; see Localizer::tasks().
+  int tasks() const;
+  /// Runs a task with the scratch of a worker; see Localizer::runTask().
+  void runTask(int task, int worker);
 
   /// How the run stands, or ended.
   const ViewsResult& result() const { return result_; }
@@ -93,6 +99,7 @@ class ViewsLocalizer {
   Shares& shares() { return shares_[static_cast<std::size_t>(plan_.record)]; }
 
   bool takesPart(std::size_t view) const;
+  std::optional<std::size_t> workingView() const;
   PassPlan planOf(std::size_t view) const;
   bool stepView(std::size_t view, StepReport& report);
   StepReport decide(const Ruling& ruling);

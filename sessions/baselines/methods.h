@@ -10,7 +10,7 @@
 
 #include "sessions/baselines/method_options.h"
 #include "sessions/run/matching_method.h"
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 
 namespace boresight::sessions {
 

@@ -14,8 +14,8 @@
 #include "sessions/evaluation/model_error.h"
 #include "sessions/evaluation/reseed.h"
 #include "sessions/io/errors.h"
-#include "sessions/run/record.h"
-#include "sessions/run/seed_check.h"
+#include "sessions/run/problem.h"
+#include "sessions/run/runner.h"
 
 namespace boresight::sessions {
 namespace {
@@ -51,7 +51,6 @@ class Shared {
 struct StationScene {
   SceneMesh scene;
   std::vector<Eigen::Vector3f> matched_vertices;
-  Eigen::Vector3d centre_m;
   Symmetries symmetries;
 };
 
@@ -95,7 +94,6 @@ StationScene loadScene(const Station& station, const std::optional<MirrorAxis>& 
   loaded.scene = readStationScene(station);
   if (mirror) loaded.scene = mirrored(std::move(loaded.scene), *mirror);
   loaded.matched_vertices = matchedVertices(loaded.scene.view());
-  loaded.centre_m = matchedBounds(loaded.scene.view()).centre();
   loaded.symmetries = station.symmetries;
   return loaded;
 }
@@ -227,21 +225,17 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
     return CaseImage{readCaseImage(dataset_, one), readCaseMask(dataset_, one)};
   });
 
-  LocalizationProblem problem;
-  problem.image = image->image.view();
-  const BitImage ignore = image->ignore ? image->ignore->view() : BitImage{};
-  if (image->ignore) problem.ignore = &ignore;
-  problem.camera = dataset_.cameras.at(one.camera);
-  problem.mesh = scene->scene.view();
-  problem.camera_from_station_seed = one.seed_camera_from_station;
+  Pose seed = one.seed_camera_from_station;
   if (item.reseed > 0) {
     const Vector6d offset =
         drawOffset(*one.uncertainty, options_.reseed_scale, one.id, item.reseed);
-    problem.camera_from_station_seed = seedForOffset(*one.truth_camera_from_station, offset,
-                                                     one.uncertainty->pivot, scene->centre_m);
+    seed = seedForOffset(*one.truth_camera_from_station, offset, one.uncertainty->pivot,
+                         matchedBounds(scene->scene.view()).centre());
   }
-  problem.uncertainty =
-      seedUncertainty(*one.uncertainty, problem.camera_from_station_seed, scene->centre_m);
+  const BitImage ignore = image->ignore ? image->ignore->view() : BitImage{};
+  const LocalizationProblem problem =
+      problemOf(image->image.view(), image->ignore ? &ignore : nullptr,
+                dataset_.cameras.at(one.camera), scene->scene.view(), seed, *one.uncertainty);
   result.camera_from_station_seed = problem.camera_from_station_seed;
   result.camera_from_station = problem.camera_from_station_seed;
   result.seed_error = errorOf(one, problem.camera, problem.camera_from_station_seed, *scene);
@@ -254,7 +248,7 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
     RunSettings settings;
     settings.level = options_.keep_matches ? RecordLevel::kFull : RecordLevel::kSummary;
     settings.memory_limit = options_.memory_limit;
-    settings.threads = options_.threads;
+    settings.threads = threadsOf(options_.threads, options_.jobs);
     settings.kernels = options_.kernels;
     const LocalizationTrace trace =
         methods_.localize(options_.method, problem, options, settings, stop);

@@ -11,7 +11,7 @@
 #include "sessions/baselines/methods.h"
 #include "sessions/evaluation/run_result.h"
 #include "sessions/io/dataset_file.h"
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 
 namespace boresight::sessions {
 
@@ -34,7 +34,7 @@ struct BatchOptions {
   MethodSetup method_setup;  ///< of those that are not WHS
   Kernels kernels = bestKernels();
   int jobs = 1;
-  int threads = 1;               ///< of each run
+  int threads = 0;               ///< of each run; 0: its share of the cores
   std::size_t memory_limit = 0;  ///< of each run, see RunSettings
   int reseeds = 0;               ///< further seeds per case; needs truth
   double reseed_scale = 1.0;     ///< how far they are drawn, while the declared uncertainty stays

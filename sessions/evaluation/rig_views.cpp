@@ -2,7 +2,6 @@
 #include "sessions/evaluation/rig_views.h"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -99,7 +98,7 @@ RigViews readRigViews(const Dataset& dataset, const std::string& id) {
   return rig;
 }
 
-RigRun localizeViews(const RigViews& rig, LocalizerOptions options, Kernels kernels) {
+RigRun localizeViews(const RigViews& rig, LocalizerOptions options, const RunSettings& settings) {
   std::vector<BitImage> masks;
   const std::vector<View> views = viewsOf(rig, masks);
   const Case& first = *rig.cases.front();
@@ -111,19 +110,14 @@ RigRun localizeViews(const RigViews& rig, LocalizerOptions options, Kernels kern
                                         matchedBounds(problem.mesh).centre());
   if (options.templates.feature_size_m == 0.0)
     options.templates.feature_size_m = rig.feature_size_m.value_or(0.0);
-  RigRun run;
-  run.views = views.size();
-  // What cannot be sized cannot run: the localizer says why.
-  (void)ViewsLocalizer::requiredBytes(problem, options, kernels, run.arena_bytes);
-  const auto memory = std::make_unique<std::byte[]>(run.arena_bytes);
-  const auto start = std::chrono::steady_clock::now();
-  const auto localizer = std::make_unique<ViewsLocalizer>(
-      problem, options, std::span(memory.get(), run.arena_bytes), kernels);
-  while (!localizer->step().finished) {
-  }
-  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  run.result = localizer->result();
-  run.digest = hexText(localizer->digest()).data();
+  std::vector<std::string> ids;
+  for (const Case* one : rig.cases) ids.push_back(one->id);
+  RunSettings summary = settings;
+  summary.level = RecordLevel::kSummary;
+  Runner stepped(problem, options, ids, summary);
+  stepped.advance(StepUntil::kEnd);
+  const JointResult& joint = stepped.joint();
+  RigRun run{joint.result, views.size(), joint.digest, stepped.trace().seconds.total()};
   return run;
 }
 

@@ -14,6 +14,7 @@
 #include "core/views/views_localizer.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/dataset_file.h"
+#include "sessions/run/runner.h"
 
 namespace boresight::sessions {
 
@@ -41,14 +42,13 @@ struct RigRun {
   ViewsResult result;
   std::size_t views = 0;
   std::string digest;
-  std::size_t arena_bytes = 0;
   double seconds = 0.0;
 };
 
 /// From the first case's seed within its uncertainty; the seeds of the others are not used. A
 /// problem that cannot run is a result with kFault. Throws std::bad_alloc.
 RigRun localizeViews(const RigViews& rig, LocalizerOptions options,
-                     Kernels kernels = bestKernels());
+                     const RunSettings& settings = {});
 
 /// Of a view that has a truth.
 std::optional<PoseError> viewError(const RigViews& rig, const RigRun& run, std::size_t view);

@@ -19,10 +19,10 @@ void noteTrace(const LocalizationTrace& trace, RunResult& result) {
   result.completed = trace.converged();
   result.camera_from_station = trace.camera_from_station;
   result.iterations = static_cast<std::int32_t>(trace.iterations.size());
-  for (const IterationTrace& iteration : trace.iterations) {
-    if (iteration.kind != IterationKind::kMatch) continue;
-    result.matches = iteration.searched_count;
-    result.inliers = iteration.pnp.inlier_count;
+  for (const auto& iteration : trace.iterations) {
+    if (iteration->kind != IterationKind::kMatch) continue;
+    result.matches = iteration->searched_count;
+    result.inliers = iteration->pnp.inlier_count;
   }
   result.edge_support = trace.support.share();
   result.seconds = trace.seconds;

@@ -31,10 +31,10 @@ RunStep stepOf(const IterationTrace& iteration, std::int32_t index) {
 
 std::vector<RunStep> runSteps(const LocalizationTrace& trace, const Case& one) {
   std::vector<RunStep> steps;
-  for (const IterationTrace& iteration : trace.iterations) {
-    steps.push_back(stepOf(iteration, static_cast<std::int32_t>(steps.size())));
+  for (const auto& iteration : trace.iterations) {
+    steps.push_back(stepOf(*iteration, static_cast<std::int32_t>(steps.size())));
     if (one.truth_camera_from_station)
-      steps.back().error = poseError(*one.truth_camera_from_station, iteration.camera_from_station,
+      steps.back().error = poseError(*one.truth_camera_from_station, iteration->camera_from_station,
                                      one.camera_from_end_effector);
   }
   return steps;

@@ -58,11 +58,12 @@ std::shared_ptr<const OnboardReview> reviewRecord(const std::filesystem::path& f
   auto made = std::make_shared<OnboardReview>();
   made->record = parseRecord(file, bytes);
   made->plan = planOf(made->record);
-  made->replay = std::make_shared<const RunSnapshot>(replayRecord(made->record, ground, stop));
+  made->replay =
+      std::make_shared<const LocalizationTrace>(replayRecord(made->record, ground, stop));
   return made;
 }
 
-RecordComparison compareWithGround(const OnboardReview& review, const RunSnapshot& run,
+RecordComparison compareWithGround(const OnboardReview& review, const LocalizationTrace& run,
                                    const LocalizationProblem& ground,
                                    const ComparisonLimits& limits) {
   return compareRecords(review.record, recordOf(run, &ground), limits);

@@ -13,7 +13,7 @@
 #include "sessions/record/compare_records.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/record/recorded_plan.h"
-#include "sessions/run/run_snapshot.h"
+#include "sessions/run/trace.h"
 
 namespace boresight::sessions {
 
@@ -21,7 +21,7 @@ namespace boresight::sessions {
 struct OnboardReview {
   OnboardRecord record;
   RecordedPlan plan;
-  std::shared_ptr<const RunSnapshot> replay;
+  std::shared_ptr<const LocalizationTrace> replay;
 };
 
 /// Reads a record and replays it. InputError as readRecord, and when the bytes are not those of
@@ -32,7 +32,7 @@ std::shared_ptr<const OnboardReview> reviewRecord(const std::filesystem::path& f
                                                   const std::stop_token& stop = {});
 
 /// The onboard run first, then one of the ground that was given `ground`.
-RecordComparison compareWithGround(const OnboardReview& review, const RunSnapshot& run,
+RecordComparison compareWithGround(const OnboardReview& review, const LocalizationTrace& run,
                                    const LocalizationProblem& ground,
                                    const ComparisonLimits& limits = {});
 

@@ -135,9 +135,7 @@ void takeSupport(const EdgeSupport& support, LocalizationStatus status, OnboardR
   }
 }
 
-/// Of a trace or a snapshot.
-template <class Run>
-RecordedEnd endOf(const Run& run, std::size_t iterations) {
+RecordedEnd endOf(const LocalizationTrace& run, std::size_t iterations) {
   RecordedEnd end;
   end.status = run.status;
   end.fault = run.fault;
@@ -161,37 +159,23 @@ void noteWhatIsMissing(OnboardRecord& record) {
   if (!record.end) record.missing.push_back("how the run ended: it was halted");
 }
 
-template <class Run>
-OnboardRecord recordOfRun(const Run& run, const EdgeMapTrace* edges,
-                          const std::vector<const IterationTrace*>& iterations,
-                          const LocalizationProblem* given) {
-  OnboardRecord record;
-  if (given != nullptr) record.inputs = inputsOf(*given);
-  record.options.push_back(optionsOf(run.options, 0));
-  for (const OptionChange& change : run.changes)
-    if (static_cast<std::size_t>(change.iteration) < iterations.size())
-      record.options.push_back(optionsOf(change.options, change.iteration));
-  if (edges != nullptr) record.edges = edgesOf(*edges);
-  for (const IterationTrace* one : iterations) record.iterations.push_back(iterationOf(*one));
-  takeSupport(run.support, run.status, record);
-  if (run.status != LocalizationStatus::kRunning) record.end = endOf(run, iterations.size());
-  noteWhatIsMissing(record);
-  return record;
-}
-
 }  // namespace
 
 OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* given) {
-  std::vector<const IterationTrace*> iterations;
-  for (const IterationTrace& one : run.iterations) iterations.push_back(&one);
-  return recordOfRun(run, &run.edges, iterations, given);
-}
-
-OnboardRecord recordOf(const RunSnapshot& run, const LocalizationProblem* given) {
-  std::vector<const IterationTrace*> iterations;
-  for (const auto& one : run.iterations) iterations.push_back(one.get());
-  if (run.last_under_way) iterations.pop_back();
-  return recordOfRun(run, run.edges.get(), iterations, given);
+  OnboardRecord record;
+  const std::size_t complete = run.complete();
+  if (given != nullptr) record.inputs = inputsOf(*given);
+  record.options.push_back(optionsOf(run.options, 0));
+  for (const OptionChange& change : run.changes)
+    if (static_cast<std::size_t>(change.iteration) < complete)
+      record.options.push_back(optionsOf(change.options, change.iteration));
+  if (run.edges) record.edges = edgesOf(*run.edges);
+  for (std::size_t i = 0; i < complete; ++i)
+    record.iterations.push_back(iterationOf(*run.iterations[i]));
+  takeSupport(run.support, run.status, record);
+  if (run.status != LocalizationStatus::kRunning) record.end = endOf(run, complete);
+  noteWhatIsMissing(record);
+  return record;
 }
 
 }  // namespace boresight::sessions

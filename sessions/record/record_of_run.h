@@ -3,7 +3,7 @@
 
 #include "core/localizer/problem.h"
 #include "sessions/record/onboard_record.h"
-#include "sessions/run/run_snapshot.h"
+#include "sessions/run/trace.h"
 
 namespace boresight::sessions {
 
@@ -12,6 +12,5 @@ namespace boresight::sessions {
 /// hashes of the inputs are missing. What else is not there is named in `missing`: edges, renders
 /// and templates of a trace that is a summary, the end of a run that was halted.
 OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* given);
-OnboardRecord recordOf(const RunSnapshot& run, const LocalizationProblem* given);
 
 }  // namespace boresight::sessions

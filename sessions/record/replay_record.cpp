@@ -73,7 +73,7 @@ class Replayer {
     run_.uncertainty = given_.uncertainty;
   }
 
-  RunSnapshot replay(const std::stop_token& stop) {
+  LocalizationTrace replay(const std::stop_token& stop) {
     noteInputs();
     detect();
     for (const RecordedIteration& one : record_.iterations) {
@@ -114,7 +114,7 @@ class Replayer {
   ReplayScene scene_;
   RecordedPlan recorded_plan_;
   BoundingBox bounds_;
-  RunSnapshot run_;
+  LocalizationTrace run_;
   bool same_size_ = true;
   std::int32_t attempt_ = -1;
   std::optional<std::int32_t> attempt_begin_;  ///< index of its first iteration, if known
@@ -372,8 +372,8 @@ void Replayer::finish() {
 
 }  // namespace
 
-RunSnapshot replayRecord(const OnboardRecord& record, const LocalizationProblem& ground,
-                         const std::stop_token& stop) {
+LocalizationTrace replayRecord(const OnboardRecord& record, const LocalizationProblem& ground,
+                               const std::stop_token& stop) {
   return Replayer(record, ground).replay(stop);
 }
 

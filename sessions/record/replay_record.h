@@ -5,7 +5,7 @@
 
 #include "core/localizer/problem.h"
 #include "sessions/record/onboard_record.h"
-#include "sessions/run/run_snapshot.h"
+#include "sessions/run/trace.h"
 
 namespace boresight::sessions {
 
@@ -19,7 +19,7 @@ namespace boresight::sessions {
 /// `ground` is what a run on the ground would be given. Where that is not what the run was given on
 /// board, or the record is cut or of another program, `remarks` says so. With the same inputs the
 /// replay is the ground's run in all that both have. A stop leaves the iterations done so far.
-RunSnapshot replayRecord(const OnboardRecord& record, const LocalizationProblem& ground,
-                         const std::stop_token& stop = {});
+LocalizationTrace replayRecord(const OnboardRecord& record, const LocalizationProblem& ground,
+                               const std::stop_token& stop = {});
 
 }  // namespace boresight::sessions

@@ -143,9 +143,9 @@ double drawPose(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
                              sigma->lateral_mm, sigma->out_of_plane_mrad));
     row("1 sigma of", end_effector ? "the end effector's origin" : "the camera's centre");
     if (const auto picture = poseSigma(report.pose.covariance.picture, end_effector))
-      row("picture alone", formatted("normal %.4f mm, lateral %.4f mm, axis %.4f mrad",
-                                     picture->normal_mm, picture->lateral_mm,
-                                     picture->out_of_plane_mrad));
+      row("picture alone",
+          formatted("normal %.4f mm, lateral %.4f mm, axis %.4f mrad", picture->normal_mm,
+                    picture->lateral_mm, picture->out_of_plane_mrad));
   } else {
     row("1 sigma", "not known");
   }
@@ -363,8 +363,8 @@ PdfPlot correctionPlot(const LocalizationTrace& trace) {
                  {"rotation, mrad", {}, kPdfOrange, true}};
   for (std::size_t i = 0; i < trace.iterations.size(); ++i) {
     const double x = static_cast<double>(i + 1);
-    plot.series[0].points.push_back({x, 1e3 * trace.iterations[i].correction_translation_m});
-    plot.series[1].points.push_back({x, 1e3 * trace.iterations[i].correction_rotation_rad});
+    plot.series[0].points.push_back({x, 1e3 * trace.iterations[i]->correction_translation_m});
+    plot.series[1].points.push_back({x, 1e3 * trace.iterations[i]->correction_rotation_rad});
   }
   return plot;
 }
@@ -374,7 +374,7 @@ PdfPlot supportPlot(const LocalizationTrace& trace) {
       "Matches and edge places of each iteration", "iteration", "count", {}, true, true, true};
   plot.series = {{"looked for", {}, kFaintInk, false}, {"agree", {}, kPdfBlue, false}};
   for (std::size_t i = 0; i < trace.iterations.size(); ++i) {
-    const IterationTrace& one = trace.iterations[i];
+    const IterationTrace& one = *trace.iterations[i];
     const double x = static_cast<double>(i + 1);
     const bool refine = one.kind == IterationKind::kRefine;
     plot.series[0].points.push_back(
@@ -418,7 +418,7 @@ PoseReport poseReport(const Session& session, const std::string& case_id) {
   CheckedPose checked = checkedPose(session, case_id);
   report.pose = std::move(checked.pose);
   report.loaded = std::move(checked.subject.loaded);
-  if (checked.subject.run) report.trace = traceOf(*checked.subject.run);
+  if (checked.subject.run) report.trace = *checked.subject.run;
   return report;
 }
 

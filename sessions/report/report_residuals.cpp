@@ -12,10 +12,10 @@ namespace {
 
 /// The last iteration of a kind that came to a pose, or nullptr.
 const IterationTrace* lastOf(const LocalizationTrace& trace, IterationKind kind) {
-  const auto found = std::find_if(
-      trace.iterations.rbegin(), trace.iterations.rend(),
-      [kind](const IterationTrace& one) { return one.kind == kind && one.support() > 0; });
-  return found == trace.iterations.rend() ? nullptr : &*found;
+  const auto found =
+      std::find_if(trace.iterations.rbegin(), trace.iterations.rend(),
+                   [kind](const auto& one) { return one->kind == kind && one->support() > 0; });
+  return found == trace.iterations.rend() ? nullptr : found->get();
 }
 
 ReportResiduals ofEdges(const PoseReport& report, const Camera& camera,

@@ -113,8 +113,8 @@ ordered_json resultJson(const LocalizationTrace& trace, const std::optional<Pose
   json["arena_bytes"] = trace.arena_bytes;
   json["input_bytes"] = trace.memory.inputs;
   json["iteration"] = ordered_json::array();
-  for (const IterationTrace& iteration : trace.iterations)
-    json["iteration"].push_back(iterationJson(iteration));
+  for (const auto& iteration : trace.iterations)
+    json["iteration"].push_back(iterationJson(*iteration));
   json["provenance"] = provenanceJson(trace, provenance);
   return json;
 }

@@ -6,7 +6,7 @@
 #include "sessions/review/checks.h"
 #include "sessions/review/edge_evidence.h"
 #include "sessions/review/mirror_image.h"
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 
 namespace boresight::sessions {
 namespace {

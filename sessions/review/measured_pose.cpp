@@ -23,9 +23,9 @@ namespace {
 constexpr double kFigureTolerance = 1e-6;  ///< of its size; the last bits are the machine's
 constexpr double kFigureRest = 1e-12;      ///< in any unit of a check
 
-RunSnapshot runAgain(const RunRecord& run, const Session& session,
-                     const std::filesystem::path& session_file) {
-  RunSnapshot again = snapshotOf(repeatRun(run, session, session_file));
+LocalizationTrace runAgain(const RunRecord& run, const Session& session,
+                           const std::filesystem::path& session_file) {
+  LocalizationTrace again = repeatRun(run, session, session_file);
   const std::string place = "run " + run.digest;
   if (again.digest != run.digest)
     throw InputError(session_file, place,

@@ -57,7 +57,7 @@ void takeChecks(std::vector<Check> checks, QueueRow& row) {
 }
 
 void takeRun(const ReviewSubject& subject, QueueRow& row) {
-  const RunSnapshot& run = *subject.run;
+  const LocalizationTrace& run = *subject.run;
   row.iterations = static_cast<int>(run.iterations.size());
   row.inliers = lastInliers(run);
   row.opens_at = iterationToOpen(run);
@@ -84,7 +84,7 @@ void checkRun(const Session& session, std::shared_ptr<const LoadedCase> loaded, 
   if (subject.run->converged()) takeMargin(row);  // else the seed stands in for the pose
   row.subject = withoutData(subject);
   row.trouble = subject.run->converged() ? validationConcern(session, subject)
-                                         : "the run failed: " + explanation(traceOf(*subject.run));
+                                         : "the run failed: " + explanation(*subject.run);
 }
 
 /// What is known of a case that was not run here: how it ended in the results that its session was

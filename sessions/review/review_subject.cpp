@@ -51,7 +51,7 @@ std::optional<OtherPose> seenByOther(const Session& session, const LoadedCase& l
   if (run == nullptr || run->inputs_sha256 != inputsDigest(other) ||
       run->status != localizationStatusText(LocalizationStatus::kConverged))
     return {};
-  const RunSnapshot seen = read_run(*run);
+  const LocalizationTrace seen = read_run(*run);
   const Pose one_from_other = one.rig->camera_from_rig * other.rig->camera_from_rig.inverse();
   const PoseCovariance own =
       poseCovariance(other, loaded.scene.view(), seen.camera_from_station, seen.covariance);
@@ -73,14 +73,15 @@ std::vector<OtherPose> otherCameras(const Session& session, const LoadedCase& lo
   return found;
 }
 
-void takeRun(RunSnapshot run, ReviewSubject& subject) {
+void takeRun(LocalizationTrace run, ReviewSubject& subject) {
   subject.run = std::move(run);
   subject.camera_from_station = subject.run->camera_from_station;
   subject.covariance.picture = subject.run->covariance;
 }
 
 /// InputError when the record cannot be read, or is no longer the one that the session knows.
-std::optional<RecordComparison> againstOnboard(const LoadedCase& loaded, const RunSnapshot& run) {
+std::optional<RecordComparison> againstOnboard(const LoadedCase& loaded,
+                                               const LocalizationTrace& run) {
   const auto& known = loaded.source.onboard_record;
   if (!known) return {};
   const std::vector<std::uint8_t> bytes = readFileBytes(known->file, 64 * kMegabyte);

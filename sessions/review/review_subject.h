@@ -9,7 +9,7 @@
 
 #include "core/geometry/pose.h"
 #include "sessions/record/compare_records.h"
-#include "sessions/run/run_snapshot.h"
+#include "sessions/run/trace.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/pose_covariance.h"
 #include "sessions/session/session.h"
@@ -30,7 +30,7 @@ struct ReviewSubject {
   PoseSource source = PoseSource::kRun;
   Pose camera_from_station;
   PoseCovariance covariance;
-  std::optional<RunSnapshot> run;        ///< that the pose came from; nothing of annotated ones
+  std::optional<LocalizationTrace> run;  ///< that the pose came from; nothing of annotated ones
   std::optional<OtherPose> annotated;    ///< by the case's marks, unless these are the source
   std::vector<OtherPose> other_cameras;  ///< as the other cameras of the rig see the station
   std::optional<RecordComparison>
@@ -38,7 +38,7 @@ struct ReviewSubject {
 };
 
 /// Where a recorded run comes from: its trace, or a second run of the same inputs.
-using RunReader = std::function<RunSnapshot(const RunRecord&)>;
+using RunReader = std::function<LocalizationTrace(const RunRecord&)>;
 
 /// What there is to check of a case: its last run (or this one), or the pose of its marks.
 /// `read_run` is asked for the case's run and for those of the rig's other cameras. InputError when

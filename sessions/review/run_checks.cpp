@@ -30,7 +30,7 @@ constexpr double kLeastDepthShare = 0.01;
 
 std::string count(double value) { return std::to_string(static_cast<long>(std::lround(value))); }
 
-Check convergedCheck(const RunSnapshot& run) {
+Check convergedCheck(const LocalizationTrace& run) {
   const std::string found =
       run.converged()
           ? "The run converged after " + std::to_string(run.iterations.size()) + " iterations."
@@ -41,7 +41,7 @@ Check convergedCheck(const RunSnapshot& run) {
 }
 
 /// Of the last attempt, those iterations that came to a pose.
-std::vector<const IterationTrace*> lastAttempt(const RunSnapshot& run) {
+std::vector<const IterationTrace*> lastAttempt(const LocalizationTrace& run) {
   std::vector<const IterationTrace*> found;
   for (const auto& one : run.iterations) {
     if (!found.empty() && found.back()->attempt != one->attempt) found.clear();
@@ -52,7 +52,7 @@ std::vector<const IterationTrace*> lastAttempt(const RunSnapshot& run) {
   return found;
 }
 
-Check correctionsCheck(const RunSnapshot& run, const CheckLimits& limits) {
+Check correctionsCheck(const LocalizationTrace& run, const CheckLimits& limits) {
   const auto iterations = lastAttempt(run);
   if (iterations.size() < 2)
     return notAskedCheck(kCorrections, "Fewer than two iterations came to a pose.");
@@ -68,7 +68,7 @@ Check correctionsCheck(const RunSnapshot& run, const CheckLimits& limits) {
                        "last ones matched.");
 }
 
-const IterationTrace* lastMatching(const RunSnapshot& run) {
+const IterationTrace* lastMatching(const LocalizationTrace& run) {
   const IterationTrace* found = nullptr;
   for (const auto& one : run.iterations)
     if (one->kind == IterationKind::kMatch && one->reached > Stage::kRender) found = one.get();
@@ -172,7 +172,7 @@ Check marginCheck(const IterationTrace& iteration, const CheckLimits& limits) {
                        "pattern that repeats.");
 }
 
-void addMatchingChecks(const RunSnapshot& run, const CheckLimits& limits,
+void addMatchingChecks(const LocalizationTrace& run, const CheckLimits& limits,
                        std::vector<Check>& checks) {
   const IterationTrace* iteration = lastMatching(run);
   if (iteration == nullptr) {

@@ -5,14 +5,14 @@
 
 namespace boresight::sessions {
 
-std::int32_t lastInliers(const RunSnapshot& run) {
+std::int32_t lastInliers(const LocalizationTrace& run) {
   const auto found =
       std::find_if(run.iterations.rbegin(), run.iterations.rend(),
                    [](const auto& iteration) { return iteration->kind == IterationKind::kMatch; });
   return found == run.iterations.rend() ? 0 : (*found)->pnp.inlier_count;
 }
 
-int iterationToOpen(const RunSnapshot& run) {
+int iterationToOpen(const LocalizationTrace& run) {
   const int last = static_cast<int>(run.iterations.size()) - 1;
   if (run.converged()) return last;
   for (int i = last; i >= 0; --i) {

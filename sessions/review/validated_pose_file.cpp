@@ -160,7 +160,7 @@ ordered_json pixelJson(const Eigen::Vector2d& pixel) {
 }
 
 /// Of the last iteration that matched templates.
-ordered_json matchesJson(const RunSnapshot& run) {
+ordered_json matchesJson(const LocalizationTrace& run) {
   const auto last =
       std::find_if(run.iterations.rbegin(), run.iterations.rend(),
                    [](const auto& one) { return one->kind == IterationKind::kMatch; });
@@ -181,7 +181,7 @@ ordered_json matchesJson(const RunSnapshot& run) {
   return list;
 }
 
-ordered_json runJson(const RunSnapshot& run) {
+ordered_json runJson(const LocalizationTrace& run) {
   ordered_json json;
   json["digest"] = run.digest;
   json["status"] = localizationStatusText(run.status);
@@ -236,7 +236,7 @@ ordered_json signatureOf(const ordered_json& json) {
 }
 
 ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
-                               const std::optional<RunSnapshot>& run,
+                               const std::optional<LocalizationTrace>& run,
                                const std::filesystem::path& file) {
   const SessionCase& one = *session.findCase(pose.case_id);
   const Session alone = sessionOfCase(session, pose.case_id, pose.run_digest);

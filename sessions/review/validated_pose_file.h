@@ -9,7 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "sessions/review/handed_pose.h"
-#include "sessions/run/run_snapshot.h"
+#include "sessions/run/trace.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {
@@ -22,7 +22,7 @@ inline constexpr int kValidatedPoseVersion = 1;
 /// to `file`. `run` is the pose's, for its matches; without it they are left out.
 /// A pose that is not validated says so in `state` and `standing`.
 nlohmann::ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
-                                         const std::optional<RunSnapshot>& run,
+                                         const std::optional<LocalizationTrace>& run,
                                          const std::filesystem::path& file);
 
 /// Measures the case's pose again (checkedPose), writes it atomically and returns it. InputError

@@ -53,12 +53,12 @@ Alternative ofRival(const Rival& from, std::size_t index) {
 
 /// The pose that rivals are rivals of. A run that ends as ambiguous has its seed for a result, but
 /// its last iteration is the one that led.
-Pose leadOf(const RunSnapshot& run) {
+Pose leadOf(const LocalizationTrace& run) {
   if (run.converged() || run.iterations.empty()) return run.camera_from_station;
   return run.iterations.back()->camera_from_station;
 }
 
-void addHypotheses(const RunSnapshot& run, std::size_t index, std::vector<Alternative>& all) {
+void addHypotheses(const LocalizationTrace& run, std::size_t index, std::vector<Alternative>& all) {
   const IterationTrace& iteration = *run.iterations[index];
   if (iteration.hypotheses.size() < 2) return;
   const auto chosen = static_cast<std::size_t>(iteration.chosen_hypothesis);
@@ -75,7 +75,7 @@ void addHypotheses(const RunSnapshot& run, std::size_t index, std::vector<Altern
 
 }  // namespace
 
-std::vector<Alternative> alternativesOf(const RunSnapshot& run) {
+std::vector<Alternative> alternativesOf(const LocalizationTrace& run) {
   std::vector<Alternative> all;
   const Pose lead = leadOf(run);
   for (std::size_t i = 0; i < run.rivals.size(); ++i) {
@@ -86,7 +86,7 @@ std::vector<Alternative> alternativesOf(const RunSnapshot& run) {
   return all;
 }
 
-int rivalOfIteration(const RunSnapshot& run, const std::vector<Alternative>& alternatives,
+int rivalOfIteration(const LocalizationTrace& run, const std::vector<Alternative>& alternatives,
                      int iteration) {
   if (iteration < 0 || iteration >= static_cast<int>(run.iterations.size())) return -1;
   const auto at = [&run](int index) -> const IterationTrace& {

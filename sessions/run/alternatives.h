@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/geometry/pose.h"
-#include "sessions/run/run_snapshot.h"
+#include "sessions/run/trace.h"
 
 namespace boresight::sessions {
 
@@ -42,11 +42,11 @@ struct Alternative {
 
 /// Of a run as far as it has come: its rivals, then iteration by iteration the restarts and rolled
 /// hypotheses of those that had several.
-std::vector<Alternative> alternativesOf(const RunSnapshot& run);
+std::vector<Alternative> alternativesOf(const LocalizationTrace& run);
 
 /// The rival that an iteration (an index into the run's) worked on, as an index into
 /// `alternatives`; -1: none.
-int rivalOfIteration(const RunSnapshot& run, const std::vector<Alternative>& alternatives,
+int rivalOfIteration(const LocalizationTrace& run, const std::vector<Alternative>& alternatives,
                      int iteration);
 
 }  // namespace boresight::sessions

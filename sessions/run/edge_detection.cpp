@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "sessions/run/record.h"
+#include "sessions/run/iteration_trace.h"
 
 namespace boresight::sessions {
 

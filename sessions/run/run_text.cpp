@@ -39,7 +39,7 @@ std::string sigmaText(const Matrix6d& covariance, const char* place) {
 
 bool wentOnFromRestarts(const LocalizationTrace& trace) {
   return std::any_of(trace.iterations.begin(), trace.iterations.end(),
-                     [](const IterationTrace& one) { return one.wide; });
+                     [](const auto& one) { return one->wide; });
 }
 
 /// The axis that is furthest beyond its limit.
@@ -48,7 +48,7 @@ std::string leftUncertaintyText(const LocalizationTrace& trace) {
     return "the pose moved away from what the restarts had found, further than they leave open; "
            "check the mesh, or run it without wide.* if the truth is within the seed's uncertainty";
   constexpr const char* kAxes[] = {"x", "y", "z"};
-  const Pose& last = trace.iterations.back().camera_from_station;
+  const Pose& last = trace.iterations.back()->camera_from_station;
   const Vector6d offset =
       offsetAboutPivot(trace.camera_from_station_seed, last, trace.uncertainty.pivot_in_camera_m);
   int worst = 0;
@@ -151,7 +151,7 @@ std::string ambiguousText(const LocalizationTrace& trace) {
   const Rival* rival = closestRival(trace.rivals);
   if (rival == nullptr || trace.iterations.empty())
     return "another pose explains the image as well";
-  const Pose& ahead = trace.iterations.back().camera_from_station;
+  const Pose& ahead = trace.iterations.back()->camera_from_station;
   const Pose& behind = rival->camera_from_station;
   const Eigen::Quaterniond turn = (behind.rotation * ahead.rotation.conjugate()).normalized();
   return format(
@@ -193,14 +193,6 @@ std::string tooFewText(const LocalizationTrace& trace, const IterationTrace& las
       last.template_side_px);
 }
 
-/// The run without what `explanation` does not look at: all iterations but the last.
-LocalizationTrace endOf(const RunSnapshot& snapshot) {
-  RunSnapshot end = snapshot;
-  if (end.iterations.size() > 1)
-    end.iterations.erase(end.iterations.begin(), end.iterations.end() - 1);
-  return traceOf(end);
-}
-
 std::string sentence(std::string text) {
   if (text.empty()) return text;
   if (text.front() >= 'a' && text.front() <= 'z')
@@ -212,17 +204,17 @@ std::string countText(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-std::string convergedText(const RunSnapshot& snapshot) {
-  const auto sigma = [&](int i) { return std::sqrt(std::max(0.0, snapshot.covariance(i, i))); };
+std::string convergedText(const LocalizationTrace& trace) {
+  const auto sigma = [&](int i) { return std::sqrt(std::max(0.0, trace.covariance(i, i))); };
   std::string text =
-      "Converged in " + countText(snapshot.iterations.size(), "iteration", "iterations");
-  if (snapshot.attempts > 1) text += format(" and %d attempts", snapshot.attempts);
-  text += snapshot.replayed ? "." : format(", %.2f s.", snapshot.seconds.total());
-  const SupportOptions& asked = snapshot.lastOptions().support;
+      "Converged in " + countText(trace.iterations.size(), "iteration", "iterations");
+  if (trace.attempts > 1) text += format(" and %d attempts", trace.attempts);
+  text += trace.replayed ? "." : format(", %.2f s.", trace.seconds.total());
+  const SupportOptions& asked = trace.lastOptions().support;
   if (asked.gate)
-    text += format(" Edge support is %.1f %%, needed %.1f %%%s.", 100.0 * snapshot.support.share(),
-                   100.0 * asked.min_support, partialText(snapshot.partial, asked).c_str());
-  if (const Rival* rival = closestRival(snapshot.rivals))
+    text += format(" Edge support is %.1f %%, needed %.1f %%%s.", 100.0 * trace.support.share(),
+                   100.0 * asked.min_support, partialText(trace.partial, asked).c_str());
+  if (const Rival* rival = closestRival(trace.rivals))
     text += format(" The best of the poses that look alike has %.0f nats less evidence.",
                    rival->margin_nats);
   return text + format(
@@ -233,38 +225,36 @@ std::string convergedText(const RunSnapshot& snapshot) {
 }
 
 /// An onboard run, so that nobody takes it for one of the ground.
-std::string replayedText(const RunSnapshot& snapshot) {
+std::string replayedText(const LocalizationTrace& trace) {
   const std::string begin = "Onboard record, replayed. ";
-  if (snapshot.converged()) return begin + convergedText(snapshot);
-  if (snapshot.finished && snapshot.iterations.empty())
-    return begin + "It ended as " + localizationStatusText(snapshot.status) +
+  if (trace.converged()) return begin + convergedText(trace);
+  if (trace.finished && trace.iterations.empty())
+    return begin + "It ended as " + localizationStatusText(trace.status) +
            "; none of its iterations is known.";
-  if (snapshot.finished)
-    return begin + "Did not converge. " + sentence(explanation(endOf(snapshot)));
-  return begin + "It ends after " +
-         countText(snapshot.iterations.size(), "iteration", "iterations") +
+  if (trace.finished) return begin + "Did not converge. " + sentence(explanation(trace));
+  return begin + "It ends after " + countText(trace.iterations.size(), "iteration", "iterations") +
          ": how the run ended is not known.";
 }
 
-std::string aloneText(const RunSnapshot& snapshot) {
-  if (snapshot.converged()) return convergedText(snapshot);
-  if (snapshot.finished) return "Did not converge. " + sentence(explanation(endOf(snapshot)));
-  if (snapshot.iterations.empty())
-    return snapshot.edges ? "The image's edges are found." : "Nothing has run yet.";
-  const std::string number = std::to_string(snapshot.iterations.size());
-  if (!snapshot.last_under_way) return "Iteration " + number + " is complete.";
+std::string aloneText(const LocalizationTrace& trace) {
+  if (trace.converged()) return convergedText(trace);
+  if (trace.finished) return "Did not converge. " + sentence(explanation(trace));
+  if (trace.iterations.empty())
+    return trace.edges ? "The image's edges are found." : "Nothing has run yet.";
+  const std::string number = std::to_string(trace.iterations.size());
+  if (!trace.last_under_way) return "Iteration " + number + " is complete.";
   return "Iteration " + number + " is under way, its last complete stage is " +
-         stageText(snapshot.iterations.back()->reached) + ".";
+         stageText(trace.iterations.back()->reached) + ".";
 }
 
 /// Of one of several views; one that was left out says why, and what is known all the same.
-std::string viewText(const RunSnapshot& snapshot) {
-  const ViewOutcome& own = snapshot.views[snapshot.own_view];
-  const std::string with = sentence(togetherText(snapshot.views, own.case_id)) + " ";
+std::string viewText(const LocalizationTrace& trace) {
+  const ViewOutcome& own = trace.views[trace.own_view];
+  const std::string with = sentence(togetherText(trace.views, own.case_id)) + " ";
   const std::string good = localizationStatusText(LocalizationStatus::kConverged);
-  const bool others = std::any_of(snapshot.views.begin(), snapshot.views.end(),
+  const bool others = std::any_of(trace.views.begin(), trace.views.end(),
                                   [&](const ViewOutcome& one) { return one.status == good; });
-  if (!snapshot.finished || snapshot.converged() || !others) return with + aloneText(snapshot);
+  if (!trace.finished || trace.converged() || !others) return with + aloneText(trace);
   return with + "This view was left out: " + leftOutText(own.status) +
          ". The pose of the others is its last iteration's.";
 }
@@ -275,7 +265,8 @@ std::string iterationTable(const LocalizationTrace& trace) {
   int number = 0;
   TextTable table({"iteration", "attempt", "kind", "level", "templates", "matches", "inliers",
                    "threshold px", "correction mm", "deg", "rms px"});
-  for (const IterationTrace& iteration : trace.iterations) {
+  for (const auto& shared : trace.iterations) {
+    const IterationTrace& iteration = *shared;
     const bool refines = iteration.kind == IterationKind::kRefine;
     table.add({std::to_string(++number), std::to_string(iteration.attempt + 1),
                refines ? "refine" : "match", std::to_string(iteration.level),
@@ -289,8 +280,8 @@ std::string iterationTable(const LocalizationTrace& trace) {
                fixedText(iteration.rms_px(), 2)});
   }
   return table.text() + (std::any_of(trace.iterations.begin(), trace.iterations.end(),
-                                     [](const IterationTrace& iteration) {
-                                       return iteration.kind == IterationKind::kRefine;
+                                     [](const auto& iteration) {
+                                       return iteration->kind == IterationKind::kRefine;
                                      })
                              ? "(refine: places along rendered edges, places where an edge was "
                                "found, places used)\n"
@@ -319,9 +310,9 @@ std::string explanation(const LocalizationTrace& trace) {
   if (trace.status == LocalizationStatus::kRunning) return "the run was stopped";
   if (trace.status == LocalizationStatus::kFault || trace.iterations.empty())
     return faultText(trace);
-  if (trace.edges.edge_count == 0)
+  if (trace.edges && trace.edges->edge_count == 0)
     return "the image has no edges; check its exposure and the options under edges";
-  const IterationTrace& last = trace.iterations.back();
+  const IterationTrace& last = *trace.iterations.back();
   switch (trace.status) {
     case LocalizationStatus::kLeftUncertainty:
       return leftUncertaintyText(trace);
@@ -363,9 +354,9 @@ std::string memoryTable(const LocalizationTrace& trace) {
   return text + "\n";
 }
 
-std::string standingText(const RunSnapshot& snapshot) {
-  if (snapshot.replayed) return replayedText(snapshot);
-  return snapshot.views.empty() ? aloneText(snapshot) : viewText(snapshot);
+std::string standingText(const LocalizationTrace& trace) {
+  if (trace.replayed) return replayedText(trace);
+  return trace.views.empty() ? aloneText(trace) : viewText(trace);
 }
 
 }  // namespace boresight::sessions

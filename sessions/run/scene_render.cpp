@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "sessions/run/record.h"
+#include "sessions/run/iteration_trace.h"
 
 namespace boresight::sessions {
 namespace {

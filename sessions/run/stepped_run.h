@@ -1,54 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
+// What Runner steps: one localizer, or several views. For runner.cpp alone.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <stop_token>
+#include <string>
+#include <vector>
 
-#include "core/localizer/localizer.h"
-#include "sessions/run/run_snapshot.h"
+#include "sessions/run/runner.h"
 
 namespace boresight::sessions {
 
-/// How far a step goes.
-enum class StepUntil { kStage, kIteration, kEnd };
-
-/// A localization that halts where its caller wants to look: after a stage, after an iteration, at
-/// its end, or between any two slices when it is stopped. It can go on from wherever it halted, and
-/// halting changes no bit of the result. One thread at a time.
 class SteppedRun {
  public:
-  /// Takes memory for the whole run; what `problem` points to must outlive the object. A problem
-  /// or plan that cannot run is a snapshot with kFault that is finished. Throws std::bad_alloc.
-  SteppedRun(const LocalizationProblem& problem, const RunPlan& plan);
+  virtual ~SteppedRun() = default;
 
-  SteppedRun(const SteppedRun&) = delete;
-  SteppedRun& operator=(const SteppedRun&) = delete;
+  /// One slice of the localizer, and what has to be done around it.
+  virtual StepReport step(const std::stop_token& stop) = 0;
+  virtual int tasks() const = 0;
+  virtual void runTask(int task, int worker) = 0;
+  virtual int workers() const = 0;
+  /// A view's test edges are complete.
+  virtual void noteEdges() = 0;
+  /// A stage or an iteration is complete: copies it with its `seconds` so far.
+  virtual void noteIteration(const StepReport& report, const StageSeconds& seconds) = 0;
+  /// Edge support was measured after the last iteration, and may have changed its status.
+  virtual void noteSupport(const StageSeconds& seconds) = 0;
+  /// The run has ended.
+  virtual void finish() = 0;
 
-  /// Works on; nothing when it has finished.
-  void advance(StepUntil until, const std::stop_token& stop = {});
-
-  bool finished() const { return snapshot_.finished; }
-  /// Iterations that are complete.
-  std::size_t complete() const {
-    return snapshot_.iterations.size() - (snapshot_.last_under_way ? 1 : 0);
-  }
-  /// Everything up to now. The iteration under way is copied here when a stage of it was completed.
-  const RunSnapshot& snapshot() const { return snapshot_; }
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  void note(const StepReport& report, double seconds);
-  void noteIteration(const StepReport& report);
-  void finish();
-
-  RunSnapshot snapshot_;
-  std::unique_ptr<std::byte[]> memory_;
-  std::unique_ptr<Localizer> localizer_;
-  PlannedChanges changes_;
-  StageSeconds iteration_seconds_;
+  std::vector<LocalizationTrace> traces;  ///< one per view
+  JointResult joint;                      ///< of several views, at the end
 };
+
+std::unique_ptr<SteppedRun> stepOneView(const LocalizationProblem& problem, const RunPlan& plan,
+                                        const RunSettings& settings);
+std::unique_ptr<SteppedRun> stepSeveralViews(const ViewsProblem& problem,
+                                             const LocalizerOptions& options,
+                                             const std::vector<std::string>& case_ids,
+                                             const RunSettings& settings);
+
+/// A run that cannot begin.
+void refuse(LocalizationTrace& trace, Status fault);
 
 }  // namespace boresight::sessions

@@ -4,12 +4,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/localizer/localizer.h"
 #include "sessions/run/run_plan.h"
+#include "sessions/run/view_outcome.h"
 
 namespace boresight::sessions {
 
@@ -95,10 +97,14 @@ struct RecordedScore {
 };
 
 /// How much of an iteration is copied.
-enum class RecordLevel { kSummary, kFull };
+enum class RecordLevel {
+  kSummary,  ///< numbers
+  kFull,     ///< everything
+  kStages,   ///< everything, and the iteration under way after each of its stages
+};
 
 /// Everything of one iteration up to the stage that it reached: owning copies of what the core's
-/// `Iteration` holds. With kSummary the vectors stay empty and the counts remain.
+/// `Iteration` holds. With RecordLevel::kSummary the vectors stay empty and the counts remain.
 struct IterationTrace {
   std::int32_t index =
       0;  ///< as the core counts; one that failed before its pose shares the next's
@@ -143,7 +149,8 @@ struct IterationTrace {
   double rms_px() const;
 };
 
-/// A whole run: what it was given, everything in between, and how it ended.
+/// A run as far as it has come: its inputs, everything in between, and how it ended. Cheap to copy:
+/// iterations are shared by all copies and never change.
 struct LocalizationTrace {
   std::string version;       ///< of the program that made it
   LocalizerOptions options;  ///< that it started with
@@ -152,26 +159,40 @@ struct LocalizationTrace {
   Pose camera_from_station_seed;
   SeedUncertainty uncertainty;
 
-  EdgeMapTrace edges;
-  std::vector<IterationTrace> iterations;  ///< of all attempts
+  std::shared_ptr<const EdgeMapTrace> edges;  ///< nullptr until the test edges are there
+  /// Of all attempts, in order; the last one may be under way (`IterationTrace::reached`).
+  std::vector<std::shared_ptr<const IterationTrace>> iterations;
   std::int32_t attempts = 1;
   std::vector<Rival> rivals;  ///< with ambiguity.enabled, about the pose that converged
   EdgeSupport support;
-  PartialSupport partial;  ///< of the same pose; zero in old traces
+  PartialSupport partial;                                    ///< of the same pose
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< kRunning: it was stopped
   Status fault = Status::kOk;
   Pose camera_from_station;  ///< best estimate; the seed unless converged
   Matrix6d covariance = Matrix6d::Zero();
-  std::string digest;  ///< 64 hexadecimal digits
+  std::string digest;  ///< 64 hexadecimal digits; empty until the run has finished
   StageSeconds seconds;
   std::uint64_t arena_bytes = 0;
   MemoryTrace memory;
+
+  // Not in files of traces.
+  bool last_under_way = false;
+  bool finished = false;
+  Stage stage = Stage::kEdges;  ///< the last one that was worked on
+  bool replayed = false;        ///< from an onboard record (sessions/record/replay_record.h)
+  /// Of a replayed run, sentences: unknown values, and differences between ground and onboard.
+  std::vector<std::string> remarks;
+  /// Of one of several views that were solved as one: all of them, the first one led.
+  std::vector<ViewOutcome> views;
+  std::size_t own_view = 0;  ///< index of this run's view
 
   bool converged() const { return status == LocalizationStatus::kConverged; }
   RunPlan plan() const { return {options, changes}; }
   const LocalizerOptions& lastOptions() const {
     return changes.empty() ? options : changes.back().options;
   }
+  /// Number of iterations that are complete.
+  std::size_t complete() const { return iterations.size() - (last_under_way ? 1 : 0); }
 };
 
 }  // namespace boresight::sessions

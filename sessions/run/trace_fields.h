@@ -289,6 +289,20 @@ void fields(Archive& archive, Self& memory) {
   numbers(archive, memory.inputs, memory.limit);
 }
 
+/// A shared value, written.
+template <class Archive, class T>
+void sharedFields(Archive& archive, const std::shared_ptr<const T>& shared) {
+  const T none;
+  fields(archive, shared ? *shared : none);
+}
+/// A shared value, read.
+template <class Archive, class T>
+void sharedFields(Archive& archive, std::shared_ptr<const T>& shared) {
+  T value;
+  fields(archive, value);
+  shared = std::make_shared<const T>(std::move(value));
+}
+
 template <class Archive, Is<LocalizationTrace> Self>
 void fields(Archive& archive, Self& trace) {
   archive.text(trace.version);
@@ -296,8 +310,8 @@ void fields(Archive& archive, Self& trace) {
   fields(archive, trace.camera);
   fields(archive, trace.camera_from_station_seed);
   fields(archive, trace.uncertainty);
-  fields(archive, trace.edges);
-  archive.list(trace.iterations, [&](auto& iteration) { fields(archive, iteration); });
+  sharedFields(archive, trace.edges);
+  archive.list(trace.iterations, [&](auto& iteration) { sharedFields(archive, iteration); });
   archive.number(trace.attempts);
   archive.list(trace.rivals, [&](auto& rival) { fields(archive, rival); });
   fields(archive, trace.support);

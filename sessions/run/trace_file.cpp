@@ -66,6 +66,8 @@ LocalizationTrace loadTrace(const std::filesystem::path& file) {
   LocalizationTrace trace;
   fields(payload, trace);
   payload.require(payload.atEnd(), "more bytes than the record has fields");
+  trace.finished = trace.status != LocalizationStatus::kRunning;
+  if (trace.finished) trace.stage = Stage::kFinished;
   return trace;
 }
 

@@ -9,9 +9,8 @@
 
 #include "sessions/io/camera_field.h"
 #include "sessions/io/errors.h"
-#include "sessions/run/record.h"
-#include "sessions/run/run_text.h"
-#include "sessions/run/seed_check.h"
+#include "sessions/run/problem.h"
+#include "sessions/run/runner.h"
 #include "sessions/run/trace_file.h"
 #include "sessions/session/known_image.h"
 #include "sessions/session/session_file.h"
@@ -45,23 +44,12 @@ std::shared_ptr<const LoadedCase> completed(const SessionCase& one, GrayImage im
   return loaded;
 }
 
-/// What the core refuses although the readers let it pass.
-void requireAccepted(const LoadedCase& loaded, const LocalizationTrace& trace) {
-  const std::string reason = statusText(trace.fault);
-  switch (trace.fault) {
-    case Status::kInvalidMesh:
-      throw InputError(loaded.source.parts.front().source.mesh, reason);
-    case Status::kTooManyLayers:
-      throw InputError(loaded.source.parts.front().source.mesh, explanation(trace));
-    case Status::kInvalidCamera:
-      throw InputError(loaded.source.image.source.file, "camera", reason);
-    case Status::kInvalidImage:
-      throw InputError(loaded.source.image.source.file, reason);
-    case Status::kInvalidPose:
-      throw InputError(loaded.source.image.source.file, "seed", reason);
-    default:
-      break;
-  }
+InputPlaces placesOf(const LoadedCase& loaded) {
+  const auto& image = loaded.source.image.source.file;
+  return {{image, ""},
+          {image, "camera"},
+          {loaded.source.parts.front().source.mesh, ""},
+          {image, "seed"}};
 }
 
 const SessionCase& requireCase(const Session& session, const std::string& case_id) {
@@ -79,15 +67,8 @@ GrayImage loadImage(const ImageInput& input) {
 }
 
 LocalizationProblem LoadedCase::problem() const {
-  LocalizationProblem made;
-  made.image = image.view();
-  made.ignore = ignore ? &ignore_bits : nullptr;
-  made.camera = source.camera;
-  made.mesh = scene.view();
-  made.camera_from_station_seed = source.camera_from_station_seed;
-  made.uncertainty = seedUncertainty(source.uncertainty, source.camera_from_station_seed,
-                                     matchedBounds(scene.view()).centre());
-  return made;
+  return problemOf(image.view(), ignore ? &ignore_bits : nullptr, source.camera, scene.view(),
+                   source.camera_from_station_seed, source.uncertainty);
 }
 
 std::shared_ptr<const LoadedCase> loadCase(const SessionCase& one) {
@@ -106,10 +87,8 @@ void requireRunnable(const LoadedCase& loaded) {
   const SessionCase& one = loaded.source;
   requireSameSize(loaded.image, one.camera);
   requireField("case " + one.id, "camera", one.camera);
-  requirePlausibleScale(loaded.scene, one.camera_from_station_seed);
-  const std::string concern =
-      seedConcern(one.camera, loaded.scene.view(), one.camera_from_station_seed);
-  if (!concern.empty()) throw InputError("case " + one.id, "seed", concern);
+  requireSensibleSeed(one.camera, loaded.scene, one.camera_from_station_seed, "case " + one.id,
+                      "seed");
 }
 
 LocalizationTrace runCase(const Session& session, const LoadedCase& loaded, RecordLevel level,
@@ -121,7 +100,7 @@ LocalizationTrace runCase(const LoadedCase& loaded, const RunPlan& plan, RecordL
                           const std::stop_token& stop) {
   requireRunnable(loaded);
   LocalizationTrace trace = localize(loaded.problem(), plan, level, stop);
-  requireAccepted(loaded, trace);
+  requireAccepted(trace, placesOf(loaded));
   return trace;
 }
 
@@ -188,8 +167,8 @@ Session withRun(const Session& session, RunRecord run) {
   return next;
 }
 
-RunSnapshot loadSnapshot(const RunRecord& run) {
-  RunSnapshot snapshot = snapshotOf(loadRun(run));
+LocalizationTrace loadSnapshot(const RunRecord& run) {
+  LocalizationTrace snapshot = loadRun(run);
   if (!run.together) return snapshot;
   snapshot.views = run.together->views;
   for (std::size_t i = 0; i < snapshot.views.size(); ++i)

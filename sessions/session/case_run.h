@@ -10,7 +10,6 @@
 
 #include "sessions/io/image_file.h"
 #include "sessions/io/scene_mesh.h"
-#include "sessions/run/run_snapshot.h"
 #include "sessions/run/trace.h"
 #include "sessions/session/session.h"
 
@@ -80,6 +79,6 @@ Session withRun(const Session& session, RunRecord run);
 /// otherwise than the record states.
 LocalizationTrace loadRun(const RunRecord& run);
 /// The same to be looked at, with the views that it was made together with.
-RunSnapshot loadSnapshot(const RunRecord& run);
+LocalizationTrace loadSnapshot(const RunRecord& run);
 
 }  // namespace boresight::sessions

@@ -8,7 +8,7 @@
 #include "sessions/io/camera_field.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/labels/image_label.h"
-#include "sessions/run/seed_check.h"
+#include "sessions/run/problem.h"
 #include "sessions/session/frame_lines.h"
 #include "sessions/session/input_sigmas.h"
 #include "sessions/session/label_agreement.h"

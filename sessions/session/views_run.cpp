@@ -6,7 +6,7 @@
 
 #include "sessions/io/camera_field.h"
 #include "sessions/io/errors.h"
-#include "sessions/run/stepped_views.h"
+#include "sessions/run/runner.h"
 #include "sessions/session/rig_links.h"
 
 namespace boresight::sessions {
@@ -38,16 +38,16 @@ View viewOf(const LoadedCase& loaded) {
   return view;
 }
 
-std::vector<RunSnapshot> runLoaded(const LoadedViews& loaded, const LocalizerOptions& options,
-                                   const std::stop_token& stop) {
+std::vector<LocalizationTrace> runLoaded(const LoadedViews& loaded, const LocalizerOptions& options,
+                                         const std::stop_token& stop) {
   const std::string place = "case " + loaded.cases.front()->source.id;
   const std::string refusal = viewsRefusal(options);
   if (!refusal.empty()) throw InputError(place, "options", refusal);
-  SteppedViews run(loaded.problem(), options, loaded.ids());
+  Runner run(loaded.problem(), options, loaded.ids());
   run.advance(StepUntil::kEnd, stop);
-  const RunSnapshot& first = run.snapshots().front();
+  const LocalizationTrace& first = run.trace();
   if (first.digest.empty() && first.finished) throw InputError(place, statusText(first.fault));
-  return run.snapshots();
+  return run.traces();
 }
 
 }  // namespace
@@ -121,8 +121,8 @@ std::shared_ptr<const LoadedViews> loadViews(std::shared_ptr<const LoadedCase> f
   return loaded;
 }
 
-std::vector<RunSnapshot> runViews(const Session& session, const std::string& case_id,
-                                  const std::stop_token& stop) {
+std::vector<LocalizationTrace> runViews(const Session& session, const std::string& case_id,
+                                        const std::stop_token& stop) {
   const std::string alone = whyAlone(session, case_id);
   if (!alone.empty()) throw InputError("case " + case_id, "rig", alone);
   const SessionCase& one = *session.findCase(case_id);
@@ -132,14 +132,15 @@ std::vector<RunSnapshot> runViews(const Session& session, const std::string& cas
   return runLoaded(*loadViews(first, otherViews(session, case_id)), options, stop);
 }
 
-std::vector<RunRecord> storeViews(const Session& session, const std::vector<RunSnapshot>& views,
+std::vector<RunRecord> storeViews(const Session& session,
+                                  const std::vector<LocalizationTrace>& views,
                                   const std::filesystem::path& session_file) {
   std::vector<RunRecord> records;
-  for (const RunSnapshot& view : views) {
+  for (const LocalizationTrace& view : views) {
     TogetherRecord together{view.views, {}};
     together.inputs_sha256 = viewsDigest(session, casesOf(together));
     const std::string& id = view.views[view.own_view].case_id;
-    records.push_back(storeRun(session, id, traceOf(view), session_file));
+    records.push_back(storeRun(session, id, view, session_file));
     records.back().together = std::move(together);
   }
   return records;
@@ -153,12 +154,12 @@ LocalizationTrace repeatRun(const RunRecord& run, const Session& session,
   std::vector<SessionCase> others;
   for (std::size_t i = 1; i < ids.size(); ++i) others.push_back(*session.findCase(ids[i]));
   const auto views = loadViews(loadCase(*session.findCase(ids.front())), others);
-  for (const RunSnapshot& one : runLoaded(*views, plan.options, {})) {
+  for (const LocalizationTrace& one : runLoaded(*views, plan.options, {})) {
     if (one.views[one.own_view].case_id != run.case_id) continue;
     if (one.views != run.together->views)
       throw InputError(session_file, "run " + run.digest,
                        "its views do not end as its member together states");
-    return traceOf(one);
+    return one;
   }
   throw InputError(session_file, "run " + run.digest, "its own case is not among its views");
 }

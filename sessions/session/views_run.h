@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/views/views_problem.h"
-#include "sessions/run/run_snapshot.h"
+#include "sessions/run/trace.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session.h"
 
@@ -48,12 +48,13 @@ std::shared_ptr<const LoadedViews> loadViews(std::shared_ptr<const LoadedCase> f
 /// Runs a case together with the other views of its rig, by the session's options; one snapshot per
 /// view, the case's first. Always the same digest, from wherever it is run. A stop leaves the
 /// status at kRunning. InputError for what cannot be run.
-std::vector<RunSnapshot> runViews(const Session& session, const std::string& case_id,
-                                  const std::stop_token& stop = {});
+std::vector<LocalizationTrace> runViews(const Session& session, const std::string& case_id,
+                                        const std::stop_token& stop = {});
 
 /// Stores what came out for each view, as storeRun does, as a run of its own case that names the
 /// others.
-std::vector<RunRecord> storeViews(const Session& session, const std::vector<RunSnapshot>& views,
+std::vector<RunRecord> storeViews(const Session& session,
+                                  const std::vector<LocalizationTrace>& views,
                                   const std::filesystem::path& session_file);
 
 /// Runs a recorded run once more by the options that it had, with the other views if there were

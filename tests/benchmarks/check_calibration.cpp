@@ -27,7 +27,7 @@
 #include "sessions/io/pose_file.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/pose_uncertainty.h"
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 #include "sessions/session/case_json.h"
 #include "sessions/session/decision_json.h"
 #include "sessions/session/session_maker.h"
@@ -126,7 +126,7 @@ ordered_json measured(const CheckedVariant& variant) {
     sessions::ReviewSubject subject = subjectOf(variant, trace.camera_from_station);
     subject.covariance = poseCovariance(variant.loaded->source, variant.loaded->scene.view(),
                                         trace.camera_from_station, trace.covariance);
-    subject.run = sessions::snapshotOf(std::move(trace));
+    subject.run = std::move(trace);
     json["checks"] = checksJson(subject);
   } catch (const sessions::FileError& error) {
     json["status"] = "refused";

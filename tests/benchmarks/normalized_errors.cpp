@@ -18,7 +18,7 @@
 #include "sessions/evaluation/reseed.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/scene_mesh.h"
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 
 namespace boresight::test {
 namespace {

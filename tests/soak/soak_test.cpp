@@ -14,7 +14,7 @@
 
 #include "sessions/evaluation/reseed.h"
 #include "sessions/record/onboard_record.h"
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 #include "sessions/run/trace_file.h"
 #include "tests/soak/process_figures.h"
 #include "tests/support/example_case.h"

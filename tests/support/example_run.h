@@ -3,41 +3,43 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
-#include "sessions/run/record.h"
-#include "sessions/run/stepped_run.h"
+#include "sessions/run/runner.h"
 #include "tests/support/example_case.h"
 
 namespace boresight::test {
 
 /// The whole run of an example's station with these options.
-inline std::shared_ptr<const sessions::RunSnapshot> runOfExample(
+inline std::shared_ptr<const sessions::LocalizationTrace> runOfExample(
     const std::string& station, const LocalizerOptions& options = defaultProfile()) {
   const ExampleCase example(station);
-  sessions::SteppedRun run(example.problem(), options);
+  sessions::Runner run(example.problem(), options);
   run.advance(sessions::StepUntil::kEnd);
-  return std::make_shared<const sessions::RunSnapshot>(run.snapshot());
+  return std::make_shared<const sessions::LocalizationTrace>(run.trace());
 }
 
 /// The same, run once per program: the station "os" with the default options.
-inline std::shared_ptr<const sessions::RunSnapshot> exampleRun() {
+inline std::shared_ptr<const sessions::LocalizationTrace> exampleRun() {
   static const auto made = runOfExample("os");
   return made;
 }
 
-/// The same as a full trace, with the score maps' inputs.
-inline const sessions::LocalizationTrace& exampleTrace() {
-  static const sessions::LocalizationTrace made = [] {
-    const ExampleCase example("os");
-    return sessions::localize(example.problem(), defaultProfile(), sessions::RecordLevel::kFull);
-  }();
-  return made;
+/// The same as a value.
+inline const sessions::LocalizationTrace& exampleTrace() { return *exampleRun(); }
+
+/// Changes a copy of an iteration in place of the iteration.
+template <class Change>
+void editIteration(sessions::LocalizationTrace& trace, std::size_t index, Change change) {
+  auto edited = std::make_shared<sessions::IterationTrace>(*trace.iterations.at(index));
+  change(*edited);
+  trace.iterations[index] = std::move(edited);
 }
 
 /// A run as it was after its first `count` iterations.
-inline std::shared_ptr<const sessions::RunSnapshot> firstIterations(
-    const sessions::RunSnapshot& whole, std::size_t count) {
-  auto made = std::make_shared<sessions::RunSnapshot>(whole);
+inline std::shared_ptr<const sessions::LocalizationTrace> firstIterations(
+    const sessions::LocalizationTrace& whole, std::size_t count) {
+  auto made = std::make_shared<sessions::LocalizationTrace>(whole);
   made->iterations.resize(count);
   made->status = LocalizationStatus::kRunning;
   made->finished = false;

@@ -10,8 +10,8 @@ namespace boresight::test {
 /// The example's run as if two rivals of its result had been looked for: one that converged 22 mm
 /// beside it, in an attempt that the last two iterations stand for, and one that did not; and as if
 /// its first iteration had been the best of three restarts.
-inline std::shared_ptr<const sessions::RunSnapshot> runWithRivals() {
-  auto run = std::make_shared<sessions::RunSnapshot>(*exampleRun());
+inline std::shared_ptr<const sessions::LocalizationTrace> runWithRivals() {
+  auto run = std::make_shared<sessions::LocalizationTrace>(*exampleRun());
   auto restarts = std::make_shared<sessions::IterationTrace>(*run->iterations.front());
   HypothesisSummary chosen = restarts->hypotheses.front();
   chosen.solved = true;

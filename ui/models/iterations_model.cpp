@@ -207,7 +207,7 @@ const IterationTrace& IterationsModel::iteration(int index) const {
 }
 
 /// All iterations but the last one are the same records, and none was lost.
-bool IterationsModel::continues(const sessions::RunSnapshot& next) const {
+bool IterationsModel::continues(const sessions::LocalizationTrace& next) const {
   if (!snapshot_ || snapshot_->iterations.empty()) return false;
   const auto& before = snapshot_->iterations;
   const auto& after = next.iterations;

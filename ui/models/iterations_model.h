@@ -6,7 +6,7 @@
 
 #include <QAbstractTableModel>
 
-#include "sessions/run/run_snapshot.h"
+#include "sessions/run/trace.h"
 
 namespace boresight::ui {
 
@@ -40,7 +40,7 @@ class IterationsModel : public QAbstractTableModel {
   /// A cell's number as it is, unrounded; NaN where there is none.
   static constexpr int kNumberRole = Qt::UserRole;
 
-  using SnapshotPtr = std::shared_ptr<const sessions::RunSnapshot>;
+  using SnapshotPtr = std::shared_ptr<const sessions::LocalizationTrace>;
 
   explicit IterationsModel(QObject* parent = nullptr);
 
@@ -60,7 +60,7 @@ class IterationsModel : public QAbstractTableModel {
 
  private:
   int iterationCount() const;
-  bool continues(const sessions::RunSnapshot& next) const;
+  bool continues(const sessions::LocalizationTrace& next) const;
   const sessions::IterationTrace& iteration(int index) const;
   QString text(int index, Column column) const;
   QString statusOf(int index) const;

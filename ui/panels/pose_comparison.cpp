@@ -60,7 +60,7 @@ std::optional<double> rotationLimit_mrad(const PoseJudgement& judgement) {
 std::optional<Matrix6d> shownCovariance(const ViewState& state) {
   const sessions::IterationTrace* shown = state.iteration();
   if (shown == nullptr || state.cursor().stage < Stage::kPose) return std::nullopt;
-  const sessions::RunSnapshot& run = *state.snapshot();
+  const sessions::LocalizationTrace& run = *state.snapshot();
   const bool last = shown == run.iterations.back().get();
   if (last && run.finished && run.converged()) return run.covariance;
   if (run.replayed) return std::nullopt;  // a record has the last one alone

@@ -34,7 +34,7 @@ RunBanner::RunBanner(QWidget* parent) : QFrame(parent) {
 
 QString RunBanner::text() const { return text_->text(); }
 
-void RunBanner::setSnapshot(const sessions::RunSnapshot* snapshot) {
+void RunBanner::setSnapshot(const sessions::LocalizationTrace* snapshot) {
   if (snapshot == nullptr) {
     kind_ = Kind::kNone;
     text_->setText(tr("Nothing has run yet."));

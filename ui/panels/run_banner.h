@@ -3,7 +3,7 @@
 
 #include <QFrame>
 
-#include "sessions/run/run_snapshot.h"
+#include "sessions/run/trace.h"
 
 QT_BEGIN_NAMESPACE
 class QLabel;
@@ -20,7 +20,7 @@ class RunBanner : public QFrame {
   explicit RunBanner(QWidget* parent = nullptr);
 
   /// nullptr: no run.
-  void setSnapshot(const sessions::RunSnapshot* snapshot);
+  void setSnapshot(const sessions::LocalizationTrace* snapshot);
   QString text() const;
 
  protected:

@@ -6,8 +6,8 @@
 
 #include <QObject>
 
-#include "sessions/run/run_snapshot.h"
 #include "sessions/run/score_map.h"
+#include "sessions/run/trace.h"
 #include "ui/run/task_runner.h"
 
 namespace boresight::ui {

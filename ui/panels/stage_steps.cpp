@@ -7,17 +7,17 @@ namespace boresight::ui {
 namespace {
 
 /// The cursor on a stage of an iteration; index counts within stagesOf.
-RunCursor cursorAt(const sessions::RunSnapshot& run, int iteration, int stage) {
+RunCursor cursorAt(const sessions::LocalizationTrace& run, int iteration, int stage) {
   const auto stages = stagesOf(*run.iterations[static_cast<std::size_t>(iteration)]);
   const bool last = stage + 1 >= static_cast<int>(stages.size());
   return {iteration, last ? Stage::kFinished : stages[static_cast<std::size_t>(stage)]};
 }
 
-int stageCount(const sessions::RunSnapshot& run, int iteration) {
+int stageCount(const sessions::LocalizationTrace& run, int iteration) {
   return static_cast<int>(stagesOf(*run.iterations[static_cast<std::size_t>(iteration)]).size());
 }
 
-int stageUnder(const sessions::RunSnapshot& run, const RunCursor& cursor) {
+int stageUnder(const sessions::LocalizationTrace& run, const RunCursor& cursor) {
   return shownStage(stagesOf(*run.iterations[static_cast<std::size_t>(cursor.iteration)]),
                     cursor.stage);
 }
@@ -42,7 +42,7 @@ int shownStage(const std::vector<Stage>& stages, Stage cursor) {
   return shown;
 }
 
-RunCursor nextStage(const sessions::RunSnapshot& run, const RunCursor& cursor) {
+RunCursor nextStage(const sessions::LocalizationTrace& run, const RunCursor& cursor) {
   const int last = static_cast<int>(run.iterations.size()) - 1;
   if (cursor.iteration < 0) return last < 0 ? cursor : cursorAt(run, 0, 0);
   const int stage = stageUnder(run, cursor);
@@ -51,7 +51,7 @@ RunCursor nextStage(const sessions::RunSnapshot& run, const RunCursor& cursor) {
   return cursor.iteration < last ? cursorAt(run, cursor.iteration + 1, 0) : cursor;
 }
 
-RunCursor previousStage(const sessions::RunSnapshot& run, const RunCursor& cursor) {
+RunCursor previousStage(const sessions::LocalizationTrace& run, const RunCursor& cursor) {
   if (cursor.iteration < 0) return cursor;
   const int stage = stageUnder(run, cursor);
   if (stage > 0) return cursorAt(run, cursor.iteration, stage - 1);

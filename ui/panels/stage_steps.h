@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "sessions/run/run_snapshot.h"
+#include "sessions/run/trace.h"
 #include "ui/state/view_state.h"
 
 namespace boresight::ui {
@@ -17,7 +17,7 @@ int shownStage(const std::vector<Stage>& stages, Stage cursor);
 
 /// The cursor one stage on or back, across iterations; at the ends it stays. The last stage of an
 /// iteration is kFinished, so that a cursor there follows an iteration that is under way.
-RunCursor nextStage(const sessions::RunSnapshot& run, const RunCursor& cursor);
-RunCursor previousStage(const sessions::RunSnapshot& run, const RunCursor& cursor);
+RunCursor nextStage(const sessions::LocalizationTrace& run, const RunCursor& cursor);
+RunCursor previousStage(const sessions::LocalizationTrace& run, const RunCursor& cursor);
 
 }  // namespace boresight::ui

@@ -6,8 +6,7 @@
 
 namespace boresight::ui {
 
-using sessions::SteppedRun;
-using sessions::SteppedViews;
+using sessions::Runner;
 using sessions::StepUntil;
 
 namespace {
@@ -19,53 +18,47 @@ QString taskKey() { return QStringLiteral("run"); }
 /// One run, touched by the worker alone once it is under way.
 struct RunController::Job {
   RunInputs inputs;
-  std::unique_ptr<SteppedRun> run;  ///< points into the inputs
-  std::shared_ptr<const sessions::LoadedViews> read;
-  std::unique_ptr<SteppedViews> views;  ///< of several; points into what was read
+  std::shared_ptr<const sessions::LoadedViews> read;  ///< of several views
+  std::unique_ptr<Runner> run;                        ///< points into the inputs or what was read
 
-  bool finished() const { return views ? views->finished() : run && run->finished(); }
+  bool finished() const { return run && run->finished(); }
 
   /// Of the case, or of every view.
   std::vector<SnapshotPtr> records() const {
-    std::vector<SnapshotPtr> made;
-    if (!views) return {std::make_shared<const sessions::RunSnapshot>(run->snapshot())};
-    for (const sessions::RunSnapshot& one : views->snapshots())
-      made.push_back(std::make_shared<const sessions::RunSnapshot>(one));
-    return made;
+    std::vector<SnapshotPtr> records;
+    for (const sessions::LocalizationTrace& trace : run->traces())
+      records.push_back(std::make_shared<const sessions::LocalizationTrace>(trace));
+    return records;
   }
 
   /// False when it was stopped before it was where the run goes on from.
   bool advance(StepUntil until, const std::stop_token& stop) {
-    if (!inputs.others.empty()) return advanceViews(until, stop);
-    if (!run) run = std::make_unique<SteppedRun>(inputs.one->problem(), inputs.plan);
-    if (!catchUp(stop)) return false;
-    run->advance(until, stop);
-    return true;
-  }
-
-  bool advanceViews(StepUntil until, const std::stop_token& stop) {
-    if (!views) {
+    const sessions::RunSettings watched{.level = sessions::RecordLevel::kStages};
+    if (!run && inputs.others.empty()) {
+      run = std::make_unique<Runner>(inputs.one->problem(), inputs.plan, watched);
+    } else if (!run) {
       read = sessions::loadViews(inputs.one, inputs.others);
       if (stop.stop_requested()) return false;
-      views = std::make_unique<SteppedViews>(read->problem(), inputs.plan.options, read->ids());
+      run = std::make_unique<Runner>(read->problem(), inputs.plan.options, read->ids(), watched);
     }
-    views->advance(until, stop);
+    if (!catchUp(stop)) return false;
+    run->advance(until, stop);
     return true;
   }
 
   /// Runs what is kept of another run once more; false when it was stopped on the way.
   bool catchUp(const std::stop_token& stop) {
     const std::size_t kept = inputs.kept.size();
-    if (run->complete() >= kept) return true;
-    while (run->complete() < kept && !run->finished() && !stop.stop_requested())
+    if (run->trace().complete() >= kept) return true;
+    while (run->trace().complete() < kept && !run->finished() && !stop.stop_requested())
       run->advance(StepUntil::kIteration, stop);
-    if (run->complete() < kept && !run->finished()) return false;
+    if (run->trace().complete() < kept && !run->finished()) return false;
     if (!hasKept()) throw std::runtime_error(notAsKept().toStdString());
     return true;
   }
 
   bool hasKept() const {
-    const auto& made = run->snapshot().iterations;
+    const auto& made = run->trace().iterations;
     for (std::size_t i = 0; i < inputs.kept.size(); ++i) {
       if (i >= made.size()) return false;
       const Pose& now = made[i]->camera_from_station;

@@ -8,8 +8,8 @@
 #include <QObject>
 #include <QString>
 
-#include "sessions/run/run_snapshot.h"
-#include "sessions/run/stepped_views.h"
+#include "sessions/run/runner.h"
+#include "sessions/run/trace.h"
 #include "sessions/session/views_run.h"
 #include "ui/run/task_runner.h"
 
@@ -42,7 +42,7 @@ class RunController : public QObject {
   Q_OBJECT
 
  public:
-  using SnapshotPtr = std::shared_ptr<const sessions::RunSnapshot>;
+  using SnapshotPtr = std::shared_ptr<const sessions::LocalizationTrace>;
 
   explicit RunController(QObject* parent = nullptr);
   ~RunController() override;

@@ -7,7 +7,7 @@
 
 #include "core/geometry/pose.h"
 #include "sessions/run/alternatives.h"
-#include "sessions/run/run_snapshot.h"
+#include "sessions/run/trace.h"
 #include "sessions/session/case_run.h"
 
 namespace boresight::ui {
@@ -30,7 +30,7 @@ class ViewState : public QObject {
   explicit ViewState(QObject* parent = nullptr);
 
   using CasePtr = std::shared_ptr<const sessions::LoadedCase>;
-  using SnapshotPtr = std::shared_ptr<const sessions::RunSnapshot>;
+  using SnapshotPtr = std::shared_ptr<const sessions::LocalizationTrace>;
 
   /// nullptr while no case is open.
   const CasePtr& currentCase() const { return case_; }

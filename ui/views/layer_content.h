@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "sessions/run/picture_data.h"
-#include "sessions/run/run_snapshot.h"
+#include "sessions/run/trace.h"
 #include "sessions/session/case_run.h"
 #include "ui/views/layer.h"
 

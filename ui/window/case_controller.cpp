@@ -171,9 +171,9 @@ void CaseController::loadLatestRun(const QString& id) {
   tasks_.start(
       QStringLiteral("load run"),
       [run = *record](const std::stop_token&) {
-        return std::make_shared<const sessions::RunSnapshot>(sessions::loadSnapshot(run));
+        return std::make_shared<const sessions::LocalizationTrace>(sessions::loadSnapshot(run));
       },
-      [this, id](std::shared_ptr<const sessions::RunSnapshot> snapshot) {
+      [this, id](std::shared_ptr<const sessions::LocalizationTrace> snapshot) {
         if (id != case_id_ || run_is_prepared_) return;
         state_.setSnapshot(std::move(snapshot));
         Q_EMIT stalenessChanged();
@@ -280,7 +280,7 @@ void CaseController::rerunFrom(int iteration) {
 }
 
 void CaseController::prepareRerun(int iteration) {
-  const sessions::RunSnapshot& shown = *state_.snapshot();
+  const sessions::LocalizationTrace& shown = *state_.snapshot();
   if (shown.replayed)
     throw std::runtime_error(
         tr("The onboard run is shown: run it again on the ground first.").toStdString());

@@ -12,7 +12,7 @@
 #include <QStringList>
 
 #include "core/localizer/localizer_options.h"
-#include "sessions/run/stepped_run.h"
+#include "sessions/run/runner.h"
 #include "ui/run/run_controller.h"
 #include "ui/state/view_state.h"
 

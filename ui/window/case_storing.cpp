@@ -28,9 +28,9 @@ sessions::Session withRuns(sessions::Session session,
 std::vector<sessions::RunRecord> CaseController::recordsOf(const EndedRun& ended,
                                                            const std::filesystem::path& file) {
   if (ended.views.empty())
-    return {sessions::storeRun(ended.session, ended.case_id, sessions::traceOf(*ended.snapshot),
-                               file, ended.continued)};
-  std::vector<sessions::RunSnapshot> views;
+    return {
+        sessions::storeRun(ended.session, ended.case_id, *ended.snapshot, file, ended.continued)};
+  std::vector<sessions::LocalizationTrace> views;
   for (const ViewState::SnapshotPtr& one : ended.views) views.push_back(*one);
   return sessions::storeViews(ended.session, views, file);
 }

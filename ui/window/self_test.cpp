@@ -10,7 +10,7 @@
 
 #include <QTemporaryDir>
 
-#include "sessions/run/stepped_run.h"
+#include "sessions/run/runner.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/examples.h"
 #include "sessions/session/session_document.h"
@@ -48,9 +48,9 @@ std::string checkStepping() {
   const LocalizerOptions options = sessions::caseOptions(session, *session.cases.front(), {});
   const std::string whole =
       sessions::runCase(session, *loaded, sessions::RecordLevel::kSummary).digest;
-  sessions::SteppedRun stepped(loaded->problem(), options);
+  sessions::Runner stepped(loaded->problem(), options);
   while (!stepped.finished()) stepped.advance(sessions::StepUntil::kStage);
-  return stepped.snapshot().digest == whole ? "" : "stage by stage gave another digest";
+  return stepped.trace().digest == whole ? "" : "stage by stage gave another digest";
 }
 
 std::string checkDocument() {

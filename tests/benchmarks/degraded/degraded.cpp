@@ -22,7 +22,7 @@
 #include "sessions/evaluation/model_error.h"
 #include "sessions/evaluation/reseed.h"
 #include "sessions/io/option_value.h"
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 #include "tests/benchmarks/degraded/degrade.h"
 
 namespace boresight::test {

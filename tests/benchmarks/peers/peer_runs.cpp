@@ -14,7 +14,7 @@
 #include "sessions/evaluation/reseed.h"
 #include "sessions/evaluation/run_rows.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/run/seed_check.h"
+#include "sessions/run/problem.h"
 #include "tests/benchmarks/peers/guarded_run.h"
 #include "tests/benchmarks/peers/stop_watch.h"
 

@@ -112,7 +112,7 @@ TEST(Methods, TakeTheOptionsOfTheirOwn) {
   const auto trace = methods.localize("orb", rendered.problem(), matchesAlone(), summary());
   EXPECT_EQ(trace.options.templates.count, 120);
   ASSERT_FALSE(trace.iterations.empty());
-  for (const auto& iteration : trace.iterations) EXPECT_LE(iteration.template_count, 120);
+  for (const auto& iteration : trace.iterations) EXPECT_LE(iteration->template_count, 120);
 }
 
 TEST(ExternalMethod, MatchesThatDoNotMoveKeepTheSeed) {
@@ -127,7 +127,7 @@ TEST(ExternalMethod, MatchesThatDoNotMoveKeepTheSeed) {
     const Pose& seed = example.seed.camera_from_station;
     EXPECT_LT((trace.camera_from_station.translation_m - seed.translation_m).norm(), 1e-6);
     ASSERT_FALSE(trace.iterations.empty());
-    EXPECT_GT(trace.iterations.back().pnp.inlier_count, 20) << name;
+    EXPECT_GT(trace.iterations.back()->pnp.inlier_count, 20) << name;
   }
 }
 

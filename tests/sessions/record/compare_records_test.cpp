@@ -6,8 +6,8 @@
 
 #include <functional>
 
-#include "sessions/run/record.h"
 #include "sessions/run/record_inputs.h"
+#include "sessions/run/runner.h"
 #include "tests/support/example_case.h"
 
 namespace boresight::test {

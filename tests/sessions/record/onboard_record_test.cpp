@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "sessions/io/errors.h"
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 #include "tests/support/example_case.h"
 #include "tests/support/random_pose.h"
 #include "tests/support/temporary_folder.h"
@@ -122,8 +122,8 @@ TEST(OnboardRecord, SaysWhatTheRunDid) {
   EXPECT_EQ(read.inputs->uncertainty.rotation_rad, run.trace.uncertainty.rotation_rad);
   ASSERT_EQ(read.iterations.size(), run.trace.iterations.size());
   for (std::size_t i = 0; i < read.iterations.size(); ++i) {
-    expectSame(read.iterations[i], run.trace.iterations[i]);
-    expectSameTemplates(read.iterations[i], run.trace.iterations[i]);
+    expectSame(read.iterations[i], *run.trace.iterations[i]);
+    expectSameTemplates(read.iterations[i], *run.trace.iterations[i]);
   }
   ASSERT_TRUE(read.iterations.back().support);
   EXPECT_EQ(read.iterations.back().support->share(), run.trace.support.share());

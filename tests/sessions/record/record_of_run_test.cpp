@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sessions/record/compare_records.h"
-#include "sessions/run/stepped_run.h"
+#include "sessions/run/runner.h"
 #include "tests/sessions/record/recorded_run.h"
 
 namespace boresight::test {
@@ -108,9 +108,9 @@ TEST(RecordOfRun, IsWhatTheFlightSideWrote) {
   EXPECT_EQ(countsOf(*made.iterations.back().support),
             countsOf(*run.record.iterations.back().support));
 
-  sessions::SteppedRun stepped(problem, recordedOptions());
+  sessions::Runner stepped(problem, recordedOptions());
   stepped.advance(sessions::StepUntil::kEnd);
-  expectEqual(recordOf(stepped.snapshot(), &problem), run.record);
+  expectEqual(recordOf(stepped.trace(), &problem), run.record);
 }
 
 /// Attempts that failed, hypotheses, options taken up on the way, and stages that were not reached.
@@ -162,11 +162,11 @@ TEST(RecordOfRun, SaysWhatATraceAloneLacks) {
 TEST(RecordOfRun, OfAHaltedRunHasNoEnd) {
   const ExampleCase example("os");
   const LocalizationProblem problem = example.problem();
-  sessions::SteppedRun run(problem, recordedOptions());
+  sessions::Runner run(problem, recordedOptions(), {.level = sessions::RecordLevel::kStages});
   run.advance(sessions::StepUntil::kIteration);
   run.advance(sessions::StepUntil::kStage);
-  ASSERT_TRUE(run.snapshot().last_under_way);
-  const OnboardRecord made = recordOf(run.snapshot(), &problem);
+  ASSERT_TRUE(run.trace().last_under_way);
+  const OnboardRecord made = recordOf(run.trace(), &problem);
   EXPECT_EQ(made.iterations.size(), 1u);
   EXPECT_FALSE(made.end);
   EXPECT_FALSE(made.whole());

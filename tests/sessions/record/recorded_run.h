@@ -7,7 +7,7 @@
 
 #include "sessions/record/onboard_record.h"
 #include "sessions/record/record_of_run.h"
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 #include "tests/support/example_case.h"
 
 namespace boresight::test {

@@ -17,9 +17,9 @@ namespace boresight::test {
 namespace {
 
 using sessions::IterationTrace;
+using sessions::LocalizationTrace;
 using sessions::OnboardRecord;
 using sessions::replayRecord;
-using sessions::RunSnapshot;
 using testing::Contains;
 using testing::HasSubstr;
 
@@ -30,7 +30,7 @@ struct Replayed {
   ExampleCase example{"os"};
   LocalizationProblem problem = example.problem();
   RecordedRun run = recordRun(problem, recordedOptions());
-  RunSnapshot replay = replayRecord(run.record, problem);
+  LocalizationTrace replay = replayRecord(run.record, problem);
 };
 
 const Replayed& replayed() {
@@ -106,7 +106,7 @@ void expectSameScores(const IterationTrace& a, const IterationTrace& b) {
 }
 
 TEST(ReplayRecord, IsTheGroundsRunInAllThatBothHave) {
-  const RunSnapshot& a = replayed().replay;
+  const LocalizationTrace& a = replayed().replay;
   const sessions::LocalizationTrace& b = replayed().run.trace;
   EXPECT_TRUE(a.replayed && a.finished);
   EXPECT_EQ(a.status, b.status);
@@ -116,24 +116,24 @@ TEST(ReplayRecord, IsTheGroundsRunInAllThatBothHave) {
   EXPECT_EQ(a.covariance, b.covariance);
   EXPECT_EQ(a.support.share(), b.support.share());
   EXPECT_TRUE(sameOptions(a.options, b.options));
-  for (std::size_t i = 0; i < b.edges.level.size(); ++i)
-    EXPECT_EQ(a.edges->level[i].words, b.edges.level[i].words);
-  EXPECT_EQ(a.edges->high_threshold, b.edges.high_threshold);
+  for (std::size_t i = 0; i < b.edges->level.size(); ++i)
+    EXPECT_EQ(a.edges->level[i].words, b.edges->level[i].words);
+  EXPECT_EQ(a.edges->high_threshold, b.edges->high_threshold);
   ASSERT_EQ(a.iterations.size(), b.iterations.size());
   for (std::size_t i = 0; i < b.iterations.size(); ++i) {
     SCOPED_TRACE(i);
     const IterationTrace& one = *a.iterations[i];
-    EXPECT_EQ(one.camera_from_station, b.iterations[i].camera_from_station);
-    EXPECT_EQ(one.camera_from_station_before, b.iterations[i].camera_from_station_before);
-    EXPECT_EQ(one.uncertainty.rotation_rad, b.iterations[i].uncertainty.rotation_rad);
-    EXPECT_EQ(one.uncertainty.pivot_in_camera_m, b.iterations[i].uncertainty.pivot_in_camera_m);
-    EXPECT_EQ(one.support(), b.iterations[i].support());
-    EXPECT_EQ(one.rms_px(), b.iterations[i].rms_px());
-    EXPECT_NEAR(one.mean_score, b.iterations[i].mean_score, 1e-6);
-    expectSameRender(one.render, b.iterations[i].render);
-    expectSameTemplates(one, b.iterations[i]);
-    expectSamePairs(one, b.iterations[i]);
-    expectSameScores(one, b.iterations[i]);
+    EXPECT_EQ(one.camera_from_station, b.iterations[i]->camera_from_station);
+    EXPECT_EQ(one.camera_from_station_before, b.iterations[i]->camera_from_station_before);
+    EXPECT_EQ(one.uncertainty.rotation_rad, b.iterations[i]->uncertainty.rotation_rad);
+    EXPECT_EQ(one.uncertainty.pivot_in_camera_m, b.iterations[i]->uncertainty.pivot_in_camera_m);
+    EXPECT_EQ(one.support(), b.iterations[i]->support());
+    EXPECT_EQ(one.rms_px(), b.iterations[i]->rms_px());
+    EXPECT_NEAR(one.mean_score, b.iterations[i]->mean_score, 1e-6);
+    expectSameRender(one.render, b.iterations[i]->render);
+    expectSameTemplates(one, *b.iterations[i]);
+    expectSamePairs(one, *b.iterations[i]);
+    expectSameScores(one, *b.iterations[i]);
   }
   EXPECT_THAT(a.remarks, testing::ElementsAre(HasSubstr("edge places of refinements")));
   EXPECT_THAT(standingText(a), testing::StartsWith("Onboard record, replayed. Converged"));
@@ -150,19 +150,19 @@ TEST(ReplayRecord, FollowsRollsAttemptsAndOptionsTakenUpOnTheWay) {
   const RecordedRun run = recordRun(problem, {recordedOptions(), {{2, later}}});
   ASSERT_GT(run.trace.attempts, 1);
   EXPECT_TRUE(std::any_of(run.trace.iterations.begin(), run.trace.iterations.end(),
-                          [](const auto& one) { return one.chosen_hypothesis > 0; }));
-  const RunSnapshot replay = replayRecord(run.record, problem);
+                          [](const auto& one) { return one->chosen_hypothesis > 0; }));
+  const LocalizationTrace replay = replayRecord(run.record, problem);
   ASSERT_EQ(replay.iterations.size(), run.trace.iterations.size());
   for (std::size_t i = 0; i < replay.iterations.size(); ++i) {
     SCOPED_TRACE(i);
-    expectSameRender(replay.iterations[i]->render, run.trace.iterations[i].render);
-    expectSameTemplates(*replay.iterations[i], run.trace.iterations[i]);
+    expectSameRender(replay.iterations[i]->render, run.trace.iterations[i]->render);
+    expectSameTemplates(*replay.iterations[i], *run.trace.iterations[i]);
   }
   EXPECT_THAT(replay.remarks, testing::ElementsAre(HasSubstr("edge places of refinements")));
 }
 
 /// What a replay shows is the whole record's, as far as it goes.
-void expectBeginning(const RunSnapshot& part, const RunSnapshot& whole) {
+void expectBeginning(const LocalizationTrace& part, const LocalizationTrace& whole) {
   ASSERT_LE(part.iterations.size(), whole.iterations.size());
   for (std::size_t i = 0; i < part.iterations.size(); ++i) {
     EXPECT_EQ(part.iterations[i]->camera_from_station, whole.iterations[i]->camera_from_station);
@@ -215,7 +215,7 @@ TEST(ReplayRecord, SurvivesContentsThatMakeNoSense) {
       item.x = static_cast<int>(random.below(65536));
       item.found_x = trial % 4 == 0 ? NAN : 1e30F;
     }
-    const RunSnapshot replay = replayRecord(record, whole.problem);
+    const LocalizationTrace replay = replayRecord(record, whole.problem);
     EXPECT_EQ(replay.iterations.size(), record.iterations.size());
     for (const auto& each : replay.iterations) (void)matchDetails(*each);
   }
@@ -239,7 +239,7 @@ TEST(ReplayRecord, SaysWhatIsNotAsItWasOnBoard) {
                      Contains(HasSubstr("their points are not known"))));
   OnboardRecord larger = whole.run.record;
   larger.inputs->width *= 2;
-  const RunSnapshot poses = replayRecord(larger, whole.problem);
+  const LocalizationTrace poses = replayRecord(larger, whole.problem);
   EXPECT_THAT(poses.remarks, Contains(HasSubstr("only its poses are shown")));
   EXPECT_TRUE(poses.iterations.front()->templates.empty());
   EXPECT_EQ(poses.iterations.front()->camera_from_station,

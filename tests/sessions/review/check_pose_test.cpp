@@ -93,7 +93,7 @@ ReviewSubject runWith(const std::string& station, double mesh_scale,
   subject.camera_from_station = trace.camera_from_station;
   subject.covariance = poseCovariance(loaded->source, loaded->scene.view(),
                                       trace.camera_from_station, trace.covariance);
-  subject.run = snapshotOf(LocalizationTrace(trace));
+  subject.run = trace;
   return subject;
 }
 

@@ -196,7 +196,7 @@ TEST_F(QueueOfExample, ListsTroubleFirstWithItsReason) {
   EXPECT_EQ(failed.group, QueueGroup::kNoPose);
   EXPECT_THAT(troubleText(failed), ::testing::HasSubstr("100"));
   ASSERT_GE(failed.opens_at, 0);
-  EXPECT_NE(trace.iterations[static_cast<std::size_t>(failed.opens_at)].status,
+  EXPECT_NE(trace.iterations[static_cast<std::size_t>(failed.opens_at)]->status,
             LocalizationStatus::kRunning);
   EXPECT_FALSE(failed.from_seed) << "the seed stands in for a pose that there is not";
   EXPECT_THAT(troubleText(rowOf(rows, "lost")), ::testing::HasSubstr("gone.png"));

@@ -25,8 +25,8 @@ HypothesisSummary hypothesis(const Pose& pose, int inliers, bool solved) {
 }
 
 /// An iteration of restarts, one of rolled hypotheses, and two plain ones.
-RunSnapshot runWith(Random& random) {
-  RunSnapshot run;
+LocalizationTrace runWith(Random& random) {
+  LocalizationTrace run;
   for (int i = 0; i < 4; ++i) {
     IterationTrace one;
     one.index = i;
@@ -57,7 +57,7 @@ Rival rivalAt(const Pose& before, const Pose& after, LocalizationStatus ended) {
 
 TEST(Alternatives, AreTheHypothesesOfIterationsThatHadSeveral) {
   Random random = test::randomFor("Alternatives 1");
-  const RunSnapshot run = runWith(random);
+  const LocalizationTrace run = runWith(random);
   const std::vector<Alternative> all = alternativesOf(run);
   ASSERT_EQ(all.size(), 5u);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -83,7 +83,7 @@ TEST(Alternatives, AreTheHypothesesOfIterationsThatHadSeveral) {
 
 TEST(Alternatives, TellHowFarTheyAreApart) {
   Random random = test::randomFor("Alternatives 2");
-  RunSnapshot run = runWith(random);
+  LocalizationTrace run = runWith(random);
   Pose moved = run.camera_from_station;
   moved.rotation = rotationExp({0.0, 0.0, 0.25}) * moved.rotation;
   moved.translation_m += Eigen::Vector3d(0.003, 0.0, 0.004);
@@ -96,7 +96,7 @@ TEST(Alternatives, TellHowFarTheyAreApart) {
 
 TEST(Alternatives, ARivalIsWhereTheImagePutsItOrWhereItWasExpected) {
   Random random = test::randomFor("Alternatives 3");
-  RunSnapshot run = runWith(random);
+  LocalizationTrace run = runWith(random);
   const Pose before = test::randomPose(random);
   const Pose after = test::randomPose(random);
   run.rivals = {rivalAt(before, after, LocalizationStatus::kConverged),
@@ -121,7 +121,7 @@ TEST(Alternatives, ARivalIsWhereTheImagePutsItOrWhereItWasExpected) {
 
 TEST(Alternatives, AnIterationOfARivalsAttemptIsFound) {
   Random random = test::randomFor("Alternatives 4");
-  RunSnapshot run = runWith(random);
+  LocalizationTrace run = runWith(random);
   const Pose before = test::randomPose(random);
   run.rivals = {rivalAt(test::randomPose(random), Pose(), LocalizationStatus::kPnpFailed),
                 rivalAt(before, Pose(), LocalizationStatus::kConverged)};

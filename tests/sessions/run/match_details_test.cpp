@@ -19,7 +19,7 @@ TEST(FullImagePixel, IsTheCentreOfTheBlockThatAPixelCovers) {
 }
 
 TEST(MatchDetails, SayWhatTheIterationRecorded) {
-  const IterationTrace& first = exampleTrace().iterations.front();
+  const IterationTrace& first = *exampleTrace().iterations.front();
   const std::vector<MatchDetails> all = matchDetails(first);
   ASSERT_EQ(all.size(), first.templates.size());
   ASSERT_GT(all.size(), 10u);
@@ -47,7 +47,7 @@ TEST(MatchDetails, SayWhatTheIterationRecorded) {
 }
 
 TEST(MatchDetails, PlaceAMatchWhereItsCorrespondenceIs) {
-  const IterationTrace& first = exampleTrace().iterations.front();
+  const IterationTrace& first = *exampleTrace().iterations.front();
   const std::vector<MatchDetails> all = matchDetails(first);
   for (std::size_t i = 0; i < first.correspondences.size(); ++i) {
     const MatchDetails& one = all[static_cast<std::size_t>(first.template_of[i])];
@@ -58,7 +58,7 @@ TEST(MatchDetails, PlaceAMatchWhereItsCorrespondenceIs) {
 }
 
 TEST(MatchDetails, KnowNothingOfWhatWasNotReached) {
-  IterationTrace early = exampleTrace().iterations.front();
+  IterationTrace early = *exampleTrace().iterations.front();
   early.reached = Stage::kTemplates;
   early.matches.clear();
   for (const MatchDetails& one : matchDetails(early)) {

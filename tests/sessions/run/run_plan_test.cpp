@@ -4,8 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sessions/run/record.h"
-#include "sessions/run/stepped_run.h"
+#include "sessions/run/runner.h"
 #include "tests/support/example_case.h"
 
 namespace boresight::sessions {
@@ -81,10 +80,10 @@ TEST(RunPlan, KeepsTheFirstIterationsAndChangesTheOthers) {
   ASSERT_GT(plain.iterations.size(), 3u);
   ASSERT_GT(rerun.iterations.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i)
-    EXPECT_EQ(rerun.iterations[i].camera_from_station.translation_m,
-              plain.iterations[i].camera_from_station.translation_m);
-  EXPECT_EQ(rerun.iterations[3].threshold_px, 5.0 * (1 << rerun.iterations[3].level));
-  EXPECT_NE(rerun.iterations[3].threshold_px, plain.iterations[3].threshold_px);
+    EXPECT_EQ(rerun.iterations[i]->camera_from_station.translation_m,
+              plain.iterations[i]->camera_from_station.translation_m);
+  EXPECT_EQ(rerun.iterations[3]->threshold_px, 5.0 * (1 << rerun.iterations[3]->level));
+  EXPECT_NE(rerun.iterations[3]->threshold_px, plain.iterations[3]->threshold_px);
   EXPECT_NE(rerun.digest, plain.digest);
   EXPECT_EQ(rerun.lastOptions().refinement.last_radius_px, 5.0);
 }
@@ -98,10 +97,10 @@ TEST(RunPlan, HoweverItIsRunTheDigestIsTheSame) {
   settings.kernels = Kernels::kPortable;
   EXPECT_EQ(localize(example().problem(), plan, settings).digest, whole);
   for (const StepUntil until : {StepUntil::kStage, StepUntil::kIteration, StepUntil::kEnd}) {
-    SteppedRun run(example().problem(), plan);
+    Runner run(example().problem(), plan);
     while (!run.finished()) run.advance(until);
-    EXPECT_EQ(run.snapshot().digest, whole);
-    EXPECT_EQ(run.complete(), run.snapshot().iterations.size());
+    EXPECT_EQ(run.trace().digest, whole);
+    EXPECT_EQ(run.trace().complete(), run.trace().iterations.size());
   }
 }
 
@@ -110,9 +109,9 @@ TEST(RunPlan, OneThatCannotBeRunIsAFault) {
   fixed.templates.count += 1;
   const RunPlan plan(LocalizerOptions(), {{2, fixed}});
   EXPECT_EQ(runOf(plan).fault, Status::kInvalidOption);
-  const SteppedRun run(example().problem(), plan);
+  const Runner run(example().problem(), plan);
   EXPECT_TRUE(run.finished());
-  EXPECT_EQ(run.snapshot().fault, Status::kInvalidOption);
+  EXPECT_EQ(run.trace().fault, Status::kInvalidOption);
 }
 
 }  // namespace

@@ -6,20 +6,29 @@
 
 #include "core/base/math.h"
 #include "sessions/text/text_table.h"
+#include "tests/support/example_run.h"
 
 namespace boresight::sessions {
 namespace {
 
+using test::editIteration;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
+std::shared_ptr<const EdgeMapTrace> edgesOf(std::int32_t count) {
+  EdgeMapTrace edges;
+  edges.edge_count = count;
+  return std::make_shared<const EdgeMapTrace>(std::move(edges));
+}
+
 /// A run of one iteration that ended with this status.
 LocalizationTrace endedWith(LocalizationStatus status) {
   LocalizationTrace trace;
   trace.status = status;
-  trace.edges.edge_count = 1000;
+  trace.finished = status != LocalizationStatus::kRunning;
+  trace.edges = edgesOf(1000);
   IterationTrace iteration;
   iteration.status = status;
   iteration.edge_pixel_count = 7;
@@ -31,7 +40,7 @@ LocalizationTrace endedWith(LocalizationStatus status) {
   iteration.pnp.inlier_count = 3;
   iteration.correction_translation_m = 0.0123;
   iteration.correction_rotation_rad = 2.0 * kDegree_rad;
-  trace.iterations.push_back(iteration);
+  trace.iterations.push_back(std::make_shared<const IterationTrace>(iteration));
   return trace;
 }
 
@@ -64,17 +73,20 @@ TEST(Explanation, NamesWhatWasMeasuredAndNeeded) {
 TEST(Explanation, NamesTheAxisThatLeftTheUncertainty) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kLeftUncertainty);
   trace.uncertainty.translation_m = {0.03, 0.02, 0.03};
-  trace.iterations.back().camera_from_station.translation_m = {0.030, -0.025, 0.0};
+  editIteration(trace, 0, [](IterationTrace& last) {
+    last.camera_from_station.translation_m = {0.030, -0.025, 0.0};
+  });
   EXPECT_THAT(explanation(trace),
               AllOf(HasSubstr("25.00 mm along y"), HasSubstr("allowed 22.00 mm")));
-  trace.iterations.back().camera_from_station.rotation =
-      rotationExp(Eigen::Vector3d(0.0, 0.0, 20.0 * kDegree_rad));
+  editIteration(trace, 0, [](IterationTrace& last) {
+    last.camera_from_station.rotation = rotationExp(Eigen::Vector3d(0.0, 0.0, 20.0 * kDegree_rad));
+  });
   EXPECT_THAT(explanation(trace), HasSubstr("20.00 deg about z"));
 }
 
 TEST(Explanation, SpeaksOfRestartsWhereTheRunWentOnFromThem) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kLeftUncertainty);
-  trace.iterations.front().wide = true;
+  editIteration(trace, 0, [](IterationTrace& first) { first.wide = true; });
   EXPECT_THAT(explanation(trace), HasSubstr("what the restarts had found"));
   EXPECT_THAT(explanation(trace), Not(HasSubstr("allowed")));
 }
@@ -95,7 +107,7 @@ TEST(Explanation, SaysHowFarTheRivalOfAnAmbiguousRunIs) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kAmbiguous);
   trace.rivals.resize(3);
   for (Rival& rival : trace.rivals) {
-    rival.camera_from_station = trace.iterations.back().camera_from_station;
+    rival.camera_from_station = trace.iterations.back()->camera_from_station;
     rival.camera_from_station.translation_m.x() += 0.02;
     rival.ended = LocalizationStatus::kConverged;
     rival.margin_nats = 5.5;
@@ -110,7 +122,7 @@ TEST(Explanation, SaysHowFarTheRivalOfAnAmbiguousRunIs) {
 
 TEST(Explanation, BlamesAnImageWithoutEdges) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kPnpFailed);
-  trace.edges.edge_count = 0;
+  trace.edges = edgesOf(0);
   EXPECT_THAT(explanation(trace), HasSubstr("image has no edges"));
 }
 
@@ -126,8 +138,10 @@ TEST(IterationTable, HasOneLineForEachIteration) {
   EXPECT_THAT(matched, AllOf(HasSubstr("match"), HasSubstr("12.300"), HasSubstr("8.0")));
   EXPECT_THAT(matched, Not(HasSubstr("refine")));
   trace.iterations.push_back(trace.iterations.back());
-  trace.iterations.back().kind = IterationKind::kRefine;
-  trace.iterations.back().refinement.used_count = 4321;
+  editIteration(trace, 1, [](IterationTrace& refined) {
+    refined.kind = IterationKind::kRefine;
+    refined.refinement.used_count = 4321;
+  });
   EXPECT_THAT(iterationTable(trace), AllOf(HasSubstr("refine"), HasSubstr("4321")));
 }
 
@@ -147,52 +161,49 @@ TEST(PoseText, GivesSigmasInMillimetresAndMilliradians) {
               HasSubstr("0.0000 0.0000 0.3000 mm, 2.0000 0.0000 0.0000 mrad"));
 }
 
-/// The same as it comes from a run that is watched.
-RunSnapshot snapshotWith(LocalizationStatus status) { return snapshotOf(endedWith(status)); }
-
 TEST(StandingText, ExplainsARunThatFailed) {
-  EXPECT_THAT(standingText(snapshotWith(LocalizationStatus::kTooFewEdges)),
+  EXPECT_THAT(standingText(endedWith(LocalizationStatus::kTooFewEdges)),
               AllOf(HasSubstr("Did not converge. The render shows 7 salient edge pixels"),
                     testing::EndsWith(".")));
 }
 
 TEST(StandingText, SaysWhatSpeaksForAPose) {
-  RunSnapshot snapshot = snapshotWith(LocalizationStatus::kConverged);
-  snapshot.covariance(3, 3) = 4e-10;  // 0.02 mm
-  snapshot.support.rendered = snapshot.support.covered = 10;
-  snapshot.support.seen = snapshot.support.explained = 10;
-  EXPECT_THAT(standingText(snapshot),
+  LocalizationTrace trace = endedWith(LocalizationStatus::kConverged);
+  trace.covariance(3, 3) = 4e-10;  // 0.02 mm
+  trace.support.rendered = trace.support.covered = 10;
+  trace.support.seen = trace.support.explained = 10;
+  EXPECT_THAT(standingText(trace),
               AllOf(HasSubstr("Converged in 1 iteration,"), HasSubstr("0.020, 0.000, 0.000 mm"),
                     HasSubstr("Edge support is 100.0 %")));
-  snapshot.options.support.gate = false;
-  EXPECT_THAT(standingText(snapshot), Not(HasSubstr("Edge support")));
+  trace.options.support.gate = false;
+  EXPECT_THAT(standingText(trace), Not(HasSubstr("Edge support")));
 }
 
 TEST(StandingText, SaysHowFarARunIs) {
-  RunSnapshot snapshot;
-  EXPECT_EQ(standingText(snapshot), "Nothing has run yet.");
-  snapshot = snapshotWith(LocalizationStatus::kRunning);
-  EXPECT_EQ(standingText(snapshot), "Iteration 1 is complete.");
-  snapshot.last_under_way = true;
-  EXPECT_THAT(standingText(snapshot), AllOf(HasSubstr("under way"), HasSubstr("render")));
+  LocalizationTrace trace;
+  EXPECT_EQ(standingText(trace), "Nothing has run yet.");
+  trace = endedWith(LocalizationStatus::kRunning);
+  EXPECT_EQ(standingText(trace), "Iteration 1 is complete.");
+  trace.last_under_way = true;
+  EXPECT_THAT(standingText(trace), AllOf(HasSubstr("under way"), HasSubstr("render")));
 }
 
 TEST(StandingText, NamesTheOtherViews) {
-  RunSnapshot snapshot = snapshotWith(LocalizationStatus::kConverged);
-  snapshot.views = {{"a", "converged"}, {"b", "too_few_matches"}, {"c", "converged"}};
-  EXPECT_THAT(standingText(snapshot),
+  LocalizationTrace trace = endedWith(LocalizationStatus::kConverged);
+  trace.views = {{"a", "converged"}, {"b", "too_few_matches"}, {"c", "converged"}};
+  EXPECT_THAT(standingText(trace),
               testing::StartsWith("Together with b (left out: too few of its templates meet edges "
                                   "of the image) and c. Converged in"));
-  snapshot = snapshotWith(LocalizationStatus::kTooFewMatches);
-  snapshot.views = {{"a", "converged"}, {"b", "too_few_matches"}};
-  snapshot.own_view = 1;
-  EXPECT_THAT(standingText(snapshot),
+  trace = endedWith(LocalizationStatus::kTooFewMatches);
+  trace.views = {{"a", "converged"}, {"b", "too_few_matches"}};
+  trace.own_view = 1;
+  EXPECT_THAT(standingText(trace),
               testing::StartsWith("Together with a. This view was left out: too few of"));
-  snapshot.views[0].status = "pnp_failed";
-  EXPECT_THAT(standingText(snapshot), testing::StartsWith("Together with a. Did not converge. "));
-  snapshot.views = {{"a", "running"}, {"b", "running"}};
-  snapshot.finished = false;
-  EXPECT_EQ(standingText(snapshot), "Together with a. Iteration 1 is complete.");
+  trace.views[0].status = "pnp_failed";
+  EXPECT_THAT(standingText(trace), testing::StartsWith("Together with a. Did not converge. "));
+  trace.views = {{"a", "running"}, {"b", "running"}};
+  trace.finished = false;
+  EXPECT_EQ(standingText(trace), "Together with a. Iteration 1 is complete.");
 }
 
 }  // namespace

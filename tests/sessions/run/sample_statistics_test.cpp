@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 #include "tests/support/example_case.h"
 
 namespace boresight::sessions {
@@ -47,7 +47,7 @@ TEST(SampleStatistics, CountByKindAndBin) {
 TEST(SampleStatistics, AgreeWithWhatTheRunCounted) {
   const test::ExampleCase example("os");
   const LocalizationTrace run = localize(example.problem(), defaultProfile(), RecordLevel::kFull);
-  const IterationTrace& last = run.iterations.back();
+  const IterationTrace& last = *run.iterations.back();
   ASSERT_EQ(last.kind, IterationKind::kRefine);
   const SampleStatistics made = sampleStatistics(last, 21);
   EXPECT_EQ(made.all.places, last.refinement.sample_count);

@@ -31,9 +31,9 @@ WhsCounts countsByHand(const IterationTrace& iteration, const BitImage& test, co
 
 TEST(ScoreMap, HoldsItsPeakWhereTheSearchFoundIt) {
   int looked_at = 0;
-  const IterationTrace& iteration = exampleTrace().iterations.front();
+  const IterationTrace& iteration = *exampleTrace().iterations.front();
   for (int i = 0; i < iteration.template_count; i += 7) {
-    const auto map = scoreMap(exampleTrace().edges, iteration, i);
+    const auto map = scoreMap(*exampleTrace().edges, iteration, i);
     const Match& match = iteration.matches[static_cast<std::size_t>(i)];
     ASSERT_EQ(map.has_value(), match.searched);
     if (!map) continue;
@@ -49,10 +49,10 @@ TEST(ScoreMap, HoldsItsPeakWhereTheSearchFoundIt) {
 }
 
 TEST(ScoreMap, IsWhatCountingPixelByPixelGives) {
-  const IterationTrace& iteration = exampleTrace().iterations.front();
+  const IterationTrace& iteration = *exampleTrace().iterations.front();
   const BitImage test =
-      exampleTrace().edges.level[static_cast<std::size_t>(iteration.level)].view();
-  const auto map = scoreMap(exampleTrace().edges, iteration, 3);
+      exampleTrace().edges->level[static_cast<std::size_t>(iteration.level)].view();
+  const auto map = scoreMap(*exampleTrace().edges, iteration, 3);
   ASSERT_TRUE(map);
   const SearchWindow& window = map->window;
   const Template& item = iteration.templates[3];
@@ -63,20 +63,20 @@ TEST(ScoreMap, IsWhatCountingPixelByPixelGives) {
 }
 
 TEST(ScoreMap, IsNothingWhereNothingCanBeSearched) {
-  const IterationTrace& first = exampleTrace().iterations.front();
-  EXPECT_FALSE(scoreMap(exampleTrace().edges, first, -1));
-  EXPECT_FALSE(scoreMap(exampleTrace().edges, first, first.template_count));
+  const IterationTrace& first = *exampleTrace().iterations.front();
+  EXPECT_FALSE(scoreMap(*exampleTrace().edges, first, -1));
+  EXPECT_FALSE(scoreMap(*exampleTrace().edges, first, first.template_count));
   EXPECT_FALSE(scoreMap(EdgeMapTrace{}, first, 0));
   IterationTrace not_searched = first;
   not_searched.matches[0].searched = false;
-  EXPECT_FALSE(scoreMap(exampleTrace().edges, not_searched, 0));
+  EXPECT_FALSE(scoreMap(*exampleTrace().edges, not_searched, 0));
 }
 
 TEST(ScoreMap, Stops) {
   std::stop_source stopped;
   stopped.request_stop();
   EXPECT_FALSE(
-      scoreMap(exampleTrace().edges, exampleTrace().iterations.front(), 3, stopped.get_token()));
+      scoreMap(*exampleTrace().edges, *exampleTrace().iterations.front(), 3, stopped.get_token()));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "core/base/random.h"
 #include "sessions/io/errors.h"
 #include "sessions/run/archive.h"
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 #include "sessions/run/trace_fields.h"
 #include "tests/support/example_case.h"
 #include "tests/support/random_pose.h"
@@ -90,15 +90,15 @@ TEST(TraceFile, GivesBackEveryFieldExactly) {
   EXPECT_EQ(loaded.camera_from_station.translation_m, trace.camera_from_station.translation_m);
   EXPECT_EQ(loaded.covariance, trace.covariance);
   EXPECT_EQ(loaded.support.share(), trace.support.share());
-  EXPECT_EQ(loaded.edges.level[1].words, trace.edges.level[1].words);
-  const IterationTrace& first = loaded.iterations.front();
-  const IterationTrace& expected = trace.iterations.front();
+  EXPECT_EQ(loaded.edges->level[1].words, trace.edges->level[1].words);
+  const IterationTrace& first = *loaded.iterations.front();
+  const IterationTrace& expected = *trace.iterations.front();
   EXPECT_EQ(first.render.edges.words, expected.render.edges.words);
   EXPECT_EQ(first.render.pixels.back().depth_m, expected.render.pixels.back().depth_m);
   EXPECT_EQ(first.matches.back().peak.second_counts, expected.matches.back().peak.second_counts);
   EXPECT_EQ(first.pnp.residual_px, expected.pnp.residual_px);
-  EXPECT_EQ(loaded.iterations.back().refinement.samples.back().residual_px,
-            trace.iterations.back().refinement.samples.back().residual_px);
+  EXPECT_EQ(loaded.iterations.back()->refinement.samples.back().residual_px,
+            trace.iterations.back()->refinement.samples.back().residual_px);
 }
 
 TEST(TraceFile, GivesBackRivals) {
@@ -183,9 +183,9 @@ TEST(TraceFile, SurvivesContentThatOnlyLooksRight) {
     folder.write("bad.trace", sealed(altered));
     try {
       const LocalizationTrace loaded = loadTrace(folder / "bad.trace");
-      for (const IterationTrace& iteration : loaded.iterations)
-        for (const EdgePixel& pixel : iteration.render.pixels)
-          EXPECT_TRUE(iteration.render.edges.view().contains(pixel.x, pixel.y));
+      for (const auto& iteration : loaded.iterations)
+        for (const EdgePixel& pixel : iteration->render.pixels)
+          EXPECT_TRUE(iteration->render.edges.view().contains(pixel.x, pixel.y));
     } catch (const InputError&) {
       ++refused;
     }

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_pack.h"

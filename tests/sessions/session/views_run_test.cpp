@@ -18,7 +18,6 @@ namespace {
 
 using sessions::LocalizationTrace;
 using sessions::RunRecord;
-using sessions::RunSnapshot;
 using sessions::Session;
 using sessions::SessionCase;
 using testing::HasSubstr;
@@ -41,7 +40,7 @@ class ViewsRunTest : public testing::Test {
 
   TemporaryFolder folder_;
   Session session_;
-  std::vector<RunSnapshot> views_;
+  std::vector<LocalizationTrace> views_;
 };
 
 TEST_F(ViewsRunTest, IsWhatTheCoreMakesOfBothImages) {
@@ -63,11 +62,11 @@ TEST_F(ViewsRunTest, IsWhatTheCoreMakesOfBothImages) {
   LocalizerOptions options = defaultProfile();
   options.templates.feature_size_m = one.feature_size_m.value();
   std::size_t bytes = 0;
-  ASSERT_EQ(ViewsLocalizer::requiredBytes(problem, options, Kernels::kPortable, bytes),
+  ASSERT_EQ(ViewsLocalizer::requiredBytes(problem, options, 1, Kernels::kPortable, bytes),
             Status::kOk);
   const auto memory = std::make_unique<std::byte[]>(bytes);
   const auto expected = std::make_unique<ViewsLocalizer>(
-      problem, options, std::span<std::byte>(memory.get(), bytes), Kernels::kPortable);
+      problem, options, std::span<std::byte>(memory.get(), bytes), 1, Kernels::kPortable);
   while (!expected->step().finished) {
   }
   ASSERT_EQ(expected->result().status, LocalizationStatus::kConverged);
@@ -99,7 +98,7 @@ TEST_F(ViewsRunTest, EachCaseGetsARunThatNamesTheOthersAndIsReadAgain) {
     EXPECT_EQ(record.status, "converged");
     ASSERT_TRUE(record.together.has_value());
     EXPECT_EQ(sessions::casesOf(*record.together), (std::vector<std::string>{first(), second()}));
-    const RunSnapshot snapshot = sessions::loadSnapshot(record);
+    const LocalizationTrace snapshot = sessions::loadSnapshot(record);
     EXPECT_EQ(snapshot.views, views_[v].views);
     EXPECT_EQ(snapshot.own_view, v);
     EXPECT_EQ(snapshot.digest, views_[v].digest);

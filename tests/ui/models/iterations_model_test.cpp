@@ -21,7 +21,7 @@ class IterationsModelTest : public testing::Test {
 
   IterationsModel model_;
   Tester tester_{&model_, Tester::FailureReportingMode::Fatal};
-  std::shared_ptr<const sessions::RunSnapshot> run_ = test::exampleRun();
+  std::shared_ptr<const sessions::LocalizationTrace> run_ = test::exampleRun();
 };
 
 TEST_F(IterationsModelTest, HasARowForTheSeedAndOnePerIteration) {
@@ -56,7 +56,7 @@ TEST_F(IterationsModelTest, ShowsTheFiguresOfTheRun) {
 }
 
 TEST_F(IterationsModelTest, SaysWhichHypothesisAnIterationWentOnWith) {
-  auto snapshot = std::make_shared<sessions::RunSnapshot>(*run_);
+  auto snapshot = std::make_shared<sessions::LocalizationTrace>(*run_);
   auto wide = std::make_shared<sessions::IterationTrace>(*snapshot->iterations.front());
   wide->wide = true;
   wide->hypotheses.assign(2, HypothesisSummary{});
@@ -107,7 +107,7 @@ TEST_F(IterationsModelTest, AppendsWhatARunAddsAndKeepsSelections) {
 }
 
 TEST_F(IterationsModelTest, TheIterationUnderWayChangesInPlace) {
-  auto halted = std::make_shared<sessions::RunSnapshot>(*test::firstIterations(*run_, 2));
+  auto halted = std::make_shared<sessions::LocalizationTrace>(*test::firstIterations(*run_, 2));
   auto early = std::make_shared<sessions::IterationTrace>(*halted->iterations.back());
   early->reached = Stage::kRender;
   halted->iterations.back() = early;
@@ -121,7 +121,7 @@ TEST_F(IterationsModelTest, TheIterationUnderWayChangesInPlace) {
 }
 
 TEST_F(IterationsModelTest, LeavesBlankWhatIsNotThereYet) {
-  auto run = std::make_shared<sessions::RunSnapshot>(*test::firstIterations(*run_, 1));
+  auto run = std::make_shared<sessions::LocalizationTrace>(*test::firstIterations(*run_, 1));
   auto early = std::make_shared<sessions::IterationTrace>(*run->iterations.front());
   early->reached = Stage::kTemplates;
   run->iterations.front() = early;
@@ -136,7 +136,7 @@ TEST_F(IterationsModelTest, LeavesBlankWhatIsNotThereYet) {
 }
 
 TEST_F(IterationsModelTest, CountsIterationsWithinTheirAttempt) {
-  auto run = std::make_shared<sessions::RunSnapshot>(*run_);
+  auto run = std::make_shared<sessions::LocalizationTrace>(*run_);
   for (std::size_t i = 1; i < run->iterations.size(); ++i) {
     auto second = std::make_shared<sessions::IterationTrace>(*run->iterations[i]);
     second->attempt = 1;

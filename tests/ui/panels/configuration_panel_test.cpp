@@ -153,7 +153,7 @@ TEST_F(ConfigurationPanelTest, SaysThatTheShownRunIsStale) {
 }
 
 TEST_F(ConfigurationPanelTest, ACasesFeatureSizeIsNoDifference) {
-  auto run = std::make_shared<sessions::RunSnapshot>(*test::exampleRun());
+  auto run = std::make_shared<sessions::LocalizationTrace>(*test::exampleRun());
   run->options.templates.feature_size_m = 0.015;
   view_.setSnapshot(run);
   EXPECT_TRUE(stale_->isVisible());

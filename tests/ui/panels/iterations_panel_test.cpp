@@ -118,7 +118,7 @@ TEST_F(IterationsPanelTest, ShowsNothingOfACaseThatHasNotRun) {
 }
 
 TEST_F(IterationsPanelTest, SaysWhyARunFailed) {
-  auto failed = std::make_shared<sessions::RunSnapshot>(*test::exampleRun());
+  auto failed = std::make_shared<sessions::LocalizationTrace>(*test::exampleRun());
   failed->status = LocalizationStatus::kIterationLimit;
   view_.setSnapshot(failed);
   EXPECT_TRUE(

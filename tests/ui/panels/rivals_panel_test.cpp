@@ -29,7 +29,7 @@ class RivalsPanelTest : public testing::Test {
 
   ViewState view_;
   RivalsPanel panel_{view_};
-  std::shared_ptr<const sessions::RunSnapshot> run_;
+  std::shared_ptr<const sessions::LocalizationTrace> run_;
   int last_ = 0;
 };
 

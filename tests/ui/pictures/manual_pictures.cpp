@@ -166,7 +166,7 @@ void drawReview(const Places& places) {
 }
 
 /// The template that was found with the best score of those that agree with the pose.
-int bestInlier(const sessions::RunSnapshot& run, const sessions::IterationTrace& iteration) {
+int bestInlier(const sessions::LocalizationTrace& run, const sessions::IterationTrace& iteration) {
   int best = 0;
   double score = 0.0;
   for (std::size_t i = 0; i < iteration.pnp.inlier.size(); ++i) {

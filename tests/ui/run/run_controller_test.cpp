@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 #include "tests/support/loaded_example.h"
 
 namespace boresight::ui {
@@ -86,10 +86,10 @@ TEST_F(RunControllerTest, SeveralViewsAreRunAsOneAndAStopChangesNoBit) {
   ASSERT_EQ(run_.views().size(), 2u);
   EXPECT_EQ(run_.snapshot(), run_.views().front());
   const auto views = sessions::loadViews(both.one, both.others);
-  sessions::SteppedViews expected(views->problem(), defaultProfile(), views->ids());
+  sessions::Runner expected(views->problem(), defaultProfile(), views->ids());
   expected.advance(StepUntil::kEnd);
   for (std::size_t v = 0; v < 2; ++v)
-    EXPECT_EQ(run_.views()[v]->digest, expected.snapshots()[v].digest);
+    EXPECT_EQ(run_.views()[v]->digest, expected.traces()[v].digest);
   run_.reset(inputs());
   EXPECT_TRUE(run_.views().empty());
 }

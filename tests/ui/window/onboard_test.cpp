@@ -20,7 +20,7 @@
 #include "core/base/bytes.h"
 #include "core/base/crc32.h"
 #include "sessions/record/compare_records.h"
-#include "sessions/run/record.h"
+#include "sessions/run/runner.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"

@@ -145,7 +145,7 @@ TEST_F(RerunTest, GoesOnFromARunThatWasReadFromItsFile) {
 
 TEST_F(RerunTest, RefusesIterationsThatAreNotThoseOfTheRecord) {
   openAndRun();
-  auto other = std::make_shared<sessions::RunSnapshot>(*first_);
+  auto other = std::make_shared<sessions::LocalizationTrace>(*first_);
   auto moved = std::make_shared<sessions::IterationTrace>(*first_->iterations[0]);
   moved->camera_from_station.translation_m.x() += 1e-9;
   other->iterations[0] = moved;

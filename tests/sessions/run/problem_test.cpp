@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/run/seed_check.h"
+#include "sessions/run/problem.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

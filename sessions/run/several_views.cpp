@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/run/stepped_views.h"
+// A run of several views that are solved as one.
 
+#include <span>
 #include <utility>
 
 #include "core/base/digest.h"
 #include "core/pnp/normal_equations.h"
-#include "sessions/run/record.h"
+#include "core/views/views_localizer.h"
+#include "sessions/run/iteration_trace.h"
+#include "sessions/run/stepped_run.h"
 #include "sessions/version.h"
 
 namespace boresight::sessions {
@@ -24,41 +27,69 @@ bool isLeftOut(LocalizationStatus status) {
   return status != LocalizationStatus::kRunning && status != LocalizationStatus::kConverged;
 }
 
-}  // namespace
+class SeveralViews final : public SteppedRun {
+ public:
+  SeveralViews(const ViewsProblem& problem, const LocalizerOptions& options,
+               const std::vector<std::string>& case_ids, const RunSettings& settings);
 
-SteppedViews::SteppedViews(const ViewsProblem& problem, const LocalizerOptions& options,
-                           const std::vector<std::string>& case_ids)
-    : problem_(problem), snapshots_(problem.views.size()) {
-  const Clock::time_point start = Clock::now();
+  StepReport step(const std::stop_token&) override { return localizer_->step(); }
+  int tasks() const override { return localizer_->tasks(); }
+  void runTask(int task, int worker) override { localizer_->runTask(task, worker); }
+  int workers() const override { return workers_; }
+  void noteEdges() override;
+  void noteIteration(const StepReport& report, const StageSeconds& seconds) override;
+  void noteSupport(const StageSeconds& seconds) override;
+  void finish() override;
+
+ private:
+  void begin(const LocalizerOptions& options, const std::vector<std::string>& case_ids);
+  void refuseAll(Status status);
+  void describeViews();
+  IterationTrace traceOf(std::size_t view, Stage reached) const;
+  IterationTrace leftOut(std::size_t view) const;
+  LocalizationStatus statusOf(std::size_t view) const;
+  void finish(std::size_t view);
+
+  ViewsProblem problem_;
+  int workers_ = 1;
+  RecordLevel level_ = RecordLevel::kFull;
+  std::vector<Pose> camera_from_first_;
+  std::unique_ptr<std::byte[]> memory_;
+  std::unique_ptr<ViewsLocalizer> localizer_;
+  std::size_t next_edges_ = 0;  ///< the view whose test edges come next
+};
+
+SeveralViews::SeveralViews(const ViewsProblem& problem, const LocalizerOptions& options,
+                           const std::vector<std::string>& case_ids, const RunSettings& settings)
+    : problem_(problem), workers_(settings.threads), level_(settings.level) {
+  traces.resize(problem.views.size());
   begin(options, case_ids);
-  const Kernels kernels = bestKernels();
   std::size_t bytes = 0;
-  const Status sized = ViewsLocalizer::requiredBytes(problem_, options, kernels, bytes);
+  const Status sized =
+      ViewsLocalizer::requiredBytes(problem_, options, workers_, settings.kernels, bytes);
   if (sized != Status::kOk) {
-    refuse(sized);
+    refuseAll(sized);
     return;
   }
   memory_ = std::make_unique_for_overwrite<std::byte[]>(bytes);
   localizer_ = std::make_unique<ViewsLocalizer>(
-      problem_, options, std::span<std::byte>(memory_.get(), bytes), kernels);
+      problem_, options, std::span<std::byte>(memory_.get(), bytes), workers_, settings.kernels);
   if (localizer_->status() == Status::kOk)
     describeViews();
   else
-    refuse(localizer_->status());
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  for (RunSnapshot& one : snapshots_) one.seconds.initialization = seconds;
+    refuseAll(localizer_->status());
 }
 
-void SteppedViews::begin(const LocalizerOptions& options,
+void SeveralViews::begin(const LocalizerOptions& options,
                          const std::vector<std::string>& case_ids) {
   std::vector<ViewOutcome> views;
   for (const std::string& id : case_ids)
     views.push_back({id, localizationStatusText(LocalizationStatus::kRunning)});
   const Pose first_from_rig = problem_.views.front().camera_from_rig;
-  for (std::size_t v = 0; v < snapshots_.size(); ++v) {
+  for (std::size_t v = 0; v < traces.size(); ++v) {
     const View& view = problem_.views[v];
     camera_from_first_.push_back(view.camera_from_rig * first_from_rig.inverse());
-    RunSnapshot& one = snapshots_[v];
+    LocalizationTrace& one = traces[v];
     one.version = kVersion;
     one.options = options;
     one.camera = view.camera;
@@ -70,20 +101,20 @@ void SteppedViews::begin(const LocalizerOptions& options,
   }
 }
 
-void SteppedViews::refuse(Status status) {
-  for (RunSnapshot& one : snapshots_) {
-    one.status = LocalizationStatus::kFault;
-    one.fault = status;
-    one.finished = true;
+void SeveralViews::refuseAll(Status status) {
+  joint.result.status = LocalizationStatus::kFault;
+  joint.result.fault = status;
+  for (LocalizationTrace& one : traces) {
+    refuse(one, status);
     for (ViewOutcome& view : one.views) view.status = localizationStatusText(one.status);
   }
 }
 
 /// As the core has their seeds, to the bit.
-void SteppedViews::describeViews() {
-  for (std::size_t v = 0; v < snapshots_.size(); ++v) {
+void SeveralViews::describeViews() {
+  for (std::size_t v = 0; v < traces.size(); ++v) {
     const Pass& of_view = localizer_->view(static_cast<int>(v));
-    RunSnapshot& one = snapshots_[v];
+    LocalizationTrace& one = traces[v];
     one.camera_from_station_seed = of_view.problem().camera_from_station_seed;
     one.camera_from_station = one.camera_from_station_seed;
     one.memory.inputs = inputBytes(of_view.problem());
@@ -91,59 +122,33 @@ void SteppedViews::describeViews() {
   }
 }
 
-void SteppedViews::advance(StepUntil until, const std::stop_token& stop) {
-  while (!finished() && !stop.stop_requested()) {
-    const Clock::time_point start = Clock::now();
-    const StepReport report = localizer_->step();
-    note(report, std::chrono::duration<double>(Clock::now() - start).count());
-    if (until != StepUntil::kEnd && report.iteration_complete) return;
-  }
-}
-
-void SteppedViews::note(const StepReport& report, double seconds) {
-  for (RunSnapshot& one : snapshots_) {
-    one.stage = report.stage;
-    one.seconds.add(report.stage, seconds);
-  }
-  if (report.stage != Stage::kEdges)
-    iteration_seconds_.add(report.stage, seconds);
-  else if (report.stage_complete)
-    noteEdges();
-  if (report.iteration_complete)
-    noteIteration(report.stage);
-  else if (report.stage == Stage::kSupport && report.stage_complete)
-    judgeIteration();
-  if (report.finished) finish();
-}
-
 /// Views come to their edges in their order: each does all that it can alone before the next. They
 /// are copied at once, as the first render takes the finer levels' place.
-void SteppedViews::noteEdges() {
+void SeveralViews::noteEdges() {
   const std::size_t v = next_edges_++;
-  if (v >= snapshots_.size()) return;
-  snapshots_[v].edges = std::make_shared<const EdgeMapTrace>(
-      recordEdgeMap(localizer_->view(static_cast<int>(v)).workspace().edges));
+  if (v >= traces.size()) return;
+  traces[v].edges = std::make_shared<const EdgeMapTrace>(
+      recordEdgeMap(localizer_->view(static_cast<int>(v)).workspace().edges, level_));
 }
 
 /// A fault may come before the first iteration, or before the localizers are there.
-void SteppedViews::noteIteration(Stage reached) {
+void SeveralViews::noteIteration(const StepReport& report, const StageSeconds& seconds) {
+  if (!report.iteration_complete) return;
   if (localizer_->iterationOf(0) == nullptr) return;
-  for (std::size_t v = 0; v < snapshots_.size(); ++v) {
-    IterationTrace made = traceOf(v, reached);
-    RunSnapshot& one = snapshots_[v];
+  for (std::size_t v = 0; v < traces.size(); ++v) {
+    IterationTrace made = traceOf(v, report.stage);
+    LocalizationTrace& one = traces[v];
     const bool followed = localizer_->iterationOf(static_cast<int>(v)) != nullptr;
     if (v > 0 && followed && one.iterations.empty()) one.uncertainty = made.uncertainty;
-    made.seconds = iteration_seconds_;
+    made.seconds = seconds;
     one.iterations.push_back(std::make_shared<const IterationTrace>(std::move(made)));
   }
-  iteration_seconds_ = {};
 }
 
-IterationTrace SteppedViews::traceOf(std::size_t view, Stage reached) const {
+IterationTrace SeveralViews::traceOf(std::size_t view, Stage reached) const {
   const Iteration& leading = *localizer_->iterationOf(0);
   const Iteration* own = localizer_->iterationOf(static_cast<int>(view));
-  IterationTrace made =
-      own != nullptr ? recordIteration(*own, reached, RecordLevel::kFull) : leftOut(view);
+  IterationTrace made = own != nullptr ? recordIteration(*own, reached, level_) : leftOut(view);
   made.status = statusOf(view);
   if (view == 0) return made;
   if (!hasPose(leading, reached)) return made;
@@ -156,7 +161,7 @@ IterationTrace SteppedViews::traceOf(std::size_t view, Stage reached) const {
 }
 
 /// Of a view that was not asked: the pose of the others alone.
-IterationTrace SteppedViews::leftOut(std::size_t view) const {
+IterationTrace SeveralViews::leftOut(std::size_t view) const {
   const Iteration& leading = *localizer_->iterationOf(0);
   IterationTrace made;
   made.index = leading.index;
@@ -170,34 +175,34 @@ IterationTrace SteppedViews::leftOut(std::size_t view) const {
 }
 
 /// Why the view has no say in the iteration; else how that ended.
-LocalizationStatus SteppedViews::statusOf(std::size_t view) const {
+LocalizationStatus SeveralViews::statusOf(std::size_t view) const {
   const LocalizationStatus own = localizer_->result().views[view].status;
   return isLeftOut(own) ? own : localizer_->iterationOf(0)->status;
 }
 
 /// Edge support is looked at after the last iteration was complete, and may change how it ended.
-void SteppedViews::judgeIteration() {
-  for (std::size_t v = 0; v < snapshots_.size(); ++v) {
-    auto& iterations = snapshots_[v].iterations;
+void SeveralViews::noteSupport(const StageSeconds& seconds) {
+  for (std::size_t v = 0; v < traces.size(); ++v) {
+    auto& iterations = traces[v].iterations;
     if (iterations.empty()) return;
     IterationTrace judged = *iterations.back();
     judged.status = statusOf(v);
-    judged.seconds += iteration_seconds_;
+    judged.seconds += seconds;
     iterations.back() = std::make_shared<const IterationTrace>(std::move(judged));
   }
-  iteration_seconds_ = {};
 }
 
-void SteppedViews::finish() {
+void SeveralViews::finish() {
   const ViewsResult& result = localizer_->result();
-  if (result.status == LocalizationStatus::kFault) refuse(result.fault);
-  for (std::size_t v = 0; v < snapshots_.size(); ++v) finish(v);
+  joint = {result, hexText(localizer_->digest()).data()};
+  if (result.status == LocalizationStatus::kFault) refuseAll(result.fault);
+  for (std::size_t v = 0; v < traces.size(); ++v) finish(v);
 }
 
-void SteppedViews::finish(std::size_t view) {
+void SeveralViews::finish(std::size_t view) {
   const ViewsResult& result = localizer_->result();
   const ViewReport& report = result.views[view];
-  RunSnapshot& one = snapshots_[view];
+  LocalizationTrace& one = traces[view];
   one.finished = true;
   one.attempts = result.attempts;
   one.digest = viewDigest(*localizer_, view);
@@ -214,6 +219,15 @@ void SteppedViews::finish(std::size_t view) {
   const Matrix6d& of_first = localizer_->view(0).workspace().covariance;
   const Matrix6d moved = adjointOf(camera_from_first_[view]);
   one.covariance = view == 0 ? of_first : Matrix6d(moved * of_first * moved.transpose());
+}
+
+}  // namespace
+
+std::unique_ptr<SteppedRun> stepSeveralViews(const ViewsProblem& problem,
+                                             const LocalizerOptions& options,
+                                             const std::vector<std::string>& case_ids,
+                                             const RunSettings& settings) {
+  return std::make_unique<SeveralViews>(problem, options, case_ids, settings);
 }
 
 }  // namespace boresight::sessions

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/run/stepped_views.h"
+#include "sessions/run/runner.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <stop_token>
 
 #include "core/base/digest.h"
+#include "core/views/views_localizer.h"
 #include "tests/support/example_run.h"
 
 namespace boresight::sessions {
@@ -16,9 +17,9 @@ namespace {
 const std::vector<std::string> kNames = {"left", "right"};
 
 /// The example's image by two cameras in one place; the second may have another image.
-class SteppedViewsTest : public testing::Test {
+class RunnerViewsTest : public testing::Test {
  protected:
-  SteppedViewsTest() : example_("os") {
+  RunnerViewsTest() : example_("os") {
     const LocalizationProblem one = example_.problem();
     for (View& view : views_) {
       view.image = one.image;
@@ -39,19 +40,20 @@ class SteppedViewsTest : public testing::Test {
   /// What the core makes of it without anybody looking.
   std::unique_ptr<ViewsLocalizer> unwatched() {
     std::size_t bytes = 0;
-    EXPECT_EQ(ViewsLocalizer::requiredBytes(problem_, options_, bestKernels(), bytes), Status::kOk);
+    EXPECT_EQ(ViewsLocalizer::requiredBytes(problem_, options_, 1, bestKernels(), bytes),
+              Status::kOk);
     memory_ = std::make_unique<std::byte[]>(bytes);
     auto made = std::make_unique<ViewsLocalizer>(
-        problem_, options_, std::span<std::byte>(memory_.get(), bytes), bestKernels());
+        problem_, options_, std::span<std::byte>(memory_.get(), bytes), 1, bestKernels());
     while (!made->step().finished) {
     }
     return made;
   }
 
-  std::vector<RunSnapshot> watched() {
-    SteppedViews run(problem_, options_, kNames);
+  std::vector<LocalizationTrace> watched() {
+    Runner run(problem_, options_, kNames);
     run.advance(StepUntil::kEnd);
-    return run.snapshots();
+    return run.traces();
   }
 
   test::ExampleCase example_;
@@ -70,10 +72,10 @@ std::string digestOfView(const ViewsLocalizer& all, std::uint32_t view) {
   return hexText(writer.digest()).data();
 }
 
-TEST_F(SteppedViewsTest, WatchingChangesNoBit) {
+TEST_F(RunnerViewsTest, WatchingChangesNoBit) {
   const auto expected = unwatched();
   ASSERT_EQ(expected->result().status, LocalizationStatus::kConverged);
-  const std::vector<RunSnapshot> views = watched();
+  const std::vector<LocalizationTrace> views = watched();
   ASSERT_EQ(views.size(), 2u);
   for (std::uint32_t v = 0; v < 2; ++v) {
     const ViewReport& report = expected->result().views[v];
@@ -93,11 +95,11 @@ TEST_F(SteppedViewsTest, WatchingChangesNoBit) {
 }
 
 /// What one camera sees the other sees, too: whatever is recorded of one is there of the other.
-TEST_F(SteppedViewsTest, RecordsOfTheSameImageAreTheSame) {
+TEST_F(RunnerViewsTest, RecordsOfTheSameImageAreTheSame) {
   options_.loop.max_rolled_hypotheses = 5;
   options_.loop.roll_spacing_rad = 0.01;
   options_.loop.enough_inliers = 2.0;
-  const std::vector<RunSnapshot> views = watched();
+  const std::vector<LocalizationTrace> views = watched();
   ASSERT_EQ(views[0].iterations.size(), views[1].iterations.size());
   ASSERT_TRUE(views[0].edges && views[1].edges);
   for (std::size_t level = 0; level < views[0].edges->level.size(); ++level)
@@ -120,9 +122,9 @@ TEST_F(SteppedViewsTest, RecordsOfTheSameImageAreTheSame) {
   }
 }
 
-TEST_F(SteppedViewsTest, ABlackViewIsLeftOutAndTheOtherKeepsItsBits) {
+TEST_F(RunnerViewsTest, ABlackViewIsLeftOutAndTheOtherKeepsItsBits) {
   blacken(1);
-  const std::vector<RunSnapshot> views = watched();
+  const std::vector<LocalizationTrace> views = watched();
   EXPECT_EQ(views[0].camera_from_station, test::exampleRun()->camera_from_station);
   EXPECT_EQ(views[0].status, LocalizationStatus::kConverged);
   EXPECT_EQ(views[1].status, LocalizationStatus::kTooFewMatches);
@@ -140,9 +142,9 @@ TEST_F(SteppedViewsTest, ABlackViewIsLeftOutAndTheOtherKeepsItsBits) {
   EXPECT_LT(perturbationBetween(pose, last.camera_from_station).norm(), 1e-12);
 }
 
-TEST_F(SteppedViewsTest, ABlackFirstViewLeadsAllTheSame) {
+TEST_F(RunnerViewsTest, ABlackFirstViewLeadsAllTheSame) {
   blacken(0);
-  const std::vector<RunSnapshot> views = watched();
+  const std::vector<LocalizationTrace> views = watched();
   EXPECT_EQ(views[0].status, LocalizationStatus::kTooFewMatches);
   EXPECT_EQ(views[1].status, LocalizationStatus::kConverged);
   EXPECT_LT(perturbationBetween(views[1].camera_from_station, example_.truth.camera_from_station)
@@ -151,28 +153,38 @@ TEST_F(SteppedViewsTest, ABlackFirstViewLeadsAllTheSame) {
             1e-3);
 }
 
-TEST_F(SteppedViewsTest, HaltsBetweenIterationsAndSlicesAndGoesOn) {
+TEST_F(RunnerViewsTest, HaltsBetweenIterationsAndSlicesAndGoesOn) {
   const std::string expected = watched().front().digest;
-  SteppedViews run(problem_, options_, kNames);
+  Runner run(problem_, options_, kNames);
   std::stop_source stopped;
   stopped.request_stop();
   run.advance(StepUntil::kEnd, stopped.get_token());
   EXPECT_FALSE(run.finished());
-  EXPECT_EQ(run.complete(), 0u);
-  EXPECT_EQ(run.snapshots()[1].status, LocalizationStatus::kRunning);
+  EXPECT_EQ(run.trace().complete(), 0u);
+  EXPECT_EQ(run.traces()[1].status, LocalizationStatus::kRunning);
   for (std::size_t i = 1; !run.finished() && i < 100; ++i) {
     run.advance(StepUntil::kIteration);
     if (run.finished()) break;
-    EXPECT_EQ(run.complete(), i);
-    EXPECT_EQ(run.snapshots()[1].iterations.size(), i);
-    EXPECT_TRUE(run.snapshots()[0].digest.empty());
+    EXPECT_EQ(run.trace().complete(), i);
+    EXPECT_EQ(run.traces()[1].iterations.size(), i);
+    EXPECT_TRUE(run.traces()[0].digest.empty());
   }
-  EXPECT_EQ(run.snapshots()[0].digest, expected);
+  EXPECT_EQ(run.traces()[0].digest, expected);
 }
 
-TEST_F(SteppedViewsTest, WhatCannotRunSaysSo) {
+TEST_F(RunnerViewsTest, ThreadsChangeNoBit) {
+  RunSettings settings;
+  for (const int threads : {1, 2, 3}) {
+    settings.threads = threads;
+    Runner run(problem_, options_, kNames, settings);
+    run.advance(StepUntil::kEnd);
+    EXPECT_EQ(run.trace().digest, watched().front().digest) << threads;
+  }
+}
+
+TEST_F(RunnerViewsTest, WhatCannotRunSaysSo) {
   options_.ambiguity.enabled = true;
-  for (const RunSnapshot& one : watched()) {
+  for (const LocalizationTrace& one : watched()) {
     EXPECT_TRUE(one.finished);
     EXPECT_EQ(one.status, LocalizationStatus::kFault);
     EXPECT_EQ(one.fault, Status::kInvalidOption);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/run/seed_check.h"
+#include "sessions/run/problem.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 
+#include "sessions/io/errors.h"
+#include "sessions/run/run_text.h"
 #include "sessions/run/scene_render.h"
 
 namespace boresight::sessions {
@@ -34,7 +36,26 @@ std::string centreText(const Eigen::Vector3d& centre_in_camera_m) {
   return text.data();
 }
 
+[[noreturn]] void refuse(const InputPlaces::Place& place, const std::string& reason) {
+  if (place.field.empty()) throw InputError(place.file, reason);
+  throw InputError(place.file, place.field, reason);
+}
+
 }  // namespace
+
+LocalizationProblem problemOf(const ImageView& image, const BitImage* ignore, const Camera& camera,
+                              const MeshView& mesh, const Pose& camera_from_station_seed,
+                              const DeclaredUncertainty& uncertainty) {
+  LocalizationProblem problem;
+  problem.image = image;
+  problem.ignore = ignore;
+  problem.camera = camera;
+  problem.mesh = mesh;
+  problem.camera_from_station_seed = camera_from_station_seed;
+  problem.uncertainty =
+      seedUncertainty(uncertainty, camera_from_station_seed, matchedBounds(mesh).centre());
+  return problem;
+}
 
 std::string seedConcern(const Camera& camera, const MeshView& mesh,
                         const Pose& camera_from_station_seed) {
@@ -55,6 +76,32 @@ std::string seedConcern(const Camera& camera, const MeshView& mesh,
     return "the station lies behind the camera at the seed" + centreText(centre_in_camera_m);
   if (anythingRendered(camera, mesh, camera_from_station_seed)) return "";
   return "the station is entirely out of view at the seed" + centreText(centre_in_camera_m);
+}
+
+void requireSensibleSeed(const Camera& camera, const SceneMesh& scene,
+                         const Pose& camera_from_station_seed, const std::filesystem::path& file,
+                         const std::string& place) {
+  requirePlausibleScale(scene, camera_from_station_seed);
+  const std::string concern = seedConcern(camera, scene.view(), camera_from_station_seed);
+  if (!concern.empty()) throw InputError(file, place, concern);
+}
+
+void requireAccepted(const LocalizationTrace& trace, const InputPlaces& places) {
+  const std::string reason = statusText(trace.fault);
+  switch (trace.fault) {
+    case Status::kInvalidMesh:
+      refuse(places.mesh, reason);
+    case Status::kTooManyLayers:
+      refuse(places.mesh, explanation(trace));
+    case Status::kInvalidCamera:
+      refuse(places.camera, reason);
+    case Status::kInvalidImage:
+      refuse(places.image, reason);
+    case Status::kInvalidPose:
+      refuse(places.seed, reason);
+    default:
+      break;
+  }
 }
 
 }  // namespace boresight::sessions

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run of one localizer.
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "sessions/run/iteration_trace.h"
+#include "sessions/run/outside_matching.h"
+#include "sessions/run/record_inputs.h"
+#include "sessions/run/stepped_run.h"
+#include "sessions/version.h"
+
+namespace boresight::sessions {
+namespace {
+
+/// The trace of a run before its first step.
+LocalizationTrace beginningOf(const LocalizationProblem& problem, const RunPlan& plan,
+                              const RunSettings& settings) {
+  LocalizationTrace trace;
+  trace.version = kVersion;
+  trace.options = plan.options;
+  trace.changes = plan.changes;
+  trace.camera = problem.camera;
+  trace.camera_from_station_seed = problem.camera_from_station_seed;
+  trace.camera_from_station = problem.camera_from_station_seed;
+  trace.uncertainty = problem.uncertainty;
+  trace.memory.inputs = inputBytes(problem);
+  trace.memory.limit = settings.memory_limit;
+  return trace;
+}
+
+/// kOk when the run can begin; fills the trace's use of memory.
+Status sizeRun(const LocalizationProblem& problem, const RunPlan& plan, const RunSettings& settings,
+               MemoryTrace& memory) {
+  const Status sized =
+      requiredMemory(sizeOf(problem), plan.options, settings.threads, memory.use, settings.kernels);
+  if (sized != Status::kOk) return sized;
+  if (memory.limit > 0 && memory.total() > memory.limit) return Status::kArenaTooSmall;
+  return planProblem(plan).empty() ? Status::kOk : Status::kInvalidOption;
+}
+
+class OneView final : public SteppedRun {
+ public:
+  OneView(const LocalizationProblem& problem, const RunPlan& plan, const RunSettings& settings)
+      : settings_(settings), changes_(plan.changes) {
+    LocalizationTrace& trace = traces.emplace_back(beginningOf(problem, plan, settings));
+    const Status sized = sizeRun(problem, plan, settings, trace.memory);
+    if (sized != Status::kOk) {
+      refuse(trace, sized);
+      return;
+    }
+    const MemoryTrace& memory = trace.memory;
+    const std::size_t bytes = memory.limit > 0 ? memory.limit - memory.inputs : memory.use.total();
+    memory_ = std::make_unique_for_overwrite<std::byte[]>(bytes);
+    localizer_ = std::make_unique<Localizer>(problem, plan.options,
+                                             std::span<std::byte>(memory_.get(), bytes),
+                                             settings.threads, settings.kernels);
+    if (settings.onboard_record != nullptr)
+      settings.onboard_record->begin(recordInputs(problem), problem, plan.options);
+  }
+
+  StepReport step(const std::stop_token& stop) override {
+    if (settings_.method != nullptr && !outside_)
+      outside_.emplace(*localizer_, *settings_.method, stop);
+    RecordWriter* onboard = settings_.onboard_record;
+    if (changes_.takeUp(*localizer_, traces.front().complete()) && onboard != nullptr)
+      onboard->changeOptions(localizer_->options(), localizer_->workspace().iterations);
+    if (outside_) outside_->serve();
+    const StepReport report = localizer_->step();
+    if (onboard != nullptr) onboard->note(*localizer_, report);
+    return report;
+  }
+
+  int tasks() const override { return localizer_->tasks(); }
+  void runTask(int task, int worker) override { localizer_->runTask(task, worker); }
+  int workers() const override { return settings_.threads; }
+
+  void noteEdges() override {
+    traces.front().edges = std::make_shared<const EdgeMapTrace>(
+        recordEdgeMap(localizer_->workspace().edges, settings_.level));
+  }
+
+  void noteIteration(const StepReport& report, const StageSeconds& seconds) override {
+    const Iteration* iteration = localizer_->workspace().iteration;
+    const bool complete = report.iteration_complete;
+    if (iteration == nullptr || (!complete && settings_.level != RecordLevel::kStages)) return;
+    LocalizationTrace& trace = traces.front();
+    IterationTrace recorded = recordIteration(*iteration, report.stage, settings_.level);
+    recorded.seconds = seconds;
+    if (trace.last_under_way) trace.iterations.pop_back();
+    trace.iterations.push_back(std::make_shared<const IterationTrace>(std::move(recorded)));
+    trace.last_under_way = !complete;
+  }
+
+  void noteSupport(const StageSeconds& seconds) override {
+    const Iteration* iteration = localizer_->workspace().iteration;
+    auto& iterations = traces.front().iterations;
+    if (iteration == nullptr || iterations.empty()) return;
+    IterationTrace judged = *iterations.back();
+    judged.status = iteration->status;
+    judged.seconds += seconds;
+    iterations.back() = std::make_shared<const IterationTrace>(std::move(judged));
+  }
+
+  void finish() override {
+    if (settings_.onboard_record != nullptr) settings_.onboard_record->end(*localizer_);
+    LocalizationTrace& trace = traces.front();
+    const Workspace& workspace = localizer_->workspace();
+    if (!trace.edges) noteEdges();
+    trace.finished = true;
+    trace.support = workspace.support;
+    trace.partial = workspace.partial;
+    trace.attempts = workspace.attempts;
+    trace.rivals.assign(workspace.rivals.begin(), workspace.rivals.end());
+    trace.status = workspace.status;
+    trace.fault = workspace.fault;
+    trace.camera_from_station = workspace.camera_from_station;
+    trace.covariance = workspace.covariance;
+    trace.digest = hexText(localizer_->digest()).data();
+    trace.arena_bytes = localizer_->highWaterBytes();
+  }
+
+ private:
+  RunSettings settings_;
+  PlannedChanges changes_;
+  std::unique_ptr<std::byte[]> memory_;
+  std::unique_ptr<Localizer> localizer_;
+  std::optional<OutsideMatching> outside_;
+};
+
+}  // namespace
+
+std::unique_ptr<SteppedRun> stepOneView(const LocalizationProblem& problem, const RunPlan& plan,
+                                        const RunSettings& settings) {
+  return std::make_unique<OneView>(problem, plan, settings);
+}
+
+}  // namespace boresight::sessions

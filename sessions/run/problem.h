@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// From inputs that were read to a problem that can be run.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/localizer/problem.h"
+#include "sessions/io/pose_file.h"
+#include "sessions/io/scene_mesh.h"
+#include "sessions/run/trace.h"
+
+namespace boresight::sessions {
+
+/// A problem from inputs that were read; points to image, mask (nullptr: none) and mesh.
+LocalizationProblem problemOf(const ImageView& image, const BitImage* ignore, const Camera& camera,
+                              const MeshView& mesh, const Pose& camera_from_station_seed,
+                              const DeclaredUncertainty& uncertainty);
+
+/// Why a run from this seed makes no sense, or "": the matched parts lie behind the camera, or
+/// nothing of them is inside the image. Whether what is seen suffices is for the run to find out.
+std::string seedConcern(const Camera& camera, const MeshView& mesh,
+                        const Pose& camera_from_station_seed);
+
+/// InputError of the mesh when its size cannot be right at this seed, and of `file` and `place`
+/// when there is a seedConcern.
+void requireSensibleSeed(const Camera& camera, const SceneMesh& scene,
+                         const Pose& camera_from_station_seed, const std::filesystem::path& file,
+                         const std::string& place);
+
+/// Where the inputs of a run come from: a file, and a place in it.
+struct InputPlaces {
+  struct Place {
+    std::filesystem::path file;
+    std::string field;  ///< may be empty
+  };
+  Place image, camera, mesh, seed;
+};
+
+/// InputError of the input that the core refused although the readers let it pass.
+void requireAccepted(const LocalizationTrace& trace, const InputPlaces& places);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/run/runner.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "sessions/run/stepped_run.h"
+#include "sessions/run/worker_pool.h"
+
+namespace boresight::sessions {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+RunSettings resolved(RunSettings settings) {
+  const bool limited = settings.memory_limit > 0;
+  settings.threads = limited && settings.threads == 0 ? 1 : threadsOf(settings.threads);
+  if (limited) settings.kernels = Kernels::kPortable;
+  return settings;
+}
+
+}  // namespace
+
+int threadsOf(int asked, int jobs) {
+  if (asked > 0) return std::min(asked, Localizer::kMaxWorkers);
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  return std::clamp(cores / std::max(1, jobs), 1, Localizer::kMaxWorkers);
+}
+
+std::size_t inputBytes(const LocalizationProblem& problem) {
+  const ImageView& image = problem.image;
+  const MeshView& mesh = problem.mesh;
+  return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) +
+         (problem.ignore != nullptr ? problem.ignore->words.size_bytes() : 0) +
+         mesh.vertices_in_station_m.size_bytes() + mesh.faces.size_bytes() +
+         mesh.part_of_face.size_bytes() + mesh.parts.size_bytes();
+}
+
+Runner::Runner(const LocalizationProblem& problem, const RunPlan& plan,
+               const RunSettings& settings) {
+  const Clock::time_point start = Clock::now();
+  stepped_ = stepOneView(problem, plan, resolved(settings));
+  stepped_->traces.front().seconds.initialization = secondsSince(start);
+}
+
+Runner::Runner(const ViewsProblem& problem, const LocalizerOptions& options,
+               const std::vector<std::string>& case_ids, const RunSettings& settings) {
+  const Clock::time_point start = Clock::now();
+  stepped_ = stepSeveralViews(problem, options, case_ids, resolved(settings));
+  const double seconds = secondsSince(start);
+  for (LocalizationTrace& trace : stepped_->traces) trace.seconds.initialization = seconds;
+}
+
+Runner::~Runner() = default;
+
+const std::vector<LocalizationTrace>& Runner::traces() const { return stepped_->traces; }
+
+const JointResult& Runner::joint() const { return stepped_->joint; }
+
+void Runner::advance(StepUntil until, const std::stop_token& stop) {
+  if (finished()) return;
+  if (!pool_) pool_ = std::make_unique<WorkerPool>(stepped_->workers());
+  if (until == StepUntil::kStage && traces().size() > 1) until = StepUntil::kIteration;
+  while (!finished() && !stop.stop_requested()) {
+    const StepReport report = step(stop);
+    if (until == StepUntil::kStage && report.stage_complete) return;
+    if (until == StepUntil::kIteration && report.iteration_complete) return;
+  }
+}
+
+/// One slice, by all threads; nothing is reported of one that was stopped on the way.
+StepReport Runner::step(const std::stop_token& stop) {
+  const Clock::time_point start = Clock::now();
+  if (pool_->workers() > 1 && stepped_->tasks() > 1) {
+    pool_->run(
+        stepped_->tasks(), [this](int task, int worker) { stepped_->runTask(task, worker); }, stop);
+    if (stop.stop_requested()) return StepReport::of(trace().stage, false);
+  }
+  const StepReport report = stepped_->step(stop);
+  note(report, secondsSince(start));
+  return report;
+}
+
+void Runner::note(const StepReport& report, double seconds) {
+  for (LocalizationTrace& trace : stepped_->traces) {
+    trace.stage = report.stage;
+    trace.seconds.add(report.stage, seconds);
+  }
+  if (report.stage != Stage::kEdges) iteration_seconds_.add(report.stage, seconds);
+  const bool support = report.stage == Stage::kSupport && !report.iteration_complete;
+  if (report.stage == Stage::kEdges && report.stage_complete) {
+    stepped_->noteEdges();
+  } else if (support && report.stage_complete) {
+    stepped_->noteSupport(iteration_seconds_);
+    iteration_seconds_ = {};
+  } else if (report.stage != Stage::kEdges && !support &&
+             (report.stage_complete || report.iteration_complete)) {
+    stepped_->noteIteration(report, iteration_seconds_);
+    if (report.iteration_complete) iteration_seconds_ = {};
+  }
+  if (report.finished) stepped_->finish();
+}
+
+void refuse(LocalizationTrace& trace, Status fault) {
+  trace.status = LocalizationStatus::kFault;
+  trace.fault = fault;
+  trace.finished = true;
+}
+
+LocalizationTrace localize(const LocalizationProblem& problem, const RunPlan& plan,
+                           const RunSettings& settings, const std::stop_token& stop) {
+  Runner run(problem, plan, settings);
+  run.advance(StepUntil::kEnd, stop);
+  return run.trace();
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "core/base/kernels.h"
+#include "core/record/record_writer.h"
+#include "core/views/views_problem.h"
+#include "sessions/run/trace.h"
+
+namespace boresight::sessions {
+
+class MatchingMethod;  // sessions/run/matching_method.h
+class SteppedRun;      // sessions/run/stepped_run.h
+class WorkerPool;      // sessions/run/worker_pool.h
+
+/// All memory of the flight profile, in bytes: image, ignore mask, mesh and the localizer's block.
+inline constexpr std::size_t kFlightMemoryBytes = 10'000'000;
+
+/// How a run is carried out; what is computed does not depend on it.
+struct RunSettings {
+  RecordLevel level = RecordLevel::kFull;
+  std::size_t memory_limit = 0;  ///< bytes, inputs and the localizer's block; 0: no limit
+  /// 1 ... Localizer::kMaxWorkers; 0: one per core, and one where there is a memory limit.
+  int threads = 0;
+  /// What the inner loops use of the processor. Within a limit always the portable ones: wide
+  /// registers need more memory, and the limit is that of a machine without them.
+  Kernels kernels = bestKernels();
+  /// Notes the run as the flight side would, if given: from its first block to its last.
+  RecordWriter* onboard_record = nullptr;
+  /// Matches in place of WHS, if given; then the result is the method's.
+  MatchingMethod* method = nullptr;
+};
+
+/// What several views gave together.
+struct JointResult {
+  ViewsResult result;
+  std::string digest;  ///< of all views
+};
+
+/// How far a step goes.
+enum class StepUntil { kStage, kIteration, kEnd };
+
+/// The one loop around Localizer::step() and ViewsLocalizer::step() on the ground: takes memory for
+/// the whole run, steps with all threads, times, and keeps a trace. It halts where its caller wants
+/// to look (after a stage, after an iteration, at the end, or between two slices when it is
+/// stopped), and can go on from there. Neither halting nor recording changes a bit of the result.
+/// One calling thread at a time.
+class Runner {
+ public:
+  /// What `problem` points to must outlive the object. A problem or plan that cannot run, or not
+  /// within the limit (kArenaTooSmall), is a finished trace with kFault and without iterations.
+  /// With a limit the localizer gets all that the inputs leave of it. Throws std::bad_alloc, and
+  /// MethodError when the method, if any, cannot begin.
+  Runner(const LocalizationProblem& problem, const RunPlan& plan, const RunSettings& settings = {});
+  /// Several views that are solved as one (core/views). `case_ids` name them in their order. Of the
+  /// settings, threads and kernels count.
+  Runner(const ViewsProblem& problem, const LocalizerOptions& options,
+         const std::vector<std::string>& case_ids, const RunSettings& settings = {});
+  ~Runner();
+
+  /// Works on; nothing when it has finished. Several views halt after iterations, not after stages.
+  /// MethodError when the method, if any, cannot go on.
+  void advance(StepUntil until, const std::stop_token& stop = {});
+
+  bool finished() const { return trace().finished; }
+  /// Everything up to now; of the first view, if there are several.
+  const LocalizationTrace& trace() const { return traces().front(); }
+  /// One per view in their order, each as if it were a run of its own. Iterations are those of the
+  /// first view's loop; in one that a view had no part in, its trace holds the pose of the others
+  /// in its camera and nothing else. Times are of all views together; a digest is that of all views
+  /// together and the view's number.
+  const std::vector<LocalizationTrace>& traces() const;
+  /// Of several views, once they have finished.
+  const JointResult& joint() const;
+
+ private:
+  StepReport step(const std::stop_token& stop);
+  void note(const StepReport& report, double seconds);
+
+  std::unique_ptr<SteppedRun> stepped_;
+  std::unique_ptr<WorkerPool> pool_;
+  StageSeconds iteration_seconds_;  ///< of the iteration under way
+};
+
+/// Runs a whole localization. A stop leaves the status at kRunning. Throws as Runner does.
+LocalizationTrace localize(const LocalizationProblem& problem, const RunPlan& plan,
+                           const RunSettings& settings, const std::stop_token& stop = {});
+inline LocalizationTrace localize(const LocalizationProblem& problem, const RunPlan& plan,
+                                  RecordLevel level, const std::stop_token& stop = {}) {
+  return localize(problem, plan, RunSettings{.level = level}, stop);
+}
+
+/// Number of threads of one of `jobs` runs at the same time: `asked`, or the share of the machine's
+/// cores for 0.
+int threadsOf(int asked, int jobs = 1);
+
+/// Bytes of what a problem points to: image, ignore mask, mesh.
+std::size_t inputBytes(const LocalizationProblem& problem);
+
+}  // namespace boresight::sessions

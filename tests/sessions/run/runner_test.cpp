@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/run/runner.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/example_case.h"
+
+namespace boresight::sessions {
+namespace {
+
+const test::ExampleCase& example() {
+  static const test::ExampleCase made("os");
+  return made;
+}
+
+const LocalizationTrace& wholeRun() {
+  static const LocalizationTrace made =
+      localize(example().problem(), defaultProfile(), RecordLevel::kFull);
+  return made;
+}
+
+TEST(Runner, HaltingChangesNoBit) {
+  for (const StepUntil until : {StepUntil::kStage, StepUntil::kIteration, StepUntil::kEnd}) {
+    Runner run(example().problem(), defaultProfile());
+    int halts = 0;
+    while (!run.finished() && halts < 10000) {
+      run.advance(until);
+      ++halts;
+    }
+    EXPECT_EQ(run.trace().digest, wholeRun().digest);
+    EXPECT_EQ(run.trace().iterations.size(), wholeRun().iterations.size());
+    if (until == StepUntil::kEnd) {
+      EXPECT_EQ(halts, 1);
+    } else {
+      EXPECT_GT(halts, 3);
+    }
+  }
+}
+
+TEST(Runner, StopsBetweenSlicesAndGoesOn) {
+  Runner run(example().problem(), defaultProfile());
+  std::stop_source stopped;
+  stopped.request_stop();
+  run.advance(StepUntil::kEnd, stopped.get_token());
+  EXPECT_FALSE(run.finished());
+  EXPECT_TRUE(run.trace().iterations.empty());
+  run.advance(StepUntil::kEnd);
+  EXPECT_EQ(run.trace().digest, wholeRun().digest);
+}
+
+TEST(Runner, ShowsEachStageOfTheIterationUnderWay) {
+  Runner run(example().problem(), defaultProfile(), {.level = RecordLevel::kStages});
+  run.advance(StepUntil::kStage);
+  EXPECT_EQ(run.trace().stage, Stage::kEdges);
+  ASSERT_NE(run.trace().edges, nullptr);
+  EXPECT_TRUE(run.trace().iterations.empty());
+
+  run.advance(StepUntil::kStage);
+  ASSERT_EQ(run.trace().iterations.size(), 1u);
+  EXPECT_TRUE(run.trace().last_under_way);
+  EXPECT_EQ(run.trace().iterations[0]->reached, Stage::kRender);
+  EXPECT_GT(run.trace().iterations[0]->edge_pixel_count, 100);
+  EXPECT_TRUE(run.trace().iterations[0]->templates.empty());
+
+  run.advance(StepUntil::kStage);
+  EXPECT_EQ(run.trace().iterations[0]->reached, Stage::kTemplates);
+  EXPECT_GT(run.trace().iterations[0]->template_count, 6);
+
+  run.advance(StepUntil::kStage);
+  EXPECT_EQ(run.trace().iterations[0]->reached, Stage::kMatch);
+  EXPECT_EQ(run.trace().iterations[0]->matches.size(), run.trace().iterations[0]->templates.size());
+
+  run.advance(StepUntil::kStage);
+  EXPECT_EQ(run.trace().iterations[0]->reached, Stage::kPose);
+  EXPECT_FALSE(run.trace().iterations[0]->pnp.inlier.empty());
+}
+
+TEST(Runner, ASnapshotStaysWhatItWas) {
+  Runner run(example().problem(), defaultProfile());
+  run.advance(StepUntil::kIteration);
+  const LocalizationTrace before = run.trace();
+  const auto first = before.iterations.at(0);
+  const std::int32_t inliers = first->pnp.inlier_count;
+  run.advance(StepUntil::kEnd);
+  EXPECT_EQ(before.iterations.size(), 1u);
+  EXPECT_EQ(first->pnp.inlier_count, inliers);
+  EXPECT_EQ(run.trace().iterations.at(0), first) << "shared, not copied";
+}
+
+TEST(Runner, AProblemThatCannotRunIsFinishedWithAFault) {
+  LocalizationProblem problem = example().problem();
+  problem.mesh.faces = {};
+  Runner run(problem, defaultProfile());
+  run.advance(StepUntil::kEnd);
+  EXPECT_TRUE(run.finished());
+  EXPECT_EQ(run.trace().status, LocalizationStatus::kFault);
+  EXPECT_EQ(run.trace().fault, Status::kInvalidMesh);
+}
+
+}  // namespace
+}  // namespace boresight::sessions
