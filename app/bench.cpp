@@ -12,7 +12,7 @@
 #include "sessions/evaluation/run_result.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
-#include "sessions/session/examples.h"
+#include "sessions/session/session_maker.h"
 #include "sessions/text/text_table.h"
 #include "sessions/version.h"
 

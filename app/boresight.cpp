@@ -9,11 +9,9 @@
 #include <QTemporaryDir>
 
 #include "app/boresight_arguments.h"
-#include "app/documents/markdown_page.h"
-#include "app/documents/write_documents.h"
+#include "app/documents/manual_folder.h"
 #include "app/exit_codes.h"
 #include "app/plain_output.h"
-#include "sessions/version.h"
 #include "ui/window/application.h"
 #include "ui/window/main_window.h"
 #include "ui/window/screenshot.h"
@@ -40,15 +38,18 @@ int usageError(const std::string& message) {
   return kUsage;
 }
 
-int writeDocuments(const std::filesystem::path& folder) {
-  std::string problem = boresight::documents::writeDocuments(describeArguments(),
-                                                             boresight::sessions::kVersion, folder);
-  std::ofstream keys(folder / "manual" / "keys.md");
-  keys << keysPage();
+/// The pages of the manual that this program writes.
+int writePages(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  std::ofstream arguments(folder / "boresight.md");
+  std::ofstream keys(folder / "keys.md");
+  arguments << argumentsPage();
+  if (keys) keys << keysPage();  // made from a window: not where it cannot be written
+  arguments.close();
   keys.close();
-  if (problem.empty() && !keys) problem = "the page of keys cannot be written";
-  if (problem.empty()) return kDone;
-  std::cerr << "boresight: " << problem << "\n";
+  if (arguments && keys) return kDone;
+  std::cerr << "boresight: " << folder.string() << ": pages cannot be written there\n";
   return kBadInput;
 }
 
@@ -64,7 +65,7 @@ int main(int argc, char** argv) {
   if (!readArguments(application, arguments, problem)) return usageError(problem);
   if (arguments.self_test)
     return boresight::ui::runSelfTest(std::cout) == 0 ? kDone : kInternalFault;
-  if (!arguments.documents.empty()) return writeDocuments(arguments.documents);
+  if (!arguments.documents.empty()) return writePages(arguments.documents);
   if (arguments.dark) boresight::ui::useDarkColors(application);
   boresight::ui::MainWindow window;
   if (!arguments.screenshot.out.empty()) {

@@ -8,6 +8,8 @@
 #include <QCommandLineOption>
 #include <QCommandLineParser>
 
+#include "app/documents/manual_folder.h"
+
 namespace boresight::app {
 namespace {
 
@@ -52,8 +54,7 @@ struct Options {
 /// For those who build packages.
 QCommandLineOption documentsOption() {
   QCommandLineOption option(QStringLiteral("documents"),
-                            QStringLiteral("Write manual page and completions"),
-                            QStringLiteral("DIR"));
+                            QStringLiteral("Write pages of the manual"), QStringLiteral("DIR"));
   option.setFlags(QCommandLineOption::HiddenFromHelp);
   return option;
 }
@@ -73,16 +74,6 @@ bool readSize(const QString& text, ui::ScreenshotOrder& order) {
   if (!fine || width < 320 || height < 240 || width > 8192 || height > 8192) return false;
   order.size = {width, height};
   return true;
-}
-
-documents::Argument describe(const QCommandLineOption& option) {
-  documents::Argument argument;
-  for (const QString& name : option.names())
-    argument.names.push_back((name.size() == 1 ? "-" : "--") + name.toStdString());
-  argument.value = option.valueName().toStdString();
-  argument.help = option.description().toStdString();
-  argument.fallback = option.defaultValues().join(QLatin1Char(' ')).toStdString();
-  return argument;
 }
 
 }  // namespace
@@ -141,22 +132,17 @@ bool wantsNoDisplay(int count, char** values) {
   });
 }
 
-documents::Program describeArguments() {
-  documents::Program program;
-  program.name = "boresight";
-  program.help = kDescription;
-  for (const QCommandLineOption& option : Options().shown())
-    program.arguments.push_back(describe(option));
-  QCommandLineParser parser;
-  program.arguments.push_back(describe(parser.addHelpOption()));
-  program.arguments.push_back(describe(parser.addVersionOption()));
-  documents::Argument files;
-  files.position = "files";
-  files.value = "FILE";
-  files.help = kFilesHelp;
-  files.repeats = true;
-  program.arguments.push_back(files);
-  return program;
+std::string argumentsPage() {
+  using documents::markdownText;
+  std::string text = std::string("# boresight on the command line\n\n") + kDescription +
+                     "\n\n| argument | meaning |\n|---|---|\n| `files` | " +
+                     markdownText(kFilesHelp) + " |\n";
+  for (const QCommandLineOption& option : Options().shown()) {
+    const QStringList words = {QStringLiteral("--") + option.names().front(), option.valueName()};
+    text += "| `" + words.join(QLatin1Char(' ')).trimmed().toStdString() + "` | " +
+            markdownText(option.description().toStdString()) + " |\n";
+  }
+  return text;
 }
 
 }  // namespace boresight::app

@@ -7,7 +7,6 @@
 
 #include <QCoreApplication>
 
-#include "app/documents/program.h"
 #include "ui/window/screenshot.h"
 
 namespace boresight::app {
@@ -17,7 +16,7 @@ struct Arguments {
   bool self_test = false;
   ui::ScreenshotOrder screenshot;
   bool dark = false;
-  std::filesystem::path documents;  ///< where manual page and completions are written, or empty
+  std::filesystem::path documents;  ///< where pages of the manual are written, or empty
   std::vector<std::filesystem::path> files;
 };
 
@@ -28,7 +27,7 @@ bool readArguments(const QCoreApplication& application, Arguments& arguments, st
 /// Whether the command line asks for something that needs no display, so that it runs anywhere.
 bool wantsNoDisplay(int count, char** values);
 
-/// The command line, for manual page and completions.
-documents::Program describeArguments();
+/// The manual's page of the command line.
+std::string argumentsPage();
 
 }  // namespace boresight::app

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "app/commands.h"
-#include "app/frame_arguments.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/cahvor_file.h"
 #include "sessions/io/camera_conversion.h"

@@ -13,9 +13,9 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/review/checks.h"
-#include "sessions/review/checks_text.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/decision_json.h"
+#include "sessions/session/check.h"
+#include "sessions/session/decision.h"
 #include "sessions/session/session_document.h"
 
 namespace boresight::app {

@@ -2,14 +2,16 @@
 // What the subcommands of whs share: common arguments, messages.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include "app/exit_codes.h"
 #include "core/base/kernels.h"
 #include "core/localizer/localizer_options.h"
+#include "sessions/baselines/methods.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/io/scene_mesh.h"
@@ -42,6 +44,8 @@ void addPack(CLI::App& app, int& exit_code);
 void addExport(CLI::App& app, int& exit_code);
 void addImport(CLI::App& app, int& exit_code);
 void addProblem(CLI::App& app, int& exit_code);
+void addMerge(CLI::App& app, int& exit_code);
+void addTables(CLI::App& app, int& exit_code);
 void addDocuments(CLI::App& app, int& exit_code);
 
 /// A line to stderr for people, and one to stdout. What text from outside has in it does not break
@@ -92,6 +96,37 @@ struct OptionArguments {
   std::string profileName() const;
   /// Bytes for a run and its inputs; 0 where the profile sets no limit.
   std::size_t memoryLimit() const;
+};
+
+/// --transform: what joins the frame of a pose to that of a camera model.
+struct FrameArguments {
+  std::vector<std::string> files;
+
+  void addTo(CLI::App& command);
+  /// InputError.
+  sessions::PoseFrames of(const sessions::CameraFile& camera) const;
+};
+
+/// What --camera takes, for its help.
+inline constexpr const char* kCameraHelp =
+    "camera.json, a .cahvor file, or an image whose label has a camera model";
+/// The same where the image's own label does without it.
+inline constexpr const char* kOwnCameraHelp =
+    "camera.json, a .cahvor file, or an image whose label has a camera model; without it the "
+    "label of the image itself";
+
+/// --method and --matcher: how to localize.
+struct MethodArguments {
+  std::vector<std::string> methods = {sessions::kWhs};
+  std::string matcher;
+
+  /// Names that do not exist are refused with those that do.
+  void addTo(CLI::App& command, bool several);
+  bool needsSetup() const;
+  /// With the options of the methods among `options`. InputError, CLI::ValidationError.
+  sessions::MethodSetup setup(const OptionArguments& options) const;
+  /// What differs from their defaults, of methods that are not WHS.
+  sessions::OptionList changedOptions(const sessions::MethodOptions& options) const;
 };
 
 LocalizerOptions profileOptions(const std::string& name);

@@ -8,7 +8,6 @@
 #include "sessions/io/file_bytes.h"
 #include "sessions/record/compare_records.h"
 #include "sessions/record/record_of_run.h"
-#include "sessions/record/recorded_plan.h"
 #include "sessions/run/trace_file.h"
 #include "sessions/session/case_run.h"
 

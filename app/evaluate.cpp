@@ -17,10 +17,8 @@
 
 #include "app/bop_arguments.h"
 #include "app/commands.h"
-#include "app/method_arguments.h"
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/batch_facts.h"
-#include "sessions/evaluation/batch_progress.h"
 #include "sessions/evaluation/results_file.h"
 #include "sessions/evaluation/results_writer.h"
 #include "sessions/evaluation/summary.h"

@@ -10,7 +10,6 @@
 
 #include "app/bop_arguments.h"
 #include "app/commands.h"
-#include "app/info_lines.h"
 #include "app/info_poses.h"
 #include "sessions/annotation/landmarks.h"
 #include "sessions/annotation/marks_file.h"
@@ -18,7 +17,7 @@
 #include "sessions/io/camera_file.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/image_file.h"
-#include "sessions/io/json_document.h"
+#include "sessions/io/json_reader.h"
 #include "sessions/io/labels/image_label.h"
 #include "sessions/io/mesh_container.h"
 #include "sessions/record/onboard_record.h"
@@ -30,7 +29,6 @@
 #include "sessions/session/input_sheets.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
-#include "sessions/session/session_json.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::app {

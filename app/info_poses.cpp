@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/info_poses.h"
 
-#include "app/info_lines.h"
-#include "sessions/annotation/rig_file.h"
+#include "sessions/annotation/marks_file.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/run/run_text.h"
 

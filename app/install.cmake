@@ -2,28 +2,34 @@
 # The programs and what they need beside them: found relative to the program, never through the
 # build tree.
 
-# boresight_documents_of(PROGRAM ARGUMENT ...): manual pages and completions, made by the program itself.
+# boresight_documents_of(PROGRAM): its manual pages, which help2man writes from what --help prints, and
+# its completions. Without help2man there are no manual pages.
+find_program(BORESIGHT_HELP2MAN help2man)
+mark_as_advanced(BORESIGHT_HELP2MAN)
 function(boresight_documents_of program)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${program}_documents)
-  add_custom_command(OUTPUT ${folder}/man1/${program}.1
-    COMMAND ${CMAKE_COMMAND} -E rm -rf ${folder}
-    # Leaks of the libraries are looked for by tests, not by a build under a sanitizer.
-    COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 $<TARGET_FILE:${program}> ${ARGN}
-      ${folder}
-    DEPENDS ${program} VERBATIM
-    COMMENT "Writing manual pages and completions of ${program}")
-  add_custom_target(${program}_pages ALL DEPENDS ${folder}/man1/${program}.1)
-  install(DIRECTORY ${folder}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT programs)
-  install(DIRECTORY ${folder}/bash/
+  if(BORESIGHT_HELP2MAN)
+    add_custom_command(OUTPUT ${folder}/man1/${program}.1
+      COMMAND ${CMAKE_COMMAND} -E rm -rf ${folder}/man1
+      # Leaks of the libraries are looked for by tests, not by a build under a sanitizer.
+      COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0
+        ${CMAKE_CURRENT_SOURCE_DIR}/manual_pages.sh ${folder}/man1 $<TARGET_FILE:${program}>
+      DEPENDS ${program} manual_pages.sh VERBATIM
+      COMMENT "Writing manual pages of ${program}")
+    add_custom_target(${program}_pages ALL DEPENDS ${folder}/man1/${program}.1)
+    install(DIRECTORY ${folder}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT programs)
+  endif()
+  set(completions ${CMAKE_CURRENT_SOURCE_DIR}/completions)
+  install(FILES ${completions}/${program}
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT programs)
-  install(DIRECTORY ${folder}/zsh/
+  install(FILES ${completions}/_${program}
     DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT programs)
-  install(DIRECTORY ${folder}/fish/
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT programs)
 endfunction()
 
 install(TARGETS whs RUNTIME COMPONENT programs)
-boresight_documents_of(whs documents)
+boresight_documents_of(whs)
+install(FILES completions/whs.fish
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT programs)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/sessions/examples ${PROJECT_SOURCE_DIR}/resources/matchers
   DESTINATION ${CMAKE_INSTALL_DATADIR}/boresight COMPONENT programs
   PATTERN "*.boresight.*" EXCLUDE PATTERN node_modules EXCLUDE)
@@ -39,7 +45,7 @@ boresight_debian_documents(boresight programs)
 if(BORESIGHT_BUILD_UI)
   set(desktop ${PROJECT_SOURCE_DIR}/resources/desktop)
   install(TARGETS boresight RUNTIME COMPONENT programs)
-  boresight_documents_of(boresight --documents)
+  boresight_documents_of(boresight)
   install(FILES ${desktop}/boresight.desktop
     DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT programs)
   install(FILES ${desktop}/boresight-mime.xml
@@ -55,14 +61,15 @@ file(GLOB manual_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/resources/manua
   ${PROJECT_SOURCE_DIR}/resources/manual/pictures/*.png)
 file(GLOB taken_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/sessions/*/*.md
   ${PROJECT_SOURCE_DIR}/core/*.md ${PROJECT_SOURCE_DIR}/core/record/*.md)
-set(manual_pages --page ${CMAKE_CURRENT_BINARY_DIR}/whs_documents/manual/whs.md)
-set(manual_writers whs_pages)
 if(BORESIGHT_BUILD_UI)
-  foreach(page boresight keys)
-    list(APPEND manual_pages
-      --page ${CMAKE_CURRENT_BINARY_DIR}/boresight_documents/manual/${page}.md)
-  endforeach()
-  list(APPEND manual_writers boresight_pages)
+  set(written ${CMAKE_CURRENT_BINARY_DIR}/boresight_documents/manual)
+  add_custom_command(OUTPUT ${written}/boresight.md ${written}/keys.md
+    COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 $<TARGET_FILE:boresight>
+      --documents ${written}
+    DEPENDS boresight VERBATIM
+    COMMENT "Writing pages of the manual")
+  set(manual_writers ${written}/boresight.md ${written}/keys.md)
+  set(manual_pages --page ${written}/boresight.md --page ${written}/keys.md)
 endif()
 add_custom_command(OUTPUT ${manual}/index.md
   COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 $<TARGET_FILE:whs> documents

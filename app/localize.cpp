@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "app/commands.h"
-#include "app/method_arguments.h"
 #include "app/problem_inputs.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/atomic_file.h"

@@ -2,7 +2,6 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/results_commands.h"
 #include "sessions/evaluation/results_merge.h"
 
 namespace boresight::app {

@@ -4,7 +4,6 @@
 
 #include "app/bop_arguments.h"
 #include "app/commands.h"
-#include "app/frame_arguments.h"
 #include "sessions/io/camera_field.h"
 #include "sessions/io/errors.h"
 #include "sessions/record/onboard_record.h"

@@ -2,7 +2,7 @@
 #include "app/options_page.h"
 
 #include "app/commands.h"
-#include "app/documents/markdown_page.h"
+#include "app/documents/manual_folder.h"
 #include "sessions/baselines/methods.h"
 #include "sessions/session/check_limits.h"
 #include "sessions/text/text_table.h"

@@ -2,7 +2,7 @@
 #include "app/problem_inputs.h"
 
 #include "sessions/io/camera_field.h"
-#include "sessions/io/chosen_camera.h"
+#include "sessions/io/camera_file.h"
 #include "sessions/run/problem.h"
 
 namespace boresight::app {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/frame_arguments.h"
 #include "core/localizer/problem.h"
 #include "sessions/io/image_file.h"
 #include "sessions/io/pose_file.h"

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/frame_arguments.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/image_file.h"

@@ -4,12 +4,9 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/frame_arguments.h"
 #include "app/open_session.h"
 #include "sessions/annotation/marks_file.h"
-#include "sessions/annotation/rig_file.h"
 #include "sessions/annotation/solution_file.h"
-#include "sessions/annotation/solution_text.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/pose_file.h"

@@ -5,9 +5,8 @@
 #include <set>
 
 #include "app/commands.h"
-#include "app/results_commands.h"
 #include "sessions/io/atomic_file.h"
-#include "sessions/tables/failure_sheet.h"
+#include "sessions/tables/failures.h"
 #include "sessions/tables/method_tables.h"
 #include "sessions/tables/result_figures.h"
 #include "sessions/tables/results_difference.h"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
-#include "sessions/evaluation/pose_sigma.h"
+#include "sessions/evaluation/pose_error.h"
 #include "sessions/evaluation/rig_views.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"

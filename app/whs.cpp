@@ -4,10 +4,11 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <string_view>
 
 #include "app/commands.h"
+#include "app/complete.h"
 #include "app/plain_output.h"
-#include "app/results_commands.h"
 #include "sessions/io/errors.h"
 #include "sessions/run/matching_method.h"
 #include "sessions/text/plain_text.h"
@@ -69,6 +70,11 @@ int run(int argc, char** argv) {
   addDocuments(app, exit_code);
   for (CLI::App* command : app.get_subcommands({}))
     command->set_version_flag("--version", std::string("whs ") + sessions::kVersion);
+  if (argc > 1 && std::string_view(argv[1]) == "--complete") {  // what completions of shells call
+    for (const std::string& word : completions(app, {argv + 2, argv + argc}))
+      std::cout << word << "\n";
+    return kDone;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

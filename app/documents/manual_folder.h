@@ -2,10 +2,22 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 
 namespace boresight::documents {
+
+/// Text that a Markdown reader shows as it is, also in a cell of a table.
+std::string markdownText(const std::string& text);
+
+/// What becomes of a link's or a picture's target: where it leads instead, or "" to leave its text
+/// alone.
+using LinkTarget = std::function<std::string(const std::string& target)>;
+
+/// Markdown with every inline link `[text](target)` and picture `![text](target)` as `target_of`
+/// says. Blocks between ``` stay as they are.
+std::string withLinks(const std::string& markdown, const LinkTarget& target_of);
 
 /// Pages of the manual that the programs write of themselves, by file name: "options.md".
 using WrittenPages = std::map<std::string, std::string>;

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "core/accept/chance.h"
 #include "core/accept/partial_support.h"
 #include "core/accept/support_options.h"
 #include "core/base/image.h"

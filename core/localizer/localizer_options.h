@@ -10,7 +10,7 @@
 #include "core/base/options.h"
 #include "core/edges/edge_map.h"
 #include "core/localizer/wide_options.h"
-#include "core/pnp/pnp.h"
+#include "core/pnp/pnp_options.h"
 #include "core/refine/edge_refinement.h"
 #include "core/render/edge_render.h"
 #include "core/templates/template_selection.h"

@@ -15,7 +15,7 @@
 #include "core/localizer/task_list.h"
 #include "core/localizer/workspace.h"
 #include "core/match/whs.h"
-#include "core/pnp/pnp.h"
+#include "core/pnp/pnp_ransac.h"
 #include "core/refine/edge_refinement.h"
 #include "core/render/edge_render.h"
 #include "core/templates/template_selection.h"

@@ -106,21 +106,18 @@ Status PnpRansac::create(int max_correspondences, Arena& arena) {
 
 Status PnpRansac::begin(std::span<const Correspondence> correspondences, const Camera& camera,
                         const PosePrior& hypothesis, double threshold_px, const PnpOptions& options,
-                        PnpSolution& solution, const PosePrior* anchor) {
+                        PnpSolution& solution) {
   camera_ = camera;
   single_ = {&camera_, Pose(), static_cast<std::int32_t>(correspondences.size())};
-  return begin(correspondences, std::span(&single_, 1), hypothesis, threshold_px, options, solution,
-               anchor);
+  return begin(correspondences, std::span(&single_, 1), hypothesis, threshold_px, options,
+               solution);
 }
 
 Status PnpRansac::begin(std::span<const Correspondence> correspondences,
                         std::span<const PnpView> views, const PosePrior& hypothesis,
-                        double threshold_px, const PnpOptions& options, PnpSolution& solution,
-                        const PosePrior* anchor) {
+                        double threshold_px, const PnpOptions& options, PnpSolution& solution) {
   correspondences_ = correspondences;
   views_ = views;
-  anchored_ = anchor != nullptr;
-  if (anchored_) anchor_ = *anchor;
   hypothesis_ = hypothesis;
   if (!isUsable(hypothesis.camera_from_station)) hypothesis_.camera_from_station = Pose();
   threshold_px_ = threshold_px;
@@ -159,7 +156,6 @@ Status PnpRansac::validate(double threshold_px, const PosePrior& hypothesis) con
     if (prepareCamera(checked) != Status::kOk || !(view.camera->valid_radius > 0.0))
       return Status::kInvalidCamera;
   }
-  if (anchored_ && !isUsable(anchor_)) return Status::kInvalidPose;
   return isUsable(hypothesis) ? Status::kOk : Status::kInvalidPose;
 }
 
@@ -293,7 +289,7 @@ void PnpRansac::optimizeLocally() {
     if (count < kFewestInliersToRefit) return;
     Pose pose = best_;
     const Status status =
-        refinePose(correspondences_, selected, views_, anchor(), kLocalSteps, pose);
+        refinePose(correspondences_, selected, views_, nullptr, kLocalSteps, pose);
     Score found;
     if (status != Status::kOk || !score(pose, best_score_.cost, found)) return;
     best_ = pose;
@@ -354,7 +350,7 @@ Status PnpRansac::refine() {
   for (int round = 0; round < kRefineRounds && changed; ++round) {
     if (count < options_.min_inliers) return Status::kNoConsensus;
     const Status status =
-        refinePose(correspondences_, selected, views_, anchor(), options_.refine_iterations, pose);
+        refinePose(correspondences_, selected, views_, nullptr, options_.refine_iterations, pose);
     if (status != Status::kOk) return status;
     changed = selectInliers(pose, count);
   }

@@ -41,11 +41,10 @@ struct PnpSolution {
 /// - Stops when a sample of inliers alone has been drawn with the wanted confidence, given the
 ///   best pose's share of inliers, or at max_samples.
 /// - Last, refit to the inliers and select them anew until they stay the same. Both halves lower
-///   the score (unless an anchor pulls: then 20 rounds bound it), so this ends; the result
-///   minimizes the squares, with the anchor's, over the very inliers it reports.
+///   the score, so this ends; the result minimizes the squares over the inliers it reports.
 ///
 /// Statuses (of `begin` or `step`): kInvalidOption (options, or a threshold that is not positive
-/// below 1e6), kInvalidCamera (not prepared), kInvalidPose (hypothesis or anchor),
+/// below 1e6), kInvalidCamera (not prepared), kInvalidPose (hypothesis),
 /// kCapacityExceeded (more correspondences than `create` or the solution's spans allow for),
 /// kTooFewPoints (fewer usable correspondences than min_inliers), kDegenerate (no sample gives a
 /// pose, or the inliers do not determine one), kNoConsensus (fewer than min_inliers inliers). On
@@ -57,18 +56,16 @@ class PnpRansac {
   Status create(int max_correspondences, Arena& arena);
   /// `hypothesis` is where guided samples start and what their prior is about (sigma = uncertainty
   /// times prior_factor). Spans in `solution` must hold one entry per correspondence. The data must
-  /// outlive the steps. `anchor` is a Gaussian prior on the pose in all refits (what the matches
-  /// leave open stays near it), against the correspondences' sigma; it is not part of the
-  /// covariance.
+  /// outlive the steps.
   Status begin(std::span<const Correspondence> correspondences, const Camera& camera,
                const PosePrior& hypothesis, double threshold_px, const PnpOptions& options,
-               PnpSolution& solution, const PosePrior* anchor = nullptr);
-  /// The same from several views, at most kMaxPnpViews, which must outlive the steps: hypothesis,
-  /// anchor and solution are the first one's pose, scores and refits are over all views. A minimal
+               PnpSolution& solution);
+  /// The same from several views, at most kMaxPnpViews, which must outlive the steps: hypothesis
+  /// and solution are the first one's pose, scores and refits are over all views. A minimal
   /// sample is of one view (places are compared in their own images), a guided one may be of any.
   Status begin(std::span<const Correspondence> correspondences, std::span<const PnpView> views,
                const PosePrior& hypothesis, double threshold_px, const PnpOptions& options,
-               PnpSolution& solution, const PosePrior* anchor = nullptr);
+               PnpSolution& solution);
   /// One batch of samples, or the refinement; `done` when the solution is complete or a status
   /// other than kOk ended it.
   Status step(bool& done);
@@ -80,7 +77,6 @@ class PnpRansac {
     std::int32_t inliers = 0;
   };
 
-  const PosePrior* anchor() const { return anchored_ ? &anchor_ : nullptr; }
   Status validate(double threshold_px, const PosePrior& hypothesis) const;
   void listUsable();
   std::size_t viewOfUsable(std::int32_t k) const;
@@ -97,9 +93,6 @@ class PnpRansac {
   bool selectInliers(const Pose& camera_from_station, std::int32_t& count);
   Status refine();
   void writeSolution(const Pose& camera_from_station, bool with_inliers);
-
-  bool anchored_ = false;
-  PosePrior anchor_;
 
   // Scratch, one entry per correspondence.
   std::span<std::int32_t> usable_;       ///< indices; the first usable_count_ are valid

@@ -10,7 +10,8 @@
 #include "core/base/arena.h"
 #include "core/localizer/attempt.h"
 #include "core/localizer/pass.h"
-#include "core/pnp/pnp.h"
+#include "core/pnp/correspondence.h"
+#include "core/pnp/pnp_ransac.h"
 #include "core/views/views_problem.h"
 
 namespace boresight {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "sessions/annotation/predicted_place.h"
+#include "sessions/annotation/marks_on_image.h"
 #include "sessions/run/scene_render.h"
 
 namespace boresight::sessions {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "sessions/annotation/marked_view.h"
+#include "sessions/annotation/marks.h"
 
 namespace boresight::sessions {
 

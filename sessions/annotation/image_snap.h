@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+// Places in an image that a mark may snap to, to a fraction of a pixel. All of them work on the
+// 8-bit image as the core sees it and leave the choice to the caller.
+// Which of several places near a pointer a person most likely means.
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "core/base/image.h"
+#include "sessions/annotation/mesh_snap.h"
 
-// Places in an image that a mark may snap to, to a fraction of a pixel. All of them work on the
-// 8-bit image as the core sees it and leave the choice to the caller.
 namespace boresight::sessions {
 
 struct EdgeSnap {
@@ -41,5 +44,25 @@ struct EllipseSnap {
 /// than 60 % of the directions agree.
 std::optional<EllipseSnap> snapToEllipse(const ImageView& image, const Eigen::Vector2d& inside,
                                          double radius_px);
+
+enum class ImageSnapKind { kCorner, kEllipse, kEdge };
+
+/// A place of the image that a mark may snap to.
+struct ImageSnap {
+  ImageSnapKind kind = ImageSnapKind::kCorner;
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  double distance_px = 0.0;  ///< from the place that was asked about
+  EdgeSnap edge;             ///< of a kEdge
+  EllipseSnap ellipse;       ///< of a kEllipse
+};
+
+/// What there is within the radius of a place, the likeliest first: distance decides, but an edge,
+/// which is always nearer than the corner at its end, counts as half a radius farther. Of an
+/// ellipse the centre must lie within the radius, its rim within `rim_px` of the place.
+std::vector<ImageSnap> imageSnaps(const ImageView& image, const Eigen::Vector2d& near,
+                                  double radius_px, double rim_px);
+
+/// What `MeshSnapper::near` gives, in the same order of likelihood.
+std::vector<MeshSnap> likeliestFirst(std::vector<MeshSnap> snaps, double radius_px);
 
 }  // namespace boresight::sessions

@@ -8,9 +8,10 @@
 #include <Eigen/Eigenvalues>
 #include <nlohmann/json.hpp>
 
-#include "sessions/annotation/predicted_place.h"
+#include "sessions/annotation/image_snap.h"
+#include "sessions/annotation/marks_on_image.h"
 #include "sessions/io/atomic_file.h"
-#include "sessions/io/json_document.h"
+#include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
 
 namespace boresight::sessions {
@@ -63,6 +64,10 @@ double largestSigma_px(const PredictedPlace& place, const Matrix6d& covariance) 
   return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
 }
 
+constexpr double kSigmas = 3.0;
+constexpr double kLeastRadius_px = 2.0;
+constexpr double kMostRadius_px = 8.0;
+
 }  // namespace
 
 std::vector<Landmark> readLandmarks(const std::filesystem::path& file) {
@@ -71,9 +76,7 @@ std::vector<Landmark> readLandmarks(const std::filesystem::path& file) {
 }
 
 void writeLandmarks(const std::filesystem::path& file, const std::vector<Landmark>& landmarks) {
-  ordered_json json;
-  json["format"] = kFormat;
-  json["version"] = kVersion;
+  ordered_json json = {{"format", kFormat}, {"version", kVersion}};
   json["landmarks"] = ordered_json::array();
   for (const Landmark& landmark : landmarks) json["landmarks"].push_back(landmarkJson(landmark));
   writeFileAtomically(file, prettyJson(json), FileUse::kLandmarks);
@@ -113,6 +116,13 @@ std::vector<Proposal> proposeMarks(const std::vector<Landmark>& landmarks, const
     return a.seen != b.seen ? a.seen : a.landmark.name < b.landmark.name;
   });
   return proposals;
+}
+
+std::optional<Eigen::Vector2d> featureOf(const Proposal& proposal, const ImageView& image) {
+  const double radius_px = std::clamp(kSigmas * proposal.sigma_px, kLeastRadius_px, kMostRadius_px);
+  for (const ImageSnap& snap : imageSnaps(image, proposal.pixel, radius_px, 4.0 * radius_px))
+    if (snap.kind != ImageSnapKind::kEdge) return snap.pixel;
+  return std::nullopt;
 }
 
 }  // namespace boresight::sessions

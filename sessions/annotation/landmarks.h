@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/image.h"
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
@@ -52,5 +53,10 @@ struct Proposal {
 std::vector<Proposal> proposeMarks(const std::vector<Landmark>& landmarks, const Marks& marks,
                                    const MeshView& mesh, const Camera& camera,
                                    const Pose& camera_from_station, const Matrix6d* covariance);
+
+/// The corner or the centre of an ellipse that the image shows where a landmark should be: the
+/// likeliest within three sigma of the prediction, at least 2 and at most 8 px. Nothing where there
+/// is none: the prediction itself is no measurement.
+std::optional<Eigen::Vector2d> featureOf(const Proposal& proposal, const ImageView& image);
 
 }  // namespace boresight::sessions

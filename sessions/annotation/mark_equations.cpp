@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/annotation/mark_equations.h"
 
+#include <algorithm>
+
 #include <Eigen/Geometry>
 
-#include "sessions/annotation/predicted_place.h"
+#include "sessions/annotation/marks_on_image.h"
 
 namespace boresight::sessions {
 namespace {
@@ -48,10 +50,10 @@ struct EdgePlane {
   }
 };
 
-/// One end of the line; false where the camera cannot say which ray it is. `start_m` and `end_m`
+/// End `i` of the line; false where the camera cannot say which ray it is. `start_m` and `end_m`
 /// are the edge's in the camera frame.
 bool endResidual(const Camera& camera, const Eigen::Vector3d& start_m, const Eigen::Vector3d& end_m,
-                 const Eigen::Vector2d& seen, double& residual_px, Row6& predicted_by_xi) {
+                 const Eigen::Vector2d& seen, int i, MarkResidual& made) {
   Ray ray;
   EdgePlane plane;
   if (!unprojectRay(camera, seen, ray) || !plane.set(start_m - ray.origin_m, end_m - ray.origin_m))
@@ -67,11 +69,12 @@ bool endResidual(const Camera& camera, const Eigen::Vector3d& start_m, const Eig
   const double along_length = along.norm();
   if (!(along_length > 0.0)) return false;
   const double scale_px = (along.x() * across.y() - along.y() * across.x()) / along_length;
-  residual_px = scale_px * sine;
+  made.across[i] = Eigen::Vector2d(-along.y(), along.x()) / along_length;
+  made.residual_px[i] = scale_px * sine;
   // n = (a x b) / |a x b|: d n . d = (da x b + a x db) . m.
   const Eigen::Vector3d m = (d - sine * plane.normal) / plane.length;
-  predicted_by_xi = -scale_px * (rowOf(start_m, plane.b.cross(m).transpose()) +
-                                 rowOf(end_m, m.cross(plane.a).transpose()));
+  made.predicted_by_xi.row(i) = -scale_px * (rowOf(start_m, plane.b.cross(m).transpose()) +
+                                             rowOf(end_m, m.cross(plane.a).transpose()));
   return true;
 }
 
@@ -81,16 +84,23 @@ MarkResidual lineResidual(const Camera& camera, const LinePair& pair,
   const Eigen::Vector3d start_m = camera_from_station * pair.edge->start_in_station_m;
   const Eigen::Vector3d end_m = camera_from_station * pair.edge->end_in_station_m;
   if (!(start_m.z() > 0.0) || !(end_m.z() > 0.0)) return made;
-  const Eigen::Vector2d ends[2] = {pair.line->start, pair.line->end};
-  made.valid = true;
-  for (int i = 0; i < 2; ++i) {
-    Row6 row;
-    made.valid =
-        made.valid && endResidual(camera, start_m, end_m, ends[i], made.residual_px[i], row);
-    if (made.valid) made.predicted_by_xi.row(i) = row;
-  }
+  made.valid = endResidual(camera, start_m, end_m, pair.line->start, 0, made) &&
+               endResidual(camera, start_m, end_m, pair.line->end, 1, made);
   made.depth_m = 0.5 * (start_m.z() + end_m.z());
   return made;
+}
+
+constexpr int kMostSteps = 200;
+constexpr double kStepDone = 1e-11;  ///< rad, and m per m of distance
+constexpr double kFirstDamping = 1e-4;
+constexpr double kLargestDamping = 1e10;
+/// Near the minimum a good step changes the sum by less than its rounding error.
+constexpr double kRoundingOfCost = 1e-13;
+
+bool isNegligible(const Vector6d& xi, const Pose& pose) {
+  const double distance_m = std::max(pose.translation_m.cwiseAbs().maxCoeff(), 1e-3);
+  return xi.head<3>().cwiseAbs().maxCoeff() < kStepDone &&
+         xi.tail<3>().cwiseAbs().maxCoeff() < kStepDone * distance_m;
 }
 
 }  // namespace
@@ -134,6 +144,37 @@ NormalEquations markEquations(std::span<const MarkedView> views, std::span<const
     ++sum.projected;
   }
   return sum;
+}
+
+bool refineMarks(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
+                 std::span<const double> weight, Pose& rig_from_station,
+                 NormalEquations& equations) {
+  Pose pose = rig_from_station;
+  equations = markEquations(views, marks, weight, pose);
+  double damping = 0.0;
+  for (int step = 0; step < kMostSteps && damping <= kLargestDamping; ++step) {
+    Vector6d xi;
+    if (!solve(equations, damping, xi)) {
+      damping = std::max(kFirstDamping, damping * 10.0);
+      continue;
+    }
+    Pose next = perturbed(xi, pose);
+    next.rotation.normalize();
+    const NormalEquations there = markEquations(views, marks, weight, next);
+    const bool negligible = isNegligible(xi, pose);
+    if (next.isFinite() && there.cost() <= equations.cost() * (1.0 + kRoundingOfCost)) {
+      pose = next;
+      equations = there;
+      damping = damping <= kFirstDamping ? 0.0 : damping / 10.0;
+    } else {
+      damping = std::max(kFirstDamping, damping * 10.0);
+    }
+    if (negligible) break;
+  }
+  Vector6d unused;
+  if (equations.missing > 0 || !solve(equations, 0.0, unused)) return false;
+  rig_from_station = pose;
+  return true;
 }
 
 }  // namespace boresight::sessions

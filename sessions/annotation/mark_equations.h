@@ -4,7 +4,7 @@
 #include <span>
 
 #include "core/pnp/normal_equations.h"
-#include "sessions/annotation/marked_view.h"
+#include "sessions/annotation/marks.h"
 
 namespace boresight::sessions {
 
@@ -17,6 +17,8 @@ struct MarkResidual {
   Eigen::Vector2d residual_px = Eigen::Vector2d::Zero();
   /// d predicted / d xi, xi = (rotation rad, translation m), left perturbation, camera frame.
   Eigen::Matrix<double, 2, 6> predicted_by_xi = Eigen::Matrix<double, 2, 6>::Zero();
+  /// Of a line at either end: across the edge, unit length, to where a residual is positive.
+  Eigen::Vector2d across[2] = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   double depth_m = 0.0;  ///< of the point, or of the edge's middle
 };
 
@@ -31,5 +33,11 @@ Matrix6d adjoint(const Pose& camera_from_rig);
 /// 1) multiplies 1 / sigma^2. A mark that does not project counts as missing.
 NormalEquations markEquations(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
                               std::span<const double> weight, const Pose& rig_from_station);
+
+/// Least squares over marks from a start: damped Gauss-Newton steps until one is negligible. False
+/// when the marks do not determine the pose there; the pose is then left as it was.
+[[nodiscard]] bool refineMarks(std::span<const MarkedView> views,
+                               std::span<const MarkAddress> marks, std::span<const double> weight,
+                               Pose& rig_from_station, NormalEquations& equations);
 
 }  // namespace boresight::sessions

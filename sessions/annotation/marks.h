@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a person marked in one image: places in the image paired with places of the station.
+// Edits of marks as values: what an annotator's gestures do to them.
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
 
 namespace boresight::sessions {
 
@@ -68,5 +73,46 @@ struct Marks {
 
 /// "p1", "p2", ... (or with another letter): the first that no mark has.
 std::string unusedId(const Marks& marks, char letter);
+
+/// nullptr when there is none of this id.
+const PointPair* findPoint(const Marks& marks, const std::string& id);
+const LinePair* findLine(const Marks& marks, const std::string& id);
+
+/// The same marks with this one in place of that of id `replaced`, or at the end.
+Marks withPoint(Marks marks, const std::string& replaced, const PointPair& point);
+Marks withLine(Marks marks, const std::string& replaced, const LinePair& line);
+/// The same marks without one.
+Marks withoutMark(Marks marks, const std::string& id);
+
+/// A mark moved in the image as a whole, or by one end of its line (0 or 1). What has no place in
+/// the image stays as it is.
+Marks withMoved(Marks marks, const std::string& id, int end, const Eigen::Vector2d& to_px);
+
+/// The marks of one camera of a rig. A camera alone is a rig of its own, and so is a rig that did
+/// not move between several images.
+struct MarkedView {
+  std::string name;  ///< for people
+  Camera camera;     ///< after prepareCamera
+  Pose camera_from_rig;
+  Marks marks;
+};
+
+/// Which of the two kinds a mark is.
+enum class MarkKind { kPoint, kLine };
+
+/// A mark of one of the views.
+struct MarkAddress {
+  std::size_t view = 0;
+  MarkKind kind = MarkKind::kPoint;
+  std::size_t index = 0;  ///< among the view's points or lines
+
+  bool operator==(const MarkAddress&) const = default;
+};
+
+/// Every mark that takes part in solving, view by view, points first.
+std::vector<MarkAddress> usedMarks(std::span<const MarkedView> views);
+
+const std::string& markId(std::span<const MarkedView> views, const MarkAddress& at);
+double markSigma_px(std::span<const MarkedView> views, const MarkAddress& at);
 
 }  // namespace boresight::sessions

@@ -9,7 +9,7 @@
 
 #include "sessions/io/errors.h"
 #include "sessions/io/json_reader.h"
-#include "sessions/text/csv_field.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {
@@ -128,12 +128,9 @@ class RowReader {
   }
 
   double number(std::size_t column) const {
-    const std::string& field = text(column);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value))
-      fail(column, "'" + field + "' is not a number");
-    return value;
+    const auto value = numberIn<double>(text(column));
+    if (!value || !std::isfinite(*value)) fail(column, "'" + text(column) + "' is not a number");
+    return *value;
   }
 
   bool flag(std::size_t column) const {

@@ -7,9 +7,11 @@
 
 #include "sessions/annotation/marks_csv.h"
 #include "sessions/io/atomic_file.h"
+#include "sessions/io/camera_file.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/io/json_document.h"
+#include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
+#include "sessions/io/pose_file.h"
 
 namespace boresight::sessions {
 namespace {
@@ -23,10 +25,6 @@ constexpr double kMaxCoordinate_m = 1e6;
 
 Eigen::Vector3d readPlace(const JsonReader& json) {
   return json.vector3(-kMaxCoordinate_m, kMaxCoordinate_m);
-}
-
-ordered_json pixelJson(const Eigen::Vector2d& pixel) {
-  return ordered_json::array({pixel.x(), pixel.y()});
 }
 
 /// What points and lines have in common.
@@ -77,7 +75,7 @@ ordered_json pointJson(const PointPair& point) {
   ordered_json json;
   json["id"] = point.id;
   if (point.point_in_station_m) json["point_in_station_m"] = toJson(*point.point_in_station_m);
-  if (point.pixel) json["pixel"] = pixelJson(*point.pixel);
+  if (point.pixel) json["pixel"] = toJson(*point.pixel);
   writeCommon(point, json);
   return json;
 }
@@ -89,12 +87,29 @@ ordered_json lineJson(const LinePair& line) {
     json["edge_in_station_m"] = ordered_json::array(
         {toJson(line.edge->start_in_station_m), toJson(line.edge->end_in_station_m)});
   if (line.line)
-    json["line_px"] = ordered_json::array({pixelJson(line.line->start), pixelJson(line.line->end)});
+    json["line_px"] = ordered_json::array({toJson(line.line->start), toJson(line.line->end)});
   writeCommon(line, json);
   return json;
 }
 
 bool isTable(const std::filesystem::path& file) { return file.extension() == ".csv"; }
+
+std::vector<MarkedView> readViews(const JsonReader& root) {
+  std::vector<MarkedView> views;
+  std::set<std::string> names;
+  for (const JsonReader& json : root.at("views").elements()) {
+    MarkedView view;
+    view.name = json.at("name").nonEmptyText();
+    if (!names.insert(view.name).second)
+      json.failMember("name", "'" + view.name + "' is given twice");
+    view.camera = readCamera(json.at("camera").path());
+    view.camera_from_rig = readTransform(json.at("camera_from_rig"));
+    view.marks = readMarks(json.at("points").path());
+    views.push_back(view);
+  }
+  if (views.empty()) root.failMember("views", "there is none");
+  return views;
+}
 
 }  // namespace
 
@@ -141,11 +156,13 @@ void writeMarks(const std::filesystem::path& file, const Marks& marks) {
     writeFileAtomically(file, marksCsv(marks), FileUse::kMarks);
     return;
   }
-  ordered_json json;
-  json["format"] = kFormat;
-  json["version"] = kVersion;
+  ordered_json json = {{"format", kFormat}, {"version", kVersion}};
   json.update(toJson(marks));
   writeFileAtomically(file, prettyJson(json), FileUse::kMarks);
+}
+
+std::vector<MarkedView> readRig(const std::filesystem::path& file) {
+  return JsonDocument(file).read("boresight-rig", 1, readViews);
 }
 
 }  // namespace boresight::sessions

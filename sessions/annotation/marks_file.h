@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -30,5 +31,15 @@ void writeMarks(const std::filesystem::path& file, const Marks& marks);
 /// Marks inside another file: an object with `points` and `lines`, of which either may be missing.
 Marks readMarks(const JsonReader& json);
 nlohmann::ordered_json toJson(const Marks& marks);
+
+/// rig.json (`boresight-rig`, version 1): cameras that are solved as one, or images of cameras of a
+/// rig that did not move between them. Files are relative to rig.json.
+///
+///     {"format": "boresight-rig", "version": 1,
+///      "views": [{"name": "left", "camera": "left.json", "points": "left_points.json",
+///                 "camera_from_rig": [[4x4]]}, ...]}
+///
+/// InputError, also for no view and for a name given twice.
+std::vector<MarkedView> readRig(const std::filesystem::path& file);
 
 }  // namespace boresight::sessions

@@ -6,31 +6,37 @@
 #include <Eigen/Geometry>
 
 #include "sessions/annotation/mark_equations.h"
-#include "sessions/annotation/predicted_place.h"
+#include "sessions/run/surface_point.h"
 
 namespace boresight::sessions {
-namespace {
-
-/// Across the edge at a place near it, towards where `markResidual` counts as positive: a quarter
-/// turn from the way in which the edge's ray goes round the plane through the place where the ray
-/// starts.
-std::optional<Eigen::Vector2d> acrossEdge(const Camera& camera, const Pose& camera_from_station,
-                                          const ModelEdge& edge, const Eigen::Vector2d& seen) {
-  Ray ray;
-  if (!unprojectRay(camera, seen, ray)) return {};
-  const Eigen::Vector3d d = ray.direction.normalized();
-  Eigen::Vector2d pixel;
-  Eigen::Matrix<double, 2, 3> jacobian;
-  if (!projectWithJacobian(camera, ray.origin_m + d, pixel, jacobian)) return {};
-  const Eigen::Vector3d normal =
-      (camera_from_station * edge.start_in_station_m - ray.origin_m)
-          .cross(camera_from_station * edge.end_in_station_m - ray.origin_m)
-          .normalized();
-  const Eigen::Vector2d along = (jacobian * normal.cross(d)).normalized();
-  return Eigen::Vector2d(-along.y(), along.x());
+PredictedPlace predictPlace(const Camera& camera, const Pose& camera_from_station,
+                            const Eigen::Vector3d& point_in_station_m) {
+  PredictedPlace made;
+  const Eigen::Vector3d point = camera_from_station * point_in_station_m;
+  made.valid = projectWithJacobian(camera, point, made.pixel, made.pixel_by_point);
+  if (!made.valid) return made;
+  made.depth_m = point.z();
+  // The point moves by omega x p + v.
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector3d row = made.pixel_by_point.row(i).transpose();
+    made.pixel_by_xi.row(i) << point.cross(row).transpose(), row.transpose();
+  }
+  return made;
 }
 
-}  // namespace
+bool isInImage(const Camera& camera, const Eigen::Vector2d& pixel) {
+  return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < camera.width - 0.5 &&
+         pixel.y() < camera.height - 0.5;
+}
+
+bool isSeen(const Camera& camera, const MeshView& mesh, const Pose& camera_from_station,
+            const Eigen::Vector3d& point_in_station_m) {
+  const Eigen::Vector3d point = camera_from_station * point_in_station_m;
+  Eigen::Vector2d pixel;
+  if (!project(camera, point, pixel)) return false;
+  const auto surface = surfacePointAt(camera, mesh, camera_from_station, pixel);
+  return !surface || surface->depth_m > point.z() * (1.0 - kHidingShare);
+}
 
 std::vector<Eigen::Vector2d> edgeOnImage(const Camera& camera, const Pose& camera_from_station,
                                          const ModelEdge& edge, int pieces) {
@@ -59,11 +65,8 @@ std::vector<MarkVector> markVectors(const MarkedView& view, const Pose& camera_f
     const MarkResidual mark = markResidual(view, {0, MarkKind::kLine, i}, camera_from_station);
     if (!mark.valid) continue;
     const Eigen::Vector2d ends[2] = {line.line->start, line.line->end};
-    for (int end = 0; end < 2; ++end) {
-      const auto across = acrossEdge(view.camera, camera_from_station, *line.edge, ends[end]);
-      if (across)
-        vectors.push_back({line.id, ends[end] - mark.residual_px[end] * *across, ends[end]});
-    }
+    for (int end = 0; end < 2; ++end)
+      vectors.push_back({line.id, ends[end] - mark.residual_px[end] * mark.across[end], ends[end]});
   }
   return vectors;
 }

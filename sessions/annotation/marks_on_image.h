@@ -7,9 +7,37 @@
 
 #include <Eigen/Core>
 
-#include "sessions/annotation/marked_view.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/mesh.h"
+#include "core/geometry/pose.h"
+#include "sessions/annotation/marks.h"
 
 namespace boresight::sessions {
+
+/// Where a pose puts a point of the station in the image, and how that changes with the pose.
+struct PredictedPlace {
+  bool valid = false;  ///< false where the camera does not project it: the rest says nothing
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  double depth_m = 0.0;  ///< z in the camera frame
+  /// px per m of the camera frame.
+  Eigen::Matrix<double, 2, 3> pixel_by_point = Eigen::Matrix<double, 2, 3>::Zero();
+  /// d pixel / d xi, xi = (rotation rad, translation m), left perturbation, camera frame.
+  Eigen::Matrix<double, 2, 6> pixel_by_xi = Eigen::Matrix<double, 2, 6>::Zero();
+};
+PredictedPlace predictPlace(const Camera& camera, const Pose& camera_from_station,
+                            const Eigen::Vector3d& point_in_station_m);
+
+/// Whether a place lies on the image: pixel centres at whole numbers, each pixel one wide.
+bool isInImage(const Camera& camera, const Eigen::Vector2d& pixel);
+
+/// A surface hides a point when it is nearer by more than this share of the point's depth: what
+/// lies on the surface itself, and the rim of a hole about its centre, is seen.
+inline constexpr double kHidingShare = 0.005;
+
+/// Nothing of the mesh is clearly nearer on the same ray. Some milliseconds for a hundred thousand
+/// faces.
+bool isSeen(const Camera& camera, const MeshView& mesh, const Pose& camera_from_station,
+            const Eigen::Vector3d& point_in_station_m);
 
 /// An edge as the camera bends it: places along it, in order, from start to end; those that do not
 /// project are left out. `pieces` >= 1.

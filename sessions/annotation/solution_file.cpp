@@ -8,6 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/json_writer.h"
+#include "sessions/run/run_text.h"
+#include "sessions/text/plain_text.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {
@@ -16,29 +19,9 @@ using nlohmann::ordered_json;
 
 constexpr double kThousand = 1000.0;  ///< mm in a metre, mrad in a radian
 
-const char* kindName(GeometryWeakness weakness) {
-  switch (weakness) {
-    case GeometryWeakness::kTooFew:
-      return "too_few";
-    case GeometryWeakness::kFew:
-      return "few";
-    case GeometryWeakness::kCollinear:
-      return "collinear";
-    case GeometryWeakness::kCoplanar:
-      return "coplanar";
-    case GeometryWeakness::kClustered:
-      return "clustered";
-    case GeometryWeakness::kOneDepth:
-      return "one_depth";
-    case GeometryWeakness::kImprecise:
-      return "imprecise";
-  }
-  throw std::logic_error("no such weakness");
-}
-
-ordered_json pairJson(const Eigen::Vector2d& vector) {
-  return ordered_json::array({vector.x(), vector.y()});
-}
+/// By GeometryWeakness.
+constexpr const char* kWeaknessNames[] = {"too_few",   "few",       "collinear", "coplanar",
+                                          "clustered", "one_depth", "imprecise"};
 
 /// Roots of three entries of the diagonal, in thousandths.
 ordered_json sigmas(const Matrix6d& covariance, int first) {
@@ -67,8 +50,8 @@ ordered_json markJson(std::span<const MarkedView> views, const SolvedMark& mark,
   json["id"] = markId(views, mark.address);
   json["kind"] = mark.address.kind == MarkKind::kPoint ? "point" : "line";
   json["projected"] = mark.projected;
-  json["residual_px"] = pairJson(mark.residual_px);
-  json["residual_mm"] = pairJson(mark.residual_mm);
+  json["residual_px"] = toJson(mark.residual_px);
+  json["residual_mm"] = toJson(mark.residual_mm);
   json["normalized"] = mark.normalized;
   json["weight"] = mark.weight;
   if (without == nullptr) return json;
@@ -98,14 +81,52 @@ void addSolution(std::span<const MarkedView> views, const MarksSolution& solutio
   json["twin"]["rms_px"] = solution.twin->rms_px;
 }
 
+TextTable markTable(std::span<const MarkedView> views, const MarksSolution& solution,
+                    std::span<const LeftOut> left_out) {
+  TextTable table({"view", "mark", "kind", "dx px", "dy px", "dx mm", "dy mm", "sigmas", "weight",
+                   "without: mm", "mrad"});
+  for (std::size_t i = 0; i < solution.marks.size(); ++i) {
+    const SolvedMark& mark = solution.marks[i];
+    const LeftOut& without = left_out[i];
+    table.add({views[mark.address.view].name, markId(views, mark.address),
+               mark.address.kind == MarkKind::kPoint ? "point" : "line",
+               fixedText(mark.residual_px.x(), 3), fixedText(mark.residual_px.y(), 3),
+               fixedText(mark.residual_mm.x(), 3), fixedText(mark.residual_mm.y(), 3),
+               fixedText(mark.normalized, 1) + (mark.standsOut() ? " !" : ""),
+               fixedText(mark.weight, 2),
+               without.determined ? fixedText(without.translation_mm, 3) : "no pose",
+               without.determined ? fixedText(without.rotation_mrad, 3) : "-"});
+  }
+  return table;
+}
+
+std::string summaryLine(const MarksSolution& solution) {
+  std::string text = std::to_string(solution.marks.size()) + " marks, rms " +
+                     fixedText(solution.rms_px, 3) + " px, ";
+  if (solution.degrees_of_freedom == 0) return text + "none left over to check the pose";
+  return text + "noise " + fixedText(solution.noise_factor, 2) + " times the stated sigma (" +
+         std::to_string(solution.degrees_of_freedom) + " degrees of freedom)";
+}
+
+/// The poses that came out: the camera's, or of several views the rig's and then each camera's.
+std::string posesText(std::span<const MarkedView> views, const MarksSolution& solution) {
+  const auto ofView = [&](std::size_t i) {
+    return poseText(solution.camera_from_station[i], cameraCovariance(solution, views[i]));
+  };
+  if (views.size() == 1) return ofView(0);
+  std::string text = "the rig's pose:\n" +
+                     poseText(solution.rig_from_station, solution.covariance, "rig_from_station");
+  for (std::size_t i = 0; i < views.size(); ++i)
+    text += "\n" + plainLine(views[i].name + ":") + ofView(i);
+  return text;
+}
+
 }  // namespace
 
 void writeSolution(const std::filesystem::path& file, std::span<const MarkedView> views,
                    const MarksResult& result, std::span<const LeftOut> left_out,
                    std::span<const GeometryWarning> warnings, bool robust) {
-  ordered_json json;
-  json["format"] = "boresight-solution";
-  json["version"] = 1;
+  ordered_json json = {{"format", "boresight-solution"}, {"version", 1}};
   json["solved"] = result.solution.has_value();
   json["robust"] = robust;
   if (result.solution)
@@ -115,12 +136,31 @@ void writeSolution(const std::filesystem::path& file, std::span<const MarkedView
   json["warnings"] = ordered_json::array();
   for (const GeometryWarning& warning : warnings) {
     ordered_json one;
-    one["kind"] = kindName(warning.weakness);
+    one["kind"] = kWeaknessNames[static_cast<int>(warning.weakness)];
     one["prevents"] = warning.prevents;
     one["text"] = warning.text;
     json["warnings"].push_back(one);
   }
   writeJsonFile(file, json);
+}
+
+std::string solutionText(std::span<const MarkedView> views, const MarksSolution& solution,
+                         std::span<const LeftOut> left_out,
+                         std::span<const GeometryWarning> warnings) {
+  std::string text = markTable(views, solution, left_out).text();
+  text +=
+      "(dx, dy: seen minus predicted; of a line, both ends across the edge; !: stands out;\n"
+      "without: how far the middle of the marked places moves, and the pose turns)\n\n";
+  text += summaryLine(solution) + "\n";
+  for (const GeometryWarning& warning : warnings) text += plainLine("weak: " + warning.text);
+  text += "\n" + posesText(views, solution);
+  if (!solution.twin) return text;
+  text += "\nanother pose explains these marks with rms " + fixedText(solution.twin->rms_px, 3) +
+          " px:\n";
+  const Pose twin = views.size() == 1 ? views[0].camera_from_rig * solution.twin->rig_from_station
+                                      : solution.twin->rig_from_station;
+  return text + poseText(twin, Matrix6d::Zero(),
+                         views.size() == 1 ? "camera_from_station" : "rig_from_station");
 }
 
 }  // namespace boresight::sessions

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/geometry/pose.h"
-#include "sessions/annotation/marked_view.h"
+#include "sessions/annotation/marks.h"
 
 namespace boresight::sessions {
 

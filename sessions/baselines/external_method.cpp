@@ -1,47 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/baselines/external_method.h"
-
+// External matchers.
 #include <algorithm>
 
+#include <opencv2/imgproc.hpp>
+
 #include "sessions/baselines/matcher_client.h"
+#include "sessions/baselines/matching_methods.h"
 
 namespace boresight::sessions {
 namespace {
-
-/// A rectangle of both images.
-struct Frame {
-  int x = 0, y = 0, width = 0, height = 0;
-
-  ImageView of(const ImageView& image) const {
-    return {image.row(y) + x, width, height, image.stride};
-  }
-};
 
 /// Of a matcher that does not tell its own.
 constexpr int kFrameWidth_px = 640, kFrameHeight_px = 480;
 /// Frames with less of the object than this share are not worth a look.
 constexpr double kLeastObject = 0.02;
 
-/// The least frame that holds all that was rendered; empty when nothing was.
-Frame boundsOf(const ImageView& intensity) {
-  int x_min = intensity.width, y_min = intensity.height, x_max = -1, y_max = -1;
-  for (int y = 0; y < intensity.height; ++y) {
-    for (int x = 0; x < intensity.width; ++x) {
-      if (intensity.at(x, y) == 0) continue;
-      x_min = std::min(x_min, x);
-      x_max = std::max(x_max, x);
-      y_min = std::min(y_min, y);
-      y_max = y;
-    }
-  }
-  return x_max < 0 ? Frame{} : Frame{x_min, y_min, x_max - x_min + 1, y_max - y_min + 1};
-}
-
-double objectShare(const ImageView& intensity) {
-  std::int64_t rendered = 0;
-  for (int y = 0; y < intensity.height; ++y)
-    for (int x = 0; x < intensity.width; ++x) rendered += intensity.at(x, y) != 0 ? 1 : 0;
-  return static_cast<double>(rendered) / (double(intensity.width) * double(intensity.height));
+/// What a rectangle of both images holds of one of them.
+ImageView partOf(const ImageView& image, const cv::Rect& frame) {
+  return {image.row(frame.y) + frame.x, frame.width, frame.height, image.stride};
 }
 
 /// Beginnings of the fewest stretches of `length` that cover `begin` ... `begin + extent - 1`,
@@ -57,17 +33,17 @@ std::vector<int> stretches(int begin, int extent, int length, int size) {
   return starts;
 }
 
-std::vector<Frame> subframes(const ImageView& intensity, int width, int height) {
-  const Frame bounds = boundsOf(intensity);
-  const int frame_width = std::min(width, intensity.width);
-  const int frame_height = std::min(height, intensity.height);
-  std::vector<Frame> frames;
-  for (const int y : stretches(bounds.y, bounds.height, frame_height, intensity.height)) {
-    for (const int x : stretches(bounds.x, bounds.width, frame_width, intensity.width)) {
-      const Frame frame{x, y, frame_width, frame_height};
-      if (objectShare(frame.of(intensity)) >= kLeastObject) frames.push_back(frame);
+/// Frames of the size, or of the image where that is smaller, that cover all that was rendered.
+std::vector<cv::Rect> subframes(const cv::Mat& intensity, int width, int height) {
+  const cv::Rect bounds = cv::boundingRect(intensity);
+  const cv::Size size(std::min(width, intensity.cols), std::min(height, intensity.rows));
+  std::vector<cv::Rect> frames;
+  for (const int y : stretches(bounds.y, bounds.height, size.height, intensity.rows))
+    for (const int x : stretches(bounds.x, bounds.width, size.width, intensity.cols)) {
+      const cv::Rect frame(x, y, size.width, size.height);
+      if (cv::countNonZero(intensity(frame)) >= kLeastObject * frame.area())
+        frames.push_back(frame);
     }
-  }
   return frames;
 }
 
@@ -91,9 +67,10 @@ class ExternalMethod final : public MatchingMethod {
 
   void match(const MatchQuery& query, std::vector<SuppliedMatch>& found) override {
     const int most = query.options.templates.count;
-    for (const Frame& frame : framesOf(query)) {
-      const std::vector<PixelPair> pairs = client_->match(
-          frame.of(query.intensity), frame.of(query.image), most, options_.timeout_s, stop_);
+    for (const cv::Rect& frame : framesOf(query)) {
+      const std::vector<PixelPair> pairs =
+          client_->match(partOf(query.intensity, frame), partOf(query.image, frame), most,
+                         options_.timeout_s, stop_);
       for (const PixelPair& pair : pairs) take(query, frame, pair, found);
     }
     std::stable_sort(found.begin(), found.end(),
@@ -102,19 +79,19 @@ class ExternalMethod final : public MatchingMethod {
   }
 
  private:
-  std::vector<Frame> framesOf(const MatchQuery& query) {
+  std::vector<cv::Rect> framesOf(const MatchQuery& query) {
     const Iteration& iteration = query.iteration;
     if (iteration.attempt != attempt_) first_iteration_ = iteration.index;
     attempt_ = iteration.attempt;
     if (frames_ == ExternalFrames::kSubframes && iteration.index > first_iteration_) {
       const bool told = client_->width() > 0 && client_->height() > 0;
-      return subframes(query.intensity, told ? client_->width() : kFrameWidth_px,
+      return subframes(matOf(query.intensity), told ? client_->width() : kFrameWidth_px,
                        told ? client_->height() : kFrameHeight_px);
     }
-    return {Frame{0, 0, query.intensity.width, query.intensity.height}};
+    return {cv::Rect(0, 0, query.intensity.width, query.intensity.height)};
   }
 
-  static void take(const MatchQuery& query, const Frame& frame, const PixelPair& pair,
+  static void take(const MatchQuery& query, const cv::Rect& frame, const PixelPair& pair,
                    std::vector<SuppliedMatch>& found) {
     SuppliedMatch match;
     if (!query.pointAt({frame.x + pair.first_x, frame.y + pair.first_y}, match.item)) return;

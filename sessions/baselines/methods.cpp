@@ -4,19 +4,14 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "sessions/baselines/correlation_method.h"
-#include "sessions/baselines/external_method.h"
-#include "sessions/baselines/orb_method.h"
+#include "sessions/baselines/matching_methods.h"
 
 namespace boresight::sessions {
 namespace {
 
-std::unique_ptr<MatchingMethod> makeWhole(const MethodSetup& setup) {
-  return makeExternal(setup.matcher, setup.options.external, ExternalFrames::kWhole);
-}
-
-std::unique_ptr<MatchingMethod> makeSubframes(const MethodSetup& setup) {
-  return makeExternal(setup.matcher, setup.options.external, ExternalFrames::kSubframes);
+template <ExternalFrames frames>
+std::unique_ptr<MatchingMethod> makeExternalWith(const MethodSetup& setup) {
+  return makeExternal(setup.matcher, setup.options.external, frames);
 }
 
 using Make = std::unique_ptr<MatchingMethod> (*)(const MethodSetup&);
@@ -31,9 +26,9 @@ constexpr NamedMethod kMethods[] = {
     {"ncc", [](const MethodSetup& setup) { return makeNcc(setup.options.ncc); }},
     {"ssd", [](const MethodSetup& setup) { return makeSsd(setup.options.ssd); }},
     {"orb", [](const MethodSetup& setup) { return makeOrb(setup.options.orb); }},
-    {"external", makeWhole, true},
-    {"loftr-r", makeWhole, true},
-    {"loftr-s", makeSubframes, true},
+    {"external", makeExternalWith<ExternalFrames::kWhole>, true},
+    {"loftr-r", makeExternalWith<ExternalFrames::kWhole>, true},
+    {"loftr-s", makeExternalWith<ExternalFrames::kSubframes>, true},
 };
 
 const NamedMethod* findMethod(const std::string& name) {

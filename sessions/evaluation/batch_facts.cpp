@@ -70,9 +70,7 @@ void addMethodOptions(const OptionList& changed, MethodFacts& facts) {
   auto all = nlohmann::ordered_json::parse(facts.options);
   all.update(toJson(changed));
   facts.options = all.dump();
-  const std::string both = facts.options_sha256 + toJson(changed).dump();
-  facts.options_sha256 =
-      sha256Text({reinterpret_cast<const std::uint8_t*>(both.data()), both.size()});
+  facts.options_sha256 = sha256Text(facts.options_sha256 + toJson(changed).dump());
 }
 
 DatasetFacts datasetFacts(const Dataset& dataset) {

@@ -11,7 +11,7 @@
 #include "sessions/evaluation/reseed.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/image_container.h"
-#include "sessions/io/json_document.h"
+#include "sessions/io/json_reader.h"
 
 namespace boresight::sessions {
 namespace {
@@ -78,7 +78,7 @@ std::string digestOf(const Dataset& dataset) {
     for (const double v : {camera.fx, camera.fy, camera.cx, camera.cy}) text += " " + numberText(v);
     text += "\n";
   }
-  return sha256Text({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  return sha256Text(text);
 }
 
 class Reader {

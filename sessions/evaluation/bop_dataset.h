@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sessions/evaluation/bop_results.h"
+#include "sessions/evaluation/bop_scene.h"
 #include "sessions/evaluation/run_result.h"
 #include "sessions/io/dataset_file.h"
 

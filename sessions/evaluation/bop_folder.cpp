@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sessions/io/errors.h"
-#include "sessions/io/json_document.h"
+#include "sessions/io/json_reader.h"
 
 namespace boresight::sessions {
 namespace {

@@ -3,19 +3,23 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
-#include "sessions/io/json_document.h"
+#include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
 
 namespace boresight::sessions {
 namespace {
 
 using nlohmann::ordered_json;
+namespace fs = std::filesystem;
 
 constexpr double kMillimetres = 1000.0;
 constexpr double kMaxRotationDeviation = 1e-4;
@@ -88,6 +92,33 @@ void requireWritableAsBop(const std::filesystem::path& folder, const PosedImage&
                           "the image, the pose stays");
 }
 
+constexpr const char* kHeader = "scene_id,im_id,obj_id,score,R,t,time";
+constexpr double kSameTime_s = 0.001;
+
+void requireWritable(const fs::path& file, const BopResult& result,
+                     std::map<std::pair<int, int>, double>& times) {
+  const std::string image = "image " + std::to_string(result.image_id);
+  if (result.scene_id < 0 || result.image_id < 0 || result.object_id < 0)
+    throw OutputError(file, image + " has a negative id");
+  if (!result.camera_from_station.isFinite() || !std::isfinite(result.score))
+    throw OutputError(file, image + " has a pose or score that is not finite");
+  const auto [known, is_new] = times.insert({{result.scene_id, result.image_id}, result.seconds});
+  if (!is_new && std::abs(known->second - result.seconds) >= kSameTime_s)
+    throw OutputError(file, image + " has lines of different times, which is one for the image");
+}
+
+std::string lineOf(const BopResult& result) {
+  std::string line = std::to_string(result.scene_id) + "," + std::to_string(result.image_id) + "," +
+                     std::to_string(result.object_id) + "," + numberText(result.score) + ",";
+  const Eigen::Matrix3d rotation = result.camera_from_station.matrix();
+  for (int i = 0; i < 9; ++i) line += (i == 0 ? "" : " ") + numberText(rotation(i / 3, i % 3));
+  line += ",";
+  for (int i = 0; i < 3; ++i)
+    line += (i == 0 ? "" : " ") +
+            numberText(kMillimetres * result.camera_from_station.translation_m[i]);
+  return line + "," + numberText(result.seconds) + "\n";
+}
+
 }  // namespace
 
 void writeBopScene(const std::filesystem::path& folder, std::span<const BopObject> objects) {
@@ -140,6 +171,16 @@ std::vector<BopObject> readBopScene(const std::filesystem::path& camera_file,
   std::stable_sort(made.begin(), made.end(),
                    [](const BopObject& a, const BopObject& b) { return a.image.id < b.image.id; });
   return made;
+}
+
+void writeBopResults(const fs::path& file, std::span<const BopResult> results) {
+  std::map<std::pair<int, int>, double> times;
+  std::string text = std::string(kHeader) + "\n";
+  for (const BopResult& result : results) {
+    requireWritable(file, result, times);
+    text += lineOf(result);
+  }
+  writeFileAtomically(file, text);
 }
 
 }  // namespace boresight::sessions

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <vector>
+#include <utility>
+
+#include <Eigen/Geometry>
 
 #include "core/base/math.h"
-#include "sessions/evaluation/nearest_point.h"
 
 namespace boresight::sessions {
 namespace {
@@ -16,6 +17,19 @@ namespace {
 constexpr double kMillimetres = 1e3;
 constexpr int kTurnSteps = 315;  ///< bop_toolkit: ceil(pi / 0.01)
 constexpr int kRefinements = 48;
+
+/// From one point, as Eigen's tree asks for it.
+struct SquaredDistance {
+  using Scalar = double;
+  const Eigen::Vector3d& from;
+
+  double minimumOnVolume(const Eigen::AlignedBox3d& box) const {
+    return box.squaredExteriorDistance(from);
+  }
+  double minimumOnObject(const Eigen::Vector3d& point) const {
+    return (point - from).squaredNorm();
+  }
+};
 
 /// What a pose that looks like the truth costs; may stop, with anything not below it, at `bound`.
 using Cost = std::function<double(const Pose& camera_from_station, double bound)>;
@@ -189,6 +203,18 @@ PoseError wholeError(const Camera& camera, const Pose& camera_from_station_true,
   error.add_mm = kMillimetres * meanDistance_m(truth, estimate, model);
   error.adi_mm = kMillimetres * meanNearestDistance_m(truth, estimate, model);
   return error;
+}
+
+NearestPoint::NearestPoint(const std::vector<Eigen::Vector3d>& points) : empty_(points.empty()) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Eigen::Vector3d& point : points) boxes.emplace_back(point);
+  tree_.init(points.begin(), points.end(), boxes.begin(), boxes.end());
+}
+
+double NearestPoint::distance(const Eigen::Vector3d& point) const {
+  if (empty_) return std::numeric_limits<double>::infinity();
+  SquaredDistance to{point};
+  return std::sqrt(Eigen::BVMinimize(tree_, to));
 }
 
 }  // namespace boresight::sessions

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
+#include <unsupported/Eigen/BVH>
 
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/io/symmetries.h"
+#include "sessions/io/dataset_file.h"
 
 namespace boresight::sessions {
 
@@ -46,5 +49,18 @@ double meanNearestDistance_m(const Pose& camera_from_station_true,
 PoseError wholeError(const Camera& camera, const Pose& camera_from_station_true,
                      const Pose& camera_from_station_estimated,
                      const std::optional<Pose>& camera_from_end_effector, const ModelView& model);
+
+/// Finds the nearest of many points. Any unit.
+class NearestPoint {
+ public:
+  explicit NearestPoint(const std::vector<Eigen::Vector3d>& points);
+
+  /// From `point` to the nearest; infinity when there are none.
+  double distance(const Eigen::Vector3d& point) const;
+
+ private:
+  Eigen::KdBVH<double, 3, Eigen::Vector3d> tree_;
+  bool empty_ = true;
+};
 
 }  // namespace boresight::sessions

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 
 #include "core/base/math.h"
 
@@ -19,6 +21,22 @@ double twistAboutZ_rad(const Eigen::Quaterniond& rotation) {
   const double sign = rotation.w() < 0.0 ? -1.0 : 1.0;
   const double twist_rad = 2.0 * arcTangent2(sign * rotation.z(), sign * rotation.w());
   return twist_rad <= -kPi ? twist_rad + 2.0 * kPi : twist_rad;
+}
+
+/// How a point of the camera frame moves: d = r x p + t.
+Eigen::Matrix<double, 3, 6> displacementOf(const Eigen::Vector3d& p) {
+  Eigen::Matrix<double, 3, 6> displacement;
+  displacement << 0.0, p.z(), -p.y(), 1.0, 0.0, 0.0,  //
+      -p.z(), 0.0, p.x(), 0.0, 1.0, 0.0,              //
+      p.y(), -p.x(), 0.0, 0.0, 0.0, 1.0;
+  return displacement;
+}
+
+/// Three significant digits.
+std::string shortNumber(double value) {
+  char text[32];
+  (void)std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
 }
 
 }  // namespace
@@ -62,16 +80,27 @@ std::optional<double> projectionError(const Camera& camera, const Pose& camera_f
   return sum_px / static_cast<double>(count);
 }
 
+const std::array<JudgedFigure, 4> kJudgedFigures = {{
+    {&Requirement::normal_mm, [](const PoseError& e) { return std::optional(e.normal_mm); }},
+    {&Requirement::lateral_mm, [](const PoseError& e) { return std::optional(e.lateral_mm); }},
+    {&Requirement::rotation_deg,
+     [](const PoseError& e) {
+       return std::optional(e.rotation_mrad / kMilliradians / kDegree_rad);
+     }},
+    {&Requirement::projection_px, [](const PoseError& e) { return e.projection_px; }},
+}};
+
+std::optional<double> rotationLimit_mrad(const Requirement& requirement) {
+  if (!requirement.rotation_deg) return std::nullopt;
+  return *requirement.rotation_deg * kMradPerDegree;
+}
+
 bool meetsRequirement(const PoseError& error, const Requirement& requirement, double factor) {
-  const auto within = [factor](const std::optional<double>& limit, double value) {
-    return !limit || std::abs(value) <= factor * *limit;
-  };
-  if (requirement.projection_px && !error.projection_px) return false;
-  const double rotation_deg = error.rotation_mrad / kMilliradians / kDegree_rad;
-  return within(requirement.normal_mm, error.normal_mm) &&
-         within(requirement.lateral_mm, error.lateral_mm) &&
-         within(requirement.rotation_deg, rotation_deg) &&
-         within(requirement.projection_px, error.projection_px.value_or(0.0));
+  return std::all_of(kJudgedFigures.begin(), kJudgedFigures.end(), [&](const JudgedFigure& one) {
+    const std::optional<double> limit = requirement.*one.limit;
+    const std::optional<double> value = one.error(error);
+    return !limit || (value && std::abs(*value) <= factor * *limit);
+  });
 }
 
 bool isGross(const PoseError& error, const Requirement& requirement) {
@@ -92,6 +121,78 @@ Statistics statistics(std::span<const double> values) {
     variance += (value - result.mean) * (value - result.mean) / count;
   result.deviation = std::sqrt(variance);
   return result;
+}
+
+const char* judgedPlace(const std::optional<Pose>& camera_from_end_effector) {
+  return camera_from_end_effector ? "end effector" : "camera";
+}
+
+std::optional<PoseSigma> poseSigma(const Matrix6d& covariance,
+                                   const std::optional<Pose>& camera_from_end_effector) {
+  if (!covariance.allFinite() || covariance.isZero(0.0)) return std::nullopt;
+  const Eigen::Matrix<double, 3, 6> displacement = displacementOf(
+      camera_from_end_effector ? camera_from_end_effector->translation_m : Eigen::Vector3d::Zero());
+  const Eigen::Vector3d moved = (displacement * covariance * displacement.transpose()).diagonal();
+  const Eigen::Vector3d turned = covariance.diagonal().head<3>();
+  if (moved.minCoeff() < 0.0 || turned.minCoeff() < 0.0) return std::nullopt;
+  PoseSigma sigma;
+  sigma.translation_mm = 1e3 * moved.cwiseSqrt();
+  sigma.rotation_mrad = 1e3 * turned.cwiseSqrt();
+  sigma.normal_mm = sigma.translation_mm.z();
+  sigma.lateral_mm = std::hypot(sigma.translation_mm.x(), sigma.translation_mm.y());
+  sigma.out_of_plane_mrad = std::hypot(sigma.rotation_mrad.x(), sigma.rotation_mrad.y());
+  return sigma;
+}
+
+std::optional<double> projectionSigma(const Camera& camera, const Pose& camera_from_station,
+                                      std::span<const Eigen::Vector3f> points_in_station_m,
+                                      const Matrix6d& covariance) {
+  double variance = 0.0;
+  double seen = 0.0;
+  for (const Eigen::Vector3f& point : points_in_station_m) {
+    const Eigen::Vector3d p = camera_from_station * point.cast<double>();
+    Eigen::Vector2d pixel;
+    Eigen::Matrix<double, 2, 3> by_point;
+    if (!projectWithJacobian(camera, p, pixel, by_point)) continue;
+    const Eigen::Matrix<double, 2, 6> by_pose = by_point * displacementOf(p);
+    variance += (by_pose * covariance * by_pose.transpose()).trace();
+    seen += 1.0;
+  }
+  if (seen == 0.0 || !(variance >= 0.0)) return std::nullopt;
+  return std::sqrt(variance / seen);
+}
+
+double requirementShare(const PoseError& error, const Requirement& requirement) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  double share = 0.0;
+  for (const JudgedFigure& one : kJudgedFigures) {
+    const std::optional<double> allowed = requirement.*one.limit;
+    const double value = std::abs(one.error(error).value_or(kInfinite));
+    if (allowed) share = std::max(share, *allowed > 0.0 ? value / *allowed : kInfinite);
+  }
+  return share;
+}
+
+std::string sigmaExcessText(const Matrix6d& covariance,
+                            const std::optional<Pose>& camera_from_end_effector,
+                            const Requirement& requirement) {
+  const auto sigma = poseSigma(covariance, camera_from_end_effector);
+  if (!sigma) return "";
+  const std::string place = std::string(" at the ") + judgedPlace(camera_from_end_effector);
+  double most = 1.0;
+  std::string text;
+  const auto note = [&](double value, const std::optional<double>& allowed, const char* unit,
+                        const std::string& where) {
+    if (!allowed || !(value > most * *allowed)) return;
+    most = value / *allowed;
+    text = shortNumber(value) + unit + where + ", " + shortNumber(most) + " times the " +
+           shortNumber(*allowed) + unit + " required";
+  };
+  note(sigma->normal_mm, requirement.normal_mm, " mm", " along the view axis" + place);
+  note(sigma->lateral_mm, requirement.lateral_mm, " mm", " across the view axis" + place);
+  note(sigma->out_of_plane_mrad / kMradPerDegree, requirement.rotation_deg, " deg",
+       " of the view axis");
+  return text;
 }
 
 }  // namespace boresight::sessions

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include <Eigen/Core>
 
+#include "core/base/math.h"
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "sessions/io/dataset_file.h"
@@ -42,6 +45,18 @@ std::optional<double> projectionError(const Camera& camera, const Pose& camera_f
                                       const Pose& camera_from_station_estimated,
                                       std::span<const Eigen::Vector3f> vertices_in_station_m);
 
+inline constexpr double kMradPerDegree = 1e3 * kDegree_rad;
+
+/// A figure that a requirement may name, with what an error has of it, in the requirement's unit.
+struct JudgedFigure {
+  std::optional<double> Requirement::*limit;
+  std::optional<double> (*error)(const PoseError&);
+};
+/// Normal, lateral, rotation, projection.
+extern const std::array<JudgedFigure, 4> kJudgedFigures;
+/// Of the requirement's rotation, in the unit of PoseError.
+std::optional<double> rotationLimit_mrad(const Requirement& requirement);
+
 /// Within `factor` times everything that the requirement names. A named projection error that is
 /// not known does not meet it.
 bool meetsRequirement(const PoseError& error, const Requirement& requirement, double factor = 1.0);
@@ -57,5 +72,40 @@ struct Statistics {
   double maximum = 0.0;    ///< of the absolute values
 };
 Statistics statistics(std::span<const double> values);
+
+/// One sigma of a pose in the terms that requirements judge (compare PoseError).
+struct PoseSigma {
+  Eigen::Vector3d translation_mm = Eigen::Vector3d::Zero();  ///< along the camera's axes
+  Eigen::Vector3d rotation_mrad = Eigen::Vector3d::Zero();   ///< about the camera's axes
+  double normal_mm = 0.0;                                    ///< along the camera's axis
+  double lateral_mm = 0.0;         ///< across it: root of the sum of both variances
+  double out_of_plane_mrad = 0.0;  ///< between the axes: the same of the turns about x and y
+};
+
+/// Where translations are judged: "end effector", or "camera" where that is not known.
+const char* judgedPlace(const std::optional<Pose>& camera_from_end_effector);
+
+/// From a covariance over xi = (rotation rad, translation m) of the left perturbation in the camera
+/// frame. Translations are those of the end effector's origin p in the camera frame (the camera's
+/// centre without one): d = r x p + t. Nothing when the covariance is zero, not finite, or has a
+/// negative variance.
+std::optional<PoseSigma> poseSigma(const Matrix6d& covariance,
+                                   const std::optional<Pose>& camera_from_end_effector);
+
+/// One sigma of where points are seen: root of the mean over the points of the variance of both
+/// coordinates together, px. Nothing when none of them projects.
+std::optional<double> projectionSigma(const Camera& camera, const Pose& camera_from_station,
+                                      std::span<const Eigen::Vector3f> points_in_station_m,
+                                      const Matrix6d& covariance);
+
+/// The largest part of the requirement that the error takes up; above 1: beyond it.
+double requirementShare(const PoseError& error, const Requirement& requirement);
+
+/// What exceeds the requirement most of a pose's one sigma, as a clause: "10.4 mm across the view
+/// axis at the end effector, 26 times the 0.4 mm required". "" when nothing does, or the covariance
+/// is zero. A requirement in pixels is not asked.
+std::string sigmaExcessText(const Matrix6d& covariance,
+                            const std::optional<Pose>& camera_from_end_effector,
+                            const Requirement& requirement);
 
 }  // namespace boresight::sessions

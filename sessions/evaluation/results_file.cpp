@@ -9,35 +9,24 @@
 namespace boresight::sessions {
 namespace {
 
-const std::vector<std::string> kMethodColumns = {
-    "method", "profile", "options", "options_sha256", "reseed_scale", "mesh_of", "mirror", "note"};
-const std::vector<std::string> kSittingColumns = {
-    "began", "ended",   "version", "machine", "processor", "system", "command", "folder",
-    "jobs",  "threads", "kernels", "shard",   "reseeds",   "runs",   "seconds"};
-
 std::string schema() {
   return "CREATE TABLE fact (name TEXT PRIMARY KEY, value TEXT NOT NULL);"
-         "CREATE TABLE method (method TEXT PRIMARY KEY, profile TEXT NOT NULL, options TEXT NOT "
-         "NULL, options_sha256 TEXT NOT NULL, reseed_scale REAL NOT NULL, mesh_of TEXT NOT NULL, "
-         "mirror TEXT NOT NULL, note TEXT NOT NULL);"
-         "CREATE TABLE sitting (id INTEGER PRIMARY KEY, began TEXT NOT NULL, ended TEXT NOT NULL, "
-         "version TEXT NOT NULL, machine TEXT NOT NULL, processor TEXT NOT NULL, system TEXT NOT "
-         "NULL, command TEXT NOT NULL, folder TEXT NOT NULL, jobs INTEGER NOT NULL, threads "
-         "INTEGER NOT NULL, kernels TEXT NOT NULL, shard TEXT NOT NULL, reseeds INTEGER NOT NULL, "
-         "runs INTEGER NOT NULL, seconds REAL NOT NULL);"
-         "CREATE TABLE run (id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES "
+         "CREATE TABLE method (" +
+         methodTable().sql() + ");CREATE TABLE sitting (id INTEGER PRIMARY KEY, " +
+         sittingTable().sql() +
+         ");CREATE TABLE run (id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES "
          "sitting(id), " +
-         runColumnsSql() +
+         runTable().sql() +
          ", UNIQUE (case_id, reseed, method));"
          "CREATE INDEX run_order ON run (place, reseed, method);"
          "CREATE TABLE tag (run INTEGER NOT NULL REFERENCES run(id), tag TEXT NOT NULL, "
          "PRIMARY KEY (run, tag)) WITHOUT ROWID;"
          "CREATE INDEX tag_name ON tag (tag);"
          "CREATE TABLE iteration (run INTEGER NOT NULL REFERENCES run(id), " +
-         stepColumnsSql() +
+         stepTable().sql() +
          ", PRIMARY KEY (run, step)) WITHOUT ROWID;"
          "CREATE TABLE match (run INTEGER NOT NULL REFERENCES run(id), step INTEGER NOT NULL, " +
-         matchColumnsSql() + ", PRIMARY KEY (run, step, template)) WITHOUT ROWID;";
+         matchTable().sql() + ", PRIMARY KEY (run, step, template)) WITHOUT ROWID;";
 }
 
 /// Every object of a database, by type and name, with the SQL that created it.
@@ -71,29 +60,22 @@ void requireOwnObjects(SqlDatabase& database) {
                   remedy);
 }
 
-std::vector<MethodFacts> readMethods(SqlDatabase& database) {
-  SqlStatement statement(database,
-                         "SELECT " + joined(kMethodColumns) + " FROM method ORDER BY method");
-  std::vector<MethodFacts> methods;
-  while (statement.step())
-    methods.push_back({textOf(statement.cell(0)), textOf(statement.cell(1)),
-                       textOf(statement.cell(2)), textOf(statement.cell(3)),
-                       realOf(statement.cell(4)).value_or(1.0), textOf(statement.cell(5)),
-                       textOf(statement.cell(6)), textOf(statement.cell(7))});
-  return methods;
+/// All rows of a table.
+template <class Row>
+std::vector<Row> readRows(SqlDatabase& database, const RowTable<Row>& table,
+                          const std::string& from_and_order) {
+  const std::vector<std::string> names = table.names();
+  SqlStatement statement(database, "SELECT " + joined(names) + from_and_order);
+  std::vector<Row> rows;
+  while (statement.step()) rows.push_back(table.read(database.file(), names, statement.row()));
+  return rows;
 }
 
 std::vector<Sitting> readSittings(SqlDatabase& database) {
-  SqlStatement statement(database,
-                         "SELECT id, " + joined(kSittingColumns) + " FROM sitting ORDER BY id");
-  std::vector<Sitting> sittings;
-  while (statement.step()) {
-    const auto text = [&statement](int i) { return textOf(statement.cell(i)); };
-    const auto number = [&statement](int i) { return integerOf(statement.cell(i)); };
-    sittings.push_back({number(0), text(1), text(2), text(3), text(4), text(5), text(6), text(7),
-                        text(8), number(9), number(10), text(11), text(12), number(13), number(14),
-                        realOf(statement.cell(15)).value_or(0.0)});
-  }
+  std::vector<Sitting> sittings = readRows(database, sittingTable(), " FROM sitting ORDER BY id");
+  SqlStatement ids(database, "SELECT id FROM sitting ORDER BY id");
+  for (Sitting& sitting : sittings)
+    if (ids.step()) sitting.id = integerOf(ids.cell(0));
   return sittings;
 }
 
@@ -107,15 +89,22 @@ std::map<std::int64_t, std::vector<std::string>> readTags(SqlDatabase& database)
 
 void readRuns(SqlDatabase& database, const std::function<void(const RunResult&)>& take) {
   auto tags = readTags(database);
-  const std::vector<std::string> names = runColumnNames();
+  const std::vector<std::string> names = runTable().names();
   SqlStatement statement(database, "SELECT " + joined(names) +
                                        ", id FROM run ORDER BY place, case_id, reseed, method");
   while (statement.step()) {
     const std::vector<SqlValue> row = statement.row();
-    RunResult run = runFromRow(database.file(), names, row);
+    RunResult run = runTable().read(database.file(), names, row);
     run.tags = std::move(tags[integerOf(row.back())]);
     take(run);
   }
+}
+
+template <class Row>
+void insertRow(SqlDatabase& database, const std::string& name, const RowTable<Row>& table,
+               const Row& row) {
+  SqlStatement insertion(database, insertSql(name, table.names()));
+  insertion.run(table.values(row));
 }
 
 }  // namespace
@@ -156,20 +145,11 @@ void makeResultsTables(SqlDatabase& database, const DatasetFacts& dataset) {
 }
 
 void addMethodFacts(SqlDatabase& database, const MethodFacts& method) {
-  SqlStatement insertion(database, insertSql("method", kMethodColumns));
-  const SqlValue row[] = {method.method,         method.profile,      method.options,
-                          method.options_sha256, method.reseed_scale, method.mesh_of,
-                          method.mirror,         method.note};
-  insertion.run(row);
+  insertRow(database, "method", methodTable(), method);
 }
 
 void addSitting(SqlDatabase& database, Sitting& sitting) {
-  SqlStatement insertion(database, insertSql("sitting", kSittingColumns));
-  const SqlValue row[] = {sitting.began,     sitting.ended,   sitting.version, sitting.machine,
-                          sitting.processor, sitting.system,  sitting.command, sitting.folder,
-                          sitting.jobs,      sitting.threads, sitting.kernels, sitting.shard,
-                          sitting.reseeds,   sitting.runs,    sitting.seconds};
-  insertion.run(row);
+  insertRow(database, "sitting", sittingTable(), sitting);
   sitting.id = database.lastId();
 }
 
@@ -195,7 +175,7 @@ ResultsFacts factsOf(SqlDatabase& database) {
   while (statement.step()) named[textOf(statement.cell(0))] = textOf(statement.cell(1));
   facts.dataset = {named["dataset"], named["dataset_sha256"], std::atoll(named["cases"].c_str()),
                    named["version"]};
-  facts.methods = readMethods(database);
+  facts.methods = readRows(database, methodTable(), " FROM method ORDER BY method");
   facts.sittings = readSittings(database);
   return facts;
 }
@@ -215,7 +195,7 @@ void forEachRun(const std::filesystem::path& file,
 std::vector<RunStep> readSteps(const std::filesystem::path& file, const RunResult& run) {
   SqlDatabase database(file, SqlAccess::kRead);
   requireResultsFile(database);
-  const std::vector<std::string> names = stepColumnNames();
+  const std::vector<std::string> names = stepTable().names();
   SqlStatement statement(database, "SELECT " + joined(names, "iteration.") +
                                        " FROM iteration JOIN run ON run.id = iteration.run WHERE "
                                        "case_id = ?1 AND reseed = ?2 AND run.method = ?3 ORDER BY "
@@ -223,7 +203,7 @@ std::vector<RunStep> readSteps(const std::filesystem::path& file, const RunResul
   const SqlValue key[] = {run.case_id, std::int64_t{run.reseed}, run.method};
   statement.bind(key);
   std::vector<RunStep> steps;
-  while (statement.step()) steps.push_back(stepFromRow(file, names, statement.row()));
+  while (statement.step()) steps.push_back(stepTable().read(file, names, statement.row()));
   return steps;
 }
 

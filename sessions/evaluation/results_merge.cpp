@@ -119,22 +119,22 @@ class Merge {
   }
 
   void takeRuns(SqlDatabase& input) {
-    const std::vector<std::string> names = runColumnNames();
+    const std::vector<std::string> names = runTable().names();
     SqlStatement runs(input, "SELECT id, sitting, " + joined(names) + " FROM run ORDER BY id");
     SqlStatement held(out_, "SELECT id, " + joined(kEnding) +
                                 ", camera_from_station FROM run WHERE case_id = ?1 AND reseed = ?2 "
                                 "AND method = ?3");
     SqlStatement insertion(out_, insertSql("run", RowCopy::withFirst("sitting", names)));
     RowCopy copies[] = {{input, out_, "tag", {"tag"}},
-                        {input, out_, "iteration", stepColumnNames()},
-                        {input, out_, "match", RowCopy::withFirst("step", matchColumnNames())}};
+                        {input, out_, "iteration", stepTable().names()},
+                        {input, out_, "match", RowCopy::withFirst("step", matchTable().names())}};
     while (runs.step()) {
       std::vector<SqlValue> row = runs.row();
       const std::int64_t id = integerOf(row.front());
       row.erase(row.begin());
       row.front() = sitting_of_[integerOf(row.front())];
       const RunResult run =
-          runFromRow(input.file(), names, std::vector<SqlValue>(row.begin() + 1, row.end()));
+          runTable().read(input.file(), names, std::vector<SqlValue>(row.begin() + 1, row.end()));
       if (!isNew(run, held, input)) continue;
       insertion.run(row);
       const std::int64_t new_id = out_.lastId();
@@ -170,8 +170,8 @@ class Merge {
   }
 
   static std::vector<SqlValue> ending(const RunResult& run) {
-    const std::vector<SqlValue> values = runValues(run);
-    const std::vector<std::string> names = runColumnNames();
+    const std::vector<SqlValue> values = runTable().values(run);
+    const std::vector<std::string> names = runTable().names();
     std::vector<SqlValue> made;
     for (const std::string& name : kEnding)
       made.push_back(values[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) -
@@ -180,7 +180,7 @@ class Merge {
   }
 
   static bool samePose(const RunResult& run, const SqlValue& held, const fs::path& file) {
-    const RunResult other = runFromRow(file, {"camera_from_station"}, {held});
+    const RunResult other = runTable().read(file, {"camera_from_station"}, {held});
     return (run.camera_from_station.rotation.coeffs() - other.camera_from_station.rotation.coeffs())
                    .norm() < 1e-12 &&
            (run.camera_from_station.translation_m - other.camera_from_station.translation_m)

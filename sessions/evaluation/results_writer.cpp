@@ -27,13 +27,8 @@ std::unique_ptr<FileLock> locked(const std::filesystem::path& file) {
   return lock;
 }
 
-std::vector<std::string> withFirst(std::vector<std::string> first,
-                                   const std::vector<std::string>& more) {
-  first.insert(first.end(), more.begin(), more.end());
-  return first;
-}
-
-std::vector<SqlValue> withFirst(std::vector<SqlValue> first, const std::vector<SqlValue>& more) {
+template <class T>
+std::vector<T> withFirst(std::vector<T> first, const std::vector<T>& more) {
   first.insert(first.end(), more.begin(), more.end());
   return first;
 }
@@ -46,10 +41,12 @@ std::int64_t steadyNow_ns() {
 
 struct ResultsWriter::Insertions {
   explicit Insertions(SqlDatabase& database)
-      : run(database, insertSql("run", withFirst({"sitting"}, runColumnNames()))),
+      : run(database, insertSql("run", withFirst<std::string>({"sitting"}, runTable().names()))),
         tag(database, "INSERT OR IGNORE INTO tag (run, tag) VALUES (?1, ?2)"),
-        step(database, insertSql("iteration", withFirst({"run"}, stepColumnNames()))),
-        match(database, insertSql("match", withFirst({"run", "step"}, matchColumnNames()))),
+        step(database,
+             insertSql("iteration", withFirst<std::string>({"run"}, stepTable().names()))),
+        match(database,
+              insertSql("match", withFirst<std::string>({"run", "step"}, matchTable().names()))),
         removal(database,
                 "DELETE FROM run WHERE case_id = ?1 AND reseed = ?2 AND method = ?3 AND status = "
                 "'input_error' RETURNING id"),
@@ -124,7 +121,7 @@ void ResultsWriter::insert(const RunResult& run) {
     const SqlValue removed = insertions_->removal.cell(0);
     insertions_->tag_removal.run({&removed, 1});
   }
-  insertions_->run.run(withFirst({sitting_.id}, runValues(run)));
+  insertions_->run.run(withFirst<SqlValue>({sitting_.id}, runTable().values(run)));
   const std::int64_t id = database_.lastId();
   for (const std::string& tag : run.tags) {
     const SqlValue row[] = {id, tag};
@@ -135,9 +132,10 @@ void ResultsWriter::insert(const RunResult& run) {
 
 void ResultsWriter::insertSteps(std::int64_t run_id, const RunResult& run) {
   for (const RunStep& step : run.steps) {
-    insertions_->step.run(withFirst({run_id}, stepValues(step)));
+    insertions_->step.run(withFirst<SqlValue>({run_id}, stepTable().values(step)));
     for (const MatchDetails& match : step.details)
-      insertions_->match.run(withFirst({run_id, std::int64_t{step.index}}, matchValues(match)));
+      insertions_->match.run(
+          withFirst<SqlValue>({run_id, std::int64_t{step.index}}, matchTable().values(match)));
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/json_document.h"
+#include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/io/pose_file.h"
 
@@ -16,19 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A column: how it is declared, written, and read back (empty: it is not).
 template <class Row>
-struct Column {
-  std::string name;
-  const char* type;
-  std::function<SqlValue(const Row&)> write;
-  std::function<void(Row&, const SqlValue&, const fs::path&)> read = {};
-};
-
-template <class Row>
-Column<Row> text(const char* name, std::string Row::*field) {
+Column<Row> text(const char* name, std::string Row::*field, const char* type = "TEXT NOT NULL") {
   return {
-      name, "TEXT NOT NULL", [field](const Row& row) { return SqlValue(row.*field); },
+      name, type, [field](const Row& row) { return SqlValue(row.*field); },
       [field](Row& row, const SqlValue& value, const fs::path&) { row.*field = textOf(value); }};
 }
 
@@ -43,8 +34,8 @@ Column<Row> integer(const char* name, Integer Row::*field) {
 
 /// A number that is not finite has no value: NULL, read back as 0.
 template <class Row>
-Column<Row> real(const char* name, double Row::*field) {
-  return {name, "REAL",
+Column<Row> real(const char* name, double Row::*field, const char* type = "REAL") {
+  return {name, type,
           [field](const Row& row) {
             return std::isfinite(row.*field) ? SqlValue(row.*field) : SqlValue();
           },
@@ -135,10 +126,11 @@ void readRequirementText(RunResult& run, const SqlValue& value, const fs::path& 
   run.requirement = readRequirement(document.root());
 }
 
-Column<RunResult> flag(const char* name, bool RunResult::*field) {
-  return {name, "INTEGER NOT NULL", [field](const RunResult& run) { return sqlFlag(run.*field); },
-          [field](RunResult& run, const SqlValue& value, const fs::path&) {
-            run.*field = integerOf(value) != 0;
+template <class Row>
+Column<Row> flag(const char* name, bool Row::*field) {
+  return {name, "INTEGER NOT NULL", [field](const Row& row) { return sqlFlag(row.*field); },
+          [field](Row& row, const SqlValue& value, const fs::path&) {
+            row.*field = integerOf(value) != 0;
           }};
 }
 
@@ -220,11 +212,6 @@ Column<MatchDetails> coordinate(const char* name, Vector MatchDetails::*field, i
           }};
 }
 
-Column<MatchDetails> matchFlag(const char* name, bool MatchDetails::*field) {
-  return {name, "INTEGER NOT NULL",
-          [field](const MatchDetails& match) { return sqlFlag(match.*field); }};
-}
-
 std::vector<Column<MatchDetails>> makeMatchColumns() {
   using Match = MatchDetails;
   return {integer("template", &Match::index),
@@ -236,85 +223,53 @@ std::vector<Column<MatchDetails>> makeMatchColumns() {
           coordinate("predicted_y_px", &Match::predicted_px, 1),
           coordinate("found_x_px", &Match::found_px, 0),
           coordinate("found_y_px", &Match::found_px, 1),
-          matchFlag("searched", &Match::searched),
-          matchFlag("at_border", &Match::at_border),
+          flag("searched", &Match::searched),
+          flag("at_border", &Match::at_border),
           real("score", &Match::score),
           real("second_score", &Match::second_score),
-          matchFlag("inlier", &Match::inlier),
+          flag("inlier", &Match::inlier),
           real("residual_px", &Match::residual_px)};
-}
-
-const std::vector<Column<RunResult>>& runColumns() {
-  static const auto kColumns = makeRunColumns();
-  return kColumns;
-}
-
-const std::vector<Column<RunStep>>& stepColumns() {
-  static const auto kColumns = makeStepColumns();
-  return kColumns;
-}
-
-const std::vector<Column<MatchDetails>>& matchColumns() {
-  static const auto kColumns = makeMatchColumns();
-  return kColumns;
-}
-
-template <class Row>
-std::string sqlOf(const std::vector<Column<Row>>& columns) {
-  std::string sql;
-  for (const Column<Row>& column : columns)
-    sql += (sql.empty() ? "" : ", ") + column.name + " " + column.type;
-  return sql;
-}
-
-template <class Row>
-std::vector<std::string> namesOf(const std::vector<Column<Row>>& columns) {
-  std::vector<std::string> names;
-  for (const Column<Row>& column : columns) names.push_back(column.name);
-  return names;
-}
-
-template <class Row>
-std::vector<SqlValue> valuesOf(const std::vector<Column<Row>>& columns, const Row& row) {
-  std::vector<SqlValue> values;
-  for (const Column<Row>& column : columns) values.push_back(column.write(row));
-  return values;
-}
-
-template <class Row>
-Row fromRow(const std::vector<Column<Row>>& columns, const fs::path& file,
-            const std::vector<std::string>& names, const std::vector<SqlValue>& values) {
-  Row made;
-  for (const Column<Row>& column : columns) {
-    if (!column.read) continue;
-    for (std::size_t i = 0; i < names.size() && i < values.size(); ++i)
-      if (names[i] == column.name) column.read(made, values[i], file);
-  }
-  return made;
 }
 
 }  // namespace
 
-std::string runColumnsSql() { return sqlOf(runColumns()); }
-std::string stepColumnsSql() { return sqlOf(stepColumns()); }
-std::string matchColumnsSql() { return sqlOf(matchColumns()); }
-std::vector<std::string> runColumnNames() { return namesOf(runColumns()); }
-std::vector<std::string> stepColumnNames() { return namesOf(stepColumns()); }
-std::vector<std::string> matchColumnNames() { return namesOf(matchColumns()); }
-std::vector<SqlValue> runValues(const RunResult& run) { return valuesOf(runColumns(), run); }
-std::vector<SqlValue> stepValues(const RunStep& step) { return valuesOf(stepColumns(), step); }
-std::vector<SqlValue> matchValues(const MatchDetails& match) {
-  return valuesOf(matchColumns(), match);
+const RowTable<MethodFacts>& methodTable() {
+  using Method = MethodFacts;
+  static const RowTable<Method> kTable = {
+      {text("method", &Method::method, "TEXT PRIMARY KEY"), text("profile", &Method::profile),
+       text("options", &Method::options), text("options_sha256", &Method::options_sha256),
+       real("reseed_scale", &Method::reseed_scale, "REAL NOT NULL"),
+       text("mesh_of", &Method::mesh_of), text("mirror", &Method::mirror),
+       text("note", &Method::note)}};
+  return kTable;
 }
 
-RunResult runFromRow(const fs::path& file, const std::vector<std::string>& names,
-                     const std::vector<SqlValue>& row) {
-  return fromRow(runColumns(), file, names, row);
+const RowTable<Sitting>& sittingTable() {
+  static const RowTable<Sitting> kTable = {
+      {text("began", &Sitting::began), text("ended", &Sitting::ended),
+       text("version", &Sitting::version), text("machine", &Sitting::machine),
+       text("processor", &Sitting::processor), text("system", &Sitting::system),
+       text("command", &Sitting::command), text("folder", &Sitting::folder),
+       integer("jobs", &Sitting::jobs), integer("threads", &Sitting::threads),
+       text("kernels", &Sitting::kernels), text("shard", &Sitting::shard),
+       integer("reseeds", &Sitting::reseeds), integer("runs", &Sitting::runs),
+       real("seconds", &Sitting::seconds, "REAL NOT NULL")}};
+  return kTable;
 }
 
-RunStep stepFromRow(const fs::path& file, const std::vector<std::string>& names,
-                    const std::vector<SqlValue>& row) {
-  return fromRow(stepColumns(), file, names, row);
+const RowTable<RunResult>& runTable() {
+  static const RowTable<RunResult> kTable = {makeRunColumns()};
+  return kTable;
+}
+
+const RowTable<RunStep>& stepTable() {
+  static const RowTable<RunStep> kTable = {makeStepColumns()};
+  return kTable;
+}
+
+const RowTable<MatchDetails>& matchTable() {
+  static const RowTable<MatchDetails> kTable = {makeMatchColumns()};
+  return kTable;
 }
 
 }  // namespace boresight::sessions

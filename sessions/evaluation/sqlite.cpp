@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "sessions/io/errors.h"
-#include "sessions/io/input_files.h"
+#include "sessions/io/file_bytes.h"
 
 namespace boresight::sessions {
 namespace {

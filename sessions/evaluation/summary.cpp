@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
 #include <functional>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "sessions/text/plain_text.h"
@@ -24,45 +27,13 @@ std::map<GroupKey, Members> grouped(std::span<const RunResult> results) {
 }
 
 /// Statistics of one figure of the error over completed runs that have it.
-template <class Figure>
-Statistics statisticsOf(const Members& members, Figure&& figure) {
+Statistics statisticsOf(std::span<const RunResult* const> runs,
+                        std::optional<double> (*figure)(const PoseError&)) {
   std::vector<double> values;
-  for (const RunResult* result : members) {
-    if (!result->completed || !result->error) continue;
-    const std::optional<double> value = figure(*result->error);
-    if (value) values.push_back(*value);
-  }
+  for (const RunResult* run : runs)
+    if (const auto value = run->completed && run->error ? figure(*run->error) : std::nullopt)
+      values.push_back(*value);
   return statistics(values);
-}
-
-GroupSummary summaryOf(const GroupKey& key, const Members& members) {
-  GroupSummary group;
-  group.station = key.first;
-  group.far = key.second;
-  double seconds = 0.0;
-  for (const RunResult* result : members) {
-    if (result->inputFailed()) {
-      ++group.input_errors;
-      continue;
-    }
-    ++group.runs;
-    group.completed += result->completed ? 1 : 0;
-    group.judged += result->success.has_value() ? 1 : 0;
-    group.successful += result->success.value_or(false) ? 1 : 0;
-    group.false_positives += result->false_positive ? 1 : 0;
-    group.gross_false_positives += result->gross_false_positive ? 1 : 0;
-    seconds += result->seconds.total();
-  }
-  if (group.runs > 0) group.mean_seconds = seconds / static_cast<double>(group.runs);
-  using Value = std::optional<double>;
-  group.normal_mm = statisticsOf(members, [](const PoseError& e) -> Value { return e.normal_mm; });
-  group.lateral_mm =
-      statisticsOf(members, [](const PoseError& e) -> Value { return e.lateral_mm; });
-  group.rotation_mrad =
-      statisticsOf(members, [](const PoseError& e) -> Value { return e.rotation_mrad; });
-  group.projection_px =
-      statisticsOf(members, [](const PoseError& e) -> Value { return e.projection_px; });
-  return group;
 }
 
 std::string percentText(std::int64_t part, std::int64_t whole) {
@@ -99,9 +70,39 @@ std::vector<std::string> rowOf(const GroupSummary& group, const std::string& ran
 
 }  // namespace
 
+GroupSummary summaryOf(std::span<const RunResult* const> runs) {
+  GroupSummary group;
+  double seconds = 0.0;
+  for (const RunResult* run : runs) {
+    if (run->inputFailed()) {
+      ++group.input_errors;
+      continue;
+    }
+    ++group.runs;
+    group.completed += run->completed ? 1 : 0;
+    group.judged += run->success.has_value() ? 1 : 0;
+    group.successful += run->success.value_or(false) ? 1 : 0;
+    group.false_positives += run->false_positive ? 1 : 0;
+    group.gross_false_positives += run->gross_false_positive ? 1 : 0;
+    seconds += run->seconds.total();
+  }
+  if (group.runs > 0) group.mean_seconds = seconds / static_cast<double>(group.runs);
+  using Value = std::optional<double>;
+  group.normal_mm = statisticsOf(runs, [](const PoseError& e) -> Value { return e.normal_mm; });
+  group.lateral_mm = statisticsOf(runs, [](const PoseError& e) -> Value { return e.lateral_mm; });
+  group.rotation_mrad =
+      statisticsOf(runs, [](const PoseError& e) -> Value { return e.rotation_mrad; });
+  group.projection_px =
+      statisticsOf(runs, [](const PoseError& e) -> Value { return e.projection_px; });
+  return group;
+}
+
 std::vector<GroupSummary> summarize(std::span<const RunResult> results) {
   std::vector<GroupSummary> groups;
-  for (const auto& [key, members] : grouped(results)) groups.push_back(summaryOf(key, members));
+  for (const auto& [key, members] : grouped(results)) {
+    groups.push_back(summaryOf(members));
+    std::tie(groups.back().station, groups.back().far) = key;
+  }
   return groups;
 }
 
@@ -112,7 +113,8 @@ std::string summaryTable(std::span<const RunResult> results) {
   for (const GroupSummary& group : groups) table.add(rowOf(group, rangeText(group.far)));
   Members everybody;
   for (const RunResult& result : results) everybody.push_back(&result);
-  const GroupSummary all = summaryOf({"all", false}, everybody);
+  GroupSummary all = summaryOf(everybody);
+  all.station = "all";
   if (groups.size() > 1) table.add(rowOf(all, ""));
   std::string text =
       table.text() +
@@ -168,6 +170,34 @@ std::string failureList(std::span<const RunResult> results, std::size_t limit) {
   }
   if (count > limit) text += "  and " + std::to_string(count - limit) + " more\n";
   return count > 0 ? "not successful:\n" + text : "";
+}
+
+std::string durationText(double seconds) {
+  if (!std::isfinite(seconds) || seconds < 0.0) return "?";
+  if (seconds < 59.5) return fixedText(seconds, 0) + " s";
+  const auto minutes = static_cast<long long>(std::llround(seconds / 60.0));
+  if (minutes < 60) return std::to_string(minutes) + " min";
+  char text[48];
+  if (minutes < 24 * 60) {
+    std::snprintf(text, sizeof text, "%lld h %02lld min", minutes / 60, minutes % 60);
+    return text;
+  }
+  const long long hours = std::llround(seconds / 3600.0);
+  std::snprintf(text, sizeof text, "%lld %s %lld h", hours / 24, hours < 48 ? "day" : "days",
+                hours % 24);
+  return text;
+}
+
+std::string batchProgressText(std::size_t done, std::size_t total, std::size_t completed,
+                              double seconds_since_began) {
+  std::string text = std::to_string(done) + " of " + std::to_string(total) + " runs, " +
+                     std::to_string(completed) + " completed";
+  if (done == 0 || !(seconds_since_began > 0.0)) return text;
+  const double seconds_each = seconds_since_began / static_cast<double>(done);
+  text += ", " + fixedText(3600.0 / seconds_each, 0) + " an hour";
+  if (done < total)
+    text += ", " + durationText(seconds_each * static_cast<double>(total - done)) + " left";
+  return text;
 }
 
 }  // namespace boresight::sessions

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,9 @@ struct GroupSummary {
   double mean_seconds = 0.0;
 };
 
+/// Of these runs, whatever their stations; station and range stay empty.
+GroupSummary summaryOf(std::span<const RunResult* const> runs);
+
 /// By station name, near before far; groups without runs do not appear.
 std::vector<GroupSummary> summarize(std::span<const RunResult> results);
 
@@ -43,5 +47,13 @@ std::string toleranceTable(std::span<const RunResult> results);
 
 /// One line for each run that was judged and not successful, at most `limit` of them.
 std::string failureList(std::span<const RunResult> results, std::size_t limit);
+
+/// "12 s", "4 min", "2 h 05 min", "3 days 4 h": rounded as one reads a wait.
+std::string durationText(double seconds);
+
+/// How far a batch is: "12 of 40 runs, 11 completed, 720 an hour, 2 min left". Rate and time left
+/// follow from what was done since `began`, and are left out before the first run.
+std::string batchProgressText(std::size_t done, std::size_t total, std::size_t completed,
+                              double seconds_since_began);
 
 }  // namespace boresight::sessions

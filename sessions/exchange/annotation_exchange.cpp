@@ -10,10 +10,10 @@
 
 #include "sessions/annotation/landmarks.h"
 #include "sessions/annotation/marks_file.h"
-#include "sessions/annotation/predicted_place.h"
+#include "sessions/annotation/marks_on_image.h"
 #include "sessions/evaluation/bop_scene.h"
 #include "sessions/exchange/colmap_text.h"
-#include "sessions/io/atomic_folder.h"
+#include "sessions/io/atomic_file.h"
 #include "sessions/io/camera_conversion.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
@@ -28,14 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const SessionCase& requireCase(const Session& session, const std::string& case_id) {
-  const SessionCase* found = session.findCase(case_id);
-  if (found == nullptr) throw InputError("session", "cases", "there is no case '" + case_id + "'");
-  return *found;
-}
-
 const Marks& requireMarks(const Session& session, const std::string& case_id) {
-  (void)requireCase(session, case_id);
+  (void)knownCase(session, case_id);
   const auto found = session.annotations.find(case_id);
   if (found == session.annotations.end())
     throw InputError("session", "annotations", "case '" + case_id + "' has no marks");
@@ -184,7 +178,7 @@ const SessionCase* caseOfImage(const Session& session, const fs::path& file,
 
 CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids,
                          bool robust) {
-  for (const std::string& id : case_ids) (void)requireCase(session, id);
+  for (const std::string& id : case_ids) (void)knownCase(session, id);
   CasePoses made;
   for (const auto& one : session.cases) {
     const bool asked = std::find(case_ids.begin(), case_ids.end(), one->id) != case_ids.end();
@@ -270,7 +264,7 @@ void exportLandmarks(const Session& session, const std::string& case_id, const f
 
 ImportReport importMarks(const Session& session, const std::string& case_id, const fs::path& file,
                          bool replace) {
-  const SessionCase& one = requireCase(session, case_id);
+  const SessionCase& one = knownCase(session, case_id);
   const Marks marks = readMarks(file);
   for (const PointPair& point : marks.points)
     if (point.pixel && !isInImage(one.camera, *point.pixel))

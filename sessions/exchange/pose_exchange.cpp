@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/exchange/pose_exchange.h"
 
-#include "sessions/evaluation/bop_results.h"
+#include "sessions/evaluation/bop_scene.h"
 #include "sessions/io/errors.h"
 #include "sessions/review/handed_pose.h"
 #include "sessions/session/image_names.h"

@@ -113,6 +113,33 @@ void syncFolder(const fs::path& folder) {
   ::close(descriptor);
 }
 
+/// A folder beside another one, removed unless it has got that one's name.
+class FolderBeside {
+ public:
+  explicit FolderBeside(const fs::path& target) : target_(target) {
+    const fs::path name = temporaryName(target);
+    if (::mkdir(name.c_str(), 0777) != 0) fail(target, errno);
+    path_ = name;
+  }
+  FolderBeside(const FolderBeside&) = delete;
+  FolderBeside& operator=(const FolderBeside&) = delete;
+  ~FolderBeside() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+
+  const fs::path& path() const { return path_; }
+
+  void takeName() {
+    moveIntoPlace(path_, target_);
+    path_.clear();
+  }
+
+ private:
+  fs::path target_;
+  fs::path path_;
+};
+
 }  // namespace
 
 void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> bytes, FileUse use) {
@@ -173,6 +200,21 @@ void requireWritable(const fs::path& file, FileUse use) {
   if (::stat(folder.c_str(), &info) != 0) fail(file, errno);
   if (!S_ISDIR(info.st_mode)) fail(file, ENOTDIR);
   if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(file, errno);
+}
+
+void writeFolderAtomically(const fs::path& folder,
+                           const std::function<void(const fs::path&)>& write) {
+  if (folder.empty()) throw OutputError("(no name)", "a folder name is empty");
+  fs::path target = fs::absolute(folder).lexically_normal();
+  if (!target.has_filename()) target = target.parent_path();  // written with a slash at its end
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(target, error);
+  const bool there = fs::exists(status);
+  if (there && !(fs::is_directory(status) && fs::is_empty(target, error)))
+    throw OutputError(folder, "there is something of this name already; name a new folder");
+  FolderBeside beside(target);
+  write(beside.path());
+  beside.takeName();
 }
 
 }  // namespace boresight::sessions

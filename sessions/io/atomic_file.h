@@ -3,14 +3,15 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string_view>
 
-#include "sessions/io/input_files.h"
+#include "sessions/io/file_bytes.h"
 
 namespace boresight::sessions {
 
-// All of these throw OverwriteError for a file that this process has read (input_files.h), unless
+// All of these throw OverwriteError for a file that this process has read (file_bytes.h), unless
 // it was read for the same `use` and that is not kInput.
 
 /// Writes a file whole or not at all: a temporary file beside it, fsync, rename, fsync of the
@@ -30,5 +31,11 @@ void moveIntoPlace(const std::filesystem::path& finished, const std::filesystem:
 /// Throws OutputError when `file` evidently cannot be written (its folder is missing or read-only,
 /// it is a folder): to be asked before long work, not instead of writing.
 void requireWritable(const std::filesystem::path& file, FileUse use = FileUse::kInput);
+
+/// Makes a folder with all its files or not at all: `write` fills a folder beside it, which gets
+/// the name when it returns; when it throws, nothing is left behind. OutputError when there is
+/// something of this name already, unless it is an empty folder, or it cannot be made.
+void writeFolderAtomically(const std::filesystem::path& folder,
+                           const std::function<void(const std::filesystem::path&)>& write);
 
 }  // namespace boresight::sessions

@@ -22,12 +22,6 @@ namespace {
 constexpr std::size_t kMaxBytes = 1 << 20;
 constexpr double kMostAsymmetry = 1e-6;  ///< of a covariance, beside its diagonal
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 int sizeOf(CameraModel model) {
   return model == CameraModel::kCahv ? 12 : model == CameraModel::kCahvor ? 18 : 21;
 }
@@ -67,11 +61,10 @@ class Entries {
     std::istringstream words(text(key));
     std::vector<double> found;
     for (std::string word; words >> word;) {
-      double value = 0.0;
-      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-      if (error != std::errc() || end != word.data() + word.size() || !(std::abs(value) <= 1e18))
+      const auto value = numberIn<double>(word);
+      if (!value || !(std::abs(*value) <= 1e18))
         throw InputError(file_, key, "'" + oneLine(word) + "' is not a number");
-      found.push_back(value);
+      found.push_back(*value);
     }
     if (found.size() != count)
       throw InputError(file_, key,
@@ -131,10 +124,9 @@ void readModel(const Entries& entries, CahvModel& cahv) {
     return;
   }
   if (rest.size() < 2 || rest[0] != ',') fail();
-  const std::string_view number = trimmed(rest.substr(1));
-  const auto [end, error] =
-      std::from_chars(number.data(), number.data() + number.size(), cahv.parameter);
-  if (error != std::errc() || end != number.data() + number.size()) fail();
+  const auto parameter = numberIn<double>(trimmed(rest.substr(1)));
+  if (!parameter) fail();
+  cahv.parameter = *parameter;
 }
 
 std::string modelText(const CahvModel& cahv) {
@@ -176,10 +168,7 @@ std::string internalText(const CahvModel& cahv) {
 }  // namespace
 
 bool isCahvorFile(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
+  const std::string extension = lowerCase(file.extension().string());
   return extension == ".cahv" || extension == ".cahvor" || extension == ".cahvore";
 }
 
@@ -196,15 +185,8 @@ CahvorFile readCahvorFile(const std::filesystem::path& file) {
           "width and height must be whole numbers, 1 to " + std::to_string(kMaxImageSide_px));
   read.width = static_cast<int>(size[0]);
   read.height = static_cast<int>(size[1]);
-  cahv.c_m = entries.vector("C");
-  cahv.a = entries.vector("A");
-  cahv.h_px = entries.vector("H");
-  cahv.v_px = entries.vector("V");
-  if (cahv.model != CameraModel::kCahv) {
-    cahv.o = entries.vector("O");
-    cahv.r = entries.vector("R");
-  }
-  if (cahv.model == CameraModel::kCahvore) cahv.e_m = entries.vector("E");
+  forVectors(
+      cahv, [&entries](const char* key, Eigen::Vector3d& vector) { vector = entries.vector(key); });
   read.covariance = entries.square("S", sizeOf(cahv.model));
   read.internal_covariance = entries.square("S internal", 5);
   return read;
@@ -244,10 +226,9 @@ void writeCahvorFile(const std::filesystem::path& file, const CahvorFile& cahvor
       "is (0, 0)\n\nModel = " +
       modelText(cahv) + "\n\nDimensions = " + std::to_string(cahvor.width) + " " +
       std::to_string(cahvor.height) + "\n\n";
-  text += vectorLine("C", cahv.c_m) + vectorLine("A", cahv.a) + vectorLine("H", cahv.h_px) +
-          vectorLine("V", cahv.v_px);
-  if (cahv.model != CameraModel::kCahv) text += vectorLine("O", cahv.o) + vectorLine("R", cahv.r);
-  if (cahv.model == CameraModel::kCahvore) text += vectorLine("E", cahv.e_m);
+  forVectors(cahv, [&text](const char* key, const Eigen::Vector3d& vector) {
+    text += vectorLine(key, vector);
+  });
   text += squareText("S", cahvor.covariance) + internalText(cahv) +
           squareText("S internal", cahvor.internal_covariance);
   writeFileAtomically(file, text);

@@ -6,15 +6,51 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
-#include "sessions/io/cahv_camera.h"
+#include "core/geometry/cahv_model.h"
 #include "sessions/io/cahvor_file.h"
-#include "sessions/io/json_document.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/io/labels/image_label.h"
 
 namespace boresight::sessions {
 namespace {
+
+constexpr double kLargest = 1e9;
+constexpr const char* kOwnFrame = "CAMERA";
+
+/// By CameraModel.
+constexpr const char* kModelNames[] = {"pinhole", "brown_conrady", "kannala_brandt",
+                                       "cahv",    "cahvor",        "cahvore"};
+
+CahvModel readVectors(CameraModel model, const JsonReader& json) {
+  CahvModel cahv;
+  cahv.model = model;
+  forVectors(cahv, [&json](const char* key, Eigen::Vector3d& vector) {
+    vector = json.at(key).vector3(-kLargest, kLargest);
+  });
+  if (model != CameraModel::kCahvore) return cahv;
+  cahv.type = static_cast<int>(json.at("cahvore_type").integer(1, 3));
+  (void)json.has("cahvore_parameter");  // stated with every type, used with one
+  if (cahv.type == 3) cahv.parameter = json.at("cahvore_parameter").number(-kLargest, kLargest);
+  return cahv;
+}
+
+/// Vectors are those of the whole image: what of it the image at hand is.
+void cutSubframe(const JsonReader& json, Camera& camera) {
+  const double scale = json.find("scale") ? json.at("scale").number(1e-3, 1e3) : 1.0;
+  const auto shifted = [&](const char* key, double centre_px) {
+    const double first = json.find(key) ? json.at(key).number(-1e6, 1e6) : 0.0;
+    return (centre_px - first + 0.5) / scale - 0.5;
+  };
+  camera.cx = shifted("first_sample", camera.cx);
+  camera.cy = shifted("first_line", camera.cy);
+  camera.fx /= scale;
+  camera.fy /= scale;
+  camera.cahv.skew_px /= scale;
+}
 
 constexpr const char* kFormat = "boresight-camera";
 constexpr int kVersion = 1;
@@ -25,10 +61,8 @@ constexpr double kMaxPrincipalPoint_px = 1e6;
 CameraModel readModel(const JsonReader& json) {
   const JsonReader model = json.at("model");
   const std::string name = model.text();
-  for (const CameraModel known :
-       {CameraModel::kPinhole, CameraModel::kBrownConrady, CameraModel::kKannalaBrandt,
-        CameraModel::kCahv, CameraModel::kCahvor, CameraModel::kCahvore})
-    if (name == cameraModelName(known)) return known;
+  for (int i = 0; i < std::ssize(kModelNames); ++i)
+    if (name == kModelNames[i]) return static_cast<CameraModel>(i);
   model.fail("unknown camera model '" + name +
              "' (pinhole, brown_conrady, kannala_brandt, cahv, cahvor or cahvore is needed)");
 }
@@ -78,25 +112,90 @@ CameraFile readLensCamera(CameraModel model, const JsonReader& json) {
   return {camera};
 }
 
+/// A camera of the CAHV family: its vectors in a reference frame into the camera's own frame.
+CameraFile readCahvCamera(CameraModel model, const JsonReader& json) {
+  for (const char* key : {"fx", "fy", "cx", "cy", "dist"})
+    if (json.has(key))
+      json.failMember(key, std::string("a ") + cameraModelName(model) +
+                               " camera is given by its vectors alone (C, A, H, V ...)");
+  const CahvModel cahv = readVectors(model, json);
+  const auto width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
+  const auto height = static_cast<int>(json.at("height").integer(1, kMaxImageSide_px));
+  CameraFile file;
+  Pose camera_from_reference;
+  Status status = cameraFromCahv(cahv, width, height, file.camera, camera_from_reference);
+  const auto subframe = json.find("subframe");
+  if (status == Status::kOk && subframe) {
+    cutSubframe(*subframe, file.camera);
+    status = prepareCamera(file.camera);
+  }
+  if (status != Status::kOk)
+    json.fail(
+        "the camera cannot project with these vectors: A and O must have length 1 and lie within "
+        "60 deg, H and V must not lie along A or along each other, and 1 + r0 must be positive");
+  file.reference = CameraReference{camera_from_reference, {}};
+  if (const auto frame = json.find("reference_frame"))
+    file.reference->frame = readFrameName(*frame);
+  return file;
+}
+
+/// The vectors in the reference frame; in the camera's own where there is none.
+nlohmann::ordered_json cahvJson(const CameraFile& file) {
+  const CahvModel cahv =
+      cahvFromCamera(file.camera, file.reference ? file.reference->camera_from_reference : Pose());
+  nlohmann::ordered_json json;
+  json["model"] = cameraModelName(cahv.model);
+  json["width"] = file.camera.width;
+  json["height"] = file.camera.height;
+  forVectors(cahv, [&json](const char* key, const Eigen::Vector3d& vector) {
+    json[key] = toJson(vector);
+  });
+  if (cahv.model == CameraModel::kCahvore) {
+    json["cahvore_type"] = cahv.type;
+    json["cahvore_parameter"] = cahv.parameter;
+  }
+  const FrameName frame = file.reference ? file.reference->frame : FrameName{kOwnFrame, {}};
+  if (!frame.name.empty()) json["reference_frame"] = toJson(frame);
+  return json;
+}
+
 }  // namespace
 
-const char* cameraModelName(CameraModel model) {
-  switch (model) {
-    case CameraModel::kPinhole:
-      return "pinhole";
-    case CameraModel::kBrownConrady:
-      return "brown_conrady";
-    case CameraModel::kKannalaBrandt:
-      return "kannala_brandt";
-    case CameraModel::kCahv:
-      return "cahv";
-    case CameraModel::kCahvor:
-      return "cahvor";
-    case CameraModel::kCahvore:
-      return "cahvore";
-  }
-  return "unknown";
+FrameName readFrameName(const JsonReader& json) {
+  FrameName frame;
+  frame.name = json.at("name").nonEmptyText();
+  if (const auto index = json.find("index"))
+    for (const JsonReader& one : index->elements()) frame.index.push_back(one.integer());
+  return frame;
 }
+
+nlohmann::ordered_json toJson(const FrameName& frame) {
+  nlohmann::ordered_json json = {{"name", frame.name}};
+  if (!frame.index.empty()) json["index"] = frame.index;
+  return json;
+}
+
+std::string frameText(const FrameName& frame) {
+  if (frame.name.empty()) return "a frame without a name";
+  std::string index;
+  for (const std::int64_t one : frame.index)
+    index += (index.empty() ? " (" : ", ") + std::to_string(one);
+  return frame.name + (index.empty() ? "" : index + ")");
+}
+
+double readMeshScaleSigma(const JsonReader& json) { return json.number(0.0, kMaxScaleSigma); }
+
+CalibrationSigma readCalibrationSigma(const JsonReader& json) {
+  return {json.at("focal_relative").number(0.0, kMaxFocalSigma),
+          json.at("principal_point_px").number(0.0, kMaxPrincipalPointSigma_px)};
+}
+
+nlohmann::ordered_json toJson(const CalibrationSigma& sigma) {
+  return {{"focal_relative", sigma.focal_relative},
+          {"principal_point_px", sigma.principal_point_px}};
+}
+
+const char* cameraModelName(CameraModel model) { return kModelNames[static_cast<int>(model)]; }
 
 CameraFile readCameraFile(const JsonReader& json) {
   if (json.has("format")) json.requireFormat(kFormat, kVersion);  // a file's content in a dataset
@@ -154,11 +253,23 @@ void writeCamera(const std::filesystem::path& file, const Camera& camera) {
 }
 
 void writeCamera(const std::filesystem::path& file, const CameraFile& camera) {
-  nlohmann::ordered_json json;
-  json["format"] = kFormat;
-  json["version"] = kVersion;
+  nlohmann::ordered_json json = {{"format", kFormat}, {"version", kVersion}};
   json.update(toJson(camera));
   writeJsonFile(file, json);
+}
+
+CameraFile readChosenCamera(const std::filesystem::path& camera_file,
+                            const std::filesystem::path& image) {
+  if (!camera_file.empty()) return readCameraFile(camera_file);
+  if (!hasImageLabel(image))
+    throw InputError(image, "camera",
+                     "none is given, and the image has no label that could tell it: give a "
+                     "camera.json");
+  const ImageLabel label = readImageLabel(image);
+  if (!label.camera)
+    throw InputError(image, "camera",
+                     label.camera_remark + ": give a camera.json or a .cahvor file with --camera");
+  return *label.camera;
 }
 
 }  // namespace boresight::sessions

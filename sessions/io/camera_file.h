@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// How well the mesh's scale and the camera's calibration are known: one image cannot tell either.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +13,49 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "sessions/io/json_reader.h"
-#include "sessions/io/stated_sigmas.h"
 
 namespace boresight::sessions {
 
+/// One sigma of a mesh's scale (relative) where none is stated: 0.06 mm on a part of 0.3 m, or 9 K
+/// of aluminium. Good for a machined part and its drawing, not for a scan.
+inline constexpr double kAssumedMeshScaleSigma = 2e-4;
+
+/// One sigma of a camera's calibration. The values are those assumed where none is stated: what a
+/// calibration from many pictures of a target reaches.
+struct CalibrationSigma {
+  double focal_relative = 2e-4;     ///< of fx and fy together, as a share of them
+  double principal_point_px = 0.5;  ///< per axis
+
+  bool operator==(const CalibrationSigma&) const = default;
+};
+
+inline constexpr double kMaxScaleSigma = 0.1;
+inline constexpr double kMaxFocalSigma = 0.1;
+inline constexpr double kMaxPrincipalPointSigma_px = 1000.0;
+
+/// Reads a `mesh_scale_sigma`. InputError.
+double readMeshScaleSigma(const JsonReader& json);
+
+/// Reads {"focal_relative", "principal_point_px"}. InputError.
+CalibrationSigma readCalibrationSigma(const JsonReader& json);
+nlohmann::ordered_json toJson(const CalibrationSigma& sigma);
+
 /// Longest side of an image or a camera, px: edge pixels are stored in 16 bits.
 inline constexpr int kMaxImageSide_px = 16384;
+
+/// Calls `visit(key, vector)` for each vector of the model: C A H V, of CAHVOR and CAHVORE also O
+/// R, of CAHVORE also E.
+template <class Cahv, class Visit>
+void forVectors(Cahv& cahv, const Visit& visit) {
+  visit("C", cahv.c_m);
+  visit("A", cahv.a);
+  visit("H", cahv.h_px);
+  visit("V", cahv.v_px);
+  if (cahv.model == CameraModel::kCahv) return;
+  visit("O", cahv.o);
+  visit("R", cahv.r);
+  if (cahv.model == CameraModel::kCahvore) visit("E", cahv.e_m);
+}
 
 /// A frame of a vehicle or a site, as labels call it. Name and index (site, drive, pose ...)
 /// together identify it.
@@ -74,5 +112,10 @@ void writeCamera(const std::filesystem::path& file, const CameraFile& camera);
 
 /// Name of a model in files, e.g. "brown_conrady".
 const char* cameraModelName(CameraModel model);
+
+/// The camera of `camera_file`, or where that is empty of the image's own label. InputError, also
+/// when there is neither.
+CameraFile readChosenCamera(const std::filesystem::path& camera_file,
+                            const std::filesystem::path& image);
 
 }  // namespace boresight::sessions

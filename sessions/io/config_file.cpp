@@ -3,10 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/json_document.h"
-#include "sessions/io/json_writer.h"
-
 #include "core/base/digest.h"
+#include "sessions/io/json_reader.h"
+#include "sessions/io/json_writer.h"
 
 namespace boresight::sessions {
 namespace {
@@ -54,15 +53,6 @@ nlohmann::ordered_json toJson(const OptionList& options) {
   for (const auto& [name, value] : options)
     std::visit([&json, &key = name](const auto& plain) { json[key] = plain; }, value);
   return json;
-}
-
-void writeConfig(const std::filesystem::path& file, const Config& config) {
-  nlohmann::ordered_json json;
-  json["format"] = kFormat;
-  json["version"] = kVersion;
-  json["profile"] = config.profile;
-  json["options"] = toJson(config.options);
-  writeJsonFile(file, json);
 }
 
 std::string optionsDigest(const LocalizerOptions& options) {

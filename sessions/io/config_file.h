@@ -30,8 +30,8 @@ const char* profileNames();
 /// Reads config.json; values are checked when they are applied. InputError.
 Config readConfig(const std::filesystem::path& file);
 
-/// Writes config.json; OutputError.
-void writeConfig(const std::filesystem::path& file, const Config& config);
+/// SHA-256 over every option, by name and value: whatever differs makes a run stale.
+std::string optionsDigest(const LocalizerOptions& options);
 
 /// {name: value, ...}; a number that is not finite throws std::logic_error when written.
 nlohmann::ordered_json toJson(const OptionList& options);
@@ -52,8 +52,5 @@ void applyConfig(Options& options, const Config& config) {
   }
   options = changed;
 }
-
-/// SHA-256 over every option, by name and value: whatever differs makes a run stale.
-std::string optionsDigest(const LocalizerOptions& options);
 
 }  // namespace boresight::sessions

@@ -10,17 +10,37 @@
 #include "sessions/io/camera_field.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
-#include "sessions/io/json_document.h"
+#include "sessions/io/json_reader.h"
 #include "sessions/io/labels/image_label.h"
 #include "sessions/io/mesh_container.h"
 
 namespace boresight::sessions {
 namespace {
 
+constexpr double kMillimetres = 1000.0;
+
+Pose readDiscrete(const JsonReader& json) {
+  const std::vector<JsonReader> numbers = json.elements(16);
+  Eigen::Matrix4d matrix;
+  for (int i = 0; i < 16; ++i) matrix(i / 4, i % 4) = numbers[static_cast<std::size_t>(i)].number();
+  if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) json.fail("last row is not 0 0 0 1");
+  Pose pose;
+  double deviation = 0.0;
+  const Eigen::Vector3d translation_m = matrix.block<3, 1>(0, 3) / kMillimetres;
+  if (poseFromMatrix(matrix.block<3, 3>(0, 0), translation_m, pose, deviation) != Status::kOk)
+    json.fail("is not a rotation with a translation");
+  return pose;
+}
+
 constexpr const char* kFormat = "boresight-dataset";
 constexpr int kVersion = 1;
 constexpr double kMaxFeatureSize_m = 100.0;
 constexpr double kMaxError = 1e6;
+constexpr std::pair<const char*, std::optional<double> Requirement::*> kLimits[] = {
+    {"normal_mm", &Requirement::normal_mm},
+    {"lateral_mm", &Requirement::lateral_mm},
+    {"rotation_deg", &Requirement::rotation_deg},
+    {"projection_px", &Requirement::projection_px}};
 
 /// Reads a transform and notes when it was not quite a rotation.
 Pose readNotedTransform(const JsonReader& json, Dataset& dataset) {
@@ -213,6 +233,35 @@ void requireFile(const Dataset& dataset, const std::string& place,
 
 }  // namespace
 
+AxisSymmetry readAxisSymmetry(const JsonReader& json, const char* point_key,
+                              double units_per_metre) {
+  AxisSymmetry symmetry;
+  symmetry.axis = json.at("axis").vector3();
+  const double length = symmetry.axis.norm();
+  if (!(length > 1e-9)) json.failMember("axis", "has no direction");
+  symmetry.axis /= length;
+  if (const auto point = json.find(point_key))
+    symmetry.point_m = point->vector3() / units_per_metre;
+  return symmetry;
+}
+
+Symmetries readBopSymmetries(const JsonReader& model) {
+  Symmetries symmetries;
+  if (const auto list = model.find("symmetries_discrete"))
+    for (const JsonReader& one : list->elements()) symmetries.discrete.push_back(readDiscrete(one));
+  if (const auto list = model.find("symmetries_continuous"))
+    for (const JsonReader& one : list->elements())
+      symmetries.continuous.push_back(readAxisSymmetry(one, "offset", kMillimetres));
+  return symmetries;
+}
+
+Pose turnAbout(const AxisSymmetry& symmetry, double angle_rad) {
+  Pose turn;
+  turn.rotation = rotationExp(angle_rad * symmetry.axis);
+  turn.translation_m = symmetry.point_m - turn.rotation * symmetry.point_m;
+  return turn;
+}
+
 bool Case::hasTag(const std::string& tag) const {
   return std::find(tags.begin(), tags.end(), tag) != tags.end();
 }
@@ -225,31 +274,21 @@ const Case* Dataset::findCase(const std::string& id) const {
 
 Requirement readRequirement(const JsonReader& json) {
   Requirement requirement;
-  const auto read = [&json](const char* key, std::optional<double>& value) {
-    if (const auto limit = json.find(key)) {
-      (void)limit->numberAbove(0.0);
-      value = limit->number(0.0, kMaxError);
-    }
-  };
-  read("normal_mm", requirement.normal_mm);
-  read("lateral_mm", requirement.lateral_mm);
-  read("rotation_deg", requirement.rotation_deg);
-  read("projection_px", requirement.projection_px);
-  if (!requirement.normal_mm && !requirement.lateral_mm && !requirement.rotation_deg &&
-      !requirement.projection_px)
+  for (const auto& [key, limit] : kLimits) {
+    const auto stated = json.find(key);
+    if (!stated) continue;
+    (void)stated->numberAbove(0.0);
+    requirement.*limit = stated->number(0.0, kMaxError);
+  }
+  if (requirement == Requirement())
     json.fail("names none of normal_mm, lateral_mm, rotation_deg, projection_px");
   return requirement;
 }
 
 nlohmann::ordered_json toJson(const Requirement& requirement) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  const auto write = [&json](const char* key, const std::optional<double>& value) {
-    if (value) json[key] = *value;
-  };
-  write("normal_mm", requirement.normal_mm);
-  write("lateral_mm", requirement.lateral_mm);
-  write("rotation_deg", requirement.rotation_deg);
-  write("projection_px", requirement.projection_px);
+  for (const auto& [key, limit] : kLimits)
+    if (requirement.*limit) json[key] = *(requirement.*limit);
   return json;
 }
 

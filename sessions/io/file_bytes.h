@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reads whole files, and remembers them: no output replaces an input.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +10,36 @@
 #include <string_view>
 #include <vector>
 
-#include "sessions/io/input_files.h"
-
 namespace boresight::sessions {
+
+/// What a file is read as, or written as. Files of all uses but the first two are kept up to date
+/// by the program itself: each may be replaced by a file of the same use.
+enum class FileUse {
+  kInput,
+  kFree,  ///< may be replaced: only looked at to see what it is, or written by this process
+  kSession,
+  kRun,
+  kResults,
+  kMarks,
+  kLandmarks
+};
+
+/// Remembers that `file` was read, or that a file which was read names it as an input. A file with
+/// two uses counts as an input. Not for what is no regular file.
+void noteInput(const std::filesystem::path& file, FileUse use = FileUse::kInput);
+
+/// Remembers that this process has written `output`: it may do so again, also after reading it.
+void noteOutput(const std::filesystem::path& output, FileUse use = FileUse::kInput);
+
+/// Throws OverwriteError when `output` is a file that was noted, under whatever name, symbolic or
+/// hard link, and is not replaced by one of the same use.
+void requireNoInput(const std::filesystem::path& output, FileUse use = FileUse::kInput);
 
 inline constexpr std::size_t kMegabyte = std::size_t{1} << 20;
 
 /// The whole file, read once: what is hashed is what is parsed. InputError when it is missing, a
 /// folder, a pipe or a device, not readable, empty, or longer than `max_bytes`. From then on no
-/// output replaces it (input_files.h).
+/// output replaces it.
 std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file, std::size_t max_bytes,
                                         FileUse use = FileUse::kInput);
 
@@ -28,5 +50,22 @@ std::string_view asText(std::span<const std::uint8_t> bytes);
 
 /// SHA-256 as 64 lower-case hexadecimal digits.
 std::string sha256Text(std::span<const std::uint8_t> bytes);
+std::string sha256Text(std::string_view text);
+
+/// Whether `count` bytes from `offset` on exist.
+inline bool holds(std::span<const std::uint8_t> bytes, std::uint64_t offset, std::uint64_t count) {
+  return offset <= bytes.size() && count <= bytes.size() - offset;
+}
+
+/// Unsigned number of `size` bytes (1 .. 8) at `offset`, which must exist.
+inline std::uint64_t readUnsigned(std::span<const std::uint8_t> bytes, std::uint64_t offset,
+                                  int size, bool big_endian) {
+  std::uint64_t value = 0;
+  for (int i = 0; i < size; ++i) {
+    const auto place = offset + static_cast<std::uint64_t>(big_endian ? i : size - 1 - i);
+    value = value << 8 | bytes[static_cast<std::size_t>(place)];
+  }
+  return value;
+}
 
 }  // namespace boresight::sessions

@@ -46,22 +46,17 @@ std::int64_t processStart(std::int64_t process) {
   return start;
 }
 
-LockHolder thisProcess() {
-  LockHolder holder;
-  holder.process = ::getpid();
-  holder.host = hostName();
-  holder.time = utcNowText();
-  holder.process_start = processStart(holder.process);
-  return holder;
-}
-
-std::string holderText(const LockHolder& holder) {
+/// Writes who holds the lock: this process. False with errno when it cannot be written.
+bool writeHolder(int descriptor) {
   nlohmann::ordered_json json;
-  json["process"] = holder.process;
-  json["host"] = holder.host;
-  json["time"] = holder.time;
-  json["process_start"] = holder.process_start;
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  json["process"] = ::getpid();
+  json["host"] = hostName();
+  json["time"] = utcNowText();
+  json["process_start"] = processStart(::getpid());
+  const std::string text =
+      json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return ::ftruncate(descriptor, 0) == 0 &&
+         ::pwrite(descriptor, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
 }
 
 /// Whether the name still leads to the open file: its holder may have removed it meanwhile.
@@ -113,12 +108,10 @@ bool FileLock::take() {
   const int descriptor = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor < 0) throw OutputError(file_, std::strerror(errno));
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    const int error = errno;
-    if (error == EWOULDBLOCK) {
+    if (errno == EWOULDBLOCK)
       other_ = readLockFile(file_);
-    } else {
+    else
       judgeWithoutFlock(descriptor);
-    }
     if (!held()) ::close(descriptor);
     return true;
   }
@@ -127,9 +120,7 @@ bool FileLock::take() {
     return false;
   }
   stale_ = readLockFile(file_);
-  const std::string text = holderText(thisProcess());
-  if (::ftruncate(descriptor, 0) != 0 ||
-      ::pwrite(descriptor, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
+  if (!writeHolder(descriptor)) {
     const int error = errno;
     ::unlink(file_.c_str());
     ::close(descriptor);
@@ -148,10 +139,7 @@ void FileLock::judgeWithoutFlock(int descriptor) {
     return;
   }
   stale_ = holder;
-  const std::string text = holderText(thisProcess());
-  if (::ftruncate(descriptor, 0) == 0 &&
-      ::pwrite(descriptor, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()))
-    descriptor_ = descriptor;
+  if (writeHolder(descriptor)) descriptor_ = descriptor;
 }
 
 FileLock::~FileLock() {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/file_bytes.h"
-#include "sessions/io/json_document.h"
+#include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/io/pose_file.h"
 
@@ -36,10 +36,8 @@ std::string noWayText(const FrameName& a, const FrameName& b,
 /// The transform from `b` to `a` where this one or its inverse is it.
 std::optional<Pose> joinBy(const FrameTransform& transform, const FrameName& a,
                            const FrameName& b) {
-  if (sameFrame(transform.target, a) && sameFrame(transform.source, b))
-    return transform.target_from_source;
-  if (sameFrame(transform.target, b) && sameFrame(transform.source, a))
-    return transform.target_from_source.inverse();
+  if (transform.target == a && transform.source == b) return transform.target_from_source;
+  if (transform.target == b && transform.source == a) return transform.target_from_source.inverse();
   return std::nullopt;
 }
 
@@ -47,7 +45,7 @@ FrameTransform readTransformMembers(const JsonReader& root) {
   FrameTransform transform;
   transform.target = readFrameName(root.at("target"));
   transform.source = readFrameName(root.at("source"));
-  if (sameFrame(transform.target, transform.source))
+  if (transform.target == transform.source)
     root.failMember("source", "is the same frame as the target");
   transform.target_from_source = readTransform(root.at("target_from_source"));
   transform.comment = root.at("comment").nonEmptyText();
@@ -77,11 +75,9 @@ std::vector<FrameTransform> readFrameTransforms(const std::vector<std::string>& 
   return transforms;
 }
 
-bool sameFrame(const FrameName& a, const FrameName& b) { return a == b; }
-
 JoinedFrames joinFrames(const FrameName& a, const FrameName& b,
                         std::span<const FrameTransform> given, const JsonReader& at) {
-  if (!a.name.empty() && sameFrame(a, b)) return {};
+  if (!a.name.empty() && a == b) return {};
   std::optional<JoinedFrames> joined;
   for (const FrameTransform& one : given) {
     const std::optional<Pose> a_from_b = joinBy(one, a, b);
@@ -96,17 +92,6 @@ JoinedFrames joinFrames(const FrameName& a, const FrameName& b,
   }
   if (!joined) at.fail(noWayText(a, b, given));
   return *joined;
-}
-
-void writeFrameTransform(const std::filesystem::path& file, const FrameTransform& transform) {
-  nlohmann::ordered_json json;
-  json["format"] = kFormat;
-  json["version"] = kVersion;
-  json["target"] = toJson(transform.target);
-  json["source"] = toJson(transform.source);
-  json["target_from_source"] = toJson(transform.target_from_source);
-  json["comment"] = transform.comment;
-  writeJsonFile(file, json);
 }
 
 }  // namespace boresight::sessions

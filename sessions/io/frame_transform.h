@@ -30,9 +30,6 @@ struct FrameTransform {
 FrameTransform readFrameTransform(const std::filesystem::path& file);
 std::vector<FrameTransform> readFrameTransforms(const std::vector<std::string>& files);
 
-/// Whether `a` and `b` are one frame: name and index agree.
-bool sameFrame(const FrameName& a, const FrameName& b);
-
 /// The frame that a pose of the station was given in, and what joined it to the camera model's.
 struct StationFrame {
   FrameName frame;
@@ -51,8 +48,5 @@ struct JoinedFrames {
 };
 JoinedFrames joinFrames(const FrameName& a, const FrameName& b,
                         std::span<const FrameTransform> given, const JsonReader& at);
-
-/// Writes transform.json; OutputError.
-void writeFrameTransform(const std::filesystem::path& file, const FrameTransform& transform);
 
 }  // namespace boresight::sessions

@@ -6,11 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "sessions/io/byte_cursor.h"
-#include "sessions/io/crc32.h"
+#include "core/base/crc32.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/io/tiff_container.h"
 
 namespace boresight::sessions {
 namespace {
@@ -113,15 +111,8 @@ ImageHeader checkJpeg(const std::filesystem::path& file, Bytes bytes) {
 }  // namespace
 
 const char* imageContainerName(ImageContainer container) {
-  switch (container) {
-    case ImageContainer::kPng:
-      return "PNG";
-    case ImageContainer::kJpeg:
-      return "JPEG";
-    case ImageContainer::kTiff:
-      return "TIFF";
-  }
-  return "unknown";
+  constexpr const char* kNames[] = {"PNG", "JPEG", "TIFF"};
+  return kNames[static_cast<int>(container)];
 }
 
 ImageHeader checkImageContainer(const std::filesystem::path& file, Bytes bytes) {

@@ -13,7 +13,6 @@
 #include "sessions/io/image_container.h"
 #include "sessions/io/labels/image_label.h"
 #include "sessions/io/labels/label_samples.h"
-#include "sessions/io/tiff_container.h"
 
 namespace boresight::sessions {
 namespace {
@@ -41,15 +40,26 @@ cv::Mat decodeAsStored(const std::filesystem::path& file, const std::vector<std:
   return cv::imdecode(bytes, flags);
 }
 
+/// An image file before it becomes 8 bit.
 struct DecodedImage {
-  cv::Mat pixels;        ///< samples as stored, 8 or 16 bits
-  std::string messages;  ///< of the decoder
+  std::optional<LabelSamples> labelled;  ///< of an image with a label; stands behind `pixels`
+  ImageHeader header;                    ///< of other images
+  cv::Mat pixels;                        ///< 8 or 16 bits; with a label 16
+  std::string messages;                  ///< of the decoder
+  std::string sha256;
+
+  int sampleBits() const {
+    return labelled ? labelled->sample_bits : pixels.depth() == CV_16U ? 16 : 8;
+  }
 };
 
-/// Decodes bytes that passed checkImageContainer.
-DecodedImage decode(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes,
-                    const ImageHeader& header) {
+/// Decodes a PNG, JPEG or TIFF within the limits.
+DecodedImage decode(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes) {
   DecodedImage decoded;
+  decoded.header = checkImageContainer(file, bytes);
+  decoded.sha256 = sha256Text(bytes);
+  const ImageHeader& header = decoded.header;
+  checkSize(file, header);
   cv::Mat& image = decoded.pixels;
   try {
     const DecoderMessages kept(decoded.messages);
@@ -63,6 +73,22 @@ DecodedImage decode(const std::filesystem::path& file, const std::vector<std::ui
   if (image.cols != header.width || image.rows != header.height)
     throw InputError(file, "the decoded image has another size than its header says");
   if (image.depth() != CV_8U && image.depth() != CV_16U) throw InputError(file, kOtherSamples);
+  return decoded;
+}
+
+/// The same, or the samples of an image with a label in the file or beside it.
+DecodedImage decode(const std::filesystem::path& file) {
+  std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxImageFileBytes);
+  DecodedImage decoded;
+  if (labelFormatOf(bytes))
+    decoded.labelled = readLabelSamples(readLabelFiles(file, std::move(bytes)));
+  else if (const auto label_file = labelFileOf(file))
+    decoded.labelled = readLabelSamples(readLabelFiles(*label_file));
+  else
+    return decode(file, bytes);
+  LabelSamples& labelled = *decoded.labelled;
+  decoded.pixels = cv::Mat(labelled.height, labelled.width, CV_16U, labelled.values.data());
+  decoded.sha256 = labelled.sha256;
   return decoded;
 }
 
@@ -162,20 +188,6 @@ std::string ruleText(const GrayImage& gray, const ImageReadOptions& options) {
          " - 1) + 0.5), bit depth " + depthText(gray);
 }
 
-/// The samples of an image with a label, `bytes` being its file; nothing for other images.
-std::optional<LabelSamples> labelledSamples(const std::filesystem::path& file,
-                                            std::vector<std::uint8_t>& bytes) {
-  if (labelFormatOf(bytes)) return readLabelSamples(readLabelFiles(file, std::move(bytes)));
-  const auto label_file = labelFileOf(file);
-  if (!label_file) return std::nullopt;
-  return readLabelSamples(readLabelFiles(*label_file));
-}
-
-ImageSamples samplesOf(const LabelSamples& labelled) {
-  return {labelled.width,  labelled.height, labelled.sample_bits, labelled.values,
-          labelled.offset, labelled.scale,  labelled.sha256};
-}
-
 /// Bits that the label states for samples that stay as they are; 0: none.
 int statedBits(const LabelSamples& labelled) {
   return labelled.quantized ? 0 : labelled.label->bit_depth.value_or(0);
@@ -186,7 +198,6 @@ int statedBits(const LabelSamples& labelled) {
 void chooseDepth(const LabelSamples& labelled, const ImageReadOptions& options, GrayImage& gray) {
   const int stated = statedBits(labelled);
   gray.bit_depth_of_label = labelled.quantized;
-  gray.bit_depth = options.bit_depth.value_or(gray.sample_bits);
   if (options.bit_depth || options.levels || stated == 0) return;
   if (!options.table.empty() && options.table.size() != std::size_t{1} << stated) return;
   gray.bit_depth = stated;
@@ -198,33 +209,17 @@ void chooseDepth(const LabelSamples& labelled, const ImageReadOptions& options, 
                        ": read as " + std::to_string(gray.bit_depth) + " bits");
 }
 
-GrayImage grayOf(const std::filesystem::path& file, const LabelSamples& labelled,
-                 const ImageReadOptions& options) {
-  GrayImage gray;
-  gray.file = file;
-  gray.width = labelled.width;
-  gray.height = labelled.height;
+void takeLabel(const LabelSamples& labelled, const ImageReadOptions& options, GrayImage& gray) {
   gray.container = labelled.container;
   gray.channels = labelled.bands;
-  gray.sample_bits = labelled.sample_bits;
   gray.label = labelled.label;
   gray.notes = labelled.label->flags;
-  gray.bit_depth_stated = options.bit_depth.has_value();
   if (labelled.quantized && options.bit_depth && *options.bit_depth != 16)
-    throw InputError(file, "bit_depth",
+    throw InputError(gray.file, "bit_depth",
                      std::to_string(*options.bit_depth) +
                          " bits stated, but its samples are not whole numbers from 0 on and "
                          "become 16 bits");
   chooseDepth(labelled, options, gray);
-  requireDepth(file, gray);
-  const cv::Mat values(gray.height, gray.width, CV_16U,
-                       const_cast<std::uint16_t*>(labelled.values.data()));
-  gray.pixels.resize(labelled.values.size());
-  convert<std::uint16_t>(file, values, sampleTable(file, gray.bit_depth, options), gray);
-  gray.rule = (labelled.rule.empty() ? "" : labelled.rule + "; ") + ruleText(gray, options);
-  gray.file_sha256 = labelled.sha256;
-  gray.pixels_sha256 = sha256Text(gray.pixels);
-  return gray;
 }
 
 }  // namespace
@@ -246,26 +241,25 @@ std::vector<std::uint8_t> tableOfLevels(const GrayLevels& levels, int n) {
 }
 
 ImageSamples readSamples(const std::filesystem::path& file) {
-  std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxImageFileBytes);
-  if (const auto labelled = labelledSamples(file, bytes)) return samplesOf(*labelled);
-  const ImageHeader header = checkImageContainer(file, bytes);
-  checkSize(file, header);
-  const cv::Mat image = decode(file, bytes, header).pixels;
+  const DecodedImage decoded = decode(file);
+  const cv::Mat& image = decoded.pixels;
   ImageSamples samples;
   samples.width = image.cols;
   samples.height = image.rows;
-  samples.sample_bits = image.depth() == CV_16U ? 16 : 8;
-  samples.file_sha256 = sha256Text(bytes);
+  samples.sample_bits = decoded.sampleBits();
+  samples.file_sha256 = decoded.sha256;
+  if (decoded.labelled) {
+    samples.offset = decoded.labelled->offset;
+    samples.scale = decoded.labelled->scale;
+  }
   samples.values.reserve(image.total());
   const int channels = image.channels();
   for (int y = 0; y < image.rows; ++y)
-    for (int x = 0; x < image.cols; ++x) {
-      const std::uint32_t value =
-          samples.sample_bits == 16
+    for (int x = 0; x < image.cols; ++x)
+      samples.values.push_back(static_cast<std::uint16_t>(
+          image.depth() == CV_16U
               ? grayValue(image.ptr<std::uint16_t>(y) + x * channels, channels)
-              : grayValue(image.ptr<std::uint8_t>(y) + x * channels, channels);
-      samples.values.push_back(static_cast<std::uint16_t>(value));
-    }
+              : grayValue(image.ptr<std::uint8_t>(y) + x * channels, channels)));
   return samples;
 }
 
@@ -274,32 +268,32 @@ GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& o
     throw InputError(file, "bit_depth", std::to_string(*options.bit_depth) + " is outside 1 .. 16");
   if (options.levels && !options.table.empty())
     throw InputError(file, "levels", "given beside a table: one of the two");
-  std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxImageFileBytes);
-  if (const auto labelled = labelledSamples(file, bytes)) return grayOf(file, *labelled, options);
-  const ImageHeader header = checkImageContainer(file, bytes);
-  checkSize(file, header);
-  const DecodedImage decoded = decode(file, bytes, header);
+  const DecodedImage decoded = decode(file);
   const cv::Mat& image = decoded.pixels;
-
   GrayImage gray;
   gray.file = file;
   gray.width = image.cols;
   gray.height = image.rows;
-  gray.container = imageContainerName(header.container);
-  gray.channels = image.channels();
-  gray.sample_bits = image.depth() == CV_16U ? 16 : 8;
+  gray.file_sha256 = decoded.sha256;
+  gray.sample_bits = decoded.sampleBits();
   gray.bit_depth = options.bit_depth.value_or(gray.sample_bits);
   gray.bit_depth_stated = options.bit_depth.has_value();
-  gray.notes = notesOf(header, decoded.messages);
+  if (decoded.labelled) {
+    takeLabel(*decoded.labelled, options, gray);
+    if (!decoded.labelled->rule.empty()) gray.rule = decoded.labelled->rule + "; ";
+  } else {
+    gray.container = imageContainerName(decoded.header.container);
+    gray.channels = image.channels();
+    gray.notes = notesOf(decoded.header, decoded.messages);
+  }
   requireDepth(file, gray);
   gray.pixels.resize(image.total());
   const std::vector<std::uint8_t> table = sampleTable(file, gray.bit_depth, options);
-  if (gray.sample_bits == 16)
+  if (image.depth() == CV_16U)
     convert<std::uint16_t>(file, image, table, gray);
   else
     convert<std::uint8_t>(file, image, table, gray);
-  gray.rule = ruleText(gray, options);
-  gray.file_sha256 = sha256Text(bytes);
+  gray.rule += ruleText(gray, options);
   gray.pixels_sha256 = sha256Text(gray.pixels);
   return gray;
 }
@@ -326,14 +320,14 @@ IgnoreMask readIgnoreMask(const std::filesystem::path& file, int width, int heig
     throw InputError(file,
                      std::string("a mask must be PNG or TIFF, not ") + labelFormatName(*format));
   const ImageHeader header = checkImageContainer(file, bytes);
-  checkSize(file, header);
   if (header.container == ImageContainer::kJpeg)
     throw InputError(file, "a mask must be lossless: PNG or TIFF, not JPEG");
   if (header.width != width || header.height != height)
     throw InputError(file, "mask size",
                      "is " + sizeText(header.width, header.height) + ", but the image is " +
                          sizeText(width, height));
-  cv::Mat image = decode(file, bytes, header).pixels;
+  const DecodedImage decoded = decode(file, bytes);
+  cv::Mat image = decoded.pixels;
   if (image.depth() == CV_16U) {
     cv::Mat nonzero;
     cv::compare(image.reshape(1), 0, nonzero, cv::CMP_NE);
@@ -346,7 +340,7 @@ IgnoreMask readIgnoreMask(const std::filesystem::path& file, int width, int heig
   mask.height = height;
   const int words_per_row = BitImage::wordsPerRow(width);
   mask.words.assign(static_cast<std::size_t>(words_per_row) * static_cast<std::size_t>(height), 0);
-  mask.file_sha256 = sha256Text(bytes);
+  mask.file_sha256 = decoded.sha256;
   const int channels = image.channels();
   const int judged = channels == 2 || channels == 4 ? channels - 1 : channels;
   for (int y = 0; y < height; ++y) {

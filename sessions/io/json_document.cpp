@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/io/json_document.h"
+#include "sessions/io/json_reader.h"
 
 #include <algorithm>
 #include <cctype>

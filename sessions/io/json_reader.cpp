@@ -242,26 +242,10 @@ Eigen::Vector2d JsonReader::vector2() const {
   return {all[0].number(), all[1].number()};
 }
 
-Eigen::Vector3d JsonReader::vector3() const {
-  const std::vector<JsonReader> all = elements(3);
-  return {all[0].number(), all[1].number(), all[2].number()};
-}
-
 Eigen::Vector3d JsonReader::vector3(double minimum, double maximum) const {
   const std::vector<JsonReader> all = elements(3);
   return {all[0].number(minimum, maximum), all[1].number(minimum, maximum),
           all[2].number(minimum, maximum)};
-}
-
-Eigen::Matrix4d JsonReader::matrix4() const {
-  Eigen::Matrix4d matrix;
-  const std::vector<JsonReader> rows = elements(4);
-  for (int row = 0; row < 4; ++row) {
-    const std::vector<JsonReader> cells = rows[static_cast<std::size_t>(row)].elements(4);
-    for (int column = 0; column < 4; ++column)
-      matrix(row, column) = cells[static_cast<std::size_t>(column)].number();
-  }
-  return matrix;
 }
 
 std::filesystem::path JsonReader::path(FileUse use) const {

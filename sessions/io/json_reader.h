@@ -6,8 +6,10 @@
 #include <initializer_list>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,7 +18,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
-#include "sessions/io/input_files.h"
+#include "sessions/io/file_bytes.h"
 
 namespace boresight::sessions {
 
@@ -93,14 +95,23 @@ class JsonReader {
   std::string choice(std::initializer_list<const char*> choices) const;
 
   Eigen::Vector2d vector2() const;
-  Eigen::Vector3d vector3() const;
   /// Three numbers, each in [minimum, maximum].
-  Eigen::Vector3d vector3(double minimum, double maximum) const;
-  /// Four rows of four numbers.
-  Eigen::Matrix4d matrix4() const;
+  Eigen::Vector3d vector3(double minimum = std::numeric_limits<double>::lowest(),
+                          double maximum = std::numeric_limits<double>::max()) const;
+  /// N rows of N numbers.
+  template <int N>
+  Eigen::Matrix<double, N, N> matrix() const {
+    Eigen::Matrix<double, N, N> made;
+    for (int row = 0; const JsonReader& cells : elements(N)) {
+      for (int column = 0; const JsonReader& cell : cells.elements(N))
+        made(row, column++) = cell.number();
+      ++row;
+    }
+    return made;
+  }
 
   /// A file named relative to the document's folder (or absolute): no output replaces it from now
-  /// on (input_files.h).
+  /// on (file_bytes.h).
   std::filesystem::path path(FileUse use = FileUse::kInput) const;
 
   const std::filesystem::path& file() const { return *file_; }
@@ -126,5 +137,40 @@ class JsonReader {
 
 /// Shortest text that reads back as the same double.
 std::string numberText(double value);
+
+inline constexpr std::size_t kMaxJsonBytes = 64 * kMegabyte;
+inline constexpr std::size_t kMaxJsonDepth = 64;
+
+/// A parsed JSON file. Refused, each with the place in the file: anything that is not JSON or not
+/// UTF-8, a key given twice, NaN or infinity, numbers that do not fit a double, more than
+/// `kMaxJsonDepth` levels. Comments are not JSON.
+class JsonDocument {
+ public:
+  /// Reads and parses `file`; InputError.
+  explicit JsonDocument(const std::filesystem::path& file);
+  /// Parses text; `file` only names it in messages.
+  JsonDocument(const std::filesystem::path& file, std::string_view text);
+  JsonDocument(JsonDocument&&) noexcept;
+  JsonDocument& operator=(JsonDocument&&) noexcept;
+  ~JsonDocument();
+
+  /// The value at the top, of a format that others define; lives as long as the document.
+  JsonReader root() const;
+  /// What `read` makes of the top, an object of this `format` and `version` without members that
+  /// `read` does not ask for. InputError.
+  template <class Read>
+  auto read(std::string_view format, int version, Read&& read) const {
+    return root().whole([&](const JsonReader& top) {
+      top.requireFormat(format, version);
+      return read(top);
+    });
+  }
+
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+  std::unique_ptr<nlohmann::json> value_;
+};
 
 }  // namespace boresight::sessions

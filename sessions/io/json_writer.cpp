@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -56,6 +57,14 @@ void append(const ordered_json& value, const std::string& indent, std::string& t
   text += "\n" + indent + (value.is_object() ? "}" : "]");
 }
 
+template <class Matrix>
+ordered_json rowsOf(const Matrix& matrix) {
+  ordered_json rows = ordered_json::array();
+  for (const auto& row : matrix.rowwise())
+    rows.push_back(std::vector<double>(row.begin(), row.end()));
+  return rows;
+}
+
 }  // namespace
 
 std::string prettyJson(const ordered_json& value) {
@@ -68,28 +77,21 @@ void writeJsonFile(const std::filesystem::path& file, const ordered_json& value)
   writeFileAtomically(file, prettyJson(value));
 }
 
+ordered_json toJson(const Eigen::Vector2d& vector) {
+  return ordered_json::array({vector.x(), vector.y()});
+}
+
 ordered_json toJson(const Eigen::Vector3d& vector) {
   return ordered_json::array({vector.x(), vector.y(), vector.z()});
 }
 
 ordered_json toJson(const Pose& a_from_b) {
-  const Eigen::Matrix3d rotation = a_from_b.matrix();
-  ordered_json rows = ordered_json::array();
-  for (int row = 0; row < 3; ++row)
-    rows.push_back(ordered_json::array(
-        {rotation(row, 0), rotation(row, 1), rotation(row, 2), a_from_b.translation_m[row]}));
-  rows.push_back(ordered_json::array({0.0, 0.0, 0.0, 1.0}));
-  return rows;
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.topLeftCorner<3, 3>() = a_from_b.matrix();
+  matrix.topRightCorner<3, 1>() = a_from_b.translation_m;
+  return rowsOf(matrix);
 }
 
-ordered_json toJson(const Matrix6d& matrix) {
-  ordered_json rows = ordered_json::array();
-  for (int row = 0; row < 6; ++row) {
-    ordered_json numbers = ordered_json::array();
-    for (int column = 0; column < 6; ++column) numbers.push_back(matrix(row, column));
-    rows.push_back(std::move(numbers));
-  }
-  return rows;
-}
+ordered_json toJson(const Matrix6d& matrix) { return rowsOf(matrix); }
 
 }  // namespace boresight::sessions

@@ -19,6 +19,7 @@ std::string prettyJson(const nlohmann::ordered_json& value);
 /// of the program and throws std::logic_error rather than being written as null.
 void writeJsonFile(const std::filesystem::path& file, const nlohmann::ordered_json& value);
 
+nlohmann::ordered_json toJson(const Eigen::Vector2d& vector);
 nlohmann::ordered_json toJson(const Eigen::Vector3d& vector);
 /// Row-major 4x4.
 nlohmann::ordered_json toJson(const Pose& a_from_b);

@@ -11,8 +11,8 @@
 
 #include "sessions/io/errors.h"
 #include "sessions/io/mesh_container.h"
+#include "sessions/io/mesh_faces.h"
 #include "sessions/io/mesh_import.h"
-#include "sessions/io/mesh_weld.h"
 
 namespace boresight::sessions {
 namespace {
@@ -36,13 +36,6 @@ double unitScale(const std::filesystem::path& file, MeshFormat format, const std
   return *scale;
 }
 
-double edgeLength(const Mesh& mesh, std::int32_t a, std::int32_t b) {
-  return (mesh.vertices_m[static_cast<std::size_t>(a)] -
-          mesh.vertices_m[static_cast<std::size_t>(b)])
-      .cast<double>()
-      .norm();
-}
-
 void measure(const std::filesystem::path& file, Mesh& mesh) {
   MeshInfo& info = mesh.info;
   info.minimum_m = info.maximum_m = mesh.vertices_m.front().cast<double>();
@@ -50,29 +43,19 @@ void measure(const std::filesystem::path& file, Mesh& mesh) {
     info.minimum_m = info.minimum_m.cwiseMin(vertex.cast<double>());
     info.maximum_m = info.maximum_m.cwiseMax(vertex.cast<double>());
   }
-  std::vector<double> lengths_m;
-  lengths_m.reserve(3 * mesh.faces.size());
   for (const Face& face : mesh.faces) {
     const auto corner = [&mesh, &face](std::size_t i) -> Eigen::Vector3d {
       return mesh.vertices_m[static_cast<std::size_t>(face.vertex[i])].cast<double>();
     };
     double longest_m = 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      lengths_m.push_back(edgeLength(mesh, face.vertex[i], face.vertex[(i + 1) % 3]));
-      longest_m = std::max(longest_m, lengths_m.back());
-    }
+    for (std::size_t i = 0; i < 3; ++i)
+      longest_m = std::max(longest_m, (corner((i + 1) % 3) - corner(i)).norm());
     const double doubled_area_m2 = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
-    info.area_m2 += 0.5 * doubled_area_m2;
     if (doubled_area_m2 <= kSliverRatio * longest_m * longest_m) ++info.sliver_faces;
   }
   if (info.sliver_faces == static_cast<std::int64_t>(mesh.faces.size()))
     throw InputError(file, "faces",
                      "all " + std::to_string(info.sliver_faces) + " are slivers without a surface");
-  const auto middle = lengths_m.begin() + static_cast<std::ptrdiff_t>(lengths_m.size() / 2);
-  std::nth_element(lengths_m.begin(), middle, lengths_m.end());
-  info.median_edge_m = *middle;
-  info.shortest_edge_m = *std::min_element(lengths_m.begin(), lengths_m.end());
-  info.longest_edge_m = *std::max_element(lengths_m.begin(), lengths_m.end());
 }
 
 }  // namespace

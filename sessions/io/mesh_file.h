@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "core/geometry/mesh.h"
-#include "sessions/io/mesh_files.h"
+#include "sessions/io/mesh_container.h"
 
 namespace boresight::sessions {
 
@@ -36,17 +36,13 @@ struct MeshInfo {
 
   Eigen::Vector3d minimum_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d maximum_m = Eigen::Vector3d::Zero();
-  double shortest_edge_m = 0.0;
-  double median_edge_m = 0.0;
-  double longest_edge_m = 0.0;
-  double area_m2 = 0.0;
 
   double diagonal_m() const { return (maximum_m - minimum_m).norm(); }
   /// One line for each thing that people should know: what was left out, an unusual size.
   std::vector<std::string> notes() const;
 };
 
-/// Triangles of one file in its own frame, metres; axes as in the file, welded (mesh_weld.h).
+/// Triangles of one file in its own frame, metres; axes as in the file, welded (mesh_faces.h).
 struct Mesh {
   std::vector<Eigen::Vector3f> vertices_m;
   std::vector<Face> faces;

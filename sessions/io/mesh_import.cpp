@@ -1,26 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/io/mesh_import.h"
 
-#include <assimp/scene.h>
-
-#include <assimp/BaseImporter.h>
-#include <assimp/MemoryIOWrapper.h>
-#include <Eigen/LU>
 #include <algorithm>
-#include <assimp/IOSystem.hpp>
-#include <assimp/Importer.hpp>
 #include <cctype>
+#include <cstdint>
 #include <exception>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
+
+#include <assimp/BaseImporter.h>
+#include <assimp/MemoryIOWrapper.h>
+#include <assimp/scene.h>
+#include <Eigen/LU>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
+#include <nlohmann/json.hpp>
 
 #include "sessions/io/errors.h"
-#include "sessions/io/gltf_geometry.h"
+#include "sessions/io/file_bytes.h"
+#include "sessions/io/mesh_container.h"
+#include "sessions/io/mesh_faces.h"
 #include "sessions/io/mesh_file.h"
-#include "sessions/io/triangulate.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 // Importers of assimp leak when they refuse a file; our own leaks must still be seen.
@@ -54,9 +60,7 @@ class MemoryFiles final : public Assimp::IOSystem {
 
 /// Importers of other formats would try to read what the format's own does not recognize.
 void keepImportersOf(MeshFormat format, Assimp::Importer& importer) {
-  std::string extension = meshFormatName(format);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lowerCase(meshFormatName(format));
   for (std::size_t i = importer.GetImporterCount(); i > 0; --i) {
     Assimp::BaseImporter* other = importer.GetImporter(i - 1);
     std::set<std::string> extensions;
@@ -65,6 +69,65 @@ void keepImportersOf(MeshFormat format, Assimp::Importer& importer) {
     importer.UnregisterLoader(other);
     delete other;  // NOLINT: the importer gave it up
   }
+}
+
+using nlohmann::json;
+using Keys = std::initializer_list<const char*>;
+
+json kept(const json& object, Keys keys) {
+  json made = json::object();
+  for (const char* key : keys)
+    if (object.contains(key)) made[key] = object[key];
+  return made;
+}
+
+void keepInEach(json& object, const char* list, Keys keys) {
+  if (!object.contains(list)) return;
+  for (json& one : object[list]) one = kept(one, keys);
+}
+
+std::string geometryJson(std::string_view text) {
+  json made = kept(json::parse(text), {"asset", "extensionsRequired", "scene", "scenes", "nodes",
+                                       "meshes", "accessors", "bufferViews", "buffers"});
+  keepInEach(made, "scenes", {"nodes"});
+  keepInEach(made, "nodes", {"children", "mesh", "matrix", "translation", "rotation", "scale"});
+  keepInEach(made, "meshes", {"primitives"});
+  for (json& mesh : made["meshes"]) {
+    keepInEach(mesh, "primitives", {"attributes", "indices", "mode"});
+    for (json& primitive : mesh["primitives"])
+      primitive["attributes"] = kept(primitive["attributes"], {"POSITION"});
+  }
+  keepInEach(made, "accessors", {"bufferView", "byteOffset", "componentType", "count", "type"});
+  keepInEach(made, "bufferViews", {"buffer", "byteOffset", "byteLength", "byteStride"});
+  keepInEach(made, "buffers", {"uri", "byteLength"});
+  return made.dump();
+}
+
+void appendNumber(std::vector<std::uint8_t>& bytes, std::size_t number) {
+  for (int shift = 0; shift < 32; shift += 8)
+    bytes.push_back(static_cast<std::uint8_t>(number >> shift));
+}
+
+/// A .gltf or .glb file with its geometry alone: nodes, triangles and where their numbers are.
+/// Importers read, and crash on, the rest (skins, animations, images, extensions), of which nothing
+/// is used. `bytes` passed checkMeshContainer.
+std::vector<std::uint8_t> gltfGeometry(std::span<const std::uint8_t> bytes, MeshFormat format) {
+  if (format == MeshFormat::kGltf) {
+    const std::string text = geometryJson(asText(bytes));
+    return {text.begin(), text.end()};
+  }
+  constexpr std::size_t kHeader = 20;
+  const auto old_size = static_cast<std::size_t>(readUnsigned(bytes, 12, 4, false));
+  std::string text = geometryJson(asText(bytes.subspan(kHeader, old_size)));
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const auto rest = bytes.subspan(kHeader + old_size);
+  std::vector<std::uint8_t> made(bytes.begin(), bytes.begin() + 8);
+  appendNumber(made, kHeader + text.size() + rest.size());
+  appendNumber(made, text.size());
+  made.insert(made.end(), bytes.begin() + 16, bytes.begin() + kHeader);
+  made.insert(made.end(), text.begin(), text.end());
+  made.insert(made.end(), rest.begin(), rest.end());
+  return made;
 }
 
 /// What the importer gets in place of the mesh's file; empty: the file as it is. It takes a first

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/geometry/mesh.h"
-#include "sessions/io/mesh_files.h"
+#include "sessions/io/mesh_container.h"
 
 namespace boresight::sessions {
 

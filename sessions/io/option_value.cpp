@@ -113,14 +113,10 @@ OptionValue parsedValue(const OptionDescription& option, std::string_view text) 
     if (text == "false") return false;
     wrongKind(option, whole);
   }
-  const char* end = text.data() + text.size();
-  std::int64_t integer = 0;
-  const auto as_integer = std::from_chars(text.data(), end, integer);
-  if (as_integer.ec == std::errc() && as_integer.ptr == end) return checkedValue(option, integer);
-  double real = 0.0;
-  const auto as_real = std::from_chars(text.data(), end, real);
-  if (as_real.ec != std::errc() || as_real.ptr != end) wrongKind(option, whole);
-  return checkedValue(option, real);
+  if (const auto integer = numberIn<std::int64_t>(text)) return checkedValue(option, *integer);
+  const auto real = numberIn<double>(text);
+  if (!real) wrongKind(option, whole);
+  return checkedValue(option, *real);
 }
 
 std::string valueText(const OptionDescription& option, const OptionValue& value) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/io/ply_container.h"
+#include "sessions/io/mesh_container.h"
 
 #include <algorithm>
 #include <charconv>
@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "sessions/io/byte_cursor.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/math.h"
-#include "sessions/io/json_document.h"
+#include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
 
 namespace boresight::sessions {
@@ -20,7 +20,7 @@ constexpr double kMostAsymmetry = 1e-6;  ///< of a covariance, of its diagonal
 }  // namespace
 
 Pose readTransform(const JsonReader& json, double* rotation_deviation) {
-  const Eigen::Matrix4d matrix = json.matrix4();
+  const Eigen::Matrix4d matrix = json.matrix<4>();
   const Eigen::RowVector4d last_row(0.0, 0.0, 0.0, 1.0);
   if ((matrix.row(3) - last_row).cwiseAbs().maxCoeff() > kLastRowTolerance)
     json.fail("the last row is not 0 0 0 1 (the matrix is row-major)");
@@ -42,19 +42,8 @@ Pose readTransform(const JsonReader& json, double* rotation_deviation) {
   return pose;
 }
 
-Matrix6d readMatrix6(const JsonReader& json) {
-  Matrix6d matrix;
-  const auto rows = json.elements(6);
-  for (int row = 0; row < 6; ++row) {
-    const auto numbers = rows[static_cast<std::size_t>(row)].elements(6);
-    for (int column = 0; column < 6; ++column)
-      matrix(row, column) = numbers[static_cast<std::size_t>(column)].number();
-  }
-  return matrix;
-}
-
 Matrix6d readCovariance(const JsonReader& json) {
-  const Matrix6d matrix = readMatrix6(json);
+  const Matrix6d matrix = json.matrix<6>();
   const Vector6d sigma = matrix.diagonal().cwiseMax(0.0).cwiseSqrt();
   const Matrix6d asymmetry = matrix - matrix.transpose();
   const Matrix6d allowed = kMostAsymmetry * sigma * sigma.transpose();
@@ -155,9 +144,7 @@ nlohmann::ordered_json toJson(const DeclaredUncertainty& uncertainty) {
 void writePose(const std::filesystem::path& file, const Pose& camera_from_station,
                const std::optional<DeclaredUncertainty>& uncertainty,
                const std::optional<Matrix6d>& covariance) {
-  nlohmann::ordered_json json;
-  json["format"] = kFormat;
-  json["version"] = kVersion;
+  nlohmann::ordered_json json = {{"format", kFormat}, {"version", kVersion}};
   json["camera_from_station"] = toJson(camera_from_station);
   if (uncertainty) json["uncertainty"] = toJson(*uncertainty);
   if (covariance) json["covariance"] = toJson(*covariance);

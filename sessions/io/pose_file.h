@@ -59,9 +59,7 @@ PoseFile readPose(const JsonReader& json, const PoseFrames& frames = {});
 /// `rotation_deviation` may be nullptr.
 Pose readTransform(const JsonReader& json, double* rotation_deviation = nullptr);
 
-/// Six rows of six numbers. InputError.
-Matrix6d readMatrix6(const JsonReader& json);
-/// The same, symmetric and nowhere below 0 on its diagonal. InputError.
+/// Six rows of six numbers, symmetric and nowhere below 0 on the diagonal. InputError.
 Matrix6d readCovariance(const JsonReader& json);
 
 /// Translations 0 .. 1000 m, rotations 0 .. 180 deg; `pivot` is "camera" where it is not given.

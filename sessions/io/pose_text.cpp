@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/math.h"
+#include "sessions/io/json_reader.h"
 
 namespace boresight::sessions {
 namespace {
@@ -16,19 +17,11 @@ namespace {
 constexpr double kMillimetres = 1e3;
 constexpr double kLargest_m = 1e6;
 
-/// Shortest digits that read back to the same double; never the locale's.
-std::string digits(double value) {
-  std::array<char, 40> buffer{};
-  if (value == 0.0) value = 0.0;  // not "-0"
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), end.ptr};
-}
-
 std::string list(std::initializer_list<double> values) {
   std::string text = "[";
   for (const double value : values) {
     if (text.size() > 1) text += ", ";
-    text += digits(value);
+    text += numberText(value == 0.0 ? 0.0 : value);  // not "-0"
   }
   return text + "]";
 }

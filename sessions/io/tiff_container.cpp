@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/io/tiff_container.h"
+#include "sessions/io/image_container.h"
 
 #include <algorithm>
 #include <iterator>
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "sessions/io/byte_cursor.h"
 #include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
 
 namespace boresight::sessions {
 namespace {

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
+
+#include <opencv2/core.hpp>
 
 namespace boresight::sessions {
 namespace {
@@ -26,10 +27,10 @@ std::uint8_t sample(const ImageView& image, const Eigen::Vector2d& place) {
   return static_cast<std::uint8_t>((1.0 - v) * upper + v * lower + 0.5);
 }
 
-void undistortRows(const Camera& camera, const ImageView& image, int first, int end,
+void undistortRows(const Camera& camera, const ImageView& image, const cv::Range& rows,
                    UndistortedImage& output) {
   const Camera& pinhole = output.camera;
-  for (int y = first; y < end; ++y)
+  for (int y = rows.start; y < rows.end; ++y)
     for (int x = 0; x < pinhole.width; ++x) {
       const Eigen::Vector3d ray((x - pinhole.cx) / pinhole.fx, (y - pinhole.cy) / pinhole.fy, 1.0);
       Eigen::Vector2d place;
@@ -63,15 +64,8 @@ UndistortedImage undistort(const Camera& camera, const ImageView& image) {
                   output.pixels.begin() + static_cast<std::ptrdiff_t>(y) * image.width);
     return output;
   }
-  const int workers = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 16);
-  const auto share = [&](int part) { return camera.height * part / workers; };
-  {
-    std::vector<std::jthread> threads;
-    for (int i = 1; i < workers; ++i)
-      threads.emplace_back(
-          [&, i] { undistortRows(camera, image, share(i), share(i + 1), output); });
-    undistortRows(camera, image, 0, share(1), output);
-  }  // the threads have joined
+  cv::parallel_for_(cv::Range(0, camera.height),
+                    [&](const cv::Range& rows) { undistortRows(camera, image, rows, output); });
   return output;
 }
 

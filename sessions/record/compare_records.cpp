@@ -22,9 +22,15 @@ constexpr double kMilliradians = 1e3;
 /// A share of fewer than these says little.
 constexpr int kLeastCounted = 10;
 
-Difference differs(RunPart part, const std::string& text, int iteration = -1,
-                   int template_index = -1) {
-  return FirstDifference{part, iteration, template_index, text};
+Difference differs(RunPart part, const std::string& text) {
+  return FirstDifference{part, -1, -1, text};
+}
+
+/// In one iteration, and in one of its templates where `item` is not -1.
+Difference differs(RunPart part, const RecordedIteration& iteration, const std::string& text,
+                   int item = -1) {
+  const std::string place = "in iteration " + std::to_string(iteration.index + 1);
+  return FirstDifference{part, iteration.index, item, text + " " + place};
 }
 
 template <class Value>
@@ -34,8 +40,6 @@ std::string versus(const Value& one, const Value& other) {
   text << one << " and " << other;
   return text.str();
 }
-
-std::string inIteration(int index) { return "in iteration " + std::to_string(index + 1); }
 
 bool isSame(const SeedUncertainty& a, const SeedUncertainty& b) {
   return a.translation_m == b.translation_m && a.rotation_rad == b.rotation_rad &&
@@ -98,8 +102,8 @@ Difference optionsDifference(const OnboardRecord& one, const OnboardRecord& othe
   const std::size_t both = std::min(one.options.size(), other.options.size());
   for (std::size_t i = 1; i < both; ++i)
     if (!(one.options[i] == other.options[i]))
-      return differs(RunPart::kOptions, "options were changed differently on the way",
-                     one.options[i].first_iteration);
+      return FirstDifference{RunPart::kOptions, one.options[i].first_iteration, -1,
+                             "options were changed differently on the way"};
   return {};
 }
 
@@ -120,74 +124,68 @@ Difference edgesDifference(const OnboardRecord& one, const OnboardRecord& other)
 
 Difference renderDifference(const RecordedIteration& a, const RecordedIteration& b) {
   if (!(a.camera_from_station_before == b.camera_from_station_before))
-    return differs(RunPart::kPose, "the poses before it differ " + inIteration(a.index), a.index);
+    return differs(RunPart::kPose, a, "the poses before it differ");
   if (a.level != b.level || a.kind != b.kind)
-    return differs(RunPart::kRender, "the kinds or levels differ " + inIteration(a.index), a.index);
+    return differs(RunPart::kRender, a, "the kinds or levels differ");
   if (a.edge_pixels != b.edge_pixels)
-    return differs(RunPart::kRender,
-                   "the rendered edge pixels are " + versus(a.edge_pixels, b.edge_pixels) + ' ' +
-                       inIteration(a.index),
-                   a.index);
+    return differs(RunPart::kRender, a,
+                   "the rendered edge pixels are " + versus(a.edge_pixels, b.edge_pixels));
   if (a.render_sha256 && b.render_sha256 && *a.render_sha256 != *b.render_sha256)
-    return differs(RunPart::kRender, "the renders differ " + inIteration(a.index), a.index);
+    return differs(RunPart::kRender, a, "the renders differ");
   return {};
 }
 
-Difference templatesDifference(const RecordedIteration& a, const RecordedIteration& b) {
-  if (a.templates_count != b.templates_count)
-    return differs(RunPart::kTemplates,
-                   "the templates are " + versus(a.templates_count, b.templates_count) + ' ' +
-                       inIteration(a.index),
-                   a.index);
-  if (!a.templates || !b.templates) return {};
+/// The first of both runs' templates that `same` does not hold for, or -1.
+template <class Same>
+int firstTemplate(const RecordedIteration& a, const RecordedIteration& b, Same&& same) {
   const std::size_t count = std::min(a.templates->size(), b.templates->size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const RecordedTemplate& s = (*a.templates)[i];
-    const RecordedTemplate& t = (*b.templates)[i];
-    if (s.x != t.x || s.y != t.y)
-      return differs(RunPart::kTemplates,
-                     "template " + std::to_string(i + 1) + " was taken at different places " +
-                         inIteration(a.index),
-                     a.index, static_cast<int>(i));
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    const RecordedTemplate& s = (*a.templates)[i];
-    const RecordedTemplate& t = (*b.templates)[i];
-    const bool same = s.searched == t.searched && s.at_border == t.at_border &&
-                      s.found_x == t.found_x && s.found_y == t.found_y && s.score == t.score &&
-                      s.second_score == t.second_score;
-    if (!same)
-      return differs(RunPart::kMatches,
-                     "template " + std::to_string(i + 1) + " was found differently, with scores " +
-                         versus(s.score, t.score) + ", " + inIteration(a.index),
-                     a.index, static_cast<int>(i));
-  }
   for (std::size_t i = 0; i < count; ++i)
-    if ((*a.templates)[i].inlier != (*b.templates)[i].inlier)
-      return differs(RunPart::kInliers,
-                     "template " + std::to_string(i + 1) + " is an inlier in one run only, " +
-                         inIteration(a.index),
-                     a.index, static_cast<int>(i));
+    if (!same((*a.templates)[i], (*b.templates)[i])) return static_cast<int>(i);
+  return -1;
+}
+
+Difference templatesDifference(const RecordedIteration& a, const RecordedIteration& b) {
+  using Item = RecordedTemplate;
+  if (a.templates_count != b.templates_count)
+    return differs(RunPart::kTemplates, a,
+                   "the templates are " + versus(a.templates_count, b.templates_count));
+  if (!a.templates || !b.templates) return {};
+  const auto name = [](int item) { return "template " + std::to_string(item + 1); };
+  const int moved =
+      firstTemplate(a, b, [](const Item& s, const Item& t) { return s.x == t.x && s.y == t.y; });
+  if (moved >= 0)
+    return differs(RunPart::kTemplates, a, name(moved) + " was taken at different places", moved);
+  const int found = firstTemplate(a, b, [](const Item& s, const Item& t) {
+    return s.searched == t.searched && s.at_border == t.at_border && s.found_x == t.found_x &&
+           s.found_y == t.found_y && s.score == t.score && s.second_score == t.second_score;
+  });
+  if (found >= 0) {
+    const auto place = static_cast<std::size_t>(found);
+    return differs(RunPart::kMatches, a,
+                   name(found) + " was found differently, with scores " +
+                       versus((*a.templates)[place].score, (*b.templates)[place].score) + ",",
+                   found);
+  }
+  const int inlier =
+      firstTemplate(a, b, [](const Item& s, const Item& t) { return s.inlier == t.inlier; });
+  if (inlier >= 0)
+    return differs(RunPart::kInliers, a, name(inlier) + " is an inlier in one run only,", inlier);
   return {};
 }
 
 Difference solutionDifference(const RecordedIteration& a, const RecordedIteration& b) {
   if (a.searched != b.searched || a.correspondences != b.correspondences)
-    return differs(RunPart::kMatches,
-                   "the matches are " + versus(a.correspondences, b.correspondences) + ' ' +
-                       inIteration(a.index),
-                   a.index);
+    return differs(RunPart::kMatches, a,
+                   "the matches are " + versus(a.correspondences, b.correspondences));
   if (a.inliers != b.inliers || a.refinement_used != b.refinement_used)
-    return differs(RunPart::kInliers,
+    return differs(RunPart::kInliers, a,
                    "the inliers are " + versus(a.inliers, b.inliers) + ", the edge places used " +
-                       versus(a.refinement_used, b.refinement_used) + ", " + inIteration(a.index),
-                   a.index);
+                       versus(a.refinement_used, b.refinement_used) + ",");
   if (!(a.camera_from_station == b.camera_from_station) || a.status != b.status ||
       a.reached != b.reached)
-    return differs(RunPart::kPose,
-                   "the poses or their states differ after it, " + inIteration(a.index), a.index);
+    return differs(RunPart::kPose, a, "the poses or their states differ after it,");
   if (a.support && b.support && !isSame(*a.support, *b.support))
-    return differs(RunPart::kSupport, "the edge support differs " + inIteration(a.index), a.index);
+    return differs(RunPart::kSupport, a, "the edge support differs");
   return {};
 }
 

@@ -8,56 +8,22 @@
 namespace boresight::sessions {
 
 const char* runPartText(RunPart part) {
-  switch (part) {
-    case RunPart::kPixels:
-      return "pixels";
-    case RunPart::kMask:
-      return "mask";
-    case RunPart::kScene:
-      return "scene";
-    case RunPart::kCamera:
-      return "camera";
-    case RunPart::kSeed:
-      return "seed";
-    case RunPart::kOptions:
-      return "options";
-    case RunPart::kEdges:
-      return "edge map";
-    case RunPart::kRender:
-      return "render";
-    case RunPart::kTemplates:
-      return "templates";
-    case RunPart::kMatches:
-      return "matches";
-    case RunPart::kInliers:
-      return "inliers";
-    case RunPart::kPose:
-      return "pose";
-    case RunPart::kSupport:
-      return "support";
-    case RunPart::kEnd:
-      return "end";
-    case RunPart::kDigest:
-      return "digest";
-  }
-  return "";
+  constexpr const char* kTexts[] = {"pixels",  "mask",     "scene",   "camera",    "seed",
+                                    "options", "edge map", "render",  "templates", "matches",
+                                    "inliers", "pose",     "support", "end",       "digest"};
+  return kTexts[static_cast<std::size_t>(part)];
 }
 
 std::string comparisonText(const RecordComparison& comparison) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(3);
-  switch (comparison.verdict) {
-    case RunVerdict::kEqual:
-      text << "equal to the bit\n";
-      break;
-    case RunVerdict::kWithinLimits:
-      text << (comparison.first ? "not the same, but within the limits\n"
-                                : "equal to the bit as far as the records go\n");
-      break;
-    case RunVerdict::kDifferent:
-      text << "different\n";
-      break;
-  }
+  if (comparison.verdict == RunVerdict::kEqual)
+    text << "equal to the bit\n";
+  else if (comparison.verdict == RunVerdict::kDifferent)
+    text << "different\n";
+  else
+    text << (comparison.first ? "not the same, but within the limits\n"
+                              : "equal to the bit as far as the records go\n");
   if (comparison.first)
     text << plainLine("first difference: " + std::string(runPartText(comparison.first->part)) +
                       ": " + comparison.first->text);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/localizer/localizer.h"
-#include "core/localizer/option_bytes.h"
+#include "core/localizer/problem_bytes.h"
 #include "core/record/record_hashes.h"
 #include "core/record/record_writer.h"
 

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 #include "core/base/math.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/record/record_of_run.h"
 #include "sessions/record/replay_record.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {
@@ -19,15 +18,9 @@ constexpr double kMillimetres = 1e3;
 constexpr double kMilliradians = 1e3;
 constexpr std::size_t kDigestShown = 16;  ///< digits; enough to tell runs apart
 
-std::string fixed(double value, int decimals) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(decimals) << value;
-  return text.str();
-}
-
 std::string triple(const Eigen::Vector3d& value, int decimals) {
-  return fixed(value.x(), decimals) + ", " + fixed(value.y(), decimals) + ", " +
-         fixed(value.z(), decimals);
+  return fixedText(value.x(), decimals) + ", " + fixedText(value.y(), decimals) + ", " +
+         fixedText(value.z(), decimals);
 }
 
 /// Largest of three sigmas.
@@ -85,8 +78,9 @@ std::vector<std::pair<std::string, std::string>> recordSheet(const OnboardRecord
     lines.emplace_back("Rotation vector", turnText(end.camera_from_station));
     if (!end.covariance.isZero())
       lines.emplace_back("One sigma, at most",
-                         fixed(kMillimetres * largestSigma(end.covariance, 3), 3) + " mm, " +
-                             fixed(kMilliradians * largestSigma(end.covariance, 0), 3) + " mrad");
+                         fixedText(kMillimetres * largestSigma(end.covariance, 3), 3) + " mm, " +
+                             fixedText(kMilliradians * largestSigma(end.covariance, 0), 3) +
+                             " mrad");
     lines.emplace_back("Digest", end.digest.substr(0, kDigestShown) + " ...");
   } else {
     lines.emplace_back("Ended as", "not known");
@@ -111,10 +105,10 @@ std::string verdictText(const RecordComparison& comparison) {
 
 std::string limitsText(const ComparisonLimits& limits) {
   return "Limits for other pixels: in the first iteration at least " + percent(limits.found_share) +
-         " of the templates at one place found within " + fixed(limits.found_px, 1) +
+         " of the templates at one place found within " + fixedText(limits.found_px, 1) +
          " px of each other, at least " + percent(limits.inlier_share) +
          " of the inliers of either inliers of both (shares of ten or more); final poses " +
-         fixed(limits.pose_sigmas, 1) + " sigmas apart at most.";
+         fixedText(limits.pose_sigmas, 1) + " sigmas apart at most.";
 }
 
 }  // namespace boresight::sessions

@@ -11,7 +11,7 @@
 #include "core/match/search_window.h"
 #include "core/pnp/correspondence.h"
 #include "core/record/record_hashes.h"
-#include "sessions/record/recorded_plan.h"
+#include "sessions/record/record_of_run.h"
 #include "sessions/record/replay_scene.h"
 #include "sessions/run/edge_detection.h"
 #include "sessions/run/record_inputs.h"

@@ -9,18 +9,16 @@
 #include <utility>
 
 #include "core/base/math.h"
-#include "sessions/evaluation/pose_sigma.h"
+#include "sessions/evaluation/pose_error.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/report/pdf_canvas.h"
 #include "sessions/report/pdf_plot.h"
 #include "sessions/report/report_pictures.h"
-#include "sessions/report/report_residuals.h"
 #include "sessions/review/checks.h"
-#include "sessions/review/checks_text.h"
-#include "sessions/review/end_effector_pose.h"
-#include "sessions/review/measured_pose.h"
+#include "sessions/review/handed_pose.h"
+#include "sessions/review/pose_uncertainty.h"
 #include "sessions/review/standing.h"
-#include "sessions/session/frame_lines.h"
+#include "sessions/session/check.h"
 #include "sessions/session/input_sigmas.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/version.h"
@@ -88,16 +86,6 @@ double drawHeading(PdfCanvas& canvas, double x, double y, double width, const st
   return y + height + 4.0;
 }
 
-/// A name and what it is, one below the other; the place below.
-double drawRow(PdfCanvas& canvas, const PdfBox& box, const std::string& name,
-               const std::string& value, bool fixed = false) {
-  constexpr double kNameWidth = 92.0;
-  const double left = canvas.text(box.x, box.y, kNameWidth, name, kFaint);
-  const double right = canvas.text(box.x + kNameWidth, box.y, box.width - kNameWidth, value,
-                                   {7.0, false, fixed, kInk, 3});
-  return box.y + std::max(left, right) + 1.0;
-}
-
 // ---- the first page
 
 /// The place below.
@@ -128,87 +116,105 @@ std::string quaternionText(const Pose& pose) {
   return formatted("%.9f  %.9f  %.9f  %.9f", q.w(), q.x(), q.y(), q.z());
 }
 
-double drawPose(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
-  const Pose& pose = report.pose.camera_from_station;
-  box.y = drawHeading(canvas, box.x, box.y, box.width, "camera_from_station");
-  const auto row = [&](const char* name, const std::string& value) {
-    box.y = drawRow(canvas, box, name, value, true);
+/// Rows with a heading above them.
+class Rows {
+ public:
+  Rows(PdfCanvas& canvas, const PdfBox& box, const std::string& heading)
+      : canvas_(&canvas), box_(box) {
+    box_.y = drawHeading(canvas, box.x, box.y, box.width, heading);
+  }
+  void add(const std::string& name, const std::string& value, bool fixed = true) {
+    constexpr double kNameWidth = 92.0;
+    const double left = canvas_->text(box_.x, box_.y, kNameWidth, name, kFaint);
+    const double right = canvas_->text(box_.x + kNameWidth, box_.y, box_.width - kNameWidth, value,
+                                       {7.0, false, fixed, kInk, 3});
+    box_.y += std::max(left, right) + 1.0;
+  }
+  void addText(const std::string& text) {
+    box_.y += canvas_->text(box_.x, box_.y, box_.width, text, kFaint);
+  }
+  void addRotation(const Pose& pose) {
+    add("rotation vector", vectorText(rotationLog(pose.rotation) / kDegree_rad, "deg", "%.5f"));
+  }
+  void addSigma(const std::string& name, const PoseSigma& sigma) {
+    add(name, formatted("normal %.4f mm, lateral %.4f mm, axis %.4f mrad", sigma.normal_mm,
+                        sigma.lateral_mm, sigma.out_of_plane_mrad));
+  }
+  double below() const { return box_.y; }
+
+ private:
+  PdfCanvas* canvas_;
+  PdfBox box_;
+};
+
+std::string requirementText(const Requirement& requirement) {
+  std::string text;
+  const auto add = [&text](const std::optional<double>& value, const char* name, const char* unit) {
+    if (value) text += formatted("%s%s %.4g %s", text.empty() ? "" : ", ", name, *value, unit);
   };
-  row("translation", vectorText(1e3 * pose.translation_m, "mm", "%.4f"));
-  row("rotation vector", vectorText(rotationLog(pose.rotation) / kDegree_rad, "deg", "%.5f"));
-  row("quaternion wxyz", quaternionText(pose));
+  add(requirement.normal_mm, "normal", "mm");
+  add(requirement.lateral_mm, "lateral", "mm");
+  add(requirement.rotation_deg, "axis", "deg");
+  add(requirement.projection_px, "projection", "px");
+  return text;
+}
+
+double drawPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
+  const Pose& pose = report.pose.camera_from_station;
+  Rows rows(canvas, box, "camera_from_station");
+  rows.add("translation", vectorText(1e3 * pose.translation_m, "mm", "%.4f"));
+  rows.addRotation(pose);
+  rows.add("quaternion wxyz", quaternionText(pose));
   const auto& end_effector = caseOf(report).camera_from_end_effector;
   if (const auto sigma = poseSigma(report.pose.covariance.total(), end_effector)) {
-    row("1 sigma", formatted("normal %.4f mm, lateral %.4f mm, axis %.4f mrad", sigma->normal_mm,
-                             sigma->lateral_mm, sigma->out_of_plane_mrad));
-    row("1 sigma of", end_effector ? "the end effector's origin" : "the camera's centre");
+    rows.addSigma("1 sigma", *sigma);
+    rows.add("1 sigma of", end_effector ? "the end effector's origin" : "the camera's centre");
     if (const auto picture = poseSigma(report.pose.covariance.picture, end_effector))
-      row("picture alone",
-          formatted("normal %.4f mm, lateral %.4f mm, axis %.4f mrad", picture->normal_mm,
-                    picture->lateral_mm, picture->out_of_plane_mrad));
+      rows.addSigma("picture alone", *picture);
   } else {
-    row("1 sigma", "not known");
+    rows.add("1 sigma", "not known");
   }
-  if (const auto& requirement = caseOf(report).requirement) {
-    std::string text;
-    const auto add = [&text](const std::optional<double>& value, const char* name,
-                             const char* unit) {
-      if (value) text += formatted("%s%s %.4g %s", text.empty() ? "" : ", ", name, *value, unit);
-    };
-    add(requirement->normal_mm, "normal", "mm");
-    add(requirement->lateral_mm, "lateral", "mm");
-    add(requirement->rotation_deg, "axis", "deg");
-    add(requirement->projection_px, "projection", "px");
-    row("requirement", text);
-  }
-  return box.y;
+  if (const auto& requirement = caseOf(report).requirement)
+    rows.add("requirement", requirementText(*requirement));
+  return rows.below();
 }
 
 /// Where the pose was asked for in a frame with a name: in that one, the last that there is.
-double drawNamedPose(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
+double drawNamedPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
   const SessionCase& one = caseOf(report);
   const auto named =
       namedPoses(one.camera_reference, one.station_frame, report.pose.camera_from_station);
   if (named.empty()) return box.y;
   const Pose& pose = named.back().reference_from_station;
-  box.y = drawHeading(canvas, box.x, box.y, box.width, namedPoseTitle(named.back()));
-  const auto row = [&](const char* name, const std::string& value) {
-    box.y = drawRow(canvas, box, name, value, true);
-  };
-  row("translation", vectorText(pose.translation_m, "m", "%.6f"));
-  row("rotation vector", vectorText(rotationLog(pose.rotation) / kDegree_rad, "deg", "%.5f"));
-  row("quaternion wxyz", quaternionText(pose));
-  return box.y + kGap;
+  Rows rows(canvas, box, namedPoseTitle(named.back()));
+  rows.add("translation", vectorText(pose.translation_m, "m", "%.6f"));
+  rows.addRotation(pose);
+  rows.add("quaternion wxyz", quaternionText(pose));
+  return rows.below() + kGap;
 }
 
-double drawEndEffector(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
+void drawEndEffector(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
   const SessionCase& one = caseOf(report);
-  if (!one.camera_from_end_effector) return box.y;
+  if (!one.camera_from_end_effector) return;
   const EndEffectorPose made =
       endEffectorPose(one.camera_from_station_seed, report.pose.camera_from_station,
                       *one.camera_from_end_effector, report.pose.covariance.total());
   const Pose& correction = made.end_effector_seed_from_end_effector_estimated;
-  box.y = drawHeading(canvas, box.x, box.y, box.width, "Correction to what was commanded");
-  box.y +=
-      canvas.text(box.x, box.y, box.width, "end_effector_seed_from_end_effector_estimated", kFaint);
-  const auto row = [&](const char* name, const std::string& value) {
-    box.y = drawRow(canvas, box, name, value, true);
-  };
-  row("translation", vectorText(1e3 * correction.translation_m, "mm", "%.4f"));
-  row("rotation vector", vectorText(rotationLog(correction.rotation) / kDegree_rad, "deg", "%.5f"));
-  if (report.pose.covariance.known()) {
-    const Vector6d sigma = made.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-    row("1 sigma", vectorText(1e3 * sigma.tail<3>(), "mm", "%.4f"));
-    row("", vectorText(1e3 * sigma.head<3>(), "mrad", "%.4f"));
-  }
-  return box.y;
+  Rows rows(canvas, box, "Correction to what was commanded");
+  rows.addText("end_effector_seed_from_end_effector_estimated");
+  rows.add("translation", vectorText(1e3 * correction.translation_m, "mm", "%.4f"));
+  rows.addRotation(correction);
+  if (!report.pose.covariance.known()) return;
+  const Vector6d sigma = made.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  rows.add("1 sigma", vectorText(1e3 * sigma.tail<3>(), "mm", "%.4f"));
+  rows.add("", vectorText(1e3 * sigma.head<3>(), "mrad", "%.4f"));
 }
 
-double drawInputs(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
+double drawInputs(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
   const SessionCase& one = caseOf(report);
-  box.y = drawHeading(canvas, box.x, box.y, box.width, "Inputs");
-  const auto row = [&](const std::string& name, const std::string& value) {
-    box.y = drawRow(canvas, box, name, value);
+  Rows rows(canvas, box, "Inputs");
+  const auto row = [&rows](const std::string& name, const std::string& value) {
+    rows.add(name, value, false);
   };
   row("image", one.image.source.file.filename().string() +
                    formatted(", %d x %d px, file %s", one.image.width, one.image.height,
@@ -235,24 +241,23 @@ double drawInputs(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
                   report.trace->iterations.size(), report.trace->version.c_str()));
     row("digest", report.trace->digest);
   }
-  return box.y;
+  return rows.below();
 }
 
-double drawDecision(PdfCanvas& canvas, PdfBox box, const PoseReport& report) {
-  box.y = drawHeading(canvas, box.x, box.y, box.width, "Decision");
+void drawDecision(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
+  Rows rows(canvas, box, "Decision");
   const Decision* decision = decisionOf(report);
-  if (decision == nullptr)
-    return box.y + canvas.text(box.x, box.y, box.width, report.pose.standing + ".",
-                               {7.5, true, false, kPdfOrange, 4});
-  const char* verdict = decision->verdict == Verdict::kValidated ? "validated by" : "rejected by";
-  box.y = drawRow(canvas, box, verdict, decision->by + ", " + decision->time);
-  box.y = drawRow(canvas, box, "comment", decision->comment);
-  if (decision->approval) {
-    box.y = drawRow(canvas, box, "approved by",
-                    decision->approval->by + ", " + decision->approval->time);
-    box.y = drawRow(canvas, box, "comment", decision->approval->comment);
+  if (decision == nullptr) {
+    canvas.text(box.x, rows.below(), box.width, report.pose.standing + ".",
+                {7.5, true, false, kPdfOrange, 4});
+    return;
   }
-  return box.y;
+  const char* verdict = decision->verdict == Verdict::kValidated ? "validated by" : "rejected by";
+  rows.add(verdict, decision->by + ", " + decision->time, false);
+  rows.add("comment", decision->comment, false);
+  if (!decision->approval) return;
+  rows.add("approved by", decision->approval->by + ", " + decision->approval->time, false);
+  rows.add("comment", decision->approval->comment, false);
 }
 
 void drawFirstPage(PdfCanvas& canvas, const PoseReport& report) {
@@ -262,10 +267,10 @@ void drawFirstPage(PdfCanvas& canvas, const PoseReport& report) {
   PdfBox left = {kLeft, below, column, kFoot - below};
   left.y = drawPose(canvas, left, report) + kGap;
   left.y = drawNamedPose(canvas, left, report);
-  (void)drawEndEffector(canvas, left, report);
+  drawEndEffector(canvas, left, report);
   PdfBox right = {kLeft + column + 2.0 * kGap, below, column, kFoot - below};
   right.y = drawInputs(canvas, right, report) + kGap;
-  (void)drawDecision(canvas, right, report);
+  drawDecision(canvas, right, report);
   drawFoot(canvas, report);
 }
 

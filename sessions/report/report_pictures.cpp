@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sessions/annotation/predicted_place.h"
+#include <opencv2/imgproc.hpp>
+#include "sessions/annotation/marks_on_image.h"
 #include "sessions/run/overlay.h"
 #include "sessions/session/case_marks.h"
 
@@ -14,14 +15,10 @@ namespace {
 constexpr double kMargin = 0.12;  ///< around the station, of its size in the image
 constexpr int kLeastSide_px = 160;
 
-struct Area {
-  int left = 0, top = 0, right = 0, bottom = 0;  ///< px; the last two are one beyond
-};
-
 /// Where the pose predicts the station; the whole image when it does not say.
-Area stationArea(const PoseReport& report) {
+cv::Rect stationArea(const PoseReport& report) {
   const ImageView image = report.loaded->image.view();
-  const Area whole = {0, 0, image.width, image.height};
+  const cv::Rect whole(0, 0, image.width, image.height);
   Camera camera = report.loaded->source.camera;
   if (prepareCamera(camera) != Status::kOk) return whole;
   Eigen::AlignedBox2d box;
@@ -32,26 +29,63 @@ Area stationArea(const PoseReport& report) {
   }
   const double side = std::max(box.sizes().maxCoeff(), static_cast<double>(kLeastSide_px));
   const Eigen::Vector2d half = 0.5 * box.sizes() + Eigen::Vector2d::Constant(kMargin * side);
-  const Eigen::Vector2d low = box.center() - half;
-  const Eigen::Vector2d high = box.center() + half;
-  const auto within = [](double value, int limit) {
-    return static_cast<int>(std::clamp(std::floor(value), 0.0, static_cast<double>(limit)));
-  };
-  const Area area = {within(low.x(), image.width), within(low.y(), image.height),
-                     within(high.x(), image.width), within(high.y(), image.height)};
-  return area.right - area.left < 16 || area.bottom - area.top < 16 ? whole : area;
+  const Eigen::Vector2d limit(image.width, image.height);
+  const Eigen::Vector2i low =
+      (box.center() - half).array().floor().max(0.0).min(limit.array()).cast<int>();
+  const Eigen::Vector2i high =
+      (box.center() + half).array().floor().max(0.0).min(limit.array()).cast<int>();
+  const cv::Rect area(low.x(), low.y(), high.x() - low.x(), high.y() - low.y());
+  return area.width < 16 || area.height < 16 ? whole : area;
 }
 
-ReportPicture cut(const ColorImage& image, const Area& area) {
-  ReportPicture made;
-  made.left_px = area.left;
-  made.top_px = area.top;
-  made.image.width = area.right - area.left;
-  made.image.height = area.bottom - area.top;
-  for (int y = area.top; y < area.bottom; ++y) {
-    const std::ptrdiff_t first = 3 * (std::ptrdiff_t{y} * image.width + area.left);
-    const auto row = image.bgr.begin() + first;
-    made.image.bgr.insert(made.image.bgr.end(), row, row + 3 * std::ptrdiff_t{made.image.width});
+/// A part of an image of three bytes a pixel.
+ReportPicture cut(const cv::Mat& bgr, const cv::Rect& area) {
+  const cv::Mat part = bgr(area).clone();
+  return {{part.cols, part.rows, {part.datastart, part.dataend}}, area.x, area.y};
+}
+
+/// The last iteration of a kind that came to a pose, or nullptr.
+const IterationTrace* lastOf(const LocalizationTrace& trace, IterationKind kind) {
+  const auto found =
+      std::find_if(trace.iterations.rbegin(), trace.iterations.rend(),
+                   [kind](const auto& one) { return one->kind == kind && one->support() > 0; });
+  return found == trace.iterations.rend() ? nullptr : found->get();
+}
+
+ReportResiduals ofEdges(const PoseReport& report, const Camera& camera,
+                        const IterationTrace& iteration) {
+  ReportResiduals made{"edge places of the refinement", {}};
+  for (const EdgeSample& sample : iteration.refinement.samples) {
+    const auto place =
+        predictPlace(camera, report.pose.camera_from_station, sample.point_in_station_m);
+    if (!place.valid || sample.gradient == 0.0) continue;
+    made.all.push_back({place.pixel, sample.residual_px * sample.normal, sample.weight > 0.0});
+  }
+  return made;
+}
+
+ReportResiduals ofTemplates(const PoseReport& report, const Camera& camera,
+                            const IterationTrace& iteration) {
+  ReportResiduals made{"matched templates", {}};
+  for (std::size_t i = 0; i < iteration.correspondences.size(); ++i) {
+    const Correspondence& one = iteration.correspondences[i];
+    const auto place =
+        predictPlace(camera, report.pose.camera_from_station, one.point_in_station_m);
+    const bool inlier = i < iteration.pnp.inlier.size() && iteration.pnp.inlier[i] != 0;
+    if (place.valid) made.all.push_back({place.pixel, one.pixel - place.pixel, inlier});
+  }
+  return made;
+}
+
+ReportResiduals ofMarks(const PoseReport& report, const Camera& camera) {
+  ReportResiduals made{"marks", {}};
+  const auto found = report.session->annotations.find(report.pose.case_id);
+  if (found == report.session->annotations.end()) return made;
+  for (const PointPair& point : found->second->points) {
+    if (!point.pixel || !point.point_in_station_m) continue;
+    const auto place =
+        predictPlace(camera, report.pose.camera_from_station, *point.point_in_station_m);
+    if (place.valid) made.all.push_back({place.pixel, *point.pixel - place.pixel, point.enabled});
   }
   return made;
 }
@@ -60,27 +94,47 @@ ReportPicture cut(const ColorImage& image, const Area& area) {
 
 ReportPicture overlayPicture(const PoseReport& report) {
   Camera camera = report.loaded->source.camera;
-  const Area area = stationArea(report);
   if (prepareCamera(camera) != Status::kOk) return palePicture(report);
   const OverlayLayer layers[] = {
       {"seed", report.loaded->source.camera_from_station_seed, kSeedColor, true},
       {"pose", report.pose.camera_from_station, kResultColor, true}};
-  return cut(drawOverlay(report.loaded->image.view(), camera, report.loaded->scene.view(), layers),
-             area);
+  ColorImage drawn =
+      drawOverlay(report.loaded->image.view(), camera, report.loaded->scene.view(), layers);
+  return cut(cv::Mat(drawn.height, drawn.width, CV_8UC3, drawn.bgr.data()), stationArea(report));
 }
 
 ReportPicture palePicture(const PoseReport& report) {
   const ImageView view = report.loaded->image.view();
-  ColorImage pale{view.width, view.height, {}};
-  pale.bgr.reserve(3 * static_cast<std::size_t>(view.width) *
-                   static_cast<std::size_t>(view.height));
-  for (int y = 0; y < view.height; ++y) {
-    for (int x = 0; x < view.width; ++x) {
-      const auto value = static_cast<std::uint8_t>(150 + view.at(x, y) * 105 / 255);
-      pale.bgr.insert(pale.bgr.end(), 3, value);
-    }
-  }
+  // OpenCV has no const headers; nothing is written.
+  const cv::Mat gray(view.height, view.width, CV_8UC1, const_cast<std::uint8_t*>(view.data),
+                     static_cast<std::size_t>(view.stride));
+  cv::Mat pale;
+  cv::cvtColor(gray, pale, cv::COLOR_GRAY2BGR);
+  pale.convertTo(pale, CV_8U, 105.0 / 255.0, 150.0);
   return cut(pale, stationArea(report));
+}
+
+double ReportResiduals::rms_px() const {
+  double squares = 0.0;
+  int count = 0;
+  for (const ReportResidual& one : all) {
+    if (!one.used) continue;
+    squares += one.residual_px.squaredNorm();
+    ++count;
+  }
+  return count > 0 ? std::sqrt(squares / count) : 0.0;
+}
+
+ReportResiduals reportResiduals(const PoseReport& report) {
+  Camera camera = report.loaded->source.camera;
+  if (prepareCamera(camera) != Status::kOk) return {};
+  if (report.pose.source == PoseSource::kAnnotation) return ofMarks(report, camera);
+  if (!report.trace) return {};
+  if (const auto* refined = lastOf(*report.trace, IterationKind::kRefine))
+    return ofEdges(report, camera, *refined);
+  if (const auto* matched = lastOf(*report.trace, IterationKind::kMatch))
+    return ofTemplates(report, camera, *matched);
+  return {};
 }
 
 }  // namespace boresight::sessions

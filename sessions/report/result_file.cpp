@@ -10,7 +10,7 @@
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/run/run_text.h"
-#include "sessions/session/frames_json.h"
+#include "sessions/session/case_json.h"
 #include "sessions/session/named_poses.h"
 
 namespace boresight::sessions {

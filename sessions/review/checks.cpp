@@ -1,15 +1,96 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/review/checks.h"
 
-#include "sessions/review/agreement_checks.h"
-#include "sessions/review/basin_checks.h"
+#include <algorithm>
+#include <utility>
+
+#include "sessions/evaluation/reseed.h"
 #include "sessions/review/edge_checks.h"
-#include "sessions/review/onboard_check.h"
-#include "sessions/review/precision_checks.h"
-#include "sessions/review/predicted_edges.h"
+#include "sessions/review/edge_evidence.h"
+#include "sessions/review/requirement_checks.h"
 #include "sessions/review/run_checks.h"
+#include "sessions/run/runner.h"
 
 namespace boresight::sessions {
+namespace {
+
+RunPlan planFor(const ReviewSubject& subject) {
+  if (subject.run) return subject.run->plan();
+  LocalizerOptions options = defaultProfile();
+  options.templates.feature_size_m = subject.loaded->source.feature_size_m.value_or(0.0);
+  return RunPlan(options);
+}
+
+/// The case as it would be had somebody begun elsewhere.
+LocalizationProblem problemFrom(const ReviewSubject& subject, const LoadedCase& loaded,
+                                const Vector6d& offset) {
+  const SessionCase& one = loaded.source;
+  const Eigen::Vector3d centre = matchedBounds(loaded.scene.view()).centre();
+  LocalizationProblem problem = loaded.problem();
+  problem.camera_from_station_seed =
+      seedForOffset(subject.camera_from_station, offset, one.uncertainty.pivot, centre);
+  problem.uncertainty = seedUncertainty(one.uncertainty, problem.camera_from_station_seed, centre);
+  return problem;
+}
+
+void addRival(const LoadedCase& loaded, const Pose& camera_from_station, bool mirrored,
+              BasinResult& result) {
+  result.rivals.push_back(
+      {camera_from_station, mirrored, coverageOfPose(loaded, camera_from_station).value()});
+}
+
+void count(const ReviewSubject& subject, const LocalizationTrace& trace, BasinResult& result) {
+  ++result.seeds;
+  if (!trace.converged()) return;
+  ++result.converged;
+  if (withinRequirement(subject, trace.camera_from_station))
+    ++result.returned;
+  else
+    addRival(*subject.loaded, trace.camera_from_station, false, result);
+}
+
+/// A station with two like halves is nearly its own mirror image: the right one must fit better.
+void tryMirrorImage(const ReviewSubject& subject, const RunPlan& plan, int axis,
+                    const std::stop_token& stop, BasinResult& result) {
+  const auto image = mirrorImageOf(*subject.loaded, axis);
+  const LocalizationTrace trace =
+      localize(problemFrom(subject, *image, Vector6d::Zero()), plan, RecordLevel::kSummary, stop);
+  if (trace.converged()) addRival(*image, trace.camera_from_station, true, result);
+}
+
+constexpr CheckName kReturned{"basin_returned", "Other seeds lead back"};
+/// Of coverage over none at all.
+constexpr double kNothingSeen = 10.0;
+constexpr CheckName kRival{"basin_rival", "The best of other answers"};
+
+std::string foundText(const BasinResult& basin) {
+  const auto elsewhere = std::count_if(basin.rivals.begin(), basin.rivals.end(),
+                                       [](const RivalPose& one) { return !one.mirrored; });
+  return "Of " + std::to_string(basin.seeds) + " other seeds " + std::to_string(basin.returned) +
+         " led back to this pose and " + std::to_string(elsewhere) + " to another one.";
+}
+
+/// A worse one elsewhere does not speak against the pose: a nearly symmetric station has many.
+Check rivalCheck(const BasinResult& basin, const CheckLimits& limits) {
+  const auto best = std::max_element(
+      basin.rivals.begin(), basin.rivals.end(),
+      [](const RivalPose& a, const RivalPose& b) { return a.coverage < b.coverage; });
+  if (best == basin.rivals.end() && basin.returned == 0)
+    return notAskedCheck(kRival,
+                         "No other seed came to a pose that this one could be set against.");
+  if (best == basin.rivals.end())
+    return statedCheck(kRival, true, "No other pose and no mirror image of the station fits.", "");
+  const std::string what = best->mirrored ? "a mirror image of the station" : "another pose";
+  const double ratio = basin.coverage > 0.0 ? best->coverage / basin.coverage : kNothingSeen;
+  return measuredCheck(
+      kRival, "%", 100.0 * ratio, limits.rival_percent, LimitSide::kAtMost,
+      "This pose shows " + percentText(basin.coverage) + " of its predicted edges, " + what + " " +
+          percentText(best->coverage) + ".",
+      best->mirrored ? "The mesh is mirrored, or another thing's."
+                     : "The other one fits better: run from there, and compare overlays.");
+}
+
+}  // namespace
 
 std::vector<Check> checkPose(const ReviewSubject& subject, const CheckLimits& limits,
                              const std::optional<BasinResult>& basin) {
@@ -25,6 +106,63 @@ std::vector<Check> checkPose(const ReviewSubject& subject, const CheckLimits& li
   addAgreementChecks(subject, limits, checks);
   addOnboardCheck(subject, checks);
   return checks;
+}
+
+BasinResult basinTest(const ReviewSubject& subject, int seeds, const std::stop_token& stop,
+                      const std::function<void(const BasinResult&)>& after_each) {
+  BasinResult result;
+  if (subject.loaded == nullptr) return result;
+  const RunPlan plan = planFor(subject);
+  result.coverage = coverageOfPose(*subject.loaded, subject.camera_from_station).value();
+  // First, so that a stop leaves what `seeds` alone says: running this many again gives the same.
+  for (int axis = 0; axis < 3 && seeds > 0 && !stop.stop_requested(); ++axis)
+    tryMirrorImage(subject, plan, axis, stop, result);
+  for (int number = 1; number <= seeds && !stop.stop_requested(); ++number) {
+    const SessionCase& one = subject.loaded->source;
+    const Vector6d offset = drawOffset(one.uncertainty, 1.0, one.id, number);
+    const LocalizationTrace trace =
+        localize(problemFrom(subject, *subject.loaded, offset), plan, RecordLevel::kSummary, stop);
+    if (trace.status == LocalizationStatus::kRunning) break;
+    count(subject, trace, result);
+    if (after_each) after_each(result);
+  }
+  return result;
+}
+
+bool isBasinCheck(const std::string& check_id) {
+  return check_id == kReturned.id || check_id == kRival.id;
+}
+
+void addBasinChecks(const std::optional<BasinResult>& basin, const CheckLimits& limits,
+                    std::vector<Check>& checks) {
+  if (!basin || basin->seeds == 0) {
+    const char* why = "No other seeds were run: a second answer to this image is not excluded.";
+    checks.push_back(notAskedCheck(kReturned, why));
+    checks.push_back(notAskedCheck(kRival, why));
+    return;
+  }
+  checks.push_back(measuredCheck(kReturned, "%", 100.0 * basin->returned / basin->seeds,
+                                 limits.basin_percent, LimitSide::kAtLeast, foundText(*basin),
+                                 "The pose is hard to find: the seed may have been luck. Compare "
+                                 "with marks, or with another image."));
+  checks.push_back(rivalCheck(*basin, limits));
+}
+
+void mirrorScene(SceneMesh& scene, int axis, double plane_m) {
+  for (Eigen::Vector3f& vertex : scene.vertices_in_station_m)
+    vertex(axis) = static_cast<float>(2.0 * plane_m) - vertex(axis);
+  for (Face& face : scene.faces) std::swap(face.vertex[1], face.vertex[2]);
+}
+
+std::unique_ptr<const LoadedCase> mirrorImageOf(const LoadedCase& loaded, int axis) {
+  auto made = std::make_unique<LoadedCase>();
+  made->source = loaded.source;
+  made->image = loaded.image;
+  made->scene = loaded.scene;
+  made->ignore = loaded.ignore;
+  if (made->ignore) made->ignore_bits = made->ignore->view();
+  mirrorScene(made->scene, axis, matchedBounds(loaded.scene.view()).centre()(axis));
+  return made;
 }
 
 }  // namespace boresight::sessions

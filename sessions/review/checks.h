@@ -2,11 +2,15 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
+#include "sessions/io/scene_mesh.h"
 #include "sessions/review/review_subject.h"
+#include "sessions/session/case_run.h"
 #include "sessions/session/check.h"
 #include "sessions/session/check_limits.h"
 
@@ -37,6 +41,18 @@ struct BasinResult {
 /// told what was found so far.
 BasinResult basinTest(const ReviewSubject& subject, int seeds, const std::stop_token& stop = {},
                       const std::function<void(const BasinResult&)>& after_each = {});
+
+/// What became of other seeds: enough lead back, and none to another pose.
+bool isBasinCheck(const std::string& check_id);
+void addBasinChecks(const std::optional<BasinResult>& basin, const CheckLimits& limits,
+                    std::vector<Check>& checks);
+
+/// Mirrors a station in the plane across this axis of its frame (0 to 2) at `plane_m`. Faces keep
+/// their outward side.
+void mirrorScene(SceneMesh& scene, int axis, double plane_m);
+
+/// The same case with its station mirrored in the plane through the middle of its matched box.
+std::unique_ptr<const LoadedCase> mirrorImageOf(const LoadedCase& loaded, int axis);
 
 /// All checks of a pose, always the same ones in the same order; what cannot be asked is not
 /// applicable. `basin` is what was measured of it, if it was.

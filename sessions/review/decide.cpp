@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "sessions/review/grounds.h"
 #include "sessions/review/standing.h"
 
 #include "sessions/text/utc_time.h"

@@ -2,12 +2,20 @@
 #include "sessions/review/handed_pose.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
 
 #include "sessions/io/errors.h"
-#include "sessions/review/measured_pose.h"
+#include "sessions/io/json_reader.h"
+#include "sessions/review/checks.h"
 #include "sessions/review/standing.h"
 #include "sessions/session/case_marks.h"
 #include "sessions/session/case_run.h"
+#include "sessions/session/check_limits.h"
+#include "sessions/session/rig_links.h"
+#include "sessions/session/views_run.h"
+#include "sessions/version.h"
 
 namespace boresight::sessions {
 namespace {
@@ -51,11 +59,64 @@ void takeDecision(const Decision& decision, HandedPose& pose) {
   pose.checks = decision.checks;
 }
 
+constexpr double kFigureTolerance = 1e-6;  ///< of its size; the last bits are the machine's
+constexpr double kFigureRest = 1e-12;      ///< in any unit of a check
+
+LocalizationTrace runAgain(const RunRecord& run, const Session& session,
+                           const std::filesystem::path& session_file) {
+  LocalizationTrace again = repeatRun(run, session, session_file);
+  const std::string place = "run " + run.digest;
+  if (again.digest != run.digest)
+    throw InputError(session_file, place,
+                     "gives another digest when it is run again: " + again.digest +
+                         (run.version == kVersion ? ""
+                                                  : "; it was made by version " + run.version +
+                                                        ", this is " + kVersion));
+  if (localizationStatusText(again.status) != run.status)
+    throw InputError(session_file, place,
+                     std::string("ended as ") + localizationStatusText(again.status) +
+                         ", not as stated: " + run.status);
+  return again;
+}
+
+bool near(const std::optional<double>& a, const std::optional<double>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return std::abs(*a - *b) <= kFigureTolerance * std::max(std::abs(*a), std::abs(*b)) + kFigureRest;
+}
+
+bool sameCheck(Check stated, const Check& measured) {
+  if (!near(stated.figure, measured.figure) || !near(stated.limit, measured.limit)) return false;
+  stated.figure = measured.figure;
+  stated.limit = measured.limit;
+  return stated == measured;
+}
+
+std::string shortText(const Check& check) {
+  const std::string figure = figureText(check);
+  return checkStateText(check.state) + (figure.empty() ? "" : ", " + figure);
+}
+
+std::string differenceText(const Check& stated, const Check& measured) {
+  const std::string before = shortText(stated);
+  const std::string now = shortText(measured);
+  return "'" + measured.title + "' is stated as " + before + " and measured as " + now +
+         (before == now ? ", with another sentence" : "");
+}
+
+/// A run that had other options than the session has now names them, so that it can be repeated.
+Session withPlans(Session session) {
+  for (RunRecord& run : session.runs) {
+    const SessionCase& one = *session.findCase(run.case_id);
+    if (!run.rerun && run.options_sha256 != optionsDigest(caseOptions(session, one, "session")))
+      run.rerun = rerunRecord("", loadRun(run).plan());
+  }
+  return session;
+}
+
 }  // namespace
 
 HandedPose handedPose(const Session& session, const std::string& case_id) {
-  const SessionCase* one = session.findCase(case_id);
-  if (one == nullptr) throw InputError("session", "cases", "there is no case '" + case_id + "'");
+  const SessionCase& one = knownCase(session, case_id);
   HandedPose pose;
   pose.case_id = case_id;
   const Standing standing = standingOf(session, case_id);
@@ -69,17 +130,15 @@ HandedPose handedPose(const Session& session, const std::string& case_id) {
     throw InputError("session", "decisions",
                      "the decision on case '" + case_id + "' is of a run that did not converge");
   if (of_run)
-    takeRun(*one, *run, pose);
+    takeRun(one, *run, pose);
   else
-    takeMarks(session, *one, pose);
+    takeMarks(session, one, pose);
   if (decision != nullptr) takeDecision(*decision, pose);
   return pose;
 }
 
 HandedPoses handedPoses(const Session& session, const std::vector<std::string>& case_ids) {
-  for (const std::string& id : case_ids)
-    if (session.findCase(id) == nullptr)
-      throw InputError("session", "cases", "there is no case '" + id + "'");
+  for (const std::string& id : case_ids) (void)knownCase(session, id);
   HandedPoses made;
   for (const auto& one : session.cases) {
     const bool asked = std::find(case_ids.begin(), case_ids.end(), one->id) != case_ids.end();
@@ -91,6 +150,114 @@ HandedPoses handedPoses(const Session& session, const std::vector<std::string>& 
     }
   }
   return made;
+}
+
+CheckedPose checkedPose(const Session& session, const std::string& case_id) {
+  CheckedPose made;
+  made.pose = handedPose(session, case_id);
+  made.session = withPlans(sessionOfCase(session, case_id, made.pose.run_digest));
+  const Standing standing = standingOf(made.session, case_id);
+  made.pose.standing = standingText(standing);  // of what is handed over
+  const Decision* decision = standing.judgedPose();
+  const int basin_seeds = decision != nullptr ? decision->basin_seeds : 0;
+  MeasuredPose measured = measurePose(made.session, made.pose, basin_seeds, "session");
+  if (decision == nullptr) {
+    made.pose.covariance = measured.subject.covariance;
+    for (const Check& check : measured.checks) made.pose.checks.push_back({check, ""});
+  }
+  requireAsMeasured(case_id, poseDifference(made.pose, measured.subject.camera_from_station));
+  requireAsMeasured(case_id, covarianceDifference(made.pose, measured.subject.covariance));
+  requireAsMeasured(case_id, checksDifference(made.pose, measured.checks, true));
+  made.subject = std::move(measured.subject);
+  return made;
+}
+
+Session sessionOfCase(const Session& session, const std::string& case_id,
+                      const std::string& run_digest) {
+  const std::vector<std::string> linked = casesOfRig(session, case_id);
+  const auto isOther = [&](const std::string& id) {
+    return id != case_id && std::find(linked.begin(), linked.end(), id) == linked.end();
+  };
+  Session made = session;
+  made.cases.eraseIf([&](const auto& one) { return isOther(one->id); });
+  std::erase_if(made.annotations, [&](const auto& entry) { return isOther(entry.first); });
+  made.runs.eraseIf([&](const RunRecord& run) {
+    if (isOther(run.case_id)) return true;
+    if (run.case_id == case_id) return run.digest != run_digest;
+    const RunRecord* asked = ownRunOf(session, run.case_id, case_id);
+    return asked == nullptr || run != *asked;
+  });
+  made.decisions.clear();
+  if (const Decision* last = session.decisionOn(case_id)) made.decisions.push_back(*last);
+  if (!made.decisions.empty() && standingOf(session, case_id).judgedPose() == nullptr)
+    made.decisions.front().checks.clear();
+  made.passes.clear();
+  made.view = {};
+  return made;
+}
+
+MeasuredPose measurePose(const Session& session, const HandedPose& pose, int basin_seeds,
+                         const std::filesystem::path& session_file) {
+  const auto read_run = [&](const RunRecord& run) { return runAgain(run, session, session_file); };
+  MeasuredPose measured;
+  measured.subject = reviewSubject(session, loadCase(*session.findCase(pose.case_id)), pose.source,
+                                   pose.run_digest, read_run);
+  std::optional<BasinResult> basin;
+  if (basin_seeds > 0) basin = basinTest(measured.subject, basin_seeds);
+  const CheckLimits limits = checkLimits(session.review.preset, session.review.limits);
+  measured.checks = checkPose(measured.subject, limits, basin);
+  return measured;
+}
+
+std::string poseDifference(const HandedPose& stated, const Pose& measured) {
+  const Vector6d apart = perturbationBetween(stated.camera_from_station, measured);
+  // A quaternion and its negative are one rotation, so the numbers themselves are not compared.
+  const double limit = stated.source == PoseSource::kRun ? 1e-15 : 1e-9;
+  const double rotation_rad = apart.head<3>().norm();
+  const double translation_m = apart.tail<3>().norm();
+  if (rotation_rad <= limit && translation_m <= limit) return "";
+  return "another pose comes out: " + numberText(translation_m * 1e3) + " mm and " +
+         numberText(rotation_rad * 1e3) + " mrad from the one stated";
+}
+
+std::string covarianceDifference(const HandedPose& stated, const PoseCovariance& measured) {
+  const double tolerance = stated.source == PoseSource::kRun ? 1e-12 : kFigureTolerance;
+  const auto differs = [&](const Matrix6d& a, const Matrix6d& b) {
+    const Vector6d sigma = b.diagonal().cwiseMax(0.0).cwiseSqrt();
+    const Matrix6d allowed = tolerance * sigma * sigma.transpose();
+    return !((a - b).cwiseAbs().array() <= allowed.array()).all();
+  };
+  if (!differs(stated.covariance.picture, measured.picture) &&
+      !differs(stated.covariance.mesh_scale, measured.mesh_scale) &&
+      !differs(stated.covariance.calibration, measured.calibration))
+    return "";
+  const auto translation_mm = [](const Matrix6d& covariance) {
+    return numberText(1e3 * std::sqrt(std::max(0.0, covariance.bottomRightCorner<3, 3>().trace())));
+  };
+  return "another covariance comes out: a sigma of the translation of " +
+         translation_mm(measured.total()) + " mm, where " +
+         translation_mm(stated.covariance.total()) + " mm is stated";
+}
+
+std::string checksDifference(const HandedPose& stated, const std::vector<Check>& measured,
+                             bool with_basin) {
+  if (stated.checks.size() != measured.size())
+    return std::to_string(stated.checks.size()) + " checks are stated, but " +
+           std::to_string(measured.size()) + " are made";
+  std::string text;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const Check& one = stated.checks[i].check;
+    const bool compared = with_basin || !isBasinCheck(measured[i].id);
+    if (compared ? sameCheck(one, measured[i]) : one.id == measured[i].id) continue;
+    text += (text.empty() ? "check " : "; ") + differenceText(one, measured[i]);
+  }
+  return text;
+}
+
+void requireAsMeasured(const std::string& case_id, const std::string& difference) {
+  if (!difference.empty())
+    throw InputError("session", "case " + case_id,
+                     difference + "; run and decide again, or bring back the session as it was");
 }
 
 }  // namespace boresight::sessions

@@ -2,6 +2,7 @@
 #include "sessions/review/pose_uncertainty.h"
 
 #include "core/pnp/normal_equations.h"
+#include "sessions/annotation/mark_equations.h"
 
 namespace boresight::sessions {
 namespace {
@@ -58,6 +59,21 @@ PoseCovariance poseCovariance(const SessionCase& one, const MeshView& mesh,
       by_camera.value_or(pointByCamera(camera, middle_in_camera_m)) * sigmas_px.asDiagonal();
   covariance.calibration = scaled * scaled.transpose();
   return covariance;
+}
+
+EndEffectorPose endEffectorPose(const Pose& camera_from_station_seed,
+                                const Pose& camera_from_station,
+                                const Pose& camera_from_end_effector, const Matrix6d& covariance) {
+  EndEffectorPose made;
+  made.station_from_end_effector = camera_from_station.inverse() * camera_from_end_effector;
+  made.end_effector_seed_from_end_effector_estimated = camera_from_end_effector.inverse() *
+                                                       camera_from_station_seed *
+                                                       made.station_from_end_effector;
+  // camera_from_station -> Exp(xi) camera_from_station turns station_from_end_effector into
+  // camera_from_station^-1 Exp(-xi) camera_from_end_effector, which is it times Exp(-Ad xi).
+  const Matrix6d turn = adjoint(camera_from_end_effector.inverse());
+  made.covariance = turn * covariance * turn.transpose();
+  return made;
 }
 
 }  // namespace boresight::sessions

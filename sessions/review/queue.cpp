@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
 #include <tuple>
 #include <utility>
 
@@ -16,12 +15,13 @@
 #include "sessions/io/errors.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/decide.h"
-#include "sessions/review/grounds.h"
-#include "sessions/review/run_figures.h"
+#include "sessions/review/run_checks.h"
 #include "sessions/run/run_text.h"
+#include "sessions/run/worker_pool.h"
 #include "sessions/session/check_limits.h"
 #include "sessions/session/rig_links.h"
 #include "sessions/session/session_of_results.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
@@ -111,6 +111,25 @@ std::string failedTitles(const QueueRow& row) {
   for (const Check& check : row.checks)
     if (check.state == CheckState::kFailed) titles += (titles.empty() ? "" : ", ") + check.title;
   return titles;
+}
+
+constexpr double kPercent = 100.0;
+
+std::string marginText(const QueueRow& row) {
+  return row.margin ? fixedText(kPercent * *row.margin, 0) + " %" : "-";
+}
+
+/// For programs: all digits that a double has, or nothing.
+std::string field(const std::optional<double>& value) {
+  if (!value || !std::isfinite(*value)) return "";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.9g", *value);
+  return text;
+}
+
+std::optional<double> part(const QueueRow& row, double SeedDistance::*member) {
+  if (!row.from_seed) return {};
+  return (*row.from_seed).*member;
 }
 
 }  // namespace
@@ -213,34 +232,70 @@ std::string troubleText(const QueueRow& row) {
 std::vector<QueueRow> queueRows(const Session& session, int jobs, const std::stop_token& stop,
                                 const QueueProgress& progress) {
   std::vector<std::optional<QueueRow>> made(session.cases.size());
-  std::atomic<std::size_t> next = 0;
   std::size_t done = 0;
   std::mutex mutex;
   std::exception_ptr fault;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < made.size() && !stop.stop_requested(); i = next++) {
-      try {
-        made[i] = queueRow(session, session.cases[i]->id);
-        const std::lock_guard lock(mutex);
-        if (progress) progress(*made[i], ++done, made.size());
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        fault = std::current_exception();
-        next = made.size();
-      }
+  const auto work = [&](int piece, int) {
+    const auto i = static_cast<std::size_t>(piece);
+    try {
+      made[i] = queueRow(session, session.cases[i]->id);
+      const std::lock_guard lock(mutex);
+      if (progress) progress(*made[i], ++done, made.size());
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      fault = std::current_exception();
     }
   };
-  {
-    std::vector<std::jthread> helpers;
-    for (int i = 1; i < jobs; ++i) helpers.emplace_back(work);
-    work();
-  }
+  WorkerPool(std::max(jobs, 1)).run(static_cast<int>(made.size()), work, stop);
   if (fault) std::rethrow_exception(fault);
   std::vector<QueueRow> rows;
   for (std::optional<QueueRow>& row : made)
     if (row) rows.push_back(std::move(*row));
   std::sort(rows.begin(), rows.end(), moreTrouble);
   return rows;
+}
+
+std::string queueText(const std::vector<QueueRow>& rows) {
+  TextTable table({"case", "state", "failed", "passed", "margin", "mm", "mrad", "of seed's",
+                   "inliers", "iteration"});
+  for (const QueueRow& row : rows) {
+    const SeedDistance from = row.from_seed.value_or(SeedDistance{NAN, NAN, NAN});
+    const std::string share = row.from_seed ? fixedText(kPercent * from.share, 0) + " %" : "-";
+    table.add({row.case_id, caseStandingText(row.standing), std::to_string(row.failed),
+               std::to_string(row.passed), marginText(row), fixedText(from.translation_mm, 2),
+               fixedText(from.rotation_mrad, 2), share, std::to_string(row.inliers),
+               row.opens_at < 0
+                   ? "-"
+                   : std::to_string(row.opens_at + 1) + "/" + std::to_string(row.iterations)});
+  }
+  std::string text = table.text() + "\n";
+  for (const QueueRow& row : rows) text += plainLine(row.case_id + ": " + troubleText(row));
+  return text;
+}
+
+std::string queueCsv(const std::vector<QueueRow>& rows) {
+  std::string text =
+      "case,state,checks_failed,checks_passed,margin,margin_of,from_seed_mm,from_seed_mrad,"
+      "from_seed_share,inliers,iterations,look_at_iteration,run,trouble\r\n";
+  for (const QueueRow& row : rows) {
+    const std::string fields[] = {row.case_id,
+                                  caseStandingText(row.standing),
+                                  std::to_string(row.failed),
+                                  std::to_string(row.passed),
+                                  field(row.margin),
+                                  row.margin_of,
+                                  field(part(row, &SeedDistance::translation_mm)),
+                                  field(part(row, &SeedDistance::rotation_mrad)),
+                                  field(part(row, &SeedDistance::share)),
+                                  std::to_string(row.inliers),
+                                  std::to_string(row.iterations),
+                                  row.opens_at < 0 ? "" : std::to_string(row.opens_at + 1),
+                                  row.run_digest,
+                                  troubleText(row)};
+    for (const std::string& each : fields) text += (&each == fields ? "" : ",") + csvField(each);
+    text += "\r\n";
+  }
+  return text;
 }
 
 }  // namespace boresight::sessions

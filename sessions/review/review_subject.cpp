@@ -11,7 +11,7 @@
 #include "sessions/record/record_of_run.h"
 #include "sessions/review/pose_uncertainty.h"
 #include "sessions/session/case_marks.h"
-#include "sessions/session/review_settings.h"
+#include "sessions/session/check_limits.h"
 #include "sessions/session/rig_links.h"
 
 namespace boresight::sessions {

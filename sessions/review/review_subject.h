@@ -11,7 +11,7 @@
 #include "sessions/record/compare_records.h"
 #include "sessions/run/trace.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/pose_covariance.h"
+#include "sessions/session/decision.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <string>
 
-#include "sessions/review/check_making.h"
-#include "sessions/review/inlier_spread.h"
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
 #include "sessions/run/match_details.h"
+#include "sessions/session/check.h"
 
 namespace boresight::sessions {
 namespace {
@@ -188,6 +190,24 @@ void addMatchingChecks(const LocalizationTrace& run, const CheckLimits& limits,
   checks.push_back(marginCheck(*iteration, limits));
 }
 
+constexpr CheckName kOnboard{"agreement_onboard", "Agreement with the onboard record"};
+constexpr const char* kRemedy =
+    "Compare both runs step by step: what ran onboard is not what is checked here.";
+
+std::string differenceText(const RecordComparison& compared) {
+  std::string text;
+  if (compared.first) text = compared.first->text;
+  for (const std::string& beyond : compared.beyond) text += (text.empty() ? "" : " ") + beyond;
+  return text;
+}
+
+Eigen::Matrix2d scatterOf(std::span<const Eigen::Vector2d> points) {
+  const auto count = static_cast<Eigen::Index>(points.size());
+  const Eigen::Map<const Eigen::Matrix2Xd> all(points.front().data(), 2, count);
+  const Eigen::Matrix2Xd about_mean = all.colwise() - all.rowwise().mean();
+  return about_mean * about_mean.transpose() / static_cast<double>(count);
+}
+
 }  // namespace
 
 void addRunChecks(const ReviewSubject& subject, const CheckLimits& limits,
@@ -201,6 +221,71 @@ void addRunChecks(const ReviewSubject& subject, const CheckLimits& limits,
   checks.push_back(convergedCheck(*subject.run));
   checks.push_back(correctionsCheck(*subject.run, limits));
   addMatchingChecks(*subject.run, limits, checks);
+}
+
+void addOnboardCheck(const ReviewSubject& subject, std::vector<Check>& checks) {
+  if (!subject.onboard) {
+    checks.push_back(notAskedCheck(kOnboard, "The case has no onboard record, or was not run."));
+    return;
+  }
+  const std::string difference = differenceText(*subject.onboard);
+  switch (subject.onboard->verdict) {
+    case RunVerdict::kEqual:
+      checks.push_back(statedCheck(kOnboard, true, "The run is the onboard one, to the bit.", ""));
+      return;
+    case RunVerdict::kWithinLimits:
+      checks.push_back(statedCheck(
+          kOnboard, true, "The run agrees with the onboard one within limits. " + difference, ""));
+      return;
+    case RunVerdict::kDifferent:
+      break;
+  }
+  checks.push_back(
+      statedCheck(kOnboard, false, "The run is not the onboard one. " + difference, kRemedy));
+}
+
+std::int32_t lastInliers(const LocalizationTrace& run) {
+  const auto found =
+      std::find_if(run.iterations.rbegin(), run.iterations.rend(),
+                   [](const auto& iteration) { return iteration->kind == IterationKind::kMatch; });
+  return found == run.iterations.rend() ? 0 : (*found)->pnp.inlier_count;
+}
+
+int iterationToOpen(const LocalizationTrace& run) {
+  const int last = static_cast<int>(run.iterations.size()) - 1;
+  if (run.converged()) return last;
+  for (int i = last; i >= 0; --i) {
+    const LocalizationStatus status = run.iterations[static_cast<std::size_t>(i)]->status;
+    if (status != LocalizationStatus::kRunning && status != LocalizationStatus::kConverged)
+      return i;
+  }
+  return last;
+}
+
+std::optional<double> leastSpread(std::span<const Eigen::Vector2d> points_px,
+                                  std::span<const Eigen::Vector2d> others_px, double floor_px) {
+  if (points_px.size() < 2 || others_px.size() < 2) return {};
+  const Eigen::Matrix2d floor = floor_px * floor_px * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d points = scatterOf(points_px) + floor;
+  const Eigen::Matrix2d others = scatterOf(others_px) + floor;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> solver(points, others,
+                                                                         Eigen::EigenvaluesOnly);
+  if (solver.info() != Eigen::Success) return {};
+  return std::sqrt(std::max(0.0, solver.eigenvalues().minCoeff()));
+}
+
+double deviationOf(std::span<const double> values) {
+  if (values.size() < 2) return 0.0;
+  const Eigen::Map<const Eigen::ArrayXd> all(values.data(),
+                                             static_cast<Eigen::Index>(values.size()));
+  return std::sqrt((all - all.mean()).square().mean());
+}
+
+double medianOf(std::span<const double> values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return *middle;
 }
 
 }  // namespace boresight::sessions

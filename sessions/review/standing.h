@@ -2,6 +2,7 @@
 // Where a case stands: what was run, marked and decided, and whether a decision still holds.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "sessions/session/session.h"
@@ -33,5 +34,17 @@ Standing standingOf(const Session& session, const std::string& case_id);
 /// VALIDATED: converged", "NOT VALIDATED: converged; the validation by A no longer holds, as the
 /// marks have changed".
 std::string standingText(const Standing& standing);
+
+/// SHA-256 by name: "inputs" (of runs), "run" (its digest), "marks" (of the case and its rig),
+/// "truth", "input_sigmas", "requirement", "end_effector", "rig", "other_runs" (of the rig's other
+/// cameras, where they have one), "onboard_record", "limits". Not the options: those of a run are
+/// part of its digest. `run_digest` is empty for what rests on no run. Empty when there is no such
+/// case.
+std::map<std::string, std::string> judgedGrounds(const Session& session, const std::string& case_id,
+                                                 const std::string& run_digest);
+
+/// What differs, as a clause: "the marks and the requirement have changed"; empty when nothing.
+std::string changedGroundsText(const std::map<std::string, std::string>& before,
+                               const std::map<std::string, std::string>& now);
 
 }  // namespace boresight::sessions

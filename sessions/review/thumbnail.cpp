@@ -13,31 +13,23 @@ namespace {
 constexpr double kMargin = 1.15;      // of the station's size in the image
 constexpr double kLeastPart = 0.125;  // of the image's width, that is shown
 
-/// Where the corners of the station's box fall; empty when none is in sight.
-cv::Rect2d stationBox(const Camera& camera, const MeshView& mesh, const Pose& camera_from_station) {
-  double low[2] = {1e9, 1e9};
-  double high[2] = {-1e9, -1e9};
-  for (const Eigen::Vector3d& corner : boxCorners(matchedBounds(mesh))) {
-    Eigen::Vector2d pixel;
-    if (!project(camera, camera_from_station * corner, pixel)) continue;
-    for (int i = 0; i < 2; ++i) {
-      low[i] = std::min(low[i], pixel[i]);
-      high[i] = std::max(high[i], pixel[i]);
-    }
-  }
-  const cv::Rect2d box(low[0], low[1], high[0] - low[0], high[1] - low[1]);
+/// Where the corners of the station's box fall in the image from any of the poses; empty when none
+/// is in sight.
+cv::Rect2d stationBox(const Camera& camera, const MeshView& mesh, std::span<const Pose> poses) {
   const cv::Rect2d image(0.0, 0.0, camera.width, camera.height);
-  return box.width > 0.0 && box.height > 0.0 ? box & image : cv::Rect2d();
-}
-
-/// All of their boxes; empty when none is in sight.
-cv::Rect2d boxOfAll(const Camera& camera, const MeshView& mesh, std::span<const Pose> poses) {
-  cv::Rect2d box;
+  cv::Rect2d all;
   for (const Pose& camera_from_station : poses) {
-    const cv::Rect2d one = stationBox(camera, mesh, camera_from_station);
-    if (one.area() > 0.0) box = box.area() > 0.0 ? box | one : one;
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector3d& corner : boxCorners(matchedBounds(mesh))) {
+      Eigen::Vector2d pixel;
+      if (project(camera, camera_from_station * corner, pixel)) box.extend(pixel);
+    }
+    if (box.isEmpty()) continue;
+    const cv::Rect2d one =
+        cv::Rect2d(box.min().x(), box.min().y(), box.sizes().x(), box.sizes().y()) & image;
+    if (one.area() > 0.0) all = all.area() > 0.0 ? all | one : one;
   }
-  return box;
+  return all;
 }
 
 /// Of the picture's shape where the image allows it, inside the image.
@@ -86,8 +78,8 @@ ColorImage stationPicture(const ImageView& image, Camera camera, const MeshView&
   const bool projects = prepareCamera(camera) == Status::kOk;
   const cv::Mat whole(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),
                       static_cast<std::size_t>(image.stride));
-  const cv::Rect part =
-      partToShow(camera, boxOfAll(camera, mesh, framed), static_cast<double>(width_px) / height_px);
+  const cv::Rect part = partToShow(camera, stationBox(camera, mesh, framed),
+                                   static_cast<double>(width_px) / height_px);
   const cv::Size size = sizeWithin(part, width_px, height_px);
   cv::Mat small;
   const bool shrinks = size.width < part.width;

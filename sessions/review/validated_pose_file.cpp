@@ -10,18 +10,18 @@
 
 #include "core/base/math.h"
 #include "sessions/annotation/marks_file.h"
-#include "sessions/evaluation/pose_sigma.h"
+#include "sessions/evaluation/pose_error.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_writer.h"
-#include "sessions/review/end_effector_pose.h"
-#include "sessions/review/measured_pose.h"
+#include "sessions/review/handed_pose.h"
+#include "sessions/review/pose_uncertainty.h"
 #include "sessions/review/standing.h"
+#include "sessions/session/case_json.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/decision_json.h"
-#include "sessions/session/frames_json.h"
+#include "sessions/session/decision.h"
 #include "sessions/session/input_sigmas.h"
 #include "sessions/session/named_poses.h"
-#include "sessions/session/session_json.h"
+#include "sessions/session/session_file.h"
 #include "sessions/version.h"
 
 #include "sessions/text/utc_time.h"
@@ -227,12 +227,9 @@ ordered_json hashesJson(const SessionCase& one) {
 ordered_json signatureOf(const ordered_json& json) {
   ordered_json rest = json;
   rest.erase("signature");
-  const std::string text = rest.dump();
-  const std::string digest =
-      sha256Text(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
   return {{"algorithm", "SHA-256"},
           {"over", "this document without its member signature, as compact JSON"},
-          {"digest", digest}};
+          {"digest", sha256Text(rest.dump())}};
 }
 
 ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,

@@ -8,15 +8,15 @@
 
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/io/json_document.h"
+#include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/review/decide.h"
-#include "sessions/review/measured_pose.h"
+#include "sessions/review/handed_pose.h"
 #include "sessions/review/standing.h"
 #include "sessions/review/validated_pose_file.h"
-#include "sessions/session/decision_json.h"
+#include "sessions/session/decision.h"
 #include "sessions/session/input_check.h"
-#include "sessions/session/session_json.h"
+#include "sessions/session/session_file.h"
 
 namespace boresight::sessions {
 namespace {
@@ -38,7 +38,7 @@ Pose readPlainPose(const JsonReader& pose) {
   read.rotation = Eigen::Quaterniond(q[0].number(), q[1].number(), q[2].number(), q[3].number());
   if (!(std::abs(read.rotation.squaredNorm() - 1.0) <= 1e-9))
     pose.failMember("camera_from_station_quaternion_wxyz", "not a unit quaternion");
-  read.translation_m = pose.at("camera_from_station").matrix4().topRightCorner<3, 1>();
+  read.translation_m = pose.at("camera_from_station").matrix<4>().topRightCorner<3, 1>();
   return read;
 }
 

@@ -2,40 +2,28 @@
 // One case inside the session file.
 #pragma once
 
-#include <filesystem>
-#include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "sessions/io/frame_transform.h"
 #include "sessions/io/json_reader.h"
+#include "sessions/io/labels/image_label.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {
 
-/// Paths are written relative to the folder of the session, where there is such a path.
-class PathWriter {
- public:
-  /// `file` is the session's.
-  explicit PathWriter(const std::filesystem::path& file);
-
-  std::string operator()(const std::filesystem::path& file) const;
-
- private:
-  std::filesystem::path folder_;
-};
+class PathWriter;
 
 nlohmann::ordered_json toJson(const SessionCase& one, const PathWriter& path);
 /// The reverse, without whether its id is given twice. InputError.
 SessionCase readSessionCase(const JsonReader& json);
 
-/// {rotation_wxyz, translation_m}: reads back as the same bits.
-nlohmann::ordered_json exactPoseJson(const Pose& pose);
-/// The reverse. InputError.
-Pose readExactPose(const JsonReader& json);
+/// {"name", "index", "joined_by": {"target", "source", "target_from_source", "comment", "file",
+/// "sha256"}}: the file's name alone, since its numbers are here.
+nlohmann::ordered_json toJson(const StationFrame& frame);
 
-/// 64 lower-case hexadecimal digits. InputError.
-std::string readSha256(const JsonReader& json);
-/// Absolute and without detours. InputError.
-std::filesystem::path readPath(const JsonReader& json, FileUse use = FileUse::kInput);
+/// An array of [keyword, value].
+nlohmann::ordered_json toJson(const std::vector<LabelItem>& label);
 
 }  // namespace boresight::sessions

@@ -3,11 +3,11 @@
 
 #include <utility>
 
-#include "sessions/evaluation/requirement_share.h"
+#include "sessions/evaluation/pose_error.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/scene_mesh.h"
-#include "sessions/session/known_image.h"
-#include "sessions/session/review_settings.h"
+#include "sessions/session/check_limits.h"
+#include "sessions/session/input_check.h"
 
 namespace boresight::sessions {
 namespace {
@@ -31,8 +31,7 @@ MarkedView viewOf(const Session& session, const SessionCase& one, const Pose& ca
 }  // namespace
 
 CaseMarks caseMarks(const Session& session, const std::string& case_id, bool together) {
-  const SessionCase* chosen = session.findCase(case_id);
-  if (chosen == nullptr) throw InputError("session", "cases", "there is no case '" + case_id + "'");
+  const SessionCase* chosen = &knownCase(session, case_id);
   CaseMarks made;
   made.requirement = requirementOf(session, *chosen);
   made.camera_from_end_effector = chosen->camera_from_end_effector;

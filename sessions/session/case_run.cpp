@@ -12,7 +12,7 @@
 #include "sessions/run/problem.h"
 #include "sessions/run/runner.h"
 #include "sessions/run/trace_file.h"
-#include "sessions/session/known_image.h"
+#include "sessions/session/input_check.h"
 #include "sessions/session/session_file.h"
 
 #include "sessions/text/utc_time.h"

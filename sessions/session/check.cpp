@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "sessions/text/plain_text.h"
+
 namespace boresight::sessions {
 namespace {
 
@@ -18,6 +20,32 @@ std::string numberText(double value, const std::string& unit) {
 bool hasState(std::span<const Check> checks, CheckState state) {
   return std::any_of(checks.begin(), checks.end(),
                      [state](const Check& check) { return check.state == state; });
+}
+
+std::string joined(bool passed, const std::string& found, const std::string& remedy) {
+  return passed || remedy.empty() ? found : found + " " + remedy;
+}
+
+const char* mark(CheckState state) {
+  switch (state) {
+    case CheckState::kPassed:
+      return "pass  ";
+    case CheckState::kFailed:
+      return "FAIL  ";
+    case CheckState::kNotApplicable:
+      break;
+  }
+  return "  -   ";
+}
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(text.size(), width), ' ');
+  return text;
+}
+
+long countOf(std::span<const Check> checks, CheckState state) {
+  return std::count_if(checks.begin(), checks.end(),
+                       [state](const Check& check) { return check.state == state; });
 }
 
 }  // namespace
@@ -51,6 +79,71 @@ std::string figureText(const Check& check) {
 
 bool allPassed(std::span<const Check> checks) {
   return hasState(checks, CheckState::kPassed) && !hasState(checks, CheckState::kFailed);
+}
+
+Check measuredCheck(const CheckName& name, const std::string& unit, double figure, double limit,
+                    LimitSide side, const std::string& found, const std::string& remedy) {
+  const bool holds = side == LimitSide::kAtMost ? figure <= limit : figure >= limit;
+  const bool passed = std::isfinite(figure) && holds;
+  Check check = statedCheck(name, passed, found, remedy);
+  if (std::isfinite(figure)) check.figure = figure;
+  check.limit = limit;
+  check.side = side;
+  check.unit = unit;
+  return check;
+}
+
+Check statedCheck(const CheckName& name, bool passed, const std::string& found,
+                  const std::string& remedy) {
+  Check check;
+  check.id = name.id;
+  check.title = name.title;
+  check.state = passed ? CheckState::kPassed : CheckState::kFailed;
+  check.sentence = joined(passed, found, remedy);
+  return check;
+}
+
+Check notAskedCheck(const CheckName& name, const std::string& why) {
+  Check check;
+  check.id = name.id;
+  check.title = name.title;
+  check.sentence = why;
+  return check;
+}
+
+std::string percentText(double share) {
+  return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
+}
+
+std::string sentenceNumber(double value) {
+  const double size = std::abs(value);
+  int decimals = 0;
+  for (double unit = 100.0; size < unit && decimals < 4; unit /= 10.0) ++decimals;
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", std::min(decimals, 4), value);
+  return text;
+}
+
+std::string checkCountsText(std::span<const Check> checks) {
+  return std::to_string(countOf(checks, CheckState::kPassed)) + " passed, " +
+         std::to_string(countOf(checks, CheckState::kFailed)) + " failed, " +
+         std::to_string(countOf(checks, CheckState::kNotApplicable)) + " not applicable";
+}
+
+std::string checksText(std::span<const Check> checks, bool all_sentences) {
+  std::size_t width = 0;
+  for (const Check& check : checks) width = std::max(width, check.title.size());
+  std::string text;
+  for (const Check& check : checks) {
+    const std::string figure = figureText(check);
+    const bool plain = figure.empty();
+    text += mark(check.state);
+    text += plain ? check.title : padded(check.title, width) + "  " + figure;
+    text += "\n";
+    if (all_sentences || check.state != CheckState::kPassed)
+      text += plainLine("      " + check.sentence);
+  }
+  return text + checkCountsText(checks) + "\n";
 }
 
 }  // namespace boresight::sessions

@@ -7,6 +7,7 @@
 #include "core/base/options.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/option_value.h"
+#include "sessions/session/session.h"
 
 namespace boresight::sessions {
 
@@ -33,15 +34,6 @@ struct CheckLimits {
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
-    matchingFields(self, visit);
-    precisionFields(self, visit);
-    edgeFields(self, visit);
-    comparisonFields(self, visit);
-  }
-
- private:
-  template <class Self, class Visitor>
-  static void matchingFields(Self& self, Visitor&& visit) {
     visit(OptionInfo{"check.last_correction_percent", "%", 0.0, 1000.0,
                      "Most that the last correction may be of the first one, in the image; a first "
                      "one below a pixel counts as a pixel."},
@@ -66,15 +58,9 @@ struct CheckLimits {
     visit(OptionInfo{"check.peak_margin_percent", "%", 0.0, 100.0,
                      "Least median, over the inliers, by which the best score exceeds the second."},
           self.peak_margin_percent);
-  }
-  template <class Self, class Visitor>
-  static void precisionFields(Self& self, Visitor&& visit) {
     visit(OptionInfo{"check.sigmas", "", 0.0, 100.0,
                      "So many standard deviations of the pose must fit into the requirement."},
           self.sigmas);
-  }
-  template <class Self, class Visitor>
-  static void edgeFields(Self& self, Visitor&& visit) {
     visit(OptionInfo{"check.coverage_percent", "%", 0.0, 100.0,
                      "Least share of the predicted edges that the image shows."},
           self.coverage_percent);
@@ -99,9 +85,6 @@ struct CheckLimits {
                      "choose it; and most that they may leave open where no calibration_sigma is "
                      "stated."},
           self.centre_px);
-  }
-  template <class Self, class Visitor>
-  static void comparisonFields(Self& self, Visitor&& visit) {
     visit(OptionInfo{"check.agreement_percent", "%", 0.0, 10000.0,
                      "Most that this pose and another (annotation, truth, second camera) may be "
                      "apart, of what the requirement and both covariances allow."},
@@ -138,5 +121,15 @@ const CheckPreset& presetFor(const Requirement& requirement);
 /// A preset's limits with those of a session in their place. OptionError when one does not exist or
 /// is out of range; std::invalid_argument when there is no such preset.
 CheckLimits checkLimits(const std::string& preset, const OptionList& changed);
+
+/// The limits of another preset; what was changed of the former ones is dropped.
+/// std::invalid_argument when there is no such preset.
+ReviewSettings withPreset(const ReviewSettings& settings, const std::string& preset);
+
+/// A case's own requirement, else the preset's. InputError when there is no such preset.
+Requirement requirementOf(const Session& session, const SessionCase& one);
+
+/// These limits, kept as what differs from the preset. std::invalid_argument when there is none.
+ReviewSettings withLimits(const ReviewSettings& settings, const CheckLimits& limits);
 
 }  // namespace boresight::sessions

@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "core/geometry/pose.h"
+#include "sessions/io/json_reader.h"
 #include "sessions/io/option_value.h"
 #include "sessions/session/check.h"
-#include "sessions/session/pose_covariance.h"
 
 namespace boresight::sessions {
 
@@ -36,6 +38,22 @@ struct Approval {
   bool operator==(const Approval&) const = default;
 };
 
+/// Covariance of a pose by its causes, which are independent: over (rotation rad, translation m),
+/// left perturbation, camera frame.
+struct PoseCovariance {
+  Matrix6d picture = Matrix6d::Zero();      ///< of the picture or the marks alone; zero: not known
+  Matrix6d mesh_scale = Matrix6d::Zero();   ///< of the mesh's scale, which no single image shows
+  Matrix6d calibration = Matrix6d::Zero();  ///< of focal length and principal point
+
+  bool known() const { return picture.allFinite() && !picture.isZero(0.0); }
+  /// Zero when it is not known.
+  Matrix6d total() const {
+    return known() ? Matrix6d(picture + mesh_scale + calibration) : Matrix6d::Zero();
+  }
+
+  bool operator==(const PoseCovariance&) const = default;
+};
+
 /// The pose that was judged.
 struct JudgedPose {
   PoseSource source = PoseSource::kRun;
@@ -54,7 +72,7 @@ struct Decision {
   std::string time;                               ///< UTC, "2026-01-31T23:59:59Z"
   std::string digest;                             ///< of the run that was judged, or empty
   std::optional<JudgedPose> pose = std::nullopt;  ///< always there of a validation that can hold
-  /// SHA-256 of each thing that the judgement rests on, by its name (sessions/review/grounds.h).
+  /// SHA-256 of each thing that the judgement rests on, by its name (sessions/review/standing.h).
   std::map<std::string, std::string> grounds = {};
   std::vector<JudgedCheck> checks = {};
   std::optional<Approval> approval = std::nullopt;
@@ -71,5 +89,22 @@ struct ReviewSettings {
 
   bool operator==(const ReviewSettings&) const = default;
 };
+
+nlohmann::ordered_json toJson(const Decision& decision);
+/// The reverse; whether there is such a case is for the caller to ask. InputError.
+Decision readDecision(const JsonReader& json);
+
+/// A check with its state, figure, limit and sentence; the reason of its override if there is one.
+nlohmann::ordered_json toJson(const JudgedCheck& judged);
+JudgedCheck readJudgedCheck(const JsonReader& json);
+
+nlohmann::ordered_json toJson(const ReviewSettings& settings);
+/// The reverse. InputError, also for a preset or limit that does not exist.
+ReviewSettings readReviewSettings(const JsonReader& json);
+
+/// {"picture", "mesh_scale", "calibration"}, six rows of six numbers each.
+nlohmann::ordered_json toJson(const PoseCovariance& covariance);
+/// The reverse. InputError.
+PoseCovariance readPoseCovariance(const JsonReader& json);
 
 }  // namespace boresight::sessions

@@ -6,12 +6,12 @@
 #include <map>
 #include <set>
 #include <system_error>
+#include <utility>
 
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/labels/label_files.h"
-#include "sessions/io/mesh_files.h"
-#include "sessions/session/known_image.h"
+#include "sessions/io/mesh_container.h"
 
 namespace boresight::sessions {
 namespace {
@@ -172,6 +172,16 @@ class Search {
   std::multimap<fs::path, fs::path> files_;
 };
 
+GrayImage readOrName(const ImageInput& image, const ImageReadOptions& eight_bit) {
+  try {
+    return readImage(image.source.file, eight_bit);
+  } catch (const InputError&) {
+    const std::string lost = lostLabelText(image);
+    if (lost.empty()) throw;
+    throw InputError(image.source.file, lost);
+  }
+}
+
 }  // namespace
 
 std::string inputSha256(const fs::path& file) {
@@ -230,19 +240,84 @@ Session relinked(const Session& session, const std::vector<Relink>& relinks) {
 }
 
 Session acceptingInputs(const Session& session, const std::string& case_id) {
-  const SessionCase* one = session.findCase(case_id);
-  if (one == nullptr) return session;
-  SessionCase changed = *one;
-  const GrayImage image = readImage(changed.image.source.file, changed.image.eight_bit);
-  changed.image.source.sha256 = image.file_sha256;
-  changed.image.pixels_sha256 = image.pixels_sha256;
-  changed.image.width = image.width;
-  changed.image.height = image.height;
-  for (MeshInput& part : changed.parts) part.sha256 = meshSha256(part.source);
-  if (changed.ignore) changed.ignore->sha256 = inputSha256(changed.ignore->file);
-  if (changed.onboard_record)
-    changed.onboard_record->sha256 = inputSha256(changed.onboard_record->file);
-  return withCase(session, std::move(changed));
+  return withChanged(session, case_id, [](SessionCase& one) {
+    const GrayImage image = readImage(one.image.source.file, one.image.eight_bit);
+    one.image.source.sha256 = image.file_sha256;
+    one.image.pixels_sha256 = image.pixels_sha256;
+    one.image.width = image.width;
+    one.image.height = image.height;
+    for (MeshInput& part : one.parts) part.sha256 = meshSha256(part.source);
+    for (auto* input : {&one.ignore, &one.onboard_record})
+      if (*input) (*input)->sha256 = inputSha256((*input)->file);
+  });
+}
+
+GrayImage readKnownImage(const ImageInput& image, const ImageReadOptions& eight_bit) {
+  GrayImage read = readOrName(image, eight_bit);
+  if (read.file_sha256 == image.source.sha256) return read;
+  const std::string other = otherFileText(image.source.file);
+  requireKnown(image.source.file, other.empty() ? "its bytes" : "its bytes or " + other,
+               read.file_sha256, image.source.sha256);
+  return read;
+}
+
+SceneMesh readKnownScene(const std::vector<MeshInput>& inputs) {
+  std::vector<PartSource> parts;
+  for (const MeshInput& input : inputs) parts.push_back(input.source);
+  return readScene(parts, [&inputs](std::size_t part, const std::string& sha256) {
+    requireKnown(inputs[part].source.mesh, "its bytes", sha256, inputs[part].sha256);
+  });
+}
+
+void requireKnown(const fs::path& file, const std::string& what, const std::string& found_sha256,
+                  const std::string& known_sha256) {
+  if (found_sha256 != known_sha256)
+    throw InputError(file, what +
+                               " are not those that the session was made with: relink the file, "
+                               "or accept it as it is now");
+}
+
+std::string otherFileText(const fs::path& image) {
+  try {
+    const auto label = labelFileOf(image);
+    if (!label) return "";
+    if (*label != image) return "its label " + label->filename().string();
+    const LabelFiles files = readLabelFiles(*label);
+    return files.parts.size() < 2 ? "" : "its pixels " + files.parts[1].name;
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
+std::string lostLabelText(const ImageInput& image) {
+  std::error_code error;
+  const fs::path& file = image.source.file;
+  if (image.label.empty() || !fs::exists(file, error) || labelFileOf(file)) return "";
+  try {
+    (void)readSamples(file);
+    return "";  // another picture that needs no label
+  } catch (const InputError&) {
+  }
+  const std::string stem = file.stem().string();
+  return "the label that it had when the session was made is no longer there: put " + stem +
+         ".lbl (or " + stem + ".xml) back beside it";
+}
+
+ImageInput converted(const ImageInput& image, const ImageReadOptions& eight_bit) {
+  const GrayImage read = readKnownImage(image, eight_bit);
+  ImageInput made = image;
+  made.eight_bit = eight_bit;
+  made.pixels_sha256 = read.pixels_sha256;
+  return made;
+}
+
+Session withConversions(const Session& session, const std::vector<Conversion>& conversions) {
+  Session next = session;
+  for (const Conversion& conversion : conversions)
+    next = withChanged(next, conversion.case_id, [&](SessionCase& one) {
+      if (one.image.source == conversion.image.source) one.image = conversion.image;
+    });
+  return next;
 }
 
 }  // namespace boresight::sessions

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sessions/io/scene_mesh.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {
@@ -50,5 +51,37 @@ Session relinked(const Session& session, const std::vector<Relink>& relinks);
 /// The same session with the hashes that the case's files have now: somebody has looked and accepts
 /// them. Runs of the case become stale. InputError when a file cannot be read.
 Session acceptingInputs(const Session& session, const std::string& case_id);
+
+/// Reads the image by another rule than the session's, or by that. InputError when it cannot be
+/// read, or its files are not those that the session knows.
+GrayImage readKnownImage(const ImageInput& image, const ImageReadOptions& eight_bit);
+
+/// Reads the meshes of a case. InputError, also of one whose files are not those that the session
+/// knows: such files are not parsed.
+SceneMesh readKnownScene(const std::vector<MeshInput>& inputs);
+
+/// InputError naming `what` of the file, unless the hashes are the same.
+void requireKnown(const std::filesystem::path& file, const std::string& what,
+                  const std::string& found_sha256, const std::string& known_sha256);
+
+/// What beside the file belongs to the image: "its label DET.LBL", "its pixels DET.DAT"; "" for an
+/// image of one file, and for one that cannot be read.
+std::string otherFileText(const std::filesystem::path& image);
+
+/// One sentence where the session knows a label and neither the file nor one beside it has it any
+/// more; else "".
+std::string lostLabelText(const ImageInput& image);
+
+/// The same image, become 8 bit by another rule. Reads the file; InputError when it is no longer
+/// the one that the session knows, or the rule does not fit it.
+ImageInput converted(const ImageInput& image, const ImageReadOptions& eight_bit);
+
+/// Images of cases after a conversion.
+struct Conversion {
+  std::string case_id;
+  ImageInput image;
+};
+/// The session with those of the images in place that are still of the same file.
+Session withConversions(const Session& session, const std::vector<Conversion>& conversions);
 
 }  // namespace boresight::sessions

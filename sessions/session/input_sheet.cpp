@@ -9,9 +9,9 @@
 #include "sessions/io/camera_file.h"
 #include "sessions/io/labels/image_label.h"
 #include "sessions/run/problem.h"
-#include "sessions/session/frame_lines.h"
 #include "sessions/session/input_sigmas.h"
 #include "sessions/session/label_agreement.h"
+#include "sessions/session/named_poses.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {

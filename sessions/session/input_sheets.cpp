@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/input_sheets.h"
 
-#include "sessions/session/known_image.h"
+#include "sessions/session/input_check.h"
 
 namespace boresight::sessions {
 namespace {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,56 +9,35 @@ namespace boresight::sessions {
 
 /// One edit of a session.
 struct JournalEntry {
-  std::int64_t sequence = 0;  ///< 1, 2, 3, ...
-  std::string text;           ///< what was done, for people
-  std::string time;           ///< UTC
-  std::string after_sha256;   ///< of sessionText after the edit
-  std::string patch;          ///< JSON, see json_patch.h
+  std::string text;          ///< what was done, for people
+  std::string time;          ///< UTC
+  std::string after_sha256;  ///< of sessionText after the edit
 
   bool operator==(const JournalEntry&) const = default;
 };
 
-/// What a journal file says. Lines count up to the first one that is damaged.
-struct JournalContents {
-  std::string
-      base_sha256;  ///< of the session file that the first entry changes; "" when unreadable
+/// The edits since the session was saved, and the whole session after the last of them.
+struct Journal {
+  std::string base_sha256;  ///< of the session file that the first entry changed
   std::vector<JournalEntry> entries;
-  std::size_t lost_lines = 0;  ///< at the first damaged line and after it; a torn last one counts
-  std::string problem;         ///< why nothing can be read, or ""
+  std::string session_text;  ///< sessionText after the last entry
 };
 
-/// The journal is text. The first line is a header, each further line an edit:
+/// Writes a journal in place of any other, whole or not at all; on the disk when this returns.
+/// A line with the SHA-256 of all that follows, a line of JSON, the session as its file would be:
 ///
-///     CRC {"format": "boresight-journal", "version": 1, "base_sha256": "..."}
-///     CRC {"seq": 1, "time": "...", "text": "...", "after_sha256": "...", "patch": [...]}
+///     SHA256
+///     {"format": "boresight-journal", "version": 2, "base_sha256": "...", "edits": [...]}
+///     {"format": "boresight-session", ...
 ///
-/// CRC is eight hexadecimal digits: CRC-32 of the CRC text of the line before and this line's JSON,
-/// so that a line counts only behind the lines that it was written behind.
-///
+/// OutputError; then the former journal is as it was.
+void writeJournal(const std::filesystem::path& file, const Journal& journal);
+
+/// A journal, or `problem`: why the file is none.
+struct JournalContents : Journal {
+  std::string problem;
+};
 /// InputError when the file exists but cannot be read; a missing file is the caller's to notice.
 JournalContents readJournal(const std::filesystem::path& file);
-
-/// Appends edits to a journal; owns the descriptor.
-class Journal {
- public:
-  /// A new journal with these entries, written atomically in place of any other. OutputError.
-  Journal(const std::filesystem::path& file, const std::string& base_sha256,
-          const std::vector<JournalEntry>& entries = {});
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
-  ~Journal();
-
-  /// Returns when the entry is on the disk; its sequence number is set here. On OutputError the
-  /// journal is as it was before.
-  void append(JournalEntry entry);
-
- private:
-  std::filesystem::path file_;
-  int descriptor_ = -1;
-  std::int64_t sequence_ = 0;
-  std::string last_crc_;
-  std::int64_t size_bytes_ = 0;
-  bool damaged_ = false;  ///< a half-written line could not be taken back
-};
 
 }  // namespace boresight::sessions

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -92,6 +93,27 @@ class KeyedList {
   std::vector<T> values_;
   std::unordered_map<std::string, std::size_t> places_;  ///< of the last element of each key
   bool indexed_ = true;
+};
+
+/// An immutable value that copies share: copying a session with a thousand cases copies pointers.
+/// Compares by value; the same pointer is the same value.
+template <class T>
+class SharedValue {
+ public:
+  SharedValue() : SharedValue(T()) {}
+  SharedValue(T value) : value_(std::make_shared<const T>(std::move(value))) {}  // NOLINT: a value
+
+  const T& operator*() const { return *value_; }
+  const T* operator->() const { return value_.get(); }
+  /// Whether both are copies of one and the same value.
+  bool sharesWith(const SharedValue& other) const { return value_ == other.value_; }
+
+  bool operator==(const SharedValue& other) const {
+    return sharesWith(other) || *value_ == *other.value_;
+  }
+
+ private:
+  std::shared_ptr<const T> value_;
 };
 
 }  // namespace boresight::sessions

@@ -57,9 +57,8 @@ std::string cameraConcern(const SessionCase& one, const CameraFile& label) {
 /// What the label says of the transform's two frames, as target_from_source.
 std::optional<Pose> statedTransform(const FrameTransform& given, const ImageLabel& label) {
   for (const LabelFrame& one : label.frames) {
-    if (sameFrame(one.reference, given.target) && sameFrame(one.frame, given.source))
-      return one.reference_from_frame;
-    if (sameFrame(one.reference, given.source) && sameFrame(one.frame, given.target))
+    if (one.reference == given.target && one.frame == given.source) return one.reference_from_frame;
+    if (one.reference == given.source && one.frame == given.target)
       return one.reference_from_frame.inverse();
   }
   return std::nullopt;

@@ -25,19 +25,13 @@ std::string shortNumber(double value) {
 }  // namespace
 
 Session withStrokes(const Session& session, const std::string& case_id, MaskStrokes strokes) {
-  const SessionCase* one = session.findCase(case_id);
-  if (one == nullptr) return session;
-  SessionCase changed = *one;
-  changed.ignore_strokes = std::move(strokes);
-  return withCase(session, std::move(changed));
+  return withChanged(session, case_id,
+                     [&](SessionCase& one) { one.ignore_strokes = std::move(strokes); });
 }
 
 Session withStroke(const Session& session, const std::string& case_id, MaskStroke stroke) {
-  const SessionCase* one = session.findCase(case_id);
-  if (one == nullptr) return session;
-  MaskStrokes strokes = one->ignore_strokes;
-  strokes.push_back(std::move(stroke));
-  return withStrokes(session, case_id, std::move(strokes));
+  return withChanged(session, case_id,
+                     [&](SessionCase& one) { one.ignore_strokes.push_back(std::move(stroke)); });
 }
 
 MaskStrokes clearedStrokes(const SessionCase& one) {

@@ -4,8 +4,19 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/json_writer.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
+namespace {
+
+std::string givenText(const StationFrame& given) {
+  std::string text = frameText(given.frame);
+  if (const auto& join = given.joined_by)
+    text += ", joined by " + join->file.string() + " (" + join->comment + ")";
+  return text;
+}
+
+}  // namespace
 
 std::vector<NamedPose> namedPoses(const std::optional<CameraReference>& camera_reference,
                                   const std::optional<StationFrame>& station_frame,
@@ -17,7 +28,7 @@ std::vector<NamedPose> namedPoses(const std::optional<CameraReference>& camera_r
       {"camera_model", camera_reference->frame, reference_from_station, ""}};
   if (!station_frame || !station_frame->joined_by) return made;
   const FrameTransform& join = *station_frame->joined_by;
-  const bool forward = sameFrame(join.target, camera_reference->frame);
+  const bool forward = join.target == camera_reference->frame;
   const Pose given_from_reference =
       forward ? join.target_from_source.inverse() : join.target_from_source;
   made.push_back({"station", station_frame->frame, given_from_reference * reference_from_station,
@@ -37,6 +48,19 @@ nlohmann::ordered_json toJson(const std::vector<NamedPose>& poses) {
 
 std::string namedPoseTitle(const NamedPose& pose) {
   return "reference_from_station in " + frameText(pose.frame);
+}
+
+std::vector<FrameLine> frameLines(const SessionCase& one) {
+  if (!one.camera_reference) return {};
+  const Eigen::Vector3d centre_m =
+      one.camera_reference->camera_from_reference.inverse().translation_m;
+  std::vector<FrameLine> lines = {
+      {"camera model in", frameText(one.camera_reference->frame) + ", its centre at " +
+                              fixedText(centre_m.x(), 4) + " " + fixedText(centre_m.y(), 4) + " " +
+                              fixedText(centre_m.z(), 4) + " m"}};
+  if (one.station_frame) lines.push_back({"station given in", givenText(*one.station_frame)});
+  if (one.truth_frame) lines.push_back({"truth given in", givenText(*one.truth_frame)});
+  return lines;
 }
 
 }  // namespace boresight::sessions

@@ -9,9 +9,7 @@ namespace boresight::sessions {
 namespace {
 
 Session withRig(const Session& session, const std::string& case_id, std::optional<Rig> rig) {
-  SessionCase changed = *session.findCase(case_id);
-  changed.rig = std::move(rig);
-  return withCase(session, std::move(changed));
+  return withChanged(session, case_id, [&](SessionCase& one) { one.rig = std::move(rig); });
 }
 
 /// A rig's name that no other rig has.

@@ -13,7 +13,6 @@
 
 #include "core/base/digest.h"
 #include "sessions/io/camera_file.h"
-#include "sessions/io/config_file.h"
 #include "sessions/io/errors.h"
 
 namespace boresight::sessions {
@@ -65,6 +64,21 @@ void add(InputsDigest& digest, const MaskStroke& stroke) {
   for (const Eigen::Vector2d& point : stroke.points) digest.vector("point", point);
 }
 
+template <class Value>
+bool sameOf(const std::string& id, const std::map<std::string, Value>& a,
+            const std::map<std::string, Value>& b) {
+  const auto in_a = a.find(id);
+  const auto in_b = b.find(id);
+  if (in_a == a.end() || in_b == b.end()) return (in_a == a.end()) == (in_b == b.end());
+  return in_a->second == in_b->second;
+}
+
+bool sameDecision(const std::string& id, const Session& a, const Session& b) {
+  const Decision* in_a = a.decisionOn(id);
+  const Decision* in_b = b.decisionOn(id);
+  return in_a && in_b ? *in_a == *in_b : in_a == in_b;
+}
+
 }  // namespace
 
 const SessionCase* Session::findCase(const std::string& id) const {
@@ -83,6 +97,21 @@ void setTruth(SessionCase& one, const Pose& camera_from_station,
   one.camera_from_station_truth = camera_from_station;
   one.truth_frame.reset();
   one.truth_covariance = covariance;
+}
+
+const SessionCase& knownCase(const Session& session, const std::string& case_id) {
+  const SessionCase* found = session.findCase(case_id);
+  if (found == nullptr) throw InputError("session", "cases", "there is no case '" + case_id + "'");
+  return *found;
+}
+
+Session withChanged(const Session& session, const std::string& case_id,
+                    const std::function<void(SessionCase&)>& change) {
+  const SessionCase* found = session.findCase(case_id);
+  if (found == nullptr) return session;
+  SessionCase changed = *found;
+  change(changed);
+  return withCase(session, std::move(changed));
 }
 
 Session withCase(const Session& session, SessionCase changed) {
@@ -193,6 +222,39 @@ bool isSha256Text(const std::string& text) {
   return text.size() == 64 && std::all_of(text.begin(), text.end(), [](char c) {
            return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
          });
+}
+
+std::vector<std::string> changedCases(const Session& before, const Session& after) {
+  std::vector<std::string> changed;
+  for (const auto& one : after.cases) {
+    const SessionCase* former = before.findCase(one->id);
+    const bool same =
+        former && *former == *one && sameOf(one->id, before.annotations, after.annotations) &&
+        sameOf(one->id, before.passes, after.passes) && sameDecision(one->id, before, after);
+    if (!same) changed.push_back(one->id);
+  }
+  return changed;
+}
+
+void StaleRuns::takeOptions(const Session& session) {
+  if (profile_ == session.profile && options_ == session.options) return;
+  profile_ = session.profile;
+  options_ = session.options;
+  options_digests_.clear();
+}
+
+bool StaleRuns::isStale(const RunRecord& run, const SharedValue<SessionCase>& one,
+                        const Session& session, const std::filesystem::path& file) {
+  // Of a run together the other cases count, too.
+  if (run.together) return stalenessOf(run, session, file).stale();
+  takeOptions(session);
+  auto known = inputs_.find(one->id);
+  if (known == inputs_.end() || !known->second.one.sharesWith(one))
+    known = inputs_.insert_or_assign(one->id, Inputs{one, inputsDigest(*one)}).first;
+  if (run.inputs_sha256 != known->second.digest) return true;
+  std::string& options = options_digests_[one->feature_size_m.value_or(0.0)];
+  if (options.empty()) options = optionsDigest(caseOptions(session, *one, file));
+  return run.options_sha256 != options;
 }
 
 }  // namespace boresight::sessions

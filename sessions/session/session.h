@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,13 +21,10 @@
 #include "sessions/io/frame_transform.h"
 #include "sessions/io/image_file.h"
 #include "sessions/io/labels/image_label.h"
-#include "sessions/io/option_value.h"
 #include "sessions/session/decision.h"
 #include "sessions/session/ignore_strokes.h"
 #include "sessions/session/keyed_list.h"
-#include "sessions/session/rerun_record.h"
-#include "sessions/session/shared_value.h"
-#include "sessions/session/together_record.h"
+#include "sessions/session/run_record.h"
 
 namespace boresight::sessions {
 
@@ -104,24 +102,6 @@ void setTruth(SessionCase& one, const Pose& camera_from_station,
 /// What a person marked in one case.
 using Annotation = Marks;
 
-/// A run whose trace is a file of its own beside the session.
-struct RunRecord {
-  std::string case_id;
-  std::string digest;  ///< of the trace, which names its file
-  std::filesystem::path file;
-  std::string status;          ///< as localizationStatusText says
-  std::string version;         ///< of the program that ran it
-  std::string time;            ///< UTC, when it ended
-  std::string inputs_sha256;   ///< inputsDigest of the case that ran
-  std::string options_sha256;  ///< optionsDigest of what ran, as it was at the end
-  std::optional<RerunRecord> rerun =
-      std::nullopt;  ///< of a run that took up other options on its way
-  /// Of a run that was solved for together with other views of the case's rig.
-  std::optional<TogetherRecord> together = std::nullopt;
-
-  bool operator==(const RunRecord&) const = default;
-};
-
 /// What of the view belongs to the document; windows and layout do not.
 struct DocumentView {
   std::string case_id;          ///< chosen case, or empty
@@ -160,6 +140,11 @@ struct Session {
   bool operator==(const Session&) const = default;
 };
 
+/// The case of this id. InputError when there is none.
+const SessionCase& knownCase(const Session& session, const std::string& case_id);
+/// The same session with a case changed; unchanged when there is no such case.
+Session withChanged(const Session& session, const std::string& case_id,
+                    const std::function<void(SessionCase&)>& change);
 /// The same session with this case in place of the one of its id, or at the end.
 Session withCase(const Session& session, SessionCase changed);
 /// The same session without a case and all that refers to it.
@@ -199,5 +184,32 @@ Staleness stalenessOf(const RunRecord& run, const Session& session,
 bool isUtcText(const std::string& text);
 /// Whether `text` is a SHA-256 in lower-case hexadecimal digits.
 bool isSha256Text(const std::string& text);
+
+/// Ids of the later session's cases of which a person has changed something since the earlier one
+/// (the case itself, its marks or passes, decisions on it); new ones too, in their order. Runs and
+/// the view do not count.
+std::vector<std::string> changedCases(const Session& before, const Session& after);
+
+/// `stalenessOf` for all cases of a session again and again as it is edited: what is known of cases
+/// and options that are still the same is kept.
+class StaleRuns {
+ public:
+  /// As `stalenessOf(run, session, file).stale()`; `one` is the run's case in the session.
+  /// InputError of options that cannot be read.
+  bool isStale(const RunRecord& run, const SharedValue<SessionCase>& one, const Session& session,
+               const std::filesystem::path& file);
+
+ private:
+  struct Inputs {
+    SharedValue<SessionCase> one;
+    std::string digest;
+  };
+  void takeOptions(const Session& session);
+
+  std::map<std::string, Inputs> inputs_;  ///< by case
+  std::string profile_;
+  OptionList options_;
+  std::map<double, std::string> options_digests_;  ///< by the case's feature size, m
+};
 
 }  // namespace boresight::sessions

@@ -6,26 +6,17 @@
 #include <system_error>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/session/json_patch.h"
+#include "sessions/io/json_reader.h"
 #include "sessions/session/session_file.h"
-#include "sessions/session/session_json.h"
-
 #include "sessions/text/utc_time.h"
 
 namespace boresight::sessions {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
-
-std::string textSha256(std::string_view text) {
-  return sha256Text({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-}
 
 std::string countText(std::size_t count, const char* what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
@@ -38,12 +29,10 @@ Session ordered(Session session) {
   return session;
 }
 
-/// What the file will say of `session`; proves that it can be opened again and is then the same.
-json provenJson(const Session& session, const fs::path& file, const std::string& text) {
-  json made = json::parse(text);
-  if (!(readSession(JsonReader(file, made, "")) == session))
+/// Proves that the text of a session can be opened again and is then the same.
+void requireReadable(const Session& session, const fs::path& file, const std::string& text) {
+  if (!(readSession(JsonDocument(file, text).root()) == session))
     throw std::logic_error("a session does not read back as it was written");
-  return made;
 }
 
 fs::path asideName(const fs::path& journal) {
@@ -73,9 +62,6 @@ void copyRuns(Session& session, const fs::path& to_session) {
 
 SessionDocument::SessionDocument(const fs::path& file)
     : file_(fs::absolute(file).lexically_normal()) {}
-SessionDocument::SessionDocument(SessionDocument&&) noexcept = default;
-SessionDocument& SessionDocument::operator=(SessionDocument&&) noexcept = default;
-SessionDocument::~SessionDocument() = default;
 
 SessionDocument SessionDocument::open(const fs::path& file, Access access) {
   SessionDocument document(file);
@@ -100,12 +86,11 @@ SessionDocument SessionDocument::create(const fs::path& file, const Session& ses
   document.takeLock();
   document.requireEditable();
   const Session wanted = ordered(session);
-  (void)provenJson(wanted, document.file_, sessionText(wanted, document.file_));
+  requireReadable(wanted, document.file_, sessionText(wanted, document.file_));
   if (fs::exists(journalFileOf(document.file_), error))
     document.setJournalAside("it belonged to a former session of this name");
   document.file_sha256_ = writeSessionFile(document.file_, wanted);
-  document.become(wanted);
-  document.saved_ = document.session_;
+  document.session_ = document.saved_ = wanted;
   return document;
 }
 
@@ -128,20 +113,7 @@ void SessionDocument::takeLock() {
 void SessionDocument::readSaved() {
   SavedSession saved = readSessionFile(file_);
   file_sha256_ = saved.file_sha256;
-  become(saved.session);
-  saved_ = session_;
-}
-
-void SessionDocument::become(const Session& session) {
-  session_ = session;
-  json_.reset();
-}
-
-/// What an edit is compared with. Of a large session it takes longer to make than the session to
-/// read, and who only looks never needs it.
-const json& SessionDocument::sessionJson() const {
-  if (!json_) json_ = std::make_unique<json>(json::parse(sessionText(session_, file_)));
-  return *json_;
+  session_ = saved_ = std::move(saved.session);
 }
 
 void SessionDocument::readJournalBeside() {
@@ -159,40 +131,20 @@ void SessionDocument::readJournalBeside() {
   if (first > contents.entries.size())
     return setJournalAside("it belongs to another state of the file");
   if (first < contents.entries.size()) return noteRecovery(contents, first);
-  if (contents.lost_lines > 1)
-    return setJournalAside(countText(contents.lost_lines, "line") + " of it are damaged");
   if (!readOnly()) fs::remove(file, error);
 }
 
-/// The session after the journal's entries `first` to `end`; nothing when they do not fit.
-std::optional<Session> SessionDocument::replayed(const JournalContents& contents, std::size_t first,
-                                                 std::size_t end) const {
-  json value = sessionJson();
-  for (std::size_t i = first; i < end; ++i)
-    if (!applyJsonPatch(json::parse(contents.entries[i].patch), value)) return std::nullopt;
+void SessionDocument::noteRecovery(const Journal& journal, std::size_t first) {
+  Recovery recovery;
   try {
-    Session session = readSession(JsonReader(file_, value, ""));
-    if (textSha256(sessionText(session, file_)) != contents.entries[end - 1].after_sha256)
-      return std::nullopt;
-    return session;
-  } catch (const FileError&) {
-    return std::nullopt;
+    recovery.session = readSession(JsonDocument(file_, journal.session_text).root());
+  } catch (const FileError& error) {
+    return setJournalAside(std::string("its session cannot be read: ") + error.what());
   }
-}
-
-void SessionDocument::noteRecovery(const JournalContents& contents, std::size_t first) {
-  for (std::size_t end = contents.entries.size(); end > first; --end) {
-    std::optional<Session> session = replayed(contents, first, end);
-    if (!session) continue;
-    Recovery recovery;
-    recovery.session = std::move(*session);
-    for (std::size_t i = first; i < end; ++i) recovery.edits.push_back(contents.entries[i].text);
-    recovery.time = contents.entries[end - 1].time;
-    recovery.lost_lines = contents.lost_lines + contents.entries.size() - end;
-    recovery_ = std::move(recovery);
-    return;
-  }
-  setJournalAside("its edits do not fit the file");
+  for (std::size_t i = first; i < journal.entries.size(); ++i)
+    recovery.edits.push_back(journal.entries[i].text);
+  recovery.time = journal.entries.back().time;
+  recovery_ = std::move(recovery);
 }
 
 void SessionDocument::setJournalAside(const std::string& why) {
@@ -218,19 +170,12 @@ void SessionDocument::requireEditable() const {
 void SessionDocument::acceptRecovery() {
   if (!recovery_) return;
   if (readOnly()) throw OutputError(file_, read_only_reason_);
-  const fs::path file = journalFileOf(file_);
-  if (recovery_->lost_lines > 1)
-    writeFileAtomically(asideName(file), readFileBytes(file, SIZE_MAX, FileUse::kSession));
-  const std::string text = sessionText(recovery_->session, file_);
-  json after = json::parse(text);
-  JournalEntry entry;
-  entry.text = "Recover " + countText(recovery_->edits.size(), "edit");
-  entry.time = recovery_->time;
-  entry.after_sha256 = textSha256(text);
-  entry.patch = jsonPatch(sessionJson(), after).dump();
-  journal_ = std::make_unique<Journal>(file, file_sha256_, std::vector<JournalEntry>{entry});
+  Journal journal{file_sha256_, {}, sessionText(recovery_->session, file_)};
+  journal.entries.push_back({"Recover " + countText(recovery_->edits.size(), "edit"),
+                             recovery_->time, sha256Text(journal.session_text)});
+  writeJournal(journalFileOf(file_), journal);
+  journal_ = std::move(journal);
   session_ = std::move(recovery_->session);
-  *json_ = std::move(after);
   recovery_.reset();
 }
 
@@ -244,22 +189,14 @@ void SessionDocument::declineRecovery() {
 void SessionDocument::apply(const Session& next, const std::string& text) {
   requireEditable();
   const Session wanted = ordered(next);
-  const std::string written = sessionText(wanted, file_);
-  json after = provenJson(wanted, file_, written);
-  const json patch = jsonPatch(sessionJson(), after);
-  if (patch.empty()) return;
-  JournalEntry entry;
-  entry.text = text;
-  entry.time = utcNowText();
-  entry.after_sha256 = textSha256(written);
-  entry.patch = patch.dump();
-  if (journal_)
-    journal_->append(entry);
-  else
-    journal_ = std::make_unique<Journal>(journalFileOf(file_), file_sha256_,
-                                         std::vector<JournalEntry>{entry});
+  if (wanted == session_) return;
+  Journal journal = journal_.value_or(Journal{file_sha256_, {}, {}});
+  journal.session_text = sessionText(wanted, file_);
+  requireReadable(wanted, file_, journal.session_text);
+  journal.entries.push_back({text, utcNowText(), sha256Text(journal.session_text)});
+  writeJournal(journalFileOf(file_), journal);
+  journal_ = std::move(journal);
   session_ = wanted;
-  *json_ = std::move(after);
 }
 
 void SessionDocument::save() {
@@ -290,10 +227,42 @@ void SessionDocument::saveAs(const fs::path& file) {
   if (fs::exists(journalFileOf(other.file_), error))
     other.setJournalAside("the session was replaced by another one");
   other.file_sha256_ = writeSessionFile(other.file_, session);
-  other.become(session);
-  other.saved_ = other.session_;
+  other.session_ = other.saved_ = std::move(session);
   if (journal_) fs::remove(journalFileOf(file_), error);  // its edits are in the new file
   *this = std::move(other);
+}
+
+Session keepingRuns(const Session& target, const Session& now) {
+  Session kept = target;
+  kept.runs.clear();
+  for (const RunRecord& run : now.runs)
+    if (kept.findCase(run.case_id) != nullptr) kept.runs.push_back(run);
+  kept.view = now.view;
+  if (kept.findCase(kept.view.case_id) == nullptr) kept.view = {};
+  return kept;
+}
+
+void SessionHistory::perform(const Session& after, const std::string& text) {
+  SessionCommand command{text, document_->session(), after};
+  if (command.before == command.after) return;
+  document_->apply(after, text);
+  commands_.resize(done_);
+  commands_.push_back(std::move(command));
+  ++done_;
+}
+
+void SessionHistory::undo() {
+  if (!canUndo()) return;
+  const SessionCommand& command = commands_[done_ - 1];
+  document_->apply(keepingRuns(command.before, document_->session()), "Undo: " + command.text);
+  --done_;
+}
+
+void SessionHistory::redo() {
+  if (!canRedo()) return;
+  const SessionCommand& command = commands_[done_];
+  document_->apply(keepingRuns(command.after, document_->session()), "Redo: " + command.text);
+  ++done_;
 }
 
 }  // namespace boresight::sessions

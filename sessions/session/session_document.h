@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "sessions/io/file_lock.h"
 #include "sessions/session/journal.h"
 #include "sessions/session/session.h"
@@ -23,7 +21,6 @@ struct Recovery {
   Session session;                 ///< with all of them
   std::vector<std::string> edits;  ///< what they were, in their order
   std::string time;                ///< UTC, of the last one
-  std::size_t lost_lines = 0;      ///< of the journal, damaged; a last torn one was never confirmed
 };
 
 /// An open session: its value, its file, and the journal and lock beside it. An edit is on the disk
@@ -37,10 +34,6 @@ class SessionDocument {
   /// Writes a new session file and opens it. OutputError when there is a file of this name already,
   /// or nothing can be written.
   static SessionDocument create(const std::filesystem::path& file, const Session& session);
-
-  SessionDocument(SessionDocument&&) noexcept;
-  SessionDocument& operator=(SessionDocument&&) noexcept;
-  ~SessionDocument();
 
   const Session& session() const { return session_; }
   const std::filesystem::path& file() const { return file_; }  ///< absolute
@@ -77,24 +70,57 @@ class SessionDocument {
   void takeLock();
   void readSaved();
   void readJournalBeside();
-  void noteRecovery(const JournalContents& contents, std::size_t first);
-  std::optional<Session> replayed(const JournalContents& contents, std::size_t first,
-                                  std::size_t end) const;
+  void noteRecovery(const Journal& journal, std::size_t first);
   void setJournalAside(const std::string& why);
   void requireEditable() const;
-  void become(const Session& session);
-  const nlohmann::json& sessionJson() const;
 
   std::filesystem::path file_;
   std::string file_sha256_;  ///< of the file as it was read or written last
   Session session_;
   Session saved_;
-  mutable std::unique_ptr<nlohmann::json> json_;  ///< of session_, once it is needed
   std::unique_ptr<FileLock> lock_;
-  std::unique_ptr<Journal> journal_;  ///< nullptr while there are no edits
+  std::optional<Journal> journal_;  ///< nothing while there are no edits
   std::optional<Recovery> recovery_;
   std::string read_only_reason_;
   std::vector<std::string> notices_;
+};
+
+/// One edit as undo and redo need it: the whole values before and after, which share their cases.
+struct SessionCommand {
+  std::string text;  ///< "Move the seed of bc"
+  Session before;
+  Session after;
+};
+
+/// What undo or redo makes of `target` now: runs and what is looked at are not edits and stay as
+/// they are at present, except those of cases that `target` does not have.
+Session keepingRuns(const Session& target, const Session& now);
+
+/// The undo stack of a document, of any length. Every step goes through SessionDocument::apply and
+/// so into the journal before it shows; a step that throws has not happened. A Qt undo command
+/// needs no more than `keepingRuns` and `apply`.
+class SessionHistory {
+ public:
+  /// The document must outlive the history.
+  explicit SessionHistory(SessionDocument& document) : document_(&document) {}
+
+  /// An edit; what was undone before it can no longer be redone. One that changes nothing is none.
+  void perform(const Session& after, const std::string& text);
+  void undo();  ///< nothing when there is nothing to undo
+  void redo();
+
+  bool canUndo() const { return done_ > 0; }
+  bool canRedo() const { return done_ < commands_.size(); }
+  /// What undo() or redo() would do, "" when nothing.
+  std::string undoText() const { return canUndo() ? commands_[done_ - 1].text : ""; }
+  std::string redoText() const { return canRedo() ? commands_[done_].text : ""; }
+  const std::vector<SessionCommand>& commands() const { return commands_; }
+  std::size_t done() const { return done_; }  ///< so many of the commands hold
+
+ private:
+  SessionDocument* document_;
+  std::vector<SessionCommand> commands_;
+  std::size_t done_ = 0;
 };
 
 }  // namespace boresight::sessions

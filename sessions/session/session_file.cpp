@@ -1,26 +1,169 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/session_file.h"
 
+#include "sessions/annotation/marks_file.h"
 #include "sessions/io/atomic_file.h"
+#include "sessions/io/config_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/io/json_document.h"
-#include "sessions/session/session_json.h"
+#include "sessions/io/json_reader.h"
+#include "sessions/io/json_writer.h"
+#include "sessions/session/case_json.h"
+#include "sessions/session/decision.h"
+#include "sessions/session/json_fields.h"
+#include "sessions/version.h"
 
 namespace boresight::sessions {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string textSha256(std::string_view text) {
-  return sha256Text({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-}
+using nlohmann::ordered_json;
 
 fs::path beside(const fs::path& session_file, const char* extension) {
   fs::path name = session_file;
   if (name.extension() == ".json") name.replace_extension();
   name += extension;
   return name;
+}
+
+AnnotationPass readPass(const JsonReader& json) {
+  return {json.at("by").nonEmptyText(), readTime(json.at("time")), readMarks(json)};
+}
+
+constexpr auto kPasses = listOf(Codec{[](const AnnotationPass& pass) {
+                                        ordered_json json = {{"by", pass.by}, {"time", pass.time}};
+                                        json.update(toJson(pass.marks));
+                                        return json;
+                                      },
+                                      &readPass});
+constexpr auto kOptions =
+    Codec{[](const OptionList& options) { return toJson(options); }, &readOptions};
+
+/// InputError unless the session has this case.
+void requireCase(const Session& session, const std::string& id, const JsonReader& at) {
+  if (session.findCase(id) == nullptr) at.fail("there is no case '" + id + "'");
+}
+
+/// What people marked, by case.
+void readMarksOf(const JsonReader& json, Session& session) {
+  for (const auto& [id, annotation] : json.at("annotations").members()) {
+    requireCase(session, id, annotation);
+    session.annotations.insert_or_assign(id, readMarks(annotation));
+  }
+  const auto passes = json.find("passes");
+  if (!passes) return;
+  for (const auto& [id, list] : passes->members()) {
+    requireCase(session, id, list);
+    AnnotationPasses all = kPasses.read(list);
+    if (all.empty()) list.fail("there is none: leave the case out");
+    session.passes.insert_or_assign(id, std::move(all));
+  }
+}
+
+}  // namespace
+
+template <class Archive, ConstOr<RecordedChange> Self>
+void fields(Archive& archive, Self& change) {
+  archive.field("iteration", change.iteration, integerIn(1, 1000000));
+  archive.field("options", change.options, kOptions);
+}
+
+template <class Archive, ConstOr<RerunRecord> Self>
+void fields(Archive& archive, Self& record) {
+  archive.optional("from", record.from, kSha256);
+  archive.field("options", record.options, kOptions);
+  archive.list("changes", record.changes);
+  if constexpr (Archive::kReads) {
+    const std::string problem = planProblem(planOf(record, archive.json().file()));
+    if (!problem.empty()) archive.json().failMember("changes", problem);
+  }
+}
+
+template <class Archive, ConstOr<ViewOutcome> Self>
+void fields(Archive& archive, Self& view) {
+  archive.field("case", view.case_id, kNonEmptyText);
+  archive.field("status", view.status, plainCodec(&readRunStatus));
+}
+
+template <class Archive, ConstOr<TogetherRecord> Self>
+void fields(Archive& archive, Self& record) {
+  archive.list("views", record.views);
+  if constexpr (Archive::kReads)
+    if (record.views.size() < 2) archive.json().failMember("views", "names less than two");
+  archive.field("inputs_sha256", record.inputs_sha256, kSha256);
+}
+
+template <class Archive, ConstOr<RunRecord> Self>
+void fields(Archive& archive, Self& run) {
+  archive.field("case", run.case_id, kAnyText);
+  archive.field("digest", run.digest, kSha256);
+  archive.path("file", run.file, FileUse::kRun);
+  archive.field("status", run.status, plainCodec(&readRunStatus));
+  archive.field("version", run.version, kNonEmptyText);
+  archive.field("time", run.time, kTime);
+  archive.field("inputs_sha256", run.inputs_sha256, kSha256);
+  archive.field("options_sha256", run.options_sha256, kSha256);
+  archive.object("rerun", run.rerun);
+  archive.object("together", run.together);
+}
+
+template <class Archive, ConstOr<DocumentView> Self>
+void fields(Archive& archive, Self& view) {
+  archive.optional("case", view.case_id, kAnyText);
+  archive.optional("run", view.digest, kSha256);
+  std::optional<int> iteration;
+  if (view.iteration >= 0) iteration = view.iteration;
+  archive.optional("iteration", iteration, integerIn(0, 1000000));
+  if constexpr (Archive::kReads) view.iteration = iteration.value_or(-1);
+}
+
+namespace {
+
+void requireVersion(const JsonReader& json) {
+  if (!json.isObject()) json.fail("not a JSON object");
+  const std::string format = json.at("format").text();
+  if (format != kSessionFormat)
+    json.failMember("format", "is '" + format + "', not '" + kSessionFormat + "'");
+  const std::int64_t version = json.at("version").integer();
+  if (version > kSessionVersion)
+    json.failMember("version", "version " + std::to_string(version) +
+                                   " was written by a newer program; this one (" +
+                                   std::string(kVersion) + ") reads version " +
+                                   std::to_string(kSessionVersion));
+  if (version != kSessionVersion)
+    json.failMember("version", "there is no version " + std::to_string(version));
+}
+
+void readOptionsOf(const JsonReader& json, Session& session) {
+  session.profile = json.at("profile").nonEmptyText();
+  session.options = readOptions(json.at("options"));
+  (void)sessionOptions(session, json.file());  // throws when one does not exist or fit
+}
+
+Session readMembers(const JsonReader& json) {
+  requireVersion(json);
+  Session session;
+  readOptionsOf(json, session);
+  for (const JsonReader& json_of_one : json.at("cases").elements()) {
+    SessionCase one = readSessionCase(json_of_one);
+    if (session.findCase(one.id) != nullptr)
+      json_of_one.failMember("id", "'" + one.id + "' is given twice");
+    session.cases.push_back(std::move(one));
+  }
+  readMarksOf(json, session);
+  if (const auto review = json.find("review")) session.review = readReviewSettings(*review);
+  for (const JsonReader& decision : json.at("decisions").elements()) {
+    session.decisions.push_back(readDecision(decision));
+    requireCase(session, session.decisions.back().case_id, decision.at("case"));
+  }
+  for (const JsonReader& run : json.at("runs").elements()) {
+    session.runs.push_back(readFields<RunRecord>(run));
+    requireCase(session, session.runs.back().case_id, run.at("case"));
+  }
+  session.view = readFields<DocumentView>(json.at("view"));
+  if (const auto chosen = json.at("view").find("case"))
+    requireCase(session, session.view.case_id, *chosen);
+  return session;
 }
 
 }  // namespace
@@ -48,7 +191,41 @@ std::string writeSessionFile(const fs::path& file, const Session& session) {
     throw OutputError(file, "the session is larger than the limit of " +
                                 std::to_string(kMaxJsonBytes / kMegabyte) + " MB");
   writeFileAtomically(file, text, FileUse::kSession);
-  return textSha256(text);
+  return sha256Text(text);
 }
+
+ordered_json toJson(const Session& session, const fs::path& file) {
+  const PathWriter path(file);
+  ordered_json json;
+  json["format"] = kSessionFormat;
+  json["version"] = kSessionVersion;
+  json["profile"] = session.profile;
+  json["options"] = toJson(session.options);
+  json["cases"] = ordered_json::array();
+  for (const auto& one : session.cases) json["cases"].push_back(toJson(*one, path));
+  json["annotations"] = ordered_json::object();
+  for (const auto& [id, annotation] : session.annotations)
+    json["annotations"][id] = toJson(*annotation);
+  for (const auto& [id, passes] : session.passes) json["passes"][id] = kPasses.write(*passes);
+  if (session.review != ReviewSettings()) json["review"] = toJson(session.review);
+  json["decisions"] = ordered_json::array();
+  for (const Decision& decision : session.decisions) json["decisions"].push_back(toJson(decision));
+  json["runs"] = ordered_json::array();
+  for (const RunRecord& run : session.runs) json["runs"].push_back(fieldsJson(run, &path));
+  json["view"] = fieldsJson(session.view);
+  return json;
+}
+
+std::string sessionText(const Session& session, const fs::path& file) {
+  const ordered_json json = toJson(session, file);
+  try {
+    (void)json.dump();  // strict: text that is not UTF-8 would be written as something else
+  } catch (const nlohmann::json::exception&) {
+    throw OutputError(file, "a name or comment in the session is not UTF-8 text");
+  }
+  return prettyJson(json);
+}
+
+Session readSession(const JsonReader& json) { return json.whole(readMembers); }
 
 }  // namespace boresight::sessions

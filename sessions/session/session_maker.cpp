@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <map>
+#include <system_error>
 
 #include "sessions/evaluation/bop_dataset.h"
-#include "sessions/io/chosen_camera.h"
+#include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/session/check_limits.h"
 #include "sessions/session/input_check.h"
@@ -144,6 +145,21 @@ Session makeSession(const Dataset& dataset, const std::vector<std::string>& case
   }
   session.review.preset = presetOfAll(session);
   return session;
+}
+
+std::filesystem::path examplesFolder() {
+  std::error_code ignored;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  for (std::filesystem::path folder = program.parent_path(); folder != folder.root_path();
+       folder = folder.parent_path()) {
+    for (const char* place : {"share/boresight/examples", "sessions/examples"}) {
+      if (std::filesystem::is_directory(folder / place / "stations", ignored))
+        return folder / place;
+    }
+  }
+  throw InputError(program,
+                   "the examples are neither in share/boresight/examples beside the "
+                   "program nor in the source tree above it");
 }
 
 }  // namespace boresight::sessions

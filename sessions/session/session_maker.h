@@ -49,4 +49,8 @@ Session makeSession(const Dataset& dataset, const std::vector<std::string>& case
 Session makeSession(const std::filesystem::path& dataset_file,
                     const std::vector<std::string>& case_ids = {});
 
+/// The folder of the examples that ship: share/boresight/examples beside an installed program,
+/// sessions/examples above one that runs from its build tree. InputError when there is neither.
+std::filesystem::path examplesFolder();
+
 }  // namespace boresight::sessions

@@ -8,12 +8,12 @@
 #include <string_view>
 #include <tuple>
 
-#include "sessions/evaluation/requirement_share.h"
+#include "sessions/evaluation/pose_error.h"
 #include "sessions/evaluation/results_file.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/io/json_document.h"
+#include "sessions/io/json_reader.h"
 #include "sessions/session/session_maker.h"
 #include "sessions/text/text_table.h"
 

@@ -5,17 +5,19 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <numbers>
+#include <memory>
 #include <utility>
 
-#include "sessions/evaluation/requirement_share.h"
+#include "sessions/evaluation/pose_error.h"
 #include "sessions/evaluation/results_file.h"
+#include "sessions/io/dataset_file.h"
+#include "sessions/io/errors.h"
+#include "sessions/review/thumbnail.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {
 
-constexpr double kMradPerDegree = 1e3 * std::numbers::pi / 180.0;
 /// A part of the seed's error below which a pose counts as near.
 constexpr double kNear = 0.1;
 
@@ -103,6 +105,128 @@ std::vector<Failure> failuresOfFile(const std::filesystem::path& file,
   return failures;
 }
 
+constexpr double kMargin = 24.0;
+constexpr double kGap = 12.0;
+constexpr double kTitleHeight = 30.0;
+constexpr double kNameHeight = 13.0;
+constexpr double kStoryHeight = 76.0;
+constexpr int kColumns = 2;
+constexpr int kRows = 3;
+constexpr std::size_t kPerPage = kColumns * kRows;
+constexpr double kPixelsPerPoint = 2.5;
+
+/// Datasets and scenes that several failures share, read once.
+class Inputs {
+ public:
+  const Dataset& dataset(const std::filesystem::path& file) {
+    auto& known = datasets_[file];
+    if (!known) known = std::make_unique<Dataset>(readDataset(file));
+    return *known;
+  }
+  const SceneMesh& scene(const Dataset& dataset, const std::string& station) {
+    auto& known = scenes_[{dataset.file, station}];
+    if (!known) known = std::make_unique<SceneMesh>(readStationScene(dataset.stations.at(station)));
+    return *known;
+  }
+
+ private:
+  std::map<std::filesystem::path, std::unique_ptr<Dataset>> datasets_;
+  std::map<std::pair<std::filesystem::path, std::string>, std::unique_ptr<SceneMesh>> scenes_;
+};
+
+/// What the run came to. One that did not complete hands its seed back, which shows nothing: its
+/// iteration nearest to the truth, the first one where it was led away, or the last without truth.
+OverlayLayer reached(const RunResult& run) {
+  if (run.completed) return {"end", run.camera_from_station, kResultColor, true};
+  const auto layer = [](const char* name, const RunStep& step) {
+    return OverlayLayer{name, step.camera_from_station, kResultColor, true};
+  };
+  const RunStep* nearest = nearestStep(run);
+  if (nearest == nullptr) return layer("last", run.steps.back());
+  if (whereAstray(run) == Astray::kLedAway) return layer("first", run.steps.front());
+  return layer("nearest", *nearest);
+}
+
+/// InputError when an input cannot be read.
+ColorImage pictureOf(const Failure& failure, Inputs& inputs, int width_px, int height_px) {
+  if (std::filesystem::is_directory(failure.dataset))
+    throw InputError(failure.dataset, "it is a folder: pictures are made of a dataset.json only");
+  const Dataset& dataset = inputs.dataset(failure.dataset);
+  const Case* one = dataset.findCase(failure.run.case_id);
+  if (one == nullptr) throw InputError(failure.dataset, "it has no case " + failure.run.case_id);
+  const GrayImage image = readCaseImage(dataset, *one);
+  const SceneMesh& scene = inputs.scene(dataset, one->station);
+  std::vector<Pose> framed = {failure.run.camera_from_station_seed};
+  std::vector<OverlayLayer> layers = {
+      {"seed", failure.run.camera_from_station_seed, kSeedColor, true}};
+  if (one->truth_camera_from_station) {
+    framed.push_back(*one->truth_camera_from_station);
+    layers.push_back({"truth", *one->truth_camera_from_station, kTruthColor, false});
+  }
+  if (!failure.run.steps.empty())  // over the truth, which shows on both sides of it
+    layers.push_back(reached(failure.run));
+  return stationPicture(image.view(), dataset.cameras.at(one->camera), scene.view(), framed, layers,
+                        width_px, height_px);
+}
+
+std::string nameOf(const Failure& failure) {
+  const RunResult& run = failure.run;
+  std::string name = run.case_id;
+  if (run.reseed > 0) name += ", seed " + std::to_string(run.reseed);
+  name += ": " + run.method;
+  if (!failure.mesh_note.empty()) name += ", " + failure.mesh_note;
+  if (run.false_positive) name += run.gross_false_positive ? ", GROSS FALSE POSITIVE" : ", FALSE";
+  return name;
+}
+
+constexpr double kCellWidth =
+    (PdfCanvas::kWidth - 2.0 * kMargin - (kColumns - 1) * kGap) / kColumns;
+constexpr double kCellHeight =
+    (PdfCanvas::kHeight - 2.0 * kMargin - kTitleHeight - (kRows - 1) * kGap) / kRows;
+
+PdfBox cellOf(std::size_t place) {
+  const auto column = static_cast<double>(place % kColumns);
+  const auto row = static_cast<double>(place / kColumns);
+  return {kMargin + column * (kCellWidth + kGap),
+          kMargin + kTitleHeight + row * (kCellHeight + kGap), kCellWidth, kCellHeight};
+}
+
+/// A picture ends below its last row; a page of a PDF is a whole one.
+double heightOf(CanvasFormat format, std::size_t cells) {
+  if (format == CanvasFormat::kPdf) return PdfCanvas::kHeight;
+  const std::size_t rows = (std::min(cells, kPerPage) + kColumns - 1) / kColumns;
+  return kMargin + kTitleHeight + static_cast<double>(rows) * (kCellHeight + kGap) + kMargin - kGap;
+}
+
+void drawCell(PdfCanvas& canvas, const PdfBox& cell, const Failure& failure, Inputs& inputs) {
+  canvas.text(cell.x, cell.y, cell.width, nameOf(failure), {8.5, true, false, kInk, 1});
+  const PdfBox place = {cell.x, cell.y + kNameHeight, cell.width,
+                        cell.height - kNameHeight - kStoryHeight};
+  try {
+    canvas.picture(place,
+                   pictureOf(failure, inputs, static_cast<int>(place.width * kPixelsPerPoint),
+                             static_cast<int>(place.height * kPixelsPerPoint)));
+  } catch (const InputError& error) {
+    canvas.frame(place, kPaperGrid);
+    canvas.text(place.x + 4.0, place.y + 4.0, place.width - 8.0, error.what(),
+                {7.5, false, false, kFaintInk, 6});
+  }
+  canvas.text(cell.x, place.bottom() + 2.0, cell.width, failureStory(failure.run),
+              {7.0, false, false, kInk, 7});
+}
+
+void drawTitle(PdfCanvas& canvas, std::size_t page, std::size_t pages, std::size_t count) {
+  canvas.text(kMargin, kMargin, PdfCanvas::kWidth - 2.0 * kMargin,
+              std::to_string(count) + (count == 1 ? " run" : " runs") +
+                  " that did not succeed (page " + std::to_string(page + 1) + " of " +
+                  std::to_string(pages) + ")",
+              {11.0, true, false, kInk, 1});
+  canvas.text(kMargin, kMargin + 14.0, PdfCanvas::kWidth - 2.0 * kMargin,
+              "Edges: seed red, truth blue, where the run ended green (or its nearest, first or "
+              "last iteration).",
+              {7.5, false, false, kFaintInk, 1});
+}
+
 }  // namespace
 
 const RunStep* nearestStep(const RunResult& run) {
@@ -142,6 +266,31 @@ std::vector<Failure> failuresOf(const std::vector<std::filesystem::path>& files,
     std::move(found.begin(), found.end(), std::back_inserter(failures));
   }
   return failures;
+}
+
+std::vector<Figure> failureSheets(std::span<const Failure> failures, CanvasFormat format) {
+  if (failures.empty()) return {};
+  const std::size_t pages = (failures.size() + kPerPage - 1) / kPerPage;
+  const bool in_one = format == CanvasFormat::kPdf;
+  Inputs inputs;
+  std::vector<Figure> made;
+  std::unique_ptr<PdfCanvas> canvas;
+  for (std::size_t page = 0; page < pages; ++page) {
+    const auto on_page = failures.subspan(page * kPerPage);
+    if (canvas && in_one)
+      canvas->nextPage();
+    else
+      canvas = std::make_unique<PdfCanvas>("Runs that did not succeed", format, PdfCanvas::kWidth,
+                                           heightOf(format, on_page.size()));
+    drawTitle(*canvas, page, pages, failures.size());
+    for (std::size_t i = 0; i < std::min(kPerPage, on_page.size()); ++i)
+      drawCell(*canvas, cellOf(i), on_page[i], inputs);
+    if (in_one) continue;
+    const std::string name = std::string(kFailureFigure) + "_" + std::to_string(page + 1);
+    made.push_back({name, canvas->finish()});
+  }
+  if (in_one) made.push_back({kFailureFigure, canvas->finish()});
+  return made;
 }
 
 }  // namespace boresight::sessions

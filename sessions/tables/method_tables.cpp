@@ -4,18 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <tuple>
 
-#include "sessions/evaluation/summary.h"
 #include "sessions/tables/paper_figures.h"
 #include "sessions/tables/results_set.h"
 
 namespace boresight::sessions {
 namespace {
 
-constexpr double kMradPerDegree = 1e3 * std::numbers::pi / 180.0;
 constexpr const char* kSeed = "seed";
 
 using Members = std::vector<const RunResult*>;
@@ -25,67 +22,28 @@ std::optional<double> percent(std::int64_t part, std::int64_t whole) {
   return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-Statistics statisticsOf(const Members& members, double PoseError::*part) {
-  std::vector<double> values;
-  for (const RunResult* run : members)
-    if (run->completed && run->error) values.push_back((*run->error).*part);
-  return statistics(values);
-}
-
 /// Percent of completed runs within what the requirement says of one figure, over those where it
 /// says something of it.
-template <class Within>
-std::optional<double> percentWithin(const Members& members, Within&& within) {
+std::optional<double> percentWithin(const Members& members, const JudgedFigure& figure) {
   std::int64_t asked = 0;
   std::int64_t met = 0;
   for (const RunResult* run : members) {
     if (!run->success || !run->error || !run->requirement) continue;
-    const std::optional<bool> inside = within(*run->error, *run->requirement);
-    if (!inside) continue;
+    const std::optional<double> limit = (*run->requirement).*figure.limit;
+    if (!limit) continue;
+    const std::optional<double> value = figure.error(*run->error);
     ++asked;
-    met += run->completed && *inside ? 1 : 0;
+    met += run->completed && value && std::abs(*value) <= *limit ? 1 : 0;
   }
   return percent(met, asked);
 }
 
-std::optional<bool> below(std::optional<double> value, std::optional<double> limit) {
-  if (!limit) return std::nullopt;
-  return value && std::abs(*value) <= *limit;
-}
-
-void takeAxes(const Members& members, MethodFigures& figures) {
-  figures.normal_percent = percentWithin(members, [](const PoseError& e, const Requirement& r) {
-    return below(e.normal_mm, r.normal_mm);
-  });
-  figures.lateral_percent = percentWithin(members, [](const PoseError& e, const Requirement& r) {
-    return below(e.lateral_mm, r.lateral_mm);
-  });
-  figures.rotation_percent = percentWithin(members, [](const PoseError& e, const Requirement& r) {
-    return below(e.rotation_mrad / kMradPerDegree, r.rotation_deg);
-  });
-  figures.projection_percent = percentWithin(members, [](const PoseError& e, const Requirement& r) {
-    return below(e.projection_px, r.projection_px);
-  });
-}
-
 MethodFigures figuresOf(const Members& members) {
-  MethodFigures figures;
-  figures.runs = static_cast<std::int64_t>(members.size());
-  std::int64_t completed = 0;
-  std::int64_t judged = 0;
-  std::int64_t successful = 0;
-  for (const RunResult* run : members) {
-    completed += run->completed ? 1 : 0;
-    judged += run->success ? 1 : 0;
-    successful += run->success.value_or(false) ? 1 : 0;
-    figures.false_positives += run->false_positive ? 1 : 0;
-  }
-  figures.completed_percent = percent(completed, figures.runs);
-  figures.success_percent = percent(successful, judged);
-  figures.normal_mm = statisticsOf(members, &PoseError::normal_mm);
-  figures.lateral_mm = statisticsOf(members, &PoseError::lateral_mm);
-  figures.rotation_mrad = statisticsOf(members, &PoseError::rotation_mrad);
-  takeAxes(members, figures);
+  MethodFigures figures{summaryOf(members), {}, {}, {}, {}};
+  figures.completed_percent = percent(figures.completed, figures.runs);
+  figures.success_percent = percent(figures.successful, figures.judged);
+  for (std::size_t i = 0; i < kJudgedFigures.size(); ++i)
+    figures.within_percent[i] = percentWithin(members, kJudgedFigures[i]);
   return figures;
 }
 
@@ -112,31 +70,28 @@ std::vector<RunResult> seedsOf(std::span<const RunResult> runs) {
   return seeds;
 }
 
-TableCell statisticsCell(const Statistics& figures) {
-  if (figures.count == 0) return {{}, {std::nullopt, std::nullopt, std::nullopt}};
-  return {{}, {figures.mean, figures.deviation, figures.maximum}};
+using Parts = std::vector<std::optional<double>>;
+const Parts kNoParts(3);
+
+Parts statisticsCell(const Statistics& figures) {
+  return figures.count == 0 ? kNoParts : Parts{figures.mean, figures.deviation, figures.maximum};
 }
 
-TableCell statisticsCell(const PaperStatistics& figures, bool any) {
-  if (!any) return {{}, {std::nullopt, std::nullopt, std::nullopt}};
-  return {{}, {figures[0], figures[1], figures[2]}};
+Parts statisticsCell(const PaperStatistics& figures, bool any) {
+  return any ? Parts{figures[0], figures[1], figures[2]} : kNoParts;
 }
 
 std::string rangeText(bool far) { return far ? "far" : "near"; }
-
-TableCell countCell(std::int64_t count) { return TableCell::of(std::to_string(count)); }
 
 std::string paperName(const std::string& method) { return method + " (paper)"; }
 
 std::vector<std::vector<TableCell>> paperErrorRows(const std::string& station) {
   std::vector<std::vector<TableCell>> rows;
-  for (const PaperErrors& row : paperErrors()) {
+  for (const PaperErrors& row : kErrors) {
     if (row.station != station) continue;
     const bool any = row.completed_percent > 0.0;
-    rows.push_back({TableCell::of(row.station), TableCell::of("near"),
-                    TableCell::of(paperName(row.method)), TableCell::of("2000"),
-                    TableCell::of(row.completed_percent), TableCell::of(row.success_percent),
-                    TableCell::of(std::nullopt), statisticsCell(row.normal_mm, any),
+    rows.push_back({row.station, "near", paperName(row.method), "2000", row.completed_percent,
+                    row.success_percent, std::nullopt, statisticsCell(row.normal_mm, any),
                     statisticsCell(row.lateral_mm, any), statisticsCell(row.rotation_mrad, any)});
   }
   return rows;
@@ -220,10 +175,9 @@ Table errorTable(std::span<const RunResult> runs, bool with_paper) {
         table.rows.push_back(std::move(paper_row));
     station = row.station;
     table.rows.push_back(
-        {TableCell::of(row.station), TableCell::of(rangeText(row.far)), TableCell::of(row.method),
-         countCell(row.runs), TableCell::of(row.completed_percent),
-         TableCell::of(row.success_percent),
-         row.method == kSeed ? TableCell::of(std::nullopt) : countCell(row.false_positives),
+        {row.station, rangeText(row.far), row.method, row.runs, row.completed_percent,
+         row.success_percent,
+         row.method == kSeed ? TableCell(std::nullopt) : TableCell(row.false_positives),
          statisticsCell(row.normal_mm), statisticsCell(row.lateral_mm),
          statisticsCell(row.rotation_mrad)});
   }
@@ -251,20 +205,15 @@ Table successTable(std::span<const RunResult> runs, bool with_paper) {
               {"Within: completed and within what the requirement says of that error alone."}};
   for (const MethodFigures& row : methodFigures(runs)) {
     if (row.method == kSeed) continue;
-    table.rows.push_back({TableCell::of(row.station), TableCell::of(rangeText(row.far)),
-                          TableCell::of(row.method), countCell(row.runs),
-                          TableCell::of(row.completed_percent), TableCell::of(row.success_percent),
-                          TableCell::of(row.normal_percent), TableCell::of(row.lateral_percent),
-                          TableCell::of(row.rotation_percent),
-                          TableCell::of(row.projection_percent)});
+    table.rows.push_back({row.station, rangeText(row.far), row.method, row.runs,
+                          row.completed_percent, row.success_percent, row.within_percent[0],
+                          row.within_percent[1], row.within_percent[2], row.within_percent[3]});
   }
   if (!with_paper) return table;
-  for (const PaperSuccess& row : paperSuccess())
-    table.rows.push_back({TableCell::of(row.set), TableCell::of(""),
-                          TableCell::of(paperName(row.method)), countCell(row.runs),
-                          TableCell::of(row.completed_percent), TableCell::of(row.success_percent),
-                          TableCell::of(std::nullopt), TableCell::of(std::nullopt),
-                          TableCell::of(std::nullopt), TableCell::of(std::nullopt)});
+  for (const PaperSuccess& row : kSuccess)
+    table.rows.push_back({row.set, "", paperName(row.method), std::int64_t{row.runs},
+                          row.completed_percent, row.success_percent, std::nullopt, std::nullopt,
+                          std::nullopt, std::nullopt});
   table.notes.push_back(std::string("Rows marked (paper) are of other images, cameras and "
                                     "requirements: they cannot be compared with ours. Source: ") +
                         kPaperSource + ".");
@@ -287,19 +236,14 @@ Table timeTable(std::span<const RunResult> runs, bool with_paper) {
               {},
               {"Means of wall time; median and maximum are of a run's total."}};
   for (const MethodTimes& row : methodTimes(runs))
-    table.rows.push_back({TableCell::of(row.method), countCell(row.runs),
-                          TableCell::of(row.mean.initialization), TableCell::of(row.mean.rendering),
-                          TableCell::of(row.mean.matching), TableCell::of(row.mean.pose),
-                          TableCell::of(row.mean.refinement), TableCell::of(row.mean.total()),
-                          TableCell::of(row.median_total), TableCell::of(row.maximum_total)});
+    table.rows.push_back({row.method, row.runs, row.mean.initialization, row.mean.rendering,
+                          row.mean.matching, row.mean.pose, row.mean.refinement, row.mean.total(),
+                          row.median_total, row.maximum_total});
   if (!with_paper) return table;
-  for (const PaperTimes& row : paperTimes())
-    table.rows.push_back(
-        {TableCell::of(paperName(row.method)), TableCell::of("2"),
-         TableCell::of(60.0 * row.initialization_min), TableCell::of(60.0 * row.rendering_min),
-         TableCell::of(60.0 * row.matching_min), TableCell::of(60.0 * row.pose_min),
-         TableCell::of(std::nullopt), TableCell::of(60.0 * row.total_min),
-         TableCell::of(std::nullopt), TableCell::of(std::nullopt)});
+  for (const PaperTimes& row : kTimes)
+    table.rows.push_back({paperName(row.method), "2", 60.0 * row.initialization_min,
+                          60.0 * row.rendering_min, 60.0 * row.matching_min, 60.0 * row.pose_min,
+                          std::nullopt, 60.0 * row.total_min, std::nullopt, std::nullopt});
   table.notes.push_back(
       std::string("Rows marked (paper) are of one core at 200 MHz, a BC and an OS "
                   "case added up. Source: ") +

@@ -2,35 +2,27 @@
 // The tables of the paper, of our runs.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "sessions/evaluation/pose_error.h"
 #include "sessions/evaluation/run_result.h"
+#include "sessions/evaluation/summary.h"
 #include "sessions/tables/table.h"
 
 namespace boresight::sessions {
 
 /// What a method made of a station's cases, near or far. Runs whose input was refused count in
 /// nothing.
-struct MethodFigures {
-  std::string station;
-  bool far = false;
+struct MethodFigures : GroupSummary {
   std::string method;  ///< "seed": the errors that the runs began with
-  std::int64_t runs = 0;
   std::optional<double> completed_percent;
   std::optional<double> success_percent;  ///< of runs with truth and requirement
-  std::int64_t false_positives = 0;
-  Statistics normal_mm;  ///< of completed runs with truth
-  Statistics lateral_mm;
-  Statistics rotation_mrad;
-  /// Percent of the runs whose requirement names it that completed within it.
-  std::optional<double> normal_percent;
-  std::optional<double> lateral_percent;
-  std::optional<double> rotation_percent;
-  std::optional<double> projection_percent;
+  /// Percent of the runs whose requirement names it that completed within it, by kJudgedFigures:
+  /// normal, lateral, rotation, projection.
+  std::array<std::optional<double>, 4> within_percent;
 };
 
 /// One for each station, near before far, and method; a station's seeds come first (of all its

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "sessions/evaluation/summary.h"
@@ -18,7 +17,6 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr double kMradPerDegree = 1e3 * std::numbers::pi / 180.0;
 constexpr double kPanelHeight = 150.0;
 constexpr double kMargin = 12.0;
 constexpr double kTitleHeight = 18.0;
@@ -141,11 +139,7 @@ const ErrorAxis kAxes[] = {
      [](const Requirement& required) { return required.normal_mm; }},
     {"lateral error, mm", &PoseError::lateral_mm,
      [](const Requirement& required) { return required.lateral_mm; }},
-    {"rotation error, mrad", &PoseError::rotation_mrad,
-     [](const Requirement& required) -> std::optional<double> {
-       if (!required.rotation_deg) return std::nullopt;
-       return *required.rotation_deg * kMradPerDegree;
-     }},
+    {"rotation error, mrad", &PoseError::rotation_mrad, &rotationLimit_mrad},
 };
 
 /// From nothing at `from` on; a method of which nothing completed stays there.

@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-#include "sessions/evaluation/requirement_share.h"
+#include "sessions/evaluation/pose_error.h"
 
 namespace boresight::sessions {
 namespace {
@@ -59,9 +59,9 @@ void count(const RunPairing& pair, ResultsDifference& made) {
   made.equal += equalBits(pair) ? 1 : 0;
 }
 
-TableCell shareCell(const RunResult& run) {
-  if (!run.completed || !run.error || !run.requirement) return TableCell::of(std::nullopt);
-  return TableCell::of(100.0 * requirementShare(*run.error, *run.requirement));
+std::optional<double> shareCell(const RunResult& run) {
+  if (!run.completed || !run.error || !run.requirement) return std::nullopt;
+  return 100.0 * requirementShare(*run.error, *run.requirement);
 }
 
 }  // namespace
@@ -109,11 +109,9 @@ Table differenceTable(const ResultsDifference& difference, bool all) {
     const std::string method = pair.before.method == pair.after.method
                                    ? pair.before.method
                                    : pair.before.method + " / " + pair.after.method;
-    table.rows.push_back({TableCell::of(pair.before.case_id),
-                          TableCell::of(std::to_string(pair.before.reseed)), TableCell::of(method),
-                          TableCell::of(runChangeText(pair.change)),
-                          TableCell::of(pair.before.status), TableCell::of(pair.after.status),
-                          shareCell(pair.before), shareCell(pair.after), TableCell::of(pair.why)});
+    table.rows.push_back({pair.before.case_id, std::int64_t{pair.before.reseed}, method,
+                          runChangeText(pair.change), pair.before.status, pair.after.status,
+                          shareCell(pair.before), shareCell(pair.after), pair.why});
   }
   return table;
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "sessions/io/json_reader.h"
-#include "sessions/text/csv_field.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {

@@ -2,6 +2,7 @@
 // A table as numbers, and as text, CSV or LaTeX.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,11 +19,18 @@ struct TableColumn {
 
 /// Text, or the numbers of a column's parts; a part without one shows as "-".
 struct TableCell {
-  std::string text;
-  std::vector<std::optional<double>> values = {};
+  // NOLINTBEGIN: rows are lists of texts and numbers
+  TableCell(std::string shown) : text(std::move(shown)) {}
+  TableCell(const char* shown) : text(shown) {}
+  TableCell(std::int64_t count) : text(std::to_string(count)) {}
+  TableCell(double value) : values{value} {}
+  TableCell(std::optional<double> value) : values{value} {}
+  TableCell(std::nullopt_t) : values{std::nullopt} {}
+  TableCell(std::vector<std::optional<double>> parts) : values(std::move(parts)) {}
+  // NOLINTEND
 
-  static TableCell of(std::string text) { return {std::move(text), {}}; }
-  static TableCell of(std::optional<double> value) { return {{}, {value}}; }
+  std::string text;
+  std::vector<std::optional<double>> values;
 };
 
 struct Table {

@@ -2,6 +2,8 @@
 // Text from outside (names, comments, paths) made harmless where it is printed.
 #pragma once
 
+#include <charconv>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,5 +19,23 @@ std::string plainLine(std::string_view text);
 
 /// `plainText` with runs of blanks as one blank and none at either end.
 std::string oneLine(std::string_view text);
+
+/// Without blanks, tabs and line ends around it.
+std::string_view trimmed(std::string_view text);
+
+/// A to Z as a to z, and the reverse, whatever the locale.
+std::string lowerCase(std::string_view text);
+std::string upperCase(std::string_view text);
+
+/// The number that the whole text is, of whole numbers also in another base; nothing where it is
+/// none. Whatever the locale; a plus or blanks are no part of a number.
+template <class Number, class... Base>
+std::optional<Number> numberIn(std::string_view text, Base... base) {
+  Number value{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value, base...);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
 
 }  // namespace boresight::sessions

@@ -3,12 +3,28 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 
 #include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
+namespace {
+
+bool isNumber(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  return numberIn<double>(text).has_value();
+}
+
+/// Whether `text` begins like a formula, behind any number of '.
+bool beginsFormula(const std::string& text) {
+  const std::size_t first = text.find_first_not_of('\'');
+  return first != std::string::npos &&
+         std::string_view("=+-@\t\r\n").find(text[first]) != std::string_view::npos;
+}
+
+}  // namespace
 
 std::string fixedText(double value, int decimals) {
   if (!std::isfinite(value)) return "-";
@@ -44,6 +60,18 @@ std::string TextTable::text() const {
     made += std::string(total > 2 ? total - 2 : 0, '-') + "\n";
   }
   return made;
+}
+
+std::string csvField(const std::string& text) {
+  const std::string shown = beginsFormula(text) && !isNumber(text) ? "'" + text : text;
+  if (shown.find_first_of(",\"\r\n") == std::string::npos) return shown;
+  std::string quoted = "\"";
+  for (const char c : shown) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string textOfCsvField(const std::string& field) {
+  return field.starts_with('\'') && beginsFormula(field) ? field.substr(1) : field;
 }
 
 }  // namespace boresight::sessions

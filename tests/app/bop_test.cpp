@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "sessions/evaluation/bop_results.h"
 #include "sessions/evaluation/bop_scene.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/session/session_file.h"
 #include "tests/app/run_whs.h"
+#include "tests/support/bop_results.h"
 
 namespace boresight::test {
 namespace {
@@ -83,7 +83,7 @@ TEST_F(WhsBop, EvaluatesAndWritesTheChallengesResults) {
   EXPECT_LE(error["adi_mm"], error["add_mm"]);
   EXPECT_LE(error["add_mm"], error["mssd_mm"]);
   EXPECT_GT(result["seed_error"]["mssd_mm"], 2.0);
-  const auto rows = sessions::readBopResults(csv);
+  const auto rows = readBopResults(csv);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].scene_id, 3);
   EXPECT_EQ(rows[0].image_id, 4);

@@ -34,10 +34,17 @@ class Downlink : public ::testing::Test {
     image_ = folder_.write("1F483288473.IMG", downlinkImage(example, roverFromCamera(), kRover));
     truth_ = example.truth.camera_from_station;
     seed_ = writeSeed("seed.json", example.seed, kSite);
-    const sessions::FrameTransform transform{kSite, kRover, siteFromRover(), "by hand, sol 12",
-                                             {},    {}};
     transform_ = folder_ / "site_from_rover.json";
-    sessions::writeFrameTransform(transform_, transform);
+    writeTransform(siteFromRover());
+  }
+
+  void writeTransform(const Pose& site_from_rover) const {
+    sessions::writeJsonFile(transform_, {{"format", "boresight-transform"},
+                                         {"version", 1},
+                                         {"target", sessions::toJson(kSite)},
+                                         {"source", sessions::toJson(kRover)},
+                                         {"target_from_source", sessions::toJson(site_from_rover)},
+                                         {"comment", "by hand, sol 12"}});
   }
 
   /// The seed as the station's place in the site or in the rover's frame.
@@ -209,7 +216,7 @@ TEST_F(Downlink, ATransformThatTheLabelContradictsIsReported) {
 
   Pose moved = siteFromRover();
   moved.translation_m.z() += 0.01;
-  sessions::writeFrameTransform(transform_, {kSite, kRover, moved, "by hand, sol 12", {}, {}});
+  writeTransform(moved);
   const std::string warning =
       "site_from_rover.json and the image's label differ about where ROVER_FRAME (194, 835, 1) is "
       "in SITE_FRAME (194): by 10.0 mm and 0.00 deg";

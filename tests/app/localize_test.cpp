@@ -145,9 +145,9 @@ TEST(WhsLocalize, GivesTheSameDigestWithAnyNumberOfThreads) {
     return run.out.substr(run.out.find("digest"));
   };
   const std::string plain = digestOf(runWhs(localizeArguments()));
-  for (const std::string threads : {"1", "2", "3", "8"})
+  for (const std::string threads : {"0", "1", "2", "3", "8"})
     EXPECT_EQ(digestOf(runWhs(localizeArguments({{"--threads", threads}}))), plain) << threads;
-  EXPECT_EQ(runWhs(localizeArguments({{"--threads", "0"}})).exit_code, 2);
+  EXPECT_EQ(runWhs(localizeArguments({{"--threads", "-1"}})).exit_code, 2);
 }
 
 TEST(WhsLocalize, ExitsWith4AndSaysWhyWhenItDoesNotConverge) {

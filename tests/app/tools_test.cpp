@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/annotation/marks_file.h"
-#include "sessions/annotation/solution_text.h"
+#include "sessions/annotation/solution_file.h"
 #include "sessions/run/scene_render.h"
 #include "sessions/session/case_marks.h"
 #include "sessions/session/session_file.h"

@@ -7,7 +7,7 @@
 
 #include "sessions/evaluation/reseed.h"
 #include "sessions/io/scene_mesh.h"
-#include "sessions/review/mirror_image.h"
+#include "sessions/review/checks.h"
 
 namespace boresight::test {
 namespace {

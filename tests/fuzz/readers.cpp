@@ -7,7 +7,6 @@
 
 #include "sessions/annotation/landmarks.h"
 #include "sessions/annotation/marks_file.h"
-#include "sessions/evaluation/bop_results.h"
 #include "sessions/io/cahvor_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/config_file.h"
@@ -74,7 +73,6 @@ void readTree(const Path& file) {
 }
 
 constexpr FuzzedReader kReaders[] = {
-    {"bop_results", "results.csv", [](const Path& file) { (void)sessions::readBopResults(file); }},
     {"cahvor", "camera.cahvor", [](const Path& file) { (void)sessions::readCahvorFile(file); }},
     {"camera", "camera.json", [](const Path& file) { (void)sessions::readCameraFile(file); }},
     {"config", "config.json", [](const Path& file) { (void)sessions::readConfig(file); }},

@@ -2,12 +2,12 @@
 #include "tests/fuzz/seals.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <span>
 #include <string>
 
 #include "core/base/crc32.h"
 #include "core/base/digest.h"
+#include "sessions/io/file_bytes.h"
 
 namespace boresight::test {
 namespace {
@@ -50,21 +50,11 @@ void sealRecord(std::vector<std::uint8_t>& bytes) {
 }
 
 void sealJournal(std::vector<std::uint8_t>& bytes) {
-  constexpr std::size_t kSum = 8;
-  std::string before;
-  for (auto line = bytes.begin(); line != bytes.end();) {
-    const auto end = std::find(line, bytes.end(), '\n');
-    if (end - line > static_cast<std::ptrdiff_t>(kSum)) {
-      std::string summed = before;
-      summed.append(line + kSum + 1, end);
-      char sum[kSum + 1];
-      std::snprintf(sum, sizeof(sum), "%08x",
-                    crc32({reinterpret_cast<const std::uint8_t*>(summed.data()), summed.size()}));
-      std::copy_n(sum, kSum, line);
-      before = sum;
-    }
-    line = end == bytes.end() ? end : end + 1;
-  }
+  const auto end = std::find(bytes.begin(), bytes.end(), '\n');
+  if (end == bytes.end()) return;
+  const std::string sum = sessions::sha256Text(std::span(end + 1, bytes.end()));
+  bytes.erase(bytes.begin(), end);
+  bytes.insert(bytes.begin(), sum.begin(), sum.end());
 }
 
 }  // namespace boresight::test

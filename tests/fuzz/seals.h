@@ -10,6 +10,6 @@ namespace boresight::test {
 // that are too few for the format stay as they are.
 void sealTrace(std::vector<std::uint8_t>& bytes);   ///< length and SHA-256 of a trace
 void sealRecord(std::vector<std::uint8_t>& bytes);  ///< the CRC of every block of an onboard record
-void sealJournal(std::vector<std::uint8_t>& bytes);  ///< the CRC of every line of a journal
+void sealJournal(std::vector<std::uint8_t>& bytes);  ///< the SHA-256 of a journal
 
 }  // namespace boresight::test

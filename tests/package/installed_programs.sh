@@ -65,7 +65,7 @@ for page in boresight whs whs-localize whs-evaluate; do
   [ ! -s warnings.txt ] || { cat warnings.txt; fail "the manual page of $page"; }
 done
 as bash -c 'source /usr/share/bash-completion/completions/whs
-  COMP_WORDS=(whs loc) COMP_CWORD=1; _whs_completion; [ "${COMPREPLY[*]}" = localize ]' ||
+  COMP_WORDS=(whs loc) COMP_CWORD=1; _whs; [ "${COMPREPLY[*]}" = localize ]' ||
   fail "bash does not complete whs"
 
 apt-get purge -y boresight

@@ -36,7 +36,8 @@ const std::vector<std::vector<std::string>> kFloors = {
     {"ui/annotation", "ui/review"},
     {"ui/scene"},
     {"ui/window"},
-    {"app", "app/documents", "app/flight"},
+    {"app/documents", "app/flight"},
+    {"app"},
 };
 
 /// Floor of a folder; the number of floors when it is on none.

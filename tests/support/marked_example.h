@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sessions/annotation/marks_on_image.h"
 #include "sessions/annotation/mesh_snap.h"
-#include "sessions/annotation/predicted_place.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
 #include "tests/support/random_pose.h"

@@ -4,7 +4,7 @@
 #include <exception>
 #include <utility>
 
-#include "sessions/annotation/mark_edits.h"
+#include "sessions/annotation/marks.h"
 #include "ui/models/number_text.h"
 #include "ui/state/document.h"
 
@@ -41,7 +41,7 @@ AnnotationController::AnnotationController(Document& document, ViewState& state,
   connect(&solver_, &AnnotationSolver::failed, this, &AnnotationController::told);
   connect(&document_, &Document::opened, this, &AnnotationController::showDocument);
   connect(&document_, &Document::changed, this, &AnnotationController::showDocument);
-  connect(&state_, &ViewState::caseChanged, this, &AnnotationController::showDocument);
+  state_.onChange(ViewChange::kCase, this, &AnnotationController::showDocument);
   showDocument();
 }
 

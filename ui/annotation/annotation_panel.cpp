@@ -1,29 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/annotation/annotation_panel.h"
 
-#include <QCheckBox>
-#include <QComboBox>
-#include <QDoubleSpinBox>
-#include <QHBoxLayout>
-#include <QHeaderView>
-#include <QInputDialog>
-#include <QKeyEvent>
-#include <QLabel>
-#include <QMenu>
-#include <QPushButton>
-#include <QScrollBar>
-#include <QSignalBlocker>
-#include <QSplitter>
-#include <QTableView>
-#include <QTextBrowser>
-#include <QToolButton>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
-#include "ui/annotation/landmarks_menu.h"
-#include "ui/annotation/rig_menu.h"
+#include "ui/annotation/annotation_menus.h"
 #include "ui/models/number_text.h"
-#include "ui/panels/table_style.h"
-#include "ui/state/pose_role.h"
+#include "ui/panels/widgets.h"
+#include "ui/state/view_state.h"
 
 namespace boresight::ui {
 
@@ -50,9 +33,9 @@ AnnotationPanel::AnnotationPanel(Document& document, AnnotationController& contr
           &AnnotationPanel::showSelection);
   connect(&controller_, &AnnotationController::solutionChanged, this,
           &AnnotationPanel::showSolution);
-  for (auto signal : {&ViewState::caseChanged, &ViewState::snapshotChanged,
-                      &ViewState::cursorChanged, &ViewState::nudgedPoseChanged})
-    connect(&state_, signal, this, &AnnotationPanel::showSolution);
+  state_.onChange(
+      ViewChange::kCase | ViewChange::kSnapshot | ViewChange::kCursor | ViewChange::kNudgedPose,
+      this, &AnnotationPanel::showSolution);
   connect(&model_, &MarksModel::pointEdited, &controller_, &AnnotationController::replacePoint);
   connect(&model_, &MarksModel::lineEdited, &controller_, &AnnotationController::replaceLine);
   showMode();
@@ -103,8 +86,7 @@ void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
                       tr("Click two places along an edge in the image, and the edge of the station "
                          "(F3)"),
                       PlaceMode::kLine);
-  sigma_ = new QDoubleSpinBox(this);
-  sigma_->setObjectName(QStringLiteral("newSigma"));
+  sigma_ = named(new QDoubleSpinBox(this), "newSigma");
   sigma_->setRange(0.01, 100.0);
   sigma_->setDecimals(2);
   sigma_->setSingleStep(0.1);
@@ -114,13 +96,11 @@ void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
   sigma_->setMinimumWidth(
       sigma_->fontMetrics().horizontalAdvance(QStringLiteral("\u00b1 00.00 px")) + 30);
   sigma_->setToolTip(tr("Standard deviation that new marks are given, pixels per axis"));
-  robust_ = new QCheckBox(tr("Robust"), this);
-  robust_->setObjectName(QStringLiteral("robust"));
-  robust_->setToolTip(tr("Marks far from where the pose puts them count little or nothing"));
-  together_ = new QCheckBox(tr("Whole rig"), this);
-  together_->setObjectName(QStringLiteral("together"));
+  robust_ = named(new QCheckBox(tr("Robust"), this), "robust",
+                  tr("Marks far from where the pose puts them count little or nothing"));
+  together_ = named(new QCheckBox(tr("Whole rig"), this), "together",
+                    tr("Solve with the other cameras of this case's rig, as one"));
   together_->setChecked(controller_.together());
-  together_->setToolTip(tr("Solve with the other cameras of this case's rig, as one"));
   QToolButton* files = menuButton(QStringLiteral("markFiles"), tr("Files"),
                                   tr("Marks and poses from and to files"), fileMenu());
   auto* landmarks_menu = new LandmarksMenu(controller_, this);
@@ -145,11 +125,9 @@ void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
                         static_cast<QWidget*>(rigs)})
     row->addWidget(each);
   row->addStretch(1);
-  show_ = new QComboBox(this);
-  show_->setObjectName(QStringLiteral("showMarks"));
+  show_ = named(new QComboBox(this), "showMarks");
   show_->setAccessibleName(tr("Which marks are listed"));
-  for (int i = 0; i < MarksFilter::kShowCount; ++i)
-    show_->addItem(MarksFilter::nameOf(static_cast<MarksFilter::Show>(i)));
+  show_->addItems(MarksModel::showNames());
   // On a narrow window the row gives way here.
   show_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   show_->setMinimumContentsLength(3);
@@ -181,17 +159,15 @@ QMenu* AnnotationPanel::fileMenu() {
 }
 
 QWidget* AnnotationPanel::buildTable() {
-  table_ = new QTableView(this);
-  table_->setObjectName(QStringLiteral("marks"));
-  table_->setAccessibleName(tr("Marks"));
-  table_->setModel(&filter_);
-  styleTable(*table_);
+  table_ = newTable("marks", tr("Marks"), filter_, this);
   table_->installEventFilter(this);
   table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
   table_->setSortingEnabled(true);
   table_->sortByColumn(-1, Qt::AscendingOrder);
   connect(show_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
-    filter_.setShow(static_cast<MarksFilter::Show>(index));
+    filter_.setCondition([this, show = static_cast<MarksModel::Show>(index)](int row) {
+      return model_.isShown(row, show);
+    });
     showMarks();
   });
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
@@ -203,23 +179,17 @@ QWidget* AnnotationPanel::buildSummary() {
   auto* part = new QWidget(this);
   auto* column = new QVBoxLayout(part);
   column->setContentsMargins(0, 0, 0, 0);
-  headline_ = new QLabel(part);
-  headline_->setObjectName(QStringLiteral("headline"));
+  headline_ = named(new QLabel(part), "headline");
   headline_->setWordWrap(true);
-  meter_ = new QLabel(part);
-  meter_->setObjectName(QStringLiteral("geometryMeter"));
+  meter_ = named(new QLabel(part), "geometryMeter");
   meter_->setWordWrap(true);
-  summary_ = new QTextBrowser(part);
-  summary_->setObjectName(QStringLiteral("solution"));
+  summary_ = named(new QTextBrowser(part), "solution");
   summary_->setAccessibleName(tr("What the solved pose is worth"));
-  use_as_truth_ = new QPushButton(tr("Use as truth"), part);
-  use_as_truth_->setObjectName(QStringLiteral("annotationAsTruth"));
-  use_as_truth_->setToolTip(
-      tr("This pose becomes the case's true pose, which results are compared "
-         "with"));
-  use_as_seed_ = new QPushButton(tr("Use as seed"), part);
-  use_as_seed_->setObjectName(QStringLiteral("annotationAsSeed"));
-  use_as_seed_->setToolTip(tr("Runs of the case start from this pose"));
+  use_as_truth_ = named(new QPushButton(tr("Use as truth"), part), "annotationAsTruth",
+                        tr("This pose becomes the case's true pose, which results are compared "
+                           "with"));
+  use_as_seed_ = named(new QPushButton(tr("Use as seed"), part), "annotationAsSeed",
+                       tr("Runs of the case start from this pose"));
   auto* row = new QHBoxLayout;
   row->addWidget(headline_, 1);
   row->addWidget(use_as_truth_);
@@ -244,7 +214,7 @@ void AnnotationPanel::showMarks() {
   showing_ = true;
   model_.setMarks(controller_.marks());
   showing_ = false;
-  if (model_.rowCount() != before) fitColumns(*table_);
+  if (model_.rowCount() != before) table_->resizeColumnsToContents();
   count_->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
   showSelection();
 }

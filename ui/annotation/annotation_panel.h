@@ -6,10 +6,8 @@
 
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/solution_html.h"
-#include "ui/models/marks_filter.h"
 #include "ui/models/marks_model.h"
 
-QT_BEGIN_NAMESPACE
 class QBoxLayout;
 class QCheckBox;
 class QComboBox;
@@ -21,7 +19,6 @@ class QSplitter;
 class QTableView;
 class QTextBrowser;
 class QToolButton;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 
@@ -80,7 +77,7 @@ class AnnotationPanel : public QWidget {
   AnnotationController& controller_;
   ViewState& state_;
   MarksModel model_;
-  MarksFilter filter_;
+  RowsFilter filter_;
   bool showing_ = false;
   QSplitter* splitter_ = nullptr;
   QToolButton* points_ = nullptr;

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "sessions/annotation/mark_edits.h"
-#include "sessions/annotation/predicted_place.h"
-#include "sessions/annotation/proposal_feature.h"
+#include "sessions/annotation/landmarks.h"
+#include "sessions/annotation/marks.h"
+#include "sessions/annotation/marks_on_image.h"
 #include "ui/models/number_text.h"
 
 namespace boresight::ui {

@@ -7,7 +7,6 @@
 
 #include "ui/annotation/aim_painter.h"
 #include "ui/annotation/loupe.h"
-#include "ui/annotation/loupe_picture.h"
 #include "ui/annotation/mark_tool.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/models/number_text.h"
@@ -55,12 +54,11 @@ ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& contro
   for (auto signal : {&AnnotationController::marksChanged, &AnnotationController::selectionChanged,
                       &AnnotationController::modeChanged})
     connect(&controller_, signal, this, &ImageAnnotation::showMarks);
-  for (auto signal :
-       {&ViewState::caseChanged, &ViewState::cursorChanged, &ViewState::nudgedPoseChanged})
-    connect(&state_, signal, this, &ImageAnnotation::showMarks);
+  state_.onChange(ViewChange::kCase | ViewChange::kCursor | ViewChange::kNudgedPose, this,
+                  &ImageAnnotation::showMarks);
   connect(&controller_, &AnnotationController::solutionChanged, this,
           &ImageAnnotation::showSolution);
-  connect(&state_, &ViewState::caseChanged, this, &ImageAnnotation::showSolution);
+  state_.onChange(ViewChange::kCase, this, &ImageAnnotation::showSolution);
   connect(&image_, &ImagePanel::stylesChanged, this, &ImageAnnotation::showSolution);
   connect(&snapper_, &StationSnapper::meshChanged, this, &ImageAnnotation::askForBand);
   connect(edges_, &PoseRenderer::rendered, this,
@@ -82,7 +80,6 @@ void ImageAnnotation::setMagnification(double magnification) {
   if (magnification == magnification_) return;
   magnification_ = magnification;
   showMarks();
-  Q_EMIT magnificationChanged();
 }
 
 /// The file's samples where they are read, else what the core sees.

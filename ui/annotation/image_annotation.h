@@ -39,7 +39,6 @@ class ImageAnnotation : public QObject {
   void setMagnification(double magnification);
 
  Q_SIGNALS:
-  void magnificationChanged();
   /// One sentence for people.
   void told(const QString& sentence);
 

@@ -5,7 +5,7 @@
 
 #include <QCoreApplication>
 
-#include "sessions/annotation/predicted_place.h"
+#include "sessions/annotation/marks_on_image.h"
 
 namespace boresight::ui {
 namespace {

@@ -4,15 +4,13 @@
 #include <cmath>
 #include <utility>
 
-#include <QKeyEvent>
-#include <QMouseEvent>
-#include <QPainter>
+#include <QtWidgets>
 
-#include "sessions/annotation/predicted_place.h"
+#include "sessions/annotation/marks_on_image.h"
 #include "ui/annotation/aim_painter.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/views/image_view.h"
-#include "ui/views/pointer_place.h"
+#include "ui/views/view_transform.h"
 
 namespace boresight::ui {
 namespace {
@@ -37,7 +35,7 @@ MarkTool::MarkTool(ImageView& view, AnnotationController& controller, ViewState&
     if (!drag_) end_ = 0;
     view_.update();
   });
-  connect(&state_, &ViewState::caseChanged, this, &MarkTool::clearAim);
+  state_.onChange(ViewChange::kCase, this, &MarkTool::clearAim);
   connect(&snapper_, &StationSnapper::meshChanged, this, &MarkTool::updateAim);
 }
 

@@ -10,7 +10,6 @@
 
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/mark_aim.h"
-#include "ui/annotation/mark_handles.h"
 
 class QKeyEvent;
 class QMouseEvent;

@@ -8,7 +8,6 @@
 
 #include "core/base/math.h"
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/evaluation/pose_sigma.h"
 #include "ui/models/number_text.h"
 
 namespace boresight::ui {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "sessions/annotation/snap_choice.h"
+#include "sessions/annotation/image_snap.h"
 
 namespace boresight::ui {
 namespace {
@@ -24,7 +24,7 @@ bool haveSameMesh(const ViewState::CasePtr& a, const ViewState::CasePtr& b) {
 }  // namespace
 
 StationSnapper::StationSnapper(ViewState& state, QObject* parent) : QObject(parent), state_(state) {
-  connect(&state_, &ViewState::caseChanged, this, &StationSnapper::takeCase);
+  state_.onChange(ViewChange::kCase, this, &StationSnapper::takeCase);
   connect(&runner_, &TaskRunner::failed, this, &StationSnapper::failed);
   takeCase();
 }

@@ -5,14 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include <QHBoxLayout>
-#include <QLabel>
-#include <QPainter>
-#include <QPainterPath>
-#include <QPushButton>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "sessions/annotation/edge_band.h"
+#include "ui/panels/widgets.h"
 #include "ui/views/layer.h"
 
 namespace boresight::ui {
@@ -97,11 +93,10 @@ TwinView::TwinView(AnnotationController& controller, ViewState& state, StationSn
     pictures->addWidget(each->picture, 1);
     captions->addWidget(each->caption, 1);
   }
-  auto* look = new QPushButton(tr("Look at the other"), this);
-  look->setObjectName(QStringLiteral("lookAtTwin"));
-  look->setToolTip(
-      tr("Nudge the shown pose to the other one: all views show it, and it can become "
-         "the seed"));
+  auto* look =
+      named(new QPushButton(tr("Look at the other"), this), "lookAtTwin",
+            tr("Nudge the shown pose to the other one: all views show it, and it can become "
+               "the seed"));
   auto* foot = new QHBoxLayout;
   foot->addStretch(1);
   foot->addWidget(look);

@@ -7,9 +7,7 @@
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/station_snapper.h"
 
-QT_BEGIN_NAMESPACE
 class QLabel;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 

@@ -1,163 +1,170 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/manual/manual_window.h"
 
-#include <QAction>
-#include <QDockWidget>
-#include <QLabel>
-#include <QLineEdit>
-#include <QListWidget>
-#include <QSignalBlocker>
-#include <QStackedWidget>
-#include <QToolBar>
-#include <QTreeWidget>
-#include <QUrl>
-#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
 
-#include "ui/manual/manual_browser.h"
-#include "ui/manual/manual_search.h"
+#include <QtWidgets>
 
 namespace boresight::ui {
 namespace {
 
-constexpr int kPageRole = Qt::UserRole;
+constexpr int kMargin_px = 16;
+
+/// By which a link names a heading: "Where is it?" is "where-is-it".
+QString headingAnchor(const QString& heading) {
+  QString anchor;
+  for (const QChar c : heading.toLower()) {
+    if (c.isLetterOrNumber() || c == QLatin1Char('_') || c == QLatin1Char('-')) anchor += c;
+    if (c == QLatin1Char(' ')) anchor += QLatin1Char('-');
+  }
+  return anchor;
+}
+
+bool holds(const QString& text, const QStringList& words) {
+  return std::all_of(words.begin(), words.end(), [&text](const QString& word) {
+    return text.contains(word, Qt::CaseInsensitive);
+  });
+}
+
+/// Shows the manual's pages with pictures as wide as the window at most; "search:WORDS" is the page
+/// of what a search found.
+class Browser : public QTextBrowser {
+ public:
+  Browser(const QString& folder, QWidget* parent) : QTextBrowser(parent), folder_(folder) {
+    setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);  // pages are loaded again by width
+  }
+
+  QVariant loadResource(int type, const QUrl& name) override {
+    if (name.scheme() == QLatin1String("search")) return searchManual(folder_, name.path());
+    const QVariant loaded = QTextBrowser::loadResource(type, name);
+    if (type != QTextDocument::ImageResource) return loaded;
+    QImage picture = QImage::fromData(loaded.toByteArray());
+    const int room = std::max(100, viewport()->width() - 2 * kMargin_px - 4);
+    if (picture.width() <= room) return picture;
+    // On a fine screen a wide picture is shown with all the pixels that there is room for.
+    const int pixels = static_cast<int>(room * devicePixelRatioF());
+    if (picture.width() > pixels) picture = picture.scaledToWidth(pixels, Qt::SmoothTransformation);
+    picture.setDevicePixelRatio(static_cast<double>(picture.width()) / room);
+    return picture;
+  }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QTextBrowser::resizeEvent(event);
+    if (event->size().width() == event->oldSize().width() || source().isEmpty()) return;
+    const int place = verticalScrollBar()->value();
+    reload();
+    verticalScrollBar()->setValue(place);
+  }
+
+ private:
+  QString folder_;
+};
 
 }  // namespace
+
+QString manualFolder() {
+  QDir folder(QCoreApplication::applicationDirPath());
+  do {
+    const QString place = folder.filePath(QStringLiteral("share/boresight/manual"));
+    if (QFile::exists(place + QStringLiteral("/index.md"))) return place;
+  } while (folder.cdUp());
+  return {};
+}
+
+QString manualText(const QString& file) {
+  QFile opened(file);
+  if (!opened.open(QIODevice::ReadOnly)) return {};
+  return QString::fromUtf8(opened.readAll());
+}
+
+std::vector<ManualPage> manualPages(const QString& folder) {
+  const QString index = manualText(folder + QStringLiteral("/index.md"));
+  if (index.isEmpty()) return {};
+  std::vector<ManualPage> pages = {{ManualWindow::tr("Contents"), QStringLiteral("index.md")}};
+  static const QRegularExpression kEntry(
+      QStringLiteral("^[-*] \\[([^\\]]+)\\]\\(([A-Za-z0-9_]+\\.md)\\)"),
+      QRegularExpression::MultilineOption);
+  for (auto found = kEntry.globalMatch(index); found.hasNext();) {
+    const QRegularExpressionMatch match = found.next();
+    pages.push_back({match.captured(1), match.captured(2)});
+  }
+  return pages;
+}
+
+QString searchManual(const QString& folder, const QString& query) {
+  const QStringList words = query.simplified().split(QLatin1Char(' '), Qt::SkipEmptyParts);
+  std::vector<std::pair<int, ManualPage>> hits;
+  for (const ManualPage& page : manualPages(folder)) {
+    const QString text = manualText(folder + QLatin1Char('/') + page.file);
+    if (words.isEmpty() || !holds(text, words)) continue;
+    int count = 0;
+    for (const QString& word : words)
+      count += static_cast<int>(text.count(word, Qt::CaseInsensitive));
+    hits.emplace_back(count, page);
+  }
+  std::stable_sort(hits.begin(), hits.end(), [&words](const auto& a, const auto& b) {
+    return std::pair(holds(a.second.title, words), a.first) >
+           std::pair(holds(b.second.title, words), b.first);
+  });
+  QString text = ManualWindow::tr("# Pages with \"%1\"\n\n").arg(words.join(QLatin1Char(' ')));
+  if (hits.empty()) text += ManualWindow::tr("No page has all of these words.");
+  for (const auto& [count, page] : hits)
+    text += QStringLiteral("- [%1](%2) (%3)\n")
+                .arg(page.title, QUrl::fromLocalFile(folder + QLatin1Char('/') + page.file)
+                                     .toString(QUrl::FullyEncoded))
+                .arg(count);
+  return text;
+}
 
 ManualWindow::ManualWindow(const QString& folder, QWidget* parent)
     : QMainWindow(parent, Qt::Window),
       folder_(folder),
-      browser_(new ManualBrowser(this)),
-      contents_(new QTreeWidget),
-      search_(new QLineEdit),
-      hits_(new QListWidget),
-      side_(new QStackedWidget),
-      find_(new QLineEdit),
-      found_(new QLabel) {
+      browser_(new Browser(folder, this)),
+      find_(new QLineEdit) {
   setObjectName(QStringLiteral("manualWindow"));
   setWindowTitle(tr("Manual - Boresight"));
   setCentralWidget(browser_);
-  buildToolBar();
-  buildSide();
-  buildFindBar();
-  connect(browser_, &QTextBrowser::sourceChanged, this, &ManualWindow::showPlace);
-  fillContents();
-  resize(1100, 800);
+  browser_->setOpenLinks(false);
+  browser_->document()->setDocumentMargin(kMargin_px);
+  find_->setObjectName(QStringLiteral("manualFind"));
+  find_->setPlaceholderText(tr("Find on this page; Ctrl+Shift+F: in all pages"));
+  find_->setClearButtonEnabled(true);
+  QToolBar* bar = addToolBar(tr("Pages"));
+  bar->setMovable(false);
+  const auto action = [this](const QString& text, const QKeySequence& keys, auto&& act) {
+    auto* made = new QAction(text, this);
+    made->setShortcut(keys);
+    connect(made, &QAction::triggered, this, act);
+    return made;
+  };
+  QAction* back = action(tr("Back"), QKeySequence::Back, [this] { browser_->backward(); });
+  QAction* forward = action(tr("Forward"), QKeySequence::Forward, [this] { browser_->forward(); });
+  bar->addActions({back, forward,
+                   action(tr("Contents"), QKeySequence(QStringLiteral("Alt+Home")),
+                          [this] { goTo(QStringLiteral("index.md")); })});
+  bar->addWidget(find_);
+  bar->addActions({action(tr("Next"), QKeySequence::FindNext, [this] { find(false); }),
+                   action(tr("Previous"), QKeySequence::FindPrevious, [this] { find(true); }),
+                   action(tr("Search all pages"), QKeySequence(QStringLiteral("Ctrl+Shift+F")),
+                          [this] { searchAllPages(); })});
+  addActions({action(tr("Find"), QKeySequence::Find,
+                     [this] {
+                       find_->setFocus();
+                       find_->selectAll();
+                     }),
+              action(tr("Close"), QKeySequence(Qt::Key_Escape), [this] { close(); })});
+  connect(browser_, &QTextBrowser::backwardAvailable, back, &QAction::setEnabled);
+  connect(browser_, &QTextBrowser::forwardAvailable, forward, &QAction::setEnabled);
+  connect(browser_, &QTextBrowser::anchorClicked, this, &ManualWindow::follow);
+  connect(browser_, &QTextBrowser::sourceChanged, this, &ManualWindow::dress);
+  connect(find_, &QLineEdit::returnPressed, this, [this] { find(false); });
+  resize(1000, 800);
   if (folder_.isEmpty())
     browser_->setPlainText(
         tr("The manual is not there: share/boresight/manual lies neither beside the program nor in "
            "its build tree. Install the program again, or build the target 'manual'."));
-}
-
-QAction* ManualWindow::action(const QString& text, const QKeySequence& keys, const QString& tip) {
-  auto* made = new QAction(text, this);
-  made->setShortcut(keys);
-  made->setToolTip(QStringLiteral("%1 (%2)").arg(tip, keys.toString(QKeySequence::NativeText)));
-  return made;
-}
-
-void ManualWindow::buildToolBar() {
-  QToolBar* bar = addToolBar(tr("Pages"));
-  bar->setObjectName(QStringLiteral("manualBar"));
-  bar->setMovable(false);
-  QAction* back = action(tr("Back"), QKeySequence::Back, tr("The page before"));
-  QAction* forward = action(tr("Forward"), QKeySequence::Forward, tr("The page after"));
-  QAction* contents = action(tr("Contents"), QKeySequence(QStringLiteral("Alt+Home")),
-                             tr("The page that lists all others"));
-  back->setEnabled(false);
-  forward->setEnabled(false);
-  connect(back, &QAction::triggered, browser_, &QTextBrowser::backward);
-  connect(forward, &QAction::triggered, browser_, &QTextBrowser::forward);
-  connect(contents, &QAction::triggered, this, [this] { goTo(QStringLiteral("index.md")); });
-  connect(browser_, &QTextBrowser::backwardAvailable, back, &QAction::setEnabled);
-  connect(browser_, &QTextBrowser::forwardAvailable, forward, &QAction::setEnabled);
-  bar->addActions({back, forward, contents});
-  QAction* close = action(tr("Close"), QKeySequence::Close, tr("Close the manual"));
-  close->setShortcuts({QKeySequence(QKeySequence::Close), QKeySequence(Qt::Key_Escape)});
-  connect(close, &QAction::triggered, this, &QWidget::close);
-  addAction(close);
-}
-
-void ManualWindow::buildSide() {
-  search_->setObjectName(QStringLiteral("manualSearch"));
-  search_->setPlaceholderText(tr("Search all pages"));
-  search_->setClearButtonEnabled(true);
-  contents_->setObjectName(QStringLiteral("manualContents"));
-  contents_->setHeaderHidden(true);
-  hits_->setObjectName(QStringLiteral("manualHits"));
-  hits_->setWordWrap(true);
-  side_->addWidget(contents_);
-  side_->addWidget(hits_);
-  auto* widget = new QWidget;
-  auto* column = new QVBoxLayout(widget);
-  column->addWidget(search_);
-  column->addWidget(side_);
-  auto* dock = new QDockWidget(tr("Contents"), this);
-  dock->setObjectName(QStringLiteral("manualSide"));
-  dock->setFeatures(QDockWidget::NoDockWidgetFeatures);
-  dock->setTitleBarWidget(new QWidget);
-  dock->setWidget(widget);
-  addDockWidget(Qt::LeftDockWidgetArea, dock);
-  resizeDocks({dock}, {300}, Qt::Horizontal);
-  connect(search_, &QLineEdit::textChanged, this, &ManualWindow::search);
-  connect(contents_, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
-    const QString page = item ? item->data(0, kPageRole).toString() : QString();
-    if (!page.isEmpty() && browser_->source().fileName() != page) goTo(page);
-  });
-  const auto open_hit = [this](const QListWidgetItem* item) {
-    if (!item || item->data(kPageRole).toString().isEmpty()) return;
-    goTo(item->data(kPageRole).toString());
-    find_->setText(search_->text().simplified().section(QLatin1Char(' '), 0, 0));
-    find(false);
-  };
-  connect(hits_, &QListWidget::itemClicked, this, open_hit);
-  connect(hits_, &QListWidget::itemActivated, this, open_hit);
-  connect(search_, &QLineEdit::returnPressed, this, [this, open_hit] { open_hit(hits_->item(0)); });
-}
-
-void ManualWindow::buildFindBar() {
-  auto* bar = new QToolBar(tr("Find"));
-  bar->setObjectName(QStringLiteral("manualFindBar"));
-  bar->setMovable(false);
-  addToolBar(Qt::BottomToolBarArea, bar);
-  find_->setObjectName(QStringLiteral("manualFind"));
-  find_->setPlaceholderText(tr("Find in this page"));
-  find_->setClearButtonEnabled(true);
-  find_->setMaximumWidth(320);
-  QAction* next = action(tr("Next"), QKeySequence::FindNext, tr("Where it is next"));
-  QAction* before = action(tr("Previous"), QKeySequence::FindPrevious, tr("Where it was before"));
-  QAction* begin = action(tr("Find"), QKeySequence::Find, tr("Find in this page"));
-  QAction* search =
-      action(tr("Search"), QKeySequence(QStringLiteral("Ctrl+Shift+F")), tr("Search all pages"));
-  bar->addWidget(find_);
-  bar->addActions({next, before});
-  bar->addWidget(found_);
-  addActions({begin, search});
-  connect(find_, &QLineEdit::returnPressed, this, [this] { find(false); });
-  connect(next, &QAction::triggered, this, [this] { find(false); });
-  connect(before, &QAction::triggered, this, [this] { find(true); });
-  for (const auto& [begins, field] : {std::pair(begin, find_), std::pair(search, search_)})
-    connect(begins, &QAction::triggered, field, [field = field] {
-      field->setFocus();
-      field->selectAll();
-    });
-}
-
-void ManualWindow::fillContents() {
-  QTreeWidgetItem* chapter = nullptr;
-  for (const ManualPage& page : manualPages(folder_)) {
-    if (!page.chapter.isEmpty() && (!chapter || chapter->text(0) != page.chapter)) {
-      chapter = new QTreeWidgetItem(contents_, {page.chapter});
-      chapter->setFlags(Qt::ItemIsEnabled);
-      QFont bold = font();
-      bold.setBold(true);
-      chapter->setFont(0, bold);
-    }
-    auto* item = chapter ? new QTreeWidgetItem(chapter, {page.title})
-                         : new QTreeWidgetItem(contents_, {page.title});
-    item->setData(0, kPageRole, page.file);
-    item->setToolTip(0, page.title);
-  }
-  contents_->expandAll();
 }
 
 void ManualWindow::showPage(const QString& page) {
@@ -172,42 +179,87 @@ void ManualWindow::goTo(const QString& page) {
   const QChar hash = QLatin1Char('#');
   QUrl address = QUrl::fromLocalFile(folder_ + QLatin1Char('/') + page.section(hash, 0, 0));
   address.setFragment(page.section(hash, 1));
-  browser_->open(address);
+  follow(address);
 }
 
-/// The contents follow where links lead, and do not lead there once more.
-void ManualWindow::showPlace(const QUrl& address) {
-  const QSignalBlocker quiet(contents_);
-  found_->clear();
-  const QString page = address.fileName();
-  for (QTreeWidgetItemIterator it(contents_); *it; ++it)
-    if ((*it)->data(0, kPageRole).toString() == page) contents_->setCurrentItem(*it);
-}
-
-void ManualWindow::search(const QString& words) {
-  hits_->clear();
-  side_->setCurrentWidget(words.trimmed().isEmpty() ? static_cast<QWidget*>(contents_) : hits_);
-  for (const ManualHit& hit : searchManual(folder_, words)) {
-    auto* item = new QListWidgetItem(
-        QStringLiteral("%1 (%2)\n%3").arg(hit.page.title).arg(hit.count).arg(hit.around), hits_);
-    item->setData(kPageRole, hit.page.file);
+void ManualWindow::follow(const QUrl& address) {
+  if (!address.isLocalFile() && !address.isRelative()) {
+    QDesktopServices::openUrl(address);
+  } else {
+    browser_->setSource(address, QTextDocument::MarkdownResource);
   }
-  if (hits_->count() == 0) new QListWidgetItem(tr("No page has all of these words."), hits_);
+}
+
+/// Gives tables lines and goes to the heading that the address names.
+void ManualWindow::dress(const QUrl& address) {
+  QTextDocument& page = *browser_->document();
+  for (QTextFrame* frame : page.rootFrame()->childFrames()) {
+    auto* table = qobject_cast<QTextTable*>(frame);
+    if (!table) continue;
+    QTextTableFormat format = table->format();
+    format.setBorder(1);
+    format.setBorderStyle(QTextFrameFormat::BorderStyle_Solid);
+    format.setBorderBrush(palette().brush(QPalette::Mid));
+    format.setBorderCollapse(true);
+    format.setCellPadding(4);
+    format.setCellSpacing(0);
+    table->setFormat(format);
+  }
+  if (!address.hasFragment()) return;
+  for (QTextBlock block = page.begin(); block.isValid(); block = block.next()) {
+    if (block.blockFormat().headingLevel() == 0) continue;
+    if (headingAnchor(block.text()) != address.fragment()) continue;
+    browser_->setTextCursor(QTextCursor(block));
+    const QAbstractTextDocumentLayout* layout = page.documentLayout();
+    (void)layout->documentSize();  // now: places are laid out when they are needed else
+    browser_->verticalScrollBar()->setValue(
+        static_cast<int>(layout->blockBoundingRect(block).top()));
+    return;
+  }
 }
 
 void ManualWindow::find(bool backward) {
   const QString words = find_->text();
-  found_->clear();
-  if (words.isEmpty()) return;
   const QTextDocument::FindFlags flags =
       backward ? QTextDocument::FindBackward : QTextDocument::FindFlags();
-  if (browser_->find(words, flags)) return;
+  if (words.isEmpty() || browser_->find(words, flags)) return;
   // On from the other end, once.
   const QTextCursor before = browser_->textCursor();
   browser_->moveCursor(backward ? QTextCursor::End : QTextCursor::Start);
   if (browser_->find(words, flags)) return;
   browser_->setTextCursor(before);
-  found_->setText(tr("not on this page"));
+  searchAllPages();
+}
+
+void ManualWindow::searchAllPages() {
+  if (folder_.isEmpty() || find_->text().trimmed().isEmpty()) return;
+  QUrl address;
+  address.setScheme(QStringLiteral("search"));
+  address.setPath(find_->text());
+  browser_->setSource(address, QTextDocument::MarkdownResource);
+}
+
+ManualHelp::ManualHelp(QMainWindow& window) : QObject(&window), window_(window) {
+  setObjectName(QStringLiteral("manualHelp"));
+}
+
+ManualHelp::~ManualHelp() = default;
+
+QString ManualHelp::pageHere() const {
+  const QWidget* focus = window_.focusWidget();
+  for (; focus; focus = focus->parentWidget())
+    if (const auto* dock = qobject_cast<const QDockWidget*>(focus))
+      return QStringLiteral("window.md#") + headingAnchor(dock->windowTitle());
+  return QStringLiteral("index.md");
+}
+
+void ManualHelp::showHere() {
+  if (!manual_) {
+    manual_ = std::make_unique<ManualWindow>(manualFolder());
+    // The program ends with its window, whether or not somebody still reads.
+    manual_->setAttribute(Qt::WA_QuitOnClose, false);
+  }
+  manual_->showPage(pageHere());
 }
 
 }  // namespace boresight::ui

@@ -1,22 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include <QMainWindow>
 
-class QAction;
-class QLabel;
 class QLineEdit;
-class QListWidget;
-class QStackedWidget;
-class QTreeWidget;
+class QTextBrowser;
 class QUrl;
 
 namespace boresight::ui {
 
-class ManualBrowser;
+/// A page as the manual's index lists it.
+struct ManualPage {
+  QString title;
+  QString file;  ///< name in the manual's folder: "annotate.md"
+};
 
-/// The manual in a window of its own: contents and search at the side, a page beside them, what is
-/// looked for in the page below. Without a manual one sentence says so.
+/// The manual's folder: share/boresight/manual beside an installed program or in the build tree of
+/// one that was not installed. "" when there is none.
+QString manualFolder();
+
+/// The pages in the order of index.md, the index itself first; empty when it cannot be read.
+std::vector<ManualPage> manualPages(const QString& folder);
+
+/// Text of a file in UTF-8; "" when it cannot be read.
+QString manualText(const QString& file);
+
+/// A page in Markdown that links the pages which hold all words of `query`, whatever their case:
+/// first those whose title does, then those that hold them most often.
+QString searchManual(const QString& folder, const QString& query);
+
+/// The manual in a window of its own: its pages, and a field that finds words on the page or in all
+/// pages. Without a manual one sentence says so.
 class ManualWindow : public QMainWindow {
   Q_OBJECT
 
@@ -26,27 +43,38 @@ class ManualWindow : public QMainWindow {
 
   /// Shows a page, "annotate.md" or "window.md#queue", and comes to the front.
   void showPage(const QString& page);
-  ManualBrowser& browser() { return *browser_; }
+  QTextBrowser& browser() { return *browser_; }
 
  private:
-  void buildSide();
-  void buildToolBar();
-  void buildFindBar();
-  QAction* action(const QString& text, const QKeySequence& keys, const QString& tip);
-  void fillContents();
   void goTo(const QString& page);
-  void search(const QString& words);
+  void follow(const QUrl& address);
+  void dress(const QUrl& address);
   void find(bool backward);
-  void showPlace(const QUrl& address);
+  void searchAllPages();
 
   QString folder_;
-  ManualBrowser* browser_;
-  QTreeWidget* contents_;
-  QLineEdit* search_;
-  QListWidget* hits_;
-  QStackedWidget* side_;
+  QTextBrowser* browser_;
   QLineEdit* find_;
-  QLabel* found_;
+};
+
+/// Opens the manual at what an operator works at: the section of the panel that has the focus.
+class ManualHelp : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit ManualHelp(QMainWindow& window);
+  ~ManualHelp() override;
+
+  /// The section of the panel with the focus, else the contents.
+  void showHere();
+  /// nullptr until it was shown.
+  ManualWindow* manual() { return manual_.get(); }
+  /// "window.md#queue", or "index.md".
+  QString pageHere() const;
+
+ private:
+  QMainWindow& window_;
+  std::unique_ptr<ManualWindow> manual_;
 };
 
 }  // namespace boresight::ui

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
-
-#include <QAbstractTableModel>
-
 #include "sessions/run/alternatives.h"
+#include "ui/models/rows_model.h"
 
 namespace boresight::ui {
 
@@ -16,7 +13,7 @@ QString chosenTitle(const sessions::Alternative& one);
 
 /// The poses that a run weighed against those that it went on with, one row each: rivals first,
 /// then restarts and rolled hypotheses by iteration.
-class AlternativesModel : public QAbstractTableModel {
+class AlternativesModel : public RowsModel<sessions::Alternative> {
   Q_OBJECT
 
  public:
@@ -32,31 +29,18 @@ class AlternativesModel : public QAbstractTableModel {
     kMatches,
     kApart_mm,
     kApart_deg,
-    kColumnCount,
   };
-  /// A cell's number as it is, unrounded; NaN where there is none.
-  static constexpr int kNumberRole = Qt::UserRole;
 
   explicit AlternativesModel(QObject* parent = nullptr);
 
-  void setAlternatives(std::vector<sessions::Alternative> alternatives);
-  const std::vector<sessions::Alternative>& alternatives() const { return alternatives_; }
-  const sessions::Alternative& alternative(int row) const {
-    return alternatives_[static_cast<std::size_t>(row)];
+  void setAlternatives(std::vector<sessions::Alternative> alternatives) {
+    setRows(std::move(alternatives), false);
   }
   /// The first row of an iteration (an index into the run's), or -1.
   int firstRowOf(int iteration) const;
 
-  int rowCount(const QModelIndex& parent = {}) const override;
-  int columnCount(const QModelIndex& parent = {}) const override;
-  QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
-  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
-
- private:
-  static double number(const sessions::Alternative& one, Column column);
-  static QString text(const sessions::Alternative& one, Column column);
-
-  std::vector<sessions::Alternative> alternatives_;
+ protected:
+  QVariant look(const sessions::Alternative& row, int column, int role) const override;
 };
 
 }  // namespace boresight::ui

@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/models/cases_model.h"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 
 #include <QIcon>
 #include <QPixmap>
 
-#include "ui/models/number_text.h"
-
 namespace boresight::ui {
 namespace {
-
-double errorOf(const CaseRow& row, int column) {
-  const std::optional<double>& value = column == CasesModel::kNormal_mm    ? row.normal_mm
-                                       : column == CasesModel::kLateral_mm ? row.lateral_mm
-                                                                           : row.rotation_deg;
-  return value.value_or(std::numeric_limits<double>::quiet_NaN());
-}
-
-bool isError(int column) { return column >= CasesModel::kNormal_mm; }
 
 QString tooltipOf(const CaseRow& row) {
   QString text = row.id;
@@ -30,6 +18,40 @@ QString tooltipOf(const CaseRow& row) {
     text += CasesModel::tr("\nStale: the inputs or options have changed since its run.");
   if (!row.detail.isEmpty()) text += QLatin1Char('\n') + row.detail;
   return text;
+}
+
+std::vector<TableColumn<CaseRow>> columns() {
+  using Row = const CaseRow&;
+  constexpr auto tr = [](const char* text) { return CasesModel::tr(text); };
+  const auto error = [](std::optional<double> CaseRow::*value) {
+    return [value](Row row) {
+      return (row.*value).value_or(std::numeric_limits<double>::quiet_NaN());
+    };
+  };
+  return {
+      {tr("Case"), tr("The image's name."), -1, [](Row row) { return row.id; }},
+      {tr("State"),
+       tr("What has become of the case: new, running, converged, failed, annotated, validated, "
+          "rejected. Stale: its inputs or options have changed since its run."),
+       -1,
+       [](Row row) {
+         return CasesModel::stateText(row.state) +
+                (row.stale ? CasesModel::tr(", stale") : QString());
+       },
+       [](Row row) { return static_cast<int>(row.state); }},
+      {tr("Normal,\nmm"),
+       tr("Error of the result along the view axis at the end effector (at the camera where that "
+          "is not known), in mm, where the truth is known."),
+       3, error(&CaseRow::normal_mm)},
+      {tr("Lateral,\nmm"),
+       tr("Error of the result across the view axis at the end effector (at the camera where that "
+          "is not known), in mm, where the truth is known."),
+       3, error(&CaseRow::lateral_mm)},
+      {tr("Turned,\ndeg"),
+       tr("Angle between the view axes of the result and the truth, in degrees, where that is "
+          "known."),
+       3, error(&CaseRow::rotation_deg)},
+  };
 }
 
 }  // namespace
@@ -53,32 +75,15 @@ CaseState caseStateOf(sessions::CaseStanding standing) {
   return CaseState::kNew;
 }
 
-CasesModel::CasesModel(QObject* parent) : QAbstractTableModel(parent) {}
-
-bool CasesModel::hasSameIds(const std::vector<CaseRow>& rows) const {
-  return std::equal(rows.begin(), rows.end(), rows_.begin(), rows_.end(),
-                    [](const CaseRow& a, const CaseRow& b) { return a.id == b.id; });
-}
+CasesModel::CasesModel(QObject* parent) : RowsModel(columns(), parent) {}
 
 void CasesModel::setRows(std::vector<CaseRow> rows) {
-  if (!hasSameIds(rows)) {
-    beginResetModel();
-    rows_ = std::move(rows);
-    endResetModel();
-    return;
-  }
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows_[i] == rows[i]) continue;
-    rows_[i] = std::move(rows[i]);
-    const int row = static_cast<int>(i);
-    Q_EMIT dataChanged(index(row, 0), index(row, kColumnCount - 1));
-  }
+  if (rows != this->rows())
+    setRowsByKey(std::move(rows), [](const CaseRow& row) { return row.id; });
 }
 
 int CasesModel::rowOf(const QString& id) const {
-  const auto found =
-      std::find_if(rows_.begin(), rows_.end(), [&id](const CaseRow& row) { return row.id == id; });
-  return found == rows_.end() ? -1 : static_cast<int>(found - rows_.begin());
+  return firstRow([&id](const CaseRow& row) { return row.id == id; });
 }
 
 QString CasesModel::stateText(CaseState state) {
@@ -101,56 +106,10 @@ QString CasesModel::stateText(CaseState state) {
   return {};
 }
 
-int CasesModel::rowCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : static_cast<int>(rows_.size());
-}
-
-int CasesModel::columnCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : kColumnCount;
-}
-
-QVariant CasesModel::data(const QModelIndex& index, int role) const {
-  if (!index.isValid() || index.row() >= rowCount()) return {};
-  const CaseRow& row = caseAt(index.row());
-  const int column = index.column();
-  switch (role) {
-    case Qt::DisplayRole:
-      if (column == kCase) return row.id;
-      if (column != kState) return numberText(errorOf(row, column), 3);
-      return stateText(row.state) + (row.stale ? tr(", stale") : QString());
-    case Qt::DecorationRole:
-      if (column != kCase || row.thumbnail.isNull()) return {};
-      return QIcon(QPixmap::fromImage(row.thumbnail));  // drawn in the view's size
-    case Qt::ToolTipRole:
-      return tooltipOf(row);
-    case Qt::TextAlignmentRole:
-      return static_cast<int>((isError(column) ? Qt::AlignRight : Qt::AlignLeft) |
-                              Qt::AlignVCenter);
-    case kSortRole:
-      if (column == kCase) return row.id;
-      return column == kState ? QVariant(static_cast<int>(row.state)) : errorOf(row, column);
-    default:
-      return {};
-  }
-}
-
-QVariant CasesModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation != Qt::Horizontal || section < 0 || section >= kColumnCount) return {};
-  const QString titles[] = {tr("Case"), tr("State"), tr("Normal,\nmm"), tr("Lateral,\nmm"),
-                            tr("Turned,\ndeg")};
-  const QString help[] = {
-      tr("The image's name."),
-      tr("What has become of the case: new, running, converged, failed, annotated, validated, "
-         "rejected. Stale: its inputs or options have changed since its run."),
-      tr("Error of the result along the view axis at the end effector (at the camera where that is "
-         "not known), in mm, where the truth is known."),
-      tr("Error of the result across the view axis at the end effector (at the camera where that "
-         "is not known), in mm, where the truth is known."),
-      tr("Angle between the view axes of the result and the truth, in degrees, where that is "
-         "known.")};
-  if (role == Qt::DisplayRole) return titles[section];
-  if (role == Qt::ToolTipRole) return help[section];
-  return {};
+QVariant CasesModel::look(const CaseRow& row, int column, int role) const {
+  if (role == Qt::ToolTipRole) return tooltipOf(row);
+  if (role != Qt::DecorationRole || column != kCase || row.thumbnail.isNull()) return {};
+  return QIcon(QPixmap::fromImage(row.thumbnail));  // drawn in the view's size
 }
 
 }  // namespace boresight::ui

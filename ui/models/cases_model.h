@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include <QAbstractTableModel>
 #include <QImage>
 #include <QString>
 
 #include "sessions/review/standing.h"
+#include "ui/models/rows_model.h"
 
 namespace boresight::ui {
 
@@ -35,32 +35,22 @@ struct CaseRow {
 };
 
 /// The images of a session. New rows of the same ids change in place, so that selections stay.
-class CasesModel : public QAbstractTableModel {
+class CasesModel : public RowsModel<CaseRow> {
   Q_OBJECT
 
  public:
-  enum Column { kCase, kState, kNormal_mm, kLateral_mm, kRotation_deg, kColumnCount };
-  /// What a column sorts by: text, or a number.
-  static constexpr int kSortRole = Qt::UserRole;
+  enum Column { kCase, kState, kNormal_mm, kLateral_mm, kRotation_deg };
 
   explicit CasesModel(QObject* parent = nullptr);
 
   void setRows(std::vector<CaseRow> rows);
-  const CaseRow& caseAt(int row) const { return rows_[static_cast<std::size_t>(row)]; }
   /// -1 where there is none.
   int rowOf(const QString& id) const;
   /// A word with a sign of its own shape before it.
   static QString stateText(CaseState state);
 
-  int rowCount(const QModelIndex& parent = {}) const override;
-  int columnCount(const QModelIndex& parent = {}) const override;
-  QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
-  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
-
- private:
-  bool hasSameIds(const std::vector<CaseRow>& rows) const;
-
-  std::vector<CaseRow> rows_;
+ protected:
+  QVariant look(const CaseRow& row, int column, int role) const override;
 };
 
 }  // namespace boresight::ui

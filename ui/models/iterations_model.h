@@ -2,17 +2,22 @@
 #pragma once
 
 #include <memory>
-#include <vector>
-
-#include <QAbstractTableModel>
 
 #include "sessions/run/trace.h"
+#include "ui/models/rows_model.h"
 
 namespace boresight::ui {
 
+/// The seed, or an iteration as its run tells of it.
+struct IterationRow {
+  QString name;                                           ///< "2.3", or "seed"
+  std::shared_ptr<const sessions::IterationTrace> trace;  ///< nullptr: the seed
+  QString status;
+};
+
 /// A run as a table: the seed, then one row per iteration. A snapshot that continues the one
 /// before appends rows and keeps selections.
-class IterationsModel : public QAbstractTableModel {
+class IterationsModel : public RowsModel<IterationRow> {
   Q_OBJECT
 
  public:
@@ -35,11 +40,7 @@ class IterationsModel : public QAbstractTableModel {
     kMatching_ms,
     kPose_ms,
     kStatus,
-    kColumnCount,
   };
-  /// A cell's number as it is, unrounded; NaN where there is none.
-  static constexpr int kNumberRole = Qt::UserRole;
-
   using SnapshotPtr = std::shared_ptr<const sessions::LocalizationTrace>;
 
   explicit IterationsModel(QObject* parent = nullptr);
@@ -51,22 +52,13 @@ class IterationsModel : public QAbstractTableModel {
   static int iterationOf(int row) { return row - 1; }
   /// "2.3": the third iteration of the second attempt; "seed" for -1.
   QString iterationName(int iteration) const;
+  /// A cell's number as it is, unrounded; NaN where there is none.
   double number(int iteration, Column column) const;
 
-  int rowCount(const QModelIndex& parent = {}) const override;
-  int columnCount(const QModelIndex& parent = {}) const override;
-  QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
-  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+ protected:
+  QVariant look(const IterationRow& row, int column, int role) const override;
 
  private:
-  int iterationCount() const;
-  bool continues(const sessions::LocalizationTrace& next) const;
-  const sessions::IterationTrace& iteration(int index) const;
-  QString text(int index, Column column) const;
-  QString statusOf(int index) const;
-  QString hypothesisText(int index) const;
-  QString hypothesesList(int index) const;
-
   SnapshotPtr snapshot_;
 };
 

@@ -5,13 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include <QBrush>
-#include <QFont>
-#include <QGuiApplication>
-#include <QPalette>
-
-#include "ui/models/marks_columns.h"
-#include "ui/models/number_text.h"
+#include <QtWidgets>
 
 namespace boresight::ui {
 namespace {
@@ -25,9 +19,88 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMillimetres = 1e3;
 
 template <class Pair>
-MarkFacts commonFacts(const Pair& pair) {
-  return {nullptr,      nullptr,     pair.id,         pair.comment, pair.sigma_px,
-          pair.enabled, pair.locked, pair.complete(), {},           {}};
+MarkRow commonRow(const Pair& pair) {
+  MarkRow row;
+  row.id = pair.id;
+  row.comment = pair.comment;
+  row.sigma_px = pair.sigma_px;
+  row.enabled = pair.enabled;
+  row.locked = pair.locked;
+  row.complete = pair.complete();
+  return row;
+}
+
+using Row = const MarkRow&;
+using Solved = const sessions::SolvedMark&;
+
+auto solved(double (*value)(Solved)) {
+  return [value](Row mark) {
+    return mark.solved && mark.solved->projected ? value(*mark.solved) : kNone;
+  };
+}
+auto leftOut(double sessions::LeftOut::*value) {
+  return [value](Row mark) {
+    return mark.left_out && mark.left_out->determined ? (*mark.left_out).*value : kNone;
+  };
+}
+auto coordinate(int axis) {
+  return [axis](Row mark) {
+    return mark.point_in_station_m ? kMillimetres * (*mark.point_in_station_m)[axis] : kNone;
+  };
+}
+
+std::vector<TableColumn<MarkRow>> columns() {
+  constexpr auto tr = [](const char* text) { return MarksModel::tr(text); };
+  return {
+      {tr("On"), tr("Whether the mark takes part in solving. One that is off is kept."), -1,
+       [](Row) { return QString(); }, [](Row mark) { return mark.enabled ? 0 : 1; }},
+      {tr("Mark"), tr("Its name; landmarks keep theirs over images. Double click renames."), -1,
+       [](Row mark) { return fromText(mark.id); }},
+      {tr("u, px"),
+       tr("Where it was seen, pixels to the right of the centre of the top-left pixel; of a line "
+          "its first place."),
+       2, [](Row mark) { return mark.pixel ? mark.pixel->x() : kNone; }},
+      {tr("v, px"),
+       tr("Where it was seen, pixels below the centre of the top-left pixel; of a line its first "
+          "place."),
+       2, [](Row mark) { return mark.pixel ? mark.pixel->y() : kNone; }},
+      {tr("dx, px"),
+       tr("Seen minus predicted, to the right; of a line the distance of its first end across the "
+          "edge."),
+       2, solved([](Solved mark) { return mark.residual_px[0]; })},
+      {tr("dy, px"),
+       tr("Seen minus predicted, downwards; of a line the distance of its second end across the "
+          "edge."),
+       2, solved([](Solved mark) { return mark.residual_px[1]; })},
+      {tr("Sigmas"),
+       tr("The residual in units of its own standard deviation; above 3 the mark stands out."), 1,
+       solved([](Solved mark) { return mark.normalized; })},
+      {tr("Middle without, mm"),
+       tr("How far the middle of the marked places moves when the pose is solved without this "
+          "mark, in millimetres."),
+       3, leftOut(&sessions::LeftOut::translation_mm)},
+      {tr("Without, mrad"),
+       tr("How far the pose turns when it is solved without this mark, in milliradians."), 3,
+       leftOut(&sessions::LeftOut::rotation_mrad)},
+      {tr("dx, mm"), tr("The same at the mark's distance from the camera, in millimetres."), 3,
+       solved([](Solved mark) { return mark.residual_mm[0]; })},
+      {tr("dy, mm"), tr("The same at the mark's distance from the camera, in millimetres."), 3,
+       solved([](Solved mark) { return mark.residual_mm[1]; })},
+      {tr("X, mm"), tr("Its place of the station, station frame; of a line the edge's start."), 3,
+       coordinate(0)},
+      {tr("Y, mm"), tr("Its place of the station, station frame; of a line the edge's start."), 3,
+       coordinate(1)},
+      {tr("Z, mm"), tr("Its place of the station, station frame; of a line the edge's start."), 3,
+       coordinate(2)},
+      {tr("Sigma, px"),
+       tr("Standard deviation of the place in the image per axis; of a line, of either end across "
+          "the edge."),
+       2, [](Row mark) { return mark.sigma_px; }},
+      {tr("Lock"), tr("A locked mark cannot be moved or removed by accident."), -1,
+       [](Row) { return QString(); }, [](Row mark) { return mark.locked ? 0 : 1; }},
+      {tr("Comment"), tr("Anything worth knowing of the mark. Double click edits."), -1,
+       [](Row mark) { return fromText(mark.comment); }},
+  };
 }
 
 /// What points and lines have in common.
@@ -92,166 +165,108 @@ QString editText(int column, const std::string& id, bool on) {
 
 }  // namespace
 
-MarksModel::MarksModel(QObject* parent) : QAbstractTableModel(parent) {}
-
-MarkFacts MarksModel::factsOf(int row) const {
-  const auto index = static_cast<std::size_t>(row);
-  if (index < marks_.points.size()) {
-    const PointPair& point = marks_.points[index];
-    MarkFacts facts = commonFacts(point);
-    facts.point = &point;
-    facts.pixel = point.pixel;
-    facts.point_in_station_m = point.point_in_station_m;
-    return facts;
-  }
-  const LinePair& line = marks_.lines[index - marks_.points.size()];
-  MarkFacts facts = commonFacts(line);
-  facts.line = &line;
-  if (line.line) facts.pixel = line.line->start;
-  if (line.edge) facts.point_in_station_m = line.edge->start_in_station_m;
-  return facts;
-}
+MarksModel::MarksModel(QObject* parent) : RowsModel(columns(), parent) {}
 
 int MarksModel::rowOf(const std::string& id) const {
-  for (int row = 0; row < rowCount(); ++row)
-    if (idOf(row) == id) return row;
-  return -1;
-}
-
-bool MarksModel::standsOut(int row) const {
-  const auto& solved = judged_[static_cast<std::size_t>(row)].solved;
-  return solved && solved->standsOut();
+  return firstRow([&id](const MarkRow& row) { return row.id == id; });
 }
 
 void MarksModel::setMarks(const sessions::Marks& marks) {
-  bool same_rows =
-      marks.points.size() == marks_.points.size() && marks.lines.size() == marks_.lines.size();
-  if (!same_rows) {
-    beginResetModel();
-    marks_ = marks;
-    judge();
-    endResetModel();
-    return;
-  }
-  // An editor that is open and the chosen row stay.
   marks_ = marks;
-  judge();
-  if (rowCount() > 0) Q_EMIT dataChanged(index(0, 0), index(rowCount() - 1, kColumnCount - 1));
+  fillRows();
 }
 
 void MarksModel::setSolution(SolutionPtr solution, bool stale) {
   solution_ = std::move(solution);
   stale_ = stale;
-  judge();
-  if (rowCount() > 0)
-    Q_EMIT dataChanged(index(0, kResidualX_px), index(rowCount() - 1, kResidualY_mm));
+  fillRows();
 }
 
-/// What the solution says of each row; by name, since rows may have come and gone.
-void MarksModel::judge() {
-  judged_.assign(static_cast<std::size_t>(rowCount()), {});
-  if (!solution_ || !solution_->result.solution) return;
-  const auto& views = solution_->marks.views;
-  for (const sessions::SolvedMark& mark : solution_->result.solution->marks) {
-    const int row = mark.address.view == 0 ? rowOf(sessions::markId(views, mark.address)) : -1;
-    if (row >= 0) judged_[static_cast<std::size_t>(row)].solved = mark;
+/// What the solution says of a row is found by name, since rows may have come and gone. An editor
+/// that is open and the chosen row stay while the number of rows does.
+void MarksModel::fillRows() {
+  std::vector<MarkRow> rows;
+  for (const PointPair& point : marks_.points) {
+    MarkRow& row = rows.emplace_back(commonRow(point));
+    row.point = &point;
+    row.pixel = point.pixel;
+    row.point_in_station_m = point.point_in_station_m;
   }
-  for (const sessions::LeftOut& left_out : solution_->left_out) {
-    const int row =
-        left_out.address.view == 0 ? rowOf(sessions::markId(views, left_out.address)) : -1;
-    if (row >= 0) judged_[static_cast<std::size_t>(row)].left_out = left_out;
+  for (const LinePair& line : marks_.lines) {
+    MarkRow& row = rows.emplace_back(commonRow(line));
+    row.line = &line;
+    if (line.line) row.pixel = line.line->start;
+    if (line.edge) row.point_in_station_m = line.edge->start_in_station_m;
   }
-}
-
-int MarksModel::rowCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : static_cast<int>(marks_.points.size() + marks_.lines.size());
-}
-
-int MarksModel::columnCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : kColumnCount;
-}
-
-double MarksModel::numberOf(int row, int column) const {
-  const Judged& judged = judged_[static_cast<std::size_t>(row)];
-  const MarkFacts facts = factsOf(row);
-  if (column == kU_px || column == kV_px)
-    return facts.pixel ? (*facts.pixel)[column - kU_px] : kNone;
-  if (column >= kX_mm && column <= kZ_mm)
-    return facts.point_in_station_m ? kMillimetres * (*facts.point_in_station_m)[column - kX_mm]
-                                    : kNone;
-  if (column == kSigma_px) return facts.sigma_px;
-  if (column == kOn) return facts.enabled ? 0 : 1;
-  if (column == kLocked) return facts.locked ? 0 : 1;
-  if (column == kWithout_mm || column == kWithout_mrad) {
-    if (!judged.left_out || !judged.left_out->determined) return kNone;
-    return column == kWithout_mm ? judged.left_out->translation_mm : judged.left_out->rotation_mrad;
+  if (solution_ && solution_->result.solution) {
+    const auto fill = [this, &rows](const auto& judged, auto member) {
+      for (const auto& one : judged)
+        for (MarkRow& row : rows)
+          if (one.address.view == 0 &&
+              row.id == sessions::markId(solution_->marks.views, one.address))
+            row.*member = one;
+    };
+    fill(solution_->result.solution->marks, &MarkRow::solved);
+    fill(solution_->left_out, &MarkRow::left_out);
   }
-  if (!judged.solved || !judged.solved->projected) return kNone;
-  switch (column) {
-    case kResidualX_px:
-    case kResidualY_px:
-      return judged.solved->residual_px[column - kResidualX_px];
-    case kResidualX_mm:
-    case kResidualY_mm:
-      return judged.solved->residual_mm[column - kResidualX_mm];
-    case kNormalized:
-      return judged.solved->normalized;
-    default:
-      return kNone;
-  }
+  const bool same_count = static_cast<int>(rows.size()) == rowCount();
+  setRows(std::move(rows), same_count);
 }
 
-QVariant MarksModel::display(int row, int column) const {
-  if (column == kOn || column == kLocked) return {};
-  if (column == kName) return fromText(idOf(row));
-  if (column == kComment) return fromText(factsOf(row).comment);
-  const double value = numberOf(row, column);
-  if (column == kNormalized && standsOut(row))
-    return tr("%1 !").arg(numberText(value, kMarksColumns[kNormalized].decimals));
-  const Judged& judged = judged_[static_cast<std::size_t>(row)];
-  if (column == kWithout_mm && judged.left_out && !judged.left_out->determined)
-    return tr("no pose");
-  if (column == kResidualX_px && judged.solved && !judged.solved->projected) return tr("not seen");
-  return numberText(value, kMarksColumns[static_cast<std::size_t>(column)].decimals);
-}
-
-/// How a row looks: half-made pairs slanted, outliers bold, what is off or out of date dimmed.
-QVariant MarksModel::state(int row, int column) const {
-  const MarkFacts facts = factsOf(row);
-  QFont font;
-  font.setItalic(!facts.complete);
-  font.setBold(column >= kResidualX_px && column <= kNormalized && standsOut(row));
-  font.setStrikeOut(!facts.enabled && column == kName);
-  return font;
-}
-
-QVariant MarksModel::data(const QModelIndex& index, int role) const {
-  if (!index.isValid() || index.row() >= rowCount()) return {};
-  const int row = index.row();
-  const int column = index.column();
-  const ColumnInfo& info = kMarksColumns[static_cast<std::size_t>(column)];
+/// Half-made pairs are slanted, outliers bold, what is off struck out, what is out of date dimmed.
+QVariant MarksModel::look(const MarkRow& row, int column, int role) const {
+  const bool switches = column == kOn || column == kLocked;
   switch (role) {
     case Qt::DisplayRole:
-      return display(row, column);
-    case Qt::EditRole:
-      return info.decimals < 0 ? display(row, column)
-                               : QVariant(QString::number(numberOf(row, column), 'g', 10));
-    case Qt::CheckStateRole:
-      if (column != kOn && column != kLocked) return {};
-      return numberOf(row, column) == 0.0 ? Qt::Checked : Qt::Unchecked;
-    case Qt::FontRole:
-      return state(row, column);
-    case Qt::ForegroundRole: {
-      const bool judged = column >= kResidualX_px && column <= kResidualY_mm;
-      if (!(judged && stale_)) return {};
-      return QGuiApplication::palette().brush(QPalette::Disabled, QPalette::Text);
+      if (column == kNormalized && row.standsOut())
+        return tr("%1 !").arg(numberText(row.solved->normalized, 1));
+      if (column == kWithout_mm && row.left_out && !row.left_out->determined) return tr("no pose");
+      if (column == kResidualX_px && row.solved && !row.solved->projected) return tr("not seen");
+      return {};
+    case Qt::EditRole: {
+      const QVariant value = valueOf(row, column);
+      return value.userType() == QMetaType::QString ? value
+                                                    : QString::number(value.toDouble(), 'g', 10);
     }
-    case kNumberRole:
-      if (column == kName || column == kComment) return display(row, column);
-      return numberOf(row, column);
+    case Qt::CheckStateRole:
+      if (!switches) return {};
+      return (column == kOn ? row.enabled : row.locked) ? Qt::Checked : Qt::Unchecked;
+    case Qt::FontRole: {
+      QFont font;
+      font.setItalic(!row.complete);
+      font.setBold(column >= kResidualX_px && column <= kNormalized && row.standsOut());
+      font.setStrikeOut(!row.enabled && column == kName);
+      return font;
+    }
+    case Qt::ForegroundRole:
+      if (!stale_ || column < kResidualX_px || column > kResidualY_mm) return {};
+      return QGuiApplication::palette().brush(QPalette::Disabled, QPalette::Text);
     default:
-      return columnCell(kMarksContext, info, role);
+      return {};
   }
+}
+
+QStringList MarksModel::showNames() {
+  return {tr("All"), tr("In use"), tr("Off"), tr("Half made"), tr("Standing out"), tr("Lines")};
+}
+
+bool MarksModel::isShown(int row, Show show) const {
+  const MarkRow& mark = at(row);
+  switch (show) {
+    case Show::kAll:
+      return true;
+    case Show::kUsed:
+      return mark.enabled && mark.complete;
+    case Show::kOff:
+      return !mark.enabled;
+    case Show::kHalfMade:
+      return !mark.complete;
+    case Show::kStandOut:
+      return mark.standsOut();
+    case Show::kLines:
+      return mark.line != nullptr;
+  }
+  return true;
 }
 
 Qt::ItemFlags MarksModel::flags(const QModelIndex& index) const {
@@ -259,40 +274,36 @@ Qt::ItemFlags MarksModel::flags(const QModelIndex& index) const {
   if (!index.isValid()) return flags;
   const int column = index.column();
   if (column == kOn || column == kLocked) return flags | Qt::ItemIsUserCheckable;
-  const MarkFacts facts = factsOf(index.row());
+  const MarkRow& mark = at(index.row());
   const bool text = column == kName || column == kComment || column == kSigma_px;
   const bool coordinate =
       column == kU_px || column == kV_px || (column >= kX_mm && column <= kZ_mm);
-  const bool place = facts.point && coordinate && std::isfinite(numberOf(index.row(), column));
-  return (text || place) && !facts.locked ? flags | Qt::ItemIsEditable : flags;
+  const bool place = mark.point && coordinate && std::isfinite(valueOf(mark, column).toDouble());
+  return (text || place) && !mark.locked ? flags | Qt::ItemIsEditable : flags;
 }
 
 bool MarksModel::setData(const QModelIndex& index, const QVariant& value, int role) {
   const bool check = role == Qt::CheckStateRole;
   if (!index.isValid() || !(check || role == Qt::EditRole)) return false;
   if (check != (index.column() == kOn || index.column() == kLocked)) return false;
-  const MarkFacts facts = factsOf(index.row());
-  const std::string id = facts.id;  // the facts may go while the edit is told
+  const MarkRow& mark = at(index.row());
+  const std::string id = mark.id;  // the row may go while the edit is told
   const bool on = value.toInt() == Qt::Checked;
   const QString text = editText(index.column(), id, on);
-  if (facts.line) {
-    LinePair line = *facts.line;
+  if (mark.line) {
+    LinePair line = *mark.line;
     if (!change(line, index.column(), value)) return false;
-    if (!(line == *facts.line)) Q_EMIT lineEdited(id, line, text);
+    if (!(line == *mark.line)) Q_EMIT lineEdited(id, line, text);
     return true;
   }
-  PointPair point = *facts.point;
+  PointPair point = *mark.point;
   bool number = false;
   const double typed = value.toDouble(&number);
   if (!change(point, index.column(), value) &&
       !(number && changeCoordinate(point, index.column(), typed)))
     return false;
-  if (!(point == *facts.point)) Q_EMIT pointEdited(id, point, text);
+  if (!(point == *mark.point)) Q_EMIT pointEdited(id, point, text);
   return true;
-}
-
-QVariant MarksModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  return columnHeader(kMarksContext, kMarksColumns, section, orientation, role);
 }
 
 }  // namespace boresight::ui

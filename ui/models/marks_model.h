@@ -6,30 +6,33 @@
 #include <string>
 #include <vector>
 
-#include <QAbstractTableModel>
-
 #include "sessions/session/case_marks.h"
+#include "ui/models/rows_model.h"
 
 namespace boresight::ui {
 
-/// A row's mark and what points and lines have in common. Refers to the marks; valid until these
-/// change.
-struct MarkFacts {
-  const sessions::PointPair* point;  ///< nullptr where it is a line
-  const sessions::LinePair* line;    ///< nullptr where it is a point
-  const std::string& id;
-  const std::string& comment;
-  double sigma_px;
-  bool enabled;
-  bool locked;
-  bool complete;
+/// A row's mark: what points and lines have in common, and what the solved pose says of it. The
+/// pointers are valid until the marks change.
+struct MarkRow {
+  const sessions::PointPair* point = nullptr;  ///< nullptr where it is a line
+  const sessions::LinePair* line = nullptr;    ///< nullptr where it is a point
+  std::string id;
+  std::string comment;
+  double sigma_px = 0.0;
+  bool enabled = true;
+  bool locked = false;
+  bool complete = false;
   std::optional<Eigen::Vector2d> pixel;               ///< of a line its first place
   std::optional<Eigen::Vector3d> point_in_station_m;  ///< of a line the edge's start
+  std::optional<sessions::SolvedMark> solved;
+  std::optional<sessions::LeftOut> left_out;
+
+  bool standsOut() const { return solved && solved->standsOut(); }
 };
 
 /// The marks of one image, points before lines, one row each, with what the solved pose says of
 /// them. What a person edits is told, not done: who owns the marks answers by setting them anew.
-class MarksModel : public QAbstractTableModel {
+class MarksModel : public RowsModel<MarkRow> {
   Q_OBJECT
 
  public:
@@ -51,10 +54,9 @@ class MarksModel : public QAbstractTableModel {
     kSigma_px,
     kLocked,
     kComment,
-    kColumnCount,
   };
-  /// A cell as a number to sort by (texts sort by themselves); NaN where there is none.
-  static constexpr int kNumberRole = Qt::UserRole;
+  /// Which marks a list shows.
+  enum class Show { kAll, kUsed, kOff, kHalfMade, kStandOut, kLines };
 
   using SolutionPtr = std::shared_ptr<const sessions::CaseMarksSolution>;
 
@@ -65,17 +67,14 @@ class MarksModel : public QAbstractTableModel {
   void setSolution(SolutionPtr solution, bool stale);
 
   const sessions::Marks& marks() const { return marks_; }
-  MarkFacts factsOf(int row) const;
-  const std::string& idOf(int row) const { return factsOf(row).id; }
+  const std::string& idOf(int row) const { return at(row).id; }
   int rowOf(const std::string& id) const;  ///< -1 when there is none
-  bool standsOut(int row) const;           ///< of the solution, stale or not
+  /// The names of `Show`, in its order.
+  static QStringList showNames();
+  bool isShown(int row, Show show) const;
 
-  int rowCount(const QModelIndex& parent = {}) const override;
-  int columnCount(const QModelIndex& parent = {}) const override;
-  QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
   bool setData(const QModelIndex& index, const QVariant& value, int role = Qt::EditRole) override;
   Qt::ItemFlags flags(const QModelIndex& index) const override;
-  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
  Q_SIGNALS:
   /// What the mark of this id should become, and what to call it.
@@ -84,21 +83,15 @@ class MarksModel : public QAbstractTableModel {
   void lineEdited(const std::string& replaced, const boresight::sessions::LinePair& line,
                   const QString& text);
 
- private:
-  struct Judged {
-    std::optional<sessions::SolvedMark> solved;
-    std::optional<sessions::LeftOut> left_out;
-  };
+ protected:
+  QVariant look(const MarkRow& row, int column, int role) const override;
 
-  double numberOf(int row, int column) const;
-  QVariant display(int row, int column) const;
-  QVariant state(int row, int column) const;
-  void judge();
+ private:
+  void fillRows();
 
   sessions::Marks marks_;
   SolutionPtr solution_;
   bool stale_ = false;
-  std::vector<Judged> judged_;  ///< by row
 };
 
 }  // namespace boresight::ui

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <QAbstractItemModel>
+#include <QSortFilterProxyModel>
 
 #include "core/localizer/localizer_options.h"
 #include "sessions/io/option_value.h"
@@ -75,6 +76,24 @@ class OptionsModel : public QAbstractItemModel {
   std::vector<sessions::OptionDescription> now_;
   std::vector<sessions::OptionDescription> of_profile_;
   std::vector<Branch> branches_;
+};
+
+/// Options whose name or help holds every word of a text; all of them, or those that were changed.
+class OptionsFilter : public QSortFilterProxyModel {
+  Q_OBJECT
+
+ public:
+  explicit OptionsFilter(QObject* parent = nullptr);
+
+  void setWords(const QString& text);
+  void setChangedOnly(bool changed_only);
+
+ protected:
+  bool filterAcceptsRow(int row, const QModelIndex& parent) const override;
+
+ private:
+  QStringList words_;
+  bool changed_only_ = false;
 };
 
 }  // namespace boresight::ui

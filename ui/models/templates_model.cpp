@@ -1,133 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/models/templates_model.h"
 
-#include <array>
-#include <limits>
-
-#include <QCoreApplication>
-
-#include "ui/models/column_info.h"
-#include "ui/models/number_text.h"
-
 namespace boresight::ui {
 
 using sessions::MatchDetails;
 
 namespace {
 
-constexpr const char* kContext = "boresight::ui::TemplatesModel";
-
-constexpr std::array<ColumnInfo, TemplatesModel::kColumnCount> kColumns = {{
-    {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "Template"),
-     QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "Number of the template, from 1."), 0},
-    {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "x, px"),
-     QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel",
-                       "Predicted place of its centre, pixels of the full image to the right of "
-                       "the centre of the top-left pixel."),
-     1},
-    {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "y, px"),
-     QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel",
-                       "Predicted place of its centre, pixels of the full image below the centre "
-                       "of the top-left pixel."),
-     1},
-    {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "Depth, m"),
-     QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel",
-                       "Distance of its point from the camera along the view axis, in metres."),
-     3},
-    {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "Distinctness"),
-     QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel",
-                       "How many edge pixels hold the template in its weakest direction; 0 slides "
-                       "along a straight edge."),
-     1},
-    {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "dx, px"),
-     QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel",
-                       "From the predicted to the found place, in pixels of the full image."),
-     2},
-    {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "dy, px"),
-     QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel",
-                       "From the predicted to the found place, in pixels of the full image."),
-     2},
-    {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "Score S"),
-     QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel",
-                       "Weighted Hamming similarity at the found place, S+/c+ plus S-/c-; 2 is "
-                       "perfect."),
-     3},
-    {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "S+/c+"),
-     QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel",
-                       "Share of the template's edge pixels that meet an edge of the image."),
-     3},
-    {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "S-/c-"),
-     QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel",
-                       "Share of the template's empty pixels inside its mask that meet none."),
-     3},
-    {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "Margin, %"),
-     QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel",
-                       "By how much the best score exceeds the second peak's, in per cent of the "
-                       "best; a low one may be the wrong place."),
-     1},
-    {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "Residual, px"),
-     QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel",
-                       "Distance of the found place from where the solved pose puts the point, in "
-                       "pixels of the full image."),
-     2},
-    {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "Verdict"),
-     QT_TRANSLATE_NOOP(
-         "boresight::ui::TemplatesModel",
-         "Whether the match agrees with the solved pose within the threshold."),
-     -1},
-    {QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel", "Border"),
-     QT_TRANSLATE_NOOP("boresight::ui::TemplatesModel",
-                       "The peak lies on the border of the search window: the true place may lie "
-                       "beyond, and the seed's uncertainty may be stated too small."),
-     -1},
-}};
-
-const ColumnInfo& columnInfo(int column) { return kColumns[static_cast<std::size_t>(column)]; }
-
-double numberOf(const MatchDetails& one, int column) {
-  switch (column) {
-    case TemplatesModel::kNumber:
-      return one.index + 1;
-    case TemplatesModel::kX_px:
-      return one.predicted_px.x();
-    case TemplatesModel::kY_px:
-      return one.predicted_px.y();
-    case TemplatesModel::kDepth_m:
-      return one.depth_m;
-    case TemplatesModel::kDistinctness:
-      return one.distinctness;
-    case TemplatesModel::kDx_px:
-      return one.moved_px().x();
-    case TemplatesModel::kDy_px:
-      return one.moved_px().y();
-    case TemplatesModel::kScore:
-      return one.score;
-    case TemplatesModel::kEdgeShare:
-      return one.edge_share;
-    case TemplatesModel::kEmptyShare:
-      return one.empty_share;
-    case TemplatesModel::kMargin:
-      return 100.0 * one.margin;
-    case TemplatesModel::kResidual_px:
-      return one.residual_px;
-    case TemplatesModel::kVerdict:  // sorts inliers first
-      return one.inlier ? 0.0 : one.solved ? 1.0 : one.searched ? 2.0 : 3.0;
-    case TemplatesModel::kBorder:
-      return one.at_border ? 0.0 : 1.0;
-    default:
-      return std::numeric_limits<double>::quiet_NaN();
-  }
+std::vector<TableColumn<MatchDetails>> columns() {
+  using Row = const MatchDetails&;
+  constexpr auto tr = [](const char* text) { return TemplatesModel::tr(text); };
+  return {
+      {tr("Template"), tr("Number of the template, from 1."), 0,
+       [](Row one) { return one.index + 1; }},
+      {tr("x, px"),
+       tr("Predicted place of its centre, pixels of the full image to the right of the centre of "
+          "the top-left pixel."),
+       1, [](Row one) { return one.predicted_px.x(); }},
+      {tr("y, px"),
+       tr("Predicted place of its centre, pixels of the full image below the centre of the "
+          "top-left pixel."),
+       1, [](Row one) { return one.predicted_px.y(); }},
+      {tr("Depth, m"), tr("Distance of its point from the camera along the view axis, in metres."),
+       3, [](Row one) { return one.depth_m; }},
+      {tr("Distinctness"),
+       tr("How many edge pixels hold the template in its weakest direction; 0 slides along a "
+          "straight edge."),
+       1, [](Row one) { return one.distinctness; }},
+      {tr("dx, px"), tr("From the predicted to the found place, in pixels of the full image."), 2,
+       [](Row one) { return one.moved_px().x(); }},
+      {tr("dy, px"), tr("From the predicted to the found place, in pixels of the full image."), 2,
+       [](Row one) { return one.moved_px().y(); }},
+      {tr("Score S"),
+       tr("Weighted Hamming similarity at the found place, S+/c+ plus S-/c-; 2 is perfect."), 3,
+       [](Row one) { return one.score; }},
+      {tr("S+/c+"), tr("Share of the template's edge pixels that meet an edge of the image."), 3,
+       [](Row one) { return one.edge_share; }},
+      {tr("S-/c-"), tr("Share of the template's empty pixels inside its mask that meet none."), 3,
+       [](Row one) { return one.empty_share; }},
+      {tr("Margin, %"),
+       tr("By how much the best score exceeds the second peak's, in per cent of the best; a low "
+          "one may be the wrong place."),
+       1, [](Row one) { return 100.0 * one.margin; }},
+      {tr("Residual, px"),
+       tr("Distance of the found place from where the solved pose puts the point, in pixels of the "
+          "full image."),
+       2, [](Row one) { return one.residual_px; }},
+      {tr("Verdict"), tr("Whether the match agrees with the solved pose within the threshold."), -1,
+       [](Row one) { return TemplatesModel::verdictOf(one); },
+       [](Row one) {
+         return one.inlier ? 0 : one.solved ? 1 : one.searched ? 2 : 3;
+       }},
+      {tr("Border"),
+       tr("The peak lies on the border of the search window: the true place may lie beyond, and "
+          "the seed's uncertainty may be stated too small."),
+       -1, [](Row one) { return one.at_border ? TemplatesModel::tr("at border") : QString(); },
+       [](Row one) { return one.at_border ? 0 : 1; }},
+  };
 }
 
 }  // namespace
 
-TemplatesModel::TemplatesModel(QObject* parent) : QAbstractTableModel(parent) {}
+TemplatesModel::TemplatesModel(QObject* parent) : RowsModel(columns(), parent) {}
 
 void TemplatesModel::setIteration(const sessions::IterationTrace* iteration) {
-  beginResetModel();
-  details_ = iteration ? sessions::matchDetails(*iteration) : std::vector<MatchDetails>();
   reached_match_ = iteration && iteration->reached >= Stage::kMatch;
-  endResetModel();
+  setRows(iteration ? sessions::matchDetails(*iteration) : std::vector<MatchDetails>(), false);
 }
 
 QString TemplatesModel::verdictOf(const MatchDetails& details) {
@@ -136,32 +74,37 @@ QString TemplatesModel::verdictOf(const MatchDetails& details) {
   return details.searched ? tr("found") : tr("not searched");
 }
 
-int TemplatesModel::rowCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : static_cast<int>(details_.size());
+QVariant TemplatesModel::look(const MatchDetails& /*row*/, int column, int role) const {
+  const bool unknown = column == kVerdict && role == Qt::DisplayRole && !reached_match_;
+  return unknown ? QString() : QVariant();
 }
 
-int TemplatesModel::columnCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : kColumnCount;
+QStringList TemplatesModel::showNames() {
+  return {tr("All"),
+          tr("Inliers"),
+          tr("Outliers"),
+          tr("Low margin (under %1 %)").arg(100.0 * sessions::kLowMargin),
+          tr("At the window's border"),
+          tr("Not searched")};
 }
 
-QVariant TemplatesModel::data(const QModelIndex& index, int role) const {
-  if (!index.isValid() || index.row() >= rowCount()) return {};
-  const MatchDetails& one = details(index.row());
-  const ColumnInfo& info = columnInfo(index.column());
-  switch (role) {
-    case Qt::DisplayRole:
-      if (index.column() == kVerdict) return reached_match_ ? verdictOf(one) : QString();
-      if (index.column() == kBorder) return one.at_border ? tr("at border") : QString();
-      return numberText(numberOf(one, index.column()), info.decimals);
-    case kNumberRole:
-      return numberOf(one, index.column());
-    default:
-      return columnCell(kContext, info, role);
+bool TemplatesModel::isShown(int row, Show show) const {
+  const MatchDetails& one = at(row);
+  switch (show) {
+    case Show::kAll:
+      return true;
+    case Show::kInliers:
+      return one.inlier;
+    case Show::kOutliers:
+      return one.solved && !one.inlier;
+    case Show::kLowMargin:
+      return one.hasLowMargin();
+    case Show::kAtBorder:
+      return one.at_border;
+    case Show::kNotSearched:
+      return !one.searched;
   }
-}
-
-QVariant TemplatesModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  return columnHeader(kContext, kColumns, section, orientation, role);
+  return true;
 }
 
 }  // namespace boresight::ui

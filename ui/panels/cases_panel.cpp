@@ -4,19 +4,9 @@
 #include <algorithm>
 #include <utility>
 
-#include <QComboBox>
-#include <QHBoxLayout>
-#include <QHeaderView>
-#include <QLabel>
-#include <QLineEdit>
-#include <QPushButton>
-#include <QStyle>
-#include <QStyledItemDelegate>
-#include <QTableView>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
-#include "ui/panels/empty_hint.h"
-#include "ui/panels/table_style.h"
+#include "ui/panels/widgets.h"
 
 namespace boresight::ui {
 namespace {
@@ -61,40 +51,45 @@ CasesPanel::CasesPanel(QWidget* parent) : QWidget(parent) {
   column->addWidget(table_, 1);
   auto* bottom = new QHBoxLayout;
   count_ = new QLabel(this);
-  run_ = new QPushButton(tr("Run"), this);
-  run_->setObjectName(QStringLiteral("run"));
-  run_->setToolTip(tr("Run the chosen case from its seed to the end."));
-  run_all_ = new QPushButton(tr("Run all"), this);
-  run_all_->setObjectName(QStringLiteral("runAll"));
-  run_all_->setToolTip(tr("Run the cases that are listed, one after the other."));
+  run_ = named(new QPushButton(tr("Run"), this), "run",
+               tr("Run the chosen case from its seed to the end."));
+  run_all_ = named(new QPushButton(tr("Run all"), this), "runAll",
+                   tr("Run the cases that are listed, one after the other."));
   bottom->addWidget(count_, 1);
   bottom->addWidget(run_);
   bottom->addWidget(run_all_);
   column->addLayout(bottom);
   connect(text_, &QLineEdit::textChanged, this, [this](const QString& text) {
-    filter_.setText(text);
-    setCurrent(current_);
+    text_shown_ = text.trimmed();
+    applyFilter();
   });
   connect(state_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
-    filter_.setState(index > 0 ? std::optional(static_cast<CaseState>(index - 1)) : std::nullopt);
-    setCurrent(current_);
+    state_shown_ = index > 0 ? std::optional(static_cast<CaseState>(index - 1)) : std::nullopt;
+    applyFilter();
   });
   connect(run_, &QPushButton::clicked, this, [this] { Q_EMIT runRequested(chosen()); });
   connect(run_all_, &QPushButton::clicked, this, [this] { Q_EMIT runAllRequested(listed()); });
   showCount();
 }
 
+/// Cases whose id or station holds the text, in the state or in any.
+void CasesPanel::applyFilter() {
+  filter_.setCondition([this](int row) {
+    const CaseRow& one = model_.at(row);
+    return (!state_shown_ || one.state == *state_shown_) &&
+           (one.id.contains(text_shown_, Qt::CaseInsensitive) ||
+            one.station.contains(text_shown_, Qt::CaseInsensitive));
+  });
+  setCurrent(current_);
+}
+
 void CasesPanel::buildTable() {
-  table_ = new QTableView(this);
-  table_->setObjectName(QStringLiteral("cases"));
-  table_->setAccessibleName(tr("Cases"));
-  table_->setModel(&filter_);
-  styleTable(*table_);
+  table_ = newTable("cases", tr("Cases"), filter_, this);
   table_->setIconSize({kThumbnail_px, kThumbnail_px});
   table_->verticalHeader()->setDefaultSectionSize(kThumbnail_px + 4);
   table_->setItemDelegateForColumn(CasesModel::kCase, new NameAndState(table_));
   // The state is in the first column too; its own one is there to sort by.
-  table_->horizontalHeader()->moveSection(CasesModel::kState, CasesModel::kColumnCount - 1);
+  table_->horizontalHeader()->moveSection(CasesModel::kState, CasesModel::kRotation_deg);
   table_->setSortingEnabled(true);
   table_->sortByColumn(CasesModel::kCase, Qt::AscendingOrder);
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
@@ -106,7 +101,7 @@ void CasesPanel::setRows(std::vector<CaseRow> rows) {
   showing_ = true;
   model_.setRows(std::move(rows));
   showing_ = false;
-  fitColumns(*table_);
+  table_->resizeColumnsToContents();
   whole_case_ = table_->columnWidth(CasesModel::kCase);
   // Headers would keep room for the sign of the order in every column.
   const QFontMetrics metrics = table_->fontMetrics();

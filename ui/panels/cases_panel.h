@@ -4,16 +4,13 @@
 #include <QStringList>
 #include <QWidget>
 
-#include "ui/models/cases_filter.h"
 #include "ui/models/cases_model.h"
 
-QT_BEGIN_NAMESPACE
 class QComboBox;
 class QLabel;
 class QLineEdit;
 class QPushButton;
 class QTableView;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 
@@ -45,13 +42,16 @@ class CasesPanel : public QWidget {
 
  private:
   void buildTable();
+  void applyFilter();
   void fitCaseColumn();
   QString chosen() const;
   void chooseRow(const QModelIndex& current);
   void showCount();
 
   CasesModel model_;
-  CasesFilter filter_;
+  RowsFilter filter_;
+  QString text_shown_;  ///< what the filter looks for
+  std::optional<CaseState> state_shown_;
   QLineEdit* text_ = nullptr;
   QComboBox* state_ = nullptr;
   QTableView* table_ = nullptr;

@@ -2,24 +2,98 @@
 #include "ui/panels/configuration_panel.h"
 
 #include <algorithm>
+#include <limits>
 
-#include <QAction>
-#include <QCheckBox>
-#include <QComboBox>
-#include <QFrame>
-#include <QHBoxLayout>
-#include <QHeaderView>
-#include <QLabel>
-#include <QLineEdit>
-#include <QPushButton>
-#include <QSignalBlocker>
-#include <QTreeView>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "ui/models/number_text.h"
-#include "ui/panels/option_delegate.h"
+#include "ui/models/options_model.h"
+#include "ui/panels/widgets.h"
 
 namespace boresight::ui {
+
+using sessions::OptionDescription;
+using sessions::OptionKind;
+
+namespace {
+
+constexpr int kLowest = std::numeric_limits<int>::min();
+constexpr int kHighest = std::numeric_limits<int>::max();
+
+/// Arrows and wheel stay in range; what is typed may leave it, so that the refusal can be told
+/// instead of the number being changed silently.
+class IntegerBox : public QSpinBox {
+ public:
+  IntegerBox(int low, int high, QWidget* parent) : QSpinBox(parent), low_(low), high_(high) {
+    setRange(kLowest, kHighest);
+    setFrame(false);
+  }
+  void stepBy(int steps) override { setValue(std::clamp(value() + steps, low_, high_)); }
+
+ private:
+  int low_;
+  int high_;
+};
+
+const OptionDescription* describe(const QModelIndex& index) {
+  QModelIndex source = index;
+  while (const auto* proxy = qobject_cast<const QAbstractProxyModel*>(source.model()))
+    source = proxy->mapToSource(source);
+  const auto* model = qobject_cast<const OptionsModel*>(source.model());
+  return model ? model->option(source) : nullptr;
+}
+
+bool fitsInteger(const OptionDescription& option) {
+  return option.kind == OptionKind::kInteger && option.minimum >= kLowest &&
+         option.maximum <= kHighest;
+}
+
+}  // namespace
+
+QWidget* OptionDelegate::createEditor(QWidget* parent, const QStyleOptionViewItem& /*option*/,
+                                      const QModelIndex& index) const {
+  const OptionDescription* option = describe(index);
+  if (option == nullptr) return nullptr;
+  QWidget* editor = nullptr;
+  if (option->kind == OptionKind::kChoice) {
+    auto* box = new QComboBox(parent);
+    for (const std::string& choice : option->choices) box->addItem(fromText(choice));
+    editor = box;
+  } else if (fitsInteger(*option)) {
+    editor = new IntegerBox(static_cast<int>(option->minimum), static_cast<int>(option->maximum),
+                            parent);
+  } else {
+    auto* line = new QLineEdit(parent);
+    line->setFrame(false);
+    editor = line;
+  }
+  editor->setAutoFillBackground(true);
+  editor->setToolTip(tr("%1 %2").arg(OptionsModel::rangeText(*option), fromText(option->unit)));
+  return editor;
+}
+
+void OptionDelegate::setEditorData(QWidget* editor, const QModelIndex& index) const {
+  const QString text = index.data(Qt::EditRole).toString();
+  if (auto* box = qobject_cast<QComboBox*>(editor)) {
+    box->setCurrentText(text);
+  } else if (auto* number = qobject_cast<QSpinBox*>(editor)) {
+    number->setValue(text.toInt());
+  } else if (auto* line = qobject_cast<QLineEdit*>(editor)) {
+    line->setText(text);
+  }
+}
+
+void OptionDelegate::setModelData(QWidget* editor, QAbstractItemModel* model,
+                                  const QModelIndex& index) const {
+  if (auto* box = qobject_cast<QComboBox*>(editor)) {
+    model->setData(index, box->currentText());
+  } else if (auto* number = qobject_cast<QSpinBox*>(editor)) {
+    number->interpretText();
+    model->setData(index, QString::number(number->value()));
+  } else if (auto* line = qobject_cast<QLineEdit*>(editor)) {
+    model->setData(index, line->text());
+  }
+}
 
 ConfigurationPanel::ConfigurationPanel(ViewState& view, QWidget* parent)
     : QWidget(parent), view_(view) {
@@ -30,8 +104,7 @@ ConfigurationPanel::ConfigurationPanel(ViewState& view, QWidget* parent)
   column->addWidget(buildStale());
   buildTree();
   column->addWidget(tree_, 1);
-  help_ = new QLabel(this);
-  help_->setObjectName(QStringLiteral("help"));
+  help_ = named(new QLabel(this), "help");
   help_->setWordWrap(true);
   help_->setTextFormat(Qt::PlainText);
   help_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
@@ -43,7 +116,7 @@ ConfigurationPanel::ConfigurationPanel(ViewState& view, QWidget* parent)
   });
   connect(&model_, &QAbstractItemModel::modelReset, tree_, &QTreeView::expandAll);
   connect(&model_, &OptionsModel::refused, this, &ConfigurationPanel::showMessage);
-  connect(&view_, &ViewState::snapshotChanged, this, &ConfigurationPanel::showStale);
+  view_.onChange(ViewChange::kSnapshot, this, &ConfigurationPanel::showStale);
   setOptions(model_.profile(), model_.options());
 }
 
@@ -86,15 +159,13 @@ QVBoxLayout* ConfigurationPanel::buildTop() {
 }
 
 QFrame* ConfigurationPanel::buildStale() {
-  stale_ = new QFrame(this);
-  stale_->setObjectName(QStringLiteral("stale"));
+  stale_ = named(new QFrame(this), "stale");
   stale_->setFrameShape(QFrame::StyledPanel);
   auto* row = new QHBoxLayout(stale_);
   row->setContentsMargins(8, 4, 8, 4);
   stale_text_ = new QLabel(stale_);
   stale_text_->setWordWrap(true);
-  auto* again = new QPushButton(tr("Run again with these"), stale_);
-  again->setObjectName(QStringLiteral("runAgain"));
+  auto* again = named(new QPushButton(tr("Run again with these"), stale_), "runAgain");
   row->addWidget(stale_text_, 1);
   row->addWidget(again);
   connect(again, &QPushButton::clicked, this, &ConfigurationPanel::runAgainRequested);
@@ -102,8 +173,7 @@ QFrame* ConfigurationPanel::buildStale() {
 }
 
 void ConfigurationPanel::buildTree() {
-  tree_ = new QTreeView(this);
-  tree_->setObjectName(QStringLiteral("options"));
+  tree_ = named(new QTreeView(this), "options");
   tree_->setAccessibleName(tr("Options"));
   tree_->setModel(&filter_);
   tree_->header()->moveSection(OptionsModel::kReset, OptionsModel::kUnit);  // beside the value

@@ -3,24 +3,37 @@
 
 #include <optional>
 
+#include <QStyledItemDelegate>
 #include <QWidget>
 
-#include "ui/models/options_filter.h"
 #include "ui/models/options_model.h"
 #include "ui/state/view_state.h"
 
-QT_BEGIN_NAMESPACE
 class QCheckBox;
 class QComboBox;
 class QFrame;
-class QVBoxLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
 class QTreeView;
-QT_END_NAMESPACE
+class QVBoxLayout;
 
 namespace boresight::ui {
+
+/// Editors for options: a list for choices, a spin box for integers, a line for numbers. They take
+/// what is typed as it is; the model refuses what is out of range and says so.
+class OptionDelegate : public QStyledItemDelegate {
+  Q_OBJECT
+
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+  QWidget* createEditor(QWidget* parent, const QStyleOptionViewItem& option,
+                        const QModelIndex& index) const override;
+  void setEditorData(QWidget* editor, const QModelIndex& index) const override;
+  void setModelData(QWidget* editor, QAbstractItemModel* model,
+                    const QModelIndex& index) const override;
+};
 
 /// Every parameter of the next run. Says so when the run that is shown was made with other ones.
 class ConfigurationPanel : public QWidget {

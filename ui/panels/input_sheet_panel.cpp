@@ -1,32 +1,89 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/input_sheet_panel.h"
 
-#include <QAction>
-#include <QApplication>
-#include <QClipboard>
-#include <QHeaderView>
-#include <QLabel>
-#include <QPushButton>
-#include <QTableWidget>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
+#include "sessions/session/input_sigmas.h"
 #include "ui/models/number_text.h"
-#include "ui/panels/table_style.h"
+#include "ui/panels/widgets.h"
 
 namespace boresight::ui {
+namespace {
+
+constexpr double kPercent = 100.0;
+
+}  // namespace
+
+InputSigmasDialog::InputSigmasDialog(const sessions::SessionCase& one, QWidget* parent)
+    : QDialog(parent) {
+  setWindowTitle(tr("How well mesh and camera are known"));
+  const sessions::InputSigmas sigmas(one);
+  auto* column = new QVBoxLayout(this);
+  mesh_ = group(tr("Stated for the mesh, one sigma"), QStringLiteral("meshStated"),
+                sigmas.mesh_scale_stated);
+  mesh_scale_percent_ =
+      box(mesh_, tr("Scale"), QStringLiteral("meshScale"), kPercent * sigmas.mesh_scale,
+          kPercent * sessions::kMaxScaleSigma, tr(" %"));
+  camera_ = group(tr("Stated for the camera, one sigma"), QStringLiteral("cameraStated"),
+                  sigmas.calibration_stated);
+  focal_percent_ = box(camera_, tr("Focal length"), QStringLiteral("focal"),
+                       kPercent * sigmas.calibration.focal_relative,
+                       kPercent * sessions::kMaxFocalSigma, tr(" %"));
+  principal_point_px_ =
+      box(camera_, tr("Principal point"), QStringLiteral("principalPoint"),
+          sigmas.calibration.principal_point_px, sessions::kMaxPrincipalPointSigma_px, tr(" px"));
+  column->addWidget(mesh_);
+  column->addWidget(camera_);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  column->addWidget(buttons);
+}
+
+QGroupBox* InputSigmasDialog::group(const QString& title, const QString& name, bool stated) {
+  auto* made = new QGroupBox(title, this);
+  made->setObjectName(name);
+  made->setCheckable(true);
+  made->setChecked(stated);
+  made->setToolTip(tr("Off: the values shown are assumed"));
+  new QFormLayout(made);
+  return made;
+}
+
+QDoubleSpinBox* InputSigmasDialog::box(QGroupBox* group, const QString& label, const QString& name,
+                                       double value, double maximum, const QString& unit) {
+  auto* made = new QDoubleSpinBox(group);
+  made->setObjectName(name);
+  made->setDecimals(4);
+  made->setRange(0.0, maximum);
+  made->setSingleStep(0.01);
+  made->setValue(value);
+  made->setSuffix(unit);
+  static_cast<QFormLayout*>(group->layout())->addRow(label, made);
+  return made;
+}
+
+std::optional<double> InputSigmasDialog::meshScaleSigma() const {
+  if (!mesh_->isChecked()) return std::nullopt;
+  return mesh_scale_percent_->value() / kPercent;
+}
+
+std::optional<sessions::CalibrationSigma> InputSigmasDialog::calibrationSigma() const {
+  if (!camera_->isChecked()) return std::nullopt;
+  return sessions::CalibrationSigma{focal_percent_->value() / kPercent,
+                                    principal_point_px_->value()};
+}
 
 InputSheetPanel::InputSheetPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(4, 4, 4, 4);
-  flags_ = new QLabel(this);
-  flags_->setObjectName(QStringLiteral("flags"));
+  flags_ = named(new QLabel(this), "flags");
   flags_->setWordWrap(true);
   flags_->setTextFormat(Qt::PlainText);
   flags_->setMargin(6);
   flags_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   column->addWidget(flags_);
-  table_ = new QTableWidget(0, 2, this);
-  table_->setObjectName(QStringLiteral("sheet"));
+  table_ = named(new QTableWidget(0, 2, this), "sheet");
   table_->setAccessibleName(tr("Inputs"));
   styleTable(*table_);
   table_->setWordWrap(true);
@@ -41,8 +98,8 @@ InputSheetPanel::InputSheetPanel(QWidget* parent) : QWidget(parent) {
   table_->addAction(copy);
   table_->setContextMenuPolicy(Qt::ActionsContextMenu);
   connect(copy, &QAction::triggered, this, &InputSheetPanel::copyChosen);
-  sigmas_ = new QPushButton(tr("How well mesh and camera are known ..."), this);
-  sigmas_->setObjectName(QStringLiteral("inputSigmas"));
+  sigmas_ =
+      named(new QPushButton(tr("How well mesh and camera are known ..."), this), "inputSigmas");
   connect(sigmas_, &QPushButton::clicked, this, &InputSheetPanel::sigmasRequested);
   column->addWidget(sigmas_);
   setSheet(std::nullopt);

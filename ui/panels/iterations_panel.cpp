@@ -3,15 +3,10 @@
 
 #include <cmath>
 
-#include <QEvent>
-#include <QHBoxLayout>
-#include <QSplitter>
-#include <QTableView>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
-#include "ui/panels/empty_hint.h"
-#include "ui/panels/run_banner.h"
-#include "ui/panels/table_style.h"
+#include "ui/panels/banner.h"
+#include "ui/panels/widgets.h"
 #include "ui/plots/double_plot.h"
 
 namespace boresight::ui {
@@ -19,7 +14,7 @@ namespace boresight::ui {
 IterationsPanel::IterationsPanel(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(4, 4, 4, 4);
-  banner_ = new RunBanner(this);
+  banner_ = new Banner(QStringLiteral("standing"), this);
   column->addWidget(banner_);
   scrubber_ = new RunScrubber(view_, this);
   column->addWidget(scrubber_);
@@ -33,18 +28,14 @@ IterationsPanel::IterationsPanel(ViewState& view, QWidget* parent) : QWidget(par
   splitter->setChildrenCollapsible(false);
   column->addWidget(splitter, 1);
 
-  connect(&view_, &ViewState::snapshotChanged, this, &IterationsPanel::showSnapshot);
-  connect(&view_, &ViewState::cursorChanged, this, &IterationsPanel::showCursor);
+  view_.onChange(ViewChange::kSnapshot, this, &IterationsPanel::showSnapshot);
+  view_.onChange(ViewChange::kCursor, this, &IterationsPanel::showCursor);
   showSnapshot();
   showCursor();
 }
 
 void IterationsPanel::buildTable() {
-  table_ = new QTableView(this);
-  table_->setObjectName(QStringLiteral("iterations"));
-  table_->setAccessibleName(tr("Iterations"));
-  table_->setModel(&model_);
-  styleTable(*table_);
+  table_ = newTable("iterations", tr("Iterations"), model_, this);
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &IterationsPanel::chooseRow);
   auto* hint = new EmptyHint(*table_, IterationsModel::rowOf(0));
@@ -89,8 +80,8 @@ void IterationsPanel::showSnapshot() {
   showing_ = true;
   model_.setSnapshot(view_.snapshot());
   showing_ = false;
-  banner_->setSnapshot(view_.snapshot().get());
-  fitColumns(*table_);
+  banner_->showRun(view_.snapshot().get());
+  table_->resizeColumnsToContents();
   plots_->setVisible(model_.rowCount() > IterationsModel::rowOf(0));
   fillPlots();
 }
@@ -118,7 +109,7 @@ void IterationsPanel::chooseRow(const QModelIndex& current) {
 void IterationsPanel::changeEvent(QEvent* event) {
   QWidget::changeEvent(event);
   if (event->type() == QEvent::PaletteChange && banner_ != nullptr)
-    banner_->setSnapshot(view_.snapshot().get());
+    banner_->showRun(view_.snapshot().get());
 }
 
 }  // namespace boresight::ui

@@ -9,14 +9,12 @@
 #include "ui/panels/run_scrubber.h"
 #include "ui/state/view_state.h"
 
-QT_BEGIN_NAMESPACE
 class QTableView;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 
 class DoublePlot;
-class RunBanner;
+class Banner;
 
 /// The run as it went: where it stands, a scrubber, a table, plots. All of them show the cursor and
 /// move it.
@@ -43,7 +41,7 @@ class IterationsPanel : public QWidget {
 
   ViewState& view_;
   IterationsModel model_;
-  RunBanner* banner_ = nullptr;
+  Banner* banner_ = nullptr;
   RunScrubber* scrubber_ = nullptr;
   QTableView* table_ = nullptr;
   QWidget* plots_ = nullptr;

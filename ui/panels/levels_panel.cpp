@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/levels_panel.h"
 
-#include <QCheckBox>
-#include <QComboBox>
-#include <QFormLayout>
-#include <QGroupBox>
-#include <QHBoxLayout>
-#include <QLabel>
-#include <QPushButton>
-#include <QScrollArea>
-#include <QSignalBlocker>
-#include <QSpinBox>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
-#include "ui/views/display_stretch.h"
+#include "ui/panels/widgets.h"
+#include "ui/views/display_image.h"
 
 namespace boresight::ui {
 namespace {
@@ -64,9 +55,8 @@ void LevelsPanel::buildDisplay(QBoxLayout& layout) {
   auto* group = new QGroupBox(tr("Display"));
   group->setToolTip(tr("For the eye only: it never changes a run"));
   auto* form = new QFormLayout(group);
-  core_ = new QCheckBox(tr("What the core sees"));
-  core_->setObjectName(QStringLiteral("showCore"));
-  core_->setToolTip(tr("Show the 8-bit image that the core is given, not stretched (C)"));
+  core_ = named(new QCheckBox(tr("What the core sees")), "showCore",
+                tr("Show the 8-bit image that the core is given, not stretched (C)"));
   black_ = spinBox(QStringLiteral("displayBlack"), 0, 65535,
                    tr("Samples of this value or less are shown black"));
   white_ = spinBox(QStringLiteral("displayWhite"), 0, 65535,

@@ -8,14 +8,12 @@
 #include "sessions/session/session.h"
 #include "ui/views/display_image.h"
 
-QT_BEGIN_NAMESPACE
 class QBoxLayout;
 class QCheckBox;
 class QComboBox;
 class QLabel;
 class QPushButton;
 class QSpinBox;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 

@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/mask_panel.h"
 
-#include <QDoubleSpinBox>
-#include <QGroupBox>
-#include <QHBoxLayout>
-#include <QInputDialog>
-#include <QLabel>
-#include <QListWidget>
-#include <QMenu>
-#include <QPushButton>
-#include <QSignalBlocker>
-#include <QToolButton>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "sessions/session/mask_edits.h"
-#include "ui/panels/empty_hint.h"
+#include "ui/panels/widgets.h"
 
 namespace boresight::ui {
 namespace {

@@ -10,7 +10,6 @@
 #include "sessions/session/session.h"
 #include "ui/views/mask_editor.h"
 
-QT_BEGIN_NAMESPACE
 class QBoxLayout;
 class QDoubleSpinBox;
 class QLabel;
@@ -18,7 +17,6 @@ class QListWidget;
 class QPushButton;
 class QSpinBox;
 class QToolButton;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 

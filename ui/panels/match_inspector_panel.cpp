@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/match_inspector_panel.h"
 
-#include <QComboBox>
-#include <QHBoxLayout>
-#include <QHeaderView>
-#include <QLabel>
-#include <QSplitter>
-#include <QStackedWidget>
-#include <QTableView>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "ui/panels/match_view.h"
 #include "ui/panels/refinement_view.h"
-#include "ui/panels/table_style.h"
+#include "ui/panels/widgets.h"
 
 namespace boresight::ui {
 
@@ -30,9 +23,9 @@ MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
   pages_->addWidget(buildMatches());
   pages_->addWidget(refinement_);
   column->addWidget(pages_);
-  connect(&view_, &ViewState::snapshotChanged, this, &MatchInspectorPanel::showIteration);
-  connect(&view_, &ViewState::cursorChanged, this, &MatchInspectorPanel::showIteration);
-  connect(&view_, &ViewState::templateSelected, this, &MatchInspectorPanel::showTemplate);
+  view_.onChange(ViewChange::kSnapshot | ViewChange::kCursor, this,
+                 &MatchInspectorPanel::showIteration);
+  view_.onChange(ViewChange::kTemplate, this, &MatchInspectorPanel::showTemplate);
   showIteration();
 }
 
@@ -57,24 +50,20 @@ QWidget* MatchInspectorPanel::buildTable() {
   show_->setAccessibleName(tr("Which templates are listed"));
   show_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   show_->setMinimumContentsLength(8);
-  for (int i = 0; i < TemplatesFilter::kShowCount; ++i)
-    show_->addItem(TemplatesFilter::nameOf(static_cast<TemplatesFilter::Show>(i)));
-  count_ = new QLabel(part);
-  count_->setObjectName(QStringLiteral("count"));
+  show_->addItems(TemplatesModel::showNames());
+  count_ = named(new QLabel(part), "count");
   row->addWidget(show_);
   row->addWidget(count_, 1);
   column->addLayout(row);
-  table_ = new QTableView(part);
-  table_->setObjectName(QStringLiteral("templates"));
-  table_->setAccessibleName(tr("Templates"));
-  table_->setModel(&filter_);
-  styleTable(*table_);
+  table_ = newTable("templates", tr("Templates"), filter_, part);
   table_->setSortingEnabled(true);
   table_->sortByColumn(TemplatesModel::kNumber, Qt::AscendingOrder);
   column->addWidget(table_, 1);
   connect(show_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
     showing_ = true;
-    filter_.setShow(static_cast<TemplatesFilter::Show>(index));
+    filter_.setCondition([this, show = static_cast<TemplatesModel::Show>(index)](int source_row) {
+      return model_.isShown(source_row, show);
+    });
     showing_ = false;
     showCount();
     showTemplate();
@@ -98,7 +87,7 @@ void MatchInspectorPanel::showIteration() {
     showing_ = true;
     model_.setIteration(iteration_.get());
     showing_ = false;
-    fitColumns(*table_);
+    table_->resizeColumnsToContents();
     showCount();
   }
   const bool refines = iteration_ && iteration_->kind == IterationKind::kRefine;

@@ -5,16 +5,13 @@
 
 #include <QWidget>
 
-#include "ui/models/templates_filter.h"
 #include "ui/models/templates_model.h"
 #include "ui/state/view_state.h"
 
-QT_BEGIN_NAMESPACE
 class QComboBox;
 class QLabel;
 class QStackedWidget;
 class QTableView;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 
@@ -30,7 +27,7 @@ class MatchInspectorPanel : public QWidget {
   explicit MatchInspectorPanel(ViewState& view, QWidget* parent = nullptr);
 
   const TemplatesModel& model() const { return model_; }
-  const TemplatesFilter& filter() const { return filter_; }
+  const RowsFilter& filter() const { return filter_; }
 
  private:
   QWidget* buildMatches();
@@ -42,7 +39,7 @@ class MatchInspectorPanel : public QWidget {
 
   ViewState& view_;
   TemplatesModel model_;
-  TemplatesFilter filter_;
+  RowsFilter filter_;
   std::shared_ptr<const sessions::IterationTrace> iteration_;
   QStackedWidget* pages_ = nullptr;
   QLabel* hint_ = nullptr;

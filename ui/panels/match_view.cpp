@@ -3,14 +3,11 @@
 
 #include <cmath>
 
-#include <QHBoxLayout>
-#include <QLabel>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "core/base/math.h"
 #include "ui/models/number_text.h"
 #include "ui/models/templates_model.h"
-#include "ui/panels/patch_pictures.h"
 #include "ui/panels/pixel_picture.h"
 #include "ui/panels/score_map_view.h"
 

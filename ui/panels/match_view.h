@@ -6,10 +6,8 @@
 #include "sessions/run/match_details.h"
 #include "ui/panels/score_mapper.h"
 
-QT_BEGIN_NAMESPACE
 class QHBoxLayout;
 class QLabel;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 

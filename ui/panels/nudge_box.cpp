@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/nudge_box.h"
 
-#include <QComboBox>
-#include <QDoubleSpinBox>
-#include <QEvent>
-#include <QGridLayout>
-#include <QHBoxLayout>
-#include <QLabel>
-#include <QPushButton>
-#include <QSignalBlocker>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "core/base/math.h"
+#include "ui/panels/widgets.h"
 
 namespace boresight::ui {
 namespace {
@@ -45,8 +38,7 @@ NudgeBox::NudgeBox(NudgeController& controller, ViewState& state, QWidget* paren
   addSteps(*grid);
   layout->addLayout(grid);
 
-  pad_ = new QLabel(this);
-  pad_->setObjectName(QStringLiteral("nudgePad"));
+  pad_ = named(new QLabel(this), "nudgePad");
   pad_->setFocusPolicy(Qt::StrongFocus);
   pad_->setFrameShape(QFrame::StyledPanel);
   pad_->setWordWrap(true);
@@ -57,7 +49,7 @@ NudgeBox::NudgeBox(NudgeController& controller, ViewState& state, QWidget* paren
   layout->addWidget(pad_);
   layout->addWidget(buildButtons());
   connect(&controller_, &NudgeController::changed, this, &NudgeBox::showOffset);
-  connect(&state_, &ViewState::caseChanged, this, &NudgeBox::showOffset);
+  state_.onChange(ViewChange::kCase, this, &NudgeBox::showOffset);
   showOffset();
 }
 
@@ -87,16 +79,14 @@ void NudgeBox::addValues(QGridLayout& grid) {
 }
 
 void NudgeBox::addFrame(QGridLayout& grid) {
-  axes_ = new QComboBox(this);
-  axes_->setObjectName(QStringLiteral("axes"));
+  axes_ = named(new QComboBox(this), "axes");
   axes_->addItems({tr("camera axes"), tr("station axes")});
   axes_->setToolTip(
       tr("Along and about whose axes values and keys are meant. Camera: x right, y "
          "down, z forward."));
   connect(axes_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
           [this](int index) { controller_.setAxes(static_cast<NudgeAxes>(index)); });
-  pivot_ = new QComboBox(this);
-  pivot_->setObjectName(QStringLiteral("pivot"));
+  pivot_ = named(new QComboBox(this), "pivot");
   pivot_->addItems({tr("about the station's centre"), tr("about the camera")});
   pivot_->setToolTip(tr("What stays where it is when the pose is turned"));
   connect(pivot_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,

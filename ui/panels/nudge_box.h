@@ -7,13 +7,11 @@
 
 #include "ui/panels/nudge_controller.h"
 
-QT_BEGIN_NAMESPACE
 class QComboBox;
 class QDoubleSpinBox;
 class QGridLayout;
 class QLabel;
 class QPushButton;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 

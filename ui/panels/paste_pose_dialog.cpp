@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/paste_pose_dialog.h"
 
-#include <QComboBox>
-#include <QDialogButtonBox>
-#include <QFontDatabase>
-#include <QFormLayout>
-#include <QLabel>
-#include <QPlainTextEdit>
-#include <QPushButton>
-#include <QSignalBlocker>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "core/base/math.h"
+#include "ui/panels/widgets.h"
 
 namespace boresight::ui {
 
@@ -25,8 +18,7 @@ PastePoseDialog::PastePoseDialog(const QString& text, QWidget* parent) : QDialog
                           this);
   hint->setWordWrap(true);
   layout->addWidget(hint);
-  text_ = new QPlainTextEdit(text, this);
-  text_->setObjectName(QStringLiteral("text"));
+  text_ = named(new QPlainTextEdit(text, this), "text");
   text_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   text_->setAccessibleName(tr("Pose as text"));
   layout->addWidget(text_);
@@ -43,8 +35,7 @@ PastePoseDialog::PastePoseDialog(const QString& text, QWidget* parent) : QDialog
   unit_ = addChoice(tr("Translation"), "unit", {tr("metres"), tr("millimetres")}, *form);
   layout->addLayout(form);
 
-  verdict_ = new QLabel(this);
-  verdict_->setObjectName(QStringLiteral("verdict"));
+  verdict_ = named(new QLabel(this), "verdict");
   verdict_->setWordWrap(true);
   verdict_->setMinimumHeight(3 * verdict_->fontMetrics().lineSpacing());
   layout->addWidget(verdict_);

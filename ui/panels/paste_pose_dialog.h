@@ -5,13 +5,11 @@
 
 #include "sessions/io/pose_text.h"
 
-QT_BEGIN_NAMESPACE
 class QComboBox;
 class QFormLayout;
 class QLabel;
 class QPlainTextEdit;
 class QPushButton;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 

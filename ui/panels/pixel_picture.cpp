@@ -2,11 +2,90 @@
 #include "ui/panels/pixel_picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include <QPainter>
 
 namespace boresight::ui {
+namespace {
+
+bool bitAt(const BitImage& image, const PatchPlace& place, int u, int v) {
+  const int x = place.center_x - place.side_px / 2 + u;
+  const int y = place.center_y - place.side_px / 2 + v;
+  return image.contains(x, y) && image.get(x, y);
+}
+
+/// color_of(u, v) for every pixel.
+template <class ColorOf>
+QImage drawn(int side_px, const ColorOf& color_of) {
+  QImage picture(side_px, side_px, QImage::Format_RGB32);
+  for (int v = 0; v < side_px; ++v) {
+    auto* line = reinterpret_cast<QRgb*>(picture.scanLine(v));
+    for (int u = 0; u < side_px; ++u) line[u] = color_of(u, v);
+  }
+  return picture;
+}
+
+}  // namespace
+
+QImage templatePicture(const BitImage& edges, const BitImage& mask, const PatchPlace& place) {
+  return drawn(place.side_px, [&](int u, int v) {
+    if (bitAt(edges, place, u, v)) return patch_colors::kEdge;
+    return bitAt(mask, place, u, v) ? patch_colors::kMask : patch_colors::kGround;
+  });
+}
+
+QImage seenPicture(const BitImage& test_edges, const PatchPlace& place) {
+  return drawn(place.side_px, [&](int u, int v) {
+    return bitAt(test_edges, place, u, v) ? patch_colors::kEdge : patch_colors::kGround;
+  });
+}
+
+QImage agreementPicture(const BitImage& edges, const BitImage& mask, const PatchPlace& rendered,
+                        const BitImage& test_edges, const PatchPlace& found) {
+  return drawn(rendered.side_px, [&](int u, int v) {
+    if (!bitAt(mask, rendered, u, v)) return patch_colors::kGround;
+    const bool is_rendered = bitAt(edges, rendered, u, v);
+    const bool is_seen = bitAt(test_edges, found, u, v);
+    if (is_rendered && is_seen) return patch_colors::kEdge;
+    if (is_rendered) return patch_colors::kOnlyRendered;
+    return is_seen ? patch_colors::kOnlySeen : patch_colors::kMask;
+  });
+}
+
+namespace {
+
+struct Color {
+  double red, green, blue;
+};
+
+/// Nine of viridis' 256 colours, evenly spaced; straight lines in between.
+constexpr std::array<Color, 9> kStops = {{{68, 1, 84},
+                                          {71, 44, 122},
+                                          {59, 81, 139},
+                                          {44, 113, 142},
+                                          {33, 144, 141},
+                                          {39, 173, 129},
+                                          {92, 200, 99},
+                                          {170, 220, 50},
+                                          {253, 231, 37}}};
+
+}  // namespace
+
+QRgb heatColor(double value) {
+  const double place = std::clamp(value, 0.0, 1.0) * static_cast<double>(kStops.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(place), kStops.size() - 2);
+  const double share = place - static_cast<double>(below);
+  const Color& a = kStops[below];
+  const Color& b = kStops[below + 1];
+  const auto mixed = [share](double from, double to) {
+    return static_cast<int>(std::lround(from + share * (to - from)));
+  };
+  return qRgb(mixed(a.red, b.red), mixed(a.green, b.green), mixed(a.blue, b.blue));
+}
+
 namespace {
 
 /// From here on squares of unequal size would be seen as such; below, size counts for more.

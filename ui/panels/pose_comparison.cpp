@@ -3,16 +3,12 @@
 
 #include <cmath>
 
-#include <QComboBox>
-#include <QGroupBox>
-#include <QHBoxLayout>
-#include <QLabel>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "core/base/math.h"
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/evaluation/pose_sigma.h"
 #include "ui/panels/pose_table_model.h"
+#include "ui/panels/widgets.h"
 
 namespace boresight::ui {
 namespace {
@@ -74,8 +70,7 @@ PoseComparison::PoseComparison(QWidget* parent) : QWidget(parent) {
 
   sure_ = new QGroupBox(this);
   auto* sure_layout = new QVBoxLayout(sure_);
-  sigma_ = new QLabel(sure_);
-  sigma_->setObjectName(QStringLiteral("sigma"));
+  sigma_ = named(new QLabel(sure_), "sigma");
   sigma_->setTextFormat(Qt::RichText);
   sigma_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   sigma_->setToolTip(
@@ -95,8 +90,7 @@ PoseComparison::PoseComparison(QWidget* parent) : QWidget(parent) {
   chooser->addWidget(from_);
   chooser->addStretch(1);
   apart_layout->addLayout(chooser);
-  difference_ = new QLabel(apart_);
-  difference_->setObjectName(QStringLiteral("difference"));
+  difference_ = named(new QLabel(apart_), "difference");
   difference_->setTextFormat(Qt::RichText);
   difference_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   difference_->setToolTip(

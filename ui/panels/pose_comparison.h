@@ -7,13 +7,11 @@
 #include <QWidget>
 
 #include "sessions/io/dataset_file.h"
-#include "ui/state/pose_role.h"
+#include "ui/state/view_state.h"
 
-QT_BEGIN_NAMESPACE
 class QComboBox;
 class QGroupBox;
 class QLabel;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 

@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/pose_panel.h"
 
-#include <QClipboard>
-#include <QComboBox>
-#include <QFontDatabase>
-#include <QGroupBox>
-#include <QGuiApplication>
-#include <QHBoxLayout>
-#include <QHeaderView>
-#include <QLabel>
-#include <QMenu>
-#include <QPushButton>
-#include <QScrollArea>
-#include <QTableView>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "sessions/session/named_poses.h"
 #include "ui/models/number_text.h"
 #include "ui/panels/nudge_box.h"
 #include "ui/panels/paste_pose_dialog.h"
+#include "ui/panels/widgets.h"
 
 namespace boresight::ui {
 namespace {
@@ -29,12 +18,9 @@ struct FormText {
   const char* name;
 };
 constexpr std::array<FormText, 3> kForms = {{
-    {sessions::PoseForm::kRotationVector, "copyRotationVector",
-     QT_TRANSLATE_NOOP("boresight::ui::PosePanel", "Rotation vector")},
-    {sessions::PoseForm::kQuaternion, "copyQuaternion",
-     QT_TRANSLATE_NOOP("boresight::ui::PosePanel", "Quaternion")},
-    {sessions::PoseForm::kMatrix, "copyMatrix",
-     QT_TRANSLATE_NOOP("boresight::ui::PosePanel", "Matrix")},
+    {sessions::PoseForm::kRotationVector, "copyRotationVector", QT_TR_NOOP("Rotation vector")},
+    {sessions::PoseForm::kQuaternion, "copyQuaternion", QT_TR_NOOP("Quaternion")},
+    {sessions::PoseForm::kMatrix, "copyMatrix", QT_TR_NOOP("Matrix")},
 }};
 
 /// Numbers of one row of a matrix, each right-aligned in its column.
@@ -93,10 +79,9 @@ PosePanel::PosePanel(ViewState& state, QWidget* parent)
 
   connect(box, &NudgeBox::useAsSeedRequested, this, &PosePanel::useAsSeedRequested);
   connect(&controller_, &NudgeController::gestureFinished, this, &PosePanel::gestureFinished);
-  for (auto signal :
-       {&ViewState::caseChanged, &ViewState::snapshotChanged, &ViewState::cursorChanged,
-        &ViewState::nudgedPoseChanged, &ViewState::annotatedPoseChanged})
-    connect(&state_, signal, this, &PosePanel::refresh);
+  state_.onChange(ViewChange::kCase | ViewChange::kSnapshot | ViewChange::kCursor |
+                      ViewChange::kNudgedPose | ViewChange::kAnnotatedPose,
+                  this, &PosePanel::refresh);
   refresh();
 }
 
@@ -104,8 +89,7 @@ PosePanel::PosePanel(ViewState& state, QWidget* parent)
 PosePanel::~PosePanel() { delete page_; }
 
 QWidget* PosePanel::buildTable() {
-  table_ = new QTableView(this);
-  table_->setObjectName(QStringLiteral("poses"));
+  table_ = named(new QTableView(this), "poses");
   table_->setModel(&model_);
   table_->setAlternatingRowColors(true);
   table_->setWordWrap(false);
@@ -138,15 +122,13 @@ QWidget* PosePanel::buildCopyBar() {
   auto* chooser = new QHBoxLayout;
   auto* layout = new QHBoxLayout;
   column->addLayout(chooser);
-  matrix_ = new QLabel(bar);
-  matrix_->setObjectName(QStringLiteral("matrix"));
+  matrix_ = named(new QLabel(bar), "matrix");
   matrix_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   matrix_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   matrix_->setToolTip(
       tr("camera_from_station as a 4x4 matrix, row by row; its last column is in metres"));
   column->addWidget(matrix_);
-  named_ = new QLabel(bar);
-  named_->setObjectName(QStringLiteral("namedPoses"));
+  named_ = named(new QLabel(bar), "namedPoses");
   named_->setFont(matrix_->font());
   named_->setTextInteractionFlags(matrix_->textInteractionFlags());
   named_->setToolTip(tr("The same pose in the frames that camera model and seed were given in"));
@@ -154,9 +136,8 @@ QWidget* PosePanel::buildCopyBar() {
   column->addLayout(layout);
   layout->addWidget(new QLabel(tr("Copy as"), bar));
   chooser->addWidget(new QLabel(tr("Matrix of"), bar));
-  copied_ = new QComboBox(bar);
-  copied_->setObjectName(QStringLiteral("copiedRole"));
-  copied_->setToolTip(tr("Which pose is shown as a matrix, and copied"));
+  copied_ =
+      named(new QComboBox(bar), "copiedRole", tr("Which pose is shown as a matrix, and copied"));
   for (int i = 0; i < kPoseRoles; ++i) copied_->addItem(poseRoleName(static_cast<PoseRole>(i)));
   copied_->setCurrentIndex(static_cast<int>(PoseRole::kEstimate));
   chooser->addWidget(copied_);
@@ -172,8 +153,7 @@ QWidget* PosePanel::buildCopyBar() {
     layout->addWidget(button);
   }
   layout->addStretch(1);
-  auto* paste = new QPushButton(tr("Paste ..."), bar);
-  paste->setObjectName(QStringLiteral("pastePose"));
+  auto* paste = named(new QPushButton(tr("Paste ..."), bar), "pastePose");
   paste->setToolTip(tr("Nudge to a pose from the clipboard; order, direction and unit are asked"));
   connect(paste, &QPushButton::clicked, this, &PosePanel::pastePose);
   chooser->addWidget(paste);

@@ -10,12 +10,10 @@
 #include "ui/panels/pose_comparison.h"
 #include "ui/panels/pose_table_model.h"
 
-QT_BEGIN_NAMESPACE
 class QComboBox;
 class QLabel;
 class QMenu;
 class QTableView;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 

@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include <QCoreApplication>
-
 #include "core/base/math.h"
 #include "sessions/io/pose_text.h"
 
@@ -42,42 +40,39 @@ struct RowText {
   const char* name;
   const char* help;
 };
-constexpr const char* kContext = "PoseTable";
-constexpr const char* kTranslationHelp = QT_TRANSLATE_NOOP(
-    "PoseTable", "The station's origin in the camera frame (x right, y down, z forward), mm");
-constexpr const char* kRotationHelp = QT_TRANSLATE_NOOP(
-    "PoseTable",
+constexpr const char* kTranslationHelp =
+    QT_TR_NOOP("The station's origin in the camera frame (x right, y down, z forward), mm");
+constexpr const char* kRotationHelp = QT_TR_NOOP(
     "Rotation vector of camera_from_station in camera axes, deg: its direction is the axis, its "
     "length the angle");
-constexpr const char* kQuaternionHelp = QT_TRANSLATE_NOOP(
-    "PoseTable", "Unit quaternion of camera_from_station, in the order w x y z, with w >= 0");
-constexpr const char* kMatrixHelp = QT_TRANSLATE_NOOP(
-    "PoseTable", "camera_from_station as a 4x4 matrix, row by row; its last column is in metres");
+constexpr const char* kQuaternionHelp =
+    QT_TR_NOOP("Unit quaternion of camera_from_station, in the order w x y z, with w >= 0");
+constexpr const char* kMatrixHelp =
+    QT_TR_NOOP("camera_from_station as a 4x4 matrix, row by row; its last column is in metres");
 constexpr std::array<RowText, PoseTableModel::kRowCount> kRows = {{
-    {QT_TRANSLATE_NOOP("PoseTable", "x, mm"), kTranslationHelp},
-    {QT_TRANSLATE_NOOP("PoseTable", "y, mm"), kTranslationHelp},
-    {QT_TRANSLATE_NOOP("PoseTable", "z, mm"), kTranslationHelp},
-    {QT_TRANSLATE_NOOP("PoseTable", "turn x, deg"), kRotationHelp},
-    {QT_TRANSLATE_NOOP("PoseTable", "turn y, deg"), kRotationHelp},
-    {QT_TRANSLATE_NOOP("PoseTable", "turn z, deg"), kRotationHelp},
-    {QT_TRANSLATE_NOOP("PoseTable", "quat. w"), kQuaternionHelp},
-    {QT_TRANSLATE_NOOP("PoseTable", "quat. x"), kQuaternionHelp},
-    {QT_TRANSLATE_NOOP("PoseTable", "quat. y"), kQuaternionHelp},
-    {QT_TRANSLATE_NOOP("PoseTable", "quat. z"), kQuaternionHelp},
-    {QT_TRANSLATE_NOOP("PoseTable", "matrix row 1, m"), kMatrixHelp},
-    {QT_TRANSLATE_NOOP("PoseTable", "matrix row 2, m"), kMatrixHelp},
-    {QT_TRANSLATE_NOOP("PoseTable", "matrix row 3, m"), kMatrixHelp},
-    {QT_TRANSLATE_NOOP("PoseTable", "matrix row 4"), kMatrixHelp},
+    {QT_TR_NOOP("x, mm"), kTranslationHelp},
+    {QT_TR_NOOP("y, mm"), kTranslationHelp},
+    {QT_TR_NOOP("z, mm"), kTranslationHelp},
+    {QT_TR_NOOP("turn x, deg"), kRotationHelp},
+    {QT_TR_NOOP("turn y, deg"), kRotationHelp},
+    {QT_TR_NOOP("turn z, deg"), kRotationHelp},
+    {QT_TR_NOOP("quat. w"), kQuaternionHelp},
+    {QT_TR_NOOP("quat. x"), kQuaternionHelp},
+    {QT_TR_NOOP("quat. y"), kQuaternionHelp},
+    {QT_TR_NOOP("quat. z"), kQuaternionHelp},
+    {QT_TR_NOOP("matrix row 1, m"), kMatrixHelp},
+    {QT_TR_NOOP("matrix row 2, m"), kMatrixHelp},
+    {QT_TR_NOOP("matrix row 3, m"), kMatrixHelp},
+    {QT_TR_NOOP("matrix row 4"), kMatrixHelp},
 }};
 
 }  // namespace
 
 QString poseRoleName(PoseRole role) {
-  constexpr std::array<const char*, kPoseRoles> kNames = {
-      QT_TRANSLATE_NOOP("PoseTable", "seed"), QT_TRANSLATE_NOOP("PoseTable", "current"),
-      QT_TRANSLATE_NOOP("PoseTable", "nudged"), QT_TRANSLATE_NOOP("PoseTable", "truth"),
-      QT_TRANSLATE_NOOP("PoseTable", "annotated")};
-  return QCoreApplication::translate(kContext, kNames[static_cast<std::size_t>(role)]);
+  constexpr std::array<const char*, kPoseRoles> kNames = {QT_TR_NOOP("seed"), QT_TR_NOOP("current"),
+                                                          QT_TR_NOOP("nudged"), QT_TR_NOOP("truth"),
+                                                          QT_TR_NOOP("annotated")};
+  return PoseTableModel::tr(kNames[static_cast<std::size_t>(role)]);
 }
 
 void PoseTableModel::setPoses(const std::array<std::optional<Pose>, kPoseRoles>& poses) {
@@ -102,8 +97,7 @@ QVariant PoseTableModel::data(const QModelIndex& index, int role) const {
     case Qt::TextAlignmentRole:
       return static_cast<int>(Qt::AlignRight | Qt::AlignVCenter);
     case Qt::ToolTipRole:
-      return QCoreApplication::translate(kContext,
-                                         kRows[static_cast<std::size_t>(index.row())].help);
+      return PoseTableModel::tr(kRows[static_cast<std::size_t>(index.row())].help);
     default:
       return {};
   }
@@ -114,8 +108,8 @@ QVariant PoseTableModel::headerData(int section, Qt::Orientation orientation, in
   if (section < 0 || section >= (rows ? static_cast<int>(kRowCount) : kPoseRoles)) return {};
   if (rows) {
     const RowText& row = kRows[static_cast<std::size_t>(section)];
-    if (role == Qt::DisplayRole) return QCoreApplication::translate(kContext, row.name);
-    if (role == Qt::ToolTipRole) return QCoreApplication::translate(kContext, row.help);
+    if (role == Qt::DisplayRole) return PoseTableModel::tr(row.name);
+    if (role == Qt::ToolTipRole) return PoseTableModel::tr(row.help);
     return {};
   }
   if (role == Qt::DisplayRole) return poseRoleName(static_cast<PoseRole>(section));

@@ -6,7 +6,7 @@
 
 #include <QAbstractTableModel>
 
-#include "ui/state/pose_role.h"
+#include "ui/state/view_state.h"
 
 namespace boresight::ui {
 

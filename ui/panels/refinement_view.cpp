@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/refinement_view.h"
 
-#include <QHBoxLayout>
-#include <QHeaderView>
-#include <QTableWidget>
+#include <QtWidgets>
 
 #include "ui/models/number_text.h"
-#include "ui/panels/table_style.h"
+#include "ui/panels/widgets.h"
 #include "ui/plots/histogram_plot.h"
 
 namespace boresight::ui {
@@ -68,7 +66,7 @@ void RefinementView::setIteration(const sessions::IterationTrace& iteration) {
   fillRow(1, tr("outline"), statistics.border);
   fillRow(2, tr("occluding"), statistics.occluding);
   fillRow(3, tr("creases"), statistics.creases);
-  fitColumns(*table_);
+  table_->resizeColumnsToContents();
   table_->setFixedWidth(table_->horizontalHeader()->length() + 2 * table_->frameWidth());
   histogram_->setCounts(statistics.radius_px, asVector(statistics.found_in_bin),
                         asVector(statistics.used_in_bin));

@@ -5,9 +5,7 @@
 
 #include "sessions/run/sample_statistics.h"
 
-QT_BEGIN_NAMESPACE
 class QTableWidget;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/rivals_panel.h"
 
-#include <QScopedValueRollback>
-#include <QTableView>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
-#include "ui/panels/empty_hint.h"
-#include "ui/panels/table_style.h"
+#include "ui/panels/widgets.h"
 
 namespace boresight::ui {
 
@@ -15,11 +12,7 @@ using sessions::AlternativeKind;
 RivalsPanel::RivalsPanel(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(4, 4, 4, 4);
-  table_ = new QTableView(this);
-  table_->setObjectName(QStringLiteral("rivals"));
-  table_->setAccessibleName(tr("Rivals, restarts and rolled hypotheses"));
-  table_->setModel(&model_);
-  styleTable(*table_);
+  table_ = newTable("rivals", tr("Rivals, restarts and rolled hypotheses"), model_, this);
   column->addWidget(table_);
   auto* hint = new EmptyHint(*table_);
   hint->setText(
@@ -34,9 +27,9 @@ RivalsPanel::RivalsPanel(ViewState& view, QWidget* parent) : QWidget(parent), vi
   connect(table_, &QTableView::clicked, this, [this](const QModelIndex& row) {
     if (!view_.alternative()) choose(row.row());
   });
-  connect(&view_, &ViewState::snapshotChanged, this, &RivalsPanel::showSnapshot);
-  connect(&view_, &ViewState::cursorChanged, this, &RivalsPanel::showCursor);
-  connect(&view_, &ViewState::alternativeChanged, this, &RivalsPanel::showAlternative);
+  view_.onChange(ViewChange::kSnapshot, this, &RivalsPanel::showSnapshot);
+  view_.onChange(ViewChange::kCursor, this, &RivalsPanel::showCursor);
+  view_.onChange(ViewChange::kAlternative, this, &RivalsPanel::showAlternative);
   showSnapshot();
 }
 
@@ -45,14 +38,13 @@ void RivalsPanel::choose(int row) {
     view_.setAlternative(std::nullopt);
     return;
   }
-  const sessions::Alternative chosen = model_.alternative(row);
+  const sessions::Alternative chosen = model_.at(row);
   const QScopedValueRollback<bool> from_here(showing_, true);
   const auto& run = *view_.snapshot();
   const int last = static_cast<int>(run.iterations.size()) - 1;
   const int cursor = view_.cursor().iteration;
-  const bool of_rival =
-      chosen.kind == AlternativeKind::kRival &&
-      sessions::rivalOfIteration(run, model_.alternatives(), cursor) == chosen.number - 1;
+  const bool of_rival = chosen.kind == AlternativeKind::kRival &&
+                        sessions::rivalOfIteration(run, model_.rows(), cursor) == chosen.number - 1;
   if (!of_rival)
     view_.setCursor({chosen.iteration < 0 ? last : chosen.iteration, Stage::kFinished});
   view_.setAlternative(chosen);
@@ -63,13 +55,13 @@ void RivalsPanel::showSnapshot() {
   const QScopedValueRollback<bool> follows(showing_, true);
   model_.setAlternatives(view_.snapshot() ? sessions::alternativesOf(*view_.snapshot())
                                           : std::vector<sessions::Alternative>());
-  fitColumns(*table_);
+  table_->resizeColumnsToContents();
 }
 
 void RivalsPanel::showCursor() {
   if (showing_ || !view_.snapshot()) return;
   const int iteration = view_.cursor().iteration;
-  const int rival = sessions::rivalOfIteration(*view_.snapshot(), model_.alternatives(), iteration);
+  const int rival = sessions::rivalOfIteration(*view_.snapshot(), model_.rows(), iteration);
   if (rival >= 0) {
     choose(rival);
     return;

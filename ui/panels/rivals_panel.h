@@ -6,9 +6,7 @@
 #include "ui/models/alternatives_model.h"
 #include "ui/state/view_state.h"
 
-QT_BEGIN_NAMESPACE
 class QTableView;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 

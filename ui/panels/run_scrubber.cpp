@@ -1,49 +1,93 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/run_scrubber.h"
+#include "ui/panels/widgets.h"
 
-#include <QAction>
-#include <QButtonGroup>
-#include <QHBoxLayout>
-#include <QLabel>
-#include <QSignalBlocker>
-#include <QSlider>
-#include <QToolButton>
+#include <cstddef>
 
-#include "ui/panels/stage_steps.h"
+#include <QtWidgets>
 
 namespace boresight::ui {
 namespace {
 
-constexpr int kMostStages = 4;
-
-QString stageName(Stage stage) {
-  switch (stage) {
-    case Stage::kRender:
-      return RunScrubber::tr("Render");
-    case Stage::kTemplates:
-      return RunScrubber::tr("Templates");
-    case Stage::kMatch:
-      return RunScrubber::tr("Match");
-    case Stage::kPose:
-      return RunScrubber::tr("Pose");
-    default:
-      return RunScrubber::tr("Refine");
-  }
+/// The cursor on a stage of an iteration; index counts within stagesOf.
+RunCursor cursorAt(const sessions::LocalizationTrace& run, int iteration, int stage) {
+  const auto stages = stagesOf(*run.iterations[static_cast<std::size_t>(iteration)]);
+  const bool last = stage + 1 >= static_cast<int>(stages.size());
+  return {iteration, last ? Stage::kFinished : stages[static_cast<std::size_t>(stage)]};
 }
 
-QString stageHelp(Stage stage) {
-  switch (stage) {
-    case Stage::kRender:
-      return RunScrubber::tr("Show the edges rendered from the iteration's first pose.");
-    case Stage::kTemplates:
-      return RunScrubber::tr("Show the templates cut from the render.");
-    case Stage::kMatch:
-      return RunScrubber::tr("Show where the templates were found in the image.");
-    case Stage::kPose:
-      return RunScrubber::tr("Show the pose solved from the matches, its inliers and residuals.");
-    default:
-      return RunScrubber::tr("Show the pose moved until rendered edges meet the image's own.");
-  }
+int stageCount(const sessions::LocalizationTrace& run, int iteration) {
+  return static_cast<int>(stagesOf(*run.iterations[static_cast<std::size_t>(iteration)]).size());
+}
+
+int stageUnder(const sessions::LocalizationTrace& run, const RunCursor& cursor) {
+  return shownStage(stagesOf(*run.iterations[static_cast<std::size_t>(cursor.iteration)]),
+                    cursor.stage);
+}
+
+}  // namespace
+
+std::vector<Stage> stagesOf(const sessions::IterationTrace& iteration) {
+  const bool refines = iteration.kind == IterationKind::kRefine;
+  const std::vector<Stage> all =
+      refines ? std::vector<Stage>{Stage::kRender, Stage::kRefine}
+              : std::vector<Stage>{Stage::kRender, Stage::kTemplates, Stage::kMatch, Stage::kPose};
+  std::vector<Stage> reached;
+  for (const Stage stage : all)
+    if (stage == Stage::kRender || stage <= iteration.reached) reached.push_back(stage);
+  return reached;
+}
+
+int shownStage(const std::vector<Stage>& stages, Stage cursor) {
+  int shown = 0;
+  for (std::size_t i = 0; i < stages.size(); ++i)
+    if (stages[i] <= cursor) shown = static_cast<int>(i);
+  return shown;
+}
+
+RunCursor nextStage(const sessions::LocalizationTrace& run, const RunCursor& cursor) {
+  const int last = static_cast<int>(run.iterations.size()) - 1;
+  if (cursor.iteration < 0) return last < 0 ? cursor : cursorAt(run, 0, 0);
+  const int stage = stageUnder(run, cursor);
+  if (stage + 1 < stageCount(run, cursor.iteration))
+    return cursorAt(run, cursor.iteration, stage + 1);
+  return cursor.iteration < last ? cursorAt(run, cursor.iteration + 1, 0) : cursor;
+}
+
+RunCursor previousStage(const sessions::LocalizationTrace& run, const RunCursor& cursor) {
+  if (cursor.iteration < 0) return cursor;
+  const int stage = stageUnder(run, cursor);
+  if (stage > 0) return cursorAt(run, cursor.iteration, stage - 1);
+  if (cursor.iteration == 0) return {-1, Stage::kFinished};
+  return {cursor.iteration - 1, Stage::kFinished};
+}
+
+namespace {
+
+constexpr int kMostStages = 4;
+
+struct StageText {
+  Stage stage;
+  const char* name;
+  const char* help;
+};
+constexpr StageText kStageTexts[] = {
+    {Stage::kRender, QT_TR_NOOP("Render"),
+     QT_TR_NOOP("Show the edges rendered from the iteration's first pose.")},
+    {Stage::kTemplates, QT_TR_NOOP("Templates"),
+     QT_TR_NOOP("Show the templates cut from the render.")},
+    {Stage::kMatch, QT_TR_NOOP("Match"),
+     QT_TR_NOOP("Show where the templates were found in the image.")},
+    {Stage::kPose, QT_TR_NOOP("Pose"),
+     QT_TR_NOOP("Show the pose solved from the matches, its inliers and residuals.")},
+    {Stage::kRefine, QT_TR_NOOP("Refine"),
+     QT_TR_NOOP("Show the pose moved until rendered edges meet the image's own.")},
+};
+
+const StageText& textOf(Stage stage) {
+  for (const StageText& text : kStageTexts)
+    if (text.stage == stage) return text;
+  return kStageTexts[std::size(kStageTexts) - 1];
 }
 
 }  // namespace
@@ -55,8 +99,7 @@ RunScrubber::RunScrubber(ViewState& view, QWidget* parent) : QWidget(parent), vi
           tr("Go to the seed, before the first iteration."));
   addStep(Step::kPrevious, QStringLiteral("◀"), tr("Previous iteration"),
           tr("Go to the iteration before."));
-  slider_ = new QSlider(Qt::Horizontal, this);
-  slider_->setObjectName(QStringLiteral("iterations"));
+  slider_ = named(new QSlider(Qt::Horizontal, this), "iterations");
   slider_->setAccessibleName(tr("Iteration"));
   slider_->setToolTip(tr("The iteration that every view shows; leftmost: the seed."));
   slider_->setTickPosition(QSlider::TicksBelow);
@@ -78,8 +121,7 @@ RunScrubber::RunScrubber(ViewState& view, QWidget* parent) : QWidget(parent), vi
   connect(slider_, &QSlider::valueChanged, this, [this](int value) {
     view_.setCursor({value, Stage::kFinished});
   });
-  connect(&view_, &ViewState::snapshotChanged, this, &RunScrubber::showCursor);
-  connect(&view_, &ViewState::cursorChanged, this, &RunScrubber::showCursor);
+  view_.onChange(ViewChange::kSnapshot | ViewChange::kCursor, this, &RunScrubber::showCursor);
   showCursor();
 }
 
@@ -169,8 +211,8 @@ void RunScrubber::showStages() {
     weight.setBold(i == chosen);
     button->setFont(weight);
     if (!exists) continue;
-    button->setText(stageName(stages[static_cast<std::size_t>(i)]));
-    button->setToolTip(stageHelp(stages[static_cast<std::size_t>(i)]));
+    button->setText(tr(textOf(stages[static_cast<std::size_t>(i)]).name));
+    button->setToolTip(tr(textOf(stages[static_cast<std::size_t>(i)]).help));
   }
   stages_->setExclusive(chosen >= 0);
   const auto* run = view_.snapshot().get();

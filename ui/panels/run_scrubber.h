@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Walking through a run stage by stage.
 #pragma once
 
 #include <array>
@@ -7,18 +8,28 @@
 #include <QWidget>
 
 #include "core/localizer/localizer.h"
+#include "sessions/run/trace.h"
 #include "ui/state/view_state.h"
 
-QT_BEGIN_NAMESPACE
 class QAction;
 class QButtonGroup;
 class QHBoxLayout;
 class QLabel;
 class QSlider;
 class QToolButton;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
+
+/// The stages of an iteration that can be looked at, as far as it came.
+std::vector<Stage> stagesOf(const sessions::IterationTrace& iteration);
+
+/// Which of `stages` the cursor's stage shows: the last one not after it, or 0.
+int shownStage(const std::vector<Stage>& stages, Stage cursor);
+
+/// The cursor one stage on or back, across iterations; at the ends it stays. The last stage of an
+/// iteration is kFinished, so that a cursor there follows an iteration that is under way.
+RunCursor nextStage(const sessions::LocalizationTrace& run, const RunCursor& cursor);
+RunCursor previousStage(const sessions::LocalizationTrace& run, const RunCursor& cursor);
 
 /// Walks the cursor through a run: a slider over the iterations (leftmost: the seed), buttons, and
 /// one button per stage of the chosen iteration. The window gives the actions their shortcuts.

@@ -5,12 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include <QHelpEvent>
-#include <QPainter>
-#include <QToolTip>
+#include <QtWidgets>
 
 #include "ui/models/number_text.h"
-#include "ui/panels/heat_colors.h"
 #include "ui/panels/pixel_picture.h"
 
 namespace boresight::ui {

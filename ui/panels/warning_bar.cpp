@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/warning_bar.h"
 
-#include <QApplication>
-#include <QEvent>
-#include <QHBoxLayout>
-#include <QLabel>
-#include <QToolButton>
+#include <QtWidgets>
 
-#include "ui/panels/tint.h"
+#include "ui/panels/widgets.h"
 #include "ui/plots/plot_colors.h"
 
 namespace boresight::ui {
@@ -23,16 +19,13 @@ WarningBar::WarningBar(const QString& action, const QString& tip, QWidget* paren
   setAutoFillBackground(true);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 3, 4, 3);
-  text_ = new QLabel(this);
-  text_->setObjectName(QStringLiteral("warning"));
+  text_ = named(new QLabel(this), "warning");
   text_->setWordWrap(true);
   text_->setTextFormat(Qt::PlainText);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   row->addWidget(text_, 1);
-  auto* button = new QToolButton(this);
-  button->setObjectName(QStringLiteral("warningAction"));
+  auto* button = named(new QToolButton(this), "warningAction", tip);
   button->setText(action);
-  button->setToolTip(tip);
   row->addWidget(button);
   connect(button, &QToolButton::clicked, this, &WarningBar::actionRequested);
   applyPalette();

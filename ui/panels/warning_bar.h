@@ -4,10 +4,8 @@
 #include <QFrame>
 #include <QStringList>
 
-QT_BEGIN_NAMESPACE
 class QLabel;
 class QToolButton;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 

@@ -40,7 +40,6 @@ class DoublePlot : public QWidget {
   /// Where a place is on the canvas; half way up.
   QPoint canvasPoint(int place) const;
   int leftCount() const { return left_.count; }
-  int rightCount() const { return right_.count; }
 
  Q_SIGNALS:
   void chosen(int place);

@@ -3,6 +3,16 @@
 
 namespace boresight::ui {
 
+QPalette tinted(const QPalette& base, const QColor& towards) {
+  const QColor window = base.color(QPalette::Window);
+  const auto mixed = [](int a, int b) { return (3 * a + b) / 4; };
+  QPalette made = base;
+  made.setColor(QPalette::Window,
+                QColor(mixed(window.red(), towards.red()), mixed(window.green(), towards.green()),
+                       mixed(window.blue(), towards.blue())));
+  return made;
+}
+
 bool isDark(const QPalette& palette) { return palette.color(QPalette::Base).lightness() < 128; }
 
 PlotColors plotColors(const QPalette& palette) {

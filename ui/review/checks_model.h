@@ -2,12 +2,9 @@
 #pragma once
 
 #include <string>
-#include <vector>
-
-#include <QAbstractTableModel>
-#include <QString>
 
 #include "sessions/session/check.h"
+#include "ui/models/rows_model.h"
 
 namespace boresight::ui {
 
@@ -21,25 +18,21 @@ struct CheckRow {
 
 /// The checks of a pose: failed ones first, then passed ones, then what could not be asked. The
 /// reason for passing over a failed one is edited here.
-class ChecksModel : public QAbstractTableModel {
+class ChecksModel : public RowsModel<CheckRow> {
   Q_OBJECT
 
  public:
-  enum Column { kCheck, kFound, kLimit, kReason, kColumnCount };
+  enum Column { kCheck, kFound, kLimit, kReason };
 
   explicit ChecksModel(QObject* parent = nullptr);
 
   /// `current` false: they are of something that has changed since, and are shown as such. Rows of
   /// the same checks change in place, so that selections and editors stay.
   void setRows(std::vector<CheckRow> rows, bool current);
-  const CheckRow& checkAt(int row) const { return rows_[static_cast<std::size_t>(row)]; }
-  bool isFailed(int row) const { return checkAt(row).check.state == sessions::CheckState::kFailed; }
+  bool isFailed(int row) const { return at(row).check.state == sessions::CheckState::kFailed; }
   /// "✓", "✗" or "–": each state has a shape of its own.
   static QString sign(sessions::CheckState state);
 
-  int rowCount(const QModelIndex& parent = {}) const override;
-  int columnCount(const QModelIndex& parent = {}) const override;
-  QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
   bool setData(const QModelIndex& index, const QVariant& value, int role = Qt::EditRole) override;
   Qt::ItemFlags flags(const QModelIndex& index) const override;
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
@@ -47,12 +40,12 @@ class ChecksModel : public QAbstractTableModel {
  Q_SIGNALS:
   void reasonEdited(const std::string& check_id, const QString& reason);
 
+ protected:
+  QVariant look(const CheckRow& row, int column, int role) const override;
+
  private:
-  bool hasSameChecks(const std::vector<CheckRow>& rows) const;
-  QString text(const CheckRow& row, int column) const;
   QString countsText() const;
 
-  std::vector<CheckRow> rows_;
   bool current_ = true;
 };
 

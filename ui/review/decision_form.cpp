@@ -3,14 +3,10 @@
 
 #include <utility>
 
-#include <QHBoxLayout>
-#include <QLineEdit>
-#include <QPushButton>
-#include <QSettings>
-#include <QTextBrowser>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "ui/models/number_text.h"
+#include "ui/panels/widgets.h"
 
 namespace boresight::ui {
 
@@ -94,8 +90,7 @@ DecisionForm::DecisionForm(ReviewController& controller, QWidget* parent)
   row->addWidget(button(Act::kTakeBack, "takeBack", tr("Take back"),
                         tr("Take the last decision back; it stays in the history")));
   column->addLayout(row);
-  reading_ = new QTextBrowser(this);
-  reading_->setObjectName(QStringLiteral("reading"));
+  reading_ = named(new QTextBrowser(this), "reading");
   reading_->setAccessibleName(tr("What stands in the way, the chosen check, former decisions"));
   reading_->setMinimumHeight(2 * fontMetrics().lineSpacing());
   column->addWidget(reading_, 1);
@@ -107,12 +102,11 @@ DecisionForm::DecisionForm(ReviewController& controller, QWidget* parent)
 
 void DecisionForm::buildFields(QHBoxLayout& row) {
   row.setSpacing(3);
-  name_ = new QLineEdit(QSettings().value(QLatin1String(kNameKey)).toString(), this);
-  name_->setObjectName(QStringLiteral("decisionName"));
+  name_ = named(new QLineEdit(QSettings().value(QLatin1String(kNameKey)).toString(), this),
+                "decisionName");
   name_->setPlaceholderText(tr("Who decides"));
   name_->setToolTip(tr("Your name; it goes with the decision into every file"));
-  comment_ = new QLineEdit(this);
-  comment_->setObjectName(QStringLiteral("decisionComment"));
+  comment_ = named(new QLineEdit(this), "decisionComment");
   comment_->setPlaceholderText(tr("On what grounds"));
   comment_->setToolTip(tr("On what grounds; it goes with the decision into every file"));
   name_->setAccessibleName(tr("Who decides"));

@@ -7,12 +7,10 @@
 
 #include "ui/review/review_controller.h"
 
-QT_BEGIN_NAMESPACE
 class QHBoxLayout;
 class QLineEdit;
 class QPushButton;
 class QTextBrowser;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 

@@ -1,22 +1,96 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/review/limits_dialog.h"
 
-#include <QAction>
-#include <QCheckBox>
-#include <QComboBox>
-#include <QHBoxLayout>
-#include <QHeaderView>
-#include <QLabel>
-#include <QPushButton>
-#include <QSignalBlocker>
-#include <QTableView>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "ui/models/number_text.h"
-#include "ui/panels/table_style.h"
+#include "ui/models/options_model.h"
+#include "ui/panels/widgets.h"
 #include "ui/review/review_controller.h"
 
 namespace boresight::ui {
+
+using sessions::OptionDescription;
+
+namespace {
+
+/// A value as people type it: without its unit.
+QString plainText(const OptionDescription& option) {
+  OptionDescription bare = option;
+  bare.unit.clear();
+  return fromText(sessions::valueText(bare, option.value));
+}
+
+std::vector<TableColumn<LimitRow>> columns() {
+  using Row = const LimitRow&;
+  constexpr auto tr = [](const char* text) { return LimitsModel::tr(text); };
+  return {
+      {tr("Limit"), tr("Name of the limit, as in the session's file."), -1,
+       [](Row row) { return fromText(row.now.name).section(QLatin1Char('.'), 1); }},
+      {tr("Value"), tr("What checks are held against; bold where it differs from the preset."), -1,
+       [](Row row) { return plainText(row.now); }},
+      {tr("Unit"), tr("Unit of the value; none for counts."), -1,
+       [](Row row) { return fromText(row.now.unit); }},
+      {tr("Preset"), tr("The value in the chosen preset."), -1,
+       [](Row row) { return plainText(row.of_preset); }},
+      {tr("Range"), tr("What the value may be; anything else is refused."), -1,
+       [](Row row) { return OptionsModel::rangeText(row.now); }},
+  };
+}
+
+}  // namespace
+
+LimitsModel::LimitsModel(QObject* parent) : RowsModel(columns(), parent) { setLimits({}, {}); }
+
+void LimitsModel::setLimits(const sessions::CheckLimits& limits,
+                            const sessions::CheckLimits& of_preset) {
+  limits_ = limits;
+  of_preset_ = of_preset;
+  std::vector<LimitRow> rows;
+  const auto presets = sessions::listOptions(of_preset_);
+  for (const OptionDescription& option : sessions::listOptions(limits_))
+    rows.push_back({option, presets[rows.size()]});
+  setRows(std::move(rows), true);
+}
+
+void LimitsModel::reset(int row) {
+  if (row < 0 || !at(row).isChanged()) return;
+  sessions::CheckLimits changed = limits_;
+  sessions::applyOption(changed, at(row).of_preset.name, at(row).of_preset.value);
+  Q_EMIT edited(changed);
+}
+
+void LimitsModel::resetAll() { Q_EMIT edited(of_preset_); }
+
+QVariant LimitsModel::look(const LimitRow& row, int column, int role) const {
+  if (role == Qt::EditRole) return valueOf(row, column);
+  if (role == Qt::ToolTipRole) return fromText(row.now.help);
+  if (role != Qt::FontRole) return {};
+  QFont font;
+  font.setBold(row.isChanged() && column <= kValue);
+  return font;
+}
+
+bool LimitsModel::setData(const QModelIndex& index, const QVariant& value, int role) {
+  if (role != Qt::EditRole || index.column() != kValue) return false;
+  const OptionDescription& option = at(index.row()).now;
+  const QString typed = value.toString().trimmed();
+  if (typed == plainText(option)) return true;
+  sessions::CheckLimits changed = limits_;
+  try {
+    sessions::applyOptionText(changed, option.name, typed.toStdString());
+  } catch (const sessions::OptionError& error) {
+    Q_EMIT refused(fromText(error.what()));
+    return false;
+  }
+  Q_EMIT edited(changed);
+  return true;
+}
+
+Qt::ItemFlags LimitsModel::flags(const QModelIndex& index) const {
+  const Qt::ItemFlags flags = QAbstractTableModel::flags(index);
+  return index.isValid() && index.column() == kValue ? flags | Qt::ItemIsEditable : flags;
+}
 
 LimitsDialog::LimitsDialog(ReviewController& controller, QWidget* parent)
     : QDialog(parent), controller_(controller) {
@@ -38,8 +112,7 @@ LimitsDialog::LimitsDialog(ReviewController& controller, QWidget* parent)
 
 void LimitsDialog::buildTop(QVBoxLayout& column) {
   auto* row = new QHBoxLayout;
-  preset_ = new QComboBox(this);
-  preset_->setObjectName(QStringLiteral("preset"));
+  preset_ = named(new QComboBox(this), "preset");
   for (const sessions::CheckPreset& preset : sessions::checkPresets()) {
     preset_->addItem(fromText(preset.name));
     preset_->setItemData(preset_->count() - 1, fromText(preset.help), Qt::ToolTipRole);
@@ -57,11 +130,7 @@ void LimitsDialog::buildTop(QVBoxLayout& column) {
 }
 
 void LimitsDialog::buildTable(QVBoxLayout& column) {
-  table_ = new QTableView(this);
-  table_->setObjectName(QStringLiteral("limits"));
-  table_->setAccessibleName(tr("Limits"));
-  table_->setModel(&model_);
-  styleTable(*table_);
+  table_ = newTable("limits", tr("Limits"), model_, this);
   table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::SelectedClicked |
                           QAbstractItemView::EditKeyPressed | QAbstractItemView::AnyKeyPressed);
   auto* reset = new QAction(tr("Back to the preset's value"), table_);
@@ -73,8 +142,7 @@ void LimitsDialog::buildTable(QVBoxLayout& column) {
   connect(table_->selectionModel(), &QItemSelectionModel::currentChanged, this,
           &LimitsDialog::showChosen);
   column.addWidget(table_);
-  help_ = new QLabel(this);
-  help_->setObjectName(QStringLiteral("limitHelp"));
+  help_ = named(new QLabel(this), "limitHelp");
   help_->setWordWrap(true);
   help_->setTextFormat(Qt::PlainText);
   help_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
@@ -83,10 +151,9 @@ void LimitsDialog::buildTable(QVBoxLayout& column) {
 }
 
 void LimitsDialog::buildBottom(QVBoxLayout& column) {
-  second_ = new QCheckBox(tr("A second person approves"), this);
-  second_->setObjectName(QStringLiteral("secondPerson"));
-  second_->setToolTip(
-      tr("A validation counts only once somebody else than who validated has approved it"));
+  second_ =
+      named(new QCheckBox(tr("A second person approves"), this), "secondPerson",
+            tr("A validation counts only once somebody else than who validated has approved it"));
   reset_ = new QPushButton(tr("Reset all"), this);
   reset_->setToolTip(tr("Take every limit back to the preset's value"));
   reset_->setAutoDefault(false);
@@ -112,7 +179,7 @@ void LimitsDialog::showSettings() {
   preset_help_->setText(fromText(preset->help));
   second_->setChecked(settings.second_person);
   reset_->setEnabled(!settings.limits.empty());
-  fitColumns(*table_);
+  table_->resizeColumnsToContents();
 }
 
 void LimitsDialog::showChosen() {

@@ -3,18 +3,57 @@
 
 #include <QDialog>
 
-#include "ui/review/limits_model.h"
+#include "sessions/session/check_limits.h"
+#include "ui/models/rows_model.h"
 
-QT_BEGIN_NAMESPACE
 class QCheckBox;
 class QComboBox;
 class QLabel;
 class QPushButton;
 class QTableView;
 class QVBoxLayout;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
+
+/// A limit, and the preset's.
+struct LimitRow {
+  sessions::OptionDescription now;
+  sessions::OptionDescription of_preset;
+
+  bool isChanged() const { return now.value != of_preset.value; }
+};
+
+/// The limits of the checks beside those of the preset. What differs is bold and can be reset. A
+/// value out of range is refused, and `refused` says why.
+class LimitsModel : public RowsModel<LimitRow> {
+  Q_OBJECT
+
+ public:
+  enum Column { kName, kValue, kUnit, kPreset, kRange };
+
+  explicit LimitsModel(QObject* parent = nullptr);
+
+  /// From the document; emits nothing.
+  void setLimits(const sessions::CheckLimits& limits, const sessions::CheckLimits& of_preset);
+  /// To the preset's value.
+  void reset(int row);
+  void resetAll();
+
+  bool setData(const QModelIndex& index, const QVariant& value, int role = Qt::EditRole) override;
+  Qt::ItemFlags flags(const QModelIndex& index) const override;
+
+ Q_SIGNALS:
+  void edited(const boresight::sessions::CheckLimits& limits);
+  /// A value was not taken; one sentence for people.
+  void refused(const QString& message);
+
+ protected:
+  QVariant look(const LimitRow& row, int column, int role) const override;
+
+ private:
+  sessions::CheckLimits limits_;
+  sessions::CheckLimits of_preset_;
+};
 
 class ReviewController;
 

@@ -20,8 +20,8 @@ QString compareKey() { return QStringLiteral("compare with onboard record"); }
 OnboardController::OnboardController(Document& document, ViewState& state, TaskRunner& tasks,
                                      QObject* parent)
     : QObject(parent), document_(document), state_(state), tasks_(tasks) {
-  connect(&state_, &ViewState::caseChanged, this, &OnboardController::caseChanged);
-  connect(&state_, &ViewState::snapshotChanged, this, &OnboardController::snapshotChanged);
+  state_.onChange(ViewChange::kCase, this, &OnboardController::caseChanged);
+  state_.onChange(ViewChange::kSnapshot, this, &OnboardController::snapshotChanged);
 }
 
 std::filesystem::path OnboardController::file() const {

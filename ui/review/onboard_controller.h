@@ -42,8 +42,6 @@ class OnboardController : public QObject {
   QString whyNotCompared() const;
   /// Whether the views show the onboard run.
   bool showsOnboard() const;
-  /// The run of the ground that can be shown and compared with, or nullptr.
-  const ViewState::SnapshotPtr& groundRun() const { return ground_; }
 
  public Q_SLOTS:
   /// Attaches a record to the current case; an edit that can be undone.

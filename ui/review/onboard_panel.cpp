@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/review/onboard_panel.h"
 
-#include <QEvent>
-#include <QFileDialog>
-#include <QFrame>
-#include <QHBoxLayout>
-#include <QHeaderView>
-#include <QLabel>
-#include <QPushButton>
-#include <QScrollArea>
-#include <QSplitter>
-#include <QTableWidget>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "ui/models/number_text.h"
-#include "ui/panels/table_style.h"
-#include "ui/panels/tint.h"
+#include "ui/panels/widgets.h"
 #include "ui/plots/plot_colors.h"
 #include "ui/run/run_controller.h"
 
@@ -92,8 +81,7 @@ QWidget* OnboardPanel::buildButtons() {
   banner_->setAutoFillBackground(true);
   auto* row = new QHBoxLayout(banner_);
   row->setContentsMargins(8, 3, 4, 3);
-  shown_ = new QLabel(banner_);
-  shown_->setObjectName(QStringLiteral("shownRun"));
+  shown_ = named(new QLabel(banner_), "shownRun");
   shown_->setWordWrap(true);
   shown_->setMinimumWidth(kShownWidth_px);
   show_onboard_ = button("showOnboard", tr("Show onboard"),
@@ -149,8 +137,7 @@ QWidget* OnboardPanel::buildComparison() {
   first_->setTextFormat(Qt::RichText);
   first_->setTextInteractionFlags(Qt::TextBrowserInteraction);
   connect(first_, &QLabel::linkActivated, &onboard_, &OnboardController::goToFirstDifference);
-  table_ = new QTableWidget(0, kColumns, content);
-  table_->setObjectName(QStringLiteral("comparison"));
+  table_ = named(new QTableWidget(0, kColumns, content), "comparison");
   table_->setAccessibleName(tr("Onboard and ground run by iteration"));
   styleTable(*table_);
   table_->setHorizontalHeaderLabels({tr("Iteration"), tr("Found alike"), tr("Inliers in both"),
@@ -282,7 +269,7 @@ void OnboardPanel::showTable(const sessions::RecordComparison* comparison) {
                              : QStringLiteral("–");
   add({tr("Final"), sigmas, QString(), numberText(comparison->translation_mm, 4),
        numberText(comparison->rotation_mrad, 4)});
-  fitColumns(*table_);
+  table_->resizeColumnsToContents();
 }
 
 void askForOnboardRecord(OnboardController& onboard, QWidget* parent) {

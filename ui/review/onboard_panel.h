@@ -6,12 +6,10 @@
 
 #include "ui/review/onboard_controller.h"
 
-QT_BEGIN_NAMESPACE
 class QFrame;
 class QLabel;
 class QPushButton;
 class QTableWidget;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 

@@ -3,11 +3,7 @@
 
 #include <algorithm>
 
-#include <QAction>
-#include <QFileDialog>
-#include <QFileInfo>
-#include <QInputDialog>
-#include <QMenu>
+#include <QtWidgets>
 
 #include "sessions/exchange/pose_exchange.h"
 #include "sessions/report/pose_report.h"

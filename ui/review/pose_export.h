@@ -7,10 +7,8 @@
 #include <QObject>
 #include <QString>
 
-QT_BEGIN_NAMESPACE
 class QMenu;
 class QWidget;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 

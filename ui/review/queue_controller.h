@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <exception>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <QImage>
@@ -13,9 +17,128 @@
 #include "sessions/review/decide.h"
 #include "sessions/review/queue.h"
 #include "sessions/review/run_difference.h"
-#include "ui/review/case_by_case.h"
+#include "sessions/session/session.h"
+#include "ui/run/task_runner.h"
 
 namespace boresight::ui {
+
+/// A value for each case of a session, made off the UI's thread one case at a time, and made anew
+/// when what it rests on (its key) has changed. A value that is no longer so stays to be seen until
+/// then.
+template <class Value>
+class CaseByCase {
+ public:
+  struct Entry {
+    std::string id;
+    std::string key;
+    std::optional<Value> value;
+    bool current = false;  ///< the value is of this key
+  };
+  /// On the worker's thread.
+  using Make = std::function<Value(const sessions::Session& session, const std::string& id)>;
+  /// A value in the place of one whose making threw.
+  using Failed = std::function<Value(const std::string& id, const std::string& message)>;
+  using Keys = std::vector<std::pair<std::string, std::string>>;  ///< id and key, in order
+  using Before = std::function<bool(const Entry&, const Entry&)>;
+
+  /// `changed` is called on the UI's thread whenever an entry has.
+  CaseByCase(Make make, Failed failed, std::function<void()> changed)
+      : make_(std::move(make)), failed_(std::move(failed)), changed_(std::move(changed)) {}
+
+  /// The values are to be of these cases now.
+  void follow(const sessions::Session& session, const Keys& keys) {
+    session_ = session;
+    std::map<std::string, Entry> former;
+    for (Entry& entry : entries_) former.emplace(entry.id, std::move(entry));
+    entries_.clear();
+    for (const auto& [id, key] : keys) {
+      Entry& entry = entries_.emplace_back();
+      if (const auto found = former.find(id); found != former.end())
+        entry = std::move(found->second);
+      entry.current = entry.current && entry.key == key;
+      entry.id = id;
+      entry.key = key;
+    }
+    goOn();
+    changed_();
+  }
+
+  /// Nothing is made while nobody looks, or while it is halted.
+  void setActive(bool active) {
+    active_ = active;
+    goOn();
+  }
+  void setHalted(bool halted) {
+    halted_ = halted;
+    goOn();
+    changed_();
+  }
+  bool isHalted() const { return halted_; }
+  bool isBusy() const { return making_; }
+  /// Which of those that wait is made first; without it the order is that of the keys.
+  void setOrder(Before before) { before_ = std::move(before); }
+
+  std::vector<Entry>& entries() { return entries_; }
+  const std::vector<Entry>& entries() const { return entries_; }
+  Entry* find(const std::string& id) {
+    for (Entry& entry : entries_)
+      if (entry.id == id) return &entry;
+    return nullptr;
+  }
+  int currentCount() const {
+    int count = 0;
+    for (const Entry& entry : entries_) count += entry.current ? 1 : 0;
+    return count;
+  }
+
+ private:
+  Entry* next() {
+    Entry* found = nullptr;
+    for (Entry& entry : entries_)
+      if (!entry.current && (!found || (before_ && before_(entry, *found)))) found = &entry;
+    return found;
+  }
+
+  void goOn() {
+    Entry* entry = active_ && !halted_ && !making_ ? next() : nullptr;
+    if (!entry) return;
+    making_ = true;
+    runner_.start(
+        QStringLiteral("case"),
+        [session = session_, id = entry->id, make = make_,
+         failed = failed_](const std::stop_token&) {
+          try {
+            return make(session, id);
+          } catch (const std::exception& error) {
+            return failed(id, error.what());
+          }
+        },
+        [this, id = entry->id, key = entry->key](Value value) { take(id, key, std::move(value)); });
+  }
+
+  /// A value of what is no longer so is dropped.
+  void take(const std::string& id, const std::string& key, Value value) {
+    making_ = false;
+    Entry* entry = find(id);
+    if (entry && entry->key == key) {
+      entry->value = std::move(value);
+      entry->current = true;
+    }
+    goOn();
+    changed_();
+  }
+
+  Make make_;
+  Failed failed_;
+  std::function<void()> changed_;
+  Before before_;
+  sessions::Session session_;
+  std::vector<Entry> entries_;
+  bool active_ = false;
+  bool halted_ = false;
+  bool making_ = false;
+  TaskRunner runner_;  ///< last: it ends before what its work uses
+};
 
 class Document;
 

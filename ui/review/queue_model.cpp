@@ -1,21 +1,110 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/review/queue_model.h"
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <limits>
 #include <utility>
 
 #include <QIcon>
 #include <QPixmap>
 
-#include "ui/models/column_info.h"
-#include "ui/models/number_text.h"
+#include "ui/models/cases_model.h"
 
 namespace boresight::ui {
 
-using sessions::CaseStanding;
+using sessions::RunChange;
+using sessions::RunDifference;
+
+namespace {
+
+QString signOf(RunChange change) {
+  switch (change) {
+    case RunChange::kBetter:
+      return DifferencesModel::tr("▲ better");
+    case RunChange::kWorse:
+      return DifferencesModel::tr("▼ worse");
+    case RunChange::kSame:
+      break;
+  }
+  return DifferencesModel::tr("= same");
+}
+
+QString beforeAndNow(int before, int now) { return QStringLiteral("%1 → %2").arg(before).arg(now); }
+
+QString apartText(const RunDifference& made) {
+  if (!made.before.converged || !made.after.converged) return {};
+  return DifferencesModel::tr("%1 mm, %2 mrad")
+      .arg(numberText(made.comparison.translation_mm, 3),
+           numberText(made.comparison.rotation_mrad, 3));
+}
+
+using Difference = const RunDifference&;
+
+/// A cell of a case that has a difference; nothing of others.
+template <class Value>
+auto ofDifference(Value value) {
+  return [value](const DifferenceEntry& entry) {
+    return entry.difference ? QVariant(value(*entry.difference)) : QVariant();
+  };
+}
+
+/// Sorted with the worse ones first when it ascends.
+std::vector<TableColumn<DifferenceEntry>> differenceColumns() {
+  constexpr auto tr = [](const char* text) { return DifferencesModel::tr(text); };
+  return {
+      {tr("Case"), tr("The case."), -1,
+       [](const DifferenceEntry& entry) { return fromText(entry.case_id); }},
+      {tr("Change"),
+       tr("Whether the last run is better than the one before: by the truth where it is known, "
+          "else by the checks."),
+       -1, ofDifference([](Difference made) { return signOf(made.change); }),
+       ofDifference([](Difference made) {
+         return made.change == RunChange::kWorse ? 0 : made.change == RunChange::kBetter ? 1 : 2;
+       })},
+      {tr("Failed checks"), tr("How many failed: before, and now."), 0,
+       ofDifference([](Difference made) {
+         return beforeAndNow(made.before.checks_failed, made.after.checks_failed);
+       }),
+       ofDifference(
+           [](Difference made) { return made.after.checks_failed - made.before.checks_failed; })},
+      {tr("Inliers"), tr("Inliers of the last matching iteration: before, and now."), 0,
+       ofDifference(
+           [](Difference made) { return beforeAndNow(made.before.inliers, made.after.inliers); }),
+       ofDifference([](Difference made) { return made.after.inliers - made.before.inliers; })},
+      {tr("Poses apart"), tr("How far the two results are apart at the camera, in mm and mrad."), 0,
+       ofDifference(apartText),
+       ofDifference([](Difference made) { return made.comparison.translation_mm; })},
+      {tr("Why, and where they differ first"),
+       tr("What the change is judged by, and the first thing in which the runs are not the same to "
+          "the bit."),
+       -1, ofDifference([](Difference made) { return fromText(sessions::changeText(made)); })},
+  };
+}
+
+QString tableHtml(const RunDifference& made) {
+  QString html = DifferencesModel::tr("<table><tr><th></th><th>before</th><th>now</th></tr>");
+  for (const sessions::DifferenceLine& line : sessions::differenceLines(made))
+    html += QStringLiteral("<tr><td>%1&nbsp;</td><td>%2&nbsp;</td><td>%3</td></tr>")
+                .arg(fromText(line.label).toHtmlEscaped(), fromText(line.before).toHtmlEscaped(),
+                     fromText(line.after).toHtmlEscaped());
+  return html + QStringLiteral("</table><p>%1</p>")
+                    .arg(fromText(sessions::changeText(made)).toHtmlEscaped());
+}
+
+}  // namespace
+
+DifferencesModel::DifferencesModel(QObject* parent) : RowsModel(differenceColumns(), parent) {}
+
+void DifferencesModel::setEntries(std::vector<DifferenceEntry> entries) {
+  setRowsByKey(std::move(entries), [](const DifferenceEntry& entry) { return entry.case_id; });
+}
+
+QVariant DifferencesModel::look(const DifferenceEntry& entry, int column, int role) const {
+  const bool tip = role == Qt::ToolTipRole;
+  if (entry.difference) return tip ? tableHtml(*entry.difference) : QVariant();
+  if (!tip && (role != Qt::DisplayRole || column != kWhy)) return {};
+  return entry.problem.isEmpty() ? tr("… being compared") : entry.problem;
+}
+
 using sessions::QueueGroup;
 using sessions::QueueRow;
 
@@ -23,42 +112,6 @@ namespace {
 
 constexpr double kPercent = 100.0;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* kContext = "boresight::ui::QueueModel";
-
-constexpr ColumnInfo kColumns[] = {
-    {QT_TRANSLATE_NOOP("boresight::ui::QueueModel", "Case"),
-     QT_TRANSLATE_NOOP("boresight::ui::QueueModel",
-                       "The case, with the edges of its result over the image; red: those of the "
-                       "seed, as there is no result."),
-     -1},
-    {QT_TRANSLATE_NOOP("boresight::ui::QueueModel", "State"),
-     QT_TRANSLATE_NOOP("boresight::ui::QueueModel", "Where the case stands."), -1},
-    {QT_TRANSLATE_NOOP("boresight::ui::QueueModel", "Trouble"),
-     QT_TRANSLATE_NOOP("boresight::ui::QueueModel",
-                       "What to look at. Sorted by it: failed runs, then failed checks, then the "
-                       "margin, then the distance from the seed; what is decided comes last."),
-     -1},
-    {QT_TRANSLATE_NOOP("boresight::ui::QueueModel", "Margin,\n%"),
-     QT_TRANSLATE_NOOP("boresight::ui::QueueModel",
-                       "How far the worst check's figure is on the good side of its limit, in "
-                       "percent of the limit; negative: beyond it."),
-     0},
-    {QT_TRANSLATE_NOOP("boresight::ui::QueueModel", "From\nseed"),
-     QT_TRANSLATE_NOOP("boresight::ui::QueueModel",
-                       "How far the result is from the seed, in mm and mrad, and as a part of the "
-                       "seed's stated uncertainty (100 %: on its border)."),
-     0},
-    {QT_TRANSLATE_NOOP("boresight::ui::QueueModel", "Inliers"),
-     QT_TRANSLATE_NOOP("boresight::ui::QueueModel", "Inliers of the last matching iteration."), 0},
-};
-static_assert(std::size(kColumns) == QueueModel::kColumnCount);
-
-double numberOf(const QueueRow& row, int column) {
-  if (column == QueueModel::kMargin) return row.margin.value_or(kNaN);
-  if (column == QueueModel::kFromSeed) return row.from_seed ? row.from_seed->share : kNaN;
-  return row.iterations > 0 ? row.inliers : kNaN;
-}
-
 /// Whether what the row says of its checks is of the document as it is.
 QString remarkOf(const QueueEntry& entry) {
   if (entry.checked) return {};
@@ -95,126 +148,74 @@ QString tooltipOf(const QueueEntry& entry, int column) {
   return text;
 }
 
+std::vector<TableColumn<QueueEntry>> queueColumns() {
+  using Entry = const QueueEntry&;
+  constexpr auto tr = [](const char* text) { return QueueModel::tr(text); };
+  return {
+      {tr("Case"),
+       tr("The case, with the edges of its result over the image; red: those of the seed, as "
+          "there is no result."),
+       -1, [](Entry entry) { return fromText(entry.row.case_id); }},
+      {tr("State"), tr("Where the case stands."), -1,
+       [](Entry entry) { return QueueModel::standingText(entry.row); }},
+      {tr("Trouble"),
+       tr("What to look at. Sorted by it: failed runs, then failed checks, then the margin, then "
+          "the distance from the seed; what is decided comes last."),
+       -1, troubleOf},
+      {tr("Margin,\n%"),
+       tr("How far the worst check's figure is on the good side of its limit, in percent of the "
+          "limit; negative: beyond it."),
+       0, [](Entry entry) { return kPercent * entry.row.margin.value_or(kNaN); }},
+      {tr("From\nseed"),
+       tr("How far the result is from the seed, in mm and mrad, and as a part of the seed's stated "
+          "uncertainty (100 %: on its border)."),
+       0, [](Entry entry) { return fromSeedText(entry.row); },
+       [](Entry entry) { return entry.row.from_seed ? entry.row.from_seed->share : kNaN; }},
+      {tr("Inliers"), tr("Inliers of the last matching iteration."), 0,
+       [](Entry entry) { return entry.row.iterations > 0 ? entry.row.inliers : kNaN; }},
+  };
+}
+
 }  // namespace
 
-QueueModel::QueueModel(QObject* parent) : QAbstractTableModel(parent) {}
+QueueModel::QueueModel(QObject* parent) : RowsModel(queueColumns(), parent) {}
 
 void QueueModel::setEntries(std::vector<QueueEntry> entries) {
-  const bool same = std::equal(
-      entries.begin(), entries.end(), entries_.begin(), entries_.end(),
-      [](const QueueEntry& a, const QueueEntry& b) { return a.row.case_id == b.row.case_id; });
-  if (!same) beginResetModel();
-  entries_ = std::move(entries);
-  if (!same)
-    endResetModel();
-  else if (!entries_.empty())
-    Q_EMIT dataChanged(index(0, 0), index(rowCount() - 1, kColumnCount - 1));
+  setRowsByKey(std::move(entries), [](const QueueEntry& entry) { return entry.row.case_id; });
 }
 
 int QueueModel::rowOf(const QString& id) const {
-  const auto found = std::find_if(
-      entries_.begin(), entries_.end(),
-      [wanted = id.toStdString()](const QueueEntry& one) { return one.row.case_id == wanted; });
-  return found == entries_.end() ? -1 : static_cast<int>(found - entries_.begin());
+  return firstRow(
+      [wanted = id.toStdString()](const QueueEntry& entry) { return entry.row.case_id == wanted; });
 }
 
 QString QueueModel::standingText(const QueueRow& row) {
   if (row.group == QueueGroup::kAwaits) return tr("☆ to be approved");
-  switch (row.standing) {
-    case CaseStanding::kNew:
-      return tr("○ new");
-    case CaseStanding::kConverged:
-      return tr("✓ converged");
-    case CaseStanding::kFailed:
-      return tr("✗ failed");
-    case CaseStanding::kAnnotated:
-      return tr("✎ annotated");
-    case CaseStanding::kValidated:
-      return tr("★ validated");
-    case CaseStanding::kRejected:
-      return tr("⊘ rejected");
-  }
-  return {};
+  return CasesModel::stateText(caseStateOf(row.standing));
 }
 
-QString QueueModel::textOf(const QueueEntry& entry, int column) const {
-  switch (column) {
-    case kCase:
-      return fromText(entry.row.case_id);
-    case kStanding:
-      return standingText(entry.row);
-    case kTrouble:
-      return troubleOf(entry);
-    case kMargin:
-      return numberText(kPercent * numberOf(entry.row, column), 0);
-    case kFromSeed:
-      return fromSeedText(entry.row);
-    default:
-      return numberText(numberOf(entry.row, column), 0);
-  }
+QVariant QueueModel::look(const QueueEntry& entry, int column, int role) const {
+  if (role == Qt::ToolTipRole) return tooltipOf(entry, column);
+  if (role != Qt::DecorationRole || column != kCase || entry.thumbnail.isNull()) return {};
+  return QIcon(QPixmap::fromImage(entry.thumbnail));
 }
 
-int QueueModel::rowCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : static_cast<int>(entries_.size());
-}
-
-int QueueModel::columnCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : kColumnCount;
-}
-
-QVariant QueueModel::data(const QModelIndex& index, int role) const {
-  if (!index.isValid() || index.row() >= rowCount()) return {};
-  const QueueEntry& entry = entryAt(index.row());
-  const int column = index.column();
-  switch (role) {
-    case Qt::DisplayRole:
-      return textOf(entry, column);
-    case Qt::ToolTipRole:
-      return tooltipOf(entry, column);
-    case Qt::DecorationRole:
-      if (column != kCase || entry.thumbnail.isNull()) return {};
-      return QIcon(QPixmap::fromImage(entry.thumbnail));
-    default:
-      return columnCell(kContext, kColumns[column], role);
-  }
-}
-
-QVariant QueueModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  return columnHeader(kContext, kColumns, section, orientation, role);
-}
-
-QueueFilter::QueueFilter(QueueModel& model, QObject* parent)
-    : QSortFilterProxyModel(parent), model_(model) {
+QueueFilter::QueueFilter(QueueModel& model, QObject* parent) : RowsFilter(parent), model_(model) {
   setSourceModel(&model);
-  setDynamicSortFilter(true);
 }
 
 void QueueFilter::setText(const QString& text) {
-  text_ = text.trimmed();
-  invalidateFilter();
-}
-
-bool QueueFilter::filterAcceptsRow(int row, const QModelIndex& /*parent*/) const {
-  if (text_.isEmpty()) return true;
-  for (const int column : {QueueModel::kCase, QueueModel::kStanding, QueueModel::kTrouble})
-    if (model_.index(row, column).data().toString().contains(text_, Qt::CaseInsensitive))
-      return true;
-  return false;
+  setCondition([this, words = text.trimmed()](int row) {
+    for (const int column : {QueueModel::kCase, QueueModel::kStanding, QueueModel::kTrouble})
+      if (model_.index(row, column).data().toString().contains(words, Qt::CaseInsensitive))
+        return true;
+    return false;
+  });
 }
 
 bool QueueFilter::lessThan(const QModelIndex& left, const QModelIndex& right) const {
-  const QueueRow& a = model_.entryAt(left.row()).row;
-  const QueueRow& b = model_.entryAt(right.row()).row;
-  const int column = left.column();
-  if (column == QueueModel::kTrouble) return sessions::moreTrouble(a, b);
-  if (column <= QueueModel::kStanding)
-    return left.data().toString().localeAwareCompare(right.data().toString()) < 0;
-  const double one = numberOf(a, column);
-  const double other = numberOf(b, column);
-  if (std::isnan(one) || std::isnan(other))
-    return std::isnan(one) != std::isnan(other) &&
-           std::isnan(sortOrder() == Qt::AscendingOrder ? other : one);
-  return one < other;
+  if (left.column() != QueueModel::kTrouble) return RowsFilter::lessThan(left, right);
+  return sessions::moreTrouble(model_.at(left.row()).row, model_.at(right.row()).row);
 }
 
 }  // namespace boresight::ui

@@ -1,46 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
-
-#include <QAbstractTableModel>
-#include <QSortFilterProxyModel>
-
+#include "ui/models/rows_model.h"
 #include "ui/review/queue_controller.h"
 
 namespace boresight::ui {
 
-/// The queue's cases as a table.
-class QueueModel : public QAbstractTableModel {
+/// What changed between the two last runs of each case, as a table.
+class DifferencesModel : public RowsModel<DifferenceEntry> {
   Q_OBJECT
 
  public:
-  enum Column { kCase, kStanding, kTrouble, kMargin, kFromSeed, kInliers, kColumnCount };
+  enum Column { kCase, kChange, kChecks, kInliers, kApart, kWhy };
+
+  explicit DifferencesModel(QObject* parent = nullptr);
+
+  void setEntries(std::vector<DifferenceEntry> entries);
+
+ protected:
+  QVariant look(const DifferenceEntry& entry, int column, int role) const override;
+};
+
+/// The queue's cases as a table.
+class QueueModel : public RowsModel<QueueEntry> {
+  Q_OBJECT
+
+ public:
+  enum Column { kCase, kStanding, kTrouble, kMargin, kFromSeed, kInliers };
 
   explicit QueueModel(QObject* parent = nullptr);
 
   /// Rows of the same cases change in place, so that selections stay.
   void setEntries(std::vector<QueueEntry> entries);
-  const QueueEntry& entryAt(int row) const { return entries_[static_cast<std::size_t>(row)]; }
   /// -1 where there is none.
   int rowOf(const QString& id) const;
   /// Where a case stands: a word with a sign of its own shape before it.
   static QString standingText(const sessions::QueueRow& row);
 
-  int rowCount(const QModelIndex& parent = {}) const override;
-  int columnCount(const QModelIndex& parent = {}) const override;
-  QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
-  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
-
- private:
-  QString textOf(const QueueEntry& entry, int column) const;
-
-  std::vector<QueueEntry> entries_;
+ protected:
+  QVariant look(const QueueEntry& entry, int column, int role) const override;
 };
 
 /// Cases whose id, state or trouble holds a text. By trouble they are in the queue's order, by
 /// another column in that one's; those without a number come last either way.
-class QueueFilter : public QSortFilterProxyModel {
+class QueueFilter : public RowsFilter {
   Q_OBJECT
 
  public:
@@ -49,12 +52,10 @@ class QueueFilter : public QSortFilterProxyModel {
   void setText(const QString& text);
 
  protected:
-  bool filterAcceptsRow(int row, const QModelIndex& parent) const override;
   bool lessThan(const QModelIndex& left, const QModelIndex& right) const override;
 
  private:
   QueueModel& model_;
-  QString text_;
 };
 
 }  // namespace boresight::ui

@@ -4,21 +4,10 @@
 #include <algorithm>
 #include <iterator>
 
-#include <QHBoxLayout>
-#include <QHeaderView>
-#include <QKeyEvent>
-#include <QLabel>
-#include <QLineEdit>
-#include <QPushButton>
-#include <QSettings>
-#include <QStackedWidget>
-#include <QTabBar>
-#include <QTableView>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "ui/models/number_text.h"
-#include "ui/panels/empty_hint.h"
-#include "ui/panels/table_style.h"
+#include "ui/panels/widgets.h"
 
 namespace boresight::ui {
 namespace {
@@ -45,23 +34,19 @@ QueuePanel::QueuePanel(Document& document, QWidget* parent)
 
 void QueuePanel::buildTop() {
   auto* row = new QHBoxLayout;
-  tabs_ = new QTabBar(this);
-  tabs_->setObjectName(QStringLiteral("queueTabs"));
+  tabs_ = named(new QTabBar(this), "queueTabs");
   tabs_->setDrawBase(false);
   tabs_->addTab(tr("By trouble"));
   tabs_->addTab(tr("Last two runs"));
   tabs_->setTabToolTip(kTroubleTab, tr("All cases, the most troubled first"));
   tabs_->setTabToolTip(kDifferencesTab,
                        tr("Each case's last run against the one before it (D in the list)"));
-  text_ = new QLineEdit(this);
-  text_->setObjectName(QStringLiteral("queueFilter"));
+  text_ = named(new QLineEdit(this), "queueFilter");
   text_->setPlaceholderText(tr("Find a case, a state, a check"));
   text_->setClearButtonEnabled(true);
-  progress_ = new QLabel(this);
-  progress_->setObjectName(QStringLiteral("queueProgress"));
-  halt_ = new QPushButton(this);
-  halt_->setObjectName(QStringLiteral("queueHalt"));
-  halt_->setToolTip(tr("Cases are checked in the background, one at a time"));
+  progress_ = named(new QLabel(this), "queueProgress");
+  halt_ = named(new QPushButton(this), "queueHalt",
+                tr("Cases are checked in the background, one at a time"));
   row->addWidget(tabs_);
   row->addWidget(text_, 1);
   row->addWidget(progress_);
@@ -78,11 +63,7 @@ void QueuePanel::buildTop() {
 
 void QueuePanel::buildTables() {
   lists_ = new QStackedWidget(this);
-  queue_table_ = new QTableView(lists_);
-  queue_table_->setObjectName(QStringLiteral("queue"));
-  queue_table_->setAccessibleName(tr("Queue"));
-  queue_table_->setModel(&filter_);
-  styleTable(*queue_table_);
+  queue_table_ = newTable("queue", tr("Queue"), filter_, lists_);
   queue_table_->setIconSize(kThumbnail_px);
   queue_table_->verticalHeader()->setDefaultSectionSize(
       std::max(kThumbnail_px.height(), 3 * fontMetrics().lineSpacing()) + 4);
@@ -91,14 +72,10 @@ void QueuePanel::buildTables() {
   queue_table_->sortByColumn(QueueModel::kTrouble, Qt::AscendingOrder);
   queue_hint_ = new EmptyHint(*queue_table_);
   differences_filter_.setSourceModel(&differences_);
-  differences_filter_.setSortRole(DifferencesModel::kSortRole);
+  differences_filter_.setSortRole(kSortRole);
   differences_filter_.setFilterKeyColumn(-1);
   differences_filter_.setFilterCaseSensitivity(Qt::CaseInsensitive);
-  differences_table_ = new QTableView(lists_);
-  differences_table_->setObjectName(QStringLiteral("differences"));
-  differences_table_->setAccessibleName(tr("Differences"));
-  differences_table_->setModel(&differences_filter_);
-  styleTable(*differences_table_);
+  differences_table_ = newTable("differences", tr("Differences"), differences_filter_, lists_);
   differences_table_->setSortingEnabled(true);
   differences_table_->sortByColumn(DifferencesModel::kChange, Qt::AscendingOrder);
   differences_hint_ = new EmptyHint(*differences_table_);
@@ -147,8 +124,7 @@ void QueuePanel::buildForm() {
          &QueuePanel::reject);
   auto* column = static_cast<QVBoxLayout*>(layout());
   column->addLayout(row);
-  message_ = new QLabel(this);
-  message_->setObjectName(QStringLiteral("queueMessage"));
+  message_ = named(new QLabel(this), "queueMessage");
   message_->setTextFormat(Qt::PlainText);
   message_->setWordWrap(true);
   message_->hide();
@@ -232,7 +208,7 @@ void QueuePanel::fitColumns() {
   queue_table_->setColumnWidth(
       QueueModel::kCase,
       kThumbnail_px.width() + 16 + kUsualName * fontMetrics().averageCharWidth());
-  ui::fitColumns(*differences_table_);
+  differences_table_->resizeColumnsToContents();
 }
 
 void QueuePanel::showProgress() {
@@ -249,7 +225,7 @@ void QueuePanel::openChosen() {
   if (id.isEmpty()) return;
   const int row = model_.rowOf(id);
   const sessions::QueueRow none;
-  const sessions::QueueRow& found = row < 0 ? none : model_.entryAt(row).row;
+  const sessions::QueueRow& found = row < 0 ? none : model_.at(row).row;
   Q_EMIT openRequested(id, fromText(found.run_digest), found.opens_at);
 }
 
@@ -280,7 +256,7 @@ QString QueuePanel::nextOpen() const {
   const int here = queue_table_->currentIndex().row();
   for (int i = 1; i < count; ++i) {
     const QModelIndex one = filter_.index((here + i) % count, 0);
-    const sessions::QueueRow& row = model_.entryAt(filter_.mapToSource(one).row()).row;
+    const sessions::QueueRow& row = model_.at(filter_.mapToSource(one).row()).row;
     if (row.group == sessions::QueueGroup::kNoPose || row.group == sessions::QueueGroup::kOpen)
       return one.data().toString();
   }

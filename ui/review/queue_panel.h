@@ -6,18 +6,15 @@
 #include <QSortFilterProxyModel>
 #include <QWidget>
 
-#include "ui/review/differences_model.h"
 #include "ui/review/queue_controller.h"
 #include "ui/review/queue_model.h"
 
-QT_BEGIN_NAMESPACE
 class QLabel;
 class QLineEdit;
 class QPushButton;
 class QStackedWidget;
 class QTabBar;
 class QTableView;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 

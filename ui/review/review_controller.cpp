@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sessions/review/grounds.h"
-#include "sessions/session/review_settings.h"
+#include "sessions/review/standing.h"
+#include "sessions/session/check_limits.h"
 #include "ui/models/number_text.h"
 #include "ui/state/document.h"
 
@@ -32,7 +32,7 @@ ReviewController::ReviewController(Document& document, ViewState& state, QObject
     : QObject(parent), document_(document), state_(state) {
   connect(&document_, &Document::opened, this, &ReviewController::follow);
   connect(&document_, &Document::changed, this, &ReviewController::follow);
-  connect(&state_, &ViewState::caseChanged, this, &ReviewController::follow);
+  state_.onChange(ViewChange::kCase, this, &ReviewController::follow);
   connect(&checks_runner_, &TaskRunner::failed, this, [this](const QString& message) {
     take({nullptr, {}, message});
   });

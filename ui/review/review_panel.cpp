@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/review/review_panel.h"
 
-#include <QComboBox>
-#include <QHBoxLayout>
-#include <QHeaderView>
-#include <QPushButton>
-#include <QSignalBlocker>
-#include <QSpinBox>
-#include <QSplitter>
-#include <QTableView>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "ui/models/number_text.h"
-#include "ui/panels/empty_hint.h"
-#include "ui/panels/table_style.h"
+#include "ui/panels/banner.h"
+#include "ui/panels/widgets.h"
 #include "ui/review/decision_form.h"
 #include "ui/review/limits_dialog.h"
-#include "ui/review/standing_banner.h"
 
 namespace boresight::ui {
 
@@ -58,20 +49,16 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
 QHBoxLayout* ReviewPanel::buildTop() {
   auto* row = new QHBoxLayout;
   row->setSpacing(4);
-  banner_ = new StandingBanner(this);
-  source_ = new QComboBox(this);
-  source_->setObjectName(QStringLiteral("judged"));
+  banner_ = new Banner(QStringLiteral("caseStanding"), this);
+  source_ = named(new QComboBox(this), "judged");
   source_->setAccessibleName(tr("What is judged"));
   source_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-  limits_ = new QPushButton(this);
-  limits_->setObjectName(QStringLiteral("openLimits"));
-  seeds_ = new QSpinBox(this);
-  seeds_->setObjectName(QStringLiteral("basinSeeds"));
+  limits_ = named(new QPushButton(this), "openLimits");
+  seeds_ = named(new QSpinBox(this), "basinSeeds");
   seeds_->setRange(1, 1000);
   seeds_->setValue(sessions::kBasinSeeds);
   seeds_->setToolTip(tr("How many further seeds the basin test runs from"));
-  basin_ = new QPushButton(this);
-  basin_->setObjectName(QStringLiteral("basin"));
+  basin_ = named(new QPushButton(this), "basin");
   row->addWidget(banner_, 1);
   row->addWidget(source_);
   row->addWidget(limits_);
@@ -86,11 +73,7 @@ QHBoxLayout* ReviewPanel::buildTop() {
 }
 
 void ReviewPanel::buildTable() {
-  table_ = new QTableView(this);
-  table_->setObjectName(QStringLiteral("checks"));
-  table_->setAccessibleName(tr("Checks"));
-  table_->setModel(&model_);
-  styleTable(*table_);
+  table_ = newTable("checks", tr("Checks"), model_, this);
   table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::SelectedClicked |
                           QAbstractItemView::EditKeyPressed);
   table_->setMinimumHeight(4 * table_->verticalHeader()->defaultSectionSize());
@@ -116,10 +99,8 @@ void ReviewPanel::hideEvent(QHideEvent* event) {
 }
 
 void ReviewPanel::showStanding() {
-  if (controller_.caseId().empty())
-    banner_->clear();
-  else
-    banner_->setStanding(controller_.standing());
+  const sessions::Standing standing = controller_.standing();
+  banner_->showStanding(controller_.caseId().empty() ? nullptr : &standing);
   const sessions::ReviewSettings& settings = controller_.settings();
   limits_->setText(settings.limits.empty() ? tr("Limits...") : tr("Limits (edited)..."));
   const sessions::CheckPreset* preset = sessions::findCheckPreset(settings.preset);
@@ -173,7 +154,7 @@ void ReviewPanel::showChosen() {
                     "made anew.")
                : tr("⚠ %1").arg(controller_.problem().toHtmlEscaped());
   } else if (index.isValid() && index.row() < model_.rowCount()) {
-    const sessions::Check& check = model_.checkAt(index.row()).check;
+    const sessions::Check& check = model_.at(index.row()).check;
     html = QStringLiteral("%1 <b>%2</b> %3")
                .arg(ChecksModel::sign(check.state), fromText(check.title).toHtmlEscaped(),
                     fromText(check.sentence).toHtmlEscaped());

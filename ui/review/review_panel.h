@@ -6,20 +6,18 @@
 #include "ui/review/checks_model.h"
 #include "ui/review/review_controller.h"
 
-QT_BEGIN_NAMESPACE
 class QComboBox;
 class QHBoxLayout;
 class QPushButton;
 class QSpinBox;
 class QTableView;
 class QToolButton;
-QT_END_NAMESPACE
 
 namespace boresight::ui {
 
 class DecisionForm;
 class EmptyHint;
-class StandingBanner;
+class Banner;
 
 /// The reviewer's desk: where the case stands, the checks of its pose with their figures and
 /// limits, and the decision.
@@ -50,7 +48,7 @@ class ReviewPanel : public QWidget {
 
   ReviewController controller_;
   ChecksModel model_;
-  StandingBanner* banner_ = nullptr;
+  Banner* banner_ = nullptr;
   QComboBox* source_ = nullptr;
   QPushButton* limits_ = nullptr;
   QTableView* table_ = nullptr;

@@ -3,14 +3,11 @@
 
 #include <cmath>
 
-#include <QKeyEvent>
-#include <QMouseEvent>
-#include <QPainter>
-#include <QWheelEvent>
+#include <QtWidgets>
 
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/station_snapper.h"
-#include "ui/views/pointer_place.h"
+#include "ui/views/view_transform.h"
 
 namespace boresight::ui {
 namespace {

@@ -4,17 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include <QAction>
-#include <QComboBox>
-#include <QCoreApplication>
-#include <QHBoxLayout>
-#include <QKeySequence>
-#include <QLabel>
-#include <QMenu>
-#include <QSignalBlocker>
-#include <QSlider>
-#include <QToolButton>
-#include <QWidgetAction>
+#include <QtWidgets>
 
 namespace boresight::ui {
 namespace {

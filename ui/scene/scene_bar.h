@@ -8,7 +8,7 @@
 
 #include "ui/scene/scene_content.h"
 #include "ui/scene/viewpoint.h"
-#include "ui/state/pose_role.h"
+#include "ui/state/view_state.h"
 
 class QAction;
 class QBoxLayout;

@@ -14,7 +14,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
-#include "ui/state/pose_role.h"
+#include "ui/state/view_state.h"
 
 namespace boresight::ui {
 

@@ -3,7 +3,9 @@
 
 #include <QObject>
 #include <QPointF>
+#include <QSizeF>
 
+#include "ui/scene/scene_content.h"
 #include "ui/scene/viewpoint.h"
 
 class QKeyEvent;
@@ -11,6 +13,50 @@ class QMouseEvent;
 class QWidget;
 
 namespace boresight::ui {
+
+/// From where the scene is looked at, and what dragging, the wheel and keys do to that: around the
+/// station, or through the case's camera, whose image then moves on the canvas.
+class SceneNavigation {
+ public:
+  const OrbitCamera& orbit() const { return orbit_; }
+  /// Where the image lies while looking through the camera.
+  const ViewTransform& image() const { return image_; }
+  bool throughCamera() const { return through_; }
+  /// Shows the whole image at first.
+  void setThroughCamera(bool through);
+
+  /// What "the whole scene" is: the station alone, or with the cameras. A view that nobody has
+  /// changed follows.
+  void setStationAlone(bool alone, const SceneContent& content);
+  /// Another station: the whole of it, from the side that is looked from at first.
+  void startOver(const SceneContent& content);
+  /// The whole scene again (through the camera: the whole image).
+  void reset(const SceneContent& content);
+  void lookFrom(StandardView view) { orbit_.lookFrom(view); }
+  void showWholeImage() { image_fitted_ = true; }
+  /// As long as nobody has moved the image, it fills the canvas whatever the canvas' size.
+  void fitImage(const SceneContent& content, const QSizeF& canvas);
+
+  void drag(const QPointF& moved, Qt::MouseButtons buttons, Qt::KeyboardModifiers modifiers,
+            double canvas_height);
+  /// As dragging with the left button does.
+  void turn(const QPointF& by, double canvas_height);
+  void zoom(const QPointF& at, double notches);
+
+  /// `through_pose`: of the camera that is looked through.
+  Viewpoint viewpoint(const SceneContent& content, const Pose& through_pose,
+                      const QSizeF& canvas) const;
+
+ private:
+  void frame(const SceneContent& content);
+
+  OrbitCamera orbit_;
+  ViewTransform image_;
+  bool image_fitted_ = true;  ///< follows the canvas' size
+  bool through_ = false;
+  bool station_alone_ = false;
+  bool framed_ = true;  ///< nobody has turned or moved since the whole scene was shown
+};
 
 /// The mouse and the keys on the scene's canvas, as what they ask for. Places are in the canvas'
 /// coordinates, its top-left corner (0, 0).

@@ -8,7 +8,7 @@
 #include <QPainter>
 
 #include "ui/scene/scene_picture.h"
-#include "ui/views/loupe_cross.h"
+#include "ui/views/overlay_painters.h"
 
 namespace boresight::ui {
 namespace {

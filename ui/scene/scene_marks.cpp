@@ -4,10 +4,212 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
+
+#include <QtWidgets>
 
 #include "ui/annotation/annotation_controller.h"
+#include "ui/views/layer.h"
 
 namespace boresight::ui {
+namespace {
+
+constexpr double kHalf = 7.5;  ///< of a sign
+constexpr double kChosenHalf = 13.0;
+constexpr double kHidden = 0.35;  ///< opacity
+const QColor kRim(0, 0, 0, 190);
+const QColor kChosen(255, 255, 255);
+const QColor kOff(175, 175, 175);
+const QColor kOutlier(255, 130, 60);
+const QColor kAim(120, 220, 255);
+
+QString tr(const char* text) { return QCoreApplication::translate("SceneMarks", text); }
+
+QColor colorOf(const SceneMark& mark) {
+  if (!mark.enabled) return kOff;
+  if (mark.outlier > 0.0) return kOutlier;
+  if (mark.chosen) return kChosen;
+  return layerInfo(LayerId::kPoints).style.color;
+}
+
+QString nameOf(const SceneMark& mark) {
+  const QString id = QString::fromStdString(mark.id);
+  if (mark.proposed) return tr("%1 ?").arg(id);
+  if (!mark.enabled) return tr("%1 (off)").arg(id);
+  if (!mark.complete) return (mark.chosen ? tr("%1: not in the image yet") : tr("%1 ?")).arg(id);
+  if (mark.outlier > 0.0) return tr("%1 ! %2 sigma").arg(id).arg(mark.outlier, 0, 'f', 1);
+  return id;
+}
+
+QPolygonF diamond(const QPointF& at, double half) {
+  return {{at + QPointF(0.0, -half), at + QPointF(half, 0.0), at + QPointF(0.0, half),
+           at + QPointF(-half, 0.0)}};
+}
+
+QPolygonF triangle(const QPointF& at, double half) {
+  return {{at + QPointF(0.0, -1.2 * half), at + QPointF(1.1 * half, 0.75 * half),
+           at + QPointF(-1.1 * half, 0.75 * half)}};
+}
+
+/// Four short lines that leave the place itself free.
+void paintTicks(QPainter& painter, const QPointF& at, double from, double to) {
+  for (const QPointF& way :
+       {QPointF(1.0, 0.0), QPointF(-1.0, 0.0), QPointF(0.0, 1.0), QPointF(0.0, -1.0)})
+    painter.drawLine(at + from * way, at + to * way);
+}
+
+}  // namespace
+
+SceneMarkPainter::SceneMarkPainter(QPainter& painter, const Viewpoint& view,
+                                   const sessions::MeshSnapper* mesh)
+    : painter_(painter), view_(view), mesh_(mesh) {}
+
+bool SceneMarkPainter::seen(const Eigen::Vector3d& at_m) const {
+  return !mesh_ || mesh_->seenFrom(view_.eyeInStation_m(), at_m);
+}
+
+/// In the canvas' coordinates, where pixel (0, 0) has its centre at (0.5, 0.5).
+std::optional<QPointF> SceneMarkPainter::place(const Eigen::Vector3d& at_m) const {
+  QPointF at;
+  double depth_m = 0.0;
+  if (!view_.toCanvas(at_m, at, depth_m)) return std::nullopt;
+  return at + QPointF(0.5, 0.5);
+}
+
+void SceneMarkPainter::paintMarks(const std::vector<SceneMark>& marks) const {
+  painter_.save();
+  painter_.setRenderHint(QPainter::Antialiasing, true);
+  for (const SceneMark& mark : marks) {
+    if (mark.edge)
+      paintEdge(*mark.edge, colorOf(mark), mark.chosen ? 4.5 : 3.0,
+                !mark.complete || !mark.enabled);
+    paintPoint(mark);
+  }
+  painter_.restore();
+}
+
+void SceneMarkPainter::paintPoint(const SceneMark& mark) const {
+  const auto at = place(mark.at_m);
+  if (!at) return;
+  const double opacity = seen(mark.at_m) ? 1.0 : kHidden;
+  painter_.setOpacity(opacity);
+  painter_.setBrush(Qt::NoBrush);
+  const double width_px = mark.chosen ? 2.4 : 1.6;
+  for (const QPen& pen : {QPen(kRim, width_px + 2.0), QPen(colorOf(mark), width_px)}) {
+    painter_.setPen(pen);
+    if (!mark.edge) paintSign(mark, *at);
+    if (mark.chosen && !mark.edge) painter_.drawEllipse(*at, kChosenHalf, kChosenHalf);
+    if (mark.outlier > 0.0) painter_.drawPolygon(triangle(*at, 2.0 * kHalf));
+  }
+  if (opacity == 1.0 || mark.chosen) paintName(mark, *at);
+  painter_.setOpacity(1.0);
+}
+
+/// As on the image: a target is complete, a square locked, a diamond waits for its place in the
+/// image, what is off is struck through; a dotted circle is proposed.
+void SceneMarkPainter::paintSign(const SceneMark& mark, const QPointF& at) const {
+  if (mark.proposed) {
+    QPen pen = painter_.pen();
+    pen.setStyle(Qt::DotLine);
+    painter_.setPen(pen);
+    painter_.drawEllipse(at, kHalf, kHalf);
+  } else if (!mark.enabled) {
+    painter_.drawEllipse(at, kHalf, kHalf);
+    painter_.drawLine(at + QPointF(-kHalf, kHalf), at + QPointF(kHalf, -kHalf));
+  } else if (!mark.complete) {
+    painter_.drawPolygon(diamond(at, kHalf));
+  } else if (mark.locked) {
+    painter_.drawRect(QRectF(at - QPointF(kHalf, kHalf), at + QPointF(kHalf, kHalf)));
+  } else {
+    painter_.drawEllipse(at, 0.7 * kHalf, 0.7 * kHalf);
+    paintTicks(painter_, at, 0.35 * kHalf, 1.3 * kHalf);
+  }
+}
+
+/// In pieces, those that a face hides faintly.
+void SceneMarkPainter::paintEdge(const sessions::ModelEdge& edge, const QColor& color,
+                                 double width_px, bool dashed) const {
+  constexpr int kPieces = 24;
+  const Eigen::Vector3d way = edge.end_in_station_m - edge.start_in_station_m;
+  const auto at = [&](double piece) {
+    return Eigen::Vector3d(edge.start_in_station_m + piece / kPieces * way);
+  };
+  for (const QPen& pen : {QPen(kRim, width_px + 2.0, Qt::SolidLine, Qt::FlatCap),
+                          QPen(color, width_px, Qt::SolidLine, Qt::FlatCap)})
+    for (int i = 0; i < kPieces; ++i) {
+      if (dashed && i % 3 == 2) continue;
+      const auto from = place(at(i));
+      const auto to = place(at(i + 1.0));
+      if (!from || !to) continue;
+      painter_.setPen(pen);
+      painter_.setOpacity(seen(at(i + 0.5)) ? 1.0 : kHidden);
+      painter_.drawLine(*from, *to);
+    }
+  painter_.setOpacity(1.0);
+}
+
+void SceneMarkPainter::paintName(const SceneMark& mark, const QPointF& at) const {
+  QFont font = painter_.font();
+  font.setBold(mark.chosen);
+  QPainterPath path;
+  path.addText(at + QPointF(kHalf + 6.0, -kHalf), font, nameOf(mark));
+  painter_.setPen(QPen(kRim, 3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter_.drawPath(path);
+  painter_.setPen(Qt::NoPen);
+  painter_.setBrush(colorOf(mark));
+  painter_.drawPath(path);
+  painter_.setBrush(Qt::NoBrush);
+}
+
+void SceneMarkPainter::paintCircle(const sessions::MeshCircle& circle) const {
+  constexpr int kPieces = 72;
+  const Eigen::Vector3d across = circle.radius_m * circle.normal_in_station.unitOrthogonal();
+  QPolygonF line;
+  for (int i = 0; i <= kPieces; ++i) {
+    const Eigen::AngleAxisd turn(2.0 * std::numbers::pi * i / kPieces, circle.normal_in_station);
+    if (const auto at = place(circle.centre_in_station_m + turn * across)) line << *at;
+  }
+  painter_.drawPolyline(line);
+}
+
+void SceneMarkPainter::paintAim(const SceneAim& aim, const QPointF& pointer) const {
+  const auto at = place(aim.point_in_station_m);
+  if (!at) return;
+  painter_.save();
+  painter_.setRenderHint(QPainter::Antialiasing, true);
+  painter_.setBrush(Qt::NoBrush);
+  if (aim.edge) paintEdge(*aim.edge, kAim, 2.5, false);
+  for (const QPen& pen : {QPen(kRim, 3.6), QPen(kAim, 1.6)}) {
+    painter_.setPen(pen);
+    if (aim.circle) paintCircle(*aim.circle);
+    paintTicks(painter_, *at, 2.5, 10.0);
+    if (aim.snapped) painter_.drawPolygon(diamond(*at, kHalf));
+  }
+  if (aim.snapped) {
+    painter_.setPen(QPen(kAim, 1.0, Qt::DotLine));
+    painter_.drawLine(pointer + QPointF(0.5, 0.5), *at);
+  }
+  painter_.restore();
+}
+
+void paintSceneNote(QPainter& painter, const QRectF& area, const QPointF& beside,
+                    const QString& text) {
+  constexpr double kBeside = 16.0;
+  const QFontMetricsF metrics(painter.font());
+  QRectF box(beside + QPointF(kBeside, kBeside),
+             QSizeF(metrics.horizontalAdvance(text) + 12.0, metrics.height() + 4.0));
+  if (box.right() > area.right()) box.moveRight(std::max(beside.x() - kBeside, box.width()));
+  if (box.bottom() > area.bottom()) box.moveBottom(beside.y() - kBeside);
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing, true);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(QColor(0, 0, 0, 200));
+  painter.drawRoundedRect(box, 3.0, 3.0);
+  painter.setPen(QColor(255, 255, 255));
+  painter.drawText(box, Qt::AlignCenter, text);
+  painter.restore();
+}
+
 namespace {
 
 constexpr double kPick_px = 10.0;

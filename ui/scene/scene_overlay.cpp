@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/scene/scene_overlay.h"
 
-#include <QCoreApplication>
-#include <QPainter>
-#include <QPainterPath>
+#include <QtWidgets>
 #include <algorithm>
 
 namespace boresight::ui {

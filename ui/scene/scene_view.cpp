@@ -3,11 +3,10 @@
 
 #include <cmath>
 
-#include <QEvent>
-#include <QLabel>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "ui/annotation/annotation_controller.h"
+#include "ui/panels/widgets.h"
 #include "ui/scene/scene_annotator.h"
 #include "ui/scene/scene_bar.h"
 #include "ui/scene/scene_input.h"
@@ -21,11 +20,9 @@ SceneView::SceneView(ViewState& state, QWidget* parent, SceneBackend backend)
       content_(std::make_shared<const SceneContent>()) {
   build();
   updateLook();
-  for (auto signal :
-       {&ViewState::caseChanged, &ViewState::snapshotChanged, &ViewState::cursorChanged,
-        &ViewState::nudgedPoseChanged, &ViewState::annotatedPoseChanged})
-    connect(&state_, signal, this, &SceneView::refreshSoon);
-  connect(&state_, &ViewState::templateSelected, this, &SceneView::refreshSoon);
+  state_.onChange(ViewChange::kCase | ViewChange::kSnapshot | ViewChange::kCursor |
+                      ViewChange::kNudgedPose | ViewChange::kAnnotatedPose | ViewChange::kTemplate,
+                  this, &SceneView::refreshSoon);
   connect(&backdrop_, &SceneBackdrop::ready, this, &SceneView::updateView);
   refreshSoon();
 }
@@ -48,8 +45,7 @@ void SceneView::build() {
   layout->addWidget(drawn, 1);
   overlay_ = new SceneOverlay(drawn);
   connectInput(*new SceneInput(*drawn));
-  readout_ = new QLabel(this);
-  readout_->setObjectName(QStringLiteral("sceneReadout"));
+  readout_ = named(new QLabel(this), "sceneReadout");
   readout_->setContentsMargins(6, 2, 6, 2);
   readout_->setWordWrap(true);
   readout_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -161,7 +157,6 @@ void SceneView::setThroughCamera(bool through) {
   bar_->setThroughCamera(through);
   if (through) backdrop_.order(content_->one);
   updateLook();
-  Q_EMIT throughCameraChanged(through);
 }
 
 void SceneView::setThroughRole(PoseRole role) {

@@ -7,11 +7,10 @@
 #include <QPoint>
 #include <QWidget>
 
+#include "ui/scene/scene_aim.h"
 #include "ui/scene/scene_backdrop.h"
-#include "ui/scene/scene_backend.h"
 #include "ui/scene/scene_canvas.h"
-#include "ui/scene/scene_navigation.h"
-#include "ui/scene/scene_picker.h"
+#include "ui/scene/scene_input.h"
 #include "ui/state/view_state.h"
 
 class QLabel;
@@ -69,7 +68,6 @@ class SceneView : public QWidget {
  Q_SIGNALS:
   /// A click on the mesh: the place in the station frame, and its vertex when it snapped to one.
   void meshPointPicked(const Eigen::Vector3d& point_in_station_m, int vertex);
-  void throughCameraChanged(bool through);
   /// One sentence for people.
   void told(const QString& sentence);
 

@@ -16,9 +16,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/scene/scene_backend.h"
 #include "ui/scene/scene_canvas.h"
-#include "ui/scene/vtk_camera.h"
 #include "ui/scene/vtk_shapes.h"
 
 namespace boresight::ui {

@@ -7,9 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <QDateTime>
-#include <QDir>
-#include <QStandardPaths>
+#include <QtWidgets>
 
 #include "sessions/io/errors.h"
 

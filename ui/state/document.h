@@ -9,7 +9,6 @@
 #include <QString>
 
 #include "sessions/session/session_document.h"
-#include "sessions/session/session_history.h"
 
 namespace boresight::ui {
 

@@ -6,6 +6,28 @@
 
 namespace boresight::ui {
 
+std::optional<Pose> poseOf(const ViewState& state, PoseRole role) {
+  if (!state.currentCase()) return std::nullopt;
+  switch (role) {
+    case PoseRole::kSeed:
+      return state.snapshot() ? state.snapshot()->camera_from_station_seed
+                              : state.currentCase()->source.camera_from_station_seed;
+    case PoseRole::kEstimate: {
+      const sessions::IterationTrace* shown = state.iteration();
+      if (shown == nullptr) return std::nullopt;
+      return state.cursor().stage >= Stage::kPose ? shown->camera_from_station
+                                                  : shown->camera_from_station_before;
+    }
+    case PoseRole::kNudged:
+      return state.nudgedPose();
+    case PoseRole::kTruth:
+      return state.currentCase()->source.camera_from_station_truth;
+    case PoseRole::kAnnotated:
+      return state.annotatedPose();
+  }
+  return std::nullopt;
+}
+
 ViewState::ViewState(QObject* parent) : QObject(parent) {}
 
 int ViewState::lastIteration() const {
@@ -34,20 +56,13 @@ void ViewState::setCase(CasePtr one) {
   nudged_.reset();
   annotated_.reset();
   alternative_.reset();
-  Q_EMIT caseChanged();
-  Q_EMIT snapshotChanged();
-  Q_EMIT cursorChanged();
-  Q_EMIT templateSelected(-1);
-  Q_EMIT nudgedPoseChanged();
-  Q_EMIT annotatedPoseChanged();
-  Q_EMIT alternativeChanged();
+  Q_EMIT changed(ViewChange::kAll);
 }
 
 void ViewState::replaceCase(CasePtr one) {
   case_ = std::move(one);
-  Q_EMIT caseChanged();
-  Q_EMIT cursorChanged();
-  if (nudged_) Q_EMIT nudgedPoseChanged();
+  const ViewChanges pose = nudged_ ? ViewChange::kNudgedPose : ViewChanges();
+  Q_EMIT changed(ViewChange::kCase | ViewChange::kCursor | pose);
 }
 
 void ViewState::setSnapshot(SnapshotPtr snapshot) {
@@ -57,23 +72,22 @@ void ViewState::setSnapshot(SnapshotPtr snapshot) {
   cursor_.iteration = follows ? lastIteration() : std::min(cursor_.iteration, lastIteration());
   if (follows) cursor_.stage = Stage::kFinished;
   selected_template_ = -1;
-  const bool had_alternative = alternative_.has_value();
+  const ViewChanges alternative = alternative_ ? ViewChange::kAlternative : ViewChanges();
   alternative_.reset();
-  Q_EMIT snapshotChanged();
-  Q_EMIT cursorChanged();
-  Q_EMIT templateSelected(-1);
-  if (had_alternative) Q_EMIT alternativeChanged();
+  Q_EMIT changed(ViewChange::kSnapshot | ViewChange::kCursor | ViewChange::kTemplate | alternative);
 }
 
 void ViewState::setCursor(const RunCursor& cursor) {
   RunCursor next = cursor;
   next.iteration = std::clamp(next.iteration, -1, lastIteration());
   if (next == cursor_) return;
-  const bool other_iteration = next.iteration != cursor_.iteration;
+  ViewChanges what = ViewChange::kCursor;
+  if (next.iteration != cursor_.iteration) {
+    selected_template_ = -1;
+    what |= ViewChange::kTemplate;
+  }
   cursor_ = next;
-  if (other_iteration) selected_template_ = -1;
-  Q_EMIT cursorChanged();
-  if (other_iteration) Q_EMIT templateSelected(-1);
+  Q_EMIT changed(what);
 }
 
 void ViewState::selectTemplate(int index) {
@@ -82,23 +96,23 @@ void ViewState::selectTemplate(int index) {
   const int next = index >= 0 && index < count ? index : -1;
   if (next == selected_template_) return;
   selected_template_ = next;
-  Q_EMIT templateSelected(next);
+  Q_EMIT changed(ViewChange::kTemplate);
 }
 
 void ViewState::setNudgedPose(const std::optional<Pose>& camera_from_station) {
   nudged_ = camera_from_station;
-  Q_EMIT nudgedPoseChanged();
+  Q_EMIT changed(ViewChange::kNudgedPose);
 }
 
 void ViewState::setAnnotatedPose(const std::optional<Pose>& camera_from_station) {
   annotated_ = camera_from_station;
-  Q_EMIT annotatedPoseChanged();
+  Q_EMIT changed(ViewChange::kAnnotatedPose);
 }
 
 void ViewState::setAlternative(const std::optional<sessions::Alternative>& alternative) {
   if (!alternative && !alternative_) return;
   alternative_ = alternative;
-  Q_EMIT alternativeChanged();
+  Q_EMIT changed(ViewChange::kAlternative);
 }
 
 }  // namespace boresight::ui

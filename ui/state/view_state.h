@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
+#include <type_traits>
 
+#include <QFlags>
 #include <QObject>
 
 #include "core/geometry/pose.h"
@@ -12,6 +17,10 @@
 
 namespace boresight::ui {
 
+/// Whose pose something is.
+enum class PoseRole : std::uint8_t { kSeed, kEstimate, kNudged, kTruth, kAnnotated };
+inline constexpr int kPoseRoles = 5;
+
 /// The place in a run that every view shows.
 struct RunCursor {
   int iteration = -1;  ///< index into the snapshot's iterations; -1: the seed, before the first
@@ -19,6 +28,20 @@ struct RunCursor {
 
   bool operator==(const RunCursor&) const = default;
 };
+
+/// What of the view state changed.
+enum class ViewChange {
+  kCase = 1 << 0,
+  kSnapshot = 1 << 1,
+  kCursor = 1 << 2,
+  kTemplate = 1 << 3,
+  kNudgedPose = 1 << 4,
+  kAnnotatedPose = 1 << 5,
+  kAlternative = 1 << 6,
+  kAll = (1 << 7) - 1,
+};
+Q_DECLARE_FLAGS(ViewChanges, ViewChange)
+Q_DECLARE_OPERATORS_FOR_FLAGS(ViewChanges)
 
 /// What the whole window looks at: one case, its run as far as it has come, one place in it, one
 /// template of it, and the pose that a person has nudged. All views show this and change it only
@@ -65,14 +88,21 @@ class ViewState : public QObject {
   /// Of the current snapshot: another one drops it.
   void setAlternative(const std::optional<sessions::Alternative>& alternative);
 
+  /// Calls a function of the receiver, once for each change of any of these.
+  template <class Receiver, class Function>
+  void onChange(ViewChanges any_of, Receiver* receiver, Function function) {
+    connect(this, &ViewState::changed, receiver, [any_of, receiver, function](ViewChanges what) {
+      if (!(what & any_of)) return;
+      if constexpr (std::is_member_function_pointer_v<Function>)
+        std::invoke(function, receiver);
+      else
+        function();
+    });
+  }
+
  Q_SIGNALS:
-  void caseChanged();
-  void snapshotChanged();
-  void cursorChanged();
-  void templateSelected(int index);
-  void nudgedPoseChanged();
-  void annotatedPoseChanged();
-  void alternativeChanged();
+  /// One for each change, however much of the state it concerns.
+  void changed(boresight::ui::ViewChanges what);
 
  private:
   int lastIteration() const;
@@ -85,5 +115,10 @@ class ViewState : public QObject {
   std::optional<Pose> annotated_;
   std::optional<sessions::Alternative> alternative_;
 };
+
+/// camera_from_station of that role as the views have it: the run's seed (the case's before a run),
+/// the iteration under the cursor (before or after it, as the shown stage says), the nudged pose,
+/// the truth, the pose that solves the annotated marks. Nothing where there is none.
+std::optional<Pose> poseOf(const ViewState& state, PoseRole role);
 
 }  // namespace boresight::ui

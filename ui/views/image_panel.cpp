@@ -4,18 +4,13 @@
 #include <cmath>
 #include <utility>
 
-#include <QHBoxLayout>
-#include <QLabel>
-#include <QSlider>
-#include <QToolButton>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "sessions/run/scene_render.h"
 #include "sessions/run/surface_point.h"
 #include "ui/models/alternatives_model.h"
 #include "ui/run/task_runner.h"
 #include "ui/views/display_image.h"
-#include "ui/views/display_stretch.h"
 #include "ui/views/image_view.h"
 #include "ui/views/layer_content.h"
 
@@ -86,10 +81,10 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
   connect(view_, &ImageView::itemClicked, this, [this](LayerId layer, int item) {
     if (layer != LayerId::kPoints) state_.selectTemplate(item);
   });
-  connect(&state_, &ViewState::caseChanged, this, &ImagePanel::showCase);
-  connect(&state_, &ViewState::cursorChanged, this, &ImagePanel::showIteration);
-  connect(&state_, &ViewState::templateSelected, this, &ImagePanel::showTemplates);
-  connect(&state_, &ViewState::alternativeChanged, this, &ImagePanel::showAlternative);
+  state_.onChange(ViewChange::kCase, this, &ImagePanel::showCase);
+  state_.onChange(ViewChange::kCursor, this, &ImagePanel::showIteration);
+  state_.onChange(ViewChange::kTemplate, this, &ImagePanel::showTemplates);
+  state_.onChange(ViewChange::kAlternative, this, &ImagePanel::showAlternative);
 }
 
 void ImagePanel::setHint(const QString& hint) {

@@ -5,14 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include <QKeyEvent>
-#include <QMouseEvent>
-#include <QPaintEvent>
-#include <QPainter>
-#include <QWheelEvent>
+#include <QtWidgets>
 
-#include "ui/views/mark_painter.h"
-#include "ui/views/pointer_place.h"
+#include "ui/views/overlay_painters.h"
+#include "ui/views/view_transform.h"
 
 namespace boresight::ui {
 namespace {

@@ -8,11 +8,9 @@
 #include <QPointF>
 #include <QWidget>
 
-#include "ui/views/bit_pixmaps.h"
-#include "ui/views/gray_pyramid.h"
+#include "ui/views/image_pyramids.h"
 #include "ui/views/layer.h"
-#include "ui/views/legend.h"
-#include "ui/views/tool_preview.h"
+#include "ui/views/overlay_painters.h"
 #include "ui/views/view_transform.h"
 
 namespace boresight::ui {

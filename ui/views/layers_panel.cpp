@@ -3,15 +3,7 @@
 
 #include <cmath>
 
-#include <QCheckBox>
-#include <QColorDialog>
-#include <QGridLayout>
-#include <QLabel>
-#include <QScrollArea>
-#include <QSignalBlocker>
-#include <QSlider>
-#include <QToolButton>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "ui/views/image_panel.h"
 

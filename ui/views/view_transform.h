@@ -1,11 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <QMouseEvent>
 #include <QPointF>
 #include <QRectF>
 #include <QSizeF>
+#include <QWidget>
 
 namespace boresight::ui {
+
+/// Where the pointer is on a widget, in its coordinates: the centre of the screen pixel that the
+/// pointer's tip is on. Windowing systems tell that pixel's corner, and QMouseEvent::pos() rounds
+/// it to whole coordinates, which where the display is scaled are more than a screen pixel apart.
+inline QPointF pointerPlace(const QMouseEvent& event, const QWidget& widget) {
+#if QT_VERSION < QT_VERSION_CHECK(6, 0, 0)
+  const QPointF corner = event.localPos();
+#else
+  const QPointF corner = event.position();
+#endif
+  const double half = 0.5 / widget.devicePixelRatioF();
+  return corner + QPointF(half, half);
+}
 
 /// Between image pixels (the centre of the top-left one is (0, 0)) and the widget's coordinates:
 /// widget = (pixel + 0.5) * scale + offset, so that a pixel covers a square of side `scale`.

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/application.h"
 
-#include <QApplication>
-#include <QIcon>
-#include <QPainter>
-#include <QPalette>
-#include <QProxyStyle>
-#include <QStyleFactory>
-#include <QStyleOption>
+#include <QtWidgets>
 
 #include "sessions/version.h"
-#include "ui/scene/scene_backend.h"
+#include "ui/scene/scene_canvas.h"
 
 namespace boresight::ui {
 

@@ -227,19 +227,30 @@ void CaseController::advance(StepUntil until) {
   run_.advance(until);
 }
 
-void CaseController::runPlan(const sessions::RunPlan& plan) {
+/// Runs to the end what `prepare` makes ready; what it throws is told instead.
+void CaseController::start(const std::function<void()>& prepare) {
   if (!state_.currentCase() || run_.state() == RunState::kWorking) return;
   try {
-    if (!isLoaded()) throw std::runtime_error(tr("The case is still being read.").toStdString());
     sessions::requireRunnable(*state_.currentCase());
-    const std::string problem = sessions::planProblem(plan);
-    if (!problem.empty()) throw std::runtime_error(problem + ".");
+    prepare();
   } catch (const std::exception& error) {
     Q_EMIT failed(QString::fromUtf8(error.what()));
     return;
   }
-  prepareRun(plan);
   run_.advance(StepUntil::kEnd);
+}
+
+void CaseController::requireLoaded() const {
+  if (!isLoaded()) throw std::runtime_error(tr("The case is still being read.").toStdString());
+}
+
+void CaseController::runPlan(const sessions::RunPlan& plan) {
+  start([&] {
+    requireLoaded();
+    const std::string problem = sessions::planProblem(plan);
+    if (!problem.empty()) throw std::runtime_error(problem + ".");
+    prepareRun(plan);
+  });
 }
 
 QString CaseController::whyAlone() const {
@@ -247,36 +258,23 @@ QString CaseController::whyAlone() const {
 }
 
 void CaseController::runTogether() {
-  if (!state_.currentCase() || run_.state() == RunState::kWorking) return;
-  try {
-    if (!isLoaded()) throw std::runtime_error(tr("The case is still being read.").toStdString());
+  start([&] {
+    requireLoaded();
     const std::string refusal = sessions::viewsRefusal(options());
     if (!whyAlone().isEmpty() || !refusal.empty())
       throw std::runtime_error(whyAlone().isEmpty() ? refusal : whyAlone().toStdString());
-    sessions::requireRunnable(*state_.currentCase());
     prepareRun(options(), sessions::otherViews(document_.session(), case_id_.toStdString()));
-  } catch (const std::exception& error) {
-    Q_EMIT failed(QString::fromUtf8(error.what()));
-    return;
-  }
-  run_.advance(StepUntil::kEnd);
+  });
 }
 
 void CaseController::rerunFrom(int iteration) {
-  if (!state_.currentCase() || !state_.snapshot() || run_.state() == RunState::kWorking) return;
+  if (!state_.snapshot() || run_.state() == RunState::kWorking) return;
   if (iteration < 1) {
     reset();
     advance(StepUntil::kEnd);
     return;
   }
-  try {
-    sessions::requireRunnable(*state_.currentCase());
-    prepareRerun(iteration);
-  } catch (const std::exception& error) {
-    Q_EMIT failed(QString::fromUtf8(error.what()));
-    return;
-  }
-  run_.advance(StepUntil::kEnd);
+  start([&] { prepareRerun(iteration); });
 }
 
 void CaseController::prepareRerun(int iteration) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -104,6 +105,8 @@ class CaseController : public QObject {
   void loadFailed(const QString& id, const QString& message);
   void loadLatestRun(const QString& id);
   void prepareRun(const sessions::RunPlan& plan, std::vector<sessions::SessionCase> others = {});
+  void start(const std::function<void()>& prepare);
+  void requireLoaded() const;
   void prepareRerun(int iteration);
   void runEnded();
   void storeRun();

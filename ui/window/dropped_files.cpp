@@ -7,7 +7,7 @@
 #include <exception>
 
 #include "sessions/io/cahvor_file.h"
-#include "sessions/io/json_document.h"
+#include "sessions/io/json_reader.h"
 #include "sessions/io/labels/image_label.h"
 
 namespace boresight::ui {

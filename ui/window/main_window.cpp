@@ -3,14 +3,7 @@
 
 #include <utility>
 
-#include <QCloseEvent>
-#include <QDockWidget>
-#include <QLabel>
-#include <QMessageBox>
-#include <QMimeData>
-#include <QSettings>
-#include <QStatusBar>
-#include <QUrl>
+#include <QtWidgets>
 
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
@@ -18,10 +11,8 @@
 #include "ui/views/image_panel.h"
 #include "ui/window/annotation_files.h"
 #include "ui/window/input_findings.h"
-#include "ui/window/levels_controller.h"
 #include "ui/window/mask_controller.h"
 #include "ui/window/panel_links.h"
-#include "ui/window/queue_links.h"
 #include "ui/window/session_files.h"
 #include "ui/window/window_docks.h"
 #include "ui/window/window_menus.h"
@@ -88,27 +79,22 @@ void MainWindow::buildStatusBar() {
 }
 
 void MainWindow::connectAll() {
+  const auto note = [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); };
   auto* links = new PanelLinks(parts_, *docks_, this);
   new QueueLinks(parts_, *docks_, this);
   auto* levels = new LevelsController(parts_, docks_->levels(), this);
-  connect(levels, &LevelsController::noted, this,
-          [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); });
+  connect(levels, &LevelsController::noted, this, note);
   new MaskController(parts_, docks_->maskEditor(), docks_->mask(), image(), this);
   auto* annotation_files = new AnnotationFiles(*this, parts_, docks_->annotation());
   connect(annotation_files, &AnnotationFiles::failed, this, &MainWindow::showMessage);
-  connect(annotation_files, &AnnotationFiles::noted, this,
-          [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); });
+  connect(annotation_files, &AnnotationFiles::noted, this, note);
   connect(&onboard_, &OnboardController::rerunRequested, &cases_, &CaseController::runPlan);
   connect(&onboard_, &OnboardController::failed, this, &MainWindow::showMessage);
-  connect(&onboard_, &OnboardController::told, this,
-          [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); });
-  connect(&annotation_, &AnnotationController::told, this,
-          [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); });
-  connect(&docks_->scene(), &SceneView::told, this,
-          [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); });
+  connect(&onboard_, &OnboardController::told, this, note);
+  connect(&annotation_, &AnnotationController::told, this, note);
+  connect(&docks_->scene(), &SceneView::told, this, note);
   connect(&docks_->snapper(), &StationSnapper::failed, this, &MainWindow::showMessage);
-  connect(&docks_->imageAnnotation(), &ImageAnnotation::told, this,
-          [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); });
+  connect(&docks_->imageAnnotation(), &ImageAnnotation::told, this, note);
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::changed, this, &MainWindow::showHint);
@@ -138,8 +124,8 @@ void MainWindow::connectAll() {
   connect(&run_, &RunController::stateChanged, this, [this] {
     if (run_.state() == RunState::kWorking) statusBar()->clearMessage();  // of what was before
   });
-  connect(&state_, &ViewState::caseChanged, this, &MainWindow::showState);
-  connect(&state_, &ViewState::caseChanged, this, &MainWindow::showHint);
+  state_.onChange(ViewChange::kCase, this, &MainWindow::showState);
+  state_.onChange(ViewChange::kCase, this, &MainWindow::showHint);
 }
 
 /// In the middle, where people look for the image: why it is not there, and what to do.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/panel_links.h"
 
+#include <string>
 #include <utility>
 #include <vector>
+
+#include <QtWidgets>
 
 #include "sessions/session/input_sheet.h"
 #include "sessions/session/input_sigmas.h"
@@ -11,9 +14,9 @@
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/input_sheet_panel.h"
-#include "ui/panels/input_sigmas_dialog.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/warning_bar.h"
+#include "ui/review/queue_panel.h"
 #include "ui/run/pose_renderer.h"
 #include "ui/run/run_controller.h"
 #include "ui/run/task_runner.h"
@@ -23,10 +26,81 @@
 #include "ui/views/image_view.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/case_details.h"
-#include "ui/window/case_rows.h"
 #include "ui/window/window_docks.h"
 
 namespace boresight::ui {
+namespace {
+
+const QString kDock = QStringLiteral("queue");
+
+}  // namespace
+
+QueueLinks::QueueLinks(const WindowParts& parts, const WindowDocks& docks, QObject* parent)
+    : QObject(parent), parts_(parts) {
+  connect(&docks.queue(), &QueuePanel::openRequested, this,
+          [this](const QString& id, const QString& digest, int iteration) {
+            open({id, digest.toStdString(), iteration});
+          });
+  auto* dock = qobject_cast<QDockWidget*>(docks.queue().parentWidget());
+  connect(dock, &QDockWidget::visibilityChanged, &docks.queue(), &QueuePanel::setInSight);
+  parts_.state.onChange(ViewChange::kSnapshot, this, &QueueLinks::goThere);
+  connect(&parts_.cases, &CaseController::caseChosen, this, [this](const QString& id) {
+    if (wanted_ && wanted_->case_id != id) wanted_.reset();  // somebody went elsewhere
+  });
+}
+
+void QueueLinks::open(const Place& place) {
+  wanted_ = place;
+  parts_.cases.chooseCase(place.case_id);
+  goThere();
+}
+
+/// As soon as the case is shown with its run. Another run of it that is shown stays as it is.
+void QueueLinks::goThere() {
+  const ViewState::CasePtr& one = parts_.state.currentCase();
+  const ViewState::SnapshotPtr& run = parts_.state.snapshot();
+  if (!wanted_ || !one || !run || fromText(one->source.id) != wanted_->case_id) return;
+  const Place place = *wanted_;
+  wanted_.reset();
+  const int count = static_cast<int>(run->iterations.size());
+  const bool exists = run->digest == place.run_digest && place.iteration < count;
+  parts_.state.setCursor(
+      {exists && place.iteration >= 0 ? place.iteration : count - 1, Stage::kFinished});
+}
+
+/// Keys that hold in the queue's list alone stand beside the text: elsewhere they are the image's.
+void QueueLinks::addActions(QMenu& menu, const WindowDocks& docks) {
+  QueuePanel& panel = docks.queue();
+  QAction* show = menu.addAction(tr("Show the &queue"));
+  show->setShortcut(QKeySequence(QStringLiteral("Shift+F9")));
+  show->setStatusTip(tr("All cases, the most troubled first"));
+  connect(show, &QAction::triggered, &panel, [&docks] {
+    docks.raise(kDock);
+    docks.queue().focusList();
+  });
+  menu.addSeparator();
+  const auto add = [&menu, &panel](const QString& text, const QString& tip,
+                                   void (QueuePanel::*act)()) {
+    QAction* made = menu.addAction(text);
+    made->setStatusTip(tip);
+    connect(made, &QAction::triggered, &panel, act);
+  };
+  add(tr("&Open at the failed iteration\tEnter"),
+      tr("Show the chosen case of the queue at the iteration that failed, or at the last one"),
+      &QueuePanel::openChosen);
+  add(tr("&Accept\tA"), tr("Validate the chosen case of the queue, when all checks passed"),
+      &QueuePanel::accept);
+  add(tr("&Reject\tR"), tr("Refuse the result of the chosen case of the queue"),
+      &QueuePanel::reject);
+  add(tr("&Next\tJ"), tr("The next case of the queue"), &QueuePanel::next);
+  add(tr("&Previous\tK"), tr("The case of the queue before"), &QueuePanel::previous);
+  QAction* differences = menu.addAction(tr("&Differences between the last two runs\tD"));
+  differences->setStatusTip(tr("Each case's last run against the one before it"));
+  connect(differences, &QAction::triggered, &panel, [&docks] {
+    docks.raise(kDock);
+    docks.queue().showDifferences(true);
+  });
+}
 
 PanelLinks::PanelLinks(const WindowParts& parts, const WindowDocks& docks, QObject* parent)
     : QObject(parent),
@@ -37,7 +111,7 @@ PanelLinks::PanelLinks(const WindowParts& parts, const WindowDocks& docks, QObje
   linkCases();
   linkConfiguration();
   linkPoses();
-  connect(&parts_.state, &ViewState::caseChanged, this, &PanelLinks::showInputs);
+  parts_.state.onChange(ViewChange::kCase, this, &PanelLinks::showInputs);
   connect(&docks_.inputs(), &InputSheetPanel::sigmasRequested, this, &PanelLinks::askForSigmas);
   connect(&docks_.warnings(), &WarningBar::actionRequested, this,
           [this] { docks_.raise(QStringLiteral("inputs")); });
@@ -87,8 +161,8 @@ void PanelLinks::linkPoses() {
           [this] { docks_.image().view().setFocus(); });
   connect(&docks_.poses(), &PosePanel::gestureFinished, &parts_.cases,
           &CaseController::keepNudgedPose);
-  connect(&parts_.state, &ViewState::caseChanged, this, &PanelLinks::showJudgement);
-  connect(&parts_.state, &ViewState::nudgedPoseChanged, this, &PanelLinks::showNudgedPose);
+  parts_.state.onChange(ViewChange::kCase, this, &PanelLinks::showJudgement);
+  parts_.state.onChange(ViewChange::kNudgedPose, this, &PanelLinks::showNudgedPose);
   connect(nudged_, &PoseRenderer::rendered, &docks_.image(), &ImagePanel::setNudgedRender);
 }
 

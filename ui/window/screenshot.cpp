@@ -4,12 +4,7 @@
 #include <exception>
 #include <functional>
 
-#include <QApplication>
-#include <QDockWidget>
-#include <QElapsedTimer>
-#include <QEventLoop>
-#include <QPixmap>
-#include <QTimer>
+#include <QtWidgets>
 
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"

@@ -12,7 +12,6 @@
 
 #include "sessions/run/runner.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/examples.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_maker.h"
 #include "ui/views/image_view.h"

@@ -4,10 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include <QFileDialog>
-#include <QInputDialog>
-#include <QMessageBox>
-#include <QPushButton>
+#include <QtWidgets>
 
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_maker.h"
@@ -17,9 +14,31 @@
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
 #include "ui/window/case_controller.h"
-#include "ui/window/recent_files.h"
 
 namespace boresight::ui {
+namespace {
+
+constexpr int kRecentFiles = 10;
+constexpr const char* kKey = "recent";
+
+}  // namespace
+
+QStringList recentFiles() {
+  QStringList files;
+  for (const QString& file : QSettings().value(QLatin1String(kKey)).toStringList())
+    if (QFileInfo::exists(file)) files << file;
+  return files;
+}
+
+void noteRecentFile(const std::filesystem::path& file) {
+  const QString name = QString::fromStdString(std::filesystem::absolute(file).string());
+  QStringList files = recentFiles();
+  files.removeAll(name);
+  files.prepend(name);
+  while (files.size() > kRecentFiles) files.removeLast();
+  QSettings().setValue(QLatin1String(kKey), files);
+}
+
 namespace {
 
 QString text(const std::filesystem::path& file) { return QString::fromStdString(file.string()); }

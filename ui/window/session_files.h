@@ -6,6 +6,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QStringList>
 
 #include "sessions/session/session.h"
 #include "ui/window/dropped_files.h"
@@ -14,6 +15,11 @@
 class QWidget;
 
 namespace boresight::ui {
+
+/// Sessions that were opened or saved last, the newest first, as absolute paths. Kept in the
+/// program's settings; files that are gone are left out.
+QStringList recentFiles();
+void noteRecentFile(const std::filesystem::path& file);
 
 /// Sessions and what they are made of, from and to files: opening, making, saving, recovering. Asks
 /// a person where it must, in front of the window.

@@ -3,15 +3,7 @@
 
 #include <array>
 
-#include <QAction>
-#include <QDialogButtonBox>
-#include <QGridLayout>
-#include <QLabel>
-#include <QMenu>
-#include <QMenuBar>
-#include <QPushButton>
-#include <QScrollArea>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "ui/views/layer.h"
 

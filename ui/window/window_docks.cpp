@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/window_docks.h"
 
-#include <QDockWidget>
-#include <QLayout>
-#include <QMainWindow>
-#include <QVBoxLayout>
+#include <QtWidgets>
 
 #include "ui/annotation/annotation_panel.h"
 #include "ui/annotation/image_annotation.h"

@@ -3,20 +3,16 @@
 
 #include <algorithm>
 
-#include <QAction>
-#include <QDockWidget>
-#include <QMainWindow>
-#include <QMenu>
-#include <QMenuBar>
-#include <QMessageBox>
-#include <QStatusBar>
+#include <QtWidgets>
 
-#include "sessions/session/changed_cases.h"
+#include "sessions/session/session.h"
 #include "sessions/version.h"
 #include "ui/annotation/annotation_panel.h"
+#include "ui/manual/manual_window.h"
 #include "ui/panels/mask_panel.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/run_scrubber.h"
+#include "ui/panels/widgets.h"
 #include "ui/review/onboard_controller.h"
 #include "ui/review/pose_export.h"
 #include "ui/run/run_controller.h"
@@ -26,9 +22,7 @@
 #include "ui/views/mask_editor.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/loupe_menu.h"
-#include "ui/window/manual_help.h"
-#include "ui/window/queue_links.h"
-#include "ui/window/recent_files.h"
+#include "ui/window/panel_links.h"
 #include "ui/window/session_files.h"
 #include "ui/window/shortcut_sheet.h"
 #include "ui/window/window_docks.h"
@@ -52,139 +46,107 @@ WindowMenus::WindowMenus(QMainWindow& window, const WindowParts& parts, const Wi
   buildHelpMenu();
 }
 
-QAction* WindowMenus::action(const QString& text, const QKeySequence& keys, const QString& tip) {
-  auto* made = new QAction(text, &window_);
-  made->setShortcut(keys);
-  made->setToolTip(
-      keys.isEmpty() ? tip
-                     : QStringLiteral("%1 (%2)").arg(tip, keys.toString(QKeySequence::NativeText)));
-  made->setStatusTip(tip);
-  return made;
-}
-
 void WindowMenus::buildFileMenu() {
-  QMenu* menu = window_.menuBar()->addMenu(tr("&File"));
-  QAction* open = action(tr("&Open session..."), QKeySequence::Open, tr("Open a session"));
-  QAction* add = action(tr("&New from files..."), QKeySequence::New,
-                        tr("Make a session from a dataset, or from an image, a camera, a mesh and "
-                           "a seed"));
-  save_ = action(tr("&Save"), QKeySequence::Save, tr("Save the session"));
-  save_as_ =
-      action(tr("Save &as..."), QKeySequence::SaveAs, tr("Save the session under another name"));
-  QAction* quit = action(tr("&Quit"), QKeySequence::Quit, tr("Close the program"));
-  connect(open, &QAction::triggered, &files_, &SessionFiles::askForSession);
-  connect(add, &QAction::triggered, &files_, &SessionFiles::askForFiles);
-  connect(save_, &QAction::triggered, &files_, &SessionFiles::save);
-  connect(save_as_, &QAction::triggered, &files_, &SessionFiles::saveAs);
-  connect(quit, &QAction::triggered, &window_, &QWidget::close);
-  menu->addAction(add);
-  menu->addAction(open);
-  recent_menu_ = menu->addMenu(tr("Open &recent"));
+  QMenu& menu = *window_.menuBar()->addMenu(tr("&File"));
+  addAction(menu, tr("&New from files..."), QKeySequence::New,
+            tr("Make a session from a dataset, or from an image, a camera, a mesh and a seed"),
+            &files_, &SessionFiles::askForFiles);
+  addAction(menu, tr("&Open session..."), QKeySequence::Open, tr("Open a session"), &files_,
+            &SessionFiles::askForSession);
+  recent_menu_ = menu.addMenu(tr("Open &recent"));
   connect(recent_menu_, &QMenu::aboutToShow, this, &WindowMenus::showRecent);
-  menu->addSeparator();
-  menu->addAction(save_);
-  menu->addAction(save_as_);
-  menu->addSeparator();
+  menu.addSeparator();
+  save_ = addAction(menu, tr("&Save"), QKeySequence::Save, tr("Save the session"), &files_,
+                    &SessionFiles::save);
+  save_as_ = addAction(menu, tr("Save &as..."), QKeySequence::SaveAs,
+                       tr("Save the session under another name"), &files_, &SessionFiles::saveAs);
+  menu.addSeparator();
   auto* poses = new PoseExport(window_, parts_.document, parts_.state, parts_.tasks);
-  poses->addTo(*menu->addMenu(tr("&Export")));
+  poses->addTo(*menu.addMenu(tr("&Export")));
   connect(poses, &PoseExport::noted, this,
           [this](const QString& message) { window_.statusBar()->showMessage(message); });
-  menu->addSeparator();
-  menu->addAction(quit);
+  menu.addSeparator();
+  addAction(menu, tr("&Quit"), QKeySequence::Quit, tr("Close the program"), &window_,
+            &QWidget::close);
 }
 
 void WindowMenus::buildEditMenu() {
-  QMenu* menu = window_.menuBar()->addMenu(tr("&Edit"));
-  undo_ = action(tr("&Undo"), QKeySequence::Undo, tr("Take back the last change"));
-  redo_ = action(tr("&Redo"), QKeySequence::Redo, tr("Make the change again"));
-  connect(undo_, &QAction::triggered, this, &WindowMenus::undo);
-  connect(redo_, &QAction::triggered, this, &WindowMenus::redo);
+  QMenu& menu = *window_.menuBar()->addMenu(tr("&Edit"));
+  undo_ = addAction(menu, tr("&Undo"), QKeySequence::Undo, tr("Take back the last change"), this,
+                    &WindowMenus::undo);
+  redo_ = addAction(menu, tr("&Redo"), QKeySequence::Redo, tr("Make the change again"), this,
+                    &WindowMenus::redo);
   connect(&parts_.document, &Document::changed, this, [this] {
     // An undo is no longer the last change.
     if (window_.statusBar()->currentMessage() == shown_change_) window_.statusBar()->clearMessage();
   });
-  menu->addAction(undo_);
-  menu->addAction(redo_);
-  menu->addSeparator();
-  buildMaskMenu(*menu->addMenu(tr("Ignore &mask")));
+  menu.addSeparator();
+  buildMaskMenu(*menu.addMenu(tr("Ignore &mask")));
 }
 
 void WindowMenus::buildMaskMenu(QMenu& menu) {
-  QAction* brush = action(tr("&Brush"), QKeySequence(QStringLiteral("Shift+B")),
-                          tr("Draw on the image what runs shall ignore"));
-  QAction* polygon = action(tr("&Polygon"), QKeySequence(QStringLiteral("Shift+P")),
-                            tr("Click the corners of what runs shall ignore"));
-  QAction* erase = action(tr("&Erase"), QKeySequence(QStringLiteral("Shift+E")),
-                          tr("Trust what is drawn again, or ignore it again"));
-  QAction* smaller = action(tr("&Smaller brush"), Qt::Key_BracketLeft, tr("A smaller brush"));
-  QAction* larger = action(tr("&Larger brush"), Qt::Key_BracketRight, tr("A larger brush"));
-  QAction* saturated = action(tr("Sa&turated pixels"), QKeySequence(QStringLiteral("Shift+S")),
-                              tr("Ignore the pixels of the chosen gray value or more"));
-  QAction* clear = action(tr("&Clear"), {}, tr("Ignore no pixel at all"));
-  MaskEditor& editor = docks_.maskEditor();
-  const auto toggle = [&editor](MaskTool tool) {
-    editor.setTool(editor.tool() == tool ? MaskTool::kNone : tool);
+  MaskEditor* editor = &docks_.maskEditor();
+  const auto toggle = [editor](MaskTool tool) {
+    return [editor, tool] { editor->setTool(editor->tool() == tool ? MaskTool::kNone : tool); };
   };
-  connect(brush, &QAction::triggered, &editor, [toggle] { toggle(MaskTool::kBrush); });
-  connect(polygon, &QAction::triggered, &editor, [toggle] { toggle(MaskTool::kPolygon); });
-  connect(erase, &QAction::triggered, &editor, [&editor] { editor.setErase(!editor.erases()); });
-  connect(smaller, &QAction::triggered, &editor,
-          [&editor] { editor.setRadius(editor.radius_px() / kBrushStep); });
-  connect(larger, &QAction::triggered, &editor,
-          [&editor] { editor.setRadius(editor.radius_px() * kBrushStep); });
-  connect(saturated, &QAction::triggered, &docks_.mask(), &MaskPanel::askForSaturated);
-  connect(clear, &QAction::triggered, &docks_.mask(), &MaskPanel::clearAll);
-  menu.addActions({brush, polygon, erase, smaller, larger, saturated, clear});
+  addAction(menu, tr("&Brush"), keys("Shift+B"), tr("Draw on the image what runs shall ignore"),
+            editor, toggle(MaskTool::kBrush));
+  addAction(menu, tr("&Polygon"), keys("Shift+P"),
+            tr("Click the corners of what runs shall ignore"), editor, toggle(MaskTool::kPolygon));
+  addAction(menu, tr("&Erase"), keys("Shift+E"),
+            tr("Trust what is drawn again, or ignore it again"), editor,
+            [editor] { editor->setErase(!editor->erases()); });
+  addAction(menu, tr("&Smaller brush"), Qt::Key_BracketLeft, tr("A smaller brush"), editor,
+            [editor] { editor->setRadius(editor->radius_px() / kBrushStep); });
+  addAction(menu, tr("&Larger brush"), Qt::Key_BracketRight, tr("A larger brush"), editor,
+            [editor] { editor->setRadius(editor->radius_px() * kBrushStep); });
+  addAction(menu, tr("Sa&turated pixels"), keys("Shift+S"),
+            tr("Ignore the pixels of the chosen gray value or more"), &docks_.mask(),
+            &MaskPanel::askForSaturated);
+  addAction(menu, tr("&Clear"), {}, tr("Ignore no pixel at all"), &docks_.mask(),
+            &MaskPanel::clearAll);
   mask_actions_ = menu.actions();
 }
 
-QAction* WindowMenus::modeAction(const QString& text, const QKeySequence& keys, const QString& tip,
-                                 PlaceMode mode) {
-  QAction* made = action(text, keys, tip);
-  made->setCheckable(true);
+void WindowMenus::addMode(QMenu& menu, const QString& text, const QKeySequence& keys,
+                          const QString& tip, PlaceMode mode) {
   AnnotationController& annotation = parts_.annotation;
-  connect(made, &QAction::triggered, this, [this, mode](bool on) {
+  QAction* made = addAction(menu, text, keys, tip, this, [this, mode](bool on) {
     docks_.maskEditor().setTool(MaskTool::kNone);  // one tool at a time
     parts_.annotation.setMode(on ? mode : PlaceMode::kOff);
     if (on) docks_.raise(QStringLiteral("annotation"));
   });
+  made->setCheckable(true);
   connect(&annotation, &AnnotationController::modeChanged, made,
           [made, mode, &annotation] { made->setChecked(annotation.mode() == mode); });
-  return made;
 }
 
 void WindowMenus::buildAnnotateMenu() {
-  QMenu* menu = window_.menuBar()->addMenu(tr("&Annotate"));
-  AnnotationController& annotation = parts_.annotation;
-  AnnotationPanel& panel = docks_.annotation();
-  QAction* points = modeAction(tr("&Points"), Qt::Key_F2,
-                               tr("Mark points on the image and the station, in either order"),
-                               PlaceMode::kPoint);
-  QAction* lines = modeAction(tr("&Lines"), Qt::Key_F3,
-                              tr("Mark an edge by two places of the image and an edge of the "
-                                 "station"),
-                              PlaceMode::kLine);
-  QAction* remove = action(tr("&Remove the chosen mark"), QKeySequence(QStringLiteral("Ctrl+Del")),
-                           tr("Take the chosen mark away"));
-  QAction* truth = action(tr("Use as &truth"), {}, tr("The annotated pose becomes the truth"));
-  QAction* aside = action(tr("Put aside, begin a &blind pass..."), {},
-                          tr("Keep these marks and begin anew without seeing them"));
-  connect(remove, &QAction::triggered, this,
-          [this] { parts_.annotation.remove(parts_.annotation.selected()); });
-  connect(truth, &QAction::triggered, &annotation, &AnnotationController::useAsTruth);
-  connect(aside, &QAction::triggered, &panel, &AnnotationPanel::askForName);
+  QMenu& menu = *window_.menuBar()->addMenu(tr("&Annotate"));
+  AnnotationController* annotation = &parts_.annotation;
+  AnnotationPanel* panel = &docks_.annotation();
+  addMode(menu, tr("&Points"), Qt::Key_F2,
+          tr("Mark points on the image and the station, in either order"), PlaceMode::kPoint);
+  addMode(menu, tr("&Lines"), Qt::Key_F3,
+          tr("Mark an edge by two places of the image and an edge of the station"),
+          PlaceMode::kLine);
+  addAction(menu, tr("&Remove the chosen mark"), keys("Ctrl+Del"), tr("Take the chosen mark away"),
+            annotation, [annotation] { annotation->remove(annotation->selected()); });
   connect(&docks_.maskEditor(), &MaskEditor::changed, this, [this] {
     if (docks_.maskEditor().tool() != MaskTool::kNone) parts_.annotation.setMode(PlaceMode::kOff);
   });
-  menu->addActions({points, lines, remove});
-  menu->addSeparator();
-  menu->addActions({truth, aside});
-  menu->addSeparator();
-  menu->addAction(tr("&Import marks..."), &panel, &AnnotationPanel::importRequested);
-  menu->addAction(tr("&Export marks..."), &panel, &AnnotationPanel::exportRequested);
-  annotation_actions_ = menu->actions();
-  menu->addSeparator();
-  addLoupeActions(*menu, docks_.imageAnnotation());
+  menu.addSeparator();
+  addAction(menu, tr("Use as &truth"), {}, tr("The annotated pose becomes the truth"), annotation,
+            &AnnotationController::useAsTruth);
+  addAction(menu, tr("Put aside, begin a &blind pass..."), {},
+            tr("Keep these marks and begin anew without seeing them"), panel,
+            &AnnotationPanel::askForName);
+  menu.addSeparator();
+  menu.addAction(tr("&Import marks..."), panel, &AnnotationPanel::importRequested);
+  menu.addAction(tr("&Export marks..."), panel, &AnnotationPanel::exportRequested);
+  annotation_actions_ = menu.actions();
+  menu.addSeparator();
+  addLoupeActions(menu, docks_.imageAnnotation());
 }
 
 /// The steps of the scrubber: its buttons name and enable them, the menu gives them their keys.
@@ -208,66 +170,55 @@ void WindowMenus::buildGoMenu() {
   for (const Key& each : kKeys) {
     QAction* go = scrubber->action(each.step);
     go->setShortcut(QKeySequence(QString::fromLatin1(each.keys)));
-    go->setToolTip(QStringLiteral("%1 (%2)").arg(
-        go->toolTip(), go->shortcut().toString(QKeySequence::NativeText)));
+    setTip(*go, go->toolTip());
     menu->addAction(go);
   }
 }
 
 void WindowMenus::buildViewMenu() {
-  QMenu* menu = window_.menuBar()->addMenu(tr("&View"));
-  buildLayersMenu(*menu->addMenu(tr("&Layers")));
-  QAction* blink = action(tr("&Blink the layers"), Qt::Key_B, tr("Layers on and off"));
-  QAction* swipe = action(tr("&Swipe"), Qt::Key_V, tr("Layers only left of a line"));
-  QAction* core = action(tr("What the &core sees"), Qt::Key_C, tr("The 8-bit image"));
+  QMenu& menu = *window_.menuBar()->addMenu(tr("&View"));
+  buildLayersMenu(*menu.addMenu(tr("&Layers")));
   ImagePanel* image = &docks_.image();
-  connect(blink, &QAction::triggered, image, &ImagePanel::toggleBlink);
-  connect(swipe, &QAction::triggered, image, &ImagePanel::toggleSwipe);
-  connect(core, &QAction::triggered, image, &ImagePanel::toggleCoreView);
-  menu->addActions({blink, swipe, core});
-  QAction* review = action(tr("Re&view the pose"), Qt::Key_F9,
-                           tr("Where the shown case stands, the checks of its pose, the decision"));
-  connect(review, &QAction::triggered, this, [this] { docks_.raise(QStringLiteral("review")); });
-  menu->addAction(review);
-  QueueLinks::addActions(*menu->addMenu(tr("&Queue")), docks_);
-  menu->addSeparator();
-  for (QDockWidget* each : docks_.all()) menu->addAction(each->toggleViewAction());
-  menu->addSeparator();
-  QAction* arrange = action(tr("A&rrange the panels anew"), {},
-                            tr("Put every panel back where it was at the first start"));
-  connect(arrange, &QAction::triggered, this, [this] { docks_.arrange(); });
-  menu->addAction(arrange);
+  addAction(menu, tr("&Blink the layers"), Qt::Key_B, tr("Layers on and off"), image,
+            &ImagePanel::toggleBlink);
+  addAction(menu, tr("&Swipe"), Qt::Key_V, tr("Layers only left of a line"), image,
+            &ImagePanel::toggleSwipe);
+  addAction(menu, tr("What the &core sees"), Qt::Key_C, tr("The 8-bit image"), image,
+            &ImagePanel::toggleCoreView);
+  addAction(menu, tr("Re&view the pose"), Qt::Key_F9,
+            tr("Where the shown case stands, the checks of its pose, the decision"), this,
+            [this] { docks_.raise(QStringLiteral("review")); });
+  QueueLinks::addActions(*menu.addMenu(tr("&Queue")), docks_);
+  menu.addSeparator();
+  for (QDockWidget* each : docks_.all()) menu.addAction(each->toggleViewAction());
+  menu.addSeparator();
+  addAction(menu, tr("A&rrange the panels anew"), {},
+            tr("Put every panel back where it was at the first start"), this,
+            [this] { docks_.arrange(); });
 }
 
 void WindowMenus::buildLayersMenu(QMenu& menu) {
   for (int i = 0; i < kLayerCount; ++i) {
     const LayerInfo& info = layerInfo(static_cast<LayerId>(i));
-    QAction* toggle =
-        action(tr(info.name), QKeySequence(QString::fromLatin1(info.key)), tr(info.help));
-    connect(toggle, &QAction::triggered, this, [this, id = info.id] {
+    addAction(menu, tr(info.name), keys(info.key), tr(info.help), this, [this, id = info.id] {
       LayerStyle style = docks_.image().style(id);
       style.visible = !style.visible;
       docks_.image().setStyle(id, style);
     });
-    menu.addAction(toggle);
   }
 }
 
 void WindowMenus::buildHelpMenu() {
-  QMenu* menu = window_.menuBar()->addMenu(tr("&Help"));
+  QMenu& menu = *window_.menuBar()->addMenu(tr("&Help"));
   auto* help = new ManualHelp(window_);
-  QAction* manual = action(tr("&Manual"), QKeySequence(QStringLiteral("Shift+F1")),
-                           tr("The manual, at the panel that has the focus"));
-  connect(manual, &QAction::triggered, help, &ManualHelp::showHere);
-  QAction* keys = action(tr("&Keys"), Qt::Key_F1, tr("Every key of this window"));
-  connect(keys, &QAction::triggered, this, [this, help] {
+  addAction(menu, tr("&Manual"), keys("Shift+F1"),
+            tr("The manual, at the panel that has the focus"), help, &ManualHelp::showHere);
+  addAction(menu, tr("&Keys"), Qt::Key_F1, tr("Every key of this window"), this, [this, help] {
     ShortcutSheet sheet(window_);
     connect(&sheet, &ShortcutSheet::manualRequested, help, &ManualHelp::showHere);
     sheet.exec();
   });
-  QAction* about = action(tr("&About Boresight"), {}, tr("Version"));
-  connect(about, &QAction::triggered, this, &WindowMenus::showAbout);
-  menu->addActions({manual, keys, about});
+  addAction(menu, tr("&About Boresight"), {}, tr("Version"), this, &WindowMenus::showAbout);
 }
 
 void WindowMenus::showAbout() {

@@ -35,8 +35,8 @@ class WindowMenus : public QObject {
   void buildEditMenu();
   void buildMaskMenu(QMenu& menu);
   void buildAnnotateMenu();
-  QAction* modeAction(const QString& text, const QKeySequence& keys, const QString& tip,
-                      PlaceMode mode);
+  void addMode(QMenu& menu, const QString& text, const QKeySequence& keys, const QString& tip,
+               PlaceMode mode);
   void buildRunMenu();
   void buildOnboardMenu(QMenu& menu);
   void buildGoMenu();
@@ -50,7 +50,6 @@ class WindowMenus : public QObject {
   void updateTogether(bool idle);
   void showRecent();
   void showAbout();
-  QAction* action(const QString& text, const QKeySequence& keys, const QString& tip);
 
   QMainWindow& window_;
   WindowParts parts_;

@@ -7,8 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/labels/label_frame_names.h"
-#include "sessions/io/labels/label_groups.h"
+#include "sessions/io/labels/label_frames.h"
 #include "sessions/io/labels/label_values.h"
 
 namespace boresight::sessions {
@@ -19,14 +18,18 @@ using nlohmann::json;
 constexpr int kMostComponents = 9;
 const std::string kNone = "the label's camera model is NONE";
 
-/// What a component of the model is called.
+/// What a component of the model is called in groups, and its element in PDS4.
 struct Component {
   char letter;
   const char* name;
+  const char* element;
 };
 constexpr Component kComponents[] = {
-    {'C', "CENTER"}, {'A', "AXIS"},     {'H', "HORIZONTAL"}, {'V', "VERTICAL"}, {'O', "OPTICAL"},
-    {'R', "RADIAL"}, {'E', "ENTRANCE"}, {'T', "MTYPE"},      {'P', "MPARM"},
+    {'C', "CENTER", "Vector_Center"},          {'A', "AXIS", "Vector_Axis"},
+    {'H', "HORIZONTAL", "Vector_Horizontal"},  {'V', "VERTICAL", "Vector_Vertical"},
+    {'O', "OPTICAL", "Vector_Optical"},        {'R', "RADIAL", "Radial_Terms"},
+    {'E', "ENTRANCE", "Entrance_Terms"},       {'T', "MTYPE", "cahvore_model_type"},
+    {'P', "MPARM", "cahvore_model_parameter"},
 };
 
 char letterOf(const std::string& text) {
@@ -104,10 +107,8 @@ std::string unitRemark(const Components& components) {
 }
 
 std::optional<CameraModel> modelOf(const std::string& type) {
-  const std::string name = upperCase(type);
-  if (name == "CAHV") return CameraModel::kCahv;
-  if (name == "CAHVOR") return CameraModel::kCahvor;
-  if (name == "CAHVORE") return CameraModel::kCahvore;
+  for (const CameraModel model : {CameraModel::kCahv, CameraModel::kCahvor, CameraModel::kCahvore})
+    if (lowerCase(type) == cameraModelName(model)) return model;
   return std::nullopt;
 }
 
@@ -115,21 +116,14 @@ std::optional<CameraModel> modelOf(const std::string& type) {
 /// False with a remark when one is missing.
 template <class Vector, class Number>
 bool fillModel(const Vector& vector, const Number& number, CahvModel& cahv, std::string& remark) {
-  const auto fill = [&](char letter, Eigen::Vector3d& target) {
-    const std::optional<Eigen::Vector3d> found = vector(letter);
-    if (!found) {
-      remark = std::string("the label's camera model has no usable component ") + letter;
-      return false;
-    }
-    target = *found;
-    return true;
-  };
-  if (!fill('C', cahv.c_m) || !fill('A', cahv.a) || !fill('H', cahv.h_px) || !fill('V', cahv.v_px))
-    return false;
-  if (cahv.model == CameraModel::kCahv) return true;
-  if (!fill('O', cahv.o) || !fill('R', cahv.r)) return false;
-  if (cahv.model == CameraModel::kCahvor) return true;
-  if (!fill('E', cahv.e_m)) return false;
+  forVectors(cahv, [&](const char* key, Eigen::Vector3d& target) {
+    const std::optional<Eigen::Vector3d> found = vector(key[0]);
+    if (found)
+      target = *found;
+    else if (remark.empty())
+      remark = std::string("the label's camera model has no usable component ") + key;
+  });
+  if (!remark.empty() || cahv.model != CameraModel::kCahvore) return remark.empty();
   const std::optional<double> type = number('T');
   if (!type || !(*type == 1.0 || *type == 2.0 || *type == 3.0)) {
     remark = "the label's CAHVORE model does not say its type (1, 2 or 3)";
@@ -202,26 +196,9 @@ std::vector<StatedCamera> groupCameras(LabelFormat format, const json& label) {
 // PDS4: the classes of the geometry dictionary.
 
 const char* elementOf(char letter) {
-  switch (letter) {
-    case 'C':
-      return "Vector_Center";
-    case 'A':
-      return "Vector_Axis";
-    case 'H':
-      return "Vector_Horizontal";
-    case 'V':
-      return "Vector_Vertical";
-    case 'O':
-      return "Vector_Optical";
-    case 'R':
-      return "Radial_Terms";
-    case 'E':
-      return "Entrance_Terms";
-    case 'T':
-      return "cahvore_model_type";
-    default:
-      return "cahvore_model_parameter";
-  }
+  for (const Component& one : kComponents)
+    if (one.letter == letter) return one.element;
+  return "";
 }
 
 /// Three members called PREFIXx.., by the first set of names that is whole.

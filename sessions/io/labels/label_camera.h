@@ -9,10 +9,20 @@
 
 #include "core/geometry/cahv_model.h"
 #include "sessions/io/labels/image_label.h"
-#include "sessions/io/labels/label_detector.h"
 #include "sessions/io/labels/label_files.h"
 
 namespace boresight::sessions {
+
+/// What is known of a mission's labels and of the instrument that took an image.
+struct LabelDetector {
+  /// Labels state the model of the image as it was cut and averaged: the mission's own programs
+  /// read it without an offset (planetary.md names the evidence).
+  bool model_of_subframe = false;
+  int width = 0;  ///< at most so many samples has the detector; 0: not known
+  int height = 0;
+};
+
+LabelDetector detectorOf(const std::vector<LabelItem>& identifiers);
 
 /// The camera model of a label as it stands there, or why there is none.
 struct StatedCamera {

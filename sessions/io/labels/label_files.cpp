@@ -44,14 +44,6 @@ std::string_view skipComments(std::string_view text) {
   return text;
 }
 
-std::string lowerCase(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) {
-    return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  });
-  return lower;
-}
-
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
 /// 1.5D-03 as 1.5E-03, outside of texts: the exponents of FORTRAN, which GDAL leaves out.
@@ -198,15 +190,8 @@ void readPixelsPart(LabelFiles& files, const std::string& name) {
 }  // namespace
 
 const char* labelFormatName(LabelFormat format) {
-  switch (format) {
-    case LabelFormat::kVicar:
-      return "VICAR";
-    case LabelFormat::kPds3:
-      return "PDS3";
-    case LabelFormat::kPds4:
-      return "PDS4";
-  }
-  return "unknown";
+  constexpr const char* kNames[] = {"VICAR", "PDS3", "PDS4"};
+  return kNames[static_cast<int>(format)];
 }
 
 std::optional<LabelFormat> labelFormatOf(std::span<const std::uint8_t> bytes) {
@@ -232,11 +217,7 @@ std::optional<std::string_view> vicarWord(std::string_view label, std::string_vi
 }
 
 std::optional<std::int64_t> vicarInteger(std::string_view label, std::string_view key) {
-  const std::string_view word = vicarWord(label, key).value_or("");
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
+  return numberIn<std::int64_t>(vicarWord(label, key).value_or(""));
 }
 
 void requireVicarSizes(const LabelFiles& files) {

@@ -12,7 +12,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sessions/io/labels/label_pointer.h"
+#include "sessions/io/labels/label_odl.h"
 
 namespace boresight::sessions {
 
@@ -70,5 +70,9 @@ LabelFiles readLabelFiles(const std::filesystem::path& label_file);
 /// The same of bytes that are already read.
 LabelFiles readLabelFiles(const std::filesystem::path& label_file,
                           std::vector<std::uint8_t> label_bytes);
+
+/// Of the camera model of a VICAR or PDS3 label: what its text states twice, of which GDAL hands on
+/// the last alone. One sentence, or nothing.
+std::string repeatedInCameraModel(const LabelFiles& files);
 
 }  // namespace boresight::sessions

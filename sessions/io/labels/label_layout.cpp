@@ -84,6 +84,19 @@ void requireEndLabel(const LabelFiles& files, std::int64_t at) {
 
 }  // namespace
 
+const char* sampleTypeName(SampleType type) {
+  constexpr const char* kNames[] = {
+      "8-bit unsigned integers",       "8-bit signed integers",        "16-bit unsigned integers",
+      "16-bit signed integers",        "32-bit unsigned integers",     "32-bit signed integers",
+      "32-bit floating-point numbers", "64-bit floating-point numbers"};
+  return kNames[static_cast<int>(type)];
+}
+
+int bitsOf(SampleType type) {
+  constexpr int kBits[] = {8, 8, 16, 16, 32, 32, 32, 64};
+  return kBits[static_cast<int>(type)];
+}
+
 SampleType statedSampleType(const LabelFiles& files, const json& label,
                             const RasterLayout& layout) {
   const std::string stated = wordOf(labelMember(&label, "IMAGE"), "SAMPLE_TYPE");

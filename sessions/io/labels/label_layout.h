@@ -6,9 +6,15 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "sessions/io/labels/label_files.h"
-#include "sessions/io/labels/sample_type.h"
 
 namespace boresight::sessions {
+
+/// Of an image with a label, as the file has them.
+enum class SampleType { kUint8, kInt8, kUint16, kInt16, kUint32, kInt32, kFloat, kDouble };
+
+const char* sampleTypeName(SampleType type);  ///< "16-bit signed integers"
+inline bool isFloating(SampleType type) { return type >= SampleType::kFloat; }
+int bitsOf(SampleType type);
 
 /// Where a reader takes the samples from; in bytes.
 struct RasterLayout {

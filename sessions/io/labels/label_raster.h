@@ -9,7 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "sessions/io/labels/label_files.h"
-#include "sessions/io/labels/sample_type.h"
+#include "sessions/io/labels/label_layout.h"
 
 namespace boresight::sessions {
 

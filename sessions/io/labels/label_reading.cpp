@@ -2,18 +2,18 @@
 #include "sessions/io/labels/label_reading.h"
 
 #include <algorithm>
-#include <charconv>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "sessions/io/errors.h"
 #include "sessions/io/labels/label_camera.h"
+#include "sessions/io/labels/label_files.h"
 #include "sessions/io/labels/label_frames.h"
-#include "sessions/io/labels/label_groups.h"
 #include "sessions/io/labels/label_raster.h"
-#include "sessions/io/labels/label_repeats.h"
 #include "sessions/io/labels/label_values.h"
 
 namespace boresight::sessions {
@@ -121,21 +121,16 @@ std::optional<int> bitsOfMask(const std::string& mask) {
   int base = 2;
   std::string digits = mask;
   if (hash != std::string::npos) {
-    const auto [end, error] = std::from_chars(mask.data(), mask.data() + hash, base);
-    if (error != std::errc() || (base != 2 && base != 16)) return std::nullopt;
+    base = numberIn<int>(std::string_view(mask).substr(0, hash)).value_or(0);
+    if (base != 2 && base != 16) return std::nullopt;
     digits = mask.substr(hash + 1);
     if (digits.ends_with('#')) digits.pop_back();
   } else if (mask.size() < 8) {
     return std::nullopt;  // a plain number of bits or a decimal mask: not told apart
   }
-  std::uint64_t value = 0;
-  const auto [end, error] =
-      std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
-  if (error != std::errc() || end != digits.data() + digits.size() || value == 0)
-    return std::nullopt;
-  int bits = 0;
-  while (bits < 64 && value >> bits != 0) ++bits;
-  return bits;
+  const auto value = numberIn<std::uint64_t>(digits, base);
+  if (!value || *value == 0) return std::nullopt;
+  return static_cast<int>(std::bit_width(*value));
 }
 
 std::optional<int> bitDepthOf(const Source& source, const LabelPicture& picture,
@@ -330,6 +325,20 @@ LabelReading readLabel(const LabelFiles& files, const LabelRaster& raster) {
   reading.label.camera.reset();
   reading.label.camera_remark = repeated + ": which one holds is not known; give a camera file";
   return reading;
+}
+
+bool hasImageLabel(const std::filesystem::path& file) { return labelFileOf(file).has_value(); }
+
+ImageLabel readImageLabel(const std::filesystem::path& file) {
+  const LabelFiles files = readLabelFiles(labelFileOf(file).value_or(file));
+  const LabelRaster raster(files);
+  return readLabel(files, raster).label;
+}
+
+CameraFile readLabelCamera(const std::filesystem::path& file) {
+  const ImageLabel label = readImageLabel(file);
+  if (!label.camera) throw InputError(file, label.camera_remark);
+  return *label.camera;
 }
 
 }  // namespace boresight::sessions

@@ -7,8 +7,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "sessions/io/labels/image_label.h"
-#include "sessions/io/labels/label_constants.h"
 #include "sessions/io/labels/label_files.h"
+#include "sessions/io/labels/label_samples.h"
 
 namespace boresight::sessions {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/io/labels/label_repeats.h"
+#include "sessions/io/labels/label_files.h"
 
 #include <algorithm>
 #include <set>

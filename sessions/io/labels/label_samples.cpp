@@ -2,16 +2,88 @@
 #include "sessions/io/labels/label_samples.h"
 
 #include <algorithm>
+#include <bit>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
 
 #include "sessions/io/errors.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/io/labels/label_raster.h"
 #include "sessions/io/labels/label_reading.h"
+#include "sessions/io/labels/label_values.h"
 
 namespace boresight::sessions {
 namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMostValues = 32;
+constexpr double kBeyondMeasurement = 1e30;
+
+/// Bits of a number as a label writes them.
+struct Pattern {
+  std::uint64_t bits = 0;
+  int width = 0;  ///< of the digits written
+};
+
+std::optional<Pattern> patternOf(std::string_view text) {
+  int base = 16;
+  if (text.starts_with("0x") || text.starts_with("0X")) {
+    text.remove_prefix(2);
+  } else {
+    const auto hash = text.find('#');
+    if (hash == std::string_view::npos) return std::nullopt;
+    base = numberIn<int>(text.substr(0, hash)).value_or(0);
+    if (base != 2 && base != 16) return std::nullopt;
+    text = text.substr(hash + 1);
+    if (text.ends_with('#')) text.remove_suffix(1);
+  }
+  const auto bits = numberIn<std::uint64_t>(text, base);
+  if (!bits) return std::nullopt;
+  return Pattern{*bits, static_cast<int>(text.size()) * (base == 16 ? 4 : 1)};
+}
+
+double floatingOf(const Pattern& pattern) {
+  if (pattern.width > 32) return std::bit_cast<double>(pattern.bits);
+  return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(pattern.bits)));
+}
+
+/// Half a unit of the last digit that the number needs.
+double halfDigit(double value) {
+  char buffer[40];
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof(buffer), value, std::chars_format::scientific).ptr;
+  const std::string text(buffer, end);
+  const auto mark = text.find('e');
+  const auto point = text.find('.');
+  const int decimals = point == std::string::npos ? 0 : static_cast<int>(mark - point - 1);
+  const int exponent = std::stoi(text.substr(mark + 1));
+  return numberIn<double>("5e" + std::to_string(exponent - decimals - 1)).value_or(0.0);
+}
+
+void add(double value, double tolerance, std::vector<InvalidValue>& values) {
+  const bool known = std::any_of(values.begin(), values.end(),
+                                 [value](const InvalidValue& one) { return one.value == value; });
+  if (std::isfinite(value) && values.size() < kMostValues && !known)
+    values.push_back({value, tolerance});
+}
+
+void addPattern(const Pattern& pattern, bool floating, int sample_bits,
+                std::vector<InvalidValue>& values) {
+  if (floating) return add(floatingOf(pattern), 0.0, values);
+  add(static_cast<double>(pattern.bits), 0.0, values);
+  if (sample_bits > 32 || pattern.bits >> sample_bits != 0) return;
+  if ((pattern.bits >> (sample_bits - 1)) == 1)
+    add(static_cast<double>(pattern.bits) - static_cast<double>(std::uint64_t{1} << sample_bits),
+        0.0, values);
+}
 
 constexpr double kLargestWhole = 65535.0;
 constexpr double kOutlierShare = 1e-3;  ///< of the samples, half of it at each end
@@ -47,24 +119,6 @@ struct Range {
   std::int64_t clipped_count = 0;  ///< outliers, below the lowest or above the highest
 };
 
-Range rangeOf(const LabelRaster& raster, const Validity& valid) {
-  Range range;
-  std::vector<double> row;
-  for (int band = 0; band < raster.bands(); ++band)
-    for (int y = 0; y < raster.height(); ++y) {
-      raster.readRow(band, y, row);
-      for (const double sample : row) {
-        if (!valid(sample)) {
-          ++range.invalid_count;
-          continue;
-        }
-        range.lowest = std::min(range.lowest, sample);
-        range.highest = std::max(range.highest, sample);
-      }
-    }
-  return range;
-}
-
 template <class Visit>
 void forValidSamples(const LabelRaster& raster, const Validity& valid, const Visit& visit) {
   std::vector<double> row;
@@ -74,6 +128,17 @@ void forValidSamples(const LabelRaster& raster, const Validity& valid, const Vis
       for (const double sample : row)
         if (valid(sample)) visit(sample);
     }
+}
+
+Range rangeOf(const LabelRaster& raster, const Validity& valid) {
+  Range range;
+  range.invalid_count = std::int64_t{raster.width()} * raster.height() * raster.bands();
+  forValidSamples(raster, valid, [&range](double sample) {
+    --range.invalid_count;
+    range.lowest = std::min(range.lowest, sample);
+    range.highest = std::max(range.highest, sample);
+  });
+  return range;
 }
 
 /// Samples to 16 bits.
@@ -199,6 +264,20 @@ std::string ruleOf(const LabelSamples& samples, const Range& range, SampleType t
 }
 
 }  // namespace
+
+void addInvalidValues(const json* stated, bool floating, int sample_bits,
+                      std::vector<InvalidValue>& values) {
+  if (stated == nullptr) return;
+  const json list = stated->is_array() ? *stated : json::array({*stated});
+  for (const json& one : list) {
+    if (const auto number = labelNumber(&one)) {
+      const bool rounded = floating && std::abs(*number) >= kBeyondMeasurement;
+      add(*number, rounded ? halfDigit(*number) : 0.0, values);
+    } else if (const auto pattern = patternOf(labelText(&one).value_or(""))) {
+      addPattern(*pattern, floating, sample_bits, values);
+    }
+  }
+}
 
 LabelSamples readLabelSamples(const LabelFiles& files) {
   const LabelRaster raster(files);

@@ -19,12 +19,6 @@ using nlohmann::json;
 constexpr std::size_t kMostValues = 4096;
 constexpr std::size_t kMostText = 2000;
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
 /// GDAL writes the line ends inside a text as the characters \r and \n.
 std::string withoutLineEnds(std::string text) {
   for (const char* end : {"\\r", "\\n"})
@@ -53,11 +47,8 @@ std::optional<double> numberOf(std::string_view text) {
   if (plain.starts_with('+')) plain.erase(0, 1);
   for (char& c : plain)
     if (c == 'd' || c == 'D') c = 'E';
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value);
-  if (error != std::errc() || end != plain.data() + plain.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
+  const auto value = numberIn<double>(plain);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 bool isAbsent(const std::string& text) {
@@ -67,15 +58,28 @@ bool isAbsent(const std::string& text) {
   return false;
 }
 
-}  // namespace
+constexpr std::size_t kMostElements = 1000;
+constexpr int kMostDepth = 80;
 
-std::string upperCase(std::string_view text) {
-  std::string upper(text);
-  std::transform(upper.begin(), upper.end(), upper.begin(), [](char c) {
-    return static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
-  });
-  return upper;
+void collect(const json& value, std::string_view name, std::string_view except, int depth,
+             std::vector<const json*>& found) {
+  if (depth > kMostDepth || found.size() >= kMostElements) return;
+  if (value.is_array())
+    for (const json& one : value) collect(one, name, except, depth + 1, found);
+  if (!value.is_object()) return;
+  for (auto member = value.begin(); member != value.end(); ++member) {
+    if (!except.empty() && member.key() == except) continue;
+    if (member.key() == name) {
+      if (!member->is_array() && found.size() < kMostElements) found.push_back(&*member);
+      if (member->is_array())
+        for (const json& one : *member)
+          if (found.size() < kMostElements) found.push_back(&one);
+    }
+    collect(*member, name, except, depth + 1, found);
+  }
 }
+
+}  // namespace
 
 const json* labelMember(const json* object, std::string_view key) {
   if (object == nullptr || !object->is_object()) return nullptr;
@@ -201,6 +205,47 @@ std::string joined(const std::vector<std::string>& texts) {
   std::string all;
   for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
   return all;
+}
+
+std::vector<std::pair<std::string, const json*>> labelGroups(LabelFormat format,
+                                                             const json& label) {
+  std::vector<std::pair<std::string, const json*>> groups;
+  const json* parent = format == LabelFormat::kVicar  ? labelMember(&label, "PROPERTY")
+                       : format == LabelFormat::kPds3 ? &label
+                                                      : nullptr;
+  if (parent == nullptr || !parent->is_object()) return groups;
+  for (auto member = parent->begin(); member != parent->end(); ++member) {
+    if (!member->is_object()) continue;
+    if (format == LabelFormat::kPds3 && !member->contains("_type")) continue;
+    // The second group of a name is called NAME_2.
+    const auto name = labelText(labelMember(&*member, "_container_name"));
+    groups.emplace_back(name.value_or(member.key()), &*member);
+  }
+  return groups;
+}
+
+const json* labelGroup(LabelFormat format, const json& label,
+                       std::initializer_list<std::string_view> names) {
+  const auto groups = labelGroups(format, label);
+  for (const std::string_view name : names)
+    for (const auto& [found, group] : groups)
+      if (found == name) return group;
+  return nullptr;
+}
+
+const json* labelItem(LabelFormat format, const json& label,
+                      std::initializer_list<std::string_view> groups, std::string_view key) {
+  if (groups.size() == 0) return labelMember(&label, key);
+  for (const std::string_view name : groups)
+    if (const json* value = labelMember(labelGroup(format, label, {name}), key)) return value;
+  return nullptr;
+}
+
+std::vector<const json*> elementsNamed(const json& label, std::string_view name,
+                                       std::string_view except) {
+  std::vector<const json*> found;
+  collect(label, name, except, 0, found);
+  return found;
 }
 
 }  // namespace boresight::sessions

@@ -27,22 +27,8 @@ std::string_view withoutPrefix(std::string_view name) {
   return colon == std::string_view::npos ? name : name.substr(colon + 1);
 }
 
-/// A tag <name ...>, </name> or <name ... />.
-struct Tag {
-  std::string_view name;
-  bool closes = false;
-  bool empty = false;
-  std::size_t end = 0;  ///< behind it
-};
-
-/// Where the next of these stands, behind it; the text's end when none does.
-std::size_t behind(std::string_view xml, std::string_view what, std::size_t from) {
-  const auto at = xml.find(what, from);
-  return at == std::string_view::npos ? xml.size() : at + what.size();
-}
-
-/// Behind the '>' that ends what begins at `from`: not one inside of quotes or brackets.
-std::size_t behindTag(std::string_view xml, std::size_t from) {
+/// Behind the '>' that ends the declaration at `from`: not one inside of quotes or brackets.
+std::size_t behindDeclaration(std::string_view xml, std::size_t from) {
   char quote = 0;
   int brackets = 0;
   for (std::size_t i = from; i < xml.size(); ++i) {
@@ -61,48 +47,26 @@ std::size_t behindTag(std::string_view xml, std::size_t from) {
   return xml.size();
 }
 
-/// The next element's tag; comments, texts marked as such, declarations and instructions are passed
-/// over.
-std::optional<Tag> nextTag(std::string_view xml, std::size_t from) {
-  for (auto at = xml.find('<', from); at < xml.size(); at = xml.find('<', from)) {
+/// Name of the first element, with its prefix; declarations, instructions and comments are passed
+/// over. Empty where there is none.
+std::string_view firstElement(std::string_view xml) {
+  for (auto at = xml.find('<'); at < xml.size(); at = xml.find('<', at)) {
     const std::string_view rest = xml.substr(at);
     if (rest.starts_with("<!--"))
-      from = behind(xml, "-->", at + 4);
-    else if (rest.starts_with("<![CDATA["))
-      from = behind(xml, "]]>", at);
+      at = xml.find("-->", at + 4);
     else if (rest.starts_with("<?"))
-      from = behind(xml, "?>", at);
+      at = xml.find("?>", at);
     else if (rest.starts_with("<!"))
-      from = behindTag(xml, at);
-    else {
-      Tag tag;
-      tag.end = behindTag(xml, at);
-      tag.closes = rest.starts_with("</");
-      const auto begin = at + (tag.closes ? 2 : 1);
-      const auto stop = std::min(xml.find_first_of(" \t\r\n/>", begin), xml.size());
-      tag.name = xml.substr(begin, stop - begin);
-      tag.empty = tag.end >= at + 2 && xml[tag.end - 2] == '/';
-      return tag;
-    }
+      at = behindDeclaration(xml, at);
+    else
+      return rest.substr(1, rest.find_first_of(" \t\r\n/>", 1) - 1);
   }
-  return std::nullopt;
+  return {};
 }
 
 [[noreturn]] void refuseDepth(const std::filesystem::path& file) {
   throw InputError(file,
                    "the label's elements are nested deeper than " + std::to_string(kMostDepth));
-}
-
-/// Counted without a parser: what is nested deeper than any label is kept from parsers that would
-/// follow it.
-void requireFlat(const std::filesystem::path& file, std::string_view xml) {
-  int depth = 0;
-  for (auto tag = nextTag(xml, 0); tag; tag = nextTag(xml, tag->end)) {
-    if (tag->closes)
-      --depth;
-    else if (!tag->empty && ++depth > kMostDepth)
-      refuseDepth(file);
-  }
 }
 
 void addMember(json& object, const std::string& name, json value) {
@@ -220,13 +184,9 @@ XmlLabel readProduct(const std::filesystem::path& file, const CPLXMLNode* produc
 
 }  // namespace
 
-bool isXmlLabel(std::string_view text) {
-  const auto root = nextTag(text, 0);
-  return root && !root->closes && withoutPrefix(root->name) == kProduct;
-}
+bool isXmlLabel(std::string_view text) { return withoutPrefix(firstElement(text)) == kProduct; }
 
 XmlLabel readXmlLabel(const std::filesystem::path& file, std::string_view text) {
-  requireFlat(file, text);
   const GdalQuiet quiet;
   CPLXMLNode* root = CPLParseXMLString(std::string(text).c_str());
   if (root == nullptr) throw InputError(file, "the PDS4 label is not well-formed XML");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/documents/manual_links.h"
+#include "app/documents/manual_folder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the programs write of themselves, against what their --help says, and in the shells that
-// read it.
+// Completions and manual pages against what --help prints, in the programs that read them.
 #include <cstdlib>
 #include <regex>
 #include <set>
@@ -13,25 +12,17 @@
 namespace boresight::test {
 namespace {
 
-/// Where the programs wrote; made once, for it takes a process each.
-const TemporaryFolder& written() {
-  static const TemporaryFolder folder;
-  static const bool done = [] {
-    EXPECT_EQ(runWhs({"documents", folder.path().string()}).exit_code, 0);
-    return true;
-  }();
-  EXPECT_TRUE(done);
-  return folder;
-}
+const std::string kCompletions = BORESIGHT_APP "/completions/";
 
 bool hasProgram(const std::string& name) {
   return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-std::vector<std::string> lines(const std::string& text) {
-  std::vector<std::string> found;
+std::set<std::string> lines(const std::string& text) {
+  std::set<std::string> found;
   std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) found.push_back(line);
+  for (std::string line; std::getline(stream, line);)
+    if (!line.empty()) found.insert(line);
   return found;
 }
 
@@ -46,144 +37,81 @@ std::set<std::string> optionsOf(const std::string& help) {
   return options;
 }
 
-/// The words under "Subcommands:".
-std::vector<std::string> commandsOf(const std::string& help) {
-  std::vector<std::string> commands;
-  bool inside = false;
-  for (const std::string& line : lines(help)) {
-    if (line == "Subcommands:") {
-      inside = true;
-    } else if (line.empty() || line[0] != ' ') {
-      inside = false;
-    } else if (inside && line.size() > 2 && line[2] != ' ') {
-      commands.push_back(line.substr(2, line.find(' ', 2) - 2));
-    }
-  }
-  return commands;
-}
-
-std::string escaped(const std::string& option) {
-  return std::regex_replace(option, std::regex("-"), "\\-");
-}
-
-/// What bash offers for the last of the words.
-std::vector<std::string> offeredByBash(const std::string& program, const Arguments& words) {
-  std::string script = "source '" + (written() / ("bash/" + program)).string() + "'; COMP_WORDS=(";
-  for (const std::string& word : words) script += "\"" + word + "\" ";
-  script += "); COMP_CWORD=" + std::to_string(words.size() - 1) + "; _" + program +
-            "_completion; printf \"%s\\n\" \"${COMPREPLY[@]}\"";
-  const ProgramRun run =
-      runProgram("bash", {"-c", std::regex_replace(script, std::regex("'"), "")});
+std::set<std::string> offered(Arguments words) {
+  words.insert(words.begin(), "--complete");
+  const ProgramRun run = runWhs(words);
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  std::vector<std::string> offered = lines(run.out);
-  std::erase(offered, "");
-  return offered;
+  return lines(run.out);
 }
 
-TEST(Documents, OfWhsKnowEveryCommandAndOptionOfItsHelp) {
-  const std::string fish = written().read("fish/whs.fish");
-  const std::string zsh = written().read("zsh/_whs");
-  const std::vector<std::string> commands = commandsOf(runWhs({"--help"}).out);
-  ASSERT_GT(commands.size(), 15u);
+using Words = std::set<std::string>;
+
+TEST(Completions, KnowEveryCommandAndOptionOfTheHelp) {
+  const std::string help = runWhs({"--help"}).out;
+  const Words commands = offered({""});
+  EXPECT_GT(commands.size(), 15u);
   for (const std::string& command : commands) {
-    SCOPED_TRACE(command);
-    const std::string page = written().read("man1/whs-" + command + ".1");
-    const std::set<std::string> options = optionsOf(runWhs({command, "--help"}).out);
-    EXPECT_GE(options.size(), 2u);
-    const std::vector<std::string> offered = offeredByBash("whs", {"whs", command, "--"});
-    EXPECT_EQ(std::set<std::string>(offered.begin(), offered.end()), options);
-    for (const std::string& option : options) {
-      EXPECT_NE(page.find("\\fB" + escaped(option) + "\\fR"), std::string::npos) << option;
-      EXPECT_NE(zsh.find(option + "["), std::string::npos) << option;
-      EXPECT_NE(fish.find("__fish_seen_subcommand_from " + command + "' "), std::string::npos);
-      EXPECT_NE(fish.find(" -l " + option.substr(2) + " "), std::string::npos) << option;
-    }
+    EXPECT_NE(help.find("\n  " + command + " "), std::string::npos) << command;
+    EXPECT_EQ(offered({command, "--"}), optionsOf(runWhs({command, "--help"}).out)) << command;
   }
 }
 
-TEST(Documents, HideWhatTheHelpHides) {
-  EXPECT_FALSE(std::filesystem::exists(written() / "man1/whs-documents.1"));
-  EXPECT_EQ(offeredByBash("whs", {"whs", "docu"}), std::vector<std::string>());
-  EXPECT_EQ(offeredByBash("whs", {"whs", "localize", "--kern"}), std::vector<std::string>());
+TEST(Completions, OfferCommandsThenOptionsThenChoices) {
+  EXPECT_EQ(offered({"loc"}), Words{"localize"});
+  EXPECT_EQ(offered({"localize", "--see"}), Words{"--seed"});
+  EXPECT_EQ(offered({"localize", "--profile", "f"}), Words{"flight"});
+  EXPECT_EQ(offered({"localize", "--seed", ""}), Words{});  // a file: left to the shell
+  EXPECT_EQ(offered({"docu"}), Words{});                    // hidden from the help
+  EXPECT_EQ(offered({"localize", "--kern"}), Words{});
+  EXPECT_EQ(offered({"nothing", "--"}), Words{});
 }
 
-TEST(Documents, InBashOfferCommandsThenOptionsThenChoices) {
-  EXPECT_EQ(offeredByBash("whs", {"whs", "loc"}), std::vector<std::string>{"localize"});
-  EXPECT_EQ(offeredByBash("whs", {"whs", "localize", "--see"}), std::vector<std::string>{"--seed"});
-  EXPECT_EQ(offeredByBash("whs", {"whs", "localize", "--profile", "f"}),
-            std::vector<std::string>{"flight"});
-  // A file: left to the shell.
-  EXPECT_EQ(offeredByBash("whs", {"whs", "localize", "--seed", ""}), std::vector<std::string>());
+TEST(Completions, WorkInBash) {
+  const std::string script = "source " + kCompletions +
+                             "whs; COMP_WORDS=(" BORESIGHT_WHS
+                             " localize --profile f) COMP_CWORD=3; _whs; echo ${COMPREPLY[*]}";
+  EXPECT_EQ(runProgram("bash", {"-c", script}).out, "flight\n");
 }
 
-TEST(Documents, InFishOfferCommandsThenOptionsThenChoices) {
-  if (!hasProgram("fish")) GTEST_SKIP() << "there is no fish";
-  const auto offered = [](const std::string& line) {
-    const ProgramRun run = runProgram("fish", {"--no-config", "-c",
-                                               "source " + (written() / "fish/whs.fish").string() +
-                                                   "; complete -C \"" + line + "\""});
+TEST(Completions, AreWhatOtherShellsRead) {
+  for (const auto& [shell, file] : {std::pair("zsh", "_whs"), std::pair("fish", "whs.fish")}) {
+    if (!hasProgram(shell)) continue;
+    const ProgramRun run = runProgram(shell, {"-n", kCompletions + file});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(run.err, "");
-    return run.out;
-  };
-  EXPECT_EQ(offered("whs loc").rfind("localize\t", 0), 0u) << offered("whs loc");
-  EXPECT_EQ(offered("whs localize --see").rfind("--seed\t", 0), 0u);
-  const std::string profiles = offered("whs localize --profile f");
-  EXPECT_EQ(profiles.rfind("flight\t", 0), 0u) << profiles;
-  EXPECT_EQ(lines(profiles).size(), 1u) << profiles;
-  EXPECT_EQ(offered("whs docu").find("documents"), std::string::npos);
-}
-
-TEST(Documents, AreWhatZshReads) {
-  if (!hasProgram("zsh")) GTEST_SKIP() << "there is no zsh";
-  const ProgramRun run = runProgram("zsh", {"-n", (written() / "zsh/_whs").string()});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(run.err, "");
-}
-
-TEST(Documents, ArePagesThatRoffHasNothingToSayOf) {
-  if (!hasProgram("groff")) GTEST_SKIP() << "there is no groff";
-  int pages = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(written() / "man1")) {
-    const ProgramRun run =
-        runProgram("groff", {"-man", "-Tutf8", "-ww", "-z", entry.path().string()});
-    EXPECT_EQ(run.err, "") << entry.path();
-    ++pages;
   }
-  EXPECT_GT(pages, 15);
 }
 
-TEST(Documents, ThatCannotBeWrittenAreOneLine) {
-  const ProgramRun run = runWhs({"documents", "/proc/nowhere"});
-  EXPECT_EQ(run.exit_code, 3);
-  EXPECT_EQ(run.errorLines(), 1) << run.err;
+TEST(ManualPages, AreOneForTheProgramAndOneForEachCommandThatRoffReads) {
+  if (!hasProgram("help2man")) GTEST_SKIP() << "there is no help2man";
+  const TemporaryFolder folder;
+  const ProgramRun made =
+      runProgram(BORESIGHT_APP "/manual_pages.sh", {folder.path().string(), BORESIGHT_WHS});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  Words commands = offered({""});
+  for (const std::string& command : commands) {
+    const std::string page = folder.read("whs-" + command + ".1");
+    EXPECT_NE(page.find("\nwhs\\-" + command + " \\- "), std::string::npos) << page.substr(0, 400);
+  }
+  EXPECT_NE(folder.read("whs.1").find(".SH NAME\nwhs \\- "), std::string::npos);
+  if (!hasProgram("groff")) GTEST_SKIP() << "there is no groff";
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    EXPECT_EQ(runProgram("groff", {"-man", "-Tutf8", "-ww", "-z", entry.path().string()}).err, "");
 }
 
 #ifdef BORESIGHT_DESKTOP_PROGRAM
-TEST(Documents, OfTheDesktopProgramKnowEveryOptionOfItsHelp) {
-  const ProgramRun wrote =
-      runProgram("env -u DISPLAY -u QT_QPA_PLATFORM " BORESIGHT_DESKTOP_PROGRAM,
-                 {"--documents", written().path().string()});
-  ASSERT_EQ(wrote.exit_code, 0) << wrote.err;
-  const ProgramRun help =
-      runProgram("env -u DISPLAY -u QT_QPA_PLATFORM " BORESIGHT_DESKTOP_PROGRAM, {"--help"});
-  ASSERT_EQ(help.exit_code, 0) << help.err;
-  std::set<std::string> options = optionsOf(help.out);
-  options.erase("--help-all");  // Qt's own addition
-  EXPECT_TRUE(options.contains("--self-test"));
-  EXPECT_TRUE(options.contains("--screenshot"));
-  const std::string page = written().read("man1/boresight.1");
-  for (const std::string& option : options)
-    EXPECT_NE(page.find("\\fB" + escaped(option) + "\\fR"), std::string::npos) << option;
-  EXPECT_EQ(page.find("documents\\fR"), std::string::npos);
-  EXPECT_EQ(offeredByBash("boresight", {"boresight", "--scr"}),
-            std::vector<std::string>{"--screenshot"});
-}
-
-TEST(DesktopProgram, SaysItsVersionWithoutADisplay) {
-  const ProgramRun run =
-      runProgram("env -u DISPLAY -u QT_QPA_PLATFORM " BORESIGHT_DESKTOP_PROGRAM, {"--version"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(run.out.rfind("boresight 0.", 0), 0u) << run.out;
+TEST(DesktopProgram, SaysItsVersionAndItsOptionsWithoutADisplay) {
+  const TemporaryFolder folder;
+  // Qt warns of a session without a folder of its own.
+  const std::string program =
+      "env -u DISPLAY -u QT_QPA_PLATFORM XDG_RUNTIME_DIR=" + folder.path().string() +
+      " " BORESIGHT_DESKTOP_PROGRAM;
+  EXPECT_EQ(runProgram(program, {"--version"}).out.rfind("boresight 0.", 0), 0u);
+  ASSERT_EQ(runProgram(program, {"--documents", folder.path().string()}).exit_code, 0);
+  const std::string page = folder.read("boresight.md");
+  for (const char* option : {"--self-test", "--screenshot FILE"})
+    EXPECT_NE(page.find("| `" + std::string(option) + "` |"), std::string::npos) << page;
+  EXPECT_EQ(runProgram(program, {"--documents", "/proc/nowhere"}).errorLines(), 1);
 }
 #endif
 

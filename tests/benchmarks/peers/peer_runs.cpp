@@ -161,7 +161,7 @@ RunResult runWhs(const Dataset& dataset, const PlannedRun& planned, double resee
 /// A result as a row of a results file, as JSON.
 std::string rowText(const RunResult& result) {
   ordered_json row = ordered_json::array();
-  for (const SqlValue& value : sessions::runValues(result))
+  for (const SqlValue& value : sessions::runTable().values(result))
     std::visit(
         [&](const auto& held) {
           if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
@@ -183,7 +183,7 @@ SqlValue valueOf(const ordered_json& json) {
 RunResult resultOf(const std::string& row_text, const Dataset& dataset) {
   std::vector<SqlValue> row;
   for (const ordered_json& value : ordered_json::parse(row_text)) row.push_back(valueOf(value));
-  return sessions::runFromRow(dataset.file, sessions::runColumnNames(), row);
+  return sessions::runTable().read(dataset.file, sessions::runTable().names(), row);
 }
 
 }  // namespace
@@ -215,8 +215,7 @@ sessions::MethodFacts peerFacts(Peer& peer, const RunLimits& limits) {
   facts.method = peer.name();
   facts.profile = peer.version();
   facts.options = options.dump();
-  facts.options_sha256 = sessions::sha256Text(
-      {reinterpret_cast<const std::uint8_t*>(facts.options.data()), facts.options.size()});
+  facts.options_sha256 = sessions::sha256Text(facts.options);
   facts.reseed_scale = limits.reseed_scale;
   return facts;
 }

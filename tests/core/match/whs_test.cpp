@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/match/whs_reference.h"
 #include "tests/core/match/match_support.h"
+#include "tests/core/match/whs_reference.h"
 
 namespace boresight {
 namespace {

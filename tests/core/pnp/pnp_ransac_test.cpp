@@ -258,34 +258,6 @@ TEST(PnpRansac, WorksFarAwayWithAPivotAtTheStation) {
   }
 }
 
-TEST(PnpRansac, AnAnchorHoldsWhatTheMatchesLeaveOpen) {
-  Random random = randomFor("PnpRansac.AnAnchorHoldsWhatTheMatchesLeaveOpen");
-  for (int trial = 0; trial < 20; ++trial) {
-    // Small and far: rotation and translation across the view trade off.
-    PnpSceneOptions options{.points = 40, .outlier_share = 0.3, .noise_px = 2.0};
-    options.half_width_m = 0.02;
-    options.half_depth_m = 0.002;
-    options.distance_m = 1.2;
-    PnpScene scene = makeScene(random, options);
-    PosePrior anchor = scene.hypothesis;
-    anchor.camera_from_station = scene.camera_from_station;
-    anchor.sigma.rotation_rad.setConstant(1e-3);
-    anchor.sigma.translation_m.setConstant(1e-3);
-    Solver solver(40);
-    ASSERT_EQ(solver.solve(scene, 8.0, PnpOptions(), &anchor), Status::kOk);
-    expectSelfConsistent(scene, 8.0, solver.solution);
-    Pose expected = scene.camera_from_station;
-    ASSERT_EQ(refinePose(scene.correspondences, solver.inlier, scene.camera, &anchor, 50, expected),
-              Status::kOk);
-    EXPECT_THAT(solver.solution.camera_from_station, poseNear(expected, 1e-8, 1e-8));
-    const Pose anchored = solver.solution.camera_from_station;
-    ASSERT_EQ(solver.solve(scene, 8.0, PnpOptions()), Status::kOk);
-    EXPECT_LT(
-        perturbationBetween(anchored, scene.camera_from_station).norm(),
-        perturbationBetween(solver.solution.camera_from_station, scene.camera_from_station).norm());
-  }
-}
-
 TEST(PnpRansac, LocalOptimizationPaysForItself) {
   Random random = randomFor("PnpRansac.LocalOptimizationPaysForItself");
   PnpOptions with;

@@ -10,7 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/pnp/pnp.h"
+#include "core/pnp/correspondence.h"
+#include "core/pnp/p3p.h"
+#include "core/pnp/pnp_options.h"
+#include "core/pnp/pnp_ransac.h"
+#include "core/pnp/refine_pose.h"
 #include "tests/support/random_pose.h"
 
 /// Synthetic correspondences of a station in front of an arm camera, and a PnpRansac with the
@@ -93,18 +97,16 @@ struct Solver {
     solution.rms_px = nan;
   }
 
-  Status begin(const PnpScene& scene, double threshold_px, const PnpOptions& options,
-               const PosePrior* anchor = nullptr) {
+  Status begin(const PnpScene& scene, double threshold_px, const PnpOptions& options) {
     const std::size_t count = scene.correspondences.size();
     solution.inlier = std::span(inlier).first(count);
     solution.residual_px = std::span(residual_px).first(count);
     return ransac.begin(scene.correspondences, scene.camera, scene.hypothesis, threshold_px,
-                        options, solution, anchor);
+                        options, solution);
   }
 
-  Status solve(const PnpScene& scene, double threshold_px, const PnpOptions& options,
-               const PosePrior* anchor = nullptr) {
-    Status status = begin(scene, threshold_px, options, anchor);
+  Status solve(const PnpScene& scene, double threshold_px, const PnpOptions& options) {
+    Status status = begin(scene, threshold_px, options);
     bool done = status != Status::kOk;
     while (!done) status = ransac.step(done);
     return status;

@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/pnp/pnp.h"
+#include "core/pnp/correspondence.h"
+#include "core/pnp/pnp_options.h"
+#include "core/pnp/pnp_ransac.h"
+#include "core/pnp/refine_pose.h"
 #include "tests/core/localizer/scene.h"
 
 namespace boresight::test {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sessions/annotation/marked_view.h"
+#include "sessions/annotation/marks.h"
 #include "tests/support/random_pose.h"
 
 /// Marks of known truth for tests.

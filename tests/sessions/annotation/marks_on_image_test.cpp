@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "sessions/annotation/predicted_place.h"
 #include "tests/sessions/annotation/marked_scene.h"
 
 namespace boresight::sessions {

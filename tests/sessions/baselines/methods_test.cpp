@@ -58,7 +58,7 @@ sessions::RunSettings summary() {
 
 MethodSetup withMatcher(const std::string& what) {
   MethodSetup setup;
-  setup.matcher = std::string("'") + BORESIGHT_TEST_MATCHER + "' " + what;
+  setup.matcher = "'" BORESIGHT_TEST_MATCHER "' " + what;
   setup.options.external.timeout_s = what == "hang" ? 0.5 : 60.0;
   setup.options.external.start_timeout_s = 60.0;
   return setup;

@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "sessions/evaluation/reseed.h"
 #include "sessions/io/errors.h"
+#include "tests/support/bop_results.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
@@ -195,7 +196,7 @@ TEST_F(BopDataset, ResultsAreOfCompletedRunsAndShareAnImagesTime) {
   EXPECT_EQ(results[2].object_id, 7);
   EXPECT_EQ(results[2].score, 0.75);
   writeBopResults(folder_ / "whs_set-test.csv", results);
-  EXPECT_EQ(readBopResults(folder_ / "whs_set-test.csv").size(), 3u);
+  EXPECT_EQ(test::readBopResults(folder_ / "whs_set-test.csv").size(), 3u);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/evaluation/bop_results.h"
+#include "sessions/evaluation/bop_scene.h"
 
 #include <cmath>
 #include <fstream>
@@ -7,7 +7,6 @@
 
 #include <gmock/gmock.h>
 
-#include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
 #include "tests/support/random_pose.h"
 #include "tests/support/temporary_folder.h"
@@ -69,26 +68,6 @@ TEST(BopResults, KeepsTheRulesOfTheFormat) {
   EXPECT_EQ(i, results.size());
 }
 
-TEST(BopResults, ComesBackWithAndWithoutItsHeader) {
-  const TemporaryFolder folder;
-  Random random = randomFor("BopResults.Back");
-  const auto results = randomResults(random, 9);
-  writeBopResults(folder / "r.csv", results);
-  std::ifstream stream(folder / "r.csv");
-  std::string header;
-  std::getline(stream, header);
-  const std::string rest{std::istreambuf_iterator<char>(stream), {}};
-  sessions::writeFileAtomically(folder / "headless.csv", std::string_view(rest));
-  for (const char* name : {"r.csv", "headless.csv"}) {
-    const auto read = sessions::readBopResults(folder / name);
-    ASSERT_EQ(read.size(), results.size());
-    for (std::size_t i = 0; i < read.size(); ++i)
-      EXPECT_LT(
-          perturbationBetween(read[i].camera_from_station, results[i].camera_from_station).norm(),
-          1e-12);
-  }
-}
-
 TEST(BopResults, RefusesWhatTheFormatDoesNotAllow) {
   const TemporaryFolder folder;
   Random random = randomFor("BopResults.Refuses");
@@ -104,18 +83,6 @@ TEST(BopResults, RefusesWhatTheFormatDoesNotAllow) {
   two[1].image_id = 0;
   two[1].camera_from_station.translation_m.x() = NAN;
   refuses(two);
-  const std::string good = "1,2,3,0.5,1 0 0 0 1 0 0 0 1,1 2 3,-1\n";
-  const auto readsAs = [&folder](const std::string& text) {
-    sessions::writeFileAtomically(folder / "r.csv", std::string_view(text));
-    return sessions::readBopResults(folder / "r.csv").size();
-  };
-  EXPECT_EQ(readsAs(good + good), 2u);
-  for (const char* bad :
-       {"1,2,3,0.5,1 0 0 0 1 0 0 0 1,1 2 3\n", "1,2,3,0.5,1 0 0 0 1 0 0 0,1 2 3,-1\n",
-        "1,2,3,0.5,1 0 0 0 1 0 0 0 2,1 2 3,-1\n", "1.5,2,3,0.5,1 0 0 0 1 0 0 0 1,1 2 3,-1\n",
-        "1,2,3,x,1 0 0 0 1 0 0 0 1,1 2 3,-1\n", "1,2,3,0.5,1 0 0 0 1 0 0 0 1,1 2 nan,-1\n",
-        "1,2,3,0.5,1 0 0 0 1 0 0 0 1,1 2 3,-1,\n"})
-    EXPECT_THROW(readsAs(bad), sessions::InputError) << bad;
 }
 
 }  // namespace

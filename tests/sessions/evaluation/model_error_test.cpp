@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/base/math.h"
-#include "sessions/evaluation/nearest_point.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::sessions {

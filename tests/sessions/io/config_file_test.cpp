@@ -103,24 +103,17 @@ TEST_F(ConfigFile, LeavesTheOptionsAloneWhenOneIsWrong) {
   EXPECT_EQ(options, SampleOptions());
 }
 
-TEST_F(ConfigFile, WritesWhatDiffersAndReadsItBack) {
+TEST_F(ConfigFile, ReadsBackWhatDiffers) {
   SampleOptions options;
   options.sigma_px = 0.1;
   options.colour = Colour::kRed;
   options.seed = INT64_MAX;
-  Config config;
-  config.profile = "paper";
-  config.options = changedOptions(options, SampleOptions());
-  ASSERT_EQ(config.options.size(), 3u);
-  EXPECT_EQ(config.options[0].first, "sample.seed");
-  EXPECT_EQ(toJson(config.options).dump(),
+  const std::string changed = toJson(changedOptions(options, SampleOptions())).dump();
+  EXPECT_EQ(changed,
             R"({"sample.seed":9223372036854775807,"sample.sigma_px":0.1,"sample.colour":"red"})");
-  writeConfig(folder_ / "out.json", config);
-  const Config back = readConfig(folder_ / "out.json");
-  EXPECT_EQ(back.profile, "paper");
-  SampleOptions read;
-  applyConfig(read, back);
-  EXPECT_EQ(read, options);
+  SampleOptions back;
+  applyConfig(back, read(", \"options\": " + changed));
+  EXPECT_EQ(back, options);
   EXPECT_TRUE(changedOptions(SampleOptions(), SampleOptions()).empty());
 }
 

@@ -74,12 +74,7 @@ TEST_F(FrameTransforms, SaysWhatItIs) {
   EXPECT_LT(
       (read.target_from_source * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(10, 21, -3)).norm(),
       1e-12);
-  writeFrameTransform(folder_ / "again.json", read);
-  FrameTransform again = readFrameTransform(folder_ / "again.json");
-  EXPECT_NE(again.file_sha256, "");
-  again.file = read.file;
-  again.file_sha256 = read.file_sha256;
-  EXPECT_EQ(again, read);
+  EXPECT_NE(read.file_sha256, "");
 }
 
 TEST_F(FrameTransforms, NamesWhatIsWrong) {

@@ -11,7 +11,6 @@
 
 #include "core/base/random.h"
 #include "sessions/io/errors.h"
-#include "sessions/io/json_document.h"
 #include "sessions/io/json_writer.h"
 #include "tests/support/temporary_folder.h"
 
@@ -179,13 +178,13 @@ TEST(JsonReader, ChecksRanges) {
 
 TEST(JsonReader, ReadsMatricesRowByRow) {
   const JsonDocument document("f.json", "[[1,2,3,4],[5,6,7,8],[9,10,11,12],[13,14,15,16]]");
-  const Eigen::Matrix4d matrix = document.root().matrix4();
+  const Eigen::Matrix4d matrix = document.root().matrix<4>();
   EXPECT_EQ(matrix(0, 3), 4.0);
   EXPECT_EQ(matrix(3, 0), 13.0);
-  EXPECT_EQ(messageOf("[[1,2,3,4],[5,6,7]]", [](const JsonReader& j) { j.matrix4(); }),
+  EXPECT_EQ(messageOf("[[1,2,3,4],[5,6,7]]", [](const JsonReader& j) { j.matrix<4>(); }),
             "f.json: not a list of 4 (is a list of 2)");
   EXPECT_EQ(messageOf("[[1,2,3,4],[5,6,7],[1,2,3,4],[1,2,3,4]]",
-                      [](const JsonReader& j) { j.matrix4(); }),
+                      [](const JsonReader& j) { j.matrix<4>(); }),
             "f.json: [1]: not a list of 4 (is a list of 3)");
 }
 

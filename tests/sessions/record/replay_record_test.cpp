@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sessions/record/recorded_plan.h"
+#include "sessions/record/record_of_run.h"
 #include "sessions/run/match_details.h"
 #include "sessions/run/run_text.h"
 #include "tests/sessions/record/recorded_run.h"

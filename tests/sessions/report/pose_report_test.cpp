@@ -11,7 +11,7 @@
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/report/pdf_plot.h"
-#include "sessions/report/report_residuals.h"
+#include "sessions/report/report_pictures.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/decide.h"
 #include "tests/support/marked_example.h"

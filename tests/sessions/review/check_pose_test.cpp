@@ -6,12 +6,10 @@
 #include <set>
 
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/evaluation/pose_sigma.h"
 #include "sessions/io/errors.h"
 #include "sessions/review/checks.h"
-#include "sessions/review/checks_text.h"
-#include "sessions/review/mirror_image.h"
 #include "sessions/review/pose_uncertainty.h"
+#include "sessions/session/check.h"
 #include "tests/sessions/review/find_check.h"
 #include "tests/support/loaded_example.h"
 #include "tests/support/marked_example.h"

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "sessions/review/camera_fit.h"
 #include "sessions/review/edge_evidence.h"
 #include "sessions/review/pose_uncertainty.h"
 #include "tests/sessions/review/drawn_box.h"

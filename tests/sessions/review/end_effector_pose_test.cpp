@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/review/end_effector_pose.h"
+#include "sessions/review/pose_uncertainty.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/review/mirror_image.h"
+#include "sessions/review/checks.h"
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@
 #include "sessions/review/verify_pose.h"
 #include "sessions/run/trace_file.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/review_settings.h"
+#include "sessions/session/check_limits.h"
 #include "tests/support/marked_example.h"
 #include "tests/support/temporary_folder.h"
 
@@ -129,6 +129,27 @@ class ValidatedPose : public testing::Test {
     sessions::writeJsonFile(file, json);
   }
 
+  fs::path writeValidated() {
+    run();
+    validate();
+    return write();
+  }
+
+  /// A file that verifies.
+  static VerifyReport verified(const fs::path& file, bool basin_again = false) {
+    VerifyReport report = sessions::verifyPose(file, true, basin_again);
+    EXPECT_TRUE(report.good()) << wrongsOf(report);
+    return report;
+  }
+
+  static std::string wrongsOfForged(ordered_json json,
+                                    const std::function<void(ordered_json&)>& forge,
+                                    const fs::path& file, bool run_again) {
+    forge(json);
+    resign(json, file);
+    return wrongsOf(sessions::verifyPose(file, run_again));
+  }
+
   static std::string wrongsOf(const VerifyReport& report) {
     std::string text;
     for (const auto& finding : report.findings)
@@ -143,9 +164,7 @@ class ValidatedPose : public testing::Test {
 };
 
 TEST_F(ValidatedPose, HoldsWhatAReviewerAsksForAndVerifies) {
-  run();
-  validate();
-  const fs::path file = write();
+  const fs::path file = writeValidated();
   const ordered_json json = read(file);
   EXPECT_EQ(json["state"], "validated");
   EXPECT_EQ(json["standing"], "validated by Ada");
@@ -160,8 +179,7 @@ TEST_F(ValidatedPose, HoldsWhatAReviewerAsksForAndVerifies) {
             camera_from_station.inverse().translation_m.z());
   EXPECT_TRUE(json["end_effector"].contains("end_effector_seed_from_end_effector_estimated"));
 
-  const VerifyReport report = sessions::verifyPose(file, true);
-  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  const VerifyReport report = verified(file);
   EXPECT_EQ(report.standing, "validated by Ada");
 }
 
@@ -200,8 +218,7 @@ TEST_F(ValidatedPose, WhatNobodyValidatedSaysSoAndStillVerifies) {
   const fs::path file = write();
   EXPECT_EQ(read(file)["state"], "NOT VALIDATED");
   EXPECT_EQ(read(file)["standing"], "NOT VALIDATED: converged");
-  const VerifyReport report = sessions::verifyPose(file, true);
-  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  const VerifyReport report = verified(file);
   EXPECT_EQ(report.standing, "NOT VALIDATED: converged");
 }
 
@@ -209,8 +226,7 @@ TEST_F(ValidatedPose, OfMarksIsSolvedAgain) {
   const fs::path file = write();
   EXPECT_EQ(read(file)["pose"]["source"], "annotation");
   EXPECT_EQ(read(file)["marks"]["points"].size(), 8u);
-  const VerifyReport report = sessions::verifyPose(file, true);
-  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  verified(file);
 }
 
 /// Calls `act` with each leaf of the document.
@@ -236,9 +252,7 @@ void alter(ordered_json& leaf) {
 }
 
 TEST_F(ValidatedPose, NoLeafCanBeAlteredUnseen) {
-  run();
-  validate();
-  const fs::path file = write();
+  const fs::path file = writeValidated();
   ordered_json json = read(file);
   int leaves = 0;
   eachLeaf(json, [&leaves](ordered_json&) { ++leaves; });
@@ -259,15 +273,10 @@ TEST_F(ValidatedPose, NoLeafCanBeAlteredUnseen) {
 }
 
 TEST_F(ValidatedPose, AForgedPoseIsFoundEvenWhenItIsSignedAnew) {
-  run();
-  validate();
-  const fs::path file = write();
+  const fs::path file = writeValidated();
   const ordered_json good = read(file);
   const auto forged = [&](const std::function<void(ordered_json&)>& forge, bool run_again) {
-    ordered_json json = good;
-    forge(json);
-    resign(json, file);
-    return wrongsOf(sessions::verifyPose(file, run_again));
+    return wrongsOfForged(good, forge, file, run_again);
   };
   EXPECT_EQ(forged([](ordered_json&) {}, true), "");
   const auto shift = [](ordered_json& json) {
@@ -305,15 +314,10 @@ TEST_F(ValidatedPose, AForgedPoseIsFoundEvenWhenItIsSignedAnew) {
 }
 
 TEST_F(ValidatedPose, AFailedCheckStatedAsPassedIsFoundWhenItIsMadeAgain) {
-  run();
-  validate();
-  const fs::path file = write();
+  const fs::path file = writeValidated();
   const ordered_json good = read(file);
   const auto forged = [&](const std::function<void(ordered_json&)>& forge, bool run_again) {
-    ordered_json json = good;
-    forge(json);
-    resign(json, file);
-    return wrongsOf(sessions::verifyPose(file, run_again));
+    return wrongsOfForged(good, forge, file, run_again);
   };
   const auto pass = [](ordered_json& json) {
     for (const char* id : {"inlier_count", "edge_coverage"}) eachCheck(json, id, statePassed);
@@ -337,9 +341,7 @@ TEST_F(ValidatedPose, AFailedCheckStatedAsPassedIsFoundWhenItIsMadeAgain) {
 }
 
 TEST_F(ValidatedPose, ASmallerCovarianceIsFoundWhenItIsMeasuredAgain) {
-  run();
-  validate();
-  const fs::path file = write();
+  const fs::path file = writeValidated();
   ordered_json json = read(file);
   sessions::Decision decision = session_.decisions.back();
   decision.pose->covariance.picture *= 1e-4;
@@ -360,9 +362,7 @@ TEST_F(ValidatedPose, ASmallerCovarianceIsFoundWhenItIsMeasuredAgain) {
 }
 
 TEST_F(ValidatedPose, WhoWhenAndWhyAreListedAsNotProved) {
-  run();
-  validate();
-  const fs::path file = write();
+  const fs::path file = writeValidated();
   ordered_json json = read(file);
   json["standing"] = "validated by Flight Director";
   for (ordered_json* decision : {&json["decision"], &json["session"]["decisions"][0]}) {
@@ -370,8 +370,7 @@ TEST_F(ValidatedPose, WhoWhenAndWhyAreListedAsNotProved) {
     (*decision)["time"] = "2020-01-01T00:00:00Z";
   }
   resign(json, file);
-  const VerifyReport report = sessions::verifyPose(file, true);
-  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  const VerifyReport report = verified(file);
   EXPECT_THAT(report.not_proved,
               AllOf(Contains(HasSubstr("who: Flight Director")),
                     Contains(HasSubstr("when: 2020-01-01T00:00:00Z")),
@@ -383,11 +382,9 @@ TEST_F(ValidatedPose, TheConvergenceTestIsProvedOnlyWhenItsSeedsAreRunAgain) {
   validate(1);
   const fs::path file = write();
   EXPECT_EQ(read(file)["session"]["decisions"][0]["basin_seeds"], 1);
-  VerifyReport report = sessions::verifyPose(file, true);
-  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  VerifyReport report = verified(file);
   EXPECT_THAT(report.not_proved, Contains(HasSubstr("convergence test")));
-  report = sessions::verifyPose(file, true, true);
-  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  report = verified(file, true);
   EXPECT_THAT(report.not_proved, Not(Contains(HasSubstr("convergence test"))));
 
   ordered_json json = read(file);
@@ -395,8 +392,7 @@ TEST_F(ValidatedPose, TheConvergenceTestIsProvedOnlyWhenItsSeedsAreRunAgain) {
     check["sentence"] = "No other pose and no mirror image of the station is likely.";
   });
   resign(json, file);
-  report = sessions::verifyPose(file, true);
-  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  report = verified(file);
   EXPECT_THAT(report.not_proved, Contains(HasSubstr("convergence test")));
   EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true, true)),
               HasSubstr("'The best of other answers' is stated as"));
@@ -451,9 +447,7 @@ TEST_F(ValidatedPose, ADamagedOrLostTraceIsNotHandedOver) {
 }
 
 TEST_F(ValidatedPose, WithoutItsRunItDoesNotVerify) {
-  run();
-  validate();
-  const fs::path file = write();
+  const fs::path file = writeValidated();
   const ordered_json good = read(file);
   ordered_json json = good;
   json.erase("run");
@@ -472,8 +466,7 @@ TEST_F(ValidatedPose, WithoutItsRunItDoesNotVerify) {
 TEST_F(ValidatedPose, OfMarksIsMeasuredLikeThatOfARun) {
   validate(0, sessions::PoseSource::kAnnotation);
   const fs::path file = write();
-  const VerifyReport report = sessions::verifyPose(file, true);
-  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  verified(file);
   EXPECT_THAT(refusal([](sessions::Decision& decision) {
                 decision.pose->camera_from_station.translation_m.z() += 1e-6;
               }),
@@ -489,14 +482,11 @@ TEST_F(ValidatedPose, OptionsThatHaveChangedSinceAreThoseOfItsRun) {
   LocalizerOptions options = sessionOptions(session_, "session");
   options.pnp.seed += 1;
   session_ = withOptions(session_, "default", options);
-  const VerifyReport report = sessions::verifyPose(write(), true);
-  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  verified(write());
 }
 
 TEST_F(ValidatedPose, AnInputThatIsMissingOrChangedIsNamed) {
-  run();
-  validate();
-  const fs::path file = write();
+  const fs::path file = writeValidated();
   const fs::path image = session_.findCase(id_)->image.source.file;
   auto bytes = sessions::readFileBytes(image, 1 << 26);
   bytes.push_back(0);

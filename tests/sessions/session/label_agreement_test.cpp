@@ -55,7 +55,7 @@ class LabelAgreement : public ::testing::Test {
     return texts;
   }
 
-  const CahvModel model_ = test::exampleModel(CameraModel::kCahvore, 600, 320, 240);
+  const CahvModel model_ = exampleModel(CameraModel::kCahvore, 600, 320, 240);
   const Pose rover_in_site_{Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ())),
                             {10, 20, -3}};
   ImageLabel label_;

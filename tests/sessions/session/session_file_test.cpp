@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/errors.h"
-#include "sessions/session/session_json.h"
 #include "tests/sessions/session/random_session.h"
 #include "tests/support/temporary_folder.h"
 

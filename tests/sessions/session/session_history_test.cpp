@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/session/session_history.h"
+#include "sessions/session/session_document.h"
 
 #include <gtest/gtest.h>
 

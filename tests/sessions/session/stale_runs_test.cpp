@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/session/stale_runs.h"
+#include "sessions/session/session.h"
 
 #include <gtest/gtest.h>
 

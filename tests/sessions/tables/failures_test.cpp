@@ -8,7 +8,6 @@
 
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/results_writer.h"
-#include "sessions/tables/failure_sheet.h"
 #include "tests/sessions/tables/made_runs.h"
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"

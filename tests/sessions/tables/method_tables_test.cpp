@@ -44,10 +44,10 @@ TEST(MethodFigures, AreThoseOfTheRuns) {
   EXPECT_NEAR(ncc.normal_mm.maximum, 0.3, 1e-12);
   EXPECT_NEAR(ncc.lateral_mm.mean, 0.4, 1e-12);
   EXPECT_NEAR(ncc.rotation_mrad.maximum, 5.0, 1e-12);
-  EXPECT_DOUBLE_EQ(*ncc.normal_percent, 75.0);
-  EXPECT_DOUBLE_EQ(*ncc.lateral_percent, 50.0);
-  EXPECT_DOUBLE_EQ(*ncc.rotation_percent, 50.0);
-  EXPECT_EQ(ncc.projection_percent, std::nullopt) << "no requirement names it";
+  EXPECT_DOUBLE_EQ(*ncc.within_percent[0], 75.0);
+  EXPECT_DOUBLE_EQ(*ncc.within_percent[1], 50.0);
+  EXPECT_DOUBLE_EQ(*ncc.within_percent[2], 50.0);
+  EXPECT_EQ(ncc.within_percent[3], std::nullopt) << "no requirement names it";
   EXPECT_EQ(rows[2].method, "whs");
 }
 

@@ -7,12 +7,14 @@ namespace boresight::sessions {
 namespace {
 
 Table sample() {
-  return {"some",
-          "Some 100 % of a_b",
-          {{"name"}, {"error mm", {"mean", "max"}, 2}, {"share %", {}, 1}},
-          {{TableCell::of("a, \"b\""), {{}, {0.125, -1.0}}, TableCell::of(50.0)},
-           {TableCell::of("c_d"), {{}, {std::nullopt, std::nullopt}}, TableCell::of(std::nullopt)}},
-          {"A note."}};
+  return {
+      "some",
+      "Some 100 % of a_b",
+      {{"name"}, {"error mm", {"mean", "max"}, 2}, {"share %", {}, 1}},
+      {{TableCell("a, \"b\""), std::vector<std::optional<double>>{0.125, -1.0}, TableCell(50.0)},
+       {TableCell("c_d"), std::vector<std::optional<double>>{std::nullopt, std::nullopt},
+        TableCell(std::nullopt)}},
+      {"A note."}};
 }
 
 TEST(TableText, IsReadByPeople) {

@@ -7,12 +7,11 @@
 #include <string>
 #include <vector>
 
-#include <QSignalSpy>
-#include <QtTest/QTest>
+#include <QtTest>
 
-#include "sessions/annotation/mark_edits.h"
+#include "sessions/annotation/marks.h"
+#include "sessions/annotation/marks_on_image.h"
 #include "sessions/annotation/mesh_snap.h"
-#include "sessions/annotation/predicted_place.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/annotation/annotation_panel.h"
 
-#include <QCheckBox>
-#include <QLabel>
-#include <QMenu>
-#include <QPushButton>
-#include <QTableView>
-#include <QTextBrowser>
-#include <QToolButton>
+#include <QtWidgets>
 
 #include "sessions/session/rig_links.h"
 #include "tests/ui/annotation/annotation_fixture.h"
-#include "ui/annotation/rig_menu.h"
+#include "ui/annotation/annotation_menus.h"
 #include "ui/annotation/solution_html.h"
 #include "ui/annotation/twin_view.h"
 

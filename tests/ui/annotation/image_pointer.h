@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-#include <QCoreApplication>
-#include <QMouseEvent>
+#include <QtWidgets>
 
 #include <Eigen/Core>
 

@@ -4,7 +4,6 @@
 #include <QWheelEvent>
 
 #include "tests/ui/annotation/image_annotation_fixture.h"
-#include "ui/annotation/loupe_picture.h"
 
 namespace boresight::ui {
 namespace {

@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-#include <QLabel>
-#include <QWheelEvent>
+#include <QtWidgets>
 
 #include "tests/sessions/annotation/box_scene.h"
 #include "tests/ui/annotation/annotation_fixture.h"

@@ -1,33 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Somebody who annotates with care, in the whole window: clicks on the image where corners of the
 // station are truly seen, give or take what a hand and an eye miss, and Ctrl+clicks on the drawn
-// edges. Run at a screen scaling of one and of one and a half. BORESIGHT_PICTURES names a folder
-// for pictures of it.
+// edges. Run at a screen scaling of one and of one and a half.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
-#include <QApplication>
-#include <QDir>
-#include <QDockWidget>
-#include <QStandardPaths>
 #include <QtTest/QTest>
+#include <QtWidgets>
 
-#include "sessions/annotation/predicted_place.h"
+#include "sessions/annotation/marks_on_image.h"
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/session/session_maker.h"
-#include "tests/support/example_case.h"
 #include "tests/support/random_pose.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/ui/annotation/image_pointer.h"
+#include "tests/ui/window_test.h"
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/mark_tool.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/views/image_panel.h"
-#include "ui/window/application.h"
-#include "ui/window/main_window.h"
 #include "ui/window/window_docks.h"
 
 namespace boresight::ui {
@@ -35,23 +27,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPatience_ms = 120'000;
 constexpr double kHand_px = 0.3;  ///< root mean square distance by which a click misses
 constexpr double kMargin_px = 12.0;
 constexpr std::size_t kCandidates = 400;
 
-class ScriptedAnnotator : public testing::TestWithParam<double> {
+class ScriptedAnnotator : public test::WindowTest, public testing::WithParamInterface<double> {
  protected:
   void openCase(const fs::path& dataset, const std::string& station) {
-    QStandardPaths::setTestModeEnabled(true);
-    window_.setQuiet(true);
-    window_.resize(1280, 800);
-    window_.show();
     sessions::Session session = sessions::makeSession(dataset);
     session.cases.eraseIf([&](const auto& one) { return one->station != station; });
     ASSERT_FALSE(session.cases.empty());
     session.cases.resize(1);
-    ASSERT_TRUE(window_.document().create(folder_.path() / "one.boresight.json", session));
+    ASSERT_TRUE(window_.document().create(file_, session));
     tool_ = &window_.findChild<ImageAnnotation*>()->tool();
     snapper_ = window_.findChild<StationSnapper*>();
     ASSERT_TRUE(wait([&] { return window_.state().currentCase() && snapper_->mesh(); }));
@@ -59,7 +46,6 @@ class ScriptedAnnotator : public testing::TestWithParam<double> {
     window_.annotation().setMode(PlaceMode::kPoint);
   }
 
-  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatience_ms); }
   const sessions::SessionCase& source() { return window_.state().currentCase()->source; }
   const Pose& truth() { return *source().camera_from_station_truth; }
   Eigen::Vector2d pixelOf(const Pose& pose, const Eigen::Vector3d& point_m) {
@@ -164,8 +150,6 @@ class ScriptedAnnotator : public testing::TestWithParam<double> {
     EXPECT_TRUE(meetsRequirement(off, *source().requirement)) << *off.projection_px << " px";
   }
 
-  test::TemporaryFolder folder_;
-  MainWindow window_;
   MarkTool* tool_ = nullptr;
   StationSnapper* snapper_ = nullptr;
 };
@@ -188,79 +172,6 @@ TEST_P(ScriptedAnnotator, FindsThePoseOfABoxOnAPhotograph) { annotatePhotograph(
 TEST_P(ScriptedAnnotator, FindsThePoseOfAMachinedPartOnAPhotograph) {
   annotatePhotograph("metal_obj18");
 }
-
-/// All kinds of marks, for people to look at.
-class AnnotatingPictures : public ScriptedAnnotator {
- protected:
-  void show(LayerId id, bool visible) {
-    LayerStyle style = window_.image().style(id);
-    style.visible = visible;
-    window_.image().setStyle(id, style);
-  }
-  /// Spoils some of the marks: one out, one off, one locked, one half made on either side.
-  void vary(const Eigen::Vector3d& unmarked_m) {
-    AnnotationController& annotation = window_.annotation();
-    const auto points = annotation.marks().points;
-    sessions::PointPair out = points[2];
-    *out.pixel += Eigen::Vector2d(4.0, -3.0);
-    annotation.replacePoint(out.id, out, QStringLiteral("Spoil"));
-    sessions::PointPair off = points[3];
-    off.enabled = false;
-    annotation.replacePoint(off.id, off, QStringLiteral("Off"));
-    sessions::PointPair locked = points[4];
-    locked.locked = true;
-    annotation.replacePoint(locked.id, locked, QStringLiteral("Lock"));
-    annotation.select({});
-    annotation.placeOnStation(unmarked_m);
-    annotation.select({});
-    annotation.placeInImage(pixelOf(truth(), unmarked_m) + Eigen::Vector2d(40.0, 30.0));
-  }
-  void take(const QSize& size, const QString& name) {
-    window_.resize(size);
-    ASSERT_TRUE(wait([&] { return !window_.annotation().stale() && !window_.tasks().isBusy(); }));
-    QTest::qWait(1000);  // the edges at full resolution, the band
-    const QString folder = QString::fromUtf8(std::getenv("BORESIGHT_PICTURES"));
-    EXPECT_TRUE(window_.grab().save(QDir(folder).filePath(name)));
-  }
-  void takeAll(const QString& colors, const Eigen::Vector3d& unmarked_m) {
-    ImagePointer pointer(window_.image().view());
-    const Eigen::Vector2d at = pixelOf(truth(), unmarked_m);
-    for (const QSize& size : {QSize(1280, 800), QSize(2560, 1440)}) {
-      const QString name = QStringLiteral("annotating-%1-%2-%3.png").arg(colors).arg(size.width());
-      window_.resize(size);
-      QCoreApplication::processEvents();
-      window_.image().view().fit();
-      pointer.moveTo(at + Eigen::Vector2d(1.2, 0.8));
-      take(size, name.arg(QStringLiteral("fit")));
-      for (const bool station : {false, true}) {
-        pointer.zoom(at, GetParam());
-        pointer.moveTo(at + Eigen::Vector2d(1.2, 0.8),
-                       station ? Qt::ControlModifier : Qt::NoModifier);
-        take(size,
-             name.arg(QStringLiteral("%1-%2")
-                          .arg(GetParam())
-                          .arg(station ? QStringLiteral("station") : QStringLiteral("image"))));
-      }
-    }
-  }
-};
-
-TEST_P(AnnotatingPictures, OfTheWholeWindow) {
-  if (std::getenv("BORESIGHT_PICTURES") == nullptr) GTEST_SKIP() << "BORESIGHT_PICTURES is not set";
-  openCase(test::exampleFolder() / "dataset.json", "bc");
-  const auto corners_m = chooseCorners(11);
-  annotate({corners_m.begin(), corners_m.begin() + 10});
-  window_.dock(QStringLiteral("annotation"))->raise();
-  window_.annotation().setRobust(true);
-  show(LayerId::kAnnotationBand, true);
-  show(LayerId::kSeedEdges, false);
-  vary(corners_m[10]);
-  takeAll(QStringLiteral("light"), corners_m[10]);
-  useDarkColors(*qobject_cast<QApplication*>(QCoreApplication::instance()));
-  takeAll(QStringLiteral("dark"), corners_m[10]);
-}
-
-INSTANTIATE_TEST_SUITE_P(Zooms, AnnotatingPictures, testing::Values(3.0, 12.0));
 INSTANTIATE_TEST_SUITE_P(Zooms, ScriptedAnnotator, testing::Values(3.0, 12.0));
 
 }  // namespace

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <QSignalSpy>
-#include <QtTest/QTest>
+#include <QtTest>
 
 #include "tests/support/loaded_example.h"
 

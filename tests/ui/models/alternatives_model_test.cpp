@@ -53,12 +53,5 @@ TEST_F(AlternativesModelTest, TellsHowEachEndedAndByHowMuch) {
   EXPECT_EQ(text(4, AlternativesModel::kEvidence_nats), QString());
 }
 
-TEST_F(AlternativesModelTest, EveryColumnSaysWhatItIs) {
-  for (int i = 0; i < AlternativesModel::kColumnCount; ++i) {
-    EXPECT_FALSE(model_.headerData(i, Qt::Horizontal, Qt::DisplayRole).toString().isEmpty());
-    EXPECT_FALSE(model_.headerData(i, Qt::Horizontal, Qt::ToolTipRole).toString().isEmpty());
-  }
-}
-
 }  // namespace
 }  // namespace boresight::ui

@@ -2,11 +2,8 @@
 #include "ui/models/cases_model.h"
 
 #include <gtest/gtest.h>
-#include <QAbstractItemModelTester>
 #include <QSet>
-#include <QSignalSpy>
-
-#include "ui/models/cases_filter.h"
+#include <QtTest>
 
 namespace boresight::ui {
 namespace {
@@ -42,7 +39,7 @@ class CasesModelTest : public testing::Test {
   }
 
   CasesModel model_;
-  CasesFilter filter_;
+  RowsFilter filter_;
   Tester model_tester_{&model_, Tester::FailureReportingMode::Fatal};
   Tester filter_tester_{&filter_, Tester::FailureReportingMode::Fatal};
 };
@@ -85,16 +82,6 @@ TEST_F(CasesModelTest, ChangesInPlaceWhileTheCasesStay) {
   rows.pop_back();
   model_.setRows(rows);
   EXPECT_EQ(resets.count(), 1);
-}
-
-TEST_F(CasesModelTest, FiltersByTextAndState) {
-  filter_.setText(QStringLiteral("BC"));
-  EXPECT_EQ(filter_.rowCount(), 2);
-  filter_.setState(CaseState::kFailed);
-  EXPECT_EQ(listed(), QStringList{QStringLiteral("bc-1")});
-  filter_.setState(std::nullopt);
-  filter_.setText(QString());
-  EXPECT_EQ(filter_.rowCount(), 3);
 }
 
 TEST_F(CasesModelTest, TheUnknownIsLastWhereverItCameFrom) {

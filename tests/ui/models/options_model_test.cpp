@@ -2,11 +2,8 @@
 #include "ui/models/options_model.h"
 
 #include <gtest/gtest.h>
-#include <QAbstractItemModelTester>
 #include <QFont>
-#include <QSignalSpy>
-
-#include "ui/models/options_filter.h"
+#include <QtTest>
 
 namespace boresight::ui {
 namespace {

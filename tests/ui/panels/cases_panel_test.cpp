@@ -4,12 +4,8 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
-#include <QComboBox>
-#include <QLineEdit>
-#include <QPushButton>
-#include <QSignalSpy>
-#include <QTableView>
-#include <QtTest/QTest>
+#include <QtTest>
+#include <QtWidgets>
 
 namespace boresight::ui {
 namespace {
@@ -134,8 +130,7 @@ TEST_F(CasesPanelTest, ListsOneState) {
 
 TEST_F(CasesPanelTest, KeepsTheChosenCaseWhileStatesChange) {
   clickRow(0);
-  std::vector<CaseRow> rows = {panel_.model().caseAt(0), panel_.model().caseAt(1),
-                               panel_.model().caseAt(2)};
+  std::vector<CaseRow> rows = {panel_.model().at(0), panel_.model().at(1), panel_.model().at(2)};
   rows[0].state = CaseState::kRunning;
   QSignalSpy opened(&panel_, &CasesPanel::openRequested);
   panel_.setRows(rows);

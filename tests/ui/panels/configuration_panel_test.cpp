@@ -2,16 +2,8 @@
 #include "ui/panels/configuration_panel.h"
 
 #include <gtest/gtest.h>
-#include <QApplication>
-#include <QComboBox>
-#include <QFrame>
-#include <QLabel>
-#include <QLineEdit>
-#include <QPushButton>
-#include <QSignalSpy>
-#include <QSpinBox>
-#include <QTreeView>
-#include <QtTest/QTest>
+#include <QtTest>
+#include <QtWidgets>
 
 #include "tests/support/example_run.h"
 

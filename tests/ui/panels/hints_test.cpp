@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <QListView>
-#include <QSignalSpy>
-#include <QStringListModel>
-#include <QToolButton>
-#include <QtTest/QTest>
+#include <QtTest>
+#include <QtWidgets>
 
-#include "ui/panels/empty_hint.h"
 #include "ui/panels/warning_bar.h"
+#include "ui/panels/widgets.h"
 
 namespace boresight::ui {
 namespace {

@@ -2,16 +2,8 @@
 #include "ui/panels/input_sheet_panel.h"
 
 #include <gtest/gtest.h>
-#include <QApplication>
-#include <QClipboard>
-#include <QDoubleSpinBox>
-#include <QGroupBox>
-#include <QLabel>
-#include <QPushButton>
-#include <QTableWidget>
 #include <QtTest/QTest>
-
-#include "ui/panels/input_sigmas_dialog.h"
+#include <QtWidgets>
 
 namespace boresight::ui {
 namespace {

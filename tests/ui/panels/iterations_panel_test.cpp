@@ -2,12 +2,8 @@
 #include "ui/panels/iterations_panel.h"
 
 #include <gtest/gtest.h>
-#include <QAction>
-#include <QLabel>
-#include <QSlider>
-#include <QTableView>
-#include <QToolButton>
 #include <QtTest/QTest>
+#include <QtWidgets>
 
 #include "tests/support/example_run.h"
 #include "ui/plots/double_plot.h"

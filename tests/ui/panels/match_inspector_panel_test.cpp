@@ -2,11 +2,8 @@
 #include "ui/panels/match_inspector_panel.h"
 
 #include <gtest/gtest.h>
-#include <QComboBox>
-#include <QLabel>
-#include <QTableView>
-#include <QTableWidget>
 #include <QtTest/QTest>
+#include <QtWidgets>
 
 #include "tests/support/example_run.h"
 #include "ui/panels/pixel_picture.h"
@@ -33,7 +30,7 @@ class MatchInspectorPanelTest : public testing::Test {
     QTest::mouseClick(table_->viewport(), Qt::LeftButton, Qt::NoModifier,
                       table_->visualRect(index).center());
   }
-  void choose(TemplatesFilter::Show show) {
+  void choose(TemplatesModel::Show show) {
     panel_.findChild<QComboBox*>()->setCurrentIndex(static_cast<int>(show));
   }
   const Match& match(int index) const {
@@ -60,10 +57,10 @@ TEST_F(MatchInspectorPanelTest, AClickChoosesATemplate) {
 TEST_F(MatchInspectorPanelTest, AChoiceElsewhereShowsHere) {
   view_.selectTemplate(7);
   EXPECT_EQ(panel_.filter().mapToSource(table_->currentIndex()).row(), 7);
-  choose(TemplatesFilter::Show::kNotSearched);
+  choose(TemplatesModel::Show::kNotSearched);
   EXPECT_EQ(view_.selectedTemplate(), 7) << "a filter does not choose";
   EXPECT_FALSE(table_->currentIndex().isValid());
-  choose(TemplatesFilter::Show::kAll);
+  choose(TemplatesModel::Show::kAll);
   EXPECT_EQ(panel_.filter().mapToSource(table_->currentIndex()).row(), 7);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/panels/nudge.h"
+#include "ui/panels/nudge_controller.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/panels/patch_pictures.h"
+#include "ui/panels/pixel_picture.h"
 
 #include <vector>
 
 #include <gtest/gtest.h>
-
-#include "ui/panels/heat_colors.h"
-#include "ui/panels/pixel_picture.h"
 
 namespace boresight::ui {
 namespace {

@@ -2,16 +2,8 @@
 #include "ui/panels/pose_panel.h"
 
 #include <gtest/gtest.h>
-#include <QAbstractItemModelTester>
-#include <QApplication>
-#include <QClipboard>
-#include <QComboBox>
-#include <QDoubleSpinBox>
-#include <QLabel>
-#include <QPlainTextEdit>
-#include <QPushButton>
-#include <QTest>
-#include <QTimer>
+#include <QtTest>
+#include <QtWidgets>
 
 #include "core/base/math.h"
 #include "sessions/evaluation/pose_error.h"

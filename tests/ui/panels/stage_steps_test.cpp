@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/panels/stage_steps.h"
+#include "ui/panels/run_scrubber.h"
 
 #include <gtest/gtest.h>
 

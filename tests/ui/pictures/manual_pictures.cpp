@@ -7,14 +7,10 @@
 #include <functional>
 #include <vector>
 
-#include <QApplication>
-#include <QDockWidget>
-#include <QPushButton>
-#include <QTemporaryDir>
+#include <QtWidgets>
 
 #include "sessions/run/score_map.h"
 #include "tests/ui/pictures/stage_pictures.h"
-#include "ui/manual/manual_folder.h"
 #include "ui/manual/manual_window.h"
 #include "ui/panels/rivals_panel.h"
 #include "ui/review/queue_panel.h"

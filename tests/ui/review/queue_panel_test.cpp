@@ -2,29 +2,11 @@
 // The queue in the window, by the keys that people press.
 #include "ui/review/queue_panel.h"
 
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <memory>
-
-#include <QApplication>
-#include <QDockWidget>
-#include <QLineEdit>
-#include <QSettings>
-#include <QStandardPaths>
-#include <QTableView>
-#include <QtTest/QTest>
-
 #include "sessions/session/case_run.h"
-#include "sessions/session/session_maker.h"
-#include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
-#include "ui/window/main_window.h"
+#include "tests/ui/window_test.h"
 
 namespace boresight::ui {
 namespace {
-
-constexpr int kPatienceMs = 60'000;
 
 /// The example's two cases with their runs, and one of the second that could not converge.
 struct RunExample {
@@ -52,38 +34,24 @@ struct RunExample {
   }
 };
 
-class QueuePanelTest : public ::testing::Test {
+class QueuePanelTest : public test::WindowTest {
  protected:
   QueuePanelTest() {
-    QStandardPaths::setTestModeEnabled(true);
-    // Of its own: tests run side by side.
-    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope,
-                       QString::fromStdString((folder_.path() / "settings").string()));
-    QSettings().clear();
-    window_ = std::make_unique<MainWindow>();
-    window_->setQuiet(true);
-    window_->resize(1280, 800);
-    window_->show();
-    window_->activateWindow();
-    EXPECT_TRUE(QTest::qWaitForWindowActive(window_.get()));
-    const std::filesystem::path file = folder_.path() / "q.boresight.json";
-    EXPECT_TRUE(window_->document().create(file, RunExample::get().withRuns(file)));
-    panel_ = window_->findChild<QueuePanel*>();
+    window_.activateWindow();
+    EXPECT_TRUE(QTest::qWaitForWindowActive(&window_));
+    EXPECT_TRUE(window_.document().create(file_, RunExample::get().withRuns(file_)));
+    panel_ = window_.findChild<QueuePanel*>();
     table_ = panel_->findChild<QTableView*>(QStringLiteral("queue"));
-    QTest::keySequence(window_.get(), QKeySequence(QStringLiteral("Shift+F9")));
+    QTest::keySequence(&window_, QKeySequence(QStringLiteral("Shift+F9")));
   }
-  ~QueuePanelTest() override { QSettings().clear(); }
 
-  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
   bool filled() {
     return wait([&] {
       const QueueController& queue = panel_->controller();
-      return queue.count() == 2 && queue.doneCount() == 2 && !window_->tasks().isBusy();
+      return queue.count() == 2 && queue.doneCount() == 2 && !window_.tasks().isBusy();
     });
   }
-  bool inSight() const {
-    return !window_->dock(QStringLiteral("queue"))->visibleRegion().isEmpty();
-  }
+  bool inSight() const { return !window_.dock(QStringLiteral("queue"))->visibleRegion().isEmpty(); }
   QStringList listed() const {
     QStringList ids;
     for (int row = 0; row < table_->model()->rowCount(); ++row)
@@ -96,10 +64,8 @@ class QueuePanelTest : public ::testing::Test {
   /// On whatever has the focus.
   void press(Qt::Key key) { QTest::keyClick(QApplication::focusWidget(), key); }
   void type(const QString& text) { QTest::keyClicks(QApplication::focusWidget(), text); }
-  const auto& decisions() const { return window_->document().session().decisions; }
+  const auto& decisions() { return window_.document().session().decisions; }
 
-  test::TemporaryFolder folder_;
-  std::unique_ptr<MainWindow> window_;
   QueuePanel* panel_ = nullptr;
   QTableView* table_ = nullptr;
   QString good_ = QString::fromStdString(RunExample::get().good);
@@ -127,15 +93,15 @@ TEST_F(QueuePanelTest, EnterOpensTheIterationThatFailed) {
   EXPECT_EQ(panel_->chosenCase(), bad_);
   press(Qt::Key_Return);
   ASSERT_TRUE(wait([&] {
-    return window_->cases().caseId() == bad_ && window_->state().snapshot() &&
-           !window_->tasks().isBusy();
+    return window_.cases().caseId() == bad_ && window_.state().snapshot() &&
+           !window_.tasks().isBusy();
   }));
-  ASSERT_NE(window_->state().iteration(), nullptr);
-  EXPECT_NE(window_->state().iteration()->status, LocalizationStatus::kRunning);
-  EXPECT_NE(window_->state().iteration()->status, LocalizationStatus::kConverged);
-  window_->state().setCursor({0, Stage::kRender});
+  ASSERT_NE(window_.state().iteration(), nullptr);
+  EXPECT_NE(window_.state().iteration()->status, LocalizationStatus::kRunning);
+  EXPECT_NE(window_.state().iteration()->status, LocalizationStatus::kConverged);
+  window_.state().setCursor({0, Stage::kRender});
   press(Qt::Key_Return);
-  EXPECT_NE(window_->state().iteration()->status, LocalizationStatus::kRunning)
+  EXPECT_NE(window_.state().iteration()->status, LocalizationStatus::kRunning)
       << "also when the case is shown already";
 }
 
@@ -178,7 +144,7 @@ TEST_F(QueuePanelTest, RejectTakesTheCommentAndIsUndoneAtOnce) {
   EXPECT_TRUE(field("queueComment").text().isEmpty());
   EXPECT_EQ(panel_->chosenCase(), good_);
   EXPECT_EQ(listed(), QStringList({good_, bad_})) << "what is decided comes last";
-  QTest::keySequence(window_.get(), QKeySequence::Undo);
+  QTest::keySequence(&window_, QKeySequence::Undo);
   EXPECT_TRUE(decisions().empty());
   EXPECT_EQ(listed(), QStringList({bad_, good_}));
 }
@@ -198,9 +164,9 @@ TEST_F(QueuePanelTest, EscapeLeavesTheQuestion) {
 
 TEST_F(QueuePanelTest, ChecksAnewWhatARowRestsOn) {
   ASSERT_TRUE(filled());
-  sessions::Session changed = window_->document().session();
+  sessions::Session changed = window_.document().session();
   changed.review.limits = {{"check.inlier_count", 9999.0}};
-  ASSERT_TRUE(window_->document().edit(changed, QStringLiteral("limits")));
+  ASSERT_TRUE(window_.document().edit(changed, QStringLiteral("limits")));
   EXPECT_EQ(panel_->controller().doneCount(), 0);
   field("queueName").setText(QStringLiteral("Ada"));
   field("queueComment").setText(QStringLiteral("too early"));
@@ -219,15 +185,15 @@ TEST_F(QueuePanelTest, ChecksAnewWhatARowRestsOn) {
 TEST_F(QueuePanelTest, IsNotFilledWhileHaltedOrOutOfSight) {
   ASSERT_TRUE(filled());
   panel_->controller().setHalted(true);
-  sessions::Session changed = window_->document().session();
+  sessions::Session changed = window_.document().session();
   changed.review.limits = {{"check.inlier_count", 13.0}};
-  ASSERT_TRUE(window_->document().edit(changed, QStringLiteral("limits")));
+  ASSERT_TRUE(window_.document().edit(changed, QStringLiteral("limits")));
   EXPECT_FALSE(panel_->controller().isBusy());
-  window_->dock(QStringLiteral("iterations"))->raise();
+  window_.dock(QStringLiteral("iterations"))->raise();
   ASSERT_TRUE(wait([&] { return !inSight(); }));
   panel_->controller().setHalted(false);
   EXPECT_FALSE(panel_->controller().isBusy());
-  window_->dock(QStringLiteral("queue"))->raise();
+  window_.dock(QStringLiteral("queue"))->raise();
   EXPECT_TRUE(filled());
 }
 

@@ -1,54 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // A results file in the window: dropped, gone through, one of its runs repeated.
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <memory>
-
-#include <QApplication>
-#include <QDockWidget>
-#include <QDropEvent>
-#include <QMimeData>
-#include <QSettings>
-#include <QStandardPaths>
-#include <QTableView>
-#include <QUrl>
-#include <QtTest/QTest>
-
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/results_writer.h"
 #include "sessions/session/session_of_results.h"
-#include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/ui/window_test.h"
 #include "ui/review/queue_panel.h"
-#include "ui/window/main_window.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr int kPatienceMs = 120'000;
-
 /// The example, each case from two seeds, by options under which none converges.
-class ResultsQueueTest : public ::testing::Test {
+class ResultsQueueTest : public test::WindowTest {
  protected:
   ResultsQueueTest() {
-    QStandardPaths::setTestModeEnabled(true);
-    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope,
-                       QString::fromStdString((folder_.path() / "settings").string()));
-    QSettings().clear();
     writeResults();
-    window_ = std::make_unique<MainWindow>();
-    window_->setQuiet(true);
-    window_->resize(1280, 800);
-    window_->show();
-    window_->activateWindow();
-    EXPECT_TRUE(QTest::qWaitForWindowActive(window_.get()));
+    window_.activateWindow();
+    EXPECT_TRUE(QTest::qWaitForWindowActive(&window_));
   }
   ~ResultsQueueTest() override {
-    const auto file = window_->document().file();
-    window_->document().close();
+    const auto file = window_.document().file();
+    window_.document().close();
     std::filesystem::remove(file);
-    QSettings().clear();
   }
 
   void writeResults() {
@@ -58,38 +30,24 @@ class ResultsQueueTest : public ::testing::Test {
     options.localizer.loop.max_iterations = 1;
     options.reseeds = 1;
     runs_ = sessions::runBatch(sessions::readDataset(dataset), options, {});
-    sessions::ResultsWriter writer(file_, sessions::datasetFacts(sessions::readDataset(dataset)));
+    sessions::ResultsWriter writer(results_,
+                                   sessions::datasetFacts(sessions::readDataset(dataset)));
     writer.admit(sessions::methodFacts("whs", "default", options.localizer));
     writer.begin(sessions::Sitting{});
     for (const sessions::RunResult& run : runs_) writer.add(run);
   }
-  void drop(const std::filesystem::path& file) {
-    QMimeData data;
-    data.setUrls({QUrl::fromLocalFile(QString::fromStdString(file.string()))});
-    QDragEnterEvent enter(QPoint(600, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(window_.get(), &enter);
-    QDropEvent event(QPointF(600, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(window_.get(), &event);
-  }
-  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
-  bool resting() {
-    return !window_->tasks().isBusy() && window_->run().state() != RunState::kWorking;
-  }
-
-  test::TemporaryFolder folder_;
-  std::filesystem::path file_ = folder_.path() / "results.sqlite";
+  std::filesystem::path results_ = folder_.path() / "results.sqlite";
   std::vector<sessions::RunResult> runs_;
-  std::unique_ptr<MainWindow> window_;
 };
 
 TEST_F(ResultsQueueTest, RunsAreListedChosenAndRepeatedToTheBit) {
-  drop(file_);
-  ASSERT_TRUE(wait([&] { return window_->state().currentCase() != nullptr && resting(); }))
-      << window_->lastMessage().toStdString();
-  EXPECT_EQ(window_->document().session().cases.size(), 4u);
-  EXPECT_FALSE(window_->dock(QStringLiteral("queue"))->visibleRegion().isEmpty())
+  drop(results_);
+  ASSERT_TRUE(wait([&] { return window_.state().currentCase() != nullptr && resting(); }))
+      << window_.lastMessage().toStdString();
+  EXPECT_EQ(window_.document().session().cases.size(), 4u);
+  EXPECT_FALSE(window_.dock(QStringLiteral("queue"))->visibleRegion().isEmpty())
       << "the queue comes to the front";
-  auto* panel = window_->findChild<QueuePanel*>();
+  auto* panel = window_.findChild<QueuePanel*>();
   auto* table = panel->findChild<QTableView*>(QStringLiteral("queue"));
   ASSERT_TRUE(wait([&] { return table->model()->rowCount() == 4 && resting(); }));
   const auto trouble = [table] {
@@ -104,24 +62,24 @@ TEST_F(ResultsQueueTest, RunsAreListedChosenAndRepeatedToTheBit) {
   table->setCurrentIndex(last);
   QTest::keyClick(table, Qt::Key_Return);
   ASSERT_TRUE(
-      wait([&] { return window_->cases().caseId() == last.data().toString() && resting(); }));
-  QTest::keyClick(window_.get(), Qt::Key_F5);
+      wait([&] { return window_.cases().caseId() == last.data().toString() && resting(); }));
+  QTest::keyClick(&window_, Qt::Key_F5);
   const std::string id = last.data().toString().toStdString();
   ASSERT_TRUE(
-      wait([&] { return window_->document().session().lastRunOf(id) != nullptr && resting(); }));
+      wait([&] { return window_.document().session().lastRunOf(id) != nullptr && resting(); }));
   for (const sessions::RunResult& run : runs_) {
     if (sessions::resultCaseId(run) != id) continue;
-    EXPECT_EQ(window_->document().session().lastRunOf(id)->digest, run.digest);
+    EXPECT_EQ(window_.document().session().lastRunOf(id)->digest, run.digest);
   }
 }
 
 TEST_F(ResultsQueueTest, WhatIsNoResultsFileIsToldAndNothingIsLost) {
   folder_.write("no.sqlite", "no");
   drop(folder_.path() / "no.sqlite");
-  ASSERT_TRUE(wait([&] { return resting() && !window_->lastMessage().isEmpty(); }));
-  EXPECT_TRUE(window_->lastMessage().contains(QStringLiteral("no.sqlite")))
-      << window_->lastMessage().toStdString();
-  EXPECT_FALSE(window_->document().isOpen());
+  ASSERT_TRUE(wait([&] { return resting() && !window_.lastMessage().isEmpty(); }));
+  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("no.sqlite")))
+      << window_.lastMessage().toStdString();
+  EXPECT_FALSE(window_.document().isOpen());
 }
 
 }  // namespace

@@ -7,12 +7,8 @@
 #include <functional>
 #include <string>
 
-#include <QApplication>
-#include <QLineEdit>
-#include <QPushButton>
-#include <QSettings>
-#include <QTableView>
 #include <QtTest/QTest>
+#include <QtWidgets>
 
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_maker.h"

@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/review/review_panel.h"
 
-#include <QCheckBox>
-#include <QComboBox>
-#include <QLabel>
-#include <QSpinBox>
-#include <QTextBrowser>
+#include <QtWidgets>
 
 #include "sessions/review/standing.h"
 #include "sessions/review/verify_pose.h"
-#include "sessions/session/review_settings.h"
+#include "sessions/session/check_limits.h"
 #include "sessions/session/session_document.h"
 #include "tests/support/marked_example.h"
 #include "tests/ui/review/review_fixture.h"
 #include "ui/models/number_text.h"
+#include "ui/panels/banner.h"
 #include "ui/review/decision_form.h"
 #include "ui/review/limits_dialog.h"
 #include "ui/review/pose_export.h"
-#include "ui/review/standing_banner.h"
 #include "ui/state/document.h"
 
 namespace boresight::ui {
@@ -56,7 +52,7 @@ class ReviewPanelTest : public ::testing::Test {
   ReviewController& controller() { return panel_->controller(); }
   test::ReviewHands hands() { return test::ReviewHands(*panel_); }
   CaseStanding standing() { return controller().standing().state; }
-  QString banner() { return panel_->findChild<StandingBanner*>()->text(); }
+  QString banner() { return panel_->findChild<Banner*>()->text(); }
   QString obstacle() { return panel_->findChild<DecisionForm*>()->obstacle(); }
   QString history() { return panel_->findChild<QTextBrowser*>()->toPlainText(); }
 

@@ -1,33 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reviewing in the whole window: from a run to a decision, and what takes it away again.
-#include <QDockWidget>
-#include <QLabel>
-#include <QStandardPaths>
+#include <QtWidgets>
 
 #include "tests/ui/review/review_fixture.h"
+#include "tests/ui/window_test.h"
 #include "ui/models/cases_model.h"
+#include "ui/panels/banner.h"
 #include "ui/review/review_panel.h"
-#include "ui/review/standing_banner.h"
-#include "ui/window/main_window.h"
 
 namespace boresight::ui {
 namespace {
 
-using test::kPatienceMs;
 using test::RunExample;
 
-class ReviewWindowTest : public ::testing::Test {
+class ReviewWindowTest : public test::WindowTest {
  protected:
-  ReviewWindowTest() {
-    QStandardPaths::setTestModeEnabled(true);
-    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope,
-                       QString::fromStdString((folder_.path() / "settings").string()));
-    window_.setQuiet(true);
-    window_.resize(1280, 800);
-    window_.show();
-  }
-
-  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
   bool checked() {
     return wait([this] {
       return panel().controller().isCurrent() && !panel().controller().isBusy() &&
@@ -36,7 +23,7 @@ class ReviewWindowTest : public ::testing::Test {
   }
   ReviewPanel& panel() { return *window_.findChild<ReviewPanel*>(); }
   test::ReviewHands hands() { return test::ReviewHands(panel()); }
-  QString banner() { return panel().findChild<StandingBanner*>()->text(); }
+  QString banner() { return panel().findChild<Banner*>()->text(); }
   /// As the list of cases names the state of the example's first case.
   QString listed() {
     const auto* table = window_.findChild<QTableView*>(QStringLiteral("cases"));
@@ -46,13 +33,8 @@ class ReviewWindowTest : public ::testing::Test {
         return table->model()->index(row, CasesModel::kState).data().toString();
     return {};
   }
-  void openExample() {
-    ASSERT_TRUE(window_.document().create(folder_.path() / "one.boresight.json",
-                                          RunExample::get().session));
-    ASSERT_TRUE(wait([this] { return window_.state().currentCase() != nullptr; }));
-  }
   void runAndValidate() {
-    openExample();
+    open(RunExample::get().session);
     QTest::keyClick(&window_, Qt::Key_F9);
     EXPECT_TRUE(hands().labelled("emptyHint").contains(QStringLiteral("F5")));
     QTest::keyClick(&window_, Qt::Key_F5);
@@ -63,9 +45,6 @@ class ReviewWindowTest : public ::testing::Test {
     hands().click("validate");
     ASSERT_TRUE(listed().contains(QStringLiteral("validated"))) << listed().toStdString();
   }
-
-  test::TemporaryFolder folder_;
-  MainWindow window_;
 };
 
 TEST_F(ReviewWindowTest, FromARunToAValidationAndBack) {

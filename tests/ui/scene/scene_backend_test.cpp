@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/scene/scene_backend.h"
+#include "ui/scene/scene_canvas.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/scene/scene_picker.h"
+#include "ui/scene/scene_aim.h"
 
 #include <gtest/gtest.h>
 

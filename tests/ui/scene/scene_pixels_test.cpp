@@ -2,9 +2,8 @@
 // What VTK draws, under a display of its own; see CMakeLists.txt. BORESIGHT_PICTURES names a folder
 // that keeps what was seen.
 #include <gtest/gtest.h>
-#include <QApplication>
-#include <QImage>
 #include <QTest>
+#include <QtWidgets>
 
 #include <cmath>
 #include <cstdio>

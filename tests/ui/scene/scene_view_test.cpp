@@ -3,9 +3,8 @@
 #include "ui/scene/scene_view.h"
 
 #include <gtest/gtest.h>
-#include <QLabel>
 #include <QTest>
-#include <QWheelEvent>
+#include <QtWidgets>
 
 #include "tests/ui/scene/scene_fixture.h"
 

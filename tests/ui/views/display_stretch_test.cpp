@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/views/display_stretch.h"
+#include "ui/views/display_image.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/views/gray_pyramid.h"
+#include "ui/views/image_pyramids.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
-
-#include "ui/views/bit_pixmaps.h"
 
 namespace boresight::ui {
 namespace {

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include <QMouseEvent>
-#include <QSignalSpy>
-#include <QtTest/QTest>
+#include <QtTest>
 
 #include "ui/views/image_view.h"
 

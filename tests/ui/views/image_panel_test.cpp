@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <optional>
 
-#include <QMouseEvent>
-#include <QRegularExpression>
 #include <QtTest/QTest>
+#include <QtWidgets>
 
 #include "sessions/run/scene_render.h"
 #include "tests/support/loaded_example.h"

@@ -6,9 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include <QSignalSpy>
 #include <QWheelEvent>
-#include <QtTest/QTest>
+#include <QtTest>
 
 namespace boresight::ui {
 namespace {

@@ -3,13 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <QCheckBox>
-#include <QLabel>
-#include <QSet>
-#include <QSignalSpy>
-#include <QSlider>
-#include <QToolButton>
-#include <QtTest/QTest>
+#include <QtTest>
+#include <QtWidgets>
 
 #include "ui/run/task_runner.h"
 #include "ui/views/image_panel.h"

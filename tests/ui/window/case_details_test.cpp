@@ -10,7 +10,6 @@
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/run/task_runner.h"
-#include "ui/window/case_rows.h"
 
 namespace boresight::ui {
 namespace {
@@ -88,7 +87,8 @@ TEST_F(CaseDetailsTest, ARunOfOtherInputsOrOptionsIsStale) {
   session_ = sessions::withCase(session_, one);
   EXPECT_TRUE(rows()[0].stale);
   EXPECT_FALSE(rows()[1].stale) << "nothing has run";
-  EXPECT_FALSE(caseRows(session_, QString::fromStdString(id), {}, stale_runs_)[0].stale) << "it is at work";
+  EXPECT_FALSE(caseRows(session_, QString::fromStdString(id), {}, stale_runs_)[0].stale)
+      << "it is at work";
   LocalizerOptions options = sessions::sessionOptions(before, {});
   options.pnp.seed += 1;
   session_ = sessions::withOptions(before, before.profile, options);

@@ -4,11 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include <QApplication>
-#include <QElapsedTimer>
-#include <QEvent>
-#include <QMetaEnum>
-#include <QString>
+#include <QtWidgets>
 
 namespace boresight::ui {
 

@@ -8,10 +8,7 @@
 #include <filesystem>
 #include <functional>
 
-#include <QDockWidget>
-#include <QStandardPaths>
-#include <QTemporaryDir>
-#include <QTimer>
+#include <QtWidgets>
 
 #include "sessions/io/camera_file.h"
 #include "sessions/io/image_file.h"

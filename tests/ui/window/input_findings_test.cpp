@@ -1,62 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/input_findings.h"
 
-#include <gtest/gtest.h>
-
 #include <fstream>
-#include <functional>
-
-#include <QApplication>
-#include <QMessageBox>
-#include <QStandardPaths>
-#include <QTimer>
-#include <QToolButton>
-#include <QtTest/QTest>
 
 #include "sessions/session/input_check.h"
-#include "sessions/session/session_maker.h"
-#include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/ui/window_test.h"
 #include "ui/panels/warning_bar.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
-#include "ui/window/main_window.h"
 
 namespace boresight::ui {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr int kPatienceMs = 60'000;
 
 /// A session whose inputs lie beside it, so that they can be moved and changed.
-class InputFindingsTest : public ::testing::Test {
+class InputFindingsTest : public test::WindowTest {
  protected:
-  InputFindingsTest() {
-    QStandardPaths::setTestModeEnabled(true);
-    fs::copy(test::exampleFolder(), inputs_, fs::copy_options::recursive);
-    window_.setQuiet(true);
-    window_.show();
-  }
+  InputFindingsTest() { fs::copy(test::exampleFolder(), inputs_, fs::copy_options::recursive); }
 
   void open() {
-    ASSERT_TRUE(window_.document().create(folder_.path() / "one.boresight.json",
-                                          sessions::makeSession(inputs_ / "dataset.json")));
+    ASSERT_TRUE(window_.document().create(file_, sessions::makeSession(inputs_ / "dataset.json")));
     settle();
   }
   void reopen() {
     window_.document().close();
-    ASSERT_TRUE(window_.openSession(folder_.path() / "one.boresight.json"));
+    ASSERT_TRUE(window_.openSession(file_));
     settle();
   }
   void settle() {
-    ASSERT_TRUE(QTest::qWaitFor(
-        [this] { return !window_.findings().isBusy() && !window_.tasks().isBusy(); }, kPatienceMs));
+    ASSERT_TRUE(wait([this] { return !window_.findings().isBusy() && !window_.tasks().isBusy(); }));
   }
   fs::path image() const { return inputs_ / "bc" / "image.png"; }
 
-  test::TemporaryFolder folder_;
   fs::path inputs_ = folder_.path() / "inputs";
-  MainWindow window_;
 };
 
 TEST_F(InputFindingsTest, SaysNothingOfASessionThatIsWhole) {
@@ -143,8 +120,7 @@ TEST_F(InputFindingsTest, AChangedFileIsTakenAsItIsWhenSomebodySaysSo) {
     if (button->isVisible() && button->text().startsWith(QStringLiteral("Mend")))
       QTest::mouseClick(button, Qt::LeftButton);
   settle();
-  ASSERT_TRUE(
-      QTest::qWaitFor([&] { return window_.state().currentCase() != nullptr; }, kPatienceMs));
+  ASSERT_TRUE(wait([&] { return window_.state().currentCase() != nullptr; }));
   EXPECT_TRUE(window_.findings().findings().empty());
   EXPECT_NE(hash(), before);
   EXPECT_EQ(hash(), sessions::inputSha256(image()));

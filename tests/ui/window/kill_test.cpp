@@ -16,7 +16,6 @@
 #include "sessions/session/journal.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
-#include "sessions/session/session_json.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"
@@ -25,10 +24,6 @@ namespace boresight::ui {
 namespace {
 
 constexpr int kPatienceMs = 120'000;
-
-std::string textSha256(const std::string& text) {
-  return sessions::sha256Text({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-}
 
 /// The states that the disk has, the latest last: the saved one and those of the journal's edits.
 std::vector<std::string> statesOnDisk(const std::filesystem::path& file) {
@@ -94,7 +89,7 @@ TEST(KillProgram, NothingConfirmedIsLost) {
       EXPECT_EQ(notice.find("set aside"), std::string::npos) << notice;
     const sessions::Session& session =
         document.recovery() ? document.recovery()->session : document.session();
-    EXPECT_EQ(textSha256(sessions::sessionText(session, file)), states.back())
+    EXPECT_EQ(sessions::sha256Text(sessions::sessionText(session, file)), states.back())
         << "what is offered is the latest that the disk has";
   }
   EXPECT_GT(confirmed_rounds, rounds / 2);

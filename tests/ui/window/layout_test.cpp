@@ -7,22 +7,17 @@
 #include <string>
 #include <vector>
 
-#include <QAction>
-#include <QDockWidget>
-#include <QMenu>
-#include <QMenuBar>
-#include <QSettings>
-#include <QStandardPaths>
 #include <QtTest/QTest>
+#include <QtWidgets>
 
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/ui/window_test.h"
 #include "ui/views/image_panel.h"
 #include "ui/window/main_window.h"
-#include "ui/window/recent_files.h"
 #include "ui/window/screenshot.h"
+#include "ui/window/session_files.h"
 
 namespace boresight::ui {
 namespace {
@@ -36,16 +31,8 @@ QAction* menuAction(MainWindow& window, const QString& text) {
 
 class LayoutTest : public ::testing::Test {
  protected:
-  LayoutTest() {
-    QStandardPaths::setTestModeEnabled(true);
-    // Of its own: tests run side by side.
-    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope,
-                       QString::fromStdString((folder_.path() / "settings").string()));
-    QSettings().clear();
-  }
-  ~LayoutTest() override { QSettings().clear(); }
-
   test::TemporaryFolder folder_;
+  test::OwnSettings settings_{folder_.path()};
 };
 
 TEST_F(LayoutTest, FitsASmallScreen) {

@@ -1,40 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // An image of 12 bits in a file of 16: how it is shown, and what the core is given.
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <functional>
-
-#include <QComboBox>
-#include <QLabel>
-#include <QPushButton>
-#include <QSpinBox>
-#include <QStandardPaths>
-#include <QtTest/QTest>
 
 #include "sessions/session/case_run.h"
-#include "sessions/session/session_maker.h"
-#include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/vicar_image.h"
+#include "tests/ui/window_test.h"
 #include "ui/views/display_image.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
-#include "ui/window/main_window.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr int kPatienceMs = 120'000;
 constexpr int kFactor = 16;  ///< from the example's 8 bits to 12
 
-class LevelsEditingTest : public ::testing::Test {
+class LevelsEditingTest : public test::WindowTest {
  protected:
   void SetUp() override {
-    QStandardPaths::setTestModeEnabled(true);
-    window_.setQuiet(true);
-    window_.resize(1280, 800);
-    window_.show();
     sessions::CaseFiles files;
     const auto station = test::exampleFolder() / "os";
     files.id = "os";
@@ -45,9 +27,7 @@ class LevelsEditingTest : public ::testing::Test {
     files.parts[0].mesh = station / "model.ply";
     files.parts[0].mesh_unit = "m";
     files.seed = station / "seed.json";
-    const sessions::Session session = withCase({}, sessions::makeCase(files).made);
-    ASSERT_TRUE(window_.document().create(folder_.path() / "one.boresight.json", session));
-    ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }));
+    open(withCase({}, sessions::makeCase(files).made));
   }
 
   virtual const char* fileName() const { return "image.png"; }
@@ -61,11 +41,6 @@ class LevelsEditingTest : public ::testing::Test {
     }
     ASSERT_TRUE(deep.save(QString::fromStdString(to.string())));
     ASSERT_EQ(sessions::readImage(to).sample_bits, 16);
-  }
-
-  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
-  bool resting() {
-    return !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking;
   }
   const sessions::SessionCase& edited() { return *window_.document().session().findCase("os"); }
   DisplayImage& display() { return window_.image().display(); }
@@ -81,18 +56,12 @@ class LevelsEditingTest : public ::testing::Test {
     const QImage picture = view.grab().toImage();
     return qRed(picture.pixel(view.transform().toWidget(QPointF(x, y)).toPoint()));
   }
-  template <class Widget>
-  Widget& find(const char* name) {
-    return *window_.findChild<Widget*>(QString::fromUtf8(name));
-  }
   void apply(int bits) {
     find<QSpinBox>("conversionBits").setValue(bits);
     QTest::mouseClick(&find<QPushButton>("applyConversion"), Qt::LeftButton);
   }
 
-  test::TemporaryFolder folder_;
   sessions::GrayImage original_;
-  MainWindow window_;
 };
 
 TEST_F(LevelsEditingTest, ADeepImageIsShownStretchedAndTheCoresViewIsNot) {

@@ -1,58 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/window/main_window.h"
-
-#include <gtest/gtest.h>
-
-#include <functional>
-
-#include <QAction>
-#include <QApplication>
-#include <QDragEnterEvent>
-#include <QDropEvent>
-#include <QElapsedTimer>
-#include <QLabel>
-#include <QMessageBox>
-#include <QMimeData>
-#include <QPushButton>
-#include <QStandardPaths>
-#include <QStatusBar>
-#include <QTimer>
-#include <QUrl>
-#include <QtTest/QTest>
-
 #include "sessions/session/case_run.h"
-#include "sessions/session/session_maker.h"
-#include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/ui/window_test.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr int kPatienceMs = 120'000;
-
-class MainWindowTest : public ::testing::Test {
+class MainWindowTest : public test::WindowTest {
  protected:
-  MainWindowTest() {
-    QStandardPaths::setTestModeEnabled(true);
-    window_.setQuiet(true);
-    window_.resize(1280, 800);
-    window_.show();
-  }
-
-  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
-
-  bool resting() {
-    return !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking;
-  }
-
-  void openExample() {
-    sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");
-    ASSERT_TRUE(window_.document().create(folder_.path() / "one.boresight.json", session));
-    ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }));
-  }
-
   QAction* key(const char* keys) {
     for (QAction* each : window_.findChildren<QAction*>())
       if (each->shortcut() == QKeySequence(QLatin1String(keys))) return each;
@@ -60,9 +16,6 @@ class MainWindowTest : public ::testing::Test {
     return nullptr;
   }
   QString runState() { return window_.findChild<QLabel*>(QStringLiteral("runState"))->text(); }
-
-  test::TemporaryFolder folder_;
-  MainWindow window_;
 };
 
 TEST_F(MainWindowTest, OpensEmptyAndOffersNothingThatCannotBeDone) {
@@ -73,15 +26,7 @@ TEST_F(MainWindowTest, OpensEmptyAndOffersNothingThatCannotBeDone) {
 }
 
 TEST_F(MainWindowTest, ADroppedDatasetIsShown) {
-  QMimeData data;
-  data.setUrls({QUrl::fromLocalFile(
-      QString::fromStdString((test::exampleFolder() / "dataset.json").string()))});
-  QDragEnterEvent enter(QPoint(600, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-  QCoreApplication::sendEvent(&window_, &enter);
-  EXPECT_TRUE(enter.isAccepted());
-  QDropEvent drop(QPointF(600, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-  QCoreApplication::sendEvent(&window_, &drop);
-  EXPECT_TRUE(drop.isAccepted());
+  drop(test::exampleFolder() / "dataset.json");
   ASSERT_TRUE(wait([&] { return window_.state().currentCase() != nullptr; }));
   EXPECT_TRUE(window_.document().isUntitled());
   EXPECT_EQ(window_.document().session().cases.size(), 2u);

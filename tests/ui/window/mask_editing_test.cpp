@@ -1,53 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ignore mask from the pointer to the run: one window, real events.
-#include <gtest/gtest.h>
-
-#include <functional>
-
-#include <QInputDialog>
-#include <QLabel>
-#include <QLineEdit>
-#include <QListWidget>
-#include <QMenu>
-#include <QMouseEvent>
-#include <QPushButton>
-#include <QSpinBox>
-#include <QStandardPaths>
-#include <QTimer>
-#include <QtTest/QTest>
-
 #include "sessions/session/case_run.h"
-#include "sessions/session/session_maker.h"
-#include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/ui/window_test.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
-#include "ui/window/main_window.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr int kPatienceMs = 120'000;
-
-class MaskEditingTest : public ::testing::Test {
+class MaskEditingTest : public test::WindowTest {
  protected:
   void SetUp() override {
-    QStandardPaths::setTestModeEnabled(true);
-    window_.setQuiet(true);
-    window_.resize(1280, 800);
-    window_.show();
     sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");
     sessions::SessionCase twin = *session.cases.front();
     twin.id = "twin";
     session = withCase(session, twin);
-    ASSERT_TRUE(window_.document().create(folder_.path() / "one.boresight.json", session));
-    ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }));
+    open(session);
     id_ = window_.state().currentCase()->source.id;
-  }
-
-  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
-  bool resting() {
-    return !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking;
   }
   ImageView& view() { return window_.image().view(); }
   const sessions::MaskStrokes& strokes(const std::string& id) {
@@ -80,13 +49,7 @@ class MaskEditingTest : public ::testing::Test {
     send(QEvent::MouseButtonPress, pixel);
     send(QEvent::MouseButtonRelease, pixel);
   }
-  template <class Widget>
-  Widget& find(const char* name) {
-    return *window_.findChild<Widget*>(QString::fromUtf8(name));
-  }
 
-  test::TemporaryFolder folder_;
-  MainWindow window_;
   std::string id_;
 };
 

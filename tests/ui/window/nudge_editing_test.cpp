@@ -1,43 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nudging by keys as edits of the document: one window, real events.
-#include <gtest/gtest.h>
-
-#include <functional>
-
-#include <QDockWidget>
-#include <QDoubleSpinBox>
-#include <QLabel>
-#include <QPushButton>
-#include <QStandardPaths>
-#include <QtTest/QTest>
-
-#include "sessions/session/session_maker.h"
-#include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
-#include "ui/window/main_window.h"
+#include "tests/ui/window_test.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr int kPatienceMs = 120'000;
-
-class NudgeEditingTest : public ::testing::Test {
+class NudgeEditingTest : public test::WindowTest {
  protected:
   void SetUp() override {
-    QStandardPaths::setTestModeEnabled(true);
-    window_.setQuiet(true);
-    window_.resize(1280, 800);
-    window_.show();
     window_.dock(QStringLiteral("pose"))->raise();
-    const auto session = sessions::makeSession(test::exampleFolder() / "dataset.json");
-    ASSERT_TRUE(window_.document().create(file_, session));
-    ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }));
+    openExample();
     id_ = window_.state().currentCase()->source.id;
-  }
-
-  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
-  bool resting() {
-    return !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking;
   }
   const sessions::SessionCase& edited() { return *window_.document().session().findCase(id_); }
   const std::optional<Pose>& nudged() { return window_.state().nudgedPose(); }
@@ -49,9 +22,6 @@ class NudgeEditingTest : public ::testing::Test {
   void undo() { QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier); }
   void redo() { ASSERT_TRUE(window_.document().redo()); }
 
-  test::TemporaryFolder folder_;
-  std::filesystem::path file_ = folder_.path() / "one.boresight.json";
-  MainWindow window_;
   std::string id_;
 };
 

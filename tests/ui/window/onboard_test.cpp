@@ -1,32 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // An onboard record dropped on the window: shown, run again on the ground, compared.
-#include <gtest/gtest.h>
-
 #include <fstream>
-#include <functional>
-
-#include <QBuffer>
-#include <QDockWidget>
-#include <QDropEvent>
-#include <QImage>
-#include <QLabel>
-#include <QMimeData>
-#include <QPushButton>
-#include <QStandardPaths>
-#include <QTableWidget>
-#include <QUrl>
-#include <QtTest/QTest>
 
 #include "core/base/bytes.h"
 #include "core/base/crc32.h"
 #include "sessions/record/compare_records.h"
 #include "sessions/run/runner.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/session_maker.h"
-#include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
-#include "ui/panels/run_banner.h"
-#include "ui/window/main_window.h"
+#include "tests/ui/window_test.h"
+#include "ui/panels/banner.h"
 
 namespace boresight::ui {
 namespace {
@@ -35,7 +17,6 @@ using sessions::RunPart;
 using sessions::RunVerdict;
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr int kPatienceMs = 120'000;
 constexpr std::size_t kAltered = 5;  ///< template of the first iteration
 
 /// The image as a compressed downlink brings it.
@@ -68,28 +49,8 @@ void alterTemplate(Bytes& bytes) {
   ByteWriter(std::span(bytes).subspan(at + block.size(), 4)).u32(crc32(block));
 }
 
-class OnboardTest : public ::testing::Test {
+class OnboardTest : public test::WindowTest {
  protected:
-  OnboardTest() {
-    QStandardPaths::setTestModeEnabled(true);
-    window_.setQuiet(true);
-    window_.show();
-  }
-
-  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
-  bool rests() {
-    return wait(
-        [&] { return !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking; });
-  }
-
-  void openSession() {
-    ASSERT_TRUE(
-        window_.document().create(folder_.path() / "one.boresight.json",
-                                  sessions::makeSession(test::exampleFolder() / "dataset.json")));
-    ASSERT_TRUE(wait([&] { return window_.state().currentCase() != nullptr; }));
-    ASSERT_TRUE(rests());
-  }
-
   /// What the flight side would send down of the shown case; nullptr: of its image as it is.
   Bytes onboardRecord(const Bytes* pixels = nullptr) {
     Bytes bytes(65536);
@@ -110,12 +71,7 @@ class OnboardTest : public ::testing::Test {
   std::filesystem::path write(const Bytes& bytes) { return folder_.write("run.whsr", bytes); }
 
   void drop(const std::filesystem::path& file) {
-    QMimeData mime;
-    mime.setUrls({QUrl::fromLocalFile(QString::fromStdString(file.string()))});
-    QDragEnterEvent enter(QPoint(600, 300), Qt::CopyAction, &mime, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(&window_, &enter);
-    QDropEvent event(QPointF(600.0, 300.0), Qt::CopyAction, &mime, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(&window_, &event);
+    WindowTest::drop(file);
     ASSERT_TRUE(rests());
   }
 
@@ -139,13 +95,10 @@ class OnboardTest : public ::testing::Test {
     ASSERT_TRUE(wait([&] { return !window_.document().session().runs.empty(); }));
     ASSERT_TRUE(rests());
   }
-
-  test::TemporaryFolder folder_;
-  MainWindow window_;
 };
 
 TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
-  openSession();
+  openExample();
   drop(write(onboardRecord()));
   ASSERT_TRUE(one().onboard_record);
   ASSERT_NE(window_.onboard().review(), nullptr) << window_.onboard().problem().toStdString();
@@ -154,7 +107,7 @@ TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
 
   click("showOnboard");
   ASSERT_TRUE(window_.state().snapshot() && window_.state().snapshot()->replayed);
-  EXPECT_TRUE(window_.findChild<RunBanner*>()->text().startsWith(QStringLiteral("Onboard record")));
+  EXPECT_TRUE(window_.findChild<Banner*>()->text().startsWith(QStringLiteral("Onboard record")));
   EXPECT_TRUE(label("shownRun").contains(QStringLiteral("ONBOARD")));
   EXPECT_FALSE(window_.state().snapshot()->iterations.front()->templates.empty());
   EXPECT_TRUE(window_.document().session().runs.empty()) << "a replay is no run";
@@ -183,7 +136,7 @@ TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
 }
 
 TEST_F(OnboardTest, AnAlteredTemplateIsFoundAndGoneTo) {
-  openSession();
+  openExample();
   runOnTheGround();
   Bytes bytes = onboardRecord();
   alterTemplate(bytes);
@@ -201,7 +154,7 @@ TEST_F(OnboardTest, AnAlteredTemplateIsFoundAndGoneTo) {
 }
 
 TEST_F(OnboardTest, ACompressedImageIsHeldToTheLimits) {
-  openSession();
+  openExample();
   runOnTheGround();
   const Bytes pixels = compressed(window_.state().currentCase()->problem().image, 90);
   drop(write(onboardRecord(&pixels)));
@@ -218,7 +171,7 @@ TEST_F(OnboardTest, ACompressedImageIsHeldToTheLimits) {
 }
 
 TEST_F(OnboardTest, WhatCannotBeReadIsTold) {
-  openSession();
+  openExample();
   drop(folder_.write("not.whsr", "something else"));
   EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("is not an onboard record")));
   EXPECT_FALSE(one().onboard_record);

@@ -1,45 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Another option, and the run from the shown iteration on anew.
-#include <gtest/gtest.h>
-
-#include <functional>
-
-#include <QAction>
-#include <QStandardPaths>
-#include <QtTest/QTest>
-
 #include "sessions/session/case_run.h"
-#include "sessions/session/session_maker.h"
-#include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
-#include "ui/window/main_window.h"
+#include "tests/ui/window_test.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr int kPatienceMs = 120'000;
 constexpr int kFrom = 2;
 
-class RerunTest : public ::testing::Test {
+class RerunTest : public test::WindowTest {
  protected:
-  RerunTest() {
-    QStandardPaths::setTestModeEnabled(true);
-    window_.setQuiet(true);
-    window_.show();
-  }
-
-  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
-  bool rests() {
-    return wait(
-        [&] { return !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking; });
-  }
-
   /// A session of one case with its whole run; the cursor stands on an iteration of it.
   void openAndRun() {
-    ASSERT_TRUE(
-        window_.document().create(folder_.path() / "one.boresight.json",
-                                  sessions::makeSession(test::exampleFolder() / "dataset.json")));
-    ASSERT_TRUE(wait([&] { return window_.state().currentCase() != nullptr; }));
+    openExample();
     QTest::keyClick(&window_, Qt::Key_F5);
     ASSERT_TRUE(wait([&] { return runs().size() == 1; }));
     ASSERT_TRUE(rests());
@@ -61,8 +34,6 @@ class RerunTest : public ::testing::Test {
     ASSERT_TRUE(rests());
   }
 
-  test::TemporaryFolder folder_;
-  MainWindow window_;
   ViewState::SnapshotPtr first_;
 };
 

@@ -7,13 +7,11 @@
 #include <cstdlib>
 #include <exception>
 
-#include <QApplication>
-#include <QKeyEvent>
-#include <QStandardPaths>
+#include <QtWidgets>
 
 #include "core/base/random.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/session/session_json.h"
+#include "sessions/session/session_file.h"
 #include "ui/window/main_window.h"
 
 using namespace boresight;
@@ -54,9 +52,7 @@ class Operator {
     window_.repaint();
     const std::string text =
         sessions::sessionText(window_.document().session(), window_.document().file());
-    std::puts(
-        sessions::sha256Text({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()})
-            .c_str());
+    std::puts(sessions::sha256Text(text).c_str());
     std::fflush(stdout);
   }
 

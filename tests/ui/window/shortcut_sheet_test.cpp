@@ -3,12 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <QAction>
-#include <QLabel>
-#include <QMap>
-#include <QMenu>
-#include <QMenuBar>
-#include <QStandardPaths>
+#include <QtWidgets>
 
 #include "ui/window/main_window.h"
 
@@ -28,7 +23,7 @@ TEST(ShortcutSheet, ListsEveryKeyOfTheWindow) {
   const QString all = textsOf(sheet).join(QLatin1Char('\n'));
   int keys = 0;
   for (const QAction* action : window.findChildren<QAction*>()) {
-    if (action->shortcut().isEmpty() || action->parent() != &window) continue;
+    if (action->shortcut().isEmpty() || !qobject_cast<QMenu*>(action->parent())) continue;
     ++keys;
     EXPECT_TRUE(all.contains(action->shortcut().toString(QKeySequence::NativeText).toHtmlEscaped()))
         << action->text().toStdString();

@@ -8,14 +8,8 @@
 #include <csignal>
 #include <functional>
 
-#include <QAbstractButton>
-#include <QApplication>
-#include <QFileDialog>
-#include <QLineEdit>
-#include <QMessageBox>
-#include <QStandardPaths>
-#include <QTimer>
 #include <QtTest/QTest>
+#include <QtWidgets>
 
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_file.h"

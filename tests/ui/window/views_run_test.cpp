@@ -1,43 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The images of a rig run as one from the window.
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <functional>
-
-#include <QAction>
-#include <QLabel>
-#include <QStandardPaths>
-#include <QtTest/QTest>
 
 #include "sessions/session/views_run.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/turned_view.h"
-#include "ui/window/main_window.h"
+#include "tests/ui/window_test.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr int kPatienceMs = 120'000;
-
-class ViewsRunWindowTest : public ::testing::Test {
+class ViewsRunWindowTest : public test::WindowTest {
  protected:
-  ViewsRunWindowTest() {
-    QStandardPaths::setTestModeEnabled(true);
-    window_.setQuiet(true);
-    window_.show();
-  }
-
-  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatienceMs); }
-  bool rests() {
-    return wait(
-        [&] { return !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking; });
-  }
-  void open(const sessions::Session& session) {
-    ASSERT_TRUE(window_.document().create(folder_.path() / "two.boresight.json", session));
-    ASSERT_TRUE(wait([&] { return window_.state().currentCase() != nullptr; }));
-    ASSERT_TRUE(rests());
-  }
   QAction* together() {
     for (QAction* each : window_.findChildren<QAction*>())
       if (each->text().remove(QLatin1Char('&')) == QStringLiteral("Run with the other views"))
@@ -46,16 +19,13 @@ class ViewsRunWindowTest : public ::testing::Test {
   }
   const sessions::Session& session() { return window_.document().session(); }
   QString banner() { return window_.findChild<QLabel*>(QStringLiteral("standing"))->text(); }
-
-  test::TemporaryFolder folder_;
-  MainWindow window_;
 };
 
 TEST_F(ViewsRunWindowTest, EveryViewGetsARunThatIsTheSameHeadless) {
   open(test::sessionOfTwoViews(folder_.path()));
   ASSERT_TRUE(together() && together()->isEnabled());
   std::size_t most = 0;
-  QObject::connect(&window_.state(), &ViewState::snapshotChanged, [&] {
+  QObject::connect(&window_.state(), &ViewState::changed, [&] {
     const auto& shown = window_.state().snapshot();
     if (shown && !shown->finished) most = std::max(most, shown->iterations.size());
   });

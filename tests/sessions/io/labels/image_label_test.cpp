@@ -15,17 +15,7 @@
 namespace boresight::sessions {
 namespace {
 
-using test::Bytes;
-using test::cameraItems;
-using test::exampleModel;
-using test::GroupItems;
-using test::Pds3File;
-using test::pds3Group;
-using test::Pds4File;
-using test::Raster;
 using test::TemporaryFolder;
-using test::VicarFile;
-using test::vicarProperty;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
@@ -91,7 +81,7 @@ std::string pds4Vector(const std::string& name, const Eigen::Vector3d& v, const 
     const std::string tag =
         suffix[0] == 'c' ? "c" + std::to_string(i) : std::string(1, "xyz"[i]) + suffix;
     text += "<geom:" + tag + (suffix == std::string("_position") ? " unit=\"m\"" : "") + ">" +
-            test::decimals(v[i]) + "</geom:" + tag + ">";
+            decimals(v[i]) + "</geom:" + tag + ">";
   }
   return text + "</geom:" + name + ">";
 }
@@ -121,8 +111,8 @@ std::string pds4Camera(const CahvModel& cahv) {
   if (kind > 1)
     model += pds4Vector("Entrance_Terms", cahv.e_m, "c") + "<geom:cahvore_model_type>" +
              std::to_string(cahv.type) +
-             "</geom:cahvore_model_type><geom:cahvore_model_parameter>" +
-             test::decimals(cahv.parameter) + "</geom:cahvore_model_parameter>";
+             "</geom:cahvore_model_type><geom:cahvore_model_parameter>" + decimals(cahv.parameter) +
+             "</geom:cahvore_model_parameter>";
   return "<geom:Geometry><geom:Geometry_Lander><geom:Camera_Model_Parameters><geom:model_type>" +
          std::string(names[kind]) + "</geom:model_type><geom:" + names[kind] + "_Model>" + model +
          "</geom:" + names[kind] + "_Model><geom:Coordinate_Space_Reference>" + kNavFrame +
@@ -160,8 +150,8 @@ TEST(ImageLabel, UnitsBlanksAndWordsForNothingAreUnderstood) {
   GroupItems items = cameraItems(cahv);
   for (auto& [key, value] : items)
     if (key == "MODEL_COMPONENT_1")
-      value = "(" + test::decimals(cahv.c_m.x()) + " <m>," + test::decimals(cahv.c_m.y()) +
-              " <m>," + test::decimals(cahv.c_m.z()) + " <m>)";
+      value = "(" + decimals(cahv.c_m.x()) + " <m>," + decimals(cahv.c_m.y()) + " <m>," +
+              decimals(cahv.c_m.z()) + " <m>)";
   items.emplace_back("FILTER_NAME", "\"N/A\"");
   items.emplace_back("SOLUTION_ID", "\"telemetry   \r\n   and more \"");
   items.emplace_back("CALIBRATION_SOURCE_ID", "UNK");
@@ -299,7 +289,7 @@ TEST(ImageLabel, OfTwoLabelsInAFileTheOneWithAModelCounts) {
   const CahvModel other = exampleModel(CameraModel::kCahvor, 61, 31, 24);
   const auto read = [&](const CahvModel* in_pds, const CahvModel* in_vicar) {
     VicarFile vicar;
-    vicar.store = test::Store::kHalf;
+    vicar.store = Store::kHalf;
     vicar.big_endian = true;
     if (in_vicar != nullptr)
       vicar.items = vicarProperty("GEOMETRIC_CAMERA_MODEL", cameraItems(*in_vicar));

@@ -16,15 +16,7 @@
 namespace boresight::sessions {
 namespace {
 
-using test::cameraItems;
-using test::exampleModel;
-using test::GroupItems;
-using test::Pds3File;
-using test::pds3Group;
-using test::Raster;
 using test::TemporaryFolder;
-using test::VicarFile;
-using test::vicarProperty;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Constants of labels that stand for no measurement, as labels write them.
-#include "sessions/io/labels/label_constants.h"
+#include "sessions/io/labels/label_samples.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,17 +11,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/labels/label_samples.h"
 #include "tests/sessions/io/labels/label_fixture.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
 
-using test::Pds3File;
-using test::Pds4File;
-using test::Raster;
-using test::Store;
 using test::TemporaryFolder;
 
 /// Whether the constant, stated so, takes the sample for none.

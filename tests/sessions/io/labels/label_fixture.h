@@ -6,15 +6,15 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "core/geometry/cahv_model.h"
 
-namespace boresight::test {
+namespace boresight::sessions {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -35,6 +35,10 @@ struct Raster {
     for (std::size_t i = 0; i < static_cast<std::size_t>(width * height * bands); ++i)
       raster.samples.push_back(value(i));
     return raster;
+  }
+  /// Samples 0, 1, 2, ...
+  static Raster counting(int width, int height, int bands = 1) {
+    return filled(width, height, bands, [](std::size_t i) { return double(i); });
   }
 };
 
@@ -355,13 +359,12 @@ inline GroupItems cameraItems(const CahvModel& cahv, const std::string& order = 
   return items;
 }
 
-inline void writeBytes(const std::filesystem::path& file, const Bytes& bytes) {
-  std::ofstream(file, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
+/// The text with `to` in place of the first `from`.
+inline std::string altered(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
+inline std::string textOf(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
 
-inline void writeText(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream(file, std::ios::binary) << text;
-}
-
-}  // namespace boresight::test
+}  // namespace boresight::sessions

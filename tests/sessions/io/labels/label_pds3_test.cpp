@@ -16,21 +16,9 @@
 namespace boresight::sessions {
 namespace {
 
-using test::Bytes;
-using test::Pds3File;
-using test::Raster;
-using test::Store;
 using test::TemporaryFolder;
 using ::testing::Contains;
 using ::testing::HasSubstr;
-
-std::string altered(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
-
-std::string textOf(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
 
 /// The label with IMAGE and its pointer in an object FILE of its own length of records.
 std::string nested(const std::string& label, const std::string& pointer) {
@@ -147,7 +135,7 @@ TEST(LabelPds3, BytesBehindLinesAreRefused) {
   pds.sample_type = "UNSIGNED_INTEGER";
   pds.store = Store::kByte;
   pds.pixels_file = "p.dat";
-  const Raster raster = Raster::filled(16, 4, 1, [](std::size_t i) { return double(i); });
+  const Raster raster = Raster::counting(16, 4);
   folder.write("p.dat", stored(raster, "BAND", 8));
   const auto read = [&](const std::string& items) {
     pds.image_items = items;
@@ -163,7 +151,7 @@ TEST(LabelPds3, BytesBehindLinesAreRefused) {
 
 TEST(LabelPds3, SampleTypesThatWouldBeReadOtherwiseAreRefused) {
   const TemporaryFolder folder;
-  const Raster raster = Raster::filled(16, 4, 1, [](std::size_t i) { return double(i); });
+  const Raster raster = Raster::counting(16, 4);
   const auto read = [&](const char* type, Store store, bool big_endian = true) {
     Pds3File pds;
     pds.sample_type = type;
@@ -182,7 +170,7 @@ TEST(LabelPds3, SampleTypesThatWouldBeReadOtherwiseAreRefused) {
 
 TEST(LabelPds3, PointersAreUnderstoodOrRefused) {
   const TemporaryFolder folder;
-  const Raster raster = Raster::filled(8, 8, 1, [](std::size_t i) { return double(i); });
+  const Raster raster = Raster::counting(8, 8);
   Pds3File pds;
   folder.write("p.dat", pds.pixels(raster));
   Bytes shifted(100, 0x55);
@@ -218,7 +206,7 @@ TEST(LabelPds3, PointersAreUnderstoodOrRefused) {
 
 TEST(LabelPds3, OfSeveralImagesTheFirstIsReadAndNothingOfTheOthers) {
   const TemporaryFolder folder;
-  const Raster raster = Raster::filled(8, 8, 1, [](std::size_t i) { return double(i); });
+  const Raster raster = Raster::counting(8, 8);
   Pds3File pds;
   pds.pixels_file = "p.dat";
   folder.write("p.dat", pds.pixels(raster));
@@ -235,7 +223,7 @@ TEST(LabelPds3, OfSeveralImagesTheFirstIsReadAndNothingOfTheOthers) {
 
 TEST(LabelPds3, HashIsOfTheLabelAndThePixelsAsTheyAre) {
   const TemporaryFolder folder;
-  const Raster raster = Raster::filled(8, 8, 1, [](std::size_t i) { return double(i); });
+  const Raster raster = Raster::counting(8, 8);
   Pds3File pds;
   pds.pointer = "'P.DAT'";
   pds.items = "^BROWSE_IMAGE = \"B.DAT\"\r\nEXPOSURE = 1.5D-03\r\n";
@@ -275,7 +263,7 @@ TEST(LabelPds3, LabelThatDoesNotEndIsRefusedSoon) {
 
 TEST(LabelPds3, LinesAreReadAsStoredWhateverTheirDisplay) {
   const TemporaryFolder folder;
-  const Raster raster = Raster::filled(8, 8, 1, [](std::size_t i) { return double(i); });
+  const Raster raster = Raster::counting(8, 8);
   Pds3File pds;
   pds.image_items = " LINE_DISPLAY_DIRECTION = DOWN\r\n SAMPLE_DISPLAY_DIRECTION = RIGHT\r\n";
   EXPECT_TRUE(readImage(folder.write("a.img", pds.bytes(raster))).notes.empty());

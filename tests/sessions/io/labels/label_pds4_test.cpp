@@ -14,22 +14,12 @@
 namespace boresight::sessions {
 namespace {
 
-using test::Bytes;
-using test::Pds4File;
-using test::Raster;
-using test::Store;
 using test::TemporaryFolder;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-std::string altered(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
 
 /// Of bytes 8 x 8: <name>...</name> with its offset and constants.
 std::string arrayOf(const std::string& name, const std::string& id, int offset,
@@ -120,7 +110,7 @@ TEST(LabelPds4, SignedBytesAreSigned) {
   for (std::size_t i = 0; i < 256; ++i)
     ASSERT_NEAR(samples.offset + samples.scale * samples.values[i], double(i) - 128.0, 1e-9);
   EXPECT_THAT(readImage(folder / "a.xml").rule, HasSubstr("8-bit signed integers"));
-  const Raster positive = Raster::filled(8, 8, 1, [](std::size_t i) { return double(i); });
+  const Raster positive = Raster::counting(8, 8);
   folder.write("pixels.img", pds.pixels(positive));
   const ImageSamples whole = readSamples(folder.write("a.xml", pds.label(positive)));
   EXPECT_EQ(whole.sample_bits, 8);
@@ -129,7 +119,7 @@ TEST(LabelPds4, SignedBytesAreSigned) {
 
 TEST(LabelPds4, LinesAreReadAsStoredWhateverTheirDisplay) {
   const TemporaryFolder folder;
-  const Raster raster = Raster::filled(8, 8, 1, [](std::size_t i) { return double(i); });
+  const Raster raster = Raster::counting(8, 8);
   const auto read = [&](const char* direction) {
     Pds4File pds;
     pds.discipline =

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/review/requirement_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "sessions/evaluation/pose_error.h"
+#include "sessions/session/check.h"
+#include "sessions/session/input_sigmas.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr CheckName kAnnotation{"agreement_annotation", "Agreement with the annotation"};
+constexpr CheckName kTruth{"agreement_truth", "Agreement with the truth"};
+constexpr CheckName kCamera{"agreement_camera", "Agreement with the other camera"};
+
+std::optional<Pose> endEffector(const ReviewSubject& subject) {
+  if (subject.loaded == nullptr) return {};
+  return subject.loaded->source.camera_from_end_effector;
+}
+
+/// How far two poses are apart: in words, and as the largest part of what is allowed.
+struct Distance {
+  double of_allowed = 0.0;            ///< 1: as far as allowed
+  bool covariance_dominates = false;  ///< it allows more than the requirement does
+  std::string text;
+};
+
+class Measure {
+ public:
+  /// `apart` is the covariance of the difference of both poses; zero: not known.
+  Measure(const ReviewSubject& subject, const Pose& other, const Matrix6d& apart, double sigmas)
+      : subject_(subject),
+        error_(poseError(other, subject.camera_from_station, endEffector(subject))),
+        sigmas_(sigmas),
+        sigma_(poseSigma(apart, endEffector(subject))) {
+    if (!subject.requirement.projection_px || subject.loaded == nullptr) return;
+    const Camera& camera = subject.loaded->source.camera;
+    const auto vertices = matchedVertices(subject.loaded->scene.view());
+    error_.projection_px = projectionError(camera, other, subject.camera_from_station, vertices);
+    sigma_px_ = projectionSigma(camera, subject.camera_from_station, vertices, apart);
+  }
+
+  Distance distance() {
+    const Requirement& required = subject_.requirement;
+    add(required.normal_mm, std::abs(error_.normal_mm), &PoseSigma::normal_mm, "mm along");
+    add(required.lateral_mm, error_.lateral_mm, &PoseSigma::lateral_mm, "mm across");
+    if (!made_.text.empty())
+      made_.text += std::string(" the view axis at the ") + judgedPlace(endEffector(subject_));
+    add(rotationLimit_mrad(required), error_.rotation_mrad, &PoseSigma::out_of_plane_mrad,
+        "mrad between the view axes");
+    constexpr double kHuge_px = 1e6;
+    if (required.projection_px)
+      note(error_.projection_px.value_or(kHuge_px), *required.projection_px,
+           sigmas_ * sigma_px_.value_or(0.0), "px in the image");
+    return made_;
+  }
+
+ private:
+  void add(std::optional<double> required, double error, double PoseSigma::*member,
+           const char* words) {
+    if (required) note(error, *required, sigma_ ? sigmas_ * (*sigma_.*member) : 0.0, words);
+  }
+
+  void note(double error, double required, double known_to, const char* words) {
+    const double allowed = std::hypot(required, known_to);
+    made_.of_allowed = std::max(made_.of_allowed, allowed > 0.0 ? error / allowed : 1e6);
+    made_.covariance_dominates = made_.covariance_dominates || known_to > required;
+    made_.text += (made_.text.empty() ? "" : ", ") + sentenceNumber(error) + " " + words;
+  }
+
+  const ReviewSubject& subject_;
+  PoseError error_;
+  double sigmas_;
+  std::optional<PoseSigma> sigma_;
+  std::optional<double> sigma_px_;
+  Distance made_;
+};
+
+Check agreementCheck(const CheckName& name, const ReviewSubject& subject, const OtherPose& other,
+                     const Matrix6d& apart, const CheckLimits& limits, const std::string& remedy) {
+  const Distance distance =
+      Measure(subject, other.camera_from_station, apart, limits.sigmas).distance();
+  if (distance.text.empty()) return notAskedCheck(name, "The requirement names nothing.");
+  std::string found = "The pose and " + other.from + " are apart by " + distance.text + ".";
+  if (distance.covariance_dominates)
+    found += " Their covariances allow more than the requirement does: this says little.";
+  return measuredCheck(name, "%", 100.0 * distance.of_allowed, limits.agreement_percent,
+                       LimitSide::kAtMost, found, remedy);
+}
+
+/// Of poses by one camera and mesh, whose errors are in both.
+Matrix6d apartOfOneCamera(const ReviewSubject& subject, const OtherPose& other) {
+  if (!other.covariance.known()) return Matrix6d::Zero();
+  return subject.covariance.picture + other.covariance.picture;
+}
+
+/// Of poses by two cameras that share the mesh.
+Matrix6d apartOfTwoCameras(const ReviewSubject& subject, const OtherPose& other) {
+  if (!other.covariance.known()) return Matrix6d::Zero();
+  return apartOfOneCamera(subject, other) + subject.covariance.calibration +
+         other.covariance.calibration;
+}
+
+Check camerasCheck(const ReviewSubject& subject, const CheckLimits& limits) {
+  if (subject.other_cameras.empty())
+    return notAskedCheck(kCamera, "No other camera of a rig has a pose.");
+  std::optional<Check> worst;
+  for (const OtherPose& other : subject.other_cameras) {
+    Check one = agreementCheck(kCamera, subject, other, apartOfTwoCameras(subject, other), limits,
+                               "One of both is wrong, or the cameras do not lie as the rig says: "
+                               "look at both overlays.");
+    if (!worst || one.figure.value_or(0.0) > worst->figure.value_or(0.0)) worst = std::move(one);
+  }
+  return *worst;
+}
+
+Check annotationCheck(const ReviewSubject& subject, const CheckLimits& limits) {
+  if (subject.source == PoseSource::kAnnotation)
+    return notAskedCheck(kAnnotation, "The pose is that of the annotation.");
+  if (!subject.annotated) return notAskedCheck(kAnnotation, "No marks give a pose.");
+  return agreementCheck(kAnnotation, subject, *subject.annotated,
+                        apartOfOneCamera(subject, *subject.annotated), limits,
+                        "Look where the overlay and the marks differ: one of both is wrong.");
+}
+
+Check truthCheck(const ReviewSubject& subject, const CheckLimits& limits) {
+  if (subject.loaded == nullptr || !subject.loaded->source.camera_from_station_truth)
+    return notAskedCheck(kTruth, "The case has no truth.");
+  const SessionCase& one = subject.loaded->source;
+  const OtherPose truth{"the truth",
+                        *one.camera_from_station_truth,
+                        {one.truth_covariance.value_or(Matrix6d::Zero())}};
+  return agreementCheck(kTruth, subject, truth, apartOfOneCamera(subject, truth), limits,
+                        truth.covariance.known()
+                            ? "One of both is wrong: look at the overlays of both."
+                            : "The pose does not meet the requirement: reject it.");
+}
+
+constexpr CheckName kNormal{"covariance_normal", "Covariance along the view axis"};
+constexpr CheckName kLateral{"covariance_lateral", "Covariance across the view axis"};
+constexpr CheckName kRotation{"covariance_rotation", "Covariance of the axis's direction"};
+constexpr CheckName kProjection{"covariance_projection", "Covariance in the image"};
+
+constexpr const char* kNotRequired = "The requirement does not name it.";
+constexpr const char* kNoCovariance = "The pose has no covariance.";
+constexpr const char* kPictureRemedy =
+    "The edges seen do not fix the pose so well: take a nearer image, or one that shows more of "
+    "the station.";
+constexpr const char* kInputsRemedy =
+    "The picture alone would pass: measure the part, calibrate the camera, and state how well "
+    "(mesh_scale_sigma, calibration_sigma); or take a nearer image.";
+
+/// One sigma of what is judged, of the picture alone and with mesh and camera.
+struct Sigmas {
+  double picture = 0.0;
+  double total = 0.0;
+};
+
+/// "3", "2.5".
+std::string sigmasText(double sigmas) {
+  std::string text = sentenceNumber(sigmas);
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+class PrecisionChecks {
+ public:
+  PrecisionChecks(const ReviewSubject& subject, const CheckLimits& limits)
+      : subject_(subject), limits_(limits) {
+    if (!subject.covariance.known()) return;
+    picture_ = poseSigma(subject.covariance.picture, endEffector(subject));
+    total_ = poseSigma(subject.covariance.total(), endEffector(subject));
+  }
+
+  /// At the end effector, or at the camera.
+  Check ofTranslation(const CheckName& name, double PoseSigma::*member,
+                      std::optional<double> required_mm) const {
+    return check(name, sigmasOf(member), required_mm, "mm",
+                 std::string(" at the ") + judgedPlace(endEffector(subject_)));
+  }
+
+  Check ofRotation(std::optional<double> required_mrad) const {
+    return check(kRotation, sigmasOf(&PoseSigma::out_of_plane_mrad), required_mrad, "mrad", "");
+  }
+
+  Check inImage(std::optional<double> required_px) const {
+    std::optional<Sigmas> sigmas;
+    if (required_px && picture_ && total_ && subject_.loaded != nullptr) {
+      const auto vertices = matchedVertices(subject_.loaded->scene.view());
+      const auto sigma_px = [&](const Matrix6d& covariance) {
+        return projectionSigma(subject_.loaded->source.camera, subject_.camera_from_station,
+                               vertices, covariance);
+      };
+      const auto picture_px = sigma_px(subject_.covariance.picture);
+      const auto total_px = sigma_px(subject_.covariance.total());
+      if (picture_px && total_px) sigmas = {*picture_px, *total_px};
+    }
+    return check(kProjection, sigmas, required_px, "px", "");
+  }
+
+ private:
+  std::optional<Sigmas> sigmasOf(double PoseSigma::*member) const {
+    if (!picture_ || !total_) return {};
+    return Sigmas{*picture_.*member, *total_.*member};
+  }
+
+  Check check(const CheckName& name, const std::optional<Sigmas>& sigma,
+              std::optional<double> required, const std::string& unit,
+              const std::string& place) const {
+    if (!required) return notAskedCheck(name, kNotRequired);
+    if (!sigma) return notAskedCheck(name, kNoCovariance);
+    const double figure = limits_.sigmas * sigma->total;
+    const bool by_inputs = limits_.sigmas * sigma->picture <= *required;
+    return measuredCheck(name, unit, figure, *required, LimitSide::kAtMost,
+                         sigmasText(limits_.sigmas) + " sigma" + place + " are " +
+                             sentenceNumber(figure) + " " + unit + ". " + inputsText(*sigma, unit),
+                         by_inputs ? kInputsRemedy : kPictureRemedy);
+  }
+
+  std::string inputsText(const Sigmas& sigma, const std::string& unit) const {
+    const double inputs =
+        std::sqrt(std::max(0.0, sigma.total * sigma.total - sigma.picture * sigma.picture));
+    std::string text = "The picture alone says " + sentenceNumber(limits_.sigmas * sigma.picture) +
+                       " " + unit + "; the pose is no better than the mesh's scale";
+    if (subject_.loaded == nullptr) return text + " and the camera's calibration allow.";
+    const InputSigmas known(subject_.loaded->source);
+    return text + " (" + meshScaleText(known) + ") and the camera's calibration (" +
+           calibrationText(known) + ") allow: " + sentenceNumber(limits_.sigmas * inputs) + " " +
+           unit + ".";
+  }
+
+  const ReviewSubject& subject_;
+  const CheckLimits& limits_;
+  std::optional<PoseSigma> picture_;
+  std::optional<PoseSigma> total_;
+};
+
+}  // namespace
+
+void addAgreementChecks(const ReviewSubject& subject, const CheckLimits& limits,
+                        std::vector<Check>& checks) {
+  checks.push_back(annotationCheck(subject, limits));
+  checks.push_back(truthCheck(subject, limits));
+  checks.push_back(camerasCheck(subject, limits));
+}
+
+bool withinRequirement(const ReviewSubject& subject, const Pose& camera_from_station) {
+  const Distance distance = Measure(subject, camera_from_station, Matrix6d::Zero(), 0.0).distance();
+  return !distance.text.empty() && distance.of_allowed <= 1.0;
+}
+
+void addPrecisionChecks(const ReviewSubject& subject, const CheckLimits& limits,
+                        std::vector<Check>& checks) {
+  const PrecisionChecks made(subject, limits);
+  const Requirement& required = subject.requirement;
+  checks.push_back(made.ofTranslation(kNormal, &PoseSigma::normal_mm, required.normal_mm));
+  checks.push_back(made.ofTranslation(kLateral, &PoseSigma::lateral_mm, required.lateral_mm));
+  checks.push_back(made.ofRotation(rotationLimit_mrad(required)));
+  checks.push_back(made.inImage(required.projection_px));
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/review/requirement_checks.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "sessions/review/checks.h"
+#include "sessions/review/pose_uncertainty.h"
+#include "sessions/review/run_checks.h"
+#include "tests/sessions/review/drawn_box.h"
+#include "tests/sessions/review/find_check.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::DrawnBox;
+using test::findCheck;
+
+/// At half a metre, with 0.4 mm asked for along and across the view axis.
+ReviewSubject someSubject() {
+  ReviewSubject subject;
+  subject.loaded = std::make_shared<LoadedCase>();
+  subject.camera_from_station.translation_m = {0.0, 0.0, 0.5};
+  subject.requirement = {0.4, 0.4, 0.25, {}};
+  return subject;
+}
+
+Pose movedBy(const ReviewSubject& subject, double x_mm, double z_mm) {
+  Pose moved = subject.camera_from_station;
+  moved.translation_m += 1e-3 * Eigen::Vector3d(x_mm, 0.0, z_mm);
+  return moved;
+}
+
+Check checkOf(const ReviewSubject& subject, const std::string& id) {
+  std::vector<Check> checks;
+  addAgreementChecks(subject, CheckLimits(), checks);
+  return findCheck(checks, id);
+}
+
+TEST(AgreementChecks, NothingToCompareWithIsNotApplicable) {
+  for (const char* id : {"agreement_annotation", "agreement_truth", "agreement_camera"})
+    EXPECT_EQ(checkOf(someSubject(), id).state, CheckState::kNotApplicable) << id;
+}
+
+TEST(AgreementChecks, TheTruthIsHeldToTheRequirement) {
+  ReviewSubject subject = someSubject();
+  auto loaded = std::make_shared<LoadedCase>();
+  loaded->source.camera_from_station_truth = movedBy(subject, 0.1, -0.3);
+  subject.loaded = loaded;
+  EXPECT_NEAR(checkOf(subject, "agreement_truth").figure.value(), 75.0, 1e-6);
+  EXPECT_EQ(checkOf(subject, "agreement_truth").state, CheckState::kPassed);
+  loaded->source.camera_from_station_truth = movedBy(subject, 0.6, 0.0);
+  EXPECT_NEAR(checkOf(subject, "agreement_truth").figure.value(), 150.0, 1e-6);
+  EXPECT_EQ(checkOf(subject, "agreement_truth").state, CheckState::kFailed);
+}
+
+TEST(AgreementChecks, ACoarseTruthOfAnnotationsAllowsItsOwnSigmasAndSaysThatItTellsLittle) {
+  ReviewSubject subject = someSubject();
+  auto loaded = std::make_shared<LoadedCase>();
+  setTruth(loaded->source, movedBy(subject, 0.0, 8.0));
+  subject.loaded = loaded;
+  EXPECT_NEAR(checkOf(subject, "agreement_truth").figure.value(), 2000.0, 1e-6) << "it is exact";
+  // 3 sigma of 10 mm along the view axis, of the truth and of the pose together.
+  setTruth(loaded->source, movedBy(subject, 0.0, 8.0), Matrix6d(9.9e-5 * Matrix6d::Identity()));
+  subject.covariance.picture = 1e-6 * Matrix6d::Identity();
+  const Check check = checkOf(subject, "agreement_truth");
+  EXPECT_NEAR(check.figure.value(), 100.0 * 8.0 / std::hypot(0.4, 30.0), 1e-6);
+  EXPECT_EQ(check.state, CheckState::kPassed);
+  EXPECT_NE(check.sentence.find("says little"), std::string::npos) << check.sentence;
+}
+
+TEST(AgreementChecks, AnnotationAndRunShareTheErrorsOfMeshAndCamera) {
+  ReviewSubject subject = someSubject();
+  subject.covariance = {1e-12 * Matrix6d::Identity(), Matrix6d::Identity(), Matrix6d::Identity()};
+  subject.annotated.emplace();
+  subject.annotated->camera_from_station = movedBy(subject, 0.0, 0.8);
+  subject.annotated->covariance.picture = 1e-12 * Matrix6d::Identity();
+  EXPECT_NEAR(checkOf(subject, "agreement_annotation").figure.value(), 200.0, 0.1);
+}
+
+TEST(AgreementChecks, CalibrationsOfTwoCamerasAreIndependent) {
+  ReviewSubject subject = someSubject();
+  OtherPose other{"left", movedBy(subject, 0.0, 0.8), {1e-12 * Matrix6d::Identity(), {}, {}}};
+  other.covariance.mesh_scale = other.covariance.calibration = Matrix6d::Zero();
+  other.covariance.calibration(5, 5) = 1e-8;
+  subject.covariance = other.covariance;
+  subject.other_cameras = {other};
+  EXPECT_NEAR(checkOf(subject, "agreement_camera").figure.value(),
+              100.0 * 0.8 / std::hypot(0.4, 0.3 * std::sqrt(2.0)), 0.1);
+}
+
+TEST(AgreementChecks, TheSentenceSaysWhereThePosesAreApart) {
+  ReviewSubject subject = someSubject();
+  auto loaded = std::make_shared<LoadedCase>();
+  setTruth(loaded->source, movedBy(subject, 0.1, -0.3));
+  subject.loaded = loaded;
+  const auto sentence = [&] { return checkOf(subject, "agreement_truth").sentence; };
+  EXPECT_NE(sentence().find("across the view axis at the camera"), std::string::npos) << sentence();
+  loaded->source.camera_from_end_effector = Pose();
+  EXPECT_NE(sentence().find("at the end effector"), std::string::npos) << sentence();
+}
+
+TEST(AgreementChecks, ACoarseAnnotationAllowsItsOwnSigmasAndSaysThatItTellsLittle) {
+  ReviewSubject subject = someSubject();
+  subject.annotated.emplace();
+  subject.annotated->camera_from_station = movedBy(subject, 0.6, 0.0);
+  EXPECT_EQ(checkOf(subject, "agreement_annotation").state, CheckState::kFailed);
+  // 3 sigma of 0.4 mm per axis: across the axis 3 sqrt(2) 0.4 mm and the requirement together.
+  subject.annotated->covariance.picture = 1.6e-7 * Matrix6d::Identity();
+  const Check check = checkOf(subject, "agreement_annotation");
+  EXPECT_NEAR(check.figure.value(), 100.0 * 0.6 / std::hypot(0.4, 1.2 * std::sqrt(2.0)), 1e-6);
+  EXPECT_EQ(check.state, CheckState::kPassed);
+  EXPECT_NE(check.sentence.find("says little"), std::string::npos) << check.sentence;
+}
+
+TEST(AgreementChecks, OfSeveralCamerasTheFarthestCounts) {
+  ReviewSubject subject = someSubject();
+  const PoseCovariance unknown;
+  subject.other_cameras = {{"left", movedBy(subject, 0.1, 0.0), unknown},
+                           {"top", movedBy(subject, 0.0, 0.8), unknown},
+                           {"right", movedBy(subject, 0.2, 0.0), unknown}};
+  const Check check = checkOf(subject, "agreement_camera");
+  EXPECT_NEAR(check.figure.value(), 200.0, 1e-6);
+  EXPECT_NE(check.sentence.find("top"), std::string::npos) << check.sentence;
+}
+
+TEST(AgreementChecks, WithinTheRequirementIsWithinAllOfIt) {
+  const ReviewSubject subject = someSubject();
+  EXPECT_TRUE(withinRequirement(subject, movedBy(subject, 0.3, 0.3)));
+  EXPECT_FALSE(withinRequirement(subject, movedBy(subject, 0.3, 0.5)));
+  Pose turned = subject.camera_from_station;
+  turned.rotation = rotationExp({0.005, 0.0, 0.0}) * turned.rotation;
+  EXPECT_FALSE(withinRequirement(subject, turned));
+}
+
+std::vector<Check> basinChecks(const std::optional<BasinResult>& basin) {
+  std::vector<Check> checks;
+  addBasinChecks(basin, CheckLimits(), checks);
+  return checks;
+}
+
+TEST(BasinChecks, SeedsThatDoNotLeadBackFailAtTheLimit) {
+  EXPECT_EQ(findCheck(basinChecks({}), "basin_returned").state, CheckState::kNotApplicable);
+  EXPECT_EQ(findCheck(basinChecks({}), "basin_rival").state, CheckState::kNotApplicable);
+  const double limit = CheckLimits().basin_percent;
+  BasinResult basin{100, 100, static_cast<int>(limit), 0.5, {}};
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").figure, limit);
+  EXPECT_TRUE(allPassed(basinChecks(basin)));
+  --basin.returned;
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").state, CheckState::kFailed);
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kPassed);
+}
+
+TEST(BasinChecks, WhereNoOtherSeedCameToAPoseThereIsNothingToCompareWith) {
+  const BasinResult basin{10, 10, 0, 0.5, {}};
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").state, CheckState::kFailed);
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kNotApplicable);
+}
+
+TEST(BasinChecks, OnlyABetterAnswerElsewhereSpeaksAgainstThePose) {
+  BasinResult basin{10, 10, 9, 0.5, {{Pose(), false, 0.3}}};
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kPassed);
+  EXPECT_NEAR(findCheck(basinChecks(basin), "basin_rival").figure.value(), 60.0, 1e-9);
+  basin.rivals.push_back({Pose(), false, 0.7});
+  const Check other = findCheck(basinChecks(basin), "basin_rival");
+  EXPECT_EQ(other.state, CheckState::kFailed);
+  EXPECT_NE(other.sentence.find("another pose 70 %"), std::string::npos) << other.sentence;
+  basin.rivals.push_back({Pose(), true, 0.8});
+  const Check mirrored = findCheck(basinChecks(basin), "basin_rival");
+  EXPECT_NE(mirrored.sentence.find("mirror image of the station 80 %"), std::string::npos)
+      << mirrored.sentence;
+  basin.coverage = 0.0;
+  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kFailed);
+}
+
+Check onboardCheck(const ReviewSubject& subject) {
+  std::vector<Check> checks;
+  addOnboardCheck(subject, checks);
+  return findCheck(checks, "agreement_onboard");
+}
+
+TEST(OnboardCheck, SaysWhatTheComparisonFound) {
+  ReviewSubject subject = someSubject();
+  EXPECT_EQ(onboardCheck(subject).state, CheckState::kNotApplicable);
+  subject.onboard.emplace();
+  subject.onboard->verdict = RunVerdict::kEqual;
+  EXPECT_EQ(onboardCheck(subject).state, CheckState::kPassed);
+  subject.onboard->first.emplace();
+  subject.onboard->first->text = "The pixels differ.";
+  subject.onboard->verdict = RunVerdict::kWithinLimits;
+  EXPECT_EQ(onboardCheck(subject).state, CheckState::kPassed);
+  EXPECT_NE(onboardCheck(subject).sentence.find("The pixels differ."), std::string::npos);
+  subject.onboard->verdict = RunVerdict::kDifferent;
+  EXPECT_EQ(onboardCheck(subject).state, CheckState::kFailed);
+}
+
+/// Independent sigmas: 1 mrad about every axis, 0.1, 0.1 and 0.2 mm along them.
+Matrix6d someCovariance() {
+  Vector6d sigma;
+  sigma << 1e-3, 1e-3, 1e-3, 1e-4, 1e-4, 2e-4;
+  return sigma.cwiseAbs2().asDiagonal();
+}
+
+std::vector<Check> checksOf(const ReviewSubject& subject, const CheckLimits& limits) {
+  std::vector<Check> checks;
+  addPrecisionChecks(subject, limits, checks);
+  return checks;
+}
+
+TEST(PrecisionChecks, SigmasAreSetAgainstWhatTheRequirementNames) {
+  const DrawnBox box;
+  ReviewSubject subject = box.subject(box.camera_from_station_);
+  subject.covariance.picture = someCovariance();
+  subject.requirement = {0.5, 0.5, {}, {}};
+  const auto checks = checksOf(subject, CheckLimits());
+  EXPECT_NEAR(findCheck(checks, "covariance_normal").figure.value(), 0.6, 1e-9);
+  EXPECT_EQ(findCheck(checks, "covariance_normal").state, CheckState::kFailed);
+  EXPECT_NEAR(findCheck(checks, "covariance_lateral").figure.value(), 0.3 * std::sqrt(2.0), 1e-9);
+  EXPECT_EQ(findCheck(checks, "covariance_lateral").state, CheckState::kPassed);
+  EXPECT_EQ(findCheck(checks, "covariance_rotation").state, CheckState::kNotApplicable);
+}
+
+TEST(PrecisionChecks, InTheImageTheyAreTheSpreadOfTheEdges) {
+  const DrawnBox box;
+  ReviewSubject subject = box.subject(box.camera_from_station_);
+  // 0.5 mm along x at half a metre with f = 1000 px: a pixel, whatever the place's depth makes of
+  // it.
+  subject.covariance.picture(3, 3) = 0.5e-3 * 0.5e-3;
+  subject.requirement = {{}, {}, {}, 3.5};
+  const Check check = findCheck(checksOf(subject, CheckLimits()), "covariance_projection");
+  EXPECT_NEAR(check.figure.value(), 3.0, 0.25);
+  EXPECT_EQ(check.state, CheckState::kPassed);
+}
+
+TEST(PrecisionChecks, WithoutACovarianceThereIsNothingToAsk) {
+  const DrawnBox box;
+  ReviewSubject subject = box.subject(box.camera_from_station_);
+  EXPECT_EQ(findCheck(checksOf(subject, CheckLimits()), "covariance_normal").state,
+            CheckState::kNotApplicable);
+}
+
+TEST(PrecisionChecks, ScaleAndCalibrationCountWhereNobodyStatedThem) {
+  const DrawnBox box;
+  ReviewSubject subject = box.subject(box.camera_from_station_);
+  const SessionCase& one = subject.loaded->source;
+  subject.covariance = poseCovariance(one, subject.loaded->scene.view(),
+                                      subject.camera_from_station, 1e-12 * Matrix6d::Identity());
+  // 0.02 % of half a metre twice over, less what the box's own depth tells of the focal length.
+  const Check check = findCheck(checksOf(subject, CheckLimits()), "covariance_normal");
+  EXPECT_NEAR(check.figure.value(), 3.0 * 0.1 * std::sqrt(2.0), 0.02);
+  EXPECT_EQ(check.state, CheckState::kFailed) << "0.4 mm are required";
+  EXPECT_NE(check.sentence.find("no better than the mesh's scale (0.02 %, assumed) and the "
+                                "camera's calibration (0.02 % and "),
+            std::string::npos)
+      << check.sentence;
+  EXPECT_NE(check.sentence.find(" px, assumed) allow: 0.4"), std::string::npos) << check.sentence;
+  EXPECT_NE(check.sentence.find("state how well"), std::string::npos) << check.sentence;
+}
+
+TEST(PrecisionChecks, WhatIsStatedTakesThePlaceOfWhatIsAssumed) {
+  const DrawnBox box;
+  ReviewSubject subject = box.subject(box.camera_from_station_);
+  SessionCase one = subject.loaded->source;
+  const auto figure = [&](double mesh_scale, const CalibrationSigma& calibration) {
+    one.mesh_scale_sigma = mesh_scale;
+    one.calibration_sigma = calibration;
+    subject.covariance = poseCovariance(one, subject.loaded->scene.view(),
+                                        subject.camera_from_station, 1e-12 * Matrix6d::Identity());
+    return findCheck(checksOf(subject, CheckLimits()), "covariance_normal").figure.value();
+  };
+  EXPECT_NEAR(figure(0.0, {0.0, 0.0}), 0.003, 1e-6);
+  EXPECT_NEAR(figure(0.005, {0.0, 0.0}), 3.0 * 2.5, 1e-3) << "half a percent of half a metre";
+  EXPECT_NEAR(figure(0.0, {0.001, 0.0}), 3.0 * 0.5, 0.15);
+}
+
+TEST(PrecisionChecks, TheSentenceSaysWhere) {
+  const DrawnBox box;
+  ReviewSubject subject = box.subject(box.camera_from_station_);
+  subject.covariance.picture = someCovariance();
+  const auto sentence = [&] {
+    return findCheck(checksOf(subject, CheckLimits()), "covariance_normal").sentence;
+  };
+  EXPECT_EQ(sentence().rfind("3 sigma at the camera are ", 0), 0U) << sentence();
+  auto loaded = std::make_shared<LoadedCase>();
+  loaded->source.camera_from_end_effector = Pose();
+  subject.loaded = loaded;
+  EXPECT_EQ(sentence().rfind("3 sigma at the end effector are ", 0), 0U) << sentence();
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include <QAbstractTableModel>
+#include <QSortFilterProxyModel>
+
+#include "ui/models/number_text.h"
+
+namespace boresight::ui {
+
+/// What a column sorts by: a text, or a number (NaN where there is none).
+inline constexpr int kSortRole = Qt::UserRole;
+
+/// One column of a table: its head, and what its cells show.
+template <class Row>
+struct TableColumn {
+  using Value = std::function<QVariant(const Row& row)>;
+
+  TableColumn(QString title_, QString help_, int decimals_, Value value_, Value sort_ = Value())
+      : title(std::move(title_)),
+        help(std::move(help_)),
+        decimals(decimals_),
+        value(std::move(value_)),
+        sort(std::move(sort_)) {}
+
+  QString title;
+  QString help;  ///< with the unit: tool tip of the head, and of cells without one of their own
+  int decimals;  ///< of its numbers; -1: text
+  Value value;   ///< a number (NaN: none) or a text
+  Value sort;    ///< what it sorts by, where that is not the value
+};
+
+/// Numbers to the right, texts to the left.
+QVariant columnAlignment(int decimals);
+
+/// A table of rows of one type, whose columns are functions of a row.
+template <class Row>
+class RowsModel : public QAbstractTableModel {
+ public:
+  RowsModel(std::vector<TableColumn<Row>> columns, QObject* parent)
+      : QAbstractTableModel(parent), columns_(std::move(columns)) {}
+
+  const std::vector<Row>& rows() const { return rows_; }
+  const Row& at(int row) const { return rows_[static_cast<std::size_t>(row)]; }
+  /// The first row that fulfils this, or -1.
+  template <class Test>
+  int firstRow(Test&& test) const {
+    for (int row = 0; row < rowCount(); ++row)
+      if (test(at(row))) return row;
+    return -1;
+  }
+
+  int rowCount(const QModelIndex& parent = {}) const override {
+    return parent.isValid() ? 0 : static_cast<int>(rows_.size());
+  }
+  int columnCount(const QModelIndex& parent = {}) const override {
+    return parent.isValid() ? 0 : static_cast<int>(columns_.size());
+  }
+
+  QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override {
+    if (!index.isValid() || index.row() >= rowCount()) return {};
+    const Row& row = at(index.row());
+    const QVariant own = look(row, index.column(), role);
+    return own.isValid() ? own
+                         : cell(row, columns_[static_cast<std::size_t>(index.column())], role);
+  }
+
+  QVariant headerData(int section, Qt::Orientation orientation,
+                      int role = Qt::DisplayRole) const override {
+    if (orientation != Qt::Horizontal || section < 0 || section >= columnCount()) return {};
+    const TableColumn<Row>& column = columns_[static_cast<std::size_t>(section)];
+    if (role == Qt::DisplayRole) return column.title;
+    return role == Qt::ToolTipRole ? column.help : QVariant();
+  }
+
+ protected:
+  /// What a cell has for a role beyond its column's value; an invalid one leaves it to the column.
+  virtual QVariant look(const Row& /*row*/, int /*column*/, int /*role*/) const { return {}; }
+
+  QVariant valueOf(const Row& row, int column) const {
+    return columns_[static_cast<std::size_t>(column)].value(row);
+  }
+
+  /// Rows that continue those before change in place and are appended, so that selections and
+  /// editors stay.
+  void setRows(std::vector<Row> rows, bool continues) {
+    const int before = rowCount();
+    const int after = static_cast<int>(rows.size());
+    if (!continues || after < before) {
+      beginResetModel();
+      rows_ = std::move(rows);
+      endResetModel();
+      return;
+    }
+    if (after > before) beginInsertRows({}, before, after - 1);
+    rows_ = std::move(rows);
+    if (after > before) endInsertRows();
+    if (before > 0) Q_EMIT dataChanged(index(0, 0), index(before - 1, columnCount() - 1));
+  }
+
+  /// In place where `key` gives the same for all rows.
+  template <class Key>
+  void setRowsByKey(std::vector<Row> rows, Key&& key) {
+    const bool same = std::equal(rows.begin(), rows.end(), rows_.begin(), rows_.end(),
+                                 [&key](const Row& a, const Row& b) { return key(a) == key(b); });
+    setRows(std::move(rows), same);
+  }
+
+ private:
+  static QVariant cell(const Row& row, const TableColumn<Row>& column, int role) {
+    switch (role) {
+      case Qt::DisplayRole: {
+        const QVariant value = column.value(row);
+        const bool text = column.decimals < 0 || value.userType() == QMetaType::QString;
+        return text ? value : numberText(value.toDouble(), column.decimals);
+      }
+      case kSortRole:
+        return column.sort ? column.sort(row) : column.value(row);
+      case Qt::ToolTipRole:
+        return column.help;
+      case Qt::TextAlignmentRole:
+        return columnAlignment(column.decimals);
+      default:
+        return {};
+    }
+  }
+
+  std::vector<TableColumn<Row>> columns_;
+  std::vector<Row> rows_;
+};
+
+/// Rows of a table that fulfil a condition, sorted by number or text; what has no number comes last
+/// either way.
+class RowsFilter : public QSortFilterProxyModel {
+  Q_OBJECT
+
+ public:
+  using Condition = std::function<bool(int row)>;
+
+  explicit RowsFilter(QObject* parent = nullptr);
+
+  /// Of the source's rows; none: all rows.
+  void setCondition(Condition condition);
+
+ protected:
+  bool filterAcceptsRow(int row, const QModelIndex& parent) const override;
+  bool lessThan(const QModelIndex& left, const QModelIndex& right) const override;
+
+ private:
+  Condition condition_;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names of what is drawn, in a corner of the picture.
+#pragma once
+
+#include <vector>
+
+#include <QColor>
+#include <QPainter>
+#include <QPointF>
+#include <QSizeF>
+#include <QString>
+
+#include "ui/views/layer.h"
+#include "ui/views/view_transform.h"
+
+class QPainter;
+
+namespace boresight::ui {
+
+/// What a layer is called while it shows something.
+struct LegendLine {
+  LayerId layer = LayerId::kTestEdges;
+  QString name;
+
+  bool operator==(const LegendLine&) const = default;
+};
+
+struct LegendEntry {
+  QColor color;
+  QString name;
+};
+
+/// In the upper left corner, on a dark ground of its own; without entries nothing.
+void paintLegend(QPainter& painter, const std::vector<LegendEntry>& entries);
+
+inline constexpr QColor kLoupeCrossColor(255, 255, 255, 210);
+
+/// The cross hairs of a loupe of this size, open about its middle, readable on dark and light.
+/// Leaves no brush behind.
+void paintLoupeCross(QPainter& painter, const QSizeF& loupe);
+
+/// Draws a mark with lines of constant width, whatever the zoom.
+void paintMark(QPainter& painter, const ViewTransform& transform, const Mark& mark,
+               const QColor& layer_color);
+
+/// Distance on the widget from a place to what is drawn of the mark.
+double distanceTo(const ViewTransform& transform, const Mark& mark, const QPointF& widget);
+
+/// What a tool is about to do, drawn over the image while a gesture is under way: a brush's track,
+/// or a polygon's outline.
+struct ToolPreview {
+  std::vector<QPointF> points;  ///< px
+  double radius_px = 0.0;       ///< of a brush; 0: an outline
+  bool filled = false;          ///< the area inside the outline too
+  QColor color;                 ///< with the opacity that it is drawn with
+};
+
+void paintPreview(QPainter& painter, const ViewTransform& transform, const ToolPreview& preview);
+
+}  // namespace boresight::ui
