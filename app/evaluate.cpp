@@ -184,7 +184,8 @@ sessions::Sitting sittingOf(const EvaluateArguments& arguments) {
   sessions::Sitting sitting = sessions::sittingHere();
   sitting.command = commandText();
   sitting.jobs = arguments.batch.jobs;
-  sitting.threads = sessions::threadsOf(arguments.batch.threads, arguments.batch.jobs);
+  sitting.threads = sessions::threadsOf(arguments.batch.threads, arguments.batch.memory_limit,
+                                        arguments.batch.jobs);
   sitting.kernels = kernelsName(arguments.batch.kernels);
   sitting.shard = arguments.shard;
   sitting.reseeds = arguments.batch.reseeds;

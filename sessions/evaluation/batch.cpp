@@ -248,7 +248,7 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
     RunSettings settings;
     settings.level = options_.keep_matches ? RecordLevel::kFull : RecordLevel::kSummary;
     settings.memory_limit = options_.memory_limit;
-    settings.threads = threadsOf(options_.threads, options_.jobs);
+    settings.threads = threadsOf(options_.threads, options_.memory_limit, options_.jobs);
     settings.kernels = options_.kernels;
     const LocalizationTrace trace =
         methods_.localize(options_.method, problem, options, settings, stop);

@@ -18,16 +18,16 @@ double secondsSince(Clock::time_point start) {
 }
 
 RunSettings resolved(RunSettings settings) {
-  const bool limited = settings.memory_limit > 0;
-  settings.threads = limited && settings.threads == 0 ? 1 : threadsOf(settings.threads);
-  if (limited) settings.kernels = Kernels::kPortable;
+  settings.threads = threadsOf(settings.threads, settings.memory_limit);
+  if (settings.memory_limit > 0) settings.kernels = Kernels::kPortable;
   return settings;
 }
 
 }  // namespace
 
-int threadsOf(int asked, int jobs) {
+int threadsOf(int asked, std::size_t memory_limit, int jobs) {
   if (asked > 0) return std::min(asked, Localizer::kMaxWorkers);
+  if (memory_limit > 0) return 1;
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   return std::clamp(cores / std::max(1, jobs), 1, Localizer::kMaxWorkers);
 }

@@ -94,9 +94,9 @@ inline LocalizationTrace localize(const LocalizationProblem& problem, const RunP
   return localize(problem, plan, RunSettings{.level = level}, stop);
 }
 
-/// Number of threads of one of `jobs` runs at the same time: `asked`, or the share of the machine's
-/// cores for 0.
-int threadsOf(int asked, int jobs = 1);
+/// Number of threads of one of `jobs` runs at the same time: `asked`; for 0 one within a memory
+/// limit (each thread needs memory of its own), else the share of the machine's cores.
+int threadsOf(int asked, std::size_t memory_limit, int jobs = 1);
 
 /// Bytes of what a problem points to: image, ignore mask, mesh.
 std::size_t inputBytes(const LocalizationProblem& problem);

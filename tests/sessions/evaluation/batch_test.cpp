@@ -65,6 +65,20 @@ TEST(RunBatch, GivesTheSameInTheSameOrderForAnyNumberOfJobs) {
   EXPECT_NE(alone[0].digest, alone[1].digest);
 }
 
+TEST(RunBatch, RunsWithinTheMemoryOfOneThread) {
+  const test::ExampleCase example("os");
+  BatchOptions options;
+  options.localizer = defaultProfile();
+  options.localizer.templates.feature_size_m = 0.018;  // as the station's
+  const LocalizationTrace alone =
+      localize(example.problem(), options.localizer,
+               RunSettings{RecordLevel::kSummary, 0, 1, Kernels::kPortable});
+  options.memory_limit = alone.memory.total();
+  options.stations = {"os"};
+  for (const RunResult& result : runBatch(exampleDataset(), options, {}))
+    EXPECT_EQ(result.status, "converged") << result.message;
+}
+
 TEST(RunBatch, FiltersByCaseStationAndTag) {
   const Dataset dataset = exampleDataset();
   BatchOptions options = quick();

@@ -197,6 +197,14 @@ TEST(Localize, GivesTheSameWithAnyNumberOfThreads) {
   }
 }
 
+TEST(ThreadsOf, SharesTheCoresOutUnlessMemoryIsLimited) {
+  EXPECT_EQ(threadsOf(5, 0), 5);
+  EXPECT_EQ(threadsOf(5, kFlightMemoryBytes), 5);
+  EXPECT_EQ(threadsOf(0, kFlightMemoryBytes), 1);
+  EXPECT_EQ(threadsOf(0, 0, 100000), 1);
+  EXPECT_GE(threadsOf(0, 0), 1);
+}
+
 TEST(Localize, CountsWhatTheProblemPointsTo) {
   LocalizationProblem problem = runs().example.problem();
   const std::size_t bytes = inputBytes(problem);
