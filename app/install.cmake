@@ -24,12 +24,12 @@ function(boresight_documents_of program)
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT programs)
   install(FILES ${completions}/_${program}
     DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT programs)
+  install(FILES ${completions}/${program}.fish
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT programs)
 endfunction()
 
 install(TARGETS whs RUNTIME COMPONENT programs)
 boresight_documents_of(whs)
-install(FILES completions/whs.fish
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT programs)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/sessions/examples ${PROJECT_SOURCE_DIR}/resources/matchers
   DESTINATION ${CMAKE_INSTALL_DATADIR}/boresight COMPONENT programs
   PATTERN "*.boresight.*" EXCLUDE PATTERN node_modules EXCLUDE)

@@ -52,7 +52,7 @@ struct LoopOptions {
     visit(OptionInfo{"loop.max_iterations", "", 1, 50, "An attempt ends after so many iterations."},
           self.max_iterations);
     visit(OptionInfo{"loop.max_attempts", "", 1, 3,
-                     "A run that fails starts anew from the seed with templates of twice, then "
+                     "A run that fails starts again from the seed with templates of twice, then "
                      "half the size."},
           self.max_attempts);
     visit(OptionInfo{"loop.match_iterations", "", 1, 50,

@@ -22,7 +22,7 @@ namespace boresight {
 enum class PassNeed : std::uint8_t {
   kNothing = 0,
   kMatches,  ///< supplyMatches(), after matchOutside()
-  kPose,   ///< supplyPose(), after solveOutside(): its matches are there, or failed() says why not
+  kPose,   ///< supplyPose(), after solveOutside(): matched, or failed() says why not
   kRound,  ///< endRound(), after solveOutside(): the edges of a refinement round are searched
 };
 

@@ -29,7 +29,7 @@ enum class PassKind : std::uint8_t {
 struct PassPlan {
   PassKind kind = PassKind::kEdges;  ///< what the pass does
   int record = 0;                ///< 0 or 1: the record, and the render memory, that the pass fills
-  std::int32_t attempt = 0;      ///< that it belongs to, from 0
+  std::int32_t attempt = 0;      ///< index of the attempt, from 0
   int level = 0;                 ///< pyramid level, 0 full resolution
   Pose camera_from_station;      ///< the hypothesis
   double roll_rad = 0.0;         ///< turns the render about the ray through the scene's centre
@@ -57,7 +57,7 @@ struct PassOutcome {
 /// How many matches agree with a pose: of all views when several are solved as one.
 struct Agreement {
   std::int32_t inliers = 0;          ///< of PnP, or edge places used
-  std::int32_t correspondences = 0;  ///< of which they are
+  std::int32_t correspondences = 0;  ///< all matches, inliers among them
 };
 
 /// What a policy decided after a pass.

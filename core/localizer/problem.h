@@ -20,7 +20,7 @@ struct LocalizationProblem {
 
 /// Where a search begins, and how far the truth may be from there.
 struct Seed {
-  Pose camera_from_station;     ///< the pose itself
+  Pose camera_from_station;     ///< the pose to search around
   SeedUncertainty uncertainty;  ///< how far it may be off
 };
 inline Seed seedOf(const LocalizationProblem& problem) {

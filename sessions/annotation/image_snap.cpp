@@ -204,7 +204,7 @@ void sortByLikelihood(std::vector<Snap>& snaps, double radius_px) {
   });
 }
 
-/// Specks in a shadow are corners too, but nobody who is at an edge means them.
+/// Noise in a shadow makes corners too; beside an edge they are not what the operator clicked.
 bool isFainter(const ImageView& image, const Eigen::Vector2d& corner,
                const std::optional<EdgeSnap>& edge) {
   if (!edge) return false;

@@ -21,7 +21,7 @@ RunPlan planFor(const ReviewSubject& subject) {
   return RunPlan(options);
 }
 
-/// The case as it would be had somebody begun elsewhere.
+/// The case with its seed displaced by `offset`.
 LocalizationProblem problemFrom(const ReviewSubject& subject, const LoadedCase& loaded,
                                 const Vector6d& offset) {
   const SessionCase& one = loaded.source;

@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/crc32.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"

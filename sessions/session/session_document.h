@@ -115,7 +115,7 @@ class SessionHistory {
   std::string undoText() const { return canUndo() ? commands_[done_ - 1].text : ""; }
   std::string redoText() const { return canRedo() ? commands_[done_].text : ""; }
   const std::vector<SessionCommand>& commands() const { return commands_; }
-  std::size_t done() const { return done_; }  ///< so many of the commands hold
+  std::size_t done() const { return done_; }  ///< commands before this one are in effect
 
  private:
   SessionDocument* document_;

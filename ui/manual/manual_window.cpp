@@ -256,7 +256,7 @@ QString ManualHelp::pageHere() const {
 void ManualHelp::showHere() {
   if (!manual_) {
     manual_ = std::make_unique<ManualWindow>(manualFolder());
-    // The program ends with its window, whether or not somebody still reads.
+    // The program ends with its main window, even while the manual is open.
     manual_->setAttribute(Qt::WA_QuitOnClose, false);
   }
   manual_->showPage(pageHere());

@@ -101,7 +101,7 @@ std::vector<TableColumn<IterationRow>> columns() {
   return {
       {tr("Iteration"),
        tr("Attempt and iteration: 2.3 is the third iteration of the second attempt. An attempt "
-          "that fails starts anew from the seed."),
+          "that fails is followed by one from the seed."),
        -1, [](Row row) { return row.name; }},
       {tr("Kind"),
        tr("match: templates are searched and a pose is solved from them; refine: the pose moves "

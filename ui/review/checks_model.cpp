@@ -40,9 +40,9 @@ std::vector<TableColumn<CheckRow>> columns() {
        0, [](Row row) { return fromText(sessions::foundText(row.check)); }},
       {tr("Limit"), tr("What the figure must keep to: of the preset, or as edited under Limits."),
        -1, [](Row row) { return shortLimit(row.check); }},
-      {tr("Reason to pass over"),
-       tr("A failed check stands in the way of a validation until somebody says why it may be "
-          "passed over. The reason goes with the pose; it is dropped when the figure changes."),
+      {tr("Reason to waive"),
+       tr("A pose with a failed check can be validated only with a reason to waive the check. The "
+          "reason is stored with the pose, and dropped when the measured value changes."),
        -1, reasonText},
   };
 }

@@ -153,7 +153,7 @@ void LimitsDialog::buildTable(QVBoxLayout& column) {
 void LimitsDialog::buildBottom(QVBoxLayout& column) {
   second_ =
       named(new QCheckBox(tr("A second person approves"), this), "secondPerson",
-            tr("A validation counts only once somebody else than who validated has approved it"));
+            tr("A validation counts only after a second person has approved it"));
   reset_ = new QPushButton(tr("Reset all"), this);
   reset_->setToolTip(tr("Take every limit back to the preset's value"));
   reset_->setAutoDefault(false);

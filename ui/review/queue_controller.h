@@ -22,9 +22,8 @@
 
 namespace boresight::ui {
 
-/// A value for each case of a session, made off the UI's thread one case at a time, and made anew
-/// when what it rests on (its key) has changed. A value that is no longer so stays to be seen until
-/// then.
+/// A value for each case of a session, computed off the UI's thread one case at a time, and computed
+/// again when its key (what it depends on) changes. The previous value is shown until then.
 template <class Value>
 class CaseByCase {
  public:

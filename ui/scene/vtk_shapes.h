@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines and clouds of small shapes, as VTK draws them.
+// What scenes are made of: lines, clouds of small shapes, a backdrop image, and camera placement.
 #pragma once
 
 #include <optional>

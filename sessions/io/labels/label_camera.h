@@ -18,7 +18,7 @@ struct LabelDetector {
   /// Labels state the model of the image as it was cut and averaged: the mission's own programs
   /// read it without an offset (planetary.md names the evidence).
   bool model_of_subframe = false;
-  int width = 0;  ///< at most so many samples has the detector; 0: not known
+  int width = 0;  ///< upper bound of the detector's samples; 0: not known
   int height = 0;
 };
 

@@ -26,7 +26,7 @@ struct Side {
   double principal_px;    ///< in the image
   double first = 0.0;     ///< of the detector
   double step = 1.0;      ///< detector samples a pixel
-  double detector = 0.0;  ///< at most so many samples has the detector; 0 where not known
+  double detector = 0.0;  ///< upper bound of the detector's samples; 0: not known
 
   double onDetector() const { return first + (principal_px + 0.5) * step - 0.5; }
   /// The detector has at least these samples.

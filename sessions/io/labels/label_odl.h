@@ -66,7 +66,7 @@ struct Pds3Pointer {
   bool in_bytes = false;
   bool nested = false;  ///< IMAGE stands in an OBJECT = FILE, and so does the pointer
   /// What GDAL would take otherwise than it is meant: names in '...', the storage of bands in
-  /// quotes, and objects FILE and IMAGE besides the first IMAGE, whose values it would mix in.
+  /// quotes, and objects FILE and IMAGE after the first IMAGE, whose values it would mix in.
   std::vector<LabelEdit> edits;
   std::size_t label_size = 0;  ///< up to END
   std::string remark;          ///< of several IMAGE objects, which one is read; else empty

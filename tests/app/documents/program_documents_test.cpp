@@ -74,7 +74,9 @@ TEST(Completions, WorkInBash) {
 }
 
 TEST(Completions, AreWhatOtherShellsRead) {
-  for (const auto& [shell, file] : {std::pair("zsh", "_whs"), std::pair("fish", "whs.fish")}) {
+  for (const auto& [shell, file] :
+       {std::pair("zsh", "_whs"), std::pair("zsh", "_boresight"), std::pair("fish", "whs.fish"),
+        std::pair("fish", "boresight.fish")}) {
     if (!hasProgram(shell)) continue;
     const ProgramRun run = runProgram(shell, {"-n", kCompletions + file});
     EXPECT_EQ(run.exit_code, 0) << run.err;

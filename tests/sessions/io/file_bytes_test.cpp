@@ -109,7 +109,7 @@ TEST_F(InputFiles, AreNotReplacedByAFileThatIsMovedThere) {
 TEST_F(InputFiles, AreNamedByOthers) {
   const JsonDocument document(folder_.write("d.json", R"({"image": "input.png"})"));
   (void)document.root().at("image").path();
-  EXPECT_TRUE(isRefused("input.png")) << "although nobody has read it yet";
+  EXPECT_TRUE(isRefused("input.png")) << "a named input is protected before it is read";
 }
 
 TEST_F(InputFiles, ThatTheProgramKeepsUpToDateAreReplacedByTheirOwnKind) {

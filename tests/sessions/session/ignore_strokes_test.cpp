@@ -120,7 +120,7 @@ TEST(MaskEdits, AppendAndReplaceStrokesOfOneCaseOnly) {
   EXPECT_EQ(after.findCase("a")->ignore_strokes, (MaskStrokes{polygon(""), polygon("x")}));
   EXPECT_EQ(*after.findCase("b"), *before.findCase("b"));
   EXPECT_EQ(withStrokes(after, "a", {}), before);
-  EXPECT_EQ(withStroke(before, "nobody", polygon("")), before);
+  EXPECT_EQ(withStroke(before, "unknown", polygon("")), before);
 }
 
 TEST(MaskEdits, AStrokeIsCopiedToTheCamerasOtherCasesOnce) {

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/base/crc32.h"
 #include "sessions/io/errors.h"
 #include "tests/sessions/session/random_session.h"
 #include "tests/support/temporary_folder.h"
