@@ -135,6 +135,9 @@ void printResult(const sessions::LocalizationTrace& trace, const Inputs& inputs,
   if (trace.converged()) {
     std::cout << "converged in " << trace.iterations.size() << " iterations, edge support "
               << fixedText(100.0 * trace.support.share(), 1) << " %, "
+              << (trace.evidence.places > 0
+                      ? "probability " + fixedText(100.0 * trace.probability, 1) + " %, "
+                      : std::string())
               << fixedText(trace.seconds.total(), 2) << " s\n\n"
               << sessions::poseText(trace.camera_from_station, trace.covariance)
               << "(by the picture alone: errors of the mesh's scale and of the calibration are not "

@@ -53,6 +53,13 @@ inline bool isSupported(const EdgeSupport& support, const PartialSupport& partia
          (options.partial && partial.suffices(options));
 }
 
+/// The same of a pose that a search has found.
+inline bool isProbable(double probability, const PartialSupport& partial,
+                       const SupportOptions& options) {
+  return !options.gate || probability >= options.min_probability ||
+         (options.partial && partial.suffices(options));
+}
+
 /// Counts a rendered edge pixel as looked at and, when its counterpart is near, as covered; ignored
 /// ones not at all. `direction` 0 ... 3 displaces it by one of those that tell what comes about by
 /// chance, -1 leaves it in place.

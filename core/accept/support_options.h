@@ -10,6 +10,7 @@ namespace boresight {
 /// Of the support that an image must give a converged pose.
 struct SupportOptions {
   bool gate = true;
+  double min_probability = 0.5;
   double min_support = 0.32;
   double search_radius_px = 4.0;
   double near_px = 1.0;
@@ -24,8 +25,12 @@ struct SupportOptions {
     visit(OptionInfo{"support.gate", "", 0, 1,
                      "A converged pose must be supported by the image's edges."},
           self.gate);
+    visit(OptionInfo{"support.min_probability", "", 0.0, 1.0,
+                     "Probability of being right that a converged pose must have, by the evidence "
+                     "of its contours and its edge support."},
+          self.min_probability);
     visit(OptionInfo{"support.min_support", "", 0.0, 1.0,
-                     "Edge support that a converged pose must have."},
+                     "Edge support that a converged pose must have when nothing was searched."},
           self.min_support);
     visit(OptionInfo{"support.search_radius_px", "px", 1.0, 50.0,
                      "How far around a rendered edge its counterpart is looked for, in pixels of "

@@ -32,6 +32,11 @@ Attempt::Attempt(int index, const Seed& seed, int iteration)
   anchor_ = {seed.camera_from_station, scaled(seed.uncertainty, kUniform)};
 }
 
+Attempt::Attempt(int index, const Seed& seed, int iteration, const Pose& camera_from_station)
+    : Attempt(index, seed, iteration) {
+  camera_from_station_ = camera_from_station;
+}
+
 void Attempt::restart() {
   ++index_;
   size_index_ = index_;

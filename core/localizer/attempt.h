@@ -20,6 +20,8 @@ class Attempt {
   Attempt() = default;
   /// `index` counts the attempts of a run, `iteration` the first one to do.
   Attempt(int index, const Seed& seed, int iteration = 0);
+  /// The same from another pose than the seed's, within the seed's uncertainty.
+  Attempt(int index, const Seed& seed, int iteration, const Pose& camera_from_station);
 
   /// What the next pass works on.
   PassPlan plan(const RunContext& run) const;

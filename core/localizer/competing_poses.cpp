@@ -18,7 +18,6 @@ CompetingPoses::Next CompetingPoses::takePose(const Attempt& attempt,
                                               bool& leads) {
   leads = true;
   if (round_ == Round::kNone) {
-    seed_ = attempt.seed();
     lead(attempt, camera_from_station_before);
     return Next::kCompare;
   }

@@ -27,8 +27,8 @@ class CompetingPoses {
   };
 
   CompetingPoses() = default;
-  /// `poses` holds ambiguity.max_rivals entries and must outlive this.
-  explicit CompetingPoses(std::span<Rival> poses) : poses_(poses) {}
+  /// `poses` holds ambiguity.max_rivals entries and must outlive this; `seed` is the run's.
+  CompetingPoses(std::span<Rival> poses, const Seed& seed) : poses_(poses), seed_(seed) {}
 
   /// Whether a competing pose is being tried.
   bool isTrying() const { return round_ == Round::kTrials; }
@@ -76,7 +76,7 @@ class CompetingPoses {
   Attempt best_;
   Pose best_before_;  ///< where the last iteration of the best pose started
   bool best_is_shown_ = false;
-  Seed seed_;  ///< of the attempt that converged first
+  Seed seed_;  ///< of the run
 };
 
 }  // namespace boresight

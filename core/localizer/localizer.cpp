@@ -2,6 +2,7 @@
 // The loop: a policy plans a pass, the pass runs in slices, the policy rules on its outcome.
 #include "core/localizer/localizer.h"
 
+#include "core/localizer/pose_change.h"
 #include "core/localizer/run_digest.h"
 
 namespace boresight {
@@ -21,8 +22,9 @@ StepReport Localizer::step() {
 PassPlan Localizer::plan() const {
   PassPlan plan;
   switch (phase_) {
-    case Phase::kSearch:  // before the first iteration, for seeds far off
-      return search_.plan(pass_.context());
+    case Phase::kSearch:  // where may the whole object be?
+      plan.kind = PassKind::kSearch;
+      return plan;
     case Phase::kIterate:  // match templates, solve, repeat; then refine on edges
       return attempt_.plan(pass_.context());
     case Phase::kAccept:  // does the image support the pose that converged?
@@ -41,28 +43,30 @@ PassPlan Localizer::plan() const {
 /// The one place where policies meet.
 StepReport Localizer::decide(const StepReport& slice) {
   const PassOutcome& outcome = pass_.outcome();
-  if (outcome.fault == Status::kOk && phase_ == Phase::kEdges) {
-    phase_ = search_.isSearching() ? Phase::kSearch : Phase::kIterate;
+  const bool prepares = phase_ == Phase::kEdges || phase_ == Phase::kSearch;
+  if (outcome.fault == Status::kOk && prepares) {
+    if (phase_ == Phase::kSearch) startTrials();
+    if (phase_ == Phase::kEdges) phase_ = searches() ? Phase::kSearch : Phase::kIterate;
     return slice;
   }
   if (phase_ == Phase::kCompare)
     return follow(competing_.takeShifts(pass_.selfShifts(), pass_.context()), slice);
-
   const Ruling ruling = rule(outcome);
   pass_.show(ruling);
   StepReport report = StepReport::of(ruling.stage, true);
   report.iteration_complete = ruling.iteration_complete;
   if (ruling.failed()) return retry(ruling, report);
   if (!ruling.found()) return report;  // another pass of the same policy
-  switch (phase_) {
-    case Phase::kSearch:
-      iterate(search_.nextAttempt(attempt_.index(), pass_.options()));
-      return report;
-    case Phase::kIterate:
-      phase_ = Phase::kAccept;
-      return report;
-    default:
-      break;
+  if (phase_ == Phase::kIterate) {
+    phase_ = Phase::kAccept;
+    return report;
+  }
+  const Pose& before = workspace().iteration->camera_from_station_before;
+  if (searches() && !competing_.hasStarted()) {
+    const CandidateTrials::Next next =
+        trials_.takePose(attempt_, before, outcome.probability, pass_.context());
+    if (next != CandidateTrials::Next::kConclude)
+      return follow(next, LocalizationStatus::kConverged, report);
   }
   if (!pass_.options().ambiguity.enabled) return finish(LocalizationStatus::kConverged, report);
   if (competing_.hasEnded())
@@ -70,8 +74,7 @@ StepReport Localizer::decide(const StepReport& slice) {
   const double margin_nats = competing_.hasStarted() ? pass_.bestMargin_nats() : 0.0;
   bool leads = false;
   const CompetingPoses::Next next =
-      competing_.takePose(attempt_, workspace().iteration->camera_from_station_before, margin_nats,
-                          pass_.context(), leads);
+      competing_.takePose(attempt_, before, margin_nats, pass_.context(), leads);
   if (leads) pass_.keepBestRender();
   return follow(next, report);
 }
@@ -80,34 +83,44 @@ Ruling Localizer::rule(const PassOutcome& outcome) {
   if (outcome.fault != Status::kOk)
     return {Ruling::Next::kFailed, LocalizationStatus::kFault, outcome.reached, true,
             pass_.plan().record};
-  const std::span<Iteration, 2> records = pass_.memory().records;
-  if (phase_ == Phase::kSearch)
-    return search_.take(outcome, pass_.context(), records, pass_.digest());
   if (phase_ == Phase::kAccept) {
-    const bool supported =
-        isSupported(outcome.support, workspace().partial, pass_.options().support);
-    return {supported ? Ruling::Next::kPose : Ruling::Next::kFailed,
-            LocalizationStatus::kNotSupported, Stage::kSupport, false, attempt_.record()};
+    // A candidate's own box may reach beyond the seed's.
+    const bool left = searches() && !competing_.hasStarted() &&
+                      leftUncertainty(seedOf(problem()), attempt_.camera_from_station(),
+                                      pass_.options().loop.leave_factor);
+    const SupportOptions& options = pass_.options().support;
+    const bool supported = searches()
+                               ? isProbable(outcome.probability, workspace().partial, options)
+                               : isSupported(outcome.support, workspace().partial, options);
+    return {supported && !left ? Ruling::Next::kPose : Ruling::Next::kFailed,
+            left ? LocalizationStatus::kLeftUncertainty : LocalizationStatus::kNotSupported,
+            Stage::kSupport, false, attempt_.record()};
   }
   const Iteration& record = *workspace().iteration;
   return attempt_.take(outcome, {record.pnp.inlier_count, record.correspondence_count},
-                       pass_.context(), records);
+                       pass_.context(), pass_.memory().records);
 }
 
 /// After a failure: the next competing pose, another attempt, or the end.
 StepReport Localizer::retry(const Ruling& ruling, StepReport report) {
   if (ruling.status == LocalizationStatus::kFault) return finish(ruling.status, report);
   if (competing_.isTrying()) return follow(competing_.takeFailure(ruling.status), report);
-  const bool searched = pass_.options().wide.isOn();
-  const bool more = attempt_.index() + 1 < pass_.options().loop.max_attempts;
-  if (competing_.hasStarted() || !more || search_.isSearching() ||
-      (searched && !search_.hasFinalist()))
+  if (competing_.hasStarted()) return finish(ruling.status, report);
+  if (searches())
+    return follow(trials_.takeFailure(attempt_.index(), pass_.context()), ruling.status, report);
+  if (attempt_.index() + 1 >= pass_.options().loop.max_attempts)
     return finish(ruling.status, report);
-  if (searched)
-    attempt_ = search_.nextAttempt(attempt_.index() + 1, pass_.options());
-  else
-    attempt_.restart();
+  attempt_.restart();
   iterate(attempt_);
+  return report;
+}
+
+StepReport Localizer::follow(CandidateTrials::Next next, LocalizationStatus status,
+                             StepReport report) {
+  const int index = attempt_.index() + 1;
+  if (next == CandidateTrials::Next::kConclude) return finish(status, report);
+  iterate(next == CandidateTrials::Next::kTry ? trials_.next(index, pass_.context())
+                                              : trials_.best(index, pass_.options()));
   return report;
 }
 

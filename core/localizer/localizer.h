@@ -8,8 +8,8 @@
 
 #include "core/base/kernels.h"
 #include "core/localizer/attempt.h"
+#include "core/localizer/candidate_trials.h"
 #include "core/localizer/competing_poses.h"
-#include "core/localizer/global_search.h"
 #include "core/localizer/localizer_options.h"
 #include "core/localizer/pass.h"
 #include "core/localizer/problem.h"
@@ -24,7 +24,8 @@ namespace boresight {
 /// (PassMemory).
 ///
 /// The pass runs the stages; the policies decide which pass comes next: the iterations of an
-/// attempt, the global search before them, and competing poses after convergence.
+/// attempt, the candidates of the search that attempts start from, and competing poses after
+/// convergence.
 ///
 /// A caller with threads may share out the independent tasks of a stage:
 ///
@@ -107,9 +108,13 @@ class Localizer {
   StepReport decide(const StepReport& slice);
   Ruling rule(const PassOutcome& outcome);
   StepReport retry(const Ruling& ruling, StepReport report);
+  StepReport follow(CandidateTrials::Next next, LocalizationStatus status, StepReport report);
   StepReport follow(CompetingPoses::Next next, StepReport report);
   StepReport finish(LocalizationStatus status, StepReport report);
   void iterate(const Attempt& attempt);
+  void startTrials();
+  /// Not when the caller matches: then every attempt starts from the seed.
+  bool searches() const { return pass_.options().search.enabled && !pass_.matchesOutside(); }
 
   std::span<std::byte> memory_;
   int workers_;
@@ -117,8 +122,8 @@ class Localizer {
   Status status_ = Status::kOk;
   Pass pass_;
   Phase phase_ = Phase::kEdges;
-  GlobalSearch search_;
   Attempt attempt_;
+  CandidateTrials trials_;
   CompetingPoses competing_;
 };
 

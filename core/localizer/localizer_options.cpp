@@ -15,7 +15,7 @@ bool holdsForWholeRun(std::string_view name) {
                                          "refinement.enabled",        "refinement.max_samples",
                                          "loop.coarse_size_px",       "loop.halved_size_px",
                                          "loop.max_rolled_hypotheses"};
-  return name.starts_with("edges.") || name.starts_with("render.") || name.starts_with("wide.") ||
+  return name.starts_with("edges.") || name.starts_with("render.") || name.starts_with("search.") ||
          name.starts_with("ambiguity.") ||
          std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
@@ -37,9 +37,10 @@ void visitDifferences(const LocalizerOptions& before, const LocalizerOptions& af
 
 bool LocalizerOptions::isDigestedOnlyIfChanged(const OptionInfo& info) {
   const std::string_view name = info.name;
-  return name.starts_with("wide.") || name.starts_with("ambiguity.") ||
+  return name.starts_with("ambiguity.") ||
          name.starts_with("support.partial") || name == "refinement.covariance" ||
-         name == "refinement.rising_weight";
+         name == "refinement.rising_weight" ||
+         name == "support.min_probability";
 }
 
 bool sameOptions(const LocalizerOptions& one, const LocalizerOptions& other) {
@@ -73,8 +74,10 @@ LocalizerOptions paperProfile() {
   options.loop.enough_inliers = 2.0;
   options.loop.render_again_px = 0.0;
   options.loop.anchored = false;
+  options.loop.leave_factor = 1.1;
   options.refinement.enabled = false;
   options.support.gate = false;
+  options.search.enabled = false;
   return options;
 }
 

@@ -9,7 +9,7 @@
 #include "core/accept/edge_support.h"
 #include "core/base/options.h"
 #include "core/edges/edge_map.h"
-#include "core/localizer/wide_options.h"
+#include "core/localizer/search_options.h"
 #include "core/pnp/pnp_options.h"
 #include "core/refine/edge_refinement.h"
 #include "core/render/edge_render.h"
@@ -40,7 +40,7 @@ struct LoopOptions {
   std::int32_t converged_iterations = 2;
   double converged_image_px = 0.25;
   double render_again_px = 0.25;
-  double leave_factor = 1.1;
+  double leave_factor = 1.5;
   bool anchored = true;
   double match_sigma_px = 1.0;
   double match_inflation = 8.0;
@@ -143,7 +143,7 @@ struct LocalizerOptions {
   LoopOptions loop;              ///< the loop around the stages
   RefinementOptions refinement;  ///< the last step, on the image's edges
   SupportOptions support;        ///< what a pose must show
-  WideOptions wide;              ///< seeds far off
+  SearchOptions search;          ///< before the first iteration
   AmbiguityOptions ambiguity;    ///< other poses that look alike
 
   template <class Self, class Visitor>
@@ -155,7 +155,7 @@ struct LocalizerOptions {
     LoopOptions::visitFields(self.loop, visit);
     RefinementOptions::visitFields(self.refinement, visit);
     SupportOptions::visitFields(self.support, visit);
-    WideOptions::visitFields(self.wide, visit);
+    SearchOptions::visitFields(self.search, visit);
     AmbiguityOptions::visitFields(self.ambiguity, visit);
   }
 

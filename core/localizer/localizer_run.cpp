@@ -28,10 +28,9 @@ Status Localizer::begin(const LocalizationProblem& problem, const LocalizerOptio
   phase_ = Phase::kEdges;
   pass_.workspace().fault = status;
   if (status != Status::kOk) return status;
-  const PassMemory& memory = pass_.memory();
-  search_ = GlobalSearch(pass_.problem(), pass_.context(), memory.restarts, memory.finalists);
   attempt_ = Attempt(0, seedOf(pass_.problem()));
-  competing_ = CompetingPoses(memory.competing);
+  trials_ = CandidateTrials();
+  competing_ = CompetingPoses(pass_.memory().competing, seedOf(pass_.problem()));
   return status;
 }
 
@@ -49,16 +48,24 @@ Status Localizer::restart(const Pose& camera_from_station_seed, const LocalizerO
 
 bool Localizer::isBetweenIterations() const {
   if (status_ != Status::kOk || pass_.running()) return false;
-  return phase_ == Phase::kSearch ? search_.atIterationStart()
-                                  : phase_ == Phase::kIterate && attempt_.atIterationStart();
+  return phase_ == Phase::kIterate && attempt_.atIterationStart();
 }
 
 bool Localizer::changeOptions(const LocalizerOptions& options) {
   if (!isBetweenIterations() || firstInvalidOption(options) != nullptr ||
       firstFixedOption(pass_.options(), options) != nullptr)
     return false;
-  if (!sameOptions(pass_.options(), options)) pass_.changeOptions(options);
+  if (sameOptions(pass_.options(), options)) return true;
+  pass_.changeOptions(options);
+  // How the first attempt starts depends on them.
+  if (searches() && workspace().iterations == 0) startTrials();
   return true;
+}
+
+/// The attempt of the search's first candidate.
+void Localizer::startTrials() {
+  trials_ = CandidateTrials(workspace().candidates, seedOf(problem()));
+  iterate(trials_.next(0, pass_.context()));
 }
 
 /// Goes on with the first iteration of an attempt.

@@ -40,6 +40,9 @@ Status Pass::create(const LocalizationProblem& problem, const LocalizerOptions& 
   if (laid_out != Status::kOk) return laid_out;
   levels_ = levelsOf(sizeOf(problem_), options_);
   scene_ = matchedBounds(problem_.mesh);
+  searched_ = {problem_.image,      problem_.ignore, problem_.camera,
+               problem_.mesh,       scene_,          problem_.camera_from_station_seed,
+               problem_.uncertainty};
   digestOptions(options_, digest_);
   digestProblem(problem_, digest_);
   if (match_outside_) matchOutside(surfaces_);
@@ -52,13 +55,16 @@ void Pass::begin(const PassPlan& plan) {
   running_ = true;
   stage_begun_ = false;
   task_begun_ = false;
-  measures_ = false;
   solver_waits_ = false;
   failed_ = LocalizationStatus::kRunning;
   memory_.tasks.open(0);
   switch (plan_.kind) {
     case PassKind::kEdges:
       stage_ = Stage::kEdges;
+      break;
+    case PassKind::kSearch:
+      dropFinerEdges();
+      stage_ = Stage::kSearch;
       break;
     case PassKind::kMatch:
     case PassKind::kRefine:
@@ -75,10 +81,14 @@ void Pass::begin(const PassPlan& plan) {
   }
 }
 
-void Pass::prepareRecord() {
-  // The renderer works in the memory of the finer edge maps.
+/// The renderer works in the memory of the edge maps finer than any render.
+void Pass::dropFinerEdges() {
   for (int level = 0; level < levels_.fine; ++level)
     workspace_.edges.level[static_cast<std::size_t>(level)] = BitImage();
+}
+
+void Pass::prepareRecord() {
+  dropFinerEdges();
   Iteration& now = record();
   now.index = workspace_.iterations;
   now.attempt = plan_.attempt;
@@ -88,10 +98,6 @@ void Pass::prepareRecord() {
   now.camera_from_station_before = plan_.camera_from_station;
   now.uncertainty = plan_.uncertainty;
   now.threshold_px = plan_.threshold_px;
-  if (plan_.measures_support)
-    now.hypothesis_count = 0;
-  else
-    now.restarts = {};
   if (!keepsRender(now)) now.render = renderMemory();
   now.templates.count = 0;
   now.matches.count = 0;
@@ -106,12 +112,7 @@ void Pass::prepareRecord() {
 
 EdgeRender& Pass::renderMemory() {
   const auto record = static_cast<std::size_t>(plan_.record);
-  if (plan_.level > levels_.coarse) return memory_.global_render[record];
   return plan_.level == levels_.coarse ? memory_.coarse_render[record] : memory_.fine_render;
-}
-
-EdgeRender& Pass::evidenceRender() {
-  return memory_.evidence_render[plan_.level > levels_.coarse ? 0 : 1];
 }
 
 /// Whether the last refinement's render shows the scene as a new render would.
@@ -141,7 +142,7 @@ void Pass::runTask(int task, int worker) {
       static_cast<std::size_t>(worker) >= memory_.searches.size())
     return;
   if (memory_.tasks.isDone(task)) return;
-  if (stage_ == Stage::kRender || measures_) {
+  if (stage_ == Stage::kRender) {
     memory_.renderer.work(task, worker);
   } else if (stage_ == Stage::kMatch) {
     WhsSearch& search = memory_.searches[static_cast<std::size_t>(worker)];

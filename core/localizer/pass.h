@@ -35,8 +35,8 @@ struct JointPose {
   std::int32_t samples = 0;  ///< drawn by RANSAC
 };
 
-/// Runs the stages of one pass, one bounded slice per step: edges, or render -> templates -> match
-/// -> pose, or render -> refine, or support. It fills the plan's record and the digest. It knows
+/// Runs the stages of one pass, one bounded slice per step: edges, or search, or render -> templates
+/// -> match -> pose, or render -> refine, or support. It fills the plan's record and the digest. It knows
 /// neither why it runs nor what comes next.
 ///
 /// A caller with threads may share out the tasks of a stage between two steps; tasks that are left
@@ -69,6 +69,8 @@ class Pass {
   PassNeed needs() const;
   /// Leaves matching to the caller; renders also fill `surfaces`. See Localizer::matchOutside.
   void matchOutside(const SurfaceRender& surfaces);
+  /// Whether the caller matches.
+  bool matchesOutside() const { return match_outside_; }
   /// Takes matches in place of those of WHS. kInvalidOption when the pass waits for none,
   /// kCapacityExceeded when there are more than its memory holds.
   Status supplyMatches(std::span<const SuppliedMatch> supplied);
@@ -135,24 +137,23 @@ class Pass {
   DigestWriter& digest() { return digest_; }
 
  private:
+  void dropFinerEdges();
   void prepareRecord();
   void beginSelfSimilarity();
   EdgeRender& renderMemory();
-  EdgeRender& evidenceRender();
   bool keepsRender(const Iteration& now) const;
 
   StepReport stepEdges();
+  StepReport stepSearch();
   StepReport stepRender();
   StepReport stepTemplates();
   StepReport stepMatch();
   StepReport stepPose();
-  StepReport stepEvidence();
   StepReport stepRefine();
   StepReport stepOutsideRound();
   StepReport stepSupport();
   StepReport stepSelfSimilarity();
   Status beginPose();
-  Status beginEvidence();
   Status beginRefinement();
   Status continueRender(bool& complete);
   bool beginMatch(int index, WhsSearch& search);
@@ -168,6 +169,7 @@ class Pass {
   PassMemory memory_;
   RunLevels levels_;
   BoundingBox scene_;  ///< of the matched parts, station frame
+  SearchProblem searched_;
   Workspace workspace_;
   DigestWriter digest_;
 
@@ -177,7 +179,6 @@ class Pass {
   Stage stage_ = Stage::kEdges;
   bool stage_begun_ = false;
   bool task_begun_ = false;  ///< by step(), which then also ends it
-  bool measures_ = false;    ///< the pose found is rendered and its support measured
 
   bool match_outside_ = false;
   bool matches_supplied_ = false;

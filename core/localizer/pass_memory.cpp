@@ -92,6 +92,7 @@ Status PassMemory::create(const LocalizationProblem& problem, const LocalizerOpt
                           EdgeMap& edges) {
   kept_ = Arena();
   scratch_ = Arena();
+  use_ = MemoryUse();
   Layout layout{problem, options, workers, kernels, levelsOf(sizeOf(problem), options),
                 *this,   edges};
   const Status counted = layout.run();
@@ -116,8 +117,7 @@ Status PassMemory::Layout::layOutKept() {
   Arena& kept = to.kept_;
   Status status = buildAdjacency(problem.mesh, kept, to.scratch_, to.adjacency_);
   shareScratch(to.use_.construction);
-  for (int level = levels.fine; level <= levels.global && status == Status::kOk; ++level) {
-    if (level > levels.coarse && level < levels.global) continue;
+  for (int level = levels.fine; level <= levels.coarse && status == Status::kOk; ++level) {
     status = RayGrid::create(cameraAtLevel(problem.camera, level), kept,
                              to.rays[static_cast<std::size_t>(level)]);
   }
@@ -152,16 +152,11 @@ void PassMemory::Layout::layOutRenders() {
     to.fine_render = createRender(levels.fine);
     kept.rewind(std::max(end, kept.mark()));
   }
-  if (options.wide.isOn()) {
-    const bool coarser = levels.global != levels.coarse;
-    for (std::size_t i = 0; i < to.global_render.size(); ++i)
-      to.global_render[i] = coarser ? createRender(levels.global) : to.coarse_render[i];
-    to.evidence_render[1] = createRender(levels.coarse);
-    to.evidence_render[0] = coarser ? createRender(levels.global) : to.evidence_render[1];
-    to.restarts =
-        kept.allocate<HypothesisSummary>(static_cast<std::size_t>(options.wide.max_restarts));
-    to.finalists =
-        kept.allocate<HypothesisSummary>(static_cast<std::size_t>(options.wide.finalists));
+  if (options.search.enabled) {
+    const std::size_t end = kept.mark();
+    kept.rewind(start);
+    (void)to.search.create(kept);
+    kept.rewind(std::max(end, kept.mark()));
   }
   if (options.ambiguity.enabled) {
     to.best_render = createRender(levels.fine);
@@ -177,23 +172,29 @@ Status PassMemory::Layout::layOutStages() {
   Arena& scratch = to.scratch_;
   const int width = ((problem.image.width - 1) >> levels.fine) + 1;
   const int height = ((problem.image.height - 1) >> levels.fine) + 1;
-  Status status = to.renderer.create(problem.mesh, to.adjacency_, width, height, options.render,
-                                     kept, scratch, EdgeRenderer::kBandRows, workers);
+  const int least = options.search.enabled ? PoseSearch::kLongestView_px : 1;
+  Status status = to.renderer.create(problem.mesh, to.adjacency_, std::max(width, least),
+                                     std::max(height, least), options.render, kept, scratch,
+                                     EdgeRenderer::kBandRows, workers);
   shareScratch(bytesOf(Stage::kRender));
+  if (options.search.enabled) bytesOf(Stage::kSearch) = bytesOf(Stage::kRender);
   if (status == Status::kOk) status = to.selector.create(width, height, options.templates, scratch);
   shareScratch(bytesOf(Stage::kTemplates));
   if (status == Status::kOk) status = layOutSearches(std::max(width, height));
   shareScratch(bytesOf(Stage::kMatch));
   if (status == Status::kOk) status = to.ransac.create(options.templates.count, scratch);
   shareScratch(bytesOf(Stage::kPose));
-  // The global search renders the poses that it finds.
-  if (options.wide.isOn() && scratch.countsOnly())
-    bytesOf(Stage::kPose) = std::max(bytesOf(Stage::kPose), bytesOf(Stage::kRender));
   if (status == Status::kOk) status = to.refinement.create(options.refinement, scratch);
   if (options.refinement.enabled) {
     to.records[0].refinement.samples =
         scratch.allocate<EdgeSample>(static_cast<std::size_t>(options.refinement.max_samples));
   }
+  // The samples may be looked at until the next render.
+  const std::size_t samples = scratch.mark();
+  const bool measured = options.search.enabled && status == Status::kOk;
+  if (measured) status = to.evidence.create(scratch);
+  if (scratch.countsOnly() && measured) bytesOf(Stage::kSupport) = scratch.highWater();
+  scratch.rewind(samples);
   shareScratch(bytesOf(Stage::kRefine));
   if (status == Status::kOk) {
     status = to.detector.begin(problem.image, problem.ignore, options.edges, kept, scratch,
@@ -208,9 +209,9 @@ Status PassMemory::Layout::layOutSearches(int longest_px) {
   WhsSearch counted;
   Status status = Status::kOk;
   for (int worker = 0; worker < workers && status == Status::kOk; ++worker) {
-    WhsSearch& search =
+    WhsSearch& of_worker =
         to.searches.empty() ? counted : to.searches[static_cast<std::size_t>(worker)];
-    status = search.create(side_px, longest_px, kernels, to.scratch_);
+    status = of_worker.create(side_px, longest_px, kernels, to.scratch_);
   }
   return status;
 }

@@ -18,6 +18,8 @@
 #include "core/pnp/pnp_ransac.h"
 #include "core/refine/edge_refinement.h"
 #include "core/render/edge_render.h"
+#include "core/search/pose_evidence.h"
+#include "core/search/pose_search.h"
 #include "core/templates/template_selection.h"
 
 namespace boresight {
@@ -40,7 +42,8 @@ struct MemoryUse {
 
 /// The memory of a localization, laid out once in one block: first what lives throughout (mesh
 /// adjacency, ray grids, edge maps from the finest matched level on, renders, records), then one
-/// piece that the stages use in turn. Edge maps finer than the finest matched level last until the
+/// piece that the stages use in turn. The search before the first iteration works in the memory of
+/// the renders. Edge maps finer than the finest matched level last until the
 /// first render; the samples of a refinement last until the next render.
 ///
 /// The stages keep pointers into this object: it must not move.
@@ -68,24 +71,21 @@ class PassMemory {
   std::size_t highWaterBytes() const { return kept_.highWater() + scratch_.highWater(); }
 
   EdgeDetector detector;                     ///< of the image
+  PoseSearch search;                         ///< with search.enabled
   EdgeRenderer renderer;                     ///< of the mesh
   TemplateSelector selector;                 ///< of templates
   std::span<WhsSearch> searches;             ///< one per worker
   PnpRansac ransac;                          ///< of poses from matches
   EdgeRefinement refinement;                 ///< of poses on edges
+  PoseEvidence evidence;                     ///< of the final pose, with search.enabled
   SelfSimilarity similarity;                 ///< with ambiguity.enabled
   TaskList tasks;                            ///< of the stage under way
   std::array<RayGrid, kPyramidLevels> rays;  ///< of the levels that are rendered
   std::array<Iteration, 2> records;          ///< the current hypothesis and the best one so far
   std::array<EdgeRender, 2> coarse_render;   ///< of the first iteration, one per record
   EdgeRender fine_render;  ///< of later iterations, in the same memory unless the level is the same
-  std::array<EdgeRender, 2> global_render;    ///< of the global search, one per record
-  std::array<EdgeRender, 2> evidence_render;  ///< of poses found, at the global and coarse level
-  EdgeRender best_render;                     ///< of the best pose, with ambiguity.enabled
-  // For the policies:
-  std::span<HypothesisSummary> restarts;   ///< of the global search
-  std::span<HypothesisSummary> finalists;  ///< of the global search
-  std::span<Rival> competing;              ///< poses that compete with the converged one
+  EdgeRender best_render;        ///< of the best pose, with ambiguity.enabled
+  std::span<Rival> competing;    ///< for the policy: poses that compete with the converged one
 
  private:
   struct Layout;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/accept/contour_evidence.h"
 #include "core/accept/edge_support.h"
 #include "core/base/status.h"
 #include "core/geometry/camera.h"
@@ -19,6 +20,7 @@ namespace boresight {
 
 enum class PassKind : std::uint8_t {
   kEdges = 0,       ///< detects the edges of the image; once per run
+  kSearch,          ///< searches the whole object over the seed's uncertainty
   kMatch,           ///< renders, selects templates, matches them, solves for the pose
   kRefine,          ///< renders, refines the pose on the edges of the image
   kSupport,         ///< measures the edge support of the pose of the record
@@ -38,8 +40,6 @@ struct PassPlan {
   double template_factor = 1.0;  ///< on the size of the templates
   /// A refinement keeps the last render when the hypothesis moved less since; px.
   double keep_render_px = 0.0;
-  /// Renders the pose that was found and measures its edge support.
-  bool measures_support = false;
   bool anchored = false;                    ///< whether the two below constrain a refinement
   PosePrior anchor;                         ///< the seed with its uncertainty as a Gaussian
   PoseEstimate matched;                     ///< from the latest templates
@@ -51,7 +51,9 @@ struct PassPlan {
 struct PassOutcome {
   Stage reached = Stage::kEdges;  ///< the last stage that ran
   Status fault = Status::kOk;     ///< a capacity that did not suffice
-  EdgeSupport support;            ///< with measures_support or kSupport
+  EdgeSupport support;            ///< with kSupport
+  ContourEvidence evidence;       ///< with kSupport, of runs that search
+  double probability = 0.0;       ///< with kSupport, that the pose is right, of runs that search
 };
 
 /// How many matches agree with a pose: of all views when several are solved as one.

@@ -2,6 +2,7 @@
 // The stages of a pass, in their order.
 #include <algorithm>
 
+#include "core/accept/pose_probability.h"
 #include "core/localizer/pass.h"
 #include "core/localizer/pose_change.h"
 #include "core/localizer/run_digest.h"
@@ -13,6 +14,8 @@ StepReport Pass::step() {
   switch (stage_) {
     case Stage::kEdges:
       return stepEdges();
+    case Stage::kSearch:
+      return stepSearch();
     case Stage::kRender:
       return stepRender();
     case Stage::kTemplates:
@@ -20,7 +23,7 @@ StepReport Pass::step() {
     case Stage::kMatch:
       return stepMatch();
     case Stage::kPose:
-      return measures_ ? stepEvidence() : stepPose();
+      return stepPose();
     case Stage::kRefine:
       return solve_outside_ ? stepOutsideRound() : stepRefine();
     case Stage::kSupport:
@@ -35,6 +38,17 @@ StepReport Pass::stepEdges() {
   if (!memory_.detector.step()) return StepReport::of(Stage::kEdges, false);
   digestEdgeMap(workspace_.edges, digest_);
   return end(Stage::kEdges);
+}
+
+/// Without a candidate when the scene is not in sight.
+StepReport Pass::stepSearch() {
+  PoseSearch& search = memory_.search;
+  const bool works = stage_begun_ || search.begin(searched_, memory_.renderer);
+  stage_begun_ = true;
+  if (works && !search.step()) return StepReport::of(Stage::kSearch, false);
+  workspace_.candidates = search.candidates();
+  digestCandidates(workspace_.candidates, digest_);
+  return end(Stage::kSearch);
 }
 
 StepReport Pass::stepRender() {
@@ -210,32 +224,6 @@ StepReport Pass::stepPose() {
   }
   digestPnp(now.pnp, digest_);
   now.status = solved ? LocalizationStatus::kRunning : LocalizationStatus::kPnpFailed;
-  if (!solved || !plan_.measures_support) return end(Stage::kPose);
-  const Status begun = beginEvidence();
-  return begun == Status::kOk ? StepReport::of(Stage::kPose, false)
-                              : endFaulted(Stage::kPose, begun);
-}
-
-/// Renders the pose that was found: matches alone may agree on the edges of something else.
-Status Pass::beginEvidence() {
-  Iteration& now = record();
-  now.camera_from_station =
-      pulledBack({now.camera_from_station_before, now.uncertainty}, now.pnp.camera_from_station);
-  const Status status = memory_.renderer.begin(memory_.rays[static_cast<std::size_t>(now.level)],
-                                               now.camera_from_station, evidenceRender());
-  measures_ = status == Status::kOk;
-  if (measures_) memory_.tasks.open(memory_.renderer.pieces());
-  return status;
-}
-
-StepReport Pass::stepEvidence() {
-  bool complete = false;
-  const Status status = continueRender(complete);
-  if (status != Status::kOk) return endFaulted(Stage::kPose, status);
-  if (!complete) return StepReport::of(Stage::kPose, false);
-  measures_ = false;
-  outcome_.support = measureEdgeSupport(evidenceRender(), record().level, workspace_.edges,
-                                        problem_.image, problem_.ignore, options_.support);
   return end(Stage::kPose);
 }
 
@@ -271,14 +259,27 @@ StepReport Pass::stepRefine() {
   return end(Stage::kRefine);
 }
 
+/// Edge support at once; evidence, where the options ask for it, in slices.
 StepReport Pass::stepSupport() {
   const Iteration& now = record();
-  workspace_.support = measureEdgeSupport(now.render, now.level, workspace_.edges, problem_.image,
-                                          problem_.ignore, options_.support, &workspace_.partial);
-  outcome_.support = workspace_.support;
-  digest_.tag("support");
-  digestSupport(workspace_.support, digest_);
-  if (options_.support.partial) digestPartialSupport(workspace_.partial, digest_);
+  if (!stage_begun_) {
+    workspace_.support = measureEdgeSupport(now.render, now.level, workspace_.edges, problem_.image,
+                                            problem_.ignore, options_.support, &workspace_.partial);
+    workspace_.evidence = {};
+    workspace_.probability = 0.0;
+    outcome_.support = workspace_.support;
+    digest_.tag("support");
+    digestSupport(workspace_.support, digest_);
+    if (options_.support.partial) digestPartialSupport(workspace_.partial, digest_);
+    stage_begun_ = true;
+    if (!options_.search.enabled || !memory_.evidence.begin(searched_, now.render))
+      return end(Stage::kSupport);
+  }
+  if (!memory_.evidence.step()) return StepReport::of(Stage::kSupport, false);
+  outcome_.evidence = workspace_.evidence = memory_.evidence.evidence();
+  outcome_.probability = workspace_.probability =
+      poseProbability(workspace_.evidence, workspace_.support);
+  digestEvidence(workspace_.evidence, digest_);
   return end(Stage::kSupport);
 }
 

@@ -192,14 +192,24 @@ void digestRefinement(const RefinementResult& refinement, DigestWriter& writer) 
   digestMatrix(refinement.covariance, writer);
 }
 
-void digestEvidence(const HypothesisSummary& restart, const EdgeSupport& support,
-                    DigestWriter& writer) {
+void digestCandidates(std::span<const PoseCandidate> candidates, DigestWriter& writer) {
+  writer.tag("candidates");
+  writer.i32(static_cast<std::int32_t>(candidates.size()));
+  for (const PoseCandidate& candidate : candidates) {
+    digestPose(candidate.found.camera_from_station, writer);
+    writer.f64(candidate.found.distance_px);
+    digestPose(candidate.camera_from_station, writer);
+    digestEvidence(candidate.evidence, writer);
+  }
+}
+
+void digestEvidence(const ContourEvidence& evidence, DigestWriter& writer) {
   writer.tag("evidence");
-  digestSupport(support, writer);
-  writer.u8(restart.solved ? 1 : 0);
-  writer.f64(restart.inlier_nats);
-  writer.f64(restart.edge_nats);
-  digestPose(restart.camera_from_station, writer);
+  writer.i32(evidence.places);
+  writer.i32(evidence.outline_places);
+  writer.f64(evidence.edges_nats);
+  writer.f64(evidence.outline_nats);
+  for (const double nats : evidence.quadrant_nats) writer.f64(nats);
 }
 
 void digestRivals(std::span<const Rival> rivals, DigestWriter& writer) {

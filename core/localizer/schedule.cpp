@@ -23,13 +23,11 @@ RunLevels levelsOf(const ProblemSize& size, const LocalizerOptions& options) {
   RunLevels levels;
   levels.coarse = levelOfSize(longer, options.loop.coarse_size_px, finest);
   levels.fine = std::max(0, levels.coarse - 1);
-  levels.global = options.wide.isOn() ? levelOfSize(longer, options.wide.size_px, levels.coarse)
-                                      : levels.coarse;
   return levels;
 }
 
 bool comparesHypotheses(const LocalizerOptions& options) {
-  return options.loop.max_rolled_hypotheses > 1 || options.wide.isOn();
+  return options.loop.max_rolled_hypotheses > 1;
 }
 
 bool isRefinement(const LocalizerOptions& options, int iteration) {

@@ -13,7 +13,6 @@ namespace boresight {
 struct RunLevels {
   int fine = 0;    ///< of later iterations and refinements: one finer than the first iteration's
   int coarse = 0;  ///< of the first iteration
-  int global = 0;  ///< of the global search; the coarse one when it is off
 };
 RunLevels levelsOf(const ProblemSize& size, const LocalizerOptions& options);
 

@@ -13,6 +13,7 @@ enum class Stage : std::uint8_t {
   kPose,
   kRefine,
   kSupport,
+  kSearch,  ///< after the edges; last, so that those of an iteration follow each other
   kFinished,
 };
 const char* stageText(Stage stage);

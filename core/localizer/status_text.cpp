@@ -36,6 +36,8 @@ const char* stageText(Stage stage) {
   switch (stage) {
     case Stage::kEdges:
       return "edges";
+    case Stage::kSearch:
+      return "search";
     case Stage::kRender:
       return "render";
     case Stage::kTemplates:

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/accept/contour_evidence.h"
 #include "core/accept/edge_support.h"
 #include "core/edges/edge_map.h"
 #include "core/match/whs.h"
@@ -12,6 +13,7 @@
 #include "core/pnp/pnp_ransac.h"
 #include "core/refine/edge_refinement.h"
 #include "core/render/edge_render.h"
+#include "core/search/pose_search.h"
 #include "core/templates/template_selection.h"
 
 namespace boresight {
@@ -64,9 +66,9 @@ const char* localizationStatusText(LocalizationStatus status);
 
 enum class IterationKind : std::uint8_t { kMatch = 0, kRefine = 1 };
 
-/// One rolled render of an iteration, or one restart of the wide search, and what it yielded.
+/// One rolled render of an iteration, and what it yielded.
 struct HypothesisSummary {
-  double roll_rad = 0.0;       ///< of a restart: its turn about the axis chosen
+  double roll_rad = 0.0;       ///< about the ray through the scene's middle
   std::int32_t templates = 0;  ///< chosen
   std::int32_t matches = 0;    ///< used for the pose
   std::int32_t inliers = 0;    ///< that agree with it
@@ -74,14 +76,6 @@ struct HypothesisSummary {
       0.0;  ///< truncated squared residuals over the correspondences, in thresholds squared
   Pose camera_from_station;  ///< the pose found
   bool solved = false;       ///< there is a pose
-  // Of restarts alone.
-  double depth_offset_m = 0.0;  ///< along the seed camera's z axis
-  double support = 0.0;         ///< edge support of the pose, EdgeSupport::share()
-  double inlier_nats = 0.0;     ///< beyond chance, as in Evidence
-  double edge_nats = 0.0;       ///< beyond chance, as in Evidence
-
-  /// Of inliers and edges, nats.
-  double evidence() const { return inlier_nats + edge_nats; }
 };
 inline constexpr int kMaxHypotheses = 9;
 
@@ -93,8 +87,7 @@ struct Iteration {
   std::int32_t level = 0;                      ///< pyramid level, 0 full resolution
   double threshold_px = 0.0;  ///< of the full image; the search radius when refining
   /// What the render shows is this, rolled by the hypothesis chosen; a refinement's may be the last
-  /// one's, from a pose less than loop.render_again_px away. In the wide search: where the restart
-  /// chosen began.
+  /// one's, from a pose less than loop.render_again_px away.
   Pose camera_from_station_before;
   SeedUncertainty uncertainty;                ///< how far the truth may be from that pose
   EdgeRender render;                          ///< the salient edges
@@ -108,8 +101,6 @@ struct Iteration {
   /// The first `hypothesis_count` are valid.
   std::array<HypothesisSummary, kMaxHypotheses> hypotheses;
   std::int32_t hypothesis_count = 0;  ///< renders tried
-  /// Of an iteration of the wide search, in place of those: its restarts up to now.
-  std::span<const HypothesisSummary> restarts;
   std::int32_t chosen_hypothesis = 0;     ///< index of the one that is kept
   Pose camera_from_station;               ///< after
   double correction_translation_m = 0.0;  ///< from the pose before
@@ -133,7 +124,10 @@ struct Rival {
 struct Workspace {
   EdgeMap edges;  ///< levels finer than any render are gone when the first iteration has begun
   const Iteration* iteration = nullptr;  ///< the latest; stages not yet reached hold old values
+  std::span<const PoseCandidate> candidates;  ///< of the search, the most evidence first
   EdgeSupport support;                   ///< of the final pose
+  ContourEvidence evidence;              ///< of it, too
+  double probability = 0.0;              ///< that it is right, by both; 0 where none was searched
   PartialSupport partial;                ///< of it, too
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< how the run stands
   Status fault = Status::kOk;                                ///< what did not suffice, with kFault

@@ -212,6 +212,11 @@ Status EdgeRenderer::step(bool& done) {
   return Status::kOk;
 }
 
+Status EdgeRenderer::stepWhole(bool& done) {
+  for (int piece = 0; piece < pieces(); ++piece) work(piece, 0);
+  return step(done);
+}
+
 Status EdgeRenderer::stepAlone(bool& done) {
   if (phase_ == Phase::kBands) {
     const Status status = painter_.step(source(), *output_, done);

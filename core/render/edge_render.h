@@ -100,6 +100,10 @@ class EdgeRenderer {
   /// With several workers it ends a phase all of whose pieces have been done.
   Status step(bool& done);
 
+  /// A step by one who has no others to share with, however many workers there are: does what
+  /// pieces are left first.
+  Status stepWhole(bool& done);
+
   /// Pieces of the phase at hand; 0 with one worker, whose steps do everything.
   int pieces() const { return phase_ == Phase::kIdle ? 0 : piece_count_; }
   /// Most pieces that a phase has with so many workers.

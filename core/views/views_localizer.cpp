@@ -28,12 +28,17 @@ SeedUncertainty turnedInto(const Pose& camera_from_first, const SeedUncertainty&
   return turned;
 }
 
+/// Several views start from their common seed.
+LocalizerOptions withoutSearch(LocalizerOptions options) {
+  options.search.enabled = false;
+  return options;
+}
+
 }  // namespace
 
 Status ViewsLocalizer::validate(const ViewsProblem& problem, const LocalizerOptions& options) {
   if (problem.views.empty() || problem.views.size() > kMaxViews) return Status::kCapacityExceeded;
-  const bool offered =
-      !options.wide.isOn() && !options.ambiguity.enabled && !options.support.partial;
+  const bool offered = !options.ambiguity.enabled && !options.support.partial;
   if (firstInvalidOption(options) != nullptr || !offered) return Status::kInvalidOption;
   if (options.refinement.covariance == CovarianceModel::kGrouped && problem.views.size() > 1)
     return Status::kInvalidOption;
@@ -75,7 +80,8 @@ Status ViewsLocalizer::requiredBytes(const ViewsProblem& problem, const Localize
     one.camera = view.camera;
     one.mesh = problem.mesh;
     std::size_t own = 0;
-    const Status sized = boresight::requiredBytes(sizeOf(one), options, workers, own, kernels);
+    const Status sized = boresight::requiredBytes(
+        sizeOf(one), withoutSearch(options), workers, own, kernels);
     if (sized != Status::kOk) return sized;
     bytes += (own + Arena::kAlignment - 1) / Arena::kAlignment * Arena::kAlignment;
   }
@@ -96,7 +102,7 @@ LocalizationProblem ViewsLocalizer::problemOf(std::size_t index) const {
 
 ViewsLocalizer::ViewsLocalizer(const ViewsProblem& problem, const LocalizerOptions& options,
                                std::span<std::byte> memory, int workers, Kernels kernels)
-    : problem_(problem), options_(options) {
+    : problem_(problem), options_(withoutSearch(options)) {
   std::size_t needed = 0;
   status_ = requiredBytes(problem, options, workers, kernels, needed);
   if (status_ == Status::kOk && memory.size() < needed) status_ = Status::kArenaTooSmall;

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "core/localizer/candidate_trials.h"
 #include "core/localizer/pose_change.h"
 #include "core/localizer/schedule.h"
 #include "core/match/search_window.h"
@@ -91,6 +92,7 @@ class Replayer {
   void detect();
   void finish();
   void startAttempt(const RecordedIteration& one);
+  void startFromCandidate(const RecordedIteration& one);
   IterationTrace iterationOf(const RecordedIteration& one);
   IterationTrace headOf(const RecordedIteration& one) const;
   void fillRefinement(const RecordedIteration& one, IterationTrace& made);
@@ -118,6 +120,7 @@ class Replayer {
   bool same_size_ = true;
   std::int32_t attempt_ = -1;
   std::optional<std::int32_t> attempt_begin_;  ///< index of its first iteration, if known
+  Seed attempt_seed_;                          ///< where it started, and within what
   std::optional<Pose> refined_render_;         ///< pose of the last refinement's render
   bool noted_render_ = false;
   bool noted_refinement_ = false;
@@ -174,10 +177,22 @@ void Replayer::startAttempt(const RecordedIteration& one) {
   attempt_ = one.attempt;
   refined_render_.reset();
   attempt_begin_.reset();
-  if (optionsAt(one.index).wide.isOn()) return;  // the record does not say what restarts covered
   if (one.attempt > 0 && optionsAt(one.index).ambiguity.enabled) return;  // nor which are rivals
   if (one.attempt == 0) attempt_begin_ = 0;
   if (one.attempt > 0 && follows) attempt_begin_ = one.index;
+  startFromCandidate(one);
+}
+
+/// Attempts of a run that searched start from a candidate: in a box of its own when its templates
+/// are matched, with a refinement otherwise.
+void Replayer::startFromCandidate(const RecordedIteration& one) {
+  attempt_seed_ = seedOf(given_);
+  if (!optionsAt(one.index).search.enabled || !attempt_begin_) return;
+  const Pose& before = one.camera_from_station_before;
+  if (one.kind == IterationKind::kRefine)
+    *attempt_begin_ -= optionsAt(one.index).loop.match_iterations;
+  else if (before != given_.camera_from_station_seed && isUsable(before))
+    attempt_seed_ = {before, uncertaintyAbout(before, seedOf(given_), bounds_)};
 }
 
 /// Of a match the pose before it, rolled; of a refinement perhaps that of the last render.
@@ -310,7 +325,7 @@ IterationTrace Replayer::headOf(const RecordedIteration& one) const {
   made.camera_from_station = one.camera_from_station;
   if (attempt_begin_)
     made.uncertainty =
-        uncertaintyAt(seedOf(given_), optionsAt(one.index).loop,
+        uncertaintyAt(attempt_seed_, optionsAt(one.index).loop,
                       std::max(0, one.index - *attempt_begin_), one.camera_from_station_before);
   made.edge_pixel_count = one.edge_pixels;
   made.template_count = one.templates_count;

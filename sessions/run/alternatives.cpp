@@ -19,19 +19,16 @@ void compare(const Pose& chosen, Alternative& made) {
 Alternative ofHypothesis(const IterationTrace& iteration, std::size_t index) {
   const HypothesisSummary& from = iteration.hypotheses[index];
   Alternative made;
-  made.kind = iteration.wide ? AlternativeKind::kRestart : AlternativeKind::kRolled;
+  made.kind = AlternativeKind::kRolled;
   made.number = static_cast<std::int32_t>(index) + 1;
   made.chosen = static_cast<std::int32_t>(index) == iteration.chosen_hypothesis;
   // A render that was only rolled has no pose of its own.
-  made.has_pose = from.solved || iteration.wide;
+  made.has_pose = from.solved;
   made.camera_from_station = from.camera_from_station;
   made.roll_rad = from.roll_rad;
-  made.depth_offset_m = from.depth_offset_m;
   made.matches = from.matches;
   made.inliers = from.inliers;
-  const bool weighed = iteration.wide && from.solved;
-  made.support = weighed ? from.support : kUnknown;
-  made.evidence_nats = weighed ? from.evidence() : kUnknown;
+  made.evidence_nats = kUnknown;
   made.similarity = made.margin_nats = kUnknown;
   made.ended = from.solved ? LocalizationStatus::kRunning : LocalizationStatus::kPnpFailed;
   return made;
@@ -44,10 +41,24 @@ Alternative ofRival(const Rival& from, std::size_t index) {
   made.number = static_cast<std::int32_t>(index) + 1;
   made.has_pose = true;
   made.camera_from_station = converged ? from.camera_from_station : from.camera_from_station_before;
-  made.roll_rad = made.depth_offset_m = made.support = made.evidence_nats = kUnknown;
+  made.roll_rad = made.evidence_nats = kUnknown;
   made.similarity = from.similarity;
   made.margin_nats = converged ? from.margin_nats : kUnknown;
   made.ended = from.ended;
+  return made;
+}
+
+/// The pose of a candidate as the search refined it; the run went on with the first of them.
+Alternative ofCandidate(const PoseCandidate& from, std::size_t index) {
+  Alternative made;
+  made.kind = AlternativeKind::kCandidate;
+  made.number = static_cast<std::int32_t>(index) + 1;
+  made.chosen = index == 0;
+  made.has_pose = true;
+  made.camera_from_station = from.camera_from_station;
+  made.roll_rad = from.found.roll_rad;
+  made.evidence_nats = from.rank_nats();
+  made.similarity = made.margin_nats = kUnknown;
   return made;
 }
 
@@ -81,6 +92,10 @@ std::vector<Alternative> alternativesOf(const LocalizationTrace& run) {
   for (std::size_t i = 0; i < run.rivals.size(); ++i) {
     all.push_back(ofRival(run.rivals[i], i));
     compare(lead, all.back());
+  }
+  for (std::size_t i = 0; i < run.candidates.size(); ++i) {
+    all.push_back(ofCandidate(run.candidates[i], i));
+    compare(run.candidates.front().camera_from_station, all.back());
   }
   for (std::size_t i = 0; i < run.iterations.size(); ++i) addHypotheses(run, i, all);
   return all;

@@ -11,7 +11,7 @@ namespace boresight::sessions {
 
 enum class AlternativeKind : std::uint8_t {
   kRolled,   ///< a hypothesis of an iteration, turned about the ray to the station
-  kRestart,  ///< one of the wide search
+  kCandidate,  ///< a pose that the search found
   kRival,    ///< a pose under which the model's edges look like those of the run's result
 };
 
@@ -23,25 +23,23 @@ struct Alternative {
   std::int32_t number = 1;      ///< in its iteration, or among the rivals; from 1
   bool chosen = false;          ///< what the run went on with
   bool has_pose = false;        ///< else there is nothing to draw
-  /// What came out of it; of a restart or rival without a pose, where it began.
+  /// What came out of it; of a rival without a pose, where it began.
   Pose camera_from_station;
   /// What the run went on with in that iteration; of a rival, the run's result.
   Pose camera_from_station_chosen;
   double apart_m = 0.0;  ///< between the two, of the station's origin
   double apart_rad = 0.0;
   double roll_rad = 0.0;
-  double depth_offset_m = 0.0;
   std::int32_t matches = 0;
   std::int32_t inliers = 0;
-  double support = 0.0;        ///< edge support, [0, 1]
-  double evidence_nats = 0.0;  ///< beyond chance
+  double evidence_nats = 0.0;  ///< of a candidate's contours, PoseCandidate::rank_nats()
   double similarity = 0.0;     ///< of a rival's edges to the result's, [0, 1]
   double margin_nats = 0.0;    ///< evidence of the result beyond a converged rival's
   LocalizationStatus ended = LocalizationStatus::kRunning;  ///< kRunning: a rival not tried
 };
 
-/// Of a run as far as it has come: its rivals, then iteration by iteration the restarts and rolled
-/// hypotheses of those that had several.
+/// Of a run as far as it has come: its rivals, the candidates of its search, then iteration by
+/// iteration the rolled hypotheses of those that had several.
 std::vector<Alternative> alternativesOf(const LocalizationTrace& run);
 
 /// The rival that an iteration (an index into the run's) worked on, as an index into

@@ -126,12 +126,8 @@ IterationTrace recordIteration(const Iteration& iteration, Stage reached, Record
   const bool refines = iteration.kind == IterationKind::kRefine;
   if (!refines) {
     recordMatching(iteration, reached, level, trace);
-    trace.wide = !iteration.restarts.empty();
-    if (trace.wide)
-      trace.hypotheses.assign(iteration.restarts.begin(), iteration.restarts.end());
-    else
-      trace.hypotheses.assign(iteration.hypotheses.begin(),
-                              iteration.hypotheses.begin() + iteration.hypothesis_count);
+    trace.hypotheses.assign(iteration.hypotheses.begin(),
+                            iteration.hypotheses.begin() + iteration.hypothesis_count);
     trace.chosen_hypothesis = iteration.chosen_hypothesis;
   } else if (reached >= Stage::kRefine) {
     recordRefinement(iteration.refinement, level, trace.refinement);

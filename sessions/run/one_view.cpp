@@ -92,6 +92,11 @@ class OneView final : public SteppedRun {
     trace.last_under_way = !complete;
   }
 
+  void noteSearch() override {
+    const auto candidates = localizer_->workspace().candidates;
+    traces.front().candidates.assign(candidates.begin(), candidates.end());
+  }
+
   void noteSupport(const StageSeconds& seconds) override {
     const Iteration* iteration = localizer_->workspace().iteration;
     auto& iterations = traces.front().iterations;
@@ -110,6 +115,9 @@ class OneView final : public SteppedRun {
     trace.finished = true;
     trace.support = workspace.support;
     trace.partial = workspace.partial;
+    trace.evidence = workspace.evidence;
+    trace.probability = workspace.probability;
+    if (trace.candidates.empty()) noteSearch();
     trace.attempts = workspace.attempts;
     trace.rivals.assign(workspace.rivals.begin(), workspace.rivals.end());
     trace.status = workspace.status;

@@ -37,16 +37,8 @@ std::string sigmaText(const Matrix6d& covariance, const char* place) {
       1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2));
 }
 
-bool wentOnFromRestarts(const LocalizationTrace& trace) {
-  return std::any_of(trace.iterations.begin(), trace.iterations.end(),
-                     [](const auto& one) { return one->wide; });
-}
-
 /// The axis that is furthest beyond its limit.
 std::string leftUncertaintyText(const LocalizationTrace& trace) {
-  if (wentOnFromRestarts(trace))
-    return "the pose moved away from what the restarts had found, further than they leave open; "
-           "check the mesh, or run it without wide.* if the truth is within the seed's uncertainty";
   constexpr const char* kAxes[] = {"x", "y", "z"};
   const Pose& last = trace.iterations.back()->camera_from_station;
   const Vector6d offset =
@@ -125,7 +117,23 @@ std::string partialText(const PartialSupport& partial, const SupportOptions& opt
       100.0 * options.partial_precision);
 }
 
+/// What the probability of a searched run's pose rests on.
+std::string probabilityText(const LocalizationTrace& trace) {
+  return format(
+      "%.1f %%, needed %.1f %%: evidence of its edges %.2f nats, of the weakest quadrant "
+      "%.2f nats, edge support %.1f %%",
+      100.0 * trace.probability, 100.0 * trace.lastOptions().support.min_probability,
+      trace.evidence.strongest_nats(), trace.evidence.weakest_nats(),
+      100.0 * trace.support.share());
+}
+
+bool hasProbability(const LocalizationTrace& trace) { return trace.evidence.places > 0; }
+
 std::string notSupportedText(const LocalizationTrace& trace) {
+  if (hasProbability(trace))
+    return "the probability that the pose is right is " + probabilityText(trace) +
+           partialText(trace.partial, trace.lastOptions().support) +
+           "; check mesh and camera, and state a larger uncertainty if the seed may be farther off";
   const EdgeSupport& support = trace.support;
   const std::string partial = partialText(trace.partial, trace.lastOptions().support);
   return format(
@@ -211,7 +219,9 @@ std::string convergedText(const LocalizationTrace& trace) {
   if (trace.attempts > 1) text += format(" and %d attempts", trace.attempts);
   text += trace.replayed ? "." : format(", %.2f s.", trace.seconds.total());
   const SupportOptions& asked = trace.lastOptions().support;
-  if (asked.gate)
+  if (asked.gate && hasProbability(trace))
+    text += " The probability that the pose is right is " + probabilityText(trace) + ".";
+  else if (asked.gate)
     text += format(" Edge support is %.1f %%, needed %.1f %%%s.", 100.0 * trace.support.share(),
                    100.0 * asked.min_support, partialText(trace.partial, asked).c_str());
   if (const Rival* rival = closestRival(trace.rivals))

@@ -91,10 +91,13 @@ void Runner::note(const StepReport& report, double seconds) {
     trace.stage = report.stage;
     trace.seconds.add(report.stage, seconds);
   }
-  if (report.stage != Stage::kEdges) iteration_seconds_.add(report.stage, seconds);
+  const bool first = report.stage == Stage::kEdges || report.stage == Stage::kSearch;
+  if (!first) iteration_seconds_.add(report.stage, seconds);
   const bool support = report.stage == Stage::kSupport && !report.iteration_complete;
   if (report.stage == Stage::kEdges && report.stage_complete) {
     stepped_->noteEdges();
+  } else if (report.stage == Stage::kSearch) {
+    if (report.stage_complete) stepped_->noteSearch();
   } else if (support && report.stage_complete) {
     stepped_->noteSupport(iteration_seconds_);
     iteration_seconds_ = {};

@@ -23,6 +23,8 @@ class SteppedRun {
   virtual int workers() const = 0;
   /// A view's test edges are complete.
   virtual void noteEdges() = 0;
+  /// The search before the first iteration is complete.
+  virtual void noteSearch() {}
   /// A stage or an iteration is complete: copies it with its `seconds` so far.
   virtual void noteIteration(const StepReport& report, const StageSeconds& seconds) = 0;
   /// Edge support was measured after the last iteration, and may have changed its status.

@@ -27,6 +27,7 @@ EdgeRender RenderTrace::view() const {
 void StageSeconds::add(Stage stage, double seconds) {
   switch (stage) {
     case Stage::kEdges:
+    case Stage::kSearch:
       initialization += seconds;
       break;
     case Stage::kRender:

@@ -70,7 +70,7 @@ struct RefinementTrace {
 
 /// Seconds of wall time per group of stages, as the paper counts them. Not part of the digest.
 struct StageSeconds {
-  double initialization = 0.0;  ///< construction and test edges
+  double initialization = 0.0;  ///< construction, test edges and search
   double rendering = 0.0;
   double matching = 0.0;  ///< templates and their search
   double pose = 0.0;
@@ -134,7 +134,6 @@ struct IterationTrace {
   std::int32_t correspondence_count = 0;
   PnpTrace pnp;
   RefinementTrace refinement;
-  bool wide = false;  ///< of the wide search: the hypotheses are restarts
   std::vector<HypothesisSummary> hypotheses;
   std::int32_t chosen_hypothesis = 0;
 
@@ -163,9 +162,12 @@ struct LocalizationTrace {
   /// Of all attempts, in order; the last one may be under way (`IterationTrace::reached`).
   std::vector<std::shared_ptr<const IterationTrace>> iterations;
   std::int32_t attempts = 1;
+  std::vector<PoseCandidate> candidates;  ///< of the search, the most evidence first
   std::vector<Rival> rivals;  ///< with ambiguity.enabled, about the pose that converged
   EdgeSupport support;
-  PartialSupport partial;                                    ///< of the same pose
+  PartialSupport partial;    ///< of the same pose
+  ContourEvidence evidence;  ///< of the same pose, of runs that search
+  double probability = 0.0;  ///< that it is right, of runs that search
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< kRunning: it was stopped
   Status fault = Status::kOk;
   Pose camera_from_station;  ///< best estimate; the seed unless converged

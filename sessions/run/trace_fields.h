@@ -171,12 +171,37 @@ void fields(Archive& archive, Self& refinement) {
 
 template <class Archive, Is<HypothesisSummary> Self>
 void fields(Archive& archive, Self& hypothesis) {
-  auto& [roll_rad, templates, matches, inliers, cost, camera_from_station, solved, depth_offset_m,
-         support, inlier_nats, edge_nats] = hypothesis;
+  auto& [roll_rad, templates, matches, inliers, cost, camera_from_station, solved] = hypothesis;
   numbers(archive, roll_rad, templates, matches, inliers, cost);
   fields(archive, camera_from_station);
   archive.number(solved);
-  numbers(archive, depth_offset_m, support, inlier_nats, edge_nats);
+}
+
+template <class Archive, Is<SearchCandidate> Self>
+void fields(Archive& archive, Self& found) {
+  auto& [camera_from_station, distance_px, tilt_x_rad, tilt_y_rad, roll_rad, depth_ratio,
+         slide_x_px, slide_y_px] = found;
+  fields(archive, camera_from_station);
+  numbers(archive, distance_px, tilt_x_rad, tilt_y_rad, roll_rad, depth_ratio, slide_x_px,
+          slide_y_px);
+}
+
+template <class Archive, Is<ContourEvidence> Self>
+void fields(Archive& archive, Self& evidence) {
+  auto& [places, outline_places, edges_nats, outline_nats, quadrant_nats, quadrant_places] =
+      evidence;
+  numbers(archive, places, outline_places, edges_nats, outline_nats);
+  for (auto& nats : quadrant_nats) archive.number(nats);
+  for (auto& count : quadrant_places) archive.number(count);
+}
+
+template <class Archive, Is<PoseCandidate> Self>
+void fields(Archive& archive, Self& candidate) {
+  auto& [found, camera_from_station, evidence, error_px] = candidate;
+  fields(archive, found);
+  fields(archive, camera_from_station);
+  fields(archive, evidence);
+  archive.number(error_px);
 }
 
 template <class Archive, Is<StageSeconds> Self>
@@ -252,7 +277,6 @@ void fields(Archive& archive, Self& iteration) {
   fields(archive, iteration.refinement);
   archive.list(iteration.hypotheses, [&](auto& hypothesis) { fields(archive, hypothesis); });
   archive.number(iteration.chosen_hypothesis);
-  archive.number(iteration.wide);
   fields(archive, iteration.camera_from_station);
   archive.number(iteration.correction_translation_m);
   archive.number(iteration.correction_rotation_rad);
@@ -313,9 +337,12 @@ void fields(Archive& archive, Self& trace) {
   sharedFields(archive, trace.edges);
   archive.list(trace.iterations, [&](auto& iteration) { sharedFields(archive, iteration); });
   archive.number(trace.attempts);
+  archive.list(trace.candidates, [&](auto& candidate) { fields(archive, candidate); });
   archive.list(trace.rivals, [&](auto& rival) { fields(archive, rival); });
   fields(archive, trace.support);
   fields(archive, trace.partial);
+  fields(archive, trace.evidence);
+  archive.number(trace.probability);
   archive.choice(trace.status, kLastLocalizationStatus);
   archive.choice(trace.fault, kLastStatus);
   fields(archive, trace.camera_from_station);

@@ -26,7 +26,7 @@ struct CheckLimits {
   double clutter_percent = 95.0;
   double explained_percent = 40.0;
   double fall_off_percent = 15.0;
-  double focal_percent = 0.6;
+  double focal_percent = 0.5;
   double centre_px = 4.0;
   double agreement_percent = 100.0;
   double basin_percent = 90.0;

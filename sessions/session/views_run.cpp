@@ -73,8 +73,6 @@ std::string viewsRefusal(const LocalizerOptions& options) {
   const auto refused = [](const std::string& what) {
     return "Several views are not solved together with " + what + ".";
   };
-  if (options.wide.isOn())
-    return refused("a wide search: set wide.rotation_rad and wide.translation_m to 0");
   if (options.ambiguity.enabled)
     return refused("a search for rivals: switch ambiguity.enabled off");
   if (options.support.partial) return refused("partial support: switch support.partial off");

@@ -25,6 +25,16 @@ inline std::shared_ptr<const sessions::LocalizationTrace> exampleRun() {
   return made;
 }
 
+/// The same from the seed alone, without a search.
+inline std::shared_ptr<const sessions::LocalizationTrace> exampleRunOfSeed() {
+  static const auto made = [] {
+    LocalizerOptions options = defaultProfile();
+    options.search.enabled = false;
+    return runOfExample("os", options);
+  }();
+  return made;
+}
+
 /// The same as a value.
 inline const sessions::LocalizationTrace& exampleTrace() { return *exampleRun(); }
 

@@ -9,26 +9,17 @@ namespace boresight::test {
 
 /// The example's run as if two rivals of its result had been looked for: one that converged 22 mm
 /// beside it, in an attempt that the last two iterations stand for, and one that did not; and as if
-/// its first iteration had been the best of three restarts.
+/// its search had found two candidates.
 inline std::shared_ptr<const sessions::LocalizationTrace> runWithRivals() {
   auto run = std::make_shared<sessions::LocalizationTrace>(*exampleRun());
-  auto restarts = std::make_shared<sessions::IterationTrace>(*run->iterations.front());
-  HypothesisSummary chosen = restarts->hypotheses.front();
-  chosen.solved = true;
-  chosen.inlier_nats = 90.0;
-  HypothesisSummary turned = chosen;
-  turned.roll_rad = 0.3;
-  turned.depth_offset_m = -0.025;
-  turned.inlier_nats = 10.0;
+  PoseCandidate chosen;
+  chosen.camera_from_station = run->iterations.front()->camera_from_station;
+  chosen.evidence.edges_nats = 0.9;
+  PoseCandidate turned = chosen;
+  turned.evidence.edges_nats = 0.4;
   turned.camera_from_station.rotation =
       rotationExp({0.0, 0.0, 0.3}) * chosen.camera_from_station.rotation;
-  HypothesisSummary failed = turned;
-  failed.roll_rad = -0.3;
-  failed.solved = false;
-  restarts->wide = true;
-  restarts->hypotheses = {chosen, turned, failed};
-  restarts->chosen_hypothesis = 0;
-  run->iterations.front() = restarts;
+  run->candidates = {chosen, turned};
   Rival beside;
   beside.camera_from_station_before = run->camera_from_station;
   beside.camera_from_station_before.translation_m.x() += 0.022;

@@ -36,19 +36,20 @@ QString endedText(const Alternative& one) {
 std::vector<TableColumn<Alternative>> columns() {
   using Row = const Alternative&;
   const auto ofOthers = [](Row one, int count) {
-    return one.kind == AlternativeKind::kRival ? kUnknown : count;
+    return one.kind == AlternativeKind::kRolled ? count : kUnknown;
   };
   return {
       {tr("Pose"),
-       tr("A rival: a pose under which the model's edges look like those of the result. A restart "
-          "of the wide search: the seed turned, and moved in depth. A rolled hypothesis: the "
-          "render turned about the view."),
+       tr("A rival: a pose under which the model's edges look like those of the result. A "
+          "candidate: a pose that the search found. A rolled hypothesis: the render turned about "
+          "the view."),
        -1, alternativeTitle},
       {tr("Iteration"),
        tr("The iteration that weighed it, counted from 1 over all attempts; rivals are weighed "
           "against the result."),
        -1,
        [](Row one) {
+         if (one.kind == AlternativeKind::kCandidate) return tr("search");
          return one.iteration < 0 ? tr("result") : QString::number(one.iteration + 1);
        }},
       {tr("Ended"),
@@ -64,11 +65,9 @@ std::vector<TableColumn<Alternative>> columns() {
           "same."),
        2, [](Row one) { return one.similarity; }},
       {tr("Evidence, nats"),
-       tr("How improbable a restart's inliers and met edges are by chance, in nats."), 0,
-       [](Row one) { return one.evidence_nats; }},
-      {tr("Edge support"),
-       tr("Share of a restart's rendered edges that the image has, beyond chance."), 2,
-       [](Row one) { return one.support; }},
+       tr("How strongly the image's edges speak for a candidate: mean over its edges and half of "
+          "the weakest quadrant, in nats."),
+       2, [](Row one) { return one.evidence_nats; }},
       {tr("Inliers"), tr("Matches that agree with its pose."), 0,
        [=](Row one) { return ofOthers(one, one.inliers); }},
       {tr("Matches"), tr("Templates that could be searched."), 0,
@@ -85,19 +84,16 @@ std::vector<TableColumn<Alternative>> columns() {
 
 QString alternativeTitle(const Alternative& one) {
   if (one.kind == AlternativeKind::kRival) return tr("Rival %1").arg(one.number);
-  const QString turn = signedText(one.roll_rad / kDegree_rad, 1);
-  if (one.kind == AlternativeKind::kRolled) return tr("Rolled by %1 deg").arg(turn);
-  const QString text = tr("Restart %1 deg").arg(turn);
-  if (one.depth_offset_m == 0.0) return text;
-  return tr("%1, %2 mm").arg(text, signedText(1e3 * one.depth_offset_m, 0));
+  if (one.kind == AlternativeKind::kCandidate) return tr("Candidate %1").arg(one.number);
+  return tr("Rolled by %1 deg").arg(signedText(one.roll_rad / kDegree_rad, 1));
 }
 
 QString chosenTitle(const Alternative& one) {
   switch (one.kind) {
     case AlternativeKind::kRival:
       return tr("Result of the run");
-    case AlternativeKind::kRestart:
-      return tr("Chosen restart");
+    case AlternativeKind::kCandidate:
+      return tr("First candidate");
     case AlternativeKind::kRolled:
       return tr("Chosen roll");
   }

@@ -8,11 +8,11 @@ namespace boresight::ui {
 
 /// "Rival 2", "Restart +40.0 deg, -25 mm", "Rolled by +5.0 deg".
 QString alternativeTitle(const sessions::Alternative& one);
-/// What it was weighed against: "Result of the run", "Chosen restart", "Chosen roll".
+/// What it was weighed against: "Result of the run", "First candidate", "Chosen roll".
 QString chosenTitle(const sessions::Alternative& one);
 
 /// The poses that a run weighed against those that it went on with, one row each: rivals first,
-/// then restarts and rolled hypotheses by iteration.
+/// then candidates, then rolled hypotheses by iteration.
 class AlternativesModel : public RowsModel<sessions::Alternative> {
   Q_OBJECT
 
@@ -24,7 +24,6 @@ class AlternativesModel : public RowsModel<sessions::Alternative> {
     kMargin_nats,
     kSimilarity,
     kEvidence_nats,
-    kSupport,
     kInliers,
     kMatches,
     kApart_mm,

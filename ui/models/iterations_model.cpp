@@ -27,15 +27,11 @@ const HypothesisSummary* chosenOf(const IterationTrace& one) {
   return &one.hypotheses[chosen];
 }
 
-/// "+40.0 deg", "+40.0 deg, -25 mm".
+/// "+40.0 deg".
 QString placeText(const HypothesisSummary& one) {
-  const auto sign = [](double value) { return QLatin1String(value < 0.0 ? "" : "+"); };
   const double turn_deg = one.roll_rad / kDegree_rad;
-  QString text = sign(turn_deg) + numberText(turn_deg, 1) + QStringLiteral(" deg");
-  const double depth_mm = 1e3 * one.depth_offset_m;
-  if (depth_mm != 0.0)
-    text += QStringLiteral(", ") + sign(depth_mm) + numberText(depth_mm, 0) + QStringLiteral(" mm");
-  return text;
+  return QLatin1String(turn_deg < 0.0 ? "" : "+") + numberText(turn_deg, 1) +
+         QStringLiteral(" deg");
 }
 
 double ofPose(const IterationTrace& one, double value) { return isSolved(one) ? value : kUnknown; }
@@ -69,9 +65,6 @@ QString hypothesesList(const IterationTrace& one) {
     const HypothesisSummary& each = one.hypotheses[i];
     QString line =
         tr("%1: %2 of %3 inliers").arg(placeText(each)).arg(each.inliers).arg(each.matches);
-    if (one.wide)
-      line += tr(", evidence %1, edge support %2")
-                  .arg(numberText(each.evidence(), 0), numberText(each.support, 2));
     if (!each.solved) line += tr(", no pose");
     if (static_cast<int>(i) == one.chosen_hypothesis) line += tr(" (chosen)");
     lines << line;
@@ -80,7 +73,6 @@ QString hypothesesList(const IterationTrace& one) {
 }
 
 QString kindText(const IterationTrace& one) {
-  if (one.wide) return IterationsModel::tr("restarts");
   return one.kind == IterationKind::kRefine ? IterationsModel::tr("refine")
                                             : IterationsModel::tr("match");
 }
@@ -105,12 +97,11 @@ std::vector<TableColumn<IterationRow>> columns() {
        -1, [](Row row) { return row.name; }},
       {tr("Kind"),
        tr("match: templates are searched and a pose is solved from them; refine: the pose moves "
-          "until rendered edges meet the image's own; restarts: the best of several turned or "
-          "moved seeds goes on."),
+          "until rendered edges meet the image's own."),
        -1, text(kindText)},
       {tr("Hypothesis"),
-       tr("Which render the iteration went on with: its turn in degrees, of restarts also its step "
-          "in depth in mm, and how many there were. Point at a cell for all of them."),
+       tr("Which render the iteration went on with: its turn in degrees, and how many there were. "
+          "Point at a cell for all of them."),
        -1, text(hypothesisText)},
       {tr("Level"),
        tr("Level of the image pyramid: 0 is the full image, each further one has half its size."),

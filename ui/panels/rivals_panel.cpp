@@ -12,13 +12,12 @@ using sessions::AlternativeKind;
 RivalsPanel::RivalsPanel(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(4, 4, 4, 4);
-  table_ = newTable("rivals", tr("Rivals, restarts and rolled hypotheses"), model_, this);
+  table_ = newTable("rivals", tr("Rivals, candidates and rolled hypotheses"), model_, this);
   column->addWidget(table_);
   auto* hint = new EmptyHint(*table_);
   hint->setText(
       tr("Poses that a run weighs beside the one it goes on with: rivals of its result "
-         "(ambiguity.enabled), restarts (wide.rotation_rad, wide.translation_m), rolled "
-         "hypotheses. The chosen row is drawn on the image."));
+         "(ambiguity.enabled), candidates of the search, rolled hypotheses. The chosen row is drawn on the image."));
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& current) {
             if (!showing_) choose(current.isValid() ? current.row() : -1);

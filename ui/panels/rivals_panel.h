@@ -10,7 +10,7 @@ class QTableView;
 
 namespace boresight::ui {
 
-/// What else a run weighed: rivals of its result, restarts, rolled hypotheses. The chosen one is
+/// What else a run weighed: rivals of its result, candidates, rolled hypotheses. The chosen one is
 /// drawn on the image beside the pose that the run went on with; one that belongs to an iteration
 /// takes the cursor there, and the cursor on an iteration of a rival chooses that rival.
 class RivalsPanel : public QWidget {

@@ -69,7 +69,7 @@ const std::array<LayerInfo, kLayerCount>& infos() {
       {LayerId::kRivalEdges,
        "Rival's edges",
        "H",
-       "Salient edges of the rival, restart or rolled hypothesis chosen under Rivals",
+       "Salient edges of the rival, candidate or rolled hypothesis chosen under Rivals",
        {true, QColor(255, 60, 230), 0.9}},
       {LayerId::kWindows,
        "Search windows",

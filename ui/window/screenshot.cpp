@@ -122,7 +122,7 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
   }
   auto* rivals = window.findChild<RivalsPanel*>();
   if (order.rival > rivals->model().rowCount())
-    return QObject::tr("the shown run has %1 rivals, restarts and rolled hypotheses")
+    return QObject::tr("the shown run has %1 rivals, candidates and rolled hypotheses")
         .arg(rivals->model().rowCount());
   if (order.rival > 0) rivals->choose(order.rival - 1);
   const auto* iteration = window.state().iteration();

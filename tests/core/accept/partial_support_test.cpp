@@ -175,7 +175,7 @@ TEST(PartialSupport, NothingIsSeenOfNothing) {
 }
 
 LocalizationStatus endOf(const Case& scene, bool partial, Pose& camera_from_station) {
-  LocalizerOptions options = defaultProfile();
+  LocalizerOptions options = withoutSearch();
   options.support.partial = partial;
   options.support.min_support = 0.75;  // these edges are crisper than a camera's
   OwnedRun run(scene.problem(), options);

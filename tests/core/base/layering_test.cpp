@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 /// The stages in pipeline order: a folder may include itself and those before it.
 const std::vector<std::string> kStages = {"base",      "geometry",  "edges", "render",
                                           "templates", "match",     "pnp",   "refine",
-                                          "accept",    "localizer", "views", "record"};
+                                          "accept",    "search",    "localizer", "views", "record"};
 
 /// The standard headers that flight code may use: no streams, threads, heap containers, locales,
 /// clocks or random distributions. <cstdlib> is where the integers' std::abs lives.

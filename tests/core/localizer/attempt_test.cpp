@@ -101,7 +101,7 @@ TEST_F(AttemptTest, CorrectionsThatStayLarge_EndAtTheIterationLimit) {
 TEST_F(AttemptTest, RefinementBeyondTheUncertainty_Fails) {
   (void)takeMatch(found, 80);
   (void)takeMatch(found, 80);
-  const Ruling ruling = takeRefinement(movedBy(seed.camera_from_station, 0.034));  // of 0.033
+  const Ruling ruling = takeRefinement(movedBy(seed.camera_from_station, 0.046));  // of 0.045
   EXPECT_TRUE(ruling.failed());
   EXPECT_EQ(ruling.status, LocalizationStatus::kLeftUncertainty);
 }

@@ -43,7 +43,7 @@ class CompetingPosesTest : public testing::Test {
   Attempt first{0, seed};
   std::vector<SelfShift> shifts;
   std::array<Rival, 8> memory;
-  CompetingPoses competing{memory};
+  CompetingPoses competing{memory, seed};
   bool leads = false;
 };
 

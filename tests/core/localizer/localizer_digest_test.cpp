@@ -85,7 +85,7 @@ TEST(LocalizerDigest, DoesNotDependOnTheImagesPadding) {
 
 TEST(LocalizerDigest, LookingChangesNothing) {
   const Case scene = stationCase(4);
-  OwnedRun run(scene.problem(), defaultProfile());
+  OwnedRun run(scene.problem(), withoutSearch());
   double sum = 0.0;
   Digest before{};
   StepReport report;
@@ -104,7 +104,7 @@ TEST(LocalizerDigest, LookingChangesNothing) {
   }
   EXPECT_GT(sum, 0.0);
   EXPECT_GT(stages, 10);
-  EXPECT_EQ(run.localizer.digest(), digestOf(scene.problem(), defaultProfile()));
+  EXPECT_EQ(run.localizer.digest(), digestOf(scene.problem(), withoutSearch()));
 }
 
 /// Everything that belongs to the inputs; each must be heard.
@@ -175,16 +175,16 @@ TEST(LocalizerDigest, ChangesWithEveryOption) {
 TEST(LocalizerDigest, ARestartIsAFreshRun) {
   const Case scene = stationCase(4);
   const Case other = stationCase(5);
-  LocalizerOptions first = defaultProfile();
+  LocalizerOptions first = withoutSearch();
   first.support.min_support = 0.99;  // so that the first run makes three attempts
   OwnedRun run(other.problem(), first);
   run.finish();
   ASSERT_EQ(run.localizer.workspace().attempts, 3);
   LocalizationProblem problem = other.problem();
   problem.camera_from_station_seed = scene.seed;
-  ASSERT_EQ(run.localizer.restart(scene.seed, defaultProfile()), Status::kOk);
+  ASSERT_EQ(run.localizer.restart(scene.seed, withoutSearch()), Status::kOk);
   EXPECT_EQ(run.localizer.workspace().status, LocalizationStatus::kRunning);
-  OwnedRun fresh(problem, defaultProfile());
+  OwnedRun fresh(problem, withoutSearch());
   for (bool finished = false; !finished;) {
     finished = fresh.localizer.step().finished;
     ASSERT_EQ(run.localizer.step().finished, finished);

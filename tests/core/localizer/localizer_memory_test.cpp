@@ -46,13 +46,8 @@ std::vector<Variant> variants() {
   std::vector<Variant> made = {{"default", {}},           {"paper", paperProfile()},
                                {"pyramid", {}},           {"unrolled", {}},
                                {"unrefined", {}},         {"fixed", {}},
-                               {"equalized locally", {}}, {"wide", {}},
-                               {"wide, one level", {}}};
-  made[7].options.wide.rotation_rad = 0.5;
-  made[7].options.wide.size_px = 128;
-  made[7].options.loop.max_rolled_hypotheses = 1;
-  made[8].options.wide.translation_m = 0.05;
-  made[8].options.wide.size_px = 16384;
+                               {"equalized locally", {}}, {"without search", {}}};
+  made[7].options.search.enabled = false;
   made[2].options.loop.coarse_size_px = 128;
   made[3].options.loop.max_rolled_hypotheses = 1;
   made[4].options.refinement.enabled = false;
@@ -185,7 +180,9 @@ TEST(LocalizerMemory, IsDividedAmongTheStages) {
     std::size_t most = use.kept + use.construction;
     for (int i = 0; i < static_cast<int>(Stage::kFinished); ++i) {
       const auto stage = static_cast<Stage>(i);
-      EXPECT_EQ(use.of(stage) == use.kept, stage == Stage::kSupport) << stageText(stage);
+      const bool of_search = stage == Stage::kSupport || stage == Stage::kSearch;
+      EXPECT_EQ(use.of(stage) == use.kept, of_search && !variant.options.search.enabled)
+          << stageText(stage);
       most = std::max(most, use.of(stage));
     }
     EXPECT_EQ(use.total(), most);

@@ -57,12 +57,12 @@ TEST(LocalizerOptions, EveryFieldIsVisited) {
   expectEveryFieldVisited<LoopOptions>("loop");
   expectEveryFieldVisited<RefinementOptions>("refinement");
   expectEveryFieldVisited<SupportOptions>("support");
-  expectEveryFieldVisited<WideOptions>("wide");
+  expectEveryFieldVisited<SearchOptions>("search");
   expectEveryFieldVisited<AmbiguityOptions>("ambiguity");
   const int parts = extentOf<EdgeOptions>().count + extentOf<RenderOptions>().count +
                     extentOf<TemplateOptions>().count + extentOf<PnpOptions>().count +
                     extentOf<LoopOptions>().count + extentOf<RefinementOptions>().count +
-                    extentOf<SupportOptions>().count + extentOf<WideOptions>().count +
+                    extentOf<SupportOptions>().count + extentOf<SearchOptions>().count +
                     extentOf<AmbiguityOptions>().count;
   EXPECT_EQ(extentOf<LocalizerOptions>().count, parts);
 }

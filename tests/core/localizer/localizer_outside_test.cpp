@@ -70,7 +70,7 @@ void expectSamePose(const Pose& one, const Pose& other) {
 TEST(LocalizerOutside, TheSameMatchesMakeTheSameBits) {
   for (const bool distorted : {false, true}) {
     const Case scene = stationCase(2, distorted);
-    const LocalizerOptions options = defaultProfile();
+    const LocalizerOptions options = withoutSearch();
     OwnedRun inside(scene.problem(), options);
     ASSERT_GT(inside.finish(), 0);
     ASSERT_EQ(inside.localizer.workspace().status, LocalizationStatus::kConverged);

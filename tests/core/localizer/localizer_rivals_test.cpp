@@ -29,7 +29,7 @@ TEST(LocalizerRivals, SeeEndsThatTellWhichPitchItIs) {
     for (const std::uint64_t seed : {1u, 2u}) {
       SCOPED_TRACE(off_pitches);
       const Case scene = railCase(Ends::kSeen, off_pitches, 1.7, seed);
-      OwnedRun without(scene.problem(), defaultProfile());
+      OwnedRun without(scene.problem(), withoutSearch());
       without.finish();
       const Workspace& before = without.localizer.workspace();
       if (before.status == LocalizationStatus::kConverged &&
@@ -81,11 +81,14 @@ TEST(LocalizerRivals, SayThatItStaysAmbiguous) {
 /// The true place lies outside what was declared: nothing inside is taken for it.
 TEST(LocalizerRivals, RefuseWhenTheBestPoseIsOutsideTheSeedsUncertainty) {
   const Case scene = railCase(Ends::kSeen, 1.0, 0.6, 2);
-  OwnedRun without(scene.problem(), defaultProfile());
+  LocalizerOptions options = weighing();
+  options.search.enabled = false;
+  options.loop.leave_factor = 1.1;
+  OwnedRun without(scene.problem(), withoutSearch());
   without.finish();
   ASSERT_EQ(without.localizer.workspace().status, LocalizationStatus::kConverged);
   ASSERT_FALSE(isRight(scene, without.localizer.workspace().camera_from_station));
-  OwnedRun run(scene.problem(), weighing());
+  OwnedRun run(scene.problem(), options);
   run.finish();
   EXPECT_STREQ(localizationStatusText(run.localizer.workspace().status), "left_uncertainty");
 }

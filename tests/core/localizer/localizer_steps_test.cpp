@@ -13,6 +13,8 @@ namespace {
 bool mayFollow(Stage before, Stage now) {
   switch (before) {
     case Stage::kEdges:
+      return now == Stage::kRender || now == Stage::kSearch;
+    case Stage::kSearch:
       return now == Stage::kRender;
     case Stage::kRender:
       return now == Stage::kTemplates || now == Stage::kRefine;
@@ -82,7 +84,7 @@ struct Tally {
 TEST(LocalizerSteps, EachIterationIsCompleteOnce) {
   const Case scene = stationCase(2);
   for (const bool paper : {false, true}) {
-    OwnedRun run(scene.problem(), paper ? paperProfile() : defaultProfile());
+    OwnedRun run(scene.problem(), paper ? paperProfile() : withoutSearch());
     const Tally tally(run.localizer);
     EXPECT_EQ(tally.complete, run.localizer.workspace().iterations);
     EXPECT_GE(tally.complete, 4);
@@ -92,6 +94,7 @@ TEST(LocalizerSteps, EachIterationIsCompleteOnce) {
 TEST(LocalizerSteps, EachIterationOfAFailedRunIsCompleteOnce) {
   const Case scene = stationCase(2);
   LocalizerOptions options[4];
+  for (LocalizerOptions& each : options) each.search.enabled = false;
   options[0].loop.max_iterations = 2;
   options[1].support.min_support = 0.99;
   options[2].refinement.min_found = 100000;

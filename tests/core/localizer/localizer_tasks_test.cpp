@@ -40,7 +40,7 @@ std::vector<int> shuffled(int count, Random& random) {
 TEST(LocalizerPieces, MayBeDoneInAnyOrderByAnyWorkerOrNotAtAll) {
   const Case scene = stationCase(4, true);
   for (const bool paper : {false, true}) {
-    const LocalizerOptions options = paper ? paperProfile() : defaultProfile();
+    const LocalizerOptions options = paper ? paperProfile() : withoutSearch();
     OwnedRun plain(scene.problem(), options);
     plain.finish();
     for (const std::uint32_t share : {100u, 50u, 3u}) {
@@ -110,7 +110,7 @@ TEST(LocalizerPieces, FaultsAreTheSame) {
 
 TEST(LocalizerPieces, AreAStageOnceTheyAreDone) {
   const Case scene = stationCase(4);
-  SharedRun run(scene.problem(), defaultProfile(), 1);
+  SharedRun run(scene.problem(), withoutSearch(), 1);
   EXPECT_EQ(run.localizer.tasks(), 0);
   while (run.localizer.tasks() == 0) ASSERT_FALSE(run.localizer.step().finished);
   EXPECT_EQ(run.localizer.tasks(), run.localizer.workspace().iteration->templates.count);

@@ -94,7 +94,7 @@ TEST(Localizer, ConvergesFromCoarserLevels) {
   for (const int coarse_size_px : {256, 128}) {
     SCOPED_TRACE(coarse_size_px);
     const Case scene = stationCase(2);
-    LocalizerOptions options = defaultProfile();
+    LocalizerOptions options = withoutSearch();
     options.loop.coarse_size_px = coarse_size_px;
     OwnedRun run(scene.problem(), options);
     int coarse_iterations = 0;
@@ -117,7 +117,7 @@ TEST(Localizer, ConvergesFromCoarserLevels) {
 TEST(Localizer, ConvergesBehindAnOccluder) {
   const Case scene = occludedCase(3);
   const std::int32_t first_occluder = firstOccluderFace(scene.solid);
-  OwnedRun run(scene.problem(), defaultProfile());
+  OwnedRun run(scene.problem(), withoutSearch());
   StepReport report;
   int renders = 0;
   while (!report.finished) {
@@ -236,7 +236,7 @@ TEST(Localizer, EndsWhenThePoseLeavesTheUncertainty) {
 
 TEST(Localizer, TheGateRefusesUnsupportedPoses) {
   const Case scene = stationCase(1);
-  LocalizerOptions options = defaultProfile();
+  LocalizerOptions options = withoutSearch();
   options.support.min_support = 0.99;
   EXPECT_EQ(endOf(scene, options), LocalizationStatus::kNotSupported);
   options.support.gate = false;
@@ -245,20 +245,20 @@ TEST(Localizer, TheGateRefusesUnsupportedPoses) {
 
 TEST(Localizer, EndsWithTooFewTemplatesAndMatches) {
   const Case scene = stationCase(1);
-  LocalizerOptions options = defaultProfile();
+  LocalizerOptions options = withoutSearch();
   options.templates.min_edge_pixels = 3000;
   EXPECT_EQ(endOf(scene, options), LocalizationStatus::kTooFewTemplates);
-  options = defaultProfile();
+  options = withoutSearch();
   options.pnp.min_inliers = 1000;
   EXPECT_EQ(endOf(scene, options), LocalizationStatus::kTooFewMatches);
-  options = defaultProfile();
+  options = withoutSearch();
   options.refinement.min_found = 100000;
   EXPECT_EQ(endOf(scene, options), LocalizationStatus::kPnpFailed);
 }
 
 TEST(Localizer, AFurtherAttemptBeginsAtTheSeedWithOtherTemplates) {
   const Case scene = stationCase(1);
-  LocalizerOptions options = defaultProfile();
+  LocalizerOptions options = withoutSearch();
   options.support.min_support = 0.99;  // every attempt fails
   options.templates.feature_size_m = 0.01;
   OwnedRun run(scene.problem(), options);
@@ -318,7 +318,7 @@ std::vector<int> rolledRenders(const Case& scene, const LocalizerOptions& option
 TEST(Localizer, AConvincingRenderSparesTheOthersInAFirstAttempt) {
   Case scene = stationCase(2);
   scene.uncertainty.rotation_rad.z() = 0.17;
-  LocalizerOptions options;
+  LocalizerOptions options = withoutSearch();
   options.loop.enough_inliers = 2.0;
   const std::vector<int> all = rolledRenders(scene, options);
   ASSERT_EQ(all.size(), 1u);

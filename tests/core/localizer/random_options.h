@@ -53,7 +53,6 @@ inline LocalizerOptions randomOptions(Random& random) {
   options.loop.max_iterations = std::min(options.loop.max_iterations, 6);
   // Room for every pixel of the small camera: too little is a fault, and has tests of its own.
   options.render.max_edge_pixels = std::max(options.render.max_edge_pixels, 131 * 97);
-  options.wide.max_restarts = std::min(options.wide.max_restarts, 12);
   options.ambiguity.max_rivals = std::min(options.ambiguity.max_rivals, 3);
   return options;
 }

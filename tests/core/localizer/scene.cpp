@@ -442,6 +442,12 @@ std::vector<std::byte> blockFor(const LocalizationProblem& problem,
   return std::vector<std::byte>(bytes);
 }
 
+LocalizerOptions withoutSearch() {
+  LocalizerOptions options = defaultProfile();
+  options.search.enabled = false;
+  return options;
+}
+
 OwnedRun::OwnedRun(const LocalizationProblem& problem, const LocalizerOptions& options)
     : memory(blockFor(problem, options)), localizer(problem, options, memory) {}
 

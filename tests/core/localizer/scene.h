@@ -105,6 +105,9 @@ struct Case {
 Case stationCase(std::uint64_t seed, bool distorted = false);
 Case occludedCase(std::uint64_t seed);
 
+/// The default profile from the seed alone, without a search before.
+LocalizerOptions withoutSearch();
+
 /// The run's own block, sized by requiredBytes.
 struct OwnedRun {
   std::vector<std::byte> memory;

@@ -34,7 +34,8 @@ class ScriptedPass {
     record.pnp.camera_from_station = found;
     record.pnp.covariance = Matrix6d::Identity() * 1e-8;
     record.pnp.inlier_count = inliers;
-    outcome = {Stage::kPose, Status::kOk, {}};
+    outcome = {};
+    outcome.reached = Stage::kPose;
     return {inliers, matches};
   }
   /// The record of a match pass that failed.
@@ -43,7 +44,8 @@ class ScriptedPass {
     record.status = status;
     record.pnp.inlier_count = 0;
     record.pnp.camera_from_station = plan.camera_from_station;
-    outcome = {stage, Status::kOk, {}};
+    outcome = {};
+    outcome.reached = stage;
     return {};
   }
   /// The record of a refinement that found a pose.
@@ -51,7 +53,8 @@ class ScriptedPass {
     Iteration& record = start(plan, IterationKind::kRefine);
     record.refinement.camera_from_station = found;
     record.refinement.covariance = Matrix6d::Identity() * 1e-10;
-    outcome = {Stage::kRefine, Status::kOk, {}};
+    outcome = {};
+    outcome.reached = Stage::kRefine;
   }
 
   LocalizerOptions options;

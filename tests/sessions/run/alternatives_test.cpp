@@ -18,19 +18,15 @@ HypothesisSummary hypothesis(const Pose& pose, int inliers, bool solved) {
   made.inliers = inliers;
   made.matches = 20;
   made.solved = solved;
-  made.support = 0.5;
-  made.inlier_nats = 3.0;
-  made.edge_nats = 4.0;
   return made;
 }
 
-/// An iteration of restarts, one of rolled hypotheses, and two plain ones.
+/// Two iterations of rolled hypotheses, and two plain ones.
 LocalizationTrace runWith(Random& random) {
   LocalizationTrace run;
   for (int i = 0; i < 4; ++i) {
     IterationTrace one;
     one.index = i;
-    one.wide = i == 0;
     one.camera_from_station_before = test::randomPose(random);
     one.camera_from_station = test::randomPose(random);
     const int count = i == 0 ? 3 : i == 1 ? 2 : 1;
@@ -64,7 +60,7 @@ TEST(Alternatives, AreTheHypothesesOfIterationsThatHadSeveral) {
     const std::size_t iteration = i < 3 ? 0 : 1;
     const std::size_t k = i < 3 ? i : i - 3;
     const auto& hypotheses = run.iterations[iteration]->hypotheses;
-    EXPECT_EQ(all[i].kind, i < 3 ? AlternativeKind::kRestart : AlternativeKind::kRolled);
+    EXPECT_EQ(all[i].kind, AlternativeKind::kRolled);
     EXPECT_EQ(all[i].iteration, static_cast<int>(iteration));
     EXPECT_EQ(all[i].camera_from_station, hypotheses[k].camera_from_station);
     EXPECT_EQ(all[i].inliers, hypotheses[k].inliers);
@@ -73,10 +69,7 @@ TEST(Alternatives, AreTheHypothesesOfIterationsThatHadSeveral) {
     EXPECT_EQ(all[i].chosen, k == (iteration == 0 ? 2u : 0u));
     EXPECT_TRUE(std::isnan(all[i].similarity));
   }
-  EXPECT_EQ(all[0].evidence_nats, 7.0);
-  EXPECT_TRUE(std::isnan(all[1].evidence_nats)) << "it has no pose";
-  EXPECT_TRUE(std::isnan(all[3].evidence_nats)) << "nobody weighs rolled hypotheses so";
-  EXPECT_TRUE(all[1].has_pose) << "where the restart began";
+  EXPECT_TRUE(std::isnan(all[0].evidence_nats)) << "rolled hypotheses have none";
   EXPECT_FALSE(all[4].has_pose);
   EXPECT_TRUE(std::isnan(all[4].apart_m));
 }
@@ -137,26 +130,18 @@ TEST(Alternatives, AnIterationOfARivalsAttemptIsFound) {
     EXPECT_EQ(rivalOfIteration(run, all, i), i == 4 || i == 5 ? 1 : -1) << i;
 }
 
-TEST(Alternatives, OfAWideSearchAreItsRestarts) {
-  LocalizerOptions options = defaultProfile();
-  options.wide.rotation_rad = 0.4;
-  const auto run = test::runOfExample("os", options);
+TEST(Alternatives, OfASearch_AreItsCandidates) {
+  const auto run = test::runOfExample("os", defaultProfile());
+  ASSERT_FALSE(run->candidates.empty());
   const std::vector<Alternative> all = alternativesOf(*run);
-  ASSERT_GT(all.size(), 2u);
-  int chosen = 0;
-  for (const Alternative& one : all) {
-    EXPECT_EQ(one.kind, AlternativeKind::kRestart);
-    chosen += one.chosen && one.iteration == 0 ? 1 : 0;
+  ASSERT_GE(all.size(), run->candidates.size());
+  for (std::size_t i = 0; i < run->candidates.size(); ++i) {
+    EXPECT_EQ(all[i].kind, AlternativeKind::kCandidate);
+    EXPECT_EQ(all[i].chosen, i == 0);
+    EXPECT_EQ(all[i].camera_from_station, run->candidates[i].camera_from_station);
+    EXPECT_EQ(all[i].evidence_nats, run->candidates[i].rank_nats());
+    EXPECT_LE(all[i].evidence_nats, all[0].evidence_nats);
   }
-  EXPECT_EQ(chosen, 1);
-  // The one that the first level went on with has the most evidence.
-  for (const Alternative& one : all)
-    if (one.iteration == 0 && one.has_pose && !std::isnan(one.evidence_nats)) {
-      const auto best = std::find_if(all.begin(), all.end(), [](const Alternative& each) {
-        return each.chosen && each.iteration == 0;
-      });
-      EXPECT_LE(one.evidence_nats, best->evidence_nats);
-    }
 }
 
 }  // namespace

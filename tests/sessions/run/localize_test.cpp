@@ -93,8 +93,8 @@ TEST(Localize, ChainsThePosesOfItsIterations) {
   const auto same = [](const Pose& a, const Pose& b) {
     return a.rotation.coeffs() == b.rotation.coeffs() && a.translation_m == b.translation_m;
   };
-  EXPECT_TRUE(
-      same(iterations.front()->camera_from_station_before, runs().full.camera_from_station_seed));
+  EXPECT_TRUE(same(iterations.front()->camera_from_station_before,
+                   runs().full.candidates.front().camera_from_station));
   for (std::size_t i = 1; i < iterations.size(); ++i)
     EXPECT_TRUE(
         same(iterations[i]->camera_from_station_before, iterations[i - 1]->camera_from_station));
@@ -125,6 +125,7 @@ TEST(Localize, StopsWhenAsked) {
 
 TEST(Localize, RecordsAFailedIterationUpToItsStage) {
   LocalizerOptions options = defaultProfile();
+  options.search.enabled = false;
   options.templates.min_count = 1000;
   options.templates.count = 1024;
   options.loop.max_attempts = 1;
@@ -144,6 +145,7 @@ TEST(Localize, RecordsAFailedIterationUpToItsStage) {
 
 TEST(Localize, RecordsEveryAttempt) {
   LocalizerOptions options = defaultProfile();
+  options.search.enabled = false;
   options.support.min_support = 1.0;
   options.loop.max_attempts = 2;
   const LocalizationTrace trace =

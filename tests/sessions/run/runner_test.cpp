@@ -56,6 +56,11 @@ TEST(Runner, ShowsEachStageOfTheIterationUnderWay) {
   EXPECT_TRUE(run.trace().iterations.empty());
 
   run.advance(StepUntil::kStage);
+  EXPECT_EQ(run.trace().stage, Stage::kSearch);
+  EXPECT_FALSE(run.trace().candidates.empty());
+  EXPECT_TRUE(run.trace().iterations.empty());
+
+  run.advance(StepUntil::kStage);
   ASSERT_EQ(run.trace().iterations.size(), 1u);
   EXPECT_TRUE(run.trace().last_under_way);
   EXPECT_EQ(run.trace().iterations[0]->reached, Stage::kRender);

@@ -15,7 +15,9 @@ namespace {
 using Tester = QAbstractItemModelTester;
 using Show = TemplatesModel::Show;
 
-const sessions::IterationTrace& firstIteration() { return *test::exampleRun()->iterations.front(); }
+const sessions::IterationTrace& firstIteration() {
+  return *test::exampleRunOfSeed()->iterations.front();
+}
 
 class TemplatesModelTest : public testing::Test {
  protected:

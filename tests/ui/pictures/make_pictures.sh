@@ -21,7 +21,12 @@ os=stations/os
 $whs localize --image $os/image.png --camera $os/camera.json --mesh $os/model.ply --mesh-unit m \
   --seed $os/seed.json --feature-size 0.018 --record os.whsr >/dev/null
 $whs new --dataset stations/dataset.json --case os-000038 --record os.whsr --out onboard.boresight.json >/dev/null
-sed 's/"options": {}/"options": {"wide.rotation_rad": 0.8}/' turned.boresight.json >wide.boresight.json
+python3 - <<'EDIT'
+import json
+session = json.load(open("turned.boresight.json"))
+session["cases"][0]["uncertainty"]["rotation_deg"] = [2.2, 2.2, 45]
+json.dump(session, open("stated.boresight.json", "w"))
+EDIT
 $whs evaluate --dataset stations/dataset.json --reseed 5 --reseed-scale 1.5 --jobs 2 --out results.sqlite >/dev/null 2>&1
 $whs new --results results.sqlite --out batch.boresight.json >/dev/null
 $whs run batch.boresight.json >/dev/null || [ $? -eq 4 ]

@@ -121,15 +121,14 @@ void drawFailedRun(const Places& places) {
   places.save(*stage.front("inspector").widget(), "failed_inspector");
 }
 
-void drawWideRun(const Places& places) {
-  Stage stage(places.sessions / "wide.boresight.json");
+void drawStatedRun(const Places& places) {
+  Stage stage(places.sessions / "stated.boresight.json");
   stage.run();
   stage.front("rivals");
-  stage.window().findChild<RivalsPanel*>()->choose(
-      stage.window().state().snapshot()->iterations.front()->chosen_hypothesis);
+  stage.window().findChild<RivalsPanel*>()->choose(0);
   stage.rest();
   stage.window().image().view().fit();
-  places.save(stage.window(), "wide_run");
+  places.save(stage.window(), "stated_run");
 }
 
 void drawAnnotation(const Places& places) {
@@ -215,7 +214,7 @@ struct NamedPicture {
 int makePictures(const Places& places, const QStringList& wanted) {
   const std::vector<NamedPicture> all = {
       {"window", drawWindow},    {"onboard", drawOnboard},       {"failed_run", drawFailedRun},
-      {"wide_run", drawWideRun}, {"annotation", drawAnnotation}, {"queue", drawQueue},
+      {"stated_run", drawStatedRun}, {"annotation", drawAnnotation}, {"queue", drawQueue},
       {"review", drawReview},    {"stages", drawStages},         {"manual", drawManual}};
   for (const NamedPicture& each : all) {
     if (!wanted.isEmpty() && !wanted.contains(QLatin1String(each.name))) continue;

@@ -184,11 +184,13 @@ TEST_F(MainWindowTest, StepsAStageAndAnIteration) {
   QTest::keyClick(&window_, Qt::Key_F7);
   ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kHalted; }));
   EXPECT_EQ(window_.state().snapshot()->stage, Stage::kEdges);
-  QTest::keyClick(&window_, Qt::Key_F7);
-  ASSERT_TRUE(wait([&] {
-    return window_.run().state() == RunState::kHalted &&
-           window_.state().snapshot()->stage == Stage::kRender;
-  }));
+  for (const Stage stage : {Stage::kSearch, Stage::kRender}) {
+    QTest::keyClick(&window_, Qt::Key_F7);
+    ASSERT_TRUE(wait([&] {
+      return window_.run().state() == RunState::kHalted &&
+             window_.state().snapshot()->stage == stage;
+    })) << stageText(stage);
+  }
   EXPECT_TRUE(window_.state().snapshot()->last_under_way);
   QTest::keyClick(&window_, Qt::Key_F6);
   ASSERT_TRUE(wait([&] {

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/accept/contour_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/edges/direction_distance.h"
+
+namespace boresight {
+namespace {
+
+constexpr std::size_t kIntervals = 4;
+using Shares = std::array<double, kIntervals>;
+/// Upper ends of the intervals of d, in units of kDistanceUnit_px, and their shares at right poses.
+constexpr std::array<int, kIntervals - 1> kUpTo = {12, 23, 36};
+constexpr Shares kAtRightPoses = {0.50, 0.33, 0.17, 0.0};
+constexpr double kTrusted = 0.6;  ///< share of a right pose's edges that the image shows
+constexpr double kWindow = 0.2;   ///< of the object's size: what lies around a place
+constexpr int kSamples = 12;      ///< of the window, along each side
+
+std::size_t intervalOf(int distance) {
+  std::size_t interval = 0;
+  while (interval + 1 < kIntervals && distance > kUpTo[interval]) ++interval;
+  return interval;
+}
+
+/// Shares of the intervals around a place; one count more in each, so that none is 0.
+Shares sharesAround(const EvidencePlace& place, const DirectedEdges& edges,
+                    std::span<const std::uint8_t> distance, double window_px) {
+  std::array<int, kIntervals> count{};
+  int all = 0;
+  const auto offsetOf = [&](int i) {
+    return static_cast<int>(std::floor(window_px * ((i + 0.5) / kSamples - 0.5)));
+  };
+  for (int i = 0; i < kSamples; ++i) {
+    const int y = place.y + offsetOf(i);
+    if (y < 0 || y >= edges.height) continue;
+    for (int j = 0; j < kSamples; ++j) {
+      const int x = place.x + offsetOf(j);
+      if (x < 0 || x >= edges.width || edges.at(x, y) == DirectedEdges::kUnseen) continue;
+      ++count[intervalOf(distance[static_cast<std::size_t>(y * edges.width + x)])];
+      ++all;
+    }
+  }
+  Shares shares{};
+  for (std::size_t k = 0; k < kIntervals; ++k)
+    shares[k] = (count[k] + 1.0) / (all + static_cast<double>(kIntervals));
+  return shares;
+}
+
+double natsOf(const EvidencePlace& place, const DirectedEdges& edges,
+              std::span<const std::uint8_t> distance, double window_px) {
+  const Shares around = sharesAround(place, edges, distance, window_px);
+  const std::size_t k =
+      intervalOf(distance[static_cast<std::size_t>(place.y * edges.width + place.x)]);
+  return naturalLogarithm((kTrusted * kAtRightPoses[k] + (1.0 - kTrusted) * around[k]) / around[k]);
+}
+
+double meanOf(double sum, std::int32_t count) { return count > 0 ? sum / count : 0.0; }
+
+}  // namespace
+
+double ContourEvidence::weakest_nats() const {
+  double least = strongest_nats();
+  for (std::size_t q = 0; q < quadrant_nats.size(); ++q)
+    if (10 * quadrant_places[q] >= places) least = std::min(least, quadrant_nats[q]);
+  return least;
+}
+
+void ContourEvidenceMeter::create(std::size_t pixels, Arena& arena) {
+  distance_ = arena.allocate<std::uint8_t>(pixels);
+  places_ = arena.allocate<EvidencePlace>(kMaxPlaces);
+}
+
+ContourEvidence ContourEvidenceMeter::measure(const DirectedEdges& edges, double size_px) {
+  ContourEvidence evidence;
+  const auto places = places_.first(static_cast<std::size_t>(count_));
+  std::int64_t sum_x = 0;
+  std::int64_t sum_y = 0;
+  for (const EvidencePlace& place : places) {
+    sum_x += place.x;
+    sum_y += place.y;
+  }
+  const std::int64_t count = std::max(count_, 1);
+  for (int direction = 0; direction < kEdgeDirections; ++direction) {
+    distanceToDirection(edges, direction, distance_);
+    for (const EvidencePlace& place : places) {
+      if (place.direction != direction || place.x < 0 || place.y < 0 || place.x >= edges.width ||
+          place.y >= edges.height || edges.at(place.x, place.y) == DirectedEdges::kUnseen)
+        continue;
+      const double nats = natsOf(place, edges, distance_, kWindow * size_px);
+      const auto quadrant = static_cast<std::size_t>((place.x * count > sum_x ? 1 : 0) +
+                                                     (place.y * count > sum_y ? 2 : 0));
+      evidence.edges_nats += nats;
+      ++evidence.places;
+      evidence.quadrant_nats[quadrant] += nats;
+      ++evidence.quadrant_places[quadrant];
+      if (!place.outline) continue;
+      evidence.outline_nats += nats;
+      ++evidence.outline_places;
+    }
+  }
+  evidence.edges_nats = meanOf(evidence.edges_nats, evidence.places);
+  evidence.outline_nats = meanOf(evidence.outline_nats, evidence.outline_places);
+  for (std::size_t q = 0; q < evidence.quadrant_nats.size(); ++q)
+    evidence.quadrant_nats[q] = meanOf(evidence.quadrant_nats[q], evidence.quadrant_places[q]);
+  return evidence;
+}
+
+}  // namespace boresight

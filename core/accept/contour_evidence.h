@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.h"
+#include "core/edges/directed_edges.h"
+
+namespace boresight {
+
+/// A place of a rendered edge in the image whose directed edges are looked at.
+struct EvidencePlace {
+  std::int16_t x = 0;          ///< px
+  std::int16_t y = 0;          ///< px
+  std::uint8_t direction = 0;  ///< of the edge's normal, edgeDirectionOf()
+  bool outline = false;        ///< the other side is background
+};
+
+/// How strongly the directed edges of an image speak for a pose, against what the image shows
+/// around its edges anyway: the mean over places of
+///     log((0.6 p(d) + 0.4 b(d)) / b(d))
+/// with d the directed distance (distanceToDirection) to the nearest edge, p(d) the shares of
+/// intervals of d at right poses, and b(d) the shares of the same intervals around the place, for
+/// the same direction. So clutter and texture explain themselves, and do not support a pose.
+struct ContourEvidence {
+  std::int32_t places = 0;                          ///< rendered edge places looked at
+  std::int32_t outline_places = 0;                  ///< of these, on the outline
+  double edges_nats = 0.0;                          ///< mean over all places
+  double outline_nats = 0.0;                        ///< mean over the outline
+  std::array<double, 4> quadrant_nats{};            ///< mean over the places of a quadrant
+  std::array<std::int32_t, 4> quadrant_places{};    ///< about the middle of all places
+
+  /// The least of the quadrants that hold a tenth of the places.
+  double weakest_nats() const;
+  /// The outline's, or that of all edges where this is larger: an outline before a dark background
+  /// is not seen, and inner edges are often not those of the mesh.
+  double strongest_nats() const { return outline_nats > edges_nats ? outline_nats : edges_nats; }
+};
+
+/// Measures the evidence for a pose in small images.
+class ContourEvidenceMeter {
+ public:
+  static constexpr int kMaxPlaces = 1500;  ///< at a time
+
+  /// Takes memory for images of up to `pixels` from `arena`.
+  void create(std::size_t pixels, Arena& arena);
+  /// Forgets the places.
+  void clear() { count_ = 0; }
+  /// Adds a place; those beyond kMaxPlaces are left out.
+  void add(const EvidencePlace& place) {
+    if (count_ < kMaxPlaces) places_[static_cast<std::size_t>(count_++)] = place;
+  }
+  /// `size_px`: the object's longer side in this image. Places outside the image and on pixels of
+  /// which nothing is known do not count.
+  ContourEvidence measure(const DirectedEdges& edges, double size_px);
+
+ private:
+  std::span<std::uint8_t> distance_;
+  std::span<EvidencePlace> places_;
+  int count_ = 0;
+};
+
+}  // namespace boresight

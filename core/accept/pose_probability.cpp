@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/accept/pose_probability.h"
+
+#include "core/base/math.h"
+
+namespace boresight {
+namespace {
+
+constexpr double kEven = 0.80;   ///< score of poses of which half are right
+constexpr double kSlope = 12.0;  ///< per unit of the score
+
+}  // namespace
+
+double poseProbability(const ContourEvidence& evidence, const EdgeSupport& support) {
+  return 1.0 / (1.0 + exponential(kSlope * (kEven - acceptanceScore(evidence, support))));
+}
+
+}  // namespace boresight

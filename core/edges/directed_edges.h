@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.h"
+
+namespace boresight {
+
+inline constexpr int kEdgeDirections = 8;  ///< of normals without sign, 22.5 deg each
+
+/// The direction of a normal of any length: 0 along x, 4 along y, the same for both signs.
+int edgeDirectionOf(std::int32_t x, std::int32_t y);
+/// Steps between two directions, 0 ... 4.
+int directionsApart(int one, int other);
+
+/// A small image: gray values, and which of them are known.
+struct SmallImage {
+  std::span<std::uint8_t> gray;  ///< row by row; capacity, the first width * height are valid
+  std::span<std::uint8_t> seen;  ///< the same; 1: known
+  int width = 0;                 ///< px
+  int height = 0;                ///< px
+
+  /// Takes an image of up to `pixels` from `arena`.
+  static SmallImage create(std::size_t pixels, Arena& arena);
+};
+
+/// An image's edges with the direction of their normals.
+struct DirectedEdges {
+  static constexpr std::uint8_t kNone = 0xff;    ///< no edge
+  static constexpr std::uint8_t kUnseen = 0xfe;  ///< nothing is known of the pixel
+
+  std::span<std::uint8_t> direction;  ///< row by row: 0 ... 7, kNone or kUnseen; capacity
+  int width = 0;                      ///< px
+  int height = 0;                     ///< px
+
+  /// What is at a pixel inside the image.
+  std::uint8_t at(int x, int y) const {
+    return direction[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                     static_cast<std::size_t>(x)];
+  }
+};
+
+/// Finds directed edges in small images: Sobel's gradient (5 x 5), suppressed where it is not the
+/// largest along its direction, and kept where it is at least 0.7 times the mean around it
+/// (31 x 31). So dim parts have edges too, and dense texture has few.
+class DirectedEdgeDetector {
+ public:
+  static constexpr int kMaxWidth = 512;  ///< px
+
+  /// Takes memory for images of up to `pixels` from `arena`.
+  void create(std::size_t pixels, Arena& arena);
+  /// `edges.direction` must have room for the image.
+  void detect(const SmallImage& image, DirectedEdges& edges);
+
+ private:
+  void differentiate(const SmallImage& image, DirectedEdges& edges);
+  void suppress(DirectedEdges& edges) const;
+
+  std::span<std::uint16_t> magnitude_;
+};
+
+}  // namespace boresight

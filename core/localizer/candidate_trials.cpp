@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/localizer/candidate_trials.h"
+
+#include <algorithm>
+
+#include "core/base/math.h"
+#include "core/localizer/pose_change.h"
+
+namespace boresight {
+namespace {
+
+// What the search leaves open, as shares of the object's size and of its depth, and in rotation.
+constexpr double kLateral = 0.03;
+constexpr double kDepth = 0.04;
+constexpr double kRotation_rad = 4.0 * kDegree_rad;
+
+/// A pose of this probability is not compared with others.
+constexpr double kSure = 0.98;
+/// Candidates whose evidence is less by this are not compared with it.
+constexpr double kAboutAsMuch_nats = 0.2;
+/// What a refinement reaches safely, of its search radius.
+constexpr double kOfRadius = 0.67;
+
+/// Whether a refinement on edges reaches the truth from where the search has left the pose.
+bool isWithinReach(const PoseCandidate& candidate, const RunContext& run) {
+  return run.options.refinement.enabled &&
+         candidate.error_px <= kOfRadius * run.options.refinement.first_radius_px *
+                                   static_cast<double>(1 << run.levels.fine);
+}
+
+}  // namespace
+
+SeedUncertainty uncertaintyAbout(const Pose& camera_from_station, const Seed& seed,
+                                 const BoundingBox& scene) {
+  const Eigen::Vector3d middle_m = camera_from_station * scene.centre();
+  const double lateral_m = kLateral * scene.diagonal();
+  SeedUncertainty uncertainty;
+  uncertainty.translation_m =
+      Eigen::Vector3d(lateral_m, lateral_m, std::max(lateral_m, kDepth * middle_m.z()));
+  uncertainty.rotation_rad =
+      seed.uncertainty.rotation_rad.cwiseMin(Eigen::Vector3d::Constant(kRotation_rad));
+  uncertainty.pivot_in_camera_m = middle_m;
+  return uncertainty;
+}
+
+/// The last of several attempts is the seed's.
+bool CandidateTrials::triesSeed(int attempt, const RunContext& run) const {
+  return next_ >= static_cast<int>(candidates_.size()) ||
+         (attempt > 0 && attempt + 1 >= run.options.loop.max_attempts);
+}
+
+bool CandidateTrials::hasNext(int attempt, const RunContext& run) const {
+  return attempt < run.options.loop.max_attempts && !seed_tried_;
+}
+
+/// Whether the next candidate may be better than a pose that is not sure.
+bool CandidateTrials::nextIsWorthwhile(int attempt, const RunContext& run) const {
+  if (!hasNext(attempt, run) || next_ >= static_cast<int>(candidates_.size())) return false;
+  return candidates_[static_cast<std::size_t>(next_)].rank_nats() >
+         candidates_.front().rank_nats() - kAboutAsMuch_nats;
+}
+
+Attempt CandidateTrials::next(int attempt, const RunContext& run) {
+  const bool leads = best_probability_ >= 0.0;
+  if (!leads && triesSeed(attempt, run)) {
+    seed_tried_ = true;
+    return Attempt(attempt, seed_);
+  }
+  const PoseCandidate& candidate = candidates_[static_cast<std::size_t>(next_++)];
+  // What the image leaves open, as a turn about an axis of symmetry, may have left the box.
+  const Pose camera_from_station = pulledBack(seed_, candidate.camera_from_station);
+  if (isWithinReach(candidate, run))
+    return Attempt(attempt, seed_, run.options.loop.match_iterations, camera_from_station);
+  return Attempt(attempt,
+                 {camera_from_station, uncertaintyAbout(camera_from_station, seed_, run.scene)});
+}
+
+CandidateTrials::Next CandidateTrials::takePose(const Attempt& attempt,
+                                                const Pose& camera_from_station_before,
+                                                double probability, const RunContext& run) {
+  if (returns_) return Next::kConclude;
+  const bool leads = probability > best_probability_;
+  if (leads) {
+    best_probability_ = probability;
+    best_ = attempt;
+    best_before_ = camera_from_station_before;
+  }
+  if (best_probability_ < kSure && nextIsWorthwhile(attempt.index() + 1, run)) return Next::kTry;
+  return leads ? Next::kConclude : Next::kReturn;
+}
+
+CandidateTrials::Next CandidateTrials::takeFailure(int attempt, const RunContext& run) {
+  if (returns_) return Next::kConclude;
+  if (best_probability_ >= 0.0)
+    return nextIsWorthwhile(attempt + 1, run) ? Next::kTry : Next::kReturn;
+  return hasNext(attempt + 1, run) ? Next::kTry : Next::kConclude;
+}
+
+Attempt CandidateTrials::best(int attempt, const LocalizerOptions& options) {
+  returns_ = true;
+  return best_.beforeLastIteration(attempt, best_before_, options);
+}
+
+}  // namespace boresight

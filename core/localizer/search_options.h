@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/base/options.h"
+
+namespace boresight {
+
+/// Of the search before the first iteration.
+struct SearchOptions {
+  bool enabled = true;
+
+  template <class Self, class Visitor>
+  static void visitFields(Self& self, Visitor&& visit) {
+    visit(OptionInfo{"search.enabled", "", 0, 1,
+                     "Search the whole object over the seed's uncertainty before the first "
+                     "iteration."},
+          self.enabled);
+  }
+};
+
+}  // namespace boresight

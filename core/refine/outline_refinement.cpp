@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/refine/outline_refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/pnp/normal_equations.h"
+#include "core/pnp/refine_pose.h"
+
+namespace boresight {
+namespace {
+
+constexpr int kRounds = 3;
+constexpr int kLeastFound = 12;
+/// Neighbouring places share their errors: all together count for so many.
+constexpr double kIndependent = 60.0;
+
+/// Signed distance along the normal to the nearest edge of about that direction; false: none.
+bool findEdge(const DirectedEdges& edges, const Eigen::Vector2d& place,
+              const Eigen::Vector2d& normal, int direction, int radius, double& offset_px) {
+  for (int step = 0; step <= radius; ++step) {
+    double best = 1e9;
+    for (int sign = step == 0 ? 1 : -1; sign <= 1; sign += 2) {
+      const int x = static_cast<int>(std::floor(place.x() + sign * step * normal.x() + 0.5));
+      const int y = static_cast<int>(std::floor(place.y() + sign * step * normal.y() + 0.5));
+      if (x < 0 || y < 0 || x >= edges.width || y >= edges.height) continue;
+      const int found = edges.direction[static_cast<std::size_t>(y * edges.width + x)];
+      if (found >= kEdgeDirections) continue;
+      const int apart = std::abs(found - direction);
+      if (std::min(apart, kEdgeDirections - apart) > 1) continue;
+      const double offset = normal.x() * (x - place.x()) + normal.y() * (y - place.y());
+      if (std::abs(offset) < std::abs(best)) best = offset;
+    }
+    if (best < 1e8) {
+      offset_px = best;
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+Status OutlineRefinement::create(Arena& arena) {
+  samples_ = arena.allocate<Sample>(kMaxSamples);
+  return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
+}
+
+void OutlineRefinement::takeSamples(const MeshView& mesh, const EdgeRender& render) {
+  count_ = 0;
+  const int stride = std::max(1, (render.pixel_count + kMaxSamples - 1) / kMaxSamples);
+  for (std::int32_t i = 0; i < render.pixel_count; i += stride) {
+    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+    Sample& sample = samples_[static_cast<std::size_t>(count_)];
+    Eigen::Vector2d position_px;
+    if (!edgeLinePoint(render, mesh, pixel, position_px, sample.point_in_station_m)) continue;
+    sample.normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
+    sample.direction = static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y));
+    ++count_;
+  }
+}
+
+bool OutlineRefinement::refine(const DirectedEdges& edges, const MeshView& mesh,
+                               const EdgeRender& render, const PosePrior& prior, double radius_px,
+                               Pose& view_from_station) {
+  takeSamples(mesh, render);
+  const Camera& camera = render.camera;
+  Pose pose = view_from_station;
+  for (int round = 0; round < kRounds; ++round) {
+    const double cut_px = radius_px + 0.5;
+    const int radius = static_cast<int>(radius_px + 0.5);
+    NormalEquations equations;
+    double weights = 0.0;
+    int found = 0;
+    const Eigen::Matrix3d rotation = pose.matrix();
+    for (int i = 0; i < count_; ++i) {
+      const Sample& sample = samples_[static_cast<std::size_t>(i)];
+      const Eigen::Vector3d point = rotation * sample.point_in_station_m + pose.translation_m;
+      Eigen::Vector2d pixel;
+      Eigen::Matrix<double, 2, 3> jacobian;
+      if (!projectWithJacobian(camera, point, pixel, jacobian)) continue;
+      double offset_px = 0.0;
+      if (!findEdge(edges, pixel, sample.normal, sample.direction, radius, offset_px)) continue;
+      if (std::abs(offset_px) >= cut_px) continue;
+      const double ratio = offset_px / cut_px;
+      const double weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
+      const Eigen::Vector3d slope = (sample.normal.transpose() * jacobian).transpose();
+      Vector6d row;
+      row << point.cross(slope), slope;
+      for (int a = 0; a < 6; ++a) {
+        equations.gradient[a] += weight * row[a] * offset_px;
+        for (int b = 0; b <= a; ++b) equations.information(a, b) += weight * row[a] * row[b];
+      }
+      weights += weight;
+      ++found;
+    }
+    if (found < kLeastFound) return false;
+    const double scale = std::min(1.0, kIndependent / weights);
+    equations.information *= scale;
+    equations.gradient *= scale;
+    addPrior(prior, pose, equations);
+    Vector6d xi;
+    if (!solve(equations, 1e-3, xi)) return false;
+    Pose moved = perturbed(xi, pose);
+    moved.rotation.normalize();
+    if (!moved.isFinite()) return false;
+    pose = moved;
+  }
+  view_from_station = pose;
+  return true;
+}
+
+}  // namespace boresight

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/search/facing_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace boresight {
+namespace {
+
+constexpr int kWeightBits = 8;
+/// Rays farther off the view's axis than this (87 deg) are not seen in it.
+constexpr double kLeastZ = 0.05;
+
+/// A box of tangents (x/z, y/z).
+struct TangentBox {
+  Eigen::Vector2d least = Eigen::Vector2d::Constant(1e9);
+  Eigen::Vector2d most = Eigen::Vector2d::Constant(-1e9);
+
+  void extend(const Eigen::Vector3d& ray) {
+    const Eigen::Vector2d tangent(ray.x() / ray.z(), ray.y() / ray.z());
+    least = least.cwiseMin(tangent);
+    most = most.cwiseMax(tangent);
+  }
+};
+
+/// Where the view sees the matched parts.
+TangentBox boxOfScene(const MeshView& mesh, const Pose& view_from_station) {
+  TangentBox box;
+  const Eigen::Matrix3d rotation = view_from_station.matrix();
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    if (!mesh.parts[mesh.part_of_face[i]].match) continue;
+    for (const std::int32_t vertex : mesh.faces[i].vertex) {
+      const Eigen::Vector3d point_m =
+          rotation * mesh.vertices_in_station_m[static_cast<std::size_t>(vertex)].cast<double>() +
+          view_from_station.translation_m;
+      if (point_m.z() > 0.0) box.extend(point_m);
+    }
+  }
+  return box;
+}
+
+/// What of the view the real image shows, by a grid of its pixels.
+TangentBox boxOfImage(const Camera& camera, const Pose& view_from_camera) {
+  constexpr int kSteps = 8;
+  TangentBox box;
+  const Eigen::Matrix3d rotation = view_from_camera.matrix();
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int j = 0; j <= kSteps; ++j) {
+      const Eigen::Vector2d pixel(i * (camera.width - 1.0) / kSteps,
+                                  j * (camera.height - 1.0) / kSteps);
+      Eigen::Vector3d ray;
+      if (!unproject(camera, pixel, ray)) continue;
+      const Eigen::Vector3d turned = rotation * ray;
+      if (turned.z() > kLeastZ) box.extend(turned);
+    }
+  }
+  return box;
+}
+
+/// Sum over block x block pixels from a place on, bilinear, in units of 2^-16.
+std::int64_t blockSum(const ImageView& image, double x_px, double y_px, int block) {
+  const int x = static_cast<int>(x_px);
+  const int y = static_cast<int>(y_px);
+  const auto right = static_cast<std::int64_t>((x_px - x) * (1 << kWeightBits));
+  const auto down = static_cast<std::int64_t>((y_px - y) * (1 << kWeightBits));
+  const std::int64_t left = (1 << kWeightBits) - right;
+  const std::int64_t up = (1 << kWeightBits) - down;
+  std::int64_t sum = 0;
+  for (int row = 0; row <= block; ++row) {
+    const std::uint8_t* pixel = image.row(y + row) + x;
+    std::int32_t inner = 0;
+    for (int i = 1; i < block; ++i) inner += pixel[i];
+    const std::int64_t along =
+        left * pixel[0] + (std::int64_t{inner} << kWeightBits) + right * pixel[block];
+    sum += along * (row == 0 ? up : row == block ? down : (1 << kWeightBits));
+  }
+  return sum;
+}
+
+}  // namespace
+
+Pose viewTowards(const Eigen::Vector3d& point_in_camera_m) {
+  const Eigen::Vector3d ray = point_in_camera_m / std::sqrt(point_in_camera_m.squaredNorm());
+  Pose view_from_camera;
+  // Half way between the ray and z.
+  view_from_camera.rotation = Eigen::Quaterniond(1.0 + ray.z(), ray.y(), -ray.x(), 0.0);
+  view_from_camera.rotation.normalize();
+  return view_from_camera;
+}
+
+bool faceScene(const SearchProblem& problem, const Pose& camera_from_station, const ViewSize& size,
+               FacingView& view) {
+  const Eigen::Vector3d middle_m = camera_from_station * problem.scene.centre();
+  if (!(middle_m.z() > 0.0)) return false;
+  view.view_from_camera = viewTowards(middle_m);
+  TangentBox seen = boxOfScene(problem.mesh, view.view_from_camera * camera_from_station);
+  const TangentBox image = boxOfImage(problem.camera, view.view_from_camera);
+  seen.least = seen.least.cwiseMax(image.least);
+  seen.most = seen.most.cwiseMin(image.most);
+  const double span = (seen.most - seen.least).maxCoeff();
+  if (!((seen.most - seen.least).minCoeff() > 0.0)) return false;
+  const Eigen::Vector2d half =
+      seen.most.cwiseMax(-seen.least) + Eigen::Vector2d(size.slide_x, size.slide_y);
+  const double real_focal_px = std::abs(problem.camera.fx);
+  const double focal_px = std::min({size.span_px / span, real_focal_px,
+                                    (0.5 * size.most_px - size.margin_px - 2.0) / half.maxCoeff()});
+  if (!(focal_px > 0.0)) return false;
+  view.span_px = focal_px * span;
+  view.pixels_per_px = focal_px / real_focal_px;
+  Camera& camera = view.camera;
+  camera = Camera();
+  camera.width =
+      std::min(size.most_px, 2 * static_cast<int>(focal_px * half.x() + size.margin_px) + 3);
+  camera.height =
+      std::min(size.most_px, 2 * static_cast<int>(focal_px * half.y() + size.margin_px) + 3);
+  camera.fx = camera.fy = focal_px;
+  camera.cx = 0.5 * (camera.width - 1);
+  camera.cy = 0.5 * (camera.height - 1);
+  return prepareCamera(camera) == Status::kOk;
+}
+
+void fillViewRows(const SearchProblem& problem, const FacingView& view, int first, int end,
+                  SmallImage& output) {
+  const ImageView& image = problem.image;
+  output.width = view.camera.width;
+  output.height = view.camera.height;
+  const Eigen::Matrix3d camera_from_view = view.view_from_camera.matrix().transpose();
+  const int block = std::max(1, static_cast<int>(1.0 / view.pixels_per_px + 0.5));
+  const double half = 0.5 * (block - 1);
+  for (int y = first; y < end; ++y) {
+    for (int x = 0; x < output.width; ++x) {
+      const auto at = static_cast<std::size_t>(y * output.width + x);
+      output.gray[at] = 0;
+      output.seen[at] = 0;
+      const Eigen::Vector3d ray =
+          camera_from_view * Eigen::Vector3d((x - view.camera.cx) / view.camera.fx,
+                                             (y - view.camera.cy) / view.camera.fy, 1.0);
+      Eigen::Vector2d pixel;
+      if (!projectDirection(problem.camera, ray, pixel)) continue;
+      const double left = pixel.x() - half;
+      const double top = pixel.y() - half;
+      if (!(left >= 0.0 && top >= 0.0 && left + block < image.width && top + block < image.height))
+        continue;
+      output.gray[at] = static_cast<std::uint8_t>(
+          (blockSum(image, left, top, block) >> (2 * kWeightBits)) / (block * block));
+      const bool ignored =
+          problem.ignore != nullptr &&
+          problem.ignore->get(static_cast<int>(pixel.x() + 0.5), static_cast<int>(pixel.y() + 0.5));
+      output.seen[at] = ignored ? 0 : 1;
+    }
+  }
+}
+
+}  // namespace boresight

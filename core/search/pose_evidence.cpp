@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/search/pose_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace boresight {
+namespace {
+
+constexpr double kMargin = 0.1;          ///< around the object, of its size
+constexpr int kLongestView_px = 312;     ///< holds the object with its margins
+constexpr double kAlongNormal_px = 4.0;  ///< to see which way a normal points in the view
+
+std::int32_t strideOf(const EdgeRender& render) {
+  return std::max(1, (render.pixel_count + ContourEvidenceMeter::kMaxPlaces - 1) /
+                         ContourEvidenceMeter::kMaxPlaces);
+}
+
+bool isOutline(const EdgePixel& pixel) { return (pixel.kind & kEdgeBorder) != 0; }
+
+/// A pixel of the render, in the view.
+bool inView(const EdgeRender& render, const Eigen::Vector2d& pixel, const FacingView& view,
+            const Eigen::Matrix3d& view_from_camera, Eigen::Vector2d& view_px) {
+  Eigen::Vector3d ray;
+  if (!unproject(render.camera, pixel, ray)) return false;
+  return projectDirection(view.camera, view_from_camera * ray, view_px);
+}
+
+}  // namespace
+
+ViewSize evidenceViewSize() {
+  ViewSize size;
+  size.span_px = kEvidenceSpan_px;
+  size.margin_px = kMargin * kEvidenceSpan_px;
+  size.most_px = kLongestView_px;
+  return size;
+}
+
+void addPlaces(const EdgeRender& render, ContourEvidenceMeter& meter) {
+  const std::int32_t stride = strideOf(render);
+  for (std::int32_t i = 0; i < render.pixel_count; i += stride) {
+    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+    meter.add({pixel.x, pixel.y,
+               static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y)),
+               isOutline(pixel)});
+  }
+}
+
+Status PoseEvidence::create(Arena& arena) {
+  eye_.create(kLongestView_px, arena);
+  meter_.create(static_cast<std::size_t>(kLongestView_px) * kLongestView_px, arena);
+  return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
+}
+
+bool PoseEvidence::begin(const SearchProblem& problem, const EdgeRender& render) {
+  render_ = &render;
+  evidence_ = {};
+  return eye_.begin(problem, render.camera_from_station, evidenceViewSize());
+}
+
+bool PoseEvidence::step() {
+  if (!eye_.step()) return false;
+  meter_.clear();
+  addPlacesOfRender();
+  evidence_ = meter_.measure(eye_.edges(), eye_.view().span_px);
+  return true;
+}
+
+void PoseEvidence::addPlacesOfRender() {
+  const FacingView& view = eye_.view();
+  const Eigen::Matrix3d view_from_camera = view.view_from_camera.matrix();
+  const std::int32_t stride = strideOf(*render_);
+  for (std::int32_t i = 0; i < render_->pixel_count; i += stride) {
+    const EdgePixel& pixel = render_->pixels[static_cast<std::size_t>(i)];
+    const Eigen::Vector2d normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
+    const Eigen::Vector2d place = Eigen::Vector2d(pixel.x, pixel.y) + 0.01 * pixel.offset * normal;
+    Eigen::Vector2d at;
+    Eigen::Vector2d ahead;
+    if (!inView(*render_, place, view, view_from_camera, at) ||
+        !inView(*render_, place + kAlongNormal_px * normal, view, view_from_camera, ahead) ||
+        !(at.cwiseAbs().maxCoeff() < 1e4))
+      continue;
+    const Eigen::Vector2d way = 1024.0 * (ahead - at).normalized();
+    meter_.add({static_cast<std::int16_t>(std::floor(at.x() + 0.5)),
+                static_cast<std::int16_t>(std::floor(at.y() + 0.5)),
+                static_cast<std::uint8_t>(edgeDirectionOf(static_cast<std::int32_t>(way.x()),
+                                                          static_cast<std::int32_t>(way.y()))),
+                isOutline(pixel)});
+  }
+}
+
+}  // namespace boresight

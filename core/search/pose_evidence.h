@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/accept/contour_evidence.h"
+#include "core/base/arena.h"
+#include "core/render/edge_render.h"
+#include "core/search/view_edges.h"
+
+namespace boresight {
+
+/// Size of the object in the views in which evidence is measured, so that all is measured alike.
+inline constexpr double kEvidenceSpan_px = 256.0;
+/// Of the view of a pose's evidence.
+ViewSize evidenceViewSize();
+
+/// Adds the places of a render in the view itself to the meter, evenly.
+void addPlaces(const EdgeRender& render, ContourEvidenceMeter& meter);
+
+/// Measures the evidence for a pose that was rendered for the real camera, in bounded slices.
+class PoseEvidence {
+ public:
+  /// Takes the memory from `arena`. kArenaTooSmall.
+  Status create(Arena& arena);
+  /// The problem and the render must outlive the steps. False when the scene is not in sight.
+  [[nodiscard]] bool begin(const SearchProblem& problem, const EdgeRender& render);
+  /// One slice; true when evidence() is complete.
+  [[nodiscard]] bool step();
+  /// What was measured.
+  const ContourEvidence& evidence() const { return evidence_; }
+
+ private:
+  void addPlacesOfRender();
+
+  const EdgeRender* render_ = nullptr;
+  ViewEdges eye_;
+  ContourEvidenceMeter meter_;
+  ContourEvidence evidence_;
+};
+
+}  // namespace boresight

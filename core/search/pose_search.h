@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/accept/contour_evidence.h"
+#include "core/base/arena.h"
+#include "core/refine/outline_refinement.h"
+#include "core/render/edge_render.h"
+#include "core/search/object_search.h"
+#include "core/search/view_edges.h"
+
+namespace boresight {
+
+/// A candidate of the search, refined.
+struct PoseCandidate {
+  SearchCandidate found;     ///< as the search found it
+  Pose camera_from_station;  ///< refined
+  ContourEvidence evidence;  ///< of the refined pose
+  double error_px = 0.0;     ///< that the refinement may have left, px of the real image
+
+  /// What candidates are ordered by.
+  double rank_nats() const { return evidence.strongest_nats() + 0.5 * evidence.weakest_nats(); }
+};
+
+/// Finds where the whole object may be: searches the seed's uncertainty (ObjectSearch), refines the
+/// best poses on directed edges at the same scale (OutlineRefinement), those with most evidence also
+/// at finer scales, and measures the evidence there.
+class PoseSearch {
+ public:
+  static constexpr int kMostTried = 8;          ///< poses that are refined at the search's scale
+  static constexpr int kMaxCandidates = 4;      ///< that are refined at finer scales
+  static constexpr int kLongestView_px = 352;   ///< of views
+  static constexpr int kMaxEdgePixels = 20000;  ///< of renders
+
+  /// Takes the memory from `arena`.
+  Status create(Arena& arena);
+  /// What the problem points to and the renderer (for images of kLongestView_px) must
+  /// outlive the steps. False when the scene is not in sight of the seed.
+  [[nodiscard]] bool begin(const SearchProblem& problem, EdgeRenderer& renderer);
+  /// One bounded slice; true when candidates() is complete.
+  [[nodiscard]] bool step();
+
+  /// The most evidence first.
+  std::span<const PoseCandidate> candidates() const {
+    return std::span(candidates_).first(static_cast<std::size_t>(count_));
+  }
+  /// What was searched.
+  const ObjectSearch& search() const { return search_; }
+
+ private:
+  enum class Phase : std::uint8_t { kSearch = 0, kView, kRender, kRefine, kMeasure, kDone };
+
+  bool beginTrial();
+  bool endTrial();
+  bool beginCandidate();
+  bool beginLevel();
+  bool stepRender();
+  bool refine();
+  void measureRender();
+  bool measure();
+  bool isConvincing(const PoseCandidate& candidate) const;
+  bool isSame(const Pose& one, const Pose& other) const;
+  PosePrior prior() const;
+
+  SearchProblem problem_;
+  EdgeRenderer* renderer_ = nullptr;
+  ViewEdges eye_;
+  EdgeRender render_;
+  ObjectSearch search_;
+  OutlineRefinement refinement_;
+  ContourEvidenceMeter meter_;
+  std::array<PoseCandidate, kMostTried> tried_;  ///< the most evidence first
+  int tried_count_ = 0;
+  std::array<PoseCandidate, kMaxCandidates> candidates_;
+  int count_ = 0;
+
+  Phase phase_ = Phase::kDone;
+  int next_ = 0;   ///< of the search's poses, then of those tried
+  int level_ = 0;  ///< of the refinement: 0 the search's; the last one measures
+  int pass_ = 0;   ///< of the level
+  bool rendering_ = false;
+  PoseCandidate now_;
+  Pose view_from_station_;
+};
+
+}  // namespace boresight

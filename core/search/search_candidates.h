@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/geometry/pose.h"
+
+namespace boresight {
+
+/// A pose of the whole-object search: the seed turned, moved in depth and slid across the view.
+struct SearchCandidate {
+  Pose camera_from_station;   ///< the pose
+  double distance_px = 0.0;   ///< mean directed distance of its outline, px of the search's image
+  double tilt_x_rad = 0.0;    ///< about the view's x axis
+  double tilt_y_rad = 0.0;    ///< about the view's y axis
+  double roll_rad = 0.0;      ///< about the view's axis
+  double depth_ratio = 1.0;   ///< of the depth, over the seed's
+  double slide_x_px = 0.0;    ///< in the search's image
+  double slide_y_px = 0.0;    ///< in the search's image
+};
+
+/// The best candidates so far that are apart from each other, the best first.
+class CandidateList {
+ public:
+  static constexpr int kCapacity = 20;  ///< candidates that are kept
+
+  CandidateList() = default;
+  /// `radius_px`: half the object's size; `apart_px`: nearer ones are the same; px of the search.
+  CandidateList(double radius_px, double apart_px) : radius_px_(radius_px), apart_px_(apart_px) {}
+
+  /// Whether a candidate of that distance would be kept if it is apart from the others.
+  bool accepts(double distance_px) const {
+    return count_ < kCapacity || distance_px < candidates_[kCapacity - 1].distance_px;
+  }
+  /// Keeps a candidate unless a better one is near; worse ones near it are dropped.
+  void insert(const SearchCandidate& candidate);
+  /// The candidates, the best first.
+  std::span<const SearchCandidate> candidates() const {
+    return std::span(candidates_).first(static_cast<std::size_t>(count_));
+  }
+
+ private:
+  bool same(const SearchCandidate& one, const SearchCandidate& other) const;
+
+  double radius_px_ = 1.0;
+  double apart_px_ = 1.0;
+  std::array<SearchCandidate, kCapacity> candidates_;
+  int count_ = 0;
+};
+
+}  // namespace boresight

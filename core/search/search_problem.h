@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/base/image.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/mesh.h"
+#include "core/geometry/pose.h"
+
+namespace boresight {
+
+/// What a search works on; what it points to must outlive the search.
+struct SearchProblem {
+  ImageView image;                   ///< 8-bit gray, raw, of the camera's size
+  const BitImage* ignore = nullptr;  ///< set bits are not trusted; may be nullptr
+  Camera camera;                     ///< prepared
+  MeshView mesh;                     ///< station frame
+  BoundingBox scene;                 ///< of the matched parts
+  Pose camera_from_station_seed;     ///< the middle of what is searched
+  SeedUncertainty uncertainty;       ///< how far the truth may be from the seed
+};
+
+}  // namespace boresight

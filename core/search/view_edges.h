@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/base/arena.h"
+#include "core/edges/directed_edges.h"
+#include "core/render/ray_grid.h"
+#include "core/search/facing_view.h"
+
+namespace boresight {
+
+/// The directed edges of the image of a view, made in bounded slices.
+class ViewEdges {
+ public:
+  /// Takes memory for images of up to so many pixels along each side from `arena`.
+  void create(int longest_px, Arena& arena);
+  /// Turns the view to the scene at a pose; `problem` must outlive the steps. False: see faceScene.
+  [[nodiscard]] bool begin(const SearchProblem& problem, const Pose& camera_from_station,
+                           ViewSize size);
+  /// One slice; true when the edges are complete.
+  [[nodiscard]] bool step();
+
+  /// The view.
+  const FacingView& view() const { return view_; }
+  /// Its rays, for renders.
+  const RayGrid& rays() const { return rays_; }
+  /// What it shows.
+  const DirectedEdges& edges() const { return edges_; }
+  /// A station pose of the real camera, in the view.
+  Pose inView(const Pose& camera_from_station) const {
+    return view_.view_from_camera * camera_from_station;
+  }
+  /// The reverse.
+  Pose inCamera(const Pose& view_from_station) const;
+
+ private:
+  const SearchProblem* problem_ = nullptr;
+  FacingView view_;
+  RayGrid rays_;
+  SmallImage image_;
+  DirectedEdgeDetector detector_;
+  DirectedEdges edges_;
+  int longest_px_ = 0;
+  int row_ = 0;
+};
+
+}  // namespace boresight

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/accept/pose_probability.h"
+#include "core/base/random.h"
+
+namespace boresight {
+namespace {
+
+constexpr int kSide = 160;
+
+/// The outline of a square in an image of directed edges.
+class ContourEvidenceTest : public testing::Test {
+ protected:
+  ContourEvidenceTest() : direction_(kSide * kSide, DirectedEdges::kNone), block_(1 << 20) {
+    edges_.direction = direction_;
+    edges_.width = edges_.height = kSide;
+    Arena arena(block_);
+    meter_.create(direction_.size(), arena);
+  }
+  void set(int x, int y, std::uint8_t value) {
+    direction_[static_cast<std::size_t>(y * kSide + x)] = value;
+  }
+  /// Calls `visit(x, y, direction)` along a square of 80 px.
+  template <class Visit>
+  static void visitSquare(Visit&& visit) {
+    for (int i = 40; i < 120; ++i) {
+      visit(40, i, 0);
+      visit(119, i, 0);
+      visit(i, 40, 4);
+      visit(i, 119, 4);
+    }
+  }
+  void drawSquare() {
+    visitSquare([&](int x, int y, int d) { set(x, y, static_cast<std::uint8_t>(d)); });
+  }
+  ContourEvidence measure(int shift_px = 0, int turned = 0) {
+    meter_.clear();
+    visitSquare([&](int x, int y, int d) {
+      meter_.add({static_cast<std::int16_t>(x + shift_px), static_cast<std::int16_t>(y + shift_px),
+                  static_cast<std::uint8_t>((d + turned) % kEdgeDirections), true});
+    });
+    return meter_.measure(edges_, 80.0);
+  }
+
+  std::vector<std::uint8_t> direction_;
+  std::vector<std::byte> block_;
+  DirectedEdges edges_;
+  ContourEvidenceMeter meter_;
+};
+
+TEST_F(ContourEvidenceTest, OutlineOnItsEdges_IsStrongEvidence) {
+  drawSquare();
+  const ContourEvidence evidence = measure();
+  EXPECT_EQ(evidence.places, 320);
+  EXPECT_EQ(evidence.outline_places, 320);
+  EXPECT_GT(evidence.outline_nats, 0.8);
+  EXPECT_GT(evidence.weakest_nats(), 0.7);
+}
+
+TEST_F(ContourEvidenceTest, NoEdgesAtAll_SpeakAgainstThePose) {
+  // Everything is far from edges, around the places as well: nearly log(0.4).
+  EXPECT_NEAR(measure().outline_nats, std::log(0.4), 0.01);
+}
+
+TEST_F(ContourEvidenceTest, DisplacedOrTurnedOutline_IsNoEvidence) {
+  drawSquare();
+  EXPECT_LT(measure(7).outline_nats, 0.1);
+  EXPECT_LT(measure(0, 4).outline_nats, 0.0) << "edges of other directions";
+}
+
+TEST_F(ContourEvidenceTest, EdgesEverywhere_ExplainThemselves) {
+  Random random(5);
+  for (auto& direction : direction_)
+    if (random.below(3) == 0) direction = static_cast<std::uint8_t>(random.below(8));
+  drawSquare();
+  EXPECT_LT(measure().outline_nats, 0.45);
+}
+
+TEST_F(ContourEvidenceTest, MissingCorner_IsTheWeakestQuadrant) {
+  drawSquare();
+  for (int i = 30; i < 80; ++i)
+    for (int j = 30; j < 80; ++j) set(i, j, DirectedEdges::kNone);
+  const ContourEvidence evidence = measure();
+  EXPECT_LT(evidence.weakest_nats(), 0.0);
+  EXPECT_GT(evidence.outline_nats, 0.3);
+  EXPECT_EQ(evidence.weakest_nats(), evidence.quadrant_nats[0]);
+}
+
+TEST_F(ContourEvidenceTest, UnknownPixels_DoNotCount) {
+  drawSquare();
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < kSide; ++x) set(x, y, DirectedEdges::kUnseen);
+  const ContourEvidence evidence = measure();
+  EXPECT_LT(evidence.places, 320 / 2 + 10);
+  EXPECT_GT(evidence.outline_nats, 0.7);
+}
+
+TEST_F(ContourEvidenceTest, NoPlaces_GiveZero) {
+  meter_.clear();
+  const ContourEvidence evidence = meter_.measure(edges_, 80.0);
+  EXPECT_EQ(evidence.places, 0);
+  EXPECT_EQ(evidence.strongest_nats(), 0.0);
+  EXPECT_EQ(evidence.weakest_nats(), 0.0);
+}
+
+TEST(PoseProbability, GrowsWithEvidenceAndSupport) {
+  ContourEvidence evidence;
+  EdgeSupport support;
+  support.rendered = 100;
+  EXPECT_LT(poseProbability(evidence, support), 0.001);
+  double before = 0.0;
+  for (int i = 0; i <= 10; ++i) {
+    evidence.outline_nats = 0.1 * i;
+    support.covered = 5 * i;
+    const double now = poseProbability(evidence, support);
+    EXPECT_GT(now, before);
+    EXPECT_LE(now, 1.0);
+    before = now;
+  }
+  EXPECT_GT(before, 0.99);
+}
+
+}  // namespace
+}  // namespace boresight

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/base/math.h"
+#include "core/base/random.h"
+#include "core/edges/direction_distance.h"
+
+namespace boresight {
+namespace {
+
+/// A small image with all its memory.
+struct Scene {
+  Scene(int width, int height)
+      : gray(static_cast<std::size_t>(width * height), 90),
+        seen(gray.size(), 1),
+        direction(gray.size()),
+        block(1 << 20) {
+    image.gray = gray;
+    image.seen = seen;
+    image.width = width;
+    image.height = height;
+    edges.direction = direction;
+  }
+  void detect() {
+    Arena arena(block);
+    DirectedEdgeDetector detector;
+    detector.create(gray.size(), arena);
+    detector.detect(image, edges);
+  }
+
+  std::vector<std::uint8_t> gray, seen, direction;
+  std::vector<std::byte> block;
+  SmallImage image;
+  DirectedEdges edges;
+};
+
+TEST(DirectedEdges, DirectionOfANormal_IsTheNearestOfEight) {
+  Random random(1);
+  for (int i = 0; i < 2000; ++i) {
+    const int x = static_cast<int>(random.below(4001)) - 2000;
+    const int y = static_cast<int>(random.below(4001)) - 2000;
+    if (x * x + y * y < 1000) continue;
+    const double steps = std::atan2(y, x) / (kPi / 8.0);
+    if (std::abs(steps - std::floor(steps) - 0.5) < 0.02) continue;  // at a boundary
+    const int expected = (static_cast<int>(std::floor(steps + 0.5)) + 16) % kEdgeDirections;
+    EXPECT_EQ(edgeDirectionOf(x, y), expected) << x << " " << y;
+    EXPECT_EQ(edgeDirectionOf(-x, -y), expected) << x << " " << y;
+  }
+}
+
+TEST(DirectedEdges, StepAtAnyAngle_IsFoundOnTheLineWithItsDirection) {
+  for (int degrees = 0; degrees < 180; degrees += 15) {
+    SCOPED_TRACE(degrees);
+    const double c = std::cos(degrees * kDegree_rad);
+    const double s = std::sin(degrees * kDegree_rad);
+    Scene scene(64, 64);
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x) {
+        const double across = c * (x - 31.5) + s * (y - 31.5);
+        scene.gray[static_cast<std::size_t>(64 * y + x)] =
+            static_cast<std::uint8_t>(60.0 + 80.0 * std::clamp(across + 0.5, 0.0, 1.0));
+      }
+    scene.detect();
+    int count = 0;
+    for (int y = 4; y < 60; ++y)
+      for (int x = 4; x < 60; ++x) {
+        const std::uint8_t found = scene.edges.at(x, y);
+        if (found == DirectedEdges::kNone) continue;
+        ++count;
+        EXPECT_LT(std::abs(c * (x - 31.5) + s * (y - 31.5)), 1.1);
+        EXPECT_LE(directionsApart(found, edgeDirectionOf(static_cast<int>(1000.0 * c),
+                                                         static_cast<int>(1000.0 * s))),
+                  1);
+      }
+    EXPECT_GE(count, 50);
+  }
+}
+
+TEST(DirectedEdges, FlatImage_HasNone) {
+  Scene scene(40, 30);
+  scene.detect();
+  EXPECT_EQ(std::count(scene.direction.begin(), scene.direction.end(), DirectedEdges::kNone), 1200);
+}
+
+TEST(DirectedEdges, UnseenPixels_AreNoEdgesAndMakeNone) {
+  Scene scene(64, 64);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 32; x < 64; ++x) {
+      scene.gray[static_cast<std::size_t>(64 * y + x)] = 0;
+      scene.seen[static_cast<std::size_t>(64 * y + x)] = 0;
+    }
+  scene.detect();
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x)
+      EXPECT_EQ(scene.edges.at(x, y), x < 32 ? DirectedEdges::kNone : DirectedEdges::kUnseen);
+}
+
+/// Steps of 10 along the axes and 14 diagonally.
+int chamfer(int dx, int dy) {
+  const int longer = std::max(std::abs(dx), std::abs(dy));
+  const int shorter = std::min(std::abs(dx), std::abs(dy));
+  return 10 * (longer - shorter) + 14 * shorter;
+}
+
+TEST(DirectionDistance, IsTheLeastOverAllEdgesByBruteForce) {
+  Random random(3);
+  constexpr int kWidth = 37, kHeight = 23;
+  Scene scene(kWidth, kHeight);
+  scene.edges.width = kWidth;
+  scene.edges.height = kHeight;
+  for (auto& direction : scene.direction)
+    direction =
+        random.below(40) == 0 ? static_cast<std::uint8_t>(random.below(8)) : DirectedEdges::kNone;
+  std::vector<std::uint8_t> distance(scene.direction.size());
+  for (int direction = 0; direction < kEdgeDirections; ++direction) {
+    distanceToDirection(scene.edges, direction, distance);
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        int least = kFarthest;
+        for (int v = 0; v < kHeight; ++v)
+          for (int u = 0; u < kWidth; ++u) {
+            const std::uint8_t found = scene.edges.at(u, v);
+            if (found == DirectedEdges::kNone) continue;
+            least = std::min(least, chamfer(u - x, v - y) +
+                                        kStepOfDirection * directionsApart(found, direction));
+          }
+        ASSERT_EQ(distance[static_cast<std::size_t>(y * kWidth + x)], least) << x << " " << y;
+      }
+  }
+}
+
+TEST(DirectionDistance, UnknownPixels_HaveTheMeanOfTheOthers) {
+  Scene scene(20, 10);
+  scene.edges.width = 20;
+  scene.edges.height = 10;
+  std::fill(scene.direction.begin(), scene.direction.end(), DirectedEdges::kNone);
+  scene.direction[25] = 0;
+  for (std::size_t i = 100; i < 200; ++i) scene.direction[i] = DirectedEdges::kUnseen;
+  std::vector<std::uint8_t> distance(200);
+  distanceToDirection(scene.edges, 0, distance);
+  int sum = 0;
+  for (std::size_t i = 0; i < 100; ++i) sum += distance[i];
+  for (std::size_t i = 100; i < 200; ++i) EXPECT_EQ(distance[i], sum / 100);
+}
+
+}  // namespace
+}  // namespace boresight

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole runs that begin with a search.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "core/base/math.h"
+#include "core/localizer/localizer.h"
+#include "core/localizer/pose_change.h"
+#include "tests/core/localizer/scene.h"
+
+namespace boresight::test {
+namespace {
+
+/// The seed turned about the view through the station's middle, as its uncertainty says.
+Case turnedCase(std::uint64_t seed, double turn_rad) {
+  Case made = stationCase(seed);
+  const Eigen::Vector3d middle_m = made.seed * matchedBounds(made.solid.view()).centre();
+  const Eigen::Quaterniond turn = rotationExp(middle_m.normalized() * turn_rad);
+  made.seed.rotation = (turn * made.seed.rotation).normalized();
+  made.seed.translation_m = turn * (made.seed.translation_m - middle_m) + middle_m;
+  made.uncertainty.pivot_in_camera_m = middle_m;
+  made.uncertainty.rotation_rad.z() = kPi;
+  return made;
+}
+
+void expectTruth(const Case& scene, const Workspace& workspace) {
+  EXPECT_STREQ(localizationStatusText(workspace.status), "converged");
+  const PoseError error = poseError(scene.solid, scene.truth, workspace.camera_from_station);
+  EXPECT_LT(error.centre_m, 0.0001);
+  EXPECT_LT(error.angle_rad, 0.06 * kDegree_rad);
+}
+
+LocalizationStatus endOf(const Case& scene, const LocalizerOptions& options) {
+  OwnedRun run(scene.problem(), options);
+  run.finish();
+  return run.localizer.workspace().status;
+}
+
+TEST(LocalizerSearch, TurnedSeed_IsFoundWhenTheUncertaintySaysSo) {
+  for (const double turn_deg : {-160.0, 75.0, 100.0, 180.0}) {
+    SCOPED_TRACE(turn_deg);
+    const Case scene = turnedCase(3, turn_deg * kDegree_rad);
+    EXPECT_NE(endOf(scene, withoutSearch()), LocalizationStatus::kConverged);
+    OwnedRun run(scene.problem(), defaultProfile());
+    EXPECT_GT(run.finish(), 0);
+    expectTruth(scene, run.localizer.workspace());
+  }
+}
+
+TEST(LocalizerSearch, Seed75MillimetresOff_IsFoundWhenTheUncertaintySaysSo) {
+  for (const Eigen::Vector3d& off_m :
+       {Eigen::Vector3d(0.0, 0.0, 0.075), Eigen::Vector3d(0.0, 0.0, -0.075),
+        Eigen::Vector3d(0.06, -0.03, 0.03)}) {
+    SCOPED_TRACE(off_m.transpose());
+    Case scene = stationCase(7);
+    scene.seed.translation_m = scene.truth.translation_m + off_m;
+    scene.uncertainty.translation_m.setConstant(0.08);
+    OwnedRun run(scene.problem(), defaultProfile());
+    run.finish();
+    expectTruth(scene, run.localizer.workspace());
+  }
+}
+
+TEST(LocalizerSearch, Candidates_AreOrderedByEvidenceAndTheFirstIsTheResult) {
+  const Case scene = stationCase(3);
+  OwnedRun run(scene.problem(), defaultProfile());
+  run.finish();
+  const Workspace& workspace = run.localizer.workspace();
+  ASSERT_FALSE(workspace.candidates.empty());
+  EXPECT_LE(workspace.candidates.size(), static_cast<std::size_t>(PoseSearch::kMaxCandidates));
+  EXPECT_TRUE(
+      std::is_sorted(workspace.candidates.begin(), workspace.candidates.end(),
+                     [](const auto& a, const auto& b) { return a.rank_nats() > b.rank_nats(); }));
+  const BoundingBox box = matchedBounds(scene.solid.view());
+  EXPECT_LT(displacementBetween_px(workspace.candidates[0].camera_from_station, scene.truth, box,
+                                   scene.camera),
+            3.0);
+  EXPECT_GT(workspace.probability, 0.9);
+}
+
+TEST(LocalizerSearch, Noise_HasNoPose) {
+  const Picture noise = noisePicture(512, 512, 5);
+  Case scene = stationCase(1);
+  scene.picture = &noise;
+  EXPECT_NE(endOf(scene, defaultProfile()), LocalizationStatus::kConverged);
+  scene.uncertainty.rotation_rad.z() = kPi;
+  EXPECT_NE(endOf(scene, defaultProfile()), LocalizationStatus::kConverged);
+}
+
+TEST(LocalizerSearch, DeadImage_FailsWithTheSeed) {
+  const Picture flat = flatPicture(512, 512, 80);
+  Case scene = stationCase(1);
+  scene.picture = &flat;
+  OwnedRun run(scene.problem(), defaultProfile());
+  EXPECT_GT(run.finish(), 0);
+  EXPECT_NE(run.localizer.workspace().status, LocalizationStatus::kConverged);
+  EXPECT_EQ(run.localizer.workspace().camera_from_station, scene.seed);
+}
+
+TEST(LocalizerSearch, UnsupportedPose_IsFollowedByFurtherAttempts) {
+  const Case scene = stationCase(3);
+  LocalizerOptions options = defaultProfile();
+  options.support.min_probability = 1.0;
+  OwnedRun run(scene.problem(), options);
+  EXPECT_GT(run.finish(), 0);
+  EXPECT_EQ(run.localizer.workspace().status, LocalizationStatus::kNotSupported);
+  EXPECT_GT(run.localizer.workspace().attempts, 1);
+  EXPECT_LE(run.localizer.workspace().attempts, options.loop.max_attempts);
+}
+
+TEST(LocalizerSearch, AnyKernelsAndWorkers_GiveTheSameBits) {
+  const Case scene = turnedCase(4, -130.0 * kDegree_rad);
+  const LocalizationProblem problem = scene.problem();
+  OwnedRun plain(problem, defaultProfile());
+  plain.finish();
+  for (const int workers : {1, 3})
+    EXPECT_EQ(sharedDigest(problem, defaultProfile(), workers), plain.localizer.digest())
+        << workers;
+}
+
+}  // namespace
+}  // namespace boresight::test
