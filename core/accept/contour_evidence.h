@@ -25,12 +25,12 @@ struct EvidencePlace {
 /// intervals of d at right poses, and b(d) the shares of the same intervals around the place, for
 /// the same direction. So clutter and texture explain themselves, and do not support a pose.
 struct ContourEvidence {
-  std::int32_t places = 0;                          ///< rendered edge places looked at
-  std::int32_t outline_places = 0;                  ///< of these, on the outline
-  double edges_nats = 0.0;                          ///< mean over all places
-  double outline_nats = 0.0;                        ///< mean over the outline
-  std::array<double, 4> quadrant_nats{};            ///< mean over the places of a quadrant
-  std::array<std::int32_t, 4> quadrant_places{};    ///< about the middle of all places
+  std::int32_t places = 0;                        ///< rendered edge places looked at
+  std::int32_t outline_places = 0;                ///< of these, on the outline
+  double edges_nats = 0.0;                        ///< mean over all places
+  double outline_nats = 0.0;                      ///< mean over the outline
+  std::array<double, 4> quadrant_nats{};          ///< mean over the places of a quadrant
+  std::array<std::int32_t, 4> quadrant_places{};  ///< about the middle of all places
 
   /// The least of the quadrants that hold a tenth of the places.
   double weakest_nats() const;

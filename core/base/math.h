@@ -5,6 +5,8 @@ namespace boresight {
 
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kDegree_rad = kPi / 180.0;
+/// Standard deviation of a uniform distribution, over half of its width: 1 / sqrt(3).
+inline constexpr double kUniformSigma = 0.57735026918962576;
 
 /// Neither infinite nor a NaN.
 inline bool isFinite(double x) { return x - x == 0.0; }

@@ -27,9 +27,7 @@ Attempt::Attempt(int index, const Seed& seed, int iteration)
       iteration_(iteration),
       seed_(seed),
       camera_from_station_(seed.camera_from_station) {
-  // Standard deviation of a uniform distribution over its half-width: 1 / sqrt(3).
-  constexpr double kUniform = 0.57735026918962576;
-  anchor_ = {seed.camera_from_station, scaled(seed.uncertainty, kUniform)};
+  anchor_ = {seed.camera_from_station, scaled(seed.uncertainty, kUniformSigma)};
 }
 
 Attempt::Attempt(int index, const Seed& seed, int iteration, const Pose& camera_from_station)

@@ -22,8 +22,8 @@ namespace boresight {
 enum class PassNeed : std::uint8_t {
   kNothing = 0,
   kMatches,  ///< supplyMatches(), after matchOutside()
-  kPose,   ///< supplyPose(), after solveOutside(): matched, or failed() says why not
-  kRound,  ///< endRound(), after solveOutside(): the edges of a refinement round are searched
+  kPose,     ///< supplyPose(), after solveOutside(): matched, or failed() says why not
+  kRound,    ///< endRound(), after solveOutside(): the edges of a refinement round are searched
 };
 
 /// The pose of a hypothesis that several views share, in the frame of one of them.
@@ -35,9 +35,10 @@ struct JointPose {
   std::int32_t samples = 0;  ///< drawn by RANSAC
 };
 
-/// Runs the stages of one pass, one bounded slice per step: edges, or search, or render -> templates
-/// -> match -> pose, or render -> refine, or support. It fills the plan's record and the digest. It knows
-/// neither why it runs nor what comes next.
+/// Runs the stages of one pass, one bounded slice per step: edges, or search, or render ->
+/// templates
+/// -> match -> pose, or render -> refine, or support. It fills the plan's record and the digest. It
+/// knows neither why it runs nor what comes next.
 ///
 /// A caller with threads may share out the tasks of a stage between two steps; tasks that are left
 /// are done by step(). The results have the same bits with any number of workers.

@@ -189,13 +189,14 @@ Status PassMemory::Layout::layOutStages() {
     to.records[0].refinement.samples =
         scratch.allocate<EdgeSample>(static_cast<std::size_t>(options.refinement.max_samples));
   }
-  // The samples may be looked at until the next render.
-  const std::size_t samples = scratch.mark();
-  const bool measured = options.search.enabled && status == Status::kOk;
-  if (measured) status = to.evidence.create(scratch);
-  if (scratch.countsOnly() && measured) bytesOf(Stage::kSupport) = scratch.highWater();
-  scratch.rewind(samples);
-  shareScratch(bytesOf(Stage::kRefine));
+  if (scratch.countsOnly()) bytesOf(Stage::kRefine) = scratch.highWater();
+  // Behind the samples, which may be looked at until the next render.
+  if (options.search.enabled && status == Status::kOk) {
+    status = to.evidence.create(scratch);
+    if (scratch.countsOnly()) bytesOf(Stage::kSupport) = scratch.highWater();
+  }
+  std::size_t both = 0;
+  shareScratch(both);
   if (status == Status::kOk) {
     status = to.detector.begin(problem.image, problem.ignore, options.edges, kept, scratch,
                                levels.fine, edges);

@@ -84,8 +84,8 @@ class PassMemory {
   std::array<Iteration, 2> records;          ///< the current hypothesis and the best one so far
   std::array<EdgeRender, 2> coarse_render;   ///< of the first iteration, one per record
   EdgeRender fine_render;  ///< of later iterations, in the same memory unless the level is the same
-  EdgeRender best_render;        ///< of the best pose, with ambiguity.enabled
-  std::span<Rival> competing;    ///< for the policy: poses that compete with the converged one
+  EdgeRender best_render;  ///< of the best pose, with ambiguity.enabled
+  std::span<Rival> competing;  ///< for the policy: poses that compete with the converged one
 
  private:
   struct Layout;

@@ -100,7 +100,7 @@ struct Iteration {
   RefinementResult refinement;                ///< of a refinement
   /// The first `hypothesis_count` are valid.
   std::array<HypothesisSummary, kMaxHypotheses> hypotheses;
-  std::int32_t hypothesis_count = 0;  ///< renders tried
+  std::int32_t hypothesis_count = 0;      ///< renders tried
   std::int32_t chosen_hypothesis = 0;     ///< index of the one that is kept
   Pose camera_from_station;               ///< after
   double correction_translation_m = 0.0;  ///< from the pose before
@@ -125,10 +125,10 @@ struct Workspace {
   EdgeMap edges;  ///< levels finer than any render are gone when the first iteration has begun
   const Iteration* iteration = nullptr;  ///< the latest; stages not yet reached hold old values
   std::span<const PoseCandidate> candidates;  ///< of the search, the most evidence first
-  EdgeSupport support;                   ///< of the final pose
-  ContourEvidence evidence;              ///< of it, too
-  double probability = 0.0;              ///< that it is right, by both; 0 where none was searched
-  PartialSupport partial;                ///< of it, too
+  EdgeSupport support;                        ///< of the final pose
+  ContourEvidence evidence;                   ///< of it, too
+  double probability = 0.0;  ///< that it is right, by both; 0 where none was searched
+  PartialSupport partial;    ///< of it, too
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< how the run stands
   Status fault = Status::kOk;                                ///< what did not suffice, with kFault
   Pose camera_from_station;  ///< best estimate; the seed unless converged

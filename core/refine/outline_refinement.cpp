@@ -3,17 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "core/pnp/normal_equations.h"
-#include "core/pnp/refine_pose.h"
 
 namespace boresight {
 namespace {
 
 constexpr int kRounds = 3;
 constexpr int kLeastFound = 12;
-/// Neighbouring places share their errors: all together count for so many.
+/// Neighbouring places share their errors: together they weigh as this many independent ones.
 constexpr double kIndependent = 60.0;
 
 /// Signed distance along the normal to the nearest edge of about that direction; false: none.
@@ -25,10 +23,8 @@ bool findEdge(const DirectedEdges& edges, const Eigen::Vector2d& place,
       const int x = static_cast<int>(std::floor(place.x() + sign * step * normal.x() + 0.5));
       const int y = static_cast<int>(std::floor(place.y() + sign * step * normal.y() + 0.5));
       if (x < 0 || y < 0 || x >= edges.width || y >= edges.height) continue;
-      const int found = edges.direction[static_cast<std::size_t>(y * edges.width + x)];
-      if (found >= kEdgeDirections) continue;
-      const int apart = std::abs(found - direction);
-      if (std::min(apart, kEdgeDirections - apart) > 1) continue;
+      const int found = edges.at(x, y);
+      if (found >= kEdgeDirections || directionsApart(found, direction) > 1) continue;
       const double offset = normal.x() * (x - place.x()) + normal.y() * (y - place.y());
       if (std::abs(offset) < std::abs(best)) best = offset;
     }

@@ -100,8 +100,8 @@ class EdgeRenderer {
   /// With several workers it ends a phase all of whose pieces have been done.
   Status step(bool& done);
 
-  /// A step by one who has no others to share with, however many workers there are: does what
-  /// pieces are left first.
+  /// A step for a caller that does not share pieces out: does all pieces of the phase itself, then
+  /// step().
   Status stepWhole(bool& done);
 
   /// Pieces of the phase at hand; 0 with one worker, whose steps do everything.

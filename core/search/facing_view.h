@@ -23,7 +23,7 @@ struct FacingView {
 
 /// How large a view is asked for.
 struct ViewSize {
-  double span_px = 0.0;    ///< longer side of the visible object; less where the real image has less
+  double span_px = 0.0;  ///< longer side of the visible object; less where the real image has less
   double margin_px = 0.0;  ///< around the object
   double slide_x = 0.0;    ///< how far the object may move, as tangents
   double slide_y = 0.0;    ///< the same, downwards

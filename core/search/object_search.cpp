@@ -53,10 +53,10 @@ void ObjectSearch::create(Arena& arena) {
   sums_ = arena.allocate<std::uint16_t>(kPixels);
 }
 
-bool ObjectSearch::begin(const SearchProblem& problem, ViewEdges& eye, EdgeRenderer& renderer,
-                         EdgeRender& render) {
+bool ObjectSearch::begin(const SearchProblem& problem, ViewEdges& view_edges,
+                         EdgeRenderer& renderer, EdgeRender& render) {
   problem_ = &problem;
-  eye_ = &eye;
+  view_edges_ = &view_edges;
   renderer_ = &renderer;
   render_ = &render;
   phase_ = Phase::kDone;
@@ -74,15 +74,15 @@ bool ObjectSearch::begin(const SearchProblem& problem, ViewEdges& eye, EdgeRende
   size.slide_x = std::min(reach_m.x() / depth_m_, kFarthestSlide);
   size.slide_y = std::min(reach_m.y() / depth_m_, kFarthestSlide);
   size.most_px = kMaxSide_px;
-  if (!eye.begin(problem, problem.camera_from_station_seed, size)) return false;
-  const double focal_px = eye.view().camera.fx;
+  if (!view_edges.begin(problem, problem.camera_from_station_seed, size)) return false;
+  const double focal_px = view_edges.view().camera.fx;
   grid_ = SearchGrid();
-  grid_.slide_x_px =
-      std::min(static_cast<int>(size.slide_x * focal_px) + 1, eye.view().camera.width / 2 - 1);
-  grid_.slide_y_px =
-      std::min(static_cast<int>(size.slide_y * focal_px) + 1, eye.view().camera.height / 2 - 1);
+  grid_.slide_x_px = std::min(static_cast<int>(size.slide_x * focal_px) + 1,
+                              view_edges.view().camera.width / 2 - 1);
+  grid_.slide_y_px = std::min(static_cast<int>(size.slide_y * focal_px) + 1,
+                              view_edges.view().camera.height / 2 - 1);
   layOutGrid(reach_m, turn * problem.uncertainty.rotation_rad);
-  found_ = CandidateList(0.5 * eye.view().span_px, kApart * eye.view().span_px);
+  found_ = CandidateList(0.5 * view_edges.view().span_px, kApart * view_edges.view().span_px);
   tilt_ = 0;
   rendering_ = false;
   phase_ = Phase::kView;
@@ -104,7 +104,7 @@ void ObjectSearch::layOutGrid(const Eigen::Vector3d& reach_m, const Eigen::Vecto
 bool ObjectSearch::step() {
   switch (phase_) {
     case Phase::kView:
-      if (!eye_->step()) return false;
+      if (!view_edges_->step()) return false;
       phase_ = Phase::kMaps;
       next_ = 0;
       return false;
@@ -115,9 +115,9 @@ bool ObjectSearch::step() {
     case Phase::kRender:
       return stepRender();
     case Phase::kScore: {
-      const Turn turn = turnOf(next_);
-      sumDistances(turn);
-      takePeaks(turn);
+      const RollDepth change = rollDepthOf(next_);
+      sumDistances(change);
+      takePeaks(change);
       return ++next_ == grid_.rolls * grid_.depths ? nextTilt() : false;
     }
     case Phase::kDone:
@@ -128,7 +128,7 @@ bool ObjectSearch::step() {
 
 void ObjectSearch::makeMap(int direction) {
   const auto index = static_cast<std::size_t>(direction);
-  const DirectedEdges& edges = eye_->edges();
+  const DirectedEdges& edges = view_edges_->edges();
   distanceToDirection(edges, direction, maps_[index]);
   const auto count = static_cast<std::size_t>(edges.width * edges.height);
   std::uint64_t sum = 0;
@@ -141,7 +141,7 @@ bool ObjectSearch::stepRender() {
   bool complete = false;
   Status status = Status::kOk;
   if (!rendering_)
-    status = renderer_->begin(eye_->rays(), tiltedPose(), *render_);
+    status = renderer_->begin(view_edges_->rays(), tiltedPose(), *render_);
   else
     status = renderer_->stepWhole(complete);
   rendering_ = status == Status::kOk && !complete;
@@ -159,7 +159,7 @@ bool ObjectSearch::nextTilt() {
   return phase_ == Phase::kDone;
 }
 
-ObjectSearch::Turn ObjectSearch::turnOf(int index) const {
+ObjectSearch::RollDepth ObjectSearch::rollDepthOf(int index) const {
   return {placeOf(index / grid_.depths, grid_.rolls, grid_.roll_rad),
           1.0 + placeOf(index % grid_.depths, grid_.depths, grid_.depth)};
 }
@@ -176,7 +176,7 @@ double ObjectSearch::tiltY_rad() const {
 Pose ObjectSearch::tiltedPose() const {
   Pose view_from_station;
   view_from_station.rotation = rotationExp({tiltX_rad(), tiltY_rad(), 0.0}) *
-                               eye_->inView(problem_->camera_from_station_seed).rotation;
+                               view_edges_->inView(problem_->camera_from_station_seed).rotation;
   view_from_station.translation_m =
       Eigen::Vector3d(0.0, 0.0, depth_m_) - view_from_station.matrix() * problem_->scene.centre();
   return view_from_station;
@@ -193,8 +193,8 @@ void ObjectSearch::takePoints() {
   const bool all = available < kMaxPoints / 2;
   if (all) available = render_->pixel_count;
   const std::int64_t wanted = std::min<std::int64_t>(kMaxPoints, available);
-  const int middle_x = eye_->view().camera.width / 2;
-  const int middle_y = eye_->view().camera.height / 2;
+  const int middle_x = view_edges_->view().camera.width / 2;
+  const int middle_y = view_edges_->view().camera.height / 2;
   std::int64_t place = 0;
   for (const EdgePixel& pixel : pixels) {
     if (!all && !isOutline(pixel)) continue;
@@ -207,24 +207,24 @@ void ObjectSearch::takePoints() {
   }
 }
 
-void ObjectSearch::sumDistances(const Turn& turn) {
-  const double c = cosine(turn.roll_rad);
-  const double s = sine(turn.roll_rad);
+void ObjectSearch::sumDistances(const RollDepth& change) {
+  const double c = cosine(change.roll_rad);
+  const double s = sine(change.roll_rad);
   std::fill_n(sums_.begin(), static_cast<std::size_t>(columns() * rows()), std::uint16_t{0});
   for (int i = 0; i < point_count_; ++i) {
     const Point& point = points_[static_cast<std::size_t>(i)];
     const int direction =
         edgeDirectionOf(nearest(16.0 * (c * point.normal_x - s * point.normal_y)),
                         nearest(16.0 * (s * point.normal_x + c * point.normal_y)));
-    addPlace(direction, nearest((c * point.x - s * point.y) / turn.depth_ratio),
-             nearest((s * point.x + c * point.y) / turn.depth_ratio));
+    addPlace(direction, nearest((c * point.x - s * point.y) / change.depth_ratio),
+             nearest((s * point.x + c * point.y) / change.depth_ratio));
   }
   poses_ += columns() * rows();
 }
 
 /// Adds the distances of one place for all slides; outside the image the mean of the map counts.
 void ObjectSearch::addPlace(int direction, int x, int y) {
-  const DirectedEdges& edges = eye_->edges();
+  const DirectedEdges& edges = view_edges_->edges();
   const auto index = static_cast<std::size_t>(direction);
   const std::uint8_t mean = mean_[index];
   const int left = edges.width / 2 + x - grid_.slide_x_px;
@@ -257,7 +257,7 @@ bool ObjectSearch::isPeak(int x, int y) const {
   return true;
 }
 
-void ObjectSearch::takePeaks(const Turn& turn) {
+void ObjectSearch::takePeaks(const RollDepth& change) {
   const double unit_px = kDistanceUnit_px / point_count_;
   for (int y = 0; y < rows(); ++y) {
     for (int x = 0; x < columns(); ++x) {
@@ -267,8 +267,8 @@ void ObjectSearch::takePeaks(const Turn& turn) {
       candidate.distance_px = distance_px;
       candidate.tilt_x_rad = tiltX_rad();
       candidate.tilt_y_rad = tiltY_rad();
-      candidate.roll_rad = turn.roll_rad;
-      candidate.depth_ratio = turn.depth_ratio;
+      candidate.roll_rad = change.roll_rad;
+      candidate.depth_ratio = change.depth_ratio;
       candidate.slide_x_px = x - grid_.slide_x_px;
       candidate.slide_y_px = y - grid_.slide_y_px;
       candidate.camera_from_station = poseOf(candidate);
@@ -281,13 +281,13 @@ Pose ObjectSearch::poseOf(const SearchCandidate& candidate) const {
   Pose pose;  // seen from a camera that faces the candidate
   pose.rotation = rotationExp({0.0, 0.0, candidate.roll_rad}) *
                   rotationExp({candidate.tilt_x_rad, candidate.tilt_y_rad, 0.0}) *
-                  eye_->inView(problem_->camera_from_station_seed).rotation;
+                  view_edges_->inView(problem_->camera_from_station_seed).rotation;
   pose.translation_m = Eigen::Vector3d(0.0, 0.0, depth_m_ * candidate.depth_ratio) -
                        pose.matrix() * problem_->scene.centre();
-  const double focal_px = eye_->view().camera.fx;
+  const double focal_px = view_edges_->view().camera.fx;
   const Pose facing_from_view =
       viewTowards({candidate.slide_x_px / focal_px, candidate.slide_y_px / focal_px, 1.0});
-  return eye_->inCamera(facing_from_view.inverse() * pose);
+  return view_edges_->inCamera(facing_from_view.inverse() * pose);
 }
 
 bool ObjectSearch::isWithinSeed(const Pose& camera_from_station) const {
@@ -298,7 +298,7 @@ bool ObjectSearch::isWithinSeed(const Pose& camera_from_station) const {
   const double half_rad = 0.5 * std::sqrt(offset.head<3>().squaredNorm());
   const double longer = half_rad > 0.1 ? half_rad / sine(std::min(half_rad, 0.5 * kPi)) : 1.0;
   // Half a step of the grid more.
-  const double step_m = depth_m_ * (1.5 / eye_->view().camera.fx + 0.5 * kDepth);
+  const double step_m = depth_m_ * (1.5 / view_edges_->view().camera.fx + 0.5 * kDepth);
   for (int i = 0; i < 3; ++i) {
     if (std::abs(offset[i]) > longer * kBeyond * seed.rotation_rad[i] + 0.5 * kTilt_rad)
       return false;

@@ -14,7 +14,8 @@
 
 namespace boresight {
 
-/// Which turns, depths and slides are searched: the middles of so many cells of each range.
+/// Which turns, depths and slides are searched. Each range is divided into equal cells; their
+/// middles are searched.
 struct SearchGrid {
   double tilt_x_rad = 0.0;  ///< about the view's x axis, to either side
   double tilt_y_rad = 0.0;  ///< about the view's y axis, to either side
@@ -39,10 +40,10 @@ class ObjectSearch {
 
   /// Takes the memory of a search from `arena`, apart from the view's and the render's.
   void create(Arena& arena);
-  /// Lays out the grid. The problem, `eye`, the renderer (for images of kMaxSide_px) and the render
-  /// must outlive the steps. False when the scene is not in sight.
-  [[nodiscard]] bool begin(const SearchProblem& problem, ViewEdges& eye, EdgeRenderer& renderer,
-                           EdgeRender& render);
+  /// Lays out the grid. The problem, `view_edges`, the renderer (for images of kMaxSide_px) and the
+  /// render must outlive the steps. False when the scene is not in sight.
+  [[nodiscard]] bool begin(const SearchProblem& problem, ViewEdges& view_edges,
+                           EdgeRenderer& renderer, EdgeRender& render);
   /// One bounded slice; true when the candidates are complete.
   [[nodiscard]] bool step();
 
@@ -61,7 +62,7 @@ class ObjectSearch {
     std::int8_t normal_x = 0, normal_y = 0;
   };
   /// A turn about the view's axis and a depth, as they change an outline.
-  struct Turn {
+  struct RollDepth {
     double roll_rad = 0.0;
     double depth_ratio = 1.0;
   };
@@ -70,14 +71,14 @@ class ObjectSearch {
   bool stepRender();
   void makeMap(int direction);
   bool nextTilt();
-  Turn turnOf(int index) const;
+  RollDepth rollDepthOf(int index) const;
   double tiltX_rad() const;
   double tiltY_rad() const;
   Pose tiltedPose() const;
   void takePoints();
-  void sumDistances(const Turn& turn);
+  void sumDistances(const RollDepth& change);
   void addPlace(int direction, int x, int y);
-  void takePeaks(const Turn& turn);
+  void takePeaks(const RollDepth& change);
   bool isPeak(int x, int y) const;
   Pose poseOf(const SearchCandidate& candidate) const;
   bool isWithinSeed(const Pose& camera_from_station) const;
@@ -85,7 +86,7 @@ class ObjectSearch {
   int rows() const { return 2 * grid_.slide_y_px + 1; }
 
   const SearchProblem* problem_ = nullptr;
-  ViewEdges* eye_ = nullptr;
+  ViewEdges* view_edges_ = nullptr;
   EdgeRenderer* renderer_ = nullptr;
   EdgeRender* render_ = nullptr;
   double depth_m_ = 0.0;  ///< of the scene's middle
@@ -98,7 +99,7 @@ class ObjectSearch {
   CandidateList found_;
   std::int64_t poses_ = 0;
   Phase phase_ = Phase::kDone;
-  int next_ = 0;  ///< direction or turn
+  int next_ = 0;  ///< direction, or roll and depth
   int tilt_ = 0;
   bool rendering_ = false;
 };

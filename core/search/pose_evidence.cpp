@@ -48,7 +48,7 @@ void addPlaces(const EdgeRender& render, ContourEvidenceMeter& meter) {
 }
 
 Status PoseEvidence::create(Arena& arena) {
-  eye_.create(kLongestView_px, arena);
+  view_edges_.create(kLongestView_px, arena);
   meter_.create(static_cast<std::size_t>(kLongestView_px) * kLongestView_px, arena);
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
@@ -56,19 +56,19 @@ Status PoseEvidence::create(Arena& arena) {
 bool PoseEvidence::begin(const SearchProblem& problem, const EdgeRender& render) {
   render_ = &render;
   evidence_ = {};
-  return eye_.begin(problem, render.camera_from_station, evidenceViewSize());
+  return view_edges_.begin(problem, render.camera_from_station, evidenceViewSize());
 }
 
 bool PoseEvidence::step() {
-  if (!eye_.step()) return false;
+  if (!view_edges_.step()) return false;
   meter_.clear();
   addPlacesOfRender();
-  evidence_ = meter_.measure(eye_.edges(), eye_.view().span_px);
+  evidence_ = meter_.measure(view_edges_.edges(), view_edges_.view().span_px);
   return true;
 }
 
 void PoseEvidence::addPlacesOfRender() {
-  const FacingView& view = eye_.view();
+  const FacingView& view = view_edges_.view();
   const Eigen::Matrix3d view_from_camera = view.view_from_camera.matrix();
   const std::int32_t stride = strideOf(*render_);
   for (std::int32_t i = 0; i < render_->pixel_count; i += stride) {

@@ -32,7 +32,7 @@ class PoseEvidence {
   void addPlacesOfRender();
 
   const EdgeRender* render_ = nullptr;
-  ViewEdges eye_;
+  ViewEdges view_edges_;
   ContourEvidenceMeter meter_;
   ContourEvidence evidence_;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/math.h"
 #include "core/search/pose_evidence.h"
 
 namespace boresight {
@@ -27,19 +28,17 @@ constexpr double kMargin = 0.1;  ///< around the object, of its size
 constexpr double kSame_px = 1.2;
 /// A pose with so much less evidence than the best is not refined further.
 constexpr double kBehind_nats = 0.35;
-/// What the last scale leaves, px of its view.
-constexpr double kLeft_px = 1.5;
+/// Error that the last scale leaves, px of its view.
+constexpr double kRemaining_px = 1.5;
 /// A candidate of so much evidence needs no other beside it.
 constexpr double kConvincing_nats = 0.75;
 constexpr double kConvincingWeakest_nats = 0.45;
-/// Standard deviation of a uniform distribution over its half-width.
-constexpr double kUniform = 0.57735026918962576;
 
 }  // namespace
 
 Status PoseSearch::create(Arena& arena) {
   constexpr auto kPixels = static_cast<std::size_t>(kLongestView_px) * kLongestView_px;
-  eye_.create(kLongestView_px, arena);
+  view_edges_.create(kLongestView_px, arena);
   render_ = createEdgeRender(kLongestView_px, kLongestView_px, kMaxEdgePixels, arena);
   // The search is over when the refinement begins.
   const std::size_t start = arena.mark();
@@ -59,7 +58,7 @@ bool PoseSearch::begin(const SearchProblem& problem, EdgeRenderer& renderer) {
   next_ = 0;
   rendering_ = false;
   phase_ = Phase::kSearch;
-  if (search_.begin(problem_, eye_, renderer, render_)) return true;
+  if (search_.begin(problem_, view_edges_, renderer, render_)) return true;
   phase_ = Phase::kDone;
   return false;
 }
@@ -69,8 +68,8 @@ bool PoseSearch::step() {
     case Phase::kSearch:
       return search_.step() ? !beginTrial() : false;
     case Phase::kView:
-      if (!eye_.step()) return false;
-      view_from_station_ = eye_.inView(now_.camera_from_station);
+      if (!view_edges_.step()) return false;
+      view_from_station_ = view_edges_.inView(now_.camera_from_station);
       phase_ = Phase::kRender;
       rendering_ = false;
       return false;
@@ -95,7 +94,7 @@ bool PoseSearch::beginTrial() {
   }
   now_ = {};
   now_.found = found[static_cast<std::size_t>(next_++)];
-  view_from_station_ = eye_.inView(now_.found.camera_from_station);
+  view_from_station_ = view_edges_.inView(now_.found.camera_from_station);
   level_ = 0;
   pass_ = 0;
   phase_ = Phase::kRender;
@@ -103,7 +102,7 @@ bool PoseSearch::beginTrial() {
 }
 
 bool PoseSearch::endTrial() {
-  now_.camera_from_station = eye_.inCamera(view_from_station_);
+  now_.camera_from_station = view_edges_.inCamera(view_from_station_);
   // The last render is from close by.
   measureRender();
   int kept = 0;
@@ -131,8 +130,8 @@ bool PoseSearch::isSame(const Pose& one, const Pose& other) const {
                                  (i & 4) != 0 ? box.maximum_m.z() : box.minimum_m.z());
     Eigen::Vector2d first;
     Eigen::Vector2d second;
-    if (!project(eye_.view().camera, eye_.inView(one) * corner, first) ||
-        !project(eye_.view().camera, eye_.inView(other) * corner, second) ||
+    if (!project(view_edges_.view().camera, view_edges_.inView(one) * corner, first) ||
+        !project(view_edges_.view().camera, view_edges_.inView(other) * corner, second) ||
         !((first - second).squaredNorm() < kSame_px * kSame_px))
       return false;
   }
@@ -160,14 +159,14 @@ bool PoseSearch::beginLevel() {
   }
   pass_ = 0;
   phase_ = Phase::kView;
-  return eye_.begin(problem_, now_.camera_from_station, size);
+  return view_edges_.begin(problem_, now_.camera_from_station, size);
 }
 
 bool PoseSearch::stepRender() {
   bool complete = false;
   Status status = Status::kOk;
   if (!rendering_)
-    status = renderer_->begin(eye_.rays(), view_from_station_, render_);
+    status = renderer_->begin(view_edges_.rays(), view_from_station_, render_);
   else
     status = renderer_->stepWhole(complete);
   rendering_ = status == Status::kOk && !complete;
@@ -180,13 +179,13 @@ bool PoseSearch::stepRender() {
 /// The seed with its uncertainty as a Gaussian, in the view.
 PosePrior PoseSearch::prior() const {
   const SeedUncertainty& seed = problem_.uncertainty;
-  const Eigen::Matrix3d turn = eye_.view().view_from_camera.matrix();
+  const Eigen::Matrix3d turn = view_edges_.view().view_from_camera.matrix();
   const Eigen::Matrix3d squared = turn.cwiseProduct(turn);
   const auto turned = [&](const Eigen::Vector3d& box) {
-    return Eigen::Vector3d(kUniform * (squared * box.cwiseProduct(box)).cwiseSqrt());
+    return Eigen::Vector3d(kUniformSigma * (squared * box.cwiseProduct(box)).cwiseSqrt());
   };
   PosePrior prior;
-  prior.camera_from_station = eye_.inView(problem_.camera_from_station_seed);
+  prior.camera_from_station = view_edges_.inView(problem_.camera_from_station_seed);
   prior.sigma = {turned(seed.translation_m), turned(seed.rotation_rad),
                  turn * seed.pivot_in_camera_m};
   return prior;
@@ -195,13 +194,13 @@ PosePrior PoseSearch::prior() const {
 bool PoseSearch::refine() {
   const Level& level = kLevels[static_cast<std::size_t>(level_)];
   const double radius_px = level.radius_px[static_cast<std::size_t>(pass_)];
-  const bool moved = refinement_.refine(eye_.edges(), problem_.mesh, render_, prior(), radius_px,
-                                        view_from_station_);
+  const bool moved = refinement_.refine(view_edges_.edges(), problem_.mesh, render_, prior(),
+                                        radius_px, view_from_station_);
   phase_ = Phase::kRender;
   if (moved && ++pass_ < level.passes) return false;
   if (level_ == 0) return !endTrial();
-  now_.camera_from_station = eye_.inCamera(view_from_station_);
-  now_.error_px = kLeft_px / eye_.view().pixels_per_px;
+  now_.camera_from_station = view_edges_.inCamera(view_from_station_);
+  now_.error_px = kRemaining_px / view_edges_.view().pixels_per_px;
   ++level_;
   return beginLevel() ? false : !beginCandidate();
 }
@@ -209,7 +208,7 @@ bool PoseSearch::refine() {
 void PoseSearch::measureRender() {
   meter_.clear();
   addPlaces(render_, meter_);
-  now_.evidence = meter_.measure(eye_.edges(), eye_.view().span_px);
+  now_.evidence = meter_.measure(view_edges_.edges(), view_edges_.view().span_px);
 }
 
 bool PoseSearch::measure() {

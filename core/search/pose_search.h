@@ -26,8 +26,8 @@ struct PoseCandidate {
 };
 
 /// Finds where the whole object may be: searches the seed's uncertainty (ObjectSearch), refines the
-/// best poses on directed edges at the same scale (OutlineRefinement), those with most evidence also
-/// at finer scales, and measures the evidence there.
+/// best poses on directed edges at the same scale (OutlineRefinement), those with most evidence
+/// also at finer scales, and measures the evidence there.
 class PoseSearch {
  public:
   static constexpr int kMostTried = 8;          ///< poses that are refined at the search's scale
@@ -67,7 +67,7 @@ class PoseSearch {
 
   SearchProblem problem_;
   EdgeRenderer* renderer_ = nullptr;
-  ViewEdges eye_;
+  ViewEdges view_edges_;
   EdgeRender render_;
   ObjectSearch search_;
   OutlineRefinement refinement_;

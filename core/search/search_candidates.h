@@ -11,14 +11,14 @@ namespace boresight {
 
 /// A pose of the whole-object search: the seed turned, moved in depth and slid across the view.
 struct SearchCandidate {
-  Pose camera_from_station;   ///< the pose
-  double distance_px = 0.0;   ///< mean directed distance of its outline, px of the search's image
-  double tilt_x_rad = 0.0;    ///< about the view's x axis
-  double tilt_y_rad = 0.0;    ///< about the view's y axis
-  double roll_rad = 0.0;      ///< about the view's axis
-  double depth_ratio = 1.0;   ///< of the depth, over the seed's
-  double slide_x_px = 0.0;    ///< in the search's image
-  double slide_y_px = 0.0;    ///< in the search's image
+  Pose camera_from_station;  ///< the pose
+  double distance_px = 0.0;  ///< mean directed distance of its outline, px of the search's image
+  double tilt_x_rad = 0.0;   ///< about the view's x axis
+  double tilt_y_rad = 0.0;   ///< about the view's y axis
+  double roll_rad = 0.0;     ///< about the view's axis
+  double depth_ratio = 1.0;  ///< of the depth, over the seed's
+  double slide_x_px = 0.0;   ///< in the search's image
+  double slide_y_px = 0.0;   ///< in the search's image
 };
 
 /// The best candidates so far that are apart from each other, the best first.

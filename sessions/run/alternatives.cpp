@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/run/alternatives.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace boresight::sessions {
@@ -48,18 +49,32 @@ Alternative ofRival(const Rival& from, std::size_t index) {
   return made;
 }
 
-/// The pose of a candidate as the search refined it; the run went on with the first of them.
+/// The pose of a candidate as the search refined it.
 Alternative ofCandidate(const PoseCandidate& from, std::size_t index) {
   Alternative made;
   made.kind = AlternativeKind::kCandidate;
   made.number = static_cast<std::int32_t>(index) + 1;
-  made.chosen = index == 0;
   made.has_pose = true;
   made.camera_from_station = from.camera_from_station;
   made.roll_rad = from.found.roll_rad;
   made.evidence_nats = from.rank_nats();
   made.similarity = made.margin_nats = kUnknown;
   return made;
+}
+
+/// The candidate nearest to the run's result, which may come from a later one than the first; of a
+/// run without a result the first.
+std::size_t chosenCandidate(const LocalizationTrace& run) {
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < run.candidates.size() && run.converged(); ++i) {
+    const double apart =
+        perturbationBetween(run.candidates[i].camera_from_station, run.camera_from_station)
+            .squaredNorm();
+    if (apart < least) nearest = i;
+    least = std::min(least, apart);
+  }
+  return nearest;
 }
 
 /// The pose that rivals are rivals of. A run that ends as ambiguous has its seed for a result, but
@@ -93,9 +108,11 @@ std::vector<Alternative> alternativesOf(const LocalizationTrace& run) {
     all.push_back(ofRival(run.rivals[i], i));
     compare(lead, all.back());
   }
+  const std::size_t chosen = chosenCandidate(run);
   for (std::size_t i = 0; i < run.candidates.size(); ++i) {
     all.push_back(ofCandidate(run.candidates[i], i));
-    compare(run.candidates.front().camera_from_station, all.back());
+    all.back().chosen = i == chosen;
+    compare(run.candidates[chosen].camera_from_station, all.back());
   }
   for (std::size_t i = 0; i < run.iterations.size(); ++i) addHypotheses(run, i, all);
   return all;

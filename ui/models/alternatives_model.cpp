@@ -93,7 +93,7 @@ QString chosenTitle(const Alternative& one) {
     case AlternativeKind::kRival:
       return tr("Result of the run");
     case AlternativeKind::kCandidate:
-      return tr("First candidate");
+      return tr("Chosen candidate");
     case AlternativeKind::kRolled:
       return tr("Chosen roll");
   }

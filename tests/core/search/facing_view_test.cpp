@@ -31,6 +31,17 @@ ViewSize sizeOf(double span_px) {
   return size;
 }
 
+/// The image of a view with its memory.
+struct ViewImage {
+  ViewImage(const SearchProblem& problem, const FacingView& view) : block(1 << 20) {
+    Arena arena(block);
+    image = SmallImage::create(300 * 300, arena);
+    fillViewRows(problem, view, 0, view.camera.height, image);
+  }
+  std::vector<std::byte> block;
+  SmallImage image;
+};
+
 TEST(FacingView, TurnedTowardsAPoint_SeesItOnItsAxis) {
   Random random(1);
   for (int i = 0; i < 100; ++i) {
@@ -84,10 +95,8 @@ TEST(FacingView, ImageOfAView_ShowsTheRealOne) {
   const SearchProblem problem = searchOf(scene);
   FacingView view;
   ASSERT_TRUE(faceScene(problem, scene.truth, sizeOf(90.0), view));
-  std::vector<std::byte> block(1 << 20);
-  Arena arena(block);
-  SmallImage image = SmallImage::create(300 * 300, arena);
-  fillViewRows(problem, view, 0, view.camera.height, image);
+  const ViewImage shown(problem, view);
+  const SmallImage& image = shown.image;
   const int half = static_cast<int>(0.5 / view.pixels_per_px);
   int known = 0;
   for (int y = 0; y < image.height; y += 3)
@@ -118,10 +127,8 @@ TEST(FacingView, IgnoredPixels_AreNotKnown) {
   const SearchProblem problem = searchOf(scene);
   FacingView view;
   ASSERT_TRUE(faceScene(problem, scene.truth, sizeOf(90.0), view));
-  std::vector<std::byte> block(1 << 20);
-  Arena arena(block);
-  SmallImage image = SmallImage::create(300 * 300, arena);
-  fillViewRows(problem, view, 0, view.camera.height, image);
+  const ViewImage shown(problem, view);
+  const SmallImage& image = shown.image;
   for (int i = 0; i < image.width * image.height; ++i)
     EXPECT_EQ(image.seen[static_cast<std::size_t>(i)], 0);
 }

@@ -144,5 +144,19 @@ TEST(Alternatives, OfASearch_AreItsCandidates) {
   }
 }
 
+TEST(Alternatives, ResultFromALaterCandidate_MarksThatOneAsChosen) {
+  LocalizationTrace run = *test::runOfExample("os", defaultProfile());
+  PoseCandidate elsewhere = run.candidates.front();
+  elsewhere.camera_from_station.translation_m.x() += 0.02;
+  run.candidates.insert(run.candidates.begin(), elsewhere);
+  const std::vector<Alternative> all = alternativesOf(run);
+  EXPECT_FALSE(all[0].chosen);
+  EXPECT_TRUE(all[1].chosen);
+  EXPECT_EQ(all[0].camera_from_station_chosen, run.candidates[1].camera_from_station);
+  EXPECT_NEAR(all[0].apart_m, 0.02, 1e-9);
+  run.status = LocalizationStatus::kNotSupported;
+  EXPECT_TRUE(alternativesOf(run)[0].chosen) << "without a result the first";
+}
+
 }  // namespace
 }  // namespace boresight::sessions
