@@ -25,7 +25,7 @@ struct Loaded {
   LocalizerOptions options;
 
   LocalizationProblem problem() const {
-    return sessions::problemOf(image.view(), nullptr, camera, scene.view(),
+    return sessions::problemOf(image, nullptr, camera, scene.view(),
                                camera_from_station_seed, uncertainty);
   }
 };

@@ -194,14 +194,17 @@ void addKernels(CLI::App& command, Kernels& kernels) {
 }
 
 LocalizerOptions profileOptions(const std::string& name) {
-  return sessions::profileOptions(name).value_or(defaultProfile());
+  LocalizerOptions options = sessions::profileOptions(name).value_or(defaultProfile());
+  if (name == kFlightProfile) options.search.color = false;
+  return options;
 }
 
 void OptionArguments::addTo(CLI::App& command) {
   command
       .add_option("--profile", profile,
                   "Set of parameters: default (whatever is best), paper (as published), or flight "
-                  "(the default's, within 10,000,000 bytes of memory, image and mesh included)")
+                  "(the default's on gray images, within 10,000,000 bytes of memory, image and mesh "
+                  "included)")
       ->check(CLI::IsMember({"default", "paper", "flight"}));
   command.add_option("--config", config, "config.json: a profile and the options that differ")
       ->type_name("FILE");

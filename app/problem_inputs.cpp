@@ -52,7 +52,7 @@ void InputArguments::addTo(CLI::App& command) {
 }
 
 LocalizationProblem ProblemInputs::problem() const {
-  return sessions::problemOf(image.view(), ignore_mask ? &ignore : nullptr, camera, scene.view(),
+  return sessions::problemOf(image, ignore_mask ? &ignore : nullptr, camera, scene.view(),
                              seed.camera_from_station, uncertainty);
 }
 

@@ -22,6 +22,19 @@ struct ImageView {
   std::uint8_t at(int x, int y) const { return row(y)[x]; }
 };
 
+/// An image of three 8-bit channels that somebody else owns, pixel by pixel, in any order of the
+/// channels; rows are `stride` bytes apart.
+struct ColorView {
+  static constexpr int kChannels = 3;
+  const std::uint8_t* data = nullptr;  ///< the top-left pixel; not owned; nullptr: no colour
+  int width = 0;                       ///< px
+  int height = 0;                      ///< px
+  std::ptrdiff_t stride = 0;           ///< bytes from a row to the next one
+
+  /// First pixel of row y.
+  const std::uint8_t* row(int y) const { return data + stride * y; }
+};
+
 /// A binary image, 64 pixels to a word. Pixel x of row y is bit (x & 63) of word (x >> 6); bits
 /// beyond `width` are zero. Words, not bytes, are the unit, so the value of a map does not depend
 /// on the byte order of the machine.

@@ -26,7 +26,7 @@ std::size_t placeOf(int x, int y, int width) {
 void sumColumns(const SmallImage& image, int y, Row<std::int32_t>& smooth,
                 Row<std::int32_t>& derivative) {
   const std::uint8_t* row[5];
-  for (int i = 0; i < 5; ++i) row[i] = image.gray.data() + placeOf(0, y + i - kBorder, image.width);
+  for (int i = 0; i < 5; ++i) row[i] = image.value.data() + placeOf(0, y + i - kBorder, image.width);
   for (int x = 0; x < image.width; ++x) {
     const auto at = static_cast<std::size_t>(x);
     smooth[at] = row[0][x] + 4 * (row[1][x] + row[3][x]) + 6 * row[2][x] + row[4][x];
@@ -69,7 +69,7 @@ int directionsApart(int one, int other) {
 
 SmallImage SmallImage::create(std::size_t pixels, Arena& arena) {
   SmallImage image;
-  image.gray = arena.allocate<std::uint8_t>(pixels);
+  image.value = arena.allocate<std::uint8_t>(pixels);
   image.seen = arena.allocate<std::uint8_t>(pixels);
   return image;
 }
@@ -78,21 +78,22 @@ void DirectedEdgeDetector::create(std::size_t pixels, Arena& arena) {
   magnitude_ = arena.allocate<std::uint16_t>(pixels);
 }
 
-void DirectedEdgeDetector::detect(const SmallImage& image, DirectedEdges& edges) {
-  edges.width = image.width;
-  edges.height = image.height;
-  differentiate(image, edges);
+void DirectedEdgeDetector::begin(int width, int height, DirectedEdges& edges) {
+  edges.width = width;
+  edges.height = height;
+  std::fill_n(magnitude_.begin(), placeOf(0, height, width), std::uint16_t{0});
+  std::fill_n(edges.direction.begin(), placeOf(0, height, width), DirectedEdges::kNone);
+}
+
+void DirectedEdgeDetector::finish(const SmallImage& image, DirectedEdges& edges) {
   suppress(edges);
   const std::size_t count = placeOf(0, image.height, image.width);
   for (std::size_t i = 0; i < count; ++i)
     if (image.seen[i] == 0) edges.direction[i] = DirectedEdges::kUnseen;
 }
 
-/// Magnitudes and directions of the whole image.
-void DirectedEdgeDetector::differentiate(const SmallImage& image, DirectedEdges& edges) {
+void DirectedEdgeDetector::addChannel(const SmallImage& image, DirectedEdges& edges) {
   const int width = image.width;
-  std::fill_n(magnitude_.begin(), placeOf(0, image.height, width), std::uint16_t{0});
-  std::fill_n(edges.direction.begin(), placeOf(0, image.height, width), DirectedEdges::kNone);
   Row<std::int32_t> smooth;
   Row<std::int32_t> derivative;
   for (int y = kBorder; y < image.height - kBorder; ++y) {
@@ -105,8 +106,10 @@ void DirectedEdgeDetector::differentiate(const SmallImage& image, DirectedEdges&
       if (!isKnown(image, x, y)) continue;
       const std::size_t at = placeOf(x, y, width);
       // At most 255 * 48 * sqrt(2).
-      magnitude_[at] = static_cast<std::uint16_t>(
+      const auto magnitude = static_cast<std::uint16_t>(
           std::sqrt(static_cast<double>(dx) * dx + static_cast<double>(dy) * dy));
+      if (edges.direction[at] != DirectedEdges::kNone && magnitude <= magnitude_[at]) continue;
+      magnitude_[at] = magnitude;
       edges.direction[at] = static_cast<std::uint8_t>(edgeDirectionOf(dx, dy));
     }
   }

@@ -15,10 +15,10 @@ int edgeDirectionOf(std::int32_t x, std::int32_t y);
 /// Steps between two directions, 0 ... 4.
 int directionsApart(int one, int other);
 
-/// A small image: gray values, and which of them are known.
+/// A channel of a small image, and which of its pixels are known.
 struct SmallImage {
-  std::span<std::uint8_t> gray;  ///< row by row; capacity, the first width * height are valid
-  std::span<std::uint8_t> seen;  ///< the same; 1: known
+  std::span<std::uint8_t> value;  ///< row by row; capacity, the first width * height are valid
+  std::span<std::uint8_t> seen;   ///< the same; 1: known
   int width = 0;                 ///< px
   int height = 0;                ///< px
 
@@ -44,18 +44,22 @@ struct DirectedEdges {
 
 /// Finds directed edges in small images: Sobel's gradient (5 x 5), suppressed where it is not the
 /// largest along its direction, and kept where it is at least 0.7 times the mean around it
-/// (31 x 31). So dim parts have edges too, and dense texture has few.
+/// (31 x 31). So dim parts have edges too, and dense texture has few. Of several channels the
+/// largest gradient counts (Di Zenzo 1986 has the exact one).
 class DirectedEdgeDetector {
  public:
   static constexpr int kMaxWidth = 512;  ///< px
 
   /// Takes memory for images of up to `pixels` from `arena`.
   void create(std::size_t pixels, Arena& arena);
-  /// `edges.direction` must have room for the image.
-  void detect(const SmallImage& image, DirectedEdges& edges);
+  /// Begins with an image of this size; `edges.direction` must have room for it.
+  void begin(int width, int height, DirectedEdges& edges);
+  /// Takes a channel of the image.
+  void addChannel(const SmallImage& image, DirectedEdges& edges);
+  /// Leaves the edges; `image` says which pixels are known.
+  void finish(const SmallImage& image, DirectedEdges& edges);
 
  private:
-  void differentiate(const SmallImage& image, DirectedEdges& edges);
   void suppress(DirectedEdges& edges) const;
 
   std::span<std::uint16_t> magnitude_;

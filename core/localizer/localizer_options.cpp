@@ -56,6 +56,12 @@ const char* firstFixedOption(const LocalizerOptions& before, const LocalizerOpti
   return fixed;
 }
 
+LocalizationProblem withoutUnusedColor(LocalizationProblem problem,
+                                       const LocalizerOptions& options) {
+  if (!options.search.enabled || !options.search.color) problem.color = {};
+  return problem;
+}
+
 LocalizerOptions defaultProfile() { return {}; }
 
 LocalizerOptions paperProfile() {

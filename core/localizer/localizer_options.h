@@ -9,6 +9,7 @@
 #include "core/accept/edge_support.h"
 #include "core/base/options.h"
 #include "core/edges/edge_map.h"
+#include "core/localizer/problem.h"
 #include "core/localizer/search_options.h"
 #include "core/pnp/pnp_options.h"
 #include "core/refine/edge_refinement.h"
@@ -191,6 +192,10 @@ void visitDigested(const LocalizerOptions& options, Visitor&& visit) {
     ++at;
   });
 }
+
+/// The problem without the colour of its image where the run does not look at it.
+LocalizationProblem withoutUnusedColor(LocalizationProblem problem,
+                                       const LocalizerOptions& options);
 
 bool sameOptions(const LocalizerOptions& one, const LocalizerOptions& other);
 /// The first option in which `after` differs from `before` and that holds for a whole run, or

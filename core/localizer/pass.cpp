@@ -17,6 +17,10 @@ Status validateProblem(const LocalizationProblem& problem, const LocalizerOption
       problem.image.height != problem.camera.height) {
     return Status::kInvalidImage;
   }
+  if (problem.color.data != nullptr && (problem.color.width != problem.image.width ||
+                                        problem.color.height != problem.image.height)) {
+    return Status::kInvalidImage;
+  }
   if (!(problem.camera.valid_radius > 0.0)) return Status::kInvalidCamera;  // not prepared
   if (!isUsable(PosePrior{problem.camera_from_station_seed, problem.uncertainty}))
     return Status::kInvalidPose;
@@ -27,7 +31,7 @@ Status validateProblem(const LocalizationProblem& problem, const LocalizerOption
 
 Status Pass::create(const LocalizationProblem& problem, const LocalizerOptions& options,
                     std::span<std::byte> block, int workers, Kernels kernels) {
-  problem_ = problem;
+  problem_ = withoutUnusedColor(problem, options);
   options_ = options;
   workspace_ = {};
   workspace_.camera_from_station = problem.camera_from_station_seed;
@@ -40,8 +44,13 @@ Status Pass::create(const LocalizationProblem& problem, const LocalizerOptions& 
   if (laid_out != Status::kOk) return laid_out;
   levels_ = levelsOf(sizeOf(problem_), options_);
   scene_ = matchedBounds(problem_.mesh);
-  searched_ = {problem_.image,      problem_.ignore, problem_.camera,
-               problem_.mesh,       scene_,          problem_.camera_from_station_seed,
+  searched_ = {problem_.image,
+               problem_.color,
+               problem_.ignore,
+               problem_.camera,
+               problem_.mesh,
+               scene_,
+               problem_.camera_from_station_seed,
                problem_.uncertainty};
   digestOptions(options_, digest_);
   digestProblem(problem_, digest_);

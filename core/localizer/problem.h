@@ -11,6 +11,7 @@ namespace boresight {
 /// What one localization works on; everything is the caller's and must outlive the run.
 struct LocalizationProblem {
   ImageView image;                   ///< 8-bit gray, of the camera's size
+  ColorView color;                   ///< of the same pixels; may be without data
   const BitImage* ignore = nullptr;  ///< set bits are not trusted; the image's size; may be nullptr
   Camera camera;                     ///< after prepareCamera
   MeshView mesh;                     ///< the scene, station frame

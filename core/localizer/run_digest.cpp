@@ -65,6 +65,13 @@ void digestProblem(const LocalizationProblem& problem, DigestWriter& writer) {
   for (int y = 0; y < problem.image.height; ++y) {
     writer.bytes({problem.image.row(y), static_cast<std::size_t>(problem.image.width)});
   }
+  const ColorView& color = problem.color;
+  if (color.data != nullptr) {
+    writer.tag("color");
+    for (int y = 0; y < color.height; ++y)
+      writer.bytes(
+          {color.row(y), static_cast<std::size_t>(color.width) * ColorView::kChannels});
+  }
   writer.u8(problem.ignore != nullptr ? 1 : 0);
   if (problem.ignore != nullptr) digestBits(*problem.ignore, writer);
   const Camera& camera = problem.camera;

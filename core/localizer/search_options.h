@@ -8,6 +8,7 @@ namespace boresight {
 /// Of the search before the first iteration.
 struct SearchOptions {
   bool enabled = true;
+  bool color = true;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -15,6 +16,9 @@ struct SearchOptions {
                      "Search the whole object over the seed's uncertainty before the first "
                      "iteration."},
           self.enabled);
+    visit(OptionInfo{"search.color", "", 0, 1,
+                     "The search and its evidence look at the image's colour, where it has any."},
+          self.color);
   }
 };
 

@@ -59,8 +59,23 @@ TangentBox boxOfImage(const Camera& camera, const Pose& view_from_camera) {
   return box;
 }
 
+/// A channel of an image.
+struct Channel {
+  const std::uint8_t* data = nullptr;
+  std::ptrdiff_t stride = 0;
+  std::ptrdiff_t step = 1;  ///< bytes from a pixel to the next one
+
+  const std::uint8_t* at(int x, int y) const { return data + stride * y + step * x; }
+};
+
+Channel channelOf(const SearchProblem& problem, int channel) {
+  const ColorView& color = problem.color;
+  if (color.data == nullptr) return {problem.image.data, problem.image.stride, 1};
+  return {color.data + channel, color.stride, ColorView::kChannels};
+}
+
 /// Sum over block x block pixels from a place on, bilinear, in units of 2^-16.
-std::int64_t blockSum(const ImageView& image, double x_px, double y_px, int block) {
+std::int64_t blockSum(const Channel& image, double x_px, double y_px, int block) {
   const int x = static_cast<int>(x_px);
   const int y = static_cast<int>(y_px);
   const auto right = static_cast<std::int64_t>((x_px - x) * (1 << kWeightBits));
@@ -69,11 +84,11 @@ std::int64_t blockSum(const ImageView& image, double x_px, double y_px, int bloc
   const std::int64_t up = (1 << kWeightBits) - down;
   std::int64_t sum = 0;
   for (int row = 0; row <= block; ++row) {
-    const std::uint8_t* pixel = image.row(y + row) + x;
+    const std::uint8_t* pixel = image.at(x, y + row);
     std::int32_t inner = 0;
-    for (int i = 1; i < block; ++i) inner += pixel[i];
+    for (int i = 1; i < block; ++i) inner += pixel[i * image.step];
     const std::int64_t along =
-        left * pixel[0] + (std::int64_t{inner} << kWeightBits) + right * pixel[block];
+        left * pixel[0] + (std::int64_t{inner} << kWeightBits) + right * pixel[block * image.step];
     sum += along * (row == 0 ? up : row == block ? down : (1 << kWeightBits));
   }
   return sum;
@@ -122,8 +137,9 @@ bool faceScene(const SearchProblem& problem, const Pose& camera_from_station, co
 }
 
 void fillViewRows(const SearchProblem& problem, const FacingView& view, int first, int end,
-                  SmallImage& output) {
+                  int channel, SmallImage& output) {
   const ImageView& image = problem.image;
+  const Channel values = channelOf(problem, channel);
   output.width = view.camera.width;
   output.height = view.camera.height;
   const Eigen::Matrix3d camera_from_view = view.view_from_camera.matrix().transpose();
@@ -132,7 +148,7 @@ void fillViewRows(const SearchProblem& problem, const FacingView& view, int firs
   for (int y = first; y < end; ++y) {
     for (int x = 0; x < output.width; ++x) {
       const auto at = static_cast<std::size_t>(y * output.width + x);
-      output.gray[at] = 0;
+      output.value[at] = 0;
       output.seen[at] = 0;
       const Eigen::Vector3d ray =
           camera_from_view * Eigen::Vector3d((x - view.camera.cx) / view.camera.fx,
@@ -143,8 +159,8 @@ void fillViewRows(const SearchProblem& problem, const FacingView& view, int firs
       const double top = pixel.y() - half;
       if (!(left >= 0.0 && top >= 0.0 && left + block < image.width && top + block < image.height))
         continue;
-      output.gray[at] = static_cast<std::uint8_t>(
-          (blockSum(image, left, top, block) >> (2 * kWeightBits)) / (block * block));
+      output.value[at] = static_cast<std::uint8_t>(
+          (blockSum(values, left, top, block) >> (2 * kWeightBits)) / (block * block));
       const bool ignored =
           problem.ignore != nullptr &&
           problem.ignore->get(static_cast<int>(pixel.x() + 0.5), static_cast<int>(pixel.y() + 0.5));

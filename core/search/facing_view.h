@@ -37,9 +37,14 @@ Pose viewTowards(const Eigen::Vector3d& point_in_camera_m);
 [[nodiscard]] bool faceScene(const SearchProblem& problem, const Pose& camera_from_station,
                              const ViewSize& size, FacingView& view);
 
-/// Fills rows `first` ... `end - 1` of the view's image: the mean of the real image over what each
-/// pixel covers. Pixels outside the real image, and ignored ones, are not known.
+/// Channels of the image that edges are looked for in: those of its colour, or its gray.
+inline int channelsOf(const SearchProblem& problem) {
+  return problem.color.data != nullptr ? ColorView::kChannels : 1;
+}
+
+/// Fills rows `first` ... `end - 1` of a channel of the view's image: the mean of the real image
+/// over what each pixel covers. Pixels outside the real image, and ignored ones, are not known.
 void fillViewRows(const SearchProblem& problem, const FacingView& view, int first, int end,
-                  SmallImage& output);
+                  int channel, SmallImage& output);
 
 }  // namespace boresight

@@ -11,6 +11,7 @@ namespace boresight {
 /// What a search works on; what it points to must outlive the search.
 struct SearchProblem {
   ImageView image;                   ///< 8-bit gray, raw, of the camera's size
+  ColorView color;                   ///< of the same pixels; may be without data
   const BitImage* ignore = nullptr;  ///< set bits are not trusted; may be nullptr
   Camera camera;                     ///< prepared
   MeshView mesh;                     ///< station frame

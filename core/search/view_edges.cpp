@@ -21,7 +21,7 @@ void ViewEdges::create(int longest_px, Arena& arena) {
 bool ViewEdges::begin(const SearchProblem& problem, const Pose& camera_from_station,
                       ViewSize size) {
   problem_ = &problem;
-  row_ = 0;
+  row_ = channel_ = 0;
   size.most_px = std::min(size.most_px, longest_px_);
   if (!faceScene(problem, camera_from_station, size, view_)) return false;
   Arena none;  // the rays of a pinhole need no memory
@@ -31,11 +31,15 @@ bool ViewEdges::begin(const SearchProblem& problem, const Pose& camera_from_stat
 bool ViewEdges::step() {
   const int end = std::min(row_ + kSliceRows, view_.camera.height);
   if (row_ < end) {
-    fillViewRows(*problem_, view_, row_, end, image_);
+    fillViewRows(*problem_, view_, row_, end, channel_, image_);
     row_ = end;
     return false;
   }
-  detector_.detect(image_, edges_);
+  if (channel_ == 0) detector_.begin(image_.width, image_.height, edges_);
+  detector_.addChannel(image_, edges_);
+  row_ = 0;
+  if (++channel_ < channelsOf(*problem_)) return false;
+  detector_.finish(image_, edges_);
   return true;
 }
 

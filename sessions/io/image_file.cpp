@@ -133,6 +133,23 @@ void convert(const std::filesystem::path& file, const cv::Mat& image,
   }
 }
 
+/// The colour of an image that has any, in OpenCV's order. Samples beyond the table are not there:
+/// convert() refuses a gray value of more bits, and the largest colour is taken for others.
+template <class Sample>
+std::vector<std::uint8_t> colorOf(const cv::Mat& image, const std::vector<std::uint8_t>& table) {
+  const int channels = image.channels();
+  std::vector<std::uint8_t> color;
+  if (channels < ColorView::kChannels) return color;
+  color.reserve(image.total() * ColorView::kChannels);
+  for (int y = 0; y < image.rows; ++y) {
+    const auto* pixel = image.ptr<Sample>(y);
+    for (int x = 0; x < image.cols; ++x, pixel += channels)
+      for (int c = 0; c < ColorView::kChannels; ++c)
+        color.push_back(table[std::min<std::size_t>(pixel[c], table.size() - 1)]);
+  }
+  return color;
+}
+
 /// The 8-bit value of every sample.
 std::vector<std::uint8_t> sampleTable(const std::filesystem::path& file, int bit_depth,
                                       const ImageReadOptions& options) {
@@ -289,10 +306,13 @@ GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& o
   requireDepth(file, gray);
   gray.pixels.resize(image.total());
   const std::vector<std::uint8_t> table = sampleTable(file, gray.bit_depth, options);
-  if (image.depth() == CV_16U)
+  if (image.depth() == CV_16U) {
     convert<std::uint16_t>(file, image, table, gray);
-  else
+    gray.color = colorOf<std::uint16_t>(image, table);
+  } else {
     convert<std::uint8_t>(file, image, table, gray);
+    gray.color = colorOf<std::uint8_t>(image, table);
+  }
   gray.rule += ruleText(gray, options);
   gray.pixels_sha256 = sha256Text(gray.pixels);
   return gray;

@@ -47,6 +47,8 @@ struct GrayImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;  ///< row-major, width * height
+  /// Row-major, blue, green and red of each pixel, by the same rule; empty: the file has no colour.
+  std::vector<std::uint8_t> color;
 
   std::string container;  ///< "PNG", "JPEG", "TIFF", "VICAR", "PDS3", "PDS4"
   int channels = 1;       ///< of the file: 1 gray, 2 gray + alpha, 3 colour, 4 colour + alpha
@@ -61,6 +63,11 @@ struct GrayImage {
   std::string pixels_sha256;  ///< of `pixels`
 
   ImageView view() const { return {pixels.data(), width, height, width}; }
+  /// Without data where there is no colour.
+  ColorView colorView() const {
+    if (color.empty()) return {};
+    return {color.data(), width, height, std::ptrdiff_t{ColorView::kChannels} * width};
+  }
 };
 
 /// Reads a PNG, JPEG or TIFF of 8 or 16 bits, gray or colour, or an image with a VICAR, PDS3 or

@@ -13,9 +13,9 @@
 namespace boresight::sessions {
 namespace {
 
-RecordedInputs inputsOf(const LocalizationProblem& given) {
+RecordedInputs inputsOf(const LocalizationProblem& given, const LocalizerOptions& options) {
   RecordedInputs made;
-  made.sha256 = recordInputs(given);
+  made.sha256 = recordInputs(withoutUnusedColor(given, options));
   made.width = given.image.width;
   made.height = given.image.height;
   made.camera_from_station_seed = given.camera_from_station_seed;
@@ -210,7 +210,7 @@ LocalizerOptions optionsOf(const RecordedOptions& recorded, std::vector<std::str
 OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* given) {
   OnboardRecord record;
   const std::size_t complete = run.complete();
-  if (given != nullptr) record.inputs = inputsOf(*given);
+  if (given != nullptr) record.inputs = inputsOf(*given, run.options);
   record.options.push_back(optionsOf(run.options, 0));
   for (const OptionChange& change : run.changes)
     if (static_cast<std::size_t>(change.iteration) < complete)

@@ -132,7 +132,13 @@ void Replayer::noteInputs() {
   for (const std::string& text : recorded_plan_.remarks) remark(text);
   if (!record_.inputs) return;
   const RecordedInputs& onboard = *record_.inputs;
-  const RecordInputs here = recordInputs(given_);
+  RecordInputs here = recordInputs(withoutUnusedColor(given_, run_.options));
+  if (onboard.sha256.pixels != here.pixels) {
+    // The run may have had the gray image alone.
+    LocalizationProblem gray = given_;
+    gray.color = {};
+    here = recordInputs(gray);
+  }
   same_size_ = onboard.width == given_.camera.width && onboard.height == given_.camera.height;
   if (!same_size_)
     remark("The run saw an image of " + std::to_string(onboard.width) + " x " +

@@ -43,11 +43,12 @@ std::string centreText(const Eigen::Vector3d& centre_in_camera_m) {
 
 }  // namespace
 
-LocalizationProblem problemOf(const ImageView& image, const BitImage* ignore, const Camera& camera,
+LocalizationProblem problemOf(const GrayImage& image, const BitImage* ignore, const Camera& camera,
                               const MeshView& mesh, const Pose& camera_from_station_seed,
                               const DeclaredUncertainty& uncertainty) {
   LocalizationProblem problem;
-  problem.image = image;
+  problem.image = image.view();
+  problem.color = image.colorView();
   problem.ignore = ignore;
   problem.camera = camera;
   problem.mesh = mesh;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/localizer/problem.h"
+#include "sessions/io/image_file.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/io/scene_mesh.h"
 #include "sessions/run/trace.h"
@@ -13,7 +14,7 @@
 namespace boresight::sessions {
 
 /// A problem from inputs that were read; points to image, mask (nullptr: none) and mesh.
-LocalizationProblem problemOf(const ImageView& image, const BitImage* ignore, const Camera& camera,
+LocalizationProblem problemOf(const GrayImage& image, const BitImage* ignore, const Camera& camera,
                               const MeshView& mesh, const Pose& camera_from_station_seed,
                               const DeclaredUncertainty& uncertainty);
 

@@ -6,10 +6,12 @@
 namespace boresight::sessions {
 namespace {
 
-RecordInputs::Hash pixelsHash(const ImageView& image) {
+RecordInputs::Hash pixelsHash(const ImageView& image, const ColorView& color) {
   DigestWriter writer;
   for (int y = 0; y < image.height; ++y)
     writer.bytes({image.row(y), static_cast<std::size_t>(image.width)});
+  for (int y = 0; y < color.height; ++y)
+    writer.bytes({color.row(y), static_cast<std::size_t>(color.width) * ColorView::kChannels});
   return writer.digest();
 }
 
@@ -61,7 +63,7 @@ RecordInputs::Hash cameraHash(const Camera& camera) {
 
 RecordInputs recordInputs(const LocalizationProblem& problem) {
   RecordInputs made;
-  made.pixels = pixelsHash(problem.image);
+  made.pixels = pixelsHash(problem.image, problem.color);
   if (problem.ignore != nullptr) made.ignore = ignoreHash(*problem.ignore);
   made.scene = sceneHash(problem.mesh);
   made.camera = cameraHash(problem.camera);

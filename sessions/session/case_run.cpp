@@ -67,7 +67,7 @@ GrayImage loadImage(const ImageInput& input) {
 }
 
 LocalizationProblem LoadedCase::problem() const {
-  return problemOf(image.view(), ignore ? &ignore_bits : nullptr, source.camera, scene.view(),
+  return problemOf(image, ignore ? &ignore_bits : nullptr, source.camera, scene.view(),
                    source.camera_from_station_seed, source.uncertainty);
 }
 

@@ -20,17 +20,23 @@ struct Scene {
         seen(gray.size(), 1),
         direction(gray.size()),
         block(1 << 20) {
-    image.gray = gray;
+    image.value = gray;
     image.seen = seen;
     image.width = width;
     image.height = height;
     edges.direction = direction;
   }
-  void detect() {
+  void detect() { detect({gray}); }
+  void detect(std::vector<std::vector<std::uint8_t>> channels) {
     Arena arena(block);
     DirectedEdgeDetector detector;
     detector.create(gray.size(), arena);
-    detector.detect(image, edges);
+    detector.begin(image.width, image.height, edges);
+    for (std::vector<std::uint8_t>& channel : channels) {
+      image.value = channel;
+      detector.addChannel(image, edges);
+    }
+    detector.finish(image, edges);
   }
 
   std::vector<std::uint8_t> gray, seen, direction;
@@ -79,6 +85,37 @@ TEST(DirectedEdges, StepAtAnyAngle_IsFoundOnTheLineWithItsDirection) {
       }
     EXPECT_GE(count, 50);
   }
+}
+
+TEST(DirectedEdges, SeveralChannels_ShowTheEdgesOfEach) {
+  // A step across in the first channel, one down in the second, none in the third.
+  Scene scene(64, 64);
+  std::vector<std::vector<std::uint8_t>> channels(3, std::vector<std::uint8_t>(64 * 64, 90));
+  for (std::size_t i = 0; i < channels[0].size(); ++i) {
+    if (i % 64 >= 32) channels[0][i] = 140;
+    if (i / 64 >= 32) channels[1][i] = 180;
+  }
+  scene.detect(channels);
+  const auto isEdge = [&](int x, int y, int direction) {
+    for (int step = -1; step <= 1; ++step)
+      if (scene.edges.at(direction == 0 ? x + step : x, direction == 0 ? y : y + step) == direction)
+        return true;
+    return false;
+  };
+  for (int i = 4; i < 28; ++i) {
+    EXPECT_TRUE(isEdge(32, i, 0)) << i;
+    EXPECT_TRUE(isEdge(i, 32, 4)) << i;
+  }
+}
+
+TEST(DirectedEdges, EqualChannels_GiveTheEdgesOfOne) {
+  Random random(9);
+  Scene scene(48, 40);
+  for (std::uint8_t& value : scene.gray) value = static_cast<std::uint8_t>(random.below(256));
+  scene.detect();
+  const std::vector<std::uint8_t> of_one = scene.direction;
+  scene.detect({scene.gray, scene.gray, scene.gray});
+  EXPECT_EQ(scene.direction, of_one);
 }
 
 TEST(DirectedEdges, FlatImage_HasNone) {

@@ -15,6 +15,7 @@ namespace {
 SearchProblem searchOf(const test::Case& scene) {
   const LocalizationProblem problem = scene.problem();
   return {problem.image,
+          problem.color,
           problem.ignore,
           problem.camera,
           problem.mesh,
@@ -33,10 +34,11 @@ ViewSize sizeOf(double span_px) {
 
 /// The image of a view with its memory.
 struct ViewImage {
-  ViewImage(const SearchProblem& problem, const FacingView& view) : block(1 << 20) {
+  ViewImage(const SearchProblem& problem, const FacingView& view, int channel = 0)
+      : block(1 << 20) {
     Arena arena(block);
     image = SmallImage::create(300 * 300, arena);
-    fillViewRows(problem, view, 0, view.camera.height, image);
+    fillViewRows(problem, view, 0, view.camera.height, channel, image);
   }
   std::vector<std::byte> block;
   SmallImage image;
@@ -114,9 +116,36 @@ TEST(FacingView, ImageOfAView_ShowsTheRealOne) {
         for (int u = -half; u <= half; ++u, ++count)
           sum += problem.image.at(static_cast<int>(pixel.x() + 0.5) + u,
                                   static_cast<int>(pixel.y() + 0.5) + v);
-      EXPECT_NEAR(image.gray[at], sum / count, 24.0) << x << " " << y;
+      EXPECT_NEAR(image.value[at], sum / count, 24.0) << x << " " << y;
     }
   EXPECT_GT(known, 500);
+}
+
+TEST(FacingView, ChannelOfAColorImage_IsShownAsThatChannelAlone) {
+  const test::Case scene = test::stationCase(1, true);
+  SearchProblem problem = searchOf(scene);
+  FacingView view;
+  ASSERT_TRUE(faceScene(problem, scene.truth, sizeOf(90.0), view));
+  const ViewImage of_gray(problem, view);
+  // The second channel is the gray image, the others are something else.
+  const auto width = static_cast<std::size_t>(problem.image.width);
+  std::vector<std::uint8_t> color(3 * width * static_cast<std::size_t>(problem.image.height));
+  for (std::size_t i = 0; i < color.size() / 3; ++i) {
+    color[3 * i] = static_cast<std::uint8_t>(i % 251);
+    color[3 * i + 1] =
+        problem.image.at(static_cast<int>(i % width), static_cast<int>(i / width));
+  }
+  problem.color = {color.data(), problem.image.width, problem.image.height, 3 * problem.image.width};
+  const ViewImage of_second(problem, view, 1);
+  const ViewImage of_first(problem, view, 0);
+  const auto pixels = static_cast<std::size_t>(view.camera.width * view.camera.height);
+  const auto valuesOf = [pixels](const ViewImage& shown) {
+    return std::vector<std::uint8_t>(shown.image.value.begin(),
+                                     shown.image.value.begin() + static_cast<std::ptrdiff_t>(pixels));
+  };
+  EXPECT_EQ(valuesOf(of_second), valuesOf(of_gray));
+  EXPECT_NE(valuesOf(of_first), valuesOf(of_gray));
+  EXPECT_EQ(channelsOf(problem), 3);
 }
 
 TEST(FacingView, IgnoredPixels_AreNotKnown) {

@@ -114,8 +114,27 @@ TEST_F(ReadImage, TurnsColourGrayAsOpenCvDoes) {
   }
 }
 
+TEST_F(ReadImage, ColorImage_KeepsItsChannels) {
+  const cv::Mat source = randomImage(CV_8UC3);
+  const GrayImage image = read(encoded(source, ".png"));
+  EXPECT_TRUE(std::equal(image.color.begin(), image.color.end(), source.ptr(),
+                         source.ptr() + 3 * source.total()));
+  EXPECT_EQ(image.colorView().stride, 3 * source.cols);
+  EXPECT_EQ(image.colorView().data, image.color.data());
+}
+
+TEST_F(ReadImage, GrayImage_HasNoColor) {
+  const GrayImage image = read(encoded(randomImage(CV_8UC1), ".png"));
+  EXPECT_TRUE(image.color.empty());
+  EXPECT_EQ(image.colorView().data, nullptr);
+}
+
 TEST_F(ReadImage, DropsAlpha) {
   const cv::Mat source = randomImage(CV_8UC4);
+  cv::Mat color;
+  cv::cvtColor(source, color, cv::COLOR_BGRA2BGR);
+  EXPECT_TRUE(std::equal(color.ptr(), color.ptr() + 3 * color.total(),
+                         read(encoded(source, ".png")).color.begin()));
   cv::Mat expected;
   cv::cvtColor(source, expected, cv::COLOR_BGRA2GRAY);
   const GrayImage image = read(encoded(source, ".png"));
@@ -183,6 +202,9 @@ TEST_F(ReadImage, TakesLumaOfSixteenBitColourBeforeScaling) {
   for (int y = 0; y < source.rows; ++y)
     for (int x = 0; x < source.cols; ++x)
       ASSERT_EQ(image.view().at(x, y), byRule(luma.at<std::uint16_t>(y, x), 16));
+  ASSERT_EQ(image.color.size(), 3 * source.total());
+  for (std::size_t i = 0; i < image.color.size(); ++i)
+    ASSERT_EQ(image.color[i], byRule(source.ptr<std::uint16_t>()[i], 16));
 }
 
 TEST_F(ReadImage, UsesAStatedBitDepth) {

@@ -38,6 +38,16 @@ const Replayed& replayed() {
   return made;
 }
 
+/// The image with colours that differ from its gray.
+std::vector<std::uint8_t> colorOf(const ImageView& image) {
+  std::vector<std::uint8_t> color;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (const int shift : {0, 3, 9})
+        color.push_back(static_cast<std::uint8_t>(image.at(x, y) >> (shift % 4)));
+  return color;
+}
+
 void expectSameRender(const sessions::RenderTrace& a, const sessions::RenderTrace& b) {
   EXPECT_EQ(a.camera_from_station, b.camera_from_station);
   EXPECT_EQ(a.edges.words, b.edges.words);
@@ -246,6 +256,26 @@ TEST(ReplayRecord, SaysWhatIsNotAsItWasOnBoard) {
   EXPECT_TRUE(poses.iterations.front()->templates.empty());
   EXPECT_EQ(poses.iterations.front()->camera_from_station,
             whole.replay.iterations.front()->camera_from_station);
+}
+
+TEST(ReplayRecord, ColorOfTheImage_CountsOnlyWhereTheRunLookedAtIt) {
+  const ExampleCase example("os");
+  const LocalizationProblem gray = example.problem();
+  const std::vector<std::uint8_t> color = colorOf(gray.image);
+  LocalizationProblem colored = gray;
+  colored.color = {color.data(), gray.image.width, gray.image.height, 3 * gray.image.width};
+  const auto other_pixels = Contains(HasSubstr("saw other pixels"));
+
+  const RecordedRun of_gray = recordRun(gray, recordedOptions());
+  EXPECT_THAT(replayRecord(of_gray.record, colored).remarks, testing::Not(other_pixels));
+  const RecordedRun of_color = recordRun(colored, recordedOptions());
+  EXPECT_NE(of_color.trace.digest, of_gray.trace.digest);
+  EXPECT_THAT(replayRecord(of_color.record, colored).remarks, testing::Not(other_pixels));
+  EXPECT_THAT(replayRecord(of_color.record, gray).remarks, other_pixels);
+
+  LocalizerOptions blind = recordedOptions();
+  blind.search.color = false;
+  EXPECT_EQ(recordRun(colored, blind).trace.digest, recordRun(gray, blind).trace.digest);
 }
 
 TEST(RecordedPlan, SaysWhichOptionsItDoesNotKnow) {
