@@ -38,7 +38,6 @@ void visitDifferences(const LocalizerOptions& before, const LocalizerOptions& af
 bool LocalizerOptions::isDigestedOnlyIfChanged(const OptionInfo& info) {
   const std::string_view name = info.name;
   return name.starts_with("ambiguity.") || name.starts_with("support.partial") ||
-         name == "refinement.covariance" || name == "refinement.rising_weight" ||
          name == "support.min_probability";
 }
 

@@ -84,8 +84,8 @@ class Pass {
   /// Ends a match pass with the pose of all views. Inliers and residuals of this view's
   /// correspondences are filled in before, in record().pnp.
   void supplyPose(const JointPose& joint);
-  /// The view's own normal equations of the refinement round.
-  const NormalEquations& round() const { return round_; }
+  /// What the view's edges say in the refinement round.
+  const EdgeEquations& round() const { return round_; }
   /// The refinement stage, for a refinement of several views.
   EdgeRefinement& refinement() { return memory_.refinement; }
   /// Ends a round after the refinement was moved; `ends`: it was the last one.
@@ -187,7 +187,7 @@ class Pass {
   bool solve_outside_ = false;
   bool solver_waits_ = false;  ///< a pose or a round is needed
   LocalizationStatus failed_ = LocalizationStatus::kRunning;
-  NormalEquations round_;
+  EdgeEquations round_;
 };
 
 }  // namespace boresight

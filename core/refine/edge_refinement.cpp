@@ -14,6 +14,15 @@ constexpr double kMadToSigma = 1.4826;
 constexpr double kMinScale_px = 0.15;
 constexpr double kSettled_px = 0.003;  ///< a step below this moves nothing that is measured
 
+/// Neighbouring places share their errors: together they count for less than as many measurements.
+constexpr double kSharedNoise = 4.0;
+/// Weight of edges beyond which the image is brighter than on the nearer surface, next to 1 of the
+/// others: a lit ground or face beyond a shaded one, whose edges lie 0.1 to 0.3 px inside.
+constexpr double kRisingWeight = 0.4;
+
+/// What a place counts for, besides its robust weight.
+double shareOf(const EdgeSample& sample) { return sample.gradient > 0.0 ? kRisingWeight : 1.0; }
+
 /// The lower triangle of a symmetric matrix is filled.
 double quadraticForm(const Matrix6d& lower, const Vector6d& x) {
   double sum = 0.0;
@@ -128,7 +137,7 @@ Status EdgeRefinement::step(bool& done) {
 }
 
 Status EdgeRefinement::finishRound(bool& done) {
-  NormalEquations found;
+  EdgeEquations found;
   bool settled = false;
   done = true;
   Status status = gather(found);
@@ -137,7 +146,7 @@ Status EdgeRefinement::finishRound(bool& done) {
   return status;
 }
 
-Status EdgeRefinement::gather(NormalEquations& made) {
+Status EdgeRefinement::gather(EdgeEquations& found) {
   RefinementResult& result = *result_;
   const bool search = searches();
   ++round_;
@@ -152,14 +161,13 @@ Status EdgeRefinement::gather(NormalEquations& made) {
   if (result.found_count < options_.min_found) return Status::kTooFewEdges;
   if (search) scale_px_ = robustScale();
   double weights = 0.0;
-  made = weightedEquations(weights);
+  found = weightedEquations(weights);
+  NormalEquations& made = found.step;
   if (result.used_count < options_.min_found) return Status::kTooFewEdges;
   const double variance_px2 = made.squares / weights;
   result.rms_px = std::sqrt(variance_px2);
   motion_ = made.information / weights;
-  // Neighbouring places share their errors: each counts for less than one measurement.
-  const double noise_px2 =
-      std::max(variance_px2, kMinScale_px * kMinScale_px) * options_.covariance_inflation;
+  const double noise_px2 = std::max(variance_px2, kMinScale_px * kMinScale_px) * kSharedNoise;
   made.information /= noise_px2;
   made.gradient /= noise_px2;
   return Status::kOk;
@@ -184,13 +192,12 @@ void EdgeRefinement::searchChunk(int chunk) {
   }
 }
 
-Status EdgeRefinement::advance(NormalEquations equations, bool& settled) {
+Status EdgeRefinement::advance(EdgeEquations found, bool& settled) {
   RefinementResult& result = *result_;
+  NormalEquations& equations = found.step;
   const bool determined = invert(equations.information, result.covariance);
-  if (determined && options_.covariance == CovarianceModel::kGrouped) {
-    Matrix6d grouped;  // stays the inflated one where the groups do not give any
-    if (groups_.covariance(curvature_, grouped)) result.covariance = grouped;
-  }
+  Matrix6d measured;  // where the groups give none, errors count as independent
+  if (determined && found.errors.covariance(measured)) result.covariance = measured;
   addKnowledge(equations);
   // What the edges alone leave open is known as well as it was before.
   if (!determined && !invert(equations.information, result.covariance)) return Status::kDegenerate;
@@ -228,14 +235,13 @@ void EdgeRefinement::addKnowledge(NormalEquations& equations) const {
 }
 
 /// Of the edges found, at the pose as it is now, with Tukey's weights; counts the used ones.
-NormalEquations EdgeRefinement::weightedEquations(double& weights) {
+EdgeEquations EdgeRefinement::weightedEquations(double& weights) {
   RefinementResult& result = *result_;
   const Eigen::Matrix3d rotation = result.camera_from_station.matrix();
   const Eigen::Vector3d translation_m = result.camera_from_station.translation_m;
   const double cut_px = kTukey * scale_px_;
-  NormalEquations equations;
-  curvature_ = Matrix6d::Zero();
-  if (options_.covariance == CovarianceModel::kGrouped) groups_.clear();
+  EdgeEquations equations;
+  groups_.clear();
   result.used_count = 0;
   for (std::int32_t i = 0; i < result.sample_count; ++i) {
     EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
@@ -251,26 +257,27 @@ NormalEquations EdgeRefinement::weightedEquations(double& weights) {
     sample.weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
     const Vector6d row = rowOf(sample, point_in_camera_m, jacobian);
     const double weight = shareOf(sample) * sample.weight;
-    addRow(sample, weight, row, equations);
-    if (options_.covariance == CovarianceModel::kGrouped) noteGroups(sample, pixel, row, ratio);
+    addRow(sample, weight, row, equations.step);
+    noteGroups(sample, pixel, row, ratio, equations.errors.curvature);
     weights += weight;
     if (sample.weight > 0.5) ++result.used_count;
   }
+  groups_.sum(equations.errors);
   return equations;
 }
 
-/// What the covariance needs of a sample whose residual is this part of where weights end.
+/// Notes for the covariance a sample whose residual is this part of where weights end.
 void EdgeRefinement::noteGroups(const EdgeSample& sample, const Eigen::Vector2d& pixel,
-                                const Vector6d& row, double ratio) {
+                                const Vector6d& row, double ratio, Matrix6d& curvature) {
   const double squared = ratio * ratio;
   const double share = shareOf(sample);
   const double bend = share * (1.0 - squared) * (1.0 - 5.0 * squared);  // of Tukey's influence
   for (int a = 0; a < 6; ++a)
-    for (int b = 0; b <= a; ++b) curvature_(a, b) += bend * row[a] * row[b];
+    for (int b = 0; b <= a; ++b) curvature(a, b) += bend * row[a] * row[b];
   const Eigen::Vector2d sizes_px = box_px_.sizes().cwiseMax(1.0);
   const Eigen::Vector2d place = (pixel - box_px_.min()).cwiseQuotient(sizes_px);
   groups_.add({place, sample.normal, sample.gradient > 0.0, sample.kind},
-              share * sample.weight * sample.residual_px * row);
+              sample.residual_px, share * sample.weight * row);
 }
 
 }  // namespace boresight

@@ -23,13 +23,6 @@
 
 namespace boresight {
 
-/// Where the covariance of a refined pose comes from.
-enum class CovarianceModel : std::int32_t {
-  kInflated = 0,  ///< independent errors, a factor for what they share
-  kGrouped = 1,   ///< ErrorGroups: the sums of errors that were measured
-};
-inline constexpr const char* kCovarianceModelNames[] = {"inflated", "grouped"};
-
 /// Of the last step, which meets the image's own edges.
 struct RefinementOptions {
   bool enabled = true;
@@ -42,11 +35,8 @@ struct RefinementOptions {
   double search_again_px = 0.1;
   double derivative_sigma_px = 1.0;
   double min_gradient = 2.0;
-  double rising_weight = 1.0;
   double sample_spacing_px = 2.0;
   std::int32_t min_found = 60;
-  double covariance_inflation = 4.0;
-  CovarianceModel covariance = CovarianceModel::kInflated;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -80,23 +70,11 @@ struct RefinementOptions {
     visit(
         OptionInfo{"refinement.min_gradient", "gray/px", 0.0, 255.0, "Weaker edges are not used."},
         self.min_gradient);
-    visit(OptionInfo{"refinement.rising_weight", "", 0.01, 1.0,
-                     "Weight of edges beyond which the image is brighter than on the nearer "
-                     "surface, beside 1 of the others."},
-          self.rising_weight);
     visit(OptionInfo{"refinement.sample_spacing_px", "px", 0.5, 50.0,
                      "Distance between edge places."},
           self.sample_spacing_px);
     visit(OptionInfo{"refinement.min_found", "", 6, 100000, "Fewer edges found are no pose."},
           self.min_found);
-    visit(OptionInfo{"refinement.covariance_inflation", "", 1.0, 1000.0,
-                     "Factor on the covariance for the correlation of neighbouring edge places."},
-          self.covariance_inflation);
-    visit(OptionInfo{"refinement.covariance", "", 0, 1,
-                     "Independent errors and a factor for what neighbours share, or the measured "
-                     "sums of errors by place, by direction and by kind of edge.",
-                     kCovarianceModelNames},
-          self.covariance);
   }
 };
 
@@ -115,6 +93,12 @@ struct EdgeSample {
   double gradient = 0.0;        ///< signed, gray/px along the normal; 0 where nothing was found
   double weight = 0.0;          ///< robust, of the last round
   std::uint8_t kind = 0;        ///< EdgeKind bits
+};
+
+/// What the edges of an image say of a pose in a round.
+struct EdgeEquations {
+  NormalEquations step;  ///< H and g, in px / px of noise
+  ErrorSums errors;      ///< for the covariance
 };
 
 /// What the refinement of a pose gives.
@@ -170,12 +154,11 @@ class EdgeRefinement {
   // then: searchChunk() of every chunk, gather(), and either advance() by the sum of all views'
   // equations, or moveTo() where that led.
 
-  /// Ends the search: what the edges found say of the pose, H and g in px / px of noise (the factor
-  /// for what neighbours share included). kTooFewEdges when too little is found.
-  Status gather(NormalEquations& made);
-  /// Moves the pose to what solves `equations` together with anchor and matched pose, and gives its
-  /// covariance. kDegenerate when they do not fix it.
-  Status advance(NormalEquations equations, bool& settled);
+  /// Ends the search: what the edges found say of the pose. kTooFewEdges when too little is found.
+  Status gather(EdgeEquations& found);
+  /// Moves the pose to what solves the equations together with anchor and matched pose, and gives
+  /// its covariance. kDegenerate when they do not fix it.
+  Status advance(EdgeEquations found, bool& settled);
   /// Takes a pose from elsewhere; whether that hardly moved what is seen.
   bool moveTo(const Pose& camera_from_station);
   /// Whether this was the last round that the options allow.
@@ -188,13 +171,9 @@ class EdgeRefinement {
   double robustScale();
   void addKnowledge(NormalEquations& equations) const;
   bool noteMove(const Vector6d& xi);
-  NormalEquations weightedEquations(double& weights);
+  EdgeEquations weightedEquations(double& weights);
   void noteGroups(const EdgeSample& sample, const Eigen::Vector2d& pixel, const Vector6d& row,
-                  double ratio);
-  /// What a place counts for, besides its robust weight.
-  double shareOf(const EdgeSample& sample) const {
-    return sample.gradient > 0.0 ? options_.rising_weight : 1.0;
-  }
+                  double ratio, Matrix6d& curvature);
 
   RefinementOptions options_;
   ImageView image_;
@@ -208,9 +187,8 @@ class EdgeRefinement {
   RefinementResult* result_ = nullptr;
   EdgeSearch search_;
   ErrorGroups groups_;
-  Matrix6d motion_ = Matrix6d::Zero();     ///< xi' motion xi: mean square along the normals, px^2
-  Matrix6d curvature_ = Matrix6d::Zero();  ///< of half of the robust cost; the lower triangle
-  Eigen::AlignedBox2d box_px_;             ///< of the edge places where they begin
+  Matrix6d motion_ = Matrix6d::Zero();  ///< xi' motion xi: mean square along the normals, px^2
+  Eigen::AlignedBox2d box_px_;          ///< of the edge places where they begin
   std::span<float> absolute_residuals_;
   /// Per sample, where the edge was found: the image's coordinate along the sample's normal.
   std::span<double> found_at_px_;

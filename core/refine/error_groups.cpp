@@ -17,7 +17,10 @@ Status ErrorGroups::create(Arena& arena) {
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 
-void ErrorGroups::clear() { std::fill(scores_.begin(), scores_.end(), Vector6d::Zero()); }
+void ErrorGroups::clear() {
+  std::fill(scores_.begin(), scores_.end(), Vector6d::Zero());
+  common_.fill(Vector6d::Zero());
+}
 
 int ErrorGroups::sectorOf(const Eigen::Vector2d& direction) {
   double along = direction.x();
@@ -36,7 +39,7 @@ int ErrorGroups::sectorOf(const Eigen::Vector2d& direction) {
   return 4 * quarter + within;
 }
 
-void ErrorGroups::add(const GroupedError& error, const Vector6d& score) {
+void ErrorGroups::add(const GroupedError& error, double residual_px, const Vector6d& slope) {
   const auto cell = [](double place) {
     return std::clamp(static_cast<int>(place * kCells), 0, kCells - 1);
   };
@@ -44,7 +47,9 @@ void ErrorGroups::add(const GroupedError& error, const Vector6d& score) {
   const int groups[] = {cell(error.place.x()) * kCells + cell(error.place.y()),
                         kByPlace + (sector / 2) * 2 + (error.brighter ? 1 : 0),
                         kByPlace + kBySide + sector * kKinds + (error.kind & (kKinds - 1))};
-  for (const int group : groups) scores_[static_cast<std::size_t>(group)] += score;
+  for (const int group : groups) scores_[static_cast<std::size_t>(group)] += residual_px * slope;
+  const std::array<double, 3> offsets = {1.0, error.normal.x(), error.normal.y()};
+  for (std::size_t i = 0; i < offsets.size(); ++i) common_[i] += offsets[i] * slope;
 }
 
 bool ErrorGroups::addSquares(int first, int count, Matrix6d& squares) const {
@@ -62,13 +67,30 @@ bool ErrorGroups::addSquares(int first, int count, Matrix6d& squares) const {
   return true;
 }
 
-bool ErrorGroups::covariance(const Matrix6d& curvature, Matrix6d& covariance) const {
+void ErrorGroups::sum(ErrorSums& sums) const {
+  sums.squares = Matrix6d::Zero();
+  for (const Vector6d& slope : common_)
+    sums.squares += kCommonOffset_px * kCommonOffset_px * slope * slope.transpose();
+  sums.suffices = addSquares(0, kByPlace, sums.squares) &&
+                  addSquares(kByPlace, kBySide, sums.squares) &&
+                  addSquares(kByPlace + kBySide, kByKind, sums.squares);
+}
+
+void ErrorSums::add(const ErrorSums& other) {
+  curvature += other.curvature;
+  squares += other.squares;
+  suffices = suffices && other.suffices;
+}
+
+ErrorSums ErrorSums::inFirst(const Pose& camera_from_first) const {
+  const Matrix6d adjoint = adjointOf(camera_from_first);
+  const Matrix6d whole = curvature.selfadjointView<Eigen::Lower>();
+  return {adjoint.transpose() * whole * adjoint, adjoint.transpose() * squares * adjoint, suffices};
+}
+
+bool ErrorSums::covariance(Matrix6d& covariance) const {
   Matrix6d inverse;
-  if (!invert(curvature, inverse)) return false;
-  Matrix6d squares = Matrix6d::Zero();
-  if (!addSquares(0, kByPlace, squares) || !addSquares(kByPlace, kBySide, squares) ||
-      !addSquares(kByPlace + kBySide, kByKind, squares))
-    return false;
+  if (!suffices || !invert(curvature, inverse)) return false;
   const Matrix6d made = inverse * squares * inverse;
   for (int a = 0; a < 6; ++a)
     for (int b = 0; b <= a; ++b)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -19,6 +20,20 @@ struct GroupedError {
   std::uint8_t kind = 0;                             ///< EdgeKind bits
 };
 
+/// What the covariance of a pose is computed from; of several views it is the sum.
+struct ErrorSums {
+  Matrix6d curvature = Matrix6d::Zero();  ///< of half of the robust cost; the lower triangle
+  Matrix6d squares = Matrix6d::Zero();    ///< of the sums of errors in the groups
+  bool suffices = true;                   ///< every way of grouping has two groups or more
+
+  void add(const ErrorSums& other);  ///< Errors of different views are independent.
+  /// The sums in the perturbation of `camera`'s pose as those of `first`'s; see inFirst() of
+  /// NormalEquations.
+  ErrorSums inFirst(const Pose& camera_from_first) const;
+  /// curvature^-1 squares curvature^-1. False when the curvature is singular, or !suffices.
+  [[nodiscard]] bool covariance(Matrix6d& covariance) const;
+};
+
 /// The covariance of a robust least-squares pose from its measured residuals, where these are not
 /// independent: places near each other share what the mesh does not know of the part; edges that
 /// look the same way share what the light makes of them, those of one kind their rounded corners.
@@ -27,23 +42,26 @@ struct GroupedError {
 /// 2011, without subtracting what the ways have in common: an error that is alone in all three
 /// counts three times, so that this errs to the large side):
 /// 8 x 8 cells; 8 directions by the sign of the gradient; 16 directions by the kind of edge.
+/// What moves all edges alike leaves no residual but another pose: an offset outwards (bevels,
+/// blur) and a shift of the image along each axis (light from one side, sampling) of
+/// kCommonOffset_px are added as if they had been measured.
 class ErrorGroups {
  public:
   Status create(Arena& arena);  ///< Takes the sums from `arena`. kArenaTooSmall.
   void clear();                 ///< Forgets all errors
-  /// `score`: the derivative of half of the robust cost with respect to the pose, weight times
-  /// residual times row.
-  void add(const GroupedError& error, const Vector6d& score);
-  /// curvature^-1 (sum of squares of groups) curvature^-1, each way of grouping G / (G - 1) times
-  /// for its G groups that hold something. False when the curvature is singular, or a way has fewer
-  /// than two groups.
-  [[nodiscard]] bool covariance(const Matrix6d& curvature, Matrix6d& covariance) const;
+  /// `slope`: weight times row, which is the derivative of the place along the normal with respect
+  /// to the pose.
+  void add(const GroupedError& error, double residual_px, const Vector6d& slope);
+  /// The squares of the groups, each way of grouping G / (G - 1) times for its G groups that hold
+  /// something.
+  void sum(ErrorSums& sums) const;
 
   /// 0 ... 15, of 22.5 degrees each, beginning at +x, towards +y.
   static int sectorOf(const Eigen::Vector2d& direction);
 
  private:
-  static constexpr int kCells = 8;  ///< along each side
+  static constexpr double kCommonOffset_px = 0.05;  ///< one sigma
+  static constexpr int kCells = 8;                  ///< along each side
   static constexpr int kSectors = 16;
   static constexpr int kKinds = 8;
   static constexpr int kByPlace = kCells * kCells;
@@ -52,7 +70,8 @@ class ErrorGroups {
 
   [[nodiscard]] bool addSquares(int first, int count, Matrix6d& squares) const;
 
-  std::span<Vector6d> scores_;  ///< by place, by side, by kind
+  std::span<Vector6d> scores_;         ///< by place, by side, by kind
+  std::array<Vector6d, 3> common_;  ///< slopes by an offset outwards, along x and along y
 };
 
 }  // namespace boresight

@@ -40,8 +40,6 @@ Status ViewsLocalizer::validate(const ViewsProblem& problem, const LocalizerOpti
   if (problem.views.empty() || problem.views.size() > kMaxViews) return Status::kCapacityExceeded;
   const bool offered = !options.ambiguity.enabled && !options.support.partial;
   if (firstInvalidOption(options) != nullptr || !offered) return Status::kInvalidOption;
-  if (options.refinement.covariance == CovarianceModel::kGrouped && problem.views.size() > 1)
-    return Status::kInvalidOption;
   if (!isUsable(problem.rig_from_station_seed)) return Status::kInvalidPose;
   for (const View& view : problem.views)
     if (!isUsable(view.camera_from_rig)) return Status::kInvalidPose;
@@ -290,14 +288,17 @@ StepReport ViewsLocalizer::stepRound() {
 
 /// One step of all views, by the sum of their equations in the first one's frame.
 Status ViewsLocalizer::advance(bool& settled) {
-  NormalEquations sum;
+  EdgeEquations sum;
   bool any = false;
   for (std::size_t v = 0; v < views_.size(); ++v) {
     if (!views_[v].refines) continue;
-    if (v == 0)
-      sum = first().round();
-    else
-      addTo(sum, inFirst(views_[v].pass.round(), views_[v].camera_from_first));
+    const EdgeEquations& own = views_[v].pass.round();
+    if (v == 0) {
+      sum = own;
+    } else {
+      addTo(sum.step, inFirst(own.step, views_[v].camera_from_first));
+      sum.errors.add(own.errors.inFirst(views_[v].camera_from_first));
+    }
     any = true;
   }
   if (!any) return Status::kTooFewEdges;

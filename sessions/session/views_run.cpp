@@ -76,8 +76,6 @@ std::string viewsRefusal(const LocalizerOptions& options) {
   if (options.ambiguity.enabled)
     return refused("a search for rivals: switch ambiguity.enabled off");
   if (options.support.partial) return refused("partial support: switch support.partial off");
-  if (options.refinement.covariance == CovarianceModel::kGrouped)
-    return refused("a grouped covariance: set refinement.covariance to inflated");
   return "";
 }
 
