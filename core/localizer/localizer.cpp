@@ -92,8 +92,11 @@ Ruling Localizer::rule(const PassOutcome& outcome) {
     const bool supported = searches()
                                ? isProbable(outcome.probability, workspace().partial, options)
                                : isSupported(outcome.support, workspace().partial, options);
-    return {supported && !left ? Ruling::Next::kPose : Ruling::Next::kFailed,
-            left ? LocalizationStatus::kLeftUncertainty : LocalizationStatus::kNotSupported,
+    const bool blurred = options.gate && !workspace().edge_width.isSharp();
+    const LocalizationStatus refusal = left      ? LocalizationStatus::kLeftUncertainty
+                                       : blurred ? LocalizationStatus::kBlurred
+                                                 : LocalizationStatus::kNotSupported;
+    return {supported && !left && !blurred ? Ruling::Next::kPose : Ruling::Next::kFailed, refusal,
             Stage::kSupport, false, attempt_.record()};
   }
   const Iteration& record = *workspace().iteration;

@@ -117,6 +117,7 @@ class OneView final : public SteppedRun {
     trace.partial = workspace.partial;
     trace.evidence = workspace.evidence;
     trace.probability = workspace.probability;
+    trace.edge_width = workspace.edge_width;
     if (trace.candidates.empty()) noteSearch();
     trace.attempts = workspace.attempts;
     trace.rivals.assign(workspace.rivals.begin(), workspace.rivals.end());
