@@ -122,8 +122,9 @@ TEST(EdgeRefinement, CountsWhatItUses) {
     EXPECT_LE(sample.weight, 1.0);
     found += sample.gradient != 0.0 ? 1 : 0;
     used += sample.weight > 0.5 ? 1 : 0;
-    squares += sample.weight * sample.residual_px * sample.residual_px;
-    weights += sample.weight;
+    const double weight = (sample.gradient > 0.0 ? 0.4 : 1.0) * sample.weight;
+    squares += weight * sample.residual_px * sample.residual_px;
+    weights += weight;
     EXPECT_TRUE(sample.gradient != 0.0 || sample.weight == 0.0);
     EXPECT_TRUE(sample.gradient == 0.0 || std::abs(sample.gradient) >= 2.0);
     EXPECT_LE(std::abs(sample.residual_px), 3.25);

@@ -159,8 +159,9 @@ double meanSquaredError(double shared_px, std::uint64_t seed) {
 }
 
 TEST(ErrorGroups, IndependentErrorsCountInEachWayOfGrouping) {
+  // Less than 6 / 3, as the offset of all edges that is assumed is not in these errors.
   const double mean = meanSquaredError(0.0, 3);
-  EXPECT_GT(mean, 0.8 * 6.0 / 3.0);
+  EXPECT_GT(mean, 0.7 * 6.0 / 3.0);
   EXPECT_LT(mean, 1.4 * 6.0 / 3.0);
 }
 

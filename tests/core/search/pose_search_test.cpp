@@ -19,6 +19,7 @@ class SearchRun {
   explicit SearchRun(const test::Case& scene) : scene_(scene), block_(16 << 20), arena_(block_) {
     const LocalizationProblem from = scene.problem();
     problem_ = {from.image,
+                from.color,
                 from.ignore,
                 from.camera,
                 from.mesh,
