@@ -91,8 +91,11 @@ Ruling Localizer::rule(const PassOutcome& outcome) {
     const SupportOptions& options = pass_.options().support;
     const bool supported = searches() ? isProbable(outcome.probability, options)
                                       : isSupported(outcome.support, options);
-    return {supported && !left ? Ruling::Next::kPose : Ruling::Next::kFailed,
-            left ? LocalizationStatus::kLeftUncertainty : LocalizationStatus::kNotSupported,
+    const bool blurred = options.gate && !workspace().edge_width.isSharp();
+    const LocalizationStatus refusal = left      ? LocalizationStatus::kLeftUncertainty
+                                       : blurred ? LocalizationStatus::kBlurred
+                                                 : LocalizationStatus::kNotSupported;
+    return {supported && !left && !blurred ? Ruling::Next::kPose : Ruling::Next::kFailed, refusal,
             Stage::kSupport, false, attempt_.record()};
   }
   const Iteration& record = *workspace().iteration;

@@ -262,12 +262,13 @@ StepReport Pass::stepRefine() {
 
 /// Edge support at once; evidence, where the options ask for it, in slices.
 StepReport Pass::stepSupport() {
-  const Iteration& now = record();
   if (!stage_begun_) {
+    const Iteration& now = record();
     workspace_.support = measureEdgeSupport(now.render, now.level, workspace_.edges, problem_.image,
                                             problem_.ignore);
     workspace_.evidence = {};
     workspace_.probability = 0.0;
+    workspace_.edge_width = {};
     outcome_.support = workspace_.support;
     digest_.tag("support");
     digestSupport(workspace_.support, digest_);
@@ -280,6 +281,9 @@ StepReport Pass::stepSupport() {
   outcome_.probability = workspace_.probability =
       poseProbability(workspace_.evidence, workspace_.support);
   digestEvidence(workspace_.evidence, digest_);
+  const Iteration& now = record();
+  workspace_.edge_width = measureEdgeWidth(now.render, now.level, problem_.image, problem_.ignore);
+  digestEdgeWidth(workspace_.edge_width, digest_);
   return end(Stage::kSupport);
 }
 

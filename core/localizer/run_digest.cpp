@@ -69,8 +69,7 @@ void digestProblem(const LocalizationProblem& problem, DigestWriter& writer) {
   if (color.data != nullptr) {
     writer.tag("color");
     for (int y = 0; y < color.height; ++y)
-      writer.bytes(
-          {color.row(y), static_cast<std::size_t>(color.width) * ColorView::kChannels});
+      writer.bytes({color.row(y), static_cast<std::size_t>(color.width) * ColorView::kChannels});
   }
   writer.u8(problem.ignore != nullptr ? 1 : 0);
   if (problem.ignore != nullptr) digestBits(*problem.ignore, writer);
@@ -217,6 +216,12 @@ void digestEvidence(const ContourEvidence& evidence, DigestWriter& writer) {
   writer.f64(evidence.edges_nats);
   writer.f64(evidence.outline_nats);
   for (const double nats : evidence.quadrant_nats) writer.f64(nats);
+}
+
+void digestEdgeWidth(const EdgeWidth& width, DigestWriter& writer) {
+  writer.tag("edge width");
+  for (const double width_px : width.width_px) writer.f64(width_px);
+  for (const std::int32_t places : width.places) writer.i32(places);
 }
 
 void digestRivals(std::span<const Rival> rivals, DigestWriter& writer) {

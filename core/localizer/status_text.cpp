@@ -28,6 +28,8 @@ const char* localizationStatusText(LocalizationStatus status) {
       return "fault";
     case LocalizationStatus::kAmbiguous:
       return "ambiguous";
+    case LocalizationStatus::kBlurred:
+      return "blurred";
   }
   return "unknown";
 }

@@ -7,6 +7,7 @@
 
 #include "core/accept/contour_evidence.h"
 #include "core/accept/edge_support.h"
+#include "core/accept/edge_width.h"
 #include "core/edges/edge_map.h"
 #include "core/match/whs.h"
 #include "core/pnp/correspondence.h"
@@ -60,8 +61,9 @@ enum class LocalizationStatus : std::uint8_t {
   kIterationLimit,
   kFault,      ///< a capacity or the arena did not suffice; `Workspace::fault` says which
   kAmbiguous,  ///< another pose explains the image nearly as well: `Workspace::rivals`
+  kBlurred,    ///< the image's edges are too wide for a pose: `Workspace::edge_width`
 };
-inline constexpr LocalizationStatus kLastLocalizationStatus = LocalizationStatus::kAmbiguous;
+inline constexpr LocalizationStatus kLastLocalizationStatus = LocalizationStatus::kBlurred;
 const char* localizationStatusText(LocalizationStatus status);
 
 enum class IterationKind : std::uint8_t { kMatch = 0, kRefine = 1 };
@@ -128,6 +130,7 @@ struct Workspace {
   EdgeSupport support;                        ///< of the final pose
   ContourEvidence evidence;                   ///< of it, too
   double probability = 0.0;  ///< that it is right, by both; 0 where none was searched
+  EdgeWidth edge_width;      ///< where that pose has its edges; empty where none was searched
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< how the run stands
   Status fault = Status::kOk;                                ///< what did not suffice, with kFault
   Pose camera_from_station;  ///< best estimate; the seed unless converged

@@ -270,8 +270,8 @@ void EdgeRefinement::noteGroups(const EdgeSample& sample, const Eigen::Vector2d&
     for (int b = 0; b <= a; ++b) curvature(a, b) += bend * row[a] * row[b];
   const Eigen::Vector2d sizes_px = box_px_.sizes().cwiseMax(1.0);
   const Eigen::Vector2d place = (pixel - box_px_.min()).cwiseQuotient(sizes_px);
-  groups_.add({place, sample.normal, sample.gradient > 0.0, sample.kind},
-              sample.residual_px, share * sample.weight * row);
+  groups_.add({place, sample.normal, sample.gradient > 0.0, sample.kind}, sample.residual_px,
+              share * sample.weight * row);
 }
 
 }  // namespace boresight

@@ -70,7 +70,7 @@ class ErrorGroups {
 
   [[nodiscard]] bool addSquares(int first, int count, Matrix6d& squares) const;
 
-  std::span<Vector6d> scores_;         ///< by place, by side, by kind
+  std::span<Vector6d> scores_;      ///< by place, by side, by kind
   std::array<Vector6d, 3> common_;  ///< slopes by an offset outwards, along x and along y
 };
 

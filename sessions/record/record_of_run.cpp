@@ -128,7 +128,9 @@ void takeSupport(const EdgeSupport& support, LocalizationStatus status, OnboardR
   for (auto one = record.iterations.rbegin(); one != record.iterations.rend(); ++one) {
     const bool converged =
         one == record.iterations.rbegin() && status == LocalizationStatus::kConverged;
-    if (!converged && one->status != LocalizationStatus::kNotSupported) continue;
+    const bool refused = one->status == LocalizationStatus::kNotSupported ||
+                         one->status == LocalizationStatus::kBlurred;
+    if (!converged && !refused) continue;
     if (taken)
       record.missing.push_back("the edge support of iteration " + std::to_string(one->index + 1));
     else

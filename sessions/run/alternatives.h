@@ -10,9 +10,9 @@
 namespace boresight::sessions {
 
 enum class AlternativeKind : std::uint8_t {
-  kRolled,   ///< a hypothesis of an iteration, turned about the ray to the station
+  kRolled,     ///< a hypothesis of an iteration, turned about the ray to the station
   kCandidate,  ///< a pose that the search found
-  kRival,    ///< a pose under which the model's edges look like those of the run's result
+  kRival,      ///< a pose under which the model's edges look like those of the run's result
 };
 
 /// A pose that a run weighed against the one that it went on with. Figures that its kind does not

@@ -116,6 +116,7 @@ class OneView final : public SteppedRun {
     trace.support = workspace.support;
     trace.evidence = workspace.evidence;
     trace.probability = workspace.probability;
+    trace.edge_width = workspace.edge_width;
     if (trace.candidates.empty()) noteSearch();
     trace.attempts = workspace.attempts;
     trace.rivals.assign(workspace.rivals.begin(), workspace.rivals.end());

@@ -161,6 +161,19 @@ std::string ambiguousText(const LocalizationTrace& trace) {
       toDegrees(rotationLog(turn).norm()), rival->margin_nats, CompetingPoses::kMinMargin_nats);
 }
 
+/// The widest edges, measured along their normals.
+std::string blurredText(const LocalizationTrace& trace) {
+  static constexpr const char* kAcross[kEdgeDirections] = {
+      "along x", "22 deg below x", "45 deg below x", "67 deg below x",
+      "along y", "67 deg above x", "45 deg above x", "22 deg above x"};
+  const int widest = trace.edge_width.widestDirection();
+  if (widest < 0) return "the image's edges are too wide for a pose";
+  return format(
+      "the image is blurred: its edges on the object are %.1f px wide %s, at most %.0f px are "
+      "accepted; use a sharper image (motion or focus)",
+      trace.edge_width.widest_px(), kAcross[widest], EdgeWidth::kWidest_px);
+}
+
 std::string iterationLimitText(const LocalizationTrace& trace, const IterationTrace& last) {
   const LoopOptions& loop = trace.lastOptions().loop;
   return format(
@@ -322,6 +335,8 @@ std::string explanation(const LocalizationTrace& trace) {
       return notSupportedText(trace);
     case LocalizationStatus::kAmbiguous:
       return ambiguousText(trace);
+    case LocalizationStatus::kBlurred:
+      return blurredText(trace);
     case LocalizationStatus::kIterationLimit:
       return iterationLimitText(trace, last);
     case LocalizationStatus::kTooFewEdges:

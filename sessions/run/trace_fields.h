@@ -195,6 +195,12 @@ void fields(Archive& archive, Self& evidence) {
   for (auto& count : quadrant_places) archive.number(count);
 }
 
+template <class Archive, Is<EdgeWidth> Self>
+void fields(Archive& archive, Self& width) {
+  for (auto& width_px : width.width_px) archive.number(width_px);
+  for (auto& places : width.places) archive.number(places);
+}
+
 template <class Archive, Is<PoseCandidate> Self>
 void fields(Archive& archive, Self& candidate) {
   auto& [found, camera_from_station, evidence, error_px] = candidate;
@@ -334,6 +340,7 @@ void fields(Archive& archive, Self& trace) {
   fields(archive, trace.support);
   fields(archive, trace.evidence);
   archive.number(trace.probability);
+  fields(archive, trace.edge_width);
   archive.choice(trace.status, kLastLocalizationStatus);
   archive.choice(trace.fault, kLastStatus);
   fields(archive, trace.camera_from_station);

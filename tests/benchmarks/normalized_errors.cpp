@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a refined pose's covariance is what its errors are: runs the cases of a dataset with each
-// covariance model and prints mean normalized squared errors per station (1 per axis and 6 together
+// Whether a refined pose's covariance is what its errors are: runs the cases of a dataset and
+// prints mean normalized squared errors per station (1 per axis and 6 together
 // when the covariance is right).
 //
 //   normalized_errors DATASET [TAG | -TAG ...]   only cases with every TAG and without any -TAG
@@ -23,7 +23,7 @@
 namespace boresight::test {
 namespace {
 
-/// Errors of one station's converged runs under one model, in units of their one sigma.
+/// Errors of one station's converged runs, in units of their one sigma.
 struct Sums {
   int runs = 0;
   std::vector<double> together;
@@ -44,10 +44,11 @@ bool isAsked(const sessions::Case& one, const std::vector<std::string>& tags) {
 }
 
 sessions::LocalizationTrace run(const sessions::Dataset& dataset, const sessions::Case& one,
-                                const sessions::SceneMesh& scene, CovarianceModel model) {
+                                const sessions::SceneMesh& scene) {
   const sessions::GrayImage image = sessions::readCaseImage(dataset, one);
   LocalizationProblem problem;
   problem.image = image.view();
+  problem.color = image.colorView();
   problem.camera = dataset.cameras.at(one.camera);
   problem.mesh = scene.view();
   problem.camera_from_station_seed = one.seed_camera_from_station;
@@ -56,22 +57,20 @@ sessions::LocalizationTrace run(const sessions::Dataset& dataset, const sessions
   LocalizerOptions options = defaultProfile();
   const sessions::Station& station = dataset.stations.at(one.station);
   if (station.feature_size_m) options.templates.feature_size_m = *station.feature_size_m;
-  options.refinement.covariance = model;
   return sessions::localize(problem, sessions::RunPlan(options), sessions::RecordLevel::kSummary);
 }
 
-void print(const std::map<std::pair<std::string, std::string>, Sums>& all) {
+void print(const std::map<std::string, Sums>& all) {
   std::puts(
-      "| station | covariance | runs | together, mean (6) | median | about x | y | z | along x | y "
-      "| "
-      "z |\n|---|---|---|---|---|---|---|---|---|---|---|");
+      "| station | runs | together, mean (6) | median | about x | y | z | along x | y | z |\n"
+      "|---|---|---|---|---|---|---|---|---|---|");
   for (const auto& [key, sums] : all) {
     std::vector<double> sorted = sums.together;
     std::sort(sorted.begin(), sorted.end());
     double mean = 0.0;
     for (const double value : sorted) mean += value / sums.runs;
-    std::printf("| %s | %s | %d | %.1f | %.1f |", key.first.c_str(), key.second.c_str(), sums.runs,
-                mean, sorted[sorted.size() / 2]);
+    std::printf("| %s | %d | %.1f | %.1f |", key.c_str(), sums.runs, mean,
+                sorted[sorted.size() / 2]);
     for (const double square : sums.axes) std::printf(" %.2f |", square / sums.runs);
     std::puts("");
   }
@@ -80,18 +79,16 @@ void print(const std::map<std::pair<std::string, std::string>, Sums>& all) {
 int measure(const std::string& file, const std::vector<std::string>& tags) {
   const sessions::Dataset dataset = sessions::readDataset(file);
   std::map<std::string, sessions::SceneMesh> scenes;
-  std::map<std::pair<std::string, std::string>, Sums> all;
+  std::map<std::string, Sums> all;
   for (const sessions::Case& one : dataset.cases) {
     if (!isAsked(one, tags)) continue;
     if (!scenes.contains(one.station))
       scenes[one.station] = sessions::readStationScene(dataset.stations.at(one.station));
-    for (const auto model : {CovarianceModel::kInflated, CovarianceModel::kGrouped}) {
-      const sessions::LocalizationTrace trace = run(dataset, one, scenes[one.station], model);
-      if (trace.status != LocalizationStatus::kConverged) continue;
-      all[{one.station, kCovarianceModelNames[static_cast<int>(model)]}].add(
-          perturbationBetween(trace.camera_from_station, *one.truth_camera_from_station),
-          trace.covariance);
-    }
+    const sessions::LocalizationTrace trace = run(dataset, one, scenes[one.station]);
+    if (trace.status != LocalizationStatus::kConverged) continue;
+    all[one.station].add(
+        perturbationBetween(trace.camera_from_station, *one.truth_camera_from_station),
+        trace.covariance);
   }
   print(all);
   return 0;

@@ -13,6 +13,7 @@
 #include <Eigen/LU>
 
 #include "core/base/random.h"
+#include "core/pnp/normal_equations.h"
 
 namespace boresight {
 namespace {
@@ -50,19 +51,20 @@ class Grouped {
     EXPECT_EQ(groups_.create(arena), Status::kOk);
     groups_.clear();
     for (const Sample& sample : samples) {
-      groups_.add(sample.error, sample.residual_px * sample.row);
-      curvature_ += sample.row * sample.row.transpose();
+      groups_.add(sample.error, sample.residual_px, sample.row);
+      sums_.curvature += sample.row * sample.row.transpose();
     }
-    solved_ = groups_.covariance(curvature_, covariance_);
+    groups_.sum(sums_);
+    solved_ = sums_.covariance(covariance_);
   }
   bool solved() const { return solved_; }
   const Matrix6d& covariance() const { return covariance_; }
-  const Matrix6d& curvature() const { return curvature_; }
+  const ErrorSums& sums() const { return sums_; }
 
  private:
   std::array<std::byte, 16384> memory_{};
   ErrorGroups groups_;
-  Matrix6d curvature_ = Matrix6d::Zero();
+  ErrorSums sums_;
   Matrix6d covariance_ = Matrix6d::Zero();
   bool solved_ = false;
 };
@@ -107,7 +109,16 @@ TEST(ErrorGroups, IsWhatSumsOverMapsGive) {
     const auto count = static_cast<double>(way.size());
     for (const auto& [key, sum] : way) squares += sum * sum.transpose() * count / (count - 1.0);
   }
-  const Matrix6d inverse = grouped.curvature().inverse();
+  // An offset of all edges by 0.05 px outwards, along x and along y leaves no residual.
+  std::array<Vector6d, 3> common;
+  common.fill(Vector6d::Zero());
+  for (const Sample& sample : samples) {
+    common[0] += 0.05 * sample.row;
+    common[1] += 0.05 * sample.error.normal.x() * sample.row;
+    common[2] += 0.05 * sample.error.normal.y() * sample.row;
+  }
+  for (const Vector6d& offset : common) squares += offset * offset.transpose();
+  const Matrix6d inverse = grouped.sums().curvature.inverse();
   const Matrix6d expected = inverse * squares * inverse;
   EXPECT_LT((grouped.covariance() - expected).norm(), 1e-9 * expected.norm());
   EXPECT_EQ(grouped.covariance(), grouped.covariance().transpose());
@@ -157,6 +168,34 @@ TEST(ErrorGroups, ErrorsThatNeighboursShareAreCovered) {
   const double mean = meanSquaredError(0.3, 4);
   EXPECT_GT(mean, 2.0);
   EXPECT_LT(mean, 6.6) << "larger would be a covariance that is too small";
+}
+
+TEST(ErrorGroups, TwoViews_AreWorthTheSumOfTheirErrorsInOneFrame) {
+  Random random(6);
+  std::vector<Sample> samples;
+  for (int i = 0; i < 500; ++i) {
+    samples.push_back(randomSample(random));
+    samples.back().residual_px = kNoise_px * random.normal();
+  }
+  const ErrorSums own = Grouped(samples).sums();
+  Pose camera_from_first;
+  camera_from_first.rotation = rotationExp({0.1, -0.3, 0.2});
+  camera_from_first.translation_m = {0.2, -0.1, 0.05};
+  const Matrix6d adjoint = adjointOf(camera_from_first);
+  Matrix6d alone, brought, both;
+  ASSERT_TRUE(own.covariance(alone));
+  // The same covariance in another frame.
+  const ErrorSums in_first = own.inFirst(camera_from_first);
+  ASSERT_TRUE(in_first.covariance(brought));
+  const Matrix6d back = adjoint * brought * adjoint.transpose();
+  EXPECT_LT((back - alone).norm(), 1e-9 * alone.norm());
+  // Twice the same edges with errors of their own: half the covariance.
+  ErrorSums sum = own;
+  sum.add(own);
+  ASSERT_TRUE(sum.covariance(both));
+  EXPECT_LT((2.0 * both - alone).norm(), 1e-9 * alone.norm());
+  sum.add(Grouped({}).sums());
+  EXPECT_FALSE(sum.covariance(both));
 }
 
 TEST(ErrorGroups, NothingIsToldOfOneGroup) {

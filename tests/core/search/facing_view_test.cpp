@@ -132,16 +132,16 @@ TEST(FacingView, ChannelOfAColorImage_IsShownAsThatChannelAlone) {
   std::vector<std::uint8_t> color(3 * width * static_cast<std::size_t>(problem.image.height));
   for (std::size_t i = 0; i < color.size() / 3; ++i) {
     color[3 * i] = static_cast<std::uint8_t>(i % 251);
-    color[3 * i + 1] =
-        problem.image.at(static_cast<int>(i % width), static_cast<int>(i / width));
+    color[3 * i + 1] = problem.image.at(static_cast<int>(i % width), static_cast<int>(i / width));
   }
-  problem.color = {color.data(), problem.image.width, problem.image.height, 3 * problem.image.width};
+  problem.color = {color.data(), problem.image.width, problem.image.height,
+                   3 * problem.image.width};
   const ViewImage of_second(problem, view, 1);
   const ViewImage of_first(problem, view, 0);
   const auto pixels = static_cast<std::size_t>(view.camera.width * view.camera.height);
   const auto valuesOf = [pixels](const ViewImage& shown) {
-    return std::vector<std::uint8_t>(shown.image.value.begin(),
-                                     shown.image.value.begin() + static_cast<std::ptrdiff_t>(pixels));
+    return std::vector<std::uint8_t>(
+        shown.image.value.begin(), shown.image.value.begin() + static_cast<std::ptrdiff_t>(pixels));
   };
   EXPECT_EQ(valuesOf(of_second), valuesOf(of_gray));
   EXPECT_NE(valuesOf(of_first), valuesOf(of_gray));

@@ -229,14 +229,11 @@ TEST(ViewsLocalizer, RunsAgainToTheSameDigest) {
 
 TEST(ViewsLocalizer, RefusesWhatItDoesNotOffer) {
   const Case scene = stationCase(1);
-  LocalizerOptions grouped = defaultProfile();
-  grouped.refinement.covariance = CovarianceModel::kGrouped;
-  ViewsRun two(scene, {viewOf(scene), secondView(scene)}, grouped);
-  EXPECT_EQ(two.localizer->status(), Status::kInvalidOption);
-  EXPECT_EQ(two.finish().status, LocalizationStatus::kFault);
   LocalizerOptions rivals = defaultProfile();
   rivals.ambiguity.enabled = true;
-  EXPECT_EQ(ViewsRun(scene, {viewOf(scene)}, rivals).localizer->status(), Status::kInvalidOption);
+  ViewsRun two(scene, {viewOf(scene), secondView(scene)}, rivals);
+  EXPECT_EQ(two.localizer->status(), Status::kInvalidOption);
+  EXPECT_EQ(two.finish().status, LocalizationStatus::kFault);
   EXPECT_EQ(ViewsRun(scene, {}, defaultProfile()).localizer->status(), Status::kCapacityExceeded);
   View blind = viewOf(scene);
   blind.camera = Camera();

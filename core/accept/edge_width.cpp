@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/accept/edge_width.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace boresight {
+namespace {
+
+constexpr int kMostPlaces = 4000;
+constexpr std::int32_t kLeastPlaces = 30;  ///< of a direction
+constexpr int kReach_px = 24;              ///< of a profile, to either side
+constexpr int kNear_px = 4;                ///< where its steepest slope is looked for
+constexpr double kLeastHeight = 20.0;      ///< gray values
+constexpr int kBins = 128;
+constexpr double kBin_px = 0.25;
+constexpr int kSamples = 2 * kReach_px + 1;
+
+using Profile = std::array<double, kSamples>;
+using Histogram = std::array<std::int32_t, kBins>;
+
+/// Bilinear.
+double sample(const ImageView& image, const Eigen::Vector2d& place) {
+  const int x = static_cast<int>(place.x());
+  const int y = static_cast<int>(place.y());
+  const double right = place.x() - x;
+  const double down = place.y() - y;
+  const double above = (1.0 - right) * image.at(x, y) + right * image.at(x + 1, y);
+  const double below = (1.0 - right) * image.at(x, y + 1) + right * image.at(x + 1, y + 1);
+  return (1.0 - down) * above + down * below;
+}
+
+/// Gray values along the normal. False when a part is outside the image, or ignored.
+bool takeProfile(const ImageView& image, const BitImage* ignore, const Eigen::Vector2d& place,
+                 const Eigen::Vector2d& normal, Profile& profile) {
+  for (int i = 0; i < kSamples; ++i) {
+    const Eigen::Vector2d at = place + (i - kReach_px) * normal;
+    if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < image.width - 1 && at.y() < image.height - 1))
+      return false;
+    if (ignore != nullptr && ignore->get(static_cast<int>(at.x()), static_cast<int>(at.y())))
+      return false;
+    profile[static_cast<std::size_t>(i)] = sample(image, at);
+  }
+  return true;
+}
+
+/// Of the ramp around the steepest slope near the middle; nothing when it is too low.
+std::optional<double> rampWidth_px(const Profile& profile) {
+  const auto at = [&profile](int i) { return profile[static_cast<std::size_t>(i)]; };
+  int steepest = kReach_px;
+  double slope = 0.0;
+  for (int i = kReach_px - kNear_px; i <= kReach_px + kNear_px; ++i) {
+    const double here = 0.5 * (at(i + 1) - at(i - 1));
+    if (std::abs(here) <= std::abs(slope)) continue;
+    slope = here;
+    steepest = i;
+  }
+  const double sign = slope > 0.0 ? 1.0 : -1.0;
+  int first = steepest;
+  int last = steepest;
+  while (first > 0 && sign * (at(first) - at(first - 1)) > 0.0) --first;
+  while (last + 1 < kSamples && sign * (at(last + 1) - at(last)) > 0.0) ++last;
+  const double height = sign * (at(last) - at(first));
+  if (!(height >= kLeastHeight)) return std::nullopt;
+  return height / std::abs(slope);
+}
+
+double medianOf(const Histogram& histogram, std::int32_t count) {
+  std::int32_t below = 0;
+  int bin = 0;
+  while (bin + 1 < kBins && 2 * (below + histogram[static_cast<std::size_t>(bin)]) < count)
+    below += histogram[static_cast<std::size_t>(bin++)];
+  return (bin + 0.5) * kBin_px;
+}
+
+}  // namespace
+
+int EdgeWidth::widestDirection() const {
+  int widest = -1;
+  for (int i = 0; i < kEdgeDirections; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (places[at] < kLeastPlaces) continue;
+    if (widest < 0 || width_px[at] > width_px[static_cast<std::size_t>(widest)]) widest = i;
+  }
+  return widest;
+}
+
+double EdgeWidth::widest_px() const {
+  const int widest = widestDirection();
+  return widest < 0 ? 0.0 : width_px[static_cast<std::size_t>(widest)];
+}
+
+EdgeWidth measureEdgeWidth(const EdgeRender& render, int level, const ImageView& image,
+                           const BitImage* ignore) {
+  EdgeWidth result;
+  std::array<Histogram, kEdgeDirections> histograms{};
+  const double scale = static_cast<double>(1 << level);
+  const int stride = std::max(1, (render.pixel_count + kMostPlaces - 1) / kMostPlaces);
+  for (std::int32_t i = 0; i < render.pixel_count; i += stride) {
+    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+    const Eigen::Vector2d normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
+    const Eigen::Vector2d place = Eigen::Vector2d(pixel.x, pixel.y) + 0.01 * pixel.offset * normal;
+    const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5);
+    Profile profile;
+    if (!takeProfile(image, ignore, scale * (place + half) - half, normal, profile)) continue;
+    const std::optional<double> width_px = rampWidth_px(profile);
+    if (!width_px) continue;
+    const auto direction =
+        static_cast<std::size_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y));
+    const int bin = std::min(kBins - 1, static_cast<int>(*width_px / kBin_px));
+    ++histograms[direction][static_cast<std::size_t>(bin)];
+    ++result.places[direction];
+  }
+  for (std::size_t d = 0; d < histograms.size(); ++d)
+    if (result.places[d] > 0) result.width_px[d] = medianOf(histograms[d], result.places[d]);
+  return result;
+}
+
+}  // namespace boresight

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/base/image.h"
+#include "core/edges/directed_edges.h"
+#include "core/render/edge_render.h"
+
+namespace boresight {
+
+/// How wide the image's edges are where a pose has its edges: motion and defocus, which widen them,
+/// make a pose worse than its covariance says. The width of an edge is the height of its ramp over
+/// the steepest slope.
+struct EdgeWidth {
+  /// A pose from wider edges is not accepted, px: at 14 px half of the rendered stations were
+  /// beyond what is required, sharp images have 2 to 7 px.
+  static constexpr double kWidest_px = 10.0;
+
+  std::array<double, kEdgeDirections> width_px{};      ///< median by direction of the normal
+  std::array<std::int32_t, kEdgeDirections> places{};  ///< that the medians are of
+
+  /// The direction with the widest edges, of those with enough places; -1: too few are seen.
+  int widestDirection() const;
+  /// The width there; 0 where too few are seen.
+  double widest_px() const;
+  /// Whether the image is sharp enough for a pose.
+  bool isSharp() const { return widest_px() <= kWidest_px; }
+};
+
+/// `image` is raw, at full resolution; `level` is the render's. `ignore` may be nullptr.
+EdgeWidth measureEdgeWidth(const EdgeRender& render, int level, const ImageView& image,
+                           const BitImage* ignore);
+
+}  // namespace boresight
