@@ -2,7 +2,6 @@
 #include "core/accept/edge_support.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 
@@ -32,105 +31,17 @@ Place placeOf(const EdgePixel& pixel, double scale, const int displacement[2]) {
   return place;
 }
 
-/// Places looked at, with an edge about them, and with one that is near.
-struct Counts {
-  std::int32_t looked = 0;
-  std::int32_t found = 0;
-  std::int32_t near = 0;
-};
-
-/// Counts one place; ignored ones are left out.
-void countPlace(const Place& place, const EdgeSearch& search, double scale, const ImageView& image,
-                const BitImage* ignore, const SupportOptions& options, Counts& counts) {
-  const int x = std::clamp(static_cast<int>(place.position_px.x() + 0.5), 0, image.width - 1);
-  const int y = std::clamp(static_cast<int>(place.position_px.y() + 0.5), 0, image.height - 1);
-  if (ignore != nullptr && ignore->get(x, y)) return;
-  ++counts.looked;
-  const EdgePeak peak = search.find(image, ignore, place.position_px, place.normal,
-                                    options.search_radius_px * scale, options.min_gradient);
-  if (peak.gradient == 0.0) return;
-  ++counts.found;
-  if (std::abs(peak.offset_px) <= options.near_px * scale) ++counts.near;
-}
-
-/// A cell of the box around the rendered edges, with the render in place and displaced.
-struct Cell {
-  Counts in_place;
-  Counts displaced;
-};
-
-/// The box and its cells, row by row.
-struct Cells {
-  static constexpr int kSide = 8;
-  std::array<Cell, kSide * kSide> cell{};
-  int left = 0;
-  int top = 0;
-  int width = 1;
-  int height = 1;
-
-  explicit Cells(const EdgeRender& render) {
-    if (render.pixel_count == 0) return;
-    int right = left = render.pixels[0].x;
-    int bottom = top = render.pixels[0].y;
-    for (const EdgePixel& pixel :
-         render.pixels.first(static_cast<std::size_t>(render.pixel_count))) {
-      left = std::min<int>(left, pixel.x);
-      right = std::max<int>(right, pixel.x);
-      top = std::min<int>(top, pixel.y);
-      bottom = std::max<int>(bottom, pixel.y);
-    }
-    width = right - left + 1;
-    height = bottom - top + 1;
-  }
-  Cell& of(const EdgePixel& pixel) {
-    const int column = (pixel.x - left) * kSide / width;
-    const int row = (pixel.y - top) * kSide / height;
-    return cell[static_cast<std::size_t>(row * kSide + column)];
-  }
-};
-
 void measureCoverage(const EdgeRender& render, int level, const ImageView& image,
-                     const BitImage* ignore, const SupportOptions& options, Cells& cells) {
-  constexpr int kInPlace[2] = {0, 0};
-  const EdgeSearch search(options.derivative_sigma_px);
-  const double scale = static_cast<double>(1 << level);
+                     const BitImage* ignore, EdgeSupport& support) {
+  const EdgeSearch search(kSupportDerivativeSigma_px);
   const std::int32_t stride = std::max(1, (render.pixel_count + kMaxPlaces - 1) / kMaxPlaces);
   int direction = 0;
   for (std::int32_t i = 0; i < render.pixel_count; i += stride) {
     const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
-    Cell& cell = cells.of(pixel);
-    countPlace(placeOf(pixel, scale, kInPlace), search, scale, image, ignore, options,
-               cell.in_place);
-    countPlace(placeOf(pixel, scale, kDisplacements[direction]), search, scale, image, ignore,
-               options, cell.displaced);
+    countEdge(pixel, -1, level, search, image, ignore, support.rendered, support.covered);
+    countEdge(pixel, direction, level, search, image, ignore, support.displaced,
+              support.displaced_covered);
     direction = (direction + 1) % 4;
-  }
-}
-
-void addUp(const Cells& cells, EdgeSupport& support) {
-  for (const Cell& cell : cells.cell) {
-    support.rendered += cell.in_place.looked;
-    support.covered += cell.in_place.near;
-    support.displaced += cell.displaced.looked;
-    support.displaced_covered += cell.displaced.near;
-  }
-}
-
-void addUp(const Cells& cells, PartialSupport& partial) {
-  partial = {};
-  for (const Cell& cell : cells.cell) {
-    partial.rendered += cell.in_place.looked;
-    partial.found += cell.in_place.found;
-    partial.covered += cell.in_place.near;
-    partial.displaced_found += cell.displaced.found;
-    partial.displaced_covered += cell.displaced.near;
-    if (cell.in_place.looked < PartialSupport::kVisibleFrom_places) continue;
-    ++partial.cells;
-    const double beyond_chance = beyondChance(shareOf(cell.in_place.near, cell.in_place.looked),
-                                              shareOf(cell.displaced.near, cell.displaced.looked));
-    if (beyond_chance < PartialSupport::kVisibleExcess) continue;
-    ++partial.visible_cells;
-    partial.visible += cell.in_place.looked;
   }
 }
 
@@ -177,25 +88,24 @@ void measureExplanation(const EdgeRender& render, const BitImage& test_edges,
 }  // namespace
 
 void countEdge(const EdgePixel& pixel, int direction, int level, const EdgeSearch& search,
-               const ImageView& image, const BitImage* ignore, const SupportOptions& options,
-               std::int32_t& looked, std::int32_t& covered) {
+               const ImageView& image, const BitImage* ignore, std::int32_t& looked,
+               std::int32_t& covered) {
   constexpr int kInPlace[2] = {0, 0};
   const double scale = static_cast<double>(1 << level);
-  Counts counts;
-  countPlace(placeOf(pixel, scale, direction < 0 ? kInPlace : kDisplacements[direction]), search,
-             scale, image, ignore, options, counts);
-  looked += counts.looked;
-  covered += counts.near;
+  const Place place = placeOf(pixel, scale, direction < 0 ? kInPlace : kDisplacements[direction]);
+  const int x = std::clamp(static_cast<int>(place.position_px.x() + 0.5), 0, image.width - 1);
+  const int y = std::clamp(static_cast<int>(place.position_px.y() + 0.5), 0, image.height - 1);
+  if (ignore != nullptr && ignore->get(x, y)) return;
+  ++looked;
+  const EdgePeak peak = search.find(image, ignore, place.position_px, place.normal,
+                                    kSupportRadius_px * scale, kSupportMinGradient);
+  if (peak.gradient != 0.0 && std::abs(peak.offset_px) <= kSupportNear_px * scale) ++covered;
 }
 
 EdgeSupport measureEdgeSupport(const EdgeRender& render, int level, const EdgeMap& edges,
-                               const ImageView& image, const BitImage* ignore,
-                               const SupportOptions& options, PartialSupport* partial) {
+                               const ImageView& image, const BitImage* ignore) {
   EdgeSupport support;
-  Cells cells(render);
-  measureCoverage(render, level, image, ignore, options, cells);
-  addUp(cells, support);
-  if (partial != nullptr) addUp(cells, *partial);
+  measureCoverage(render, level, image, ignore, support);
   measureExplanation(render, edges.level[static_cast<std::size_t>(level)], support);
   return support;
 }

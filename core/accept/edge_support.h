@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "core/accept/partial_support.h"
 #include "core/accept/support_options.h"
 #include "core/base/image.h"
 #include "core/edges/edge_map.h"
@@ -11,6 +10,24 @@
 #include "core/render/edge_render.h"
 
 namespace boresight {
+
+/// How far around a rendered edge its counterpart is searched, in pixels of the render: wide enough
+/// that what is near by chance shows, too.
+inline constexpr double kSupportRadius_px = 4.0;
+/// A rendered edge counts as seen when its counterpart is this near, in pixels of the render: the
+/// error that a right pose leaves.
+inline constexpr double kSupportNear_px = 1.0;
+inline constexpr double kSupportMinGradient = 4.0;         ///< gray/px; weaker ones are noise
+inline constexpr double kSupportDerivativeSigma_px = 1.0;  ///< the blur of a sharp image
+
+/// A share of something, 0 of nothing.
+inline double shareOf(std::int32_t part, std::int32_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+}
+/// What exceeds chance, in [0, 1].
+inline double beyondChance(double share, double chance) {
+  return share > chance && chance < 1.0 ? (share - chance) / (1.0 - chance) : 0.0;
+}
 
 /// How well a pose explains the image, not resting on any match. Two sides, kept apart:
 /// *coverage*, how much of what the pose predicts is seen: rendered edge pixels where the strongest
@@ -47,30 +64,24 @@ struct EdgeSupport {
 };
 
 /// Whether the image supports a pose; always when the options ask for no support.
-inline bool isSupported(const EdgeSupport& support, const PartialSupport& partial,
-                        const SupportOptions& options) {
-  return !options.gate || support.share() >= options.min_support ||
-         (options.partial && partial.suffices(options));
+inline bool isSupported(const EdgeSupport& support, const SupportOptions& options) {
+  return !options.gate || support.share() >= options.min_support;
 }
 
 /// The same of a pose that a search has found.
-inline bool isProbable(double probability, const PartialSupport& partial,
-                       const SupportOptions& options) {
-  return !options.gate || probability >= options.min_probability ||
-         (options.partial && partial.suffices(options));
+inline bool isProbable(double probability, const SupportOptions& options) {
+  return !options.gate || probability >= options.min_probability;
 }
 
 /// Counts a rendered edge pixel as looked at and, when its counterpart is near, as covered; ignored
 /// ones not at all. `direction` 0 ... 3 displaces it by one of those that tell what comes about by
 /// chance, -1 leaves it in place.
 void countEdge(const EdgePixel& pixel, int direction, int level, const EdgeSearch& search,
-               const ImageView& image, const BitImage* ignore, const SupportOptions& options,
-               std::int32_t& looked, std::int32_t& covered);
+               const ImageView& image, const BitImage* ignore, std::int32_t& looked,
+               std::int32_t& covered);
 
-/// `image` is raw, at full resolution; `level` is the render's. `ignore` may be nullptr, `partial`
-/// too.
+/// `image` is raw, at full resolution; `level` is the render's. `ignore` may be nullptr.
 EdgeSupport measureEdgeSupport(const EdgeRender& render, int level, const EdgeMap& edges,
-                               const ImageView& image, const BitImage* ignore,
-                               const SupportOptions& options, PartialSupport* partial = nullptr);
+                               const ImageView& image, const BitImage* ignore);
 
 }  // namespace boresight

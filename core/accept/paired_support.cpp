@@ -28,23 +28,22 @@ struct Counts {
 
 /// Edges between near and far of another pose's are left out: either may have been found there.
 Counts countPredictions(const EdgeRender& one, const EdgeRender& other, int level,
-                        const ImageView& image, const BitImage* ignore,
-                        const SupportOptions& options) {
+                        const ImageView& image, const BitImage* ignore) {
   constexpr std::int32_t kMostPlaces = 6000;
   constexpr int kNear_px = 1;
-  const int far_px = static_cast<int>(std::floor(options.search_radius_px)) + 1;
-  const EdgeSearch search(options.derivative_sigma_px);
+  const int far_px = static_cast<int>(kSupportRadius_px) + 1;
+  const EdgeSearch search(kSupportDerivativeSigma_px);
   const std::int32_t stride = std::max(1, (one.pixel_count + kMostPlaces - 1) / kMostPlaces);
   Counts made;
   int direction = 0;
   for (std::int32_t i = 0; i < one.pixel_count; i += stride) {
     const EdgePixel& pixel = one.pixels[static_cast<std::size_t>(i)];
     if (!hasEdgeNear(other, pixel.x, pixel.y, far_px)) {
-      countEdge(pixel, -1, level, search, image, ignore, options, made.alone, made.alone_covered);
+      countEdge(pixel, -1, level, search, image, ignore, made.alone, made.alone_covered);
     } else if (hasEdgeNear(other, pixel.x, pixel.y, kNear_px)) {
-      countEdge(pixel, -1, level, search, image, ignore, options, made.common, made.common_covered);
+      countEdge(pixel, -1, level, search, image, ignore, made.common, made.common_covered);
     }
-    countEdge(pixel, direction, level, search, image, ignore, options, made.displaced,
+    countEdge(pixel, direction, level, search, image, ignore, made.displaced,
               made.displaced_covered);
     direction = (direction + 1) % 4;
   }
@@ -71,10 +70,9 @@ double PairedSupport::nats() const {
 }
 
 PairedSupport comparePredictions(const EdgeRender& own, const EdgeRender& other, int level,
-                                 const ImageView& image, const BitImage* ignore,
-                                 const SupportOptions& options) {
-  const Counts one = countPredictions(own, other, level, image, ignore, options);
-  const Counts two = countPredictions(other, own, level, image, ignore, options);
+                                 const ImageView& image, const BitImage* ignore) {
+  const Counts one = countPredictions(own, other, level, image, ignore);
+  const Counts two = countPredictions(other, own, level, image, ignore);
   PairedSupport made;
   made.own = one.alone;
   made.own_covered = one.alone_covered;

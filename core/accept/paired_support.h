@@ -31,8 +31,7 @@ struct PairedSupport {
 
 /// Both renders are of one level and one camera; `image` is raw, at full resolution.
 PairedSupport comparePredictions(const EdgeRender& own, const EdgeRender& other, int level,
-                                 const ImageView& image, const BitImage* ignore,
-                                 const SupportOptions& options);
+                                 const ImageView& image, const BitImage* ignore);
 
 /// Copies a render into the memory of another, which must be as large.
 void copyRender(const EdgeRender& from, EdgeRender& to);

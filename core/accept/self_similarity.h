@@ -30,6 +30,9 @@ struct SelfShift {
 class SelfSimilarity {
  public:
   static constexpr int kMostShifts = 32;  ///< most peaks that are kept
+  /// Share of the edges, beyond chance, that a displacement must lay on others: a part of the
+  /// object repeats, not single edges.
+  static constexpr double kLeastSimilarity = 0.3;
 
   /// Takes the memory for renders of up to this size.
   void create(int width, int height, Arena& arena);

@@ -79,18 +79,10 @@ bool isMaximum(const Neighbourhood& rows, int x) {
 
 }  // namespace
 
-CannyLimits cannyLimits(double low, double high, int aperture_px, bool l2_gradient) {
-  if (aperture_px == 7) {
-    low /= 16.0;
-    high /= 16.0;
-  }
-  if (l2_gradient) {
-    low = std::min(low, 32767.0);
-    high = std::min(high, 32767.0);
-    low *= low;
-    high *= high;
-  }
-  return {static_cast<std::int32_t>(low), static_cast<std::int32_t>(high)};
+CannyLimits cannyLimits(double low, double high) {
+  low = std::min(low, 32767.0);
+  high = std::min(high, 32767.0);
+  return {static_cast<std::int32_t>(low * low), static_cast<std::int32_t>(high * high)};
 }
 
 void suppressRow(const GradientRows& gradient, int y, int width, const CannyLimits& limits,
@@ -109,13 +101,11 @@ void suppressRow(const GradientRows& gradient, int y, int width, const CannyLimi
   }
 }
 
-Status canny(const ImageView& image, int aperture_px, bool l2_gradient, double low, double high,
-             Arena& arena, std::uint8_t* edges, std::ptrdiff_t edges_stride) {
+Status canny(const ImageView& image, double low, double high, Arena& arena, std::uint8_t* edges,
+             std::ptrdiff_t edges_stride) {
   EdgeOptions options;
   options.equalization = Equalization::kOff;
   options.gaussian_sigma_px = 0.0;
-  options.aperture_px = aperture_px;
-  options.l2_gradient = l2_gradient;
   options.thresholds = CannyThresholds::kAbsolute;
   options.low_threshold = low;
   options.high_threshold = high;

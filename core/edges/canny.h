@@ -18,9 +18,9 @@ struct CannyLimits {
   std::int32_t high = 0;  ///< a pixel above it begins an edge
 };
 
-/// From thresholds as cv::Canny counts them (at aperture 7, sixteen times our derivatives; L2 not
-/// squared), rounded down as there. Wants 0 <= low <= high.
-CannyLimits cannyLimits(double low, double high, int aperture_px, bool l2_gradient);
+/// From thresholds as cv::Canny counts them (L2, not squared), rounded down as there. Wants
+/// 0 <= low <= high.
+CannyLimits cannyLimits(double low, double high);
 
 /// Non-maximum suppression of row y of `gradient`, whose row y + 1 must be done (if there is one):
 /// packed pixels whose magnitude exceeds the low limit and is largest across the edge
@@ -30,9 +30,9 @@ void suppressRow(const GradientRows& gradient, int y, int width, const CannyLimi
                  std::uint64_t* candidates, std::uint64_t* strong);
 
 /// Canny's edges (255, elsewhere 0) of an image that is smoothed already, into `edges` (rows
-/// `edges_stride` bytes apart); equals cv::Canny(image, edges, low, high, aperture_px,
-/// l2_gradient). Status as of `detectEdges`. Scratch from `arena`, rewound.
-Status canny(const ImageView& image, int aperture_px, bool l2_gradient, double low, double high,
-             Arena& arena, std::uint8_t* edges, std::ptrdiff_t edges_stride);
+/// `edges_stride` bytes apart); equals cv::Canny(image, edges, low, high, 3, true).
+/// Status as of `detectEdges`. Scratch from `arena`, rewound.
+Status canny(const ImageView& image, double low, double high, Arena& arena, std::uint8_t* edges,
+             std::ptrdiff_t edges_stride);
 
 }  // namespace boresight

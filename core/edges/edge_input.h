@@ -15,7 +15,7 @@ inline constexpr int kMaxImageSide = 16384;
 /// Pixels in one bounded slice of the stage.
 inline constexpr std::int32_t kEdgeSlice = 1 << 19;
 
-/// kInvalidOption for an option out of range or an even aperture; kInvalidImage for an empty or too
+/// kInvalidOption for an option out of range; kInvalidImage for an empty or too
 /// large image, overlapping rows, or an ignore mask of another size. `sizes_only` (a counting
 /// arena) leaves the pixels out: there may be none yet.
 Status checkEdgeInput(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,

@@ -10,8 +10,7 @@ namespace boresight {
 
 Status checkEdgeInput(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
                       bool sizes_only) {
-  if (firstInvalidOption(options) != nullptr || options.aperture_px % 2 == 0)
-    return Status::kInvalidOption;
+  if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   if (image.width <= 0 || image.height <= 0 || image.width > kMaxImageSide ||
       image.height > kMaxImageSide)
     return Status::kInvalidImage;
@@ -66,9 +65,8 @@ Status EdgeDetector::begin(const ImageView& image, const BitImage* ignore,
 /// Depends on nothing but the size and the options, so that counting needs neither image nor mask.
 void EdgeDetector::allocateScratch(const ImageView& image, Arena& arena) {
   smoothed_.begin(image.width, image.height, options_.gaussian_sigma_px, arena);
-  gradient_.begin(image.width, image.height, options_.aperture_px, options_.l2_gradient, arena);
-  if (options_.thresholds == CannyThresholds::kQuantile)
-    histogram_.begin(options_.aperture_px, options_.l2_gradient, arena);
+  gradient_.begin(image.width, image.height, arena);
+  if (options_.thresholds == CannyThresholds::kQuantile) histogram_.begin(arena);
   hysteresis_.begin(image.width, image.height, arena);
   candidates_ = BitImage::create(arena, image.width, image.height);
   near_ignored_ =
@@ -117,13 +115,12 @@ void EdgeDetector::chooseThresholds() {
   double low = std::min(options_.low_threshold, options_.high_threshold);
   double high = std::max(options_.low_threshold, options_.high_threshold);
   if (options_.thresholds == CannyThresholds::kQuantile) {
-    const double unit = options_.aperture_px == 7 ? 16.0 : 1.0;
-    high = unit * histogram_.quantile(options_.high_quantile);
-    low = options_.low_ratio * high;
+    high = histogram_.quantile(options_.high_quantile);
+    low = kLowRatio * high;
   }
   output_->low_threshold = low;
   output_->high_threshold = high;
-  limits_ = cannyLimits(low, high, options_.aperture_px, options_.l2_gradient);
+  limits_ = cannyLimits(low, high);
   smoothed_.restart();
   gradient_.restart();
   row_ = 0;
@@ -139,7 +136,7 @@ bool EdgeDetector::suppress() {
       gradient_.advance(equalizer_, smoothed_);
     suppressRow(gradient_, row_, width, limits_, candidates_.row(row_), strong.row(row_));
     if (ignore_ == nullptr) continue;
-    dilateRow(*ignore_, row_, options_.ignore_margin_px, near_ignored_.data());
+    dilateRow(*ignore_, row_, kIgnoreMargin_px, near_ignored_.data());
     for (std::size_t w = 0; w < near_ignored_.size(); ++w) {
       candidates_.row(row_)[w] &= ~near_ignored_[w];
       strong.row(row_)[w] &= ~near_ignored_[w];

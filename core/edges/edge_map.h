@@ -35,10 +35,17 @@ struct EdgeMap {
 /// to count the gradients, once to use them).
 ///
 /// Ignored pixels count neither in the histogram of the equalization nor in that of the gradient,
-/// and pixels within `ignore_margin_px` of them (Chebyshev distance) are out before hysteresis:
+/// and pixels within kIgnoreMargin_px of them (Chebyshev distance) are out before hysteresis:
 /// they neither are edges nor vouch for weak ones beside them.
 class EdgeDetector {
  public:
+  /// The lower threshold as a share of the upper one (quantile thresholds): Canny recommends
+  /// between 1/3 and 1/2.
+  static constexpr double kLowRatio = 0.4;
+  /// Covers the pixels that the Sobel kernel and most of the default Gaussian mix with ignored
+  /// ones.
+  static constexpr int kIgnoreMargin_px = 3;
+
   /// `image` and `ignore` (may be nullptr; set bits are ignored; same size) must outlive the steps.
   /// Output and scratch are taken from `arena`, which must not be used by others until the map is
   /// complete; with a counting arena nothing else happens (the image needs no pixels then).

@@ -16,36 +16,20 @@ inline constexpr const char* kCannyThresholdsNames[] = {"absolute", "quantile"};
 /// How the test image becomes edges (Pham 2025, Sec. III; Canny 1986).
 struct EdgeOptions {
   Equalization equalization = Equalization::kHistogram;
-  double clahe_clip_limit = 2.0;
-  std::int32_t clahe_tiles = 8;
   double gaussian_sigma_px = 1.5;
-  std::int32_t aperture_px = 3;
-  bool l2_gradient = true;
   CannyThresholds thresholds = CannyThresholds::kQuantile;
   double low_threshold = 50.0;  ///< gradient magnitude as cv::Canny counts it (kAbsolute)
   double high_threshold = 150.0;
   double high_quantile = 0.9;  ///< high = this quantile of the magnitudes of unignored pixels
-  double low_ratio = 0.4;      ///< low = low_ratio * high (kQuantile)
-  std::int32_t ignore_margin_px = 3;  ///< edges within this distance of ignored pixels are removed
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
     visit(OptionInfo{"edges.equalization", "", 0, 2,
                      "Histogram equalization before edge detection.", kEqualizationNames},
           self.equalization);
-    visit(OptionInfo{"edges.clahe_clip_limit", "", 0.0, 100.0,
-                     "Clip limit of CLAHE, as OpenCV counts it."},
-          self.clahe_clip_limit);
-    visit(OptionInfo{"edges.clahe_tiles", "", 1, 64, "Tiles of CLAHE along each axis."},
-          self.clahe_tiles);
     visit(OptionInfo{"edges.gaussian_sigma_px", "px", 0.0, 8.0,
                      "Smoothing before Canny; 0 switches it off."},
           self.gaussian_sigma_px);
-    visit(OptionInfo{"edges.aperture_px", "px", 3, 7, "Size of the Sobel kernel: 3, 5 or 7."},
-          self.aperture_px);
-    visit(OptionInfo{"edges.l2_gradient", "", 0, 1,
-                     "Gradient magnitude by the L2 norm instead of L1."},
-          self.l2_gradient);
     visit(OptionInfo{"edges.thresholds", "", 0, 1,
                      "Canny thresholds as given, or from the image's gradients.",
                      kCannyThresholdsNames},
@@ -59,12 +43,6 @@ struct EdgeOptions {
     visit(OptionInfo{"edges.high_quantile", "", 0.5, 0.9999,
                      "Share of pixels whose gradient lies below the upper threshold."},
           self.high_quantile);
-    visit(OptionInfo{"edges.low_ratio", "", 0.05, 1.0,
-                     "Lower threshold as a share of the upper one."},
-          self.low_ratio);
-    visit(OptionInfo{"edges.ignore_margin_px", "px", 0, 64,
-                     "Edges this near to ignored pixels are removed."},
-          self.ignore_margin_px);
   }
 };
 

@@ -107,14 +107,12 @@ GrayTable equalizeLut(const GrayHistogram& histogram) {
   return table;
 }
 
-GrayTable claheLut(const GrayHistogram& histogram, double clip_limit) {
+GrayTable claheLut(const GrayHistogram& histogram) {
   const std::int32_t all = total(histogram);
   if (all == 0) return identityTable();
   GrayHistogram clipped = histogram;
-  if (clip_limit > 0.0) {
-    const double limit = std::min(clip_limit * all / kGrayLevels, static_cast<double>(all));
-    clip(clipped, std::max(static_cast<std::int32_t>(limit), 1));
-  }
+  const double limit = Equalizer::kClipLimit * all / kGrayLevels;
+  clip(clipped, std::max(static_cast<std::int32_t>(limit), 1));
   const float scale = 255.0F / static_cast<float>(all);
   GrayTable table{};
   std::int32_t sum = 0;
@@ -131,9 +129,8 @@ void Equalizer::begin(const ImageView& image, const BitImage* ignore, const Edge
   image_ = image;
   ignore_ = ignore;
   equalization_ = options.equalization;
-  clip_limit_ = options.clahe_clip_limit;
   if (equalization_ == Equalization::kOff) return;
-  if (equalization_ == Equalization::kClahe) tiles_ = options.clahe_tiles;
+  if (equalization_ == Equalization::kClahe) tiles_ = kTiles;
   counts_ = arena.allocate<std::int32_t>(std::size_t{kLanes} * kGrayLevels);
   tables_ = arena.allocate<std::uint8_t>(static_cast<std::size_t>(tiles_) *
                                          static_cast<std::size_t>(tiles_) * kGrayLevels);
@@ -194,7 +191,7 @@ bool Equalizer::stepTiles(std::int32_t pixel_budget) {
       countReflected(source_y, inside, right);
     }
     if (row_ < tile_height_) return false;
-    const GrayTable table = claheLut(takeHistogram(), clip_limit_);
+    const GrayTable table = claheLut(takeHistogram());
     std::copy(table.begin(), table.end(), tables_.begin() + std::ptrdiff_t{tile_} * kGrayLevels);
     pixel_budget -= kGrayLevels;
     row_ = 0;

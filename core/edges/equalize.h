@@ -23,15 +23,18 @@ using GrayTable = std::array<std::uint8_t, kGrayLevels>;      ///< gray level in
 GrayTable equalizeLut(const GrayHistogram& histogram);
 
 /// Table of one tile of the contrast-limited adaptive equalization, exactly as cv::CLAHE: counts
-/// above clip_limit * N / 256 are cut off and spread over all levels, then out(v) = round(255 / N *
-/// N(<= v)). No limit where clip_limit is 0; the identity where the histogram is empty.
-GrayTable claheLut(const GrayHistogram& histogram, double clip_limit);
+/// above kClipLimit * N / 256 are cut off and spread over all levels, then out(v) = round(255 / N *
+/// N(<= v)). The identity where the histogram is empty.
+GrayTable claheLut(const GrayHistogram& histogram);
 
 /// Equalization as a table that is applied while rows are read: the equalized image is never held.
 /// Off, one table for the image, or CLAHE's tables per tile with bilinear interpolation between
 /// tile centres. Ignored pixels do not count in any histogram, but are mapped like the others.
 class Equalizer {
  public:
+  static constexpr double kClipLimit = 2.0;  ///< of CLAHE; higher values amplify sensor noise
+  static constexpr int kTiles = 8;           ///< of CLAHE along each axis, OpenCV's default
+
   /// Takes the tables from `arena`. `image` (pixels) and `ignore` (or nullptr) must outlive it.
   void begin(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
              Arena& arena);
@@ -60,7 +63,6 @@ class Equalizer {
   ImageView image_;
   const BitImage* ignore_ = nullptr;
   Equalization equalization_ = Equalization::kOff;
-  double clip_limit_ = 0.0;
   int tiles_ = 1;  ///< along each axis
   int tile_width_ = 1;
   int tile_height_ = 1;

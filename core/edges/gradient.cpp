@@ -10,21 +10,10 @@
 namespace boresight {
 namespace {
 
-constexpr int kMaxAperture = 7;
 constexpr int kReach = 16;  ///< columns past a block that the along-row sums need, rounded up
 
-using Taps = std::array<std::int16_t, kMaxAperture>;
-
-/// cv::Sobel's kernels: smoothing across, derivative along.
-constexpr Taps kSmooth5 = {1, 4, 6, 4, 1};
-constexpr Taps kSmooth7 = {1, 6, 15, 20, 15, 6, 1};
-constexpr Taps kDerive5 = {-1, -2, 0, 2, 1};
-constexpr Taps kDerive7 = {-1, -4, -5, 0, 5, 4, 1};
-
-/// Largest |dx| of an 8-bit image: 255 times the kernel's positive half, over 16 at aperture 7.
-std::int32_t maxDerivative(int aperture_px) {
-  return aperture_px == 3 ? 255 * 4 : aperture_px == 5 ? 255 * 48 : 255 * 640 / 16;
-}
+/// Largest |dx| of an 8-bit image: 255 times the kernel's positive half.
+constexpr std::int32_t kMaxDerivative = 255 * 4;
 
 /// One block of derivatives; a, b, c: rows above, at and below, at the pixel before the block.
 /// Inlined, the promise that the rows do not overlap gets lost, and with it the vector code.
@@ -43,49 +32,9 @@ std::int32_t maxDerivative(int aperture_px) {
   }
 }
 
-std::int16_t sixteenth(std::int32_t value) {
-  return static_cast<std::int16_t>((value + 7 + ((value >> 4) & 1)) >> 4);
-}
-
-/// The same for apertures 5 and 7; `rows` at the pixel aperture / 2 before the block.
-void sobelWide(const std::uint8_t* const* rows, int aperture, std::int16_t* __restrict dx,
-               std::int16_t* __restrict dy) {
-  const Taps& smooth_taps = aperture == 5 ? kSmooth5 : kSmooth7;
-  const Taps& derive_taps = aperture == 5 ? kDerive5 : kDerive7;
-  std::int16_t smooth[kRowBlock + kReach] = {};
-  std::int16_t derive[kRowBlock + kReach] = {};
-  for (int k = 0; k < aperture; ++k) {
-    const std::uint8_t* row = rows[k];
-    const std::int16_t s = smooth_taps[static_cast<std::size_t>(k)];
-    const std::int16_t d = derive_taps[static_cast<std::size_t>(k)];
-    for (int i = 0; i < kRowBlock + kReach; ++i) {
-      smooth[i] = static_cast<std::int16_t>(smooth[i] + s * row[i]);
-      derive[i] = static_cast<std::int16_t>(derive[i] + d * row[i]);
-    }
-  }
-  std::int32_t sum_x[kRowBlock] = {};
-  std::int32_t sum_y[kRowBlock] = {};
-  for (int k = 0; k < aperture; ++k) {
-    const std::int16_t s = smooth_taps[static_cast<std::size_t>(k)];
-    const std::int16_t d = derive_taps[static_cast<std::size_t>(k)];
-    for (int i = 0; i < kRowBlock; ++i) {
-      sum_x[i] += d * smooth[i + k];
-      sum_y[i] += s * derive[i + k];
-    }
-  }
-  for (int i = 0; i < kRowBlock; ++i) {
-    dx[i] = aperture == 5 ? static_cast<std::int16_t>(sum_x[i]) : sixteenth(sum_x[i]);
-    dy[i] = aperture == 5 ? static_cast<std::int16_t>(sum_y[i]) : sixteenth(sum_y[i]);
-  }
-}
-
-void magnitudeBlock(const std::int16_t* dx, const std::int16_t* dy, bool l2,
+void magnitudeBlock(const std::int16_t* dx, const std::int16_t* dy,
                     std::int32_t* __restrict magnitude) {
-  if (l2) {
-    for (int i = 0; i < kRowBlock; ++i) magnitude[i] = dx[i] * dx[i] + dy[i] * dy[i];
-  } else {
-    for (int i = 0; i < kRowBlock; ++i) magnitude[i] = std::abs(dx[i]) + std::abs(dy[i]);
-  }
+  for (int i = 0; i < kRowBlock; ++i) magnitude[i] = dx[i] * dx[i] + dy[i] * dy[i];
 }
 
 /// Smallest r with r * r >= squared, for 0 <= squared < 2^30. The root of a number that is no
@@ -96,16 +45,14 @@ inline std::int32_t ceilRoot(std::int32_t squared) {
 
 }  // namespace
 
-void GradientRows::begin(int width, int height, int aperture_px, bool l2_gradient, Arena& arena) {
+void GradientRows::begin(int width, int height, Arena& arena) {
   *this = GradientRows();
   width_ = width;
   height_ = height;
-  aperture_ = aperture_px;
-  l2_ = l2_gradient;
   columns_ = roundUpToBlock(width);
   const std::size_t columns = static_cast<std::size_t>(columns_);
   const std::size_t padded = columns + 2 * std::size_t{kMargin};
-  smoothed_ = arena.allocate<std::uint8_t>(padded * static_cast<std::size_t>(aperture_));
+  smoothed_ = arena.allocate<std::uint8_t>(padded * kAperture_px);
   dx_ = arena.allocate<std::int16_t>(columns * kRing);
   dy_ = arena.allocate<std::int16_t>(columns * kRing);
   magnitude_ = arena.allocate<std::int32_t>(padded * (kRing + 1));
@@ -123,37 +70,31 @@ const std::int32_t* GradientRows::magnitude(int y) const {
 
 void GradientRows::advance(const Equalizer& source, SmoothedRows& smoothed) {
   const int y = rows_done_++;
-  const int reach = aperture_ / 2;
-  for (; smoothed_done_ <= std::min(y + reach, height_ - 1); ++smoothed_done_) {
+  constexpr int kHalf = kAperture_px / 2;
+  for (; smoothed_done_ <= std::min(y + kHalf, height_ - 1); ++smoothed_done_) {
     std::uint8_t* row = smoothedRow(smoothed_done_);
     smoothed.row(smoothed_done_, source, row);
-    std::fill(row - reach, row, row[0]);
-    std::fill(row + width_, row + width_ + reach, row[width_ - 1]);
+    std::fill(row - kHalf, row, row[0]);
+    std::fill(row + width_, row + width_ + kHalf, row[width_ - 1]);
   }
-  std::array<const std::uint8_t*, kMaxAperture> rows{};
-  for (int k = 0; k < aperture_; ++k)
+  std::array<const std::uint8_t*, kAperture_px> rows{};
+  for (int k = 0; k < kAperture_px; ++k)
     rows[static_cast<std::size_t>(k)] =
-        smoothedRow(std::clamp(y + k - reach, 0, height_ - 1)) - reach;
+        smoothedRow(std::clamp(y + k - kHalf, 0, height_ - 1)) - kHalf;
   std::int16_t* dx = dx_.data() + columns_ * (y % kRing);
   std::int16_t* dy = dy_.data() + columns_ * (y % kRing);
   std::int32_t* magnitude = magnitude_.data() + (columns_ + 2 * kMargin) * (y % kRing) + kMargin;
   for (int x = 0; x < width_; x += kRowBlock) {
-    if (aperture_ == 3) {
-      sobel3(rows[0], rows[1], rows[2], dx + x, dy + x);
-    } else {
-      sobelWide(rows.data(), aperture_, dx + x, dy + x);
-    }
-    magnitudeBlock(dx + x, dy + x, l2_, magnitude + x);
-    for (int k = 0; k < aperture_; ++k) rows[static_cast<std::size_t>(k)] += kRowBlock;
+    sobel3(rows[0], rows[1], rows[2], dx + x, dy + x);
+    magnitudeBlock(dx + x, dy + x, magnitude + x);
+    for (const std::uint8_t*& row : rows) row += kRowBlock;
   }
   std::fill(magnitude + width_, magnitude + columns_ + 1, 0);
 }
 
-void GradientHistogram::begin(int aperture_px, bool l2_gradient, Arena& arena) {
+void GradientHistogram::begin(Arena& arena) {
   *this = GradientHistogram();
-  l2_ = l2_gradient;
-  const std::int32_t derivative = maxDerivative(aperture_px);
-  bins_ = (l2_ ? ceilRoot(2 * derivative * derivative) : 2 * derivative) + 1;
+  bins_ = ceilRoot(2 * kMaxDerivative * kMaxDerivative) + 1;
   counts_ = arena.allocate<std::int32_t>(static_cast<std::size_t>(bins_ * kLanes));
 }
 
@@ -161,12 +102,8 @@ void GradientHistogram::addRow(const std::int32_t* magnitude, const std::uint64_
                                int width) {
   std::int32_t* counts = counts_.data();
   for (int x = 0; x < width; x += kRowBlock) {
-    const std::int32_t* bin = magnitude + x;
-    std::int32_t root[kRowBlock];
-    if (l2_) {
-      for (int i = 0; i < kRowBlock; ++i) root[i] = ceilRoot(bin[i]);
-      bin = root;
-    }
+    std::int32_t bin[kRowBlock];
+    for (int i = 0; i < kRowBlock; ++i) bin[i] = ceilRoot(magnitude[x + i]);
     const int end = std::min(width - x, kRowBlock);
     if (ignored != nullptr && ignored[x >> 6] != 0) {
       for (int i = 0; i < end; ++i)

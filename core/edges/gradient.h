@@ -13,13 +13,12 @@
 namespace boresight {
 
 /// Sobel derivatives and gradient magnitude of the smoothed image, row after row, in a ring of
-/// three rows: what non-maximum suppression looks at. Derivatives are those of cv::Sobel with
-/// replicated border; at aperture 7 they are divided by 16 (halves to even), as cv::Canny does. The
-/// magnitude is |dx| + |dy| (L1) or dx^2 + dy^2 (L2, squared); it is 0 outside the image.
+/// three rows: what non-maximum suppression looks at. Derivatives are those of cv::Sobel with a
+/// 3 x 3 kernel and replicated border. The magnitude is dx^2 + dy^2; it is 0 outside the image.
 class GradientRows {
  public:
   /// Takes the ring from `arena`, for an image of this size.
-  void begin(int width, int height, int aperture_px, bool l2_gradient, Arena& arena);
+  void begin(int width, int height, Arena& arena);
   /// Back to before the first row, for another pass.
   void restart();
   /// The next row, from rows of `smoothed` over `source`.
@@ -36,17 +35,16 @@ class GradientRows {
 
  private:
   static constexpr int kRing = 3;
+  static constexpr int kAperture_px = 3;  ///< the Gaussian before it sets the scale
   static constexpr std::ptrdiff_t kMargin =
       16;  ///< on both sides, so that blocks may reach over the border
 
   std::uint8_t* smoothedRow(int y) {
-    return smoothed_.data() + (columns_ + 2 * kMargin) * (y % aperture_) + kMargin;
+    return smoothed_.data() + (columns_ + 2 * kMargin) * (y % kAperture_px) + kMargin;
   }
 
   int width_ = 0;
   int height_ = 0;
-  int aperture_ = 3;
-  bool l2_ = true;
   std::ptrdiff_t columns_ = 0;
   int rows_done_ = 0;
   int smoothed_done_ = 0;
@@ -57,12 +55,12 @@ class GradientRows {
 };
 
 /// Counts the magnitudes of unignored pixels and finds a quantile. Everything is an integer: a
-/// pixel counts as ceil(magnitude), so `quantile(q)` is the smallest integer h such that at least
-/// the share q of the pixels has a magnitude <= h, that is, does not exceed the threshold h.
+/// pixel counts as ceil(sqrt(magnitude)), so `quantile(q)` is the smallest integer h such that at
+/// least the share q of the pixels has a root <= h, that is, does not exceed the threshold h.
 class GradientHistogram {
  public:
-  /// Takes the counters from `arena`, for magnitudes of this aperture and norm.
-  void begin(int aperture_px, bool l2_gradient, Arena& arena);
+  /// Takes the counters from `arena`.
+  void begin(Arena& arena);
   /// `magnitude` as GradientRows gives it; `ignored` is nullptr or a row of the ignore mask.
   void addRow(const std::int32_t* magnitude, const std::uint64_t* ignored, int width);
   /// The largest possible magnitude where no pixel counted.
@@ -71,7 +69,6 @@ class GradientHistogram {
  private:
   static constexpr int kLanes = 4;  ///< neighbouring pixels count in different copies
 
-  bool l2_ = true;
   std::ptrdiff_t bins_ = 0;
   std::span<std::int32_t> counts_;
 };

@@ -10,6 +10,10 @@
 namespace boresight {
 namespace {
 
+/// On the matched pose's covariance when the refinement starts from it: templates overlap and share
+/// their errors.
+constexpr double kMatchInflation = 8.0;
+
 Ruling failed(Stage stage, LocalizationStatus status, int record) {
   return {Ruling::Next::kFailed, status, stage, true, record};
 }
@@ -59,7 +63,7 @@ PassPlan Attempt::plan(const RunContext& run) const {
   plan.attempt = index_;
   plan.level = !refines && iteration_ == 0 ? run.levels.coarse : run.levels.fine;
   plan.camera_from_station = camera_from_station_;
-  plan.roll_rad = rollOf(hypothesis_, loop.roll_spacing_rad);
+  plan.roll_rad = rollOf(hypothesis_);
   plan.uncertainty = uncertaintyAt(seed_, loop, iteration_, camera_from_station_);
   plan.threshold_px = thresholdAt(run.options, iteration_, plan.level);
   plan.template_factor = templateFactor(size_index_);
@@ -89,7 +93,7 @@ Ruling Attempt::takeHypothesis(const PassOutcome& outcome, const Agreement& agre
   reached_[current] = outcome.reached;
   agreement_[current] = agreement;
   HypothesisSummary summary = summaryOf(records[current]);
-  summary.roll_rad = rollOf(hypothesis_, run.options.loop.roll_spacing_rad);
+  summary.roll_rad = rollOf(hypothesis_);
   for (Iteration& record : records) {
     record.hypotheses[static_cast<std::size_t>(hypothesis_)] = summary;
     record.hypothesis_count = hypothesis_ + 1;
@@ -133,10 +137,8 @@ Ruling Attempt::finishIteration(Stage stage, const Pose& camera_from_station,
   camera_from_station_ = record.camera_from_station;
   covariance_ = covariance;
   if (matched) {
-    // Templates overlap and share their errors.
     matched_.camera_from_station = camera_from_station_;
-    if (!invert(covariance * loop.match_inflation, matched_.information))
-      matched_.information.setZero();
+    if (!invert(covariance * kMatchInflation, matched_.information)) matched_.information.setZero();
   }
   ++iteration_;
   Ruling ruling{Ruling::Next::kPass, LocalizationStatus::kRunning, stage, true, record_};

@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/localizer/pose_change.h"
+#include "core/localizer/schedule.h"
 
 namespace boresight {
 namespace {
@@ -24,8 +25,8 @@ constexpr double kOfRadius = 0.67;
 /// Whether a refinement on edges reaches the truth from where the search has left the pose.
 bool isWithinReach(const PoseCandidate& candidate, const RunContext& run) {
   return run.options.refinement.enabled &&
-         candidate.error_px <= kOfRadius * run.options.refinement.first_radius_px *
-                                   static_cast<double>(1 << run.levels.fine);
+         candidate.error_px <=
+             kOfRadius * kFirstRadius_px * static_cast<double>(1 << run.levels.fine);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ CompetingPoses::Next CompetingPoses::takePose(const Attempt& attempt,
   pose.camera_from_station = attempt.camera_from_station();
   pose.margin_nats = best_margin_nats;
   if (best_margin_nats >= 0.0 || (!isInSeedsBox(pose.camera_from_station, run.options) &&
-                                  -best_margin_nats < run.options.ambiguity.min_margin_nats)) {
+                                  -best_margin_nats < kMinMargin_nats)) {
     leads = false;
     return next();
   }
@@ -53,11 +53,11 @@ CompetingPoses::Next CompetingPoses::takeFailure(LocalizationStatus status) {
   return next();
 }
 
-PassPlan CompetingPoses::comparison(const LocalizerOptions& options) const {
+PassPlan CompetingPoses::comparison() const {
   PassPlan plan;
   plan.kind = PassKind::kSelfSimilarity;
   // From one end of the seed's uncertainty to the other.
-  const Eigen::Vector3d reach_m = 2.0 * options.ambiguity.reach * seed_.uncertainty.translation_m;
+  const Eigen::Vector3d reach_m = 2.0 * kReach * seed_.uncertainty.translation_m;
   plan.reach_x_m = reach_m.x();
   plan.reach_y_m = reach_m.y();
   return plan;
@@ -71,9 +71,7 @@ CompetingPoses::Next CompetingPoses::takeShifts(std::span<const SelfShift> shift
     Pose moved = best;
     moved.translation_m += shift.displacement_in_camera_m;
     const double shift_px = displacementBetween_px(best, moved, run.scene, run.camera);
-    if (leftUncertainty(seed_, moved, run.options.ambiguity.reach) ||
-        isKnown(moved, 0.4 * shift_px, run))
-      continue;
+    if (leftUncertainty(seed_, moved, kReach) || isKnown(moved, 0.4 * shift_px, run)) continue;
     Rival& pose = poses_[static_cast<std::size_t>(count_++)];
     pose = Rival();
     pose.camera_from_station_before = moved;
@@ -129,8 +127,7 @@ LocalizationStatus CompetingPoses::verdict(const Pose& camera_from_station,
   if (!isInSeedsBox(camera_from_station, options)) return LocalizationStatus::kLeftUncertainty;
   const auto known = poses();
   const bool ambiguous = std::any_of(known.begin(), known.end(), [&](const Rival& pose) {
-    return pose.ended == LocalizationStatus::kConverged &&
-           pose.margin_nats < options.ambiguity.min_margin_nats &&
+    return pose.ended == LocalizationStatus::kConverged && pose.margin_nats < kMinMargin_nats &&
            isInSeedsBox(pose.camera_from_station, options);
   });
   return ambiguous ? LocalizationStatus::kAmbiguous : LocalizationStatus::kConverged;

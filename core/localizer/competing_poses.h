@@ -26,8 +26,16 @@ class CompetingPoses {
     kConclude,     ///< the run ends with the best pose, which the latest record shows
   };
 
+  /// Competing poses are tried within this multiple of the seed's uncertainty: a seed may be off by
+  /// more than was stated, and a clearly better pose outside then ends the run.
+  static constexpr double kReach = 2.0;
+  static constexpr int kMaxRivals = 8;  ///< tried at most; each costs about as much as the run
+  /// Evidence by which the best pose must exceed a competing one, else the run is ambiguous: odds
+  /// of 20000 to 1, since neighbouring edges share their errors.
+  static constexpr double kMinMargin_nats = 10.0;
+
   CompetingPoses() = default;
-  /// `poses` holds ambiguity.max_rivals entries and must outlive this; `seed` is the run's.
+  /// `poses` holds kMaxRivals entries and must outlive this; `seed` is the run's.
   CompetingPoses(std::span<Rival> poses, const Seed& seed) : poses_(poses), seed_(seed) {}
 
   /// Whether a competing pose is being tried.
@@ -47,7 +55,7 @@ class CompetingPoses {
   Next takeShifts(std::span<const SelfShift> shifts, const RunContext& run);
 
   /// The pass that compares a pose with the best one.
-  PassPlan comparison(const LocalizerOptions& options) const;
+  PassPlan comparison() const;
   /// The attempt from the competing pose to try.
   Attempt competitor(int index, const RunContext& run) const;
   /// The attempt that repeats the last iteration of the best pose.

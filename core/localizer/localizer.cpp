@@ -32,7 +32,7 @@ PassPlan Localizer::plan() const {
       plan.record = attempt_.record();
       return plan;
     case Phase::kCompare:  // where else does the edge pattern of the model repeat?
-      return competing_.comparison(pass_.options());
+      return competing_.comparison();
     case Phase::kEdges:
     case Phase::kEnded:
       break;
@@ -89,9 +89,8 @@ Ruling Localizer::rule(const PassOutcome& outcome) {
                       leftUncertainty(seedOf(problem()), attempt_.camera_from_station(),
                                       pass_.options().loop.leave_factor);
     const SupportOptions& options = pass_.options().support;
-    const bool supported = searches()
-                               ? isProbable(outcome.probability, workspace().partial, options)
-                               : isSupported(outcome.support, workspace().partial, options);
+    const bool supported = searches() ? isProbable(outcome.probability, options)
+                                      : isSupported(outcome.support, options);
     const bool blurred = options.gate && !workspace().edge_width.isSharp();
     const LocalizationStatus refusal = left      ? LocalizationStatus::kLeftUncertainty
                                        : blurred ? LocalizationStatus::kBlurred

@@ -11,10 +11,9 @@ namespace {
 
 /// Whether an option makes the test edges or the rendered ones, or sizes the memory.
 bool holdsForWholeRun(std::string_view name) {
-  constexpr std::string_view kNames[] = {"templates.count",           "templates.max_side_px",
-                                         "refinement.enabled",        "refinement.max_samples",
-                                         "loop.coarse_size_px",       "loop.halved_size_px",
-                                         "loop.max_rolled_hypotheses"};
+  constexpr std::string_view kNames[] = {"templates.count",        "refinement.enabled",
+                                         "refinement.max_samples", "loop.coarse_size_px",
+                                         "loop.halved_size_px",    "loop.max_rolled_hypotheses"};
   return name.starts_with("edges.") || name.starts_with("render.") || name.starts_with("search.") ||
          name.starts_with("ambiguity.") ||
          std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
@@ -37,8 +36,7 @@ void visitDifferences(const LocalizerOptions& before, const LocalizerOptions& af
 
 bool LocalizerOptions::isDigestedOnlyIfChanged(const OptionInfo& info) {
   const std::string_view name = info.name;
-  return name.starts_with("ambiguity.") || name.starts_with("support.partial") ||
-         name == "support.min_probability";
+  return name.starts_with("ambiguity.") || name == "support.min_probability";
 }
 
 bool sameOptions(const LocalizerOptions& one, const LocalizerOptions& other) {

@@ -29,7 +29,6 @@ struct LoopOptions {
   std::int32_t coarse_size_px = 640;
   std::int32_t halved_size_px = 512;
   std::int32_t max_rolled_hypotheses = 9;
-  double roll_spacing_rad = 0.0767944870878;  ///< 4.4 deg
   double enough_inliers = 0.5;
   double inlier_threshold_px = 8.0;
   double threshold_shrink = 0.5;
@@ -43,9 +42,6 @@ struct LoopOptions {
   double render_again_px = 0.25;
   double leave_factor = 1.5;
   bool anchored = true;
-  double match_sigma_px = 1.0;
-  double match_inflation = 8.0;
-  std::int32_t second_peak_exclusion_px = 6;
   bool subpixel_matches = true;
 
   template <class Self, class Visitor>
@@ -71,11 +67,6 @@ struct LoopOptions {
     visit(OptionInfo{"loop.max_rolled_hypotheses", "", 1, 9,
                      "Renders of the first iteration, rolled about the view axis, at most."},
           self.max_rolled_hypotheses);
-    visit(
-        OptionInfo{
-            "loop.roll_spacing_rad", "rad", 0.01, 3.2,
-            "Angle between rolled renders; as many as cover the uncertainty about the view axis."},
-        self.roll_spacing_rad);
     visit(OptionInfo{"loop.enough_inliers", "", 0.0, 2.0,
                      "A first attempt tries no further rolled renders after one with this share of "
                      "inliers among its matches; above 1: it tries all."},
@@ -118,18 +109,9 @@ struct LoopOptions {
             "loop.anchored", "", 0, 1,
             "The seed's uncertainty holds what the image leaves open, and pulls early poses back."},
         self.anchored);
-    visit(OptionInfo{"loop.match_sigma_px", "px", 0.01, 100.0,
-                     "Standard deviation of a right match, in pixels of its level."},
-          self.match_sigma_px);
-    visit(OptionInfo{"loop.match_inflation", "", 1.0, 1e6,
-                     "Factor on the matched pose's covariance when the refinement starts from it."},
-          self.match_inflation);
     visit(OptionInfo{"loop.leave_factor", "", 1.0, 10.0,
                      "A pose beyond this multiple of the seed's uncertainty ends the run."},
           self.leave_factor);
-    visit(OptionInfo{"loop.second_peak_exclusion_px", "px", 0, 64,
-                     "The second peak of a match lies outside this distance of the first."},
-          self.second_peak_exclusion_px);
     visit(OptionInfo{"loop.subpixel_matches", "", 0, 1, "Parabola through the score's peak."},
           self.subpixel_matches);
   }

@@ -141,7 +141,7 @@ void Pass::beginSelfSimilarity() {
   const Camera& camera = render.camera;
   memory_.similarity.begin(render, inPixels(plan_.reach_x_m, camera.fx, camera.width),
                            inPixels(plan_.reach_y_m, std::abs(camera.fy), camera.height),
-                           options_.ambiguity.min_similarity);
+                           SelfSimilarity::kLeastSimilarity);
 }
 
 int Pass::tasks() const { return running_ && !task_begun_ ? memory_.tasks.count() : 0; }
@@ -221,7 +221,7 @@ void Pass::restoreBestRender() {
 double Pass::bestMargin_nats() const {
   const Iteration& now = record();
   return comparePredictions(memory_.best_render, now.render, now.level, problem_.image,
-                            problem_.ignore, options_.support)
+                            problem_.ignore)
       .nats();
 }
 

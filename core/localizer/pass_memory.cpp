@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/edges/edge_map.h"
+#include "core/localizer/competing_poses.h"
 #include "core/localizer/schedule.h"
 
 namespace boresight {
@@ -162,7 +163,7 @@ void PassMemory::Layout::layOutRenders() {
     to.best_render = createRender(levels.fine);
     const Camera camera = cameraAtLevel(problem.camera, levels.fine);
     to.similarity.create(camera.width, camera.height, kept);
-    to.competing = kept.allocate<Rival>(static_cast<std::size_t>(options.ambiguity.max_rivals));
+    to.competing = kept.allocate<Rival>(std::size_t{CompetingPoses::kMaxRivals});
   }
 }
 
@@ -206,7 +207,7 @@ Status PassMemory::Layout::layOutStages() {
 }
 
 Status PassMemory::Layout::layOutSearches(int longest_px) {
-  const int side_px = std::min(options.templates.max_side_px, 512);
+  const int side_px = TemplateSelector::kMaxSide_px;
   WhsSearch counted;
   Status status = Status::kOk;
   for (int worker = 0; worker < workers && status == Status::kOk; ++worker) {

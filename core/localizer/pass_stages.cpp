@@ -6,6 +6,7 @@
 #include "core/localizer/pass.h"
 #include "core/localizer/pose_change.h"
 #include "core/localizer/run_digest.h"
+#include "core/localizer/schedule.h"
 
 namespace boresight {
 
@@ -76,7 +77,7 @@ StepReport Pass::stepRender() {
   digestRender(now.render, digest_);
   stage_ = plan_.kind == PassKind::kRefine ? Stage::kRefine : Stage::kTemplates;
   stage_begun_ = false;
-  if (now.render.pixel_count < options_.templates.min_edge_pixels)
+  if (now.render.pixel_count < TemplateSelector::kMinEdgePixels)
     return endFailed(Stage::kRender, LocalizationStatus::kTooFewEdges);
   return StepReport::of(Stage::kRender, true);
 }
@@ -156,7 +157,7 @@ bool Pass::beginMatch(int index, WhsSearch& search) {
                           now.templates.side_px};
   return search.begin(view, workspace_.edges.level[static_cast<std::size_t>(now.level)],
                       match.window, item.center_x, item.center_y,
-                      options_.loop.second_peak_exclusion_px) == Status::kOk;
+                      kSecondPeakExclusion_px) == Status::kOk;
 }
 
 void Pass::finishMatch(int index, const WhsSearch& search) {
@@ -191,7 +192,7 @@ void Pass::collectCorrespondences() {
         now.templates.templates[static_cast<std::size_t>(i)].point_in_station_m;
     correspondence.pixel =
         Eigen::Vector2d((match.x + 0.5) * scale - 0.5, (match.y + 0.5) * scale - 0.5);
-    correspondence.sigma_px = options_.loop.match_sigma_px * scale;
+    correspondence.sigma_px = kMatchSigma_px * scale;
     now.template_of[at] = i;
   }
 }
@@ -264,14 +265,13 @@ StepReport Pass::stepSupport() {
   if (!stage_begun_) {
     const Iteration& now = record();
     workspace_.support = measureEdgeSupport(now.render, now.level, workspace_.edges, problem_.image,
-                                            problem_.ignore, options_.support, &workspace_.partial);
+                                            problem_.ignore);
     workspace_.evidence = {};
     workspace_.probability = 0.0;
     workspace_.edge_width = {};
     outcome_.support = workspace_.support;
     digest_.tag("support");
     digestSupport(workspace_.support, digest_);
-    if (options_.support.partial) digestPartialSupport(workspace_.partial, digest_);
     stage_begun_ = true;
     if (!options_.search.enabled || !memory_.evidence.begin(searched_, now.render))
       return end(Stage::kSupport);

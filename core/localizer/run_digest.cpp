@@ -243,12 +243,4 @@ void digestSupport(const EdgeSupport& support, DigestWriter& writer) {
     writer.i32(count);
 }
 
-void digestPartialSupport(const PartialSupport& partial, DigestWriter& writer) {
-  writer.tag("partial");
-  for (const std::int32_t count :
-       {partial.rendered, partial.visible, partial.cells, partial.visible_cells, partial.found,
-        partial.covered, partial.displaced_found, partial.displaced_covered})
-    writer.i32(count);
-}
-
 }  // namespace boresight

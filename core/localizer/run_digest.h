@@ -21,7 +21,6 @@ void digestTemplates(const TemplateSet& templates, DigestWriter& writer);
 void digestMatches(const MatchSet& matches, DigestWriter& writer);
 void digestPnp(const PnpSolution& solution, DigestWriter& writer);
 void digestSupport(const EdgeSupport& support, DigestWriter& writer);
-void digestPartialSupport(const PartialSupport& partial, DigestWriter& writer);
 void digestCandidates(std::span<const PoseCandidate> candidates, DigestWriter& writer);
 void digestEdgeWidth(const EdgeWidth& width, DigestWriter& writer);
 void digestEvidence(const ContourEvidence& evidence, DigestWriter& writer);

@@ -46,8 +46,7 @@ double thresholdAt(const LocalizerOptions& options, int iteration, int level) {
            options.loop.inlier_threshold_px;
   }
   const bool first = iteration == options.loop.match_iterations;
-  const double radius_px =
-      first ? options.refinement.first_radius_px : options.refinement.last_radius_px;
+  const double radius_px = first ? kFirstRadius_px : kLastRadius_px;
   return radius_px * static_cast<double>(1 << level);
 }
 
@@ -66,19 +65,18 @@ SeedUncertainty uncertaintyAt(const Seed& seed, const LoopOptions& loop, int ite
 }
 
 int rolledHypotheses(const LocalizerOptions& options, const SeedUncertainty& uncertainty) {
-  const LoopOptions& loop = options.loop;
-  const double half_rad = 0.5 * loop.roll_spacing_rad;
+  constexpr double half_rad = 0.5 * kRollSpacing_rad;
   const double uncovered_rad = uncertainty.rotation_rad.z() - half_rad;
   int count = 1;
-  while (count + 2 <= loop.max_rolled_hypotheses && (count - 1) * half_rad < uncovered_rad)
+  while (count + 2 <= options.loop.max_rolled_hypotheses && (count - 1) * half_rad < uncovered_rad)
     count += 2;
   return count;
 }
 
-double rollOf(int hypothesis, double spacing_rad) {
+double rollOf(int hypothesis) {
   if (hypothesis == 0) return 0.0;
   const int step = (hypothesis + 1) / 2;
-  return (hypothesis % 2 == 1 ? 1.0 : -1.0) * step * spacing_rad;
+  return (hypothesis % 2 == 1 ? 1.0 : -1.0) * step * kRollSpacing_rad;
 }
 
 double templateFactor(int attempt) {
@@ -89,7 +87,7 @@ double templateFactor(int attempt) {
 int iterationsNeeded(const LocalizerOptions& options) {
   const int converged = options.loop.converged_iterations;
   if (!options.refinement.enabled) return converged;
-  return std::max(options.loop.match_iterations + options.refinement.min_passes, converged);
+  return std::max(options.loop.match_iterations + kMinRefinements, converged);
 }
 
 }  // namespace boresight

@@ -9,6 +9,17 @@
 // within an iteration.
 namespace boresight {
 
+/// Between rolled renders, 4.4 deg: templates still match an image turned by half of it.
+inline constexpr double kRollSpacing_rad = 0.0767944870878;
+/// Standard deviation of a right match, in pixels of its level: matching counts whole pixels.
+inline constexpr double kMatchSigma_px = 1.0;
+/// Search radius of the first refinement, in pixels of its level: covers what matching leaves.
+inline constexpr double kFirstRadius_px = 3.0;
+/// Search radius of later refinements: covers what the first one leaves, and few other edges.
+inline constexpr double kLastRadius_px = 0.7;
+/// Refinements of a run, at least: the first one's wide search meets other edges, too.
+inline constexpr int kMinRefinements = 2;
+
 /// Pyramid levels of a run.
 struct RunLevels {
   int fine = 0;    ///< of later iterations and refinements: one finer than the first iteration's
@@ -37,7 +48,7 @@ SeedUncertainty uncertaintyAt(const Seed& seed, const LoopOptions& loop, int ite
 /// a spacing to either side and all of them the seed's uncertainty.
 int rolledHypotheses(const LocalizerOptions& options, const SeedUncertainty& uncertainty);
 /// Turn of one of them: 0, +s, -s, +2s, -2s, ...
-double rollOf(int hypothesis, double spacing_rad);
+double rollOf(int hypothesis);
 
 /// What an attempt (from 0) makes of the templates' size: what failed may have been theirs.
 double templateFactor(int attempt);

@@ -131,7 +131,6 @@ struct Workspace {
   ContourEvidence evidence;                   ///< of it, too
   double probability = 0.0;  ///< that it is right, by both; 0 where none was searched
   EdgeWidth edge_width;      ///< where that pose has its edges; empty where none was searched
-  PartialSupport partial;    ///< of it, too
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< how the run stands
   Status fault = Status::kOk;                                ///< what did not suffice, with kFault
   Pose camera_from_station;  ///< best estimate; the seed unless converged

@@ -19,6 +19,10 @@
 
 namespace boresight {
 
+/// Half-side of the square around the best place in which the second best is not looked for: within
+/// it edges of the same place still match.
+inline constexpr int kSecondPeakExclusion_px = 6;
+
 /// S in [0, 2] for people: S+ / c+ + S- / c-, a term whose count is 0 being 0.
 double whsScore(const WhsCounts& counts, const WhsNorms& norms);
 

@@ -18,7 +18,17 @@ constexpr int kLocalSteps = 5;
 constexpr int kRefineRounds = 20;
 constexpr int kProjectionsPerStep = 32768;  ///< about a millisecond
 constexpr int kMaxSamplesPerStep = 64;
-constexpr int kP3pSize = 3;
+/// Of both samplers: a guided sample of three needs fewer draws than one of four.
+constexpr int kSampleSize = 3;
+/// RANSAC ends at this probability of having drawn a sample without outliers.
+constexpr double kConfidence = 0.999;
+/// Refits on the inliers after each new best sample: more rarely add inliers.
+constexpr int kLocalOptimizations = 3;
+/// The prior's sigma in guided samples as a multiple of the uncertainty: weak against three
+/// matches.
+constexpr double kPriorFactor = 3.0;
+/// Steps of a refit of the result: it converges in fewer.
+constexpr int kRefineSteps = 20;
 constexpr int kMostRedraws = 32;
 
 /// A pose ready to be applied to many points.
@@ -138,9 +148,8 @@ Status PnpRansac::begin(std::span<const Correspondence> correspondences,
   if (status != Status::kOk) return finish(status);
   listUsable();
   if (usable_count_ < options_.min_inliers) return finish(Status::kTooFewPoints);
-  prior_ = {hypothesis.camera_from_station, scaled(hypothesis.sigma, options.prior_factor)};
-  sample_size_ = options.sampler == PnpSampler::kGuided ? options.guided_sample_size : kP3pSize;
-  sampler_.begin(place_px_.first(static_cast<std::size_t>(usable_count_)), sample_size_,
+  prior_ = {hypothesis.camera_from_station, scaled(hypothesis.sigma, kPriorFactor)};
+  sampler_.begin(place_px_.first(static_cast<std::size_t>(usable_count_)), kSampleSize,
                  static_cast<std::uint64_t>(options.seed));
   phase_ = Phase::kSampling;
   status_ = Status::kOk;
@@ -259,7 +268,7 @@ void PnpRansac::sampleP3p(const std::array<std::int32_t, 4>& sample) {
 void PnpRansac::sampleGuided(const std::array<std::int32_t, 4>& sample) {
   std::array<Correspondence, 4> items;
   std::array<PnpView, kMaxPnpViews> views;
-  const auto size = static_cast<std::size_t>(sample_size_);
+  constexpr std::size_t size = kSampleSize;
   std::size_t taken = 0;
   for (std::size_t v = 0; v < views_.size(); ++v) {
     for (std::size_t i = 0; i < size; ++i)
@@ -283,7 +292,7 @@ void PnpRansac::consider(const Pose& camera_from_station) {
 
 void PnpRansac::optimizeLocally() {
   const std::span<const std::uint8_t> selected = selected_.first(correspondences_.size());
-  for (int round = 0; round < options_.local_optimizations; ++round) {
+  for (int round = 0; round < kLocalOptimizations; ++round) {
     std::int32_t count = 0;
     (void)selectInliers(best_, count);  // whether they changed does not matter here
     if (count < kFewestInliersToRefit) return;
@@ -301,8 +310,8 @@ bool PnpRansac::enoughSamples() const {
   if (samples_ >= options_.max_samples) return true;
   const double share =
       static_cast<double>(best_score_.inliers) / static_cast<double>(usable_count_);
-  const double all_missed = power(1.0 - power(share, sample_size_), samples_);
-  return all_missed <= 1.0 - options_.confidence;
+  const double all_missed = power(1.0 - power(share, kSampleSize), samples_);
+  return all_missed <= 1.0 - kConfidence;
 }
 
 /// False as soon as the cost reaches `limit`: the rest can only add.
@@ -350,7 +359,7 @@ Status PnpRansac::refine() {
   for (int round = 0; round < kRefineRounds && changed; ++round) {
     if (count < options_.min_inliers) return Status::kNoConsensus;
     const Status status =
-        refinePose(correspondences_, selected, views_, nullptr, options_.refine_iterations, pose);
+        refinePose(correspondences_, selected, views_, nullptr, kRefineSteps, pose);
     if (status != Status::kOk) return status;
     changed = selectInliers(pose, count);
   }

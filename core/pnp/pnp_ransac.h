@@ -55,7 +55,7 @@ class PnpRansac {
   /// Takes the memory for so many correspondences. kArenaTooSmall.
   Status create(int max_correspondences, Arena& arena);
   /// `hypothesis` is where guided samples start and what their prior is about (sigma = uncertainty
-  /// times prior_factor). Spans in `solution` must hold one entry per correspondence. The data must
+  /// times a factor). Spans in `solution` must hold one entry per correspondence. The data must
   /// outlive the steps.
   Status begin(std::span<const Correspondence> correspondences, const Camera& camera,
                const PosePrior& hypothesis, double threshold_px, const PnpOptions& options,
@@ -113,7 +113,6 @@ class PnpRansac {
   Phase phase_ = Phase::kIdle;
   Status status_ = Status::kTooFewPoints;
   std::int32_t usable_count_ = 0;
-  std::int32_t sample_size_ = 0;
   std::int32_t samples_ = 0;
   SpreadSampler sampler_;
   Pose best_;

@@ -54,11 +54,6 @@ void addRow(const EdgeSample& sample, double weight, const Vector6d& row,
 
 }  // namespace
 
-void EdgeRefinement::setOptions(const RefinementOptions& options) {
-  options_ = options;
-  search_ = EdgeSearch(options.derivative_sigma_px);
-}
-
 Status EdgeRefinement::create(const RefinementOptions& options, Arena& arena) {
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   setOptions(options);
@@ -89,16 +84,15 @@ Status EdgeRefinement::begin(const ImageView& image, const BitImage* ignore, con
   result.used_count = 0;
   result.rms_px = 0.0;
   takeSamples(mesh, render);
-  return result.sample_count < options_.min_found ? Status::kTooFewEdges : Status::kOk;
+  return result.sample_count < kMinFound ? Status::kTooFewEdges : Status::kOk;
 }
 
 void EdgeRefinement::takeSamples(const MeshView& mesh, const EdgeRender& render) {
   // The render's pixels are 2^level pixels of the image long.
   const double scale = static_cast<double>(camera_.width) / std::max(1, render.camera.width);
-  const int by_spacing = static_cast<int>(options_.sample_spacing_px / scale + 0.5);
+  const int by_spacing = static_cast<int>(kSampleSpacing_px / scale + 0.5);
   const int by_capacity = (render.pixel_count + options_.max_samples - 1) / options_.max_samples;
-  const int by_need =
-      render.pixel_count / options_.min_samples;  // a small object needs every place
+  const int by_need = render.pixel_count / kMinSamples;
   const int stride = std::max({1, std::min(by_spacing, by_need), by_capacity});
   RefinementResult& result = *result_;
   result.sample_count = 0;
@@ -158,12 +152,12 @@ Status EdgeRefinement::gather(EdgeEquations& found) {
       if (result.samples[static_cast<std::size_t>(i)].gradient != 0.0) ++result.found_count;
     }
   }
-  if (result.found_count < options_.min_found) return Status::kTooFewEdges;
+  if (result.found_count < kMinFound) return Status::kTooFewEdges;
   if (search) scale_px_ = robustScale();
   double weights = 0.0;
   found = weightedEquations(weights);
   NormalEquations& made = found.step;
-  if (result.used_count < options_.min_found) return Status::kTooFewEdges;
+  if (result.used_count < kMinFound) return Status::kTooFewEdges;
   const double variance_px2 = made.squares / weights;
   result.rms_px = std::sqrt(variance_px2);
   motion_ = made.information / weights;
@@ -184,8 +178,8 @@ void EdgeRefinement::searchChunk(int chunk) {
     Eigen::Vector2d predicted_px;
     if (!project(camera_, rotation * sample.point_in_station_m + translation_m, predicted_px))
       continue;
-    const EdgePeak peak = search_.find(image_, ignore_, predicted_px, sample.normal, radius_px_,
-                                       options_.min_gradient);
+    const EdgePeak peak =
+        search_.find(image_, ignore_, predicted_px, sample.normal, radius_px_, kMinGradient);
     sample.residual_px = peak.offset_px;
     sample.gradient = peak.gradient;
     found_at_px_[static_cast<std::size_t>(i)] = sample.normal.dot(predicted_px) + peak.offset_px;

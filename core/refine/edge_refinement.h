@@ -27,16 +27,6 @@ namespace boresight {
 struct RefinementOptions {
   bool enabled = true;
   std::int32_t max_samples = 12000;
-  std::int32_t min_samples = 4000;
-  double first_radius_px = 3.0;
-  double last_radius_px = 0.7;
-  std::int32_t min_passes = 2;
-  std::int32_t rounds = 10;
-  double search_again_px = 0.1;
-  double derivative_sigma_px = 1.0;
-  double min_gradient = 2.0;
-  double sample_spacing_px = 2.0;
-  std::int32_t min_found = 60;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -45,36 +35,6 @@ struct RefinementOptions {
           self.enabled);
     visit(OptionInfo{"refinement.max_samples", "", 100, 100000, "Edge places used, at most."},
           self.max_samples);
-    visit(OptionInfo{"refinement.min_samples", "", 100, 100000,
-                     "Places are taken nearer than the spacing when there are fewer than these."},
-          self.min_samples);
-    visit(OptionInfo{"refinement.first_radius_px", "px", 0.5, 50.0,
-                     "Search along the edge's normal, first refinement, in pixels of the finest "
-                     "level matched."},
-          self.first_radius_px);
-    visit(OptionInfo{"refinement.last_radius_px", "px", 0.5, 50.0,
-                     "Search radius of later refinements."},
-          self.last_radius_px);
-    visit(OptionInfo{"refinement.min_passes", "", 1, 10, "Refinements of a run, at least."},
-          self.min_passes);
-    visit(
-        OptionInfo{"refinement.rounds", "", 1, 20, "Gauss-Newton rounds per refinement, at most."},
-        self.rounds);
-    visit(OptionInfo{"refinement.search_again_px", "px", 0.0, 50.0,
-                     "Edges are looked for anew once the rendered ones have moved by this along "
-                     "their normals (root mean square); until then those found serve."},
-          self.search_again_px);
-    visit(OptionInfo{"refinement.derivative_sigma_px", "px", 0.3, 5.0,
-                     "Scale of the derivative along the normal."},
-          self.derivative_sigma_px);
-    visit(
-        OptionInfo{"refinement.min_gradient", "gray/px", 0.0, 255.0, "Weaker edges are not used."},
-        self.min_gradient);
-    visit(OptionInfo{"refinement.sample_spacing_px", "px", 0.5, 50.0,
-                     "Distance between edge places."},
-          self.sample_spacing_px);
-    visit(OptionInfo{"refinement.min_found", "", 6, 100000, "Fewer edges found are no pose."},
-          self.min_found);
   }
 };
 
@@ -121,10 +81,22 @@ struct RefinementResult {
 /// pose returned is at most that far from where the edges were looked for.
 class EdgeRefinement {
  public:
+  /// Places are taken nearer than the spacing when there are fewer than these: a small object needs
+  /// every one.
+  static constexpr int kMinSamples = 4000;
+  static constexpr double kSampleSpacing_px = 2.0;  ///< nearer places share their errors
+  static constexpr int kMinFound = 60;              ///< ten per unknown; fewer edges are no pose
+  static constexpr int kRounds = 10;                ///< at most; Gauss-Newton settles in fewer
+  /// Edges are searched again once the rendered ones have moved by this along their normals (root
+  /// mean square): nearer, the search finds the same.
+  static constexpr double kSearchAgain_px = 0.1;
+  static constexpr double kDerivativeSigma_px = 1.0;  ///< the blur of a sharp image
+  static constexpr double kMinGradient = 2.0;         ///< gray/px; weaker ones are noise
+
   /// Takes the memory of a localization from `arena`. kArenaTooSmall, kInvalidOption.
   Status create(const RefinementOptions& options, Arena& arena);
   /// Other options from the next begin() on, except the one that sizes the memory (max_samples).
-  void setOptions(const RefinementOptions& options);
+  void setOptions(const RefinementOptions& options) { options_ = options; }
   /// Takes the samples from a render of the same pose; `image` is raw, at full resolution, `camera`
   /// its camera; `ignore` may be nullptr. `anchor` and `matched` (each may be nullptr) are what is
   /// known of the pose besides the edges: where these leave a direction open, it stays there.
@@ -161,13 +133,13 @@ class EdgeRefinement {
   Status advance(EdgeEquations found, bool& settled);
   /// Takes a pose from elsewhere; whether that hardly moved what is seen.
   bool moveTo(const Pose& camera_from_station);
-  /// Whether this was the last round that the options allow.
-  bool roundsAreOver() const { return round_ >= options_.rounds; }
+  /// Whether this was the last round.
+  bool roundsAreOver() const { return round_ >= kRounds; }
 
  private:
   static constexpr std::int32_t kChunk = 256;
   void takeSamples(const MeshView& mesh, const EdgeRender& render);
-  bool searches() const { return round_ == 0 || moved_px_ > options_.search_again_px; }
+  bool searches() const { return round_ == 0 || moved_px_ > kSearchAgain_px; }
   double robustScale();
   void addKnowledge(NormalEquations& equations) const;
   bool noteMove(const Vector6d& xi);
@@ -185,7 +157,7 @@ class EdgeRefinement {
   bool has_matched_ = false;
   PoseEstimate matched_;
   RefinementResult* result_ = nullptr;
-  EdgeSearch search_;
+  EdgeSearch search_{kDerivativeSigma_px};
   ErrorGroups groups_;
   Matrix6d motion_ = Matrix6d::Zero();  ///< xi' motion xi: mean square along the normals, px^2
   Eigen::AlignedBox2d box_px_;          ///< of the edge places where they begin

@@ -30,7 +30,7 @@ double clamped(double value, double low, double high) {
 PixelBounds clippedBounds(const CameraScene& scene, const RayGrid& rays, std::int32_t face) {
   std::array<Eigen::Vector3d, 3> corner;
   for (int i = 0; i < 3; ++i) corner[static_cast<std::size_t>(i)] = scene.vertex(face, i);
-  const double near_m = scene.near_plane_m;
+  const double near_m = CameraScene::kNearPlane_m;
   double x_min = 1e300, x_max = -1e300, y_min = 1e300, y_max = -1e300;
   const auto include = [&](double x, double y) {
     x_min = std::min(x_min, x);
@@ -58,8 +58,8 @@ PixelBounds clippedBounds(const CameraScene& scene, const RayGrid& rays, std::in
 
 }  // namespace
 
-Status CameraScene::create(const MeshView& mesh, const MeshAdjacency& adjacency,
-                           double near_plane_m, Arena& kept, Arena& scratch, CameraScene& scene) {
+Status CameraScene::create(const MeshView& mesh, const MeshAdjacency& adjacency, Arena& kept,
+                           Arena& scratch, CameraScene& scene) {
   scene = CameraScene();
   const Status status = kept.countsOnly() ? Status::kOk : validateMesh(mesh);
   if (status != Status::kOk) return status;
@@ -67,7 +67,6 @@ Status CameraScene::create(const MeshView& mesh, const MeshAdjacency& adjacency,
     return Status::kInvalidMesh;
   scene.mesh = mesh;
   scene.adjacency = adjacency;
-  scene.near_plane_m = near_plane_m;
   scene.cos_normal_threshold = kept.allocate<double>(mesh.parts.size());
   scene.face_flags = kept.allocate<std::uint8_t>(mesh.faces.size());
   scene.vertex_in_camera_m = scratch.allocate<Eigen::Vector3d>(mesh.vertices_in_station_m.size());
@@ -262,7 +261,7 @@ void CameraScene::projectPinhole(const Camera& camera, const double* x_m, const 
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     pixels[i] = {static_cast<std::int16_t>(fixed_x[i] - FixedScale::kLimit),
                  static_cast<std::int16_t>(fixed_y[i] - FixedScale::kLimit)};
-    if (!(z_m[i] >= near_plane_m))
+    if (!(z_m[i] >= kNearPlane_m))
       pixels[i] = {FixedPixel::kNotProjected, FixedPixel::kNotProjected};
   }
 }
@@ -275,7 +274,7 @@ void CameraScene::projectDistorted(const Camera& camera, std::size_t first, std:
     const Eigen::Vector3d& q = vertex_in_camera_m[i];
     vertex_px[i] = {FixedPixel::kNotProjected, FixedPixel::kNotProjected};
     Eigen::Vector2d pixel;
-    if (!(q.z() >= near_plane_m) || !projectDirection(camera, q, pixel)) continue;
+    if (!(q.z() >= kNearPlane_m) || !projectDirection(camera, q, pixel)) continue;
     if (!(pixel.x() >= -reach && pixel.x() <= camera.width - 1 + reach && pixel.y() >= -reach &&
           pixel.y() <= camera.height - 1 + reach))
       continue;

@@ -43,9 +43,11 @@ struct FixedScale {
 /// as seen from the pupil of their own rays), and their pixels and depths in
 /// few bits, which serve for bounds and for what is clear without more. Refilled for every pose.
 struct CameraScene {
+  /// Surfaces nearer than this are not rendered: no camera is in focus there.
+  static constexpr double kNearPlane_m = 0.01;
+
   MeshView mesh;                                        ///< not owned
   MeshAdjacency adjacency;                              ///< of the mesh
-  double near_plane_m = 0.0;                            ///< what is nearer is not rendered
   Eigen::Vector3d minimum_m = Eigen::Vector3d::Zero();  ///< box of all vertices, station frame
   Eigen::Vector3d maximum_m = Eigen::Vector3d::Zero();  ///< the other corner of it
   std::span<Eigen::Vector3d> vertex_in_camera_m;        ///< as many as the mesh has
@@ -64,8 +66,8 @@ struct CameraScene {
 
   /// The mesh and its adjacency must outlive the scene. What depends on the pose comes from
   /// `scratch`.
-  static Status create(const MeshView& mesh, const MeshAdjacency& adjacency, double near_plane_m,
-                       Arena& kept, Arena& scratch, CameraScene& scene);
+  static Status create(const MeshView& mesh, const MeshAdjacency& adjacency, Arena& kept,
+                       Arena& scratch, CameraScene& scene);
 
   /// Chooses the scale for a render; before `transform`.
   void begin(const Pose& camera_from_station, const RayGrid& rays);

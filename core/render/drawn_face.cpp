@@ -38,17 +38,17 @@ bool prepareFace(const CameraScene& scene, std::int32_t face, DrawnFace& drawn) 
   const Eigen::Vector3d& v2 = scene.vertex(face, 2);
   const double z_min = std::min({v0.z(), v1.z(), v2.z()});
   const double z_max = std::max({v0.z(), v1.z(), v2.z()});
-  if (!(z_max >= scene.near_plane_m)) return false;
+  if (!(z_max >= CameraScene::kNearPlane_m)) return false;
   // Within a face 1/z stays in a range; the plane of a sliver is not known that well.
   const Eigen::Vector3d side1 = v1 - v0;
   const Eigen::Vector3d side2 = v2 - v0;
   const Eigen::Vector3d normal = crossProduct(side1, side2);
   const double length2 = std::max(dotProduct(side1, side1), dotProduct(side2, side2));
-  const bool crosses_near_plane = !(z_min > scene.near_plane_m);
+  const bool crosses_near_plane = !(z_min > CameraScene::kNearPlane_m);
   drawn.clamped =
       crosses_near_plane || !(dotProduct(normal, normal) > kThin2 * (length2 * length2));
   if (drawn.clamped) {
-    drawn.nearest = 1.0 / scene.near_plane_m;
+    drawn.nearest = 1.0 / CameraScene::kNearPlane_m;
     drawn.low = 1.0 / z_max;
     drawn.high = crosses_near_plane ? 2.0 * drawn.nearest : 1.0 / z_min;
   }

@@ -102,8 +102,7 @@ Status EdgeRenderer::create(const MeshView& mesh, const MeshAdjacency& adjacency
   if (max_width < 1 || max_height < 1 || max_width > kMaxSize_px || max_height > kMaxSize_px ||
       band_rows < 1)
     return Status::kInvalidImage;
-  const Status status =
-      CameraScene::create(mesh, adjacency, options.near_plane_m, kept, scratch, scene_);
+  const Status status = CameraScene::create(mesh, adjacency, kept, scratch, scene_);
   if (status != Status::kOk) return status;
   max_width_ = max_width;
   max_height_ = max_height;

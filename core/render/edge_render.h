@@ -24,14 +24,10 @@ namespace boresight {
 
 /// Of the salient edges' render.
 struct RenderOptions {
-  double near_plane_m = 0.01;
   std::int32_t max_edge_pixels = 80000;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
-    visit(OptionInfo{"render.near_plane_m", "m", 1e-6, 1000.0,
-                     "Surfaces nearer than this are not rendered."},
-          self.near_plane_m);
     visit(OptionInfo{"render.max_edge_pixels", "", 1000, 4000000,
                      "Capacity for salient edge pixels of a render at the finest level; half as "
                      "many at the level before."},

@@ -100,7 +100,7 @@ bool SalientEdges::crossBorder(const Context& context, const Sample& p, const Sa
   if (!end.ends) {
     // Not an end of the surface, but of what the near plane leaves of it.
     const PlaneCache::Entry plane = planes_.get(context.scene, nearer.face);
-    if (dotProduct(plane.plane, other.ray) * context.scene.near_plane_m >= 1.0) return false;
+    if (dotProduct(plane.plane, other.ray) * CameraScene::kNearPlane_m >= 1.0) return false;
   }
   const double s = std::min(end.s, 1.0);
   crossing.s = crossing.nearer_is_p ? s : 1.0 - s;
@@ -183,7 +183,7 @@ bool SalientEdges::crossOverlap(const Context& context, const Sample& p, const S
     const Sample& other = crossing.nearer_is_p ? q : p;
     const Eigen::Vector3d& plane = crossing.nearer_is_p ? plane_p.plane : plane_q.plane;
     // Cut by the near plane, which is no end of the surface.
-    if (!end.ends && dotProduct(plane, other.ray) * scene.near_plane_m >= 1.0) return false;
+    if (!end.ends && dotProduct(plane, other.ray) * CameraScene::kNearPlane_m >= 1.0) return false;
     crossing.s = crossing.nearer_is_p ? std::min(s_p, 1.0) : std::max(s_q, 0.0);
     crossing.has_line = true;
     crossing.line = end.line;
@@ -269,7 +269,7 @@ float SalientEdges::depthOf(const Context& context, const Sample& own, const Sam
   if (extended && grazing) inverse_depth = dotProduct(plane.plane, ray_at_line);
   if (!extended || grazing) {
     const double farthest = std::max({z0, z1, z2});
-    const double nearest = std::max(std::min({z0, z1, z2}), scene.near_plane_m);
+    const double nearest = std::max(std::min({z0, z1, z2}), CameraScene::kNearPlane_m);
     inverse_depth = std::max(inverse_depth, 1.0 / farthest);
     inverse_depth = std::min(inverse_depth, 1.0 / nearest);
   }

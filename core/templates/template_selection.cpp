@@ -42,11 +42,12 @@ int templateSide(const TemplateOptions& options, double feature_size_m, double d
   const double focal_px = 0.5 * (camera.fx + std::abs(camera.fy));
   const double wanted_px =
       options.size_factor * feature_size_m * focal_px / std::max(depth_m, 1e-6);
-  const int largest = std::min(options.max_side_px, std::min(camera.width, camera.height) / 4);
+  const int largest =
+      std::min(TemplateSelector::kMaxSide_px, std::min(camera.width, camera.height) / 4);
   int side = 8;
   // Nearest in ratio: the next power is nearer once the wanted size passes sqrt(2) times this one.
   while (side * 2 <= largest &&
-         (side < options.min_side_px || wanted_px > side * 1.4142135623730951)) {
+         (side < TemplateSelector::kMinSide_px || wanted_px > side * 1.4142135623730951)) {
     side *= 2;
   }
   return side;
@@ -121,7 +122,7 @@ TemplateSelector::Scatter TemplateSelector::scatterAround(int x, int y, int side
 
 float TemplateSelector::distinctnessOf(const EdgePixel& pixel, int side_px) const {
   const Scatter scatter = scatterAround(pixel.x, pixel.y, side_px);
-  if (scatter.count < static_cast<std::uint32_t>(options_.min_edge_pixels)) return -1.0F;
+  if (scatter.count < std::uint32_t{kMinEdgePixels}) return -1.0F;
   const double xx = static_cast<double>(scatter.xx);
   const double yy = static_cast<double>(scatter.yy);
   const double xy = static_cast<double>(static_cast<std::int32_t>(scatter.xy));
@@ -139,7 +140,7 @@ bool TemplateSelector::tooMuchIgnored(const EdgePixel& pixel, int side_px, const
   const int y_end = std::min(ignore->height, (pixel.y + half) * scale);
   const int ignored =
       countBits(*ignore, (pixel.x - half) * scale, (pixel.y - half) * scale, x_end, y_end);
-  return ignored > options_.max_ignored_share * side_px * scale * side_px * scale;
+  return ignored > kMaxIgnoredShare * side_px * scale * side_px * scale;
 }
 
 int TemplateSelector::countCells(const EdgeRender& render, int side_px, int cell_px) {
@@ -220,7 +221,7 @@ Status TemplateSelector::select(const EdgeRender& render, int side_px, const Bit
     chosen.distinctness = best.distinctness;
     if (edgePointInStation(render, pixel, chosen.point_in_station_m)) ++output.count;
   }
-  return output.count < options_.min_count ? Status::kTooFewTemplates : Status::kOk;
+  return output.count < kMinCount ? Status::kTooFewTemplates : Status::kOk;
 }
 
 }  // namespace boresight

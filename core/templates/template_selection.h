@@ -17,20 +17,13 @@ namespace boresight {
 /// Of the choice of templates.
 struct TemplateOptions {
   std::int32_t count = 96;
-  std::int32_t min_count = 6;
   double feature_size_m = 0.0;
   double size_factor = 2.0;
-  std::int32_t min_side_px = 16;
-  std::int32_t max_side_px = 256;
-  std::int32_t min_edge_pixels = 12;
-  double max_ignored_share = 0.3;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
     visit(OptionInfo{"templates.count", "", 4, 1024, "Templates per iteration, at most."},
           self.count);
-    visit(OptionInfo{"templates.min_count", "", 4, 1024, "Fewer templates end the run."},
-          self.min_count);
     visit(OptionInfo{"templates.feature_size_m", "m", 0.0, 100.0,
                      "Size of the station's features (sleeves, screws); 0: an eighth of the mesh's "
                      "diagonal."},
@@ -39,18 +32,6 @@ struct TemplateOptions {
                      "Side of a template over the projected feature size, before rounding to a "
                      "power of two."},
           self.size_factor);
-    visit(OptionInfo{"templates.min_side_px", "px", 8, 512,
-                     "Smallest side of a template at its level."},
-          self.min_side_px);
-    visit(OptionInfo{"templates.max_side_px", "px", 8, 512,
-                     "Largest side of a template at its level."},
-          self.max_side_px);
-    visit(OptionInfo{"templates.min_edge_pixels", "px", 1, 10000,
-                     "Edge pixels that a template must hold."},
-          self.min_edge_pixels);
-    visit(OptionInfo{"templates.max_ignored_share", "", 0.0, 1.0,
-                     "Templates whose predicted area is ignored beyond this share are rejected."},
-          self.max_ignored_share);
   }
 };
 
@@ -72,8 +53,8 @@ struct TemplateSet {
   std::int32_t side_px = 0;       ///< of their square, px at the level
 };
 
-/// The power of two nearest (in ratio) to the projected size of a feature at a depth, within the
-/// options' limits and at most a quarter of the image's smaller side.
+/// The power of two nearest (in ratio) to the projected size of a feature at a depth, from
+/// TemplateSelector::kMinSide_px to kMaxSide_px, and at most a quarter of the image's smaller side.
 int templateSide(const TemplateOptions& options, double feature_size_m, double depth_m,
                  const Camera& camera);
 
@@ -85,11 +66,19 @@ int templateSide(const TemplateOptions& options, double feature_size_m, double d
 /// belongs to the image at `level` 0.
 class TemplateSelector {
  public:
+  static constexpr int kMinSide_px = 16;   ///< smaller squares hold too few edge pixels
+  static constexpr int kMaxSide_px = 256;  ///< larger squares match slowly, and no better
+  static constexpr int kMinCount = 6;      ///< fewer matches rarely agree on a pose by RANSAC
+  /// Edge pixels that a template must hold: fewer match anywhere.
+  static constexpr int kMinEdgePixels = 12;
+  /// Of a template's predicted area: the rest must hold enough of the image to match.
+  static constexpr double kMaxIgnoredShare = 0.3;
+
   /// Takes the memory for renders of up to this size. kArenaTooSmall, kInvalidOption.
   Status create(int max_width, int max_height, const TemplateOptions& options, Arena& arena);
   /// Other options from the next select() on, except those that size the memory (count).
   void setOptions(const TemplateOptions& options) { options_ = options; }
-  /// kTooFewTemplates when fewer than options.min_count can be placed; `output` then holds those.
+  /// kTooFewTemplates when fewer than kMinCount can be placed; `output` then holds those.
   Status select(const EdgeRender& render, int side_px, const BitImage* ignore, int level,
                 TemplateSet& output);
 

@@ -38,8 +38,8 @@ LocalizerOptions withoutSearch(LocalizerOptions options) {
 
 Status ViewsLocalizer::validate(const ViewsProblem& problem, const LocalizerOptions& options) {
   if (problem.views.empty() || problem.views.size() > kMaxViews) return Status::kCapacityExceeded;
-  const bool offered = !options.ambiguity.enabled && !options.support.partial;
-  if (firstInvalidOption(options) != nullptr || !offered) return Status::kInvalidOption;
+  if (firstInvalidOption(options) != nullptr || options.ambiguity.enabled)
+    return Status::kInvalidOption;
   if (!isUsable(problem.rig_from_station_seed)) return Status::kInvalidPose;
   for (const View& view : problem.views)
     if (!isUsable(view.camera_from_rig)) return Status::kInvalidPose;

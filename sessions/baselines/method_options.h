@@ -49,32 +49,18 @@ struct NccOptions {
 /// Oriented FAST and rotated BRIEF (OpenCV ORB) on image and render.
 struct OrbOptions {
   std::int32_t features = 400;
-  std::int32_t image_features = 4000;
   std::int32_t levels = 8;
-  double scale_factor = 1.2;
-  std::int32_t fast_threshold = 10;
   double ratio = 1.0;
-  bool unique = true;
   bool equalized = true;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
     visit(OptionInfo{"orb.features", "", 10, 1024, "Features of the render, at most."},
           self.features);
-    visit(OptionInfo{"orb.image_features", "", 10, 100000,
-                     "Features of the image, within the search windows together, at most."},
-          self.image_features);
     visit(OptionInfo{"orb.levels", "", 1, 16, "Levels of ORB's own pyramid."}, self.levels);
-    visit(OptionInfo{"orb.scale_factor", "", 1.01, 2.0, "Ratio of neighbouring levels."},
-          self.scale_factor);
-    visit(OptionInfo{"orb.fast_threshold", "", 1, 100, "Contrast of a corner, gray values."},
-          self.fast_threshold);
     visit(OptionInfo{"orb.ratio", "", 0.1, 1.0,
                      "The best distance must be below this share of the second best; 1: need not."},
           self.ratio);
-    visit(OptionInfo{"orb.unique", "", 0, 1,
-                     "A feature of the image serves the nearest feature of the render alone."},
-          self.unique);
     visit(OptionInfo{"orb.equalized", "", 0, 1,
                      "Equalizes the histograms of image and render first."},
           self.equalized);

@@ -7,6 +7,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/match/whs.h"
 #include "sessions/baselines/matching_methods.h"
 
 namespace boresight::sessions {
@@ -146,7 +147,7 @@ class CorrelationMethod final : public MatchingMethod {
       if (at.y > 0 && at.y + 1 < scores.rows)
         match.y += parabolaTop(score(0, -1), best, score(0, 1));
     }
-    const int exclusion = query.options.loop.second_peak_exclusion_px;
+    const int exclusion = kSecondPeakExclusion_px;
     const cv::Rect around(at.x - exclusion, at.y - exclusion, 2 * exclusion + 1, 2 * exclusion + 1);
     scores(around & cv::Rect(0, 0, scores.cols, scores.rows)).setTo(0.0F);
     cv::minMaxLoc(scores, nullptr, &match.second_score);
@@ -158,7 +159,10 @@ class CorrelationMethod final : public MatchingMethod {
   cv::Mat image_, render_, mask_;
 };
 
-constexpr int kPatch_px = 31;  ///< of ORB's descriptors, at their level
+constexpr int kPatch_px = 31;         ///< of ORB's descriptors, at their level
+constexpr int kImageFeatures = 4000;  ///< within the search windows together; ten for each of the render
+constexpr float kScaleFactor = 1.2F;  ///< between levels, as the authors of ORB have it
+constexpr int kFastThreshold = 10;    ///< gray values; half of OpenCV's, for faint images
 constexpr int kDescriptorBits = 256;
 constexpr int kFurthest = kDescriptorBits + 1;
 
@@ -220,9 +224,8 @@ class OrbMethod final : public MatchingMethod {
   static double scoreOf(int distance) { return 2.0 * (1.0 - distance / double(kDescriptorBits)); }
 
   Features detect(const cv::Mat& image, const cv::Mat& mask, int most) const {
-    const auto orb = cv::ORB::create(most, static_cast<float>(options_.scale_factor),
-                                     options_.levels, kPatch_px / 2 + 1, 0, 2,
-                                     cv::ORB::HARRIS_SCORE, kPatch_px, options_.fast_threshold);
+    const auto orb = cv::ORB::create(most, kScaleFactor, options_.levels, kPatch_px / 2 + 1, 0, 2,
+                                     cv::ORB::HARRIS_SCORE, kPatch_px, kFastThreshold);
     Features features;
     orb->detectAndCompute(image, mask, features.points, features.descriptors);
     // It may give a few more than it was asked for.
@@ -260,7 +263,7 @@ class OrbMethod final : public MatchingMethod {
     for (int y = 0; query.ignore != nullptr && y < mask.rows; ++y)
       for (int x = 0; x < mask.cols; ++x)
         if (query.ignored(x, y)) mask.at<std::uint8_t>(y, x) = 0;
-    return detect(image, mask, options_.image_features);
+    return detect(image, mask, kImageFeatures);
   }
 
   static void compare(const Features& rendered, const Features& seen, Candidate& one) {
@@ -282,7 +285,6 @@ class OrbMethod final : public MatchingMethod {
     if (options_.ratio < 1.0 && one.second < kFurthest &&
         !(one.distance < options_.ratio * one.second))
       return false;
-    if (!options_.unique) return true;
     // Of those that chose the same feature the nearest one stays, the first of equals.
     for (const Candidate& other : all) {
       if (other.best != one.best || &other == &one) continue;

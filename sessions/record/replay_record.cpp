@@ -218,8 +218,7 @@ Pose Replayer::renderedPose(const RecordedIteration& one) {
 void Replayer::renderAgain(const RecordedIteration& one, IterationTrace& made) {
   const bool failed = one.reached == Stage::kRender && one.status == LocalizationStatus::kFault;
   if (!same_size_ || failed || !isUsable(one.camera_from_station_before)) return;
-  const bool rendered = scene_.render(renderedPose(one), one.level,
-                                      optionsAt(one.index).render.near_plane_m, made.render);
+  const bool rendered = scene_.render(renderedPose(one), one.level, made.render);
   const bool same =
       rendered && (!one.render_sha256 || renderHash(made.render.view()) == *one.render_sha256);
   if (same || std::exchange(noted_render_, true)) return;
@@ -235,8 +234,7 @@ void Replayer::fillHypotheses(const RecordedIteration& one, IterationTrace& made
     return;
   made.hypotheses.resize(static_cast<std::size_t>(one.hypotheses));
   for (int i = 0; i < one.hypotheses; ++i)
-    made.hypotheses[static_cast<std::size_t>(i)].roll_rad =
-        rollOf(i, optionsAt(one.index).loop.roll_spacing_rad);
+    made.hypotheses[static_cast<std::size_t>(i)].roll_rad = rollOf(i);
   made.chosen_hypothesis = one.chosen_hypothesis;
   HypothesisSummary& chosen = made.hypotheses[static_cast<std::size_t>(one.chosen_hypothesis)];
   chosen.roll_rad = one.roll_rad;
@@ -306,7 +304,7 @@ void Replayer::fillPairs(const RecordedIteration& one, IterationTrace& made) con
     Correspondence pair;
     pair.point_in_station_m = item.point_in_station_m;
     pair.pixel = {(match.x + 0.5) * scale - 0.5, (match.y + 0.5) * scale - 0.5};
-    pair.sigma_px = optionsAt(one.index).loop.match_sigma_px * scale;
+    pair.sigma_px = kMatchSigma_px * scale;
     made.correspondences.push_back(pair);
     made.template_of.push_back(static_cast<std::int32_t>(i));
     if (!solved) continue;

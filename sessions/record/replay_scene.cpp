@@ -10,17 +10,16 @@
 
 namespace boresight::sessions {
 
-bool ReplayScene::render(const Pose& camera_from_station, int level, double near_plane_m,
-                         RenderTrace& output) {
+bool ReplayScene::render(const Pose& camera_from_station, int level, RenderTrace& output) {
   if (level < 0 || level >= kPyramidLevels || !isUsable(camera_from_station)) return false;
   auto found = levels_.find(level);
-  if (found == levels_.end() || found->second.near_plane_m != near_plane_m) {
-    Level made{near_plane_m, {}};
+  if (found == levels_.end()) {
+    SceneRenderer made;
     const Camera camera = cameraAtLevel(ground_.camera, level);
-    if (made.renderer.create(camera, ground_.mesh, near_plane_m) != Status::kOk) return false;
-    found = levels_.insert_or_assign(level, std::move(made)).first;
+    if (made.create(camera, ground_.mesh) != Status::kOk) return false;
+    found = levels_.emplace(level, std::move(made)).first;
   }
-  SceneRenderer& renderer = found->second.renderer;
+  SceneRenderer& renderer = found->second;
   Status status = renderer.begin(camera_from_station, {});
   bool done = false;
   while (status == Status::kOk && !done) status = renderer.step(done);

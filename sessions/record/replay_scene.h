@@ -19,19 +19,14 @@ class ReplayScene {
   explicit ReplayScene(const LocalizationProblem& ground) : ground_(ground) {}
 
   /// False when the scene cannot be rendered from there.
-  bool render(const Pose& camera_from_station, int level, double near_plane_m, RenderTrace& output);
+  bool render(const Pose& camera_from_station, int level, RenderTrace& output);
   /// Templates that the core chooses in a render of that level; none when it cannot.
   std::vector<Template> choose(const RenderTrace& render, int level, int side_px,
                                const TemplateOptions& options) const;
 
  private:
-  struct Level {
-    double near_plane_m = 0.0;
-    SceneRenderer renderer;
-  };
-
   const LocalizationProblem& ground_;
-  std::map<int, Level> levels_;
+  std::map<int, SceneRenderer> levels_;
 };
 
 }  // namespace boresight::sessions

@@ -114,7 +114,6 @@ class OneView final : public SteppedRun {
     if (!trace.edges) noteEdges();
     trace.finished = true;
     trace.support = workspace.support;
-    trace.partial = workspace.partial;
     trace.evidence = workspace.evidence;
     trace.probability = workspace.probability;
     trace.edge_width = workspace.edge_width;

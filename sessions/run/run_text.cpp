@@ -8,7 +8,10 @@
 #include <cstdio>
 
 #include "core/base/math.h"
+#include "core/localizer/competing_poses.h"
+#include "core/refine/edge_refinement.h"
 #include "core/render/band_painter.h"
+#include "core/templates/template_selection.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 
@@ -73,9 +76,9 @@ std::string pnpFailedText(const LocalizationTrace& trace, const IterationTrace& 
   if (last.kind == IterationKind::kRefine) {
     return format(
         "refinement found an image edge at %d of %d places along the rendered edges and used %d, "
-        "needed %d within %.1f px; lower refinement.min_gradient if the image is faint",
+        "needed %d within %.1f px; stretch the contrast of the image if it is faint",
         last.refinement.found_count, last.refinement.sample_count, last.refinement.used_count,
-        trace.lastOptions().refinement.min_found, last.threshold_px);
+        EdgeRefinement::kMinFound, last.threshold_px);
   }
   return format(
       "no pose agrees with enough matches: %d matches, at most %d inliers at %.1f px, needed %d; "
@@ -107,16 +110,6 @@ std::string faultText(const LocalizationTrace& trace) {
   return text;
 }
 
-/// What is visible of an object in parts, when that was asked for.
-std::string partialText(const PartialSupport& partial, const SupportOptions& options) {
-  if (!options.partial) return "";
-  return format(
-      "; %.1f %% of the rendered edges lie where the object is visible, needed %.1f %%, and %.1f "
-      "%% of the edges about them are met beyond chance, needed %.1f %%",
-      100.0 * partial.visibleShare(), 100.0 * options.partial_visible, 100.0 * partial.precision(),
-      100.0 * options.partial_precision);
-}
-
 /// What the probability of a searched run's pose rests on.
 std::string probabilityText(const LocalizationTrace& trace) {
   return format(
@@ -132,17 +125,15 @@ bool hasProbability(const LocalizationTrace& trace) { return trace.evidence.plac
 std::string notSupportedText(const LocalizationTrace& trace) {
   if (hasProbability(trace))
     return "the probability that the pose is right is " + probabilityText(trace) +
-           partialText(trace.partial, trace.lastOptions().support) +
            "; check mesh and camera, and state a larger uncertainty if the seed may be farther off";
   const EdgeSupport& support = trace.support;
-  const std::string partial = partialText(trace.partial, trace.lastOptions().support);
   return format(
       "edge support is %.1f %%, needed %.1f %%: %.1f %% of the rendered edges are seen (%.1f %% by "
-      "chance), %.1f %% of the edges seen on the object are rendered (%.1f %% by chance)%s; the "
+      "chance), %.1f %% of the edges seen on the object are rendered (%.1f %% by chance); the "
       "pose is probably wrong: check seed and mesh",
       100.0 * support.share(), 100.0 * trace.lastOptions().support.min_support,
       100.0 * support.coverage(), 100.0 * support.chanceCoverage(), 100.0 * support.explanation(),
-      100.0 * support.chanceExplanation(), partial.c_str());
+      100.0 * support.chanceExplanation());
 }
 
 /// The rival that came nearest to the best pose, or nullptr.
@@ -167,8 +158,7 @@ std::string ambiguousText(const LocalizationTrace& trace) {
       "evidence, needed %.1f; the station looks alike from both: show more of what tells its "
       "features apart, or give a closer seed",
       toMillimetres((behind.translation_m - ahead.translation_m).norm()),
-      toDegrees(rotationLog(turn).norm()), rival->margin_nats,
-      trace.lastOptions().ambiguity.min_margin_nats);
+      toDegrees(rotationLog(turn).norm()), rival->margin_nats, CompetingPoses::kMinMargin_nats);
 }
 
 /// The widest edges, measured along their normals.
@@ -200,13 +190,13 @@ std::string tooFewText(const LocalizationTrace& trace, const IterationTrace& las
     return format(
         "the render shows %d salient edge pixels, needed %d; is the station in view, and "
         "is the mesh's unit right?",
-        last.edge_pixel_count, options.templates.min_edge_pixels);
+        last.edge_pixel_count, TemplateSelector::kMinEdgePixels);
   if (trace.status == LocalizationStatus::kTooFewTemplates)
     return format(
         "%d templates of %d px could be placed on %d rendered edge pixels, needed %d; "
         "try a smaller feature size, or a less strict ignore mask",
         last.template_count, last.template_side_px, last.edge_pixel_count,
-        options.templates.min_count);
+        TemplateSelector::kMinCount);
   return format(
       "%d of %d templates could be searched inside the image, needed %d; the station may "
       "be at the image's border, or the template (%d px) too large",
@@ -235,8 +225,8 @@ std::string convergedText(const LocalizationTrace& trace) {
   if (asked.gate && hasProbability(trace))
     text += " The probability that the pose is right is " + probabilityText(trace) + ".";
   else if (asked.gate)
-    text += format(" Edge support is %.1f %%, needed %.1f %%%s.", 100.0 * trace.support.share(),
-                   100.0 * asked.min_support, partialText(trace.partial, asked).c_str());
+    text += format(" Edge support is %.1f %%, needed %.1f %%.", 100.0 * trace.support.share(),
+                   100.0 * asked.min_support);
   if (const Rival* rival = closestRival(trace.rivals))
     text += format(" The best of the poses that look alike has %.0f nats less evidence.",
                    rival->margin_nats);

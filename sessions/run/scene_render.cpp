@@ -9,9 +9,8 @@
 namespace boresight::sessions {
 namespace {
 
-RenderOptions optionsFor(const Camera& camera, double near_plane_m) {
+RenderOptions optionsFor(const Camera& camera) {
   RenderOptions options;
-  options.near_plane_m = near_plane_m;
   options.max_edge_pixels = std::clamp(camera.width * camera.height / 4, 200000, 4000000);
   return options;
 }
@@ -26,8 +25,8 @@ struct SceneRenderer::Equipment {
   EdgeRenderer renderer;
   EdgeRender render;
 
-  Status create(const Camera& camera, const MeshView& mesh, double near_plane_m, Arena& arena) {
-    const RenderOptions options = optionsFor(camera, near_plane_m);
+  Status create(const Camera& camera, const MeshView& mesh, Arena& arena) {
+    const RenderOptions options = optionsFor(camera);
     Status status = buildAdjacency(mesh, arena, adjacency);
     if (status == Status::kOk) status = RayGrid::create(camera, arena, rays);
     if (status == Status::kOk)
@@ -43,18 +42,18 @@ SceneRenderer::~SceneRenderer() = default;
 SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
 SceneRenderer& SceneRenderer::operator=(SceneRenderer&&) noexcept = default;
 
-Status SceneRenderer::create(const Camera& camera, const MeshView& mesh, double near_plane_m) {
+Status SceneRenderer::create(const Camera& camera, const MeshView& mesh) {
   equipment_.reset();
   Status status = validateMesh(mesh);
   if (status != Status::kOk) return status;
   Arena counter;
   Equipment counted;
-  status = counted.create(camera, mesh, near_plane_m, counter);
+  status = counted.create(camera, mesh, counter);
   if (status != Status::kOk) return status;
   auto made = std::make_unique<Equipment>();
   made->memory = std::make_unique_for_overwrite<std::byte[]>(counter.highWater());
   Arena arena({made->memory.get(), counter.highWater()});
-  status = made->create(camera, mesh, near_plane_m, arena);
+  status = made->create(camera, mesh, arena);
   if (status == Status::kOk) equipment_ = std::move(made);
   return status;
 }

@@ -21,8 +21,7 @@ class SceneRenderer {
 
   /// The mesh must outlive the renderer. kInvalidMesh and the core's other statuses come back as
   /// they are. Throws std::bad_alloc.
-  Status create(const Camera& camera, const MeshView& mesh,
-                double near_plane_m = RenderOptions().near_plane_m);
+  Status create(const Camera& camera, const MeshView& mesh);
   /// Starts a render, whether or not the one before was done; the surfaces must outlive its steps.
   Status begin(const Pose& camera_from_station, const SurfaceRender& surfaces = {});
   Status step(bool& done);

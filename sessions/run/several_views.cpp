@@ -214,7 +214,6 @@ void SeveralViews::finish(std::size_t view) {
   for (std::size_t v = 0; v < one.views.size(); ++v)
     one.views[v].status = localizationStatusText(result.views[v].status);
   if (!report.tookPart()) return;
-  one.partial = of_view.workspace().partial;
   one.camera_from_station = report.camera_from_station;
   const Matrix6d& of_first = localizer_->view(0).workspace().covariance;
   const Matrix6d moved = adjointOf(camera_from_first_[view]);

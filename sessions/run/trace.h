@@ -165,7 +165,6 @@ struct LocalizationTrace {
   std::vector<PoseCandidate> candidates;  ///< of the search, the most evidence first
   std::vector<Rival> rivals;              ///< with ambiguity.enabled, about the pose that converged
   EdgeSupport support;
-  PartialSupport partial;    ///< of the same pose
   ContourEvidence evidence;  ///< of the same pose, of runs that search
   double probability = 0.0;  ///< that it is right, of runs that search
   EdgeWidth edge_width;      ///< where the same pose has its edges, of runs that search

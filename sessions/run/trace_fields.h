@@ -234,14 +234,6 @@ void fields(Archive& archive, Self& rival) {
   archive.number(margin_nats);
 }
 
-template <class Archive, Is<PartialSupport> Self>
-void fields(Archive& archive, Self& partial) {
-  auto& [rendered, visible, cells, visible_cells, found, covered, displaced_found,
-         displaced_covered] = partial;
-  numbers(archive, rendered, visible, cells, visible_cells, found, covered, displaced_found,
-          displaced_covered);
-}
-
 template <class Archive, Is<IterationTrace> Self>
 void matchingFields(Archive& archive, Self& iteration) {
   archive.list(iteration.templates, [&](auto& item) { fields(archive, item); });
@@ -346,7 +338,6 @@ void fields(Archive& archive, Self& trace) {
   archive.list(trace.candidates, [&](auto& candidate) { fields(archive, candidate); });
   archive.list(trace.rivals, [&](auto& rival) { fields(archive, rival); });
   fields(archive, trace.support);
-  fields(archive, trace.partial);
   fields(archive, trace.evidence);
   archive.number(trace.probability);
   fields(archive, trace.edge_width);

@@ -75,7 +75,6 @@ std::string viewsRefusal(const LocalizerOptions& options) {
   };
   if (options.ambiguity.enabled)
     return refused("a search for rivals: switch ambiguity.enabled off");
-  if (options.support.partial) return refused("partial support: switch support.partial off");
   return "";
 }
 

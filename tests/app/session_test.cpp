@@ -146,7 +146,7 @@ TEST(WhsRun, RunsARecordedRunAgainWithTheOptionsThatItTookUp) {
     const auto loaded = sessions::loadCase(*session.cases[0]);
     const sessions::LocalizationTrace first = sessions::loadRun(session.runs[0]);
     LocalizerOptions other = first.options;
-    other.refinement.last_radius_px = 5.0;
+    other.loop.render_again_px = 5.0;
     const auto trace = sessions::runCase(*loaded, continuedPlan(first.plan(), 2, other));
     session =
         withRun(session, sessions::storeRun(session, session.cases[0]->id, trace, file, plain));

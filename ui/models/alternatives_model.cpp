@@ -7,6 +7,7 @@
 #include <QFont>
 
 #include "core/base/math.h"
+#include "core/localizer/competing_poses.h"
 #include "ui/models/number_text.h"
 
 namespace boresight::ui {
@@ -56,9 +57,9 @@ std::vector<TableColumn<Alternative>> columns() {
        tr("What became of it; a rival that converged is a pose that the image supports."), -1,
        endedText},
       {tr("Behind, nats"),
-       tr("Evidence of the result beyond that of a rival that converged, in nats; below "
-          "ambiguity.min_margin_nats the run is ambiguous, below zero the rival is the better "
-          "one."),
+       tr("Evidence of the result beyond that of a rival that converged, in nats; below %1 "
+          "the run is ambiguous, below zero the rival is the better one.")
+           .arg(CompetingPoses::kMinMargin_nats),
        0, [](Row one) { return one.margin_nats; }},
       {tr("Similarity"),
        tr("How much the model's edges look like themselves where the rival puts them; 1: the "

@@ -184,8 +184,7 @@ void Measurement::note(const sessions::RunResult& result, const Degradation& wha
         << result.error->normal_mm << '\t' << result.error->lateral_mm << '\t'
         << result.error->rotation_mrad << '\t' << result.edge_support << '\t' << support.coverage()
         << '\t' << support.chanceCoverage() << '\t' << support.explanation() << '\t'
-        << support.chanceExplanation() << '\t' << trace.partial.visibleShare() << '\t'
-        << trace.partial.precision() << '\t' << trace.attempts << '\t' << result.digest
+        << support.chanceExplanation() << '\t' << trace.attempts << '\t' << result.digest
         << std::endl;
 }
 

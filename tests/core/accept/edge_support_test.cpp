@@ -63,7 +63,6 @@ TEST(EdgeSupport, CoverageCountsEachRenderedEdgePixel) {
   Case scene = stationCase(1);
   Mask mask(512, 512);
   mask.fill(90, 110, 260, 300);
-  const SupportOptions options;
   for (const int level : {0, 1}) {
     for (const bool masked : {false, true}) {
       scene.ignore = masked ? &mask.bits : nullptr;
@@ -72,7 +71,7 @@ TEST(EdgeSupport, CoverageCountsEachRenderedEdgePixel) {
           renderEdges(scene.solid, cameraAtLevel(scene.camera, level), pose);
       const EdgeRender& render = rendering.edges;
       ASSERT_LT(render.pixel_count, 6000);  // every one is looked at
-      const EdgeSearch search(options.derivative_sigma_px);
+      const EdgeSearch search(kSupportDerivativeSigma_px);
       const double scale = level == 0 ? 1.0 : 2.0;
       int looked[2] = {0, 0};
       int near[2] = {0, 0};
@@ -90,7 +89,7 @@ TEST(EdgeSupport, CoverageCountsEachRenderedEdgePixel) {
           if (masked && mask.bits.get(x, y)) continue;
           ++looked[displaced];
           const EdgePeak peak = search.find(scene.picture->view(), scene.ignore, place, normal,
-                                            4.0 * scale, options.min_gradient);
+                                            4.0 * scale, kSupportMinGradient);
           near[displaced] += peak.gradient != 0.0 && std::abs(peak.offset_px) <= scale ? 1 : 0;
         }
       }

@@ -15,34 +15,31 @@ struct Thresholds {
   double high;
 };
 
-/// Thresholds that cut through the gradients of each aperture, and odd ones: equal, in the wrong
+/// Thresholds that cut through the gradients, and odd ones: equal, in the wrong
 /// order, zero, fractions, beyond every gradient.
 constexpr Thresholds kThresholds[] = {{50, 150},   {20.7, 61.3},     {120, 40},
                                       {0, 0},      {100, 100},       {0, 900.5},
                                       {800, 2500}, {3000.2, 9000.9}, {9000, 40000}};
 
-int edgesDifferent(TestImage& image, int aperture_px, bool l2, const Thresholds& thresholds) {
+int edgesDifferent(TestImage& image, const Thresholds& thresholds) {
   TestArena arena(std::size_t{1} << 20);
   TestImage edges = blankImage(image.width, image.height);
-  if (canny(image.view(), aperture_px, l2, thresholds.low, thresholds.high, *arena,
-            edges.pixels.data(), edges.width) != Status::kOk ||
+  if (canny(image.view(), thresholds.low, thresholds.high, *arena, edges.pixels.data(),
+            edges.width) != Status::kOk ||
       (*arena).used() != 0)
     return -1;
   cv::Mat expected;
-  cv::Canny(asMat(image), expected, thresholds.low, thresholds.high, aperture_px, l2);
+  cv::Canny(asMat(image), expected, thresholds.low, thresholds.high, 3, true);
   return countDifferent(asMat(edges), expected);
 }
 
-class Canny : public testing::TestWithParam<std::tuple<int, bool>> {};
-
-TEST_P(Canny, EqualsOpenCv) {
-  const auto [aperture_px, l2] = GetParam();
-  Random random(21, static_cast<std::uint64_t>(aperture_px) * 2 + (l2 ? 1 : 0));
+TEST(Canny, EqualsOpenCv) {
+  Random random(21);
   for (const Size size : kSizes) {
     for (const Pattern pattern : kPatterns) {
       TestImage image = makeImage(pattern, size, random);
       for (const Thresholds& thresholds : kThresholds)
-        EXPECT_EQ(edgesDifferent(image, aperture_px, l2, thresholds), 0)
+        EXPECT_EQ(edgesDifferent(image, thresholds), 0)
             << testing::PrintToString(size) << " pattern " << static_cast<int>(pattern) << " low "
             << thresholds.low << " high " << thresholds.high;
     }
@@ -50,10 +47,8 @@ TEST_P(Canny, EqualsOpenCv) {
 }
 
 /// Smoothed noise has long edges of every direction, and equal neighbours in numbers.
-TEST_P(Canny, EqualsOpenCvOnSmoothedImages) {
-  const auto [aperture_px, l2] = GetParam();
-  Random random(22, static_cast<std::uint64_t>(aperture_px) * 2 + (l2 ? 1 : 0));
-  const double scale = aperture_px == 3 ? 1.0 : aperture_px == 5 ? 12.0 : 160.0;
+TEST(Canny, EqualsOpenCvOnSmoothedImages) {
+  Random random(22);
   for (const double sigma_px : {0.8, 1.5, 3.0}) {
     for (const Pattern pattern : {Pattern::kNoise, Pattern::kDisks, Pattern::kSpecks}) {
       TestImage image = makeImage(pattern, {410, 305}, random);
@@ -61,58 +56,48 @@ TEST_P(Canny, EqualsOpenCvOnSmoothedImages) {
       cv::GaussianBlur(mat, mat, cv::Size(), sigma_px);
       cv::normalize(mat, mat, 0, 255, cv::NORM_MINMAX);
       for (const double high : {30.0, 90.0, 200.0})
-        EXPECT_EQ(edgesDifferent(image, aperture_px, l2, {0.4 * high * scale, high * scale}), 0)
+        EXPECT_EQ(edgesDifferent(image, {0.4 * high, high}), 0)
             << sigma_px << " pattern " << static_cast<int>(pattern) << " high " << high;
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AperturesAndNorms, Canny,
-                         testing::Combine(testing::Values(3, 5, 7), testing::Bool()));
-
 TEST(CannyLimits, FollowTheUnitsOfTheGradient) {
-  EXPECT_EQ(cannyLimits(10.9, 20.9, 3, false).low, 10);
-  EXPECT_EQ(cannyLimits(10.9, 20.9, 3, false).high, 20);
-  EXPECT_EQ(cannyLimits(1.5, 3.0, 5, true).low, 2);
-  EXPECT_EQ(cannyLimits(1.5, 3.0, 5, true).high, 9);
-  EXPECT_EQ(cannyLimits(160.0, 335.9, 7, false).low, 10);
-  EXPECT_EQ(cannyLimits(160.0, 335.9, 7, false).high, 20);
-  EXPECT_EQ(cannyLimits(0.0, 100000.0, 3, true).high, 32767 * 32767);
-  EXPECT_EQ(cannyLimits(90000.0, 100000.0, 3, true).low, 32767 * 32767);
+  EXPECT_EQ(cannyLimits(1.5, 3.0).low, 2);
+  EXPECT_EQ(cannyLimits(1.5, 3.0).high, 9);
+  EXPECT_EQ(cannyLimits(0.0, 100000.0).high, 32767 * 32767);
+  EXPECT_EQ(cannyLimits(90000.0, 100000.0).low, 32767 * 32767);
 }
 
 TEST(GradientRows, EqualsSobel) {
   Random random(23);
-  for (const int aperture_px : {3, 5, 7}) {
-    for (const Size size : kSizes) {
-      TestImage image = makeImage(Pattern::kNoise, size, random);
-      const double scale = aperture_px == 7 ? 1.0 / 16.0 : 1.0;
-      cv::Mat dx;
-      cv::Mat dy;
-      cv::Sobel(asMat(image), dx, CV_16S, 1, 0, aperture_px, scale, 0, cv::BORDER_REPLICATE);
-      cv::Sobel(asMat(image), dy, CV_16S, 0, 1, aperture_px, scale, 0, cv::BORDER_REPLICATE);
-      TestArena arena;
-      EdgeOptions options;
-      options.equalization = Equalization::kOff;
-      Equalizer source;
-      source.begin(image.view(), nullptr, options, *arena);
-      SmoothedRows smoothed;
-      smoothed.begin(size.width, size.height, 0.0, *arena);
-      GradientRows gradient;
-      gradient.begin(size.width, size.height, aperture_px, true, *arena);
-      int different = 0;
-      for (int y = 0; y < size.height; ++y) {
-        gradient.advance(source, smoothed);
-        for (int x = 0; x < size.width; ++x) {
-          const int gx = dx.at<short>(y, x);
-          const int gy = dy.at<short>(y, x);
-          if (gradient.dx(y)[x] != gx || gradient.dy(y)[x] != gy ||
-              gradient.magnitude(y)[x] != gx * gx + gy * gy)
-            ++different;
-        }
+  for (const Size size : kSizes) {
+    TestImage image = makeImage(Pattern::kNoise, size, random);
+    cv::Mat dx;
+    cv::Mat dy;
+    cv::Sobel(asMat(image), dx, CV_16S, 1, 0, 3, 1.0, 0, cv::BORDER_REPLICATE);
+    cv::Sobel(asMat(image), dy, CV_16S, 0, 1, 3, 1.0, 0, cv::BORDER_REPLICATE);
+    TestArena arena;
+    EdgeOptions options;
+    options.equalization = Equalization::kOff;
+    Equalizer source;
+    source.begin(image.view(), nullptr, options, *arena);
+    SmoothedRows smoothed;
+    smoothed.begin(size.width, size.height, 0.0, *arena);
+    GradientRows gradient;
+    gradient.begin(size.width, size.height, *arena);
+    int different = 0;
+    for (int y = 0; y < size.height; ++y) {
+      gradient.advance(source, smoothed);
+      for (int x = 0; x < size.width; ++x) {
+        const int gx = dx.at<short>(y, x);
+        const int gy = dy.at<short>(y, x);
+        if (gradient.dx(y)[x] != gx || gradient.dy(y)[x] != gy ||
+            gradient.magnitude(y)[x] != gx * gx + gy * gy)
+          ++different;
       }
-      EXPECT_EQ(different, 0) << aperture_px << " " << testing::PrintToString(size);
     }
+    EXPECT_EQ(different, 0) << testing::PrintToString(size);
   }
 }
 

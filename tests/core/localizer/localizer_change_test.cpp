@@ -75,7 +75,6 @@ LocalizerOptions changeable(const LocalizerOptions& base, LocalizerOptions wante
   wanted.edges = base.edges;
   wanted.render = base.render;
   wanted.templates.count = base.templates.count;
-  wanted.templates.max_side_px = base.templates.max_side_px;
   wanted.refinement.enabled = base.refinement.enabled;
   wanted.refinement.max_samples = base.refinement.max_samples;
   wanted.loop.coarse_size_px = base.loop.coarse_size_px;
@@ -101,8 +100,8 @@ TEST(LocalizerChange, TheSameOptionsChangeNoBit) {
 TEST(LocalizerChange, KeepsWhatWasAndHearsOfWhatChangesAndWhen) {
   const Case scene = stationCase(4);
   LocalizerOptions other = defaultProfile();
-  other.refinement.last_radius_px *= 2.0;
-  other.loop.match_inflation *= 2.0;
+  other.loop.render_again_px *= 2.0;
+  other.loop.leave_factor *= 2.0;
   const Course plain = plainCourse(scene.problem(), defaultProfile());
   std::set<Digest> digests = {plain.digest};
   for (int at = 0; at < static_cast<int>(plain.poses.size()); ++at) {

@@ -52,7 +52,6 @@ TEST(LocalizerFault, Options) {
   expectFault({"enum", expected, [](Input& i) {
                  i.options.loop.correction_point = static_cast<CorrectionPoint>(7);
                }});
-  expectFault({"aperture", expected, [](Input& i) { i.options.edges.aperture_px = 4; }});
   std::size_t bytes = 0;
   LocalizerOptions options;
   options.templates.count = -1;

@@ -52,7 +52,7 @@ std::vector<Variant> variants() {
   made[3].options.loop.max_rolled_hypotheses = 1;
   made[4].options.refinement.enabled = false;
   made[5].options.edges.thresholds = CannyThresholds::kAbsolute;
-  made[5].options.edges.aperture_px = 7;
+  made[5].options.edges.gaussian_sigma_px = 0.0;
   made[6].options.edges.equalization = Equalization::kClahe;
   made[6].options.edges.gaussian_sigma_px = 8.0;
   return made;

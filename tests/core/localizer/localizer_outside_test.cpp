@@ -46,7 +46,7 @@ class OutsideWhs {
                      now.uncertainty, now.templates.side_px);
     if (match.window.empty() ||
         search_.begin(view, edges, match.window, item.center_x, item.center_y,
-                      options_.loop.second_peak_exclusion_px) != Status::kOk)
+                      kSecondPeakExclusion_px) != Status::kOk)
       return match;
     while (!search_.step()) {
     }

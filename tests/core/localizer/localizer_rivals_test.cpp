@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/localizer/competing_poses.h"
 #include "core/localizer/localizer.h"
 #include "core/localizer/run_digest.h"
 #include "tests/core/localizer/rail_scene.h"
@@ -67,7 +68,7 @@ TEST(LocalizerRivals, SayThatItStaysAmbiguous) {
       double nearest_pitches = 1e9;
       for (const Rival& rival : workspace.rivals) {
         if (rival.ended != LocalizationStatus::kConverged) continue;
-        if (rival.margin_nats >= AmbiguityOptions().min_margin_nats) continue;
+        if (rival.margin_nats >= CompetingPoses::kMinMargin_nats) continue;
         const double apart =
             pitchError(scene, rival.camera_from_station).pitches - pitchError(scene, best).pitches;
         nearest_pitches = std::min(nearest_pitches, std::abs(apart));
@@ -154,23 +155,18 @@ TEST(LocalizerRivals, GiveTheSameBitsWithAnyKernelsAndWorkers) {
 /// Whatever is left of them, loops and memory are bounded.
 TEST(LocalizerRivals, EndWithAsManyRivalsAsAllowed) {
   const Case scene = railCase(Ends::kOutside, 0.5, 3.0, 5);
-  for (const int most : {1, 3, 32}) {
-    LocalizerOptions options = weighing();
-    options.ambiguity.max_rivals = most;
-    options.ambiguity.min_similarity = 0.05;
-    options.ambiguity.reach = 10.0;
-    OwnedRun run(scene.problem(), options);
-    EXPECT_GT(run.finish(), 0);
-    EXPECT_LE(run.localizer.workspace().rivals.size(), static_cast<std::size_t>(most));
-    EXPECT_LE(run.localizer.highWaterBytes(), run.memory.size());
-  }
+  OwnedRun run(scene.problem(), weighing());
+  EXPECT_GT(run.finish(), 0);
+  EXPECT_GE(run.localizer.workspace().rivals.size(), 1u);
+  EXPECT_LE(run.localizer.workspace().rivals.size(), std::size_t{CompetingPoses::kMaxRivals});
+  EXPECT_LE(run.localizer.highWaterBytes(), run.memory.size());
 }
 
 TEST(LocalizerRivals, AreHeardOfInDigests) {
   LocalizerOptions options = defaultProfile();
   DigestWriter plain;
   digestOptions(options, plain);
-  options.ambiguity.min_margin_nats = 11.0;
+  options.ambiguity.enabled = true;
   DigestWriter changed;
   digestOptions(options, changed);
   EXPECT_NE(changed.digest(), plain.digest());

@@ -93,18 +93,21 @@ TEST(LocalizerSteps, EachIterationIsCompleteOnce) {
 
 TEST(LocalizerSteps, EachIterationOfAFailedRunIsCompleteOnce) {
   const Case scene = stationCase(2);
+  const Picture faint_picture = faintened(*scene.picture);
+  Case faint = scene;
+  faint.picture = &faint_picture;
   LocalizerOptions options[4];
   for (LocalizerOptions& each : options) each.search.enabled = false;
   options[0].loop.max_iterations = 2;
   options[1].support.min_support = 0.99;
-  options[2].refinement.min_found = 100000;
-  options[3].templates.min_edge_pixels = 3000;
+  options[2].loop.max_rolled_hypotheses = 1;
+  options[3].templates.count = 4;  // fewer than a run needs
   const LocalizationStatus ends[] = {
       LocalizationStatus::kIterationLimit, LocalizationStatus::kNotSupported,
       LocalizationStatus::kPnpFailed, LocalizationStatus::kTooFewTemplates};
   for (int i = 0; i < 4; ++i) {
     SCOPED_TRACE(localizationStatusText(ends[i]));
-    OwnedRun run(scene.problem(), options[i]);
+    OwnedRun run(i == 2 ? faint.problem() : scene.problem(), options[i]);
     const Tally tally(run.localizer);
     EXPECT_EQ(tally.complete, run.localizer.workspace().iterations);
     EXPECT_EQ(tally.at_support, 0);

@@ -243,17 +243,17 @@ TEST(Localizer, TheGateRefusesUnsupportedPoses) {
   EXPECT_EQ(endOf(scene, options), LocalizationStatus::kConverged);
 }
 
-TEST(Localizer, EndsWithTooFewTemplatesAndMatches) {
-  const Case scene = stationCase(1);
+TEST(Localizer, EndsWithTooFewTemplatesMatchesAndEdges) {
+  Case scene = stationCase(1);
   LocalizerOptions options = withoutSearch();
-  options.templates.min_edge_pixels = 3000;
+  options.templates.count = 4;  // fewer than a run needs
   EXPECT_EQ(endOf(scene, options), LocalizationStatus::kTooFewTemplates);
   options = withoutSearch();
   options.pnp.min_inliers = 1000;
   EXPECT_EQ(endOf(scene, options), LocalizationStatus::kTooFewMatches);
-  options = withoutSearch();
-  options.refinement.min_found = 100000;
-  EXPECT_EQ(endOf(scene, options), LocalizationStatus::kPnpFailed);
+  const Picture faint = faintened(*scene.picture);
+  scene.picture = &faint;
+  EXPECT_EQ(endOf(scene, withoutSearch()), LocalizationStatus::kPnpFailed);
 }
 
 TEST(Localizer, AFurtherAttemptBeginsAtTheSeedWithOtherTemplates) {

@@ -49,11 +49,9 @@ inline LocalizerOptions randomOptions(Random& random) {
       field = static_cast<Field>(static_cast<std::int64_t>(std::floor(value + 0.5)));
     }
   });
-  options.edges.aperture_px |= 1;
   options.loop.max_iterations = std::min(options.loop.max_iterations, 6);
   // Room for every pixel of the small camera: too little is a fault, and has tests of its own.
   options.render.max_edge_pixels = std::max(options.render.max_edge_pixels, 131 * 97);
-  options.ambiguity.max_rivals = std::min(options.ambiguity.max_rivals, 3);
   return options;
 }
 

@@ -354,6 +354,11 @@ Picture flatPicture(int width, int height, std::uint8_t gray) {
   return {width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width * height), gray)};
 }
 
+Picture faintened(Picture picture) {
+  for (std::uint8_t& gray : picture.gray) gray = static_cast<std::uint8_t>(100 + gray / 64);
+  return picture;
+}
+
 Rendering renderEdges(const Solid& solid, const Camera& camera, const Pose& camera_from_station) {
   return render(solid, camera, camera_from_station, nullptr);
 }

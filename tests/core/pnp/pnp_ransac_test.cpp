@@ -68,14 +68,12 @@ int misjudged(const PnpScene& scene, const PnpSolution& solution) {
 
 struct Variant {
   PnpSampler sampler;
-  int guided_sample_size;
   const char* name;
 };
 
 PnpOptions optionsOf(const Variant& variant) {
   PnpOptions options;
   options.sampler = variant.sampler;
-  options.guided_sample_size = variant.guided_sample_size;
   return options;
 }
 
@@ -161,27 +159,25 @@ TEST_P(PnpRansacSamplers, ReturnTheLeastSquaresOverTheirInliers) {
 
 TEST_P(PnpRansacSamplers, StopSoonerWithMoreInliers) {
   Random random = randomFor("PnpRansacSamplers.StopSoonerWithMoreInliers");
-  const int size = GetParam().sampler == PnpSampler::kGuided ? GetParam().guided_sample_size : 3;
   for (const double share : {0.2, 0.4, 0.5}) {
     const PnpScene scene = makeScene(random, {.points = 100, .outlier_share = share});
     Solver solver(100);
     ASSERT_EQ(solver.solve(scene, 2.0, optionsOf(GetParam())), Status::kOk);
     const double inliers = 1.0 - share;
-    const double wanted = std::log(1.0 - 0.999) / std::log(1.0 - std::pow(inliers, size));
+    const double wanted = std::log(1.0 - 0.999) / std::log(1.0 - std::pow(inliers, 3));
     EXPECT_NEAR(solver.solution.samples, std::ceil(wanted), 1.0 + 0.1 * wanted) << share;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, PnpRansacSamplers,
-                         ::testing::Values(Variant{PnpSampler::kP3p, 4, "P3p"},
-                                           Variant{PnpSampler::kGuided, 3, "GuidedByThree"},
-                                           Variant{PnpSampler::kGuided, 4, "GuidedByFour"}),
+                         ::testing::Values(Variant{PnpSampler::kP3p, "P3p"},
+                                           Variant{PnpSampler::kGuided, "Guided"}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 TEST(PnpRansac, WithstandsSeventyPercentWrongWhenGuided) {
   Random random = randomFor("PnpRansac.WithstandsSeventyPercentWrongWhenGuided");
   PnpOptions options;
-  options.max_samples = 2000;  // four inliers out of four: one sample in 124
+  options.max_samples = 2000;
   for (int trial = 0; trial < 100; ++trial) {
     const PnpScene scene =
         makeScene(random, {.points = 100, .outlier_share = 0.7, .noise_px = 1.0});
@@ -195,7 +191,6 @@ TEST(PnpRansac, WithstandsSeventyPercentWrongWhenGuided) {
 TEST(PnpRansac, ThreeGuidedPointsWithstandSeventyPercentInFewSamples) {
   Random random = randomFor("PnpRansac.ThreeGuidedPointsWithstandSeventyPercentInFewSamples");
   PnpOptions options;
-  options.guided_sample_size = 3;
   for (int trial = 0; trial < 100; ++trial) {
     const PnpScene scene =
         makeScene(random, {.points = 100, .outlier_share = 0.7, .noise_px = 1.0});
@@ -208,14 +203,14 @@ TEST(PnpRansac, ThreeGuidedPointsWithstandSeventyPercentInFewSamples) {
 TEST(PnpRansac, TrustsPreciseMatchesMore) {
   Random random = randomFor("PnpRansac.TrustsPreciseMatchesMore");
   PnpOptions options;
-  options.confidence = 0.999999;  // the wrong consensus is the larger: do not stop at it
   for (int trial = 0; trial < 20; ++trial) {
     PnpScene scene = makeScene(random, {.points = 90});
-    // The larger half agrees on another pose, but says of itself that it is imprecise.
+    // The larger half agrees on another pose, but is declared imprecise. It is hardly larger, so
+    // that the search does not stop before it draws a sample of the other half.
     const Pose wrong =
         displacedAboutPivot(scene.camera_from_station,
                             test::randomOffset(random, scene.hypothesis.sigma), {0.0, 0.0, 0.0});
-    for (std::size_t i = 0; i < 50; ++i) {
+    for (std::size_t i = 0; i < 46; ++i) {
       Correspondence& item = scene.correspondences[i];
       ASSERT_TRUE(project(scene.camera, wrong * item.point_in_station_m, item.pixel));
       item.sigma_px = 3.0;
@@ -256,25 +251,6 @@ TEST(PnpRansac, WorksFarAwayWithAPivotAtTheStation) {
     ASSERT_EQ(solver.solve(scene, 4.0, PnpOptions()), Status::kOk) << "trial " << trial;
     EXPECT_LT(normalizedSquaredError(scene, solver.solution), 50.0);
   }
-}
-
-TEST(PnpRansac, LocalOptimizationPaysForItself) {
-  Random random = randomFor("PnpRansac.LocalOptimizationPaysForItself");
-  PnpOptions with;
-  PnpOptions without;
-  without.local_optimizations = 0;
-  int samples_with = 0;
-  int samples_without = 0;
-  for (int trial = 0; trial < 30; ++trial) {
-    const PnpScene scene =
-        makeScene(random, {.points = 100, .outlier_share = 0.4, .noise_px = 1.5});
-    Solver solver(100);
-    ASSERT_EQ(solver.solve(scene, 4.0, with), Status::kOk);
-    samples_with += solver.solution.samples;
-    ASSERT_EQ(solver.solve(scene, 4.0, without), Status::kOk);
-    samples_without += solver.solution.samples;
-  }
-  EXPECT_LT(samples_with, 0.9 * samples_without);
 }
 
 bool sameBits(const PnpSolution& a, const PnpSolution& b) {
@@ -327,10 +303,8 @@ TEST(PnpRansac, TheSeedChoosesTheSamples) {
   Random random = randomFor("PnpRansac.TheSeedChoosesTheSamples");
   const PnpScene scene = makeScene(random, {.points = 100, .outlier_share = 0.6, .noise_px = 1.0});
   PnpOptions options;
-  options.local_optimizations = 0;
-  options.max_samples = 40;
+  options.max_samples = 2;
   options.min_inliers = 4;
-  options.refine_iterations = 1;
   Solver first(100), second(100);
   (void)first.solve(scene, 1.0, options);  // with so few samples any outcome will do
   options.seed = 2;

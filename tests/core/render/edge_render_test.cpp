@@ -271,7 +271,7 @@ TEST(EdgeRenderer, BadInputIsAStatus) {
       renderer.create(bench.mesh.view(), MeshAdjacency(), 200, 150, bench.options, bench.arena),
       Status::kInvalidMesh);
   RenderOptions bad;
-  bad.near_plane_m = -1.0;
+  bad.max_edge_pixels = 0;
   EXPECT_EQ(renderer.create(bench.mesh.view(), bench.adjacency, 200, 150, bad, bench.arena),
             Status::kInvalidOption);
   EXPECT_EQ(renderer.create(bench.mesh.view(), bench.adjacency, 0, 150, bench.options, bench.arena),

@@ -33,7 +33,7 @@ void expectLikeRayCasting(const SceneMesh& mesh, const Camera& camera, const Pos
   RenderOptions options;
   options.max_edge_pixels = 400000;
   const Rendered rendered = render(mesh, camera, pose, options);
-  const RayCaster caster(mesh, pose, options.near_plane_m);
+  const RayCaster caster(mesh, pose, CameraScene::kNearPlane_m);
   int compared = 0;
   int wrong_face = 0;
   double worst_depth = 0.0;

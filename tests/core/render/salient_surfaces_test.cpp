@@ -475,11 +475,12 @@ TEST(SalientEdges, InterpenetratingBoxesMeetInALine) {
 
 TEST(SalientEdges, NoEdgesAtTheImageBorderTheNearPlaneOrTheEndOfTheValidField) {
   SceneMesh mesh;
-  mesh.addQuad({-5, 0.05, -1}, {5, 0.05, -1}, {5, 0.05, 400}, {-5, 0.05, 400});
-  RenderOptions options;
-  options.near_plane_m = 0.08;
+  // The near plane cuts the ground 37.5 px below the centre.
+  constexpr double kHeight_m = 0.625 * CameraScene::kNearPlane_m;
+  mesh.addQuad({-0.625, kHeight_m, -0.125}, {0.625, kHeight_m, -0.125}, {0.625, kHeight_m, 50},
+               {-0.625, kHeight_m, 50});
   const Camera camera = pinholeCamera(100, 100, 60.0);
-  const Rendered rendered = render(mesh, camera, Pose(), options);
+  const Rendered rendered = render(mesh, camera, Pose());
   int rows_with_edges = 0;
   for (int y = 0; y < camera.height; ++y)
     if (rendered.edges.row_begin[static_cast<std::size_t>(y) + 1] >
@@ -490,7 +491,7 @@ TEST(SalientEdges, NoEdgesAtTheImageBorderTheNearPlaneOrTheEndOfTheValidField) {
   // The sides and the horizon of the ground are there; where the near plane cuts it is not.
   for (std::int32_t i = 0; i < rendered.edges.pixel_count; ++i) {
     const EdgePixel& pixel = rendered.edges.pixels[static_cast<std::size_t>(i)];
-    EXPECT_GT(pixel.depth_m, 0.2F);
+    EXPECT_GT(pixel.depth_m, 0.025F);
   }
   EXPECT_GT(rows_with_edges, 0);
 

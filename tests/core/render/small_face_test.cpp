@@ -81,7 +81,7 @@ TEST(SmallFaces, KnowWhichSideIsSeen) {
     CameraScene scene;
     ASSERT_EQ(buildAdjacency(mesh.view(), arena, adjacency), Status::kOk);
     ASSERT_EQ(RayGrid::create(camera, arena, rays), Status::kOk);
-    ASSERT_EQ(CameraScene::create(mesh.view(), adjacency, 0.01, arena, arena, scene), Status::kOk);
+    ASSERT_EQ(CameraScene::create(mesh.view(), adjacency, arena, arena, scene), Status::kOk);
     FaceBins bins = FaceBins::create(mesh.faces.size(), camera.height, 1, arena);
     ASSERT_FALSE(arena.exhausted());
     const Pose pose = poseOf({0.1, 0.2, 0.3}, {0.01, 0.0, 0.5});

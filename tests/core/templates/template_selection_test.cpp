@@ -97,9 +97,8 @@ TEST(TemplateSelector, PrefersCornersToStraightEdges) {
   drawn.set(squareOutline(100, 100, 300));
   TemplateOptions options;
   options.count = 4;
-  options.min_count = 4;
   Selector selector(options);
-  ASSERT_EQ(selector.select(drawn.render, 32), Status::kOk);
+  EXPECT_EQ(selector.select(drawn.render, 32), Status::kTooFewTemplates);
   ASSERT_EQ(selector.set.count, 4);
   for (int i = 0; i < 4; ++i) {
     const Template& item = selector.set.templates[static_cast<std::size_t>(i)];
@@ -114,16 +113,14 @@ TEST(TemplateSelector, StandsOnEdgePixelsAndInsideTheImageAndNeverExceedsTheCoun
   Random random(7);
   for (int trial = 0; trial < 20; ++trial) {
     std::vector<DrawnPixel> pixels;
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 24000; ++i) {
       const double angle = random.uniform(0.0, 6.28);
       pixels.push_back({static_cast<int>(random.below(320)), static_cast<int>(random.below(240)),
                         std::cos(angle), std::sin(angle)});
     }
     drawn.set(pixels);
     TemplateOptions options;
-    options.count = 4 + static_cast<std::int32_t>(random.below(120));
-    options.min_count = 4;
-    options.min_edge_pixels = 1;
+    options.count = 24 + static_cast<std::int32_t>(random.below(100));
     Selector selector(options, 320, 240);
     const int side_px = 8 << random.below(4);
     ASSERT_EQ(selector.select(drawn.render, side_px), Status::kOk);
@@ -161,7 +158,6 @@ TEST(TemplateSelector, DistinctnessIsTheSmallerEigenvalueOfTheScatter) {
   drawn.set(pixels);
   TemplateOptions options;
   options.count = 4;
-  options.min_count = 4;
   Selector selector(options, 256, 256);
   (void)selector.select(drawn.render, 64);  // how many cells a cluster fills does not matter here
   ASSERT_GE(selector.set.count, 1);
@@ -180,7 +176,6 @@ TEST(TemplateSelector, RejectsTemplatesWhoseAreaIsIgnored) {
   }
   TemplateOptions options;
   options.count = 64;
-  options.min_count = 4;
   Selector selector(options);
   ASSERT_EQ(selector.select(drawn.render, 32, &ignore, 1), Status::kOk);
   for (int i = 0; i < selector.set.count; ++i) {
@@ -207,8 +202,8 @@ TEST(TemplateSide, IsThePowerOfTwoNearestToTheProjectedFeature) {
   EXPECT_EQ(templateSide(options, 0.0128, 0.3, camera), 128);
   EXPECT_EQ(templateSide(options, 0.0128 * 1.40, 0.3, camera), 128);
   EXPECT_EQ(templateSide(options, 0.0128 * 1.43, 0.3, camera), 256);
-  EXPECT_EQ(templateSide(options, 0.0001, 0.3, camera), options.min_side_px);
-  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera), options.max_side_px);
+  EXPECT_EQ(templateSide(options, 0.0001, 0.3, camera), TemplateSelector::kMinSide_px);
+  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera), TemplateSelector::kMaxSide_px);
   camera.width = camera.height = 256;
   EXPECT_LE(templateSide(options, 1.0, 0.3, camera), 64);
 }

@@ -255,7 +255,7 @@ TEST(OnboardRecord, SaysWhichOptionsWereTakenUpOnTheWay) {
   const LocalizationProblem problem = run.example.problem();
   sessions::RunPlan plan(run.options);
   LocalizerOptions other = run.options;
-  other.refinement.last_radius_px = 5.0;
+  other.loop.render_again_px = 5.0;
   plan.changes.push_back({2, other});
   Bytes bytes(65536);
   RecordWriter record(bytes);
@@ -268,7 +268,7 @@ TEST(OnboardRecord, SaysWhichOptionsWereTakenUpOnTheWay) {
   EXPECT_EQ(read.options[1].first_iteration, 2);
   const auto& options = read.options[1].options;
   const auto changed = std::find_if(options.begin(), options.end(), [](const auto& one) {
-    return one.name == "refinement.last_radius_px";
+    return one.name == "loop.render_again_px";
   });
   ASSERT_NE(changed, options.end());
   EXPECT_EQ(changed->value(), 5.0);

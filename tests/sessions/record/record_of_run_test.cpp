@@ -125,13 +125,13 @@ TEST(RecordOfRun, OfRunsThatFailToo) {
   options.pnp.min_inliers = 80;
   plans.emplace_back(options);
   options = recordedOptions();
-  options.templates.min_edge_pixels = 10000;
+  options.templates.count = 4;  // fewer than a run needs
   plans.emplace_back(options);
   options = recordedOptions();
   options.render.max_edge_pixels = 1000;
   plans.emplace_back(options);
   options = recordedOptions();
-  options.refinement.last_radius_px = 5.0;
+  options.loop.render_again_px = 5.0;
   plans.push_back(RunPlan(recordedOptions(), {{2, options}, {90, recordedOptions()}}));
   for (const RunPlan& plan : plans) {
     const RecordedRun run = recordRun(problem, plan);

@@ -126,8 +126,7 @@ TEST(Localize, StopsWhenAsked) {
 TEST(Localize, RecordsAFailedIterationUpToItsStage) {
   LocalizerOptions options = defaultProfile();
   options.search.enabled = false;
-  options.templates.min_count = 1000;
-  options.templates.count = 1024;
+  options.templates.count = 4;  // fewer than a run needs
   options.loop.max_attempts = 1;
   const LocalizationTrace trace = localize(runs().example.problem(), options, RecordLevel::kFull);
   ASSERT_EQ(trace.status, LocalizationStatus::kTooFewTemplates);

@@ -18,9 +18,9 @@ const test::ExampleCase& example() {
   return made;
 }
 
-LocalizerOptions withRadius(double radius_px) {
+LocalizerOptions withRenderAgain(double render_again_px) {
   LocalizerOptions options;
-  options.refinement.last_radius_px = radius_px;
+  options.loop.render_again_px = render_again_px;
   return options;
 }
 
@@ -29,24 +29,24 @@ LocalizationTrace runOf(const RunPlan& plan) {
 }
 
 TEST(RunPlan, GoesOnWithOtherOptions) {
-  const RunPlan plain = withRadius(1.0);
-  const RunPlan once = continuedPlan(plain, 3, withRadius(2.0));
+  const RunPlan plain = withRenderAgain(1.0);
+  const RunPlan once = continuedPlan(plain, 3, withRenderAgain(2.0));
   ASSERT_EQ(once.changes.size(), 1u);
   EXPECT_EQ(once.changes[0].iteration, 3);
-  const RunPlan twice = continuedPlan(once, 5, withRadius(3.0));
+  const RunPlan twice = continuedPlan(once, 5, withRenderAgain(3.0));
   EXPECT_EQ(twice.changes.size(), 2u);
-  EXPECT_EQ(twice.last().refinement.last_radius_px, 3.0);
+  EXPECT_EQ(twice.last().loop.render_again_px, 3.0);
   // An earlier iteration drops what came after it.
-  const RunPlan earlier = continuedPlan(twice, 2, withRadius(4.0));
+  const RunPlan earlier = continuedPlan(twice, 2, withRenderAgain(4.0));
   ASSERT_EQ(earlier.changes.size(), 1u);
   EXPECT_EQ(earlier.changes[0].iteration, 2);
   // What holds there anyway is no change.
-  EXPECT_THAT(continuedPlan(plain, 2, withRadius(1.0)).changes, IsEmpty());
-  EXPECT_THAT(continuedPlan(twice, 3, withRadius(1.0)).changes, IsEmpty());
-  EXPECT_EQ(continuedPlan(twice, 6, withRadius(3.0)).changes.size(), 2u);
+  EXPECT_THAT(continuedPlan(plain, 2, withRenderAgain(1.0)).changes, IsEmpty());
+  EXPECT_THAT(continuedPlan(twice, 3, withRenderAgain(1.0)).changes, IsEmpty());
+  EXPECT_EQ(continuedPlan(twice, 6, withRenderAgain(3.0)).changes.size(), 2u);
   // From the first iteration on it is a new run.
-  EXPECT_THAT(continuedPlan(twice, 0, withRadius(9.0)).changes, IsEmpty());
-  EXPECT_EQ(continuedPlan(twice, 0, withRadius(9.0)).options.refinement.last_radius_px, 9.0);
+  EXPECT_THAT(continuedPlan(twice, 0, withRenderAgain(9.0)).changes, IsEmpty());
+  EXPECT_EQ(continuedPlan(twice, 0, withRenderAgain(9.0)).options.loop.render_again_px, 9.0);
 }
 
 TEST(RunPlan, SaysWhyItCannotBeRun) {
@@ -55,12 +55,16 @@ TEST(RunPlan, SaysWhyItCannotBeRun) {
   EXPECT_EQ(planProblem(RunPlan(fixed)), "");
   EXPECT_THAT(planProblem({LocalizerOptions(), {{2, fixed}}}),
               HasSubstr("templates.count holds for a whole run"));
-  EXPECT_THAT(planProblem({LocalizerOptions(), {{0, withRadius(2.0)}}}), HasSubstr("iteration 0"));
-  EXPECT_THAT(planProblem({LocalizerOptions(), {{3, withRadius(2.0)}, {3, withRadius(1.0)}}}),
-              HasSubstr("iteration 3"));
-  EXPECT_THAT(planProblem({LocalizerOptions(), {{3, withRadius(-2.0)}}}),
-              HasSubstr("refinement.last_radius_px is out of its range"));
-  EXPECT_EQ(planProblem({LocalizerOptions(), {{3, withRadius(2.0)}, {4, withRadius(1.0)}}}), "");
+  EXPECT_THAT(planProblem({LocalizerOptions(), {{0, withRenderAgain(2.0)}}}),
+              HasSubstr("iteration 0"));
+  EXPECT_THAT(
+      planProblem({LocalizerOptions(), {{3, withRenderAgain(2.0)}, {3, withRenderAgain(1.0)}}}),
+      HasSubstr("iteration 3"));
+  EXPECT_THAT(planProblem({LocalizerOptions(), {{3, withRenderAgain(-2.0)}}}),
+              HasSubstr("loop.render_again_px is out of its range"));
+  EXPECT_EQ(
+      planProblem({LocalizerOptions(), {{3, withRenderAgain(2.0)}, {4, withRenderAgain(1.0)}}}),
+      "");
 }
 
 TEST(RunPlan, TheSameOptionsGiveTheSameDigest) {
@@ -75,21 +79,21 @@ TEST(RunPlan, TheSameOptionsGiveTheSameDigest) {
 
 TEST(RunPlan, KeepsTheFirstIterationsAndChangesTheOthers) {
   const LocalizationTrace plain = runOf(LocalizerOptions());
-  const RunPlan plan = continuedPlan(LocalizerOptions(), 3, withRadius(5.0));
-  const LocalizationTrace rerun = runOf(plan);
+  LocalizerOptions longer;
+  longer.loop.converged_iterations = 4;
+  const LocalizationTrace rerun = runOf(continuedPlan(LocalizerOptions(), 3, longer));
   ASSERT_GT(plain.iterations.size(), 3u);
   ASSERT_GT(rerun.iterations.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_EQ(rerun.iterations[i]->camera_from_station.translation_m,
               plain.iterations[i]->camera_from_station.translation_m);
-  EXPECT_EQ(rerun.iterations[3]->threshold_px, 5.0 * (1 << rerun.iterations[3]->level));
-  EXPECT_NE(rerun.iterations[3]->threshold_px, plain.iterations[3]->threshold_px);
+  EXPECT_GT(rerun.iterations.size(), plain.iterations.size());
   EXPECT_NE(rerun.digest, plain.digest);
-  EXPECT_EQ(rerun.lastOptions().refinement.last_radius_px, 5.0);
+  EXPECT_EQ(rerun.lastOptions().loop.converged_iterations, 4);
 }
 
 TEST(RunPlan, HoweverItIsRunTheDigestIsTheSame) {
-  const RunPlan plan = continuedPlan(LocalizerOptions(), 2, withRadius(5.0));
+  const RunPlan plan = continuedPlan(LocalizerOptions(), 2, withRenderAgain(5.0));
   const std::string whole = runOf(plan).digest;
   RunSettings settings;
   settings.level = RecordLevel::kSummary;

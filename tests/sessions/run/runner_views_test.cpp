@@ -8,6 +8,7 @@
 #include <stop_token>
 
 #include "core/base/digest.h"
+#include "core/localizer/schedule.h"
 #include "core/views/views_localizer.h"
 #include "tests/support/example_run.h"
 
@@ -97,7 +98,7 @@ TEST_F(RunnerViewsTest, WatchingChangesNoBit) {
 /// What one camera sees the other sees, too: whatever is recorded of one is there of the other.
 TEST_F(RunnerViewsTest, RecordsOfTheSameImageAreTheSame) {
   options_.loop.max_rolled_hypotheses = 5;
-  options_.loop.roll_spacing_rad = 0.01;
+  problem_.uncertainty.rotation_rad.z() = 2.0 * kRollSpacing_rad;
   options_.loop.enough_inliers = 2.0;
   const std::vector<LocalizationTrace> views = watched();
   ASSERT_EQ(views[0].iterations.size(), views[1].iterations.size());

@@ -97,7 +97,7 @@ TEST(CaseRun, ARunThatTookUpOptionsIsRunAgainFromItsRecordAlone) {
   EXPECT_FALSE(plain.rerun.has_value());
 
   LocalizerOptions other = first.options;
-  other.refinement.last_radius_px = 5.0;
+  other.loop.render_again_px = 5.0;
   const sessions::RunPlan plan = continuedPlan(first.plan(), 2, other);
   const sessions::LocalizationTrace again = sessions::runCase(*loaded, plan);
   const Session changed = withOptions(session, "default", other);

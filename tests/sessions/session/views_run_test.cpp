@@ -182,7 +182,6 @@ TEST_F(ViewsRunTest, RefusesBeforeAnythingRuns) {
   };
   EXPECT_THAT(refusal([](auto& o) { o.ambiguity.enabled = true; }),
               HasSubstr("a search for rivals"));
-  EXPECT_THAT(refusal([](auto& o) { o.support.partial = true; }), HasSubstr("partial support"));
   EXPECT_EQ(folder_.fileCount(), 1u) << "the second image alone";
 }
 

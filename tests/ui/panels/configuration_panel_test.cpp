@@ -81,12 +81,12 @@ TEST_F(ConfigurationPanelTest, AValueOutOfRangeIsRefusedWithItsRange) {
 }
 
 TEST_F(ConfigurationPanelTest, ANumberIsTypedInFull) {
-  auto* line = edit<QLineEdit>(QStringLiteral("roll_spacing"));
+  auto* line = edit<QLineEdit>(QStringLiteral("converged_rotation"));
   ASSERT_NE(line, nullptr);
   line->selectAll();
   QTest::keyClicks(line, QStringLiteral("0.0123456789"));
   enter(line);
-  EXPECT_EQ(options_.loop.roll_spacing_rad, 0.0123456789);
+  EXPECT_EQ(options_.loop.converged_rotation_rad, 0.0123456789);
 }
 
 TEST_F(ConfigurationPanelTest, AChoiceIsChosenFromAList) {

@@ -25,7 +25,7 @@ class RerunTest : public test::WindowTest {
   LocalizerOptions otherOptions() {
     LocalizerOptions options = first_->options;
     options.templates.feature_size_m = 0.0;  // the case's own
-    options.refinement.last_radius_px = 5.0;
+    options.loop.render_again_px = 5.0;
     return options;
   }
 
@@ -106,7 +106,7 @@ TEST_F(RerunTest, GoesOnFromARunThatWasReadFromItsFile) {
   EXPECT_EQ(runs()[1].rerun->from, first_->digest);
   // And on from that one, which leaves the first change in place.
   LocalizerOptions options = otherOptions();
-  options.refinement.last_radius_px = 2.0;
+  options.loop.render_again_px = 2.0;
   window_.cases().setOptions(QStringLiteral("default"), options);
   window_.state().setCursor({kFrom + 1, Stage::kFinished});
   rerun();
