@@ -13,12 +13,9 @@ constexpr std::int32_t kLeastPlaces = 30;  ///< of a direction
 constexpr int kReach_px = 24;              ///< of a profile, to either side
 constexpr int kNear_px = 4;                ///< where its steepest slope is looked for
 constexpr double kLeastHeight = 20.0;      ///< gray values
-constexpr int kBins = 128;
-constexpr double kBin_px = 0.25;
 constexpr int kSamples = 2 * kReach_px + 1;
 
 using Profile = std::array<double, kSamples>;
-using Histogram = std::array<std::int32_t, kBins>;
 
 /// Bilinear.
 double sample(const ImageView& image, const Eigen::Vector2d& place) {
@@ -66,14 +63,6 @@ std::optional<double> rampWidth_px(const Profile& profile) {
   return height / std::abs(slope);
 }
 
-double medianOf(const Histogram& histogram, std::int32_t count) {
-  std::int32_t below = 0;
-  int bin = 0;
-  while (bin + 1 < kBins && 2 * (below + histogram[static_cast<std::size_t>(bin)]) < count)
-    below += histogram[static_cast<std::size_t>(bin++)];
-  return (bin + 0.5) * kBin_px;
-}
-
 }  // namespace
 
 int EdgeWidth::widestDirection() const {
@@ -91,30 +80,45 @@ double EdgeWidth::widest_px() const {
   return widest < 0 ? 0.0 : width_px[static_cast<std::size_t>(widest)];
 }
 
+void EdgeWidthMeter::add(const Eigen::Vector2d& place_px, const Eigen::Vector2d& normal) {
+  Profile profile;
+  if (!takeProfile(image_, ignore_, place_px, normal, profile)) return;
+  const std::optional<double> width_px = rampWidth_px(profile);
+  if (!width_px) return;
+  const Eigen::Vector2d way = 1024.0 * normal;
+  const int direction =
+      edgeDirectionOf(static_cast<std::int32_t>(way.x()), static_cast<std::int32_t>(way.y()));
+  const int bin = std::min(kBins - 1, static_cast<int>(*width_px / kBin_px));
+  ++histograms_[static_cast<std::size_t>(direction)][static_cast<std::size_t>(bin)];
+}
+
+EdgeWidth EdgeWidthMeter::width() const {
+  EdgeWidth result;
+  for (std::size_t d = 0; d < histograms_.size(); ++d) {
+    const Histogram& histogram = histograms_[d];
+    for (const std::int32_t count : histogram) result.places[d] += count;
+    if (result.places[d] == 0) continue;
+    std::int32_t below = 0;
+    std::size_t bin = 0;
+    while (2 * (below + histogram[bin]) < result.places[d]) below += histogram[bin++];
+    result.width_px[d] = (static_cast<double>(bin) + 0.5) * kBin_px;
+  }
+  return result;
+}
+
 EdgeWidth measureEdgeWidth(const EdgeRender& render, int level, const ImageView& image,
                            const BitImage* ignore) {
-  EdgeWidth result;
-  std::array<Histogram, kEdgeDirections> histograms{};
+  EdgeWidthMeter meter(image, ignore);
+  const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5);
   const double scale = static_cast<double>(1 << level);
   const int stride = std::max(1, (render.pixel_count + kMostPlaces - 1) / kMostPlaces);
   for (std::int32_t i = 0; i < render.pixel_count; i += stride) {
     const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
     const Eigen::Vector2d normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
     const Eigen::Vector2d place = Eigen::Vector2d(pixel.x, pixel.y) + 0.01 * pixel.offset * normal;
-    const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5);
-    Profile profile;
-    if (!takeProfile(image, ignore, scale * (place + half) - half, normal, profile)) continue;
-    const std::optional<double> width_px = rampWidth_px(profile);
-    if (!width_px) continue;
-    const auto direction =
-        static_cast<std::size_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y));
-    const int bin = std::min(kBins - 1, static_cast<int>(*width_px / kBin_px));
-    ++histograms[direction][static_cast<std::size_t>(bin)];
-    ++result.places[direction];
+    meter.add(scale * (place + half) - half, normal);
   }
-  for (std::size_t d = 0; d < histograms.size(); ++d)
-    if (result.places[d] > 0) result.width_px[d] = medianOf(histograms[d], result.places[d]);
-  return result;
+  return meter.width();
 }
 
 }  // namespace boresight

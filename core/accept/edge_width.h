@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include <Eigen/Core>
+
 #include "core/base/image.h"
 #include "core/edges/directed_edges.h"
 #include "core/render/edge_render.h"
@@ -27,6 +29,26 @@ struct EdgeWidth {
   double widest_px() const;
   /// Whether the image is sharp enough for a pose.
   bool isSharp() const { return widest_px() <= kWidest_px; }
+};
+
+/// Collects the widths of an image's edges.
+class EdgeWidthMeter {
+ public:
+  /// `image` is raw, at full resolution; `ignore` may be nullptr.
+  EdgeWidthMeter(const ImageView& image, const BitImage* ignore) : image_(image), ignore_(ignore) {}
+  /// Looks at a place of an edge, px of the image; `normal` has unit length.
+  void add(const Eigen::Vector2d& place_px, const Eigen::Vector2d& normal);
+  /// Of the places so far.
+  EdgeWidth width() const;
+
+ private:
+  static constexpr int kBins = 128;
+  static constexpr double kBin_px = 0.25;
+  using Histogram = std::array<std::int32_t, kBins>;
+
+  ImageView image_;
+  const BitImage* ignore_;
+  std::array<Histogram, kEdgeDirections> histograms_{};
 };
 
 /// `image` is raw, at full resolution; `level` is the render's. `ignore` may be nullptr.

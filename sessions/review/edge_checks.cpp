@@ -9,6 +9,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "core/accept/edge_width.h"
 #include "sessions/review/run_checks.h"
 #include "sessions/session/check.h"
 #include "sessions/session/input_sigmas.h"
@@ -20,6 +21,7 @@ constexpr CheckName kCoverage{"edge_coverage", "Predicted edges that are seen"};
 constexpr CheckName kClutter{"edge_clutter", "Edges on the station that are not predicted"};
 constexpr CheckName kExplained{"edge_explained", "Edges that explain each other"};
 constexpr CheckName kFallOff{"edge_fall_off", "Fall-off when the pose is displaced"};
+constexpr CheckName kWidth{"edge_width", "Sharpness of the image"};
 constexpr CheckName kFocal{"camera_focal", "Focal length that the edges ask for"};
 constexpr CheckName kCentre{"camera_centre", "Principal point that the edges ask for"};
 
@@ -78,6 +80,20 @@ Check fallOffCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
           " px in the image, the pose loses least, " + percentText(fall) +
           " of the edges seen, when " + least->direction + ".",
       "The image hardly tells this pose from others that way: use marks or a second camera.");
+}
+
+/// Motion and defocus, measured where the pose has its edges.
+Check widthCheck(const LoadedCase& loaded, std::span<const EdgePlace> places,
+                 const CheckLimits& limits) {
+  EdgeWidthMeter meter(loaded.image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr);
+  for (const EdgePlace& place : places) meter.add(place.pixel, place.normal);
+  const EdgeWidth width = meter.width();
+  if (width.widestDirection() < 0)
+    return notAskedCheck(kWidth, "Too few of the predicted edges are seen.");
+  return measuredCheck(kWidth, "px", width.widest_px(), limits.edge_width_px, LimitSide::kAtMost,
+                       "The image's edges are " + sentenceNumber(width.widest_px()) +
+                           " px wide in the direction that is least sharp.",
+                       "The image is blurred by motion or focus: use a sharper one.");
 }
 
 /// One of the camera's parameters as the edges would have it.
@@ -262,7 +278,7 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
     const std::string why = measurable ? "The pose shows no edge of the station in the image."
                                        : "There is no image of the camera's size.";
     addAll(kCoverage, measurable, why, checks);
-    for (const CheckName& name : {kClutter, kExplained, kFallOff, kFocal, kCentre})
+    for (const CheckName& name : {kClutter, kExplained, kFallOff, kWidth, kFocal, kCentre})
       addAll(name, false, why, checks);
     return;
   }
@@ -281,6 +297,7 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
   checks.push_back(clutterCheck(evidence, limits));
   checks.push_back(explainedCheck(evidence, limits));
   checks.push_back(fallOffCheck(evidence, limits));
+  checks.push_back(widthCheck(loaded, places, limits));
   if (asksForMetric(subject.requirement)) {
     addCameraChecks(fitCamera(looked, loaded.source.camera, subject.camera_from_station),
                     loaded.source, limits, checks);

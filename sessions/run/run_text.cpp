@@ -227,6 +227,9 @@ std::string convergedText(const LocalizationTrace& trace) {
   else if (asked.gate)
     text += format(" Edge support is %.1f %%, needed %.1f %%.", 100.0 * trace.support.share(),
                    100.0 * asked.min_support);
+  if (trace.edge_width.widestDirection() >= 0)
+    text += format(" The image's edges are %.1f px wide, at most %.0f px are accepted.",
+                   trace.edge_width.widest_px(), EdgeWidth::kWidest_px);
   if (const Rival* rival = closestRival(trace.rivals))
     text += format(" The best of the poses that look alike has %.0f nats less evidence.",
                    rival->margin_nats);

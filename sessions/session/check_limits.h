@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/accept/edge_width.h"
 #include "core/base/options.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/option_value.h"
@@ -26,6 +27,7 @@ struct CheckLimits {
   double clutter_percent = 95.0;
   double explained_percent = 40.0;
   double fall_off_percent = 15.0;
+  double edge_width_px = EdgeWidth::kWidest_px;
   double focal_percent = 0.5;
   double centre_px = 4.0;
   double agreement_percent = 100.0;
@@ -71,6 +73,9 @@ struct CheckLimits {
                      "Least share of the predicted edges that the image shows, or else of the "
                      "image's edges on the station that are predicted."},
           self.explained_percent);
+    visit(OptionInfo{"check.edge_width_px", "px", 0.5, 100.0,
+                     "Widest edges of the image, across the direction that widens them most."},
+          self.edge_width_px);
     visit(OptionInfo{"check.fall_off_percent", "%", 0.0, 100.0,
                      "Least part of the edges seen that must be lost when the pose is displaced, "
                      "whichever way."},

@@ -2,7 +2,10 @@
 // Edges of a box that OpenCV drew, asked at the pose that it was drawn from and at others.
 #include "sessions/review/edge_checks.h"
 
+#include <memory>
+
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "sessions/review/edge_evidence.h"
 #include "sessions/review/pose_uncertainty.h"
@@ -45,6 +48,23 @@ TEST(EdgeChecks, AtThePoseThatWasDrawnAllIsSeenAndExplained) {
   EXPECT_LT(figureOf(checks, "camera_centre"), 5.0);
   for (const Check& check : checks)
     EXPECT_EQ(check.state, CheckState::kPassed) << check.id << ": " << check.sentence;
+}
+
+TEST(EdgeChecks, BlurredImage_FailsBySharpness) {
+  const DrawnBox box;
+  const auto sharp = box.subject(box.camera_from_station_);
+  EXPECT_LT(figureOf(checksOf(sharp), "edge_width"), 5.0);
+  auto blurred = std::make_shared<LoadedCase>();
+  blurred->source = sharp.loaded->source;
+  blurred->scene = sharp.loaded->scene;
+  blurred->image = sharp.loaded->image;
+  cv::Mat pixels(blurred->image.height, blurred->image.width, CV_8U, blurred->image.pixels.data());
+  cv::blur(pixels, pixels, cv::Size(16, 1));
+  ReviewSubject subject = sharp;
+  subject.loaded = blurred.get();
+  const auto checks = checksOf(subject);
+  EXPECT_GT(figureOf(checks, "edge_width"), 10.0);
+  EXPECT_EQ(findCheck(checks, "edge_width").state, CheckState::kFailed);
 }
 
 TEST(EdgeChecks, PlacesAreOnTheDrawnLinesToATenthOfAPixel) {
