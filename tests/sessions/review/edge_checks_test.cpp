@@ -61,7 +61,7 @@ TEST(EdgeChecks, BlurredImage_FailsBySharpness) {
   cv::Mat pixels(blurred->image.height, blurred->image.width, CV_8U, blurred->image.pixels.data());
   cv::blur(pixels, pixels, cv::Size(16, 1));
   ReviewSubject subject = sharp;
-  subject.loaded = blurred.get();
+  subject.loaded = blurred;
   const auto checks = checksOf(subject);
   EXPECT_GT(figureOf(checks, "edge_width"), 10.0);
   EXPECT_EQ(findCheck(checks, "edge_width").state, CheckState::kFailed);
