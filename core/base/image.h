@@ -25,7 +25,7 @@ struct ImageView {
 /// An image of three 8-bit channels that somebody else owns, pixel by pixel, in any order of the
 /// channels; rows are `stride` bytes apart.
 struct ColorView {
-  static constexpr int kChannels = 3;
+  static constexpr int kChannels = 3;  ///< bytes of a pixel
   const std::uint8_t* data = nullptr;  ///< the top-left pixel; not owned; nullptr: no colour
   int width = 0;                       ///< px
   int height = 0;                      ///< px

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <string_view>
 
 namespace boresight {
 namespace {
@@ -45,6 +46,8 @@ void digestMatrix(const Matrix6d& matrix, DigestWriter& writer) {
 void digestOptions(const LocalizerOptions& options, DigestWriter& writer) {
   writer.tag("options");
   visitDigested(options, [&writer](const OptionInfo& info, const auto& field) {
+    // Whether colour is looked at is seen from the problem's digest: a gray image has the same run.
+    if (std::string_view(info.name) == "search.color") return;
     writer.tag(info.name);
     writer.f64(static_cast<double>(field));
   });

@@ -114,8 +114,10 @@ TEST_F(Downlink, IsLocalizedJudgedHandedOverAndVerified) {
   const ProgramRun run = runWhs({"run", session_});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const ProgramRun decided = runWhs(
-      {"decide", session_, "--case", "sol12", "--validate", "--by", "Ada", "--comment", "right"});
-  EXPECT_EQ(decided.exit_code, 0) << decided.out << decided.err;
+      {"decide", session_, "--case", "sol12", "--validate", "--by", "Ada", "--comment", "right",
+       "--pass-over", "covariance_lateral=0.40 mm at the camera; the arm's end is not known here"});
+  EXPECT_EQ(decided.exit_code, 0) << decided.out << decided.err
+                                  << runWhs({"check", session_, "--basin", "0"}).out;
   const std::string file = (folder_ / "pose.json").string();
   EXPECT_EQ(runWhs({"export", session_, "--case", "sol12", "--pose", file}).exit_code, 0);
   const ProgramRun verified = runWhs({"verify", file});

@@ -27,8 +27,7 @@ struct Edges {
 EdgeSupport supportAt(const Case& scene, const Pose& pose, int level = 0) {
   const Edges edges(*scene.picture, scene.ignore);
   const Rendering rendering = renderEdges(scene.solid, cameraAtLevel(scene.camera, level), pose);
-  return measureEdgeSupport(rendering.edges, level, edges.map, scene.picture->view(), scene.ignore,
-                            {});
+  return measureEdgeSupport(rendering.edges, level, edges.map, scene.picture->view(), scene.ignore);
 }
 
 TEST(EdgeSupport, IsHighAtTheTruthAndLowElsewhere) {
@@ -154,7 +153,7 @@ TEST(EdgeSupport, ExplanationIsThatOfACount) {
         for (const auto& by : kDisplacements) displaced += nearEdge(x - by[0], y - by[1]);
       }
     }
-    const EdgeSupport support = measureEdgeSupport(render, 2, edges, flat.view(), nullptr, {});
+    const EdgeSupport support = measureEdgeSupport(render, 2, edges, flat.view(), nullptr);
     EXPECT_EQ(support.seen, seen);
     EXPECT_EQ(support.explained, explained);
     EXPECT_EQ(support.displaced_explained, displaced);

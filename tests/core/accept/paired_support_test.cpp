@@ -19,8 +19,7 @@ Pose alongBar(const Case& scene, double pitches) {
 PairedSupport compared(const Case& scene, const Pose& own, const Pose& other) {
   const Rendering one = renderEdges(scene.solid, scene.camera, own);
   const Rendering two = renderEdges(scene.solid, scene.camera, other);
-  return comparePredictions(one.edges, two.edges, 0, scene.picture->view(), nullptr,
-                            SupportOptions());
+  return comparePredictions(one.edges, two.edges, 0, scene.picture->view(), nullptr);
 }
 
 TEST(PairedSupport, TheTruthIsFarAheadOfANeighbourWhileTheEndsAreSeen) {

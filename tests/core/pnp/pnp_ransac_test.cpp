@@ -301,7 +301,7 @@ TEST(PnpRansac, GivesTheSameBitsHoweverItIsRun) {
 
 TEST(PnpRansac, TheSeedChoosesTheSamples) {
   Random random = randomFor("PnpRansac.TheSeedChoosesTheSamples");
-  const PnpScene scene = makeScene(random, {.points = 100, .outlier_share = 0.6, .noise_px = 1.0});
+  const PnpScene scene = makeScene(random, {.points = 100, .outlier_share = 0.9, .noise_px = 1.0});
   PnpOptions options;
   options.max_samples = 2;
   options.min_inliers = 4;

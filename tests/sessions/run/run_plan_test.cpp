@@ -81,6 +81,8 @@ TEST(RunPlan, KeepsTheFirstIterationsAndChangesTheOthers) {
   const LocalizationTrace plain = runOf(LocalizerOptions());
   LocalizerOptions longer;
   longer.loop.converged_iterations = 4;
+  longer.loop.converged_image_px = 0.0;  // until the metric limits hold four times
+  longer.loop.converged_translation_m = 1e-9;
   const LocalizationTrace rerun = runOf(continuedPlan(LocalizerOptions(), 3, longer));
   ASSERT_GT(plain.iterations.size(), 3u);
   ASSERT_GT(rerun.iterations.size(), 3u);

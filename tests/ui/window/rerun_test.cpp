@@ -49,7 +49,8 @@ TEST_F(RerunTest, KeepsWhatWasBeforeAndRecordsARunThatIsTheSameHeadless) {
     EXPECT_EQ(now->iterations[at]->camera_from_station.translation_m,
               first_->iterations[at]->camera_from_station.translation_m);
   }
-  EXPECT_NE(now->iterations[kFrom + 1]->threshold_px, first_->iterations[kFrom + 1]->threshold_px);
+  EXPECT_NE(now->iterations[kFrom + 1]->camera_from_station.translation_m,
+            first_->iterations[kFrom + 1]->camera_from_station.translation_m);
   EXPECT_EQ(window_.cases().staleness(), QString());
 
   const sessions::RunRecord& record = runs()[1];
