@@ -115,7 +115,7 @@ TEST_F(Downlink, IsLocalizedJudgedHandedOverAndVerified) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const ProgramRun decided = runWhs(
       {"decide", session_, "--case", "sol12", "--validate", "--by", "Ada", "--comment", "right",
-       "--pass-over", "covariance_lateral=0.40 mm at the camera; the arm's end is not known here"});
+       "--pass-over", "covariance_lateral=at the camera as the end effector is not known"});
   EXPECT_EQ(decided.exit_code, 0) << decided.out << decided.err
                                   << runWhs({"check", session_, "--basin", "0"}).out;
   const std::string file = (folder_ / "pose.json").string();
