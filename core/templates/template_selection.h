@@ -67,7 +67,7 @@ int templateSide(const TemplateOptions& options, double feature_size_m, double d
 class TemplateSelector {
  public:
   static constexpr int kMinSide_px = 16;   ///< smaller squares hold too few edge pixels
-  static constexpr int kMaxSide_px = 256;  ///< larger squares match slowly, and no better
+  static constexpr int kMaxSide_px = 256;  ///< larger squares take long to match
   static constexpr int kMinCount = 6;      ///< fewer matches rarely agree on a pose by RANSAC
   /// Edge pixels that a template must hold: fewer match anywhere.
   static constexpr int kMinEdgePixels = 12;
