@@ -25,8 +25,8 @@ struct Loaded {
   LocalizerOptions options;
 
   LocalizationProblem problem() const {
-    return sessions::problemOf(image, nullptr, camera, scene.view(),
-                               camera_from_station_seed, uncertainty);
+    return sessions::problemOf(image, nullptr, camera, scene.view(), camera_from_station_seed,
+                               uncertainty);
   }
 };
 

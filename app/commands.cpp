@@ -201,10 +201,11 @@ LocalizerOptions profileOptions(const std::string& name) {
 
 void OptionArguments::addTo(CLI::App& command) {
   command
-      .add_option("--profile", profile,
-                  "Set of parameters: default (whatever is best), paper (as published), or flight "
-                  "(the default's on gray images, within 10,000,000 bytes of memory, image and mesh "
-                  "included)")
+      .add_option(
+          "--profile", profile,
+          "Set of parameters: default (whatever is best), paper (as published), or flight "
+          "(the default's on gray images, within 10,000,000 bytes of memory, image and mesh "
+          "included)")
       ->check(CLI::IsMember({"default", "paper", "flight"}));
   command.add_option("--config", config, "config.json: a profile and the options that differ")
       ->type_name("FILE");

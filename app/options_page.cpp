@@ -21,7 +21,7 @@ struct Column {
   Options options;
 };
 
-/// "wide" of wide.rotation_rad.
+/// "edges" of edges.high_quantile.
 std::string groupOf(const OptionDescription& option) {
   return option.name.substr(0, option.name.find('.'));
 }

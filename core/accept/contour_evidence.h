@@ -18,7 +18,7 @@ struct EvidencePlace {
   bool outline = false;        ///< the other side is background
 };
 
-/// How strongly the directed edges of an image speak for a pose, against what the image shows
+/// How strongly the directed edges of an image support a pose, against what the image shows
 /// around its edges anyway: the mean over places of
 ///     log((0.6 p(d) + 0.4 b(d)) / b(d))
 /// with d the directed distance (distanceToDirection) to the nearest edge, p(d) the shares of
@@ -32,7 +32,7 @@ struct ContourEvidence {
   std::array<double, 4> quadrant_nats{};          ///< mean over the places of a quadrant
   std::array<std::int32_t, 4> quadrant_places{};  ///< about the middle of all places
 
-  /// The least of the quadrants that hold a tenth of the places.
+  /// Minimum of strongest_nats() and of the quadrants that hold at least a tenth of the places.
   double weakest_nats() const;
   /// The outline's, or that of all edges where this is larger: an outline before a dark background
   /// is not seen, and inner edges are often not those of the mesh.

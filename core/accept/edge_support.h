@@ -25,7 +25,7 @@ inline double shareOf(std::int32_t part, std::int32_t whole) {
   return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
 }
 /// What exceeds chance, in [0, 1].
-inline double beyondChance(double share, double chance) {
+inline double aboveChance(double share, double chance) {
   return share > chance && chance < 1.0 ? (share - chance) / (1.0 - chance) : 0.0;
 }
 
@@ -33,10 +33,10 @@ inline double beyondChance(double share, double chance) {
 /// *coverage*, how much of what the pose predicts is seen: rendered edge pixels where the strongest
 /// derivative of the raw image along the edge's normal, within the search radius, lies near the
 /// edge; *explained*, how much of what is seen on the object is predicted: test edges inside the
-/// mask with a rendered edge within one pixel (the rest is texture, shadow, or somebody else's
-/// edge). Both also come about by chance, the more the denser the edges: the same counts with the
-/// render displaced in four directions say how much. What exceeds chance counts. A wrong pose
-/// covers a part and explains little; a dark or textured object is strong in one of the two.
+/// mask with a rendered edge within one pixel (the rest is texture, shadow, or edges of
+/// other objects). Both also come about by chance, the more the denser the edges: the same counts
+/// with the render displaced in four directions say how much. What exceeds chance counts. A wrong
+/// pose covers a part and explains little; a dark or textured object is strong in one of the two.
 struct EdgeSupport {
   std::int32_t rendered =
       0;  ///< rendered edge pixels looked at (an even subset of many), not ignored
@@ -57,8 +57,8 @@ struct EdgeSupport {
   double chanceExplanation() const { return 0.25 * shareOf(displaced_explained, seen); }
   /// (2 coverage + explanation) / 3, each as its excess over chance, in [0, 1].
   double share() const {
-    return (2.0 * beyondChance(coverage(), chanceCoverage()) +
-            beyondChance(explanation(), chanceExplanation())) /
+    return (2.0 * aboveChance(coverage(), chanceCoverage()) +
+            aboveChance(explanation(), chanceExplanation())) /
            3.0;
   }
 };

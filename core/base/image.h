@@ -9,7 +9,7 @@
 
 namespace boresight {
 
-/// An 8-bit gray image that somebody else owns; rows are `stride` bytes apart.
+/// A view of an 8-bit gray image, which does not own the pixels; rows are `stride` bytes apart.
 struct ImageView {
   const std::uint8_t* data = nullptr;  ///< the top-left pixel; not owned
   int width = 0;                       ///< px
@@ -22,8 +22,8 @@ struct ImageView {
   std::uint8_t at(int x, int y) const { return row(y)[x]; }
 };
 
-/// An image of three 8-bit channels that somebody else owns, pixel by pixel, in any order of the
-/// channels; rows are `stride` bytes apart.
+/// A view of an image of three interleaved 8-bit channels, in any order, which does not own the
+/// pixels; rows are `stride` bytes apart.
 struct ColorView {
   static constexpr int kChannels = 3;  ///< bytes of a pixel
   const std::uint8_t* data = nullptr;  ///< the top-left pixel; not owned; nullptr: no colour

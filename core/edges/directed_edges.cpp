@@ -26,7 +26,8 @@ std::size_t placeOf(int x, int y, int width) {
 void sumColumns(const SmallImage& image, int y, Row<std::int32_t>& smooth,
                 Row<std::int32_t>& derivative) {
   const std::uint8_t* row[5];
-  for (int i = 0; i < 5; ++i) row[i] = image.value.data() + placeOf(0, y + i - kBorder, image.width);
+  for (int i = 0; i < 5; ++i)
+    row[i] = image.value.data() + placeOf(0, y + i - kBorder, image.width);
   for (int x = 0; x < image.width; ++x) {
     const auto at = static_cast<std::size_t>(x);
     smooth[at] = row[0][x] + 4 * (row[1][x] + row[3][x]) + 6 * row[2][x] + row[4][x];

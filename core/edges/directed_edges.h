@@ -19,8 +19,8 @@ int directionsApart(int one, int other);
 struct SmallImage {
   std::span<std::uint8_t> value;  ///< row by row; capacity, the first width * height are valid
   std::span<std::uint8_t> seen;   ///< the same; 1: known
-  int width = 0;                 ///< px
-  int height = 0;                ///< px
+  int width = 0;                  ///< px
+  int height = 0;                 ///< px
 
   /// Takes an image of up to `pixels` from `arena`.
   static SmallImage create(std::size_t pixels, Arena& arena);

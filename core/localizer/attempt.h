@@ -48,7 +48,6 @@ class Attempt {
   /// Whether the next pass starts an iteration.
   bool atIterationStart() const { return hypothesis_ == 0; }
   /// Where the attempt started.
-  const Seed& seed() const { return seed_; }
   /// The estimate so far.
   const Pose& camera_from_station() const { return camera_from_station_; }
   /// Covariance of the estimate, as PnP or the refinement gives it.

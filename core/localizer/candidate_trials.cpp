@@ -62,8 +62,8 @@ bool CandidateTrials::nextIsWorthwhile(int attempt, const RunContext& run) const
 }
 
 Attempt CandidateTrials::next(int attempt, const RunContext& run) {
-  const bool leads = best_probability_ >= 0.0;
-  if (!leads && triesSeed(attempt, run)) {
+  const bool has_pose = best_probability_ >= 0.0;
+  if (!has_pose && triesSeed(attempt, run)) {
     seed_tried_ = true;
     return Attempt(attempt, seed_);
   }

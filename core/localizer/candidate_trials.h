@@ -55,8 +55,8 @@ class CandidateTrials {
   Pose best_before_;  ///< where the last iteration of the best attempt started
 };
 
-/// How far the truth may be from a candidate whose templates are matched; not farther than from the
-/// seed. About the scene's middle.
+/// How far the truth may be from a candidate whose templates are matched, about the scene's middle:
+/// in rotation at most as far as from the seed; in translation by the object's size and depth.
 SeedUncertainty uncertaintyAbout(const Pose& camera_from_station, const Seed& seed,
                                  const BoundingBox& scene);
 

@@ -113,8 +113,7 @@ class Localizer {
   StepReport finish(LocalizationStatus status, StepReport report);
   void iterate(const Attempt& attempt);
   void startTrials();
-  /// Not when the caller matches: then every attempt starts from the seed.
-  bool searches() const { return pass_.options().search.enabled && !pass_.matchesOutside(); }
+  bool searches() const { return pass_.searches(); }
 
   std::span<std::byte> memory_;
   int workers_;

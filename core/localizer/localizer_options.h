@@ -49,8 +49,9 @@ struct LoopOptions {
     visit(OptionInfo{"loop.max_iterations", "", 1, 50, "An attempt ends after so many iterations."},
           self.max_iterations);
     visit(OptionInfo{"loop.max_attempts", "", 1, 3,
-                     "A run that fails starts again from the seed with templates of twice, then "
-                     "half the size."},
+                     "Attempts of a run, at most: from candidates of the search, the last one from "
+                     "the seed. Without a search: from the seed, with templates of the same, twice "
+                     "and half the size."},
           self.max_attempts);
     visit(OptionInfo{"loop.match_iterations", "", 1, 50,
                      "So many iterations match templates; those after refine the pose on edges."},

@@ -72,6 +72,8 @@ class Pass {
   void matchOutside(const SurfaceRender& surfaces);
   /// Whether the caller matches.
   bool matchesOutside() const { return match_outside_; }
+  /// Not when the caller matches: then every attempt starts from the seed.
+  bool searches() const { return options_.search.enabled && !match_outside_; }
   /// Takes matches in place of those of WHS. kInvalidOption when the pass waits for none,
   /// kCapacityExceeded when there are more than its memory holds.
   Status supplyMatches(std::span<const SuppliedMatch> supplied);

@@ -196,8 +196,8 @@ Status PassMemory::Layout::layOutStages() {
     status = to.evidence.create(scratch);
     if (scratch.countsOnly()) bytesOf(Stage::kSupport) = scratch.highWater();
   }
-  std::size_t both = 0;
-  shareScratch(both);
+  [[maybe_unused]] std::size_t of_samples_and_evidence = 0;  // counted above
+  shareScratch(of_samples_and_evidence);
   if (status == Status::kOk) {
     status = to.detector.begin(problem.image, problem.ignore, options.edges, kept, scratch,
                                levels.fine, edges);

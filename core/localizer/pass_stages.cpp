@@ -260,7 +260,7 @@ StepReport Pass::stepRefine() {
   return end(Stage::kRefine);
 }
 
-/// Edge support at once; evidence, where the options ask for it, in slices.
+/// Edge support and edge width at once; evidence, after a search, in slices.
 StepReport Pass::stepSupport() {
   if (!stage_begun_) {
     const Iteration& now = record();
@@ -268,22 +268,20 @@ StepReport Pass::stepSupport() {
                                             problem_.ignore);
     workspace_.evidence = {};
     workspace_.probability = 0.0;
-    workspace_.edge_width = {};
+    workspace_.edge_width =
+        measureEdgeWidth(now.render, now.level, problem_.image, problem_.ignore);
     outcome_.support = workspace_.support;
     digest_.tag("support");
     digestSupport(workspace_.support, digest_);
+    digestEdgeWidth(workspace_.edge_width, digest_);
     stage_begun_ = true;
-    if (!options_.search.enabled || !memory_.evidence.begin(searched_, now.render))
-      return end(Stage::kSupport);
+    if (!searches() || !memory_.evidence.begin(searched_, now.render)) return end(Stage::kSupport);
   }
   if (!memory_.evidence.step()) return StepReport::of(Stage::kSupport, false);
   outcome_.evidence = workspace_.evidence = memory_.evidence.evidence();
   outcome_.probability = workspace_.probability =
       poseProbability(workspace_.evidence, workspace_.support);
   digestEvidence(workspace_.evidence, digest_);
-  const Iteration& now = record();
-  workspace_.edge_width = measureEdgeWidth(now.render, now.level, problem_.image, problem_.ignore);
-  digestEdgeWidth(workspace_.edge_width, digest_);
   return end(Stage::kSupport);
 }
 

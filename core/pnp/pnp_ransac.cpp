@@ -22,12 +22,12 @@ constexpr int kMaxSamplesPerStep = 64;
 constexpr int kSampleSize = 3;
 /// RANSAC ends at this probability of having drawn a sample without outliers.
 constexpr double kConfidence = 0.999;
-/// Refits on the inliers after each new best sample: more rarely add inliers.
+/// Refits on the inliers after each new best sample, at most.
 constexpr int kLocalOptimizations = 3;
 /// The prior's sigma in guided samples as a multiple of the uncertainty: weak against three
 /// matches.
 constexpr double kPriorFactor = 3.0;
-/// Steps of a refit of the result: it converges in fewer.
+/// Steps of a refit of the result, at most.
 constexpr int kRefineSteps = 20;
 constexpr int kMostRedraws = 32;
 

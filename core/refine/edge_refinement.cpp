@@ -20,7 +20,7 @@ constexpr double kSharedNoise = 4.0;
 /// others: a lit ground or face beyond a shaded one, whose edges lie 0.1 to 0.3 px inside.
 constexpr double kRisingWeight = 0.4;
 
-/// What a place counts for, besides its robust weight.
+/// Weight of an edge by its side, multiplied with the robust weight.
 double shareOf(const EdgeSample& sample) { return sample.gradient > 0.0 ? kRisingWeight : 1.0; }
 
 /// The lower triangle of a symmetric matrix is filled.
@@ -164,6 +164,9 @@ Status EdgeRefinement::gather(EdgeEquations& found) {
   const double noise_px2 = std::max(variance_px2, kMinScale_px * kMinScale_px) * kSharedNoise;
   made.information /= noise_px2;
   made.gradient /= noise_px2;
+  // Views of different noise are added.
+  found.errors.curvature /= noise_px2;
+  found.errors.squares /= noise_px2 * noise_px2;
   return Status::kOk;
 }
 
@@ -260,7 +263,7 @@ EdgeEquations EdgeRefinement::weightedEquations(double& weights) {
   return equations;
 }
 
-/// Notes for the covariance a sample whose residual is this part of where weights end.
+/// Adds a sample to the sums of the covariance; `ratio`: residual over the cut-off of the weights.
 void EdgeRefinement::noteGroups(const EdgeSample& sample, const Eigen::Vector2d& pixel,
                                 const Vector6d& row, double ratio, Matrix6d& curvature) {
   const double squared = ratio * ratio;

@@ -86,7 +86,7 @@ class EdgeRefinement {
   static constexpr int kMinSamples = 4000;
   static constexpr double kSampleSpacing_px = 2.0;  ///< nearer places share their errors
   static constexpr int kMinFound = 60;              ///< ten per unknown; fewer edges are no pose
-  static constexpr int kRounds = 10;                ///< at most; Gauss-Newton settles in fewer
+  static constexpr int kRounds = 10;                ///< of a refinement, at most
   /// Edges are searched again once the rendered ones have moved by this along their normals (root
   /// mean square): nearer, the search finds the same.
   static constexpr double kSearchAgain_px = 0.1;

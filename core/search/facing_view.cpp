@@ -41,7 +41,7 @@ TangentBox boxOfScene(const MeshView& mesh, const Pose& view_from_station) {
   return box;
 }
 
-/// What of the view the real image shows, by a grid of its pixels.
+/// Bounding box of the real image in the view, from a grid of its pixels.
 TangentBox boxOfImage(const Camera& camera, const Pose& view_from_camera) {
   constexpr int kSteps = 8;
   TangentBox box;

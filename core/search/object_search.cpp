@@ -39,10 +39,15 @@ Eigen::Vector3d reachOf(const SearchProblem& problem) {
   const Eigen::Vector3d arm_m =
       (problem.camera_from_station_seed * problem.scene.centre() - seed.pivot_in_camera_m)
           .cwiseAbs();
-  const Eigen::Vector3d turn = seed.rotation_rad.cwiseMin(1.0);
-  return seed.translation_m + Eigen::Vector3d(turn.y() * arm_m.z() + turn.z() * arm_m.y(),
-                                              turn.x() * arm_m.z() + turn.z() * arm_m.x(),
-                                              turn.x() * arm_m.y() + turn.y() * arm_m.x());
+  const Eigen::Vector3d turn = seed.rotation_rad.cwiseMin(1.0);  // sine, at most
+  const Eigen::Vector3d squared = seed.rotation_rad.cwiseProduct(seed.rotation_rad);
+  const auto away = [](double squared_rad2) { return std::min(0.5 * squared_rad2, 2.0); };
+  return seed.translation_m + Eigen::Vector3d(turn.y() * arm_m.z() + turn.z() * arm_m.y() +
+                                                  away(squared.y() + squared.z()) * arm_m.x(),
+                                              turn.x() * arm_m.z() + turn.z() * arm_m.x() +
+                                                  away(squared.x() + squared.z()) * arm_m.y(),
+                                              turn.x() * arm_m.y() + turn.y() * arm_m.x() +
+                                                  away(squared.x() + squared.y()) * arm_m.z());
 }
 
 }  // namespace
@@ -241,9 +246,10 @@ void ObjectSearch::addPlace(int direction, int x, int y) {
       addMean(0, columns());
       continue;
     }
-    const std::uint8_t* map = maps_[index].data() + (y_px * edges.width + left);
+    const std::uint8_t* row_of_map = maps_[index].data() + y_px * edges.width;
     addMean(0, first);
-    for (int k = first; k < end; ++k) sum[k] = static_cast<std::uint16_t>(sum[k] + map[k]);
+    for (int k = first; k < end; ++k)
+      sum[k] = static_cast<std::uint16_t>(sum[k] + row_of_map[left + k]);
     addMean(end, columns());
   }
 }

@@ -29,8 +29,9 @@ struct SearchGrid {
   int slide_y_px = 0;       ///< to either side, every pixel
 };
 
-/// Searches the pose of the whole object over its seed's uncertainty, whatever that is: outlines
-/// rendered for a grid of tilts are turned, scaled and slid over maps of directed distances
+/// Searches the pose of the whole object over its seed's uncertainty, at most 60 % of the depth and
+/// 56 deg aside: outlines rendered for a grid of tilts are turned, scaled and slid over maps of
+/// directed distances
 /// (distanceToDirection); the poses whose outlines lie nearest to the image's edges are the
 /// candidates. Chamfer matching (Borgefors 1988) with directions (Olson and Huttenlocher 1997).
 class ObjectSearch {
@@ -49,8 +50,6 @@ class ObjectSearch {
 
   /// The best poses, the best first.
   std::span<const SearchCandidate> candidates() const { return found_.candidates(); }
-  /// What is searched.
-  const SearchGrid& grid() const { return grid_; }
   /// Poses compared so far, slides included.
   std::int64_t poses() const { return poses_; }
 

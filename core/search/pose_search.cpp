@@ -26,7 +26,7 @@ constexpr int kMeasuring = static_cast<int>(kLevels.size());
 constexpr double kMargin = 0.1;  ///< around the object, of its size
 /// Poses that differ by less in the search's view, after they were refined there, are the same.
 constexpr double kSame_px = 1.2;
-/// A pose with so much less evidence than the best is not refined further.
+/// Candidates behind the best by more than this are not refined further.
 constexpr double kBehind_nats = 0.35;
 /// Error that the last scale leaves, px of its view.
 constexpr double kRemaining_px = 1.5;
@@ -103,6 +103,7 @@ bool PoseSearch::beginTrial() {
 
 bool PoseSearch::endTrial() {
   now_.camera_from_station = view_edges_.inCamera(view_from_station_);
+  now_.error_px = kRemaining_px / view_edges_.view().pixels_per_px;
   // The last render is from close by.
   measureRender();
   int kept = 0;
@@ -200,7 +201,7 @@ bool PoseSearch::refine() {
   if (moved && ++pass_ < level.passes) return false;
   if (level_ == 0) return !endTrial();
   now_.camera_from_station = view_edges_.inCamera(view_from_station_);
-  now_.error_px = kRemaining_px / view_edges_.view().pixels_per_px;
+  if (moved) now_.error_px = kRemaining_px / view_edges_.view().pixels_per_px;
   ++level_;
   return beginLevel() ? false : !beginCandidate();
 }

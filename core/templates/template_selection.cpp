@@ -192,16 +192,14 @@ void TemplateSelector::chooseBest(const EdgeRender& render, int side_px, int cel
       best_[cell] = Best{};
     }
     const float distinctness = distinctnessOf(pixel, side_px);
-    if (distinctness <= best_[cell].distinctness ||
-        tooMuchIgnored(pixel, side_px, ignore, level))
+    if (distinctness <= best_[cell].distinctness || tooMuchIgnored(pixel, side_px, ignore, level))
       continue;
     best_[cell] = {distinctness, i};
   }
 }
 
 Status TemplateSelector::select(const EdgeRender& render, int side_px, const BitImage* ignore,
-                                int level,
-                                TemplateSet& output) {
+                                int level, TemplateSet& output) {
   output.count = 0;
   output.side_px = side_px;
   sumScatter(render, side_px);

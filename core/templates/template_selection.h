@@ -68,7 +68,7 @@ class TemplateSelector {
  public:
   static constexpr int kMinSide_px = 16;   ///< smaller squares hold too few edge pixels
   static constexpr int kMaxSide_px = 256;  ///< larger squares take long to match
-  static constexpr int kMinCount = 6;      ///< fewer matches rarely agree on a pose by RANSAC
+  static constexpr int kMinCount = 6;      ///< as many inliers as a pose needs by default
   /// Edge pixels that a template must hold: fewer match anywhere.
   static constexpr int kMinEdgePixels = 12;
   /// Of a template's predicted area: the rest must hold enough of the image to match.

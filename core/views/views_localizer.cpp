@@ -78,8 +78,8 @@ Status ViewsLocalizer::requiredBytes(const ViewsProblem& problem, const Localize
     one.camera = view.camera;
     one.mesh = problem.mesh;
     std::size_t own = 0;
-    const Status sized = boresight::requiredBytes(
-        sizeOf(one), withoutSearch(options), workers, own, kernels);
+    const Status sized =
+        boresight::requiredBytes(sizeOf(one), withoutSearch(options), workers, own, kernels);
     if (sized != Status::kOk) return sized;
     bytes += (own + Arena::kAlignment - 1) / Arena::kAlignment * Arena::kAlignment;
   }
@@ -322,21 +322,24 @@ StepReport ViewsLocalizer::stepSupport() {
   if (leading().kind == IterationKind::kMatch) chooseRefining();
   int supported = 0;
   int refused = 0;
+  LocalizationStatus refusal = LocalizationStatus::kNotSupported;
   for (std::size_t v = 0; v < views_.size(); ++v) {
     if (!views_[v].refines) continue;
-    const EdgeSupport& support = view(static_cast<int>(v)).workspace().support;
-    result_.views[v].support = support;
-    const bool good = !options_.support.gate || support.share() >= options_.support.min_support;
+    const Workspace& seen = view(static_cast<int>(v)).workspace();
+    result_.views[v].support = seen.support;
+    const bool sharp = !options_.support.gate || seen.edge_width.isSharp();
+    const bool good = sharp && isSupported(seen.support, options_.support);
     (good ? supported : refused) += 1;
     if (good) continue;
     views_[v].refines = false;
     views_[v].dropped_in_attempt = leading().attempt;
-    latest_[v].status = LocalizationStatus::kNotSupported;
+    refusal = sharp ? LocalizationStatus::kNotSupported : LocalizationStatus::kBlurred;
+    latest_[v].status = refusal;
   }
   noteViews();
   if (supported > 0 && refused > 0) return decide(attempt_.goOn(first().context()));
-  return decide({supported > 0 ? Ruling::Next::kPose : Ruling::Next::kFailed,
-                 LocalizationStatus::kNotSupported, Stage::kSupport, false, attempt_.record()});
+  return decide({supported > 0 ? Ruling::Next::kPose : Ruling::Next::kFailed, refusal,
+                 Stage::kSupport, false, attempt_.record()});
 }
 
 const Iteration* ViewsLocalizer::iterationOf(int index) const {

@@ -33,8 +33,8 @@ namespace boresight {
 /// support is dropped for the attempt, and the run goes on to refine without it. The result is the
 /// pose for which all remaining views have support.
 ///
-/// Not offered: the global search, competing poses, partial support, matches from outside,
-/// covariances by groups of errors (kInvalidOption).
+/// Not offered: competing poses (kInvalidOption), matches from outside. There is no search: views
+/// start from their common seed.
 class ViewsLocalizer {
  public:
   /// Bytes of arena, in a block aligned to Arena::kAlignment: the sum of each view's, and some ten

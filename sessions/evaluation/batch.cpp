@@ -234,8 +234,8 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
   }
   const BitImage ignore = image->ignore ? image->ignore->view() : BitImage{};
   const LocalizationProblem problem =
-      problemOf(image->image, image->ignore ? &ignore : nullptr,
-                dataset_.cameras.at(one.camera), scene->scene.view(), seed, *one.uncertainty);
+      problemOf(image->image, image->ignore ? &ignore : nullptr, dataset_.cameras.at(one.camera),
+                scene->scene.view(), seed, *one.uncertainty);
   result.camera_from_station_seed = problem.camera_from_station_seed;
   result.camera_from_station = problem.camera_from_station_seed;
   result.seed_error = errorOf(one, problem.camera, problem.camera_from_station_seed, *scene);

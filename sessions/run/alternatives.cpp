@@ -68,9 +68,10 @@ std::size_t chosenCandidate(const LocalizationTrace& run) {
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < run.candidates.size() && run.converged(); ++i) {
-    const double apart =
-        perturbationBetween(run.candidates[i].camera_from_station, run.camera_from_station)
-            .squaredNorm();
+    Vector6d xi =
+        perturbationBetween(run.candidates[i].camera_from_station, run.camera_from_station);
+    xi.head<3>() *= run.camera_from_station.translation_m.norm();  // a turn, seen at its distance
+    const double apart = xi.squaredNorm();
     if (apart < least) nearest = i;
     least = std::min(least, apart);
   }

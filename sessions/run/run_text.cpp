@@ -76,7 +76,7 @@ std::string pnpFailedText(const LocalizationTrace& trace, const IterationTrace& 
   if (last.kind == IterationKind::kRefine) {
     return format(
         "refinement found an image edge at %d of %d places along the rendered edges and used %d, "
-        "needed %d within %.1f px; stretch the contrast of the image if it is faint",
+        "needed %d within %.1f px; check exposure and focus of the image, and the seed",
         last.refinement.found_count, last.refinement.sample_count, last.refinement.used_count,
         EdgeRefinement::kMinFound, last.threshold_px);
   }

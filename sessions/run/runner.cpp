@@ -35,7 +35,8 @@ int threadsOf(int asked, std::size_t memory_limit, int jobs) {
 std::size_t inputBytes(const LocalizationProblem& problem) {
   const ImageView& image = problem.image;
   const MeshView& mesh = problem.mesh;
-  return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) +
+  const std::size_t channels = problem.color.data != nullptr ? 1 + ColorView::kChannels : 1;
+  return channels * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) +
          (problem.ignore != nullptr ? problem.ignore->words.size_bytes() : 0) +
          mesh.vertices_in_station_m.size_bytes() + mesh.faces.size_bytes() +
          mesh.part_of_face.size_bytes() + mesh.parts.size_bytes();

@@ -13,6 +13,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 /// The test matcher as a command, without quotes: runProgram's own surround it.
 std::string matcherCommand(const std::string& what) {
@@ -51,6 +52,14 @@ TEST_F(WhsMethods, ResultNamesTheMethodAndItsOptions) {
   const auto result = nlohmann::json::parse(folder_.read("result.json"));
   EXPECT_THAT(result.dump(),
               AllOf(HasSubstr("\"method\":\"ncc\""), HasSubstr("\"ncc.kind\":\"ccorr_normed\"")));
+}
+
+TEST_F(WhsMethods, APoseFoundWithoutASearch_IsJudgedByEdgeSupportAndReportedSo) {
+  const ProgramRun run =
+      runWhs(localizeArguments({{"--method", "ncc"}, {"--set", "support.min_support=1"}}));
+  EXPECT_EQ(run.exit_code, 4) << run.out;
+  EXPECT_THAT(run.out + run.err,
+              AllOf(HasSubstr("edge support is"), Not(HasSubstr("probability"))));
 }
 
 TEST_F(WhsMethods, RefusesWhatDoesNotFit) {

@@ -66,7 +66,7 @@ std::vector<TableColumn<Alternative>> columns() {
           "same."),
        2, [](Row one) { return one.similarity; }},
       {tr("Evidence, nats"),
-       tr("How strongly the image's edges speak for a candidate: mean over its edges and half of "
+       tr("How strongly the image's edges support a candidate: mean over its edges and half of "
           "the weakest quadrant, in nats."),
        2, [](Row one) { return one.evidence_nats; }},
       {tr("Inliers"), tr("Matches that agree with its pose."), 0,

@@ -6,7 +6,7 @@
 
 namespace boresight::ui {
 
-/// "Rival 2", "Restart +40.0 deg, -25 mm", "Rolled by +5.0 deg".
+/// "Rival 2", "Candidate 1", "Rolled by +5.0 deg".
 QString alternativeTitle(const sessions::Alternative& one);
 /// What it was weighed against: "Result of the run", "Chosen candidate", "Chosen roll".
 QString chosenTitle(const sessions::Alternative& one);

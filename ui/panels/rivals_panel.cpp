@@ -17,7 +17,8 @@ RivalsPanel::RivalsPanel(ViewState& view, QWidget* parent) : QWidget(parent), vi
   auto* hint = new EmptyHint(*table_);
   hint->setText(
       tr("Poses that a run weighs beside the one it goes on with: rivals of its result "
-         "(ambiguity.enabled), candidates of the search, rolled hypotheses. The chosen row is drawn on the image."));
+         "(ambiguity.enabled), candidates of the search, rolled hypotheses. The chosen row is "
+         "drawn on the image."));
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& current) {
             if (!showing_) choose(current.isValid() ? current.row() : -1);

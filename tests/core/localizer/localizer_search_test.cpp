@@ -48,6 +48,21 @@ TEST(LocalizerSearch, TurnedSeed_IsFoundWhenTheUncertaintySaysSo) {
   }
 }
 
+TEST(LocalizerSearch, SeedTurnedAboutTheCamera_IsFoundBesideTheOpticalAxis) {
+  Case scene = stationCase(3);
+  scene.truth.translation_m += Eigen::Vector3d(0.06, 0.01, 0.2);
+  const Picture picture = takePicture(scene.solid, scene.camera, scene.truth);
+  scene.picture = &picture;
+  const Eigen::Quaterniond turn = rotationExp({0.0, 0.0, 175.0 * kDegree_rad});
+  scene.seed.rotation = (turn * scene.truth.rotation).normalized();
+  scene.seed.translation_m = turn * scene.truth.translation_m;
+  scene.uncertainty.pivot_in_camera_m.setZero();
+  scene.uncertainty.rotation_rad.z() = kPi;
+  OwnedRun run(scene.problem(), defaultProfile());
+  EXPECT_GT(run.finish(), 0);
+  expectTruth(scene, run.localizer.workspace());
+}
+
 TEST(LocalizerSearch, Seed75MillimetresOff_IsFoundWhenTheUncertaintySaysSo) {
   for (const Eigen::Vector3d& off_m :
        {Eigen::Vector3d(0.0, 0.0, 0.075), Eigen::Vector3d(0.0, 0.0, -0.075),

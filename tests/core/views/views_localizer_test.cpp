@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "core/views/views_localizer.h"
@@ -110,6 +111,24 @@ TEST(ViewsLocalizer, TheSameViewTwiceGivesThePoseWithHalfTheCovariance) {
     EXPECT_LT(std::abs(difference[i]), 0.3 * std::sqrt(one.covariance(i, i)));
     EXPECT_NEAR(two.covariance(i, i) / one.covariance(i, i), 0.5, 0.02);
   }
+}
+
+TEST(ViewsLocalizer, ANoisySecondView_DoesNotMakeTheCovarianceLarger) {
+  const Case scene = stationCase(1);
+  Picture noisy = *scene.picture;
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 25.0);
+  for (std::uint8_t& gray : noisy.gray)
+    gray = static_cast<std::uint8_t>(std::clamp(gray + noise(random), 0.0, 255.0));
+  View second = viewOf(scene);
+  second.image = noisy.view();
+  ViewsRun alone(scene, {viewOf(scene)}, defaultProfile());
+  ViewsRun both(scene, {viewOf(scene), second}, defaultProfile());
+  const ViewsResult& one = alone.finish();
+  const ViewsResult& two = both.finish();
+  ASSERT_EQ(two.status, LocalizationStatus::kConverged);
+  ASSERT_GT(two.views[1].edges_used, 0);
+  for (int i = 0; i < 6; ++i) EXPECT_LT(two.covariance(i, i), 1.02 * one.covariance(i, i));
 }
 
 TEST(ViewsLocalizer, TwoCamerasConvergeOnTheTruthAndBothTakePart) {
