@@ -92,9 +92,10 @@ Ruling Localizer::rule(const PassOutcome& outcome) {
     const bool supported = searches() ? isProbable(outcome.probability, options)
                                       : isSupported(outcome.support, options);
     const bool blurred = options.gate && !workspace().edge_width.isSharp();
-    const LocalizationStatus refusal = left      ? LocalizationStatus::kLeftUncertainty
-                                       : blurred ? LocalizationStatus::kBlurred
-                                                 : LocalizationStatus::kNotSupported;
+    // Widths are those of the image's edges only where the pose is about right.
+    const LocalizationStatus refusal = left        ? LocalizationStatus::kLeftUncertainty
+                                       : supported ? LocalizationStatus::kBlurred
+                                                   : LocalizationStatus::kNotSupported;
     return {supported && !left && !blurred ? Ruling::Next::kPose : Ruling::Next::kFailed, refusal,
             Stage::kSupport, false, attempt_.record()};
   }

@@ -328,12 +328,13 @@ StepReport ViewsLocalizer::stepSupport() {
     const Workspace& seen = view(static_cast<int>(v)).workspace();
     result_.views[v].support = seen.support;
     const bool sharp = !options_.support.gate || seen.edge_width.isSharp();
-    const bool good = sharp && isSupported(seen.support, options_.support);
+    const bool supported = isSupported(seen.support, options_.support);
+    const bool good = sharp && supported;
     (good ? supported : refused) += 1;
     if (good) continue;
     views_[v].refines = false;
     views_[v].dropped_in_attempt = leading().attempt;
-    refusal = sharp ? LocalizationStatus::kNotSupported : LocalizationStatus::kBlurred;
+    refusal = supported ? LocalizationStatus::kBlurred : LocalizationStatus::kNotSupported;
     latest_[v].status = refusal;
   }
   noteViews();

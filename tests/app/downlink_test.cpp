@@ -114,8 +114,7 @@ TEST_F(Downlink, IsLocalizedJudgedHandedOverAndVerified) {
   const ProgramRun run = runWhs({"run", session_});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const ProgramRun decided = runWhs(
-      {"decide", session_, "--case", "sol12", "--validate", "--by", "Ada", "--comment", "right",
-       "--pass-over", "covariance_lateral=at the camera as the end effector is not known"});
+      {"decide", session_, "--case", "sol12", "--validate", "--by", "Ada", "--comment", "right"});
   EXPECT_EQ(decided.exit_code, 0) << decided.out << decided.err
                                   << runWhs({"check", session_, "--basin", "0"}).out;
   const std::string file = (folder_ / "pose.json").string();

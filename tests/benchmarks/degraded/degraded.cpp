@@ -224,7 +224,12 @@ Arguments read(const std::vector<std::string>& words) {
       continue;
     }
     const std::string& name = words[i];
-    const std::string& value = words.at(++i);
+    if (name == "--help")
+      throw std::invalid_argument(
+          "usage: degraded DATASET ... [--kind KIND] [--half 0|1] [--each N] [--wrong WHICH] "
+          "[--runs FILE] [--set NAME=VALUE]");
+    if (i + 1 == words.size()) throw std::invalid_argument(name + " needs a value");
+    const std::string& value = words[++i];
     if (name == "--set")
       setOption(value, read.options);
     else if (name == "--kind")

@@ -77,6 +77,42 @@ TEST(LocalizerSearch, Seed75MillimetresOff_IsFoundWhenTheUncertaintySaysSo) {
   }
 }
 
+/// A row of `length_px` pixels is averaged, as a camera that moves to the side does.
+Picture movedPicture(const Picture& sharp, int length_px) {
+  Picture moved = sharp;
+  for (int y = 0; y < sharp.height; ++y) {
+    const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(sharp.width);
+    for (int x = 0; x < sharp.width; ++x) {
+      int sum = 0;
+      for (int k = 0; k < length_px; ++k)
+        sum += sharp.gray[row + static_cast<std::size_t>(
+                                    std::clamp(x + k - length_px / 2, 0, sharp.width - 1))];
+      moved.gray[row + static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(sum / length_px);
+    }
+  }
+  return moved;
+}
+
+TEST(LocalizerSearch, PoseFromAMovedImage_IsRefusedAsBlurred) {
+  Case scene = stationCase(3);
+  const Picture moved = movedPicture(*scene.picture, 14);
+  scene.picture = &moved;
+  EXPECT_STREQ(localizationStatusText(endOf(scene, defaultProfile())), "blurred");
+}
+
+TEST(LocalizerSearch, WrongMeshBeforeASharpImage_IsNotCalledBlurred) {
+  Case scene = stationCase(3);
+  for (Eigen::Vector3f& vertex : scene.solid.vertices) vertex.x() = -vertex.x();
+  for (Face& face : scene.solid.faces) std::swap(face.vertex[1], face.vertex[2]);
+  for (const double share : {0.2, 0.4}) {
+    scene.uncertainty = uncertaintyAbout(scene.solid, scene.truth);
+    scene.seed = displacedSeed(scene.truth, scene.uncertainty, share, 3);
+    const LocalizationStatus end = endOf(scene, defaultProfile());
+    EXPECT_NE(end, LocalizationStatus::kConverged);
+    EXPECT_NE(end, LocalizationStatus::kBlurred);
+  }
+}
+
 TEST(LocalizerSearch, Candidates_AreOrderedByEvidenceAndTheFirstIsTheResult) {
   const Case scene = stationCase(3);
   OwnedRun run(scene.problem(), defaultProfile());
