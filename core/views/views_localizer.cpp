@@ -328,13 +328,13 @@ StepReport ViewsLocalizer::stepSupport() {
     const Workspace& seen = view(static_cast<int>(v)).workspace();
     result_.views[v].support = seen.support;
     const bool sharp = !options_.support.gate || seen.edge_width.isSharp();
-    const bool supported = isSupported(seen.support, options_.support);
-    const bool good = sharp && supported;
+    const bool explained = isSupported(seen.support, options_.support);
+    const bool good = sharp && explained;
     (good ? supported : refused) += 1;
     if (good) continue;
     views_[v].refines = false;
     views_[v].dropped_in_attempt = leading().attempt;
-    refusal = supported ? LocalizationStatus::kBlurred : LocalizationStatus::kNotSupported;
+    refusal = explained ? LocalizationStatus::kBlurred : LocalizationStatus::kNotSupported;
     latest_[v].status = refusal;
   }
   noteViews();
