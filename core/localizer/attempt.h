@@ -47,7 +47,7 @@ class Attempt {
   int index() const { return index_; }
   /// Whether the next pass starts an iteration.
   bool atIterationStart() const { return hypothesis_ == 0; }
-  /// Where the attempt started.
+
   /// The estimate so far.
   const Pose& camera_from_station() const { return camera_from_station_; }
   /// Covariance of the estimate, as PnP or the refinement gives it.

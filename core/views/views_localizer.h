@@ -30,8 +30,8 @@ namespace boresight {
 ///
 /// A view without enough matches, or whose matches disagree with the others', is left out (until
 /// the next matching iteration; from refinements, until the next attempt). A view without edge
-/// support is dropped for the attempt, and the run goes on to refine without it. The result is the
-/// pose for which all remaining views have support.
+/// support, or whose image is blurred, is dropped for the attempt, and the run refines without it.
+/// The result is the pose for which all remaining views have support.
 ///
 /// Not offered: competing poses (kInvalidOption), matches from outside. There is no search: views
 /// start from their common seed.

@@ -159,9 +159,8 @@ class CorrelationMethod final : public MatchingMethod {
   cv::Mat image_, render_, mask_;
 };
 
-constexpr int kPatch_px = 31;  ///< of ORB's descriptors, at their level
-constexpr int kImageFeatures =
-    4000;  ///< within the search windows together; ten for each of the render
+constexpr int kPatch_px = 31;         ///< of ORB's descriptors, at their level
+constexpr int kImageFeatures = 4000;  ///< in all search windows; ten for each of the render
 constexpr float kScaleFactor = 1.2F;  ///< between levels, as the authors of ORB have it
 constexpr int kFastThreshold = 10;    ///< gray values; half of OpenCV's, for faint images
 constexpr int kDescriptorBits = 256;

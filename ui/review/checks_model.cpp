@@ -41,7 +41,8 @@ std::vector<TableColumn<CheckRow>> columns() {
       {tr("Limit"), tr("What the figure must keep to: of the preset, or as edited under Limits."),
        -1, [](Row row) { return shortLimit(row.check); }},
       {tr("Reason to pass over"),
-       tr("A pose with a failed check can be validated only with a reason to pass over the check. The "
+       tr("A pose with a failed check can be validated only with a reason to pass over the check. "
+          "The "
           "reason is stored with the pose, and dropped when the measured value changes."),
        -1, reasonText},
   };
