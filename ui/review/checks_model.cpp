@@ -42,8 +42,7 @@ std::vector<TableColumn<CheckRow>> columns() {
        -1, [](Row row) { return shortLimit(row.check); }},
       {tr("Reason to pass over"),
        tr("A pose with a failed check can be validated only with a reason to pass over the check. "
-          "The "
-          "reason is stored with the pose, and dropped when the measured value changes."),
+          "The reason is stored with the pose, and dropped when the measured value changes."),
        -1, reasonText},
   };
 }
