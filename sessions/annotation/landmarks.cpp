@@ -19,8 +19,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kFormat = "boresight-landmarks";
-constexpr int kVersion = 1;
+constexpr const char* kLandmarksFormat = "boresight-landmarks";
+constexpr int kLandmarksVersion = 1;
 constexpr double kMaxCoordinate_m = 1e6;
 
 Landmark readLandmark(const JsonReader& json) {
@@ -72,11 +72,11 @@ constexpr double kMostRadius_px = 8.0;
 
 std::vector<Landmark> readLandmarks(const std::filesystem::path& file) {
   const auto bytes = readFileBytes(file, kMaxJsonBytes, FileUse::kLandmarks);
-  return JsonDocument(file, asText(bytes)).read(kFormat, kVersion, readMembers);
+  return JsonDocument(file, asText(bytes)).read(kLandmarksFormat, kLandmarksVersion, readMembers);
 }
 
 void writeLandmarks(const std::filesystem::path& file, const std::vector<Landmark>& landmarks) {
-  ordered_json json = {{"format", kFormat}, {"version", kVersion}};
+  ordered_json json = {{"format", kLandmarksFormat}, {"version", kLandmarksVersion}};
   json["landmarks"] = ordered_json::array();
   for (const Landmark& landmark : landmarks) json["landmarks"].push_back(landmarkJson(landmark));
   writeFileAtomically(file, prettyJson(json), FileUse::kLandmarks);

@@ -18,8 +18,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kFormat = "boresight-points";
-constexpr int kVersion = 1;
+constexpr const char* kMarksFormat = "boresight-points";
+constexpr int kMarksVersion = 1;
 constexpr double kMaxSigma_px = 1e4;
 constexpr double kMaxCoordinate_m = 1e6;
 
@@ -146,9 +146,8 @@ ordered_json toJson(const Marks& marks) {
 Marks readMarks(const std::filesystem::path& file) {
   const auto bytes = readFileBytes(file, kMaxJsonBytes, FileUse::kMarks);
   if (isTable(file)) return parseMarksCsv(file, asText(bytes));
-  return JsonDocument(file, asText(bytes)).read(kFormat, kVersion, [](const JsonReader& root) {
-    return readMarks(root);
-  });
+  return JsonDocument(file, asText(bytes))
+      .read(kMarksFormat, kMarksVersion, [](const JsonReader& root) { return readMarks(root); });
 }
 
 void writeMarks(const std::filesystem::path& file, const Marks& marks) {
@@ -156,7 +155,7 @@ void writeMarks(const std::filesystem::path& file, const Marks& marks) {
     writeFileAtomically(file, marksCsv(marks), FileUse::kMarks);
     return;
   }
-  ordered_json json = {{"format", kFormat}, {"version", kVersion}};
+  ordered_json json = {{"format", kMarksFormat}, {"version", kMarksVersion}};
   json.update(toJson(marks));
   writeFileAtomically(file, prettyJson(json), FileUse::kMarks);
 }

@@ -12,13 +12,13 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/image_container.h"
 #include "sessions/io/json_reader.h"
+#include "sessions/text/units.h"
 
 namespace boresight::sessions {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMillimetres = 1000.0;
 constexpr double kLeastVisible = 0.1;  ///< share of an object that the challenge asks for
 
 /// An entry of models_info.json.

@@ -14,6 +14,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
+#include "sessions/text/units.h"
 
 namespace boresight::sessions {
 namespace {
@@ -21,7 +22,6 @@ namespace {
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr double kMillimetres = 1000.0;
 constexpr double kMaxRotationDeviation = 1e-4;
 
 ordered_json cameraEntry(const Camera& camera) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/evaluation/model_error.h"
+#include "sessions/text/units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,6 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr double kMillimetres = 1e3;
 constexpr int kTurnSteps = 315;  ///< bop_toolkit: ceil(pi / 0.01)
 constexpr int kRefinements = 48;
 

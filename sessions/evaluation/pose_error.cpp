@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/evaluation/pose_error.h"
+#include "sessions/text/units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr double kMillimetres = 1e3;
-constexpr double kMilliradians = 1e3;
 constexpr double kGrossFactor = 3.0;
 
 /// Twist of a rotation about z in (-pi, pi] (swing-twist decomposition).

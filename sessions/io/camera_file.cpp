@@ -52,8 +52,8 @@ void cutSubframe(const JsonReader& json, Camera& camera) {
   camera.cahv.skew_px /= scale;
 }
 
-constexpr const char* kFormat = "boresight-camera";
-constexpr int kVersion = 1;
+constexpr const char* kCameraFormat = "boresight-camera";
+constexpr int kCameraVersion = 1;
 constexpr double kMinFocalLength_px = 1e-3;
 constexpr double kMaxFocalLength_px = 1e7;
 constexpr double kMaxPrincipalPoint_px = 1e6;
@@ -198,7 +198,8 @@ nlohmann::ordered_json toJson(const CalibrationSigma& sigma) {
 const char* cameraModelName(CameraModel model) { return kModelNames[static_cast<int>(model)]; }
 
 CameraFile readCameraFile(const JsonReader& json) {
-  if (json.has("format")) json.requireFormat(kFormat, kVersion);  // a file's content in a dataset
+  if (json.has("format"))
+    json.requireFormat(kCameraFormat, kCameraVersion);  // a file's content in a dataset
   (void)json.has("fitted_from");  // for people: the camera that this one was fitted to
   const CameraModel model = readModel(json);
   CameraFile file = isCahvFamily(model) ? readCahvCamera(model, json) : readLensCamera(model, json);
@@ -211,7 +212,7 @@ CameraFile readCameraFile(const std::filesystem::path& file) {
   if (isCahvorFile(file)) return readCahvorCamera(file);
   if (hasImageLabel(file)) return readLabelCamera(file);
   const JsonDocument document(file);
-  return document.read(kFormat, kVersion,
+  return document.read(kCameraFormat, kCameraVersion,
                        [](const JsonReader& json) { return readCameraFile(json); });
 }
 
@@ -253,7 +254,7 @@ void writeCamera(const std::filesystem::path& file, const Camera& camera) {
 }
 
 void writeCamera(const std::filesystem::path& file, const CameraFile& camera) {
-  nlohmann::ordered_json json = {{"format", kFormat}, {"version", kVersion}};
+  nlohmann::ordered_json json = {{"format", kCameraFormat}, {"version", kCameraVersion}};
   json.update(toJson(camera));
   writeJsonFile(file, json);
 }

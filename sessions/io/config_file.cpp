@@ -10,8 +10,8 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr const char* kFormat = "boresight-config";
-constexpr int kVersion = 1;
+constexpr const char* kConfigFormat = "boresight-config";
+constexpr int kConfigVersion = 1;
 
 OptionValue readValue(const JsonReader& json) {
   if (json.isBoolean()) return json.boolean();
@@ -39,7 +39,7 @@ OptionList readOptions(const JsonReader& json) {
 
 Config readConfig(const std::filesystem::path& file) {
   const JsonDocument document(file);
-  return document.read(kFormat, kVersion, [&file](const JsonReader& json) {
+  return document.read(kConfigFormat, kConfigVersion, [&file](const JsonReader& json) {
     Config config;
     config.file = file;
     if (const auto profile = json.find("profile")) config.profile = profile->nonEmptyText();

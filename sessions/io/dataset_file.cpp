@@ -13,11 +13,10 @@
 #include "sessions/io/json_reader.h"
 #include "sessions/io/labels/image_label.h"
 #include "sessions/io/mesh_container.h"
+#include "sessions/text/units.h"
 
 namespace boresight::sessions {
 namespace {
-
-constexpr double kMillimetres = 1000.0;
 
 Pose readDiscrete(const JsonReader& json) {
   const std::vector<JsonReader> numbers = json.elements(16);
@@ -32,8 +31,8 @@ Pose readDiscrete(const JsonReader& json) {
   return pose;
 }
 
-constexpr const char* kFormat = "boresight-dataset";
-constexpr int kVersion = 1;
+constexpr const char* kDatasetFormat = "boresight-dataset";
+constexpr int kDatasetVersion = 1;
 constexpr double kMaxFeatureSize_m = 100.0;
 constexpr double kMaxError = 1e6;
 constexpr std::pair<const char*, std::optional<double> Requirement::*> kLimits[] = {
@@ -294,7 +293,8 @@ nlohmann::ordered_json toJson(const Requirement& requirement) {
 
 Dataset readDataset(const std::filesystem::path& file) {
   const auto bytes = readFileBytes(file, kMaxJsonBytes);
-  Dataset dataset = JsonDocument(file, asText(bytes)).read(kFormat, kVersion, readMembers);
+  Dataset dataset =
+      JsonDocument(file, asText(bytes)).read(kDatasetFormat, kDatasetVersion, readMembers);
   dataset.file = file;
   dataset.sha256 = sha256Text(bytes);
   return dataset;

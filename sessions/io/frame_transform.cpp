@@ -11,8 +11,8 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr const char* kFormat = "boresight-transform";
-constexpr int kVersion = 1;
+constexpr const char* kTransformFormat = "boresight-transform";
+constexpr int kTransformVersion = 1;
 constexpr double kSameTranslation_m = 1e-6;
 constexpr double kSameRotation_rad = 1e-6;
 
@@ -62,8 +62,8 @@ bool nearlySame(const Pose& a, const Pose& b) {
 
 FrameTransform readFrameTransform(const std::filesystem::path& file) {
   const auto bytes = readFileBytes(file, kMaxJsonBytes);
-  FrameTransform transform =
-      JsonDocument(file, asText(bytes)).read(kFormat, kVersion, readTransformMembers);
+  FrameTransform transform = JsonDocument(file, asText(bytes))
+                                 .read(kTransformFormat, kTransformVersion, readTransformMembers);
   transform.file = file;
   transform.file_sha256 = sha256Text(bytes);
   return transform;

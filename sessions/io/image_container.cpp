@@ -17,7 +17,7 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::array<std::uint8_t, 8> kPngSignature = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
 
-[[noreturn]] void truncated(const std::filesystem::path& file, const char* container) {
+[[noreturn]] void truncatedImage(const std::filesystem::path& file, const char* container) {
   throw InputError(file, std::string("the ") + container + " image is truncated");
 }
 
@@ -32,9 +32,9 @@ ImageHeader checkPng(const std::filesystem::path& file, Bytes bytes) {
   std::uint64_t offset = kPngSignature.size();
   bool has_data = false;
   while (true) {
-    if (!holds(bytes, offset, 12)) truncated(file, "PNG");
+    if (!holds(bytes, offset, 12)) truncatedImage(file, "PNG");
     const std::uint64_t length = readUnsigned(bytes, offset, 4, true);
-    if (!holds(bytes, offset, 12 + length)) truncated(file, "PNG");
+    if (!holds(bytes, offset, 12 + length)) truncatedImage(file, "PNG");
     const Bytes type_and_data = bytes.subspan(offset + 4, 4 + length);
     const std::string type(asText(type_and_data.first(4)));
     if (crc32(type_and_data) != readUnsigned(bytes, offset + 8 + length, 4, true))
@@ -80,16 +80,16 @@ ImageHeader checkJpeg(const std::filesystem::path& file, Bytes bytes) {
   bool has_scan = false;
   while (true) {
     while (holds(bytes, offset, 2) && bytes[offset] == 0xff && bytes[offset + 1] == 0xff) ++offset;
-    if (!holds(bytes, offset, 2)) truncated(file, "JPEG");
+    if (!holds(bytes, offset, 2)) truncatedImage(file, "JPEG");
     if (bytes[offset] != 0xff) damaged(file, "a JPEG marker is missing");
     const std::uint8_t marker = bytes[offset + 1];
     offset += 2;
     if (marker == 0xd9) break;
     if (standsAlone(marker)) continue;
-    if (!holds(bytes, offset, 2)) truncated(file, "JPEG");
+    if (!holds(bytes, offset, 2)) truncatedImage(file, "JPEG");
     const std::uint64_t length = readUnsigned(bytes, offset, 2, true);
     if (length < 2) damaged(file, "a JPEG segment without its length");
-    if (!holds(bytes, offset, length)) truncated(file, "JPEG");
+    if (!holds(bytes, offset, length)) truncatedImage(file, "JPEG");
     if (isStartOfFrame(marker) && length >= 7) {
       header.height = static_cast<std::int64_t>(readUnsigned(bytes, offset + 3, 2, true));
       header.width = static_cast<std::int64_t>(readUnsigned(bytes, offset + 5, 2, true));
@@ -123,7 +123,7 @@ ImageHeader checkImageContainer(const std::filesystem::path& file, Bytes bytes) 
   if (startsWith(kPngSignature)) return checkPng(file, bytes);
   if (startsWith(std::array<std::uint8_t, 3>{0xff, 0xd8, 0xff})) return checkJpeg(file, bytes);
   if (isTiff(bytes)) return checkTiff(file, bytes);
-  if (startsWith(std::array<std::uint8_t, 4>{0x89, 'P', 'N', 'G'})) truncated(file, "PNG");
+  if (startsWith(std::array<std::uint8_t, 4>{0x89, 'P', 'N', 'G'})) truncatedImage(file, "PNG");
   throw InputError(file,
                    "not a PNG, JPEG or TIFF image, nor one with a VICAR, PDS3 or PDS4 label "
                    "in it or beside it");

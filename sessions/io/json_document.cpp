@@ -14,16 +14,16 @@
 namespace boresight::sessions {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 /// Builds the document and knows the place of every value, which nlohmann's own builder does not
 /// tell: duplicates and bad numbers are reported by field, syntax errors by line and column.
-class DocumentBuilder : public nlohmann::json_sax<json> {
+class DocumentBuilder : public nlohmann::json_sax<Json> {
  public:
   DocumentBuilder(const std::filesystem::path& file, std::string_view text)
       : file_(file), text_(text) {}
 
-  json takeRoot() { return std::move(root_); }
+  Json takeRoot() { return std::move(root_); }
 
   bool null() override { return add(nullptr); }
   bool boolean(bool value) override { return add(value); }
@@ -32,8 +32,8 @@ class DocumentBuilder : public nlohmann::json_sax<json> {
   bool number_float(number_float_t value, const string_t&) override { return add(value); }
   bool string(string_t& value) override { return add(std::move(value)); }
   bool binary(binary_t&) override { return false; }
-  bool start_object(std::size_t) override { return open(json::object()); }
-  bool start_array(std::size_t) override { return open(json::array()); }
+  bool start_object(std::size_t) override { return open(Json::object()); }
+  bool start_array(std::size_t) override { return open(Json::array()); }
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
 
@@ -44,7 +44,7 @@ class DocumentBuilder : public nlohmann::json_sax<json> {
   }
 
   bool parse_error(std::size_t position, const std::string&,
-                   const json::exception& error) override {
+                   const Json::exception& error) override {
     const bool number_overflow = error.id == 406;
     if (number_overflow || stopsInNonFinite(position))
       throw InputError(file_, place(), "not a finite number");
@@ -54,17 +54,17 @@ class DocumentBuilder : public nlohmann::json_sax<json> {
  private:
   static constexpr std::size_t kDetail = 160;
 
-  bool add(json value) {
+  bool add(Json value) {
     place_value(std::move(value));
     return true;
   }
 
-  json* place_value(json value) {
+  Json* place_value(Json value) {
     if (open_.empty()) {
       root_ = std::move(value);
       return &root_;
     }
-    json& parent = *open_.back();
+    Json& parent = *open_.back();
     if (parent.is_array()) {
       parent.push_back(std::move(value));
       return &parent.back();
@@ -72,7 +72,7 @@ class DocumentBuilder : public nlohmann::json_sax<json> {
     return &(parent[key_] = std::move(value));
   }
 
-  bool open(json value) {
+  bool open(Json value) {
     if (open_.size() >= kMaxJsonDepth)
       throw InputError(file_, place(),
                        "nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
@@ -127,7 +127,7 @@ class DocumentBuilder : public nlohmann::json_sax<json> {
   }
 
   /// nlohmann's message without its error number and position.
-  static std::string explanation(const json::exception& error) {
+  static std::string explanation(const Json::exception& error) {
     std::string message = error.what();
     if (message.find("unexpected end of input") != std::string::npos)
       return "the file ends in the middle; it was cut short, or not written to its end";
@@ -139,25 +139,25 @@ class DocumentBuilder : public nlohmann::json_sax<json> {
 
   const std::filesystem::path& file_;
   std::string_view text_;
-  json root_;
-  std::vector<json*> open_;  ///< stays valid: only the innermost container grows
+  Json root_;
+  std::vector<Json*> open_;  ///< stays valid: only the innermost container grows
   std::vector<std::string> names_;
   std::string key_;
 };
 
-json parse(const std::filesystem::path& file, std::string_view text) {
+Json parse(const std::filesystem::path& file, std::string_view text) {
   if (text.size() > kMaxJsonBytes)
     throw InputError(
         file, "larger than the limit of " + std::to_string(kMaxJsonBytes / kMegabyte) + " MB");
   DocumentBuilder builder(file, text);
-  if (!json::sax_parse(text.begin(), text.end(), &builder)) throw InputError(file, "not JSON");
+  if (!Json::sax_parse(text.begin(), text.end(), &builder)) throw InputError(file, "not JSON");
   return builder.takeRoot();
 }
 
 }  // namespace
 
 JsonDocument::JsonDocument(const std::filesystem::path& file, std::string_view text)
-    : file_(file), value_(std::make_unique<json>(parse(file, text))) {}
+    : file_(file), value_(std::make_unique<Json>(parse(file, text))) {}
 
 JsonDocument::JsonDocument(const std::filesystem::path& file)
     : JsonDocument(file, asText(readFileBytes(file, kMaxJsonBytes))) {}

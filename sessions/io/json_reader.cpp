@@ -12,7 +12,7 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr const char* kUnknown = "is not known to this version of the format";
+constexpr const char* kUnknownKey = "is not known to this version of the format";
 
 /// Characters inserted, deleted, replaced, or exchanged with their neighbour between two words
 /// (optimal string alignment distance).
@@ -42,7 +42,7 @@ bool isCutShort(std::string_view word, std::string_view wanted) {
 }
 
 std::string unknownText(std::string_view meant) {
-  return std::string(kUnknown) + "; did you mean \"" + std::string(meant) + "\"?";
+  return std::string(kUnknownKey) + "; did you mean \"" + std::string(meant) + "\"?";
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ std::string JsonUse::refusal(const nlohmann::json& object, const std::string& ke
   const auto meant = std::find_if(names.begin(), names.end(), [&](const std::string* name) {
     return !object.contains(*name) && (isMisspelt(key, *name) || isCutShort(key, *name));
   });
-  return meant == names.end() ? kUnknown : unknownText(**meant);
+  return meant == names.end() ? kUnknownKey : unknownText(**meant);
 }
 
 std::string numberText(double value) {

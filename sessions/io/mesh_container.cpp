@@ -21,7 +21,7 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr const char* kFormatNames[] = {"PLY", "OBJ", "STL", "glTF", "GLB"};  ///< by MeshFormat
 
-[[noreturn]] void truncated(const std::filesystem::path& file, const char* format) {
+[[noreturn]] void truncatedMesh(const std::filesystem::path& file, const char* format) {
   throw InputError(file, std::string("the ") + format + " mesh is truncated");
 }
 
@@ -35,12 +35,12 @@ MeshDeclaration checkStl(const std::filesystem::path& file, Bytes bytes) {
   const bool fits_exactly = may_be_binary && bytes.size() == kHeader + facets * kFacet;
   // A binary header may begin with "solid" too; then only the exact size tells.
   if (text.starts_with("solid") && !fits_exactly) {
-    if (text.find("endsolid") == std::string_view::npos) truncated(file, "STL");
+    if (text.find("endsolid") == std::string_view::npos) truncatedMesh(file, "STL");
     return declaration;
   }
   if (!may_be_binary) throw InputError(file, "not an STL mesh");
   if (facets == 0) throw InputError(file, "the mesh has no faces");
-  if (bytes.size() < kHeader + facets * kFacet) truncated(file, "STL");
+  if (bytes.size() < kHeader + facets * kFacet) truncatedMesh(file, "STL");
   if (const std::uint64_t there = (bytes.size() - kHeader) / kFacet; there != facets)
     throw InputError(file, "header",
                      "declares " + std::to_string(facets) + " facets, but the file has room for " +
@@ -140,9 +140,9 @@ MeshDeclaration checkGlb(const std::filesystem::path& file, Bytes bytes) {
   constexpr std::uint64_t kHeader = 20;
   if (!asText(bytes).starts_with("glTF")) throw InputError(file, "not a GLB mesh");
   if (bytes.size() < kHeader || bytes.size() < readUnsigned(bytes, 8, 4, false))
-    truncated(file, "GLB");
+    truncatedMesh(file, "GLB");
   const std::uint64_t json_size = readUnsigned(bytes, 12, 4, false);
-  if (!holds(bytes, kHeader, json_size)) truncated(file, "GLB");
+  if (!holds(bytes, kHeader, json_size)) truncatedMesh(file, "GLB");
   return checkGltfJson(file, asText(bytes.subspan(kHeader, json_size)));
 }
 

@@ -71,30 +71,30 @@ void keepImportersOf(MeshFormat format, Assimp::Importer& importer) {
   }
 }
 
-using nlohmann::json;
+using Json = nlohmann::json;
 using Keys = std::initializer_list<const char*>;
 
-json kept(const json& object, Keys keys) {
-  json made = json::object();
+Json kept(const Json& object, Keys keys) {
+  Json made = Json::object();
   for (const char* key : keys)
     if (object.contains(key)) made[key] = object[key];
   return made;
 }
 
-void keepInEach(json& object, const char* list, Keys keys) {
+void keepInEach(Json& object, const char* list, Keys keys) {
   if (!object.contains(list)) return;
-  for (json& one : object[list]) one = kept(one, keys);
+  for (Json& one : object[list]) one = kept(one, keys);
 }
 
 std::string geometryJson(std::string_view text) {
-  json made = kept(json::parse(text), {"asset", "extensionsRequired", "scene", "scenes", "nodes",
+  Json made = kept(Json::parse(text), {"asset", "extensionsRequired", "scene", "scenes", "nodes",
                                        "meshes", "accessors", "bufferViews", "buffers"});
   keepInEach(made, "scenes", {"nodes"});
   keepInEach(made, "nodes", {"children", "mesh", "matrix", "translation", "rotation", "scale"});
   keepInEach(made, "meshes", {"primitives"});
-  for (json& mesh : made["meshes"]) {
+  for (Json& mesh : made["meshes"]) {
     keepInEach(mesh, "primitives", {"attributes", "indices", "mode"});
-    for (json& primitive : mesh["primitives"])
+    for (Json& primitive : mesh["primitives"])
       primitive["attributes"] = kept(primitive["attributes"], {"POSITION"});
   }
   keepInEach(made, "accessors", {"bufferView", "byteOffset", "componentType", "count", "type"});

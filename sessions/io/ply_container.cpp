@@ -18,7 +18,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-[[noreturn]] void truncated(const std::filesystem::path& file) {
+[[noreturn]] void truncatedPly(const std::filesystem::path& file) {
   throw InputError(file, "the PLY mesh is truncated");
 }
 
@@ -105,7 +105,7 @@ PlyHeader readPlyHeader(const std::filesystem::path& file, Bytes bytes) {
   while (true) {
     const std::size_t end = text.find('\n', start);
     if (end == std::string_view::npos) {
-      if (bytes.size() <= kMaxHeader) truncated(file);
+      if (bytes.size() <= kMaxHeader) truncatedPly(file);
       throw InputError(file, "header", "no end_header within its first 64 kB");
     }
     std::string line(text.substr(start, end - start));
@@ -128,21 +128,22 @@ std::uint64_t walkPlyElement(const std::filesystem::path& file, Bytes bytes,
     has_list = has_list || property.count_size != 0;
   }
   if (!has_list) {
-    if (fixed_size != 0 && element.count > bytes.size() / fixed_size) truncated(file);
-    if (!holds(bytes, offset, element.count * fixed_size)) truncated(file);
+    if (fixed_size != 0 && element.count > bytes.size() / fixed_size) truncatedPly(file);
+    if (!holds(bytes, offset, element.count * fixed_size)) truncatedPly(file);
     return offset + element.count * fixed_size;
   }
   for (std::uint64_t i = 0; i < element.count; ++i) {
     for (const PlyProperty& property : element.properties) {
       std::uint64_t values = 1;
       if (property.count_size != 0) {
-        if (!holds(bytes, offset, static_cast<std::uint64_t>(property.count_size))) truncated(file);
+        if (!holds(bytes, offset, static_cast<std::uint64_t>(property.count_size)))
+          truncatedPly(file);
         values = readUnsigned(bytes, offset, property.count_size, big_endian);
         offset += static_cast<std::uint64_t>(property.count_size);
       }
-      if (values > bytes.size()) truncated(file);
+      if (values > bytes.size()) truncatedPly(file);
       const std::uint64_t size = values * static_cast<std::uint64_t>(property.value_size);
-      if (!holds(bytes, offset, size)) truncated(file);
+      if (!holds(bytes, offset, size)) truncatedPly(file);
       offset += size;
     }
   }
@@ -187,13 +188,13 @@ std::uint64_t walkPlyText(const std::filesystem::path& file, const PlyHeader& he
         std::uint64_t values = 1;
         if (property.count_size != 0) {
           const std::string_view count = words.next();
-          if (count.empty()) truncated(file);
+          if (count.empty()) truncatedPly(file);
           values = wholeNumber(count).value_or(body.size() + 1);
           if (values > body.size())
             throw InputError(file, element.name + " " + std::to_string(i),
                              "'" + std::string(count) + "' is not the length of a list");
         }
-        if (!words.skip(values)) truncated(file);
+        if (!words.skip(values)) truncatedPly(file);
       }
   return header.body + words.position();
 }

@@ -10,8 +10,8 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr const char* kFormat = "boresight-pose";
-constexpr int kVersion = 1;
+constexpr const char* kPoseFormat = "boresight-pose";
+constexpr int kPoseVersion = 1;
 constexpr double kLastRowTolerance = 1e-9;
 constexpr double kNotedDeviation = 1e-6;
 constexpr double kMaxTranslation_m = 1e6;
@@ -88,7 +88,8 @@ void readReferencePose(const JsonReader& json, const PoseFrames& frames, PoseFil
 }  // namespace
 
 PoseFile readPose(const JsonReader& json, const PoseFrames& frames) {
-  if (json.has("format")) json.requireFormat(kFormat, kVersion);  // a file's content in a dataset
+  if (json.has("format"))
+    json.requireFormat(kPoseFormat, kPoseVersion);  // a file's content in a dataset
   PoseFile pose;
   if (json.has("reference_from_station") && json.has("camera_from_station"))
     json.failMember("reference_from_station",
@@ -111,7 +112,7 @@ PoseFile readPose(const JsonReader& json, const PoseFrames& frames) {
 
 PoseFile readPose(const std::filesystem::path& file, const PoseFrames& frames) {
   const JsonDocument document(file);
-  return document.read(kFormat, kVersion,
+  return document.read(kPoseFormat, kPoseVersion,
                        [&frames](const JsonReader& json) { return readPose(json, frames); });
 }
 
@@ -144,7 +145,7 @@ nlohmann::ordered_json toJson(const DeclaredUncertainty& uncertainty) {
 void writePose(const std::filesystem::path& file, const Pose& camera_from_station,
                const std::optional<DeclaredUncertainty>& uncertainty,
                const std::optional<Matrix6d>& covariance) {
-  nlohmann::ordered_json json = {{"format", kFormat}, {"version", kVersion}};
+  nlohmann::ordered_json json = {{"format", kPoseFormat}, {"version", kPoseVersion}};
   json["camera_from_station"] = toJson(camera_from_station);
   if (uncertainty) json["uncertainty"] = toJson(*uncertainty);
   if (covariance) json["covariance"] = toJson(*covariance);

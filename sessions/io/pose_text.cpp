@@ -10,11 +10,11 @@
 
 #include "core/base/math.h"
 #include "sessions/io/json_reader.h"
+#include "sessions/text/units.h"
 
 namespace boresight::sessions {
 namespace {
 
-constexpr double kMillimetres = 1e3;
 constexpr double kLargest_m = 1e6;
 
 std::string list(std::initializer_list<double> values) {

@@ -32,7 +32,7 @@ enum Tag : std::uint64_t {
   kSampleFormat = 339,
 };
 
-[[noreturn]] void truncated(const std::filesystem::path& file) {
+[[noreturn]] void truncatedTiff(const std::filesystem::path& file) {
   throw InputError(file, "the TIFF image is truncated");
 }
 
@@ -53,7 +53,7 @@ class TiffDirectory {
     entry_size_ = big_ ? 20 : 12;
     // The count may be anything in a damaged file: bounded before it is multiplied.
     if (entry_count_ > bytes.size() || !holds(bytes, first_entry_, entry_count_ * entry_size_))
-      truncated(file);
+      truncatedTiff(file);
     for (std::uint64_t i = 0; i < entry_count_; ++i)
       (void)placeOfValues(first_entry_ + i * entry_size_);
     // The link to the next directory ends this one; what it leads to is not read.
@@ -92,7 +92,7 @@ class TiffDirectory {
   }
 
   std::uint64_t number(std::uint64_t offset, int size) const {
-    if (!holds(bytes_, offset, static_cast<std::uint64_t>(size))) truncated(file_);
+    if (!holds(bytes_, offset, static_cast<std::uint64_t>(size))) truncatedTiff(file_);
     return readUnsigned(bytes_, offset, size, big_endian_);
   }
 
@@ -110,12 +110,12 @@ class TiffDirectory {
   std::uint64_t placeOfValues(std::uint64_t entry) const {
     const std::uint64_t word = big_ ? 8 : 4;
     const std::uint64_t count = number(entry + 4, static_cast<int>(word));
-    if (count > bytes_.size()) truncated(file_);
+    if (count > bytes_.size()) truncatedTiff(file_);
     const std::uint64_t total = count * typeSize(number(entry + 2, 2));
     const std::uint64_t inline_place = entry + 4 + word;
     const std::uint64_t place =
         total <= word ? inline_place : number(inline_place, static_cast<int>(word));
-    if (!holds(bytes_, place, total)) truncated(file_);
+    if (!holds(bytes_, place, total)) truncatedTiff(file_);
     return place;
   }
 
@@ -147,7 +147,7 @@ void requirePixelsInFile(const std::filesystem::path& file, const TiffDirectory&
   const auto sizes = directory.values(tiled ? kTileBytes : kStripBytes);
   if (offsets.empty()) damaged(file, "a TIFF without strips or tiles");
   for (std::size_t i = 0; i < offsets.size(); ++i)
-    if (!holds(bytes, offsets[i], i < sizes.size() ? sizes[i] : 1)) truncated(file);
+    if (!holds(bytes, offsets[i], i < sizes.size() ? sizes[i] : 1)) truncatedTiff(file);
 }
 
 /// Refuses the kinds whose values the decoder changes or misreads without saying so.

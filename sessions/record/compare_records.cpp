@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/record/compare_records.h"
+#include "sessions/text/units.h"
 
 #include <algorithm>
 #include <array>
@@ -17,8 +18,6 @@ namespace {
 
 using Difference = std::optional<FirstDifference>;
 
-constexpr double kMillimetres = 1e3;
-constexpr double kMilliradians = 1e3;
 /// A share of fewer than these says little.
 constexpr int kLeastCounted = 10;
 

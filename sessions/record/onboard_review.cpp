@@ -10,12 +10,11 @@
 #include "sessions/record/record_of_run.h"
 #include "sessions/record/replay_record.h"
 #include "sessions/text/text_table.h"
+#include "sessions/text/units.h"
 
 namespace boresight::sessions {
 namespace {
 
-constexpr double kMillimetres = 1e3;
-constexpr double kMilliradians = 1e3;
 constexpr std::size_t kDigestShown = 16;  ///< digits; enough to tell runs apart
 
 std::string triple(const Eigen::Vector3d& value, int decimals) {

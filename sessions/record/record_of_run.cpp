@@ -151,7 +151,7 @@ RecordedEnd endOf(const LocalizationTrace& run, std::size_t iterations) {
   return end;
 }
 
-void noteWhatIsMissing(OnboardRecord& record) {
+void noteWhatTheRunLacks(OnboardRecord& record) {
   if (!record.inputs)
     record.missing.push_back("the hashes of the inputs, which only the digest covers");
   if (!record.edges) record.missing.push_back("the edges of the image");
@@ -222,7 +222,7 @@ OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* 
     record.iterations.push_back(iterationOf(*run.iterations[i]));
   takeSupport(run.support, run.status, record);
   if (run.status != LocalizationStatus::kRunning) record.end = endOf(run, complete);
-  noteWhatIsMissing(record);
+  noteWhatTheRunLacks(record);
   return record;
 }
 

@@ -16,11 +16,10 @@
 #include "sessions/record/replay_scene.h"
 #include "sessions/run/edge_detection.h"
 #include "sessions/run/record_inputs.h"
+#include "sessions/text/units.h"
 
 namespace boresight::sessions {
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string inIteration(const RecordedIteration& one) {
   return " in iteration " + std::to_string(one.index + 1);

@@ -23,12 +23,10 @@
 #include "sessions/session/session_of_results.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
+#include "sessions/text/units.h"
 
 namespace boresight::sessions {
 namespace {
-
-constexpr double kMillimetres = 1e3;
-constexpr double kMilliradians = 1e3;
 
 QueueGroup groupOf(const Standing& standing, const QueueRow& row) {
   if (standing.awaits_approval) return QueueGroup::kAwaits;

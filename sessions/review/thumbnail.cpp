@@ -10,8 +10,8 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr double kMargin = 1.15;      // of the station's size in the image
-constexpr double kLeastPart = 0.125;  // of the image's width, that is shown
+constexpr double kStationMargin = 1.15;  // of the station's size in the image
+constexpr double kLeastPart = 0.125;     // of the image's width, that is shown
 
 /// Where the corners of the station's box fall in the image from any of the poses; empty when none
 /// is in sight.
@@ -36,8 +36,8 @@ cv::Rect2d stationBox(const Camera& camera, const MeshView& mesh, std::span<cons
 cv::Rect partToShow(const Camera& camera, const cv::Rect2d& box, double aspect) {
   const cv::Rect image(0, 0, camera.width, camera.height);
   if (box.area() <= 0.0) return image;
-  double width =
-      std::max({kMargin * box.width, kMargin * box.height * aspect, kLeastPart * camera.width});
+  double width = std::max({kStationMargin * box.width, kStationMargin * box.height * aspect,
+                           kLeastPart * camera.width});
   width = std::min(width, std::max<double>(camera.width, camera.height * aspect));
   const double height = width / aspect;
   const auto start = [](double centre, double size, int limit) {

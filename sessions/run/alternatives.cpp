@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/run/alternatives.h"
+#include "sessions/text/units.h"
 
 #include <algorithm>
 #include <limits>
 
 namespace boresight::sessions {
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 void compare(const Pose& chosen, Alternative& made) {
   made.camera_from_station_chosen = chosen;

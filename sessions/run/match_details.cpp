@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/run/match_details.h"
+#include "sessions/text/units.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -7,8 +8,6 @@
 
 namespace boresight::sessions {
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 MatchDetails describeTemplate(const Template& item, std::int32_t index, int level) {
   MatchDetails made;

@@ -11,8 +11,8 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr const char* kFormat = "boresight-journal";
-constexpr int kVersion = 2;
+constexpr const char* kJournalFormat = "boresight-journal";
+constexpr int kJournalVersion = 2;
 
 /// The next line, without its end; what is left begins after it.
 std::string_view takeLine(std::string_view& rest) {
@@ -34,8 +34,8 @@ Journal readHeader(const JsonReader& json) {
 }  // namespace
 
 void writeJournal(const std::filesystem::path& file, const Journal& journal) {
-  nlohmann::ordered_json header = {{"format", kFormat},
-                                   {"version", kVersion},
+  nlohmann::ordered_json header = {{"format", kJournalFormat},
+                                   {"version", kJournalVersion},
                                    {"base_sha256", journal.base_sha256},
                                    {"edits", nlohmann::ordered_json::array()}};
   for (const JournalEntry& entry : journal.entries)
@@ -63,7 +63,7 @@ JournalContents readJournal(const std::filesystem::path& file) {
   }
   try {
     const JsonDocument header(file, takeLine(rest));
-    static_cast<Journal&>(contents) = header.read(kFormat, kVersion, readHeader);
+    static_cast<Journal&>(contents) = header.read(kJournalFormat, kJournalVersion, readHeader);
   } catch (const InputError& wrong) {
     contents.problem = wrong.reason();
   }

@@ -18,8 +18,8 @@ namespace boresight::sessions {
 namespace {
 
 constexpr double kPanelHeight = 150.0;
-constexpr double kMargin = 12.0;
-constexpr double kTitleHeight = 18.0;
+constexpr double kFigureMargin = 12.0;
+constexpr double kFigureTitleHeight = 18.0;
 constexpr int kSeedBins = 8;
 constexpr int kToleranceSteps = 41;
 
@@ -88,23 +88,24 @@ class Sheet {
       : columns_(columns),
         names_(std::move(names)),
         canvas_(title, format, PdfCanvas::kWidth,
-                2.0 * kMargin + kTitleHeight + static_cast<double>(rows) * kPanelHeight +
+                2.0 * kFigureMargin + kFigureTitleHeight +
+                    static_cast<double>(rows) * kPanelHeight +
                     11.0 * static_cast<double>(names_.size()) + 6.0) {
-    canvas_.text(kMargin, kMargin, PdfCanvas::kWidth - 2.0 * kMargin, title,
+    canvas_.text(kFigureMargin, kFigureMargin, PdfCanvas::kWidth - 2.0 * kFigureMargin, title,
                  {10.0, true, false, kInk, 1});
-    foot_ = kMargin + kTitleHeight + static_cast<double>(rows) * kPanelHeight;
+    foot_ = kFigureMargin + kFigureTitleHeight + static_cast<double>(rows) * kPanelHeight;
   }
   void draw(std::size_t row, int column, PdfPlot plot) {
-    const double width = (PdfCanvas::kWidth - 2.0 * kMargin) / columns_;
+    const double width = (PdfCanvas::kWidth - 2.0 * kFigureMargin) / columns_;
     plot.with_names = false;
-    drawPlot(
-        canvas_,
-        {kMargin + column * width, kMargin + kTitleHeight + static_cast<double>(row) * kPanelHeight,
-         width - 8.0, kPanelHeight - 6.0},
-        plot);
+    drawPlot(canvas_,
+             {kFigureMargin + column * width,
+              kFigureMargin + kFigureTitleHeight + static_cast<double>(row) * kPanelHeight,
+              width - 8.0, kPanelHeight - 6.0},
+             plot);
   }
   std::vector<std::uint8_t> finish() {
-    drawSeriesNames(canvas_, kMargin + 34.0, foot_, 300.0, names_);
+    drawSeriesNames(canvas_, kFigureMargin + 34.0, foot_, 300.0, names_);
     return canvas_.finish();
   }
 

@@ -74,16 +74,16 @@ constexpr double kMostRadius_px = 12.0;
 constexpr double kRims = 3.0;  ///< an ellipse's rim may be this many radii away
 constexpr double kLeastRim_px = 16.0;
 
-QString tr(const char* text) { return QCoreApplication::translate("MarkAim", text); }
+QString aimText(const char* text) { return QCoreApplication::translate("MarkAim", text); }
 
 QString nameOf(ImageSnapKind kind) {
   switch (kind) {
     case ImageSnapKind::kCorner:
-      return tr("corner");
+      return aimText("corner");
     case ImageSnapKind::kEllipse:
-      return tr("ellipse centre");
+      return aimText("ellipse centre");
     case ImageSnapKind::kEdge:
-      return tr("edge");
+      return aimText("edge");
   }
   return {};
 }
@@ -91,11 +91,11 @@ QString nameOf(ImageSnapKind kind) {
 QString nameOf(MeshSnapKind kind) {
   switch (kind) {
     case MeshSnapKind::kVertex:
-      return tr("vertex");
+      return aimText("vertex");
     case MeshSnapKind::kEdge:
-      return tr("model edge");
+      return aimText("model edge");
     case MeshSnapKind::kCircle:
-      return tr("circle centre");
+      return aimText("circle centre");
   }
   return {};
 }
@@ -119,7 +119,7 @@ MarkAim aimAtImage(const sessions::LoadedCase& one, const Eigen::Vector2d& point
   MarkAim aim;
   aim.side = AimSide::kImage;
   aim.pixel = pointer;
-  aim.text = tr("free");
+  aim.text = aimText("free");
   if (!rules.snaps) return aim;
   std::vector<ImageSnap> snaps = sessions::imageSnaps(
       one.image.view(), pointer, rules.radius_px, std::max(kLeastRim_px, kRims * rules.radius_px));
@@ -158,7 +158,7 @@ MarkAim aimAtStation(const sessions::LoadedCase& one, const Pose& camera_from_st
   aim.side = AimSide::kStation;
   aim.pixel = pointer;
   aim.point_in_station_m = surface->in_station_m;
-  aim.text = tr("surface");
+  aim.text = aimText("surface");
   return aim;
 }
 

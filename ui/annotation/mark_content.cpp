@@ -6,6 +6,7 @@
 #include <QCoreApplication>
 
 #include "sessions/annotation/marks_on_image.h"
+#include "ui/views/pixel_point.h"
 
 namespace boresight::ui {
 namespace {
@@ -17,9 +18,7 @@ const QColor kChosen(255, 255, 255);
 const QColor kOff(175, 175, 175);
 const QColor kOutlier(255, 130, 60);
 
-QString tr(const char* text) { return QCoreApplication::translate("MarkContent", text); }
-
-QPointF pointOf(const Eigen::Vector2d& pixel) { return {pixel.x(), pixel.y()}; }
+QString contentText(const char* text) { return QCoreApplication::translate("MarkContent", text); }
 
 Mark sign(MarkShape shape, const Eigen::Vector2d& pixel, int item) {
   Mark mark;
@@ -47,7 +46,7 @@ class Signs {
       if (!place.valid) return;
       Mark mark = sign(MarkShape::kDiamond, place.pixel, item);
       mark.dashed = true;
-      mark.label = tr("%1 (not placed)").arg(QString::fromStdString(point.id));
+      mark.label = contentText("%1 (not placed)").arg(QString::fromStdString(point.id));
       finish(std::move(mark), point);
     }
   }
@@ -90,7 +89,7 @@ class Signs {
       Mark mark = segment(places[i - 1], places[i], item);
       mark.dashed = true;
       if (2 * i == places.size() + 1)
-        mark.label = tr("%1 (not placed)").arg(QString::fromStdString(line.id));
+        mark.label = contentText("%1 (not placed)").arg(QString::fromStdString(line.id));
       if (line.id == look_.selected) mark.color = kChosen;
       signs_.push_back(std::move(mark));
     }
@@ -105,10 +104,10 @@ class Signs {
   template <class Pair>
   QString labelOf(const Pair& pair, bool half_made) const {
     const QString id = QString::fromStdString(pair.id);
-    if (half_made) return tr("%1 ?").arg(id);
-    if (!pair.enabled) return tr("%1 (off)").arg(id);
+    if (half_made) return contentText("%1 ?").arg(id);
+    if (!pair.enabled) return contentText("%1 (off)").arg(id);
     if (standsOut(pair))
-      return tr("%1 ! %2 sigma").arg(id).arg(look_.outliers.at(pair.id), 0, 'f', 1);
+      return contentText("%1 ! %2 sigma").arg(id).arg(look_.outliers.at(pair.id), 0, 'f', 1);
     return id;
   }
 
@@ -168,7 +167,8 @@ std::vector<Mark> proposalSigns(const std::vector<sessions::Proposal>& proposals
     Mark mark = sign(proposal.seen ? MarkShape::kCircle : MarkShape::kDiamond, proposal.pixel, -1);
     mark.dashed = true;
     const QString name = QString::fromStdString(proposal.landmark.name);
-    mark.label = proposal.seen ? tr("%1 ?").arg(name) : tr("%1 ? (hidden)").arg(name);
+    mark.label =
+        proposal.seen ? contentText("%1 ?").arg(name) : contentText("%1 ? (hidden)").arg(name);
     signs.push_back(std::move(mark));
   }
   return signs;

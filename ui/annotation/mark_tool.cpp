@@ -10,6 +10,7 @@
 #include "ui/annotation/aim_painter.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/views/image_view.h"
+#include "ui/views/pixel_point.h"
 #include "ui/views/view_transform.h"
 
 namespace boresight::ui {
@@ -21,8 +22,6 @@ constexpr double kShortestLine = 6.0;  ///< on the screen
 constexpr Qt::KeyboardModifiers kAimModifiers = Qt::ControlModifier | Qt::AltModifier;
 
 Eigen::Vector2d vectorOf(const QPointF& point) { return {point.x(), point.y()}; }
-QPointF pointOf(const Eigen::Vector2d& pixel) { return {pixel.x(), pixel.y()}; }
-
 }  // namespace
 
 MarkTool::MarkTool(ImageView& view, AnnotationController& controller, ViewState& state,

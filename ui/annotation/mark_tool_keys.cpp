@@ -6,14 +6,13 @@
 
 #include "ui/annotation/mark_tool.h"
 #include "ui/views/image_view.h"
+#include "ui/views/pixel_point.h"
 
 namespace boresight::ui {
 namespace {
 
 constexpr double kSmallStep_px = 0.1;
 constexpr double kLargeStep_px = 1.0;
-
-QPointF pointOf(const Eigen::Vector2d& pixel) { return {pixel.x(), pixel.y()}; }
 
 Eigen::Vector2d directionOf(int key) {
   switch (key) {

@@ -17,7 +17,7 @@ using sessions::MarksSolution;
 
 constexpr double kDegree_mrad = 1e3 * kDegree_rad;
 
-QString tr(const char* text) { return QCoreApplication::translate("SolutionHtml", text); }
+QString solutionText(const char* text) { return QCoreApplication::translate("SolutionHtml", text); }
 
 QString cell(const QString& text, bool number = false) {
   return QStringLiteral("<td%1>%2&nbsp;&nbsp;</td>")
@@ -37,26 +37,27 @@ QString table(const QString& title, const QStringList& rows) {
 QString judged(double value, const std::optional<double>& limit, const QString& unit) {
   if (!limit) return {};
   const QString text = QStringLiteral("%1 %2").arg(QString::number(*limit, 'g', 4), unit);
-  return std::abs(value) <= *limit ? tr("within %1").arg(text) : tr("<b>beyond %1</b>").arg(text);
+  return std::abs(value) <= *limit ? solutionText("within %1").arg(text)
+                                   : solutionText("<b>beyond %1</b>").arg(text);
 }
 
 QString weaknessText(sessions::GeometryWeakness weakness) {
   using sessions::GeometryWeakness;
   switch (weakness) {
     case GeometryWeakness::kTooFew:
-      return tr("too few marks");
+      return solutionText("too few marks");
     case GeometryWeakness::kFew:
-      return tr("no mark to spare");
+      return solutionText("no mark to spare");
     case GeometryWeakness::kCollinear:
-      return tr("all on one line");
+      return solutionText("all on one line");
     case GeometryWeakness::kCoplanar:
-      return tr("all in one plane");
+      return solutionText("all in one plane");
     case GeometryWeakness::kClustered:
-      return tr("all in one corner of the station");
+      return solutionText("all in one corner of the station");
     case GeometryWeakness::kOneDepth:
-      return tr("all at one depth");
+      return solutionText("all at one depth");
     case GeometryWeakness::kImprecise:
-      return tr("imprecise");
+      return solutionText("imprecise");
   }
   return {};
 }
@@ -65,16 +66,16 @@ QString warningsHtml(const sessions::CaseMarksSolution& solution) {
   QStringList items;
   for (const sessions::GeometryWarning& warning : solution.warnings)
     items << QStringLiteral("<li>%1%2</li>")
-                 .arg(warning.prevents ? tr("<b>No pose:</b> ") : QString(),
+                 .arg(warning.prevents ? solutionText("<b>No pose:</b> ") : QString(),
                       fromText(warning.text).toHtmlEscaped());
   if (items.isEmpty()) return {};
   return QStringLiteral("<p><b>%1</b></p><ul style='margin-left:14px;-qt-list-indent:0'>%2</ul>")
-      .arg(tr("Geometry"), items.join(QString()));
+      .arg(solutionText("Geometry"), items.join(QString()));
 }
 
 /// Where translations are judged.
 QString placeText(const sessions::CaseMarks& marks) {
-  return marks.camera_from_end_effector ? tr("end effector") : tr("camera");
+  return marks.camera_from_end_effector ? solutionText("end effector") : solutionText("camera");
 }
 
 QString sigmaHtml(const AnnotationSolver::Answer& answer) {
@@ -87,8 +88,8 @@ QString sigmaHtml(const AnnotationSolver::Answer& answer) {
   const sessions::Requirement& required = marks.requirement;
   std::optional<double> rotation_mrad;
   if (required.rotation_deg) rotation_mrad = *required.rotation_deg * kDegree_mrad;
-  const QString mm = tr("mm");
-  const QString mrad = tr("mrad");
+  const QString mm = solutionText("mm");
+  const QString mrad = solutionText("mrad");
   const auto line = [](const QString& name, double value, const QString& unit,
                        const QString& verdict) {
     return rowOf(
@@ -100,22 +101,23 @@ QString sigmaHtml(const AnnotationSolver::Answer& answer) {
              QString::number(values.z(), 'f', 4), unit);
   };
   const bool at_effector = marks.camera_from_end_effector.has_value();
-  const QString title = tr("One sigma at the %1, by the marks alone (noise %2 times what their "
-                           "sigmas say)")
+  const QString title = solutionText(
+                            "One sigma at the %1, by the marks alone (noise %2 times what their "
+                            "sigmas say)")
                             .arg(placeText(marks))
                             .arg(QString::number(solution.noise_factor, 'f', 2));
-  QStringList rows = {
-      line(tr("normal"), sigma->normal_mm, mm, judged(sigma->normal_mm, required.normal_mm, mm)),
-      line(tr("lateral"), sigma->lateral_mm, mm,
-           judged(sigma->lateral_mm, required.lateral_mm, mm)),
-      line(tr("rotation"), sigma->out_of_plane_mrad, mrad,
-           judged(sigma->out_of_plane_mrad, rotation_mrad, mrad)),
-      axes(tr("along x, y, z"), sigma->translation_mm, mm)};
+  QStringList rows = {line(solutionText("normal"), sigma->normal_mm, mm,
+                           judged(sigma->normal_mm, required.normal_mm, mm)),
+                      line(solutionText("lateral"), sigma->lateral_mm, mm,
+                           judged(sigma->lateral_mm, required.lateral_mm, mm)),
+                      line(solutionText("rotation"), sigma->out_of_plane_mrad, mrad,
+                           judged(sigma->out_of_plane_mrad, rotation_mrad, mrad)),
+                      axes(solutionText("along x, y, z"), sigma->translation_mm, mm)};
   // Without an end effector the row above is the camera's own already.
   const auto at_camera =
       at_effector ? sessions::poseSigma(*answer.covariance, std::nullopt) : std::nullopt;
-  if (at_camera) rows << axes(tr("at the camera"), at_camera->translation_mm, mm);
-  rows << axes(tr("about x, y, z"), sigma->rotation_mrad, mrad);
+  if (at_camera) rows << axes(solutionText("at the camera"), at_camera->translation_mm, mm);
+  rows << axes(solutionText("about x, y, z"), sigma->rotation_mrad, mrad);
   return table(title, rows);
 }
 
@@ -133,15 +135,17 @@ QString twinHtml(const sessions::CaseMarksSolution& solved) {
   if (!twin) return {};
   const QStringList ours = poseCells(solution.camera_from_station.front());
   const QStringList other = poseCells(*twin);
-  const QStringList names = {tr("x, mm"),       tr("y, mm"),       tr("z, mm"),
-                             tr("turn x, deg"), tr("turn y, deg"), tr("turn z, deg")};
-  QStringList rows = {
-      rowOf({cell(QString()), cell(tr("this pose"), true), cell(tr("the other pose"), true)})};
+  const QStringList names = {solutionText("x, mm"),       solutionText("y, mm"),
+                             solutionText("z, mm"),       solutionText("turn x, deg"),
+                             solutionText("turn y, deg"), solutionText("turn z, deg")};
+  QStringList rows = {rowOf({cell(QString()), cell(solutionText("this pose"), true),
+                             cell(solutionText("the other pose"), true)})};
   for (int i = 0; i < names.size(); ++i)
     rows << rowOf({cell(names[i]), cell(ours[i], true), cell(other[i], true)});
-  rows << rowOf({cell(tr("rms, px")), cell(QString::number(solution.rms_px, 'f', 3), true),
+  rows << rowOf({cell(solutionText("rms, px")),
+                 cell(QString::number(solution.rms_px, 'f', 3), true),
                  cell(QString::number(solution.twin->rms_px, 'f', 3), true)});
-  return table(tr("Two poses explain marks in a plane"), rows);
+  return table(solutionText("Two poses explain marks in a plane"), rows);
 }
 
 QString viewsHtml(const sessions::CaseMarksSolution& solved) {
@@ -157,10 +161,11 @@ QString viewsHtml(const sessions::CaseMarksSolution& solved) {
       ++count;
     }
     const double rms_px = count > 0 ? std::sqrt(squares_px2 / (2.0 * count)) : 0.0;
-    rows << rowOf({cell(fromText(views[i].name).toHtmlEscaped()), cell(tr("%1 marks").arg(count)),
-                   cell(tr("%1 px rms").arg(QString::number(rms_px, 'f', 3)), true)});
+    rows << rowOf({cell(fromText(views[i].name).toHtmlEscaped()),
+                   cell(solutionText("%1 marks").arg(count)),
+                   cell(solutionText("%1 px rms").arg(QString::number(rms_px, 'f', 3)), true)});
   }
-  return table(tr("Cameras solved together"), rows);
+  return table(solutionText("Cameras solved together"), rows);
 }
 
 QString differenceRow(const QString& name, const Pose& other, const Pose& annotated,
@@ -182,36 +187,38 @@ QString comparedHtml(const AnnotationSolver::Answer& answer,
   for (const AnnotationSolver::PassAnswer& pass : answer.passes) {
     const int shared = static_cast<int>(pass.repeatability.marks.size());
     const QString repeated = shared > 0
-                                 ? tr("%1 marks, %2 px per mark and axis")
+                                 ? solutionText("%1 marks, %2 px per mark and axis")
                                        .arg(shared)
                                        .arg(QString::number(pass.repeatability.sigma_px, 'f', 3))
-                                 : tr("no mark in common");
-    const QString name = tr("pass of %1").arg(fromText(pass.by));
+                                 : solutionText("no mark in common");
+    const QString name = solutionText("pass of %1").arg(fromText(pass.by));
     if (pass.camera_from_station)
       rows << differenceRow(name, *pass.camera_from_station, annotated, marks, repeated);
     else
-      rows << rowOf(
-          {cell(name.toHtmlEscaped()), cell(tr("no pose")), cell({}), cell({}), cell(repeated)});
+      rows << rowOf({cell(name.toHtmlEscaped()), cell(solutionText("no pose")), cell({}), cell({}),
+                     cell(repeated)});
   }
   if (rows.isEmpty()) return {};
-  rows.prepend(rowOf({cell(QString()), cell(tr("normal, mm"), true), cell(tr("lateral, mm"), true),
-                      cell(tr("angle, deg"), true), cell(QString())}));
-  return table(tr("The annotated pose is from, at the %1").arg(placeText(marks)), rows);
+  rows.prepend(rowOf({cell(QString()), cell(solutionText("normal, mm"), true),
+                      cell(solutionText("lateral, mm"), true),
+                      cell(solutionText("angle, deg"), true), cell(QString())}));
+  return table(solutionText("The annotated pose is from, at the %1").arg(placeText(marks)), rows);
 }
 
 }  // namespace
 
 QString solutionHeadline(const AnnotationSolver::Answer& answer, bool stale) {
-  if (!answer.solution) return stale ? tr("Solving ...") : tr("Nothing is marked yet.");
+  if (!answer.solution)
+    return stale ? solutionText("Solving ...") : solutionText("Nothing is marked yet.");
   const sessions::MarksResult& result = answer.solution->result;
   QString text = fromText(result.reason);
   if (result.solution)
-    text = tr("Solved from %1 marks, %2 px rms.")
+    text = solutionText("Solved from %1 marks, %2 px rms.")
                .arg(result.solution->marks.size())
                .arg(QString::number(result.solution->rms_px, 'f', 3));
   else if (text.isEmpty())
-    text = tr("Nothing is marked yet.");
-  return stale ? tr("Stale, solving anew: %1").arg(text) : text;
+    text = solutionText("Nothing is marked yet.");
+  return stale ? solutionText("Stale, solving anew: %1").arg(text) : text;
 }
 
 QString geometryMeterText(const AnnotationSolver::Answer& answer) {
@@ -219,12 +226,12 @@ QString geometryMeterText(const AnnotationSolver::Answer& answer) {
   QStringList weak;
   for (const sessions::GeometryWarning& warning : answer.solution->warnings)
     weak << (warning.weakness == sessions::GeometryWeakness::kImprecise
-                 ? tr("one sigma is %1").arg(fromText(answer.solution->sigmaExcess()))
+                 ? solutionText("one sigma is %1").arg(fromText(answer.solution->sigmaExcess()))
                  : weaknessText(warning.weakness));
   const QChar sign(weak.isEmpty() ? 0x2713 : 0x26a0);
-  return tr("Geometry: %1 %2")
+  return solutionText("Geometry: %1 %2")
       .arg(sign)
-      .arg(weak.isEmpty() ? tr("nothing weak") : weak.join(QStringLiteral(", ")));
+      .arg(weak.isEmpty() ? solutionText("nothing weak") : weak.join(QStringLiteral(", ")));
 }
 
 QString solutionHtml(const AnnotationSolver::Answer& answer,

@@ -34,7 +34,7 @@ QString endedText(const Alternative& one) {
       .replace(QLatin1Char('_'), QLatin1Char(' '));
 }
 
-std::vector<TableColumn<Alternative>> columns() {
+std::vector<TableColumn<Alternative>> alternativeColumns() {
   using Row = const Alternative&;
   const auto ofOthers = [](Row one, int count) {
     return one.kind == AlternativeKind::kRolled ? count : kUnknown;
@@ -101,7 +101,7 @@ QString chosenTitle(const Alternative& one) {
   return {};
 }
 
-AlternativesModel::AlternativesModel(QObject* parent) : RowsModel(columns(), parent) {}
+AlternativesModel::AlternativesModel(QObject* parent) : RowsModel(alternativeColumns(), parent) {}
 
 int AlternativesModel::firstRowOf(int iteration) const {
   return firstRow(

@@ -20,7 +20,7 @@ QString tooltipOf(const CaseRow& row) {
   return text;
 }
 
-std::vector<TableColumn<CaseRow>> columns() {
+std::vector<TableColumn<CaseRow>> caseColumns() {
   using Row = const CaseRow&;
   constexpr auto tr = [](const char* text) { return CasesModel::tr(text); };
   const auto error = [](std::optional<double> CaseRow::*value) {
@@ -75,7 +75,7 @@ CaseState caseStateOf(sessions::CaseStanding standing) {
   return CaseState::kNew;
 }
 
-CasesModel::CasesModel(QObject* parent) : RowsModel(columns(), parent) {}
+CasesModel::CasesModel(QObject* parent) : RowsModel(caseColumns(), parent) {}
 
 void CasesModel::setRows(std::vector<CaseRow> rows) {
   if (rows != this->rows())

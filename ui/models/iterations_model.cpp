@@ -77,24 +77,24 @@ QString kindText(const IterationTrace& one) {
                                             : IterationsModel::tr("match");
 }
 
-using Row = const IterationRow&;
+using Line = const IterationRow&;
 using Trace = const IterationTrace&;
 
 /// A column's value of iterations; the seed has none.
 auto number(double (*value)(Trace)) {
-  return [value](Row row) { return row.trace ? value(*row.trace) : kUnknown; };
+  return [value](Line row) { return row.trace ? value(*row.trace) : kUnknown; };
 }
 auto text(QString (*value)(Trace)) {
-  return [value](Row row) { return row.trace ? value(*row.trace) : QString(); };
+  return [value](Line row) { return row.trace ? value(*row.trace) : QString(); };
 }
 
-std::vector<TableColumn<IterationRow>> columns() {
+std::vector<TableColumn<IterationRow>> iterationColumns() {
   constexpr auto tr = [](const char* text) { return IterationsModel::tr(text); };
   return {
       {tr("Iteration"),
        tr("Attempt and iteration: 2.3 is the third iteration of the second attempt. An attempt "
           "that fails is followed by one from the seed."),
-       -1, [](Row row) { return row.name; }},
+       -1, [](Line row) { return row.name; }},
       {tr("Kind"),
        tr("match: templates are searched and a pose is solved from them; refine: the pose moves "
           "until rendered edges meet the image's own."),
@@ -150,7 +150,7 @@ std::vector<TableColumn<IterationRow>> columns() {
          return ofStage(one, Stage::kPose, 1e3 * (one.seconds.pose + one.seconds.refinement));
        })},
       {tr("Status"), tr("How the iteration ended, or the last stage of it that is complete."), -1,
-       [](Row row) { return row.status; }},
+       [](Line row) { return row.status; }},
   };
 }
 
@@ -178,7 +178,7 @@ bool continues(const sessions::LocalizationTrace* former, const sessions::Locali
 
 }  // namespace
 
-IterationsModel::IterationsModel(QObject* parent) : RowsModel(columns(), parent) {}
+IterationsModel::IterationsModel(QObject* parent) : RowsModel(iterationColumns(), parent) {}
 
 void IterationsModel::setSnapshot(SnapshotPtr snapshot) {
   std::vector<IterationRow> rows;

@@ -49,7 +49,7 @@ auto coordinate(int axis) {
   };
 }
 
-std::vector<TableColumn<MarkRow>> columns() {
+std::vector<TableColumn<MarkRow>> markColumns() {
   constexpr auto tr = [](const char* text) { return MarksModel::tr(text); };
   return {
       {tr("On"), tr("Whether the mark takes part in solving. One that is off is kept."), -1,
@@ -165,7 +165,7 @@ QString editText(int column, const std::string& id, bool on) {
 
 }  // namespace
 
-MarksModel::MarksModel(QObject* parent) : RowsModel(columns(), parent) {}
+MarksModel::MarksModel(QObject* parent) : RowsModel(markColumns(), parent) {}
 
 int MarksModel::rowOf(const std::string& id) const {
   return firstRow([&id](const MarkRow& row) { return row.id == id; });

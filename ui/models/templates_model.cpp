@@ -7,7 +7,7 @@ using sessions::MatchDetails;
 
 namespace {
 
-std::vector<TableColumn<MatchDetails>> columns() {
+std::vector<TableColumn<MatchDetails>> templateColumns() {
   using Row = const MatchDetails&;
   constexpr auto tr = [](const char* text) { return TemplatesModel::tr(text); };
   return {
@@ -61,7 +61,7 @@ std::vector<TableColumn<MatchDetails>> columns() {
 
 }  // namespace
 
-TemplatesModel::TemplatesModel(QObject* parent) : RowsModel(columns(), parent) {}
+TemplatesModel::TemplatesModel(QObject* parent) : RowsModel(templateColumns(), parent) {}
 
 void TemplatesModel::setIteration(const sessions::IterationTrace* iteration) {
   reached_match_ = iteration && iteration->reached >= Stage::kMatch;

@@ -21,7 +21,7 @@ QString plainText(const OptionDescription& option) {
   return fromText(sessions::valueText(bare, option.value));
 }
 
-std::vector<TableColumn<LimitRow>> columns() {
+std::vector<TableColumn<LimitRow>> limitColumns() {
   using Row = const LimitRow&;
   constexpr auto tr = [](const char* text) { return LimitsModel::tr(text); };
   return {
@@ -40,7 +40,7 @@ std::vector<TableColumn<LimitRow>> columns() {
 
 }  // namespace
 
-LimitsModel::LimitsModel(QObject* parent) : RowsModel(columns(), parent) { setLimits({}, {}); }
+LimitsModel::LimitsModel(QObject* parent) : RowsModel(limitColumns(), parent) { setLimits({}, {}); }
 
 void LimitsModel::setLimits(const sessions::CheckLimits& limits,
                             const sessions::CheckLimits& of_preset) {
@@ -151,9 +151,8 @@ void LimitsDialog::buildTable(QVBoxLayout& column) {
 }
 
 void LimitsDialog::buildBottom(QVBoxLayout& column) {
-  second_ =
-      named(new QCheckBox(tr("A second person approves"), this), "secondPerson",
-            tr("A validation counts only after a second person has approved it"));
+  second_ = named(new QCheckBox(tr("A second person approves"), this), "secondPerson",
+                  tr("A validation counts only after a second person has approved it"));
   reset_ = new QPushButton(tr("Reset all"), this);
   reset_->setToolTip(tr("Take every limit back to the preset's value"));
   reset_->setAutoDefault(false);

@@ -10,6 +10,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/image_file.h"
+#include "sessions/io/labels/label_values.h"
 #include "sessions/io/labels/label_xml.h"
 
 namespace boresight::sessions {
@@ -20,13 +21,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxLabelBytes = 4 * kMegabyte;
 constexpr std::size_t kBeginning = 4096;
 constexpr std::int64_t kMostVicarLabel = 10 * 1024 * 1024;
-
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-
-std::string_view skipBlanks(std::string_view text) {
-  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
-  return text;
-}
 
 /// Without the mark of UTF-8.
 std::string_view withoutMark(std::string_view text) {

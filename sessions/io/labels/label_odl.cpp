@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::size_t kMostDepth = 64;  ///< of objects within objects
 
-bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 bool isLineEnd(char c) { return c == '\n' || c == '\r'; }
 
 /// The name of an object, which may stand in quotes.
@@ -48,11 +47,6 @@ struct Objects {
   std::vector<Extent> files;  ///< OBJECT = FILE
   std::size_t file = 0;       ///< which of them has the first IMAGE; counted from 1
 };
-
-std::string_view skipBlanks(std::string_view text) {
-  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
-  return text;
-}
 
 bool begins(const OdlStatement& statement) {
   return statement.key == "OBJECT" || statement.key == "GROUP";

@@ -24,7 +24,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostValues = 32;
+constexpr std::size_t kMostDistinct = 32;
 constexpr double kBeyondMeasurement = 1e30;
 
 /// Bits of a number as a label writes them.
@@ -71,7 +71,7 @@ double halfDigit(double value) {
 void add(double value, double tolerance, std::vector<InvalidValue>& values) {
   const bool known = std::any_of(values.begin(), values.end(),
                                  [value](const InvalidValue& one) { return one.value == value; });
-  if (std::isfinite(value) && values.size() < kMostValues && !known)
+  if (std::isfinite(value) && values.size() < kMostDistinct && !known)
     values.push_back({value, tolerance});
 }
 

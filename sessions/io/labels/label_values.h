@@ -20,6 +20,14 @@
 
 namespace boresight::sessions {
 
+/// Blanks, tabs and line ends.
+inline bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+/// What follows the blanks.
+inline std::string_view skipBlanks(std::string_view text) {
+  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+  return text;
+}
+
 /// A member of an object; null when there is none, or no object.
 const nlohmann::json* labelMember(const nlohmann::json* object, std::string_view key);
 /// The first of several keys that is there.
