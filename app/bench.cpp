@@ -112,7 +112,7 @@ std::string kernelNames() {
 
 std::string milliseconds(double seconds) { return sessions::fixedText(1e3 * seconds, 1); }
 
-void print(const Figures& figures) {
+void printFigures(const Figures& figures) {
   std::cout << "digest with SHA instructions: " << (figures.sha_instructions ? "yes" : "no")
             << "\nkernels:" << kernelNames() << "\n\nlocalization, ms\n";
   sessions::TextTable runs({"case", "kernels", "threads", "size", "runs", "converged", "init",
@@ -187,7 +187,7 @@ nlohmann::ordered_json toJson(const Figures& figures) {
 int bench(const BenchArguments& arguments) {
   if (!arguments.json.empty()) sessions::requireWritable(arguments.json);
   const Figures figures = measure(arguments);
-  print(figures);
+  printFigures(figures);
   if (!arguments.json.empty())
     sessions::writeFileAtomically(arguments.json, toJson(figures).dump(2) + "\n");
   return kDone;

@@ -10,7 +10,7 @@ namespace {
 
 using std::filesystem::path;
 
-void print(const Pose& pose, const char* name) {
+void printPose(const Pose& pose, const char* name) {
   std::cout << sessions::poseText(pose, Matrix6d::Zero(), name);
 }
 
@@ -26,7 +26,7 @@ void describeSeed(const sessions::PoseFile& pose) {
 }
 
 void describeCameraPose(const sessions::PoseFile& pose) {
-  print(pose.camera_from_station, "camera_from_station");
+  printPose(pose.camera_from_station, "camera_from_station");
   const Eigen::Vector3d camera_in_station_m = pose.camera_from_station.inverse().translation_m;
   line("camera centre in the station frame " + vectorText(camera_in_station_m, 4) + " m");
   describeSeed(pose);
@@ -42,7 +42,7 @@ void describeReferencePose(const path& file, const sessions::JsonReader& root) {
   line("reference_from_station in " +
        (there.frame.name.empty() ? "the frame of the camera model" : frameText(there.frame)));
   const sessions::PoseFile pose = sessions::readPose(file, {there, {}});
-  print(pose.camera_from_station, "reference_from_station");
+  printPose(pose.camera_from_station, "reference_from_station");
   describeSeed(pose);
 }
 
@@ -58,18 +58,19 @@ void describePoseFile(const path& file, const sessions::JsonReader& root) {
 void describeTransform(const sessions::FrameTransform& transform) {
   line("from " + frameText(transform.source) + " to " + frameText(transform.target) + ": " +
        transform.comment);
-  print(transform.target_from_source, "target_from_source");
+  printPose(transform.target_from_source, "target_from_source");
 }
 
 void describeValidatedPose(const sessions::JsonReader& root) {
   line("case " + root.at("case").text() + ": " + root.at("standing").text());
-  print(sessions::readTransform(root.at("pose").at("camera_from_station")), "camera_from_station");
+  printPose(sessions::readTransform(root.at("pose").at("camera_from_station")),
+            "camera_from_station");
   if (const auto frames = root.find("frames"))
     for (const char* name : {"camera_model", "station"})
       if (const auto frame = frames->find(name)) {
         line("in " + frame->at("frame").text());
-        print(sessions::readTransform(frame->at("reference_from_station")),
-              "reference_from_station");
+        printPose(sessions::readTransform(frame->at("reference_from_station")),
+                  "reference_from_station");
       }
   line("whs verify checks it against its signature and its inputs");
 }
@@ -80,7 +81,7 @@ void describeRig(const path& file) {
          std::to_string(view.camera.height) + " px, " +
          countText(view.marks.points.size(), "point") + ", " +
          countText(view.marks.lines.size(), "line"));
-    print(view.camera_from_rig, "camera_from_rig");
+    printPose(view.camera_from_rig, "camera_from_rig");
   }
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 using sessions::OptionDescription;
 
-void print(const std::vector<OptionDescription>& options) {
+void printTable(const std::vector<OptionDescription>& options) {
   for (const OptionDescription& option : options) {
     std::cout << option.name << " = " << sessions::valueText(option, option.value) << "   ("
               << rangeText(option) << ")\n    " << option.help << "\n";
@@ -20,9 +20,9 @@ void print(const std::vector<OptionDescription>& options) {
 }
 
 void printOptions(const std::string& profile) {
-  print(sessions::listOptions(profileOptions(profile)));
+  printTable(sessions::listOptions(profileOptions(profile)));
   std::cout << "\nOf the methods beside whs (" << sessions::methodNames() << "):\n";
-  print(sessions::listOptions(sessions::MethodOptions()));
+  printTable(sessions::listOptions(sessions::MethodOptions()));
 }
 
 }  // namespace

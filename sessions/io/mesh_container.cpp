@@ -89,8 +89,8 @@ void checkDepth(const std::vector<JsonReader>& nodes, const std::vector<std::siz
 
 /// The nodes must form trees (glTF 2.0, 3.5): an importer follows shared or circular children to
 /// the end of memory.
-void checkGltfNodes(const JsonReader& json) {
-  const auto nodes_json = json.find("nodes");
+void checkGltfNodes(const JsonReader& gltf) {
+  const auto nodes_json = gltf.find("nodes");
   if (!nodes_json) return;
   const std::vector<JsonReader> nodes = nodes_json->elements();
   if (nodes.size() > kMaxNodes)
@@ -106,7 +106,7 @@ void checkGltfNodes(const JsonReader& json) {
         if (parent[index] != none) child.fail("the node has two parents");
         parent[index] = i;
       }
-  if (const auto scenes = json.find("scenes"))
+  if (const auto scenes = gltf.find("scenes"))
     for (const JsonReader& scene : scenes->elements())
       if (const auto roots = scene.find("nodes"))
         for (const JsonReader& root : roots->elements())
@@ -118,12 +118,12 @@ void checkGltfNodes(const JsonReader& json) {
 /// Importers leave out faces with bad indices; the count that the file declares shows it.
 MeshDeclaration checkGltfJson(const std::filesystem::path& file, std::string_view text) {
   const JsonDocument document(file, text);
-  const JsonReader json = document.root();
+  const JsonReader gltf = document.root();
   MeshDeclaration declaration;
-  const auto accessors = json.find("accessors");
-  const auto meshes = json.find("meshes");
+  const auto accessors = gltf.find("accessors");
+  const auto meshes = gltf.find("meshes");
   if (!accessors || !meshes) throw InputError(file, "the mesh has no faces");
-  checkGltfNodes(json);
+  checkGltfNodes(gltf);
   const std::vector<JsonReader> all_accessors = accessors->elements();
   std::int64_t triangles = 0;
   for (const JsonReader& mesh : meshes->elements())

@@ -14,9 +14,9 @@
 namespace boresight::ui {
 namespace {
 
-constexpr double kMargin = 0.35;   // of the marks' box, round it
-constexpr double kLeastSide = 64;  // px of the image
-constexpr int kDrawn_px = 480;     // side of a picture before it is scaled to its place
+constexpr double kMarkMargin = 0.35;  // of the marks' box, round it
+constexpr double kLeastSide_px = 64;  // px of the image
+constexpr int kDrawn_px = 480;        // side of a picture before it is scaled to its place
 constexpr double kStep_px = 4.0;
 
 struct Drawing {
@@ -33,7 +33,7 @@ QRectF areaOf(const Drawing& drawing) {
   for (const sessions::PointPair& point : drawing.marks.points)
     if (point.used()) box |= QRectF(point.pixel->x() - 0.5, point.pixel->y() - 0.5, 1.0, 1.0);
   const double side =
-      std::max((1.0 + 2.0 * kMargin) * std::max(box.width(), box.height()), kLeastSide);
+      std::max((1.0 + 2.0 * kMarkMargin) * std::max(box.width(), box.height()), kLeastSide_px);
   return {box.center().x() - 0.5 * side, box.center().y() - 0.5 * side, side, side};
 }
 

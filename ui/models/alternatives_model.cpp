@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/models/alternatives_model.h"
 
-#include <limits>
 #include <utility>
 
 #include <QFont>
 
 #include "core/base/math.h"
 #include "core/localizer/competing_poses.h"
+#include "sessions/text/units.h"
 #include "ui/models/number_text.h"
 
 namespace boresight::ui {
 
 using sessions::Alternative;
 using sessions::AlternativeKind;
+using sessions::kUnknown;
 
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 QString tr(const char* text) { return AlternativesModel::tr(text); }
 

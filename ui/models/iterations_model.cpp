@@ -2,18 +2,17 @@
 #include "ui/models/iterations_model.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/base/math.h"
+#include "sessions/text/units.h"
 #include "ui/models/number_text.h"
 
 namespace boresight::ui {
 
 using sessions::IterationTrace;
+using sessions::kUnknown;
 
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Whether a pose came out of the iteration.
 bool isSolved(const IterationTrace& one) {
