@@ -3,21 +3,169 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <thread>
 
-#include "app/bench_localization.h"
 #include "app/bench_matching.h"
 #include "app/commands.h"
 #include "core/base/sha256.h"
+#include "sessions/evaluation/reseed.h"
 #include "sessions/evaluation/run_result.h"
 #include "sessions/io/atomic_file.h"
+#include "sessions/io/dataset_file.h"
 #include "sessions/io/errors.h"
+#include "sessions/run/problem.h"
+#include "sessions/run/runner.h"
 #include "sessions/session/session_maker.h"
 #include "sessions/text/text_table.h"
 #include "sessions/version.h"
 
 namespace boresight::app {
 namespace {
+
+/// Localizations of one kind of problem, one after the other.
+struct LocalizationFigure {
+  std::string name;
+  Kernels kernels = Kernels::kPortable;
+  int threads = 1;
+  int width = 0, height = 0;
+  int runs = 0;
+  int converged = 0;
+  sessions::StageSeconds mean_seconds;
+  std::uint64_t arena_bytes = 0;
+  std::string digest;  ///< of the first run
+
+  double perSecond() const { return mean_seconds.total() > 0.0 ? 1.0 / mean_seconds.total() : 0.0; }
+};
+
+constexpr int kHouseholdWidth = 640;
+constexpr int kHouseholdHeight = 480;
+
+/// What a case's problem points into.
+struct Loaded {
+  sessions::GrayImage image;
+  sessions::SceneMesh scene;
+  Camera camera;
+  Pose camera_from_station_seed;
+  sessions::DeclaredUncertainty uncertainty;
+  LocalizerOptions options;
+
+  LocalizationProblem problem() const {
+    return sessions::problemOf(image, nullptr, camera, scene.view(), camera_from_station_seed,
+                               uncertainty);
+  }
+};
+
+Loaded load(const sessions::Dataset& dataset, const sessions::Case& one,
+            const LocalizerOptions& options) {
+  Loaded loaded;
+  const sessions::Station& station = dataset.stations.at(one.station);
+  loaded.image = sessions::readCaseImage(dataset, one);
+  loaded.scene = sessions::readStationScene(station);
+  loaded.camera = dataset.cameras.at(one.camera);
+  loaded.camera_from_station_seed = one.seed_camera_from_station;
+  loaded.uncertainty = one.uncertainty.value_or(sessions::DeclaredUncertainty());
+  loaded.options = options;
+  if (options.templates.feature_size_m == 0.0 && station.feature_size_m)
+    loaded.options.templates.feature_size_m = *station.feature_size_m;
+  return loaded;
+}
+
+void noteRun(const Loaded& loaded, const sessions::RunSettings& settings,
+             LocalizationFigure& figure) {
+  sessions::RunSettings summary = settings;
+  summary.level = sessions::RecordLevel::kSummary;
+  figure.kernels = settings.kernels;
+  figure.threads = settings.threads;
+  const sessions::LocalizationTrace trace =
+      sessions::localize(loaded.problem(), loaded.options, summary);
+  figure.mean_seconds += trace.seconds;
+  figure.converged += trace.status == LocalizationStatus::kConverged ? 1 : 0;
+  figure.arena_bytes = trace.arena_bytes;
+  if (figure.runs == 0) figure.digest = trace.digest;
+  ++figure.runs;
+}
+
+void takeMean(LocalizationFigure& figure) {
+  const double share = 1.0 / std::max(1, figure.runs);
+  sessions::StageSeconds& seconds = figure.mean_seconds;
+  for (double* each : {&seconds.initialization, &seconds.rendering, &seconds.matching,
+                       &seconds.pose, &seconds.refinement}) {
+    *each *= share;
+  }
+}
+
+/// Scales to the household camera's size and cuts off above and below what does not fit.
+void bringToHouseholdSize(Loaded& loaded) {
+  const double scale = static_cast<double>(kHouseholdWidth) / loaded.image.width;
+  const int scaled_height = std::max(1, static_cast<int>(loaded.image.height * scale + 0.5));
+  const cv::Mat pixels(loaded.image.height, loaded.image.width, CV_8U, loaded.image.pixels.data());
+  cv::Mat scaled;
+  cv::resize(pixels, scaled, cv::Size(kHouseholdWidth, scaled_height), 0, 0, cv::INTER_AREA);
+  const int above = (scaled_height - kHouseholdHeight) / 2;
+  cv::Mat fitted(kHouseholdHeight, kHouseholdWidth, CV_8U, cv::Scalar(0));
+  const int rows = std::min(scaled_height, kHouseholdHeight);
+  const int from = std::max(0, above);
+  const int to = std::max(0, -above);
+  scaled.rowRange(from, from + rows).copyTo(fitted.rowRange(to, to + rows));
+  loaded.image.pixels.assign(fitted.data, fitted.data + fitted.total());
+  loaded.image.width = kHouseholdWidth;
+  loaded.image.height = kHouseholdHeight;
+
+  Camera& camera = loaded.camera;
+  camera.width = kHouseholdWidth;
+  camera.height = kHouseholdHeight;
+  camera.fx *= scale;
+  camera.fy *= scale;
+  camera.cx = (camera.cx + 0.5) * scale - 0.5;
+  camera.cy = (camera.cy + 0.5) * scale - 0.5 - above;
+  if (prepareCamera(camera) != Status::kOk)
+    throw sessions::InputError("bench", "camera", "cannot be brought to 640 x 480");
+}
+
+/// One case from its own seed, `repetitions` times, with the settings' kernels and threads.
+/// InputError.
+LocalizationFigure measureCase(const sessions::Dataset& dataset, const sessions::Case& one,
+                               const LocalizerOptions& options, int repetitions,
+                               const sessions::RunSettings& settings) {
+  const Loaded loaded = load(dataset, one, options);
+  LocalizationFigure figure;
+  figure.name = one.id;
+  figure.width = loaded.camera.width;
+  figure.height = loaded.camera.height;
+  for (int i = 0; i < repetitions; ++i) noteRun(loaded, settings, figure);
+  takeMean(figure);
+  return figure;
+}
+
+/// The same scene as a household camera sees it: the image brought to 640 x 480, from `seeds` seeds
+/// up to 3 cm and 10 deg off. Needs the case's truth. InputError.
+LocalizationFigure measureHouseholdScale(const sessions::Dataset& dataset,
+                                         const sessions::Case& one, const LocalizerOptions& options,
+                                         int seeds, const sessions::RunSettings& settings) {
+  if (!one.truth_camera_from_station)
+    throw sessions::InputError(dataset.file, "cases." + one.id + ".truth",
+                               "seeds are drawn around the truth, and there is none");
+  Loaded loaded = load(dataset, one, options);
+  bringToHouseholdSize(loaded);
+  loaded.uncertainty.translation_m = Eigen::Vector3d::Constant(0.03);
+  loaded.uncertainty.rotation_deg = Eigen::Vector3d::Constant(10.0);
+  loaded.uncertainty.pivot = sessions::UncertaintyPivot::kStation;
+  LocalizationFigure figure;
+  figure.name = one.id + " at household scale";
+  figure.width = kHouseholdWidth;
+  figure.height = kHouseholdHeight;
+  const Eigen::Vector3d centre_in_station_m = matchedBounds(loaded.scene.view()).centre();
+  for (int seed = 1; seed <= seeds; ++seed) {
+    loaded.camera_from_station_seed = sessions::seedForOffset(
+        *one.truth_camera_from_station, sessions::drawOffset(loaded.uncertainty, 1.0, one.id, seed),
+        loaded.uncertainty.pivot, centre_in_station_m);
+    noteRun(loaded, settings, figure);
+  }
+  takeMean(figure);
+  return figure;
+}
 
 struct BenchArguments {
   std::string dataset;
@@ -42,13 +190,12 @@ std::vector<sessions::RunSettings> BenchArguments::settings() const {
 }
 
 void BenchArguments::addTo(CLI::App& command) {
-  command.add_option("--dataset", dataset, "dataset.json (without it the shipped examples)")
-      ->type_name("FILE");
+  addFile(command, "--dataset", dataset, "dataset.json (without it the shipped examples)");
   command.add_option("--case", cases, "Cases to time (without it the first of each station)")
       ->type_name("ID");
   options.addTo(command);
   command.add_flag("--quick", quick, "Fewer repetitions and the smallest windows only");
-  command.add_option("--json", json, "Writes the figures as JSON")->type_name("FILE");
+  addFile(command, "--json", json, "Writes the figures as JSON");
 }
 
 struct Figures {
@@ -94,14 +241,6 @@ Figures measure(const BenchArguments& arguments) {
   }
   figures.matching = measureMatching(arguments.quick ? 1 : 5, arguments.quick);
   return figures;
-}
-
-std::vector<Kernels> availableKernels() {
-  std::vector<Kernels> available;
-  for (int set = 0; set < kKernelSets; ++set) {
-    if (kernelsAvailable(static_cast<Kernels>(set))) available.push_back(static_cast<Kernels>(set));
-  }
-  return available;
 }
 
 std::string kernelNames() {
@@ -196,11 +335,10 @@ int bench(const BenchArguments& arguments) {
 }  // namespace
 
 void addBench(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "bench", "Times localizations and matching on this machine, stage by stage");
-  auto arguments = std::make_shared<BenchArguments>();
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "bench",
+                 "Times localizations and matching on this machine, stage by stage", bench);
   arguments->addTo(*command);
-  command->callback([arguments, &exit_code] { exit_code = bench(*arguments); });
 }
 
 }  // namespace boresight::app

@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "app/commands.h"
 #include "core/base/arena.h"
 #include "core/match/whs.h"
 
@@ -102,11 +103,9 @@ class Matcher {
     MatchingFigure figure;
     figure.side_px = side_px;
     figure.window_px = window_px;
-    for (int set = 0; set < kKernelSets; ++set) {
-      const Kernels kernels = static_cast<Kernels>(set);
-      if (!kernelsAvailable(kernels)) continue;
+    for (const Kernels kernels : availableKernels()) {
       prepare(kernels);
-      figure.whs_ms[static_cast<std::size_t>(set)] = bestMilliseconds(repetitions, [&] {
+      figure.whs_ms[static_cast<std::size_t>(kernels)] = bestMilliseconds(repetitions, [&] {
         require(search_.begin(view, test_.image, window, center, center, kSecondPeakExclusion_px));
         while (!search_.step()) {
         }

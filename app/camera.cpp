@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <iostream>
 #include <limits>
-#include <memory>
 #include <stdexcept>
 
 #include "app/commands.h"
@@ -107,11 +106,11 @@ int convert(const CameraArguments& arguments) {
 }  // namespace
 
 void addCamera(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "camera",
-      "Writes a camera as another kind of file, or as another model with the error that it makes");
-  auto arguments = std::make_shared<CameraArguments>();
-  command->add_option("file", arguments->file, kCameraHelp)->required()->type_name("FILE");
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "camera",
+      "Writes a camera as another kind of file, or as another model with the error that it makes",
+      convert);
+  addFile(*command, "file", arguments->file, kCameraHelp)->required();
   command
       ->add_option("--as", arguments->model,
                    "Fits this model, in the same camera frame, and says its worst error in pixels")
@@ -122,11 +121,8 @@ void addCamera(CLI::App& app, int& exit_code) {
                    "moves (cahvore), m")
       ->check(numberIn(1e-3, 1e6))
       ->type_name("M");
-  command
-      ->add_option("--out", arguments->out,
-                   "camera.json, or for vectors a text file (.cahv, .cahvor, .cahvore)")
-      ->type_name("FILE");
-  command->callback([arguments, &exit_code] { exit_code = convert(*arguments); });
+  addFile(*command, "--out", arguments->out,
+          "camera.json, or for vectors a text file (.cahv, .cahvor, .cahvore)");
 }
 
 }  // namespace boresight::app

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filesystem>
 #include <iostream>
-#include <memory>
 #include <optional>
-#include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
-#include "app/open_session.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/json_writer.h"
@@ -16,7 +12,6 @@
 #include "sessions/session/case_run.h"
 #include "sessions/session/check.h"
 #include "sessions/session/decision.h"
-#include "sessions/session/session_document.h"
 
 namespace boresight::app {
 namespace {
@@ -114,13 +109,13 @@ std::vector<std::string> presetNames() {
 }  // namespace
 
 void addCheck(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "check",
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "check",
       "Checks the poses of a session before somebody vouches for them, also by running from other "
       "seeds. Exit status 0 when all checks pass, 4 when some fail, 3 where there is no pose "
-      "to check");
-  auto arguments = std::make_shared<CheckArguments>();
-  command->add_option("session", arguments->session, "Session file")->required()->type_name("FILE");
+      "to check",
+      checkSession);
+  addFile(*command, "session", arguments->session, "Session file")->required();
   command->add_option("--case", arguments->cases, "Only this case; may be repeated")
       ->type_name("ID");
   command->add_option("--source", arguments->source, "Which pose: of the last run, or of the marks")
@@ -137,11 +132,9 @@ void addCheck(CLI::App& app, int& exit_code) {
                    "Limits and requirement instead of the session's own")
       ->check(CLI::IsMember(presetNames()))
       ->type_name("NAME");
-  command->add_option("--json", arguments->json, "Write the checks to this file")
-      ->type_name("FILE");
+  addFile(*command, "--json", arguments->json, "Write the checks to this file");
   command->add_flag("--sentences", arguments->sentences,
                     "Say what was found of checks that passed, too");
-  command->callback([arguments, &exit_code] { exit_code = checkSession(*arguments); });
 }
 
 }  // namespace boresight::app

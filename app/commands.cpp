@@ -2,10 +2,12 @@
 #include "app/commands.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <map>
 
 #include "sessions/baselines/method_options.h"
+#include "sessions/io/errors.h"
 #include "sessions/io/mesh_container.h"
 #include "sessions/run/runner.h"
 #include "sessions/text/plain_text.h"
@@ -14,11 +16,9 @@
 namespace boresight::app {
 
 void FrameArguments::addTo(CLI::App& command) {
-  command
-      .add_option("--transform", files,
-                  "transform.json between the frame that a pose names and that of the camera "
-                  "model; may be repeated")
-      ->type_name("FILE");
+  addFile(command, "--transform", files,
+          "transform.json between the frame that a pose names and that of the camera "
+          "model; may be repeated");
 }
 
 sessions::PoseFrames FrameArguments::of(const sessions::CameraFile& camera) const {
@@ -120,9 +120,7 @@ CLI::Option* addMeshUnit(CLI::App& command, std::string& unit, const std::string
 }
 
 void MeshArguments::addTo(CLI::App& command) {
-  command.add_option("--mesh", mesh, "Mesh of the station: PLY, OBJ, STL, glTF or GLB")
-      ->required()
-      ->type_name("FILE");
+  addFile(command, "--mesh", mesh, "Mesh of the station: PLY, OBJ, STL, glTF or GLB")->required();
   addMeshUnit(command, unit,
               "Unit of the mesh's coordinates: m, mm, cm, in, ... (required unless glTF)");
 }
@@ -171,12 +169,17 @@ void addThreads(CLI::App& command, int& threads) {
       ->type_name("N");
 }
 
+std::vector<Kernels> availableKernels() {
+  std::vector<Kernels> available;
+  for (int set = 0; set < kKernelSets; ++set)
+    if (kernelsAvailable(static_cast<Kernels>(set))) available.push_back(static_cast<Kernels>(set));
+  return available;
+}
+
 void addKernels(CLI::App& command, Kernels& kernels) {
   std::map<std::string, Kernels> named = {{"best", bestKernels()}};
   std::string names = "best";
-  for (int k = 0; k < kKernelSets; ++k) {
-    const Kernels one = static_cast<Kernels>(k);
-    if (!kernelsAvailable(one)) continue;
+  for (const Kernels one : availableKernels()) {
     named.emplace(kernelsName(one), one);
     names += std::string(", ") + kernelsName(one);
   }
@@ -207,8 +210,7 @@ void OptionArguments::addTo(CLI::App& command) {
           "(the default's on gray images, within 10,000,000 bytes of memory, image and mesh "
           "included)")
       ->check(CLI::IsMember({"default", "paper", "flight"}));
-  command.add_option("--config", config, "config.json: a profile and the options that differ")
-      ->type_name("FILE");
+  addFile(command, "--config", config, "config.json: a profile and the options that differ");
   command
       .add_option("--set", assignments,
                   "Option that differs, e.g. pnp.seed=7; `whs options` lists them all")
@@ -240,6 +242,106 @@ std::string OptionArguments::profileName() const {
 
 std::size_t OptionArguments::memoryLimit() const {
   return profileName() == kFlightProfile ? sessions::kFlightMemoryBytes : 0;
+}
+
+void DatasetArguments::addTo(CLI::App& command) {
+  const char* group = "Of a BOP folder";
+  command
+      .add_option("--split", selection.split, "Its split, e.g. val (else test, or the only one)")
+      ->type_name("NAME")
+      ->group(group);
+  command.add_option("--scene", selection.scenes, "Only these scenes")
+      ->type_name("N")
+      ->group(group);
+  command.add_option("--obj", selection.objects, "Only these objects")
+      ->type_name("N")
+      ->group(group);
+  command.add_option("--sensor", selection.sensor, "Which of several: scene_camera_NAME.json")
+      ->type_name("NAME")
+      ->group(group);
+  command
+      .add_flag("--every-instance", selection.every_instance,
+                "Also instances that the challenge does not ask for, or that are hardly visible")
+      ->group(group);
+  addUncertainty(command, uncertainty,
+                 "Seeds are drawn about the truth within this along and about x, y, z of the "
+                 "camera: three lengths in m, three angles in deg (else 0.03 m and 10 deg)")
+      ->group(group);
+  command
+      .add_option("--pivot", pivot,
+                  "What the seed's rotation is uncertain about (else the station)")
+      ->check(CLI::IsMember({"camera", "station"}))
+      ->group(group);
+}
+
+sessions::Dataset DatasetArguments::open() const {
+  const bool chooses = !selection.split.empty() || !selection.sensor.empty() ||
+                       !selection.scenes.empty() || !selection.objects.empty() ||
+                       !uncertainty.empty() || !pivot.empty() || selection.every_instance;
+  if (chooses && !std::filesystem::is_directory(path))
+    throw CLI::ValidationError(
+        "--split, --scene, --obj, --sensor, --every-instance, "
+        "--uncertainty, --pivot",
+        "choose of a BOP folder, which " + path + " is not");
+  sessions::BopSelection chosen = selection;
+  setUncertainty(uncertainty, chosen.uncertainty);
+  if (pivot == "camera") chosen.uncertainty.pivot = sessions::UncertaintyPivot::kCamera;
+  return sessions::openDataset(path, chosen);
+}
+
+namespace {
+
+void sayNotices(const sessions::SessionDocument& document) {
+  for (const std::string& text : document.notices()) note(text);
+}
+
+[[noreturn]] void failForEdits(const sessions::SessionDocument& document, const char* remedy) {
+  throw sessions::InputError(
+      document.file(), std::to_string(document.recovery()->edits.size()) + " edits " + remedy);
+}
+
+}  // namespace
+
+sessions::SessionDocument openToRead(const std::string& file) {
+  auto document = sessions::SessionDocument::open(file, sessions::Access::kReadOnly);
+  sayNotices(document);
+  if (document.recovery()) failForEdits(document, "are not saved yet; save the session first");
+  return document;
+}
+
+sessions::SessionDocument openToEdit(const std::string& file, bool recover) {
+  auto document = sessions::SessionDocument::open(file);
+  if (document.readOnly()) throw sessions::OutputError(document.file(), document.readOnlyReason());
+  sayNotices(document);
+  if (document.recovery() && !recover)
+    failForEdits(document,
+                 "were never saved; take them with --recover, or open the session in the desktop "
+                 "program");
+  document.acceptRecovery();
+  return document;
+}
+
+const sessions::SessionCase& requireCase(const sessions::SessionDocument& document,
+                                         const std::string& case_id) {
+  const sessions::SessionCase* found = document.session().findCase(case_id);
+  if (found == nullptr)
+    throw sessions::InputError(document.file(), "cases", "there is no case '" + case_id + "'");
+  return *found;
+}
+
+const sessions::RunRecord& recordedRun(const sessions::SessionDocument& document,
+                                       const std::string& beginning) {
+  const sessions::RunRecord* found = nullptr;
+  for (const sessions::RunRecord& run : document.session().runs) {
+    if (!run.digest.starts_with(beginning)) continue;
+    if (found != nullptr && found->digest != run.digest)
+      throw sessions::InputError(document.file(), "runs",
+                                 "more than one digest begins with " + beginning);
+    found = &run;
+  }
+  if (found == nullptr)
+    throw sessions::InputError(document.file(), "runs", "no digest begins with " + beginning);
+  return *found;
 }
 
 }  // namespace boresight::app

@@ -2,8 +2,11 @@
 // What the subcommands of whs share: common arguments, messages.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -12,9 +15,11 @@
 #include "core/base/kernels.h"
 #include "core/localizer/localizer_options.h"
 #include "sessions/baselines/methods.h"
+#include "sessions/evaluation/bop_dataset.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/io/scene_mesh.h"
+#include "sessions/session/session_document.h"
 
 namespace boresight::sessions {
 struct MethodOptions;
@@ -23,30 +28,30 @@ struct MethodOptions;
 namespace boresight::app {
 
 /// Each adds its subcommand; what that returns when it was called goes to `exit_code`.
-void addLocalize(CLI::App& app, int& exit_code);
-void addEvaluate(CLI::App& app, int& exit_code);
-void addCompare(CLI::App& app, int& exit_code);
-void addCheck(CLI::App& app, int& exit_code);
-void addDecide(CLI::App& app, int& exit_code);
-void addReport(CLI::App& app, int& exit_code);
-void addVerify(CLI::App& app, int& exit_code);
-void addViews(CLI::App& app, int& exit_code);
-void addQueue(CLI::App& app, int& exit_code);
-void addSolve(CLI::App& app, int& exit_code);
-void addRender(CLI::App& app, int& exit_code);
-void addCamera(CLI::App& app, int& exit_code);
-void addInfo(CLI::App& app, int& exit_code);
-void addOptions(CLI::App& app, int& exit_code);
-void addBench(CLI::App& app, int& exit_code);
-void addNew(CLI::App& app, int& exit_code);
-void addRun(CLI::App& app, int& exit_code);
-void addPack(CLI::App& app, int& exit_code);
-void addExport(CLI::App& app, int& exit_code);
-void addImport(CLI::App& app, int& exit_code);
-void addProblem(CLI::App& app, int& exit_code);
-void addMerge(CLI::App& app, int& exit_code);
-void addTables(CLI::App& app, int& exit_code);
-void addDocuments(CLI::App& app, int& exit_code);
+using AddCommand = void(CLI::App& app, int& exit_code);
+AddCommand addLocalize, addEvaluate, addMerge, addTables, addCompare, addCheck, addDecide;
+AddCommand addVerify, addViews, addReport, addQueue, addSolve, addRender, addCamera, addInfo;
+AddCommand addOptions, addNew, addRun, addPack, addExport, addImport, addProblem, addBench;
+AddCommand addDocuments;
+
+/// A subcommand and its arguments, which live as long as it; `run` gets them when it is called.
+template <class Arguments>
+std::pair<CLI::App*, std::remove_const_t<Arguments>*> addCommand(CLI::App& app, int& exit_code,
+                                                                 const std::string& name,
+                                                                 const std::string& help,
+                                                                 int (*run)(Arguments&)) {
+  auto arguments = std::make_shared<std::remove_const_t<Arguments>>();
+  CLI::App* command = app.add_subcommand(name, help);
+  command->callback([arguments, run, &exit_code] { exit_code = run(*arguments); });
+  return {command, arguments.get()};
+}
+
+/// An option, or a positional argument, that names files.
+template <class Value>
+CLI::Option* addFile(CLI::App& command, const std::string& name, Value& value,
+                     const std::string& help) {
+  return command.add_option(name, value, help)->type_name("FILE");
+}
 
 /// A line to stderr for people, and one to stdout. What text from outside has in it does not break
 /// the line.
@@ -77,6 +82,9 @@ void setUncertainty(const std::vector<double>& values, sessions::DeclaredUncerta
 
 /// --threads: how many a run may use.
 void addThreads(CLI::App& command, int& threads);
+
+/// Those that this machine has.
+std::vector<Kernels> availableKernels();
 
 /// --kernels, for those who compare them: hidden from the help.
 void addKernels(CLI::App& command, Kernels& kernels);
@@ -128,6 +136,40 @@ struct MethodArguments {
   /// What differs from their defaults, of methods that are not WHS.
   sessions::OptionList changedOptions(const sessions::MethodOptions& options) const;
 };
+
+/// What --dataset names: a dataset.json, or a BOP folder with what is chosen of it.
+struct DatasetArguments {
+  std::string path;
+  sessions::BopSelection selection;  ///< but for uncertainty and pivot
+  std::vector<double> uncertainty;
+  std::string pivot;
+
+  /// --split, --scene, --obj, --sensor, --every-instance, --uncertainty and --pivot. The path's own
+  /// option is the caller's.
+  void addTo(CLI::App& command);
+  /// InputError; CLI::ValidationError when a choice is given for what is no folder.
+  sessions::Dataset open() const;
+};
+
+/// Opens a session that is only read; says on stderr what there is to know. InputError when edits
+/// wait that were never saved.
+sessions::SessionDocument openToRead(const std::string& file);
+
+/// Opens a session that is changed. InputError as above unless they are to be taken up; OutputError
+/// when somebody else has it open or it cannot be written.
+sessions::SessionDocument openToEdit(const std::string& file, bool recover = false);
+
+/// InputError when the session has no such case.
+const sessions::SessionCase& requireCase(const sessions::SessionDocument& document,
+                                         const std::string& case_id);
+
+/// The recorded run whose digest begins like this; InputError when there is none, or more than one.
+const sessions::RunRecord& recordedRun(const sessions::SessionDocument& document,
+                                       const std::string& beginning);
+
+/// The manual's page of every option: of a run, of the methods beside WHS, and the limits of the
+/// checks, as they are declared, with their values in each profile and preset.
+std::string optionsPage();
 
 LocalizerOptions profileOptions(const std::string& name);
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
-#include <memory>
 
 #include "app/commands.h"
-#include "app/open_session.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/record/compare_records.h"
@@ -127,15 +125,8 @@ sessions::RecordComparison compareSides(const CompareArguments& arguments) {
 int compare(const CompareArguments& arguments) {
   const sessions::RecordComparison found = compareSides(arguments);
   std::cout << sessions::comparisonText(found);
-  switch (found.verdict) {
-    case sessions::RunVerdict::kEqual:
-      return kDone;
-    case sessions::RunVerdict::kWithinLimits:
-      return kWithinLimits;
-    case sessions::RunVerdict::kDifferent:
-      break;
-  }
-  return kDifferent;
+  if (found.verdict == sessions::RunVerdict::kEqual) return kDone;
+  return found.verdict == sessions::RunVerdict::kWithinLimits ? kWithinLimits : kDifferent;
 }
 
 void addLimits(CLI::App& command, sessions::ComparisonLimits& limits) {
@@ -162,20 +153,16 @@ void addLimits(CLI::App& command, sessions::ComparisonLimits& limits) {
 }  // namespace
 
 void addCompare(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "compare",
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "compare",
       "Compares two runs: equal to the bit (exit 0), within limits where the pixels differ or a "
       "record was cut (5), or different (6), and where they differ first. Each is an onboard "
-      "record (run.whsr), a trace, or a run of a case of a session (with --case)");
-  auto arguments = std::make_shared<CompareArguments>();
-  command->add_option("A", arguments->one, "Record, trace or session")
-      ->required()
-      ->type_name("FILE");
-  command
-      ->add_option("B", arguments->other,
-                   "The same; without it, A is a session, whose case's onboard record is compared "
-                   "with the case's run")
-      ->type_name("FILE");
+      "record (run.whsr), a trace, or a run of a case of a session (with --case)",
+      compare);
+  addFile(*command, "A", arguments->one, "Record, trace or session")->required();
+  addFile(*command, "B", arguments->other,
+          "The same; without it, A is a session, whose case's onboard record is compared "
+          "with the case's run");
   command->add_option("--case", arguments->case_id, "Case of the session")->type_name("ID");
   auto* run = command->add_option("--run", arguments->digest,
                                   "Run of the case whose digest begins like this; without it the "
@@ -186,7 +173,6 @@ void addCompare(CLI::App& app, int& exit_code) {
                  "Run the case now by the options of the onboard record, without storing the run")
       ->excludes(run);
   addLimits(*command, arguments->limits);
-  command->callback([arguments, &exit_code] { exit_code = compare(*arguments); });
 }
 
 }  // namespace boresight::app

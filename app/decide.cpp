@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <memory>
-
 #include "app/commands.h"
-#include "app/open_session.h"
 #include "sessions/review/checks.h"
-#include "sessions/review/decide.h"
 #include "sessions/review/standing.h"
 #include "sessions/session/case_run.h"
 
@@ -84,12 +80,12 @@ int decide(const DecideArguments& arguments) {
 }  // namespace
 
 void addDecide(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "decide",
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "decide",
       "Validates, rejects or approves the pose of a case, by name and with a comment. Exit status "
-      "4 when the pose cannot be validated: a check failed that is not passed over");
-  auto arguments = std::make_shared<DecideArguments>();
-  command->add_option("session", arguments->session, "Session file")->required()->type_name("FILE");
+      "4 when the pose cannot be validated: a check failed that is not passed over",
+      decide);
+  addFile(*command, "session", arguments->session, "Session file")->required();
   command->add_option("--case", arguments->case_id, "The case")->required()->type_name("ID");
   CLI::Option_group* what = command->add_option_group("What");
   what->add_flag("--validate", arguments->validate, "Vouch for its pose");
@@ -120,7 +116,6 @@ void addDecide(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_flag("--recover", arguments->recover,
                     "Take edits that a killed program left in the session's journal");
-  command->callback([arguments, &exit_code] { exit_code = decide(*arguments); });
 }
 
 }  // namespace boresight::app

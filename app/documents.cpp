@@ -8,7 +8,6 @@
 
 #include "app/commands.h"
 #include "app/documents/manual_folder.h"
-#include "app/options_page.h"
 
 namespace boresight::app {
 namespace {
@@ -68,8 +67,7 @@ void addDocuments(CLI::App& app, int& exit_code) {
   command->add_option("--manual-of", arguments->source, "Source with the manual's pages")
       ->required()
       ->type_name("DIR");
-  command->add_option("--page", arguments->pages, "A further page of the manual")
-      ->type_name("FILE")
+  addFile(*command, "--page", arguments->pages, "A further page of the manual")
       ->check(CLI::ExistingFile);
   command->callback([arguments, &app, &exit_code] {
     documents::WrittenPages pages = {{"options.md", optionsPage()}, {"whs.md", commandsPage(app)}};

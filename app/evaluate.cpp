@@ -7,7 +7,6 @@
 #include <fstream>
 #include <iostream>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -15,12 +14,10 @@
 #include <tuple>
 #include <utility>
 
-#include "app/bop_arguments.h"
 #include "app/commands.h"
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/batch_facts.h"
 #include "sessions/evaluation/results_file.h"
-#include "sessions/evaluation/results_writer.h"
 #include "sessions/evaluation/summary.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/text/plain_text.h"
@@ -101,16 +98,12 @@ void EvaluateArguments::addTo(CLI::App& command) {
       ->type_name("I/N");
   command.add_flag("--keep-matches", batch.keep_matches,
                    "Keeps every template of every iteration in the results");
-  command
-      .add_option("--out", out,
-                  "Results as an SQLite file, run by run; one that is there is gone on with")
-      ->required()
-      ->type_name("FILE");
-  command.add_option("--jsonl", jsonl, "Results as JSON lines")->type_name("FILE");
-  command
-      .add_option("--bop-csv", bop_csv,
-                  "Results of a BOP dataset as the challenge takes them (METHOD_SET-SPLIT.csv)")
-      ->type_name("FILE");
+  addFile(command, "--out", out,
+          "Results as an SQLite file, run by run; one that is there is gone on with")
+      ->required();
+  addFile(command, "--jsonl", jsonl, "Results as JSON lines");
+  addFile(command, "--bop-csv", bop_csv,
+          "Results of a BOP dataset as the challenge takes them (METHOD_SET-SPLIT.csv)");
 }
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -321,11 +314,10 @@ int evaluate(EvaluateArguments& arguments) {
 }  // namespace
 
 void addEvaluate(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("evaluate", "Localizes the cases of a dataset and sums up the errors");
-  auto arguments = std::make_shared<EvaluateArguments>();
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "evaluate",
+                 "Localizes the cases of a dataset and sums up the errors", evaluate);
   arguments->addTo(*command);
-  command->callback([arguments, &exit_code] { exit_code = evaluate(*arguments); });
 }
 
 }  // namespace boresight::app

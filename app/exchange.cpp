@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <memory>
 
 #include "app/commands.h"
-#include "app/open_session.h"
 #include "sessions/exchange/annotation_exchange.h"
 #include "sessions/exchange/pose_exchange.h"
 #include "sessions/io/atomic_file.h"
@@ -103,11 +101,11 @@ int importInto(const ExchangeArguments& arguments) {
 }  // namespace
 
 void addExport(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "export",
-      "Writes poses of a session, or what people marked, for other programs; says which cases");
-  auto arguments = std::make_shared<ExchangeArguments>();
-  command->add_option("session", arguments->session, "Session file")->required()->type_name("FILE");
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "export",
+      "Writes poses of a session, or what people marked, for other programs; says which cases",
+      exportFrom);
+  addFile(*command, "session", arguments->session, "Session file")->required();
   CLI::Option_group* what = command->add_option_group("What");
   what->add_option("--colmap", arguments->colmap,
                    "New folder with the poses as a COLMAP text model: cameras.txt, images.txt")
@@ -117,20 +115,16 @@ void addExport(CLI::App& app, int& exit_code) {
           "New folder with the poses as a BOP scene: scene_gt.json, scene_camera.json, and "
           "undistorted images in gray/")
       ->type_name("DIR");
-  what->add_option(
-          "--pose", arguments->pose,
+  addFile(*what, "--pose", arguments->pose,
           "The pose of one case with its checks, hashes and decision: validated_pose.json. "
           "Pose, covariance and checks are measured again; a decision that states others "
-          "is refused")
-      ->type_name("FILE");
+          "is refused");
   what->add_option("--bop-results", arguments->bop_results,
                    "The poses that cases are handed over with, as a BOP19 results file")
       ->type_name("CSV");
-  what->add_option("--points", arguments->points, "Marks of one case as points.json or points.csv")
-      ->type_name("FILE");
-  what->add_option("--landmarks", arguments->landmarks,
-                   "Points of one case as landmarks.json; added to those that the file has")
-      ->type_name("FILE");
+  addFile(*what, "--points", arguments->points, "Marks of one case as points.json or points.csv");
+  addFile(*what, "--landmarks", arguments->landmarks,
+          "Points of one case as landmarks.json; added to those that the file has");
   what->require_option(1);
   command
       ->add_option("--case", arguments->cases,
@@ -146,17 +140,15 @@ void addExport(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
   command->add_flag("--robust", arguments->robust, "Marks far from their projection count less");
-  command->callback([arguments, &exit_code] { exit_code = exportFrom(*arguments); });
 }
 
 void addImport(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "import", "Takes marks, or poses as the cases' truth, into a session; says which cases");
-  auto arguments = std::make_shared<ExchangeArguments>();
-  command->add_option("session", arguments->session, "Session file")->required()->type_name("FILE");
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "import",
+      "Takes marks, or poses as the cases' truth, into a session; says which cases", importInto);
+  addFile(*command, "session", arguments->session, "Session file")->required();
   CLI::Option_group* what = command->add_option_group("What");
-  what->add_option("--points", arguments->points, "points.json or points.csv of one case")
-      ->type_name("FILE");
+  addFile(*what, "--points", arguments->points, "points.json or points.csv of one case");
   what->add_option("--colmap", arguments->colmap,
                    "Folder with a COLMAP text model; images are known by their names")
       ->type_name("DIR");
@@ -169,7 +161,6 @@ void addImport(CLI::App& app, int& exit_code) {
                     "Marks or truths that a case has already are replaced");
   command->add_flag("--recover", arguments->recover,
                     "Take edits that a killed program left in the session's journal");
-  command->callback([arguments, &exit_code] { exit_code = importInto(*arguments); });
 }
 
 }  // namespace boresight::app

@@ -3,19 +3,17 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
-#include "app/bop_arguments.h"
 #include "app/commands.h"
-#include "app/info_poses.h"
 #include "sessions/annotation/landmarks.h"
 #include "sessions/annotation/marks_file.h"
 #include "sessions/io/cahvor_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/dataset_file.h"
+#include "sessions/io/frame_transform.h"
 #include "sessions/io/image_file.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/io/labels/image_label.h"
@@ -27,8 +25,8 @@
 #include "sessions/run/trace_file.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/input_sheets.h"
-#include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::app {
@@ -39,6 +37,19 @@ using std::filesystem::path;
 
 /// Of a session, since the inputs of each are read.
 constexpr std::size_t kDescribedCases = 200;
+
+void line(const std::string& text) { std::cout << sessions::plainLine("  " + text); }
+void flag(const std::string& text) { line("! " + text); }
+
+std::string vectorText(const Eigen::Vector3d& vector, int decimals) {
+  return fixedText(vector.x(), decimals) + " " + fixedText(vector.y(), decimals) + " " +
+         fixedText(vector.z(), decimals);
+}
+
+/// "1 case", "2 cases".
+std::string countText(std::size_t count, const std::string& one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
 
 std::string sizeText(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
@@ -189,6 +200,82 @@ void describeSession(const path& file) {
     if (finding.what == "run" || finding.what == "onboard_record") flag(finding.text);
 }
 
+void printPose(const Pose& pose, const char* name) {
+  std::cout << sessions::poseText(pose, Matrix6d::Zero(), name);
+}
+
+/// What stands in a file beside the pose, in whatever frame that is.
+void describeSeed(const sessions::PoseFile& pose) {
+  if (pose.uncertainty)
+    line("uncertainty " + vectorText(pose.uncertainty->translation_m, 4) + " m, " +
+         vectorText(pose.uncertainty->rotation_deg, 2) + " deg about the " +
+         (pose.uncertainty->pivot == sessions::UncertaintyPivot::kStation ? "station" : "camera") +
+         ", along and about the camera's axes");
+  const std::string projected = sessions::projectionNote(pose.rotation_deviation);
+  if (!projected.empty()) flag(projected);
+}
+
+void describeCameraPose(const sessions::PoseFile& pose) {
+  printPose(pose.camera_from_station, "camera_from_station");
+  const Eigen::Vector3d camera_in_station_m = pose.camera_from_station.inverse().translation_m;
+  line("camera centre in the station frame " + vectorText(camera_in_station_m, 4) + " m");
+  describeSeed(pose);
+  if (pose.camera_from_station.translation_m.z() <= 0.0)
+    flag("the station's origin lies behind the camera");
+}
+
+/// A pose in the frame of a camera model, which this file alone does not place in the camera.
+void describeReferencePose(const path& file, const sessions::JsonReader& root) {
+  sessions::CameraReference there;
+  if (const auto frame = root.find("reference_frame"))
+    there.frame = sessions::readFrameName(*frame);
+  line("reference_from_station in " +
+       (there.frame.name.empty() ? "the frame of the camera model" : frameText(there.frame)));
+  const sessions::PoseFile pose = sessions::readPose(file, {there, {}});
+  printPose(pose.camera_from_station, "reference_from_station");
+  describeSeed(pose);
+}
+
+/// pose.json, in the camera's frame or in a named one.
+void describePoseFile(const path& file, const sessions::JsonReader& root) {
+  if (root.has("reference_from_station") && !root.has("camera_from_station"))
+    describeReferencePose(file, root);
+  else
+    describeCameraPose(sessions::readPose(file));
+}
+
+void describeTransform(const sessions::FrameTransform& transform) {
+  line("from " + frameText(transform.source) + " to " + frameText(transform.target) + ": " +
+       transform.comment);
+  printPose(transform.target_from_source, "target_from_source");
+}
+
+/// validated_pose.json: what it states; `whs verify` asks whether that is so.
+void describeValidatedPose(const sessions::JsonReader& root) {
+  line("case " + root.at("case").text() + ": " + root.at("standing").text());
+  printPose(sessions::readTransform(root.at("pose").at("camera_from_station")),
+            "camera_from_station");
+  if (const auto frames = root.find("frames"))
+    for (const char* name : {"camera_model", "station"})
+      if (const auto frame = frames->find(name)) {
+        line("in " + frame->at("frame").text());
+        printPose(sessions::readTransform(frame->at("reference_from_station")),
+                  "reference_from_station");
+      }
+  line("whs verify checks it against its signature and its inputs");
+}
+
+/// rig.json, with the cameras and points that it names.
+void describeRig(const path& file) {
+  for (const sessions::MarkedView& view : sessions::readRig(file)) {
+    line("view " + view.name + ": camera of " + std::to_string(view.camera.width) + " x " +
+         std::to_string(view.camera.height) + " px, " +
+         countText(view.marks.points.size(), "point") + ", " +
+         countText(view.marks.lines.size(), "line"));
+    printPose(view.camera_from_rig, "camera_from_rig");
+  }
+}
+
 void describeJson(const path& file) {
   const sessions::JsonDocument document(file);
   const std::string format = document.root().at("format").nonEmptyText();
@@ -321,13 +408,18 @@ void describe(const path& file, const std::string& mesh_unit, const DatasetArgum
   }
 }
 
+struct InfoArguments {
+  std::vector<std::string> files;
+  std::string mesh_unit;
+  DatasetArguments choice;
+};
+
 /// Every file is described; a bad one does not keep the others from it.
-int describeAll(const std::vector<std::string>& files, const std::string& mesh_unit,
-                const DatasetArguments& choice) {
+int describeAll(const InfoArguments& arguments) {
   int exit_code = kDone;
-  for (const std::string& file : files) {
+  for (const std::string& file : arguments.files) {
     try {
-      describe(file, mesh_unit, choice);
+      describe(file, arguments.mesh_unit, arguments.choice);
     } catch (const sessions::FileError& error) {
       std::cerr << error.what() << std::endl;
       exit_code = kBadInput;
@@ -340,22 +432,15 @@ int describeAll(const std::vector<std::string>& files, const std::string& mesh_u
 }  // namespace
 
 void addInfo(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "info", "Says what files are: sizes, units, camera model, field of view, red flags");
-  auto files = std::make_shared<std::vector<std::string>>();
-  auto unit = std::make_shared<std::string>();
-  command
-      ->add_option(
-          "files", *files,
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "info",
+      "Says what files are: sizes, units, camera model, field of view, red flags", describeAll);
+  addFile(*command, "files", arguments->files,
           "Images, cameras, meshes, poses (validated ones, too), transforms, datasets, sessions, "
           "configs, points, rigs, landmarks, traces, onboard records; folders of BOP datasets")
-      ->required()
-      ->type_name("FILE");
-  addMeshUnit(*command, *unit, "Unit of meshes that state none");
-  auto choice = std::make_shared<DatasetArguments>();
-  choice->addTo(*command);
-  command->callback(
-      [files, unit, choice, &exit_code] { exit_code = describeAll(*files, *unit, *choice); });
+      ->required();
+  addMeshUnit(*command, arguments->mesh_unit, "Unit of meshes that state none");
+  arguments->choice.addTo(*command);
 }
 
 }  // namespace boresight::app

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
-#include <memory>
 #include <optional>
 
 #include "app/commands.h"
@@ -36,19 +35,18 @@ struct Inputs : ProblemInputs {
 };
 
 void LocalizeArguments::addTo(CLI::App& command) {
-  const auto file = [&command](const char* name, std::string& value, const char* help) {
-    return command.add_option(name, value, help)->type_name("FILE");
-  };
   InputArguments::addTo(command);
-  file("--truth", truth, "pose.json with the true pose: errors are printed, an overlay shows it");
+  addFile(command, "--truth", truth,
+          "pose.json with the true pose: errors are printed, an overlay shows it");
   method.addTo(command, false);
   addThreads(command, threads);
   addKernels(command, kernels);
-  file("--out", out, "Writes the result as JSON");
-  file("--trace", trace, "Writes everything in between (binary)");
-  file("--record", record,
-       "Writes the onboard record of the run, run.whsr (core/record/FORMAT.md)");
-  file("--overlay", overlay, "Writes a PNG: seed red, result green, truth blue over the image");
+  addFile(command, "--out", out, "Writes the result as JSON");
+  addFile(command, "--trace", trace, "Writes everything in between (binary)");
+  addFile(command, "--record", record,
+          "Writes the onboard record of the run, run.whsr (core/record/FORMAT.md)");
+  addFile(command, "--overlay", overlay,
+          "Writes a PNG: seed red, result green, truth blue over the image");
 }
 
 /// In what the image's label contradicts what was given.
@@ -218,11 +216,10 @@ int localizeImage(const LocalizeArguments& arguments) {
 }  // namespace
 
 void addLocalize(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "localize", "Finds the camera's pose relative to a station in one image, from a seed");
-  auto arguments = std::make_shared<LocalizeArguments>();
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "localize",
+      "Finds the camera's pose relative to a station in one image, from a seed", localizeImage);
   arguments->addTo(*command);
-  command->callback([arguments, &exit_code] { exit_code = localizeImage(*arguments); });
 }
 
 }  // namespace boresight::app

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <memory>
 
 #include "app/commands.h"
-#include "sessions/evaluation/results_merge.h"
+#include "sessions/evaluation/results_file.h"
 
 namespace boresight::app {
 namespace {
@@ -25,18 +24,15 @@ int merge(const MergeArguments& arguments) {
 }  // namespace
 
 void addMerge(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "merge",
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "merge",
       "Joins results of `whs evaluate`, e.g. of shards, into one file; refuses runs that "
-      "contradict each other");
-  auto arguments = std::make_shared<MergeArguments>();
-  command
-      ->add_option("OUT", arguments->out,
-                   "The file to make; what is in one that is there already stays")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("IN", arguments->inputs, "Results files")->required()->type_name("FILE");
-  command->callback([arguments, &exit_code] { exit_code = merge(*arguments); });
+      "contradict each other",
+      merge);
+  addFile(*command, "OUT", arguments->out,
+          "The file to make; what is in one that is there already stays")
+      ->required();
+  addFile(*command, "IN", arguments->inputs, "Results files")->required();
 }
 
 }  // namespace boresight::app

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <memory>
 #include <optional>
 
-#include "app/bop_arguments.h"
 #include "app/commands.h"
 #include "sessions/io/camera_field.h"
 #include "sessions/io/errors.h"
@@ -10,7 +8,6 @@
 #include "sessions/session/case_run.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/label_agreement.h"
-#include "sessions/session/session_document.h"
 #include "sessions/session/session_maker.h"
 #include "sessions/session/session_of_results.h"
 
@@ -32,37 +29,36 @@ struct NewArguments {
 };
 
 void NewArguments::addTo(CLI::App& command) {
-  const auto file = [&command](const char* name, std::string& value, const char* help) {
-    return command.add_option(name, value, help)->type_name("FILE");
-  };
   CLI::Option* from_dataset =
-      file("--dataset", dataset.path,
-           "dataset.json or the folder of a BOP dataset: its cases become the session's");
+      addFile(command, "--dataset", dataset.path,
+              "dataset.json or the folder of a BOP dataset: its cases become the session's");
   command.add_option("--case", cases, "Only this case of the dataset; may be repeated")
       ->needs(from_dataset)
       ->type_name("ID");
-  file("--results", results,
-       "Results of `whs evaluate`: its runs become cases, the most troubled first, with the seeds "
-       "and the options that they had")
+  addFile(
+      command, "--results", results,
+      "Results of `whs evaluate`: its runs become cases, the most troubled first, with the seeds "
+      "and the options that they had")
       ->excludes(from_dataset);
   CLI::Option* from_image =
-      file("--image", image, "One case: PNG, JPEG, TIFF, VICAR, PDS3 or PDS4");
+      addFile(command, "--image", image, "One case: PNG, JPEG, TIFF, VICAR, PDS3 or PDS4");
   from_image->excludes(from_dataset);
-  file("--camera", camera, kOwnCameraHelp)->needs(from_image);
-  command
-      .add_option("--transform", transforms,
-                  "transform.json between the frame that seed or truth name and that of the "
-                  "camera model; may be repeated")
-      ->needs(from_image)
-      ->type_name("FILE");
-  file("--mesh", mesh, "Mesh of the station: PLY, OBJ, STL, glTF or GLB")->needs(from_image);
+  addFile(command, "--camera", camera, kOwnCameraHelp)->needs(from_image);
+  addFile(command, "--transform", transforms,
+          "transform.json between the frame that seed or truth name and that of the "
+          "camera model; may be repeated")
+      ->needs(from_image);
+  addFile(command, "--mesh", mesh, "Mesh of the station: PLY, OBJ, STL, glTF or GLB")
+      ->needs(from_image);
   addMeshUnit(command, mesh_unit, "Unit of the mesh's coordinates: m, mm, cm, in, ...")
       ->needs(from_image);
-  file("--seed", seed, "pose.json: where the camera is believed to be")->needs(from_image);
-  file("--truth", truth, "pose.json with the true pose")->needs(from_image);
-  file("--ignore", ignore, "Mask image of the same size: nonzero pixels are not trusted")
+  addFile(command, "--seed", seed, "pose.json: where the camera is believed to be")
       ->needs(from_image);
-  file("--record", record, "Onboard record (run.whsr) of the session's one case");
+  addFile(command, "--truth", truth, "pose.json with the true pose")->needs(from_image);
+  addFile(command, "--ignore", ignore,
+          "Mask image of the same size: nonzero pixels are not trusted")
+      ->needs(from_image);
+  addFile(command, "--record", record, "Onboard record (run.whsr) of the session's one case");
   command.add_option("--id", id, "Name of the case (else the image's)")->needs(from_image);
   command.add_option("--bit-depth", bit_depth, "Bits that the image's samples use")
       ->check(CLI::Range(1, 16))
@@ -80,7 +76,8 @@ void NewArguments::addTo(CLI::App& command) {
       ->type_name("S");
   dataset.addTo(command);
   options.addTo(command);
-  file("--out", out, "The session file that is made, e.g. sol12.boresight.json")->required();
+  addFile(command, "--out", out, "The session file that is made, e.g. sol12.boresight.json")
+      ->required();
 }
 
 /// What no edit mends is refused: sizes that do not fit, a camera that folds. A seed can be moved.
@@ -152,11 +149,10 @@ int makeNew(const NewArguments& arguments) {
 }  // namespace
 
 void addNew(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("new", "Makes a session from a dataset or from the files of one case");
-  auto arguments = std::make_shared<NewArguments>();
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "new",
+                 "Makes a session from a dataset or from the files of one case", makeNew);
   arguments->addTo(*command);
-  command->callback([arguments, &exit_code] { exit_code = makeNew(*arguments); });
 }
 
 }  // namespace boresight::app

@@ -1,43 +1,124 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "app/commands.h"
-#include "app/options_page.h"
+#include "app/documents/manual_folder.h"
 #include "sessions/baselines/methods.h"
+#include "sessions/session/check_limits.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::app {
 namespace {
 
+using documents::markdownText;
 using sessions::OptionDescription;
+using sessions::OptionKind;
+using Options = std::vector<OptionDescription>;
 
-void printTable(const std::vector<OptionDescription>& options) {
+/// "0 .. 10", or the choices.
+std::string rangeText(const OptionDescription& option) {
+  std::string text;
+  if (option.kind == OptionKind::kBoolean) return "true, false";
+  if (option.kind == OptionKind::kChoice) {
+    for (const std::string& choice : option.choices) text += (text.empty() ? "" : ", ") + choice;
+    return text;
+  }
+  return sessions::numberText(option.minimum) + " .. " + sessions::numberText(option.maximum);
+}
+
+/// One column of values by what they are called.
+struct Column {
+  std::string title;
+  Options options;
+};
+
+/// "edges" of edges.high_quantile.
+std::string groupOf(const OptionDescription& option) {
+  return option.name.substr(0, option.name.find('.'));
+}
+
+/// The value in the first column's set, and those in others that differ from it.
+std::string values(const std::vector<Column>& columns, std::size_t index) {
+  const OptionDescription& option = columns.front().options[index];
+  const std::string first = sessions::valueText(option, option.value);
+  std::string text = first;
+  for (const Column& column : columns) {
+    const std::string other = sessions::valueText(option, column.options[index].value);
+    if (other != first) text += "; " + column.title + ": " + other;
+  }
+  return text;
+}
+
+std::string row(const std::vector<Column>& columns, std::size_t index) {
+  const OptionDescription& option = columns.front().options[index];
+  return "| `" + option.name + "` | " + markdownText(values(columns, index)) + " | " +
+         markdownText(option.help) + " (" + markdownText(rangeText(option)) + ") |\n";
+}
+
+/// A table for every group of options, in the order of declaration.
+std::string tables(const std::vector<Column>& columns, const std::string& heading) {
+  std::string text;
+  std::string group;
+  for (std::size_t i = 0; i < columns.front().options.size(); ++i) {
+    if (groupOf(columns.front().options[i]) != group) {
+      group = groupOf(columns.front().options[i]);
+      text += "\n" + heading + " " + group + "\n\n| option | " + columns.front().title +
+              " | meaning |\n|---|---|---|\n";
+    }
+    text += row(columns, i);
+  }
+  return text;
+}
+
+void printList(const std::vector<OptionDescription>& options) {
   for (const OptionDescription& option : options) {
     std::cout << option.name << " = " << sessions::valueText(option, option.value) << "   ("
               << rangeText(option) << ")\n    " << option.help << "\n";
   }
 }
 
-void printOptions(const std::string& profile) {
-  printTable(sessions::listOptions(profileOptions(profile)));
+int printOptions(const std::string& profile) {
+  printList(sessions::listOptions(profileOptions(profile)));
   std::cout << "\nOf the methods beside whs (" << sessions::methodNames() << "):\n";
-  printTable(sessions::listOptions(sessions::MethodOptions()));
+  printList(sessions::listOptions(sessions::MethodOptions()));
+  return kDone;
 }
 
 }  // namespace
 
+std::string optionsPage() {
+  std::string text =
+      "# Every option\n\n"
+      "A run takes them from its profile, then from `--config`, then from `--set NAME=VALUE`; in "
+      "the desktop program *Configuration* shows and changes them. A session keeps those that "
+      "differ from its profile. The profile `flight` has the options of `default`, and refuses "
+      "what does not fit its memory. `whs options` prints the same list.\n\n"
+      "## Options of a run\n";
+  text += tables({{"default", sessions::listOptions(profileOptions("default"))},
+                  {"paper", sessions::listOptions(profileOptions("paper"))}},
+                 "###");
+  text +=
+      "\n## Options of the methods beside WHS\n\nFor `--method`; see "
+      "[Methods beside WHS](methods.md).\n";
+  text += tables({{"default", sessions::listOptions(sessions::MethodOptions())}}, "###");
+  text +=
+      "\n## Limits of the checks\n\nBy what poses are judged: *Limits* under *Review*, or `whs "
+      "check "
+      "--preset`. What each check asks: [What each check means](checks.md).\n";
+  std::vector<Column> presets;
+  for (const sessions::CheckPreset& preset : sessions::checkPresets())
+    presets.push_back({preset.name, sessions::listOptions(preset.limits)});
+  return text + tables(presets, "###");
+}
+
 void addOptions(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "options", "Lists every parameter of a run: value in a profile, range, meaning");
-  auto profile = std::make_shared<std::string>("default");
+  const auto [command, profile] = addCommand(
+      app, exit_code, "options",
+      "Lists every parameter of a run: value in a profile, range, meaning", printOptions);
+  *profile = "default";
   command->add_option("--profile", *profile, "default or paper")
       ->check(CLI::IsMember({"default", "paper"}))
       ->capture_default_str();
-  command->callback([profile, &exit_code] {
-    printOptions(*profile);
-    exit_code = kDone;
-  });
 }
 
 }  // namespace boresight::app

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <memory>
 
 #include "app/commands.h"
-#include "app/open_session.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/session/session_pack.h"
@@ -10,30 +8,32 @@
 namespace boresight::app {
 namespace {
 
-int pack(const std::string& session, const std::string& out) {
-  sessions::requireWritable(out);
-  const sessions::SessionDocument document = openToRead(session);
+struct PackArguments {
+  std::string session, out;
+};
+
+int writePack(const PackArguments& arguments) {
+  sessions::requireWritable(arguments.out);
+  const sessions::SessionDocument document = openToRead(arguments.session);
   const sessions::SessionPack pack = sessions::planPack(document.session(), document.file());
   for (const std::string& text : pack.notes) note(text);
   for (const sessions::PackedFile& one : pack.files) print(one.name + " from " + one.file.string());
-  sessions::writePack(pack, out);
-  print(out);
+  sessions::writePack(pack, arguments.out);
+  print(arguments.out);
   return kDone;
 }
 
 }  // namespace
 
 void addPack(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "pack",
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "pack",
       "Makes one archive of a session, its inputs and its runs, which opens elsewhere. Lists each "
       "file first; a file that is not what the session says it is, or lies outside the folders of "
-      "session and inputs, is refused");
-  auto session = std::make_shared<std::string>();
-  auto out = std::make_shared<std::string>();
-  command->add_option("session", *session, "Session file")->required()->type_name("FILE");
-  command->add_option("--out", *out, "The zip archive that is made")->required()->type_name("FILE");
-  command->callback([session, out, &exit_code] { exit_code = pack(*session, *out); });
+      "session and inputs, is refused",
+      writePack);
+  addFile(*command, "session", arguments->session, "Session file")->required();
+  addFile(*command, "--out", arguments->out, "The zip archive that is made")->required();
 }
 
 }  // namespace boresight::app

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
-#include <memory>
 
 #include "app/commands.h"
 #include "app/problem_inputs.h"
@@ -21,9 +20,7 @@ struct ProblemArguments : InputArguments {
 
 void ProblemArguments::addTo(CLI::App& command) {
   InputArguments::addTo(command);
-  command
-      .add_option("--dataset", dataset, "dataset.json with the case, instead of the files above")
-      ->type_name("FILE");
+  addFile(command, "--dataset", dataset, "dataset.json with the case, instead of the files above");
   command.add_option("--case", case_id, "Which of its cases")->type_name("ID");
   for (const char* name : {"--image", "--camera", "--mesh", "--seed"})
     command.get_option(name)->required(false)->excludes("--dataset");
@@ -31,12 +28,9 @@ void ProblemArguments::addTo(CLI::App& command) {
     command.get_option(name)->excludes("--dataset");
   command.get_option("--dataset")->needs("--case");
   command.get_option("--case")->needs("--dataset");
-  command.add_option("--out", out, "Writes the problem: everything but the pixels")
-      ->required()
-      ->type_name("FILE");
-  command.add_option("--image-out", image_out, "Writes the 8-bit gray pixels as a binary PGM")
-      ->required()
-      ->type_name("FILE");
+  addFile(command, "--out", out, "Writes the problem: everything but the pixels")->required();
+  addFile(command, "--image-out", image_out, "Writes the 8-bit gray pixels as a binary PGM")
+      ->required();
 }
 
 /// What evaluate runs for this case from its own seed.
@@ -104,12 +98,11 @@ int writeProblem(const ProblemArguments& arguments) {
 }  // namespace
 
 void addProblem(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "problem",
-      "Writes one localization as the flight driver reads it: binary problem and pixels");
-  auto arguments = std::make_shared<ProblemArguments>();
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "problem",
+                 "Writes one localization as the flight driver reads it: binary problem and pixels",
+                 writeProblem);
   arguments->addTo(*command);
-  command->callback([arguments, &exit_code] { exit_code = writeProblem(*arguments); });
 }
 
 }  // namespace boresight::app

@@ -22,13 +22,10 @@ sessions::DeclaredUncertainty declaredUncertainty(const InputArguments& argument
 }  // namespace
 
 void InputArguments::addTo(CLI::App& command) {
-  const auto file = [&command](const char* name, std::string& value, const char* help) {
-    return command.add_option(name, value, help)->type_name("FILE");
-  };
-  file("--image", image, "PNG, JPEG, TIFF, VICAR, PDS3 or PDS4")->required();
-  file("--camera", camera, kOwnCameraHelp);
+  addFile(command, "--image", image, "PNG, JPEG, TIFF, VICAR, PDS3 or PDS4")->required();
+  addFile(command, "--camera", camera, kOwnCameraHelp);
   mesh.addTo(command);
-  file("--seed", seed, "pose.json: where the camera is believed to be")->required();
+  addFile(command, "--seed", seed, "pose.json: where the camera is believed to be")->required();
   frames.addTo(command);
   options.addTo(command);
   command
@@ -43,7 +40,8 @@ void InputArguments::addTo(CLI::App& command) {
       .add_option("--pivot", pivot,
                   "What the seed's rotation is uncertain about: camera (an arm camera) or station")
       ->check(CLI::IsMember({"camera", "station"}));
-  file("--ignore", ignore, "Mask image of the same size: nonzero pixels are not trusted");
+  addFile(command, "--ignore", ignore,
+          "Mask image of the same size: nonzero pixels are not trusted");
   command
       .add_option("--bit-depth", bit_depth,
                   "Bits that the image's samples use, e.g. 12 in a 16-bit file")

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filesystem>
 #include <iostream>
-#include <memory>
 
 #include "app/commands.h"
-#include "app/open_session.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/review/queue.h"
 #include "sessions/review/run_difference.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/session_document.h"
 
 namespace boresight::app {
 namespace {
@@ -65,13 +61,13 @@ int queue(const QueueArguments& arguments) {
 }  // namespace
 
 void addQueue(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "queue",
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "queue",
       "Checks the last runs of a session's cases and lists them with the most trouble first: runs "
       "that failed, then failed checks, the margin to a check's limit, the distance from the seed; "
-      "what is decided comes last");
-  auto arguments = std::make_shared<QueueArguments>();
-  command->add_option("session", arguments->session, "Session file")->required()->type_name("FILE");
+      "what is decided comes last",
+      queue);
+  addFile(*command, "session", arguments->session, "Session file")->required();
   command->add_option("--jobs", arguments->jobs, "Cases that are checked at a time")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
@@ -82,7 +78,6 @@ void addQueue(CLI::App& app, int& exit_code) {
                  "Instead: compare each case's last run with the one before it, and say whether it "
                  "is better or worse, by the truth where it is known, else by the checks")
       ->excludes(csv);
-  command->callback([arguments, &exit_code] { exit_code = queue(*arguments); });
 }
 
 }  // namespace boresight::app

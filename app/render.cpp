@@ -48,17 +48,13 @@ int render(const RenderArguments& arguments) {
 }  // namespace
 
 void addRender(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("render", "Draws the salient edges of a mesh seen from a pose");
-  auto arguments = std::make_shared<RenderArguments>();
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "render", "Draws the salient edges of a mesh seen from a pose", render);
   arguments->mesh.addTo(*command);
   arguments->frames.addTo(*command);
-  command->add_option("--camera", arguments->camera, kCameraHelp)->required()->type_name("FILE");
-  command->add_option("--pose", arguments->pose, "pose.json")->required()->type_name("FILE");
-  command->add_option("--out", arguments->out, "PNG: white edges on black")
-      ->required()
-      ->type_name("FILE");
-  command->callback([arguments, &exit_code] { exit_code = render(*arguments); });
+  addFile(*command, "--camera", arguments->camera, kCameraHelp)->required();
+  addFile(*command, "--pose", arguments->pose, "pose.json")->required();
+  addFile(*command, "--out", arguments->out, "PNG: white edges on black")->required();
 }
 
 }  // namespace boresight::app

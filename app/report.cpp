@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <memory>
 
 #include "app/commands.h"
-#include "app/open_session.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/report/pose_report.h"
 
@@ -32,16 +30,15 @@ int report(const ReportArguments& arguments) {
 }  // namespace
 
 void addReport(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "report",
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "report",
       "Writes a report of a case's pose as PDF: overlay, pose, inputs, decision, checks, residuals "
-      "and the run's course, on two pages");
-  auto arguments = std::make_shared<ReportArguments>();
-  command->add_option("session", arguments->session, "Session file")->required()->type_name("FILE");
+      "and the run's course, on two pages",
+      report);
+  addFile(*command, "session", arguments->session, "Session file")->required();
   command->add_option("--case", arguments->case_id, "The case; needed where there are several")
       ->type_name("ID");
-  command->add_option("--out", arguments->out, "PDF file")->required()->type_name("FILE");
-  command->callback([arguments, &exit_code] { exit_code = report(*arguments); });
+  addFile(*command, "--out", arguments->out, "PDF file")->required();
 }
 
 }  // namespace boresight::app

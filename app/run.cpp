@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <iostream>
-#include <memory>
 
 #include "app/commands.h"
-#include "app/open_session.h"
 #include "sessions/io/errors.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/session_document.h"
 #include "sessions/session/views_run.h"
 #include "sessions/text/plain_text.h"
 
@@ -111,10 +108,9 @@ int runSession(const RunArguments& arguments) {
 }  // namespace
 
 void addRun(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("run", "Runs the cases of a session and records the runs in it");
-  auto arguments = std::make_shared<RunArguments>();
-  command->add_option("session", arguments->session, "Session file")->required()->type_name("FILE");
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "run", "Runs the cases of a session and records the runs in it", runSession);
+  addFile(*command, "session", arguments->session, "Session file")->required();
   command->add_option("--case", arguments->cases, "Only this case; may be repeated")
       ->type_name("ID");
   command
@@ -131,7 +127,6 @@ void addRun(CLI::App& app, int& exit_code) {
       ->excludes("--again");
   command->add_flag("--recover", arguments->recover,
                     "Take edits that a killed program left in the session's journal");
-  command->callback([arguments, &exit_code] { exit_code = runSession(*arguments); });
 }
 
 }  // namespace boresight::app

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
-#include <memory>
 #include <vector>
 
 #include "app/commands.h"
-#include "app/open_session.h"
 #include "sessions/annotation/marks_file.h"
 #include "sessions/annotation/solution_file.h"
 #include "sessions/io/atomic_file.h"
@@ -71,6 +69,8 @@ sessions::CaseMarksSolution solveSession(const SolveArguments& arguments) {
 }
 
 int solve(const SolveArguments& arguments) {
+  if (arguments.rig.empty() && arguments.points.empty() && arguments.session.empty())
+    throw CLI::RequiredError("--points and --camera, or --rig, or --session and --case");
   const bool of_session = !arguments.session.empty();
   const sessions::CaseMarksSolution made =
       of_session ? solveSession(arguments) : solveFiles(arguments);
@@ -125,22 +125,15 @@ void addSources(CLI::App& command, SolveArguments& arguments) {
 }  // namespace
 
 void addSolve(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "solve", "Finds the pose from points and lines that somebody marked in the image");
-  auto arguments = std::make_shared<SolveArguments>();
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "solve",
+                 "Finds the pose from points and lines that somebody marked in the image", solve);
   addSources(*command, *arguments);
   command->add_flag("--robust", arguments->robust, "Marks far from their projection count less");
-  command->add_option("--out", arguments->out, "Writes the pose as pose.json")->type_name("FILE");
-  command
-      ->add_option("--json", arguments->json,
-                   "Writes everything that came out: poses, covariances, residuals, what each mark "
-                   "moves, warnings (sessions/annotation/solution_file.h)")
-      ->type_name("FILE");
-  command->callback([arguments, &exit_code] {
-    if (arguments->rig.empty() && arguments->points.empty() && arguments->session.empty())
-      throw CLI::RequiredError("--points and --camera, or --rig, or --session and --case");
-    exit_code = solve(*arguments);
-  });
+  addFile(*command, "--out", arguments->out, "Writes the pose as pose.json");
+  addFile(*command, "--json", arguments->json,
+          "Writes everything that came out: poses, covariances, residuals, what each mark "
+          "moves, warnings (sessions/annotation/solution_file.h)");
 }
 
 }  // namespace boresight::app

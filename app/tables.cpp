@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <iostream>
-#include <memory>
 #include <set>
 
 #include "app/commands.h"
 #include "sessions/io/atomic_file.h"
-#include "sessions/tables/failures.h"
 #include "sessions/tables/method_tables.h"
 #include "sessions/tables/result_figures.h"
-#include "sessions/tables/results_difference.h"
 #include "sessions/tables/results_set.h"
 #include "sessions/text/plain_text.h"
 
@@ -37,13 +34,9 @@ struct TablesArguments {
 };
 
 void TablesArguments::addTo(CLI::App& command) {
-  command.add_option("RESULTS", results, "Results of `whs evaluate`")
-      ->required()
-      ->type_name("FILE");
-  command
-      .add_option("--against", against,
-                  "Compares RESULTS (before) with these (after), run by run, instead")
-      ->type_name("FILE");
+  addFile(command, "RESULTS", results, "Results of `whs evaluate`")->required();
+  addFile(command, "--against", against,
+          "Compares RESULTS (before) with these (after), run by run, instead");
   command.add_flag("--all", all, "With --against: lists also what did not change");
   command.add_option("--table", tables, "Only these: errors, success, times (all three)")
       ->check(CLI::IsMember({"errors", "success", "times"}));
@@ -56,8 +49,7 @@ void TablesArguments::addTo(CLI::App& command) {
       ->check(CLI::IsMember({"text", "csv", "latex"}))
       ->capture_default_str()
       ->type_name("F");
-  command.add_option("--out", out, "The tables into this file instead of onto the terminal")
-      ->type_name("FILE");
+  addFile(command, "--out", out, "The tables into this file instead of onto the terminal");
   command
       .add_option("--figures", figures,
                   "Draws the figures into this folder: error_distribution, success_tolerance, "
@@ -193,13 +185,12 @@ int makeTables(const TablesArguments& arguments) {
 }  // namespace
 
 void addTables(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "tables",
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "tables",
       "Tables and figures of results: errors, success, time per step, distributions; or two sets "
-      "of results run by run (--against; exit 6 when a run became worse)");
-  auto arguments = std::make_shared<TablesArguments>();
+      "of results run by run (--against; exit 6 when a run became worse)",
+      makeTables);
   arguments->addTo(*command);
-  command->callback([arguments, &exit_code] { exit_code = makeTables(*arguments); });
 }
 
 }  // namespace boresight::app

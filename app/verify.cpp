@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <memory>
 
 #include "app/commands.h"
 #include "sessions/io/errors.h"
-#include "sessions/review/verify_pose.h"
+#include "sessions/review/validated_pose_file.h"
 
 namespace boresight::app {
 namespace {
@@ -29,16 +28,14 @@ int verify(const VerifyArguments& arguments) {
 }  // namespace
 
 void addVerify(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "verify",
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "verify",
       "Checks a validated_pose.json against the files that it names and against itself, runs its "
       "localization again, and compares pose, covariance and checks with those stated. It cannot "
       "prove who decided, when, and why a failed check was passed over: those are listed as not "
-      "proved. Exit status 0 when everything that was measured is as stated, 6 when it is not");
-  auto arguments = std::make_shared<VerifyArguments>();
-  command->add_option("file", arguments->file, "validated_pose.json")
-      ->required()
-      ->type_name("FILE");
+      "proved. Exit status 0 when everything that was measured is as stated, 6 when it is not",
+      verify);
+  addFile(*command, "file", arguments->file, "validated_pose.json")->required();
   CLI::Option* no_run = command->add_flag(
       "--no-run", arguments->no_run,
       "Do not run the localization again: pose, covariance and checks are not proved then");
@@ -47,7 +44,6 @@ void addVerify(CLI::App& app, int& exit_code) {
                  "Run the convergence test from further seeds again, too, which takes as long as "
                  "so many runs")
       ->excludes(no_run);
-  command->callback([arguments, &exit_code] { exit_code = verify(*arguments); });
 }
 
 }  // namespace boresight::app

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <memory>
 
 #include <nlohmann/json.hpp>
 
@@ -84,21 +82,19 @@ int localizeRigs(const ViewsArguments& arguments) {
 }  // namespace
 
 void addViews(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "views",
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "views",
       "Finds one pose from several images: the cases of a dataset that share a rig, i.e. cameras "
-      "of a rigid rig, or one camera at known places of its arm");
-  auto arguments = std::make_shared<ViewsArguments>();
-  command->add_option("--dataset", arguments->dataset, "dataset.json whose cases name rigs")
-      ->required()
-      ->type_name("FILE");
+      "of a rigid rig, or one camera at known places of its arm",
+      localizeRigs);
+  addFile(*command, "--dataset", arguments->dataset, "dataset.json whose cases name rigs")
+      ->required();
   command->add_option("--rig", arguments->rigs, "Which of its rigs; without it all")
       ->type_name("ID");
   arguments->options.addTo(*command);
   addThreads(*command, arguments->threads);
   addKernels(*command, arguments->kernels);
-  command->add_option("--out", arguments->out, "Writes the results as JSON")->type_name("FILE");
-  command->callback([arguments, &exit_code] { exit_code = localizeRigs(*arguments); });
+  addFile(*command, "--out", arguments->out, "Writes the results as JSON");
 }
 
 }  // namespace boresight::app

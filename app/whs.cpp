@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // whs: localization without a window.
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <string_view>
 
 #include "app/commands.h"
-#include "app/complete.h"
 #include "app/plain_output.h"
 #include "sessions/io/errors.h"
 #include "sessions/run/matching_method.h"
@@ -33,6 +34,60 @@ std::string optionsNaming(const CLI::App& command, const std::filesystem::path& 
   return names;
 }
 
+/// "pdf", "svg" of an option's type "TEXT:{pdf,svg}".
+std::vector<std::string> choicesOf(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const std::size_t open = type.find('{');
+  std::vector<std::string> choices;
+  if (open == std::string::npos) return choices;
+  std::istringstream list(type.substr(open + 1, type.find('}') - open - 1));
+  for (std::string choice; std::getline(list, choice, ',');) choices.push_back(choice);
+  return choices;
+}
+
+/// The option of the command, or of one of its groups, with this name.
+const CLI::Option* findOption(const CLI::App& command, const std::string& name) {
+  return name.starts_with("-") ? command.get_option_no_throw(name) : nullptr;
+}
+
+void addOptionNames(const CLI::App& command, std::vector<std::string>& names) {
+  for (const CLI::Option* option : command.get_options())
+    if (!option->get_group().empty())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const CLI::App* group : command.get_subcommands([](const CLI::App*) { return true; }))
+    if (group->get_name().empty()) addOptionNames(*group, names);
+}
+
+/// Every word that may follow, whatever its beginning.
+std::vector<std::string> candidates(const CLI::App& app, const std::vector<std::string>& words) {
+  std::vector<std::string> found;
+  if (words.size() <= 1 && (words.empty() || !words.back().starts_with("-"))) {
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+      if (!command->get_group().empty()) found.push_back(command->get_name());
+    return found;
+  }
+  const auto named = app.get_subcommands(
+      [&words](const CLI::App* command) { return command->get_name() == words.front(); });
+  if (words.size() > 1 && named.empty()) return found;
+  const CLI::App* command = words.size() > 1 ? named.front() : &app;
+  if (words.size() > 2)
+    if (const CLI::Option* option = findOption(*command, words[words.size() - 2]))
+      if (option->get_items_expected_max() > 0) return choicesOf(*option);
+  if (words.back().starts_with("-")) addOptionNames(*command, found);
+  return found;
+}
+
+/// What a shell offers for the last of the words after the program's name: commands, options of the
+/// command, or the choices of the option before. Nothing for files, which shells know themselves.
+std::vector<std::string> completions(const CLI::App& app, const std::vector<std::string>& words) {
+  std::vector<std::string> found = candidates(app, words);
+  const std::string begin = words.empty() ? "" : words.back();
+  std::erase_if(found, [&begin](const std::string& word) { return !word.starts_with(begin); });
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Localizes a camera relative to a known object by render and compare.", "whs");
   app.set_version_flag("--version", std::string("whs ") + sessions::kVersion);
@@ -44,30 +99,12 @@ int run(int argc, char** argv) {
     return CLI::FailureMessage::simple(parsed, {error.get_name(), what, error.get_exit_code()});
   });
   int exit_code = kDone;
-  addLocalize(app, exit_code);
-  addEvaluate(app, exit_code);
-  addMerge(app, exit_code);
-  addTables(app, exit_code);
-  addCompare(app, exit_code);
-  addCheck(app, exit_code);
-  addDecide(app, exit_code);
-  addVerify(app, exit_code);
-  addViews(app, exit_code);
-  addReport(app, exit_code);
-  addQueue(app, exit_code);
-  addSolve(app, exit_code);
-  addRender(app, exit_code);
-  addCamera(app, exit_code);
-  addInfo(app, exit_code);
-  addOptions(app, exit_code);
-  addNew(app, exit_code);
-  addRun(app, exit_code);
-  addPack(app, exit_code);
-  addExport(app, exit_code);
-  addImport(app, exit_code);
-  addProblem(app, exit_code);
-  addBench(app, exit_code);
-  addDocuments(app, exit_code);
+  for (AddCommand* add :
+       {addLocalize, addEvaluate, addMerge,  addTables,  addCompare, addCheck,
+        addDecide,   addVerify,   addViews,  addReport,  addQueue,   addSolve,
+        addRender,   addCamera,   addInfo,   addOptions, addNew,     addRun,
+        addPack,     addExport,   addImport, addProblem, addBench,   addDocuments})
+    add(app, exit_code);
   for (CLI::App* command : app.get_subcommands({}))
     command->set_version_flag("--version", std::string("whs ") + sessions::kVersion);
   if (argc > 1 && std::string_view(argv[1]) == "--complete") {  // what completions of shells call

@@ -2,14 +2,18 @@
 // Reading results files; README.md beside this has their tables.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "sessions/evaluation/batch_facts.h"
 #include "sessions/evaluation/run_result.h"
 #include "sessions/evaluation/sqlite.h"
+#include "sessions/io/file_lock.h"
 
 namespace boresight::sessions {
 
@@ -59,5 +63,61 @@ void addSitting(SqlDatabase& database, Sitting& sitting);
 std::string insertSql(const std::string& table, const std::vector<std::string>& names);
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& names, const std::string& prefix = "");
+
+/// A results file that grows: each run is a transaction that is on the disk when `add` returns, so
+/// that a process may be killed at any time and another one goes on. A run is known by its case,
+/// the number of its seed, and its method, whose options a file holds once: nothing is there twice.
+/// Not for several threads at a time.
+class ResultsWriter {
+ public:
+  /// Makes the file, or goes on with one that is there. OutputError when it cannot be written, is
+  /// not a results file, another process is writing it, or its runs are of another dataset or
+  /// version.
+  ResultsWriter(const std::filesystem::path& file, const DatasetFacts& dataset);
+  ~ResultsWriter();
+
+  /// Runs of this method are to be added. OutputError when the file's runs of it have other
+  /// options.
+  void admit(const MethodFacts& method);
+  /// What is added from now on is of this sitting.
+  void begin(Sitting sitting);
+  /// Whether a run is there. One whose input was refused is not: it is to be tried again.
+  bool has(const std::string& method, const std::string& case_id, std::int32_t reseed) const;
+  /// Adds a run, in place of one of the same whose input was refused. OutputError.
+  void add(const RunResult& run);
+  /// Notes that the sitting ended by itself.
+  void end();
+
+  std::int64_t runs() const { return static_cast<std::int64_t>(known_.size()); }
+
+ private:
+  struct Insertions;
+  void insert(const RunResult& run);
+  void insertSteps(std::int64_t run_id, const RunResult& run);
+  void noteSitting();
+
+  std::unique_ptr<FileLock> lock_;
+  SqlDatabase database_;
+  std::unique_ptr<Insertions> insertions_;
+  std::unordered_set<std::string> known_;  ///< runs that need not be done again
+  Sitting sitting_;
+  std::int64_t began_ns_ = 0;  ///< of the steady clock
+};
+
+struct MergeCounts {
+  std::int64_t runs = 0;   ///< in the merged file
+  std::int64_t equal = 0;  ///< that were left out: the same run, with the same result, was there
+};
+
+/// Makes `out` of the runs of results files, e.g. of shards; an `out` that is there already counts
+/// as one of them, so that nothing of it is lost. Runs that are in several files are taken once
+/// when they ended alike: in status, success and digest (where a method has none, in the pose);
+/// times may differ. A run whose input was refused gives way to one that was done. The file is
+/// whole or as it was before.
+///
+/// InputError, naming both files, when they are of different datasets, versions or options, or a
+/// run ended otherwise in them; OutputError when `out` cannot be written.
+MergeCounts mergeResults(const std::filesystem::path& out,
+                         const std::vector<std::filesystem::path>& inputs);
 
 }  // namespace boresight::sessions

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/evaluation/results_merge.h"
-
 #include <unistd.h>
 
 #include <algorithm>

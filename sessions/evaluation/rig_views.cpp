@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/digest.h"
+#include "sessions/evaluation/run_result.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/json_writer.h"
 
@@ -51,13 +52,7 @@ ordered_json viewJson(const RigViews& rig, const RigRun& run, std::size_t v) {
                        {"edge_support", report.support.share()}};
   if (run.result.status != LocalizationStatus::kConverged) return json;
   json["camera_from_station"] = toJson(report.camera_from_station);
-  if (const auto error = viewError(rig, run, v)) {
-    json["error"] = {{"normal_mm", error->normal_mm},
-                     {"lateral_mm", error->lateral_mm},
-                     {"rotation_mrad", error->rotation_mrad},
-                     {"in_plane_mrad", error->in_plane_mrad},
-                     {"geodesic_mrad", error->geodesic_mrad}};
-  }
+  if (const auto error = viewError(rig, run, v)) json["error"] = toJson(*error);
   return json;
 }
 

@@ -3,7 +3,7 @@
 
 #include "sessions/evaluation/bop_scene.h"
 #include "sessions/io/errors.h"
-#include "sessions/review/handed_pose.h"
+#include "sessions/review/validated_pose_file.h"
 #include "sessions/session/image_names.h"
 
 namespace boresight::sessions {

@@ -165,11 +165,6 @@ double PdfCanvas::text(double x, double y, double width, const std::string& text
   return heightOf(layout.get());
 }
 
-double PdfCanvas::textHeight(double width, const std::string& text,
-                             const PdfTextStyle& style) const {
-  return heightOf(makeLayout(pieces_->cairo, width, text, style).get());
-}
-
 void PdfCanvas::line(double x0, double y0, double x1, double y1, const PdfColor& color,
                      double width) {
   polyline({{x0, y0}, {x1, y1}}, color, width);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,8 +66,6 @@ class PdfCanvas {
   /// Text (UTF-8; what is not is replaced) broken at the box's width; the height that it takes, pt.
   double text(double x, double y, double width, const std::string& text,
               const PdfTextStyle& style = {});
-  /// The height that it would take.
-  double textHeight(double width, const std::string& text, const PdfTextStyle& style = {}) const;
 
   void line(double x0, double y0, double x1, double y1, const PdfColor& color, double width = 0.6);
   /// `dashes`: lengths drawn and left out in turn, pt; empty: a whole line.
@@ -91,5 +90,53 @@ class PdfCanvas {
   std::unique_ptr<Pieces> pieces_;
   int page_ = 1;
 };
+
+/// Points that are joined by a line, each with a mark.
+struct PdfSeries {
+  std::string name;
+  std::vector<std::array<double, 2>> points;  ///< x ascending
+  PdfColor color = kPdfBlue;
+  bool crosses = false;  ///< marks are crosses instead of dots
+  bool line = true;
+  bool marks = true;
+  std::vector<double> dashes = {};  ///< of the line, see PdfCanvas::polyline
+  double mark_radius = 1.7;         ///< pt
+};
+
+/// An upright line with a name, e.g. at a limit.
+struct PdfGuide {
+  double x = 0.0;
+  std::string name;
+};
+
+struct PdfPlot {
+  std::string title;
+  std::string x_label;
+  std::string y_label;
+  std::vector<PdfSeries> series;
+  bool log_y = false;          ///< values that are not positive are left out
+  bool whole_x = false;        ///< ticks at whole numbers only
+  bool names_at_foot = false;  ///< of the series, where the upper right corner is taken
+  bool log_x = false;          ///< values that are not positive are left out
+  std::optional<std::array<double, 2>> x_range = {};  ///< as far as it is not what the points span
+  std::optional<std::array<double, 2>> y_range = {};
+  std::vector<PdfGuide> guides = {};
+  bool with_names = true;  ///< of the series; several plots side by side may share one list
+};
+
+/// Draws axes with round ticks, grid, series and their names.
+void drawPlot(PdfCanvas& canvas, const PdfBox& box, const PdfPlot& plot);
+
+/// The names of series with their lines and marks, one below the other; the height taken.
+double drawSeriesNames(PdfCanvas& canvas, double x, double y, double width,
+                       const std::vector<PdfSeries>& series);
+
+/// Counts in equal bins from `low` to `high`; what lies beyond counts in the outermost ones.
+void drawHistogram(PdfCanvas& canvas, const PdfBox& box, const std::string& title,
+                   const std::string& x_label, const std::vector<double>& values, double low,
+                   double high, int bins);
+
+/// Round numbers (1, 2 or 5 times a power of ten apart) that span a range, at most `most` of them.
+std::vector<double> roundTicks(double low, double high, int most);
 
 }  // namespace boresight::sessions

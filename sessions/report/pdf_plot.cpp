@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/report/pdf_plot.h"
+#include "sessions/report/pdf_canvas.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/report/report_pictures.h"
+#include "sessions/report/pose_report.h"
 
 #include <algorithm>
 #include <cmath>

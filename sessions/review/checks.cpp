@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/reseed.h"
-#include "sessions/review/edge_checks.h"
 #include "sessions/review/edge_evidence.h"
-#include "sessions/review/requirement_checks.h"
-#include "sessions/review/run_checks.h"
 #include "sessions/run/runner.h"
 
 namespace boresight::sessions {
@@ -148,20 +146,13 @@ void addBasinChecks(const std::optional<BasinResult>& basin, const CheckLimits& 
   checks.push_back(rivalCheck(*basin, limits));
 }
 
-void mirrorScene(SceneMesh& scene, int axis, double plane_m) {
-  for (Eigen::Vector3f& vertex : scene.vertices_in_station_m)
-    vertex(axis) = static_cast<float>(2.0 * plane_m) - vertex(axis);
-  for (Face& face : scene.faces) std::swap(face.vertex[1], face.vertex[2]);
-}
-
 std::unique_ptr<const LoadedCase> mirrorImageOf(const LoadedCase& loaded, int axis) {
   auto made = std::make_unique<LoadedCase>();
   made->source = loaded.source;
   made->image = loaded.image;
-  made->scene = loaded.scene;
+  made->scene = mirrored(loaded.scene, static_cast<MirrorAxis>(axis));
   made->ignore = loaded.ignore;
   if (made->ignore) made->ignore_bits = made->ignore->view();
-  mirrorScene(made->scene, axis, matchedBounds(loaded.scene.view()).centre()(axis));
   return made;
 }
 

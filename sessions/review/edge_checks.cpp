@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/review/edge_checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "core/accept/edge_width.h"
-#include "sessions/review/run_checks.h"
+#include "sessions/review/checks.h"
 #include "sessions/session/check.h"
 #include "sessions/session/input_sigmas.h"
 

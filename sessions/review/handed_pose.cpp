@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/review/handed_pose.h"
+#include "sessions/review/validated_pose_file.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/review/requirement_checks.h"
+#include "sessions/review/checks.h"
 
 #include <algorithm>
 #include <cmath>

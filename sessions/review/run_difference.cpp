@@ -12,7 +12,6 @@
 #include "sessions/io/option_value.h"
 #include "sessions/record/record_of_run.h"
 #include "sessions/review/checks.h"
-#include "sessions/review/run_checks.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 

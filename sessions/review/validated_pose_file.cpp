@@ -13,7 +13,6 @@
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_writer.h"
-#include "sessions/review/handed_pose.h"
 #include "sessions/review/pose_uncertainty.h"
 #include "sessions/review/standing.h"
 #include "sessions/session/case_json.h"

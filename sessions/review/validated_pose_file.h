@@ -5,17 +5,86 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sessions/review/handed_pose.h"
+#include "sessions/review/review_subject.h"
 #include "sessions/run/trace.h"
+#include "sessions/session/check.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {
 
 inline constexpr const char* kValidatedPoseFormat = "boresight-validated-pose";
 inline constexpr int kValidatedPoseVersion = 1;
+
+/// The pose with which a case is handed over, and what is to be said of it everywhere.
+struct HandedPose {
+  std::string case_id;
+  PoseSource source = PoseSource::kRun;
+  Pose camera_from_station;
+  PoseCovariance covariance;
+  std::string run_digest;  ///< empty: the pose is the marks'
+  bool validated = false;
+  std::string standing;   ///< standingText: who validated it, or NOT VALIDATED and why
+  double score = 1.0;     ///< 1 of a decided or annotated one, else the edge support of its run
+  double seconds = -1.0;  ///< that its run took; -1: not known
+  std::vector<JudgedCheck> checks;  ///< as they were judged; none without a decision that holds
+};
+
+/// The pose of a decision that holds, else that of the last run if it converged, else the marks';
+/// without covariance and checks where nobody decided. InputError when there is none, a run's trace
+/// cannot be read, or the decision states another pose than its run's trace (or the marks).
+HandedPose handedPose(const Session& session, const std::string& case_id);
+
+/// The same for several cases (all of them when none is named), in the order of the session; those
+/// without a pose are told in `notes`.
+struct HandedPoses {
+  std::vector<HandedPose> poses;
+  std::vector<std::string> notes;
+};
+HandedPoses handedPoses(const Session& session, const std::vector<std::string>& case_ids);
+
+struct MeasuredPose {
+  ReviewSubject subject;      ///< pose, covariance and run
+  std::vector<Check> checks;  ///< as checkPose gives them
+};
+
+/// Reads the inputs of the pose's case, runs the localization again (or solves the marks again),
+/// repeats the runs of the rig's other cameras that the checks ask, and makes the checks; the
+/// convergence test with `basin_seeds` seeds, 0: without. Of `pose` only the case, the source and
+/// the run's digest are used, and no trace is read. InputError when something cannot be read or
+/// repeated, or a run gives another digest than the session states; `session_file` is for messages.
+MeasuredPose measurePose(const Session& session, const HandedPose& pose, int basin_seeds,
+                         const std::filesystem::path& session_file);
+
+/// A pose to hand over, of which everything that can be measured was measured.
+struct CheckedPose {
+  HandedPose pose;        ///< with its checks: as they were judged, else as they are now
+  Session session;        ///< that was measured: sessionOfCase
+  ReviewSubject subject;  ///< as measured
+};
+
+/// handedPose, measured again with all that its decision rests on. InputError, also when the
+/// decision or the run's trace states something else than is measured: a sentence says what.
+CheckedPose checkedPose(const Session& session, const std::string& case_id);
+
+/// The session with this case and those of its rig alone: the run of this digest if any, the runs
+/// of the other cameras that the checks ask, and the last decision on the case, whose checks are
+/// left out unless it holds (they could not be measured).
+Session sessionOfCase(const Session& session, const std::string& case_id,
+                      const std::string& run_digest);
+
+/// What of a stated pose is not as measured, as a sentence; "" when nothing. A run's pose and
+/// covariance agree to the last bits; those of marks, and figures of checks, to 1e-6 of their size.
+std::string poseDifference(const HandedPose& stated, const Pose& measured);
+std::string covarianceDifference(const HandedPose& stated, const PoseCovariance& measured);
+/// `with_basin` false leaves the checks of the convergence test out.
+std::string checksDifference(const HandedPose& stated, const std::vector<Check>& measured,
+                             bool with_basin);
+/// InputError unless `difference` is empty.
+void requireAsMeasured(const std::string& case_id, const std::string& difference);
 
 /// The file as JSON (README.md beside this file tells its members). It holds a session of this one
 /// case and its rig, so that whoever has the inputs can run it again and look; paths are relative
@@ -33,5 +102,31 @@ HandedPose writeValidatedPose(const std::filesystem::path& file, const Session& 
 /// The member `signature`: SHA-256 over the JSON without it, as compact text. `json` as it was
 /// parsed: text may have lost what numbers were made of (1.0 is written 1).
 nlohmann::ordered_json signatureOf(const nlohmann::ordered_json& json);
+
+/// One thing that was asked of a validated_pose.json.
+struct VerifyFinding {
+  bool good = false;
+  std::string what;  ///< "signature", "image", "run", "pose", ...
+  std::string text;  ///< one sentence
+};
+
+struct VerifyReport {
+  std::string standing;  ///< who vouches for the pose, or NOT VALIDATED and why, as it is stated
+  std::vector<VerifyFinding> findings;
+  /// What is stated and was not, or cannot be, measured: who decided, when, and why a failed check
+  /// was passed over. One sentence each.
+  std::vector<std::string> not_proved;
+
+  /// Everything that was measured is as stated; whether the pose is validated is another question.
+  bool good() const;
+};
+
+/// Checks a validated_pose.json: its signature, the files that it names by their hashes, whether
+/// the decision in it still holds, and whether all members follow from each other. With `run_again`
+/// the run is run again (the marks are solved again), and its digest, pose, covariance, matches and
+/// every check are compared with what is stated; with `basin_again` the convergence test, too.
+/// InputError when it is no such file.
+VerifyReport verifyPose(const std::filesystem::path& file, bool run_again,
+                        bool basin_again = false);
 
 }  // namespace boresight::sessions

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/review/verify_pose.h"
 
 #include <algorithm>
 #include <optional>
@@ -10,8 +9,6 @@
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
-#include "sessions/review/decide.h"
-#include "sessions/review/handed_pose.h"
 #include "sessions/review/standing.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/decision.h"
@@ -72,24 +69,15 @@ Document readDocument(const fs::path& file) {
   return document;
 }
 
-/// Collects what is found.
-class Findings {
- public:
-  explicit Findings(VerifyReport& report) : report_(&report) {}
-  void add(bool good, const std::string& what, const std::string& text) {
-    report_->findings.push_back({good, what, text});
-  }
-
- private:
-  VerifyReport* report_;
-};
+using Findings = std::vector<VerifyFinding>;
 
 void verifySignature(const Document& document, Findings& findings) {
   const auto stated = document.json.find("signature");
   const bool good = stated != document.json.end() && *stated == signatureOf(document.json);
-  findings.add(good, "signature",
-               good ? "the document is as it was signed"
-                    : "the document has been changed since it was signed, or was never signed");
+  findings.push_back(
+      {good, "signature",
+       good ? "the document is as it was signed"
+            : "the document has been changed since it was signed, or was never signed"});
 }
 
 /// True when all files are what they were.
@@ -97,17 +85,18 @@ bool verifyInputs(const Document& document, Findings& findings) {
   bool all = true;
   for (const Finding& found : checkInputs(document.session)) {
     if (found.what == "run") continue;  // a run's trace does not come along: it is run again
-    findings.add(false, found.what, found.text);
+    findings.push_back({false, found.what, found.text});
     all = false;
   }
-  if (all) findings.add(true, "inputs", "every file that it names has the hash that it names");
+  if (all)
+    findings.push_back({true, "inputs", "every file that it names has the hash that it names"});
   return all;
 }
 
 /// Whether the decision inside is one that this program would have let pass.
 void verifyDecision(const Standing& standing, Findings& findings) {
   if (standing.decision == nullptr) {
-    findings.add(true, "decision", "nobody has decided on it");
+    findings.push_back({true, "decision", "nobody has decided on it"});
     return;
   }
   const Decision& decision = *standing.decision;
@@ -120,15 +109,15 @@ void verifyDecision(const Standing& standing, Findings& findings) {
     wrong = "no check was made of it";
   if (decision.approval && samePerson(decision.approval->by, decision.by))
     wrong = decision.by + " approved what the same person had validated";
-  findings.add(wrong.empty(), "decision",
-               wrong.empty() ? "it rests on what the document holds" : wrong);
+  findings.push_back(
+      {wrong.empty(), "decision", wrong.empty() ? "it rests on what the document holds" : wrong});
 }
 
 void verifyMeasured(const Document& document, const MeasuredPose& measured, bool with_basin,
                     Findings& findings) {
   const auto add = [&findings](const std::string& what, const std::string& wrong,
                                const std::string& good) {
-    findings.add(wrong.empty(), what, wrong.empty() ? good : wrong);
+    findings.push_back({wrong.empty(), what, wrong.empty() ? good : wrong});
   };
   if (document.pose.source == PoseSource::kRun) {
     const auto& together = document.session.lastRunOf(document.pose.case_id)->together;
@@ -150,7 +139,7 @@ std::optional<MeasuredPose> measureAgain(const Document& document, int basin_see
   try {
     return measurePose(document.session, document.pose, basin_seeds, document.file);
   } catch (const InputError& error) {
-    findings.add(false, "run", std::string("it cannot be measured again: ") + error.what());
+    findings.push_back({false, "run", std::string("it cannot be measured again: ") + error.what()});
     return {};
   }
 }
@@ -170,18 +159,19 @@ void verifyMembers(const Document& document, const std::optional<MeasuredPose>& 
   for (const auto& [name, value] : document.json.items())
     if (!anew.contains(name) && (measured || name != "run"))
       wrong += (wrong.empty() ? "" : ", ") + name;
-  findings.add(wrong.empty(), "contents",
-               wrong.empty() ? "the members follow from each other"
-                             : "these members do not follow from the rest: " + wrong);
+  findings.push_back({wrong.empty(), "contents",
+                      wrong.empty() ? "the members follow from each other"
+                                    : "these members do not follow from the rest: " + wrong});
 }
 
 /// The run of a pose that has one, and what the document says of it.
 void verifyRunStated(const Document& document, Findings& findings) {
   if (document.pose.source != PoseSource::kRun) return;
   if (document.session.lastRunOf(document.pose.case_id) == nullptr)
-    findings.add(false, "run", "the session inside does not have the run that the pose is of");
+    findings.push_back(
+        {false, "run", "the session inside does not have the run that the pose is of"});
   if (!document.json.contains("run"))
-    findings.add(false, "run", "the member run, with options and matches, is missing");
+    findings.push_back({false, "run", "the member run, with options and matches, is missing"});
 }
 
 /// What the session inside says of the pose; the document's own where nobody decided.
@@ -230,7 +220,7 @@ bool VerifyReport::good() const {
 VerifyReport verifyPose(const fs::path& file, bool run_again, bool basin_again) {
   Document document = readDocument(file);
   VerifyReport report;
-  Findings findings(report);
+  Findings& findings = report.findings;
   verifySignature(document, findings);
   const Standing standing = standingOf(document.session, document.pose.case_id);
   takeStanding(document, standing);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/tables/failures.h"
+#include "sessions/tables/result_figures.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,15 +2,47 @@
 // The figures of an evaluation, drawn without a display.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "sessions/evaluation/run_result.h"
 #include "sessions/report/pdf_canvas.h"
+#include "sessions/tables/results_set.h"
 
 namespace boresight::sessions {
+
+using CurvePoints = std::vector<std::array<double, 2>>;
+
+/// The corners of the staircase that says what percent of `of` runs have a value of at most x:
+/// from (smallest, its percent) on; it stays at the last one's percent. Values that are not finite
+/// are left out.
+CurvePoints shareBelow(std::vector<double> values, std::size_t of);
+
+/// Percent of judged runs that completed within x times the requirement, for each factor. Empty
+/// when none has a requirement.
+CurvePoints successAgainstTolerance(std::span<const RunResult* const> runs,
+                                    std::span<const double> factors);
+
+/// How far a seed is from the truth: millimetres (normal and lateral together) or milliradians (the
+/// whole angle).
+enum class SeedMeasure { kDistance_mm, kAngle_mrad };
+std::optional<double> seedMeasure(const RunResult& run, SeedMeasure measure);
+
+/// Judged runs in `bins` groups of equal size (as far as they divide), by how far their seeds are:
+/// the mean of that, and the percent of successful ones.
+CurvePoints successAgainstSeed(std::span<const RunResult* const> runs, SeedMeasure measure,
+                               int bins);
+
+/// Of each completed run with truth: seconds, and lateral error in mm.
+CurvePoints timeAgainstError(std::span<const RunResult* const> runs);
+
+/// `count` numbers from `low` to `high`, each the same multiple of the one before.
+std::vector<double> geometricSteps(double low, double high, int count);
 
 /// What percent of the runs completed with an error of at most x: normal, lateral and rotation side
 /// by side, a row for each station, near and far apart.
@@ -33,5 +65,45 @@ std::vector<Figure> resultFigures(std::span<const RunResult> runs, CanvasFormat 
 
 /// ".pdf", ".svg", ".png".
 const char* extensionOf(CanvasFormat format);
+
+/// Where a run that did not succeed went astray, as far as its iterations' errors show it.
+enum class Astray {
+  kNotBegun,   ///< its input was refused, or there is nothing to see from its seed
+  kUnknown,    ///< without truth
+  kLedAway,    ///< no iteration was nearer to the truth than the seed
+  kPartOfWay,  ///< some iteration was nearer, none near
+  kCameNear,   ///< an iteration left less than a tenth of the seed's error, but it did not complete
+  kBeyondNeed,  ///< it completed, with an error beyond the requirement
+};
+Astray whereAstray(const RunResult& run);
+
+/// One to three sentences: how it ended and why, the way that its error took (seed, first
+/// iteration, nearest, end), and where it went astray. Needs the run's steps.
+std::string failureStory(const RunResult& run);
+
+/// The iteration that was nearest to the truth, by the larger share of the seed's distance and
+/// angle that it left; nullptr without truth or iterations.
+const RunStep* nearestStep(const RunResult& run);
+
+struct Failure {
+  RunResult run;                  ///< with its steps
+  std::filesystem::path dataset;  ///< as its results file names it
+  std::string mesh_note;          ///< "WRONG mesh ..." where the method was given one; else empty
+};
+
+/// The runs of the files that meet the filter and did not complete, or completed beyond their
+/// requirement; in the order of the files, and in theirs. InputError.
+std::vector<Failure> failuresOf(const std::vector<std::filesystem::path>& files,
+                                const ResultsFilter& filter = {});
+
+inline constexpr const char* kFailureFigure = "failures";
+
+/// Each failure's image around its station with the edges of the seed (red), of the truth (blue)
+/// and of what the run ended with (green; where it did not complete, of its iteration nearest to
+/// the truth, of its first one where none was nearer than the seed, or of its last without truth),
+/// and its story beneath. One PDF, "failures", or a picture a page, "failures_1", ... Where images
+/// cannot be read (or the dataset was a BOP folder) the reason stands in the picture's place. Empty
+/// without failures. std::bad_alloc or std::runtime_error when they cannot be drawn.
+std::vector<Figure> failureSheets(std::span<const Failure> failures, CanvasFormat format);
 
 }  // namespace boresight::sessions

@@ -69,11 +69,10 @@ class WhsBop : public testing::Test {
 
 TEST_F(WhsBop, EvaluatesAndWritesTheChallengesResults) {
   const std::string csv = folder_ / "whs_set-test.csv";
-  const ProgramRun run =
-      runWhs({"evaluate", "--dataset", set_, "--uncertainty", "0.02", "0.02", "0.02", "3", "3", "3",
-              "--pivot", "camera", "--out", folder_ / "r.sqlite", "--jsonl", folder_ / "r.jsonl",
-              "--bop-csv", csv});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  runWhs({"evaluate", "--dataset", set_, "--uncertainty", "0.02", "0.02", "0.02", "3", "3", "3",
+          "--pivot", "camera", "--out", folder_ / "r.sqlite", "--jsonl", folder_ / "r.jsonl",
+          "--bop-csv", csv},
+         0);
   const auto result = nlohmann::json::parse(folder_.read("r.jsonl"));
   EXPECT_EQ(result["id"], "000003-000004-000005");
   ASSERT_TRUE(result["completed"]);
@@ -93,16 +92,14 @@ TEST_F(WhsBop, EvaluatesAndWritesTheChallengesResults) {
 }
 
 TEST_F(WhsBop, SaysWhatIsInIt) {
-  const ProgramRun run = runWhs({"info", set_});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = runWhs({"info", set_}, 0);
   EXPECT_THAT(run.out, HasSubstr("BOP dataset\n  1 case, 1 station, 1 camera"));
   EXPECT_THAT(run.out, HasSubstr("station obj_000005: 1 case, 1 part"));
 }
 
 TEST_F(WhsBop, BecomesASession) {
   const std::string file = folder_ / "s.boresight.json";
-  const ProgramRun run = runWhs({"new", "--dataset", set_, "--obj", "5", "--out", file});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  runWhs({"new", "--dataset", set_, "--obj", "5", "--out", file}, 0);
   const sessions::Session session = sessions::readSessionFile(file).session;
   ASSERT_EQ(session.cases.size(), 1u);
   EXPECT_EQ(session.cases[0]->camera_from_station_truth->translation_m, truth_.translation_m);
@@ -112,15 +109,13 @@ TEST_F(WhsBop, BecomesASession) {
 TEST_F(WhsBop, RefusesWhatItCannotMean) {
   const std::string out = folder_ / "r.sqlite";
   const std::string file = kRendered / "dataset.json";
-  const ProgramRun choice = runWhs({"evaluate", "--dataset", file, "--scene", "3", "--out", out});
-  EXPECT_EQ(choice.exit_code, 2);
+  const ProgramRun choice =
+      runWhs({"evaluate", "--dataset", file, "--scene", "3", "--out", out}, 2);
   EXPECT_THAT(choice.err, HasSubstr("choose of a BOP folder"));
   const ProgramRun csv =
-      runWhs({"evaluate", "--dataset", file, "--bop-csv", folder_ / "r.csv", "--out", out});
-  EXPECT_EQ(csv.exit_code, 3);
+      runWhs({"evaluate", "--dataset", file, "--bop-csv", folder_ / "r.csv", "--out", out}, 3);
   EXPECT_THAT(csv.err, HasSubstr("is not of a BOP dataset"));
-  const ProgramRun scene = runWhs({"info", set_, "--scene", "9"});
-  EXPECT_EQ(scene.exit_code, 3);
+  const ProgramRun scene = runWhs({"info", set_, "--scene", "9"}, 3);
   EXPECT_THAT(scene.err, HasSubstr("has no scene 000009"));
 }
 

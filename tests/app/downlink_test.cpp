@@ -2,10 +2,14 @@
 // From an image as a mission sends it, its camera model in the label and the station's seed in
 // another frame, to a pose that is handed over.
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/cahvor_file.h"
+#include "sessions/io/dataset_file.h"
 #include "sessions/io/json_writer.h"
+#include "sessions/session/input_check.h"
+#include "sessions/session/session_document.h"
 #include "tests/app/run_whs.h"
 #include "tests/support/downlink_image.h"
 
@@ -85,7 +89,7 @@ class Downlink : public ::testing::Test {
   TemporaryFolder folder_;
   std::filesystem::path image_, transform_;
   std::string seed_;
-  std::string session_ = (folder_ / "s.boresight.json").string();
+  std::string session_ = folder_ / "s.boresight.json";
   Pose truth_;
 };
 
@@ -109,21 +113,17 @@ void expectNear(const Pose& found, const Pose& expected) {
 }
 
 TEST_F(Downlink, IsLocalizedJudgedHandedOverAndVerified) {
-  const ProgramRun made = runWhs(newArguments(true));
-  ASSERT_EQ(made.exit_code, 0) << made.err;
-  const ProgramRun run = runWhs({"run", session_});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  runWhs(newArguments(true), 0);
+  const ProgramRun run = runWhs({"run", session_}, 0);
   const ProgramRun decided = runWhs(
       {"decide", session_, "--case", "sol12", "--validate", "--by", "Ada", "--comment", "right"});
   EXPECT_EQ(decided.exit_code, 0) << decided.out << decided.err
                                   << runWhs({"check", session_, "--basin", "0"}).out;
-  const std::string file = (folder_ / "pose.json").string();
-  EXPECT_EQ(runWhs({"export", session_, "--case", "sol12", "--pose", file}).exit_code, 0);
-  const ProgramRun verified = runWhs({"verify", file});
-  EXPECT_EQ(verified.exit_code, 0) << verified.out;
+  const std::string file = folder_ / "pose.json";
+  runWhs({"export", session_, "--case", "sol12", "--pose", file}, 0);
+  runWhs({"verify", file}, 0);
 
-  const ProgramRun told = runWhs({"info", file});
-  EXPECT_EQ(told.exit_code, 0) << told.err;
+  const ProgramRun told = runWhs({"info", file}, 0);
   EXPECT_THAT(told.out, HasSubstr("case sol12: validated by Ada"));
   EXPECT_THAT(told.out, HasSubstr("in SITE_FRAME (194)\nreference_from_station\n"));
 
@@ -141,19 +141,18 @@ TEST_F(Downlink, IsLocalizedJudgedHandedOverAndVerified) {
 }
 
 TEST_F(Downlink, GoesToColmapWithTheErrorOfItsCamera) {
-  ASSERT_EQ(runWhs(newArguments(true)).exit_code, 0);
-  ASSERT_EQ(runWhs({"run", session_}).exit_code, 0);
-  const std::string colmap = (folder_ / "colmap").string();
-  const ProgramRun run = runWhs({"export", session_, "--poses", "handed-over", "--colmap", colmap});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  runWhs(newArguments(true), 0);
+  runWhs({"run", session_}, 0);
+  const std::string colmap = folder_ / "colmap";
+  const ProgramRun run =
+      runWhs({"export", session_, "--poses", "handed-over", "--colmap", colmap}, 0);
   EXPECT_THAT(run.err, HasSubstr("its cahvor camera is written as brown_conrady, worst error "));
   EXPECT_THAT(folder_.read("colmap/images.txt"), HasSubstr("worst error "));
   EXPECT_THAT(folder_.read("colmap/cameras.txt"), HasSubstr("OPENCV"));
 }
 
 TEST_F(Downlink, WithoutTheTransformNothingIsConverted) {
-  const ProgramRun refused = runWhs(newArguments(false));
-  EXPECT_EQ(refused.exit_code, 3);
+  const ProgramRun refused = runWhs(newArguments(false), 3);
   EXPECT_EQ(refused.errorLines(), 1) << refused.err;
   EXPECT_THAT(refused.err, HasSubstr("the pose is given in SITE_FRAME (194), but the camera model "
                                      "in ROVER_FRAME (194, 835, 1)"));
@@ -162,10 +161,11 @@ TEST_F(Downlink, WithoutTheTransformNothingIsConverted) {
 
 TEST_F(Downlink, IsLocalizedByItsOwnLabel) {
   const std::string seed = writeSeed("rover.json", ExampleCase("os").seed, kRover);
-  const std::string out = (folder_ / "result.json").string();
-  const ProgramRun run = runWhs(localizeArguments(
-      {{"--image", image_.string()}, {"--camera", ""}, {"--seed", seed}, {"--out", out}}));
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string out = folder_ / "result.json";
+  const ProgramRun run = runWhs(
+      localizeArguments(
+          {{"--image", image_.string()}, {"--camera", ""}, {"--seed", seed}, {"--out", out}}),
+      0);
   const json result = json::parse(folder_.read("result.json"));
   expectNear(poseOf(result["camera_from_station"]), truth_);
   EXPECT_EQ(result["frames"]["camera_model"]["frame"], "ROVER_FRAME (194, 835, 1)");
@@ -175,12 +175,11 @@ TEST_F(Downlink, IsLocalizedByItsOwnLabel) {
 }
 
 TEST_F(Downlink, IsLocalizedInTheFrameThatItsSeedIsGivenIn) {
-  const std::string out = (folder_ / "result.json").string();
+  const std::string out = folder_ / "result.json";
   Arguments arguments = localizeArguments(
       {{"--image", image_.string()}, {"--camera", ""}, {"--seed", seed_}, {"--out", out}});
   arguments.insert(arguments.end(), {"--transform", transform_.string()});
-  const ProgramRun run = runWhs(arguments);
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = runWhs(arguments, 0);
   const json frames = json::parse(folder_.read("result.json"))["frames"];
   EXPECT_EQ(frames["station"]["frame"], "SITE_FRAME (194)");
   expectNear(poseOf(frames["station"]["reference_from_station"]),
@@ -207,7 +206,7 @@ TEST_F(Downlink, ATransformThatTheLabelContradictsIsReported) {
     Arguments arguments = localizeArguments({{"--image", image_.string()},
                                              {"--camera", ""},
                                              {"--seed", seed_},
-                                             {"--out", (folder_ / "result.json").string()}});
+                                             {"--out", folder_ / "result.json"}});
     arguments.insert(arguments.end(), {"--transform", transform});
     return runWhs(arguments);
   };
@@ -225,22 +224,19 @@ TEST_F(Downlink, ATransformThatTheLabelContradictsIsReported) {
   EXPECT_EQ(warned.exit_code, 0) << warned.err;
   EXPECT_EQ(warned.err, "whs: " + warning + "\n");
   EXPECT_EQ(json::parse(folder_.read("result.json"))["warnings"], json::array({warning}));
-  const ProgramRun made = runWhs(newArguments(true));
-  EXPECT_EQ(made.exit_code, 0);
+  const ProgramRun made = runWhs(newArguments(true), 0);
   EXPECT_EQ(made.err, "whs: case sol12: " + warning + "\n");
 }
 
 TEST_F(Downlink, IsDescribedWithAllThatBelongsToIt) {
   const std::string rover = writeSeed("rover.json", ExampleCase("os").seed, kRover);
-  const std::string record = (folder_ / "run.whsr").string();
-  EXPECT_EQ(runWhs(localizeArguments({{"--image", image_.string()},
-                                      {"--camera", ""},
-                                      {"--seed", rover},
-                                      {"--record", record}}))
-                .exit_code,
-            0);
-  const ProgramRun run = runWhs({"info", image_.string(), seed_, transform_.string(), record});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const std::string record = folder_ / "run.whsr";
+  runWhs(localizeArguments({{"--image", image_.string()},
+                            {"--camera", ""},
+                            {"--seed", rover},
+                            {"--record", record}}),
+         0);
+  const ProgramRun run = runWhs({"info", image_.string(), seed_, transform_.string(), record}, 0);
   EXPECT_THAT(run.out, HasSubstr("PRODUCT_ID: 1F483288473"));
   EXPECT_THAT(run.out, HasSubstr("vectors in ROVER_FRAME (194, 835, 1)"));
   EXPECT_THAT(run.out, HasSubstr("reference_from_station in SITE_FRAME (194)"));
@@ -252,8 +248,7 @@ TEST_F(Downlink, IsDescribedWithAllThatBelongsToIt) {
 
 /// Each matrix under the name of what it is.
 TEST_F(Downlink, PosesAreToldInTheFramesThatTheyAreIn) {
-  const ProgramRun run = runWhs({"info", seed_, transform_.string()});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = runWhs({"info", seed_, transform_.string()}, 0);
   EXPECT_THAT(run.out, HasSubstr("\nreference_from_station\n"));
   EXPECT_THAT(run.out, HasSubstr("\ntarget_from_source\n"));
   EXPECT_THAT(run.out, HasSubstr("  uncertainty "));
@@ -263,8 +258,8 @@ TEST_F(Downlink, PosesAreToldInTheFramesThatTheyAreIn) {
 TEST_F(Downlink, WithoutACameraModelOneIsAskedFor) {
   const auto bare =
       folder_.write("bare.vic", vicarImage(16, 12, std::vector<std::uint16_t>(192), ""));
-  const ProgramRun run = runWhs(localizeArguments({{"--image", bare.string()}, {"--camera", ""}}));
-  EXPECT_EQ(run.exit_code, 3);
+  const ProgramRun run =
+      runWhs(localizeArguments({{"--image", bare.string()}, {"--camera", ""}}), 3);
   EXPECT_THAT(run.err, HasSubstr("give a camera.json or a .cahvor file with --camera"));
 }
 
@@ -281,22 +276,19 @@ TEST_F(Downlink, OfADataSetIsEvaluated) {
   one["truth"]["camera_from_station"] = json::parse(sessions::toJson(truth_).dump());
   dataset["cases"] = json::array({one});
   const std::string file = folder_.write("dataset.json", dataset.dump()).string();
-  const std::string out = (folder_ / "r.jsonl").string();
-  const ProgramRun run = runWhs(
-      {"evaluate", "--dataset", file, "--out", (folder_ / "r.sqlite").string(), "--jsonl", out});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string out = folder_ / "r.jsonl";
+  runWhs({"evaluate", "--dataset", file, "--out", folder_ / "r.sqlite", "--jsonl", out}, 0);
   EXPECT_EQ(json::parse(folder_.read("r.jsonl"))["success"], true) << folder_.read("r.jsonl");
 }
 
 TEST_F(Downlink, WithoutALabelACameraIsAskedFor) {
-  const ProgramRun run = runWhs(localizeArguments({{"--camera", ""}}));
-  EXPECT_EQ(run.exit_code, 3);
+  const ProgramRun run = runWhs(localizeArguments({{"--camera", ""}}), 3);
   EXPECT_THAT(run.err, HasSubstr("the image has no label that could tell it"));
 }
 
 TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
-  const std::string text = (folder_ / "left.cahvor").string();
-  EXPECT_EQ(runWhs({"camera", image_.string(), "--out", text}).exit_code, 0);
+  const std::string text = folder_ / "left.cahvor";
+  runWhs({"camera", image_.string(), "--out", text}, 0);
   const sessions::CameraFile again = sessions::readCameraFile(std::filesystem::path(text));
   Eigen::Vector2d expected, found;
   const Eigen::Vector3d point_m(0.05, -0.03, 0.4);
@@ -304,25 +296,113 @@ TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
   ASSERT_TRUE(project(
       again.camera, again.reference->camera_from_reference * (roverFromCamera() * point_m), found));
   EXPECT_LT((expected - found).norm(), 1e-6);
-  const std::string fitted = (folder_ / "brown.json").string();
+  const std::string fitted = folder_ / "brown.json";
   const ProgramRun run =
-      runWhs({"camera", image_.string(), "--as", "brown_conrady", "--out", fitted});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+      runWhs({"camera", image_.string(), "--as", "brown_conrady", "--out", fitted}, 0);
   EXPECT_THAT(run.out, HasSubstr("worst error "));
   ASSERT_TRUE(project(sessions::readCamera(std::filesystem::path(fitted)), point_m, found));
   EXPECT_LT((expected - found).norm(),
             json::parse(folder_.read("brown.json"))["fitted_from"]["worst_error_px"]);
   sessions::CahvorFile with_covariance = sessions::readCahvorFile(text);
   with_covariance.covariance = 1e-8 * Eigen::MatrixXd::Identity(18, 18);
-  const std::string other_ending = (folder_ / "left.cahvore").string();
+  const std::string other_ending = folder_ / "left.cahvore";
   sessions::writeCahvorFile(other_ending, with_covariance);
-  const ProgramRun lost = runWhs({"camera", other_ending, "--out", folder_ / "left.json"});
-  EXPECT_EQ(lost.exit_code, 0) << lost.err;
+  const ProgramRun lost = runWhs({"camera", other_ending, "--out", folder_ / "left.json"}, 0);
   EXPECT_THAT(lost.err, HasSubstr("the covariance of left.cahvore stays behind"));
   EXPECT_THAT(runWhs({"camera", text, "--out", other_ending}).err,
               HasSubstr("the vectors are those of a cahvor model"));
-  EXPECT_EQ(runWhs({"camera", image_.string()}).exit_code, 2);
-  EXPECT_EQ(runWhs({"camera", text, "--as", "pinhole", "--out", text}).exit_code, 2);
+  runWhs({"camera", image_.string()}, 2);
+  runWhs({"camera", text, "--as", "pinhole", "--out", text}, 2);
+}
+
+// Records, traces and sessions compared.
+
+using testing::HasSubstr;
+
+const std::string kCase = [] {
+  for (const sessions::Case& one : sessions::readDataset(exampleFolder() / "dataset.json").cases)
+    if (one.station == "os") return one.id;
+  return std::string();
+}();
+
+/// A session whose one case was run, and the record and trace of the same run elsewhere.
+struct Runs {
+  TemporaryFolder folder;
+  std::string session = folder / "s.boresight.json";
+  std::string record = folder / "run.whsr";
+  std::string trace = folder / "run.trace";
+
+  Runs() {
+    runWhs(
+        {"new", "--dataset", exampleFolder() / "dataset.json", "--case", kCase, "--out", session},
+        0);
+    runWhs({"run", session}, 0);
+    runWhs(localizeArguments({{"--record", record}, {"--trace", trace}}), 0);
+  }
+
+  void edit(void (*change)(sessions::SessionCase&, const Runs&)) const {
+    auto document = sessions::SessionDocument::open(session);
+    sessions::SessionCase one = *document.session().findCase(kCase);
+    change(one, *this);
+    document.apply(sessions::withCase(document.session(), one), "Change");
+    document.save();
+  }
+};
+
+TEST(WhsCompare, TakesRecordsTracesAndRunsOfSessions) {
+  const Runs runs;
+  const auto exitOf = [](const Arguments& arguments) {
+    Arguments all = {"compare"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const ProgramRun run = runWhs(all);
+    EXPECT_EQ(run.exit_code == 0, run.out.starts_with("equal to the bit")) << run.out;
+    return run.exit_code;
+  };
+  EXPECT_EQ(exitOf({runs.record, runs.trace}), 0);
+  EXPECT_EQ(exitOf({runs.trace, runs.record}), 0);
+  EXPECT_EQ(exitOf({runs.record, runs.session, "--case", kCase}), 0);
+  EXPECT_EQ(exitOf({runs.session, runs.trace, "--case", kCase}), 0);
+  EXPECT_EQ(exitOf({runs.record, runs.session, "--case", kCase, "--rerun"}), 0);
+  EXPECT_EQ(exitOf({runs.record, runs.session, "--case", kCase, "--run", "0000000"}), 3);
+  EXPECT_EQ(exitOf({runs.session, "--case", kCase}), 3) << "no record is attached";
+  runs.edit([](sessions::SessionCase& one, const Runs& made) {
+    one.onboard_record = {made.record, sessions::inputSha256(made.record)};
+  });
+  EXPECT_EQ(exitOf({runs.session, "--case", kCase}), 0);
+  EXPECT_EQ(exitOf({runs.session}), 2);
+  EXPECT_EQ(exitOf({runs.record}), 2);
+  EXPECT_EQ(exitOf({runs.session, runs.session, "--case", kCase}), 2);
+  EXPECT_EQ(exitOf({runs.record, runs.session, "--case", "none"}), 3);
+}
+
+TEST(WhsNew, AttachesAnOnboardRecordToItsOneCase) {
+  const Runs runs;
+  const std::string made = runs.folder / "made.boresight.json";
+  const std::string dataset = exampleFolder() / "dataset.json";
+  runWhs({"new", "--dataset", dataset, "--record", runs.record, "--out", made}, 2);
+  runWhs({"new", "--dataset", dataset, "--case", kCase, "--record", runs.trace, "--out", made}, 3);
+  runWhs({"new", "--dataset", dataset, "--case", kCase, "--record", runs.record, "--out", made}, 0);
+  runWhs({"compare", made, "--case", kCase, "--rerun"}, 0);
+}
+
+TEST(WhsCompare, DoesNotTakeARunOfOtherInputsForTheCases) {
+  const Runs runs;
+  runs.edit([](sessions::SessionCase& one, const Runs&) {
+    one.camera_from_station_seed.translation_m.x() += 1e-4;
+  });
+  const ProgramRun stale = runWhs({"compare", runs.record, runs.session, "--case", kCase}, 3);
+  EXPECT_THAT(stale.err, HasSubstr("no longer its own"));
+  const ProgramRun anew =
+      runWhs({"compare", runs.record, runs.session, "--case", kCase, "--rerun"}, 6);
+  EXPECT_THAT(anew.out, HasSubstr("first difference: seed"));
+}
+
+TEST(WhsCompare, RunsTheCaseByTheRecordsOptions) {
+  const Runs runs;
+  runWhs(localizeArguments({{"--record", runs.record}, {"--set", "pnp.seed=7"}}), 0);
+  const ProgramRun last = runWhs({"compare", runs.record, runs.session, "--case", kCase}, 6);
+  EXPECT_THAT(last.out, HasSubstr("first difference: options"));
+  runWhs({"compare", runs.record, runs.session, "--case", kCase, "--rerun"}, 0);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "sessions/evaluation/results_file.h"
+#include "sessions/evaluation/sqlite.h"
 #include "sessions/io/errors.h"
 #include "tests/app/run_whs.h"
 
@@ -22,13 +23,8 @@ using testing::HasSubstr;
 class WhsEvaluate : public testing::Test {
  protected:
   Arguments evaluateArguments(const std::filesystem::path& dataset, const Arguments& more) const {
-    Arguments arguments = {"evaluate",
-                           "--dataset",
-                           dataset.string(),
-                           "--out",
-                           (folder_ / "r.sqlite").string(),
-                           "--jsonl",
-                           (folder_ / "r.jsonl").string()};
+    Arguments arguments = {"evaluate",           "--dataset", dataset.string(),   "--out",
+                           folder_ / "r.sqlite", "--jsonl",   folder_ / "r.jsonl"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
@@ -44,8 +40,7 @@ class WhsEvaluate : public testing::Test {
 };
 
 TEST_F(WhsEvaluate, SumsUpTheExample) {
-  const ProgramRun run = runWhs(evaluateArguments(dataset_, {"--jobs", "2"}));
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = runWhs(evaluateArguments(dataset_, {"--jobs", "2"}), 0);
   EXPECT_EQ(run.err, "") << "progress belongs on a terminal only";
   EXPECT_THAT(run.out,
               AllOf(HasSubstr("station"), HasSubstr("bc"), HasSubstr("os"), HasSubstr("100.0")));
@@ -56,9 +51,9 @@ TEST_F(WhsEvaluate, SumsUpTheExample) {
 }
 
 TEST_F(WhsEvaluate, DrawsFurtherSeeds) {
-  const ProgramRun run = runWhs(evaluateArguments(
-      dataset_, {"--station", "os", "--reseed", "2", "--set", "loop.max_iterations=1"}));
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  runWhs(evaluateArguments(dataset_,
+                           {"--station", "os", "--reseed", "2", "--set", "loop.max_iterations=1"}),
+         0);
   const auto results = lines();
   ASSERT_EQ(results.size(), 3u);
   EXPECT_EQ(results[2]["reseed"], 2);
@@ -66,8 +61,7 @@ TEST_F(WhsEvaluate, DrawsFurtherSeeds) {
 }
 
 TEST_F(WhsEvaluate, CountsEveryCompletedRunWithAWrongMeshAsFalse) {
-  const ProgramRun run = runWhs(evaluateArguments(dataset_, {"--mesh-of", "os"}));
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  runWhs(evaluateArguments(dataset_, {"--mesh-of", "os"}), 0);
   const auto results = lines();
   ASSERT_EQ(results.size(), 1u);
   EXPECT_EQ(results[0]["success"], false);
@@ -78,9 +72,10 @@ TEST_F(WhsEvaluate, ReportsABadCaseAndGoesOn) {
   std::filesystem::copy(exampleFolder(), folder_ / "data",
                         std::filesystem::copy_options::recursive);
   std::filesystem::remove(folder_ / "data/bc/image.png");
-  const ProgramRun run = runWhs(evaluateArguments(
-      folder_ / "data/dataset.json", {"--reseed", "1", "--set", "loop.max_iterations=1"}));
-  EXPECT_EQ(run.exit_code, 3);
+  const ProgramRun run =
+      runWhs(evaluateArguments(folder_ / "data/dataset.json",
+                               {"--reseed", "1", "--set", "loop.max_iterations=1"}),
+             3);
   EXPECT_EQ(run.errorLines(), 1) << run.err;
   EXPECT_THAT(run.err, HasSubstr("bc/image.png"));
   const auto results = lines();
@@ -128,8 +123,7 @@ TEST_F(WhsEvaluate, GoesOnAfterItWasKilledWithoutRedoingOrLosingARun) {
     held = after;
   }
   ASSERT_GE(held, 1);
-  const ProgramRun last = runWhs(arguments);
-  EXPECT_EQ(last.exit_code, 0) << last.err;
+  const ProgramRun last = runWhs(arguments, 0);
   EXPECT_THAT(last.err, HasSubstr("going on, " + std::to_string(held) + " of 12 runs are there"));
   const sessions::Results results = sessions::readResults(folder_ / "r.sqlite");
   ASSERT_EQ(results.runs.size(), 12u);
@@ -139,7 +133,7 @@ TEST_F(WhsEvaluate, GoesOnAfterItWasKilledWithoutRedoingOrLosingARun) {
   const auto resumed = lines();
 
   std::filesystem::remove(folder_ / "r.sqlite");
-  EXPECT_EQ(runWhs(arguments).exit_code, 0);
+  runWhs(arguments, 0);
   const auto undisturbed = lines();
   ASSERT_EQ(resumed.size(), undisturbed.size());
   for (std::size_t i = 0; i < resumed.size(); ++i) {
@@ -151,31 +145,29 @@ TEST_F(WhsEvaluate, GoesOnAfterItWasKilledWithoutRedoingOrLosingARun) {
 
 TEST_F(WhsEvaluate, RefusesToGoOnWithOtherOptions) {
   const Arguments quick = {"--set", "loop.max_iterations=1"};
-  ASSERT_EQ(runWhs(evaluateArguments(dataset_, quick)).exit_code, 0);
+  runWhs(evaluateArguments(dataset_, quick), 0);
   const std::string before = folder_.read("r.sqlite");
-  const ProgramRun other = runWhs(evaluateArguments(dataset_, {"--set", "loop.max_iterations=2"}));
-  EXPECT_EQ(other.exit_code, 3);
+  const ProgramRun other =
+      runWhs(evaluateArguments(dataset_, {"--set", "loop.max_iterations=2"}), 3);
   EXPECT_EQ(other.errorLines(), 1) << other.err;
   EXPECT_THAT(other.err, HasSubstr("loop.max_iterations 1, not 2; name another file"));
   EXPECT_EQ(folder_.read("r.sqlite"), before);
-  const ProgramRun again = runWhs(evaluateArguments(dataset_, quick));
-  EXPECT_EQ(again.exit_code, 0);
+  const ProgramRun again = runWhs(evaluateArguments(dataset_, quick), 0);
   EXPECT_THAT(again.err, HasSubstr("2 of 2 runs are there already"));
 }
 
 TEST_F(WhsEvaluate, MergesShardsToWhatOneRunGives) {
   const Arguments quick = {"--reseed", "1", "--set", "loop.max_iterations=1"};
-  ASSERT_EQ(runWhs(evaluateArguments(dataset_, quick)).exit_code, 0);
-  Arguments merge = {"merge", (folder_ / "merged.sqlite").string()};
+  runWhs(evaluateArguments(dataset_, quick), 0);
+  Arguments merge = {"merge", folder_ / "merged.sqlite"};
   for (const std::string shard : {"2/2", "1/2"}) {
     Arguments arguments = {"evaluate", "--dataset", dataset_.string(), "--shard", shard, "--out"};
     arguments.push_back((folder_ / ("shard" + shard.substr(0, 1) + ".sqlite")).string());
     arguments.insert(arguments.end(), quick.begin(), quick.end());
-    ASSERT_EQ(runWhs(arguments).exit_code, 0);
+    runWhs(arguments, 0);
     merge.push_back(arguments[6]);
   }
-  const ProgramRun merged = runWhs(merge);
-  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  const ProgramRun merged = runWhs(merge, 0);
   EXPECT_THAT(merged.out, HasSubstr("4 runs"));
   const auto one = sessions::readResults(folder_ / "r.sqlite").runs;
   const auto joined = sessions::readResults(folder_ / "merged.sqlite").runs;
@@ -184,18 +176,110 @@ TEST_F(WhsEvaluate, MergesShardsToWhatOneRunGives) {
     EXPECT_EQ(one[i].case_id, joined[i].case_id);
     EXPECT_EQ(one[i].digest, joined[i].digest);
   }
-  EXPECT_EQ(runWhs({"evaluate", "--dataset", dataset_.string(), "--shard", "3/2", "--out",
-                    (folder_ / "x").string()})
-                .exit_code,
-            2);
+  runWhs({"evaluate", "--dataset", dataset_.string(), "--shard", "3/2", "--out", folder_ / "x"}, 2);
 }
 
 TEST_F(WhsEvaluate, RefusesWhatItCannotRun) {
-  EXPECT_EQ(runWhs(evaluateArguments("/no/such/dataset.json", {})).exit_code, 3);
-  EXPECT_EQ(runWhs(evaluateArguments(dataset_, {"--case", "bc-999"})).exit_code, 3);
-  EXPECT_EQ(runWhs(evaluateArguments(dataset_, {"--jobs", "0"})).exit_code, 2);
-  EXPECT_EQ(runWhs(evaluateArguments(dataset_, {"--mirror", "w"})).exit_code, 2);
+  runWhs(evaluateArguments("/no/such/dataset.json", {}), 3);
+  runWhs(evaluateArguments(dataset_, {"--case", "bc-999"}), 3);
+  runWhs(evaluateArguments(dataset_, {"--jobs", "0"}), 2);
+  runWhs(evaluateArguments(dataset_, {"--mirror", "w"}), 2);
   EXPECT_EQ(folder_.fileCount(), 0u);
+}
+
+using testing::Not;
+
+/// Results of the example, quick and good.
+class WhsTables : public testing::Test {
+ protected:
+  void evaluate(const std::string& name, const std::string& iterations) const {
+    runWhs({"evaluate", "--dataset", (exampleFolder() / "dataset.json").string(), "--out",
+            (folder_ / name).string(), "--set", "loop.max_iterations=" + iterations},
+           0);
+  }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(WhsTables, MakesTablesAndFigures) {
+  evaluate("r.sqlite", "10");
+  const ProgramRun text = runWhs({"tables", file("r.sqlite"), "--paper", "--figures",
+                                  file("figures"), "--figure-format", "pdf", "png", "svg"},
+                                 0);
+  EXPECT_THAT(text.out, AllOf(HasSubstr("Errors per station and method"), HasSubstr("seed"),
+                              HasSubstr("whs (paper)"), HasSubstr("Time per run and step"),
+                              HasSubstr("profile default")));
+  std::size_t figures = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "figures"))
+    figures += std::filesystem::file_size(entry.path()) > 2000 ? 1 : 0;
+  EXPECT_EQ(figures, 12u) << "four figures in three formats";
+  const ProgramRun csv = runWhs({"tables", file("r.sqlite"), "--table", "errors", "--station", "os",
+                                 "--format", "csv", "--out", file("t.csv")},
+                                0);
+  EXPECT_EQ(csv.out, "");
+  EXPECT_THAT(folder_.read("t.csv"),
+              AllOf(HasSubstr("normal mm mean,normal mm std"),
+                    HasSubstr("os,near,whs,1,100,100,0,"), Not(HasSubstr("bc"))));
+  EXPECT_THAT(runWhs({"tables", file("r.sqlite"), "--format", "latex"}).out,
+              HasSubstr("\\begin{tabular}"));
+}
+
+TEST_F(WhsTables, ComparesTwoResultsRunByRun) {
+  evaluate("good.sqlite", "10");
+  evaluate("bad.sqlite", "1");
+  const ProgramRun worse =
+      runWhs({"tables", file("good.sqlite"), "--against", file("bad.sqlite")}, 6);
+  EXPECT_THAT(worse.out, HasSubstr("2 runs in both: 0 better, 2 worse"));
+  const ProgramRun same =
+      runWhs({"tables", file("good.sqlite"), "--against", file("good.sqlite")}, 0);
+  EXPECT_THAT(same.out, HasSubstr("2 the same (2 bit for bit)"));
+}
+
+TEST_F(WhsTables, AreOfRunsThatASessionRepeatsAndItsQueueLists) {
+  evaluate("r.sqlite", "1");
+  const ProgramRun made =
+      runWhs({"new", "--results", file("r.sqlite"), "--out", file("q.boresight.json")}, 0);
+  EXPECT_THAT(made.out, HasSubstr("2 cases"));
+  EXPECT_THAT(folder_.read("q.boresight.json"), HasSubstr("loop.max_iterations"));
+  EXPECT_THAT(runWhs({"queue", file("q.boresight.json")}).out,
+              HasSubstr("not run here; in the results: iteration_limit"));
+}
+
+TEST_F(WhsTables, WithATriggerOrAViewAreRefusedByEveryCommand) {
+  const std::string dataset = (exampleFolder() / "dataset.json").string();
+  for (const char* object :
+       {"CREATE TRIGGER stop BEFORE INSERT ON run BEGIN SELECT RAISE(IGNORE); END",
+        "DROP TABLE tag; CREATE VIEW tag AS WITH RECURSIVE n(run) AS (SELECT 1 UNION ALL SELECT "
+        "run FROM n) SELECT run, 'a' AS tag FROM n"}) {
+    evaluate("good.sqlite", "1");
+    std::filesystem::copy(file("good.sqlite"), file("r.sqlite"),
+                          std::filesystem::copy_options::overwrite_existing);
+    sessions::SqlDatabase(file("r.sqlite"), sessions::SqlAccess::kWrite).execute(object);
+    for (const Arguments& arguments :
+         {Arguments{"tables", file("r.sqlite")},
+          Arguments{"tables", file("good.sqlite"), "--against", file("r.sqlite")},
+          Arguments{"merge", file("m.sqlite"), file("good.sqlite"), file("r.sqlite")},
+          Arguments{"merge", file("r.sqlite"), file("good.sqlite")},
+          Arguments{"new", "--results", file("r.sqlite"), "--out", file("q.boresight.json")},
+          Arguments{"evaluate", "--dataset", dataset, "--out", file("r.sqlite"), "--set",
+                    "loop.max_iterations=1"}}) {
+      const ProgramRun run = runWhs(arguments);
+      EXPECT_EQ(run.exit_code, 3) << arguments[0] << run.out;
+      EXPECT_EQ(run.errorLines(), 1) << run.err;
+      EXPECT_THAT(run.err, AllOf(HasSubstr("r.sqlite: its "), HasSubstr("is not one that whs "
+                                                                        "evaluate makes")));
+      EXPECT_EQ(run.out, "");
+    }
+    EXPECT_FALSE(std::filesystem::exists(file("m.sqlite")));
+  }
+}
+
+TEST_F(WhsTables, RefusesWhatIsNoResults) {
+  folder_.write("no.sqlite", "no");
+  runWhs({"tables", file("no.sqlite")}, 3);
+  runWhs({"tables", file("none.sqlite")}, 3);
+  runWhs({"tables"}, 2);
+  runWhs({"tables", file("no.sqlite"), "--format", "word"}, 2);
 }
 
 }  // namespace

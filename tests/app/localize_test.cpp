@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
+#include "core/localizer/problem_bytes.h"
 #include "sessions/io/image_file.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/run/trace_file.h"
@@ -22,10 +24,10 @@ TEST(WhsLocalize, PrintsIterationsAndPoseAndWritesWhatIsAsked) {
   const TemporaryFolder folder;
   const ProgramRun run =
       runWhs(localizeArguments({{"--truth", (exampleFolder() / "os" / "truth.json").string()},
-                                {"--out", (folder / "result.json").string()},
-                                {"--trace", (folder / "run.trace").string()},
-                                {"--overlay", (folder / "overlay.png").string()}}));
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+                                {"--out", folder / "result.json"},
+                                {"--trace", folder / "run.trace"},
+                                {"--overlay", folder / "overlay.png"}}),
+             0);
   EXPECT_EQ(run.err, "");
   EXPECT_THAT(run.out, AllOf(HasSubstr("iteration"), HasSubstr("inliers"), HasSubstr("converged"),
                              HasSubstr("1 sigma"), HasSubstr("against the truth")));
@@ -53,8 +55,7 @@ TEST(WhsLocalize, GivesTheSameDigestWithAllKernels) {
     return run.out.substr(std::min(run.out.find("digest"), run.out.size()));
   };
   EXPECT_EQ(digestWith("portable"), digestWith("best"));
-  const ProgramRun unknown = runWhs(localizeArguments({{"--kernels", "abacus"}}));
-  EXPECT_EQ(unknown.exit_code, 2);
+  const ProgramRun unknown = runWhs(localizeArguments({{"--kernels", "abacus"}}), 2);
   EXPECT_THAT(unknown.err, AllOf(HasSubstr("--kernels"), HasSubstr("best, portable")));
 }
 
@@ -65,14 +66,13 @@ TEST(WhsLocalize, GivesTheSameDigestWithAndWithoutRecording) {
   };
   const std::string plain = digestOf(runWhs(localizeArguments()));
   EXPECT_EQ(plain.size(), std::string("digest ").size() + 64 + 1);
-  EXPECT_EQ(digestOf(runWhs(localizeArguments({{"--trace", (folder / "t").string()}}))), plain);
+  EXPECT_EQ(digestOf(runWhs(localizeArguments({{"--trace", folder / "t"}}))), plain);
   EXPECT_NE(digestOf(runWhs(localizeArguments({{"--set", "pnp.seed=2"}}))), plain);
 }
 
 TEST(WhsLocalize, WritesTheOnboardRecord) {
   const TemporaryFolder folder;
-  const ProgramRun run = runWhs(localizeArguments({{"--record", (folder / "run.whsr").string()}}));
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = runWhs(localizeArguments({{"--record", folder / "run.whsr"}}), 0);
   const sessions::OnboardRecord record = sessions::readRecord(folder / "run.whsr");
   EXPECT_TRUE(record.whole());
   ASSERT_TRUE(record.end && record.inputs);
@@ -85,26 +85,22 @@ TEST(WhsLocalize, WritesTheOnboardRecord) {
 
 TEST(WhsCompare, SaysByItsExitCodeWhetherTwoRunsWereTheSame) {
   const TemporaryFolder folder;
-  const std::string first = (folder / "a.whsr").string();
-  const std::string second = (folder / "b.whsr").string();
-  ASSERT_EQ(runWhs(localizeArguments({{"--record", first}})).exit_code, 0);
-  ASSERT_EQ(runWhs(localizeArguments({{"--record", second}})).exit_code, 0);
-  const ProgramRun equal = runWhs({"compare", first, second});
-  EXPECT_EQ(equal.exit_code, 0) << equal.out;
+  const std::string first = folder / "a.whsr";
+  const std::string second = folder / "b.whsr";
+  runWhs(localizeArguments({{"--record", first}}), 0);
+  runWhs(localizeArguments({{"--record", second}}), 0);
+  const ProgramRun equal = runWhs({"compare", first, second}, 0);
   EXPECT_THAT(equal.out, HasSubstr("equal to the bit"));
-  ASSERT_EQ(runWhs(localizeArguments({{"--record", second}, {"--set", "pnp.seed=2"}})).exit_code,
-            0);
-  const ProgramRun other = runWhs({"compare", first, second});
-  EXPECT_EQ(other.exit_code, 6);
+  runWhs(localizeArguments({{"--record", second}, {"--set", "pnp.seed=2"}}), 0);
+  const ProgramRun other = runWhs({"compare", first, second}, 6);
   EXPECT_THAT(other.out, HasSubstr("options: the option pnp.seed"));
   const auto write = [&](const char* name, const std::string& bytes) {
     std::ofstream(folder / name, std::ios::binary) << bytes;
   };
   write("cut.whsr", folder.read("a.whsr").substr(0, 4000));
-  EXPECT_EQ(runWhs({"compare", first, (folder / "cut.whsr").string()}).exit_code, 5);
+  runWhs({"compare", first, folder / "cut.whsr"}, 5);
   write("no.whsr", "no record");
-  const ProgramRun none = runWhs({"compare", first, (folder / "no.whsr").string()});
-  EXPECT_EQ(none.exit_code, 3);
+  const ProgramRun none = runWhs({"compare", first, folder / "no.whsr"}, 3);
   EXPECT_THAT(none.err, HasSubstr("no.whsr"));
 }
 
@@ -121,8 +117,7 @@ TEST(WhsLocalize, GivesTheSameDigestInTheMemoryOfFlight) {
       inputs[name] = (folder / file).string();
     const ProgramRun plain = runWhs(localizeArguments(inputs));
     inputs["--profile"] = "flight";
-    const ProgramRun flight = runWhs(localizeArguments(inputs));
-    EXPECT_EQ(flight.exit_code, 0) << flight.err;
+    const ProgramRun flight = runWhs(localizeArguments(inputs), 0);
     EXPECT_EQ(digestOf(flight), digestOf(plain));
     EXPECT_THAT(flight.out, AllOf(HasSubstr("high water"), HasSubstr("refine"),
                                   HasSubstr("bytes of 10000000")));
@@ -132,8 +127,7 @@ TEST(WhsLocalize, GivesTheSameDigestInTheMemoryOfFlight) {
 
 TEST(WhsLocalize, RefusesOptionsThatAskForMoreMemoryThanFlightHas) {
   const ProgramRun asking = runWhs(
-      localizeArguments({{"--profile", "flight"}, {"--set", "render.max_edge_pixels=1000000"}}));
-  EXPECT_EQ(asking.exit_code, 4);
+      localizeArguments({{"--profile", "flight"}, {"--set", "render.max_edge_pixels=1000000"}}), 4);
   EXPECT_EQ(asking.errorLines(), 1) << asking.err;
   EXPECT_THAT(asking.err, AllOf(HasSubstr("arena_too_small"), HasSubstr("bytes"),
                                 HasSubstr("10000000 in all"), HasSubstr("lower")));
@@ -147,14 +141,14 @@ TEST(WhsLocalize, GivesTheSameDigestWithAnyNumberOfThreads) {
   const std::string plain = digestOf(runWhs(localizeArguments()));
   for (const std::string threads : {"0", "1", "2", "3", "8"})
     EXPECT_EQ(digestOf(runWhs(localizeArguments({{"--threads", threads}}))), plain) << threads;
-  EXPECT_EQ(runWhs(localizeArguments({{"--threads", "-1"}})).exit_code, 2);
+  runWhs(localizeArguments({{"--threads", "-1"}}), 2);
 }
 
 TEST(WhsLocalize, ExitsWith4AndSaysWhyWhenItDoesNotConverge) {
   const TemporaryFolder folder;
-  const ProgramRun run = runWhs(localizeArguments(
-      {{"--set", "loop.max_iterations=1"}, {"--out", (folder / "result.json").string()}}));
-  EXPECT_EQ(run.exit_code, 4);
+  const ProgramRun run = runWhs(
+      localizeArguments({{"--set", "loop.max_iterations=1"}, {"--out", folder / "result.json"}}),
+      4);
   EXPECT_EQ(run.errorLines(), 1) << run.err;
   EXPECT_THAT(run.err, AllOf(HasSubstr("iteration_limit"), HasSubstr("mm"), HasSubstr("needed")));
   const auto result = nlohmann::json::parse(folder.read("result.json"));
@@ -168,10 +162,10 @@ TEST(WhsLocalize, TakesProfileConfigAndAssignmentsInThisOrder) {
   const auto config = folder.write(
       "config.json", R"({"format": "boresight-config", "version": 1, "profile": "paper",
                          "options": {"loop.max_iterations": 1, "pnp.seed": 3}})");
-  const ProgramRun run = runWhs(localizeArguments({{"--config", config.string()},
-                                                   {"--set", "pnp.seed=4"},
-                                                   {"--out", (folder / "result.json").string()}}));
-  EXPECT_EQ(run.exit_code, 4) << run.err;
+  runWhs(localizeArguments({{"--config", config.string()},
+                            {"--set", "pnp.seed=4"},
+                            {"--out", folder / "result.json"}}),
+         4);
   const auto provenance = nlohmann::json::parse(folder.read("result.json"))["provenance"];
   EXPECT_EQ(provenance["profile"], "paper");
   EXPECT_EQ(provenance["options"]["loop.max_iterations"], 1);
@@ -180,8 +174,8 @@ TEST(WhsLocalize, TakesProfileConfigAndAssignmentsInThisOrder) {
 
 TEST(WhsLocalize, TakesTheUncertaintyFromTheCommandLine) {
   const TemporaryFolder folder;
-  Arguments arguments = localizeArguments(
-      {{"--set", "loop.max_iterations=1"}, {"--out", (folder / "result.json").string()}});
+  Arguments arguments =
+      localizeArguments({{"--set", "loop.max_iterations=1"}, {"--out", folder / "result.json"}});
   for (const char* value :
        {"--uncertainty", "0.01", "0.02", "0.03", "1", "2", "3", "--pivot", "station"})
     arguments.emplace_back(value);
@@ -197,9 +191,218 @@ TEST(WhsLocalize, SeesOnlyWhatTheIgnoreMaskLeaves) {
   const TemporaryFolder folder;
   std::vector<std::uint8_t> mask(1024 * 1024, 255);
   sessions::writePng(folder / "all.png", mask, 1024, 1024, 1);
-  const ProgramRun run = runWhs(localizeArguments({{"--ignore", (folder / "all.png").string()}}));
-  EXPECT_EQ(run.exit_code, 4) << run.err;
+  const ProgramRun run = runWhs(localizeArguments({{"--ignore", folder / "all.png"}}), 4);
   EXPECT_EQ(run.errorLines(), 1) << run.err;
+}
+
+// Methods beside WHS, on the command line.
+
+/// The test matcher as a command, without quotes: runProgram's own surround it.
+std::string matcherCommand(const std::string& what) {
+  return std::string(BORESIGHT_TEST_MATCHER) + " " + what;
+}
+
+class WhsMethods : public testing::Test {
+ protected:
+  std::vector<nlohmann::json> evaluated(const Arguments& more) {
+    Arguments arguments = {
+        "evaluate",           "--dataset", (exampleFolder() / "dataset.json").string(),
+        "--station",          "os",        "--out",
+        folder_ / "r.sqlite", "--jsonl",   folder_ / "r.jsonl"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    run_ = runWhs(arguments);
+    std::istringstream stream(folder_.read("r.jsonl"));
+    std::vector<nlohmann::json> made;
+    for (std::string line; std::getline(stream, line);) made.push_back(nlohmann::json::parse(line));
+    return made;
+  }
+
+  const TemporaryFolder folder_;
+  ProgramRun run_;
+};
+
+TEST_F(WhsMethods, ResultNamesTheMethodAndItsOptions) {
+  const ProgramRun run = runWhs(localizeArguments({{"--method", "ncc"},
+                                                   {"--set", "ncc.kind=ccorr_normed"},
+                                                   {"--out", folder_ / "result.json"}}));
+  EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
+  const auto result = nlohmann::json::parse(folder_.read("result.json"));
+  EXPECT_THAT(result.dump(),
+              AllOf(HasSubstr("\"method\":\"ncc\""), HasSubstr("\"ncc.kind\":\"ccorr_normed\"")));
+}
+
+TEST_F(WhsMethods, APoseFoundWithoutASearch_IsJudgedByEdgeSupportAndReportedSo) {
+  const ProgramRun run =
+      runWhs(localizeArguments({{"--method", "ncc"}, {"--set", "support.min_support=1"}}), 4);
+  EXPECT_THAT(run.out + run.err,
+              AllOf(HasSubstr("edge support is"), Not(HasSubstr("probability"))));
+}
+
+TEST_F(WhsMethods, RefusesWhatDoesNotFit) {
+  const ProgramRun unknown = runWhs(localizeArguments({{"--method", "sift"}}), 2);
+  EXPECT_THAT(unknown.err, AllOf(HasSubstr("sift"), HasSubstr("whs, ncc, ssd, orb")));
+  const ProgramRun alone = runWhs(localizeArguments({{"--method", "loftr-r"}}), 2);
+  EXPECT_THAT(alone.err, HasSubstr("--matcher"));
+  const ProgramRun range =
+      runWhs(localizeArguments({{"--method", "orb"}, {"--set", "orb.levels=99"}}), 2);
+  EXPECT_THAT(range.err, HasSubstr("orb.levels"));
+  const ProgramRun record =
+      runWhs(localizeArguments({{"--method", "orb"}, {"--record", folder_ / "run.whsr"}}), 2);
+}
+
+TEST_F(WhsMethods, OptionsListThoseOfTheMethods) {
+  const ProgramRun run = runWhs({"options"}, 0);
+  for (const char* name : {"ssd.masked", "ncc.kind", "orb.features", "external.timeout_s"})
+    EXPECT_THAT(run.out, HasSubstr(name));
+}
+
+TEST_F(WhsMethods, AMatcherThatDiesIsOneSentence) {
+  const ProgramRun run = runWhs(
+      localizeArguments({{"--method", "external"}, {"--matcher", matcherCommand("die")}}), 4);
+  EXPECT_EQ(run.errorLines(), 1) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("ended with status 3"), HasSubstr("out of paper")));
+}
+
+TEST_F(WhsMethods, SeveralAreRunSideBySide) {
+  const auto results = evaluated({"--method", "whs", "--method", "orb"});
+  EXPECT_EQ(run_.exit_code, 0) << run_.err;
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0]["method"], "orb") << "by name, of the same case and seed";
+  EXPECT_EQ(results[1]["method"], "whs");
+  EXPECT_EQ(results[1]["success"], true);
+}
+
+TEST_F(WhsMethods, AMatcherThatFailsCostsItsCaseAndNotTheRun) {
+  for (const char* what : {"die", "babble"}) {
+    const auto results = evaluated({"--method", "external", "--method", "whs", "--reseed", "1",
+                                    "--matcher", matcherCommand(what)});
+    EXPECT_EQ(run_.exit_code, 0) << run_.err;
+    ASSERT_EQ(results.size(), 4u);
+    for (const auto& result : results) {
+      const bool failed = result["method"] == "external";
+      EXPECT_EQ(result["status"] == "method_error", failed) << result.dump();
+      EXPECT_EQ(result["completed"], !failed);
+      EXPECT_EQ(result["success"], !failed) << "a run that was lost is not left out of the share";
+      if (failed) {
+        EXPECT_THAT(std::string(result["message"]), HasSubstr("the matcher"));
+      }
+    }
+    std::filesystem::remove(folder_ / "r.sqlite");
+  }
+}
+
+// whs problem, and the flight driver that reads what it writes.
+
+using testing::StartsWith;
+
+/// Files of one problem, written by whs, and what the driver says of them.
+class WhsProblem : public testing::Test {
+ protected:
+  /// The example's orbiting sample with a few arguments replaced.
+  Arguments arguments(const std::map<std::string, std::string>& replaced = {}) const {
+    Arguments made = localizeArguments(replaced);
+    made[0] = "problem";
+    made.insert(made.end(), {"--out", problem_, "--image-out", image_});
+    return made;
+  }
+
+  ProgramRun drive() const { return runProgram(BORESIGHT_FLIGHT_DRIVER, {problem_, image_}); }
+
+  void expectRefused(const std::string& file, const std::string& reason) const {
+    const ProgramRun run = drive();
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(run.errorLines(), 1) << run.err;
+    EXPECT_THAT(run.err, AllOf(StartsWith(file + ": "), HasSubstr(reason)));
+  }
+
+  const TemporaryFolder folder_;
+  const std::string problem_ = folder_ / "problem.bin";
+  const std::string image_ = folder_ / "image.pgm";
+};
+
+TEST_F(WhsProblem, HoldsWhatLocalizeRuns) {
+  const ProgramRun run = runWhs(arguments(), 0);
+  EXPECT_THAT(run.out, HasSubstr("1024 x 1024"));
+  const ExampleCase example("os");
+  const std::string pixels(example.image.pixels.begin(), example.image.pixels.end());
+  EXPECT_EQ(folder_.read("image.pgm"), "P5\n1024 1024\n255\n" + pixels);
+
+  LocalizerOptions options;
+  options.templates.feature_size_m = 0.018;
+  std::vector<std::uint8_t> expected(encodeProblem(example.problem(), options, {}));
+  encodeProblem(example.problem(), options, expected);
+  EXPECT_TRUE(folder_.read("problem.bin") == std::string(expected.begin(), expected.end()));
+}
+
+TEST_F(WhsProblem, DriverDoesNotPassOverLostOutput) {
+  runWhs(arguments(), 0);
+  const std::string command = std::string(BORESIGHT_FLIGHT_DRIVER) + " '" + problem_ + "' '" +
+                              image_ + "' >/dev/full 2>/dev/null";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 3);
+}
+
+TEST_F(WhsProblem, IsTheSameFromADataset) {
+  runWhs(arguments(), 0);
+  const std::string problem = folder_.read("problem.bin");
+  runWhs({"problem", "--dataset", exampleFolder() / "dataset.json", "--case", "os-000038", "--out",
+          problem_, "--image-out", image_},
+         0);
+  EXPECT_TRUE(folder_.read("problem.bin") == problem);
+}
+
+TEST_F(WhsProblem, RefusesWhatItCannotWriteOrRead) {
+  const std::string dataset = exampleFolder() / "dataset.json";
+  const ProgramRun no_case = runWhs(
+      {"problem", "--dataset", dataset, "--case", "none", "--out", problem_, "--image-out", image_},
+      3);
+  EXPECT_THAT(no_case.err, AllOf(StartsWith(dataset), HasSubstr("none")));
+  Arguments both = arguments();
+  both.insert(both.end(), {"--dataset", dataset, "--case", "os-000038"});
+  runWhs(both, 2);
+  runWhs({"problem", "--out", problem_, "--image-out", image_}, 2);
+  runWhs(arguments({{"--seed", ""}}), 2);
+  runWhs(arguments({{"--camera", "/no/such/camera.json"}}), 3);
+  EXPECT_EQ(folder_.fileCount(), 0u);
+}
+
+TEST_F(WhsProblem, TheDriverRefusesDamageInOneSentence) {
+  runWhs(arguments(), 0);
+  const std::string problem = folder_.read("problem.bin");
+  const std::string image = folder_.read("image.pgm");
+  std::string damaged = problem;
+  damaged[damaged.size() / 2] ^= 1;
+  folder_.write("problem.bin", damaged);
+  expectRefused(problem_, "checksum");
+  folder_.write("problem.bin", problem.substr(0, 1000));
+  expectRefused(problem_, "cut short");
+  folder_.write("problem.bin", image);
+  expectRefused(problem_, "not a problem file");
+  folder_.write("problem.bin", std::string());
+  expectRefused(problem_, "not a problem file");
+
+  folder_.write("problem.bin", problem);
+  folder_.write("image.pgm", image.substr(0, image.size() - 1));
+  expectRefused(image_, "fewer pixels");
+  folder_.write("image.pgm", image + "x");
+  expectRefused(image_, "more bytes");
+  folder_.write("image.pgm", problem);
+  expectRefused(image_, "not a binary PGM");
+  folder_.write("image.pgm", "P5\n1024 1024\n65535\n" + image);
+  expectRefused(image_, "8 bits");
+  folder_.write("image.pgm", std::string("P5\n1024 99999999999999999999\n255\n"));
+  expectRefused(image_, "width and height");
+  folder_.write("image.pgm", "P5\n# by hand\n512 2048 255\n" + image.substr(17));
+  expectRefused(image_, "not the camera's");
+  const std::string folder = folder_.path();
+  for (const Arguments& arguments : {Arguments{folder, image_}, Arguments{problem_, folder}}) {
+    const ProgramRun run = runProgram(BORESIGHT_FLIGHT_DRIVER, arguments);
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_EQ(run.err, folder + ": is a folder; give a file\n");
+  }
+  EXPECT_EQ(runProgram(BORESIGHT_FLIGHT_DRIVER, {problem_, "/no/such.pgm"}).exit_code, 3);
+  EXPECT_EQ(runProgram(BORESIGHT_FLIGHT_DRIVER, {"/no/such.bin", image_}).exit_code, 3);
+  EXPECT_EQ(runProgram(BORESIGHT_FLIGHT_DRIVER, {problem_}).exit_code, 2);
 }
 
 }  // namespace

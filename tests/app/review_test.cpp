@@ -15,11 +15,8 @@ using ::testing::Not;
 class ReviewCommands : public ::testing::Test {
  protected:
   ReviewCommands() {
-    EXPECT_EQ(
-        runWhs({"new", "--dataset", (exampleFolder() / "dataset.json").string(), "--out", session_})
-            .exit_code,
-        0);
-    EXPECT_EQ(runWhs({"run", session_, "--case", kCase}).exit_code, 0);
+    runWhs({"new", "--dataset", (exampleFolder() / "dataset.json").string(), "--out", session_}, 0);
+    runWhs({"run", session_, "--case", kCase}, 0);
   }
 
   ProgramRun decide(const std::vector<std::string>& more) const {
@@ -29,44 +26,42 @@ class ReviewCommands : public ::testing::Test {
   }
 
   std::string exportPose() const {
-    const std::string file = (folder_ / "pose.json").string();
-    EXPECT_EQ(runWhs({"export", session_, "--case", kCase, "--pose", file}).exit_code, 0);
+    const std::string file = folder_ / "pose.json";
+    runWhs({"export", session_, "--case", kCase, "--pose", file}, 0);
     return file;
   }
 
   static constexpr const char* kCase = "os-000038";
   TemporaryFolder folder_;
-  std::string session_ = (folder_ / "s.boresight.json").string();
+  std::string session_ = folder_ / "s.boresight.json";
 };
 
 TEST_F(ReviewCommands, APoseIsCheckedValidatedHandedOverAndVerified) {
-  EXPECT_EQ(runWhs({"check", session_, "--case", kCase}).exit_code, 0);
+  runWhs({"check", session_, "--case", kCase}, 0);
   const ProgramRun decided = decide({"--validate", "--by", "Ada", "--comment", "right"});
   EXPECT_EQ(decided.exit_code, 0) << decided.err;
   EXPECT_THAT(decided.out, HasSubstr("validated by Ada"));
   const std::string file = exportPose();
-  const ProgramRun good = runWhs({"verify", file});
-  EXPECT_EQ(good.exit_code, 0) << good.out;
+  const ProgramRun good = runWhs({"verify", file}, 0);
   EXPECT_THAT(good.out, AllOf(HasSubstr("the run gives the same digest again"),
                               HasSubstr("not proved  who: Ada"),
                               HasSubstr("not proved  convergence test: its 8 further seeds"),
                               HasSubstr("stated: validated by Ada")));
   EXPECT_THAT(runWhs({"verify", file, "--full"}).out, Not(HasSubstr("convergence test")));
-  EXPECT_EQ(runWhs({"verify", file, "--full", "--no-run"}).exit_code, 2);
+  runWhs({"verify", file, "--full", "--no-run"}, 2);
 
   std::string text = folder_.read("pose.json");
   text.replace(text.find("\"comment\": \"right\""), 18, "\"comment\": \"wrong\"");
   folder_.write("tampered.json", text);
-  const ProgramRun bad = runWhs({"verify", (folder_ / "tampered.json").string(), "--no-run"});
-  EXPECT_EQ(bad.exit_code, 6);
+  const ProgramRun bad = runWhs({"verify", folder_ / "tampered.json", "--no-run"}, 6);
   EXPECT_THAT(bad.out, HasSubstr("WRONG       signature"));
 }
 
 TEST_F(ReviewCommands, APoseThatIsNotAsMeasuredIsNeitherSignedNorReported) {
   EXPECT_EQ(decide({"--validate", "--by", "Ada", "--comment", "right"}).exit_code, 0);
   const std::string good = folder_.read("s.boresight.json");
-  const std::string pose = (folder_ / "pose.json").string();
-  const std::string pdf = (folder_ / "pose.pdf").string();
+  const std::string pose = folder_ / "pose.json";
+  const std::string pdf = folder_ / "pose.pdf";
   const auto refused = [&](const std::string& sentence) {
     for (const Arguments& to :
          {Arguments{"export", "--pose", pose}, Arguments{"report", "--out", pdf}}) {
@@ -114,17 +109,62 @@ TEST_F(ReviewCommands, WhatMayNotBeDecidedIsRefusedAndChangesNothing) {
 }
 
 TEST_F(ReviewCommands, WhatNobodyValidatedIsReportedAsSuch) {
-  const std::string pdf = (folder_ / "report.pdf").string();
-  const ProgramRun report = runWhs({"report", session_, "--case", kCase, "--out", pdf});
-  EXPECT_EQ(report.exit_code, 0) << report.err;
+  const std::string pdf = folder_ / "report.pdf";
+  const ProgramRun report = runWhs({"report", session_, "--case", kCase, "--out", pdf}, 0);
   EXPECT_THAT(report.out, HasSubstr("NOT VALIDATED: converged"));
   EXPECT_EQ(folder_.read("report.pdf").substr(0, 5), "%PDF-");
-  EXPECT_EQ(runWhs({"verify", exportPose()}).exit_code, 0);
+  runWhs({"verify", exportPose()}, 0);
   EXPECT_THAT(folder_.read("pose.json"), HasSubstr("\"state\": \"NOT VALIDATED\""));
   EXPECT_EQ(runWhs({"report", session_, "--out", pdf}).exit_code, 2) << "which case?";
-  const ProgramRun none = runWhs({"report", session_, "--case", "bc-000028", "--out", pdf});
-  EXPECT_EQ(none.exit_code, 3);
+  const ProgramRun none = runWhs({"report", session_, "--case", "bc-000028", "--out", pdf}, 3);
   EXPECT_EQ(none.errorLines(), 1) << none.err;
+}
+
+// whs queue: the cases of a session by trouble, and what changed since the run before.
+
+class QueueCommand : public ::testing::Test {
+ protected:
+  QueueCommand() {
+    runWhs({"new", "--dataset", (exampleFolder() / "dataset.json").string(), "--out", session_}, 0);
+    runWhs({"run", session_, "--case", "os-000038"}, 0);
+  }
+
+  TemporaryFolder folder_;
+  std::string session_ = folder_ / "s.boresight.json";
+};
+
+TEST_F(QueueCommand, ListsWhatWaitsBeforeWhatWasNotRun) {
+  const std::string csv = folder_ / "queue.csv";
+  const ProgramRun run = runWhs({"queue", session_, "--jobs", "2", "--csv", csv}, 0);
+  const std::size_t waits = run.out.find("os-000038");
+  const std::size_t not_run = run.out.find("bc-");
+  ASSERT_NE(waits, std::string::npos) << run.out;
+  ASSERT_NE(not_run, std::string::npos) << run.out;
+  EXPECT_LT(waits, not_run);
+  EXPECT_THAT(run.out, HasSubstr("not run yet"));
+  EXPECT_THAT(folder_.read("queue.csv"), HasSubstr("\r\nos-000038,converged,"));
+}
+
+TEST_F(QueueCommand, WritesTextThatLooksLikeAFormulaAsText) {
+  std::string session = folder_.read("s.boresight.json");
+  for (std::size_t at = session.find("\"os-000038\""); at != std::string::npos;
+       at = session.find("\"os-000038\""))
+    session.replace(at, 11, R"j("=HYPERLINK(\"x\")")j");
+  folder_.write("s.boresight.json", session);
+  const std::string csv = folder_ / "queue.csv";
+  runWhs({"queue", session_, "--csv", csv}, 0);
+  EXPECT_THAT(folder_.read("queue.csv"), HasSubstr("\r\n\"'=HYPERLINK(\"\"x\"\")\",converged,"));
+}
+
+TEST_F(QueueCommand, DifferencesNeedTwoRuns) {
+  const ProgramRun run = runWhs({"queue", session_, "--differences"}, 0);
+  EXPECT_THAT(run.err, HasSubstr("os-000038: it has no two runs to compare"));
+  EXPECT_THAT(run.out, HasSubstr("0 better, 0 worse, 0 the same"));
+}
+
+TEST_F(QueueCommand, SaysWhatIsNoSession) {
+  const ProgramRun run = runWhs({"queue", folder_ / "none.json"}, 3);
+  EXPECT_EQ(run.errorLines(), 1) << run.err;
 }
 
 }  // namespace

@@ -44,6 +44,14 @@ inline ProgramRun runWhs(const Arguments& arguments) {
   return runProgram(BORESIGHT_WHS, arguments);
 }
 
+/// The same; the test fails when it ends with another exit status.
+inline ProgramRun runWhs(const Arguments& arguments, int exit_code) {
+  ProgramRun run = runWhs(arguments);
+  EXPECT_EQ(run.exit_code, exit_code) << testing::PrintToString(arguments) << "\n"
+                                      << run.out << run.err;
+  return run;
+}
+
 /// The arguments of `whs localize` for the example's orbiting sample; `replaced` gives some options
 /// another value, or takes them away with an empty one.
 inline Arguments localizeArguments(const std::map<std::string, std::string>& replaced = {}) {

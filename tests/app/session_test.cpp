@@ -12,6 +12,7 @@
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
 #include "tests/app/run_whs.h"
+#include "tests/support/marked_example.h"
 #include "tests/support/turned_view.h"
 
 namespace boresight::test {
@@ -35,8 +36,7 @@ std::string idOfOs() {
 /// A session of one case in `folder`.
 std::string newSession(const TemporaryFolder& folder) {
   const std::string file = folder / "s.boresight.json";
-  const ProgramRun made = runWhs({"new", "--dataset", kDataset, "--case", idOfOs(), "--out", file});
-  EXPECT_EQ(made.exit_code, 0) << made.err;
+  runWhs({"new", "--dataset", kDataset, "--case", idOfOs(), "--out", file}, 0);
   return file;
 }
 
@@ -44,8 +44,7 @@ TEST(WhsRun, TheImagesOfARigTogetherAreOneRunThatIsRepeated) {
   const TemporaryFolder folder;
   const std::string file = folder / "two.boresight.json";
   sessions::writeSessionFile(file, sessionOfTwoViews(folder.path()));
-  const ProgramRun run = runWhs({"run", file, "--views"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = runWhs({"run", file, "--views"}, 0);
   const Session session = sessions::readSessionFile(file).session;
   ASSERT_EQ(session.runs.size(), 2u) << "the rig was run once";
   for (std::size_t v = 0; v < 2; ++v) {
@@ -53,32 +52,29 @@ TEST(WhsRun, TheImagesOfARigTogetherAreOneRunThatIsRepeated) {
     EXPECT_EQ(session.runs[v].case_id, session.cases[v]->id);
     EXPECT_THAT(run.out,
                 HasSubstr("together with " + other + ", digest " + session.runs[v].digest));
-    const ProgramRun again = runWhs({"run", file, "--again", session.runs[v].digest});
-    EXPECT_EQ(again.exit_code, 0) << again.err;
+    const ProgramRun again = runWhs({"run", file, "--again", session.runs[v].digest}, 0);
     EXPECT_THAT(again.out, HasSubstr(session.runs[v].digest + ", the same"));
   }
   EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("together with " + session.cases[1]->id));
-  EXPECT_EQ(runWhs({"run", file, "--views", "--again", "0"}).exit_code, 2);
+  runWhs({"run", file, "--views", "--again", "0"}, 2);
   sessions::Session alone = session;
   alone = sessions::withoutRigLink(alone, session.cases[0]->id);
   sessions::writeSessionFile(file, alone);
-  const ProgramRun refused = runWhs({"run", file, "--views", "--case", session.cases[0]->id});
-  EXPECT_EQ(refused.exit_code, 3);
+  const ProgramRun refused = runWhs({"run", file, "--views", "--case", session.cases[0]->id}, 3);
   EXPECT_THAT(refused.err, HasSubstr("of no rig"));
 }
 
 TEST(WhsNew, RefusesWhatIsIncompleteOrThere) {
   const TemporaryFolder folder;
   const std::string file = folder.write("s.json", "mine");
-  const ProgramRun there = runWhs({"new", "--dataset", kDataset, "--out", file});
-  EXPECT_EQ(there.exit_code, 3);
+  const ProgramRun there = runWhs({"new", "--dataset", kDataset, "--out", file}, 3);
   EXPECT_THAT(there.err, HasSubstr("there is a file of this name already"));
   EXPECT_EQ(folder.read("s.json"), "mine");
   const std::string out = folder / "t.json";
-  EXPECT_EQ(runWhs({"new", "--out", out}).exit_code, 2);
-  EXPECT_EQ(runWhs({"new", "--image", "a.png", "--out", out}).exit_code, 2);
-  EXPECT_EQ(runWhs({"new", "--dataset", kDataset, "--case", "x", "--out", out}).exit_code, 3);
-  EXPECT_EQ(runWhs({"new", "--dataset", "none.json", "--out", out}).exit_code, 3);
+  runWhs({"new", "--out", out}, 2);
+  runWhs({"new", "--image", "a.png", "--out", out}, 2);
+  runWhs({"new", "--dataset", kDataset, "--case", "x", "--out", out}, 3);
+  runWhs({"new", "--dataset", "none.json", "--out", out}, 3);
   EXPECT_EQ(folder.fileCount(), 1u);
 }
 
@@ -107,8 +103,7 @@ TEST(WhsNew, SaysAtOnceWhatARunWouldRefuse) {
 TEST(WhsRun, RecordsTheRunOfLocalizeAndInfoTellsIt) {
   const TemporaryFolder folder;
   const std::string file = newSession(folder);
-  const ProgramRun run = runWhs({"run", file});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = runWhs({"run", file}, 0);
   const ProgramRun localized = runWhs(localizeArguments());
   const Session session = sessions::readSessionFile(file).session;
   ASSERT_EQ(session.runs.size(), 1u);
@@ -119,8 +114,7 @@ TEST(WhsRun, RecordsTheRunOfLocalizeAndInfoTellsIt) {
   EXPECT_FALSE(std::filesystem::exists(folder / "s.boresight.journal"));
   EXPECT_FALSE(std::filesystem::exists(folder / "s.boresight.lock"));
 
-  ProgramRun info = runWhs({"info", file});
-  EXPECT_EQ(info.exit_code, 0) << info.err;
+  ProgramRun info = runWhs({"info", file}, 0);
   EXPECT_THAT(info.out,
               AllOf(HasSubstr("run " + session.runs[0].digest + ": converged"),
                     HasSubstr("field of view: "), HasSubstr("seed: "), Not(HasSubstr("stale"))));
@@ -138,7 +132,7 @@ TEST(WhsRun, RecordsTheRunOfLocalizeAndInfoTellsIt) {
 TEST(WhsRun, RunsARecordedRunAgainWithTheOptionsThatItTookUp) {
   const TemporaryFolder folder;
   const std::string file = newSession(folder);
-  ASSERT_EQ(runWhs({"run", file}).exit_code, 0);
+  runWhs({"run", file}, 0);
   Session session = sessions::readSessionFile(file).session;
   const std::string plain = session.runs[0].digest;
   {
@@ -154,11 +148,10 @@ TEST(WhsRun, RunsARecordedRunAgainWithTheOptionsThatItTookUp) {
     document.save();
   }
   const std::string rerun = session.runs[1].digest;
-  const ProgramRun again = runWhs({"run", file, "--again", rerun.substr(0, 12)});
-  EXPECT_EQ(again.exit_code, 0) << again.err;
+  const ProgramRun again = runWhs({"run", file, "--again", rerun.substr(0, 12)}, 0);
   EXPECT_THAT(again.out, HasSubstr("digest " + rerun + ", the same"));
   EXPECT_THAT(runWhs({"run", file, "--again", plain}).out, HasSubstr(plain + ", the same"));
-  EXPECT_EQ(runWhs({"run", file, "--again", "xyz"}).exit_code, 3);
+  runWhs({"run", file, "--again", "xyz"}, 3);
   EXPECT_THAT(runWhs({"run", file, "--again", ""}).out, HasSubstr("converged"));
   EXPECT_THAT(runWhs({"info", file}).out,
               HasSubstr("other options from its iteration 3 on, going on from run " + plain));
@@ -167,24 +160,22 @@ TEST(WhsRun, RunsARecordedRunAgainWithTheOptionsThatItTookUp) {
 TEST(WhsRun, RefusesWhatItMustNotTouch) {
   const TemporaryFolder folder;
   const std::string file = newSession(folder);
-  EXPECT_EQ(runWhs({"run", folder / "none.json"}).exit_code, 3);
-  EXPECT_EQ(runWhs({"run", file, "--case", "x"}).exit_code, 3);
-  EXPECT_EQ(runWhs({"run", kDataset}).exit_code, 3);
+  runWhs({"run", folder / "none.json"}, 3);
+  runWhs({"run", file, "--case", "x"}, 3);
+  runWhs({"run", kDataset}, 3);
   {
     SessionDocument document = SessionDocument::open(file);
-    const ProgramRun busy = runWhs({"run", file});
-    EXPECT_EQ(busy.exit_code, 3);
+    const ProgramRun busy = runWhs({"run", file}, 3);
     EXPECT_THAT(busy.err, HasSubstr("it is open already: process "));
     EXPECT_EQ(busy.errorLines(), 1);
     Session next = document.session();
     next.view.case_id = next.cases[0]->id;
     document.apply(next, "Look at it");
   }
-  const ProgramRun unsaved = runWhs({"run", file});
-  EXPECT_EQ(unsaved.exit_code, 3);
+  const ProgramRun unsaved = runWhs({"run", file}, 3);
   EXPECT_THAT(unsaved.err, HasSubstr("1 edits were never saved"));
   EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("1 edits are in its journal"));
-  EXPECT_EQ(runWhs({"pack", file, "--out", folder / "p.zip"}).exit_code, 3);
+  runWhs({"pack", file, "--out", folder / "p.zip"}, 3);
   EXPECT_FALSE(std::filesystem::exists(folder / "p.zip"));
 }
 
@@ -193,17 +184,14 @@ TEST(WhsPack, MakesAnArchiveAndRefusesChangedInputs) {
   std::filesystem::copy(exampleFolder(), folder / "stations",
                         std::filesystem::copy_options::recursive);
   const std::string file = folder / "s.json";
-  ASSERT_EQ(runWhs({"new", "--dataset", folder / "stations/dataset.json", "--out", file}).exit_code,
-            0);
-  EXPECT_EQ(runWhs({"pack", file, "--out", folder / "s.zip"}).exit_code, 0);
+  runWhs({"new", "--dataset", folder / "stations/dataset.json", "--out", file}, 0);
+  runWhs({"pack", file, "--out", folder / "s.zip"}, 0);
   EXPECT_EQ(folder.read("s.zip").substr(0, 2), "PK");
   folder.write("stations/os/model.ply", folder.read("stations/bc/model.ply"));
-  const ProgramRun changed = runWhs({"pack", file, "--out", folder / "t.zip"});
-  EXPECT_EQ(changed.exit_code, 3);
+  const ProgramRun changed = runWhs({"pack", file, "--out", folder / "t.zip"}, 3);
   EXPECT_THAT(changed.err, HasSubstr("stations/os/model.ply: it is not the file"));
   EXPECT_FALSE(std::filesystem::exists(folder / "t.zip"));
-  const ProgramRun run = runWhs({"run", file, "--case", idOfOs()});
-  EXPECT_EQ(run.exit_code, 3);
+  const ProgramRun run = runWhs({"run", file, "--case", idOfOs()}, 3);
   EXPECT_THAT(run.err, HasSubstr("its bytes are not those that the session was made with"));
   EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("! "));
 }
@@ -220,8 +208,7 @@ TEST(WhsInfo, ReadsTheInputsOfABoundedNumberOfCases) {
     session.cases.push_back(one);
   }
   sessions::writeSessionFile(file, session);
-  const ProgramRun run = runWhs({"info", file});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = runWhs({"info", file}, 0);
   EXPECT_THAT(run.out, HasSubstr("250 cases, 0 runs"));
   EXPECT_THAT(run.out, HasSubstr("and 50 more cases: whs queue lists them"));
   EXPECT_THAT(run.out, HasSubstr("case case-199,"));
@@ -236,13 +223,11 @@ TEST(WhsPack, TakesLandmarksAlongWhereTheyAre) {
   one.landmarks = folder.write(
       "named points.json", R"({"format": "boresight-landmarks", "version": 1, "landmarks": []})");
   sessions::writeSessionFile(file, withCase(session, one));
-  const ProgramRun packed = runWhs({"pack", file, "--out", folder / "s.zip"});
-  EXPECT_EQ(packed.exit_code, 0) << packed.err;
+  const ProgramRun packed = runWhs({"pack", file, "--out", folder / "s.zip"}, 0);
   EXPECT_EQ(packed.errorLines(), 0);
   EXPECT_THAT(folder.read("s.zip"), HasSubstr("/named points.json"));
   std::filesystem::remove(*one.landmarks);
-  const ProgramRun without = runWhs({"pack", file, "--out", folder / "t.zip"});
-  EXPECT_EQ(without.exit_code, 0);
+  const ProgramRun without = runWhs({"pack", file, "--out", folder / "t.zip"}, 0);
   EXPECT_THAT(without.err, HasSubstr("the landmarks of case " + one.id + " are missing"));
   EXPECT_THAT(folder.read("t.zip"), Not(HasSubstr("/named points.json")));
 }
@@ -250,8 +235,7 @@ TEST(WhsPack, TakesLandmarksAlongWhereTheyAre) {
 TEST(WhsPack, ListsWhatItTakesAlongAndRefusesAnyOtherFile) {
   const TemporaryFolder folder;
   const std::string file = newSession(folder);
-  const ProgramRun packed = runWhs({"pack", file, "--out", folder / "s.zip"});
-  EXPECT_EQ(packed.exit_code, 0) << packed.err;
+  const ProgramRun packed = runWhs({"pack", file, "--out", folder / "s.zip"}, 0);
   EXPECT_THAT(packed.out, AllOf(HasSubstr("/image.png from " + exampleFolder().string()),
                                 HasSubstr("/model.ply from ")));
   const std::string whole = folder.read("s.boresight.json");
@@ -259,8 +243,7 @@ TEST(WhsPack, ListsWhatItTakesAlongAndRefusesAnyOtherFile) {
     nlohmann::json session = nlohmann::json::parse(whole);
     edit(session);
     folder.write("s.boresight.json", session.dump());
-    const ProgramRun run = runWhs({"pack", file, "--out", folder / "t.zip"});
-    EXPECT_EQ(run.exit_code, 3) << run.out;
+    const ProgramRun run = runWhs({"pack", file, "--out", folder / "t.zip"}, 3);
     EXPECT_EQ(run.out, "");
     EXPECT_FALSE(std::filesystem::exists(folder / "t.zip"));
     return run.err;
@@ -280,6 +263,77 @@ TEST(WhsPack, ListsWhatItTakesAlongAndRefusesAnyOtherFile) {
                               {"options_sha256", digest}}};
               }),
               HasSubstr("s.boresight.json: runs[0].file: /etc/passwd: "));
+}
+
+// export and import.
+
+class WhsExchange : public testing::Test {
+ protected:
+  WhsExchange() { sessions::writeSessionFile(file_, session_); }
+
+  Session saved() const { return sessions::readSessionFile(file_).session; }
+
+  TemporaryFolder folder_;
+  std::string file_ = folder_ / "s.boresight.json";
+  Session session_ = markedExample(0.2);
+  std::string bc_ = caseOfStation(session_, "bc");
+  std::string os_ = caseOfStation(session_, "os");
+};
+
+TEST_F(WhsExchange, TakesPosesOutAndInAgain) {
+  for (const char* form : {"--colmap", "--bop"}) {
+    const std::string folder = folder_ / ("out" + std::string(form));
+    const ProgramRun out = runWhs({"export", file_, form, folder, "--case", bc_}, 0);
+    EXPECT_EQ(out.out, bc_ + "\n");
+    // Another folder of this name is not touched.
+    runWhs({"export", file_, form, folder, "--case", bc_}, 3);
+    const ProgramRun kept = runWhs({"import", file_, form, folder}, 3);
+    EXPECT_THAT(kept.err, HasSubstr("another truth already"));
+    const ProgramRun in = runWhs({"import", file_, form, folder, "--replace"}, 0);
+    EXPECT_EQ(in.out, bc_ + "\n");
+    const auto error = perturbationBetween(*saved().findCase(bc_)->camera_from_station_truth,
+                                           *session_.findCase(bc_)->camera_from_station_truth);
+    EXPECT_GT(error.norm(), 1e-7);  // the marks are noisy
+    EXPECT_LT(error.norm(), 5e-3);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "s.boresight.journal"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "s.boresight.lock"));
+}
+
+TEST_F(WhsExchange, TakesMarksOutAndInAgain) {
+  const std::string points = folder_ / "points.csv";
+  runWhs({"export", file_, "--points", points, "--case", bc_}, 0);
+  runWhs({"import", file_, "--points", points, "--case", os_, "--replace"}, 0);
+  EXPECT_EQ(*saved().annotations.at(os_), *session_.annotations.at(bc_));
+  const std::string landmarks = folder_ / "landmarks.json";
+  runWhs({"export", file_, "--landmarks", landmarks, "--case", bc_}, 0);
+  EXPECT_THAT(folder_.read("landmarks.json"), HasSubstr("boresight-landmarks"));
+}
+
+TEST_F(WhsExchange, RefusesWhatIsIncompleteOrWrong) {
+  const std::string before = folder_.read("s.boresight.json");
+  const std::string points = folder_ / "points.json";
+  runWhs({"export", file_}, 2);
+  runWhs({"import", file_}, 2);
+  runWhs({"export", file_, "--points", points}, 2);
+  runWhs({"export", file_, "--points", points, "--bop", points}, 2);
+  runWhs({"export", file_, "--points", points, "--case", "x"}, 3);
+  const ProgramRun missing = runWhs({"import", file_, "--points", points, "--case", bc_}, 3);
+  EXPECT_EQ(missing.errorLines(), 1);
+  folder_.write("points.json", std::string_view(R"({"format": "boresight-points", "version": 1,
+      "points": [{"id": "far", "pixel": [99373, 2]}]})"));
+  const ProgramRun outside =
+      runWhs({"import", file_, "--points", points, "--case", bc_, "--replace"}, 3);
+  EXPECT_THAT(outside.err, HasSubstr("far"));
+  {
+    const auto open = sessions::SessionDocument::open(file_);
+    folder_.write("points.json", std::string_view(R"({"format": "boresight-points", "version": 1,
+        "points": [{"id": "p1", "pixel": [1, 2]}]})"));
+    const ProgramRun locked =
+        runWhs({"import", file_, "--points", points, "--case", bc_, "--replace"}, 3);
+    EXPECT_EQ(locked.errorLines(), 1) << locked.err;
+  }
+  EXPECT_EQ(folder_.read("s.boresight.json"), before);
 }
 
 }  // namespace

@@ -26,15 +26,14 @@ using testing::Not;
 const std::filesystem::path kExample = exampleFolder() / "os";
 
 TEST(Whs, ExplainsItself) {
-  const ProgramRun help = runWhs({"--help"});
-  EXPECT_EQ(help.exit_code, 0);
+  const ProgramRun help = runWhs({"--help"}, 0);
   for (const char* command : {"localize", "evaluate", "solve", "render", "info", "options",
                               "problem", "new", "run", "pack", "export", "import"}) {
     EXPECT_THAT(help.out, HasSubstr(command));
     EXPECT_EQ(runWhs({command, "--help"}).exit_code, 0) << command;
     EXPECT_THAT(runWhs({command, "--version"}).out, HasSubstr("whs ")) << command;
   }
-  EXPECT_EQ(runWhs({"--version"}).exit_code, 0);
+  runWhs({"--version"}, 0);
 }
 
 TEST(WhsOptions, ListsEveryOptionWithRangeAndMeaning) {
@@ -48,10 +47,9 @@ TEST(WhsOptions, ListsEveryOptionWithRangeAndMeaning) {
 
 TEST(WhsRender, DrawsWhatTheCoreRenders) {
   const TemporaryFolder folder;
-  const ProgramRun run =
-      runWhs({"render", "--camera", kExample / "camera.json", "--mesh", kExample / "model.ply",
-              "--mesh-unit", "m", "--pose", kExample / "truth.json", "--out", folder / "e.png"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  runWhs({"render", "--camera", kExample / "camera.json", "--mesh", kExample / "model.ply",
+          "--mesh-unit", "m", "--pose", kExample / "truth.json", "--out", folder / "e.png"},
+         0);
   const ExampleCase example("os");
   sessions::RenderTrace render;
   ASSERT_EQ(sessions::renderScene(example.camera, example.scene.view(),
@@ -90,8 +88,8 @@ TEST(WhsSolve, FindsThePoseDespiteAMistakenPoint) {
   sessions::writeMarks(folder / "points.json", marks);
   const ProgramRun run =
       runWhs({"solve", "--points", folder / "points.json", "--camera", kExample / "camera.json",
-              "--robust", "--out", folder / "pose.json"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+              "--robust", "--out", folder / "pose.json"},
+             0);
   EXPECT_THAT(run.out, AllOf(HasSubstr("10 marks"), HasSubstr("120.000"), HasSubstr(" !")));
   const Vector6d error =
       perturbationBetween(ExampleCase("os").truth.camera_from_station,
@@ -105,8 +103,8 @@ TEST(WhsSolve, SaysWhereItsSigmasAreAndKeepsTheCovarianceWithThePose) {
   *marks.points[3].pixel += Eigen::Vector2d(1.0, -1.0);
   sessions::writeMarks(folder / "points.json", marks);
   const ProgramRun run = runWhs({"solve", "--points", folder / "points.json", "--camera",
-                                 kExample / "camera.json", "--out", folder / "pose.json"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+                                 kExample / "camera.json", "--out", folder / "pose.json"},
+                                0);
   EXPECT_THAT(run.out, AllOf(HasSubstr("1 sigma at the camera"),
                              HasSubstr("without: how far the middle of the marked places moves")));
   const auto covariance = sessions::readPose(folder / "pose.json").covariance;
@@ -122,12 +120,11 @@ TEST(WhsSolve, LeavesOutDisabledPointsAndAsksForFour) {
   sessions::writeMarks(folder / "points.json", marks);
   Arguments arguments = {"solve", "--points", folder / "points.json", "--camera",
                          kExample / "camera.json"};
-  const ProgramRun run = runWhs(arguments);
-  EXPECT_EQ(run.exit_code, 4);
+  const ProgramRun run = runWhs(arguments, 4);
   EXPECT_THAT(run.err, HasSubstr("one image needs 4"));
   // Three do where there is a first guess.
   arguments.insert(arguments.end(), {"--seed", kExample / "seed.json"});
-  EXPECT_EQ(runWhs(arguments).exit_code, 0);
+  runWhs(arguments, 0);
 }
 
 TEST(WhsSolve, SaysWhenNoPoseAgrees) {
@@ -136,9 +133,8 @@ TEST(WhsSolve, SaysWhenNoPoseAgrees) {
   for (sessions::PointPair& point : marks.points)
     point.point_in_station_m = marks.points[0].point_in_station_m;
   sessions::writeMarks(folder / "points.json", marks);
-  const ProgramRun run =
-      runWhs({"solve", "--points", folder / "points.json", "--camera", kExample / "camera.json"});
-  EXPECT_EQ(run.exit_code, 4) << run.out;
+  const ProgramRun run = runWhs(
+      {"solve", "--points", folder / "points.json", "--camera", kExample / "camera.json"}, 4);
   EXPECT_EQ(run.errorLines(), 1) << run.err;
 }
 
@@ -151,11 +147,10 @@ TEST(WhsSolve, SolvesTwoCamerasOfARigAsOne) {
   folder.write("rig.json", R"({"format": "boresight-rig", "version": 1, "views": [{"name": "a", )" +
                                view + R"(, {"name": "b", )" + view + "]}");
   const ProgramRun run =
-      runWhs({"solve", "--rig", folder / "rig.json", "--out", folder / "pose.json"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+      runWhs({"solve", "--rig", folder / "rig.json", "--out", folder / "pose.json"}, 0);
   EXPECT_THAT(run.out, HasSubstr("12 marks"));
-  EXPECT_EQ(runWhs({"solve"}).exit_code, 2);
-  EXPECT_EQ(runWhs({"solve", "--points", folder / "points.json"}).exit_code, 2);
+  runWhs({"solve"}, 2);
+  runWhs({"solve", "--points", folder / "points.json"}, 2);
 }
 
 /// A session of the example's cases with marks of one of them.
@@ -175,8 +170,8 @@ TEST(WhsSolve, SolvesACaseOfASessionAsTheDesktopDoes) {
   const sessions::Session session = sessions::readSessionFile(file).session;
   const std::string id = session.annotations.begin()->first;
   const ProgramRun run = runWhs({"solve", "--session", file, "--case", id, "--json",
-                                 folder / "s.solution.json", "--out", folder / "pose.json"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+                                 folder / "s.solution.json", "--out", folder / "pose.json"},
+                                0);
   const auto solved = sessions::solveCaseMarks(session, id, true, false);
   const sessions::MarksSolution& solution = *solved.result.solution;
   EXPECT_EQ(run.out,
@@ -207,24 +202,23 @@ TEST(WhsSolve, SaysWhyACaseHasNoPose) {
   const std::string file = markedSession(folder, trueMarks(2));
   const std::string id = sessions::readSessionFile(file).session.annotations.begin()->first;
   const ProgramRun run =
-      runWhs({"solve", "--session", file, "--case", id, "--json", folder / "out.json"});
-  EXPECT_EQ(run.exit_code, 4);
+      runWhs({"solve", "--session", file, "--case", id, "--json", folder / "out.json"}, 4);
   EXPECT_EQ(run.errorLines(), 1) << run.err;
   const auto json = nlohmann::json::parse(folder.read("out.json"));
   EXPECT_EQ(json["solved"], false);
   EXPECT_THAT(run.err, HasSubstr(json["reason"].get<std::string>()));
   EXPECT_EQ(json["warnings"][0]["kind"], "too_few");
-  EXPECT_EQ(runWhs({"solve", "--session", file, "--case", "nobody"}).exit_code, 3);
-  EXPECT_EQ(runWhs({"solve", "--session", file}).exit_code, 2);
-  EXPECT_EQ(runWhs({"solve", "--session", file, "--case", id, "--seed", "x.json"}).exit_code, 2);
-  EXPECT_EQ(runWhs({"solve", "--alone"}).exit_code, 2);
+  runWhs({"solve", "--session", file, "--case", "nobody"}, 3);
+  runWhs({"solve", "--session", file}, 2);
+  runWhs({"solve", "--session", file, "--case", id, "--seed", "x.json"}, 2);
+  runWhs({"solve", "--alone"}, 2);
 }
 
 TEST(WhsInfo, DescribesEveryKindOfFile) {
   const ProgramRun run =
       runWhs({"info", kExample / "image.png", kExample / "camera.json", kExample / "model.ply",
-              kExample / "seed.json", exampleFolder() / "dataset.json"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+              kExample / "seed.json", exampleFolder() / "dataset.json"},
+             0);
   EXPECT_THAT(run.out,
               AllOf(HasSubstr("PNG, 1024 x 1024 px"), HasSubstr("brown_conrady"),
                     HasSubstr("field of view"), HasSubstr("faces"), HasSubstr("does not state"),
@@ -243,8 +237,7 @@ TEST(WhsInfo, DescribesRigsAndLandmarks) {
   const auto landmarks =
       folder.write("landmarks.json", R"({"format": "boresight-landmarks", "version": 1,
       "landmarks": [{"name": "screw", "point_in_station_m": [0, 0, 0], "comment": ""}]})");
-  const ProgramRun run = runWhs({"info", rig, landmarks});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = runWhs({"info", rig, landmarks}, 0);
   EXPECT_THAT(run.out, AllOf(HasSubstr("view left: camera of 1024 x 1024 px, 1 point, 0 lines"),
                              HasSubstr("\ncamera_from_rig\n"), HasSubstr("  1 landmark\n")));
 }
@@ -259,8 +252,7 @@ TEST(WhsInfo, RefusesADeepChainOfNodesInOneSentence) {
       R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"meshes":[],"accessors":[],)"
       R"("nodes":[)" +
           nodes + "{}]}");
-  const ProgramRun run = runWhs({"info", file});
-  EXPECT_EQ(run.exit_code, 3);
+  const ProgramRun run = runWhs({"info", file}, 3);
   EXPECT_EQ(run.errorLines(), 1) << run.err;
   EXPECT_THAT(run.err, HasSubstr("deep.gltf: nodes[256]: is nested deeper than 256 nodes"));
 }
@@ -276,8 +268,7 @@ TEST(WhsInfo, TellsOfWhatIsInAnImageAndNotUsed) {
     tiff +=
         {tag, '\1', '\4', '\0', '\1', '\0', '\0', '\0', static_cast<char>(value), '\0', '\0', '\0'};
   tiff += std::string("\x0a\0\0\0", 4);
-  const ProgramRun run = runWhs({"info", folder.write("turned.tif", tiff)});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = runWhs({"info", folder.write("turned.tif", tiff)}, 0);
   EXPECT_THAT(run.out, AllOf(HasSubstr("EXIF orientation 6 is not applied"),
                              HasSubstr("the file holds further images (pages)")));
 }
@@ -321,10 +312,59 @@ TEST(Whs, RefusesPipesOfEveryKindOfInput) {
 }
 
 TEST(WhsInfo, GoesOnAfterABadFile) {
-  const ProgramRun run = runWhs({"info", "/no/such/file.png", kExample / "camera.json"});
-  EXPECT_EQ(run.exit_code, 3);
+  const ProgramRun run = runWhs({"info", "/no/such/file.png", kExample / "camera.json"}, 3);
   EXPECT_THAT(run.err, HasSubstr("/no/such/file.png"));
   EXPECT_THAT(run.out, HasSubstr("brown_conrady"));
+}
+
+// What `whs bench` prints and writes; how long anything takes decides nothing.
+
+TEST(WhsBench, WritesWhatItMeasured) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runWhs({"bench", "--quick", "--json", folder / "bench.json"}, 0);
+  EXPECT_EQ(run.err, "");
+  const auto json = nlohmann::json::parse(folder.read("bench.json"));
+  EXPECT_EQ(json["format"], "boresight-bench");
+  // Two stations as they are, by portable and by the best kernels, and both at household scale.
+  ASSERT_EQ(json["localizations"].size(), 6u);
+  for (const auto& one : json["localizations"]) {
+    EXPECT_THAT(run.out, HasSubstr(one["name"].get<std::string>()));
+    EXPECT_GT(one["per_second"], 0.0);
+    EXPECT_GT(one["arena_bytes"], 1000000);
+    EXPECT_EQ(one["digest"].get<std::string>().size(), 64u);
+    for (const char* stage : {"initialization", "rendering", "matching", "pose", "refinement"})
+      EXPECT_GT(one["mean_seconds"][stage], 0.0) << one["name"] << " " << stage;
+  }
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+    EXPECT_EQ(json["localizations"][i]["kernels"], "portable");
+    EXPECT_EQ(json["localizations"][i]["converged"], 1) << i;
+    EXPECT_EQ(json["localizations"][i]["digest"], json["localizations"][i + 2]["digest"]);
+  }
+  EXPECT_EQ(json["localizations"][4]["width"], 640);
+  EXPECT_EQ(json["localizations"][4]["height"], 480);
+  EXPECT_EQ(json["localizations"][4]["runs"], 2);
+  ASSERT_EQ(json["matching"].size(), 4u);
+  for (const auto& one : json["matching"]) {
+    EXPECT_GT(one["whs_ms"]["portable"], 0.0);
+    EXPECT_GT(one["ncc_ms"], 0.0);
+  }
+}
+
+TEST(WhsBench, GivesTheDigestOfTheRunItTimes) {
+  const TemporaryFolder folder;
+  const std::string dataset = (exampleFolder() / "dataset.json").string();
+  runWhs({"evaluate", "--dataset", dataset, "--station", "os", "--out", folder / "r.sqlite",
+          "--jsonl", folder / "r.jsonl"},
+         0);
+  const auto evaluated = nlohmann::json::parse(folder.read("r.jsonl"));
+  runWhs({"bench", "--quick", "--case", evaluated["id"], "--json", folder / "bench.json"}, 0);
+  const auto timed = nlohmann::json::parse(folder.read("bench.json"));
+  EXPECT_EQ(timed["localizations"][0]["digest"], evaluated["digest"]);
+}
+
+TEST(WhsBench, RefusesCasesThatAreNotThere) {
+  const ProgramRun run = runWhs({"bench", "--quick", "--case", "nowhere"}, 3);
+  EXPECT_THAT(run.err, HasSubstr("nowhere"));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "tests/benchmarks/check_cases.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "sessions/evaluation/reseed.h"
@@ -29,7 +28,9 @@ std::shared_ptr<LoadedCase> copyOf(const LoadedCase& loaded) {
 /// Mirrored through the station's origin, or through the middle of its box.
 void mirrorMesh(sessions::SceneMesh& scene, int axis, bool about_origin) {
   const double middle_m = about_origin ? 0.0 : matchedBounds(scene.view()).centre()(axis);
-  sessions::mirrorScene(scene, axis, middle_m);
+  for (Eigen::Vector3f& vertex : scene.vertices_in_station_m)
+    vertex(axis) = static_cast<float>(2.0 * middle_m) - vertex(axis);
+  for (Face& face : scene.faces) std::swap(face.vertex[1], face.vertex[2]);
 }
 
 void scaleFocal(Camera& camera, double factor) {

@@ -10,14 +10,13 @@
 #include <iostream>
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <Eigen/Cholesky>
 
-#include "sessions/evaluation/reseed.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/scene_mesh.h"
+#include "sessions/run/problem.h"
 #include "sessions/run/runner.h"
 
 namespace boresight::test {
@@ -46,14 +45,9 @@ bool isAsked(const sessions::Case& one, const std::vector<std::string>& tags) {
 sessions::LocalizationTrace run(const sessions::Dataset& dataset, const sessions::Case& one,
                                 const sessions::SceneMesh& scene) {
   const sessions::GrayImage image = sessions::readCaseImage(dataset, one);
-  LocalizationProblem problem;
-  problem.image = image.view();
-  problem.color = image.colorView();
-  problem.camera = dataset.cameras.at(one.camera);
-  problem.mesh = scene.view();
-  problem.camera_from_station_seed = one.seed_camera_from_station;
-  problem.uncertainty = sessions::seedUncertainty(*one.uncertainty, one.seed_camera_from_station,
-                                                  matchedBounds(scene.view()).centre());
+  const LocalizationProblem problem =
+      sessions::problemOf(image, nullptr, dataset.cameras.at(one.camera), scene.view(),
+                          one.seed_camera_from_station, *one.uncertainty);
   LocalizerOptions options = defaultProfile();
   const sessions::Station& station = dataset.stations.at(one.station);
   if (station.feature_size_m) options.templates.feature_size_m = *station.feature_size_m;

@@ -5,7 +5,6 @@
 //
 //   views_errors DATASET [N]   views are spoiled in every Nth rig only; 0: in none
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>

@@ -16,7 +16,6 @@
 #include <cstdlib>
 #include <ctime>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <benchmark/benchmark.h>

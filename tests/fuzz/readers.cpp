@@ -2,9 +2,15 @@
 #include "tests/fuzz/readers.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
 
+#include "core/base/crc32.h"
+#include "core/base/digest.h"
 #include "sessions/annotation/landmarks.h"
 #include "sessions/annotation/marks_file.h"
 #include "sessions/io/cahvor_file.h"
@@ -22,10 +28,58 @@
 #include "sessions/run/trace_file.h"
 #include "sessions/session/journal.h"
 #include "sessions/session/session_file.h"
-#include "tests/fuzz/seals.h"
 
 namespace boresight::test {
 namespace {
+
+void putBigEndian(std::uint64_t value, std::span<std::uint8_t> to) {
+  for (std::size_t i = to.size(); i-- > 0; value >>= 8) to[i] = static_cast<std::uint8_t>(value);
+}
+
+std::uint64_t bigEndian(std::span<const std::uint8_t> bytes) {
+  std::uint64_t value = 0;
+  for (const std::uint8_t byte : bytes) value = value << 8 | byte;
+  return value;
+}
+
+// Each makes the checksums of a file right again, so that what was changed in it gets behind them.
+// Bytes that are too few for the format stay as they are.
+
+/// Length and SHA-256 of a trace.
+void sealTrace(std::vector<std::uint8_t>& bytes) {
+  constexpr std::size_t kHeader = 20, kSum = 32;
+  if (bytes.size() < kHeader + kSum) return;
+  const std::span<std::uint8_t> all(bytes);
+  putBigEndian(bytes.size() - kHeader - kSum, all.subspan(12, 8));
+  Sha256 sha;
+  sha.update(all.first(bytes.size() - kSum));
+  const auto sum = sha.digest();
+  std::copy(sum.begin(), sum.end(), bytes.end() - static_cast<std::ptrdiff_t>(kSum));
+}
+
+/// The CRC of every block of an onboard record.
+void sealRecord(std::vector<std::uint8_t>& bytes) {
+  constexpr std::size_t kHeader = 12, kBlockHeader = 12, kSum = 4;
+  std::span<std::uint8_t> left(bytes);
+  if (left.size() < kHeader) return;
+  left = left.subspan(kHeader);
+  while (left.size() >= kBlockHeader + kSum) {
+    const std::uint64_t content = bigEndian(left.subspan(8, 4));
+    if (content > left.size() - kBlockHeader - kSum) return;
+    const std::size_t length = kBlockHeader + static_cast<std::size_t>(content);
+    putBigEndian(crc32(left.first(length)), left.subspan(length, kSum));
+    left = left.subspan(length + kSum);
+  }
+}
+
+/// The SHA-256 of a journal.
+void sealJournal(std::vector<std::uint8_t>& bytes) {
+  const auto end = std::find(bytes.begin(), bytes.end(), '\n');
+  if (end == bytes.end()) return;
+  const std::string sum = sessions::sha256Text(std::span(end + 1, bytes.end()));
+  bytes.erase(bytes.begin(), end);
+  bytes.insert(bytes.begin(), sum.begin(), sum.end());
+}
 
 using Path = std::filesystem::path;
 

@@ -5,10 +5,14 @@
 // BORESIGHT_SOAK=N. Nothing is timed.
 #include <gtest/gtest.h>
 
+#include <malloc.h>
+#include <unistd.h>
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -16,12 +20,43 @@
 #include "sessions/record/onboard_record.h"
 #include "sessions/run/runner.h"
 #include "sessions/run/trace_file.h"
-#include "tests/soak/process_figures.h"
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::test {
 namespace {
+
+/// What the operating system says that this process holds; -1 where it does not say.
+struct ProcessFigures {
+  std::int64_t resident_bytes = -1;
+  std::int64_t open_files = -1;
+  std::int64_t threads = -1;
+  /// Handed out by the allocator and not given back; 0 under a sanitizer, which brings its own.
+  std::int64_t heap_bytes = -1;
+};
+
+std::int64_t entriesOf(const char* folder) {
+  std::error_code error;
+  const auto entries = std::filesystem::directory_iterator(folder, error);
+  return error ? -1 : std::distance(begin(entries), end(entries));
+}
+
+std::int64_t residentBytes() {
+  std::ifstream statistics("/proc/self/statm");
+  std::int64_t whole_pages = 0;
+  std::int64_t resident_pages = 0;
+  if (!(statistics >> whole_pages >> resident_pages)) return -1;
+  return resident_pages * sysconf(_SC_PAGESIZE);
+}
+
+/// Of the process that calls, now.
+ProcessFigures processFigures() {
+  const struct mallinfo2 heap = mallinfo2();
+  return {.resident_bytes = residentBytes(),
+          .open_files = entriesOf("/proc/self/fd"),
+          .threads = entriesOf("/proc/self/task"),
+          .heap_bytes = static_cast<std::int64_t>(heap.uordblks + heap.hblkhd)};
+}
 
 /// After so many runs everything has happened once: each seed of each station.
 constexpr int kSeeds = 4;

@@ -15,6 +15,12 @@
 
 namespace boresight::test {
 
+/// Whether a text contains a part; a failure shows the text.
+inline ::testing::AssertionResult has(const QString& text, const char* part) {
+  if (text.contains(QString::fromUtf8(part))) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "no '" << part << "' in: " << text.toStdString();
+}
+
 /// Settings of its own, empty before and after: tests run side by side.
 class OwnSettings {
  public:
@@ -46,6 +52,23 @@ class WindowTest : public ::testing::Test {
   void open(const sessions::Session& session) {
     ASSERT_TRUE(window_.document().create(file_, session));
     ASSERT_TRUE(wait([this] { return window_.state().currentCase() && resting(); }));
+  }
+  /// Runs the shown case by its key; the session then has so many runs.
+  bool runToTheEnd(std::size_t runs) {
+    QTest::keyClick(&window_, Qt::Key_F5);
+    return wait([&] { return window_.document().session().runs.size() == runs && resting(); });
+  }
+  /// Closes the session without saving, and opens it again.
+  bool reopen() {
+    window_.document().close();
+    return window_.openSession(file_) &&
+           wait([this] { return window_.state().currentCase() && resting(); });
+  }
+  /// An edit as the pose panel orders it.
+  void moveSeed(double x_m) {
+    Pose moved = window_.state().currentCase()->source.camera_from_station_seed;
+    moved.translation_m.x() += x_m;
+    window_.cases().useAsSeed(moved);
   }
   void openExample() { open(sessions::makeSession(exampleFolder() / "dataset.json")); }
   template <class Widget>

@@ -4,6 +4,7 @@
 #include <exception>
 #include <utility>
 
+#include "core/geometry/mesh.h"
 #include "sessions/annotation/marks.h"
 #include "ui/models/number_text.h"
 #include "ui/state/document.h"
@@ -15,6 +16,8 @@ using sessions::LinePair;
 using sessions::Marks;
 using sessions::PointPair;
 
+const QString kSolving = QStringLiteral("solve marks");
+
 bool sameViews(const sessions::CaseMarks& a, const sessions::CaseMarks& b) {
   if (a.case_ids != b.case_ids || a.views.size() != b.views.size()) return false;
   for (std::size_t i = 0; i < a.views.size(); ++i)
@@ -24,10 +27,45 @@ bool sameViews(const sessions::CaseMarks& a, const sessions::CaseMarks& b) {
   return true;
 }
 
-bool sameQuestion(const AnnotationSolver::Question& a, const AnnotationSolver::Question& b) {
+bool sameQuestion(const AnnotationQuestion& a, const AnnotationQuestion& b) {
   return sameViews(a.marks, b.marks) && a.one == b.one && a.landmarks == b.landmarks &&
          a.passes == b.passes && a.robust == b.robust &&
          a.camera_from_station_guess == b.camera_from_station_guess;
+}
+
+PassAnswer answerOf(const sessions::AnnotationPass& pass, const AnnotationQuestion& asked) {
+  PassAnswer made;
+  made.by = pass.by;
+  made.time = pass.time;
+  const sessions::MarkedView& at_work = asked.marks.views.front();
+  made.repeatability = sessions::repeatability(pass.marks, at_work.marks);
+  sessions::MarkedView view = at_work;
+  view.camera_from_rig = Pose();
+  view.marks = pass.marks;
+  sessions::SolveMarksOptions options;
+  options.robust = asked.robust;
+  options.rig_from_station_guess = asked.camera_from_station_guess;
+  const sessions::MarksResult result = sessions::solveMarks({&view, 1}, options);
+  if (result.solution) made.camera_from_station = result.solution->camera_from_station.front();
+  return made;
+}
+
+AnnotationAnswer solve(const AnnotationQuestion& asked) {
+  AnnotationAnswer made;
+  const MeshView mesh = asked.one->scene.view();
+  auto solution = std::make_shared<sessions::CaseMarksSolution>(
+      sessions::solveCaseMarks(asked.marks, asked.camera_from_station_guess,
+                               sessions::boxCorners(matchedBounds(mesh)), asked.robust));
+  if (const auto pose = solution->camera_from_station()) {
+    const sessions::MarkedView& view = solution->marks.views.front();
+    made.covariance = solution->covariance();
+    made.proposals = sessions::proposeMarks(asked.landmarks, view.marks, mesh, view.camera, *pose,
+                                            &*made.covariance);
+  }
+  for (const sessions::AnnotationPass& pass : asked.passes)
+    made.passes.push_back(answerOf(pass, asked));
+  made.solution = std::move(solution);
+  return made;
 }
 
 }  // namespace
@@ -37,15 +75,12 @@ AnnotationController::AnnotationController(Document& document, ViewState& state,
   pause_.setSingleShot(true);
   pause_.setInterval(kPause_ms);
   connect(&pause_, &QTimer::timeout, this, &AnnotationController::finishMove);
-  connect(&solver_, &AnnotationSolver::solved, this, &AnnotationController::take);
-  connect(&solver_, &AnnotationSolver::failed, this, &AnnotationController::told);
+  connect(&runner_, &TaskRunner::failed, this, &AnnotationController::told);
   connect(&document_, &Document::opened, this, &AnnotationController::showDocument);
   connect(&document_, &Document::changed, this, &AnnotationController::showDocument);
   state_.onChange(ViewChange::kCase, this, &AnnotationController::showDocument);
   showDocument();
 }
-
-AnnotationController::~AnnotationController() = default;
 
 std::string AnnotationController::caseId() const {
   const ViewState::CasePtr& one = state_.currentCase();
@@ -76,7 +111,7 @@ void AnnotationController::showDocument() {
     selected_.clear();
     answer_ = {};
     asked_.reset();
-    solver_.drop();
+    runner_.cancel(kSolving);
   }
   const auto& annotations = document_.session().annotations;
   const auto found = annotations.find(id);
@@ -109,7 +144,7 @@ void AnnotationController::showLandmarks() {
 /// Solves what the marks, the rig, the landmarks and the passes are now, if that is news.
 void AnnotationController::askIfChanged(bool anyway) {
   if (case_id_.empty()) return;
-  AnnotationSolver::Question now;
+  AnnotationQuestion now;
   try {
     now.marks = sessions::caseMarks(document_.session(), case_id_, together_);
   } catch (const std::exception& error) {
@@ -126,10 +161,12 @@ void AnnotationController::askIfChanged(bool anyway) {
   asked_ = now;
   stale_ = true;
   Q_EMIT solutionChanged();
-  solver_.ask(std::move(now));
+  runner_.start(
+      kSolving, [question = std::move(now)](const std::stop_token&) { return solve(question); },
+      [this](const AnnotationAnswer& answer) { take(answer); });
 }
 
-void AnnotationController::take(const AnnotationSolver::Answer& answer) {
+void AnnotationController::take(const AnnotationAnswer& answer) {
   answer_ = answer;
   stale_ = false;
   state_.setAnnotatedPose(solvedPose());

@@ -12,7 +12,10 @@
 #include <QTimer>
 
 #include "sessions/annotation/annotation_pass.h"
-#include "ui/annotation/annotation_solver.h"
+#include "sessions/annotation/landmarks.h"
+#include "sessions/session/case_marks.h"
+#include "sessions/session/case_run.h"
+#include "ui/run/task_runner.h"
 #include "ui/state/view_state.h"
 
 namespace boresight::ui {
@@ -24,6 +27,31 @@ enum class PlaceMode : std::uint8_t {
   kOff,    ///< nobody annotates: clicks belong to the views
   kPoint,  ///< one side of a pair of points
   kLine,   ///< one side of a pair of lines: two clicks on the image, one on an edge of the station
+};
+
+/// What the solver of marks is asked.
+struct AnnotationQuestion {
+  sessions::CaseMarks marks;
+  std::shared_ptr<const sessions::LoadedCase> one;
+  Pose camera_from_station_guess;
+  std::vector<sessions::Landmark> landmarks;
+  sessions::AnnotationPasses passes;
+  bool robust = false;
+};
+
+/// Somebody's earlier pass over the same image beside the marks at work.
+struct PassAnswer {
+  std::string by;
+  std::string time;
+  std::optional<Pose> camera_from_station;
+  sessions::Repeatability repeatability;  ///< marks at work minus the pass
+};
+
+struct AnnotationAnswer {
+  std::shared_ptr<const sessions::CaseMarksSolution> solution;
+  std::vector<sessions::Proposal> proposals;
+  std::vector<PassAnswer> passes;
+  std::optional<Matrix6d> covariance;  ///< of the case's camera, in its own frame
 };
 
 /// What somebody annotates: the marks of the current case, the one that is chosen, the pair that is
@@ -39,7 +67,6 @@ class AnnotationController : public QObject {
   static constexpr int kPause_ms = 800;     ///< nudges within this are one step of Undo
 
   AnnotationController(Document& document, ViewState& state, QObject* parent = nullptr);
-  ~AnnotationController() override;
 
   PlaceMode mode() const { return mode_; }
   /// Of the current case; with a gesture's unfinished move (`dragInImage`) in it.
@@ -56,9 +83,9 @@ class AnnotationController : public QObject {
   std::optional<Pose> solvedPose() const;
   /// Of the solved pose, in the camera's frame.
   const std::optional<Matrix6d>& covariance() const { return answer_.covariance; }
-  const AnnotationSolver::Answer& answer() const { return answer_; }
+  const AnnotationAnswer& answer() const { return answer_; }
   /// The other people's passes over this case, and how the marks at work differ from each.
-  const std::vector<AnnotationSolver::PassAnswer>& passes() const { return answer_.passes; }
+  const std::vector<PassAnswer>& passes() const { return answer_.passes; }
   bool robust() const { return robust_; }
   /// The other cases of the rig are solved with this one.
   bool together() const { return together_; }
@@ -135,12 +162,14 @@ class AnnotationController : public QObject {
   void showDocument();
   void showLandmarks();
   void askIfChanged(bool anyway);
-  void take(const AnnotationSolver::Answer& answer);
+  void take(const AnnotationAnswer& answer);
   bool commit(const sessions::Marks& marks, const QString& text);
   template <class Pair, class Side>
   std::string place(const Pair* chosen, std::optional<Side> Pair::*side, const Side& value,
                     const QString& text);
   bool mayChange(const std::string& id);
+  template <class Pair>
+  bool replace(const Pair* before, const Pair& after, const QString& text);
   bool mayReplace(const std::string& replaced, const std::string& id);
   sessions::PointPair markOf(const sessions::Landmark& landmark) const;
   sessions::AnnotationPasses passesOfCase() const;
@@ -149,21 +178,21 @@ class AnnotationController : public QObject {
 
   Document& document_;
   ViewState& state_;
-  AnnotationSolver solver_;
   PlaceMode mode_ = PlaceMode::kOff;
   std::string case_id_;
   sessions::Marks marks_;
   std::string selected_;
   bool moving_ = false;  ///< a gesture whose edit has not been made
   QTimer pause_;         ///< ends a row of nudges
-  AnnotationSolver::Answer answer_;
-  std::optional<AnnotationSolver::Question> asked_;
+  AnnotationAnswer answer_;
+  std::optional<AnnotationQuestion> asked_;
   bool stale_ = false;
   bool robust_ = false;
   bool together_ = true;
   double sigma_px_ = kSigma_px;
   std::optional<std::filesystem::path> landmarks_file_;
   std::vector<sessions::Landmark> landmarks_;
+  TaskRunner runner_;  ///< solves; the newest marks count
 };
 
 }  // namespace boresight::ui

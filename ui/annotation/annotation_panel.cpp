@@ -1,14 +1,101 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/annotation/annotation_panel.h"
 
+#include <algorithm>
+
 #include <QtWidgets>
 
-#include "ui/annotation/annotation_menus.h"
+#include "sessions/annotation/marks.h"
+#include "sessions/session/rig_links.h"
 #include "ui/models/number_text.h"
+#include "ui/panels/paste_pose_dialog.h"
 #include "ui/panels/widgets.h"
-#include "ui/state/view_state.h"
+#include "ui/state/document.h"
 
 namespace boresight::ui {
+
+LandmarksMenu::LandmarksMenu(AnnotationController& controller, QWidget* parent)
+    : QMenu(parent), controller_(controller) {
+  connect(this, &QMenu::aboutToShow, this, &LandmarksMenu::fill);
+  fill();
+}
+
+void LandmarksMenu::fill() {
+  clear();
+  addAction(tr("Open ..."), this, &LandmarksMenu::openRequested);
+  addAction(tr("Save the marks as landmarks ..."), this, &LandmarksMenu::saveRequested);
+  addSeparator();
+  QAction* confirm =
+      addAction(tr("Mark all that the image shows (%1)").arg(controller_.seenProposals()),
+                &controller_, &AnnotationController::confirmSeen);
+  confirm->setEnabled(controller_.seenProposals() > 0);
+  addSeparator();
+  bool any = false;
+  for (const sessions::Landmark& landmark : controller_.landmarks()) {
+    if (sessions::findPoint(controller_.marks(), landmark.name)) continue;
+    any = true;
+    QAction* begin = addAction(tr("Begin %1").arg(fromText(landmark.name)), this, [this, landmark] {
+      controller_.setMode(PlaceMode::kPoint);
+      controller_.begin(landmark);
+    });
+    begin->setToolTip(fromText(landmark.comment));
+  }
+  if (!any)
+    addAction(controller_.landmarks().empty() ? tr("No landmarks are open")
+                                              : tr("Every landmark has a mark here"))
+        ->setEnabled(false);
+}
+
+RigMenu::RigMenu(Document& document, ViewState& state, AnnotationController& controller,
+                 QWidget* parent)
+    : QMenu(parent), document_(document), state_(state), controller_(controller) {
+  connect(this, &QMenu::aboutToShow, this, &RigMenu::fill);
+}
+
+void RigMenu::fill() {
+  clear();
+  const sessions::Session& session = document_.session();
+  const ViewState::CasePtr& one = state_.currentCase();
+  const sessions::SessionCase* shown = one ? session.findCase(one->source.id) : nullptr;
+  if (!shown) {
+    addAction(tr("No case is open"))->setEnabled(false);
+    return;
+  }
+  const std::vector<std::string> linked = sessions::casesOfRig(session, shown->id);
+  for (const std::string& id : linked)
+    addAction(tr("Go to %1").arg(fromText(id)), this,
+              [this, id] { Q_EMIT openRequested(fromText(id)); });
+  if (!linked.empty()) {
+    addAction(tr("Take %1 out of this rig").arg(fromText(shown->id)), &controller_,
+              &AnnotationController::unlinkCase);
+    addSeparator();
+  }
+  QMenu* links = addMenu(tr("Link with"));
+  for (const auto& other : session.cases)
+    if (other->id != shown->id && other->station == shown->station &&
+        std::find(linked.begin(), linked.end(), other->id) == linked.end())
+      addLinks(*links->addMenu(fromText(other->id)), *shown, *other);
+  if (links->isEmpty()) links->addAction(tr("No other case of this station"))->setEnabled(false);
+}
+
+void RigMenu::addLinks(QMenu& menu, const sessions::SessionCase& shown,
+                       const sessions::SessionCase& other) {
+  const std::string id = other.id;
+  menu.addAction(tr("The same camera, not moved"), this,
+                 [this, id] { controller_.linkCase(id, Pose()); });
+  if (const auto other_from_shown = sessions::linkOfTruths(shown, other))
+    menu.addAction(tr("As the true poses say"), this,
+                   [this, id, link = *other_from_shown] { controller_.linkCase(id, link); });
+  menu.addAction(tr("By a pose from the clipboard ..."), this, [this, id] { askForPose(id); });
+}
+
+void RigMenu::askForPose(const std::string& other_id) {
+  PastePoseDialog dialog(QGuiApplication::clipboard()->text(), this);
+  dialog.setWindowTitle(
+      tr("Pose of %1 from the shown camera: p_other = R p_shown + t").arg(fromText(other_id)));
+  if (dialog.exec() == QDialog::Accepted && dialog.parsed().valid)
+    controller_.linkCase(other_id, dialog.parsed().camera_from_station);
+}
 
 AnnotationPanel::AnnotationPanel(Document& document, AnnotationController& controller,
                                  ViewState& state, QWidget* parent)
@@ -43,12 +130,16 @@ AnnotationPanel::AnnotationPanel(Document& document, AnnotationController& contr
   showSolution();
 }
 
-QToolButton* AnnotationPanel::modeButton(const QString& name, const QString& text,
-                                         const QString& tip, PlaceMode mode) {
-  auto* button = new QToolButton(this);
-  button->setObjectName(name);
+QToolButton* AnnotationPanel::toolButton(const char* name, const QString& text,
+                                         const QString& tip) {
+  auto* button = named(new QToolButton(this), name, tip);
   button->setText(text);
-  button->setToolTip(tip);
+  return button;
+}
+
+QToolButton* AnnotationPanel::modeButton(const char* name, const QString& text, const QString& tip,
+                                         PlaceMode mode) {
+  QToolButton* button = toolButton(name, text, tip);
   button->setCheckable(true);
   connect(button, &QToolButton::clicked, this, [this, mode](bool on) {
     controller_.setMode(on ? mode : PlaceMode::kOff);
@@ -57,12 +148,9 @@ QToolButton* AnnotationPanel::modeButton(const QString& name, const QString& tex
   return button;
 }
 
-QToolButton* AnnotationPanel::menuButton(const QString& name, const QString& text,
-                                         const QString& tip, QMenu* menu) {
-  auto* button = new QToolButton(this);
-  button->setObjectName(name);
-  button->setText(text);
-  button->setToolTip(tip);
+QToolButton* AnnotationPanel::menuButton(const char* name, const QString& text, const QString& tip,
+                                         QMenu* menu) {
+  QToolButton* button = toolButton(name, text, tip);
   button->setPopupMode(QToolButton::InstantPopup);
   button->setMenu(menu);
   return button;
@@ -77,12 +165,12 @@ void AnnotationPanel::addBeside(QWidget* widget) {
 void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
   auto* row = new QHBoxLayout;
   row->setSpacing(3);
-  points_ = modeButton(QStringLiteral("placePoints"), tr("Points"),
+  points_ = modeButton("placePoints", tr("Points"),
                        tr("Click a place on the image and the same place on the station, in either "
                           "order (F2). Ctrl and a click on the rendered edges also marks the "
                           "station."),
                        PlaceMode::kPoint);
-  lines_ = modeButton(QStringLiteral("placeLines"), tr("Lines"),
+  lines_ = modeButton("placeLines", tr("Lines"),
                       tr("Click two places along an edge in the image, and the edge of the station "
                          "(F3)"),
                       PlaceMode::kLine);
@@ -101,28 +189,24 @@ void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
   together_ = named(new QCheckBox(tr("Whole rig"), this), "together",
                     tr("Solve with the other cameras of this case's rig, as one"));
   together_->setChecked(controller_.together());
-  QToolButton* files = menuButton(QStringLiteral("markFiles"), tr("Files"),
-                                  tr("Marks and poses from and to files"), fileMenu());
+  QToolButton* files =
+      menuButton("markFiles", tr("Files"), tr("Marks and poses from and to files"), fileMenu());
   auto* landmarks_menu = new LandmarksMenu(controller_, this);
   connect(landmarks_menu, &LandmarksMenu::openRequested, this,
           &AnnotationPanel::openLandmarksRequested);
   connect(landmarks_menu, &LandmarksMenu::saveRequested, this,
           &AnnotationPanel::saveLandmarksRequested);
   QToolButton* landmarks =
-      menuButton(QStringLiteral("landmarks"), tr("Landmarks"),
+      menuButton("landmarks", tr("Landmarks"),
                  tr("Named points of the station, used over all its images"), landmarks_menu);
-  passes_ = menuButton(QStringLiteral("passes"), tr("Passes"),
+  passes_ = menuButton("passes", tr("Passes"),
                        tr("What several people marked without seeing each other's marks"),
                        new QMenu(this));
-  QToolButton* rigs =
-      menuButton(QStringLiteral("rig"), tr("Rig"),
-                 tr("Which images are of rigidly linked cameras, solved as one"), rig);
+  QToolButton* rigs = menuButton(
+      "rig", tr("Rig"), tr("Which images are of rigidly linked cameras, solved as one"), rig);
   connect(passes_->menu(), &QMenu::aboutToShow, this, &AnnotationPanel::showPasses);
-  for (QWidget* each : {static_cast<QWidget*>(points_), static_cast<QWidget*>(lines_),
-                        static_cast<QWidget*>(sigma_), static_cast<QWidget*>(robust_),
-                        static_cast<QWidget*>(together_), static_cast<QWidget*>(files),
-                        static_cast<QWidget*>(landmarks), static_cast<QWidget*>(passes_),
-                        static_cast<QWidget*>(rigs)})
+  for (QWidget* each : std::initializer_list<QWidget*>{points_, lines_, sigma_, robust_, together_,
+                                                       files, landmarks, passes_, rigs})
     row->addWidget(each);
   row->addStretch(1);
   show_ = named(new QComboBox(this), "showMarks");
@@ -249,7 +333,7 @@ std::vector<ComparedPose> AnnotationPanel::otherPoses() const {
 }
 
 void AnnotationPanel::showSolution() {
-  const AnnotationSolver::Answer& answer = controller_.answer();
+  const AnnotationAnswer& answer = controller_.answer();
   model_.setSolution(answer.solution, controller_.stale());
   headline_->setText(solutionHeadline(answer, controller_.stale()));
   meter_->setText(geometryMeterText(answer));

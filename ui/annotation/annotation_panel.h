@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
+#include <QMenu>
 #include <QString>
 #include <QWidget>
 
@@ -13,7 +16,6 @@ class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
-class QMenu;
 class QPushButton;
 class QSplitter;
 class QTableView;
@@ -23,7 +25,46 @@ class QToolButton;
 namespace boresight::ui {
 
 class Document;
-class RigMenu;
+
+/// The station's named points that this image has no mark of: where they should be is confirmed,
+/// or one is begun by name and then clicked. Also where landmarks come from and go to.
+class LandmarksMenu : public QMenu {
+  Q_OBJECT
+
+ public:
+  explicit LandmarksMenu(AnnotationController& controller, QWidget* parent = nullptr);
+
+ Q_SIGNALS:
+  void openRequested();
+  void saveRequested();
+
+ private:
+  void fill();
+
+  AnnotationController& controller_;
+};
+
+/// Which cases are solved together with the shown one: lists them, opens one, links and unlinks.
+class RigMenu : public QMenu {
+  Q_OBJECT
+
+ public:
+  RigMenu(Document& document, ViewState& state, AnnotationController& controller,
+          QWidget* parent = nullptr);
+
+ Q_SIGNALS:
+  void openRequested(const QString& case_id);
+
+ private:
+  void fill();
+  void addLinks(QMenu& menu, const sessions::SessionCase& shown,
+                const sessions::SessionCase& other);
+  void askForPose(const std::string& other_id);
+
+  Document& document_;
+  ViewState& state_;
+  AnnotationController& controller_;
+};
 
 /// The annotator's desk: tools, the table of marks, and what the pose that solves them is worth.
 class AnnotationPanel : public QWidget {
@@ -59,11 +100,11 @@ class AnnotationPanel : public QWidget {
 
  private:
   void buildTools(QBoxLayout& layout, RigMenu* rig);
-  QToolButton* menuButton(const QString& name, const QString& text, const QString& tip,
-                          QMenu* menu);
+  QToolButton* toolButton(const char* name, const QString& text, const QString& tip);
+  QToolButton* menuButton(const char* name, const QString& text, const QString& tip, QMenu* menu);
   QWidget* buildTable();
   QWidget* buildSummary();
-  QToolButton* modeButton(const QString& name, const QString& text, const QString& tip,
+  QToolButton* modeButton(const char* name, const QString& text, const QString& tip,
                           PlaceMode mode);
   QMenu* fileMenu();
   void showMode();

@@ -5,7 +5,6 @@
 
 #include <QPainter>
 
-#include "ui/annotation/aim_painter.h"
 #include "ui/annotation/loupe.h"
 #include "ui/annotation/mark_tool.h"
 #include "ui/annotation/station_snapper.h"
@@ -20,7 +19,7 @@ namespace boresight::ui {
 namespace {
 
 constexpr double kShortestScale = 50.0;  ///< on the screen
-constexpr int kMargin = 8;
+constexpr int kNoteMargin = 8;
 
 std::optional<QPointF> placeOf(const AnnotationController& controller) {
   const sessions::PointPair* point = controller.selectedPoint();
@@ -200,7 +199,7 @@ void ImageAnnotation::paint(QPainter& painter) const {
   if (!state_.currentCase()) return;
   const QRect area = image_.view().rect();
   const int line = painter.fontMetrics().height() + 6;
-  QPointF at(area.left() + kMargin, area.bottom() - kMargin - line);
+  QPointF at(area.left() + kNoteMargin, area.bottom() - kNoteMargin - line);
   if (controller_.mode() != PlaceMode::kOff) {
     paintBox(painter, at, nextStep());
     at.ry() -= line + 2;

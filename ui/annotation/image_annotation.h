@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-
 #include <QObject>
 #include <QPointer>
 
 #include "sessions/annotation/edge_band.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/mark_content.h"
-
-class QPainter;
 
 namespace boresight::ui {
 

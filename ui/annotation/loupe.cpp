@@ -8,7 +8,6 @@
 
 #include <QtWidgets>
 
-#include "ui/annotation/aim_painter.h"
 #include "ui/views/display_image.h"
 #include "ui/views/image_view.h"
 #include "ui/views/overlay_painters.h"
@@ -77,22 +76,43 @@ sessions::ImageSamples samplesOf(const QImage& gray) {
   return samples;
 }
 
+void putLoupeAside(QWidget& loupe, const LoupeSize& size, const QPoint& place, bool& left) {
+  constexpr int kRaster = 4;  // whole screen pixels at ratios of quarters
+  constexpr int kMargin = 8;
+  constexpr int kShyness = 40;  // how near the pointer may come
+  const auto on_raster = [](double length) {
+    return kRaster * static_cast<int>(std::floor(length / kRaster));
+  };
+  const QSize view = loupe.parentWidget()->size();
+  const double shorter = std::min(view.width(), view.height());
+  const int side = on_raster(std::clamp(size.share * shorter, size.least, size.most));
+  const QRect at_right(on_raster(view.width() - side - kMargin), kMargin, side, side);
+  const QRect at_left(kMargin, kMargin, side, side);
+  const QRect& now = left ? at_left : at_right;
+  if (now.adjusted(-kShyness, -kShyness, kShyness, kShyness).contains(place)) left = !left;
+  loupe.setGeometry(left ? at_left : at_right);
+}
+
+void paintLoupeFoot(QPainter& painter, const QWidget& loupe, const QString& text) {
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  const int high = painter.fontMetrics().height() + 4;
+  const QRect line(0, loupe.height() - high, loupe.width(), high);
+  painter.fillRect(line, QColor(0, 0, 0, 170));
+  painter.setPen(QColor(255, 255, 255));
+  painter.drawText(line, Qt::AlignCenter, text);
+  painter.setPen(QPen(loupe.palette().color(QPalette::Highlight), 2.0));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawRect(loupe.rect().adjusted(1, 1, -1, -1));
+}
+
 namespace {
 
-constexpr double kShare = 0.5;  ///< of the view's shorter side
-constexpr int kLeastSide = 168;
-constexpr int kMostSide = 320;
-/// Whole screen pixels at ratios of quarters.
-constexpr int kRaster = 4;
-constexpr int kMargin = 8;
-constexpr int kShyness = 40;  ///< how near the pointer may come
+constexpr LoupeSize kLoupeSize = {0.5, 168.0, 320.0};
 constexpr int kSmallestText = 9;
 constexpr double kEdgeDot = 0.16;  ///< of an image pixel
 const LayerId kEdgeLayers[] = {LayerId::kSeedEdges, LayerId::kTruthEdges, LayerId::kIterationEdges,
                                LayerId::kNudgedEdges, LayerId::kAnnotationEdges};
 const LayerId kMarkLayers[] = {LayerId::kAnnotationBand, LayerId::kProposals, LayerId::kPoints};
-
-int onRaster(double length) { return kRaster * static_cast<int>(std::floor(length / kRaster)); }
 
 }  // namespace
 
@@ -142,16 +162,8 @@ void Loupe::showOrHide() {
   update();
 }
 
-/// Into the corner that the place is not in.
 void Loupe::putAside() {
-  const double shorter = std::min(view_.width(), view_.height());
-  const int side = onRaster(std::clamp(kShare * shorter, double{kLeastSide}, double{kMostSide}));
-  const QRect right(onRaster(view_.width() - side - kMargin), kMargin, side, side);
-  const QRect left(kMargin, kMargin, side, side);
-  const QPoint place = view_.transform().toWidget(*pixel_).toPoint();
-  const QRect& now = left_ ? left : right;
-  if (now.adjusted(-kShyness, -kShyness, kShyness, kShyness).contains(place)) left_ = !left_;
-  setGeometry(left_ ? left : right);
+  putLoupeAside(*this, kLoupeSize, view_.transform().toWidget(*pixel_).toPoint(), left_);
 }
 
 ViewTransform Loupe::transform() const {
@@ -192,11 +204,7 @@ void Loupe::paintEvent(QPaintEvent*) {
   painter.setPen(Qt::NoPen);
   painter.setBrush(kLoupeCrossColor);
   painter.drawEllipse(QPointF(0.5 * width(), 0.5 * height()), 1.0, 1.0);
-  painter.setRenderHint(QPainter::Antialiasing, false);
   paintText(painter);
-  painter.setPen(QPen(palette().color(QPalette::Highlight), 2.0));
-  painter.setBrush(Qt::NoBrush);
-  painter.drawRect(rect().adjusted(1, 1, -1, -1));
 }
 
 /// Dots in the middle of edge pixels: what lies under them stays to be seen.
@@ -251,11 +259,7 @@ void Loupe::paintText(QPainter& painter) const {
          QFontInfo(fitting).pixelSize() > kSmallestText)
     fitting.setPixelSize(QFontInfo(fitting).pixelSize() - 1);
   painter.setFont(fitting);
-  const QRect line(0, height() - painter.fontMetrics().height() - 4, width(),
-                   painter.fontMetrics().height() + 4);
-  painter.fillRect(line, QColor(0, 0, 0, 170));
-  painter.setPen(QColor(255, 255, 255));
-  painter.drawText(line, Qt::AlignCenter, text);
+  paintLoupeFoot(painter, *this, text);
 }
 
 }  // namespace boresight::ui

@@ -24,6 +24,20 @@ QImage loupePicture(const sessions::ImageSamples& samples, const ViewTransform& 
 /// The 8-bit values of an image as samples, for images whose file has not been read.
 sessions::ImageSamples samplesOf(const QImage& gray);
 
+/// Sides of a square loupe: a share of the shorter side of the view, in coordinates.
+struct LoupeSize {
+  double share;
+  double least;
+  double most;
+};
+
+/// Puts a loupe into the upper corner of its parent that the place is not in; `left` is the corner
+/// it is in.
+void putLoupeAside(QWidget& loupe, const LoupeSize& size, const QPoint& place, bool& left);
+
+/// The loupe's frame, and a text at its foot.
+void paintLoupeFoot(QPainter& painter, const QWidget& loupe, const QString& text);
+
 class ImageView;
 
 /// A piece of the image, magnified, in a corner of the image view away from the pointer: image

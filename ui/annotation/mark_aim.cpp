@@ -2,9 +2,12 @@
 #include "ui/annotation/mark_aim.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include <QCoreApplication>
+#include <QFontMetricsF>
 
 #include "sessions/annotation/marks_on_image.h"
 #include "sessions/run/surface_point.h"
@@ -64,9 +67,7 @@ std::string stationOnlyAt(const sessions::Marks& marks, const Camera& camera,
 namespace {
 
 using sessions::ImageSnap;
-using sessions::ImageSnapKind;
 using sessions::MeshSnap;
-using sessions::MeshSnapKind;
 
 constexpr double kSnapRadius = 12.0;  ///< on the screen
 constexpr double kLeastRadius_px = 2.0;
@@ -76,29 +77,8 @@ constexpr double kLeastRim_px = 16.0;
 
 QString aimText(const char* text) { return QCoreApplication::translate("MarkAim", text); }
 
-QString nameOf(ImageSnapKind kind) {
-  switch (kind) {
-    case ImageSnapKind::kCorner:
-      return aimText("corner");
-    case ImageSnapKind::kEllipse:
-      return aimText("ellipse centre");
-    case ImageSnapKind::kEdge:
-      return aimText("edge");
-  }
-  return {};
-}
-
-QString nameOf(MeshSnapKind kind) {
-  switch (kind) {
-    case MeshSnapKind::kVertex:
-      return aimText("vertex");
-    case MeshSnapKind::kEdge:
-      return aimText("model edge");
-    case MeshSnapKind::kCircle:
-      return aimText("circle centre");
-  }
-  return {};
-}
+constexpr std::array<const char*, 3> kImageSnapNames = {"corner", "ellipse centre", "edge"};
+constexpr std::array<const char*, 3> kMeshSnapNames = {"vertex", "model edge", "circle centre"};
 
 /// Which of several, and how many there are to choose from.
 template <class Snap>
@@ -125,12 +105,13 @@ MarkAim aimAtImage(const sessions::LoadedCase& one, const Eigen::Vector2d& point
       one.image.view(), pointer, rules.radius_px, std::max(kLeastRim_px, kRims * rules.radius_px));
   // Ends of a line lie on an edge; where it ends or what it goes round does not count.
   if (rules.line)
-    std::stable_partition(snaps.begin(), snaps.end(),
-                          [](const ImageSnap& snap) { return snap.kind == ImageSnapKind::kEdge; });
+    std::stable_partition(snaps.begin(), snaps.end(), [](const ImageSnap& snap) {
+      return snap.kind == sessions::ImageSnapKind::kEdge;
+    });
   if (snaps.empty()) return aim;
   aim.snap = chosenOf(snaps, rules.turn, aim);
   aim.pixel = aim.snap->pixel;
-  aim.text = nameOf(aim.snap->kind);
+  aim.text = aimText(kImageSnapNames[static_cast<std::size_t>(aim.snap->kind)]);
   return aim;
 }
 
@@ -148,7 +129,7 @@ MarkAim aimAtStation(const sessions::LoadedCase& one, const Pose& camera_from_st
     aim.edge = snap.edge;
     if (snap.edge)
       aim.edge_on_image = sessions::edgeOnImage(camera, camera_from_station, *snap.edge);
-    aim.text = nameOf(snap.kind);
+    aim.text = aimText(kMeshSnapNames[static_cast<std::size_t>(snap.kind)]);
     return aim;
   }
   if (rules.line) return aim;
@@ -160,6 +141,110 @@ MarkAim aimAtStation(const sessions::LoadedCase& one, const Pose& camera_from_st
   aim.point_in_station_m = surface->in_station_m;
   aim.text = aimText("surface");
   return aim;
+}
+
+namespace {
+
+constexpr double kPlaceHalf = 7.0;  ///< of the place's sign
+constexpr double kNormal = 26.0;    ///< length of an edge's normal
+constexpr double kBeside = 16.0;
+constexpr double kPadding = 6.0;
+const QColor kImageColor(255, 255, 255);
+const QColor kStationColor(120, 220, 255);
+const QColor kAimRim(0, 0, 0, 170);
+
+QPointF toWidget(const ViewTransform& transform, const Eigen::Vector2d& pixel) {
+  return transform.toWidget(QPointF(pixel.x(), pixel.y()));
+}
+
+QPolygonF ellipseOnWidget(const ViewTransform& transform, const sessions::EllipseSnap& ellipse) {
+  constexpr int kPieces = 72;
+  QPolygonF line;
+  const Eigen::Vector2d along(std::cos(ellipse.angle_rad), std::sin(ellipse.angle_rad));
+  const Eigen::Vector2d across(-along.y(), along.x());
+  for (int i = 0; i <= kPieces; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kPieces;
+    line << toWidget(transform, ellipse.centre +
+                                    ellipse.half_axes_px.x() * std::cos(angle) * along +
+                                    ellipse.half_axes_px.y() * std::sin(angle) * across);
+  }
+  return line;
+}
+
+void paintFound(QPainter& painter, const ViewTransform& transform, const MarkAim& aim) {
+  const QPointF at = toWidget(transform, aim.pixel);
+  if (aim.snap && aim.snap->kind == sessions::ImageSnapKind::kEllipse)
+    painter.drawPolyline(ellipseOnWidget(transform, aim.snap->ellipse));
+  if (aim.snap && aim.snap->kind == sessions::ImageSnapKind::kEdge) {
+    const QPointF normal(aim.snap->edge.normal.x(), aim.snap->edge.normal.y());
+    const QPointF along(-normal.y(), normal.x());
+    painter.drawLine(at - kNormal * along, at + kNormal * along);
+    painter.drawLine(at + kPlaceHalf * normal, at + kNormal * normal);  // towards the bright side
+  }
+  QPolygonF edge;
+  for (const Eigen::Vector2d& pixel : aim.edge_on_image) edge << toWidget(transform, pixel);
+  if (edge.size() > 1) painter.drawPolyline(edge);
+}
+
+}  // namespace
+
+void paintTicks(QPainter& painter, const QPointF& at, double from, double to) {
+  for (const QPointF& way :
+       {QPointF(1.0, 0.0), QPointF(-1.0, 0.0), QPointF(0.0, 1.0), QPointF(0.0, -1.0)})
+    painter.drawLine(at + from * way, at + to * way);
+}
+
+QPolygonF diamond(const QPointF& at, double half) {
+  return {{at + QPointF(0.0, -half), at + QPointF(half, 0.0), at + QPointF(0.0, half),
+           at + QPointF(-half, 0.0)}};
+}
+
+void paintAim(QPainter& painter, const ViewTransform& transform, const MarkAim& aim,
+              const QPointF& pointer) {
+  if (aim.side == AimSide::kNone) return;
+  const QPointF at = toWidget(transform, aim.pixel);
+  const QColor color = aim.side == AimSide::kImage ? kImageColor : kStationColor;
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing, true);
+  painter.setBrush(Qt::NoBrush);
+  for (const QPen& pen : {QPen(kAimRim, 3.2), QPen(color, 1.4)}) {
+    painter.setPen(pen);
+    paintFound(painter, transform, aim);
+    paintTicks(painter, at, 2.5, kPlaceHalf + 3.0);
+    if (aim.found > 0) painter.drawPolygon(diamond(at, kPlaceHalf));
+  }
+  if (aim.found > 0) {
+    painter.setPen(QPen(color, 1.0, Qt::DotLine));
+    painter.drawLine(transform.toWidget(pointer), at);
+  }
+  painter.restore();
+}
+
+QRectF paintBox(QPainter& painter, const QPointF& top_left, const QString& text, double room) {
+  const QFontMetricsF metrics(painter.font());
+  const QSizeF size(metrics.horizontalAdvance(text) + 2.0 * kPadding, metrics.height() + 4.0);
+  const QRectF box(top_left, size + QSizeF(room, 0.0));
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing, true);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(QColor(0, 0, 0, 190));
+  painter.drawRoundedRect(box, 3.0, 3.0);
+  painter.setPen(QColor(255, 255, 255));
+  painter.drawText(QRectF(top_left, size), Qt::AlignCenter, text);
+  painter.restore();
+  return box;
+}
+
+void paintNote(QPainter& painter, const QRectF& area, const QRectF& taken, const QPointF& beside,
+               const QString& text) {
+  if (text.isEmpty()) return;
+  const QFontMetricsF metrics(painter.font());
+  const QSizeF size(metrics.horizontalAdvance(text) + 2.0 * kPadding, metrics.height() + 4.0);
+  QRectF box(beside + QPointF(kBeside, kBeside), size);
+  if (box.right() > area.right() || box.intersects(taken)) box.moveRight(beside.x() - kBeside);
+  if (box.left() < area.left()) box.moveTopLeft(QPointF(area.left(), beside.y() + 2.0 * kBeside));
+  if (box.bottom() > area.bottom()) box.moveBottom(beside.y() - kBeside);
+  paintBox(painter, box.topLeft(), text);
 }
 
 }  // namespace boresight::ui

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of the marks lies under the pointer.
+// What of the marks lies under the pointer, and how it is drawn.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <QPointF>
+#include <QPainter>
+#include <QPolygonF>
 #include <QString>
 
 #include "sessions/annotation/image_snap.h"
@@ -78,5 +79,22 @@ MarkAim aimAtImage(const sessions::LoadedCase& one, const Eigen::Vector2d& point
 MarkAim aimAtStation(const sessions::LoadedCase& one, const Pose& camera_from_station,
                      const Eigen::Vector2d& pointer, std::vector<sessions::MeshSnap> snaps,
                      const AimRules& rules);
+
+/// Four short lines that leave the place itself free.
+void paintTicks(QPainter& painter, const QPointF& at, double from, double to);
+QPolygonF diamond(const QPointF& at, double half);
+
+/// Draws where a click would go and what it snaps to: the place, the way from the pointer, the
+/// ellipse or the edge that was found. Seen on any image: bright over a dark rim.
+void paintAim(QPainter& painter, const ViewTransform& transform, const MarkAim& aim,
+              const QPointF& pointer);
+
+/// A sentence on a dark ground with room at its right; where it was drawn.
+QRectF paintBox(QPainter& painter, const QPointF& top_left, const QString& text, double room = 0.0);
+
+/// A sentence beside a place of the widget, on a dark ground, kept inside `area` and clear of
+/// `taken`.
+void paintNote(QPainter& painter, const QRectF& area, const QRectF& taken, const QPointF& beside,
+               const QString& text);
 
 }  // namespace boresight::ui

@@ -14,9 +14,6 @@ namespace {
 constexpr double kSize = 15.0;  ///< on the screen
 constexpr double kEndSize = 7.0;
 constexpr double kChosenSize = 27.0;
-const QColor kChosen(255, 255, 255);
-const QColor kOff(175, 175, 175);
-const QColor kOutlier(255, 130, 60);
 
 QString contentText(const char* text) { return QCoreApplication::translate("MarkContent", text); }
 
@@ -60,7 +57,7 @@ class Signs {
       for (const Eigen::Vector2d& end : {line.line->start, line.line->end}) {
         Mark handle = sign(line.locked ? MarkShape::kSquare : MarkShape::kCircle, end, item);
         handle.size_px = kEndSize;
-        if (!line.enabled) handle.color = kOff;
+        if (!line.enabled) handle.color = kDisabledMark;
         signs_.push_back(std::move(handle));
       }
     } else if (line.edge) {
@@ -90,7 +87,7 @@ class Signs {
       mark.dashed = true;
       if (2 * i == places.size() + 1)
         mark.label = contentText("%1 (not placed)").arg(QString::fromStdString(line.id));
-      if (line.id == look_.selected) mark.color = kChosen;
+      if (line.id == look_.selected) mark.color = kChosenMark;
       signs_.push_back(std::move(mark));
     }
   }
@@ -113,9 +110,9 @@ class Signs {
 
   template <class Pair>
   void finish(Mark mark, const Pair& pair) {
-    if (!pair.enabled) mark.color = kOff;
+    if (!pair.enabled) mark.color = kDisabledMark;
     if (standsOut(pair)) {
-      mark.color = kOutlier;
+      mark.color = kOutlierMark;
       Mark round = mark;
       round.shape = MarkShape::kTriangle;
       round.size_px = 2.0 * kSize;
@@ -124,7 +121,7 @@ class Signs {
     }
     if (pair.id == look_.selected) {
       mark.width = 2.4;
-      if (!standsOut(pair)) mark.color = kChosen;
+      if (!standsOut(pair)) mark.color = kChosenMark;
       Mark ring = mark;
       ring.shape = MarkShape::kCircle;
       ring.size_px = kChosenSize;
@@ -155,7 +152,7 @@ std::vector<Mark> residualSigns(const std::vector<sessions::MarkVector>& vectors
     Mark mark = sign(MarkShape::kArrow, vector.predicted, -1);
     mark.to = pointOf(vector.predicted + magnification * (vector.seen - vector.predicted));
     mark.dashed = stale;
-    if (look.outliers.contains(vector.id)) mark.color = kOutlier;
+    if (look.outliers.contains(vector.id)) mark.color = kOutlierMark;
     signs.push_back(std::move(mark));
   }
   return signs;

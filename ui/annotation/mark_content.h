@@ -7,12 +7,18 @@
 #include <string>
 #include <vector>
 
+#include <QColor>
+
 #include "sessions/annotation/edge_band.h"
 #include "sessions/annotation/landmarks.h"
 #include "sessions/annotation/marks_on_image.h"
 #include "ui/views/layer.h"
 
 namespace boresight::ui {
+
+inline const QColor kChosenMark(255, 255, 255);
+inline const QColor kDisabledMark(175, 175, 175);
+inline const QColor kOutlierMark(255, 130, 60);
 
 /// What the signs of marks say besides the marks.
 struct MarkLook {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/annotation/mark_tool.h"
 
-#include <cmath>
 #include <utility>
 
 #include <QtWidgets>
 
 #include "sessions/annotation/marks_on_image.h"
-#include "ui/annotation/aim_painter.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/views/image_view.h"
 #include "ui/views/pixel_point.h"
@@ -16,12 +14,22 @@
 namespace boresight::ui {
 namespace {
 
-constexpr double kClickSlack = 3.0;    ///< on the screen
+constexpr double kPressSlack = 3.0;    ///< on the screen
 constexpr double kShortestLine = 6.0;  ///< on the screen
 /// Those that change what a click does.
 constexpr Qt::KeyboardModifiers kAimModifiers = Qt::ControlModifier | Qt::AltModifier;
 
+constexpr double kSmallStep_px = 0.1;
+constexpr double kLargeStep_px = 1.0;
+
 Eigen::Vector2d vectorOf(const QPointF& point) { return {point.x(), point.y()}; }
+
+/// Of an arrow key; zero for other keys.
+Eigen::Vector2d directionOf(int key) {
+  return {(key == Qt::Key_Right) - (key == Qt::Key_Left),
+          (key == Qt::Key_Down) - (key == Qt::Key_Up)};
+}
+
 }  // namespace
 
 MarkTool::MarkTool(ImageView& view, AnnotationController& controller, ViewState& state,
@@ -65,12 +73,10 @@ void MarkTool::showMode() {
 }
 
 AimRules MarkTool::rules() const {
-  AimRules made;
-  made.snaps = snaps_ && (modifiers_ & Qt::AltModifier) == 0;
-  made.line = marksLines();
-  made.radius_px = snapRadius_px(view_.transform().scale());
-  made.turn = turn_;
-  return made;
+  return {.snaps = snaps_ && (modifiers_ & Qt::AltModifier) == 0,
+          .line = marksLines(),
+          .radius_px = snapRadius_px(view_.transform().scale()),
+          .turn = turn_};
 }
 
 void MarkTool::clearAim() {
@@ -213,7 +219,7 @@ bool MarkTool::move(const QPointF& place, Qt::KeyboardModifiers modifiers) {
   modifiers_ = modifiers;
   const QPointF delta = place - std::exchange(last_, place);
   pointer_ = view_.transform().toPixel(place);
-  const bool beyond_slack = press_ && (place - *press_).manhattanLength() > kClickSlack;
+  const bool beyond_slack = press_ && (place - *press_).manhattanLength() > kPressSlack;
   if (drag_) {
     if (beyond_slack || drag_->moved) dragTo(*pointer_);
     return true;
@@ -267,8 +273,10 @@ void MarkTool::place() {
   turn_ = 0;
   if (aim_.side == AimSide::kImage) {
     placeImage();
+  } else if (aim_.side == AimSide::kStation && marksLines()) {
+    controller_.placeEdgeOnStation(*aim_.edge);
   } else if (aim_.side == AimSide::kStation) {
-    placeStation();
+    controller_.placeOnStation(*aim_.point_in_station_m);
   } else if ((modifiers_ & Qt::ControlModifier) != 0) {
     Q_EMIT told(marksLines()
                     ? tr("There is no edge of the station within reach of the pointer; point at "
@@ -296,14 +304,6 @@ void MarkTool::placeImage() {
   }
 }
 
-void MarkTool::placeStation() {
-  if (marksLines()) {
-    controller_.placeEdgeOnStation(*aim_.edge);
-  } else {
-    controller_.placeOnStation(*aim_.point_in_station_m);
-  }
-}
-
 void MarkTool::paint(QPainter& painter, const QRectF& taken) const {
   if (!active() || !pointer_) return;
   if (line_start_) {
@@ -322,6 +322,67 @@ void MarkTool::paint(QPainter& painter, const QRectF& taken) const {
   if (aim_.found > 1) text += tr("  (%1 of %2, Tab)").arg(aim_.chosen + 1).arg(aim_.found);
   if (!snaps_ && aim_.side != AimSide::kNone) text += tr("  (snapping is off)");
   paintNote(painter, view_.rect(), taken, view_.transform().toWidget(*pointer_), text);
+}
+
+bool MarkTool::isOwnKey(const QKeyEvent& event) {
+  const int key = event.key();
+  if ((event.modifiers() & (Qt::ControlModifier | Qt::AltModifier)) != 0) return key == Qt::Key_Alt;
+  return !directionOf(key).isZero() || key == Qt::Key_Delete || key == Qt::Key_Escape ||
+         key == Qt::Key_Tab;
+}
+
+bool MarkTool::keyPress(const QKeyEvent& event) {
+  if (!isOwnKey(event)) return false;
+  switch (event.key()) {
+    case Qt::Key_Escape:
+      escape();
+      return true;
+    case Qt::Key_Tab:
+      ++turn_;
+      updateAim();
+      return true;
+    case Qt::Key_Delete:
+      if (!controller_.selected().empty()) controller_.remove(controller_.selected());
+      return true;
+    case Qt::Key_Alt:
+      return true;  // not for the menu bar
+    default:
+      return nudge(event);
+  }
+}
+
+/// Without a chosen mark the arrows are the view's.
+bool MarkTool::nudge(const QKeyEvent& event) {
+  if (controller_.selected().empty()) return false;
+  const bool large = (event.modifiers() & Qt::ShiftModifier) != 0;
+  const Eigen::Vector2d by = (large ? kLargeStep_px : kSmallStep_px) * directionOf(event.key());
+  if (!controller_.nudge(by, end_)) return true;
+  const sessions::PointPair* point = controller_.selectedPoint();
+  const sessions::LinePair* line = controller_.selectedLine();
+  aim_ = {};
+  if (point && point->pixel) focus_ = pointOf(*point->pixel);
+  if (line && line->line) focus_ = pointOf(end_ == 0 ? line->line->start : line->line->end);
+  view_.update();
+  Q_EMIT aimChanged();
+  return true;
+}
+
+void MarkTool::escape() {
+  turn_ = 0;
+  if (const std::optional<Drag> drag = std::exchange(drag_, std::nullopt)) {
+    press_.reset();
+    if (drag->moved) {
+      controller_.dragInImage(drag->handle.id, drag->handle.pixel, drag->handle.end);
+      controller_.finishMove();
+    }
+  } else if (line_start_) {
+    line_start_.reset();
+  } else if (!controller_.selected().empty()) {
+    controller_.select({});
+  } else {
+    controller_.setMode(PlaceMode::kOff);
+  }
+  updateAim();
 }
 
 }  // namespace boresight::ui

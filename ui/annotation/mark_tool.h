@@ -13,7 +13,6 @@
 
 class QKeyEvent;
 class QMouseEvent;
-class QPainter;
 
 namespace boresight::ui {
 
@@ -81,7 +80,6 @@ class MarkTool : public QObject {
   bool takeProposal(const QMouseEvent& event, const QPointF& place);
   void place();
   void placeImage();
-  void placeStation();
   void updateAim();
   void clearAim();
   AimRules rules() const;

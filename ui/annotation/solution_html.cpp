@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/annotation/solution_html.h"
 
+#include <array>
 #include <cmath>
 
 #include <QCoreApplication>
@@ -15,7 +16,7 @@ namespace {
 
 using sessions::MarksSolution;
 
-constexpr double kDegree_mrad = 1e3 * kDegree_rad;
+constexpr double kMradPerDegree = 1e3 * kDegree_rad;
 
 QString solutionText(const char* text) { return QCoreApplication::translate("SolutionHtml", text); }
 
@@ -41,26 +42,14 @@ QString judged(double value, const std::optional<double>& limit, const QString& 
                                    : solutionText("<b>beyond %1</b>").arg(text);
 }
 
-QString weaknessText(sessions::GeometryWeakness weakness) {
-  using sessions::GeometryWeakness;
-  switch (weakness) {
-    case GeometryWeakness::kTooFew:
-      return solutionText("too few marks");
-    case GeometryWeakness::kFew:
-      return solutionText("no mark to spare");
-    case GeometryWeakness::kCollinear:
-      return solutionText("all on one line");
-    case GeometryWeakness::kCoplanar:
-      return solutionText("all in one plane");
-    case GeometryWeakness::kClustered:
-      return solutionText("all in one corner of the station");
-    case GeometryWeakness::kOneDepth:
-      return solutionText("all at one depth");
-    case GeometryWeakness::kImprecise:
-      return solutionText("imprecise");
-  }
-  return {};
-}
+/// In the order of `GeometryWeakness`.
+constexpr std::array<const char*, 7> kWeaknesses = {"too few marks",
+                                                    "no mark to spare",
+                                                    "all on one line",
+                                                    "all in one plane",
+                                                    "all in one corner of the station",
+                                                    "all at one depth",
+                                                    "imprecise"};
 
 QString warningsHtml(const sessions::CaseMarksSolution& solution) {
   QStringList items;
@@ -78,7 +67,7 @@ QString placeText(const sessions::CaseMarks& marks) {
   return marks.camera_from_end_effector ? solutionText("end effector") : solutionText("camera");
 }
 
-QString sigmaHtml(const AnnotationSolver::Answer& answer) {
+QString sigmaHtml(const AnnotationAnswer& answer) {
   const MarksSolution& solution = *answer.solution->result.solution;
   const sessions::CaseMarks& marks = answer.solution->marks;
   const auto sigma = answer.covariance
@@ -87,7 +76,7 @@ QString sigmaHtml(const AnnotationSolver::Answer& answer) {
   if (!sigma) return {};
   const sessions::Requirement& required = marks.requirement;
   std::optional<double> rotation_mrad;
-  if (required.rotation_deg) rotation_mrad = *required.rotation_deg * kDegree_mrad;
+  if (required.rotation_deg) rotation_mrad = *required.rotation_deg * kMradPerDegree;
   const QString mm = solutionText("mm");
   const QString mrad = solutionText("mrad");
   const auto line = [](const QString& name, double value, const QString& unit,
@@ -174,17 +163,17 @@ QString differenceRow(const QString& name, const Pose& other, const Pose& annota
       sessions::poseError(other, annotated, marks.camera_from_end_effector);
   return rowOf({cell(name.toHtmlEscaped()), cell(QString::number(error.normal_mm, 'f', 3), true),
                 cell(QString::number(error.lateral_mm, 'f', 3), true),
-                cell(QString::number(error.geodesic_mrad / kDegree_mrad, 'f', 4), true),
+                cell(QString::number(error.geodesic_mrad / kMradPerDegree, 'f', 4), true),
                 cell(more)});
 }
 
-QString comparedHtml(const AnnotationSolver::Answer& answer,
-                     const std::vector<ComparedPose>& others, const Pose& annotated) {
+QString comparedHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others,
+                     const Pose& annotated) {
   const sessions::CaseMarks& marks = answer.solution->marks;
   QStringList rows;
   for (const ComparedPose& other : others)
     rows << differenceRow(other.name, other.camera_from_station, annotated, marks, {});
-  for (const AnnotationSolver::PassAnswer& pass : answer.passes) {
+  for (const PassAnswer& pass : answer.passes) {
     const int shared = static_cast<int>(pass.repeatability.marks.size());
     const QString repeated = shared > 0
                                  ? solutionText("%1 marks, %2 px per mark and axis")
@@ -207,7 +196,7 @@ QString comparedHtml(const AnnotationSolver::Answer& answer,
 
 }  // namespace
 
-QString solutionHeadline(const AnnotationSolver::Answer& answer, bool stale) {
+QString solutionHeadline(const AnnotationAnswer& answer, bool stale) {
   if (!answer.solution)
     return stale ? solutionText("Solving ...") : solutionText("Nothing is marked yet.");
   const sessions::MarksResult& result = answer.solution->result;
@@ -221,21 +210,20 @@ QString solutionHeadline(const AnnotationSolver::Answer& answer, bool stale) {
   return stale ? solutionText("Stale, solving anew: %1").arg(text) : text;
 }
 
-QString geometryMeterText(const AnnotationSolver::Answer& answer) {
+QString geometryMeterText(const AnnotationAnswer& answer) {
   if (!answer.solution) return {};
   QStringList weak;
   for (const sessions::GeometryWarning& warning : answer.solution->warnings)
     weak << (warning.weakness == sessions::GeometryWeakness::kImprecise
                  ? solutionText("one sigma is %1").arg(fromText(answer.solution->sigmaExcess()))
-                 : weaknessText(warning.weakness));
+                 : solutionText(kWeaknesses[static_cast<std::size_t>(warning.weakness)]));
   const QChar sign(weak.isEmpty() ? 0x2713 : 0x26a0);
   return solutionText("Geometry: %1 %2")
       .arg(sign)
       .arg(weak.isEmpty() ? solutionText("nothing weak") : weak.join(QStringLiteral(", ")));
 }
 
-QString solutionHtml(const AnnotationSolver::Answer& answer,
-                     const std::vector<ComparedPose>& others) {
+QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others) {
   if (!answer.solution) return {};
   QString html = warningsHtml(*answer.solution);
   const auto annotated = answer.solution->camera_from_station();

@@ -29,8 +29,6 @@ StationSnapper::StationSnapper(ViewState& state, QObject* parent) : QObject(pare
   takeCase();
 }
 
-StationSnapper::~StationSnapper() = default;
-
 void StationSnapper::takeCase() {
   const ViewState::CasePtr before = std::exchange(case_, state_.currentCase());
   if (haveSameMesh(before, case_)) return;  // an edit left it alone

@@ -20,7 +20,6 @@ class StationSnapper : public QObject {
 
  public:
   explicit StationSnapper(ViewState& state, QObject* parent = nullptr);
-  ~StationSnapper() override;
 
   using MeshPtr = std::shared_ptr<const sessions::MeshSnapper>;
   /// nullptr without a case and until they are found; may be kept and asked in another thread.

@@ -14,7 +14,7 @@
 namespace boresight::ui {
 namespace {
 
-constexpr double kMarkMargin = 0.35;  // of the marks' box, round it
+constexpr double kRoundMarks = 0.35;  // of the marks' box, round it
 constexpr double kLeastSide_px = 64;  // px of the image
 constexpr int kDrawn_px = 480;        // side of a picture before it is scaled to its place
 constexpr double kStep_px = 4.0;
@@ -33,7 +33,7 @@ QRectF areaOf(const Drawing& drawing) {
   for (const sessions::PointPair& point : drawing.marks.points)
     if (point.used()) box |= QRectF(point.pixel->x() - 0.5, point.pixel->y() - 0.5, 1.0, 1.0);
   const double side =
-      std::max((1.0 + 2.0 * kMarkMargin) * std::max(box.width(), box.height()), kLeastSide_px);
+      std::max((1.0 + 2.0 * kRoundMarks) * std::max(box.width(), box.height()), kLeastSide_px);
   return {box.center().x() - 0.5 * side, box.center().y() - 0.5 * side, side, side};
 }
 
@@ -85,13 +85,12 @@ TwinView::TwinView(AnnotationController& controller, ViewState& state, StationSn
   setObjectName(QStringLiteral("twinView"));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
-  ours_ = half(QStringLiteral("twinOurs"));
-  other_ = half(QStringLiteral("twinOther"));
   auto* pictures = new QHBoxLayout;
   auto* captions = new QHBoxLayout;
-  for (Half* each : {&ours_, &other_}) {
-    pictures->addWidget(each->picture, 1);
-    captions->addWidget(each->caption, 1);
+  halves_ = {half("twinOurs"), half("twinOther")};
+  for (const Half& each : halves_) {
+    pictures->addWidget(each.picture, 1);
+    captions->addWidget(each.caption, 1);
   }
   auto* look =
       named(new QPushButton(tr("Look at the other"), this), "lookAtTwin",
@@ -111,10 +110,9 @@ TwinView::TwinView(AnnotationController& controller, ViewState& state, StationSn
   showSolution();
 }
 
-TwinView::Half TwinView::half(const QString& name) {
+TwinView::Half TwinView::half(const char* name) {
   Half made;
-  made.picture = new QLabel(this);
-  made.picture->setObjectName(name);
+  made.picture = named(new QLabel(this), name);
   made.picture->setMinimumSize(130, 96);
   made.picture->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);
   made.picture->setAlignment(Qt::AlignCenter);
@@ -134,8 +132,8 @@ void TwinView::showSolution() {
   setVisible(pose && twin);
   if (!pose || !twin) return;
   const sessions::MarksSolution& solution = *controller_.solution()->result.solution;
-  ours_.caption->setText(tr("this: %1 px rms").arg(QString::number(solution.rms_px, 'f', 3)));
-  other_.caption->setText(
+  halves_[0].caption->setText(tr("this: %1 px rms").arg(QString::number(solution.rms_px, 'f', 3)));
+  halves_[1].caption->setText(
       tr("other: %1 px rms").arg(QString::number(solution.twin->rms_px, 'f', 3)));
   if (!snapper_.mesh() || !state_.currentCase()) return;
   const sessions::MarkedView& view = controller_.solution()->marks.views.front();
@@ -147,20 +145,19 @@ void TwinView::showSolution() {
         return std::array<QImage, 2>{draw(drawing, 0), draw(drawing, 1)};
       },
       [this](const std::array<QImage, 2>& drawn) {
-        ours_.drawn = drawn[0];
-        other_.drawn = drawn[1];
+        for (std::size_t i : {0u, 1u}) halves_[i].drawn = drawn[i];
         showPictures();
       });
 }
 
 void TwinView::showPictures() {
-  for (Half* each : {&ours_, &other_}) {
-    if (each->drawn.isNull()) continue;
+  for (const Half& each : halves_) {
+    if (each.drawn.isNull()) continue;
     const double ratio = devicePixelRatioF();
-    QPixmap scaled = QPixmap::fromImage(each->drawn.scaled(
-        each->picture->size() * ratio, Qt::KeepAspectRatio, Qt::SmoothTransformation));
+    QPixmap scaled = QPixmap::fromImage(each.drawn.scaled(
+        each.picture->size() * ratio, Qt::KeepAspectRatio, Qt::SmoothTransformation));
     scaled.setDevicePixelRatio(ratio);
-    each->picture->setPixmap(scaled);
+    each.picture->setPixmap(scaled);
   }
 }
 

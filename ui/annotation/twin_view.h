@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include <QImage>
 #include <QWidget>
 
@@ -34,7 +36,7 @@ class TwinView : public QWidget {
     QImage drawn;
   };
 
-  Half half(const QString& name);
+  Half half(const char* name);
   void showSolution();
   void showPictures();
   std::optional<Pose> other() const;
@@ -42,8 +44,7 @@ class TwinView : public QWidget {
   AnnotationController& controller_;
   ViewState& state_;
   StationSnapper& snapper_;
-  Half ours_;
-  Half other_;
+  std::array<Half, 2> halves_;  ///< the solved pose's and the other's
   TaskRunner runner_;
 };
 

@@ -9,7 +9,7 @@
 namespace boresight::ui {
 namespace {
 
-constexpr int kMargin_px = 16;
+constexpr int kPageMargin_px = 16;
 
 /// By which a link names a heading: "Where is it?" is "where-is-it".
 QString headingAnchor(const QString& heading) {
@@ -40,7 +40,7 @@ class Browser : public QTextBrowser {
     const QVariant loaded = QTextBrowser::loadResource(type, name);
     if (type != QTextDocument::ImageResource) return loaded;
     QImage picture = QImage::fromData(loaded.toByteArray());
-    const int room = std::max(100, viewport()->width() - 2 * kMargin_px - 4);
+    const int room = std::max(100, viewport()->width() - 2 * kPageMargin_px - 4);
     if (picture.width() <= room) return picture;
     // On a fine screen a wide picture is shown with all the pixels that there is room for.
     const int pixels = static_cast<int>(room * devicePixelRatioF());
@@ -127,7 +127,7 @@ ManualWindow::ManualWindow(const QString& folder, QWidget* parent)
   setWindowTitle(tr("Manual - Boresight"));
   setCentralWidget(browser_);
   browser_->setOpenLinks(false);
-  browser_->document()->setDocumentMargin(kMargin_px);
+  browser_->document()->setDocumentMargin(kPageMargin_px);
   find_->setObjectName(QStringLiteral("manualFind"));
   find_->setPlaceholderText(tr("Find on this page; Ctrl+Shift+F: in all pages"));
   find_->setClearButtonEnabled(true);
@@ -242,8 +242,6 @@ void ManualWindow::searchAllPages() {
 ManualHelp::ManualHelp(QMainWindow& window) : QObject(&window), window_(window) {
   setObjectName(QStringLiteral("manualHelp"));
 }
-
-ManualHelp::~ManualHelp() = default;
 
 QString ManualHelp::pageHere() const {
   const QWidget* focus = window_.focusWidget();

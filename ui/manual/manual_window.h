@@ -63,7 +63,6 @@ class ManualHelp : public QObject {
 
  public:
   explicit ManualHelp(QMainWindow& window);
-  ~ManualHelp() override;
 
   /// The section of the panel with the focus, else the contents.
   void showHere();

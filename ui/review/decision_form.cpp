@@ -15,7 +15,6 @@ using sessions::Verdict;
 
 namespace {
 
-constexpr const char* kNameKey = "review/name";
 constexpr int kDigestDigits = 12;
 
 QString sentence(QString clause) {
@@ -34,15 +33,9 @@ QString entry(const QString& time, const QString& what, const std::string& by,
 }
 
 QString verdictText(const Decision& decision) {
-  switch (decision.verdict) {
-    case Verdict::kValidated:
-      return DecisionForm::tr("★ Validated");
-    case Verdict::kRejected:
-      return DecisionForm::tr("⊘ Rejected");
-    case Verdict::kReopened:
-      break;
-  }
-  return DecisionForm::tr("↺ Taken back");
+  return decision.verdict == Verdict::kValidated  ? DecisionForm::tr("★ Validated")
+         : decision.verdict == Verdict::kRejected ? DecisionForm::tr("⊘ Rejected")
+                                                  : DecisionForm::tr("↺ Taken back");
 }
 
 /// Failed checks that were passed over, each with its reason.
@@ -119,8 +112,7 @@ void DecisionForm::buildFields(QHBoxLayout& row) {
 
 QPushButton* DecisionForm::button(Act act, const char* name, const QString& text,
                                   const QString& tip) {
-  auto* made = new QPushButton(text, this);
-  made->setObjectName(QLatin1String(name));
+  auto* made = named(new QPushButton(text, this), name);
   made->setMinimumWidth(fontMetrics().horizontalAdvance(text) + 16);
   buttons_[act] = made;
   tips_[act] = tip;

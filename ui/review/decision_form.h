@@ -20,6 +20,9 @@ class DecisionForm : public QWidget {
   Q_OBJECT
 
  public:
+  /// Setting that remembers who decided last.
+  static constexpr const char* kNameKey = "review/name";
+
   explicit DecisionForm(ReviewController& controller, QWidget* parent = nullptr);
 
   /// What stands in the way of the next step, as it is shown.

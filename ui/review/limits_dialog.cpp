@@ -15,7 +15,7 @@ using sessions::OptionDescription;
 namespace {
 
 /// A value as people type it: without its unit.
-QString plainText(const OptionDescription& option) {
+QString typedText(const OptionDescription& option) {
   OptionDescription bare = option;
   bare.unit.clear();
   return fromText(sessions::valueText(bare, option.value));
@@ -28,11 +28,11 @@ std::vector<TableColumn<LimitRow>> limitColumns() {
       {tr("Limit"), tr("Name of the limit, as in the session's file."), -1,
        [](Row row) { return fromText(row.now.name).section(QLatin1Char('.'), 1); }},
       {tr("Value"), tr("What checks are held against; bold where it differs from the preset."), -1,
-       [](Row row) { return plainText(row.now); }},
+       [](Row row) { return typedText(row.now); }},
       {tr("Unit"), tr("Unit of the value; none for counts."), -1,
        [](Row row) { return fromText(row.now.unit); }},
       {tr("Preset"), tr("The value in the chosen preset."), -1,
-       [](Row row) { return plainText(row.of_preset); }},
+       [](Row row) { return typedText(row.of_preset); }},
       {tr("Range"), tr("What the value may be; anything else is refused."), -1,
        [](Row row) { return OptionsModel::rangeText(row.now); }},
   };
@@ -75,7 +75,7 @@ bool LimitsModel::setData(const QModelIndex& index, const QVariant& value, int r
   if (role != Qt::EditRole || index.column() != kValue) return false;
   const OptionDescription& option = at(index.row()).now;
   const QString typed = value.toString().trimmed();
-  if (typed == plainText(option)) return true;
+  if (typed == typedText(option)) return true;
   sessions::CheckLimits changed = limits_;
   try {
     sessions::applyOptionText(changed, option.name, typed.toStdString());

@@ -19,8 +19,7 @@ constexpr int kShownWidth_px = 120;  // the least; it has as many lines as it ta
 enum Column { kIteration, kAlike, kInliers, kTranslation, kRotation, kColumns };
 
 QLabel* wrapped(const char* name, QWidget* parent) {
-  auto* made = new QLabel(parent);
-  made->setObjectName(QLatin1String(name));
+  auto* made = named(new QLabel(parent), name);
   made->setWordWrap(true);
   made->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   made->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
@@ -37,15 +36,9 @@ QString shareText(int part, int whole) {
 }
 
 QString signOf(const sessions::RecordComparison& comparison) {
-  switch (comparison.verdict) {
-    case RunVerdict::kEqual:
-      return QStringLiteral("✓ ");
-    case RunVerdict::kWithinLimits:
-      return QStringLiteral("≈ ");
-    case RunVerdict::kDifferent:
-      break;
-  }
-  return QStringLiteral("✗ ");
+  return comparison.verdict == RunVerdict::kEqual          ? QStringLiteral("✓ ")
+         : comparison.verdict == RunVerdict::kWithinLimits ? QStringLiteral("≈ ")
+                                                           : QStringLiteral("✗ ");
 }
 
 }  // namespace
@@ -68,19 +61,15 @@ OnboardPanel::OnboardPanel(OnboardController& onboard, ViewState& state, RunCont
   update();
 }
 
-QPushButton* OnboardPanel::button(const char* name, const QString& text, const QString& tip) {
-  auto* made = new QPushButton(text, this);
-  made->setObjectName(QLatin1String(name));
-  made->setToolTip(tip);
-  return made;
-}
-
 QWidget* OnboardPanel::buildButtons() {
   banner_ = new QFrame(this);
   banner_->setFrameShape(QFrame::StyledPanel);
   banner_->setAutoFillBackground(true);
   auto* row = new QHBoxLayout(banner_);
   row->setContentsMargins(8, 3, 4, 3);
+  const auto button = [this](const char* name, const QString& text, const QString& tip) {
+    return named(new QPushButton(text, this), name, tip);
+  };
   shown_ = named(new QLabel(banner_), "shownRun");
   shown_->setWordWrap(true);
   shown_->setMinimumWidth(kShownWidth_px);

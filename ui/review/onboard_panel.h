@@ -34,7 +34,6 @@ class OnboardPanel : public QWidget {
   QWidget* buildButtons();
   QWidget* buildRecord();
   QWidget* buildComparison();
-  QPushButton* button(const char* name, const QString& text, const QString& tip);
   void update();
   void updateButtons();
   void showRecord();

@@ -15,13 +15,22 @@
 #include "ui/state/view_state.h"
 
 namespace boresight::ui {
-namespace {
 
-QString nameOf(const std::filesystem::path& file) {
+QString fileNameOf(const std::filesystem::path& file) {
   return QString::fromStdString(file.filename().string());
 }
 
-}  // namespace
+QString joinedNotes(const std::vector<std::string>& notes) {
+  QStringList texts;
+  for (const std::string& note : notes) texts << fromText(note);
+  return texts.join(QLatin1Char(' '));
+}
+
+QString exportNote(const sessions::ExportReport& report, const std::filesystem::path& path) {
+  return PoseExport::tr("%1 poses written to %2. %3")
+      .arg(report.case_ids.size())
+      .arg(fileNameOf(path), joinedNotes(report.notes));
+}
 
 PoseExport::PoseExport(QWidget& window, Document& document, ViewState& state, TaskRunner& tasks)
     : QObject(&window), window_(window), document_(document), state_(state), tasks_(tasks) {}
@@ -78,30 +87,33 @@ QString PoseExport::inSessionFolder(const QString& name) const {
 }
 
 /// The pose is measured again: off this thread.
-void PoseExport::exportPose(const std::filesystem::path& file) {
+template <class Write>
+void PoseExport::exportOne(const QString& key, const std::filesystem::path& file,
+                           const QString& note, Write write) {
   tasks_.start(
-      QStringLiteral("export pose"),
-      [file, session = document_.session(), id = caseId()](const std::stop_token&) {
-        return sessions::writeValidatedPose(file, session, id).standing;
+      key,
+      [write, session = document_.session(), id = caseId()](const std::stop_token&) {
+        return write(session, id);
       },
-      [this, file, id = fromText(caseId())](const std::string& standing) {
-        Q_EMIT noted(
-            tr("Pose of %1 written to %2. It is %3.").arg(id, nameOf(file), fromText(standing)));
+      [this, file, note, id = fromText(caseId())](const std::string& standing) {
+        Q_EMIT noted(note.arg(id, fileNameOf(file), fromText(standing)));
       });
 }
 
+void PoseExport::exportPose(const std::filesystem::path& file) {
+  exportOne(QStringLiteral("export pose"), file, tr("Pose of %1 written to %2. It is %3."),
+            [file](const sessions::Session& session, const std::string& id) {
+              return sessions::writeValidatedPose(file, session, id).standing;
+            });
+}
+
 void PoseExport::exportReport(const std::filesystem::path& file) {
-  tasks_.start(
-      QStringLiteral("report pose"),
-      [file, session = document_.session(), id = caseId()](const std::stop_token&) {
-        const sessions::PoseReport report = sessions::poseReport(session, id);
-        sessions::writePoseReport(file, report);
-        return report.pose.standing;
-      },
-      [this, file, id = fromText(caseId())](const std::string& standing) {
-        Q_EMIT noted(
-            tr("Report of %1 written to %2. It is %3.").arg(id, nameOf(file), fromText(standing)));
-      });
+  exportOne(QStringLiteral("report pose"), file, tr("Report of %1 written to %2. It is %3."),
+            [file](const sessions::Session& session, const std::string& id) {
+              const sessions::PoseReport report = sessions::poseReport(session, id);
+              sessions::writePoseReport(file, report);
+              return report.pose.standing;
+            });
 }
 
 /// Traces are read, and images may have to be: off this thread.
@@ -111,11 +123,7 @@ void PoseExport::exportAll(const std::filesystem::path& path, Write write) {
       QStringLiteral("export poses to hand over"),
       [write, session = document_.session()](const std::stop_token&) { return write(session); },
       [this, path](const sessions::ExportReport& report) {
-        QStringList notes;
-        for (const std::string& note : report.notes) notes << fromText(note);
-        Q_EMIT noted(tr("%1 poses written to %2. %3")
-                         .arg(report.case_ids.size())
-                         .arg(nameOf(path), notes.join(QLatin1Char(' '))));
+        Q_EMIT noted(exportNote(report, path));
       });
 }
 

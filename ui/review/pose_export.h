@@ -3,9 +3,12 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <QObject>
 #include <QString>
+
+#include "sessions/exchange/annotation_exchange.h"
 
 class QMenu;
 class QWidget;
@@ -15,6 +18,13 @@ namespace boresight::ui {
 class Document;
 class TaskRunner;
 class ViewState;
+
+/// Of a file or a folder, without where it lies.
+QString fileNameOf(const std::filesystem::path& file);
+/// Notes of an export or an import as one text.
+QString joinedNotes(const std::vector<std::string>& notes);
+/// What came of an export to `path`, for the status bar.
+QString exportNote(const sessions::ExportReport& report, const std::filesystem::path& path);
 
 /// Poses to hand over, as files. What is not validated is called so in its name and in the file.
 /// The functions with a path do what the ones without do after they have asked for one; they are
@@ -52,6 +62,9 @@ class PoseExport : public QObject {
  private:
   std::string caseId() const;
   bool isValidated(const std::string& case_id) const;
+  template <class Write>
+  void exportOne(const QString& key, const std::filesystem::path& file, const QString& note,
+                 Write write);
   template <class Write>
   void exportAll(const std::filesystem::path& path, Write write);
   /// "NOT VALIDATED: converged", for titles.

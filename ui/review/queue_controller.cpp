@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/review/queue_controller.h"
 
-#include <algorithm>
 #include <exception>
-#include <utility>
 
 #include "sessions/io/errors.h"
 #include "sessions/review/thumbnail.h"
@@ -46,56 +44,54 @@ QueueRow plainRow(const sessions::Session& session, const std::string& id) {
   return row;
 }
 
+/// A case whose checking threw has the message as its trouble.
+QueueEntry checkedEntry(const sessions::Session& session, const std::string& id,
+                        const QSize& size_px) {
+  QueueEntry entry;
+  try {
+    std::shared_ptr<const sessions::LoadedCase> loaded;
+    std::string reason;
+    try {
+      loaded = sessions::loadCase(*session.findCase(id));
+    } catch (const sessions::FileError& error) {
+      reason = error.what();
+    }
+    QueueRow row = sessions::queueRow(session, id, loaded, reason);
+    if (loaded) entry.thumbnail = pictureOf(*loaded, row, size_px);
+    entry.row = std::move(row);
+  } catch (const std::exception& error) {
+    entry.row.case_id = id;
+    entry.row.trouble = error.what();
+  }
+  return entry;
+}
+
+DifferenceEntry comparedEntry(const sessions::Session& session, const std::string& id) {
+  try {
+    const auto pair = sessions::lastTwoRuns(session, id);
+    return {id, sessions::compareRuns(session, pair->before->digest, pair->after->digest,
+                                      sessions::loadCase(*session.findCase(id)))};
+  } catch (const std::exception& error) {
+    return {id, std::nullopt, fromText(error.what())};
+  }
+}
+
 }  // namespace
 
 QueueController::QueueController(Document& document, const QSize& thumbnail_px, QObject* parent)
     : QObject(parent),
       document_(document),
-      rows_([thumbnail_px](const sessions::Session& session,
-                           const std::string& id) { return make(session, id, thumbnail_px); },
-            [](const std::string& id, const std::string& message) {
-              Made made;
-              made.row.case_id = id;
-              made.row.trouble = message;
-              return made;
-            },
-            [this] { Q_EMIT changed(); }),
-      differences_(
-          &QueueController::compare,
-          [](const std::string&, const std::string& message) {
-            return Compared{std::nullopt, fromText(message)};
+      rows_(
+          [thumbnail_px](const sessions::Session& session, const std::string& id) {
+            return checkedEntry(session, id, thumbnail_px);
           },
-          [this] { Q_EMIT changed(); }) {
+          [this] { Q_EMIT changed(); }),
+      differences_(&comparedEntry, [this] { Q_EMIT changed(); }) {
   rows_.setOrder([this](const Rows::Entry& a, const Rows::Entry& b) {
     return sessions::moreTrouble(rowOf(a), rowOf(b));
   });
   connect(&document_, &Document::opened, this, &QueueController::follow);
   connect(&document_, &Document::changed, this, &QueueController::follow);
-}
-
-QueueController::~QueueController() = default;
-
-QueueController::Made QueueController::make(const sessions::Session& session, const std::string& id,
-                                            const QSize& size_px) {
-  std::shared_ptr<const sessions::LoadedCase> loaded;
-  std::string reason;
-  try {
-    loaded = sessions::loadCase(*session.findCase(id));
-  } catch (const sessions::FileError& error) {
-    reason = error.what();
-  }
-  Made made;
-  made.row = sessions::queueRow(session, id, loaded, reason);
-  if (loaded) made.thumbnail = pictureOf(*loaded, made.row, size_px);
-  return made;
-}
-
-QueueController::Compared QueueController::compare(const sessions::Session& session,
-                                                   const std::string& id) {
-  const auto pair = sessions::lastTwoRuns(session, id);
-  return {sessions::compareRuns(session, pair->before->digest, pair->after->digest,
-                                sessions::loadCase(*session.findCase(id))),
-          {}};
 }
 
 void QueueController::setLookedAt(List list) {
@@ -140,12 +136,8 @@ std::vector<QueueEntry> QueueController::queue() const {
 std::vector<DifferenceEntry> QueueController::differences() const {
   std::vector<DifferenceEntry> made;
   for (const Differences::Entry& entry : differences_.entries()) {
-    DifferenceEntry one{entry.id, {}, {}, entry.current};
-    if (entry.value) {
-      one.difference = entry.value->difference;
-      one.problem = entry.value->problem;
-    }
-    made.push_back(std::move(one));
+    DifferenceEntry& one = made.emplace_back(entry.value.value_or(DifferenceEntry{entry.id}));
+    one.current = entry.current;
   }
   return made;
 }
@@ -175,10 +167,8 @@ sessions::Session QueueController::after(Act act, const QueueRow& row,
 }
 
 QString QueueController::obstacle(Act act, const QString& id) const {
-  const std::string case_id = id.toStdString();
   const auto& entries = rows_.entries();
-  const auto found = std::find_if(entries.begin(), entries.end(),
-                                  [&](const Rows::Entry& one) { return one.id == case_id; });
+  const auto found = std::ranges::find(entries, id.toStdString(), &Rows::Entry::id);
   if (id.isEmpty() || found == entries.end()) return tr("Choose a case of the list.");
   if (!document_.readOnlyReason().isEmpty()) return document_.readOnlyReason();
   const QueueRow row = rowOf(*found);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <exception>
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <optional>
@@ -14,16 +14,17 @@
 #include <QSize>
 #include <QString>
 
-#include "sessions/review/decide.h"
 #include "sessions/review/queue.h"
 #include "sessions/review/run_difference.h"
+#include "sessions/review/standing.h"
 #include "sessions/session/session.h"
 #include "ui/run/task_runner.h"
 
 namespace boresight::ui {
 
-/// A value for each case of a session, computed off the UI's thread one case at a time, and computed
-/// again when its key (what it depends on) changes. The previous value is shown until then.
+/// A value for each case of a session, computed off the UI's thread one case at a time, and
+/// computed again when its key (what it depends on) changes. The previous value is shown until
+/// then.
 template <class Value>
 class CaseByCase {
  public:
@@ -33,16 +34,14 @@ class CaseByCase {
     std::optional<Value> value;
     bool current = false;  ///< the value is of this key
   };
-  /// On the worker's thread.
+  /// On the worker's thread; throws nothing.
   using Make = std::function<Value(const sessions::Session& session, const std::string& id)>;
-  /// A value in the place of one whose making threw.
-  using Failed = std::function<Value(const std::string& id, const std::string& message)>;
   using Keys = std::vector<std::pair<std::string, std::string>>;  ///< id and key, in order
   using Before = std::function<bool(const Entry&, const Entry&)>;
 
   /// `changed` is called on the UI's thread whenever an entry has.
-  CaseByCase(Make make, Failed failed, std::function<void()> changed)
-      : make_(std::move(make)), failed_(std::move(failed)), changed_(std::move(changed)) {}
+  CaseByCase(Make make, std::function<void()> changed)
+      : make_(std::move(make)), changed_(std::move(changed)) {}
 
   /// The values are to be of these cases now.
   void follow(const sessions::Session& session, const Keys& keys) {
@@ -72,22 +71,17 @@ class CaseByCase {
     goOn();
     changed_();
   }
-  bool isHalted() const { return halted_; }
   bool isBusy() const { return making_; }
   /// Which of those that wait is made first; without it the order is that of the keys.
   void setOrder(Before before) { before_ = std::move(before); }
 
-  std::vector<Entry>& entries() { return entries_; }
   const std::vector<Entry>& entries() const { return entries_; }
   Entry* find(const std::string& id) {
-    for (Entry& entry : entries_)
-      if (entry.id == id) return &entry;
-    return nullptr;
+    const auto found = std::ranges::find(entries_, id, &Entry::id);
+    return found == entries_.end() ? nullptr : &*found;
   }
   int currentCount() const {
-    int count = 0;
-    for (const Entry& entry : entries_) count += entry.current ? 1 : 0;
-    return count;
+    return static_cast<int>(std::ranges::count(entries_, true, &Entry::current));
   }
 
  private:
@@ -104,13 +98,8 @@ class CaseByCase {
     making_ = true;
     runner_.start(
         QStringLiteral("case"),
-        [session = session_, id = entry->id, make = make_,
-         failed = failed_](const std::stop_token&) {
-          try {
-            return make(session, id);
-          } catch (const std::exception& error) {
-            return failed(id, error.what());
-          }
+        [session = session_, id = entry->id, make = make_](const std::stop_token&) {
+          return make(session, id);
         },
         [this, id = entry->id, key = entry->key](Value value) { take(id, key, std::move(value)); });
   }
@@ -128,7 +117,6 @@ class CaseByCase {
   }
 
   Make make_;
-  Failed failed_;
   std::function<void()> changed_;
   Before before_;
   sessions::Session session_;
@@ -151,8 +139,8 @@ struct QueueEntry {
 /// A case's last run against the one before.
 struct DifferenceEntry {
   std::string case_id;
-  std::optional<sessions::RunDifference> difference;
-  QString problem;  ///< why there is none
+  std::optional<sessions::RunDifference> difference = {};
+  QString problem = {};  ///< why there is none
   bool current = false;
 };
 
@@ -167,7 +155,6 @@ class QueueController : public QObject {
 
   /// The pictures have at most this size, in device pixels.
   QueueController(Document& document, const QSize& thumbnail_px, QObject* parent = nullptr);
-  ~QueueController() override;
 
   /// Which of the two somebody looks at; the other one is not filled.
   void setLookedAt(List list);
@@ -194,19 +181,9 @@ class QueueController : public QObject {
   void changed();
 
  private:
-  struct Made {
-    sessions::QueueRow row;
-    QImage thumbnail;
-  };
-  struct Compared {
-    std::optional<sessions::RunDifference> difference;
-    QString problem;
-  };
-  using Rows = CaseByCase<Made>;
-  using Differences = CaseByCase<Compared>;
+  using Rows = CaseByCase<QueueEntry>;
+  using Differences = CaseByCase<DifferenceEntry>;
 
-  static Made make(const sessions::Session& session, const std::string& id, const QSize& size_px);
-  static Compared compare(const sessions::Session& session, const std::string& id);
   void follow();
   sessions::QueueRow rowOf(const Rows::Entry& entry) const;
   sessions::Session after(Act act, const sessions::QueueRow& row,

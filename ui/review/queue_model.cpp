@@ -17,15 +17,9 @@ using sessions::RunDifference;
 namespace {
 
 QString signOf(RunChange change) {
-  switch (change) {
-    case RunChange::kBetter:
-      return DifferencesModel::tr("▲ better");
-    case RunChange::kWorse:
-      return DifferencesModel::tr("▼ worse");
-    case RunChange::kSame:
-      break;
-  }
-  return DifferencesModel::tr("= same");
+  return change == RunChange::kBetter  ? DifferencesModel::tr("▲ better")
+         : change == RunChange::kWorse ? DifferencesModel::tr("▼ worse")
+                                       : DifferencesModel::tr("= same");
 }
 
 QString beforeAndNow(int before, int now) { return QStringLiteral("%1 → %2").arg(before).arg(now); }
@@ -110,7 +104,7 @@ using sessions::QueueRow;
 
 namespace {
 
-constexpr double kPercent = 100.0;
+constexpr double kToPercent = 100.0;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Whether what the row says of its checks is of the document as it is.
 QString remarkOf(const QueueEntry& entry) {
@@ -130,7 +124,7 @@ QString troubleOf(const QueueEntry& entry) {
 QString fromSeedText(const QueueRow& row) {
   if (!row.from_seed) return {};
   return QueueModel::tr("%1 %\n%2 mm\n%3 mrad")
-      .arg(numberText(kPercent * row.from_seed->share, 0),
+      .arg(numberText(kToPercent * row.from_seed->share, 0),
            numberText(row.from_seed->translation_mm, 1),
            numberText(row.from_seed->rotation_mrad, 1));
 }
@@ -165,7 +159,7 @@ std::vector<TableColumn<QueueEntry>> queueColumns() {
       {tr("Margin,\n%"),
        tr("How far the worst check's figure is on the good side of its limit, in percent of the "
           "limit; negative: beyond it."),
-       0, [](Entry entry) { return kPercent * entry.row.margin.value_or(kNaN); }},
+       0, [](Entry entry) { return kToPercent * entry.row.margin.value_or(kNaN); }},
       {tr("From\nseed"),
        tr("How far the result is from the seed, in mm and mrad, and as a part of the seed's stated "
           "uncertainty (100 %: on its border)."),

@@ -2,26 +2,28 @@
 #include "ui/review/queue_panel.h"
 
 #include <algorithm>
-#include <iterator>
+#include <utility>
 
 #include <QtWidgets>
 
 #include "ui/models/number_text.h"
 #include "ui/panels/widgets.h"
+#include "ui/review/decision_form.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr const char* kNameKey = "review/name";
-constexpr QSize kThumbnail_px{76, 57};  // of a screen without scaling
-constexpr int kUsualName = 18;          // letters
+constexpr QSize kQueueThumbnail_px{76, 57};  // of a screen without scaling
+constexpr int kUsualQueueName = 18;          // letters
 constexpr int kTroubleTab = 0;
 constexpr int kDifferencesTab = 1;
 
 }  // namespace
 
 QueuePanel::QueuePanel(Document& document, QWidget* parent)
-    : QWidget(parent), controller_(document, kThumbnail_px * devicePixelRatioF()), filter_(model_) {
+    : QWidget(parent),
+      controller_(document, kQueueThumbnail_px * devicePixelRatioF()),
+      filter_(model_) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(4, 4, 4, 4);
   column->setSpacing(4);
@@ -64,9 +66,9 @@ void QueuePanel::buildTop() {
 void QueuePanel::buildTables() {
   lists_ = new QStackedWidget(this);
   queue_table_ = newTable("queue", tr("Queue"), filter_, lists_);
-  queue_table_->setIconSize(kThumbnail_px);
+  queue_table_->setIconSize(kQueueThumbnail_px);
   queue_table_->verticalHeader()->setDefaultSectionSize(
-      std::max(kThumbnail_px.height(), 3 * fontMetrics().lineSpacing()) + 4);
+      std::max(kQueueThumbnail_px.height(), 3 * fontMetrics().lineSpacing()) + 4);
   queue_table_->setWordWrap(true);
   queue_table_->setSortingEnabled(true);
   queue_table_->sortByColumn(QueueModel::kTrouble, Qt::AscendingOrder);
@@ -93,10 +95,8 @@ void QueuePanel::buildTables() {
 void QueuePanel::buildForm() {
   auto* row = new QHBoxLayout;
   const auto field = [this, row](const char* name, const QString& placeholder, const QString& tip) {
-    auto* made = new QLineEdit(this);
-    made->setObjectName(QLatin1String(name));
+    auto* made = named(new QLineEdit(this), name, tip);
     made->setPlaceholderText(placeholder);
-    made->setToolTip(tip);
     made->installEventFilter(this);
     connect(made, &QLineEdit::returnPressed, this, &QueuePanel::signedNow);
     row->addWidget(made, made->objectName() == QLatin1String("queueName") ? 1 : 3);
@@ -108,9 +108,7 @@ void QueuePanel::buildForm() {
                    tr("On what grounds; it goes with the decision into every file"));
   const auto button = [this, row](const char* name, const QString& text, const QString& tip,
                                   void (QueuePanel::*act)()) {
-    auto* made = new QPushButton(text, this);
-    made->setObjectName(QLatin1String(name));
-    made->setToolTip(tip);
+    auto* made = named(new QPushButton(text, this), name, tip);
     connect(made, &QPushButton::clicked, this, act);
     row->addWidget(made);
   };
@@ -168,7 +166,7 @@ void QueuePanel::lookAt() {
 void QueuePanel::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
   if (name_->text().isEmpty())
-    name_->setText(QSettings().value(QLatin1String(kNameKey)).toString());
+    name_->setText(QSettings().value(QLatin1String(DecisionForm::kNameKey)).toString());
 }
 
 void QueuePanel::setInSight(bool in_sight) {
@@ -207,7 +205,7 @@ void QueuePanel::fitColumns() {
   fit(QueueModel::kInliers, QStringLiteral("Inliers"));
   queue_table_->setColumnWidth(
       QueueModel::kCase,
-      kThumbnail_px.width() + 16 + kUsualName * fontMetrics().averageCharWidth());
+      kQueueThumbnail_px.width() + 16 + kUsualQueueName * fontMetrics().averageCharWidth());
   differences_table_->resizeColumnsToContents();
 }
 
@@ -300,7 +298,7 @@ void QueuePanel::decide(Act act) {
     tell(failure);
     return;
   }
-  QSettings().setValue(QLatin1String(kNameKey), name);
+  QSettings().setValue(QLatin1String(DecisionForm::kNameKey), name);
   comment_->clear();  // the next decision has grounds of its own
   choose(following.isEmpty() ? id : following);
   tell((act == Act::kAccept ? tr("%1 is validated.") : tr("%1 is rejected.")).arg(id) +
@@ -330,31 +328,7 @@ void QueuePanel::dropQuestion() {
   focusList();
 }
 
-bool QueuePanel::actOn(int key) {
-  switch (key) {
-    case Qt::Key_Return:
-    case Qt::Key_Enter:
-      openChosen();
-      return true;
-    case Qt::Key_A:
-      accept();
-      return true;
-    case Qt::Key_R:
-      reject();
-      return true;
-    case Qt::Key_J:
-      next();
-      return true;
-    case Qt::Key_K:
-      previous();
-      return true;
-    case Qt::Key_D:
-      showDifferences(table() == queue_table_);
-      return true;
-    default:
-      return false;
-  }
-}
+void QueuePanel::switchList() { showDifferences(table() == queue_table_); }
 
 /// In the lists these letters are the queue's, elsewhere in the window the image's.
 bool QueuePanel::eventFilter(QObject* watched, QEvent* event) {
@@ -367,12 +341,24 @@ bool QueuePanel::eventFilter(QObject* watched, QEvent* event) {
     dropQuestion();
     return true;
   }
-  if (pressed) return actOn(key->key());
-  constexpr int kKeys[] = {Qt::Key_Return, Qt::Key_Enter, Qt::Key_A, Qt::Key_R,
-                           Qt::Key_J,      Qt::Key_K,     Qt::Key_D};
-  if (std::find(std::begin(kKeys), std::end(kKeys), key->key()) == std::end(kKeys)) return false;
-  event->accept();
-  return true;
+  static constexpr std::pair<int, void (QueuePanel::*)()> kKeys[] = {
+      {Qt::Key_Return, &QueuePanel::openChosen},
+      {Qt::Key_Enter, &QueuePanel::openChosen},
+      {Qt::Key_A, &QueuePanel::accept},
+      {Qt::Key_R, &QueuePanel::reject},
+      {Qt::Key_J, &QueuePanel::next},
+      {Qt::Key_K, &QueuePanel::previous},
+      {Qt::Key_D, &QueuePanel::switchList},
+  };
+  for (const auto& [letter, act] : kKeys) {
+    if (letter != key->key()) continue;
+    if (pressed)
+      (this->*act)();
+    else
+      event->accept();
+    return true;
+  }
+  return false;
 }
 
 }  // namespace boresight::ui

@@ -62,7 +62,7 @@ class QueuePanel : public QWidget {
   void buildTables();
   void buildForm();
   QTableView* table() const;
-  bool actOn(int key);
+  void switchList();
   void decide(Act act);
   bool asksForSignature(Act act, const QString& id);
   void signedNow();

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sessions/review/standing.h"
 #include "sessions/session/check_limits.h"
 #include "ui/models/number_text.h"
 #include "ui/state/document.h"
@@ -39,8 +38,6 @@ ReviewController::ReviewController(Document& document, ViewState& state, QObject
   connect(&basin_runner_, &TaskRunner::busyChanged, this, &ReviewController::basinChanged);
   follow();
 }
-
-ReviewController::~ReviewController() = default;
 
 void ReviewController::setActive(bool active) {
   active_ = active;

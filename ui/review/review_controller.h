@@ -11,7 +11,6 @@
 #include <QString>
 
 #include "sessions/review/checks.h"
-#include "sessions/review/decide.h"
 #include "sessions/review/review_subject.h"
 #include "sessions/review/standing.h"
 #include "ui/run/task_runner.h"
@@ -31,7 +30,6 @@ class ReviewController : public QObject {
   enum class Act { kValidate, kApprove, kReject, kTakeBack };
 
   ReviewController(Document& document, ViewState& state, QObject* parent = nullptr);
-  ~ReviewController() override;
 
   /// Checks are made only while somebody looks.
   void setActive(bool active);

@@ -3,7 +3,7 @@
 
 #include <QWidget>
 
-#include "ui/review/checks_model.h"
+#include "ui/models/rows_model.h"
 #include "ui/review/review_controller.h"
 
 class QComboBox;
@@ -14,6 +14,47 @@ class QTableView;
 class QToolButton;
 
 namespace boresight::ui {
+
+/// A check as the table shows it.
+struct CheckRow {
+  sessions::Check check;
+  QString reason;  ///< for passing over it, or empty
+
+  bool operator==(const CheckRow&) const = default;
+};
+
+/// The checks of a pose: failed ones first, then passed ones, then what could not be asked. The
+/// reason for passing over a failed one is edited here.
+class ChecksModel : public RowsModel<CheckRow> {
+  Q_OBJECT
+
+ public:
+  enum Column { kCheck, kFound, kLimit, kReason };
+
+  explicit ChecksModel(QObject* parent = nullptr);
+
+  /// `current` false: they are of something that has changed since, and are shown as such. Rows of
+  /// the same checks change in place, so that selections and editors stay.
+  void setRows(std::vector<CheckRow> rows, bool current);
+  bool isFailed(int row) const { return at(row).check.state == sessions::CheckState::kFailed; }
+  /// "✓", "✗" or "–": each state has a shape of its own.
+  static QString sign(sessions::CheckState state);
+
+  bool setData(const QModelIndex& index, const QVariant& value, int role = Qt::EditRole) override;
+  Qt::ItemFlags flags(const QModelIndex& index) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+ Q_SIGNALS:
+  void reasonEdited(const std::string& check_id, const QString& reason);
+
+ protected:
+  QVariant look(const CheckRow& row, int column, int role) const override;
+
+ private:
+  QString countsText() const;
+
+  bool current_ = true;
+};
 
 class DecisionForm;
 class EmptyHint;
@@ -44,7 +85,6 @@ class ReviewPanel : public QWidget {
   void showBasin();
   void askForBasin();
   void openLimits();
-  QString hint() const;
 
   ReviewController controller_;
   ChecksModel model_;

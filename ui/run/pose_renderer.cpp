@@ -68,8 +68,6 @@ PoseRenderer::PoseRenderer(QObject* parent) : QObject(parent) {
   });
 }
 
-PoseRenderer::~PoseRenderer() = default;
-
 void PoseRenderer::setCase(std::shared_ptr<const sessions::LoadedCase> one) {
   clear();
   renderers_.reset();

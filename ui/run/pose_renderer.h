@@ -27,7 +27,6 @@ class PoseRenderer : public QObject {
   using RenderPtr = std::shared_ptr<const sessions::RenderTrace>;
 
   explicit PoseRenderer(QObject* parent = nullptr);
-  ~PoseRenderer() override;
 
   /// Later poses are of this case; what was drawn of another one is dropped. nullptr: none.
   void setCase(std::shared_ptr<const sessions::LoadedCase> one);

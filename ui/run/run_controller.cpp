@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/run/run_controller.h"
 
+#include <algorithm>
+#include <ranges>
 #include <stdexcept>
 #include <utility>
 
@@ -11,7 +13,7 @@ using sessions::StepUntil;
 
 namespace {
 
-QString taskKey() { return QStringLiteral("run"); }
+QString runTaskKey() { return QStringLiteral("run"); }
 
 }  // namespace
 
@@ -53,27 +55,25 @@ struct RunController::Job {
     while (run->trace().complete() < kept && !run->finished() && !stop.stop_requested())
       run->advance(StepUntil::kIteration, stop);
     if (run->trace().complete() < kept && !run->finished()) return false;
-    if (!hasKept()) throw std::runtime_error(notAsKept().toStdString());
+    if (!hasKept())
+      throw std::runtime_error(
+          RunController::tr(
+              "The iterations before the chosen one do not come out as they were recorded: they "
+              "were made by another version of the program. Run anew from the start.")
+              .toStdString());
     return true;
   }
 
   bool hasKept() const {
     const auto& made = run->trace().iterations;
-    for (std::size_t i = 0; i < inputs.kept.size(); ++i) {
-      if (i >= made.size()) return false;
-      const Pose& now = made[i]->camera_from_station;
-      const Pose& then = inputs.kept[i]->camera_from_station;
-      if (now.rotation.coeffs() != then.rotation.coeffs() ||
-          now.translation_m != then.translation_m)
-        return false;
-    }
-    return true;
-  }
-
-  static QString notAsKept() {
-    return RunController::tr(
-        "The iterations before the chosen one do not come out as they were recorded: they were "
-        "made by another version of the program. Run anew from the start.");
+    const auto same = [](const auto& a, const auto& b) {
+      const Pose& now = a->camera_from_station;
+      const Pose& then = b->camera_from_station;
+      return now.rotation.coeffs() == then.rotation.coeffs() &&
+             now.translation_m == then.translation_m;
+    };
+    return made.size() >= inputs.kept.size() &&
+           std::ranges::equal(made | std::views::take(inputs.kept.size()), inputs.kept, same);
   }
 };
 
@@ -81,10 +81,8 @@ RunController::RunController(QObject* parent) : QObject(parent) {
   connect(&runner_, &TaskRunner::failed, this, &RunController::takeFailure);
 }
 
-RunController::~RunController() = default;
-
 void RunController::reset(RunInputs inputs) {
-  runner_.cancel(taskKey());
+  runner_.cancel(runTaskKey());
   inputs_ = std::move(inputs);
   snapshot_.reset();
   views_.clear();
@@ -99,8 +97,8 @@ void RunController::advance(StepUntil until) {
   setState(RunState::kWorking);
   // A longer way is gone in iterations, so that people can watch.
   const StepUntil stride = until == StepUntil::kEnd ? StepUntil::kIteration : until;
-  runner_.run(taskKey(), [this, until, stride, job = job_](const std::stop_token& stop,
-                                                           const TaskRunner::Report& report) {
+  runner_.run(runTaskKey(), [this, until, stride, job = job_](const std::stop_token& stop,
+                                                              const TaskRunner::Report& report) {
     for (bool halted = false; !halted;) {
       std::vector<SnapshotPtr> records;
       if (job->advance(stride, stop)) records = job->records();
@@ -110,7 +108,7 @@ void RunController::advance(StepUntil until) {
   });
 }
 
-void RunController::stop() { runner_.stop(taskKey()); }
+void RunController::stop() { runner_.stop(runTaskKey()); }
 
 void RunController::takeResult(std::vector<SnapshotPtr> records, bool halted) {
   if (records.empty()) {

@@ -25,12 +25,12 @@ enum class RunState {
 
 /// What one run works on; immutable, shared with the worker.
 struct RunInputs {
-  std::shared_ptr<const sessions::LoadedCase> one;
+  std::shared_ptr<const sessions::LoadedCase> one = {};
   sessions::RunPlan plan;
   /// Of the run that is gone on from: its first iterations, which are run again without being shown
   /// and must come out as they are here; and its digest, empty when it was halted.
-  std::vector<std::shared_ptr<const sessions::IterationTrace>> kept;
-  std::string continued;
+  std::vector<std::shared_ptr<const sessions::IterationTrace>> kept = {};
+  std::string continued = {};
   /// Other views of the case's rig that it is solved together with; read by the worker.
   std::vector<sessions::SessionCase> others = {};
 };
@@ -45,7 +45,6 @@ class RunController : public QObject {
   using SnapshotPtr = std::shared_ptr<const sessions::LocalizationTrace>;
 
   explicit RunController(QObject* parent = nullptr);
-  ~RunController() override;
 
   RunState state() const { return state_; }
   /// The latest record; nullptr before the first.

@@ -7,7 +7,6 @@
 #include <mutex>
 #include <new>
 #include <thread>
-#include <utility>
 
 #include <QCoreApplication>
 #include <QEvent>

@@ -2,7 +2,7 @@
 #include "ui/scene/scene_aim.h"
 
 #include <algorithm>
-#include <cmath>
+#include <compare>
 #include <vector>
 
 #include <QCoreApplication>
@@ -13,13 +13,11 @@ namespace boresight::ui {
 namespace {
 
 struct Candidate {
-  double distance_px = 0.0;
+  double away_px = 0.0;
   std::int32_t index = -1;
-};
 
-double distance(const QPointF& a, const QPointF& b) {
-  return std::hypot(a.x() - b.x(), a.y() - b.y());
-}
+  auto operator<=>(const Candidate&) const = default;
+};
 
 /// Whether a face stands between the eye and the point, by more than a thousandth of the scene
 /// (points on the surface must not hide themselves).
@@ -31,13 +29,18 @@ bool hidden(const SceneContent& content, const Viewpoint& view, const Eigen::Vec
   return hit && hit->depth_m < 1.0 - tolerance;
 }
 
+void offer(std::vector<Candidate>& candidates, std::size_t index, const std::optional<QPointF>& at,
+           const QPointF& pixel, double within_px) {
+  if (!at) return;
+  const double away_px = distance_px(*at, pixel);
+  if (away_px <= within_px) candidates.push_back({away_px, static_cast<std::int32_t>(index)});
+}
+
 /// The first candidate that is not hidden, from the nearest on.
 template <class Place>
 std::int32_t firstVisible(std::vector<Candidate>& candidates, const SceneContent& content,
                           const Viewpoint& view, const Place& place) {
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return a.distance_px != b.distance_px ? a.distance_px < b.distance_px : a.index < b.index;
-  });
+  std::sort(candidates.begin(), candidates.end());
   for (const Candidate& candidate : candidates)
     if (!hidden(content, view, place(candidate.index))) return candidate.index;
   return -1;
@@ -48,13 +51,8 @@ std::int32_t firstVisible(std::vector<Candidate>& candidates, const SceneContent
 int pickTemplate(const SceneContent& content, const Viewpoint& view, const QPointF& pixel) {
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < content.points.size(); ++i) {
-    QPointF at;
-    double depth_m = 0.0;
     if (content.points[i].template_index < 0) continue;
-    if (!view.toCanvas(content.points[i].at_m, at, depth_m)) continue;
-    const double distance_px = distance(at, pixel);
-    if (distance_px <= kTemplatePick_px)
-      candidates.push_back({distance_px, static_cast<std::int32_t>(i)});
+    offer(candidates, i, view.toCanvas(content.points[i].at_m), pixel, kTemplatePick_px);
   }
   const auto place = [&](std::int32_t i) {
     return content.points[static_cast<std::size_t>(i)].at_m;
@@ -67,20 +65,14 @@ std::optional<MeshPick> pickMesh(const SceneContent& content, const Viewpoint& v
                                  const QPointF& pixel) {
   const MeshView mesh = content.mesh();
   std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < mesh.vertices_in_station_m.size(); ++i) {
-    QPointF at;
-    double depth_m = 0.0;
-    if (!view.toCanvas(mesh.vertices_in_station_m[i].cast<double>(), at, depth_m)) continue;
-    const double distance_px = distance(at, pixel);
-    if (distance_px <= kVertexSnap_px)
-      candidates.push_back({distance_px, static_cast<std::int32_t>(i)});
-  }
+  for (std::size_t i = 0; i < mesh.vertices_in_station_m.size(); ++i)
+    offer(candidates, i, view.toCanvas(mesh.vertices_in_station_m[i].cast<double>()), pixel,
+          kVertexSnap_px);
   // Far away a mesh may have thousands of vertices within reach: the nearest few will do.
   constexpr std::size_t kMostTried = 32;
   if (candidates.size() > kMostTried) {
-    std::nth_element(
-        candidates.begin(), candidates.begin() + kMostTried, candidates.end(),
-        [](const Candidate& a, const Candidate& b) { return a.distance_px < b.distance_px; });
+    std::nth_element(candidates.begin(), candidates.begin() + kMostTried, candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.away_px < b.away_px; });
     candidates.resize(kMostTried);
   }
   const auto place = [&](std::int32_t i) -> Eigen::Vector3d {
@@ -99,7 +91,7 @@ using sessions::MeshSnap;
 using sessions::MeshSnapKind;
 using sessions::MeshSnapper;
 
-QString tr(const char* text) { return QCoreApplication::translate("SceneAim", text); }
+QString sceneAimText(const char* text) { return QCoreApplication::translate("SceneAim", text); }
 
 SceneAim aimOf(const MeshSnapper& mesh, const MeshSnap& snap) {
   SceneAim aim;
@@ -107,16 +99,16 @@ SceneAim aimOf(const MeshSnapper& mesh, const MeshSnap& snap) {
   aim.snapped = true;
   switch (snap.kind) {
     case MeshSnapKind::kVertex:
-      aim.text = tr("corner");
+      aim.text = sceneAimText("corner");
       break;
     case MeshSnapKind::kEdge:
       aim.edge = snap.edge;
-      aim.text = tr("edge");
+      aim.text = sceneAimText("edge");
       break;
     case MeshSnapKind::kCircle:
       for (const sessions::MeshCircle& circle : mesh.circles())
         if (circle.centre_in_station_m == snap.point_in_station_m) aim.circle = circle;
-      aim.text = tr("circle centre, radius %1 mm").arg(1e3 * snap.radius_m, 0, 'f', 1);
+      aim.text = sceneAimText("circle centre, radius %1 mm").arg(1e3 * snap.radius_m, 0, 'f', 1);
       break;
   }
   return aim;
@@ -129,22 +121,21 @@ std::vector<SceneAim> landmarkAims(const MeshSnapper& mesh,
   std::vector<std::pair<double, SceneAim>> aims;
   for (const sessions::Proposal& proposal : proposals) {
     const Eigen::Vector3d& at_m = proposal.landmark.point_in_station_m;
-    QPointF at;
-    double depth_m = 0.0;
-    if (!view.toCanvas(at_m, at, depth_m)) continue;
-    const double distance_px = std::hypot(at.x() - pixel.x(), at.y() - pixel.y());
-    if (distance_px > kSceneSnap_px || !mesh.seenFrom(view.eyeInStation_m(), at_m)) continue;
+    const auto at = view.toCanvas(at_m);
+    if (!at) continue;
+    const double away_px = distance_px(*at, pixel);
+    if (away_px > kSceneSnap_px || !mesh.seenFrom(view.eyeInStation_m(), at_m)) continue;
     SceneAim aim;
     aim.point_in_station_m = at_m;
     aim.landmark = proposal.landmark;
     aim.snapped = true;
-    aim.text = tr("named point %1").arg(QString::fromStdString(proposal.landmark.name));
-    aims.emplace_back(distance_px, aim);
+    aim.text = sceneAimText("named point %1").arg(QString::fromStdString(proposal.landmark.name));
+    aims.emplace_back(away_px, aim);
   }
   std::sort(aims.begin(), aims.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<SceneAim> made;
-  for (auto& [distance_px, aim] : aims) made.push_back(std::move(aim));
+  for (auto& [away_px, aim] : aims) made.push_back(std::move(aim));
   return made;
 }
 
@@ -173,13 +164,13 @@ std::optional<SceneAim> sceneAim(const MeshSnapper& mesh,
   if (!surface) return std::nullopt;
   SceneAim aim;
   aim.point_in_station_m = *surface;
-  aim.text = tr("surface");
+  aim.text = sceneAimText("surface");
   return aim;
 }
 
 QString stationPlaceText(const Eigen::Vector3d& place_m, const QString& what) {
   const Eigen::Vector3d mm = 1e3 * place_m;
-  return tr("Station x %1, y %2, z %3 mm (%4)")
+  return sceneAimText("Station x %1, y %2, z %3 mm (%4)")
       .arg(mm.x(), 0, 'f', 2)
       .arg(mm.y(), 0, 'f', 2)
       .arg(mm.z(), 0, 'f', 2)

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/scene/scene_annotator.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include <QtWidgets>
 
 #include "ui/annotation/annotation_controller.h"
+#include "ui/annotation/loupe.h"
 #include "ui/annotation/station_snapper.h"
+#include "ui/views/overlay_painters.h"
 #include "ui/views/view_transform.h"
 
 namespace boresight::ui {
@@ -15,7 +20,100 @@ namespace {
 /// Pixel (0, 0) of the canvas has its centre at (0.5, 0.5).
 QPointF pixelAt(const QPointF& at) { return at - QPointF(0.5, 0.5); }
 
+bool takesKey(const QKeyEvent& event) {
+  constexpr std::array kKeys = {Qt::Key_Tab, Qt::Key_Escape, Qt::Key_Delete, Qt::Key_Alt};
+  return std::find(kKeys.begin(), kKeys.end(), event.key()) != kKeys.end();
+}
+
 }  // namespace
+
+Viewpoint magnifiedView(const Viewpoint& view, const QPointF& pixel, double magnification,
+                        int side) {
+  Viewpoint made = view;
+  const double middle = 0.5 * (side - 1);
+  made.camera.width = made.camera.height = side;
+  made.camera.fx *= magnification;
+  made.camera.fy *= magnification;
+  made.camera.cx = (view.camera.cx - pixel.x()) * magnification + middle;
+  made.camera.cy = (view.camera.cy - pixel.y()) * magnification + middle;
+  if (prepareCamera(made.camera) != Status::kOk) made.camera.valid_radius = 0.0;
+  return made;
+}
+
+std::optional<Backdrop> magnifiedBackdrop(const std::optional<Backdrop>& backdrop,
+                                          const QPointF& pixel, double magnification, int side) {
+  if (!backdrop) return std::nullopt;
+  const double scale = magnification * backdrop->where.width() / backdrop->gray.width();
+  const QPointF corner = magnification * (backdrop->where.topLeft() - pixel - QPointF(0.5, 0.5)) +
+                         QPointF(0.5 * side, 0.5 * side);
+  // Painters lose their way on pictures a million pixels wide.
+  const QRectF shown(-corner / scale, QSizeF(side, side) / scale);
+  const QRect cut = shown.toAlignedRect().intersected(backdrop->gray.rect());
+  if (cut.isEmpty()) return std::nullopt;
+  return Backdrop{backdrop->gray.copy(cut),
+                  QRectF(corner + scale * QPointF(cut.topLeft()), scale * QSizeF(cut.size()))};
+}
+
+SceneLoupe::SceneLoupe(QWidget* canvas, Over over) : QWidget(canvas), over_(std::move(over)) {
+  setObjectName(QStringLiteral("sceneLoupe"));
+  setAttribute(Qt::WA_TransparentForMouseEvents);
+  setFocusPolicy(Qt::NoFocus);
+  hide();
+}
+
+void SceneLoupe::setMagnification(double magnification) {
+  const double next = std::clamp(magnification, kLeastMagnification, kMostMagnification);
+  if (next == magnification_) return;
+  magnification_ = next;
+  if (isVisible()) order();
+  Q_EMIT changed();
+}
+
+void SceneLoupe::setSwitchedOn(bool on) {
+  if (on == on_) return;
+  on_ = on;
+  if (shot_.content) lookAt(shot_, pixel_);
+  Q_EMIT changed();
+}
+
+void SceneLoupe::lookAt(const SceneShot& shot, const std::optional<QPointF>& pixel) {
+  shot_ = shot;
+  pixel_ = pixel;
+  const bool shown = on_ && pixel_ && shot_.content && !shot_.content->empty();
+  if (shown) {
+    putLoupeAside(*this, {0.42, 120.0, 280.0}, pixel_->toPoint(), left_);
+    order();
+  }
+  setVisible(shown);
+}
+
+void SceneLoupe::order() {
+  const Viewpoint view = magnifiedView(shot_.view, *pixel_, magnification_, width());
+  const auto backdrop = magnifiedBackdrop(shot_.backdrop, *pixel_, magnification_, width());
+  runner_.start(
+      QStringLiteral("loupe"),
+      [content = shot_.content, look = shot_.look, view, backdrop,
+       ratio = devicePixelRatioF()](const std::stop_token&) {
+        return drawScenePicture(*content, look, view, backdrop, ratio);
+      },
+      [this, view](const QImage& picture) {
+        picture_ = picture;
+        picture_view_ = view;
+        update();
+      });
+}
+
+void SceneLoupe::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), shot_.look.background);
+  if (!picture_.isNull()) {
+    painter.drawImage(0, 0, picture_);
+    over_(painter, picture_view_);
+  }
+  painter.setRenderHint(QPainter::Antialiasing, true);
+  paintLoupeCross(painter, size());
+  paintLoupeFoot(painter, *this, tr("%1x").arg(magnification_, 0, 'g', 3));
+}
 
 SceneAnnotator::SceneAnnotator(QWidget& canvas, AnnotationController& annotation,
                                StationSnapper& snapper)
@@ -89,8 +187,10 @@ bool SceneAnnotator::eventFilter(QObject* watched, QEvent* event) {
     case QEvent::KeyPress:
     case QEvent::KeyRelease: {
       const auto& key = *static_cast<QKeyEvent*>(event);
-      if (key.key() == Qt::Key_Alt)
-        setModifiers(event->type() == QEvent::KeyPress ? Qt::AltModifier : Qt::NoModifier);
+      if (key.key() == Qt::Key_Alt) {
+        modifiers_ = event->type() == QEvent::KeyPress ? Qt::AltModifier : Qt::NoModifier;
+        updateAim();
+      }
       return event->type() == QEvent::KeyPress && pressKey(key);
     }
     default:
@@ -112,53 +212,30 @@ void SceneAnnotator::leave() {
   updateAim();
 }
 
-bool SceneAnnotator::takesKey(const QKeyEvent& event) const {
-  switch (event.key()) {
-    case Qt::Key_Tab:
-    case Qt::Key_Escape:
-    case Qt::Key_Delete:
-    case Qt::Key_Alt:
-      return true;
-    default:
-      return false;
-  }
-}
-
 bool SceneAnnotator::pressKey(const QKeyEvent& event) {
   if (!takesKey(event)) return false;
   if (event.key() == Qt::Key_Tab && pointer_) {
     ++turn_;
     turned_at_ = *pointer_;
     updateAim();
-  } else if (event.key() == Qt::Key_Escape) {
-    escape();
+  } else if (event.key() == Qt::Key_Escape) {  // first the choice, then the mode
+    if (annotation_.selected().empty())
+      annotation_.setMode(PlaceMode::kOff);
+    else
+      annotation_.select({});
   } else if (event.key() == Qt::Key_Delete && !annotation_.selected().empty()) {
     annotation_.remove(annotation_.selected());
   }
   return true;
 }
 
-/// First the choice, then the mode.
-void SceneAnnotator::escape() {
-  if (annotation_.selected().empty())
-    annotation_.setMode(PlaceMode::kOff);
-  else
-    annotation_.select({});
-}
-
-void SceneAnnotator::setModifiers(Qt::KeyboardModifiers modifiers) {
-  modifiers_ = modifiers;
-  updateAim();
-}
-
 void SceneAnnotator::updateAim() {
   aim_.reset();
   const bool aims = places() && pointer_ && snapper_.mesh() && shot_.content;
   if (aims) {
-    SceneAimRules rules;
-    rules.snaps = !modifiers_.testFlag(Qt::AltModifier);
-    rules.line = annotation_.mode() == PlaceMode::kLine;
-    rules.turn = turn_;
+    const SceneAimRules rules = {.snaps = !modifiers_.testFlag(Qt::AltModifier),
+                                 .line = annotation_.mode() == PlaceMode::kLine,
+                                 .turn = turn_};
     aim_ = sceneAim(*snapper_.mesh(), annotation_.proposals(), shot_.view, *pointer_, rules);
   }
   loupe_->lookAt(shot_, places() ? pointer_ : std::nullopt);

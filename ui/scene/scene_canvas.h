@@ -68,4 +68,10 @@ std::unique_ptr<SceneCanvas> makeVtkCanvas(QWidget* parent);
 /// Drawn by the core; needs nothing.
 std::unique_ptr<SceneCanvas> makePictureCanvas(QWidget* parent);
 
+/// The scene drawn without OpenGL: the core renders surfaces and salient edges, plain Qt draws
+/// lines and points where no surface hides them. `ratio` device pixels to a pixel of the view; the
+/// picture carries it.
+QImage drawScenePicture(const SceneContent& content, const SceneLook& look, const Viewpoint& view,
+                        const std::optional<Backdrop>& backdrop, double ratio = 1.0);
+
 }  // namespace boresight::ui

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <QCoreApplication>
 
@@ -17,7 +16,7 @@ namespace {
 constexpr double kFrustumShare = 0.3;  ///< of the way to the scene's centre
 constexpr double kDashesPerLine = 12.0;
 
-QString text(const char* source) { return QCoreApplication::translate("Scene", source); }
+QString sceneText(const char* source) { return QCoreApplication::translate("Scene", source); }
 
 BoundingBox boundsOf(const MeshView& mesh) {
   BoundingBox box;
@@ -44,8 +43,8 @@ void addFrusta(const ViewState& state, SceneContent& content) {
   const sessions::LoadedCase& one = *content.one;
   const Eigen::Vector3d centre_m = content.bounds.centre();
   const std::array<QString, kPoseRoles> labels = {
-      text("seed"), text("iteration %1").arg(state.cursor().iteration + 1), text("nudged"),
-      text("truth"), text("annotated")};
+      sceneText("seed"), sceneText("iteration %1").arg(state.cursor().iteration + 1),
+      sceneText("nudged"), sceneText("truth"), sceneText("annotated")};
   for (int i = 0; i < kPoseRoles; ++i) {
     const auto role = static_cast<PoseRole>(i);
     const std::optional<Pose> pose = poseOf(state, role);

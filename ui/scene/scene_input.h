@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <QObject>
+#include <functional>
+#include <vector>
+
 #include <QPointF>
 #include <QSizeF>
+#include <QWidget>
 
 #include "ui/scene/scene_content.h"
 #include "ui/scene/viewpoint.h"
 
+class QAction;
+class QBoxLayout;
+class QComboBox;
 class QKeyEvent;
+class QMenu;
 class QMouseEvent;
-class QWidget;
+class QSlider;
 
 namespace boresight::ui {
 
@@ -84,13 +91,52 @@ class SceneInput : public QObject {
   void press(const QMouseEvent& event);
   void move(const QMouseEvent& event);
   void release(const QMouseEvent& event);
-  bool pressKey(const QKeyEvent& event);
+  /// What a key does; nullptr: nothing.
+  std::function<void()> actOf(const QKeyEvent& event);
 
   QWidget& canvas_;
   QPointF press_;
   QPointF last_;
   bool pressed_ = false;
   bool dragging_ = false;
+};
+
+/// The scene's buttons: what is shown, from where, and how opaque the mesh is. It only tells what
+/// was asked for.
+class SceneBar : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit SceneBar(const SceneShown& shown, QWidget* parent = nullptr);
+
+  /// What they show, without telling anybody.
+  void setShown(const SceneShown& shown);
+  void setThroughCamera(bool through);
+  void setThroughRole(PoseRole role);
+  void setMeshOpacity(double opacity);
+
+ Q_SIGNALS:
+  void resetAsked();
+  void lookFromAsked(StandardView view);
+  void throughCameraAsked(bool through);
+  void throughRoleAsked(PoseRole role);
+  void shownAsked(const SceneShown& shown);
+  void meshOpacityAsked(double opacity);
+
+ private:
+  QMenu& addMenu(const QString& text, const QString& tip);
+  void addReset();
+  void addViews();
+  void addShow();
+  void addOpacity(QMenu& menu);
+  void addThroughCamera();
+
+  SceneShown shown_;
+  QBoxLayout* row_;
+  std::vector<QAction*> show_;
+  QAction* through_ = nullptr;
+  QComboBox* through_role_ = nullptr;
+  QSlider* opacity_ = nullptr;
 };
 
 }  // namespace boresight::ui

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/scene/scene_marks.h"
+#include "ui/scene/scene_overlay.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numbers>
 
 #include <QtWidgets>
 
 #include "ui/annotation/annotation_controller.h"
+#include "ui/annotation/mark_aim.h"
+#include "ui/annotation/mark_content.h"
 #include "ui/views/layer.h"
 
 namespace boresight::ui {
@@ -17,45 +18,31 @@ namespace {
 constexpr double kHalf = 7.5;  ///< of a sign
 constexpr double kChosenHalf = 13.0;
 constexpr double kHidden = 0.35;  ///< opacity
-const QColor kRim(0, 0, 0, 190);
-const QColor kChosen(255, 255, 255);
-const QColor kOff(175, 175, 175);
-const QColor kOutlier(255, 130, 60);
+const QColor kSignRim(0, 0, 0, 190);
 const QColor kAim(120, 220, 255);
 
-QString tr(const char* text) { return QCoreApplication::translate("SceneMarks", text); }
+QString markText(const char* text) { return QCoreApplication::translate("SceneMarks", text); }
 
 QColor colorOf(const SceneMark& mark) {
-  if (!mark.enabled) return kOff;
-  if (mark.outlier > 0.0) return kOutlier;
-  if (mark.chosen) return kChosen;
+  if (!mark.enabled) return kDisabledMark;
+  if (mark.outlier > 0.0) return kOutlierMark;
+  if (mark.chosen) return kChosenMark;
   return layerInfo(LayerId::kPoints).style.color;
 }
 
 QString nameOf(const SceneMark& mark) {
   const QString id = QString::fromStdString(mark.id);
-  if (mark.proposed) return tr("%1 ?").arg(id);
-  if (!mark.enabled) return tr("%1 (off)").arg(id);
-  if (!mark.complete) return (mark.chosen ? tr("%1: not in the image yet") : tr("%1 ?")).arg(id);
-  if (mark.outlier > 0.0) return tr("%1 ! %2 sigma").arg(id).arg(mark.outlier, 0, 'f', 1);
+  if (mark.proposed) return markText("%1 ?").arg(id);
+  if (!mark.enabled) return markText("%1 (off)").arg(id);
+  if (!mark.complete)
+    return (mark.chosen ? markText("%1: not in the image yet") : markText("%1 ?")).arg(id);
+  if (mark.outlier > 0.0) return markText("%1 ! %2 sigma").arg(id).arg(mark.outlier, 0, 'f', 1);
   return id;
-}
-
-QPolygonF diamond(const QPointF& at, double half) {
-  return {{at + QPointF(0.0, -half), at + QPointF(half, 0.0), at + QPointF(0.0, half),
-           at + QPointF(-half, 0.0)}};
 }
 
 QPolygonF triangle(const QPointF& at, double half) {
   return {{at + QPointF(0.0, -1.2 * half), at + QPointF(1.1 * half, 0.75 * half),
            at + QPointF(-1.1 * half, 0.75 * half)}};
-}
-
-/// Four short lines that leave the place itself free.
-void paintTicks(QPainter& painter, const QPointF& at, double from, double to) {
-  for (const QPointF& way :
-       {QPointF(1.0, 0.0), QPointF(-1.0, 0.0), QPointF(0.0, 1.0), QPointF(0.0, -1.0)})
-    painter.drawLine(at + from * way, at + to * way);
 }
 
 }  // namespace
@@ -70,10 +57,8 @@ bool SceneMarkPainter::seen(const Eigen::Vector3d& at_m) const {
 
 /// In the canvas' coordinates, where pixel (0, 0) has its centre at (0.5, 0.5).
 std::optional<QPointF> SceneMarkPainter::place(const Eigen::Vector3d& at_m) const {
-  QPointF at;
-  double depth_m = 0.0;
-  if (!view_.toCanvas(at_m, at, depth_m)) return std::nullopt;
-  return at + QPointF(0.5, 0.5);
+  const auto at = view_.toCanvas(at_m);
+  return at ? std::optional(*at + QPointF(0.5, 0.5)) : std::nullopt;
 }
 
 void SceneMarkPainter::paintMarks(const std::vector<SceneMark>& marks) const {
@@ -95,7 +80,7 @@ void SceneMarkPainter::paintPoint(const SceneMark& mark) const {
   painter_.setOpacity(opacity);
   painter_.setBrush(Qt::NoBrush);
   const double width_px = mark.chosen ? 2.4 : 1.6;
-  for (const QPen& pen : {QPen(kRim, width_px + 2.0), QPen(colorOf(mark), width_px)}) {
+  for (const QPen& pen : {QPen(kSignRim, width_px + 2.0), QPen(colorOf(mark), width_px)}) {
     painter_.setPen(pen);
     if (!mark.edge) paintSign(mark, *at);
     if (mark.chosen && !mark.edge) painter_.drawEllipse(*at, kChosenHalf, kChosenHalf);
@@ -134,7 +119,7 @@ void SceneMarkPainter::paintEdge(const sessions::ModelEdge& edge, const QColor& 
   const auto at = [&](double piece) {
     return Eigen::Vector3d(edge.start_in_station_m + piece / kPieces * way);
   };
-  for (const QPen& pen : {QPen(kRim, width_px + 2.0, Qt::SolidLine, Qt::FlatCap),
+  for (const QPen& pen : {QPen(kSignRim, width_px + 2.0, Qt::SolidLine, Qt::FlatCap),
                           QPen(color, width_px, Qt::SolidLine, Qt::FlatCap)})
     for (int i = 0; i < kPieces; ++i) {
       if (dashed && i % 3 == 2) continue;
@@ -151,14 +136,8 @@ void SceneMarkPainter::paintEdge(const sessions::ModelEdge& edge, const QColor& 
 void SceneMarkPainter::paintName(const SceneMark& mark, const QPointF& at) const {
   QFont font = painter_.font();
   font.setBold(mark.chosen);
-  QPainterPath path;
-  path.addText(at + QPointF(kHalf + 6.0, -kHalf), font, nameOf(mark));
-  painter_.setPen(QPen(kRim, 3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  painter_.drawPath(path);
-  painter_.setPen(Qt::NoPen);
-  painter_.setBrush(colorOf(mark));
-  painter_.drawPath(path);
-  painter_.setBrush(Qt::NoBrush);
+  paintOutlined(painter_, at + QPointF(kHalf + 6.0, -kHalf), font, nameOf(mark), colorOf(mark),
+                kSignRim);
 }
 
 void SceneMarkPainter::paintCircle(const sessions::MeshCircle& circle) const {
@@ -179,7 +158,7 @@ void SceneMarkPainter::paintAim(const SceneAim& aim, const QPointF& pointer) con
   painter_.setRenderHint(QPainter::Antialiasing, true);
   painter_.setBrush(Qt::NoBrush);
   if (aim.edge) paintEdge(*aim.edge, kAim, 2.5, false);
-  for (const QPen& pen : {QPen(kRim, 3.6), QPen(kAim, 1.6)}) {
+  for (const QPen& pen : {QPen(kSignRim, 3.6), QPen(kAim, 1.6)}) {
     painter_.setPen(pen);
     if (aim.circle) paintCircle(*aim.circle);
     paintTicks(painter_, *at, 2.5, 10.0);
@@ -190,6 +169,19 @@ void SceneMarkPainter::paintAim(const SceneAim& aim, const QPointF& pointer) con
     painter_.drawLine(pointer + QPointF(0.5, 0.5), *at);
   }
   painter_.restore();
+}
+
+void paintOutlined(QPainter& painter, const QPointF& at, const QFont& font, const QString& text,
+                   const QColor& color, const QColor& rim) {
+  QPainterPath path;
+  path.addText(at, font, text);
+  painter.setPen(QPen(rim, 3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawPath(path);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(color);
+  painter.drawPath(path);
+  painter.setBrush(Qt::NoBrush);
 }
 
 void paintSceneNote(QPainter& painter, const QRectF& area, const QPointF& beside,
@@ -228,28 +220,17 @@ SceneMark markOf(const Pair& pair, const AnnotationController& annotation,
   return mark;
 }
 
-double distance(const QPointF& a, const QPointF& b) {
-  return std::hypot(a.x() - b.x(), a.y() - b.y());
-}
-
 /// Of a pixel to a mark's sign or edge; nothing behind the eye.
 std::optional<double> distanceTo(const SceneMark& mark, const Viewpoint& view,
                                  const QPointF& pixel) {
-  QPointF from;
-  QPointF to;
-  double depth_m = 0.0;
-  if (!mark.edge) {
-    if (!view.toCanvas(mark.at_m, from, depth_m)) return std::nullopt;
-    return distance(from, pixel);
-  }
-  if (!view.toCanvas(mark.edge->start_in_station_m, from, depth_m) ||
-      !view.toCanvas(mark.edge->end_in_station_m, to, depth_m))
-    return std::nullopt;
-  const QPointF way = to - from;
+  const auto from = view.toCanvas(mark.edge ? mark.edge->start_in_station_m : mark.at_m);
+  const auto to = mark.edge ? view.toCanvas(mark.edge->end_in_station_m) : from;
+  if (!from || !to) return std::nullopt;
+  const QPointF way = *to - *from;
   const double squared = QPointF::dotProduct(way, way);
   const double share =
-      squared > 0.0 ? std::clamp(QPointF::dotProduct(pixel - from, way) / squared, 0.0, 1.0) : 0.0;
-  return distance(from + share * way, pixel);
+      squared > 0.0 ? std::clamp(QPointF::dotProduct(pixel - *from, way) / squared, 0.0, 1.0) : 0.0;
+  return distance_px(*from + share * way, pixel);
 }
 
 }  // namespace
@@ -287,9 +268,9 @@ std::string pickMark(const std::vector<SceneMark>& marks, const Viewpoint& view,
   double least_px = 2.0 * kPick_px;
   for (const SceneMark& mark : marks) {
     if (mark.proposed) continue;
-    const auto distance_px = distanceTo(mark, view, pixel);
-    if (!distance_px || *distance_px > kPick_px) continue;
-    const double rank_px = *distance_px + (mark.edge ? kPick_px : 0.0);  // points lie upon lines
+    const auto away_px = distanceTo(mark, view, pixel);
+    if (!away_px || *away_px > kPick_px) continue;
+    const double rank_px = *away_px + (mark.edge ? kPick_px : 0.0);  // points lie upon lines
     if (rank_px > least_px || !mesh.seenFrom(view.eyeInStation_m(), mark.at_m)) continue;
     least_px = rank_px;
     picked = mark.id;

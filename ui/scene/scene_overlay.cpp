@@ -4,12 +4,16 @@
 #include <QtWidgets>
 #include <algorithm>
 
+#include "ui/annotation/mark_aim.h"
+
 namespace boresight::ui {
 namespace {
 
 constexpr int kLegendOfCameras_px = 480;
 
-QString text(const char* source) { return QCoreApplication::translate("SceneOverlay", source); }
+QString overlayText(const char* source) {
+  return QCoreApplication::translate("SceneOverlay", source);
+}
 
 /// Readable on any background of the scene.
 bool isDark(const QColor& color) { return color.lightnessF() < 0.5; }
@@ -32,8 +36,8 @@ std::vector<Entry> entries(const SceneContent& content, const SceneLook& look, b
                        [match](const ScenePart& part) { return part.match == match; });
   };
   if (look.shown.mesh && has_part(false)) {
-    made.push_back({Entry::kMatched, PoseRole::kSeed, text("matched part")});
-    made.push_back({Entry::kOccluding, PoseRole::kSeed, text("occluding part")});
+    made.push_back({Entry::kMatched, PoseRole::kSeed, overlayText("matched part")});
+    made.push_back({Entry::kOccluding, PoseRole::kSeed, overlayText("occluding part")});
   }
   if (!look.shown.points) return made;
   const auto has = [&](ScenePointKind kind) {
@@ -41,11 +45,11 @@ std::vector<Entry> entries(const SceneContent& content, const SceneLook& look, b
                        [kind](const ScenePoint& point) { return point.kind == kind; });
   };
   if (has(ScenePointKind::kInlier))
-    made.push_back({Entry::kInlier, PoseRole::kSeed, text("inlier")});
+    made.push_back({Entry::kInlier, PoseRole::kSeed, overlayText("inlier")});
   if (has(ScenePointKind::kOutlier))
-    made.push_back({Entry::kOutlier, PoseRole::kSeed, text("outlier")});
+    made.push_back({Entry::kOutlier, PoseRole::kSeed, overlayText("outlier")});
   if (has(ScenePointKind::kUnmatched))
-    made.push_back({Entry::kUnmatched, PoseRole::kSeed, text("not used")});
+    made.push_back({Entry::kUnmatched, PoseRole::kSeed, overlayText("not used")});
   return made;
 }
 
@@ -100,7 +104,7 @@ void paintBar(QPainter& painter, const QRectF& area, double limit_px, const QCol
   const QRectF bar(area.left(), area.top() + line + 2.0, area.width(), 10.0);
   painter.setPen(ink);
   painter.drawText(QRectF(area.left(), area.top(), area.width(), line), Qt::AlignCenter,
-                   text("residual, px"));
+                   overlayText("residual, px"));
   QLinearGradient gradient(bar.topLeft(), bar.topRight());
   for (int i = 0; i <= 10; ++i) gradient.setColorAt(0.1 * i, residualColor(0.1 * i));
   painter.setBrush(gradient);
@@ -154,7 +158,7 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
   if (!content_ || content_->empty()) {
     painter.setPen(ink);
     painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
-                     text("Open a case to see its station and cameras here."));
+                     overlayText("Open a case to see its station and cameras here."));
     return;
   }
   paintNames(painter);
@@ -167,51 +171,37 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
   }
 }
 
-/// With an outline in the background's colour, so that it is legible over everything.
 void SceneOverlay::paintText(QPainter& painter, const QPointF& at, const QString& written,
                              const QColor& color) const {
-  QPainterPath path;
-  path.addText(at, painter.font(), written);
-  painter.setPen(QPen(isDark(look_.background) ? QColor(0, 0, 0, 200) : QColor(255, 255, 255, 220),
-                      3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  painter.setBrush(Qt::NoBrush);
-  painter.drawPath(path);
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(color);
-  painter.drawPath(path);
-  painter.setBrush(Qt::NoBrush);
+  paintOutlined(painter, at, painter.font(), written, color,
+                isDark(look_.background) ? QColor(0, 0, 0, 200) : QColor(255, 255, 255, 220));
 }
 
 void SceneOverlay::paintNames(QPainter& painter) const {
-  QPointF at;
-  double depth_m = 0.0;
   const bool dark = isDark(look_.background);
   const auto legible = [dark](const QColor& color) {
     return dark ? color.lighter(115) : color.darker(170);
   };
   if (look_.shown.axes)
     for (int axis = 0; axis < 3; ++axis)
-      if (view_.toCanvas(1.08 * content_->axis_length_m * Eigen::Vector3d::Unit(axis), at, depth_m))
-        paintText(painter, at + QPointF(-4.0, 5.0), QStringLiteral("xyz").mid(axis, 1),
+      if (const auto at =
+              view_.toCanvas(1.08 * content_->axis_length_m * Eigen::Vector3d::Unit(axis)))
+        paintText(painter, *at + QPointF(-4.0, 5.0), QStringLiteral("xyz").mid(axis, 1),
                   legible(axisColor(axis)));
   if (look_.shown.frusta)
     for (const Frustum& frustum : content_->frusta)
-      if (view_.toCanvas(frustum.label_at_m, at, depth_m))
-        paintText(painter, at + QPointF(6.0, -5.0), frustum.label, legible(frustum.color));
+      if (const auto at = view_.toCanvas(frustum.label_at_m))
+        paintText(painter, *at + QPointF(6.0, -5.0), frustum.label, legible(frustum.color));
 }
 
 void SceneOverlay::paintMark(QPainter& painter) const {
-  QPointF at;
-  double depth_m = 0.0;
-  if (!mark_ || !view_.toCanvas(*mark_, at, depth_m)) return;
-  at += QPointF(0.5, 0.5);
-  for (const auto& [color, width] : {std::pair(QColor(0, 0, 0), 3.5), {QColor(255, 210, 0), 1.5}}) {
-    painter.setPen(QPen(color, width));
+  const auto pixel = mark_ ? view_.toCanvas(*mark_) : std::nullopt;
+  if (!pixel) return;
+  const QPointF at = *pixel + QPointF(0.5, 0.5);
+  for (const QPen& pen : {QPen(QColor(0, 0, 0), 3.5), QPen(QColor(255, 210, 0), 1.5)}) {
+    painter.setPen(pen);
     painter.drawEllipse(at, 6.0, 6.0);
-    painter.drawLine(at - QPointF(10.0, 0.0), at - QPointF(3.0, 0.0));
-    painter.drawLine(at + QPointF(3.0, 0.0), at + QPointF(10.0, 0.0));
-    painter.drawLine(at - QPointF(0.0, 10.0), at - QPointF(0.0, 3.0));
-    painter.drawLine(at + QPointF(0.0, 3.0), at + QPointF(0.0, 10.0));
+    paintTicks(painter, at, 3.0, 10.0);
   }
 }
 
@@ -222,7 +212,7 @@ void SceneOverlay::paintLegend(QPainter& painter) const {
   if (lines.empty() && !bar) return;
   const QFontMetricsF metrics(painter.font());
   const double line = metrics.height() + 2.0;
-  double wide = bar ? metrics.horizontalAdvance(text("residual, px")) + 20.0 : 60.0;
+  double wide = bar ? metrics.horizontalAdvance(overlayText("residual, px")) + 20.0 : 60.0;
   for (const Entry& entry : lines)
     wide = std::max(wide, 42.0 + metrics.horizontalAdvance(entry.meaning));
   const double bar_height = bar ? 2.0 * metrics.height() + 20.0 : 0.0;

@@ -1,14 +1,78 @@
 // SPDX-License-Identifier: Apache-2.0
+// What is painted over the scene: marks of an annotation, names and the legend.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <QWidget>
 
+#include "sessions/annotation/mesh_snap.h"
+#include "ui/scene/scene_aim.h"
 #include "ui/scene/scene_canvas.h"
 
+class QPainter;
+
 namespace boresight::ui {
+
+class AnnotationController;
+
+/// The station side of a mark.
+struct SceneMark {
+  std::string id;
+  Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  ///< of an edge its middle
+  std::optional<sessions::ModelEdge> edge;
+  bool complete = false;  ///< its place in the image is there too
+  bool enabled = true;
+  bool locked = false;
+  bool chosen = false;
+  double outlier = 0.0;   ///< its residual in sigmas where it stands out, else 0
+  bool proposed = false;  ///< a named point that nobody has marked in this image
+};
+
+/// Marks that have a place on the station, the chosen one last, after the proposals.
+std::vector<SceneMark> sceneMarks(const AnnotationController& annotation);
+
+/// What is marked and aimed at, drawn over the scene. What a face hides is drawn faintly.
+class SceneMarkPainter {
+ public:
+  /// `mesh` may be nullptr: nothing hides anything.
+  SceneMarkPainter(QPainter& painter, const Viewpoint& view, const sessions::MeshSnapper* mesh);
+
+  void paintMarks(const std::vector<SceneMark>& marks) const;
+  /// `pointer`: pixel of the canvas.
+  void paintAim(const SceneAim& aim, const QPointF& pointer) const;
+
+ private:
+  bool seen(const Eigen::Vector3d& at_m) const;
+  std::optional<QPointF> place(const Eigen::Vector3d& at_m) const;
+  void paintPoint(const SceneMark& mark) const;
+  void paintSign(const SceneMark& mark, const QPointF& at) const;
+  void paintEdge(const sessions::ModelEdge& edge, const QColor& color, double width_px,
+                 bool dashed) const;
+  void paintName(const SceneMark& mark, const QPointF& at) const;
+  void paintCircle(const sessions::MeshCircle& circle) const;
+
+  QPainter& painter_;
+  const Viewpoint& view_;
+  const sessions::MeshSnapper* mesh_;
+};
+
+/// Text with a rim, so that it is legible over everything.
+void paintOutlined(QPainter& painter, const QPointF& at, const QFont& font, const QString& text,
+                   const QColor& color, const QColor& rim);
+
+/// A line of text on a dark ground beside a place, kept inside the area.
+void paintSceneNote(QPainter& painter, const QRectF& area, const QPointF& beside,
+                    const QString& text);
+
+/// Id of the mark under a pixel of the canvas that no face hides, the nearest; empty without one.
+/// Proposals are no marks.
+std::string pickMark(const std::vector<SceneMark>& marks, const Viewpoint& view,
+                     const sessions::MeshSnapper& mesh, const QPointF& pixel);
 
 /// Names and the legend, in plain Qt over whichever canvas draws the scene. It lets the mouse
 /// through.

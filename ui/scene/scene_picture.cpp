@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/scene/scene_picture.h"
+#include "ui/scene/scene_canvas.h"
 
 #include <QPainter>
 #include <QWidget>
@@ -116,9 +116,11 @@ struct Brush {
     return surface_m > 0.0 && surface_m < depth_m - 2e-3 * content.bounds.diagonal();
   }
 
-  bool visible(const Eigen::Vector3d& at_m, QPointF& pixel) const {
-    double depth_m = 0.0;
-    return view.toCanvas(at_m, pixel, depth_m) && !hidden(pixel, depth_m);
+  /// Its pixel, where nothing hides it.
+  std::optional<QPointF> visible(const Eigen::Vector3d& at_m) const {
+    const auto pixel = view.toCanvas(at_m);
+    const bool shown = pixel && !hidden(*pixel, (view.view_from_station * at_m).z());
+    return shown ? pixel : std::nullopt;
   }
 
   /// In short pieces, those that nothing hides.
@@ -129,21 +131,16 @@ struct Brush {
       const auto at = [&](double share) -> Eigen::Vector3d {
         return line.first + share * (line.second - line.first);
       };
-      QPointF from;
-      QPointF middle;
-      QPointF to;
-      double depth_m = 0.0;
-      if (!view.toCanvas(at(static_cast<double>(i) / kPieces), from, depth_m) ||
-          !view.toCanvas(at((i + 1.0) / kPieces), to, depth_m) ||
-          !visible(at((i + 0.5) / kPieces), middle))
-        continue;
-      painter.drawLine(from, to);
+      const auto from = view.toCanvas(at(static_cast<double>(i) / kPieces));
+      const auto to = view.toCanvas(at((i + 1.0) / kPieces));
+      if (from && to && visible(at((i + 0.5) / kPieces))) painter.drawLine(*from, *to);
     }
   }
 
   void point(const ScenePoint& point) const {
-    QPointF at;
-    if (!visible(point.at_m, at)) return;
+    const auto place = visible(point.at_m);
+    if (!place) return;
+    const QPointF& at = *place;
     const double radius_px = content.point_radius_px;
     const double share = point.residual_px / content.residual_limit_px;
     if (point.kind == ScenePointKind::kOutlier) {
@@ -213,12 +210,12 @@ void paintThings(const Brush& brush, const SceneContent& content, const SceneLoo
     for (std::size_t i = 1; i < content.trail_m.size(); ++i)
       brush.line({content.trail_m[i - 1], content.trail_m[i]}, QPen(color.darker(120), 1.5));
     for (std::size_t i = 0; i < content.trail_m.size(); ++i) {
-      QPointF at;
-      if (!brush.visible(content.trail_m[i], at)) continue;
+      const auto at = brush.visible(content.trail_m[i]);
+      if (!at) continue;
       const double radius = static_cast<int>(i) == content.trail_now ? 4.5 : 2.5;
       brush.painter.setPen(QPen(Qt::black, 0.8));
       brush.painter.setBrush(color);
-      brush.painter.drawEllipse(at, radius, radius);
+      brush.painter.drawEllipse(*at, radius, radius);
       brush.painter.setBrush(Qt::NoBrush);
     }
   }

@@ -1,18 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/scene/scene_view.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include <QtWidgets>
 
+#include "sessions/io/undistort.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/panels/widgets.h"
 #include "ui/scene/scene_annotator.h"
-#include "ui/scene/scene_bar.h"
 #include "ui/scene/scene_input.h"
 #include "ui/scene/scene_overlay.h"
 
 namespace boresight::ui {
+namespace {
+
+QImage grayOf(const boresight::ImageView& image) {
+  QImage gray(image.width, image.height, QImage::Format_Grayscale8);
+  for (int y = 0; y < image.height; ++y) std::copy_n(image.row(y), image.width, gray.scanLine(y));
+  return gray;
+}
+
+}  // namespace
+
 SceneView::SceneView(ViewState& state, QWidget* parent, SceneBackend backend)
     : QWidget(parent),
       state_(state),
@@ -23,11 +33,8 @@ SceneView::SceneView(ViewState& state, QWidget* parent, SceneBackend backend)
   state_.onChange(ViewChange::kCase | ViewChange::kSnapshot | ViewChange::kCursor |
                       ViewChange::kNudgedPose | ViewChange::kAnnotatedPose | ViewChange::kTemplate,
                   this, &SceneView::refreshSoon);
-  connect(&backdrop_, &SceneBackdrop::ready, this, &SceneView::updateView);
   refreshSoon();
 }
-
-SceneView::~SceneView() = default;
 
 void SceneView::build() {
   auto* layout = new QVBoxLayout(this);
@@ -126,7 +133,8 @@ void SceneView::refresh() {
   content_ = std::make_shared<const SceneContent>(std::move(now));
   if (content_->one != before->one) {
     overlay_->setMark(std::nullopt);
-    backdrop_.clear();
+    backdrop_ = QImage();
+    backdrop_of_.reset();
     // Another image of the same station leaves the view where somebody has put it.
     const bool same_place = !before->empty() && !content_->empty() &&
                             before->bounds.minimum_m == content_->bounds.minimum_m &&
@@ -136,7 +144,7 @@ void SceneView::refresh() {
   }
   canvas_->setContent(content_, look_);
   overlay_->setContent(content_, look_);
-  if (throughCamera()) backdrop_.order(content_->one);
+  if (throughCamera()) orderBackdrop();
   updateView();
 }
 
@@ -155,7 +163,7 @@ void SceneView::setThroughCamera(bool through) {
   if (through == throughCamera()) return;
   navigation_.setThroughCamera(through);
   bar_->setThroughCamera(through);
-  if (through) backdrop_.order(content_->one);
+  if (through) orderBackdrop();
   updateLook();
 }
 
@@ -201,21 +209,41 @@ void SceneView::updateView() {
   navigation_.fitImage(*content_, canvas()->size());
   const Viewpoint view = viewpoint();
   std::optional<Backdrop> backdrop;
-  if (backdropReady()) {
-    const QImage& gray = backdrop_.gray();
-    backdrop =
-        Backdrop{gray, imageTransform().toWidget(QRectF(-0.5, -0.5, gray.width(), gray.height()))};
-  }
+  if (backdropReady())
+    backdrop = Backdrop{backdrop_, imageTransform().toWidget(
+                                       QRectF(-0.5, -0.5, backdrop_.width(), backdrop_.height()))};
   canvas_->setView(view, backdrop);
   overlay_->setView(view);
   if (annotator_) annotator_->setShot({content_, look_, view, backdrop});
   updateNote();
 }
 
+/// Taking out the distortion takes a while: it is done off the UI's thread, and once per case.
+void SceneView::orderBackdrop() {
+  const ViewState::CasePtr one = content_->one;
+  if (!one || backdrop_of_.lock() == one) return;
+  backdrop_of_ = one;
+  backdrop_ = QImage();
+  if (one->source.camera.model == CameraModel::kPinhole) {
+    backdrop_ = grayOf(one->image.view());
+    return;
+  }
+  runner_.start(
+      QStringLiteral("backdrop"),
+      [one](const std::stop_token&) {
+        return grayOf(sessions::undistort(one->source.camera, one->image.view()).view());
+      },
+      [this, one](const QImage& gray) {
+        if (backdrop_of_.lock() != one) return;
+        backdrop_ = gray;
+        updateView();
+      });
+}
+
 void SceneView::updateNote() {
   QString note;
   if (throughCamera() && !content_->empty()) {
-    if (backdrop_.gray().isNull())
+    if (backdrop_.isNull())
       note = tr("Taking the lens distortion out of the image ...");
     else if (content_->one->source.camera.model != CameraModel::kPinhole)
       note = tr("Undistorted: the image is shown as a camera without lens distortion sees it");

@@ -7,8 +7,8 @@
 #include <QPoint>
 #include <QWidget>
 
+#include "ui/run/task_runner.h"
 #include "ui/scene/scene_aim.h"
-#include "ui/scene/scene_backdrop.h"
 #include "ui/scene/scene_canvas.h"
 #include "ui/scene/scene_input.h"
 #include "ui/state/view_state.h"
@@ -19,8 +19,6 @@ namespace boresight::ui {
 
 class AnnotationController;
 class SceneAnnotator;
-class SceneBar;
-class SceneInput;
 class SceneOverlay;
 class StationSnapper;
 
@@ -34,7 +32,6 @@ class SceneView : public QWidget {
  public:
   explicit SceneView(ViewState& state, QWidget* parent = nullptr,
                      SceneBackend backend = sceneBackend());
-  ~SceneView() override;
 
   /// Lets somebody annotate in it; both must outlive it.
   void setAnnotation(AnnotationController& annotation, StationSnapper& snapper);
@@ -51,7 +48,7 @@ class SceneView : public QWidget {
   const ViewTransform& imageTransform() const { return navigation_.image(); }
 
   /// The image lies behind the mesh while looking through the camera.
-  bool backdropReady() const { return throughCamera() && !backdrop_.gray().isNull(); }
+  bool backdropReady() const { return throughCamera() && !backdrop_.isNull(); }
 
   /// Shows the whole scene again (through the camera: the whole image).
   void resetView();
@@ -83,6 +80,7 @@ class SceneView : public QWidget {
   void updateLook();
   void updateView();
   void updateNote();
+  void orderBackdrop();
   Pose throughPose() const;
   void pick(const QPointF& at, Qt::KeyboardModifiers modifiers);
   void pickInScene(const QPointF& pixel);
@@ -98,7 +96,9 @@ class SceneView : public QWidget {
   std::shared_ptr<const SceneContent> content_;
   SceneLook look_;
   SceneNavigation navigation_;
-  SceneBackdrop backdrop_;
+  QImage backdrop_;  ///< the case's image without lens distortion; null until it is there
+  std::weak_ptr<const sessions::LoadedCase> backdrop_of_;
+  TaskRunner runner_;
   PoseRole role_ = PoseRole::kEstimate;
   double free_opacity_ = 1.0;
   double through_opacity_ = 0.35;

@@ -2,6 +2,7 @@
 #include "ui/scene/viewpoint.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/math.h"
@@ -23,14 +24,11 @@ Camera pinhole(const QSizeF& canvas, double focal_px, double cx, double cy) {
 
 }  // namespace
 
-bool Viewpoint::toCanvas(const Eigen::Vector3d& point_in_station_m, QPointF& pixel,
-                         double& depth_m) const {
+std::optional<QPointF> Viewpoint::toCanvas(const Eigen::Vector3d& point_in_station_m) const {
   const Eigen::Vector3d seen = view_from_station * point_in_station_m;
-  if (!(seen.z() > 0.0)) return false;
-  depth_m = seen.z();
-  pixel = {camera.fx * seen.x() / seen.z() + camera.cx,
-           camera.fy * seen.y() / seen.z() + camera.cy};
-  return true;
+  if (!(seen.z() > 0.0)) return std::nullopt;
+  return QPointF(camera.fx * seen.x() / seen.z() + camera.cx,
+                 camera.fy * seen.y() / seen.z() + camera.cy);
 }
 
 Eigen::Vector3d Viewpoint::rayInStation(const QPointF& pixel) const {
@@ -43,6 +41,10 @@ Eigen::Vector3d Viewpoint::eyeInStation_m() const {
   return view_from_station.inverse().translation_m;
 }
 
+double distance_px(const QPointF& a, const QPointF& b) {
+  return std::hypot(a.x() - b.x(), a.y() - b.y());
+}
+
 void OrbitCamera::frame(const BoundingBox& bounds) {
   target_m_ = bounds.centre();
   radius_m_ = std::max(0.5 * bounds.diagonal(), 1e-6);
@@ -50,37 +52,16 @@ void OrbitCamera::frame(const BoundingBox& bounds) {
 }
 
 void OrbitCamera::lookFrom(StandardView view) {
-  const auto set = [this](double azimuth_rad, double elevation_rad) {
-    azimuth_rad_ = azimuth_rad;
-    elevation_rad_ = elevation_rad;
-  };
-  switch (view) {
-    case StandardView::kTop:
-      return set(-0.5 * kPi, 0.5 * kPi);
-    case StandardView::kBottom:
-      return set(-0.5 * kPi, -0.5 * kPi);
-    case StandardView::kFront:
-      return set(-0.5 * kPi, 0.0);
-    case StandardView::kBack:
-      return set(0.5 * kPi, 0.0);
-    case StandardView::kLeft:
-      return set(kPi, 0.0);
-    case StandardView::kRight:
-      return set(0.0, 0.0);
-    case StandardView::kOblique:
-      return set(-0.9, 0.6);
-  }
-}
-
-void OrbitCamera::lookLike(const Pose& camera_from_station) {
-  const Eigen::Vector3d backward =
-      camera_from_station.rotation.conjugate() * -Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d right = camera_from_station.rotation.conjugate() * Eigen::Vector3d::UnitX();
-  elevation_rad_ = std::asin(std::clamp(backward.z(), -1.0, 1.0));
-  // Near the vertical the image's x axis says more about the azimuth than the line of sight does.
-  azimuth_rad_ = std::hypot(backward.x(), backward.y()) > 0.3
-                     ? std::atan2(backward.y(), backward.x())
-                     : std::atan2(-right.x(), right.y());
+  constexpr std::array<std::array<double, 2>, 7> kDirections = {{{-0.5 * kPi, 0.5 * kPi},
+                                                                 {-0.5 * kPi, -0.5 * kPi},
+                                                                 {-0.5 * kPi, 0.0},
+                                                                 {0.5 * kPi, 0.0},
+                                                                 {kPi, 0.0},
+                                                                 {0.0, 0.0},
+                                                                 {-0.9, 0.6}}};
+  const auto& [azimuth_rad, elevation_rad] = kDirections[static_cast<std::size_t>(view)];
+  azimuth_rad_ = azimuth_rad;
+  elevation_rad_ = elevation_rad;
 }
 
 void OrbitCamera::orbit(const QPointF& pixels, double canvas_height) {

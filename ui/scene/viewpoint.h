@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include <QPointF>
 #include <QSizeF>
 
@@ -18,13 +20,15 @@ struct Viewpoint {
   Pose view_from_station;
   Camera camera;
 
-  /// False behind the viewer.
-  [[nodiscard]] bool toCanvas(const Eigen::Vector3d& point_in_station_m, QPointF& pixel,
-                              double& depth_m) const;
+  /// Pixel of a point; nothing behind the viewer.
+  std::optional<QPointF> toCanvas(const Eigen::Vector3d& point_in_station_m) const;
   /// Direction (not of unit length, z forward 1) of the ray through a pixel, station frame.
   Eigen::Vector3d rayInStation(const QPointF& pixel) const;
   Eigen::Vector3d eyeInStation_m() const;
 };
+
+/// Between two pixels of the canvas.
+double distance_px(const QPointF& a, const QPointF& b);
 
 /// The fixed directions to look from. "Front" looks along the station's +y.
 enum class StandardView { kTop, kBottom, kFront, kBack, kLeft, kRight, kOblique };
@@ -37,8 +41,6 @@ class OrbitCamera {
   /// Looks at the box from the same side as before, as far away as shows all of it.
   void frame(const BoundingBox& bounds);
   void lookFrom(StandardView view);
-  /// Looks at the box as the pose's camera does, as nearly as an upright view can.
-  void lookLike(const Pose& camera_from_station);
 
   /// Dragging by this many pixels of a canvas of this height.
   void orbit(const QPointF& pixels, double canvas_height);

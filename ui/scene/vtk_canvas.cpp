@@ -13,8 +13,8 @@
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 
+#include <QtWidgets>
 #include <algorithm>
-#include <cmath>
 
 #include "ui/scene/scene_canvas.h"
 #include "ui/scene/vtk_shapes.h"
@@ -25,6 +25,30 @@ namespace {
 constexpr double kTrailRadius_px = 2.5;
 constexpr vtkIdType kManyPoints = 1000;
 constexpr double kUnmatchedRadius = 0.45;  ///< of an inlier's
+
+/// What a trial context says of itself; empty when none can be had.
+QString rendererName() {
+  QOpenGLContext context;
+  context.setFormat(QSurfaceFormat::defaultFormat());
+  if (!context.create()) return {};
+  QOffscreenSurface surface;
+  surface.setFormat(context.format());
+  surface.create();
+  if (!surface.isValid() || !context.makeCurrent(&surface)) return {};
+  const QSurfaceFormat format = context.format();
+  const auto* name = reinterpret_cast<const char*>(context.functions()->glGetString(GL_RENDERER));
+  const QString renderer = QString::fromUtf8(name != nullptr ? name : "unknown");
+  context.doneCurrent();
+  const bool enough =
+      format.renderableType() != QSurfaceFormat::OpenGLES && format.version() >= qMakePair(3, 2);
+  return enough ? renderer : QString();
+}
+
+/// Of the one trial that is made.
+const QString& triedRenderer() {
+  static const QString name = rendererName();
+  return name;
+}
 
 class VtkCanvas final : public SceneCanvas {
  public:
@@ -114,9 +138,7 @@ class VtkCanvas final : public SceneCanvas {
       cloud->mapper->SetLookupTable(table_);
       cloud->mapper->UseLookupTableScalarRangeOff();
     }
-    for (Cloud* cloud :
-         {&inliers_, &outliers_, &unmatched_, &selected_, &trail_points_, &trail_now_})
-      renderer_->AddActor(cloud->actor);
+    for (Cloud* cloud : clouds_) renderer_->AddActor(cloud->actor);
   }
 
   void fillMesh() {
@@ -180,9 +202,7 @@ class VtkCanvas final : public SceneCanvas {
   }
 
   void fillPoints() {
-    for (Cloud* cloud :
-         {&inliers_, &outliers_, &unmatched_, &selected_, &trail_points_, &trail_now_})
-      cloud->clear();
+    for (Cloud* cloud : clouds_) cloud->clear();
     for (const ScenePoint& point : content_->points) {
       Cloud& cloud = point.kind == ScenePointKind::kInlier    ? inliers_
                      : point.kind == ScenePointKind::kOutlier ? outliers_
@@ -194,9 +214,7 @@ class VtkCanvas final : public SceneCanvas {
     for (std::size_t i = 0; i < content_->trail_m.size(); ++i)
       (static_cast<int>(i) == content_->trail_now ? trail_now_ : trail_points_)
           .add(content_->trail_m[i]);
-    for (Cloud* cloud :
-         {&inliers_, &outliers_, &unmatched_, &selected_, &trail_points_, &trail_now_})
-      cloud->changed();
+    for (Cloud* cloud : clouds_) cloud->changed();
     for (Cloud* cloud : {&inliers_, &outliers_})
       cloud->mapper->SetScalarRange(0.0, content_->residual_limit_px);
     const auto roundness = [](const Cloud& cloud) {
@@ -215,17 +233,16 @@ class VtkCanvas final : public SceneCanvas {
                                  mesh->mapper->GetInput()->GetNumberOfPolys() > 0);
       mesh->actor->GetProperty()->SetOpacity(look_.mesh_opacity);
     }
-    const auto show = [](Lines& lines, bool on) {
-      if (!on) lines.actor->VisibilityOff();
+    const auto show = [](auto& drawn, bool on) {
+      if (!on) drawn.actor->VisibilityOff();
     };
     show(mesh_lines_, shown.mesh_edges);
     for (Lines& frustum : frusta_) show(frustum, shown.frusta);
     show(axes_, shown.axes);
     show(trail_, shown.trail);
     for (Cloud* cloud : {&inliers_, &outliers_, &unmatched_, &selected_})
-      if (!shown.points) cloud->actor->VisibilityOff();
-    for (Cloud* cloud : {&trail_points_, &trail_now_})
-      if (!shown.trail) cloud->actor->VisibilityOff();
+      show(*cloud, shown.points);
+    for (Cloud* cloud : {&trail_points_, &trail_now_}) show(*cloud, shown.trail);
   }
 
   /// Points keep their size on the screen, as if all were as far away as the scene's centre.
@@ -264,6 +281,8 @@ class VtkCanvas final : public SceneCanvas {
   Cloud selected_;
   Cloud trail_points_;
   Cloud trail_now_;
+  const std::array<Cloud*, 6> clouds_ = {&inliers_,  &outliers_,     &unmatched_,
+                                         &selected_, &trail_points_, &trail_now_};
   std::shared_ptr<const SceneContent> content_;
   std::vector<std::array<std::int32_t, 2>> sharp_edges_;
   SceneLook look_;
@@ -274,6 +293,33 @@ class VtkCanvas final : public SceneCanvas {
 
 std::unique_ptr<SceneCanvas> makeVtkCanvas(QWidget* parent) {
   return std::make_unique<VtkCanvas>(parent);
+}
+
+void prepareSceneSurface() {
+  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+}
+
+SceneBackend decideSceneBackend(const QString& platform, const QString& wish,
+                                const std::function<bool()>& context_works) {
+  if (wish == QLatin1String("picture")) return SceneBackend::kPicture;
+  static const QStringList kPlatforms = {QStringLiteral("xcb"), QStringLiteral("windows"),
+                                         QStringLiteral("cocoa")};
+  if (!kPlatforms.contains(platform)) return SceneBackend::kPicture;
+  return context_works() ? SceneBackend::kVtk : SceneBackend::kPicture;
+}
+
+SceneBackend sceneBackend() {
+  static const SceneBackend decided =
+      decideSceneBackend(QGuiApplication::platformName(), qEnvironmentVariable("BORESIGHT_SCENE"),
+                         [] { return !triedRenderer().isEmpty(); });
+  return decided;
+}
+
+bool sceneIsDrawnInSoftware() {
+  if (sceneBackend() != SceneBackend::kVtk) return true;
+  for (const char* name : {"llvmpipe", "softpipe", "swrast", "SwiftShader"})
+    if (triedRenderer().contains(QLatin1String(name), Qt::CaseInsensitive)) return true;
+  return false;
 }
 
 }  // namespace boresight::ui

@@ -21,6 +21,10 @@
 namespace boresight::ui {
 namespace {
 
+void insert(vtkPoints& points, const Eigen::Vector3d& at_m) {
+  points.InsertNextPoint(at_m.x(), at_m.y(), at_m.z());
+}
+
 /// Nearest and farthest depth of what there is, with some air.
 std::pair<double, double> depthRange(const SceneContent& content, const Viewpoint& view) {
   double nearest = 1e300;
@@ -154,10 +158,6 @@ vtkNew<vtkPolyData> linesOf(const ColoredLines& lines) {
 }
 
 }  // namespace
-
-void insert(vtkPoints& points, const Eigen::Vector3d& at_m) {
-  points.InsertNextPoint(at_m.x(), at_m.y(), at_m.z());
-}
 
 vtkNew<vtkPolyData> crossShape() {
   vtkNew<vtkPoints> points;

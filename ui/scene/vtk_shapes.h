@@ -42,8 +42,6 @@ class BackdropActor {
   qint64 key_ = 0;  ///< of the picture in the texture
 };
 
-void insert(vtkPoints& points, const Eigen::Vector3d& at_m);
-
 /// Lines of one colour each.
 using ColoredLines = std::vector<std::pair<SceneLine, QColor>>;
 

@@ -25,9 +25,6 @@ void removeWithCompanions(const std::filesystem::path& file) {
 
 }  // namespace
 
-Document::Document(QObject* parent) : QObject(parent) {}
-Document::~Document() = default;
-
 const sessions::Session& Document::session() const {
   return document_ ? document_->session() : empty_;
 }
@@ -45,10 +42,9 @@ const std::optional<sessions::Recovery>* Document::recovery() const {
 }
 
 template <class Action>
-bool Document::attempt(Action&& action) {
+bool Document::attempt(Signal done, Action&& action) {
   try {
     action();
-    return true;
   } catch (const sessions::OutputError& error) {
     Q_EMIT writeFailed(QString::fromUtf8(error.what()));
     return false;
@@ -57,6 +53,8 @@ bool Document::attempt(Action&& action) {
     Q_EMIT failed(QString::fromUtf8(error.what()));
     return false;
   }
+  if (done) Q_EMIT(this->*done)();
+  return true;
 }
 
 void Document::become(sessions::SessionDocument&& document, bool untitled) {
@@ -68,23 +66,19 @@ void Document::become(sessions::SessionDocument&& document, bool untitled) {
 }
 
 bool Document::open(const std::filesystem::path& file) {
-  const bool done = attempt([&] {
+  return attempt(&Document::opened, [&] {
     const std::filesystem::path parent = std::filesystem::absolute(file).parent_path();
     become(sessions::SessionDocument::open(file), parent == untitledFolder());
   });
-  if (done) Q_EMIT opened();
-  return done;
 }
 
 bool Document::create(const std::filesystem::path& file, const sessions::Session& session) {
-  const bool done =
-      attempt([&] { become(sessions::SessionDocument::create(file, session), false); });
-  if (done) Q_EMIT opened();
-  return done;
+  return attempt(&Document::opened,
+                 [&] { become(sessions::SessionDocument::create(file, session), false); });
 }
 
 bool Document::createUntitled(const sessions::Session& session) {
-  const bool done = attempt([&] {
+  return attempt(&Document::opened, [&] {
     const std::filesystem::path folder = untitledFolder();
     std::filesystem::create_directories(folder);
     const QString stamp =
@@ -92,20 +86,15 @@ bool Document::createUntitled(const sessions::Session& session) {
     const std::string name = "untitled-" + stamp.toStdString() + ".boresight.json";
     become(sessions::SessionDocument::create(folder / name, session), true);
   });
-  if (done) Q_EMIT opened();
-  return done;
 }
 
 bool Document::save() {
-  const bool done = document_ && attempt([&] { document_->save(); });
-  if (done) Q_EMIT changed();
-  return done;
+  return document_ && attempt(&Document::changed, [&] { document_->save(); });
 }
 
 bool Document::saveAs(const std::filesystem::path& file) {
   const std::filesystem::path former = this->file();
-  const bool done = document_ && attempt([&] { document_->saveAs(file); });
-  if (!done) return false;
+  if (!document_ || !attempt(nullptr, [&] { document_->saveAs(file); })) return false;
   if (std::exchange(untitled_, false) && former != this->file()) removeWithCompanions(former);
   Q_EMIT changed();
   const std::optional<Refused> refused = std::exchange(refused_, std::nullopt);
@@ -140,43 +129,34 @@ std::optional<std::filesystem::path> Document::leftUntitled() {
 }
 
 bool Document::acceptRecovery() {
-  const bool done = document_ && attempt([&] { document_->acceptRecovery(); });
-  if (done) Q_EMIT opened();
-  return done;
+  return document_ && attempt(&Document::opened, [&] { document_->acceptRecovery(); });
 }
 
 bool Document::declineRecovery() {
-  const bool done = document_ && attempt([&] { document_->declineRecovery(); });
-  if (done) Q_EMIT opened();
-  return done;
+  return document_ && attempt(&Document::opened, [&] { document_->declineRecovery(); });
 }
 
 bool Document::edit(const sessions::Session& after, const QString& text) {
   // Before the attempt: its failure is told at once, and answered by saving elsewhere.
   if (!history_) return false;
   refused_ = Refused{after, text};
-  const bool done = attempt([&] { history_->perform(after, text.toStdString()); });
-  if (done) refused_.reset();
-  if (done) Q_EMIT changed();
-  return done;
+  return attempt(&Document::changed, [&] {
+    history_->perform(after, text.toStdString());
+    refused_.reset();
+  });
 }
 
 bool Document::note(const sessions::Session& after, const QString& text) {
-  const bool done = document_ && attempt([&] { document_->apply(after, text.toStdString()); });
-  if (done) Q_EMIT changed();
-  return done;
+  return document_ &&
+         attempt(&Document::changed, [&] { document_->apply(after, text.toStdString()); });
 }
 
 bool Document::undo() {
-  const bool done = canUndo() && attempt([&] { history_->undo(); });
-  if (done) Q_EMIT changed();
-  return done;
+  return canUndo() && attempt(&Document::changed, [&] { history_->undo(); });
 }
 
 bool Document::redo() {
-  const bool done = canRedo() && attempt([&] { history_->redo(); });
-  if (done) Q_EMIT changed();
-  return done;
+  return canRedo() && attempt(&Document::changed, [&] { history_->redo(); });
 }
 
 QString Document::undoText() const {

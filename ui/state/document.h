@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
 
 #include <QObject>
 #include <QString>
@@ -19,8 +18,7 @@ class Document : public QObject {
   Q_OBJECT
 
  public:
-  explicit Document(QObject* parent = nullptr);
-  ~Document() override;
+  using QObject::QObject;
 
   bool isOpen() const { return document_.has_value(); }
   /// An empty session when none is open.
@@ -80,8 +78,11 @@ class Document : public QObject {
     QString text;
   };
 
+  using Signal = void (Document::*)();
+
+  /// Emits `done` (unless nullptr) once the action has been done.
   template <class Action>
-  bool attempt(Action&& action);
+  bool attempt(Signal done, Action&& action);
   void become(sessions::SessionDocument&& document, bool untitled);
 
   std::optional<sessions::SessionDocument> document_;

@@ -12,12 +12,8 @@ std::optional<Pose> poseOf(const ViewState& state, PoseRole role) {
     case PoseRole::kSeed:
       return state.snapshot() ? state.snapshot()->camera_from_station_seed
                               : state.currentCase()->source.camera_from_station_seed;
-    case PoseRole::kEstimate: {
-      const sessions::IterationTrace* shown = state.iteration();
-      if (shown == nullptr) return std::nullopt;
-      return state.cursor().stage >= Stage::kPose ? shown->camera_from_station
-                                                  : shown->camera_from_station_before;
-    }
+    case PoseRole::kEstimate:
+      return state.iterationPose();
     case PoseRole::kNudged:
       return state.nudgedPose();
     case PoseRole::kTruth:
@@ -28,8 +24,6 @@ std::optional<Pose> poseOf(const ViewState& state, PoseRole role) {
   return std::nullopt;
 }
 
-ViewState::ViewState(QObject* parent) : QObject(parent) {}
-
 int ViewState::lastIteration() const {
   return snapshot_ ? static_cast<int>(snapshot_->iterations.size()) - 1 : -1;
 }
@@ -39,13 +33,17 @@ const sessions::IterationTrace* ViewState::iteration() const {
   return snapshot_->iterations[static_cast<std::size_t>(cursor_.iteration)].get();
 }
 
+std::optional<Pose> ViewState::iterationPose() const {
+  const sessions::IterationTrace* shown = iteration();
+  if (!shown) return std::nullopt;
+  return cursor_.stage >= Stage::kPose ? shown->camera_from_station
+                                       : shown->camera_from_station_before;
+}
+
 Pose ViewState::shownPose() const {
   if (nudged_) return *nudged_;
-  if (const sessions::IterationTrace* shown = iteration()) {
-    const bool solved = cursor_.stage >= Stage::kPose;
-    return solved ? shown->camera_from_station : shown->camera_from_station_before;
-  }
-  return case_ ? case_->source.camera_from_station_seed : Pose();
+  const Pose seed = case_ ? case_->source.camera_from_station_seed : Pose();
+  return iterationPose().value_or(seed);
 }
 
 void ViewState::setCase(CasePtr one) {

@@ -50,7 +50,7 @@ class ViewState : public QObject {
   Q_OBJECT
 
  public:
-  explicit ViewState(QObject* parent = nullptr);
+  using QObject::QObject;
 
   using CasePtr = std::shared_ptr<const sessions::LoadedCase>;
   using SnapshotPtr = std::shared_ptr<const sessions::LocalizationTrace>;
@@ -62,6 +62,8 @@ class ViewState : public QObject {
   const RunCursor& cursor() const { return cursor_; }
   /// The iteration under the cursor, or nullptr.
   const sessions::IterationTrace* iteration() const;
+  /// Its pose after it, or before it where the shown stage is earlier than the pose.
+  std::optional<Pose> iterationPose() const;
   /// Index into the iteration's templates, or -1.
   int selectedTemplate() const { return selected_template_; }
   /// The pose that is being nudged, if any.

@@ -10,6 +10,7 @@
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/annotation_panel.h"
 #include "ui/models/number_text.h"
+#include "ui/review/pose_export.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
@@ -19,16 +20,6 @@ namespace {
 
 QString marksFilter() {
   return AnnotationFiles::tr("Marks (*.json *.csv);;points.json (*.json);;Table (*.csv)");
-}
-
-QString nameOf(const std::filesystem::path& file) {
-  return QString::fromStdString(file.filename().string());
-}
-
-QString joined(const std::vector<std::string>& notes) {
-  QStringList texts;
-  for (const std::string& note : notes) texts << fromText(note);
-  return texts.join(QLatin1Char(' '));
 }
 
 }  // namespace
@@ -73,8 +64,8 @@ void AnnotationFiles::importMarks() {
     parts_.annotation.finishMove();
     const sessions::ImportReport report =
         sessions::importMarks(parts_.document.session(), caseId(), path, true);
-    parts_.document.edit(report.session, tr("Import marks of %1").arg(nameOf(path)));
-    Q_EMIT noted(tr("Marks taken from %1.").arg(nameOf(path)));
+    parts_.document.edit(report.session, tr("Import marks of %1").arg(fileNameOf(path)));
+    Q_EMIT noted(tr("Marks taken from %1.").arg(fileNameOf(path)));
   });
 }
 
@@ -84,7 +75,7 @@ void AnnotationFiles::exportMarks() {
   if (file.empty()) return;
   attempt([&] {
     sessions::writeMarks(file, parts_.annotation.marks());
-    Q_EMIT noted(tr("Marks written to %1.").arg(nameOf(file)));
+    Q_EMIT noted(tr("Marks written to %1.").arg(fileNameOf(file)));
   });
 }
 
@@ -100,9 +91,7 @@ void AnnotationFiles::exportPoses(Exporter exporter, const QString& title, const
       [exporter, folder, session = parts_.document.session(), robust = parts_.annotation.robust()](
           const std::stop_token&) { return exporter(session, folder, {}, robust); },
       [this, folder](const sessions::ExportReport& report) {
-        Q_EMIT noted(tr("%1 poses written to %2. %3")
-                         .arg(report.case_ids.size())
-                         .arg(nameOf(folder), joined(report.notes)));
+        Q_EMIT noted(exportNote(report, folder));
       });
 }
 
@@ -113,10 +102,11 @@ void AnnotationFiles::importPoses(Importer importer, const QString& title) {
   attempt([&] {
     parts_.annotation.finishMove();
     const sessions::ImportReport report = importer(parts_.document.session(), folder, true);
-    if (!parts_.document.edit(report.session, tr("Import poses of %1").arg(nameOf(folder)))) return;
+    if (!parts_.document.edit(report.session, tr("Import poses of %1").arg(fileNameOf(folder))))
+      return;
     Q_EMIT noted(tr("%1 cases have their truth from %2 now. %3")
                      .arg(report.case_ids.size())
-                     .arg(nameOf(folder), joined(report.notes)));
+                     .arg(fileNameOf(folder), joinedNotes(report.notes)));
   });
 }
 
@@ -129,7 +119,7 @@ void AnnotationFiles::openLandmarks() {
   attempt([&] {
     const auto landmarks = sessions::readLandmarks(file);  // before the session names it
     parts_.annotation.setLandmarksFile(file);
-    Q_EMIT noted(tr("%1 landmarks of %2.").arg(landmarks.size()).arg(nameOf(file)));
+    Q_EMIT noted(tr("%1 landmarks of %2.").arg(landmarks.size()).arg(fileNameOf(file)));
   });
 }
 
@@ -145,7 +135,7 @@ void AnnotationFiles::saveLandmarks() {
     AnnotationController& annotation = parts_.annotation;
     sessions::writeLandmarks(file, sessions::withMarks(annotation.landmarks(), annotation.marks()));
     annotation.setLandmarksFile(file);
-    Q_EMIT noted(tr("Landmarks written to %1.").arg(nameOf(file)));
+    Q_EMIT noted(tr("Landmarks written to %1.").arg(fileNameOf(file)));
   });
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <iosfwd>
+
 class QApplication;
 
 namespace boresight::ui {
@@ -14,5 +16,9 @@ void prepareApplication(bool without_display);
 void nameApplication(QApplication& application);
 
 void useDarkColors(QApplication& application);
+
+/// Tests the installed program on the example that ships, without a display: one line per test,
+/// then "N passed, N failed". Returns how many failed.
+int runSelfTest(std::ostream& output);
 
 }  // namespace boresight::ui

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <QStringList>
+#include <QCoreApplication>
 
 #include "sessions/io/errors.h"
 #include "sessions/session/views_run.h"
@@ -23,6 +23,14 @@ bool sameButNudge(sessions::SessionCase a, const sessions::SessionCase& b) {
   return a == b;
 }
 
+constexpr int kPatience_ms = 100;  ///< between looks whether a store has failed
+
+sessions::Session withRuns(sessions::Session session,
+                           const std::vector<sessions::RunRecord>& records) {
+  for (const sessions::RunRecord& one : records) session = sessions::withRun(session, one);
+  return session;
+}
+
 }  // namespace
 
 CaseController::CaseController(Document& document, ViewState& state, RunController& run,
@@ -33,7 +41,7 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
   connect(&run_, &RunController::snapshotChanged, this, [this] {
     if (run_.snapshot()) state_.setSnapshot(run_.snapshot());
   });
-  connect(&run_, &RunController::finished, this, &CaseController::runEnded);
+  connect(&run_, &RunController::finished, this, &CaseController::storeRun);
   connect(&run_, &RunController::failed, this, [this](const QString& message) {
     run_is_prepared_ = false;
     Q_EMIT failed(message);
@@ -198,12 +206,8 @@ QString CaseController::staleness() const {
   return {};
 }
 
-void CaseController::prepareRun(const sessions::RunPlan& plan,
-                                std::vector<sessions::SessionCase> others) {
-  RunInputs inputs;
+void CaseController::prepareRun(RunInputs inputs) {
   inputs.one = state_.currentCase();
-  inputs.plan = plan;
-  inputs.others = std::move(others);
   run_.reset(std::move(inputs));
   run_session_ = document_.session();
   run_is_prepared_ = true;
@@ -218,7 +222,7 @@ void CaseController::advance(StepUntil until) {
   }
   try {
     sessions::requireRunnable(*state_.currentCase());
-    if (!run_is_prepared_ || run_.state() == RunState::kFinished) prepareRun(options());
+    if (!run_is_prepared_ || run_.state() == RunState::kFinished) prepareRun({.plan = options()});
   } catch (const std::exception& error) {
     Q_EMIT failed(QString::fromUtf8(error.what()));
     runNext();
@@ -249,7 +253,7 @@ void CaseController::runPlan(const sessions::RunPlan& plan) {
     requireLoaded();
     const std::string problem = sessions::planProblem(plan);
     if (!problem.empty()) throw std::runtime_error(problem + ".");
-    prepareRun(plan);
+    prepareRun({.plan = plan});
   });
 }
 
@@ -263,7 +267,8 @@ void CaseController::runTogether() {
     const std::string refusal = sessions::viewsRefusal(options());
     if (!whyAlone().isEmpty() || !refusal.empty())
       throw std::runtime_error(whyAlone().isEmpty() ? refusal : whyAlone().toStdString());
-    prepareRun(options(), sessions::otherViews(document_.session(), case_id_.toStdString()));
+    prepareRun({.plan = options(),
+                .others = sessions::otherViews(document_.session(), case_id_.toStdString())});
   });
 }
 
@@ -297,15 +302,12 @@ void CaseController::prepareRerun(int iteration) {
   if (kept >= shown.iterations.size())
     throw std::runtime_error(tr("The shown run has no such iteration.").toStdString());
   RunInputs inputs;
-  inputs.one = state_.currentCase();
   inputs.plan = sessions::continuedPlan(shown.plan(), iteration, options());
   inputs.kept.assign(shown.iterations.begin(), shown.iterations.begin() + iteration);
   inputs.continued = shown.digest;
   const std::string problem = sessions::planProblem(inputs.plan);
   if (!problem.empty()) throw std::runtime_error(problem + ".");
-  run_.reset(std::move(inputs));
-  run_session_ = document_.session();
-  run_is_prepared_ = true;
+  prepareRun(std::move(inputs));
 }
 
 void CaseController::stop() {
@@ -322,16 +324,76 @@ void CaseController::reset() {
   Q_EMIT stalenessChanged();
 }
 
-void CaseController::runEnded() {
-  run_is_prepared_ = false;
-  storeRun();
-}
-
 void CaseController::storeRun() {
+  run_is_prepared_ = false;
   if (const auto snapshot = run_.snapshot())
     store({run_session_, case_id_.toStdString(), snapshot, run_.inputs().continued, run_.views()});
   else
     runNext();
+}
+
+/// Written into the session's folder: one, or one of every view.
+std::vector<sessions::RunRecord> CaseController::recordsOf(const EndedRun& ended,
+                                                           const std::filesystem::path& file) {
+  if (ended.views.empty())
+    return {
+        sessions::storeRun(ended.session, ended.case_id, *ended.snapshot, file, ended.continued)};
+  std::vector<sessions::LocalizationTrace> views;
+  for (const ViewState::SnapshotPtr& one : ended.views) views.push_back(*one);
+  return sessions::storeViews(ended.session, views, file);
+}
+
+void CaseController::store(const EndedRun& ended) {
+  struct Stored {
+    std::vector<sessions::RunRecord> records;
+    QString problem;
+  };
+  ++storing_;
+  // Of a key of its own: no run's storing replaces another's.
+  tasks_.start(
+      QStringLiteral("store run %1").arg(QString::fromStdString(ended.snapshot->digest)),
+      [ended, file = document_.file()](const std::stop_token&) {
+        try {
+          return Stored{recordsOf(ended, file), {}};
+        } catch (const sessions::OutputError& error) {
+          return Stored{{}, QString::fromUtf8(error.what())};
+        }
+      },
+      [this, ended, file = document_.file()](const Stored& stored) {
+        --storing_;
+        // Before it is noted: a failure is told at once, and answered by saving elsewhere.
+        unstored_file_ = file;
+        unstored_.push_back(ended);
+        if (stored.records.empty()) {
+          Q_EMIT storeFailed(stored.problem);
+          if (!unstored_.empty()) endBatch();  // nor is there room for the next
+        } else if (document_.note(withRuns(document_.session(), stored.records),
+                                  tr("Run %1").arg(QString::fromStdString(ended.case_id)))) {
+          std::erase_if(unstored_,
+                        [&](const EndedRun& one) { return one.snapshot == ended.snapshot; });
+          Q_EMIT stalenessChanged();
+        }
+        // A run that was begun meanwhile goes on.
+        if (run_.state() != RunState::kWorking && !run_when_loaded_) runNext();
+      });
+}
+
+/// The session was saved: perhaps there is room now.
+void CaseController::storeAgain() {
+  for (const EndedRun& ended : std::exchange(unstored_, {})) store(ended);
+}
+
+QStringList CaseController::unstoredRuns() const {
+  QStringList ids;
+  for (const EndedRun& ended : unstored_) ids << QString::fromStdString(ended.case_id);
+  return ids;
+}
+
+void CaseController::finishStoring() {
+  // A store that fails leaves nobody busy.
+  while (storing_ && tasks_.isBusy())
+    QCoreApplication::processEvents(
+        QEventLoop::ExcludeUserInputEvents | QEventLoop::WaitForMoreEvents, kPatience_ms);
 }
 
 void CaseController::runAll(const QStringList& ids) {

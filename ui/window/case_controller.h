@@ -104,11 +104,10 @@ class CaseController : public QObject {
   void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one);
   void loadFailed(const QString& id, const QString& message);
   void loadLatestRun(const QString& id);
-  void prepareRun(const sessions::RunPlan& plan, std::vector<sessions::SessionCase> others = {});
+  void prepareRun(RunInputs inputs);
   void start(const std::function<void()>& prepare);
   void requireLoaded() const;
   void prepareRerun(int iteration);
-  void runEnded();
   void storeRun();
   static std::vector<sessions::RunRecord> recordsOf(const EndedRun& ended,
                                                     const std::filesystem::path& file);

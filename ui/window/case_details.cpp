@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <exception>
-#include <utility>
 
 #include <QCoreApplication>
 
@@ -62,8 +61,8 @@ std::vector<CaseRow> caseRows(const sessions::Session& session, const QString& r
 
 namespace {
 
-constexpr int kThumbnail_px = 128;  // also sharp on a screen of double density
-constexpr int kPause_ms = 200;      // the list is filled as a whole
+constexpr int kCaseThumbnail_px = 128;  // also sharp on a screen of double density
+constexpr int kPause_ms = 200;          // the list is filled as a whole
 
 /// Null when the file cannot be read: whoever opens the case is told why.
 QImage thumbnailOf(const sessions::ImageInput& input) {
@@ -71,7 +70,8 @@ QImage thumbnailOf(const sessions::ImageInput& input) {
     const sessions::GrayImage image = sessions::readImage(input.source.file, input.eight_bit);
     const QImage gray(image.pixels.data(), image.width, image.height, image.width,
                       QImage::Format_Grayscale8);
-    return gray.scaled(kThumbnail_px, kThumbnail_px, Qt::KeepAspectRatio, Qt::SmoothTransformation)
+    return gray
+        .scaled(kCaseThumbnail_px, kCaseThumbnail_px, Qt::KeepAspectRatio, Qt::SmoothTransformation)
         .copy();
   } catch (const std::exception&) {
     return {};

@@ -2,101 +2,101 @@
 #include "ui/window/dropped_files.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <exception>
+#include <stdexcept>
 
 #include "sessions/io/cahvor_file.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/io/labels/image_label.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::ui {
 namespace {
 
-enum class Kind {
-  kImage,
-  kMesh,
-  kCamera,
-  kPose,
-  kTransform,
-  kDataset,
-  kSession,
-  kResults,
-  kRecord,
-  kUnknown
+/// What a file is, as what it does to the files taken so far.
+using Take = void (*)(const std::filesystem::path& file, DroppedFiles& taken);
+
+/// Throws when the label of an image cannot be read or lacks its pixels.
+void takeImage(const std::filesystem::path& file, DroppedFiles& taken) {
+  std::optional<std::string> remark;
+  if (sessions::hasImageLabel(file)) {
+    const sessions::ImageLabel label = sessions::readImageLabel(file);
+    remark = label.camera ? std::string() : label.camera_remark;
+  }
+  taken.one.image = file;
+  taken.label_camera_remark = remark;
+}
+
+void takeMesh(const std::filesystem::path& file, DroppedFiles& taken) {
+  taken.one.parts.emplace_back().mesh = file;
+}
+
+void takeCamera(const std::filesystem::path& file, DroppedFiles& taken) { taken.one.camera = file; }
+
+void takePose(const std::filesystem::path& file, DroppedFiles& taken) {
+  if (sessions::lowerCase(file.stem().string()).find("truth") != std::string::npos)
+    taken.one.truth = file;
+  else
+    taken.one.seed = file;
+}
+
+void takeTransform(const std::filesystem::path& file, DroppedFiles& taken) {
+  taken.one.transforms.push_back(file);
+}
+
+template <std::optional<std::filesystem::path> DroppedFiles::*Member>
+void takeAs(const std::filesystem::path& file, DroppedFiles& taken) {
+  taken.*Member = file;
+}
+
+struct FileKind {
+  std::vector<std::string> names;  ///< extensions, or values of `format`
+  Take take;
 };
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
+Take findTake(const std::vector<FileKind>& kinds, const std::string& name) {
+  for (const FileKind& kind : kinds)
+    if (std::ranges::find(kind.names, name) != kind.names.end()) return kind.take;
+  return nullptr;
 }
 
-template <std::size_t N>
-bool isOneOf(const std::string& text, const std::array<const char*, N>& known) {
-  return std::find(known.begin(), known.end(), text) != known.end();
+Take takeOfJson(const std::filesystem::path& file) {
+  static const std::vector<FileKind> kFormats = {
+      {{"boresight-camera"}, takeCamera},
+      {{"boresight-pose"}, takePose},
+      {{"boresight-transform"}, takeTransform},
+      {{"boresight-dataset"}, takeAs<&DroppedFiles::dataset>},
+      {{"boresight-session"}, takeAs<&DroppedFiles::session>},
+  };
+  const auto bytes =
+      sessions::readFileBytes(file, sessions::kMaxJsonBytes, sessions::FileUse::kFree);
+  const sessions::JsonDocument document(file, sessions::asText(bytes));
+  const std::string format = document.root().at("format").nonEmptyText();
+  if (const Take take = findTake(kFormats, format)) return take;
+  throw std::runtime_error(
+      file.string() + ": the format '" + format +
+      "' is none that can be opened here (camera, pose, transform, dataset, session)");
 }
 
-Kind kindOfJson(const std::filesystem::path& file, std::string& problem) {
-  std::string format;
-  try {
-    const auto bytes =
-        sessions::readFileBytes(file, sessions::kMaxJsonBytes, sessions::FileUse::kFree);
-    const sessions::JsonDocument document(file, sessions::asText(bytes));
-    format = document.root().at("format").nonEmptyText();
-  } catch (const std::exception& error) {
-    problem = error.what();
-    return Kind::kUnknown;
-  }
-  if (format == "boresight-camera") return Kind::kCamera;
-  if (format == "boresight-pose") return Kind::kPose;
-  if (format == "boresight-transform") return Kind::kTransform;
-  if (format == "boresight-dataset") return Kind::kDataset;
-  if (format == "boresight-session") return Kind::kSession;
-  problem = file.string() + ": the format '" + format +
-            "' is none that can be opened here (camera, pose, transform, dataset, session)";
-  return Kind::kUnknown;
-}
-
-Kind kindOf(const std::filesystem::path& file, std::string& problem) {
-  const std::string extension = lower(file.extension().string());
-  if (isOneOf(extension, std::array{".png", ".jpg", ".jpeg", ".tif", ".tiff"})) return Kind::kImage;
-  if (isOneOf(extension, std::array{".ply", ".obj", ".stl", ".gltf", ".glb"})) return Kind::kMesh;
-  if (extension == ".whsr") return Kind::kRecord;
-  if (extension == ".sqlite") return Kind::kResults;
-  if (extension == ".json") return kindOfJson(file, problem);
-  if (extension == ".zip") {
-    problem = file.string() + ": an archive: unpack it, and open the session in it";
-    return Kind::kUnknown;
-  }
-  if (sessions::isCahvorFile(file)) return Kind::kCamera;
-  if (sessions::hasImageLabel(file)) return Kind::kImage;
-  problem =
+/// Throws when it is nothing known.
+Take takeOf(const std::filesystem::path& file) {
+  static const std::vector<FileKind> kExtensions = {
+      {{".png", ".jpg", ".jpeg", ".tif", ".tiff"}, takeImage},
+      {{".ply", ".obj", ".stl", ".gltf", ".glb"}, takeMesh},
+      {{".whsr"}, takeAs<&DroppedFiles::record>},
+      {{".sqlite"}, takeAs<&DroppedFiles::results>},
+  };
+  const std::string extension = sessions::lowerCase(file.extension().string());
+  if (const Take take = findTake(kExtensions, extension)) return take;
+  if (extension == ".json") return takeOfJson(file);
+  if (extension == ".zip")
+    throw std::runtime_error(file.string() + ": an archive: unpack it, and open the session in it");
+  if (sessions::isCahvorFile(file)) return takeCamera;
+  if (sessions::hasImageLabel(file)) return takeImage;
+  throw std::runtime_error(
       file.string() +
       ": not an image (png, jpg, tif, or with a VICAR, PDS3 or PDS4 label), a mesh (ply, obj, "
       "stl, gltf, glb), a camera (json, cahvor), an onboard record (whsr), results (sqlite) "
-      "or a json file";
-  return Kind::kUnknown;
-}
-
-/// Takes the image; one whose label cannot be read, or lacks its pixels, is a problem and no image.
-void takeImage(const std::filesystem::path& image, DroppedFiles& made) {
-  std::optional<std::string> remark;
-  if (sessions::hasImageLabel(image)) {
-    try {
-      const sessions::ImageLabel label = sessions::readImageLabel(image);
-      remark = label.camera ? std::string() : label.camera_remark;
-    } catch (const std::exception& error) {
-      made.problems.emplace_back(error.what());
-      return;
-    }
-  }
-  made.one.image = image;
-  made.label_camera_remark = remark;
-}
-
-bool isNamedTruth(const std::filesystem::path& file) {
-  return lower(file.stem().string()).find("truth") != std::string::npos;
+      "or a json file");
 }
 
 }  // namespace
@@ -157,51 +157,15 @@ DroppedFiles classify(const std::vector<std::filesystem::path>& files,
   made.one = earlier.one;
   made.record = earlier.record;
   made.label_camera_remark = earlier.label_camera_remark;
-  bool new_mesh = true;
+  made.one.parts.clear();
   for (const std::filesystem::path& file : files) {
-    std::string problem;
-    switch (kindOf(file, problem)) {
-      case Kind::kImage:
-        takeImage(file, made);
-        break;
-      case Kind::kMesh: {
-        if (new_mesh) made.one.parts.clear();
-        new_mesh = false;
-        sessions::PartSource part;
-        part.mesh = file;
-        made.one.parts.push_back(part);
-        break;
-      }
-      case Kind::kCamera:
-        made.one.camera = file;
-        break;
-      case Kind::kPose:
-        if (isNamedTruth(file)) {
-          made.one.truth = file;
-        } else {
-          made.one.seed = file;
-        }
-        break;
-      case Kind::kTransform:
-        made.one.transforms.push_back(file);
-        break;
-      case Kind::kDataset:
-        made.dataset = file;
-        break;
-      case Kind::kSession:
-        made.session = file;
-        break;
-      case Kind::kResults:
-        made.results = file;
-        break;
-      case Kind::kRecord:
-        made.record = file;
-        break;
-      case Kind::kUnknown:
-        made.problems.push_back(problem);
-        break;
+    try {
+      takeOf(file)(file, made);
+    } catch (const std::exception& error) {
+      made.problems.emplace_back(error.what());
     }
   }
+  if (made.one.parts.empty()) made.one.parts = earlier.one.parts;
   return made;
 }
 

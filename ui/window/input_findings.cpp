@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/input_findings.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -60,9 +61,9 @@ QString InputFindings::adviceFor(const QString& case_id) const {
 }
 
 bool InputFindings::has(FindingKind kind) const {
-  for (const sessions::Finding& finding : findings_)
-    if (finding.kind == kind && finding.what != "run") return true;
-  return false;
+  return std::ranges::any_of(findings_, [kind](const sessions::Finding& finding) {
+    return finding.kind == kind && finding.what != "run";
+  });
 }
 
 void InputFindings::mend() {

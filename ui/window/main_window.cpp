@@ -7,6 +7,7 @@
 
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
+#include "ui/panels/widgets.h"
 #include "ui/scene/scene_view.h"
 #include "ui/views/image_panel.h"
 #include "ui/window/annotation_files.h"
@@ -28,18 +29,10 @@ constexpr int kLayoutVersion = 8;  // of another set of panels, a layout is not 
 QString stateText(RunState state, const std::optional<BatchRun>& batch) {
   if (batch && batch->of > 1)
     return MainWindow::tr("Running %1 of %2...").arg(batch->at).arg(batch->of);
-  switch (state) {
-    case RunState::kEmpty:
-    case RunState::kReady:
-      return MainWindow::tr("Ready");
-    case RunState::kWorking:
-      return MainWindow::tr("Running...");
-    case RunState::kHalted:
-      return MainWindow::tr("Halted");
-    case RunState::kFinished:
-      return MainWindow::tr("Finished");
-  }
-  return {};
+  return state == RunState::kWorking    ? MainWindow::tr("Running...")
+         : state == RunState::kHalted   ? MainWindow::tr("Halted")
+         : state == RunState::kFinished ? MainWindow::tr("Finished")
+                                        : MainWindow::tr("Ready");
 }
 
 }  // namespace
@@ -69,10 +62,8 @@ ImagePanel& MainWindow::image() { return docks_->image(); }
 QDockWidget* MainWindow::dock(const QString& name) const { return findChild<QDockWidget*>(name); }
 
 void MainWindow::buildStatusBar() {
-  auto* place = new QLabel;
-  place->setObjectName(QStringLiteral("place"));
-  run_label_ = new QLabel;
-  run_label_->setObjectName(QStringLiteral("runState"));
+  auto* place = named(new QLabel, "place");
+  run_label_ = named(new QLabel, "runState");
   statusBar()->addWidget(place, 1);
   statusBar()->addPermanentWidget(run_label_);
   connect(&image(), &ImagePanel::placeText, place, &QLabel::setText);

@@ -16,6 +16,7 @@
 #include "ui/panels/input_sheet_panel.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/warning_bar.h"
+#include "ui/panels/widgets.h"
 #include "ui/review/queue_panel.h"
 #include "ui/run/pose_renderer.h"
 #include "ui/run/run_controller.h"
@@ -29,11 +30,6 @@
 #include "ui/window/window_docks.h"
 
 namespace boresight::ui {
-namespace {
-
-const QString kDock = QStringLiteral("queue");
-
-}  // namespace
 
 QueueLinks::QueueLinks(const WindowParts& parts, const WindowDocks& docks, QObject* parent)
     : QObject(parent), parts_(parts) {
@@ -71,19 +67,14 @@ void QueueLinks::goThere() {
 /// Keys that hold in the queue's list alone stand beside the text: elsewhere they are the image's.
 void QueueLinks::addActions(QMenu& menu, const WindowDocks& docks) {
   QueuePanel& panel = docks.queue();
-  QAction* show = menu.addAction(tr("Show the &queue"));
-  show->setShortcut(QKeySequence(QStringLiteral("Shift+F9")));
-  show->setStatusTip(tr("All cases, the most troubled first"));
-  connect(show, &QAction::triggered, &panel, [&docks] {
-    docks.raise(kDock);
-    docks.queue().focusList();
-  });
+  addAction(menu, tr("Show the &queue"), keys("Shift+F9"), tr("All cases, the most troubled first"),
+            &panel, [&docks] {
+              docks.raise(QStringLiteral("queue"));
+              docks.queue().focusList();
+            });
   menu.addSeparator();
-  const auto add = [&menu, &panel](const QString& text, const QString& tip,
-                                   void (QueuePanel::*act)()) {
-    QAction* made = menu.addAction(text);
-    made->setStatusTip(tip);
-    connect(made, &QAction::triggered, &panel, act);
+  const auto add = [&menu, &panel](const QString& text, const QString& tip, auto act) {
+    addAction(menu, text, {}, tip, &panel, act);
   };
   add(tr("&Open at the failed iteration\tEnter"),
       tr("Show the chosen case of the queue at the iteration that failed, or at the last one"),
@@ -94,12 +85,11 @@ void QueueLinks::addActions(QMenu& menu, const WindowDocks& docks) {
       &QueuePanel::reject);
   add(tr("&Next\tJ"), tr("The next case of the queue"), &QueuePanel::next);
   add(tr("&Previous\tK"), tr("The case of the queue before"), &QueuePanel::previous);
-  QAction* differences = menu.addAction(tr("&Differences between the last two runs\tD"));
-  differences->setStatusTip(tr("Each case's last run against the one before it"));
-  connect(differences, &QAction::triggered, &panel, [&docks] {
-    docks.raise(kDock);
-    docks.queue().showDifferences(true);
-  });
+  add(tr("&Differences between the last two runs\tD"),
+      tr("Each case's last run against the one before it"), [&docks] {
+        docks.raise(QStringLiteral("queue"));
+        docks.queue().showDifferences(true);
+      });
 }
 
 PanelLinks::PanelLinks(const WindowParts& parts, const WindowDocks& docks, QObject* parent)

@@ -19,13 +19,17 @@ namespace boresight::ui {
 namespace {
 
 constexpr int kRecentFiles = 10;
-constexpr const char* kKey = "recent";
+constexpr const char* kRecentKey = "recent";
+
+QString text(const std::filesystem::path& file) { return QString::fromStdString(file.string()); }
+
+std::filesystem::path path(const QString& file) { return file.toStdString(); }
 
 }  // namespace
 
 QStringList recentFiles() {
   QStringList files;
-  for (const QString& file : QSettings().value(QLatin1String(kKey)).toStringList())
+  for (const QString& file : QSettings().value(QLatin1String(kRecentKey)).toStringList())
     if (QFileInfo::exists(file)) files << file;
   return files;
 }
@@ -36,16 +40,8 @@ void noteRecentFile(const std::filesystem::path& file) {
   files.removeAll(name);
   files.prepend(name);
   while (files.size() > kRecentFiles) files.removeLast();
-  QSettings().setValue(QLatin1String(kKey), files);
+  QSettings().setValue(QLatin1String(kRecentKey), files);
 }
-
-namespace {
-
-QString text(const std::filesystem::path& file) { return QString::fromStdString(file.string()); }
-
-std::filesystem::path path(const QString& file) { return file.toStdString(); }
-
-}  // namespace
 
 SessionFiles::SessionFiles(QWidget& window, const WindowParts& parts)
     : QObject(&window), window_(window), parts_(parts) {}
@@ -85,7 +81,7 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
     return;
   }
   if (dropped.results) {
-    makeFromResults(*dropped.results);
+    makeFrom(*dropped.results, true);
     return;
   }
   collected_ = dropped;
@@ -104,38 +100,29 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
       Q_EMIT failed(tr("A dataset has many cases: open the one that %1 belongs to, and drop the "
                        "record again.")
                         .arg(text(dropped.record->filename())));
-    makeFromDataset(*dropped.dataset);
+    makeFrom(*dropped.dataset, false);
   } else {
     addCase(QString::fromStdString(kept));
   }
 }
 
-/// Every image and mesh is read and hashed: off the UI's thread.
-void SessionFiles::makeFromDataset(const std::filesystem::path& dataset) {
+/// Every image and mesh is read and hashed: off the UI's thread. Runs of results become cases, the
+/// most troubled first, and the queue comes to the front.
+void SessionFiles::makeFrom(const std::filesystem::path& file, bool results) {
   if (!mayLeave()) return;
   collected_ = {};
-  Q_EMIT noted(tr("Reading %1 and all that it names ...").arg(text(dataset.filename())));
+  Q_EMIT noted((results ? tr("Reading %1 and all that its dataset names ...")
+                        : tr("Reading %1 and all that it names ..."))
+                   .arg(text(file.filename())));
   parts_.tasks.start(
       QStringLiteral("make session"),
-      [dataset](const std::stop_token&) { return sessions::makeSession(dataset); },
-      [this](const sessions::Session& session) {
+      [file, results](const std::stop_token&) {
+        return results ? sessions::sessionOfResults(file) : sessions::makeSession(file);
+      },
+      [this, results](const sessions::Session& session) {
         Q_EMIT noted({});
         parts_.document.createUntitled(session);
-      });
-}
-
-/// Its runs become cases, the most troubled first, and the queue comes to the front.
-void SessionFiles::makeFromResults(const std::filesystem::path& results) {
-  if (!mayLeave()) return;
-  collected_ = {};
-  Q_EMIT noted(tr("Reading %1 and all that its dataset names ...").arg(text(results.filename())));
-  parts_.tasks.start(
-      QStringLiteral("make session"),
-      [results](const std::stop_token&) { return sessions::sessionOfResults(results); },
-      [this](const sessions::Session& session) {
-        Q_EMIT noted({});
-        parts_.document.createUntitled(session);
-        Q_EMIT queueWanted();
+        if (results) Q_EMIT queueWanted();
       });
 }
 
@@ -228,32 +215,21 @@ bool SessionFiles::mayLoseRuns() {
 
 bool SessionFiles::mayLeave() {
   if (!mayLoseRuns()) return false;
-  const Document& document = parts_.document;
-  if (document.isUntitled()) return mayLeaveUntitled();
-  if (!document.isModified()) return true;
+  Document& document = parts_.document;
+  const bool untitled = document.isUntitled();
+  if (!untitled && !document.isModified()) return true;
   QMessageBox box(QMessageBox::Question, tr("Boresight"),
-                  tr("Save the changes of %1?").arg(text(document.file().filename())),
+                  untitled ? tr("Save this session? It has no name yet.")
+                           : tr("Save the changes of %1?").arg(text(document.file().filename())),
                   QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
   box.setInformativeText(
-      tr("Changes that are not saved stay in the journal and are offered when "
-         "the session is opened again."));
+      untitled ? tr("Discarded, it is gone with its runs; the files that it was made of stay.")
+               : tr("Changes that are not saved stay in the journal and are offered when the "
+                    "session is opened again."));
   const int answer = box.exec();
   if (answer == QMessageBox::Save) return save();
+  if (answer == QMessageBox::Discard && untitled) document.discardUntitled();
   return answer == QMessageBox::Discard;
-}
-
-bool SessionFiles::mayLeaveUntitled() {
-  QMessageBox box(QMessageBox::Question, tr("Boresight"),
-                  tr("Save this session? It has no name yet."),
-                  QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
-  box.setInformativeText(
-      tr("Discarded, it is gone with its runs; the files that it was made of "
-         "stay."));
-  const int answer = box.exec();
-  if (answer == QMessageBox::Save) return saveAs();
-  if (answer != QMessageBox::Discard) return false;
-  parts_.document.discardUntitled();
-  return true;
 }
 
 void SessionFiles::offerUntitled() {
@@ -285,11 +261,10 @@ void SessionFiles::offerRecovery() {
   QAbstractButton* accept = box.addButton(tr("Recover"), QMessageBox::AcceptRole);
   box.addButton(tr("Set aside"), QMessageBox::DestructiveRole);
   box.exec();
-  if (box.clickedButton() == accept) {
+  if (box.clickedButton() == accept)
     document.acceptRecovery();
-  } else {
+  else
     document.declineRecovery();
-  }
 }
 
 }  // namespace boresight::ui

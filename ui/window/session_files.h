@@ -58,13 +58,11 @@ class SessionFiles : public QObject {
   void queueWanted();
 
  private:
-  void makeFromDataset(const std::filesystem::path& dataset);
-  void makeFromResults(const std::filesystem::path& results);
+  void makeFrom(const std::filesystem::path& file, bool results);
   void addCase(const QString& kept);
   void takeCase(sessions::SessionCase made);
   bool askForUnits();
   bool mayLoseRuns();
-  bool mayLeaveUntitled();
 
   QWidget& window_;
   WindowParts parts_;

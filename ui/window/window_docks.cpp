@@ -34,7 +34,7 @@ constexpr double kRightShare = 0.30;
 constexpr double kBottomShare = 0.34;  // of its height
 constexpr double kSceneShare = 0.40;
 
-QString tr(const char* text) { return QMainWindow::tr(text); }
+QString windowText(const char* text) { return QMainWindow::tr(text); }
 
 }  // namespace
 
@@ -55,10 +55,12 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       scene_(new SceneView(parts.state)),
       image_annotation_(
           new ImageAnnotation(*image_, parts.annotation, parts.state, *snapper_, image_)),
-      warnings_(new WarningBar(tr("Inputs"), tr("Show all that is known of the inputs"))),
-      findings_(new WarningBar(tr("Mend ..."),
-                               tr("Look for missing files below the session's folder, or take "
-                                  "changed ones as they are"))) {
+      warnings_(
+          new WarningBar(windowText("Inputs"), windowText("Show all that is known of the inputs"))),
+      findings_(
+          new WarningBar(windowText("Mend ..."),
+                         windowText("Look for missing files below the session's folder, or take "
+                                    "changed ones as they are"))) {
   window_.setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowNestedDocks |
                          QMainWindow::AllowTabbedDocks);
   // Tables of poses and options are long, the one of iterations is wide.
@@ -69,21 +71,22 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   annotation_->addBeside(twins);
   scene_->setAnnotation(parts.annotation, *snapper_);
   buildCentre();
-  add(QStringLiteral("cases"), tr("Cases"), cases_);
-  add(QStringLiteral("layers"), tr("Layers"), new LayersPanel(*image_));
-  add(QStringLiteral("mask"), tr("Mask"), mask_);
-  add(QStringLiteral("levels"), tr("Levels"), levels_);
-  add(QStringLiteral("pose"), tr("Pose"), poses_);
-  add(QStringLiteral("configuration"), tr("Configuration"), configuration_);
-  add(QStringLiteral("scene"), tr("Scene"), scene_);
-  add(QStringLiteral("iterations"), tr("Iterations"), new IterationsPanel(parts.state));
-  add(QStringLiteral("rivals"), tr("Rivals"), new RivalsPanel(parts.state));
-  add(QStringLiteral("inspector"), tr("Match inspector"), new MatchInspectorPanel(parts.state));
-  add(QStringLiteral("annotation"), tr("Annotation"), annotation_);
-  add(QStringLiteral("review"), tr("Review"), review_);
-  add(QStringLiteral("queue"), tr("Queue"), queue_);
-  add(QStringLiteral("inputs"), tr("Inputs"), inputs_);
-  add(QStringLiteral("onboard"), tr("Onboard"),
+  add(QStringLiteral("cases"), windowText("Cases"), cases_);
+  add(QStringLiteral("layers"), windowText("Layers"), new LayersPanel(*image_));
+  add(QStringLiteral("mask"), windowText("Mask"), mask_);
+  add(QStringLiteral("levels"), windowText("Levels"), levels_);
+  add(QStringLiteral("pose"), windowText("Pose"), poses_);
+  add(QStringLiteral("configuration"), windowText("Configuration"), configuration_);
+  add(QStringLiteral("scene"), windowText("Scene"), scene_);
+  add(QStringLiteral("iterations"), windowText("Iterations"), new IterationsPanel(parts.state));
+  add(QStringLiteral("rivals"), windowText("Rivals"), new RivalsPanel(parts.state));
+  add(QStringLiteral("inspector"), windowText("Match inspector"),
+      new MatchInspectorPanel(parts.state));
+  add(QStringLiteral("annotation"), windowText("Annotation"), annotation_);
+  add(QStringLiteral("review"), windowText("Review"), review_);
+  add(QStringLiteral("queue"), windowText("Queue"), queue_);
+  add(QStringLiteral("inputs"), windowText("Inputs"), inputs_);
+  add(QStringLiteral("onboard"), windowText("Onboard"),
       new OnboardPanel(parts.onboard, parts.state, parts.run));
   place();
 }

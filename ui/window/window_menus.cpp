@@ -5,15 +5,17 @@
 
 #include <QtWidgets>
 
-#include "sessions/session/session.h"
 #include "sessions/version.h"
 #include "ui/annotation/annotation_panel.h"
+#include "ui/annotation/image_annotation.h"
+#include "ui/annotation/loupe.h"
+#include "ui/annotation/mark_tool.h"
 #include "ui/manual/manual_window.h"
 #include "ui/panels/mask_panel.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/run_scrubber.h"
 #include "ui/panels/widgets.h"
-#include "ui/review/onboard_controller.h"
+#include "ui/review/onboard_panel.h"
 #include "ui/review/pose_export.h"
 #include "ui/run/run_controller.h"
 #include "ui/state/document.h"
@@ -21,7 +23,6 @@
 #include "ui/views/image_panel.h"
 #include "ui/views/mask_editor.h"
 #include "ui/window/case_controller.h"
-#include "ui/window/loupe_menu.h"
 #include "ui/window/panel_links.h"
 #include "ui/window/session_files.h"
 #include "ui/window/shortcut_sheet.h"
@@ -31,6 +32,62 @@ namespace boresight::ui {
 namespace {
 
 constexpr double kBrushStep = 1.25;
+
+/// A switch of something that tells when it has changed by itself.
+template <class Owner>
+void addSwitch(QMenu& menu, const QString& text, const QKeySequence& keys, const QString& tip,
+               Owner* owner, bool (Owner::*isOn)() const, void (Owner::*set)(bool),
+               void (Owner::*changed)()) {
+  QAction* made = addAction(menu, text, keys, tip);
+  made->setCheckable(true);
+  made->setChecked((owner->*isOn)());
+  QObject::connect(made, &QAction::toggled, owner, set);
+  QObject::connect(owner, changed, made, [=] { made->setChecked((owner->*isOn)()); });
+}
+
+void addMagnifications(QMenu& menu, Loupe* loupe) {
+  const auto magnify = [loupe](double factor) {
+    return [loupe, factor] { loupe->setMagnification(loupe->magnification() * factor); };
+  };
+  QAction* more =
+      addAction(menu, WindowMenus::tr("Loupe: &magnify more"), keys("Ctrl++"),
+                WindowMenus::tr("More screen pixels per image pixel; also Ctrl and the wheel"),
+                loupe, magnify(Loupe::kStep));
+  more->setShortcuts({more->shortcut(), keys("Ctrl+=")});
+  addAction(menu, WindowMenus::tr("Loupe: magnify l&ess"), keys("Ctrl+-"),
+            WindowMenus::tr("Fewer screen pixels per image pixel; also Ctrl and the wheel"), loupe,
+            magnify(1.0 / Loupe::kStep));
+}
+
+void addResiduals(QMenu& menu, ImageAnnotation* annotation) {
+  QMenu* residuals = menu.addMenu(WindowMenus::tr("Magnify resi&duals"));
+  auto* group = new QActionGroup(residuals);
+  for (const double factor : {1.0, 10.0, 40.0, 100.0}) {
+    QAction* each = addAction(
+        *residuals, WindowMenus::tr("%1 times").arg(factor), {},
+        WindowMenus::tr("Draw what the solved pose leaves of each mark this many times as long"),
+        annotation, [annotation, factor] { annotation->setMagnification(factor); });
+    each->setCheckable(true);
+    each->setChecked(factor == annotation->magnification());
+    group->addAction(each);
+  }
+}
+
+/// How annotating on the image looks and behaves: snapping, the loupe and its magnification, the
+/// magnification of residuals.
+void addLoupeActions(QMenu& menu, ImageAnnotation& annotation) {
+  addSwitch(
+      menu, WindowMenus::tr("&Snap"), Qt::Key_Q,
+      WindowMenus::tr(
+          "Snap to corners, edges, ellipses and what the mesh has; Alt held refuses once, Tab "
+          "goes on to another"),
+      &annotation.tool(), &MarkTool::snaps, &MarkTool::setSnaps, &MarkTool::snapsChanged);
+  addSwitch(menu, WindowMenus::tr("L&oupe"), Qt::Key_L,
+            WindowMenus::tr("Magnify the image under the pointer, or the mark that is moved"),
+            &annotation.loupe(), &Loupe::isSwitchedOn, &Loupe::setSwitchedOn, &Loupe::changed);
+  addMagnifications(menu, &annotation.loupe());
+  addResiduals(menu, &annotation);
+}
 
 }  // namespace
 
@@ -147,6 +204,74 @@ void WindowMenus::buildAnnotateMenu() {
   annotation_actions_ = menu.actions();
   menu.addSeparator();
   addLoupeActions(menu, docks_.imageAnnotation());
+}
+
+void WindowMenus::buildRunMenu() {
+  QMenu& menu = *window_.menuBar()->addMenu(tr("&Run"));
+  CaseController* cases = &parts_.cases;
+  const auto advance = [cases](sessions::StepUntil until) {
+    return [cases, until] { cases->advance(until); };
+  };
+  run_to_end_ = addAction(menu, tr("&Run"), Qt::Key_F5, tr("Run to the end"), cases,
+                          advance(sessions::StepUntil::kEnd));
+  run_together_ = addAction(menu, tr("Run with the other &views"), keys("F4"), {}, cases,
+                            &CaseController::runTogether);
+  step_iteration_ = addAction(menu, tr("Step an &iteration"), Qt::Key_F6, tr("Run one iteration"),
+                              cases, advance(sessions::StepUntil::kIteration));
+  step_stage_ = addAction(menu, tr("Step a s&tage"), Qt::Key_F7,
+                          tr("Run one stage: render, templates, match, pose or refinement"), cases,
+                          advance(sessions::StepUntil::kStage));
+  rerun_ = addAction(menu, tr("Re-run &from here"), keys("Shift+F5"),
+                     tr("Keep the iterations before the shown one and compute it and those after "
+                        "it anew, with the options as they are now"),
+                     cases, [this] { parts_.cases.rerunFrom(parts_.state.cursor().iteration); });
+  stop_ = addAction(menu, tr("&Stop"), Qt::Key_F8, tr("Stop; the run can go on from here"), cases,
+                    &CaseController::stop);
+  reset_ = addAction(menu, tr("R&eset"), keys("Ctrl+R"), tr("Drop the run and begin anew"), cases,
+                     &CaseController::reset);
+  QToolBar* bar = window_.addToolBar(tr("Run"));
+  bar->setObjectName(QStringLiteral("runBar"));
+  bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
+  bar->addActions(menu.actions());
+  menu.addSeparator();
+  run_all_ = addAction(menu, tr("Run &all cases"), keys("Ctrl+F5"), tr("Run every case to its end"),
+                       this, [this] {
+                         QStringList ids;
+                         for (const auto& one : parts_.document.session().cases)
+                           ids << QString::fromStdString(one->id);
+                         parts_.cases.runAll(ids);
+                       });
+  parts_.state.onChange(ViewChange::kCursor, this, &WindowMenus::update);
+  buildOnboardMenu(*menu.addMenu(tr("&Onboard record")));
+}
+
+void WindowMenus::buildOnboardMenu(QMenu& menu) {
+  OnboardController* onboard = &parts_.onboard;
+  load_record_ = addAction(menu, tr("&Load onboard record..."), keys("Ctrl+Shift+O"),
+                           tr("Attach the record that the flight side sent down to the shown case"),
+                           this, [this] { askForOnboardRecord(parts_.onboard, &window_); });
+  show_other_run_ = addAction(
+      menu, tr("&Onboard or ground run"), keys("Ctrl+B"),
+      tr("Show the run of the onboard record in every view, or that on the ground again"), onboard,
+      [onboard] { onboard->showsOnboard() ? onboard->showGround() : onboard->showOnboard(); });
+  rerun_record_ = addAction(menu, tr("&Re-run on the ground"), keys("Ctrl+Shift+F5"),
+                            tr("Run the case here by the options of the onboard record"), onboard,
+                            &OnboardController::rerun);
+  first_difference_ =
+      addAction(menu, tr("Go to the first &difference"), keys("Ctrl+Shift+B"),
+                tr("Show where the onboard run and that on the ground differ first"), onboard,
+                &OnboardController::goToFirstDifference);
+  connect(onboard, &OnboardController::changed, this, &WindowMenus::update);
+}
+
+/// Where it cannot be asked for, the tip says why.
+void WindowMenus::updateTogether(bool idle) {
+  const QString alone = parts_.cases.whyAlone();
+  const QString tip =
+      tr("Find one pose from this image and those of its rig; each case gets the run, and this "
+         "one's seed and uncertainty hold");
+  run_together_->setEnabled(idle && alone.isEmpty());
+  setTip(*run_together_, alone.isEmpty() ? tip : alone);
 }
 
 /// The steps of the scrubber: its buttons name and enable them, the menu gives them their keys.

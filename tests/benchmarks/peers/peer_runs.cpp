@@ -16,7 +16,6 @@
 #include "sessions/io/file_bytes.h"
 #include "sessions/run/problem.h"
 #include "tests/benchmarks/peers/guarded_run.h"
-#include "tests/benchmarks/peers/stop_watch.h"
 
 namespace boresight::peers {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/benchmarks/peers/rapid_peer.h"
+#include "tests/benchmarks/peers/peer.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,6 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/rapid.hpp>
-
-#include "tests/benchmarks/peers/stop_watch.h"
 
 namespace boresight::peers {
 namespace {

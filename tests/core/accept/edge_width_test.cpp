@@ -2,7 +2,6 @@
 #include "core/accept/edge_width.h"
 
 #include <algorithm>
-#include <vector>
 
 #include <gtest/gtest.h>
 

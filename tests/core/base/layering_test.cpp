@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -16,9 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The stages in pipeline order: a folder may include itself and those before it.
-const std::vector<std::string> kStages = {"base",      "geometry",  "edges", "render",
-                                          "templates", "match",     "pnp",   "refine",
-                                          "accept",    "search",    "localizer", "views", "record"};
+const std::vector<std::string> kStages = {"base",      "geometry", "edges",  "render", "templates",
+                                          "match",     "pnp",      "refine", "accept", "search",
+                                          "localizer", "views",    "record"};
 
 /// The standard headers that flight code may use: no streams, threads, heap containers, locales,
 /// clocks or random distributions. <cstdlib> is where the integers' std::abs lives.

@@ -33,11 +33,9 @@ INSTANTIATE_TEST_SUITE_P(Cahv, EveryPlanetaryCamera, ::testing::ValuesIn(planeta
 
 TEST_P(EveryPlanetaryCamera, AgreesWithFiftyDigitsOfThePublishedMathematics) {
   for (const PlanetaryCamera::Sight& sight : GetParam().sights) {
-    Eigen::Vector2d pixel;
-    ASSERT_TRUE(project(camera_, camera_from_reference_ * sight.point_m, pixel));
+    const Eigen::Vector2d pixel = pixelOf(camera_, camera_from_reference_ * sight.point_m);
     EXPECT_LT((pixel - sight.pixel).norm(), 1e-9) << sight.pixel.transpose();
-    Ray ray;
-    ASSERT_TRUE(unprojectRay(camera_, sight.pixel, ray));
+    const Ray ray = rayOf(camera_, sight.pixel);
     const Eigen::Vector3d direction = camera_from_reference_.rotation * sight.direction;
     EXPECT_LT((ray.direction.normalized() - direction).norm(), 1e-13);
     EXPECT_LT((ray.origin_m - camera_from_reference_ * sight.origin_m).norm(), 1e-14);
@@ -50,12 +48,10 @@ TEST_P(EveryPlanetaryCamera, ProjectsEveryRayBackOntoItsPixel) {
     for (int i = 0; i <= 100; ++i) {
       const Eigen::Vector2d pixel(-1.0 + (camera_.width + 1.0) * i / 100.0,
                                   -1.0 + (camera_.height + 1.0) * j / 100.0);
-      Ray ray;
-      ASSERT_TRUE(unprojectRay(camera_, pixel, ray)) << pixel.transpose();
+      const Ray ray = rayOf(camera_, pixel);
       ASSERT_EQ(ray.direction.z(), 1.0);
       for (const double depth_m : {0.1, 0.5, 20.0}) {
-        Eigen::Vector2d back;
-        ASSERT_TRUE(project(camera_, ray.at(depth_m), back)) << pixel.transpose();
+        const Eigen::Vector2d back = pixelOf(camera_, ray.at(depth_m));
         worst_px = std::max(worst_px, (back - pixel).norm());
       }
       Eigen::Vector3d direction;
@@ -72,8 +68,7 @@ TEST_P(EveryPlanetaryCamera, ProjectsEveryRayBackOntoItsPixel) {
 TEST_P(EveryPlanetaryCamera, JacobianAgreesWithFiniteDifferences) {
   Random random = randomFor("CahvJacobian" + GetParam().name);
   for (int i = 0; i < 1000; ++i) {
-    Ray ray;
-    ASSERT_TRUE(unprojectRay(camera_, pixel(random), ray));
+    const Ray ray = rayOf(camera_, pixel(random));
     const Eigen::Vector3d point = ray.at(random.uniform(0.1, 4.0));
     Eigen::Vector2d plain;
     Eigen::Vector2d pixel;
@@ -81,17 +76,7 @@ TEST_P(EveryPlanetaryCamera, JacobianAgreesWithFiniteDifferences) {
     ASSERT_TRUE(project(camera_, point, plain));
     ASSERT_TRUE(projectWithJacobian(camera_, point, pixel, jacobian));
     EXPECT_EQ(pixel, plain);
-    const double step = 1e-5 * point.z();
-    for (int axis = 0; axis < 3; ++axis) {
-      const Eigen::Vector3d shift = step * Eigen::Vector3d::Unit(axis);
-      Eigen::Vector2d ahead;
-      Eigen::Vector2d behind;
-      ASSERT_TRUE(project(camera_, point + shift, ahead));
-      ASSERT_TRUE(project(camera_, point - shift, behind));
-      const Eigen::Vector2d numeric = (ahead - behind) / (2.0 * step);
-      EXPECT_LT((numeric - jacobian.col(axis)).norm(), 1e-6 * (1.0 + jacobian.norm()))
-          << point.transpose();
-    }
+    expectDerivatives(camera_, point, jacobian, 1e-5 * point.z(), 1e-6 * (1.0 + jacobian.norm()));
   }
 }
 
@@ -106,15 +91,8 @@ TEST_P(EveryPlanetaryCamera, JacobianIsSmoothThroughTheOpticalAxis) {
     ASSERT_TRUE(
         projectWithJacobian(camera_, on_axis + Eigen::Vector3d(off, -off, 0.0), pixel, beside));
     EXPECT_LT((beside - there).norm(), (1e-9 + 20.0 * off) * there.norm()) << off;
-    const double step = 1e-6;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Eigen::Vector3d at = on_axis + Eigen::Vector3d(off, -off, 0.0);
-      const Eigen::Vector3d shift = step * Eigen::Vector3d::Unit(axis);
-      Eigen::Vector2d ahead;
-      Eigen::Vector2d behind;
-      ASSERT_TRUE(project(camera_, at + shift, ahead) && project(camera_, at - shift, behind));
-      EXPECT_LT(((ahead - behind) / (2.0 * step) - beside.col(axis)).norm(), 1e-6 * there.norm());
-    }
+    expectDerivatives(camera_, on_axis + Eigen::Vector3d(off, -off, 0.0), beside, 1e-6,
+                      1e-6 * there.norm());
   }
 }
 
@@ -123,11 +101,9 @@ TEST_P(EveryPlanetaryCamera, ALevelAndAPartOfTheImageSeeTheSamePoints) {
   Camera part = camera_;
   ASSERT_EQ(cutToFrame(100, -37, 400, 300, part), Status::kOk);
   for (int i = 0; i < 200; ++i) {
-    Ray ray;
-    ASSERT_TRUE(unprojectRay(camera_, pixel(random), ray));
+    const Ray ray = rayOf(camera_, pixel(random));
     const Eigen::Vector3d point = ray.at(0.4);
-    Eigen::Vector2d full;
-    ASSERT_TRUE(project(camera_, point, full));
+    const Eigen::Vector2d full = pixelOf(camera_, point);
     Eigen::Vector2d seen;
     for (int level = 1; level <= 4; ++level) {
       ASSERT_TRUE(project(cameraAtLevel(camera_, level), point, seen));
@@ -143,8 +119,7 @@ TEST_P(EveryPlanetaryCamera, SeenFromItsPupilAPointLiesInTheDirectionOfItsPixel)
   Random random = randomFor("CahvSeen" + GetParam().name);
   for (int i = 0; i < 300; ++i) {
     const Eigen::Vector2d at = pixel(random);
-    Ray ray;
-    ASSERT_TRUE(unprojectRay(camera_, at, ray));
+    const Ray ray = rayOf(camera_, at);
     const double depth_m = random.uniform(0.15, 3.0);
     const Eigen::Vector3d seen = seenFromPupil(camera_, ray.at(depth_m));
     EXPECT_LT((seen - depth_m * ray.direction).norm(), 1e-7 * depth_m) << at.transpose();
@@ -201,8 +176,7 @@ TEST_P(EveryPlanetaryCamera, NothingFoldsBack) {
     Eigen::Vector2d pixel;
     if (!project(camera_, point, pixel)) continue;
     ++projected;
-    Ray ray;
-    ASSERT_TRUE(unprojectRay(camera_, pixel, ray)) << point.transpose();
+    const Ray ray = rayOf(camera_, pixel);
     const double depth_m = point.z() - ray.origin_m.z();
     EXPECT_LT((ray.at(depth_m) - point).norm(), 1e-7 * point.norm()) << point.transpose();
   }
@@ -227,9 +201,8 @@ TEST(Cahv, OfAPinholeIsThatPinhole) {
     for (int i = 0; i < 100; ++i) {
       const Eigen::Vector3d point(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
                                   random.uniform(0.5, 3.0));
-      Eigen::Vector2d pixel;
-      Eigen::Vector2d expected;
-      ASSERT_TRUE(project(camera, point, pixel) && project(pinhole, point, expected));
+      const Eigen::Vector2d pixel = pixelOf(camera, point);
+      const Eigen::Vector2d expected = pixelOf(pinhole, point);
       EXPECT_LT((pixel - expected).norm(), 1e-9);
     }
   }
@@ -247,8 +220,7 @@ TEST(Cahv, VectorsOfRoundedLengthGiveTheSamePixels) {
     const Eigen::Vector3d d = sight.point_m - longer.c_m;
     const Eigen::Vector2d expected(d.dot(longer.h_px) / d.dot(longer.a),
                                    d.dot(longer.v_px) / d.dot(longer.a));
-    Eigen::Vector2d pixel;
-    ASSERT_TRUE(project(camera, camera_from_reference * sight.point_m, pixel));
+    const Eigen::Vector2d pixel = pixelOf(camera, camera_from_reference * sight.point_m);
     EXPECT_LT((pixel - expected).norm(), 1e-9);
   }
 }
@@ -259,8 +231,7 @@ void expectSamePixels(const Camera& one, const Camera& other) {
   ASSERT_EQ(pupilMoves(one), false);
   for (int i = 0; i < 1000; ++i) {
     const Eigen::Vector2d at(random.uniform(0.0, one.width), random.uniform(0.0, one.height));
-    Ray ray;
-    ASSERT_TRUE(unprojectRay(one, at, ray));
+    const Ray ray = rayOf(one, at);
     Eigen::Vector2d pixel;
     Eigen::Vector2d expected;
     Eigen::Matrix<double, 2, 3> jacobian;
@@ -330,10 +301,8 @@ TEST(Cahvore, LinearityIsContinuousAtTheFisheye) {
   zero.cahv.linearity = 0.0;
   camera = changed(camera, CameraModel::kCahvore);
   zero = changed(zero, CameraModel::kCahvore);
-  Eigen::Vector2d pixel;
-  Eigen::Vector2d expected;
-  ASSERT_TRUE(project(camera, {0.3, 0.4, 0.5}, pixel));
-  ASSERT_TRUE(project(zero, {0.3, 0.4, 0.5}, expected));
+  const Eigen::Vector2d pixel = pixelOf(camera, {0.3, 0.4, 0.5});
+  const Eigen::Vector2d expected = pixelOf(zero, {0.3, 0.4, 0.5});
   EXPECT_LT((pixel - expected).norm(), 1e-5);
 }
 
@@ -344,8 +313,7 @@ TEST(Cahvor, ValidFieldEndsWhereTheRadiusStopsIncreasing) {
   camera.cahv.radial = {0.0, -0.3, 0.0};
   camera = changed(camera, CameraModel::kCahvor);
   EXPECT_NEAR(camera.valid_radius, 1.0 / std::sqrt(0.9), 1e-12);
-  Eigen::Vector2d pixel;
-  EXPECT_TRUE(project(camera, {camera.valid_radius * 0.9999, 0.0, 1.0}, pixel));
+  Eigen::Vector2d pixel = pixelOf(camera, {camera.valid_radius * 0.9999, 0.0, 1.0});
   EXPECT_FALSE(project(camera, {camera.valid_radius * 1.0001, 0.0, 1.0}, pixel));
 }
 
@@ -357,8 +325,7 @@ TEST(Cahvore, ValidFieldEndsWhereTheGeneralModelDoes) {
   camera.cahv.linearity = -1.25;  // theta |L| reaches 90 deg at 72 deg
   camera = changed(camera, CameraModel::kCahvore);
   EXPECT_NEAR(camera.valid_radius, 72.0 * kDegree_rad, 1e-7);
-  Eigen::Vector2d pixel;
-  EXPECT_TRUE(project(camera, {std::tan(71.9 * kDegree_rad), 0.0, 1.0}, pixel));
+  Eigen::Vector2d pixel = pixelOf(camera, {std::tan(71.9 * kDegree_rad), 0.0, 1.0});
   EXPECT_FALSE(project(camera, {std::tan(72.1 * kDegree_rad), 0.0, 1.0}, pixel));
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "core/geometry/camera.h"
 #include "tests/support/random_pose.h"
 
@@ -16,6 +18,33 @@ struct NamedCamera {
 };
 
 inline void PrintTo(const NamedCamera& named, std::ostream* out) { *out << named.name; }
+
+/// Where the camera sees a point, which it must.
+inline Eigen::Vector2d pixelOf(const Camera& camera, const Eigen::Vector3d& point) {
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  EXPECT_TRUE(project(camera, point, pixel)) << point.transpose();
+  return pixel;
+}
+
+/// The ray of a pixel, which it must have.
+inline Ray rayOf(const Camera& camera, const Eigen::Vector2d& pixel) {
+  Ray ray;
+  EXPECT_TRUE(unprojectRay(camera, pixel, ray)) << pixel.transpose();
+  return ray;
+}
+
+/// The derivatives of a projection by its point against central differences.
+inline void expectDerivatives(const Camera& camera, const Eigen::Vector3d& point,
+                              const Eigen::Matrix<double, 2, 3>& jacobian, double step,
+                              double tolerance) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d shift = step * Eigen::Vector3d::Unit(axis);
+    const Eigen::Vector2d ahead = pixelOf(camera, point + shift);
+    const Eigen::Vector2d behind = pixelOf(camera, point - shift);
+    EXPECT_LT(((ahead - behind) / (2.0 * step) - jacobian.col(axis)).norm(), tolerance)
+        << point.transpose();
+  }
+}
 
 inline Camera shifted(Camera camera, double cx, double cy, double aspect) {
   camera.cx += cx;

@@ -89,10 +89,8 @@ TEST(LocalizerDigest, LookingChangesNothing) {
   OwnedRun run(scene.problem(), withoutSearch());
   double sum = 0.0;
   Digest before{};
-  StepReport report;
   int stages = 0;
-  while (!report.finished) {
-    report = run.localizer.step();
+  run.finish([&](const StepReport& report) {
     const Workspace copy = run.localizer.workspace();
     if (copy.iteration != nullptr) {
       const Iteration iteration = *copy.iteration;
@@ -102,7 +100,7 @@ TEST(LocalizerDigest, LookingChangesNothing) {
     EXPECT_EQ(run.localizer.digest(), now);
     if (report.stage_complete && now != before) ++stages;
     before = now;
-  }
+  });
   EXPECT_GT(sum, 0.0);
   EXPECT_GT(stages, 10);
   EXPECT_EQ(run.localizer.digest(), digestOf(scene.problem(), withoutSearch()));

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <memory>
 
 #include "core/match/whs.h"
 #include "tests/core/localizer/scene.h"
@@ -191,11 +190,7 @@ TEST(LocalizerOutside, NoMatchesEndTheRunAsTooFew) {
 TEST(LocalizerOutside, NobodyAsksARunWithoutIt) {
   const Case scene = stationCase(2);
   OwnedRun run(scene.problem(), defaultProfile());
-  StepReport report;
-  while (!report.finished) {
-    report = run.localizer.step();
-    ASSERT_FALSE(run.localizer.awaitsMatches());
-  }
+  run.finish([&](const StepReport&) { ASSERT_FALSE(run.localizer.awaitsMatches()); });
   EXPECT_EQ(run.localizer.supplyMatches({}), Status::kInvalidOption);
 }
 

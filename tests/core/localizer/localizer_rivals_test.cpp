@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole runs on features that repeat: no pose one pitch off is taken for the truth.
+#include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/base/math.h"
 #include "core/localizer/competing_poses.h"
 #include "core/localizer/localizer.h"
+#include "core/localizer/pose_change.h"
 #include "core/localizer/run_digest.h"
 #include "tests/core/localizer/rail_scene.h"
+#include "tests/core/localizer/scene.h"
 
 namespace boresight::test {
 namespace {
@@ -170,6 +173,167 @@ TEST(LocalizerRivals, AreHeardOfInDigests) {
   DigestWriter changed;
   digestOptions(options, changed);
   EXPECT_NE(changed.digest(), plain.digest());
+}
+
+// Whole runs that begin with a search.
+
+/// The seed turned about the view through the station's middle, as its uncertainty says.
+Case turnedCase(std::uint64_t seed, double turn_rad) {
+  Case made = stationCase(seed);
+  const Eigen::Vector3d middle_m = made.seed * matchedBounds(made.solid.view()).centre();
+  const Eigen::Quaterniond turn = rotationExp(middle_m.normalized() * turn_rad);
+  made.seed.rotation = (turn * made.seed.rotation).normalized();
+  made.seed.translation_m = turn * (made.seed.translation_m - middle_m) + middle_m;
+  made.uncertainty.pivot_in_camera_m = middle_m;
+  made.uncertainty.rotation_rad.z() = kPi;
+  return made;
+}
+
+void expectTruth(const Case& scene, const Workspace& workspace) {
+  EXPECT_STREQ(localizationStatusText(workspace.status), "converged");
+  const PoseError error = poseError(scene.solid, scene.truth, workspace.camera_from_station);
+  EXPECT_LT(error.centre_m, 0.0001);
+  EXPECT_LT(error.angle_rad, 0.06 * kDegree_rad);
+}
+
+LocalizationStatus endOf(const Case& scene, const LocalizerOptions& options) {
+  OwnedRun run(scene.problem(), options);
+  run.finish();
+  return run.localizer.workspace().status;
+}
+
+TEST(LocalizerSearch, TurnedSeed_IsFoundWhenTheUncertaintySaysSo) {
+  for (const double turn_deg : {-160.0, 75.0, 100.0, 180.0}) {
+    SCOPED_TRACE(turn_deg);
+    const Case scene = turnedCase(3, turn_deg * kDegree_rad);
+    EXPECT_NE(endOf(scene, withoutSearch()), LocalizationStatus::kConverged);
+    OwnedRun run(scene.problem(), defaultProfile());
+    EXPECT_GT(run.finish(), 0);
+    expectTruth(scene, run.localizer.workspace());
+  }
+}
+
+TEST(LocalizerSearch, SeedTurnedAboutTheCamera_IsFoundBesideTheOpticalAxis) {
+  Case scene = stationCase(3);
+  scene.truth.translation_m += Eigen::Vector3d(0.06, 0.01, 0.2);
+  const Picture picture = takePicture(scene.solid, scene.camera, scene.truth);
+  scene.picture = &picture;
+  const Eigen::Quaterniond turn = rotationExp({0.0, 0.0, 175.0 * kDegree_rad});
+  scene.seed.rotation = (turn * scene.truth.rotation).normalized();
+  scene.seed.translation_m = turn * scene.truth.translation_m;
+  scene.uncertainty.pivot_in_camera_m.setZero();
+  scene.uncertainty.rotation_rad.z() = kPi;
+  OwnedRun run(scene.problem(), defaultProfile());
+  EXPECT_GT(run.finish(), 0);
+  expectTruth(scene, run.localizer.workspace());
+}
+
+TEST(LocalizerSearch, Seed75MillimetresOff_IsFoundWhenTheUncertaintySaysSo) {
+  for (const Eigen::Vector3d& off_m :
+       {Eigen::Vector3d(0.0, 0.0, 0.075), Eigen::Vector3d(0.0, 0.0, -0.075),
+        Eigen::Vector3d(0.06, -0.03, 0.03)}) {
+    SCOPED_TRACE(off_m.transpose());
+    Case scene = stationCase(7);
+    scene.seed.translation_m = scene.truth.translation_m + off_m;
+    scene.uncertainty.translation_m.setConstant(0.08);
+    OwnedRun run(scene.problem(), defaultProfile());
+    run.finish();
+    expectTruth(scene, run.localizer.workspace());
+  }
+}
+
+/// A row of `length_px` pixels is averaged, as a camera that moves to the side does.
+Picture movedPicture(const Picture& sharp, int length_px) {
+  Picture moved = sharp;
+  for (int y = 0; y < sharp.height; ++y) {
+    const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(sharp.width);
+    for (int x = 0; x < sharp.width; ++x) {
+      int sum = 0;
+      for (int k = 0; k < length_px; ++k)
+        sum += sharp.gray[row + static_cast<std::size_t>(
+                                    std::clamp(x + k - length_px / 2, 0, sharp.width - 1))];
+      moved.gray[row + static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(sum / length_px);
+    }
+  }
+  return moved;
+}
+
+TEST(LocalizerSearch, PoseFromAMovedImage_IsRefusedAsBlurred) {
+  Case scene = stationCase(3);
+  const Picture moved = movedPicture(*scene.picture, 14);
+  scene.picture = &moved;
+  EXPECT_STREQ(localizationStatusText(endOf(scene, defaultProfile())), "blurred");
+}
+
+TEST(LocalizerSearch, WrongMeshBeforeASharpImage_IsNotCalledBlurred) {
+  Case scene = stationCase(3);
+  scene.solid = Solid();
+  scene.solid.addBox(0.0, 0.0, 0.05, 0.03, 0.4, 0.0, 0.09, 0.5);
+  scene.solid.addCylinder(0.02, 0.01, 0.02, 0.09, 0.13, 0.5);
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    scene.uncertainty = uncertaintyAbout(scene.solid, scene.truth);
+    scene.seed = displacedSeed(scene.truth, scene.uncertainty, 0.5, seed);
+    const LocalizationStatus end = endOf(scene, defaultProfile());
+    EXPECT_STRNE(localizationStatusText(end), "converged");
+    EXPECT_STRNE(localizationStatusText(end), "blurred");
+  }
+}
+
+TEST(LocalizerSearch, Candidates_AreOrderedByEvidenceAndTheFirstIsTheResult) {
+  const Case scene = stationCase(3);
+  OwnedRun run(scene.problem(), defaultProfile());
+  run.finish();
+  const Workspace& workspace = run.localizer.workspace();
+  ASSERT_FALSE(workspace.candidates.empty());
+  EXPECT_LE(workspace.candidates.size(), static_cast<std::size_t>(PoseSearch::kMaxCandidates));
+  EXPECT_TRUE(
+      std::is_sorted(workspace.candidates.begin(), workspace.candidates.end(),
+                     [](const auto& a, const auto& b) { return a.rank_nats() > b.rank_nats(); }));
+  const BoundingBox box = matchedBounds(scene.solid.view());
+  EXPECT_LT(displacementBetween_px(workspace.candidates[0].camera_from_station, scene.truth, box,
+                                   scene.camera),
+            3.0);
+  EXPECT_GT(workspace.probability, 0.9);
+}
+
+TEST(LocalizerSearch, Noise_HasNoPose) {
+  const Picture noise = noisePicture(512, 512, 5);
+  Case scene = stationCase(1);
+  scene.picture = &noise;
+  EXPECT_NE(endOf(scene, defaultProfile()), LocalizationStatus::kConverged);
+  scene.uncertainty.rotation_rad.z() = kPi;
+  EXPECT_NE(endOf(scene, defaultProfile()), LocalizationStatus::kConverged);
+}
+
+TEST(LocalizerSearch, DeadImage_FailsWithTheSeed) {
+  const Picture flat = flatPicture(512, 512, 80);
+  Case scene = stationCase(1);
+  scene.picture = &flat;
+  OwnedRun run(scene.problem(), defaultProfile());
+  EXPECT_GT(run.finish(), 0);
+  EXPECT_NE(run.localizer.workspace().status, LocalizationStatus::kConverged);
+  EXPECT_EQ(run.localizer.workspace().camera_from_station, scene.seed);
+}
+
+TEST(LocalizerSearch, UnsupportedPose_IsFollowedByFurtherAttempts) {
+  const Case scene = stationCase(3);
+  LocalizerOptions options = defaultProfile();
+  options.support.min_probability = 1.0;
+  OwnedRun run(scene.problem(), options);
+  EXPECT_GT(run.finish(), 0);
+  EXPECT_EQ(run.localizer.workspace().status, LocalizationStatus::kNotSupported);
+  EXPECT_GT(run.localizer.workspace().attempts, 1);
+  EXPECT_LE(run.localizer.workspace().attempts, options.loop.max_attempts);
+}
+
+TEST(LocalizerSearch, AnyKernelsAndWorkers_GiveTheSameBits) {
+  const Case scene = turnedCase(4, -130.0 * kDegree_rad);
+  const LocalizationProblem problem = scene.problem();
+  OwnedRun plain(problem, defaultProfile());
+  plain.finish();
+  for (const int workers : {1, 3})
+    EXPECT_EQ(sharedDigest(problem, defaultProfile(), workers), plain.localizer.digest())
+        << workers;
 }
 
 }  // namespace

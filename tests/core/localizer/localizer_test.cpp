@@ -2,7 +2,6 @@
 // Whole runs: where they end and why.
 #include "core/localizer/localizer.h"
 
-#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -98,17 +97,15 @@ TEST(Localizer, ConvergesFromCoarserLevels) {
     options.loop.coarse_size_px = coarse_size_px;
     OwnedRun run(scene.problem(), options);
     int coarse_iterations = 0;
-    StepReport report;
-    while (!report.finished) {
-      report = run.localizer.step();
+    run.finish([&](const StepReport& report) {
       if (report.stage == Stage::kMatch && report.stage_complete)
         expectPlacesOfTheImage(*run.localizer.workspace().iteration);
-      if (!report.iteration_complete) continue;
+      if (!report.iteration_complete) return;
       const Iteration& iteration = *run.localizer.workspace().iteration;
       const int coarse = coarse_size_px == 256 ? 1 : 2;
       EXPECT_EQ(iteration.level, iteration.index == 0 ? coarse : coarse - 1);
       coarse_iterations += iteration.index == 0 ? 1 : 0;
-    }
+    });
     EXPECT_EQ(coarse_iterations, 1);
     expectTruth(scene, run.localizer.workspace(), 0.0002, 0.1 * kDegree);
   }
@@ -118,16 +115,14 @@ TEST(Localizer, ConvergesBehindAnOccluder) {
   const Case scene = occludedCase(3);
   const std::int32_t first_occluder = firstOccluderFace(scene.solid);
   OwnedRun run(scene.problem(), withoutSearch());
-  StepReport report;
   int renders = 0;
-  while (!report.finished) {
-    report = run.localizer.step();
-    if (report.stage != Stage::kRender || !report.stage_complete) continue;
+  run.finish([&](const StepReport& report) {
+    if (report.stage != Stage::kRender || !report.stage_complete) return;
     const EdgeRender& render = run.localizer.workspace().iteration->render;
     for (int i = 0; i < render.pixel_count; ++i)
       ASSERT_LT(render.pixels[static_cast<std::size_t>(i)].face, first_occluder);
     ++renders;
-  }
+  });
   EXPECT_GE(renders, 4);
   expectTruth(scene, run.localizer.workspace(), 0.0002, 0.1 * kDegree);
 }
@@ -149,16 +144,14 @@ TEST(Localizer, ConvergesWithAFifthOfTheImageIgnored) {
   scene.picture = &damaged;
   scene.ignore = &mask.bits;
   OwnedRun run(scene.problem(), defaultProfile());
-  StepReport report;
-  while (!report.finished) {
-    report = run.localizer.step();
+  run.finish([&](const StepReport& report) {
     const Workspace& workspace = run.localizer.workspace();
     if (report.stage == Stage::kEdges && report.stage_complete) {
       for (int y = 180 - 3; y < 400 + 3; ++y) {
         for (int x = 60 - 3; x < 300 + 3; ++x) ASSERT_FALSE(workspace.edges.level[0].get(x, y));
       }
     }
-    if (report.stage != Stage::kTemplates) continue;
+    if (report.stage != Stage::kTemplates) return;
     const TemplateSet& templates = workspace.iteration->templates;
     for (int i = 0; i < templates.count; ++i) {
       const Template& item = templates.templates[static_cast<std::size_t>(i)];
@@ -169,7 +162,7 @@ TEST(Localizer, ConvergesWithAFifthOfTheImageIgnored) {
       }
       EXPECT_LE(ignored, 0.3 * templates.side_px * templates.side_px + 0.5);
     }
-  }
+  });
   expectTruth(scene, run.localizer.workspace(), 0.0004, 0.25 * kDegree);
   scene.ignore = nullptr;
   EXPECT_NE(endOf(scene, defaultProfile()), LocalizationStatus::kRunning);
@@ -264,16 +257,14 @@ TEST(Localizer, AFurtherAttemptBeginsAtTheSeedWithOtherTemplates) {
   OwnedRun run(scene.problem(), options);
   std::vector<int> sides;
   int attempt = -1;
-  StepReport report;
-  while (!report.finished) {
-    report = run.localizer.step();
+  run.finish([&](const StepReport& report) {
     const Iteration* iteration = run.localizer.workspace().iteration;
-    if (report.stage != Stage::kTemplates || iteration->attempt == attempt) continue;
+    if (report.stage != Stage::kTemplates || iteration->attempt == attempt) return;
     attempt = iteration->attempt;
     sides.push_back(iteration->templates.side_px);
     EXPECT_EQ(iteration->camera_from_station_before.translation_m, scene.seed.translation_m);
     EXPECT_EQ(iteration->uncertainty.translation_m, scene.uncertainty.translation_m);
-  }
+  });
   ASSERT_EQ(sides.size(), 3u);
   EXPECT_EQ(run.localizer.workspace().attempts, 3);
   EXPECT_EQ(sides[1], 2 * sides[0]);
@@ -283,11 +274,9 @@ TEST(Localizer, AFurtherAttemptBeginsAtTheSeedWithOtherTemplates) {
 TEST(Localizer, ThresholdsAndUncertaintyHalveTwice) {
   const Case scene = stationCase(2);
   OwnedRun run(scene.problem(), paperProfile());
-  StepReport report;
   int iterations = 0;
-  while (!report.finished) {
-    report = run.localizer.step();
-    if (!report.iteration_complete) continue;
+  run.finish([&](const StepReport& report) {
+    if (!report.iteration_complete) return;
     const Iteration& iteration = *run.localizer.workspace().iteration;
     const double factor = iterations == 0 ? 1.0 : iterations == 1 ? 0.5 : 0.25;
     EXPECT_DOUBLE_EQ(iteration.threshold_px, 8.0 * factor);
@@ -296,7 +285,7 @@ TEST(Localizer, ThresholdsAndUncertaintyHalveTwice) {
     EXPECT_DOUBLE_EQ(iteration.uncertainty.rotation_rad.z(),
                      scene.uncertainty.rotation_rad.z() * factor);
     ++iterations;
-  }
+  });
   EXPECT_GE(iterations, 4);
 }
 
@@ -304,14 +293,12 @@ TEST(Localizer, ThresholdsAndUncertaintyHalveTwice) {
 std::vector<int> rolledRenders(const Case& scene, const LocalizerOptions& options) {
   OwnedRun run(scene.problem(), options);
   std::vector<int> counts;
-  StepReport report;
-  while (!report.finished) {
-    report = run.localizer.step();
+  run.finish([&](const StepReport& report) {
     const Iteration* iteration = run.localizer.workspace().iteration;
-    if (!report.iteration_complete || iteration->kind != IterationKind::kMatch) continue;
+    if (!report.iteration_complete || iteration->kind != IterationKind::kMatch) return;
     if (static_cast<int>(counts.size()) == iteration->attempt)
       counts.push_back(iteration->hypothesis_count);
-  }
+  });
   return counts;
 }
 
@@ -342,19 +329,17 @@ TEST(Localizer, ARenderServesWhileTheSceneHardlyMoves) {
       LocalizerOptions options;
       options.loop.render_again_px = again ? 0.0 : 0.25;
       OwnedRun run(scene.problem(), options);
-      StepReport report;
-      while (!report.finished) {
-        report = run.localizer.step();
-        if (!report.iteration_complete) continue;
+      run.finish([&](const StepReport& report) {
+        if (!report.iteration_complete) return;
         const Iteration& now = *run.localizer.workspace().iteration;
-        if (now.kind != IterationKind::kRefine) continue;
+        if (now.kind != IterationKind::kRefine) return;
         const double moved_px =
             meanDisplacement_px(scene.solid, scene.camera, now.render.camera_from_station,
                                 now.camera_from_station_before);
         EXPECT_TRUE(!again || moved_px == 0.0) << moved_px;
         EXPECT_LT(moved_px, 0.5);  // the box's corners lie outside of the mesh
         reused += moved_px > 0.0 ? 1 : 0;
-      }
+      });
       ASSERT_EQ(run.localizer.workspace().status, LocalizationStatus::kConverged);
       final_pose[again ? 1 : 0] = run.localizer.workspace().camera_from_station;
     }

@@ -118,6 +118,15 @@ struct OwnedRun {
   OwnedRun(const LocalizationProblem& problem, const LocalizerOptions& options);
   /// Steps to the end; the number of steps, or -1 when there seems to be none.
   int finish();
+  /// The same; `each` gets the report of every step.
+  template <class Each>
+  void finish(const Each& each) {
+    StepReport report;
+    while (!report.finished) {
+      report = localizer.step();
+      each(report);
+    }
+  }
 };
 std::vector<std::byte> blockFor(const LocalizationProblem& problem,
                                 const LocalizerOptions& options);

@@ -2,7 +2,6 @@
 #include "core/match/search_window.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>

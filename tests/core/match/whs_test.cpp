@@ -9,8 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/core/match/match_support.h"
-#include "tests/core/match/whs_reference.h"
+#include "tests/core/match/search_problem.h"
 
 namespace boresight {
 namespace {

@@ -12,6 +12,7 @@ namespace {
 
 using test::makeScene;
 using test::PnpScene;
+using test::PnpSceneOptions;
 using test::poseNear;
 using test::randomFor;
 using test::Solver;
@@ -51,15 +52,16 @@ Pose poseFromOpenCv(const cv::Mat& rotation_vector, const cv::Mat& translation) 
   return pose;
 }
 
-/// SQPnP from nothing, then OpenCV's own Levenberg-Marquardt until it stands still.
-Pose solveByOpenCv(const Matched& matched, const Camera& camera) {
+/// By one of OpenCV's solvers; `refined`: then by its Levenberg-Marquardt until it stands still.
+Pose solveByOpenCv(const Matched& matched, const Camera& camera, cv::SolvePnPMethod method,
+                   bool refined = false) {
   cv::Mat rotation_vector, translation;
   EXPECT_TRUE(cv::solvePnP(matched.points, matched.pixels, cameraMatrix(camera),
-                           distortionOf(camera), rotation_vector, translation, false,
-                           cv::SOLVEPNP_SQPNP));
+                           distortionOf(camera), rotation_vector, translation, false, method));
   const cv::TermCriteria still(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 200, 1e-15);
-  cv::solvePnPRefineLM(matched.points, matched.pixels, cameraMatrix(camera), distortionOf(camera),
-                       rotation_vector, translation, still);
+  if (refined)
+    cv::solvePnPRefineLM(matched.points, matched.pixels, cameraMatrix(camera), distortionOf(camera),
+                         rotation_vector, translation, still);
   return poseFromOpenCv(rotation_vector, translation);
 }
 
@@ -76,49 +78,34 @@ class PnpAgainstOpenCv : public ::testing::TestWithParam<test::NamedCamera> {};
 INSTANTIATE_TEST_SUITE_P(Cameras, PnpAgainstOpenCv, ::testing::ValuesIn(openCvCameras()),
                          [](const auto& tested) { return tested.param.name; });
 
-TEST_P(PnpAgainstOpenCv, RefinesToTheSamePoseOnTheSameInliers) {
-  Random random = randomFor("PnpAgainstOpenCv.Same." + GetParam().name);
+void expectPosesOfOpenCv(const std::string& name, const Camera& camera,
+                         const PnpSceneOptions& scene_options, double threshold_px,
+                         cv::SolvePnPMethod method, bool refined = false) {
+  Random random = randomFor("PnpAgainstOpenCv." + name);
   for (int trial = 0; trial < 20; ++trial) {
-    const PnpScene scene =
-        makeScene(random, {.points = 80, .outlier_share = 0.4, .noise_px = 0.5}, GetParam().camera);
-    Solver solver(80);
-    ASSERT_EQ(solver.solve(scene, 3.0, PnpOptions()), Status::kOk);
+    const PnpScene scene = makeScene(random, scene_options, camera);
+    Solver solver(scene.correspondences.size());
+    ASSERT_EQ(solver.solve(scene, threshold_px, PnpOptions()), Status::kOk);
     const Matched matched = inliersOf(scene, solver.inlier);
     EXPECT_THAT(solver.solution.camera_from_station,
-                poseNear(solveByOpenCv(matched, scene.camera), 1e-6, 1e-6));
+                poseNear(solveByOpenCv(matched, scene.camera, method, refined), 1e-6, 1e-6));
   }
+}
+
+TEST_P(PnpAgainstOpenCv, RefinesToTheSamePoseOnTheSameInliers) {
+  expectPosesOfOpenCv("Same." + GetParam().name, GetParam().camera,
+                      {.points = 80, .outlier_share = 0.4, .noise_px = 0.5}, 3.0,
+                      cv::SOLVEPNP_SQPNP, true);
 }
 
 TEST_P(PnpAgainstOpenCv, AgreesWithItsIterativeSolver) {
-  Random random = randomFor("PnpAgainstOpenCv.Iterative." + GetParam().name);
-  for (int trial = 0; trial < 20; ++trial) {
-    const PnpScene scene = makeScene(random, {.points = 40, .noise_px = 0.3}, GetParam().camera);
-    Solver solver(40);
-    ASSERT_EQ(solver.solve(scene, 5.0, PnpOptions()), Status::kOk);
-    const Matched matched = inliersOf(scene, solver.inlier);
-    cv::Mat rotation_vector, translation;
-    ASSERT_TRUE(cv::solvePnP(matched.points, matched.pixels, cameraMatrix(scene.camera),
-                             distortionOf(scene.camera), rotation_vector, translation, false,
-                             cv::SOLVEPNP_ITERATIVE));
-    EXPECT_THAT(solver.solution.camera_from_station,
-                poseNear(poseFromOpenCv(rotation_vector, translation), 1e-6, 1e-6));
-  }
+  expectPosesOfOpenCv("Iterative." + GetParam().name, GetParam().camera,
+                      {.points = 40, .noise_px = 0.3}, 5.0, cv::SOLVEPNP_ITERATIVE);
 }
 
 TEST_P(PnpAgainstOpenCv, AgreesWithSqpnpOnExactData) {
-  Random random = randomFor("PnpAgainstOpenCv.Sqpnp." + GetParam().name);
-  for (int trial = 0; trial < 20; ++trial) {
-    const PnpScene scene = makeScene(random, {.points = 40}, GetParam().camera);
-    Solver solver(40);
-    ASSERT_EQ(solver.solve(scene, 1.0, PnpOptions()), Status::kOk);
-    const Matched matched = inliersOf(scene, solver.inlier);
-    cv::Mat rotation_vector, translation;
-    ASSERT_TRUE(cv::solvePnP(matched.points, matched.pixels, cameraMatrix(scene.camera),
-                             distortionOf(scene.camera), rotation_vector, translation, false,
-                             cv::SOLVEPNP_SQPNP));
-    EXPECT_THAT(solver.solution.camera_from_station,
-                poseNear(poseFromOpenCv(rotation_vector, translation), 1e-6, 1e-6));
-  }
+  expectPosesOfOpenCv("Sqpnp." + GetParam().name, GetParam().camera, {.points = 40}, 1.0,
+                      cv::SOLVEPNP_SQPNP);
 }
 
 TEST(SolveP3pAgainstOpenCv, FindsTheSameSolutions) {

@@ -2,7 +2,6 @@
 #include "core/refine/edge_refinement.h"
 
 #include <cmath>
-#include <memory>
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>

@@ -93,8 +93,7 @@ void expectRulesKept(const Rendered& rendered, const SceneMesh& mesh) {
     EXPECT_EQ(edges.edges.row(y)[width / 64] >> (width % 64), 0U);
     EXPECT_EQ(edges.mask.row(y)[width / 64] >> (width % 64), 0U);
   }
-  for (std::int32_t i = 0; i < edges.pixel_count; ++i) {
-    const EdgePixel& pixel = edges.pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : pixelsOf(edges)) {
     EXPECT_TRUE(std::isfinite(pixel.depth_m) && pixel.depth_m > 0.0F);
     ASSERT_TRUE(pixel.face >= 0 && pixel.face < static_cast<std::int32_t>(mesh.faces.size()));
     EXPECT_TRUE(mesh.parts[mesh.part_of_face[static_cast<std::size_t>(pixel.face)]].match);

@@ -130,8 +130,7 @@ TEST(SalientEdges, OccludingEdgeAppearsOnceWithTheNearerDepth) {
     EXPECT_EQ(rendered.edges.row_begin[static_cast<std::size_t>(y) + 1] -
                   rendered.edges.row_begin[static_cast<std::size_t>(y)],
               1);
-  for (std::int32_t i = 0; i < rendered.edges.pixel_count; ++i) {
-    const EdgePixel& pixel = rendered.edges.pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : pixelsOf(rendered.edges)) {
     EXPECT_FLOAT_EQ(pixel.depth_m, 0.5F);
     EXPECT_EQ(pixel.kind, kEdgeOccluding);
     EXPECT_LT(pixel.normal_x, -100);
@@ -183,8 +182,7 @@ TEST(SalientEdges, TouchingSurfacesAreRecordedConsistently) {
   const Rendered rendered = render(apart, pinholeCamera(120, 100, 150.0), pose);
   int left = 0;
   int right = 0;
-  for (std::int32_t i = 0; i < rendered.edges.pixel_count; ++i) {
-    const EdgePixel& pixel = rendered.edges.pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : pixelsOf(rendered.edges)) {
     if ((pixel.kind & kEdgeBorder) == 0) (pixel.face < 2 ? left : right) += 1;
   }
   EXPECT_GT(left + right, 80);
@@ -219,8 +217,7 @@ TEST(SalientEdges, FilletWithinAPixelIsACreaseInItsMiddle) {
       EXPECT_GE(rendered.edges.pixel_count, 100);
       const Eigen::Vector2d across(std::cos(roll), std::sin(roll));
       double mean = 0.0;
-      for (std::int32_t i = 0; i < rendered.edges.pixel_count; ++i) {
-        const EdgePixel& pixel = rendered.edges.pixels[static_cast<std::size_t>(i)];
+      for (const EdgePixel& pixel : pixelsOf(rendered.edges)) {
         const Eigen::Vector2d ray((pixel.x - camera.cx) / camera.fx,
                                   (pixel.y - camera.cy) / camera.fy);
         // The ridge's plane of symmetry, seen edge-on but for 1.3 mm: x' = 0.0013 cos(roll).
@@ -251,8 +248,7 @@ TEST(SalientEdges, CurvedSurfaceOfLooseFacetsHasNoDepthEdges) {
   const Camera camera = pinholeCamera(360, 200, 1200.0);
   const Rendered rendered =
       render(loose, camera, poseOf(Eigen::Vector3d(0, 0, 0.05), Eigen::Vector3d(0.02, 0, 0.6)));
-  for (std::int32_t i = 0; i < rendered.edges.pixel_count; ++i)
-    EXPECT_NE(rendered.edges.pixels[static_cast<std::size_t>(i)].kind & kEdgeBorder, 0);
+  for (const EdgePixel& pixel : pixelsOf(rendered.edges)) EXPECT_NE(pixel.kind & kEdgeBorder, 0);
   EXPECT_GT(rendered.edges.pixel_count, 150);
 }
 
@@ -363,8 +359,7 @@ void expectOnlySilhouette(const SceneMesh& mesh, const Camera& camera, const Pos
   double mean_offset = 0.0;
   int inside = 0;
   int far_off = 0;
-  for (std::int32_t i = 0; i < rendered.edges.pixel_count; ++i) {
-    const EdgePixel& pixel = rendered.edges.pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : pixelsOf(rendered.edges)) {
     const double distance = distanceToHull(hull, Eigen::Vector2d(pixel.x, pixel.y));
     if (distance < -0.75) ++inside;
     EXPECT_LT(distance, 0.75);
@@ -446,8 +441,7 @@ TEST(SalientEdges, GrazingPlanesHaveNoEdgesInside) {
         mesh.addFace(a, a + kCells + 2, a + kCells + 1);
       }
     const Rendered rendered = render(mesh, brownCamera(200, 160, 220.0, -0.1), Pose());
-    for (std::int32_t i = 0; i < rendered.edges.pixel_count; ++i)
-      EXPECT_NE(rendered.edges.pixels[static_cast<std::size_t>(i)].kind & kEdgeBorder, 0);
+    for (const EdgePixel& pixel : pixelsOf(rendered.edges)) EXPECT_NE(pixel.kind & kEdgeBorder, 0);
   }
 }
 
@@ -489,8 +483,7 @@ TEST(SalientEdges, NoEdgesAtTheImageBorderTheNearPlaneOrTheEndOfTheValidField) {
   EXPECT_EQ(rendered.faceAt(50, 99), -1);
   EXPECT_GE(rendered.faceAt(50, 80), 0);
   // The sides and the horizon of the ground are there; where the near plane cuts it is not.
-  for (std::int32_t i = 0; i < rendered.edges.pixel_count; ++i) {
-    const EdgePixel& pixel = rendered.edges.pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : pixelsOf(rendered.edges)) {
     EXPECT_GT(pixel.depth_m, 0.025F);
   }
   EXPECT_GT(rows_with_edges, 0);

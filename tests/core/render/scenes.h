@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -69,6 +70,11 @@ struct Rendered {
 Rendered render(const SceneMesh& mesh, const Camera& camera, const Pose& camera_from_station,
                 const RenderOptions& options = {}, int band_rows = EdgeRenderer::kBandRows,
                 bool plainly = false);
+
+/// The edge pixels that a render has.
+inline std::span<const EdgePixel> pixelsOf(const EdgeRender& edges) {
+  return edges.pixels.first(static_cast<std::size_t>(edges.pixel_count));
+}
 
 /// Expects two renders to agree in every bit of edges, mask and edge pixels.
 void expectEqual(const EdgeRender& a, const EdgeRender& b);

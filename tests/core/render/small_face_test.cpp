@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Faces of the size of a pixel are drawn from few bits; every bit of the result must be that of
 // drawing them like all others.
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -214,30 +214,5 @@ TEST(RunBatch, TakesAnotherStationsMeshWhenAsked) {
   EXPECT_EQ(results.front().success, false);
 }
 
-TEST(Mirrored, ReflectsAboutTheMiddleAndKeepsFacesOutwards) {
-  const test::ExampleCase example("os");
-  const SceneMesh flipped = mirrored(example.scene, MirrorAxis::kX);
-  const BoundingBox before = matchedBounds(example.scene.view());
-  const BoundingBox after = matchedBounds(flipped.view());
-  EXPECT_LT((before.minimum_m - after.minimum_m).norm(), 1e-6);
-  EXPECT_LT((before.maximum_m - after.maximum_m).norm(), 1e-6);
-  double volume_before = 0.0;
-  double volume_after = 0.0;
-  const auto signedVolume = [](const SceneMesh& scene, const Face& face) {
-    const auto at = [&](std::size_t i) {
-      return scene.vertices_in_station_m[static_cast<std::size_t>(face.vertex[i])].cast<double>();
-    };
-    return at(0).dot(Eigen::Vector3d(at(1)).cross(Eigen::Vector3d(at(2)))) / 6.0;
-  };
-  for (const Face& face : example.scene.faces) volume_before += signedVolume(example.scene, face);
-  for (const Face& face : flipped.faces) volume_after += signedVolume(flipped, face);
-  EXPECT_NE(volume_before, 0.0);
-  EXPECT_NEAR(volume_after, volume_before, 1e-3 * std::abs(volume_before));
-  const SceneMesh twice = mirrored(flipped, MirrorAxis::kX);
-  for (std::size_t i = 0; i < twice.vertices_in_station_m.size(); ++i)
-    EXPECT_LT((twice.vertices_in_station_m[i] - example.scene.vertices_in_station_m[i]).norm(),
-              1e-6F);
-}
-
 }  // namespace
 }  // namespace boresight::sessions

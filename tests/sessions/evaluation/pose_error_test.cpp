@@ -30,6 +30,12 @@ Pose estimateFor(const Pose& truth, const Pose& true_from_estimated) {
 
 const Pose kTruth = poseOf(Vector3d(0.3, -0.7, 1.1), Vector3d(0.02, -0.03, 0.4));
 
+/// Of an estimate that is turned against the truth and not moved.
+PoseError errorOfTurn(const Vector3d& rotation_rad) {
+  return poseError(kTruth, estimateFor(kTruth, poseOf(rotation_rad, Vector3d::Zero())),
+                   std::nullopt);
+}
+
 TEST(PoseError, IsZeroForTheTruth) {
   const PoseError error = poseError(kTruth, kTruth, std::nullopt);
   EXPECT_NEAR(error.normal_mm, 0.0, 1e-12);
@@ -49,14 +55,11 @@ TEST(PoseError, SplitsATranslationAlongAndAcrossTheAxis) {
 }
 
 TEST(PoseError, SeparatesTwistFromTilt) {
-  const PoseError twisted = poseError(
-      kTruth, estimateFor(kTruth, poseOf(Vector3d(0, 0, -0.01), Vector3d::Zero())), std::nullopt);
+  const PoseError twisted = errorOfTurn(Vector3d(0, 0, -0.01));
   EXPECT_NEAR(twisted.rotation_mrad, 0.0, 1e-9);
   EXPECT_NEAR(twisted.in_plane_mrad, -10.0, 1e-9);
   EXPECT_NEAR(twisted.geodesic_mrad, 10.0, 1e-9);
-  const PoseError tilted =
-      poseError(kTruth, estimateFor(kTruth, poseOf(Vector3d(0.006, 0.008, 0), Vector3d::Zero())),
-                std::nullopt);
+  const PoseError tilted = errorOfTurn(Vector3d(0.006, 0.008, 0));
   EXPECT_NEAR(tilted.rotation_mrad, 10.0, 1e-9);
   EXPECT_NEAR(tilted.in_plane_mrad, 0.0, 1e-9);
   EXPECT_NEAR(tilted.geodesic_mrad, 10.0, 1e-9);
@@ -78,17 +81,13 @@ TEST(PoseError, IsMeasuredAtTheEndEffector) {
 }
 
 TEST(PoseError, KeepsTinyAnglesAndHalfTurnsExact) {
-  const PoseError tiny = poseError(
-      kTruth, estimateFor(kTruth, poseOf(Vector3d(1e-9, 0, 0), Vector3d::Zero())), std::nullopt);
+  const PoseError tiny = errorOfTurn(Vector3d(1e-9, 0, 0));
   EXPECT_NEAR(tiny.rotation_mrad, 1e-6, 1e-11);
-  const PoseError half = poseError(
-      kTruth, estimateFor(kTruth, poseOf(Vector3d(0, 0, 3.1), Vector3d::Zero())), std::nullopt);
+  const PoseError half = errorOfTurn(Vector3d(0, 0, 3.1));
   EXPECT_NEAR(half.in_plane_mrad, 3100.0, 1e-9);
-  const PoseError back = poseError(
-      kTruth, estimateFor(kTruth, poseOf(Vector3d(0, 0, -3.1), Vector3d::Zero())), std::nullopt);
+  const PoseError back = errorOfTurn(Vector3d(0, 0, -3.1));
   EXPECT_NEAR(back.in_plane_mrad, -3100.0, 1e-9);
-  const PoseError flipped = poseError(
-      kTruth, estimateFor(kTruth, poseOf(Vector3d(kPi, 0, 0), Vector3d::Zero())), std::nullopt);
+  const PoseError flipped = errorOfTurn(Vector3d(kPi, 0, 0));
   EXPECT_NEAR(flipped.rotation_mrad, 1000.0 * kPi, 1e-9);
 }
 

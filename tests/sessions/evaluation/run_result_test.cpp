@@ -20,50 +20,36 @@ RunResult completedWith(double normal_mm) {
   return result;
 }
 
-TEST(Judge, CallsACompletedRunWithinTheRequirementASuccess) {
-  RunResult result = completedWith(-0.39);
-  judge(false, result);
-  EXPECT_EQ(result.success, true);
-  EXPECT_FALSE(result.false_positive);
-  EXPECT_FALSE(result.gross_false_positive);
-}
+struct JudgedRun {
+  const char* name;
+  double normal_mm;  ///< 0.4 is required
+  bool completed;
+  bool has_truth;
+  bool wrong_mesh;
+  std::optional<bool> success;
+  bool false_positive;
+  bool gross;
+};
 
-TEST(Judge, CallsACompletedRunBeyondItAFalsePositive) {
-  RunResult near = completedWith(0.41);
-  judge(false, near);
-  EXPECT_EQ(near.success, false);
-  EXPECT_TRUE(near.false_positive);
-  EXPECT_FALSE(near.gross_false_positive);
-  RunResult gross = completedWith(1.21);
-  judge(false, gross);
-  EXPECT_TRUE(gross.false_positive);
-  EXPECT_TRUE(gross.gross_false_positive);
-}
-
-TEST(Judge, DoesNotBlameARunThatDidNotComplete) {
-  RunResult result = completedWith(50.0);
-  result.completed = false;
-  judge(false, result);
-  EXPECT_EQ(result.success, false);
-  EXPECT_FALSE(result.false_positive);
-}
-
-TEST(Judge, LeavesOpenWhatHasNoTruthOrRequirement) {
-  RunResult result = completedWith(0.0);
-  result.error.reset();
-  judge(false, result);
-  EXPECT_FALSE(result.success.has_value());
-}
-
-TEST(Judge, CountsEveryCompletedRunWithAWrongMeshAsGross) {
-  RunResult result = completedWith(0.0);
-  judge(true, result);
-  EXPECT_EQ(result.success, false);
-  EXPECT_TRUE(result.gross_false_positive);
-  RunResult failed = completedWith(0.0);
-  failed.completed = false;
-  judge(true, failed);
-  EXPECT_FALSE(failed.false_positive);
+TEST(Judge, DecidesByTruthRequirementAndMesh) {
+  const JudgedRun runs[] = {
+      {"within the requirement", -0.39, true, true, false, true, false, false},
+      {"beyond the requirement", 0.41, true, true, false, false, true, false},
+      {"beyond three times the requirement", 1.21, true, true, false, false, true, true},
+      {"did not complete", 50.0, false, true, false, false, false, false},
+      {"without truth", 0.0, true, false, false, {}, false, false},
+      {"completed with a wrong mesh", 0.0, true, true, true, false, true, true},
+      {"did not complete with a wrong mesh", 0.0, false, true, true, false, false, false}};
+  for (const JudgedRun& run : runs) {
+    SCOPED_TRACE(run.name);
+    RunResult result = completedWith(run.normal_mm);
+    result.completed = run.completed;
+    if (!run.has_truth) result.error.reset();
+    judge(run.wrong_mesh, result);
+    EXPECT_EQ(result.success, run.success);
+    EXPECT_EQ(result.false_positive, run.false_positive);
+    EXPECT_EQ(result.gross_false_positive, run.gross);
+  }
 }
 
 TEST(RunResultJson, HasTheFieldsOfALine) {

@@ -10,10 +10,9 @@
 
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
-#include "sessions/report/pdf_plot.h"
-#include "sessions/report/report_pictures.h"
+#include "sessions/report/pdf_canvas.h"
 #include "sessions/review/checks.h"
-#include "sessions/review/decide.h"
+#include "sessions/review/standing.h"
 #include "tests/support/marked_example.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/review/decide.h"
 
 #include <functional>
 #include <map>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Edges of a box that OpenCV drew, asked at the pose that it was drawn from and at others.
-#include "sessions/review/edge_checks.h"
+#include "sessions/review/checks.h"
 
 #include <memory>
 
@@ -24,6 +24,18 @@ std::vector<Check> checksOf(const ReviewSubject& subject) {
       subject.loaded->source.camera, subject.loaded->scene.view(), subject.camera_from_station);
   addEdgeChecks(subject, CheckLimits(), edges, checks);
   return checks;
+}
+
+std::shared_ptr<LoadedCase> copyOf(const LoadedCase& loaded) {
+  auto copy = std::make_shared<LoadedCase>();
+  copy->source = loaded.source;
+  copy->scene = loaded.scene;
+  copy->image = loaded.image;
+  return copy;
+}
+
+void hideLeftHalf(DrawnBox& box, double middle_px) {
+  box.fill({{0.0, 0.0}, {middle_px, 0.0}, {middle_px, 599.0}, {0.0, 599.0}}, 40);
 }
 
 double figureOf(const std::vector<Check>& checks, const std::string& id) {
@@ -54,10 +66,7 @@ TEST(EdgeChecks, BlurredImage_FailsBySharpness) {
   const DrawnBox box;
   const auto sharp = box.subject(box.camera_from_station_);
   EXPECT_LT(figureOf(checksOf(sharp), "edge_width"), 5.0);
-  auto blurred = std::make_shared<LoadedCase>();
-  blurred->source = sharp.loaded->source;
-  blurred->scene = sharp.loaded->scene;
-  blurred->image = sharp.loaded->image;
+  const auto blurred = copyOf(*sharp.loaded);
   cv::Mat pixels(blurred->image.height, blurred->image.width, CV_8U, blurred->image.pixels.data());
   cv::blur(pixels, pixels, cv::Size(16, 1));
   ReviewSubject subject = sharp;
@@ -117,7 +126,7 @@ TEST(EdgeChecks, EitherThePredictedOrTheSeenIsExplained) {
   // Half of the box unseen, yet what is seen is predicted; then lines all over it as well.
   DrawnBox box;
   const double middle_px = box.pixelOf({0.0, 0.0, 0.025}).x();
-  box.fill({{0.0, 0.0}, {middle_px, 0.0}, {middle_px, 599.0}, {0.0, 599.0}}, 40);
+  hideLeftHalf(box, middle_px);
   const auto half = checksOf(box.subject(box.camera_from_station_));
   EXPECT_NEAR(figureOf(half, "edge_explained"),
               std::max(figureOf(half, "edge_coverage"), 100.0 - figureOf(half, "edge_clutter")),
@@ -140,7 +149,7 @@ TEST(EdgeChecks, CoverageOfAPoseIsThatOfTheCheck) {
 TEST(EdgeChecks, WhatIsHiddenIsNotSeen) {
   DrawnBox box;
   const double middle_px = box.pixelOf({0.0, 0.0, 0.025}).x();
-  box.fill({{0.0, 0.0}, {middle_px, 0.0}, {middle_px, 599.0}, {0.0, 599.0}}, 40);
+  hideLeftHalf(box, middle_px);
   const double seen = figureOf(checksOf(box.subject(box.camera_from_station_)), "edge_coverage");
   EXPECT_GT(seen, 35.0);
   EXPECT_LT(seen, 65.0);
@@ -149,12 +158,9 @@ TEST(EdgeChecks, WhatIsHiddenIsNotSeen) {
 TEST(EdgeChecks, IgnoredPixelsCountNeitherWay) {
   DrawnBox box;
   const double middle_px = box.pixelOf({0.0, 0.0, 0.025}).x();
-  box.fill({{0.0, 0.0}, {middle_px, 0.0}, {middle_px, 599.0}, {0.0, 599.0}}, 40);
+  hideLeftHalf(box, middle_px);
   ReviewSubject subject = box.subject(box.camera_from_station_);
-  auto masked = std::make_shared<LoadedCase>();
-  masked->source = subject.loaded->source;
-  masked->scene = subject.loaded->scene;
-  masked->image = subject.loaded->image;
+  const auto masked = copyOf(*subject.loaded);
   masked->ignore.emplace();
   masked->ignore->width = 800;
   masked->ignore->height = 600;
@@ -227,10 +233,7 @@ TEST(EdgeChecks, ACameraThatNeitherItsCalibrationNorTheImageVouchesForFails) {
   CheckLimits limits;
   limits.focal_percent = 0.001;
   EXPECT_EQ(focalCheck(limits).state, CheckState::kFailed);
-  auto stated = std::make_shared<LoadedCase>();
-  stated->source = subject.loaded->source;
-  stated->scene = subject.loaded->scene;
-  stated->image = subject.loaded->image;
+  const auto stated = copyOf(*subject.loaded);
   // Known, to five percent: what the edges ask for is within that.
   stated->source.calibration_sigma = CalibrationSigma{0.05, 0.3};
   subject.loaded = stated;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "sessions/review/decide.h"
+#include "sessions/review/standing.h"
 #include "tests/sessions/session/random_session.h"
 
 namespace boresight::test {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/review/requirement_checks.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <memory>
 
 #include "sessions/review/checks.h"
 #include "sessions/review/pose_uncertainty.h"
-#include "sessions/review/run_checks.h"
 #include "tests/sessions/review/drawn_box.h"
 #include "tests/sessions/review/find_check.h"
 
@@ -67,7 +65,7 @@ TEST(AgreementChecks, ACoarseTruthOfAnnotationsAllowsItsOwnSigmasAndSaysThatItTe
   const Check check = checkOf(subject, "agreement_truth");
   EXPECT_NEAR(check.figure.value(), 100.0 * 8.0 / std::hypot(0.4, 30.0), 1e-6);
   EXPECT_EQ(check.state, CheckState::kPassed);
-  EXPECT_NE(check.sentence.find("says little"), std::string::npos) << check.sentence;
+  EXPECT_THAT(check.sentence, testing::HasSubstr("says little"));
 }
 
 TEST(AgreementChecks, AnnotationAndRunShareTheErrorsOfMeshAndCamera) {
@@ -96,9 +94,9 @@ TEST(AgreementChecks, TheSentenceSaysWhereThePosesAreApart) {
   setTruth(loaded->source, movedBy(subject, 0.1, -0.3));
   subject.loaded = loaded;
   const auto sentence = [&] { return checkOf(subject, "agreement_truth").sentence; };
-  EXPECT_NE(sentence().find("across the view axis at the camera"), std::string::npos) << sentence();
+  EXPECT_THAT(sentence(), testing::HasSubstr("across the view axis at the camera"));
   loaded->source.camera_from_end_effector = Pose();
-  EXPECT_NE(sentence().find("at the end effector"), std::string::npos) << sentence();
+  EXPECT_THAT(sentence(), testing::HasSubstr("at the end effector"));
 }
 
 TEST(AgreementChecks, ACoarseAnnotationAllowsItsOwnSigmasAndSaysThatItTellsLittle) {
@@ -111,7 +109,7 @@ TEST(AgreementChecks, ACoarseAnnotationAllowsItsOwnSigmasAndSaysThatItTellsLittl
   const Check check = checkOf(subject, "agreement_annotation");
   EXPECT_NEAR(check.figure.value(), 100.0 * 0.6 / std::hypot(0.4, 1.2 * std::sqrt(2.0)), 1e-6);
   EXPECT_EQ(check.state, CheckState::kPassed);
-  EXPECT_NE(check.sentence.find("says little"), std::string::npos) << check.sentence;
+  EXPECT_THAT(check.sentence, testing::HasSubstr("says little"));
 }
 
 TEST(AgreementChecks, OfSeveralCamerasTheFarthestCounts) {
@@ -122,7 +120,7 @@ TEST(AgreementChecks, OfSeveralCamerasTheFarthestCounts) {
                            {"right", movedBy(subject, 0.2, 0.0), unknown}};
   const Check check = checkOf(subject, "agreement_camera");
   EXPECT_NEAR(check.figure.value(), 200.0, 1e-6);
-  EXPECT_NE(check.sentence.find("top"), std::string::npos) << check.sentence;
+  EXPECT_THAT(check.sentence, testing::HasSubstr("top"));
 }
 
 TEST(AgreementChecks, WithinTheRequirementIsWithinAllOfIt) {
@@ -165,11 +163,10 @@ TEST(BasinChecks, OnlyABetterAnswerElsewhereSpeaksAgainstThePose) {
   basin.rivals.push_back({Pose(), false, 0.7});
   const Check other = findCheck(basinChecks(basin), "basin_rival");
   EXPECT_EQ(other.state, CheckState::kFailed);
-  EXPECT_NE(other.sentence.find("another pose 70 %"), std::string::npos) << other.sentence;
+  EXPECT_THAT(other.sentence, testing::HasSubstr("another pose 70 %"));
   basin.rivals.push_back({Pose(), true, 0.8});
   const Check mirrored = findCheck(basinChecks(basin), "basin_rival");
-  EXPECT_NE(mirrored.sentence.find("mirror image of the station 80 %"), std::string::npos)
-      << mirrored.sentence;
+  EXPECT_THAT(mirrored.sentence, testing::HasSubstr("mirror image of the station 80 %"));
   basin.coverage = 0.0;
   EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kFailed);
 }
@@ -190,7 +187,7 @@ TEST(OnboardCheck, SaysWhatTheComparisonFound) {
   subject.onboard->first->text = "The pixels differ.";
   subject.onboard->verdict = RunVerdict::kWithinLimits;
   EXPECT_EQ(onboardCheck(subject).state, CheckState::kPassed);
-  EXPECT_NE(onboardCheck(subject).sentence.find("The pixels differ."), std::string::npos);
+  EXPECT_THAT(onboardCheck(subject).sentence, testing::HasSubstr("The pixels differ."));
   subject.onboard->verdict = RunVerdict::kDifferent;
   EXPECT_EQ(onboardCheck(subject).state, CheckState::kFailed);
 }
@@ -250,12 +247,11 @@ TEST(PrecisionChecks, ScaleAndCalibrationCountWhereNobodyStatedThem) {
   const Check check = findCheck(checksOf(subject, CheckLimits()), "covariance_normal");
   EXPECT_NEAR(check.figure.value(), 3.0 * 0.1 * std::sqrt(2.0), 0.02);
   EXPECT_EQ(check.state, CheckState::kFailed) << "0.4 mm are required";
-  EXPECT_NE(check.sentence.find("no better than the mesh's scale (0.02 %, assumed) and the "
-                                "camera's calibration (0.02 % and "),
-            std::string::npos)
-      << check.sentence;
-  EXPECT_NE(check.sentence.find(" px, assumed) allow: 0.4"), std::string::npos) << check.sentence;
-  EXPECT_NE(check.sentence.find("state how well"), std::string::npos) << check.sentence;
+  EXPECT_THAT(check.sentence,
+              testing::HasSubstr("no better than the mesh's scale (0.02 %, assumed) and the "
+                                 "camera's calibration (0.02 % and "));
+  EXPECT_THAT(check.sentence, testing::HasSubstr(" px, assumed) allow: 0.4"));
+  EXPECT_THAT(check.sentence, testing::HasSubstr("state how well"));
 }
 
 TEST(PrecisionChecks, WhatIsStatedTakesThePlaceOfWhatIsAssumed) {

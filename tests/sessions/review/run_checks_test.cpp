@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs made by hand: what every check says of them is known.
-#include "sessions/review/run_checks.h"
+#include "sessions/review/checks.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sessions/evaluation/batch.h"
-#include "sessions/evaluation/results_writer.h"
+#include "sessions/evaluation/results_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/review/queue.h"
 #include "sessions/session/case_run.h"

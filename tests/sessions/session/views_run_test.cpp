@@ -8,7 +8,6 @@
 #include "sessions/io/errors.h"
 #include "sessions/review/review_subject.h"
 #include "sessions/review/validated_pose_file.h"
-#include "sessions/review/verify_pose.h"
 #include "sessions/session/session_file.h"
 #include "tests/sessions/session/example_session.h"
 #include "tests/support/turned_view.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/tables/failures.h"
+#include "sessions/tables/result_figures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "sessions/evaluation/batch.h"
-#include "sessions/evaluation/results_writer.h"
+#include "sessions/evaluation/results_file.h"
 #include "tests/sessions/tables/made_runs.h"
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"

@@ -2,7 +2,6 @@
 #include "sessions/tables/method_tables.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -86,7 +85,7 @@ TEST(Median, IsTheMiddle) {
 
 TEST(ErrorTable, ShowsThePapersRowsWithACautionWhenAsked) {
   const std::string without = tableText(errorTable(sample(), false), TableFormat::kText);
-  EXPECT_EQ(without.find("paper"), std::string::npos);
+  EXPECT_THAT(without, testing::Not(testing::HasSubstr("paper")));
   const std::string with = tableText(errorTable(sample(), true), TableFormat::kText);
   EXPECT_THAT(with, HasSubstr("whs (paper)"));
   EXPECT_THAT(with, HasSubstr("0.083 / 0.036 / 0.232"));

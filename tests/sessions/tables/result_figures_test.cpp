@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/tables/result_figures.h"
 
+#include <cmath>
+#include <limits>
+#include <string>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <opencv2/imgcodecs.hpp>
-#include <string>
 
 #include "tests/sessions/tables/made_runs.h"
 
 namespace boresight::sessions {
 namespace {
 
+using Point = std::array<double, 2>;
 using test::madeRun;
+using testing::ElementsAre;
 
 constexpr int kFoot_px = 110;
 
@@ -64,6 +68,67 @@ TEST(ResultFigures, StandRunsWithoutTruth) {
     run.success.reset();
   }
   EXPECT_EQ(resultFigures(runs, CanvasFormat::kPdf).size(), 4u);
+}
+
+std::vector<const RunResult*> pointers(const std::vector<RunResult>& runs) {
+  std::vector<const RunResult*> made;
+  for (const RunResult& run : runs) made.push_back(&run);
+  return made;
+}
+
+TEST(ShareBelow, IsAStaircaseOverAllRuns) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(shareBelow({0.3, 0.1, nan}, 4),
+              ElementsAre(Point{0.1, 25.0}, Point{0.3, 25.0}, Point{0.3, 50.0}));
+  EXPECT_TRUE(shareBelow({}, 4).empty());
+}
+
+TEST(SuccessAgainstTolerance, CountsCompletedRunsWithinEachMultiple) {
+  // 0.2 mm is half of the requirement, 0.8 mm twice; the third is right but did not complete.
+  const std::vector<RunResult> runs = {
+      madeRun("bc-1", "whs", true, 0.2, 0.0, 0.0), madeRun("bc-2", "whs", true, -0.8, 0.1, 0.0),
+      madeRun("bc-3", "whs", false, 0.0, 0.0, 0.0), madeRun("bc-4", "whs", true, 0.0, 0.0, 30.0)};
+  const double factors[] = {0.25, 0.6, 2.5, 10.0};
+  EXPECT_THAT(successAgainstTolerance(pointers(runs), factors),
+              ElementsAre(Point{0.25, 0.0}, Point{0.6, 25.0}, Point{2.5, 50.0}, Point{10.0, 75.0}));
+  RunResult blind = runs[0];
+  blind.requirement.reset();
+  blind.success.reset();
+  EXPECT_TRUE(successAgainstTolerance(pointers({blind}), factors).empty());
+}
+
+TEST(SeedMeasure, IsDistanceOrAngle) {
+  const RunResult run = madeRun("bc-1", "whs", true, 0.0, 0.0, 0.0);
+  EXPECT_DOUBLE_EQ(*seedMeasure(run, SeedMeasure::kDistance_mm), 5.0);
+  EXPECT_DOUBLE_EQ(*seedMeasure(run, SeedMeasure::kAngle_mrad), 20.0);
+}
+
+TEST(SuccessAgainstSeed, PutsRunsIntoBinsOfEqualSizeByHowFarTheyBegan) {
+  std::vector<RunResult> runs;
+  for (int i = 0; i < 6; ++i) {
+    runs.push_back(madeRun("bc-" + std::to_string(i), "whs", true, i < 4 ? 0.0 : 9.0, 0.0, 0.0));
+    runs.back().seed_error->normal_mm = 0.0;
+    runs.back().seed_error->lateral_mm = 10.0 - i;  // the farthest first
+  }
+  // Ascending: 5 and 6 (wrong), 7 and 8 (right), 9 and 10 (right).
+  EXPECT_THAT(successAgainstSeed(pointers(runs), SeedMeasure::kDistance_mm, 3),
+              ElementsAre(Point{5.5, 0.0}, Point{7.5, 100.0}, Point{9.5, 100.0}));
+  EXPECT_EQ(successAgainstSeed(pointers(runs), SeedMeasure::kDistance_mm, 100).size(), 6u);
+}
+
+TEST(TimeAgainstError, TakesCompletedRuns) {
+  std::vector<RunResult> runs = {madeRun("bc-1", "whs", true, 0.0, 0.3, 0.0),
+                                 madeRun("bc-2", "whs", false, 0.0, 0.3, 0.0)};
+  runs[0].seconds.matching = 1.5;
+  runs[0].seconds.rendering = 0.5;
+  EXPECT_THAT(timeAgainstError(pointers(runs)), ElementsAre(Point{2.0, 0.3}));
+}
+
+TEST(GeometricSteps, HaveOneRatio) {
+  const std::vector<double> steps = geometricSteps(0.01, 100.0, 5);
+  ASSERT_EQ(steps.size(), 5u);
+  for (int i = 0; i < 5; ++i)
+    EXPECT_NEAR(steps[static_cast<std::size_t>(i)], std::pow(10.0, i - 2), 1e-12);
 }
 
 }  // namespace

@@ -4,9 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sessions/evaluation/results_writer.h"
+#include "sessions/evaluation/results_file.h"
 #include "sessions/io/errors.h"
-#include "sessions/tables/results_difference.h"
 #include "tests/sessions/tables/made_runs.h"
 #include "tests/support/temporary_folder.h"
 

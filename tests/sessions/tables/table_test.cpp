@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/tables/table.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 namespace boresight::sessions {
 namespace {
@@ -36,10 +36,10 @@ TEST(TableText, IsReadByPrograms) {
 
 TEST(TableText, IsSetByLatex) {
   const std::string text = tableText(sample(), TableFormat::kLatex);
-  EXPECT_NE(text.find("\\caption{Some 100 \\% of a\\_b}"), std::string::npos) << text;
-  EXPECT_NE(text.find("name & error mm mean / max & share \\% \\\\"), std::string::npos) << text;
-  EXPECT_NE(text.find("c\\_d & - & - \\\\"), std::string::npos) << text;
-  EXPECT_NE(text.find("{lrr}"), std::string::npos) << text;
+  EXPECT_THAT(text, testing::HasSubstr("\\caption{Some 100 \\% of a\\_b}"));
+  EXPECT_THAT(text, testing::HasSubstr("name & error mm mean / max & share \\% \\\\"));
+  EXPECT_THAT(text, testing::HasSubstr("c\\_d & - & - \\\\"));
+  EXPECT_THAT(text, testing::HasSubstr("{lrr}"));
 }
 
 }  // namespace

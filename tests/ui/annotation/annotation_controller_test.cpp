@@ -125,17 +125,7 @@ TEST_F(AnnotationControllerTest, ABlindPassKeepsThePlacesOfTheStationAndTellsHow
 }
 
 TEST_F(AnnotationControllerTest, LandmarksAreProposedWhereTheyShouldBeOnceThreeArePlaced) {
-  const auto places_m = corners_m(8);
-  std::vector<sessions::Landmark> landmarks;
-  for (std::size_t i = 0; i < places_m.size(); ++i)
-    landmarks.push_back({"corner " + std::to_string(i), places_m[i], ""});
-  const auto file = folder_.path() / "landmarks.json";
-  sessions::writeLandmarks(file, landmarks);
-  controller_.setLandmarksFile(file);
-  for (const std::size_t i : {0u, 3u, 7u}) {
-    controller_.begin(landmarks[i]);
-    EXPECT_EQ(controller_.placeInImage(pixelOf(places_m[i])), landmarks[i].name);
-  }
+  openLandmarks(corners_m(8), {0, 3, 7});
   ASSERT_TRUE(solved());
   ASSERT_EQ(controller_.proposals().size(), 5u);
   for (const sessions::Proposal& proposal : controller_.proposals())

@@ -70,13 +70,31 @@ class AnnotationTest : public ::testing::Test {
     return pixel;
   }
 
+  /// Opens landmarks at these places and marks some of them where the true pose shows them.
+  void openLandmarks(const std::vector<Eigen::Vector3d>& places_m,
+                     std::initializer_list<std::size_t> marked) {
+    std::vector<sessions::Landmark> landmarks;
+    for (std::size_t i = 0; i < places_m.size(); ++i)
+      landmarks.push_back({"corner " + std::to_string(i), places_m[i], ""});
+    sessions::writeLandmarks(folder_.path() / "landmarks.json", landmarks);
+    controller_.setLandmarksFile(folder_.path() / "landmarks.json");
+    for (const std::size_t i : marked) {
+      controller_.begin(landmarks.at(i));
+      EXPECT_EQ(controller_.placeInImage(pixelOf(places_m[i])), landmarks[i].name);
+    }
+  }
+
+  /// Marks a place exactly where the true pose shows it; its id.
+  std::string markPair(const Eigen::Vector3d& place_m) {
+    const std::string id = controller_.placeInImage(pixelOf(place_m));
+    EXPECT_EQ(controller_.placeOnStation(place_m), id);
+    return id;
+  }
+
   /// Marks corners exactly where the true pose shows them; their ids.
   std::vector<std::string> markCorners(std::size_t count) {
     std::vector<std::string> ids;
-    for (const Eigen::Vector3d& corner_m : corners_m(count)) {
-      ids.push_back(controller_.placeInImage(pixelOf(corner_m)));
-      EXPECT_EQ(controller_.placeOnStation(corner_m), ids.back());
-    }
+    for (const Eigen::Vector3d& corner_m : corners_m(count)) ids.push_back(markPair(corner_m));
     return ids;
   }
 

@@ -5,7 +5,6 @@
 
 #include "sessions/session/rig_links.h"
 #include "tests/ui/annotation/annotation_fixture.h"
-#include "ui/annotation/annotation_menus.h"
 #include "ui/annotation/solution_html.h"
 #include "ui/annotation/twin_view.h"
 
@@ -72,7 +71,7 @@ TEST_F(AnnotationPanelTest, TellsTheCamerasOwnSigmaOnlyBesideTheEndEffectors) {
   markCorners(8);
   ASSERT_TRUE(solved());
   const auto htmlWith = [this](const std::optional<Pose>& camera_from_end_effector) {
-    AnnotationSolver::Answer answer = controller_.answer();
+    AnnotationAnswer answer = controller_.answer();
     auto solution = std::make_shared<sessions::CaseMarksSolution>(*answer.solution);
     solution->marks.camera_from_end_effector = camera_from_end_effector;
     answer.solution = solution;
@@ -200,15 +199,9 @@ TEST_F(AnnotationPanelTest, CasesThatAreLinkedAreSolvedAsOne) {
             std::vector<std::string>{"second image"});
   // Three marks in either image: one alone would not do without its seed.
   const auto places_m = corners_m(6);
-  for (std::size_t i = 0; i < 3; ++i) {
-    controller_.placeInImage(pixelOf(places_m[i]));
-    controller_.placeOnStation(places_m[i]);
-  }
+  for (std::size_t i = 0; i < 3; ++i) markPair(places_m[i]);
   open("second image");
-  for (std::size_t i = 3; i < 6; ++i) {
-    controller_.placeInImage(pixelOf(places_m[i]));
-    controller_.placeOnStation(places_m[i]);
-  }
+  for (std::size_t i = 3; i < 6; ++i) markPair(places_m[i]);
   ASSERT_TRUE(solved());
   ASSERT_TRUE(controller_.solvedPose());
   EXPECT_EQ(controller_.solution()->result.solution->marks.size(), 6u);

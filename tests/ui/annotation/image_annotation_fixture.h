@@ -16,7 +16,7 @@
 
 namespace boresight::ui {
 
-class ImageAnnotationTest : public AnnotationTest {
+class ImageAnnotationTest : public AnnotationTest, protected ImagePointer {
  protected:
   void SetUp() override {
     panel_.resize(900, 700);
@@ -50,30 +50,14 @@ class ImageAnnotationTest : public AnnotationTest {
     ready();
   }
 
-  ImageView& view() { return panel_.view(); }
+  ImageView& view() override { return panel_.view(); }
   MarkTool& tool() { return annotation_.tool(); }
   const sessions::Marks& marks() const { return controller_.marks(); }
-  double screenPixel_px() const { return pointer_.screenPixel_px(); }
-  void zoom(const Eigen::Vector2d& pixel, double scale) { pointer_.zoom(pixel, scale); }
-  void send(QEvent::Type type, const Eigen::Vector2d& pixel,
-            Qt::KeyboardModifiers modifiers = Qt::NoModifier,
-            Qt::MouseButton button = Qt::LeftButton, bool held = false) {
-    pointer_.send(type, pixel, modifiers, button, held);
-  }
-  void moveTo(const Eigen::Vector2d& pixel, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
-    pointer_.moveTo(pixel, modifiers);
-  }
-  void click(const Eigen::Vector2d& pixel, Qt::KeyboardModifiers modifiers = Qt::NoModifier,
-             Qt::MouseButton button = Qt::LeftButton) {
-    pointer_.click(pixel, modifiers, button);
-  }
-  void drag(const Eigen::Vector2d& from, const Eigen::Vector2d& to) { pointer_.drag(from, to); }
 
   TaskRunner tasks_;
   ImagePanel panel_{state_, tasks_};
   StationSnapper snapper_{state_};
   ImageAnnotation annotation_{panel_, controller_, state_, snapper_};
-  ImagePointer pointer_{panel_.view()};
   QString told_;
 };
 

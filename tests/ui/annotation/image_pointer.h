@@ -13,19 +13,21 @@
 namespace boresight::ui {
 
 class ImagePointer {
- public:
-  explicit ImagePointer(ImageView& view) : view_(view) {}
+ protected:
+  ~ImagePointer() = default;
 
-  double ratio() const { return view_.devicePixelRatioF(); }
+  virtual ImageView& view() = 0;
   /// Length of a screen pixel in image pixels.
-  double screenPixel_px() const { return 1.0 / (view_.transform().scale() * ratio()); }
+  double screenPixel_px() {
+    return 1.0 / (view().transform().scale() * view().devicePixelRatioF());
+  }
 
   /// So many coordinates of the widget to an image pixel, with this pixel in the middle.
   void zoom(const Eigen::Vector2d& pixel, double scale) {
-    ViewTransform transform = view_.transform();
+    ViewTransform transform = view().transform();
     transform.zoomAt(QPointF(0.0, 0.0), scale);
-    transform.centreOn(QPointF(pixel.x(), pixel.y()), view_.size());
-    view_.setTransform(transform);
+    transform.centreOn(QPointF(pixel.x(), pixel.y()), view().size());
+    view().setTransform(transform);
   }
 
   void send(QEvent::Type type, const Eigen::Vector2d& pixel,
@@ -33,10 +35,10 @@ class ImagePointer {
             Qt::MouseButton button = Qt::LeftButton, bool held = false) {
     const QPointF at = cornerOfScreenPixel(pixel);
     const bool moves = type == QEvent::MouseMove;
-    QMouseEvent event(type, at, QPointF(view_.mapToGlobal(QPoint(0, 0))) + at,
+    QMouseEvent event(type, at, QPointF(view().mapToGlobal(QPoint(0, 0))) + at,
                       moves ? Qt::NoButton : button,
                       type == QEvent::MouseButtonPress || held ? button : Qt::NoButton, modifiers);
-    QCoreApplication::sendEvent(&view_, &event);
+    QCoreApplication::sendEvent(&view(), &event);
   }
   void moveTo(const Eigen::Vector2d& pixel, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
     send(QEvent::MouseMove, pixel, modifiers);
@@ -57,12 +59,11 @@ class ImagePointer {
 
  private:
   /// What the windowing system tells when the pointer's tip is on the screen pixel of a place.
-  QPointF cornerOfScreenPixel(const Eigen::Vector2d& pixel) const {
-    const QPointF at = view_.transform().toWidget(QPointF(pixel.x(), pixel.y()));
-    return QPointF(std::floor(at.x() * ratio()), std::floor(at.y() * ratio())) / ratio();
+  QPointF cornerOfScreenPixel(const Eigen::Vector2d& pixel) {
+    const double ratio = view().devicePixelRatioF();
+    const QPointF at = view().transform().toWidget(QPointF(pixel.x(), pixel.y()));
+    return QPointF(std::floor(at.x() * ratio), std::floor(at.y() * ratio)) / ratio;
   }
-
-  ImageView& view_;
 };
 
 }  // namespace boresight::ui

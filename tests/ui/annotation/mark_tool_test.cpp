@@ -19,6 +19,13 @@ class MarkToolTest : public ImageAnnotationTest {
     const sessions::PointPair* point = sessions::findPoint(marks(), id);
     return point && point->pixel ? *point->pixel : Eigen::Vector2d(-1e9, -1e9);
   }
+  /// Marks p1 where it is clicked; its place.
+  Eigen::Vector2d markMiddle() {
+    tool().setSnaps(false);
+    zoom(kMiddle, 3.7);
+    click(kMiddle);
+    return place("p1");
+  }
 };
 
 /// Gray of a picture with soft borders: its mean over each pixel.
@@ -112,10 +119,7 @@ TEST_F(MarkToolTest, TabGoesOnToTheNextThingFound) {
 }
 
 TEST_F(MarkToolTest, ADragMovesAMarkWithoutAJumpAndIsUndoneByName) {
-  tool().setSnaps(false);
-  zoom(kMiddle, 3.7);
-  click(kMiddle);
-  const Eigen::Vector2d before = place("p1");
+  const Eigen::Vector2d before = markMiddle();
   // Taken hold of beside its middle.
   drag(before + Eigen::Vector2d(1.0, -0.7), before + Eigen::Vector2d(9.0, 3.3));
   EXPECT_LT((place("p1") - before - Eigen::Vector2d(8.0, 4.0)).norm(), 2.0 * screenPixel_px());
@@ -131,10 +135,7 @@ TEST_F(MarkToolTest, ADragMovesAMarkWithoutAJumpAndIsUndoneByName) {
 }
 
 TEST_F(MarkToolTest, EscapeWhileDraggingPutsTheMarkBack) {
-  tool().setSnaps(false);
-  zoom(kMiddle, 3.7);
-  click(kMiddle);
-  const Eigen::Vector2d before = place("p1");
+  const Eigen::Vector2d before = markMiddle();
   send(QEvent::MouseButtonPress, before);
   send(QEvent::MouseMove, before + Eigen::Vector2d(20.0, 0.0), Qt::NoModifier, Qt::LeftButton,
        true);
@@ -146,10 +147,7 @@ TEST_F(MarkToolTest, EscapeWhileDraggingPutsTheMarkBack) {
 }
 
 TEST_F(MarkToolTest, ALockedMarkStaysAndSaysSo) {
-  tool().setSnaps(false);
-  zoom(kMiddle, 3.7);
-  click(kMiddle);
-  const Eigen::Vector2d before = place("p1");
+  const Eigen::Vector2d before = markMiddle();
   sessions::PointPair locked = *sessions::findPoint(marks(), "p1");
   locked.locked = true;
   ASSERT_TRUE(controller_.replacePoint("p1", locked, QStringLiteral("Lock p1")));
@@ -171,10 +169,7 @@ TEST_F(MarkToolTest, ADragElsewherePansAndMarksNothing) {
 }
 
 TEST_F(MarkToolTest, ArrowsMoveTheChosenMarkByATenthOrAWholePixel) {
-  tool().setSnaps(false);
-  zoom(kMiddle, 3.7);
-  click(kMiddle);
-  const Eigen::Vector2d before = place("p1");
+  const Eigen::Vector2d before = markMiddle();
   for (const int key : {Qt::Key_Right, Qt::Key_Right, Qt::Key_Down})
     QTest::keyClick(&view(), static_cast<Qt::Key>(key));
   EXPECT_LT((place("p1") - before - Eigen::Vector2d(0.2, 0.1)).norm(), 1e-9);
@@ -243,9 +238,7 @@ TEST_F(MarkToolTest, TwoClicksMakeALineAndCtrlClickItsEdge) {
   state_.setNudgedPose(truth());
   const auto corners = corners_m(5);
   controller_.setMode(PlaceMode::kLine);
-  tool().setSnaps(false);
-  zoom(kMiddle, 3.7);
-  click(kMiddle);
+  markMiddle();
   EXPECT_TRUE(marks().lines.empty()) << "half drawn";
   QTest::keyClick(&view(), Qt::Key_Escape);
   EXPECT_EQ(controller_.mode(), PlaceMode::kLine);
@@ -271,9 +264,7 @@ TEST_F(MarkToolTest, TwoClicksMakeALineAndCtrlClickItsEdge) {
 
 /// Otherwise Ctrl+Del would remove a mark that nobody has just pointed at.
 TEST_F(MarkToolTest, AClickThatBeginsALineDropsTheChoice) {
-  tool().setSnaps(false);
-  zoom(kMiddle, 3.7);
-  click(kMiddle);
+  markMiddle();
   ASSERT_EQ(controller_.selected(), "p1");
   controller_.setMode(PlaceMode::kLine);
   click(kMiddle + Eigen::Vector2d(15.0 * screenPixel_px(), 0.0));  // just beside the point
@@ -296,9 +287,7 @@ TEST_F(MarkToolTest, ALineThatWaitsForItsPlaceStaysChosenWhileItIsDrawn) {
 }
 
 TEST_F(MarkToolTest, DeleteRemovesAndEscapeLeavesStepByStep) {
-  tool().setSnaps(false);
-  zoom(kMiddle, 3.7);
-  click(kMiddle);
+  markMiddle();
   click(kMiddle + Eigen::Vector2d(30.0, 0.0));
   QTest::keyClick(&view(), Qt::Key_Delete);
   ASSERT_EQ(marks().points.size(), 1u);
@@ -314,9 +303,7 @@ TEST_F(MarkToolTest, DeleteRemovesAndEscapeLeavesStepByStep) {
 }
 
 TEST_F(MarkToolTest, APressOnAMarkChoosesItAndADoubleClickDoesNotFit) {
-  tool().setSnaps(false);
-  zoom(kMiddle, 3.7);
-  click(kMiddle);
+  markMiddle();
   click(kMiddle + Eigen::Vector2d(30.0, 0.0));
   EXPECT_EQ(controller_.selected(), "p2");
   click(place("p1"));
@@ -333,15 +320,7 @@ TEST_F(MarkToolTest, APressOnAMarkChoosesItAndADoubleClickDoesNotFit) {
 TEST_F(MarkToolTest, ProposalsAreConfirmedOrBegun) {
   const auto corners = corners_m(8);
   ASSERT_GE(corners.size(), 6u);
-  std::vector<sessions::Landmark> landmarks;
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    landmarks.push_back({"corner " + std::to_string(i), corners[i], ""});
-  sessions::writeLandmarks(folder_.path() / "landmarks.json", landmarks);
-  controller_.setLandmarksFile(folder_.path() / "landmarks.json");
-  for (const std::size_t i : {0u, 2u, 5u}) {
-    controller_.begin(landmarks[i]);
-    controller_.placeInImage(pixelOf(corners[i]));
-  }
+  openLandmarks(corners, {0, 2, 5});
   ASSERT_TRUE(solved());
   ASSERT_GE(controller_.proposals().size(), 2u);
   const auto far = [&](const sessions::Proposal& proposal) {

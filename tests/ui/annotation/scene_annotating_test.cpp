@@ -48,10 +48,7 @@ class SceneAnnotatingTest : public AnnotationTest {
   double ratio() const { return view_.canvas()->devicePixelRatioF(); }
   /// Pixel of the canvas at which a place is drawn.
   QPointF pixelOf(const Eigen::Vector3d& place_m) const {
-    QPointF pixel;
-    double depth_m = 0.0;
-    EXPECT_TRUE(view_.viewpoint().toCanvas(place_m, pixel, depth_m));
-    return pixel;
+    return view_.viewpoint().toCanvas(place_m).value();
   }
   /// The screen pixel that a pixel of the canvas lies on.
   QPoint screenPixel(const QPointF& pixel) const {
@@ -313,9 +310,7 @@ TEST_F(SceneAnnotatingTest, TheLoupesPictureIsTheGeometryMagnifiedAboutThePointe
   for (const double magnification : {4.0, 16.0}) {
     const Viewpoint loupe = magnifiedView(view, pointer, magnification, 160);
     for (const Eigen::Vector3d& place_m : {kCorner_m, kCircle_m, kHiddenCorner_m}) {
-      QPointF at;
-      double depth_m = 0.0;
-      ASSERT_TRUE(loupe.toCanvas(place_m, at, depth_m));
+      const QPointF at = loupe.toCanvas(place_m).value();
       const QPointF expected = magnification * (pixelOf(place_m) - pointer) + QPointF(79.5, 79.5);
       EXPECT_NEAR(at.x(), expected.x(), 1e-9);
       EXPECT_NEAR(at.y(), expected.y(), 1e-9);

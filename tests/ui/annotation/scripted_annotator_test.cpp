@@ -31,8 +31,12 @@ constexpr double kHand_px = 0.3;  ///< root mean square distance by which a clic
 constexpr double kMargin_px = 12.0;
 constexpr std::size_t kCandidates = 400;
 
-class ScriptedAnnotator : public test::WindowTest, public testing::WithParamInterface<double> {
+class ScriptedAnnotator : public test::WindowTest,
+                          public testing::WithParamInterface<double>,
+                          protected ImagePointer {
  protected:
+  ImageView& view() override { return window_.image().view(); }
+
   void openCase(const fs::path& dataset, const std::string& station) {
     sessions::Session session = sessions::makeSession(dataset);
     session.cases.eraseIf([&](const auto& one) { return one->station != station; });
@@ -95,19 +99,18 @@ class ScriptedAnnotator : public test::WindowTest, public testing::WithParamInte
   /// One side after the other, the order changing from pair to pair.
   void annotate(const std::vector<Eigen::Vector3d>& corners_m) {
     Random random = test::randomFor("ScriptedAnnotator");
-    ImagePointer pointer(window_.image().view());
     for (std::size_t i = 0; i < corners_m.size(); ++i) {
       const auto image = [&] {
         const double x = random.normal();
         const double y = random.normal();
         const Eigen::Vector2d seen = pixelOf(truth(), corners_m[i]);
-        pointer.zoom(seen, GetParam());
-        pointer.click(seen + kHand_px / std::sqrt(2.0) * Eigen::Vector2d(x, y), Qt::AltModifier);
+        zoom(seen, GetParam());
+        click(seen + kHand_px / std::sqrt(2.0) * Eigen::Vector2d(x, y), Qt::AltModifier);
       };
       const auto station = [&] {
         const Eigen::Vector2d drawn = pixelOf(tool_->stationPose(), corners_m[i]);
-        pointer.zoom(drawn, GetParam());
-        pointer.click(drawn, Qt::ControlModifier);
+        zoom(drawn, GetParam());
+        click(drawn, Qt::ControlModifier);
       };
       if (i % 2 == 0) {
         image();

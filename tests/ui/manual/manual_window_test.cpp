@@ -38,44 +38,48 @@ class ManualWindowTest : public ::testing::Test {
   }
 
   QString path() const { return QString::fromStdString(folder_.path().string()); }
-  QString shown(ManualWindow& window) { return window.browser().source().fileName(); }
+  QString shown() { return browser_.source().fileName(); }
+  void find(const char* words) {
+    find_.setText(QLatin1String(words));
+    QTest::keyClick(&find_, Qt::Key_Return);
+  }
+  void trigger(const char* action) { actionOf(window_, QLatin1String(action))->trigger(); }
 
   test::TemporaryFolder folder_;
+  ManualWindow window_{path()};
+  QTextBrowser& browser_ = window_.browser();
+  QLineEdit& find_ = *window_.findChild<QLineEdit*>(QStringLiteral("manualFind"));
 };
 
 TEST_F(ManualWindowTest, GoesWhereLinksLeadAndBack) {
-  ManualWindow window(path());
-  window.showPage(QStringLiteral("one.md"));
-  QTextBrowser& browser = window.browser();
-  Q_EMIT browser.anchorClicked(browser.source().resolved(QUrl(QStringLiteral("two.md#far-below"))));
-  EXPECT_EQ(shown(window), QStringLiteral("two.md"));
+  window_.showPage(QStringLiteral("one.md"));
+  Q_EMIT browser_.anchorClicked(
+      browser_.source().resolved(QUrl(QStringLiteral("two.md#far-below"))));
+  EXPECT_EQ(shown(), QStringLiteral("two.md"));
   QCoreApplication::processEvents();
-  EXPECT_GT(browser.verticalScrollBar()->value(), 0);
-  EXPECT_EQ(browser.textCursor().block().text(), QStringLiteral("Far below?"));
-  actionOf(window, QStringLiteral("Back"))->trigger();
-  EXPECT_EQ(shown(window), QStringLiteral("one.md"));
-  actionOf(window, QStringLiteral("Forward"))->trigger();
-  EXPECT_EQ(shown(window), QStringLiteral("two.md"));
-  actionOf(window, QStringLiteral("Contents"))->trigger();
-  EXPECT_EQ(shown(window), QStringLiteral("index.md"));
+  EXPECT_GT(browser_.verticalScrollBar()->value(), 0);
+  EXPECT_EQ(browser_.textCursor().block().text(), QStringLiteral("Far below?"));
+  trigger("Back");
+  EXPECT_EQ(shown(), QStringLiteral("one.md"));
+  trigger("Forward");
+  EXPECT_EQ(shown(), QStringLiteral("two.md"));
+  trigger("Contents");
+  EXPECT_EQ(shown(), QStringLiteral("index.md"));
 }
 
 TEST_F(ManualWindowTest, FindsOnThePageAndStartsOver) {
-  ManualWindow window(path());
-  window.showPage(QStringLiteral("two.md"));
-  auto* find = window.findChild<QLineEdit*>(QStringLiteral("manualFind"));
-  find->setText(QStringLiteral("ZEBRA"));
+  window_.showPage(QStringLiteral("two.md"));
   std::vector<int> places;
   for (int i = 0; i < 5; ++i) {
-    QTest::keyClick(find, Qt::Key_Return);
-    EXPECT_EQ(window.browser().textCursor().selectedText().toLower(), QStringLiteral("zebra"));
-    places.push_back(window.browser().textCursor().selectionStart());
+    find("ZEBRA");
+    EXPECT_EQ(browser_.textCursor().selectedText().toLower(), QStringLiteral("zebra"));
+    places.push_back(browser_.textCursor().selectionStart());
   }
   EXPECT_LT(places[0], places[1]);
   EXPECT_LT(places[1], places[2]);
   EXPECT_EQ(places[4], places[0]);  // the fifth of four
-  actionOf(window, QStringLiteral("Previous"))->trigger();
-  EXPECT_EQ(window.browser().textCursor().selectionStart(), places[3]);
+  trigger("Previous");
+  EXPECT_EQ(browser_.textCursor().selectionStart(), places[3]);
 }
 
 TEST_F(ManualWindowTest, SearchesAllPagesForAllWords) {
@@ -90,46 +94,40 @@ TEST_F(ManualWindowTest, SearchesAllPagesForAllWords) {
 }
 
 TEST_F(ManualWindowTest, ListsOtherPagesWithWordsThatThePageLacks) {
-  ManualWindow window(path());
-  window.showPage(QStringLiteral("one.md"));
-  auto* find = window.findChild<QLineEdit*>(QStringLiteral("manualFind"));
-  find->setText(QStringLiteral("unicorn"));
-  QTest::keyClick(find, Qt::Key_Return);
-  ASSERT_TRUE(window.browser().toPlainText().contains(QStringLiteral("Another (2)")))
-      << window.browser().toPlainText().toStdString();
-  Q_EMIT window.browser().anchorClicked(QUrl::fromLocalFile(path() + QStringLiteral("/two.md")));
-  QTest::keyClick(find, Qt::Key_Return);
-  EXPECT_EQ(window.browser().textCursor().selectedText(), QStringLiteral("unicorn"));
-  actionOf(window, QStringLiteral("Back"))->trigger();
-  EXPECT_TRUE(window.browser().toPlainText().contains(QStringLiteral("Another (2)")));
-  actionOf(window, QStringLiteral("Back"))->trigger();
-  EXPECT_EQ(shown(window), QStringLiteral("one.md"));
+  window_.showPage(QStringLiteral("one.md"));
+  find("unicorn");
+  ASSERT_TRUE(browser_.toPlainText().contains(QStringLiteral("Another (2)")))
+      << browser_.toPlainText().toStdString();
+  Q_EMIT browser_.anchorClicked(QUrl::fromLocalFile(path() + QStringLiteral("/two.md")));
+  find("unicorn");
+  EXPECT_EQ(browser_.textCursor().selectedText(), QStringLiteral("unicorn"));
+  trigger("Back");
+  EXPECT_TRUE(browser_.toPlainText().contains(QStringLiteral("Another (2)")));
+  trigger("Back");
+  EXPECT_EQ(shown(), QStringLiteral("one.md"));
 }
 
 TEST_F(ManualWindowTest, PicturesAreAsWideAsTheWindowAtMost) {
-  ManualWindow window(path());
-  window.resize(900, 500);
-  window.showPage(QStringLiteral("one.md"));
-  QTextBrowser& browser = window.browser();
+  window_.resize(900, 500);
+  window_.showPage(QStringLiteral("one.md"));
   for (const int width : {900, 1300, 700}) {
-    window.resize(width, 500);
+    window_.resize(width, 500);
     QCoreApplication::processEvents();
-    EXPECT_EQ(browser.horizontalScrollBar()->maximum(), 0) << width;
-    const QVariant picture = browser.document()->resource(
+    EXPECT_EQ(browser_.horizontalScrollBar()->maximum(), 0) << width;
+    const QVariant picture = browser_.document()->resource(
         QTextDocument::ImageResource,
-        browser.source().resolved(QUrl(QStringLiteral("pictures/wide.png"))));
+        browser_.source().resolved(QUrl(QStringLiteral("pictures/wide.png"))));
     const QImage image = picture.value<QImage>();
     const int shown_width = static_cast<int>(image.width() / image.devicePixelRatio());
-    EXPECT_LE(shown_width, browser.viewport()->width()) << width;
-    EXPECT_GT(shown_width, browser.viewport()->width() - 60) << width;
+    EXPECT_LE(shown_width, browser_.viewport()->width()) << width;
+    EXPECT_GT(shown_width, browser_.viewport()->width() - 60) << width;
   }
 }
 
 TEST_F(ManualWindowTest, TablesHaveLines) {
-  ManualWindow window(path());
-  window.showPage(QStringLiteral("one.md"));
+  window_.showPage(QStringLiteral("one.md"));
   int tables = 0;
-  for (QTextFrame* frame : window.browser().document()->rootFrame()->childFrames())
+  for (QTextFrame* frame : browser_.document()->rootFrame()->childFrames())
     if (auto* table = qobject_cast<QTextTable*>(frame)) {
       ++tables;
       EXPECT_GT(table->format().border(), 0.0);

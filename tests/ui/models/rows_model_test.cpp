@@ -10,9 +10,9 @@
 #include "ui/models/iterations_model.h"
 #include "ui/models/marks_model.h"
 #include "ui/models/templates_model.h"
-#include "ui/review/checks_model.h"
 #include "ui/review/limits_dialog.h"
 #include "ui/review/queue_model.h"
+#include "ui/review/review_panel.h"
 
 namespace boresight::ui {
 namespace {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The queue in the window, by the keys that people press.
+// The queue in the window, by the keys that people press; of a results file, too.
 #include "ui/review/queue_panel.h"
 
+#include "sessions/evaluation/batch.h"
+#include "sessions/evaluation/results_file.h"
 #include "sessions/session/case_run.h"
+#include "sessions/session/session_of_results.h"
 #include "tests/ui/window_test.h"
 
 namespace boresight::ui {
@@ -77,9 +80,7 @@ TEST_F(QueuePanelTest, IsFilledInTheBackgroundWithTheMostTroubledFirst) {
   ASSERT_TRUE(filled());
   EXPECT_EQ(listed(), QStringList({bad_, good_}));
   const QModelIndex first = table_->model()->index(0, 0);
-  EXPECT_TRUE(
-      first.siblingAtColumn(QueueModel::kTrouble).data().toString().contains(QStringLiteral("100")))
-      << first.siblingAtColumn(QueueModel::kTrouble).data().toString().toStdString();
+  EXPECT_TRUE(test::has(first.siblingAtColumn(QueueModel::kTrouble).data().toString(), "100"));
   EXPECT_FALSE(first.data(Qt::DecorationRole).isNull()) << "a picture";
   const QModelIndex second = table_->model()->index(1, 0);
   EXPECT_FALSE(second.siblingAtColumn(QueueModel::kMargin).data().toString().isEmpty());
@@ -178,8 +179,7 @@ TEST_F(QueuePanelTest, ChecksAnewWhatARowRestsOn) {
   ASSERT_TRUE(filled());
   press(Qt::Key_A);
   EXPECT_TRUE(decisions().empty());
-  EXPECT_TRUE(panel_->message().contains(QStringLiteral("nlier")))
-      << panel_->message().toStdString();
+  EXPECT_TRUE(test::has(panel_->message(), "nlier"));
 }
 
 TEST_F(QueuePanelTest, IsNotFilledWhileHaltedOrOutOfSight) {
@@ -216,6 +216,79 @@ TEST_F(QueuePanelTest, ComparesTheLastTwoRuns) {
                   .contains(QStringLiteral("pnp.min_inliers")));
   press(Qt::Key_D);
   EXPECT_TRUE(table_->hasFocus());
+}
+
+/// A results file in the window: the example, each case from two seeds, by options under which none
+/// converges.
+class ResultsQueueTest : public test::WindowTest {
+ protected:
+  ResultsQueueTest() {
+    writeResults();
+    window_.activateWindow();
+    EXPECT_TRUE(QTest::qWaitForWindowActive(&window_));
+  }
+  ~ResultsQueueTest() override {
+    const auto file = window_.document().file();
+    window_.document().close();
+    std::filesystem::remove(file);
+  }
+
+  void writeResults() {
+    const std::filesystem::path dataset = test::exampleFolder() / "dataset.json";
+    sessions::BatchOptions options;
+    options.localizer = defaultProfile();
+    options.localizer.loop.max_iterations = 1;
+    options.reseeds = 1;
+    runs_ = sessions::runBatch(sessions::readDataset(dataset), options, {});
+    sessions::ResultsWriter writer(results_,
+                                   sessions::datasetFacts(sessions::readDataset(dataset)));
+    writer.admit(sessions::methodFacts("whs", "default", options.localizer));
+    writer.begin(sessions::Sitting{});
+    for (const sessions::RunResult& run : runs_) writer.add(run);
+  }
+  std::filesystem::path results_ = folder_.path() / "results.sqlite";
+  std::vector<sessions::RunResult> runs_;
+};
+
+TEST_F(ResultsQueueTest, RunsAreListedChosenAndRepeatedToTheBit) {
+  drop(results_);
+  ASSERT_TRUE(wait([&] { return window_.state().currentCase() != nullptr && resting(); }))
+      << window_.lastMessage().toStdString();
+  EXPECT_EQ(window_.document().session().cases.size(), 4u);
+  EXPECT_FALSE(window_.dock(QStringLiteral("queue"))->visibleRegion().isEmpty())
+      << "the queue comes to the front";
+  auto* panel = window_.findChild<QueuePanel*>();
+  auto* table = panel->findChild<QTableView*>(QStringLiteral("queue"));
+  ASSERT_TRUE(wait([&] { return table->model()->rowCount() == 4 && resting(); }));
+  const auto trouble = [table] {
+    return table->model()->index(3, QueueModel::kTrouble).data().toString();
+  };
+  // The rows are there at once, what they say once the queue has been gone through.
+  ASSERT_TRUE(wait([&] {
+    return trouble().contains(QStringLiteral("iteration_limit")) && resting();
+  })) << trouble().toStdString();
+  const QModelIndex last = table->model()->index(3, 0);
+  table->setFocus();
+  table->setCurrentIndex(last);
+  QTest::keyClick(table, Qt::Key_Return);
+  ASSERT_TRUE(
+      wait([&] { return window_.cases().caseId() == last.data().toString() && resting(); }));
+  QTest::keyClick(&window_, Qt::Key_F5);
+  const std::string id = last.data().toString().toStdString();
+  ASSERT_TRUE(
+      wait([&] { return window_.document().session().lastRunOf(id) != nullptr && resting(); }));
+  for (const sessions::RunResult& run : runs_) {
+    if (sessions::resultCaseId(run) != id) continue;
+    EXPECT_EQ(window_.document().session().lastRunOf(id)->digest, run.digest);
+  }
+}
+
+TEST_F(ResultsQueueTest, WhatIsNoResultsFileIsToldAndNothingIsLost) {
+  folder_.write("no.sqlite", "no");
+  drop(folder_.path() / "no.sqlite");
+  ASSERT_TRUE(wait([&] { return resting() && !window_.lastMessage().isEmpty(); }));
+  EXPECT_TRUE(test::has(window_.lastMessage(), "no.sqlite"));
+  EXPECT_FALSE(window_.document().isOpen());
 }
 
 }  // namespace

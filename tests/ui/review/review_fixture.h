@@ -1,21 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <functional>
-#include <string>
-
-#include <QtTest/QTest>
-#include <QtWidgets>
-
 #include "sessions/session/case_run.h"
-#include "sessions/session/session_maker.h"
-#include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
-#include "ui/review/checks_model.h"
-#include "ui/review/review_controller.h"
+#include "tests/ui/window_test.h"
+#include "ui/review/review_panel.h"
 
 namespace boresight::test {
 

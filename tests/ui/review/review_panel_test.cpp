@@ -4,11 +4,12 @@
 #include <QtWidgets>
 
 #include "sessions/review/standing.h"
-#include "sessions/review/verify_pose.h"
+#include "sessions/review/validated_pose_file.h"
 #include "sessions/session/check_limits.h"
 #include "sessions/session/session_document.h"
 #include "tests/support/marked_example.h"
 #include "tests/ui/review/review_fixture.h"
+#include "ui/models/cases_model.h"
 #include "ui/models/number_text.h"
 #include "ui/panels/banner.h"
 #include "ui/review/decision_form.h"
@@ -27,9 +28,6 @@ using test::RunExample;
 class ReviewPanelTest : public ::testing::Test {
  protected:
   ReviewPanelTest() {
-    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope,
-                       QString::fromStdString((folder_.path() / "settings").string()));
-    QSettings().clear();
     panel_ = std::make_unique<ReviewPanel>(document_, state_);
     panel_->resize(900, 300);
     panel_->show();
@@ -70,6 +68,7 @@ class ReviewPanelTest : public ::testing::Test {
   }
 
   test::TemporaryFolder folder_;
+  test::OwnSettings settings_{folder_.path()};
   Document document_;
   ViewState state_;
   std::unique_ptr<ReviewPanel> panel_;
@@ -77,14 +76,14 @@ class ReviewPanelTest : public ::testing::Test {
 
 TEST_F(ReviewPanelTest, WithoutASessionItSaysSo) {
   EXPECT_EQ(hands().table().model()->rowCount(), 0);
-  EXPECT_TRUE(hands().labelled("emptyHint").contains(QStringLiteral("No session")));
+  EXPECT_TRUE(test::has(hands().labelled("emptyHint"), "No session"));
   EXPECT_FALSE(hands().button("validate")->isEnabled());
 }
 
 TEST_F(ReviewPanelTest, ACaseWithoutAPoseSaysWhatToDo) {
   open(RunExample::get().session, RunExample::get().id);
-  EXPECT_TRUE(hands().labelled("emptyHint").contains(QStringLiteral("F5")));
-  EXPECT_TRUE(obstacle().contains(QStringLiteral("run it"))) << obstacle().toStdString();
+  EXPECT_TRUE(test::has(hands().labelled("emptyHint"), "F5"));
+  EXPECT_TRUE(test::has(obstacle(), "run it"));
   hands().sign(QStringLiteral("Ada"), QStringLiteral("no reason"));
   EXPECT_FALSE(hands().button("validate")->isEnabled());
   EXPECT_TRUE(hands().button("reject")->isEnabled()) << "an image can be refused as it is";
@@ -102,7 +101,7 @@ TEST_F(ReviewPanelTest, ShowsTheChecksOfCheckPoseInTheirStates) {
     EXPECT_EQ(hands().table().model()->index(row, ChecksModel::kFound).data().toString(),
               fromText(sessions::foundText(check)));
   }
-  EXPECT_TRUE(banner().contains(QStringLiteral("NOT VALIDATED")));
+  EXPECT_TRUE(test::has(banner(), "NOT VALIDATED"));
 }
 
 TEST_F(ReviewPanelTest, NothingIsCheckedWhileNobodyLooks) {
@@ -121,14 +120,14 @@ TEST_F(ReviewPanelTest, AFailedCheckBlocksUntilAReasonIsTyped) {
   hands().sign(QStringLiteral("Ada"), QStringLiteral("looked at it"));
   ASSERT_GT(hands().failedCount(), 0);
   EXPECT_FALSE(hands().button("validate")->isEnabled());
-  EXPECT_TRUE(obstacle().contains(QStringLiteral("Inliers"))) << obstacle().toStdString();
+  EXPECT_TRUE(test::has(obstacle(), "Inliers"));
   hands().passOverAll(QStringLiteral("   "));
   EXPECT_FALSE(hands().button("validate")->isEnabled()) << "blanks are no reason";
   hands().passOverAll(QStringLiteral("a small station"));
   ASSERT_TRUE(hands().button("validate")->isEnabled()) << obstacle().toStdString();
   hands().click("validate");
   EXPECT_EQ(standing(), CaseStanding::kValidated);
-  EXPECT_TRUE(history().contains(QStringLiteral("a small station"))) << history().toStdString();
+  EXPECT_TRUE(test::has(history(), "a small station"));
 }
 
 TEST_F(ReviewPanelTest, AReasonHoldsForItsFigureAlone) {
@@ -147,9 +146,9 @@ TEST_F(ReviewPanelTest, NeedsANameAndAComment) {
   openRun();
   hands().passOverAll(QStringLiteral("known"));
   EXPECT_FALSE(hands().button("validate")->isEnabled());
-  EXPECT_TRUE(obstacle().contains(QStringLiteral("name"))) << obstacle().toStdString();
+  EXPECT_TRUE(test::has(obstacle(), "name"));
   hands().type("decisionName", QStringLiteral("Ada"));
-  EXPECT_TRUE(obstacle().contains(QStringLiteral("comment"))) << obstacle().toStdString();
+  EXPECT_TRUE(test::has(obstacle(), "comment"));
   hands().type("decisionComment", QStringLiteral("looked at it"));
   EXPECT_TRUE(hands().button("validate")->isEnabled());
   EXPECT_TRUE(obstacle().isEmpty());
@@ -161,7 +160,7 @@ TEST_F(ReviewPanelTest, ADecisionIsOneEditThatUndoTakesBack) {
   ASSERT_EQ(standing(), CaseStanding::kValidated);
   EXPECT_EQ(document_.undoText(),
             QStringLiteral("Validate %1").arg(fromText(RunExample::get().id)));
-  EXPECT_TRUE(banner().contains(QStringLiteral("Validated by Ada"))) << banner().toStdString();
+  EXPECT_TRUE(test::has(banner(), "Validated by Ada"));
   EXPECT_FALSE(hands().button("validate")->isEnabled()) << "said once";
   ASSERT_TRUE(document_.undo());
   EXPECT_EQ(standing(), CaseStanding::kConverged);
@@ -185,16 +184,16 @@ TEST_F(ReviewPanelTest, TheSecondPersonIsAnother) {
   controller().setSecondPerson(true);
   validateAs(QStringLiteral("Ada"));
   EXPECT_EQ(standing(), CaseStanding::kConverged) << "not yet validated";
-  EXPECT_TRUE(banner().contains(QStringLiteral("second person"))) << banner().toStdString();
+  EXPECT_TRUE(test::has(banner(), "second person"));
   hands().sign(QStringLiteral(" aDa "), QStringLiteral("me again"));
   EXPECT_FALSE(hands().button("approve")->isEnabled());
   EXPECT_FALSE(hands().button("validate")->isEnabled()) << "it would replace the first one";
-  EXPECT_TRUE(obstacle().contains(QStringLiteral("somebody else"))) << obstacle().toStdString();
+  EXPECT_TRUE(test::has(obstacle(), "somebody else"));
   hands().type("decisionName", QStringLiteral("Grace"));
   ASSERT_TRUE(hands().button("approve")->isEnabled()) << obstacle().toStdString();
   hands().click("approve");
   EXPECT_EQ(standing(), CaseStanding::kValidated);
-  EXPECT_TRUE(banner().contains(QStringLiteral("approved by Grace")));
+  EXPECT_TRUE(test::has(banner(), "approved by Grace"));
 }
 
 TEST_F(ReviewPanelTest, RejectsAndTakesBack) {
@@ -203,11 +202,11 @@ TEST_F(ReviewPanelTest, RejectsAndTakesBack) {
   hands().sign(QStringLiteral("Ada"), QStringLiteral("the gripper hides it"));
   hands().click("reject");
   EXPECT_EQ(standing(), CaseStanding::kRejected);
-  EXPECT_TRUE(banner().contains(QStringLiteral("rejected by Ada"))) << banner().toStdString();
+  EXPECT_TRUE(test::has(banner(), "rejected by Ada"));
   hands().sign(QStringLiteral("Grace"), QStringLiteral("it does not"));
   hands().click("takeBack");
   EXPECT_EQ(standing(), CaseStanding::kConverged);
-  EXPECT_TRUE(history().contains(QStringLiteral("the gripper hides it")));
+  EXPECT_TRUE(test::has(history(), "the gripper hides it"));
   EXPECT_TRUE(history().contains(QStringLiteral("Taken back by Grace"))) << "the newest first";
 }
 
@@ -231,8 +230,7 @@ TEST_F(ReviewPanelTest, MarksCanBeJudgedInsteadAndTheirChangeIsTold) {
   sessions::Marks moved = *document_.session().annotations.at(id);
   moved.points[0].pixel->x() += 0.3;
   document_.edit(withAnnotation(document_.session(), id, moved), QStringLiteral("Move"));
-  EXPECT_TRUE(banner().contains(QStringLiteral("the marks have changed")))
-      << banner().toStdString();
+  EXPECT_TRUE(test::has(banner(), "the marks have changed"));
   EXPECT_FALSE(controller().isCurrent());
 }
 
@@ -296,13 +294,13 @@ TEST_F(ReviewPanelTest, TheBasinTestEntersTheChecksAndCanBeStopped) {
   EXPECT_EQ(state(), CheckState::kNotApplicable);
   panel_->findChild<QSpinBox*>(QStringLiteral("basinSeeds"))->setValue(1000);
   hands().click("basin");
-  EXPECT_TRUE(hands().button("basin")->text().contains(QStringLiteral("Stop")));
+  EXPECT_TRUE(test::has(hands().button("basin")->text(), "Stop"));
   ASSERT_TRUE(
       QTest::qWaitFor([this] { return controller().basinSoFar().seeds >= 2; }, kPatienceMs));
   hands().click("basin");
   ASSERT_TRUE(checked());
   EXPECT_NE(state(), CheckState::kNotApplicable) << "what has been run counts";
-  EXPECT_TRUE(hands().button("basin")->text().contains(QStringLiteral("test")));
+  EXPECT_TRUE(test::has(hands().button("basin")->text(), "test"));
 }
 
 TEST_F(ReviewPanelTest, AReadOnlySessionIsNotDecidedOn) {
@@ -318,51 +316,115 @@ TEST_F(ReviewPanelTest, AReadOnlySessionIsNotDecidedOn) {
   EXPECT_FALSE(controller.decide(ReviewController::Act::kReject, {"Ada", "no"}));
 }
 
-TEST_F(ReviewPanelTest, WhatIsNotValidatedIsCalledSoInTheFile) {
-  openRun();
-  TaskRunner tasks;
-  PoseExport exporter(*panel_, document_, state_, tasks);
-  EXPECT_TRUE(exporter.poseFileName().contains(QStringLiteral("NOT_VALIDATED")));
-  QString noted;
-  QObject::connect(&exporter, &PoseExport::noted, panel_.get(),
-                   [&noted](const QString& text) { noted = text; });
-  exporter.exportPose(folder_.path() / "pose.json");
-  ASSERT_TRUE(QTest::qWaitFor([&noted] { return !noted.isEmpty(); }, kPatienceMs));
-  EXPECT_TRUE(noted.contains(QStringLiteral("NOT VALIDATED"))) << noted.toStdString();
+/// Exports of the judged pose, and what is said of them.
+class PoseExportTest : public ReviewPanelTest {
+ protected:
+  PoseExportTest() {
+    openRun();
+    QObject::connect(&exporter_, &PoseExport::noted, panel_.get(),
+                     [this](const QString& text) { said_ = text; });
+    QObject::connect(&tasks_, &TaskRunner::failed, panel_.get(),
+                     [this](const QString& text) { said_ = text; });
+  }
+  bool rests() {
+    return QTest::qWaitFor([this] { return !tasks_.isBusy(); }, kPatienceMs);
+  }
+
+  TaskRunner tasks_;
+  PoseExport exporter_{*panel_, document_, state_, tasks_};
+  QString said_;
+};
+
+TEST_F(PoseExportTest, WhatIsNotValidatedIsCalledSoInTheFile) {
+  EXPECT_TRUE(test::has(exporter_.poseFileName(), "NOT_VALIDATED"));
+  exporter_.exportPose(folder_.path() / "pose.json");
+  ASSERT_TRUE(rests());
+  EXPECT_TRUE(test::has(said_, "NOT VALIDATED"));
   EXPECT_TRUE(sessions::verifyPose(folder_.path() / "pose.json", true).good());
   validateAs(QStringLiteral("Ada"));
-  EXPECT_EQ(exporter.poseFileName(), QStringLiteral("validated_pose.json"));
+  EXPECT_EQ(exporter_.poseFileName(), QStringLiteral("validated_pose.json"));
 }
 
-TEST_F(ReviewPanelTest, AReportIsWrittenOfWhatIsShown) {
-  openRun();
-  TaskRunner tasks;
-  PoseExport exporter(*panel_, document_, state_, tasks);
-  QString noted;
-  QObject::connect(&exporter, &PoseExport::noted, panel_.get(),
-                   [&noted](const QString& text) { noted = text; });
+TEST_F(PoseExportTest, AReportIsWrittenOfWhatIsShown) {
   const std::filesystem::path file = folder_.path() / "report.pdf";
-  exporter.exportReport(file);
-  ASSERT_TRUE(QTest::qWaitFor([&noted] { return !noted.isEmpty(); }, kPatienceMs));
-  EXPECT_TRUE(noted.contains(QStringLiteral("NOT VALIDATED"))) << noted.toStdString();
+  exporter_.exportReport(file);
+  ASSERT_TRUE(rests());
+  EXPECT_TRUE(test::has(said_, "NOT VALIDATED"));
   EXPECT_GT(std::filesystem::file_size(file), 10000u);
 }
 
-TEST_F(ReviewPanelTest, AResultsFileOfPosesThatNobodyValidatedHasToSaySo) {
-  openRun();
-  TaskRunner tasks;
-  PoseExport exporter(*panel_, document_, state_, tasks);
-  QString failure;
-  QObject::connect(&tasks, &TaskRunner::failed, panel_.get(),
-                   [&failure](const QString& text) { failure = text; });
-  exporter.exportBopResults(folder_.path() / "results.csv", 1);
-  ASSERT_TRUE(QTest::qWaitFor([&tasks] { return !tasks.isBusy(); }, kPatienceMs));
-  EXPECT_TRUE(failure.contains(QStringLiteral("NOT-VALIDATED"))) << failure.toStdString();
-  const std::filesystem::path honest = folder_.path() / exporter.bopResultsFileName().toStdString();
-  exporter.exportBopResults(honest, 1);
-  ASSERT_TRUE(QTest::qWaitFor([&tasks] { return !tasks.isBusy(); }, kPatienceMs));
+TEST_F(PoseExportTest, AResultsFileOfPosesThatNobodyValidatedHasToSaySo) {
+  exporter_.exportBopResults(folder_.path() / "results.csv", 1);
+  ASSERT_TRUE(rests());
+  EXPECT_TRUE(test::has(said_, "NOT-VALIDATED"));
+  const std::filesystem::path honest =
+      folder_.path() / exporter_.bopResultsFileName().toStdString();
+  exporter_.exportBopResults(honest, 1);
+  ASSERT_TRUE(rests());
   EXPECT_TRUE(std::filesystem::exists(honest));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "results.csv"));
+}
+
+/// Reviewing in the whole window: from a run to a decision, and what takes it away again.
+class ReviewWindowTest : public test::WindowTest {
+ protected:
+  bool checked() {
+    return wait([this] {
+      return panel().controller().isCurrent() && !panel().controller().isBusy() &&
+             !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking;
+    });
+  }
+  ReviewPanel& panel() { return *window_.findChild<ReviewPanel*>(); }
+  test::ReviewHands hands() { return test::ReviewHands(panel()); }
+  QString banner() { return panel().findChild<Banner*>()->text(); }
+  /// As the list of cases names the state of the example's first case.
+  QString listed() {
+    const auto* table = window_.findChild<QTableView*>(QStringLiteral("cases"));
+    for (int row = 0; row < table->model()->rowCount(); ++row)
+      if (table->model()->index(row, CasesModel::kCase).data().toString().toStdString() ==
+          RunExample::get().id)
+        return table->model()->index(row, CasesModel::kState).data().toString();
+    return {};
+  }
+  void runAndValidate() {
+    open(RunExample::get().session);
+    QTest::keyClick(&window_, Qt::Key_F9);
+    EXPECT_TRUE(test::has(hands().labelled("emptyHint"), "F5"));
+    QTest::keyClick(&window_, Qt::Key_F5);
+    ASSERT_TRUE(checked());
+    ASSERT_GT(hands().table().model()->rowCount(), 5) << "checks appear by themselves";
+    hands().passOverAll(QStringLiteral("known"));
+    hands().sign(QStringLiteral("Ada"), QStringLiteral("looked at it"));
+    hands().click("validate");
+    ASSERT_TRUE(listed().contains(QStringLiteral("validated"))) << listed().toStdString();
+  }
+};
+
+TEST_F(ReviewWindowTest, FromARunToAValidationAndBack) {
+  runAndValidate();
+  window_.setFocus();
+  QTest::keySequence(&window_, QKeySequence::Undo);
+  EXPECT_TRUE(test::has(listed(), "converged"));
+  QTest::keySequence(&window_, QKeySequence::Redo);
+  EXPECT_TRUE(test::has(listed(), "validated"));
+  ASSERT_TRUE(window_.document().save());
+  ASSERT_TRUE(reopen());
+  ASSERT_TRUE(checked());
+  EXPECT_TRUE(test::has(banner(), "Validated by Ada"));
+}
+
+TEST_F(ReviewWindowTest, AnotherSeedDropsTheValidationAndItIsSaidWhy) {
+  runAndValidate();
+  moveSeed(0.001);
+  EXPECT_FALSE(panel().controller().isCurrent()) << "stale at once";
+  EXPECT_TRUE(test::has(listed(), "converged"));
+  EXPECT_TRUE(test::has(banner(), "no longer holds: the image, camera, mesh, seed"));
+  ASSERT_TRUE(checked());
+  hands().passOverAll(QStringLiteral("known"));
+  hands().sign(QStringLiteral("Ada"), QStringLiteral("again"));
+  EXPECT_FALSE(hands().button("validate")->isEnabled()) << "the run is of the former seed";
+  QTest::keySequence(&window_, QKeySequence::Undo);
+  EXPECT_TRUE(listed().contains(QStringLiteral("validated"))) << "what was judged is back";
 }
 
 }  // namespace

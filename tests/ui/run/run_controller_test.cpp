@@ -27,6 +27,27 @@ class RunControllerTest : public testing::Test {
   bool arrives(RunState state) {
     return QTest::qWaitFor([this, state] { return run_.state() == state; }, kPatienceMs);
   }
+  /// Runs to the end with many stops on the way.
+  void runHaltingly() {
+    for (int stops = 0; stops < 1000 && run_.state() != RunState::kFinished; ++stops) {
+      run_.advance(StepUntil::kEnd);
+      QTest::qWait(5);
+      run_.stop();
+      ASSERT_TRUE(
+          QTest::qWaitFor([this] { return run_.state() != RunState::kWorking; }, kPatienceMs));
+    }
+  }
+  /// The case and a second image of the same rig, from the same place.
+  RunInputs bothViews() const {
+    sessions::SessionCase first = case_->source;
+    first.rig = sessions::Rig{"pair", Pose()};
+    sessions::SessionCase second = first;
+    second.id += "-2";
+    RunInputs both = inputs();
+    both.one = sessions::loadCase(first);
+    both.others = {second};
+    return both;
+  }
   std::string headlessDigest() const {
     return sessions::localize(case_->problem(), defaultProfile(), sessions::RecordLevel::kSummary)
         .digest;
@@ -48,41 +69,15 @@ TEST_F(RunControllerTest, ShowsEveryIterationOnTheWayToTheEnd) {
 
 TEST_F(RunControllerTest, AStopHaltsItWhereItIsAndChangesNoBit) {
   run_.reset(inputs());
-  int stops = 0;
-  do {
-    run_.advance(StepUntil::kEnd);
-    QTest::qWait(5);
-    run_.stop();
-    ASSERT_TRUE(
-        QTest::qWaitFor([this] { return run_.state() != RunState::kWorking; }, kPatienceMs));
-  } while (++stops < 1000 && run_.state() != RunState::kFinished);
+  ASSERT_NO_FATAL_FAILURE(runHaltingly());
   EXPECT_EQ(run_.snapshot()->digest, headlessDigest());
 }
 
-/// A second image of the same rig, from the same place.
-sessions::SessionCase secondView(const sessions::SessionCase& one) {
-  sessions::SessionCase other = one;
-  other.id = one.id + "-2";
-  other.rig = sessions::Rig{"pair", Pose()};
-  return other;
-}
-
 TEST_F(RunControllerTest, SeveralViewsAreRunAsOneAndAStopChangesNoBit) {
-  sessions::SessionCase first = case_->source;
-  first.rig = sessions::Rig{"pair", Pose()};
-  RunInputs both = inputs();
-  both.one = sessions::loadCase(first);
-  both.others = {secondView(first)};
+  const RunInputs both = bothViews();
   run_.reset(both);
   EXPECT_TRUE(run_.views().empty());
-  int stops = 0;
-  do {
-    run_.advance(StepUntil::kEnd);
-    QTest::qWait(5);
-    run_.stop();
-    ASSERT_TRUE(
-        QTest::qWaitFor([this] { return run_.state() != RunState::kWorking; }, kPatienceMs));
-  } while (++stops < 1000 && run_.state() != RunState::kFinished);
+  ASSERT_NO_FATAL_FAILURE(runHaltingly());
   ASSERT_EQ(run_.views().size(), 2u);
   EXPECT_EQ(run_.snapshot(), run_.views().front());
   const auto views = sessions::loadViews(both.one, both.others);
@@ -95,11 +90,7 @@ TEST_F(RunControllerTest, SeveralViewsAreRunAsOneAndAStopChangesNoBit) {
 }
 
 TEST_F(RunControllerTest, AViewThatCannotBeReadIsOneSentence) {
-  sessions::SessionCase first = case_->source;
-  first.rig = sessions::Rig{"pair", Pose()};
-  RunInputs both = inputs();
-  both.one = sessions::loadCase(first);
-  both.others = {secondView(first)};
+  RunInputs both = bothViews();
   both.others[0].image.source.file = "/nowhere/second.png";
   QString message;
   QObject::connect(&run_, &RunController::failed, [&](const QString& text) { message = text; });

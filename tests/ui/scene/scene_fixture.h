@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
+#include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include <QImage>
+
+#include "sessions/run/scene_render.h"
 #include "tests/support/example_run.h"
 #include "tests/support/loaded_example.h"
+#include "ui/scene/scene_content.h"
+#include "ui/scene/viewpoint.h"
 #include "ui/state/view_state.h"
 
 namespace boresight::test {
@@ -24,6 +33,32 @@ inline void showRun(ui::ViewState& state) {
       state.setCursor({i, Stage::kFinished});
       return;
     }
+}
+
+/// Number of pixels whose channels differ from a colour's by at most so much.
+inline int pixelsLike(const QImage& picture, const QColor& color, int tolerance) {
+  int count = 0;
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x) {
+      const QRgb pixel = picture.pixel(x, y);
+      count += std::abs(qRed(pixel) - color.red()) <= tolerance &&
+               std::abs(qGreen(pixel) - color.green()) <= tolerance &&
+               std::abs(qBlue(pixel) - color.blue()) <= tolerance;
+    }
+  return count;
+}
+
+/// The face that the core renders at each pixel of a view, or -1.
+inline std::vector<std::int32_t> renderedFaces(const ui::SceneContent& content,
+                                               const ui::Viewpoint& view) {
+  std::vector<std::int32_t> face(static_cast<std::size_t>(view.camera.width * view.camera.height));
+  SurfaceRender wanted;
+  wanted.face = face;
+  sessions::RenderTrace render;
+  EXPECT_EQ(
+      sessions::renderScene(view.camera, content.mesh(), view.view_from_station, render, wanted),
+      Status::kOk);
+  return face;
 }
 
 }  // namespace boresight::test

@@ -39,12 +39,7 @@ struct Stack {
     point.template_index = static_cast<int>(content.points.size());
     content.points.push_back(point);
   }
-  QPointF at(const Eigen::Vector3d& at_m) const {
-    QPointF pixel;
-    double depth_m = 0.0;
-    EXPECT_TRUE(view.toCanvas(at_m, pixel, depth_m));
-    return pixel;
-  }
+  QPointF at(const Eigen::Vector3d& at_m) const { return view.toCanvas(at_m).value(); }
 };
 
 TEST(PickTemplate, TakesTheNearestWithinReach) {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/scene/scene_picture.h"
+#include "ui/scene/scene_canvas.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "sessions/run/scene_render.h"
 #include "tests/ui/scene/scene_fixture.h"
 
 namespace boresight::ui {
@@ -34,13 +31,7 @@ TEST(ScenePicture, ShowsTheMeshExactlyWhereTheCoreRendersIt) {
   look.background = QColor(255, 0, 255);
   const QImage picture = drawScenePicture(content, look, view, std::nullopt);
   ASSERT_EQ(picture.size(), kCanvas);
-  std::vector<std::int32_t> face(static_cast<std::size_t>(kCanvas.width() * kCanvas.height()));
-  SurfaceRender wanted;
-  wanted.face = face;
-  sessions::RenderTrace render;
-  ASSERT_EQ(
-      sessions::renderScene(view.camera, content.mesh(), view.view_from_station, render, wanted),
-      Status::kOk);
+  const std::vector<std::int32_t> face = test::renderedFaces(content, view);
   int covered = 0;
   for (int y = 0; y < kCanvas.height(); ++y)
     for (int x = 0; x < kCanvas.width(); ++x) {
@@ -59,17 +50,8 @@ TEST(ScenePicture, ShowsEveryFrustumAndThePoints) {
   const Viewpoint view = someView(content);
   const QImage with = drawScenePicture(content, SceneLook(), view, std::nullopt, 2.0);
   EXPECT_EQ(with.size(), 2 * kCanvas);
-  for (const Frustum& frustum : content.frusta) {
-    int count = 0;
-    for (int y = 0; y < with.height(); ++y)
-      for (int x = 0; x < with.width(); ++x) {
-        const QColor color = with.pixelColor(x, y);
-        count += std::abs(color.red() - frustum.color.red()) < 8 &&
-                 std::abs(color.green() - frustum.color.green()) < 8 &&
-                 std::abs(color.blue() - frustum.color.blue()) < 8;
-      }
-    EXPECT_GT(count, 50) << frustum.label.toStdString();
-  }
+  for (const Frustum& frustum : content.frusta)
+    EXPECT_GT(test::pixelsLike(with, frustum.color, 7), 50) << frustum.label.toStdString();
   SceneLook bare;
   bare.shown.points = false;
   EXPECT_NE(drawScenePicture(content, bare, view, std::nullopt, 2.0), with);

@@ -5,11 +5,9 @@
 #include <QTest>
 #include <QtWidgets>
 
-#include <cmath>
 #include <cstdio>
 #include <vector>
 
-#include "sessions/run/scene_render.h"
 #include "tests/ui/scene/scene_fixture.h"
 #include "ui/scene/scene_view.h"
 
@@ -41,19 +39,11 @@ class ScenePixels : public ::testing::Test {
   QImage canvasShot(const char* name) {
     return shot(name).copy(QRect(view_.canvas()->pos(), view_.canvas()->size()));
   }
-  void show(bool mesh, bool points) {
-    SceneShown shown = {mesh, false, false, false, points, false};
-    view_.setShown(shown);
-  }
+  void show(bool mesh, bool points) { view_.setShown({mesh, false, false, false, points, false}); }
 
   ViewState state_;
   SceneView view_{state_};
 };
-
-bool alike(QRgb a, const QColor& b, int tolerance) {
-  return std::abs(qRed(a) - b.red()) <= tolerance && std::abs(qGreen(a) - b.green()) <= tolerance &&
-         std::abs(qBlue(a) - b.blue()) <= tolerance;
-}
 
 /// A mask of the canvas, and its border: set pixels with a neighbour that is not.
 struct Mask {
@@ -96,13 +86,7 @@ double borderShare(const Mask& of, const Mask& in) {
 Mask renderedMask(const SceneView& view) {
   const Viewpoint at = view.viewpoint();
   Mask mask(at.camera.width, at.camera.height);
-  std::vector<std::int32_t> face(mask.bits.size());
-  SurfaceRender wanted;
-  wanted.face = face;
-  sessions::RenderTrace render;
-  EXPECT_EQ(
-      sessions::renderScene(at.camera, view.content().mesh(), at.view_from_station, render, wanted),
-      Status::kOk);
+  const std::vector<std::int32_t> face = test::renderedFaces(view.content(), at);
   for (std::size_t i = 0; i < face.size(); ++i) mask.bits[i] = face[i] >= 0;
   return mask;
 }
@@ -116,13 +100,8 @@ Mask difference(const QImage& a, const QImage& b) {
 
 TEST_F(ScenePixels, ShowsEveryFrustumInItsColour) {
   const QImage picture = canvasShot("free");
-  for (const Frustum& frustum : view_.content().frusta) {
-    int count = 0;
-    for (int y = 0; y < picture.height(); ++y)
-      for (int x = 0; x < picture.width(); ++x)
-        count += alike(picture.pixel(x, y), frustum.color, 12) ? 1 : 0;
-    EXPECT_GT(count, 100) << frustum.label.toStdString();
-  }
+  for (const Frustum& frustum : view_.content().frusta)
+    EXPECT_GT(test::pixelsLike(picture, frustum.color, 12), 100) << frustum.label.toStdString();
 }
 
 TEST_F(ScenePixels, DrawsTheSilhouetteWhereTheCoreDoes) {
@@ -159,9 +138,7 @@ TEST_F(ScenePixels, DrawsTemplatesWhereTheyArePicked) {
   const Mask points = difference(canvasShot("points"), without);
   int tried = 0;
   for (const ScenePoint& point : view_.content().points) {
-    QPointF at;
-    double depth_m = 0.0;
-    ASSERT_TRUE(view_.viewpoint().toCanvas(point.at_m, at, depth_m));
+    const QPointF at = view_.viewpoint().toCanvas(point.at_m).value();
     const int expected = pickTemplate(view_.content(), view_.viewpoint(), at);
     if (expected != point.template_index || ++tried > 8) continue;
     EXPECT_TRUE(points.get(at.toPoint().x(), at.toPoint().y())) << expected;

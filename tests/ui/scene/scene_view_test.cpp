@@ -26,14 +26,10 @@ class SceneViewTest : public ::testing::Test {
                      });
   }
 
-  QPoint onCanvas(const Eigen::Vector3d& at_m) const {
-    QPointF pixel;
-    double depth_m = 0.0;
-    EXPECT_TRUE(view_.viewpoint().toCanvas(at_m, pixel, depth_m));
-    return pixel.toPoint();
-  }
   /// The canvas' pixel under the pointer after a click there; centres are at whole numbers.
-  static QPointF middle(const QPoint& at) { return QPointF(at); }
+  QPoint onCanvas(const Eigen::Vector3d& at_m) const {
+    return view_.viewpoint().toCanvas(at_m).value().toPoint();
+  }
   void click(const QPoint& at) {
     QTest::mouseClick(view_.canvas(), Qt::LeftButton, Qt::NoModifier, at);
   }
@@ -65,8 +61,7 @@ TEST_F(SceneViewTest, AClickSelectsTheTemplateUnderIt) {
   view_.setThroughCamera(true);  // from where the templates are seen
   int tried = 0;
   for (const ScenePoint& point : view_.content().points) {
-    const int expected =
-        pickTemplate(view_.content(), view_.viewpoint(), middle(onCanvas(point.at_m)));
+    const int expected = pickTemplate(view_.content(), view_.viewpoint(), onCanvas(point.at_m));
     if (expected < 0 || ++tried > 10) continue;
     state_.selectTemplate(-1);
     click(onCanvas(point.at_m));
@@ -78,14 +73,12 @@ TEST_F(SceneViewTest, AClickSelectsTheTemplateUnderIt) {
 }
 
 TEST_F(SceneViewTest, AClickOnTheMeshTellsItsPlaceInTheStation) {
-  SceneShown shown;
-  shown.points = false;
-  view_.setShown(shown);
+  view_.setShown({.points = false});
   const auto& vertices = view_.content().mesh().vertices_in_station_m;
   int hit = 0;
   for (std::size_t i = 0; i < vertices.size() && hit < 5; i += 7) {
     const Eigen::Vector3d vertex_m = vertices[i].cast<double>();
-    const auto expected = pickMesh(view_.content(), view_.viewpoint(), middle(onCanvas(vertex_m)));
+    const auto expected = pickMesh(view_.content(), view_.viewpoint(), onCanvas(vertex_m));
     if (!expected || expected->vertex != static_cast<int>(i)) continue;
     click(onCanvas(vertex_m));
     EXPECT_EQ(picked_vertex_, static_cast<int>(i));
@@ -104,9 +97,7 @@ TEST_F(SceneViewTest, AClickOnTheMeshTellsItsPlaceInTheStation) {
 TEST_F(SceneViewTest, ADoubleClickPicksOnceAndShowsTheWholeScene) {
   int picks = 0;
   QObject::connect(&view_, &SceneView::meshPointPicked, [&picks] { ++picks; });
-  SceneShown shown;
-  shown.points = false;
-  view_.setShown(shown);
+  view_.setShown({.points = false});
   wheel({300, 240}, 2);
   const double near_m = view_.orbitCamera().distance_m();
   const QPoint at = onCanvas(view_.content().bounds.centre());
@@ -201,10 +192,7 @@ TEST_F(SceneViewTest, FollowsTheStateWhileItIsShownAndCatchesUpAfterwards) {
 
 TEST_F(SceneViewTest, IsNotBlackAndSaysHowItIsDrawn) {
   const QImage picture = view_.grab().toImage();
-  int black = 0;
-  for (int y = 0; y < picture.height(); ++y)
-    for (int x = 0; x < picture.width(); ++x) black += picture.pixel(x, y) == qRgb(0, 0, 0);
-  EXPECT_LT(black, picture.width() * picture.height() / 20);
+  EXPECT_LT(test::pixelsLike(picture, Qt::black, 0), picture.width() * picture.height() / 20);
 }
 
 TEST(SceneView, LivesWithoutACase) {

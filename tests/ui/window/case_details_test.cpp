@@ -22,6 +22,13 @@ class CaseDetailsTest : public ::testing::Test {
     details_.setSession(session_);
     ASSERT_TRUE(QTest::qWaitFor([this] { return !tasks_.isBusy(); }, kPatienceMs));
   }
+  /// Runs the first case and stores the run in the session.
+  sessions::LocalizationTrace run() {
+    const sessions::LocalizationTrace trace = sessions::runCase(session_, id_);
+    session_ = sessions::withRun(
+        session_, sessions::storeRun(session_, id_, trace, folder_.path() / "one.boresight.json"));
+    return trace;
+  }
   std::vector<CaseRow> rows() const {
     std::vector<CaseRow> made = caseRows(session_, {}, {}, stale_runs_);
     details_.fill(made);
@@ -32,6 +39,7 @@ class CaseDetailsTest : public ::testing::Test {
   TaskRunner tasks_;
   CaseDetails details_{tasks_};
   sessions::Session session_ = sessions::makeSession(test::exampleFolder() / "dataset.json");
+  std::string id_ = session_.cases[0]->id;
   test::TemporaryFolder folder_;
 };
 
@@ -56,15 +64,14 @@ TEST_F(CaseDetailsTest, AMissingImageLeavesTheRowWithoutAPicture) {
 
 /// A seed that is called the truth, and a truth moved by a known length, tell what the error is.
 TEST_F(CaseDetailsTest, ErrorsAreThoseOfTheLatestRunAgainstTheTruth) {
-  const std::string id = session_.cases[0]->id;
-  const sessions::LocalizationTrace trace = sessions::runCase(session_, id);
+  const sessions::LocalizationTrace trace = sessions::runCase(session_, id_);
   ASSERT_TRUE(trace.converged());
   sessions::SessionCase one = *session_.cases[0];
   one.camera_from_station_truth = trace.camera_from_station;
   one.camera_from_station_truth->translation_m.z() += 2e-3;
   session_ = sessions::withCase(session_, one);
   session_ = sessions::withRun(
-      session_, sessions::storeRun(session_, id, trace, folder_.path() / "one.boresight.json"));
+      session_, sessions::storeRun(session_, id_, trace, folder_.path() / "one.boresight.json"));
   read();
   const CaseRow row = rows()[0];
   ASSERT_TRUE(row.normal_mm && row.lateral_mm && row.rotation_deg);
@@ -75,11 +82,7 @@ TEST_F(CaseDetailsTest, ErrorsAreThoseOfTheLatestRunAgainstTheTruth) {
 }
 
 TEST_F(CaseDetailsTest, ARunOfOtherInputsOrOptionsIsStale) {
-  const std::string id = session_.cases[0]->id;
-  const sessions::LocalizationTrace trace =
-      sessions::runCase(session_, id, sessions::RecordLevel::kSummary);
-  session_ = sessions::withRun(
-      session_, sessions::storeRun(session_, id, trace, folder_.path() / "one.boresight.json"));
+  run();
   EXPECT_FALSE(rows()[0].stale);
   const sessions::Session before = session_;
   sessions::SessionCase one = *session_.cases[0];
@@ -87,7 +90,7 @@ TEST_F(CaseDetailsTest, ARunOfOtherInputsOrOptionsIsStale) {
   session_ = sessions::withCase(session_, one);
   EXPECT_TRUE(rows()[0].stale);
   EXPECT_FALSE(rows()[1].stale) << "nothing has run";
-  EXPECT_FALSE(caseRows(session_, QString::fromStdString(id), {}, stale_runs_)[0].stale)
+  EXPECT_FALSE(caseRows(session_, QString::fromStdString(id_), {}, stale_runs_)[0].stale)
       << "it is at work";
   LocalizerOptions options = sessions::sessionOptions(before, {});
   options.pnp.seed += 1;
@@ -96,10 +99,7 @@ TEST_F(CaseDetailsTest, ARunOfOtherInputsOrOptionsIsStale) {
 }
 
 TEST_F(CaseDetailsTest, WithoutATruthThereIsNoError) {
-  const std::string id = session_.cases[0]->id;
-  const sessions::LocalizationTrace trace = sessions::runCase(session_, id);
-  session_ = sessions::withRun(
-      session_, sessions::storeRun(session_, id, trace, folder_.path() / "one.boresight.json"));
+  run();
   sessions::SessionCase one = *session_.cases[0];
   one.camera_from_station_truth.reset();
   session_ = sessions::withCase(session_, one);

@@ -3,17 +3,18 @@
 // end, walks through its iterations, runs it again and stops it at once. It prints the longest
 // times that the event loop was kept by one event, and how soon a stop was answered. Without
 // arguments: a 2048 x 2048 case of BORESIGHT_DATA, else the shipped example enlarged to that.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 #include <QtWidgets>
 
 #include "sessions/io/camera_file.h"
 #include "sessions/io/image_file.h"
 #include "sessions/session/session_maker.h"
-#include "tests/ui/window/event_clock.h"
 #include "ui/window/main_window.h"
 
 using namespace boresight;
@@ -21,6 +22,67 @@ using namespace boresight;
 namespace {
 
 namespace fs = std::filesystem;
+
+/// How long the event loop was kept by one event, and by what.
+struct EventGap {
+  double ms = 0.0;
+  QString where;
+};
+
+/// An application that times every event that its loop delivers. While an event is handled the
+/// window answers nobody: the longest one is the longest time that the window was frozen.
+class EventClock : public QApplication {
+ public:
+  using QApplication::QApplication;
+
+  /// From now on.
+  void begin() { gaps_.clear(); }
+  /// The longest first.
+  std::vector<EventGap> longest(std::size_t count) const {
+    std::vector<EventGap> sorted = gaps_;
+    std::sort(sorted.begin(), sorted.end(),
+              [](const EventGap& a, const EventGap& b) { return a.ms > b.ms; });
+    sorted.resize(std::min(count, sorted.size()));
+    return sorted;
+  }
+
+  bool notify(QObject* receiver, QEvent* event) override {
+    if (depth_ > 1) return QApplication::notify(receiver, event);
+    const QString where = describe(*receiver, *event);
+    if (depth_ == 0) inner_ = {};
+    ++depth_;
+    QElapsedTimer clock;
+    clock.start();
+    const bool taken = QApplication::notify(receiver, event);
+    --depth_;
+    note({static_cast<double>(clock.nsecsElapsed()) * 1e-6, where});
+    return taken;
+  }
+
+ private:
+  static QString describe(const QObject& receiver, const QEvent& event) {
+    const char* type = QMetaEnum::fromType<QEvent::Type>().valueToKey(event.type());
+    return QStringLiteral("%1 '%2' %3")
+        .arg(QString::fromLatin1(receiver.metaObject()->className()), receiver.objectName(),
+             type ? QString::fromLatin1(type) : QString::number(event.type()));
+  }
+
+  /// What was sent while another event was handled belongs to that one.
+  void note(EventGap gap) {
+    if (depth_ > 0) {
+      if (gap.ms > inner_.ms) inner_ = gap;
+      return;
+    }
+    if (inner_.ms > 0.5 * gap.ms)
+      gap.where +=
+          QStringLiteral(", of it %1 ms in %2").arg(inner_.ms, 0, 'f', 1).arg(inner_.where);
+    if (gap.ms > 1.0) gaps_.push_back(gap);
+  }
+
+  int depth_ = 0;
+  EventGap inner_;
+  std::vector<EventGap> gaps_;
+};
 
 /// Each pixel of the shipped example becomes four.
 sessions::Session enlargedExample(const fs::path& folder) {
@@ -72,9 +134,9 @@ void waitFor(const std::function<bool()>& holds) {
   while (!holds()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
 }
 
-void print(ui::EventClock& clock, const char* what) {
+void print(EventClock& clock, const char* what) {
   std::printf("%s\n", what);
-  for (const ui::EventGap& gap : clock.longest(5))
+  for (const EventGap& gap : clock.longest(5))
     std::printf("  %7.1f ms  %s\n", gap.ms, qPrintable(gap.where));
   clock.begin();
 }
@@ -82,7 +144,7 @@ void print(ui::EventClock& clock, const char* what) {
 /// What a person does with one case, and what each part of it kept the window from.
 class Walk {
  public:
-  Walk(ui::EventClock& clock, ui::MainWindow& window) : clock_(clock), window_(window) {}
+  Walk(EventClock& clock, ui::MainWindow& window) : clock_(clock), window_(window) {}
 
   void open(const fs::path& file, const sessions::Session& session) {
     window_.document().create(file, session);
@@ -144,7 +206,7 @@ class Walk {
   bool working() { return window_.run().state() == ui::RunState::kWorking; }
   bool rests() { return !window_.tasks().isBusy() && !working(); }
 
-  ui::EventClock& clock_;
+  EventClock& clock_;
   ui::MainWindow& window_;
 };
 
@@ -152,7 +214,7 @@ class Walk {
 
 int main(int argc, char** argv) {
   if (!qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
-  ui::EventClock clock(argc, argv);
+  EventClock clock(argc, argv);
   QStandardPaths::setTestModeEnabled(true);
   const QTemporaryDir made;
   const fs::path folder = made.path().toStdString();

@@ -62,8 +62,7 @@ TEST_F(InputFindingsTest, AMissingImageThatIsNowhereIsSaidToBe) {
   reopen();
   window_.findings().mend();
   settle();
-  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("None of the missing files")))
-      << window_.lastMessage().toStdString();
+  EXPECT_TRUE(test::has(window_.lastMessage(), "None of the missing files"));
   EXPECT_EQ(window_.findings().findings().size(), 1u);
 }
 
@@ -82,7 +81,7 @@ TEST_F(InputFindingsTest, TheMiddleSaysWhichFileIsMissingAndWhatToDo) {
   reopen();
   const QString hint = window_.image().view().hint();
   EXPECT_TRUE(hint.contains(QString::fromStdString(image().string()))) << hint.toStdString();
-  EXPECT_TRUE(hint.contains(QStringLiteral("Mend"))) << hint.toStdString();
+  EXPECT_TRUE(test::has(hint, "Mend"));
   EXPECT_FALSE(hint.contains(QStringLiteral("Drop")));
 }
 
@@ -95,7 +94,7 @@ TEST_F(InputFindingsTest, AnotherCasesImageIsNotShownUnderTheNameOfOneThatIsMiss
   window_.cases().chooseCase(QString::fromStdString(other));
   settle();
   EXPECT_EQ(window_.state().currentCase(), nullptr);
-  EXPECT_TRUE(window_.image().view().hint().contains(QStringLiteral("image.png")));
+  EXPECT_TRUE(test::has(window_.image().view().hint(), "image.png"));
   window_.cases().chooseCase(first);
   settle();
   EXPECT_NE(window_.state().currentCase(), nullptr);
@@ -109,7 +108,7 @@ TEST_F(InputFindingsTest, AChangedFileIsTakenAsItIsWhenSomebodySaysSo) {
   fs::copy_file(inputs_ / "os" / "image.png", image(), fs::copy_options::overwrite_existing);
   reopen();
   ASSERT_EQ(window_.state().currentCase(), nullptr);
-  EXPECT_TRUE(window_.image().view().hint().contains(QStringLiteral("take it as it is")));
+  EXPECT_TRUE(test::has(window_.image().view().hint(), "take it as it is"));
   QTimer yes;
   QObject::connect(&yes, &QTimer::timeout, &yes, [] {
     if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))

@@ -141,7 +141,7 @@ TEST_F(LayoutTest, APictureOfAFileThatIsNoSessionSaysWhy) {
   MainWindow window;
   window.setQuiet(true);
   const QString why = openForPictures(window, folder_.path() / "no.json", folder_.path());
-  EXPECT_TRUE(why.contains(QStringLiteral("no.json"))) << why.toStdString();
+  EXPECT_TRUE(test::has(why, "no.json"));
 }
 
 }  // namespace

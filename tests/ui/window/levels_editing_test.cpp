@@ -80,8 +80,8 @@ TEST_F(LevelsEditingTest, ADeepImageIsShownStretchedAndTheCoresViewIsNot) {
   auto& place = find<QLabel>("place");
   const QPoint at = window_.image().view().transform().toWidget(QPointF(x, y)).toPoint();
   QTest::mouseMove(&window_.image().view(), at);
-  EXPECT_TRUE(place.text().contains(QStringLiteral("gray ")));
-  EXPECT_TRUE(place.text().contains(QStringLiteral("(sample ")));
+  EXPECT_TRUE(test::has(place.text(), "gray "));
+  EXPECT_TRUE(test::has(place.text(), "(sample "));
 }
 
 TEST_F(LevelsEditingTest, TheDisplaysLevelsChangeThePictureAndNothingElse) {
@@ -104,8 +104,7 @@ TEST_F(LevelsEditingTest, TheDisplaysLevelsChangeThePictureAndNothingElse) {
 }
 
 TEST_F(LevelsEditingTest, TheConversionIsAnEditThatMakesRunsStale) {
-  QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+  ASSERT_TRUE(runToTheEnd(1));
   apply(12);
   ASSERT_TRUE(wait([&] {
     return resting() && window_.state().currentCase()->source.image.eight_bit.bit_depth == 12;
@@ -116,9 +115,8 @@ TEST_F(LevelsEditingTest, TheConversionIsAnEditThatMakesRunsStale) {
   EXPECT_GT(*std::max_element(window_.state().currentCase()->image.pixels.begin(),
                               window_.state().currentCase()->image.pixels.end()),
             200);
-  EXPECT_TRUE(find<QLabel>("conversionRule").text().contains(QStringLiteral("2^12")));
-  QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 2 && resting(); }));
+  EXPECT_TRUE(test::has(find<QLabel>("conversionRule").text(), "2^12"));
+  ASSERT_TRUE(runToTheEnd(2));
   EXPECT_EQ(session.runs[1].digest,
             sessions::runCase(session, "os", sessions::RecordLevel::kSummary).digest);
   QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
@@ -168,7 +166,7 @@ TEST_F(LabelledLevelsTest, TheBitsOfTheLabelAreShownAndNotStatedAgain) {
 TEST_F(LevelsEditingTest, TooFewBitsAreRefusedInASentence) {
   apply(8);
   ASSERT_TRUE(wait([&] { return resting(); }));
-  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("more than 8 bits")));
+  EXPECT_TRUE(test::has(window_.lastMessage(), "more than 8 bits"));
   EXPECT_FALSE(window_.document().isModified());
 }
 

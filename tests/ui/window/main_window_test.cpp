@@ -15,7 +15,7 @@ class MainWindowTest : public test::WindowTest {
     ADD_FAILURE() << "no action has the key " << keys;
     return nullptr;
   }
-  QString runState() { return window_.findChild<QLabel*>(QStringLiteral("runState"))->text(); }
+  QString runState() { return find<QLabel>("runState").text(); }
 };
 
 TEST_F(MainWindowTest, OpensEmptyAndOffersNothingThatCannotBeDone) {
@@ -42,20 +42,16 @@ TEST_F(MainWindowTest, ADropThatFailedIsNotPartOfTheNextCase) {
   const auto mesh = folder_.write("box.glb", "no mesh");  // asks for no unit
   window_.takeFiles({bad, mesh, os / "camera.json", os / "seed.json"});
   ASSERT_TRUE(wait([&] { return resting() && !window_.lastMessage().isEmpty(); }));
-  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("bad.png")));
+  EXPECT_TRUE(test::has(window_.lastMessage(), "bad.png"));
   EXPECT_EQ(window_.statusBar()->currentMessage(), QString()) << "nothing is being read any more";
   window_.takeFiles({os / "image.png", mesh, os / "seed.json"});
-  EXPECT_TRUE(
-      window_.statusBar()->currentMessage().contains(QStringLiteral("Still missing: a camera")))
-      << window_.statusBar()->currentMessage().toStdString();
+  EXPECT_TRUE(test::has(window_.statusBar()->currentMessage(), "Still missing: a camera"));
 }
 
 TEST_F(MainWindowTest, UndoOfAnotherCasesEditShowsThatCase) {
   openExample();
   const QString first = window_.cases().caseId();
-  Pose moved = window_.state().currentCase()->source.camera_from_station_seed;
-  moved.translation_m.x() += 0.01;
-  window_.cases().useAsSeed(moved);
+  moveSeed(0.01);
   const QString other = QString::fromStdString(window_.document().session().cases.back()->id);
   ASSERT_NE(other, first);
   window_.cases().chooseCase(other);
@@ -74,13 +70,10 @@ TEST_F(MainWindowTest, UndoOfAnotherCasesEditShowsThatCase) {
 
 TEST_F(MainWindowTest, WhatWasUndoneIsNoLongerShownAfterTheNextEdit) {
   openExample();
-  Pose moved = window_.state().currentCase()->source.camera_from_station_seed;
-  moved.translation_m.x() += 0.01;
-  window_.cases().useAsSeed(moved);
+  moveSeed(0.01);
   QTest::keySequence(&window_, QKeySequence::Undo);
-  EXPECT_TRUE(window_.statusBar()->currentMessage().contains(QStringLiteral("Undone")));
-  moved.translation_m.y() += 0.01;
-  window_.cases().useAsSeed(moved);
+  EXPECT_TRUE(test::has(window_.statusBar()->currentMessage(), "Undone"));
+  moveSeed(0.02);
   EXPECT_EQ(window_.statusBar()->currentMessage(), QString());
   ASSERT_TRUE(wait([&] { return resting(); }));
 }
@@ -232,12 +225,10 @@ TEST_F(MainWindowTest, KeysShowAndHideLayers) {
 
 TEST_F(MainWindowTest, ReopenedItShowsTheRunThatWasMade) {
   openExample();
-  QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+  ASSERT_TRUE(runToTheEnd(1));
   ASSERT_TRUE(window_.document().save());
   const std::string digest = window_.document().session().runs[0].digest;
-  window_.document().close();
-  ASSERT_TRUE(window_.openSession(folder_.path() / "one.boresight.json"));
+  ASSERT_TRUE(reopen());
   ASSERT_TRUE(wait([&] { return window_.state().snapshot() != nullptr; }));
   EXPECT_EQ(window_.state().snapshot()->digest, digest);
 }

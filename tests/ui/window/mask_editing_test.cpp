@@ -82,8 +82,7 @@ TEST_F(MaskEditingTest, ABrushStrokeIsOneUndoableJournalledEditOfTheMask) {
 }
 
 TEST_F(MaskEditingTest, ARunUsesTheMaskAndStaysShownAsStaleWhenItIsEdited) {
-  QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+  ASSERT_TRUE(runToTheEnd(1));
   const std::string before = window_.document().session().runs[0].digest;
   QTest::keyClick(&window_, Qt::Key_P, Qt::ShiftModifier);
   const auto& image = window_.state().currentCase()->image;
@@ -107,8 +106,7 @@ TEST_F(MaskEditingTest, ARunUsesTheMaskAndStaysShownAsStaleWhenItIsEdited) {
 }
 
 TEST_F(MaskEditingTest, AnEditLeavesTheShownPlaceOfTheRunAlone) {
-  QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+  ASSERT_TRUE(runToTheEnd(1));
   window_.state().setCursor({0, Stage::kMatch});
   window_.state().selectTemplate(2);
   QTest::keyClick(&window_, Qt::Key_B, Qt::ShiftModifier);

@@ -19,6 +19,16 @@ class NudgeEditingTest : public test::WindowTest {
     pad->setFocus();
     QTest::keyClick(pad, key);
   }
+  /// Once the views have a case with this seed.
+  bool seedIs(const Pose& seed) {
+    return wait([&] {
+      return resting() && window_.state().currentCase()->source.camera_from_station_seed == seed;
+    });
+  }
+  bool shows(const std::string& id) {
+    window_.cases().chooseCase(QString::fromStdString(id));
+    return wait([&] { return window_.state().currentCase()->source.id == id && resting(); });
+  }
   void undo() { QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier); }
   void redo() { ASSERT_TRUE(window_.document().redo()); }
 
@@ -76,8 +86,7 @@ TEST_F(NudgeEditingTest, NudgingReadsNothingAnewAndMakesNoRunStale) {
   EXPECT_EQ(sessions::inputsDigest(edited()), digest);
   // A run ends in the middle of it: the document changes, the nudged pose stays.
   const auto pose = nudged();
-  QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+  ASSERT_TRUE(runToTheEnd(1));
   EXPECT_EQ(nudged(), pose);
 }
 
@@ -88,13 +97,9 @@ TEST_F(NudgeEditingTest, UsedAsSeedItIsOneEntryThatUndoTakesBackWhole) {
   QTest::mouseClick(window_.findChild<QPushButton*>(QStringLiteral("useAsSeed")), Qt::LeftButton);
   EXPECT_EQ(edited().camera_from_station_seed, first);
   EXPECT_FALSE(nudged());
-  ASSERT_TRUE(wait([&] {
-    return resting() && window_.state().currentCase()->source.camera_from_station_seed == first;
-  }));
+  ASSERT_TRUE(seedIs(first));
   undo();
-  ASSERT_TRUE(wait([&] {
-    return resting() && window_.state().currentCase()->source.camera_from_station_seed == seed;
-  }));
+  ASSERT_TRUE(seedIs(seed));
   EXPECT_EQ(nudged(), first);
 }
 
@@ -113,11 +118,9 @@ TEST_F(NudgeEditingTest, EachCaseKeepsItsOwn) {
   nudge(Qt::Key_Right);
   const auto pose = nudged();
   const std::string other = window_.document().session().cases[1]->id;
-  window_.cases().chooseCase(QString::fromStdString(other));
-  ASSERT_TRUE(wait([&] { return window_.state().currentCase()->source.id == other && resting(); }));
+  ASSERT_TRUE(shows(other));
   EXPECT_FALSE(nudged());
-  window_.cases().chooseCase(QString::fromStdString(id_));
-  ASSERT_TRUE(wait([&] { return window_.state().currentCase()->source.id == id_ && resting(); }));
+  ASSERT_TRUE(shows(id_));
   EXPECT_EQ(nudged(), pose);
 }
 

@@ -84,9 +84,7 @@ class OnboardTest : public test::WindowTest {
     ASSERT_TRUE(rests());
   }
 
-  QString label(const char* name) {
-    return window_.findChild<QLabel*>(QLatin1String(name))->text();
-  }
+  QString label(const char* name) { return find<QLabel>(name).text(); }
   const sessions::SessionCase& one() {
     return *window_.document().session().findCase(window_.cases().caseId().toStdString());
   }
@@ -102,13 +100,13 @@ TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
   drop(write(onboardRecord()));
   ASSERT_TRUE(one().onboard_record);
   ASSERT_NE(window_.onboard().review(), nullptr) << window_.onboard().problem().toStdString();
-  EXPECT_TRUE(label("recordSheet").contains(QStringLiteral("converged")));
-  EXPECT_TRUE(label("verdict").contains(QStringLiteral("no run on the ground")));
+  EXPECT_TRUE(test::has(label("recordSheet"), "converged"));
+  EXPECT_TRUE(test::has(label("verdict"), "no run on the ground"));
 
   click("showOnboard");
   ASSERT_TRUE(window_.state().snapshot() && window_.state().snapshot()->replayed);
   EXPECT_TRUE(window_.findChild<Banner*>()->text().startsWith(QStringLiteral("Onboard record")));
-  EXPECT_TRUE(label("shownRun").contains(QStringLiteral("ONBOARD")));
+  EXPECT_TRUE(test::has(label("shownRun"), "ONBOARD"));
   EXPECT_FALSE(window_.state().snapshot()->iterations.front()->templates.empty());
   EXPECT_TRUE(window_.document().session().runs.empty()) << "a replay is no run";
 
@@ -118,7 +116,7 @@ TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
   EXPECT_FALSE(window_.state().snapshot()->replayed);
   ASSERT_NE(window_.onboard().comparison(), nullptr);
   EXPECT_EQ(window_.onboard().comparison()->verdict, RunVerdict::kEqual);
-  EXPECT_TRUE(label("verdict").contains(QStringLiteral("bit for bit")));
+  EXPECT_TRUE(test::has(label("verdict"), "bit for bit"));
   EXPECT_EQ(window_.document().session().runs.front().digest,
             window_.onboard().review()->record.end->digest);
 
@@ -147,7 +145,7 @@ TEST_F(OnboardTest, AnAlteredTemplateIsFoundAndGoneTo) {
   ASSERT_TRUE(found.first);
   EXPECT_EQ(found.first->part, RunPart::kMatches);
   EXPECT_EQ(found.first->template_index, static_cast<int>(kAltered));
-  EXPECT_TRUE(label("firstDifference").contains(QStringLiteral("template 6 was found")));
+  EXPECT_TRUE(test::has(label("firstDifference"), "template 6 was found"));
   QTest::keyClick(&window_, Qt::Key_B, Qt::ControlModifier | Qt::ShiftModifier);
   EXPECT_EQ(window_.state().cursor().iteration, 0);
   EXPECT_EQ(window_.state().selectedTemplate(), static_cast<int>(kAltered));
@@ -162,18 +160,18 @@ TEST_F(OnboardTest, ACompressedImageIsHeldToTheLimits) {
   const auto& found = *window_.onboard().comparison();
   EXPECT_EQ(found.verdict, RunVerdict::kWithinLimits) << sessions::comparisonText(found);
   EXPECT_EQ(found.first->part, RunPart::kPixels);
-  EXPECT_TRUE(label("verdict").contains(QStringLiteral("within the limits")));
-  EXPECT_TRUE(label("recordRemarks").contains(QStringLiteral("other pixels")));
+  EXPECT_TRUE(test::has(label("verdict"), "within the limits"));
+  EXPECT_TRUE(test::has(label("recordRemarks"), "other pixels"));
   const auto* table = window_.findChild<QTableWidget*>(QStringLiteral("comparison"));
   ASSERT_EQ(table->rowCount(), static_cast<int>(found.iterations.size()) + 1);
-  EXPECT_TRUE(table->item(0, 1)->text().contains(QStringLiteral(" of ")));
-  EXPECT_TRUE(table->item(table->rowCount() - 1, 1)->text().contains(QStringLiteral("sigmas")));
+  EXPECT_TRUE(test::has(table->item(0, 1)->text(), " of "));
+  EXPECT_TRUE(test::has(table->item(table->rowCount() - 1, 1)->text(), "sigmas"));
 }
 
 TEST_F(OnboardTest, WhatCannotBeReadIsTold) {
   openExample();
   drop(folder_.write("not.whsr", "something else"));
-  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("is not an onboard record")));
+  EXPECT_TRUE(test::has(window_.lastMessage(), "is not an onboard record"));
   EXPECT_FALSE(one().onboard_record);
   const Bytes bytes = onboardRecord();
   const auto file = write(bytes);
@@ -186,14 +184,14 @@ TEST_F(OnboardTest, WhatCannotBeReadIsTold) {
   drop(folder_.write("cut.whsr", cut));
   ASSERT_NE(window_.onboard().review(), nullptr);
   EXPECT_FALSE(window_.onboard().review()->record.whole());
-  EXPECT_TRUE(label("recordRemarks").contains(QStringLiteral("lacks something")));
+  EXPECT_TRUE(test::has(label("recordRemarks"), "lacks something"));
   // One that is another than it was attached as is not shown.
   folder_.write("cut.whsr", bytes);
   window_.document().save();
   ASSERT_TRUE(window_.openSession(folder_.path() / "one.boresight.json"));
   ASSERT_TRUE(wait([&] { return !window_.onboard().problem().isEmpty(); }));
   EXPECT_EQ(window_.onboard().review(), nullptr);
-  EXPECT_TRUE(label("recordSheet").contains(QStringLiteral("not those of the record")));
+  EXPECT_TRUE(test::has(label("recordSheet"), "not those of the record"));
 }
 
 }  // namespace

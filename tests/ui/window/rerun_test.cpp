@@ -88,17 +88,14 @@ TEST_F(RerunTest, SaysWhichOptionHoldsForAWholeRun) {
   window_.cases().setOptions(QStringLiteral("default"), options);
   rerun();
   EXPECT_EQ(runs().size(), 1u);
-  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("edges.gaussian_sigma_px")))
-      << window_.lastMessage().toStdString();
+  EXPECT_TRUE(test::has(window_.lastMessage(), "edges.gaussian_sigma_px"));
   EXPECT_EQ(window_.state().snapshot(), first_) << "what was shown stays";
 }
 
 TEST_F(RerunTest, GoesOnFromARunThatWasReadFromItsFile) {
   openAndRun();
   ASSERT_TRUE(window_.document().save());
-  const auto file = window_.document().file();
-  window_.document().close();
-  ASSERT_TRUE(window_.openSession(file));
+  ASSERT_TRUE(reopen());
   ASSERT_TRUE(wait([&] { return window_.state().snapshot() != nullptr; }));
   window_.cases().setOptions(QStringLiteral("default"), otherOptions());
   window_.state().setCursor({kFrom, Stage::kFinished});
@@ -124,8 +121,7 @@ TEST_F(RerunTest, RefusesIterationsThatAreNotThoseOfTheRecord) {
   window_.state().setSnapshot(other);
   window_.state().setCursor({kFrom, Stage::kFinished});
   rerun();
-  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("another version")))
-      << window_.lastMessage().toStdString();
+  EXPECT_TRUE(test::has(window_.lastMessage(), "another version"));
   EXPECT_EQ(runs().size(), 1u);
   QTest::keyClick(&window_, Qt::Key_F5);
   ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kFinished; }));

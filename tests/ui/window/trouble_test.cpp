@@ -1,27 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // A full disk, a read-only folder, a program that was killed: what the window says and what it
 // keeps.
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
-#include <functional>
-
-#include <QtTest/QTest>
-#include <QtWidgets>
 
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_file.h"
-#include "sessions/session/session_maker.h"
-#include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
-#include "ui/window/main_window.h"
+#include "tests/ui/window_test.h"
 
 namespace boresight::ui {
 namespace {
-
-constexpr int kPatienceMs = 60'000;
 
 /// No file of this process may grow beyond so many bytes as long as it lives: a full disk.
 class FullDisk {
@@ -78,24 +68,12 @@ class Answers {
   QTimer timer_;
 };
 
-class TroubleTest : public ::testing::Test {
+class TroubleTest : public test::WindowTest {
  protected:
-  TroubleTest() {
-    QStandardPaths::setTestModeEnabled(true);
-    window_.show();
-  }
+  TroubleTest() { window_.setQuiet(false); }
 
-  std::filesystem::path file() const { return folder_ / "one.boresight.json"; }
-  void open() {
-    ASSERT_TRUE(window_.document().create(
-        file(), sessions::makeSession(test::exampleFolder() / "dataset.json")));
-    ASSERT_TRUE(QTest::qWaitFor(
-        [this] { return window_.state().currentCase() && !window_.tasks().isBusy(); },
-        kPatienceMs));
-  }
   std::string savedBytes() const { return folder_.read("one.boresight.json"); }
-  /// An edit as the pose panel orders it.
-  void moveSeed(double x_m) {
+  void setSeed(double x_m) {
     Pose pose = window_.state().currentCase()->source.camera_from_station_seed;
     pose.translation_m.x() = x_m;
     window_.cases().useAsSeed(pose);
@@ -105,161 +83,148 @@ class TroubleTest : public ::testing::Test {
         ->camera_from_station_seed.translation_m.x();
   }
 
-  test::TemporaryFolder folder_;
-  MainWindow window_;
+  const test::TemporaryFolder other_;
+  const std::filesystem::path elsewhere_ = other_ / "elsewhere.boresight.json";
+};
+
+/// A full disk while another has room: its limit goes when the person has read the message and is
+/// asked for a file elsewhere.
+struct RoomElsewhere {
+  explicit RoomElsewhere(const std::filesystem::path& elsewhere)
+      : answers(QStringLiteral("Save elsewhere..."), QString::fromStdString(elsewhere.string())) {
+    QObject::connect(&timer, &QTimer::timeout, &timer, [this] {
+      if (qobject_cast<QFileDialog*>(QApplication::activeModalWidget())) disk.end();
+    });
+    timer.start(1);
+  }
+
+  FullDisk disk{64};
+  Answers answers;
+  QTimer timer;
 };
 
 TEST_F(TroubleTest, AFullDiskIsToldAndTheEditIsSavedElsewhere) {
-  open();
+  openExample();
   const std::string before = savedBytes();
-  const test::TemporaryFolder other;
-  const std::filesystem::path elsewhere = other / "elsewhere.boresight.json";
-  FullDisk disk(64);
-  Answers answers(QStringLiteral("Save elsewhere..."), QString::fromStdString(elsewhere.string()));
-  // The other disk has room: the limit goes when the person has read the message.
-  QTimer room;
-  QObject::connect(&room, &QTimer::timeout, &room, [&] {
-    if (qobject_cast<QFileDialog*>(QApplication::activeModalWidget())) disk.end();
-  });
-  room.start(1);
-  moveSeed(0.123);
-  EXPECT_TRUE(answers.text().contains(QStringLiteral("one.boresight.journal")))
-      << answers.text().toStdString();
-  EXPECT_TRUE(answers.text().contains(QStringLiteral("nothing is lost")));
+  RoomElsewhere room(elsewhere_);
+  setSeed(0.123);
+  EXPECT_TRUE(test::has(room.answers.text(), "one.boresight.journal"));
+  EXPECT_TRUE(test::has(room.answers.text(), "nothing is lost"));
   EXPECT_EQ(savedBytes(), before) << "the old file is as it was";
-  ASSERT_TRUE(std::filesystem::exists(elsewhere));
-  EXPECT_EQ(window_.document().file(), elsewhere);
+  ASSERT_TRUE(std::filesystem::exists(elsewhere_));
+  EXPECT_EQ(window_.document().file(), elsewhere_);
   EXPECT_EQ(seedIn(window_.document().session()), 0.123) << "the edit that did not fit is there";
-  EXPECT_EQ(seedIn(sessions::readSessionFile(elsewhere).session), 0.123);
+  EXPECT_EQ(seedIn(sessions::readSessionFile(elsewhere_).session), 0.123);
   EXPECT_FALSE(window_.document().isModified());
 }
 
 TEST_F(TroubleTest, ARunThatDoesNotFitIsKeptAndStoredElsewhere) {
-  open();
-  const test::TemporaryFolder other;
-  const std::filesystem::path elsewhere = other / "elsewhere.boresight.json";
-  FullDisk disk(64);
-  Answers answers(QStringLiteral("Save elsewhere..."), QString::fromStdString(elsewhere.string()));
-  QTimer room;
-  QObject::connect(&room, &QTimer::timeout, &room, [&] {
-    if (qobject_cast<QFileDialog*>(QApplication::activeModalWidget())) disk.end();
-  });
-  room.start(1);
+  openExample();
+  RoomElsewhere room(elsewhere_);
   QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(QTest::qWaitFor(
-      [this] { return !window_.document().session().runs.empty() && !window_.tasks().isBusy(); },
-      kPatienceMs))
-      << answers.text().toStdString();
-  EXPECT_FALSE(answers.text().isEmpty());
+  ASSERT_TRUE(wait([this] {
+    return !window_.document().session().runs.empty() && !window_.tasks().isBusy();
+  })) << room.answers.text().toStdString();
+  EXPECT_FALSE(room.answers.text().isEmpty());
   EXPECT_TRUE(window_.cases().unstoredRuns().isEmpty());
   const sessions::RunRecord& record = window_.document().session().runs.front();
   EXPECT_EQ(record.digest, window_.state().snapshot()->digest);
   EXPECT_TRUE(std::filesystem::exists(record.file));
-  EXPECT_EQ(record.file.string().rfind(other.path().string(), 0), 0u) << record.file;
+  EXPECT_EQ(record.file.string().rfind(other_.path().string(), 0), 0u) << record.file;
   EXPECT_EQ(sessions::loadRun(record).digest, record.digest);
 }
 
 TEST_F(TroubleTest, ARunThatDidNotFitIsStoredWhenThereIsRoomAgain) {
-  open();
+  openExample();
   {
     const FullDisk disk(64);
     Answers answers(QStringLiteral("Close"), {});
     QTest::keyClick(&window_, Qt::Key_F5);
-    ASSERT_TRUE(
-        QTest::qWaitFor([this] { return !window_.cases().unstoredRuns().isEmpty(); }, kPatienceMs));
-    EXPECT_TRUE(answers.text().contains(QStringLiteral("nothing is lost")));
+    ASSERT_TRUE(wait([this] { return !window_.cases().unstoredRuns().isEmpty(); }));
+    EXPECT_TRUE(test::has(answers.text(), "nothing is lost"));
     EXPECT_TRUE(window_.document().session().runs.empty());
   }
   {
     Answers answers(QStringLiteral("Cancel"), {});
     EXPECT_FALSE(window_.close()) << "the run would be lost";
-    EXPECT_TRUE(answers.text().contains(QStringLiteral("no room")));
+    EXPECT_TRUE(test::has(answers.text(), "no room"));
   }
   window_.activateWindow();
   ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
   QTest::keySequence(&window_, QKeySequence::Save);
-  ASSERT_TRUE(QTest::qWaitFor([this] { return window_.document().session().runs.size() == 1; },
-                              kPatienceMs));
+  ASSERT_TRUE(wait([this] { return window_.document().session().runs.size() == 1; }));
   EXPECT_TRUE(window_.cases().unstoredRuns().isEmpty());
   ASSERT_TRUE(window_.document().save());
 }
 
 TEST_F(TroubleTest, AFullDiskWhileSavingLeavesTheOldFileAndTheEdits) {
-  open();
+  openExample();
   const std::string before = savedBytes();
-  moveSeed(0.25);
+  setSeed(0.25);
   ASSERT_TRUE(window_.document().isModified());
   {
     const FullDisk disk(64);
     Answers answers(QStringLiteral("Close"), {});
     QTest::keySequence(&window_, QKeySequence::Save);
-    EXPECT_TRUE(answers.text().contains(QStringLiteral("cannot write")))
-        << answers.text().toStdString();
+    EXPECT_TRUE(test::has(answers.text(), "cannot write"));
   }
   EXPECT_EQ(savedBytes(), before);
   EXPECT_TRUE(window_.document().isModified());
   EXPECT_EQ(seedIn(window_.document().session()), 0.25);
   ASSERT_TRUE(window_.document().save());
-  EXPECT_EQ(seedIn(sessions::readSessionFile(file()).session), 0.25) << "there is room again";
+  EXPECT_EQ(seedIn(sessions::readSessionFile(file_).session), 0.25) << "there is room again";
 }
 
 TEST_F(TroubleTest, AReadOnlyFolderIsToldAndTheSessionIsSavedElsewhere) {
   if (::geteuid() == 0) GTEST_SKIP() << "to root no folder is read-only";
-  open();
+  openExample();
   window_.document().close();
   const std::string before = savedBytes();
   std::filesystem::permissions(
       folder_.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
-  ASSERT_TRUE(window_.openSession(file()));
+  ASSERT_TRUE(window_.openSession(file_));
   EXPECT_FALSE(window_.document().readOnlyReason().isEmpty());
-  EXPECT_TRUE(window_.windowTitle().contains(QStringLiteral("read only")));
-  ASSERT_TRUE(
-      QTest::qWaitFor([this] { return window_.state().currentCase() != nullptr; }, kPatienceMs));
-  const test::TemporaryFolder other;
-  const std::filesystem::path elsewhere = other / "elsewhere.boresight.json";
-  Answers answers(QStringLiteral("Save elsewhere..."), QString::fromStdString(elsewhere.string()));
-  moveSeed(0.5);
+  EXPECT_TRUE(test::has(window_.windowTitle(), "read only"));
+  ASSERT_TRUE(wait([this] { return window_.state().currentCase() != nullptr; }));
+  Answers answers(QStringLiteral("Save elsewhere..."), QString::fromStdString(elsewhere_.string()));
+  setSeed(0.5);
   EXPECT_EQ(savedBytes(), before);
-  EXPECT_EQ(seedIn(sessions::readSessionFile(elsewhere).session), 0.5);
+  EXPECT_EQ(seedIn(sessions::readSessionFile(elsewhere_).session), 0.5);
   std::filesystem::permissions(folder_.path(), std::filesystem::perms::owner_all);
 }
 
 TEST_F(TroubleTest, EditsOfAKilledProgramAreOfferedAndTaken) {
-  open();
-  moveSeed(0.25);
+  openExample();
+  setSeed(0.25);
   window_.document().close();  // as a kill does it: nothing is saved
   Answers answers(QStringLiteral("Recover"), {});
-  ASSERT_TRUE(window_.openSession(file()));
-  EXPECT_TRUE(answers.text().contains(QStringLiteral("one.boresight.json")))
-      << answers.text().toStdString();
-  EXPECT_TRUE(answers.text().contains(QStringLiteral("not saved")));
-  EXPECT_TRUE(answers.text().contains(QStringLiteral("Move the seed"))) << "which they were";
+  ASSERT_TRUE(window_.openSession(file_));
+  EXPECT_TRUE(test::has(answers.text(), "one.boresight.json"));
+  EXPECT_TRUE(test::has(answers.text(), "not saved"));
+  EXPECT_TRUE(test::has(answers.text(), "Move the seed")) << "which they were";
   EXPECT_FALSE(window_.document().recovery());
-  ASSERT_TRUE(QTest::qWaitFor([this] { return !window_.tasks().isBusy(); }, kPatienceMs));
+  ASSERT_TRUE(wait([this] { return !window_.tasks().isBusy(); }));
   EXPECT_EQ(seedIn(window_.document().session()), 0.25);
   EXPECT_TRUE(window_.document().isModified());
 }
 
 TEST_F(TroubleTest, TheNewestRunIsShownAfterARecovery) {
-  open();
+  openExample();
   const auto run = [this](std::uint32_t seed) {
     LocalizerOptions options;
     options.pnp.seed = seed;
     window_.cases().setOptions(QStringLiteral("default"), options);
     window_.cases().reset();
     window_.cases().advance(sessions::StepUntil::kEnd);
-    EXPECT_TRUE(QTest::qWaitFor(
-        [this] {
-          return window_.run().state() != RunState::kWorking && !window_.tasks().isBusy() &&
-                 window_.state().snapshot() && window_.state().snapshot()->finished;
-        },
-        kPatienceMs));
+    EXPECT_TRUE(wait([this] {
+      return window_.run().state() != RunState::kWorking && !window_.tasks().isBusy() &&
+             window_.state().snapshot() && window_.state().snapshot()->finished;
+    }));
     return window_.state().snapshot()->digest;
   };
   const auto shown = [this](const std::string& digest) {
-    return QTest::qWaitFor(
-        [&] { return window_.state().snapshot() && window_.state().snapshot()->digest == digest; },
-        kPatienceMs);
+    return wait(
+        [&] { return window_.state().snapshot() && window_.state().snapshot()->digest == digest; });
   };
   const std::string first = run(1);
   ASSERT_TRUE(window_.document().save());
@@ -267,20 +232,20 @@ TEST_F(TroubleTest, TheNewestRunIsShownAfterARecovery) {
   ASSERT_NE(first, second);
   window_.document().close();  // as a kill does it
   window_.setQuiet(true);      // nobody answers yet
-  ASSERT_TRUE(window_.openSession(file()));
+  ASSERT_TRUE(window_.openSession(file_));
   ASSERT_TRUE(shown(first));
   ASSERT_TRUE(window_.document().acceptRecovery());
   EXPECT_TRUE(shown(second));
 }
 
 TEST_F(TroubleTest, EditsOfAKilledProgramCanBeSetAside) {
-  open();
-  moveSeed(0.25);
+  openExample();
+  setSeed(0.25);
   window_.document().close();
   Answers answers(QStringLiteral("Set aside"), {});
-  ASSERT_TRUE(window_.openSession(file()));
+  ASSERT_TRUE(window_.openSession(file_));
   EXPECT_FALSE(answers.text().isEmpty());
-  ASSERT_TRUE(QTest::qWaitFor([this] { return !window_.tasks().isBusy(); }, kPatienceMs));
+  ASSERT_TRUE(wait([this] { return !window_.tasks().isBusy(); }));
   EXPECT_NE(seedIn(window_.document().session()), 0.25);
   EXPECT_FALSE(window_.document().isModified());
   EXPECT_TRUE(std::filesystem::exists(folder_ / "one.boresight.journal.aside-1"));

@@ -18,7 +18,7 @@ class ViewsRunWindowTest : public test::WindowTest {
     return nullptr;
   }
   const sessions::Session& session() { return window_.document().session(); }
-  QString banner() { return window_.findChild<QLabel*>(QStringLiteral("standing"))->text(); }
+  QString banner() { return find<QLabel>("standing").text(); }
 };
 
 TEST_F(ViewsRunWindowTest, EveryViewGetsARunThatIsTheSameHeadless) {
@@ -61,23 +61,20 @@ TEST_F(ViewsRunWindowTest, AViewThatIsLeftOutSaysWhy) {
   together()->trigger();
   ASSERT_TRUE(wait([&] { return session().runs.size() == 2; }));
   ASSERT_TRUE(rests());
-  EXPECT_TRUE(banner().contains(QStringLiteral("left out: too few of its templates")))
-      << banner().toStdString();
+  EXPECT_TRUE(test::has(banner(), "left out: too few of its templates"));
   window_.cases().chooseCase(QString::fromStdString(session().cases[1]->id));
   ASSERT_TRUE(wait([&] {
     const auto& shown = window_.state().snapshot();
     return shown && shown->own_view == 1;
   }));
-  EXPECT_TRUE(banner().contains(QStringLiteral("This view was left out: too few of its")))
-      << banner().toStdString();
+  EXPECT_TRUE(test::has(banner(), "This view was left out: too few of its"));
 }
 
 TEST_F(ViewsRunWindowTest, WithoutOthersItSaysWhy) {
   const sessions::Session two = test::sessionOfTwoViews(folder_.path());
   open(sessions::withoutRigLink(two, two.cases[0]->id));
   EXPECT_FALSE(together()->isEnabled());
-  EXPECT_TRUE(together()->toolTip().contains(QStringLiteral("of no rig")))
-      << together()->toolTip().toStdString();
+  EXPECT_TRUE(test::has(together()->toolTip(), "of no rig"));
   window_.document().edit(two, QStringLiteral("Link"));
   EXPECT_TRUE(together()->isEnabled());
   EXPECT_FALSE(together()->toolTip().contains(QStringLiteral("of no rig")));
@@ -90,8 +87,7 @@ TEST_F(ViewsRunWindowTest, RefusesOptionsBeforeAnythingRuns) {
   options.ambiguity.enabled = true;
   window_.cases().setOptions(QStringLiteral("default"), options);
   together()->trigger();
-  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("ambiguity.enabled")))
-      << window_.lastMessage().toStdString();
+  EXPECT_TRUE(test::has(window_.lastMessage(), "ambiguity.enabled"));
   EXPECT_NE(window_.run().state(), RunState::kWorking);
   EXPECT_TRUE(session().runs.empty());
 }
@@ -117,8 +113,7 @@ TEST_F(ViewsRunWindowTest, ItIsNotGoneOnFromAnIteration) {
   window_.state().setCursor({2, Stage::kFinished});
   QTest::keyClick(&window_, Qt::Key_F5, Qt::ShiftModifier);
   ASSERT_TRUE(rests());
-  EXPECT_TRUE(window_.lastMessage().contains(QStringLiteral("made with other views")))
-      << window_.lastMessage().toStdString();
+  EXPECT_TRUE(test::has(window_.lastMessage(), "made with other views"));
   EXPECT_EQ(session().runs.size(), 2u);
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/benchmarks/peers/peer.h"
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <opencv2/imgproc.hpp>
-
-#include "tests/benchmarks/peers/peer.h"
 
 namespace boresight::peers {
 
@@ -28,6 +29,31 @@ int levelsOf(const PinholeImage& image, int levels, int least_side_px) {
          (std::min(image.gray.cols, image.gray.rows) >> fitting) >= least_side_px)
     ++fitting;
   return fitting;
+}
+
+double Settings::value(const std::string& name) const {
+  for (const Setting& setting : settings_)
+    if (setting.name == name) return setting.value;
+  throw std::out_of_range("no setting " + name);
+}
+
+void Settings::take(const std::map<std::string, double>& values) {
+  for (Setting& setting : settings_)
+    if (const auto found = values.find(setting.name); found != values.end())
+      setting.value = found->second;
+}
+
+std::vector<std::unique_ptr<Peer>> builtPeers() {
+  std::vector<std::unique_ptr<Peer>> peers;
+#ifdef BORESIGHT_HAS_VISP
+  peers.push_back(makeVispPeer());
+#endif
+#ifdef BORESIGHT_HAS_RAPID
+  peers.push_back(makeRapidPeer(RapidKind::kRapid));
+  peers.push_back(makeRapidPeer(RapidKind::kOls));
+  peers.push_back(makeRapidPeer(RapidKind::kGos));
+#endif
+  return peers;
 }
 
 }  // namespace boresight::peers

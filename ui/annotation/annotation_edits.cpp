@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places and moves of marks, each an edit of the document.
+// Edits of the document: marks, annotation rounds, landmarks, and the use of a solved pose.
 #include "ui/annotation/annotation_controller.h"
 
 #include <algorithm>
@@ -8,7 +8,10 @@
 #include "sessions/annotation/landmarks.h"
 #include "sessions/annotation/marks.h"
 #include "sessions/annotation/marks_on_image.h"
+#include "sessions/session/rig_links.h"
+#include "sessions/text/utc_time.h"
 #include "ui/models/number_text.h"
+#include "ui/state/document.h"
 
 namespace boresight::ui {
 
@@ -18,12 +21,11 @@ using sessions::PointPair;
 
 namespace {
 
-Marks withPair(const Marks& marks, const PointPair& point) {
-  return sessions::withPoint(marks, point.id, point);
+Marks withPair(const Marks& marks, const std::string& id, const PointPair& point) {
+  return sessions::withPoint(marks, id, point);
 }
-
-Marks withPair(const Marks& marks, const LinePair& line) {
-  return sessions::withLine(marks, line.id, line);
+Marks withPair(const Marks& marks, const std::string& id, const LinePair& line) {
+  return sessions::withLine(marks, id, line);
 }
 
 char letterOf(const PointPair& /*kind*/) { return 'p'; }
@@ -42,7 +44,7 @@ std::string AnnotationController::place(const Pair* chosen, std::optional<Side> 
     made.sigma_px = sigma_px_;
   }
   made.*side = value;
-  if (!commit(withPair(marks_, made), text.arg(fromText(made.id)))) return {};
+  if (!commit(withPair(marks_, made.id, made), text.arg(fromText(made.id)))) return {};
   select(made.id);
   return made.id;
 }
@@ -134,26 +136,26 @@ bool AnnotationController::mayReplace(const std::string& replaced, const std::st
   return true;
 }
 
+template <class Pair>
+bool AnnotationController::replace(const Pair* before, const Pair& after, const QString& text) {
+  if (!before || !mayReplace(before->id, after.id)) return false;
+  const bool chosen = selected_ == before->id;
+  const std::string id = after.id;
+  if (!commit(withPair(marks_, before->id, after), text)) return false;
+  if (chosen) select(id);
+  return true;
+}
+
 bool AnnotationController::replacePoint(const std::string& replaced, const PointPair& point,
                                         const QString& text) {
   finishMove();
-  if (!sessions::findPoint(marks_, replaced) || !mayReplace(replaced, point.id)) return false;
-  const bool chosen = selected_ == replaced;
-  const std::string id = point.id;
-  if (!commit(sessions::withPoint(marks_, replaced, point), text)) return false;
-  if (chosen) select(id);
-  return true;
+  return replace(sessions::findPoint(marks_, replaced), point, text);
 }
 
 bool AnnotationController::replaceLine(const std::string& replaced, const LinePair& line,
                                        const QString& text) {
   finishMove();
-  if (!sessions::findLine(marks_, replaced) || !mayReplace(replaced, line.id)) return false;
-  const bool chosen = selected_ == replaced;
-  const std::string id = line.id;
-  if (!commit(sessions::withLine(marks_, replaced, line), text)) return false;
-  if (chosen) select(id);
-  return true;
+  return replace(sessions::findLine(marks_, replaced), line, text);
 }
 
 void AnnotationController::remove(const std::string& id) {
@@ -219,6 +221,106 @@ void AnnotationController::begin(const sessions::Landmark& landmark) {
   if (sessions::findPoint(marks_, point.id) || sessions::findLine(marks_, point.id)) return;
   if (commit(sessions::withPoint(marks_, point.id, point), tr("Begin %1").arg(fromText(point.id))))
     select(landmark.name);
+}
+
+sessions::AnnotationPasses AnnotationController::passesOfCase() const {
+  const auto& passes = document_.session().passes;
+  const auto found = passes.find(case_id_);
+  return found == passes.end() ? sessions::AnnotationPasses() : *found->second;
+}
+
+void AnnotationController::setPasses(sessions::AnnotationPasses passes,
+                                     const sessions::Marks& marks, const QString& text) {
+  if (case_id_.empty()) return;
+  const sessions::Session with_marks =
+      sessions::withAnnotation(document_.session(), case_id_, marks);
+  document_.edit(sessions::withPasses(with_marks, case_id_, std::move(passes)), text);
+}
+
+void AnnotationController::putAside(const QString& by) {
+  finishMove();
+  const std::string name = by.trimmed().toStdString();
+  if (name.empty() || marks_.empty()) return;
+  sessions::AnnotationPasses passes = passesOfCase();
+  passes.push_back({name, sessions::utcNowText(), marks_});
+  setPasses(std::move(passes), sessions::blindMarks(marks_),
+            tr("Put the marks of %1 aside").arg(by.trimmed()));
+}
+
+void AnnotationController::takeUp(int pass) {
+  finishMove();
+  const sessions::AnnotationPasses passes = passesOfCase();
+  if (pass < 0 || pass >= static_cast<int>(passes.size())) return;
+  const sessions::AnnotationPass& taken = passes[static_cast<std::size_t>(pass)];
+  setPasses(sessions::keepingMarks(passes, marks_, sessions::utcNowText()), taken.marks,
+            tr("Take up the marks of %1").arg(fromText(taken.by)));
+}
+
+void AnnotationController::removePass(int pass) {
+  finishMove();
+  sessions::AnnotationPasses passes = passesOfCase();
+  if (pass < 0 || pass >= static_cast<int>(passes.size())) return;
+  const QString by = fromText(passes[static_cast<std::size_t>(pass)].by);
+  passes.erase(passes.begin() + pass);
+  setPasses(std::move(passes), marks_, tr("Remove the marks of %1").arg(by));
+}
+
+void AnnotationController::useAsTruth() {
+  finishMove();
+  const std::optional<Pose> solved = solvedPose();
+  const sessions::SessionCase* one = document_.session().findCase(case_id_);
+  if (!one || !solved) return;
+  if (stale_) {
+    Q_EMIT told(tr("The pose is being solved anew; try again in a moment."));
+    return;
+  }
+  const bool replaces = one->camera_from_station_truth.has_value();
+  const std::string excess = answer_.solution->sigmaExcess();
+  sessions::SessionCase changed = *one;
+  sessions::setTruth(changed, *solved, answer_.covariance);
+  document_.edit(sessions::withCase(document_.session(), std::move(changed)),
+                 tr("Take the annotated pose of %1 as its truth").arg(fromText(case_id_)));
+  QString text =
+      (replaces ? tr("The annotated pose has replaced the truth that %1 had; Undo brings it "
+                     "back.")
+                : tr("The annotated pose is the truth of %1 now."))
+          .arg(fromText(case_id_));
+  if (!excess.empty())
+    text += tr(" Its one sigma is %1: it can hardly judge a result.").arg(fromText(excess));
+  Q_EMIT told(text);
+}
+
+void AnnotationController::linkCase(const std::string& other_id, const Pose& other_from_case) {
+  finishMove();
+  const sessions::Session& session = document_.session();
+  if (!session.findCase(case_id_) || !session.findCase(other_id)) return;
+  document_.edit(sessions::withRigLink(session, case_id_, other_id, other_from_case),
+                 tr("Link %1 with %2").arg(fromText(other_id), fromText(case_id_)));
+}
+
+void AnnotationController::unlinkCase() {
+  finishMove();
+  document_.edit(sessions::withoutRigLink(document_.session(), case_id_),
+                 tr("Take %1 out of its rig").arg(fromText(case_id_)));
+}
+
+void AnnotationController::setLandmarksFile(const std::filesystem::path& file) {
+  const sessions::SessionCase* one = document_.session().findCase(case_id_);
+  if (!one) return;
+  landmarks_file_.reset();  // read anew, also where only its content has changed
+  const std::vector<sessions::MeshInput> parts = one->parts;
+  sessions::Session session = document_.session();
+  for (const auto& each : document_.session().cases) {
+    if (!(each->parts == parts)) continue;
+    sessions::SessionCase changed = *each;
+    changed.landmarks = file;
+    session = sessions::withCase(session, std::move(changed));
+  }
+  if (!document_.edit(session,
+                      tr("Use the landmarks of %1").arg(fromText(file.filename().string()))))
+    return;
+  showLandmarks();
+  askIfChanged(false);
 }
 
 }  // namespace boresight::ui

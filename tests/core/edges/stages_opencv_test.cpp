@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/edges/gaussian.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "core/edges/canny.h"
+#include "core/edges/equalize.h"
+#include "tests/core/edges/opencv_images.h"
+
+namespace boresight {
+namespace {
+
+constexpr double kSigmas_px[] = {0.1, 0.3, 0.5, 0.8, 1.0, 1.5, 2.0, 2.7, 3.3, 4.0, 8.0};
+
+TestImage blurred(const TestImage& image, double sigma_px) {
+  TestImage out = blankImage(image.width, image.height);
+  TestArena arena;
+  EXPECT_EQ(gaussianBlur(image.view(), sigma_px, *arena, out.pixels.data(), out.width),
+            Status::kOk);
+  EXPECT_EQ((*arena).used(), 0U);
+  return out;
+}
+
+TEST(GaussianKernel, SumsTo256AndFallsOff) {
+  for (double sigma_px = 0.0; sigma_px <= 8.0; sigma_px += 0.01) {
+    const GaussianKernel kernel = gaussianKernel(sigma_px);
+    ASSERT_LE(kernel.radius, kMaxGaussianRadius);
+    EXPECT_EQ(kernel.radius, sigma_px > 0.0 ? (cvRound(6.0 * sigma_px + 1.0) | 1) / 2 : 0);
+    int sum = kernel.weight[0];
+    for (std::size_t i = 1; i < kernel.weight.size(); ++i) {
+      sum += 2 * kernel.weight[i];
+      // Carrying the rounding error may lift a weight by one above its inner neighbour.
+      EXPECT_LE(kernel.weight[i], kernel.weight[i - 1] + 1) << sigma_px;
+      if (static_cast<int>(i) > kernel.radius) {
+        EXPECT_EQ(kernel.weight[i], 0);
+      }
+    }
+    EXPECT_EQ(sum, 256);
+  }
+}
+
+TEST(GaussianKernel, IsWithinOne256thOfTheExactOne) {
+  for (double sigma_px = 0.5; sigma_px <= 8.0; sigma_px += 0.1) {
+    const GaussianKernel kernel = gaussianKernel(sigma_px);
+    const cv::Mat exact = cv::getGaussianKernel(2 * kernel.radius + 1, sigma_px, CV_64F);
+    for (int i = 0; i <= kernel.radius; ++i)
+      EXPECT_NEAR(kernel.weight[static_cast<std::size_t>(i)],
+                  256.0 * exact.at<double>(kernel.radius + i), 1.0)
+          << sigma_px;
+  }
+}
+
+TEST(GaussianBlur, EqualsOpenCv) {
+  Random random(11);
+  for (const double sigma_px : kSigmas_px) {
+    for (const Size size : kSizes) {
+      for (const Pattern pattern : {Pattern::kNoise, Pattern::kDisks, Pattern::kCheckers}) {
+        TestImage image = makeImage(pattern, size, random);
+        cv::Mat expected;
+        cv::GaussianBlur(asMat(image), expected, cv::Size(), sigma_px, sigma_px,
+                         cv::BORDER_REFLECT_101);
+        TestImage actual = blurred(image, sigma_px);
+        // One gray level is what other versions of OpenCV (and its vendors' variants) may differ.
+        EXPECT_LE(cv::norm(asMat(actual), expected, cv::NORM_INF), 1.0)
+            << sigma_px << " " << testing::PrintToString(size);
+        if (cv::getVersionMajor() == 4 && cv::getVersionMinor() == 6) {
+          EXPECT_EQ(countDifferent(asMat(actual), expected), 0)
+              << sigma_px << " " << testing::PrintToString(size);
+        }
+      }
+    }
+  }
+}
+
+/// Against floating point: rounding of the weights is all that may differ.
+TEST(GaussianBlur, IsWithinOneGrayLevelOfTheExactGaussianOnStructure) {
+  Random random(12);
+  for (const double sigma_px : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0}) {
+    for (const Pattern pattern : {Pattern::kDisks, Pattern::kRamp, Pattern::kBlocks}) {
+      TestImage image = makeImage(pattern, {200, 150}, random);
+      const int side = 2 * gaussianKernel(sigma_px).radius + 1;
+      cv::Mat exact;
+      asMat(image).convertTo(exact, CV_64F);
+      cv::GaussianBlur(exact, exact, cv::Size(side, side), sigma_px, sigma_px,
+                       cv::BORDER_REFLECT_101);
+      TestImage actual = blurred(image, sigma_px);
+      cv::Mat difference;
+      asMat(actual).convertTo(difference, CV_64F);
+      difference -= exact;
+      EXPECT_LE(cv::norm(difference, cv::NORM_INF), 1.5) << sigma_px;
+      EXPECT_LE(std::abs(cv::mean(difference)[0]), 0.1) << sigma_px;
+    }
+  }
+}
+
+TEST(GaussianBlur, SigmaZeroCopies) {
+  Random random(13);
+  const TestImage image = makeImage(Pattern::kNoise, {77, 31}, random);
+  EXPECT_EQ(blurred(image, 0.0), image);
+}
+
+TEST(GaussianBlur, KeepsAConstantImage) {
+  Random random(14);
+  for (const double sigma_px : kSigmas_px) {
+    const TestImage image = makeImage(Pattern::kConstant, {40, 9}, random);
+    EXPECT_EQ(blurred(image, sigma_px), image) << sigma_px;
+  }
+  TestImage white = blankImage(70, 70);
+  for (std::uint8_t& pixel : white.pixels) pixel = 255;
+  EXPECT_EQ(blurred(white, 8.0), white);
+}
+
+TEST(GaussianBlur, RefusesWhatIsOutOfRange) {
+  TestArena arena;
+  TestImage image = blankImage(4, 4);
+  for (const double sigma_px : {-0.1, 8.1, std::nan("")})
+    EXPECT_EQ(gaussianBlur(image.view(), sigma_px, *arena, image.pixels.data(), 4),
+              Status::kInvalidOption);
+  EXPECT_EQ(gaussianBlur(ImageView{}, 1.0, *arena, image.pixels.data(), 4), Status::kInvalidImage);
+  TestArena small(200);
+  EXPECT_EQ(gaussianBlur(image.view(), 1.0, *small, image.pixels.data(), 4),
+            Status::kArenaTooSmall);
+}
+
+struct Thresholds {
+  double low;
+  double high;
+};
+
+/// Thresholds that cut through the gradients, and odd ones: equal, in the wrong
+/// order, zero, fractions, beyond every gradient.
+constexpr Thresholds kThresholds[] = {{50, 150},   {20.7, 61.3},     {120, 40},
+                                      {0, 0},      {100, 100},       {0, 900.5},
+                                      {800, 2500}, {3000.2, 9000.9}, {9000, 40000}};
+
+int edgesDifferent(TestImage& image, const Thresholds& thresholds) {
+  TestArena arena(std::size_t{1} << 20);
+  TestImage edges = blankImage(image.width, image.height);
+  if (canny(image.view(), thresholds.low, thresholds.high, *arena, edges.pixels.data(),
+            edges.width) != Status::kOk ||
+      (*arena).used() != 0)
+    return -1;
+  cv::Mat expected;
+  cv::Canny(asMat(image), expected, thresholds.low, thresholds.high, 3, true);
+  return countDifferent(asMat(edges), expected);
+}
+
+TEST(Canny, EqualsOpenCv) {
+  Random random(21);
+  for (const Size size : kSizes) {
+    for (const Pattern pattern : kPatterns) {
+      TestImage image = makeImage(pattern, size, random);
+      for (const Thresholds& thresholds : kThresholds)
+        EXPECT_EQ(edgesDifferent(image, thresholds), 0)
+            << testing::PrintToString(size) << " pattern " << static_cast<int>(pattern) << " low "
+            << thresholds.low << " high " << thresholds.high;
+    }
+  }
+}
+
+/// Smoothed noise has long edges of every direction, and equal neighbours in numbers.
+TEST(Canny, EqualsOpenCvOnSmoothedImages) {
+  Random random(22);
+  for (const double sigma_px : {0.8, 1.5, 3.0}) {
+    for (const Pattern pattern : {Pattern::kNoise, Pattern::kDisks, Pattern::kSpecks}) {
+      TestImage image = makeImage(pattern, {410, 305}, random);
+      cv::Mat mat = asMat(image);
+      cv::GaussianBlur(mat, mat, cv::Size(), sigma_px);
+      cv::normalize(mat, mat, 0, 255, cv::NORM_MINMAX);
+      for (const double high : {30.0, 90.0, 200.0})
+        EXPECT_EQ(edgesDifferent(image, {0.4 * high, high}), 0)
+            << sigma_px << " pattern " << static_cast<int>(pattern) << " high " << high;
+    }
+  }
+}
+
+TEST(CannyLimits, FollowTheUnitsOfTheGradient) {
+  EXPECT_EQ(cannyLimits(1.5, 3.0).low, 2);
+  EXPECT_EQ(cannyLimits(1.5, 3.0).high, 9);
+  EXPECT_EQ(cannyLimits(0.0, 100000.0).high, 32767 * 32767);
+  EXPECT_EQ(cannyLimits(90000.0, 100000.0).low, 32767 * 32767);
+}
+
+TEST(GradientRows, EqualsSobel) {
+  Random random(23);
+  for (const Size size : kSizes) {
+    TestImage image = makeImage(Pattern::kNoise, size, random);
+    cv::Mat dx;
+    cv::Mat dy;
+    cv::Sobel(asMat(image), dx, CV_16S, 1, 0, 3, 1.0, 0, cv::BORDER_REPLICATE);
+    cv::Sobel(asMat(image), dy, CV_16S, 0, 1, 3, 1.0, 0, cv::BORDER_REPLICATE);
+    TestArena arena;
+    EdgeOptions options;
+    options.equalization = Equalization::kOff;
+    Equalizer source;
+    source.begin(image.view(), nullptr, options, *arena);
+    SmoothedRows smoothed;
+    smoothed.begin(size.width, size.height, 0.0, *arena);
+    GradientRows gradient;
+    gradient.begin(size.width, size.height, *arena);
+    int different = 0;
+    for (int y = 0; y < size.height; ++y) {
+      gradient.advance(source, smoothed);
+      for (int x = 0; x < size.width; ++x) {
+        const int gx = dx.at<short>(y, x);
+        const int gy = dy.at<short>(y, x);
+        if (gradient.dx(y)[x] != gx || gradient.dy(y)[x] != gy ||
+            gradient.magnitude(y)[x] != gx * gx + gy * gy)
+          ++different;
+      }
+    }
+    EXPECT_EQ(different, 0) << testing::PrintToString(size);
+  }
+}
+
+TestImage equalized(const TestImage& image, const BitImage* ignore, const EdgeOptions& options) {
+  TestImage out = blankImage(image.width, image.height);
+  TestArena arena(std::size_t{1} << 18);
+  EXPECT_EQ(equalizeImage(image.view(), ignore, options, *arena, out.pixels.data(), out.width),
+            Status::kOk);
+  EXPECT_EQ((*arena).used(), 0U);
+  return out;
+}
+
+/// Every size and pattern as `oracle` makes it.
+template <class Oracle>
+void expectEqualTo(const Oracle& oracle, Equalization equalization, std::uint64_t seed) {
+  Random random(seed);
+  EdgeOptions options;
+  options.equalization = equalization;
+  for (const Size size : kSizes) {
+    for (const Pattern pattern : kPatterns) {
+      TestImage image = makeImage(pattern, size, random);
+      cv::Mat expected;
+      oracle(asMat(image), expected);
+      TestImage actual = equalized(image, nullptr, options);
+      EXPECT_EQ(countDifferent(asMat(actual), expected), 0)
+          << testing::PrintToString(size) << " pattern " << static_cast<int>(pattern);
+    }
+  }
+}
+
+TEST(EqualizeImage, EqualsEqualizeHist) {
+  expectEqualTo([](const cv::Mat& image, cv::Mat& out) { cv::equalizeHist(image, out); },
+                Equalization::kHistogram, 1);
+}
+
+TEST(EqualizeImage, EqualsClahe) {
+  const auto clahe =
+      cv::createCLAHE(Equalizer::kClipLimit, cv::Size(Equalizer::kTiles, Equalizer::kTiles));
+  expectEqualTo([&](const cv::Mat& image, cv::Mat& out) { clahe->apply(image, out); },
+                Equalization::kClahe, 2);
+}
+
+TEST(EqualizeImage, OnlyUnignoredPixelsShapeTheTable) {
+  Random random(3);
+  EdgeOptions options;
+  for (int round = 0; round < 10; ++round) {
+    TestImage image = makeImage(Pattern::kDisks, {150, 90}, random);
+    TestBits ignore(image.width, image.height);
+    ignoreRectangles(*ignore, random);
+    std::vector<std::uint8_t> kept;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        if (ignore->get(x, y)) {
+          image.at(x, y) = static_cast<std::uint8_t>(random.below(256));
+        } else {
+          kept.push_back(image.at(x, y));
+        }
+      }
+    }
+    cv::Mat expected;
+    cv::equalizeHist(cv::Mat(1, static_cast<int>(kept.size()), CV_8UC1, kept.data()), expected);
+    TestImage actual = equalized(image, &*ignore, options);
+    int next = 0;
+    int different = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        if (!ignore->get(x, y) && actual.at(x, y) != expected.at<std::uint8_t>(0, next++))
+          ++different;
+    EXPECT_EQ(different, 0);
+  }
+}
+
+TEST(EqualizeImage, AnEmptyIgnoreMaskChangesNothing) {
+  Random random(4);
+  EdgeOptions options;
+  for (const Equalization equalization : {Equalization::kHistogram, Equalization::kClahe}) {
+    options.equalization = equalization;
+    for (const Size size : kSizes) {
+      const TestImage image = makeImage(Pattern::kDisks, size, random);
+      TestBits ignore(size.width, size.height);
+      EXPECT_EQ(equalized(image, &*ignore, options), equalized(image, nullptr, options));
+    }
+  }
+}
+
+TEST(EqualizeImage, TilesDoNotSeeIgnoredPixels) {
+  Random random(5);
+  EdgeOptions options;
+  options.equalization = Equalization::kClahe;
+  TestImage image = makeImage(Pattern::kDisks, {131, 119}, random);
+  TestBits ignore(image.width, image.height);
+  ignoreRectangles(*ignore, random);
+  TestImage other = image;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (ignore->get(x, y)) other.at(x, y) = static_cast<std::uint8_t>(random.below(256));
+  TestImage first = equalized(image, &*ignore, options);
+  TestImage second = equalized(other, &*ignore, options);
+  ASSERT_NE(image, other);
+  int different = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (!ignore->get(x, y) && first.at(x, y) != second.at(x, y)) ++different;
+  EXPECT_EQ(different, 0);
+}
+
+TEST(EqualizeImage, EverythingIgnoredLeavesTheImageAsItIs) {
+  Random random(6);
+  EdgeOptions options;
+  const TestImage image = makeImage(Pattern::kNoise, {70, 20}, random);
+  TestBits ignore(image.width, image.height);
+  fillAtRandom(*ignore, 1, random);
+  for (const Equalization equalization :
+       {Equalization::kOff, Equalization::kHistogram, Equalization::kClahe}) {
+    options.equalization = equalization;
+    EXPECT_EQ(equalized(image, &*ignore, options), image);
+  }
+}
+
+TEST(EqualizeImage, RowsMayBeFartherApartThanTheirWidth) {
+  Random random(7);
+  const TestImage wide = makeImage(Pattern::kNoise, {90, 33}, random);
+  TestImage narrow = blankImage(71, 33);
+  for (int y = 0; y < narrow.height; ++y)
+    for (int x = 0; x < narrow.width; ++x) narrow.at(x, y) = wide.view().at(x + 5, y);
+  ImageView window = wide.view();
+  window.data += 5;
+  window.width = narrow.width;
+  EdgeOptions options;
+  TestArena arena;
+  TestImage out = blankImage(80, 33);
+  ASSERT_EQ(equalizeImage(window, nullptr, options, *arena, out.pixels.data(), out.width),
+            Status::kOk);
+  TestImage expected = equalized(narrow, nullptr, options);
+  for (int y = 0; y < narrow.height; ++y)
+    for (int x = 0; x < narrow.width; ++x) ASSERT_EQ(out.at(x, y), expected.at(x, y));
+}
+
+}  // namespace
+}  // namespace boresight

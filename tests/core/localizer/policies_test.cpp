@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/localizer/competing_poses.h"
+
+#include <array>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/localizer/attempt.h"
+#include "core/localizer/candidate_trials.h"
+#include "core/localizer/pass_plan.h"
+#include "core/localizer/workspace.h"
+
+namespace boresight {
+namespace {
+
+/// Stands in for a pass: fills in what a policy reads of a record, without an image.
+class ScriptedPass {
+ public:
+  ScriptedPass() {
+    camera_.width = camera_.height = 2048;
+    camera_.fx = camera_.fy = 3000.0;
+    camera_.cx = camera_.cy = 1023.5;
+    EXPECT_EQ(prepareCamera(camera_), Status::kOk);
+    scene_.minimum_m = {-0.05, -0.05, -0.05};
+    scene_.maximum_m = {0.05, 0.05, 0.05};
+    ProblemSize size;
+    size.width = size.height = 2048;
+    levels_ = levelsOf(size, options);
+  }
+
+  RunContext context() const { return {options, camera_, scene_, levels_}; }
+
+  /// The record of a match pass that found a pose.
+  Agreement match(const PassPlan& plan, const Pose& found, int inliers, int matches = 90) {
+    Iteration& record = start(plan, IterationKind::kMatch);
+    record.correspondence_count = 0;
+    record.pnp.camera_from_station = found;
+    record.pnp.covariance = Matrix6d::Identity() * 1e-8;
+    record.pnp.inlier_count = inliers;
+    outcome = {};
+    outcome.reached = Stage::kPose;
+    return {inliers, matches};
+  }
+  /// The record of a match pass that failed.
+  Agreement fail(const PassPlan& plan, Stage stage, LocalizationStatus status) {
+    Iteration& record = start(plan, IterationKind::kMatch);
+    record.status = status;
+    record.pnp.inlier_count = 0;
+    record.pnp.camera_from_station = plan.camera_from_station;
+    outcome = {};
+    outcome.reached = stage;
+    return {};
+  }
+  /// The record of a refinement that found a pose.
+  void refine(const PassPlan& plan, const Pose& found) {
+    Iteration& record = start(plan, IterationKind::kRefine);
+    record.refinement.camera_from_station = found;
+    record.refinement.covariance = Matrix6d::Identity() * 1e-10;
+    outcome = {};
+    outcome.reached = Stage::kRefine;
+  }
+
+  LocalizerOptions options;
+  std::array<Iteration, 2> records;
+  PassOutcome outcome;
+
+ private:
+  Iteration& start(const PassPlan& plan, IterationKind kind) {
+    Iteration& record = records[static_cast<std::size_t>(plan.record)];
+    record.kind = kind;
+    record.attempt = plan.attempt;
+    record.level = plan.level;
+    record.threshold_px = plan.threshold_px;
+    record.camera_from_station_before = plan.camera_from_station;
+    record.uncertainty = plan.uncertainty;
+    record.status = LocalizationStatus::kRunning;
+    return record;
+  }
+
+  Camera camera_;
+  BoundingBox scene_;
+  RunLevels levels_;
+};
+
+/// A seed half a metre in front of the camera, with the default uncertainty about the camera.
+Seed seedInFront() {
+  Seed seed;
+  seed.camera_from_station.translation_m = {0.0, 0.0, 0.5};
+  return seed;
+}
+
+Pose movedBy(Pose pose, double x_m) {
+  pose.translation_m.x() += x_m;
+  return pose;
+}
+
+using Next = CompetingPoses::Next;
+
+/// A rail whose pattern repeats every 20 mm to both sides.
+class CompetingPosesTest : public testing::Test {
+ protected:
+  CompetingPosesTest() {
+    pass.options.ambiguity.enabled = true;
+    const Agreement agreement =
+        pass.match(first.plan(pass.context()), seed.camera_from_station, 80);
+    (void)first.take(pass.outcome, agreement, pass.context(), pass.records);
+    for (const double x_m : {0.02, -0.02}) {
+      SelfShift shift;
+      shift.similarity = 0.8;
+      shift.displacement_in_camera_m.x() = x_m;
+      shifts.push_back(shift);
+    }
+  }
+
+  /// An attempt that converged at a pose displaced by `x_m`.
+  Next converge(double x_m, double best_margin_nats) {
+    Attempt attempt = competing.isTrying() ? competing.competitor(1, pass.context()) : first;
+    const Pose found = movedBy(seed.camera_from_station, x_m);
+    const Agreement agreement = pass.match(attempt.plan(pass.context()), found, 80);
+    (void)attempt.take(pass.outcome, agreement, pass.context(), pass.records);
+    return competing.takePose(attempt, found, best_margin_nats, pass.context(), leads);
+  }
+
+  ScriptedPass pass;
+  const Seed seed = seedInFront();
+  Attempt first{0, seed};
+  std::vector<SelfShift> shifts;
+  std::array<Rival, 8> memory;
+  CompetingPoses competing{memory, seed};
+  bool leads = false;
+};
+
+TEST_F(CompetingPosesTest, NoRepeatedPattern_ConcludesConverged) {
+  EXPECT_EQ(converge(0.0, 0.0), Next::kCompare);
+  EXPECT_TRUE(leads);
+  EXPECT_EQ(competing.takeShifts({}, pass.context()), Next::kConclude);
+  EXPECT_EQ(competing.verdict(seed.camera_from_station, pass.options),
+            LocalizationStatus::kConverged);
+}
+
+TEST_F(CompetingPosesTest, RepeatedPattern_TriesEveryDisplacementOnce) {
+  (void)converge(0.0, 0.0);
+  EXPECT_EQ(competing.takeShifts(shifts, pass.context()), Next::kTry);
+  ASSERT_EQ(competing.poses().size(), 2u);
+  EXPECT_EQ(competing.takeFailure(LocalizationStatus::kNotSupported), Next::kTry);
+  EXPECT_EQ(competing.takeFailure(LocalizationStatus::kTooFewMatches), Next::kReturn);
+  EXPECT_TRUE(competing.hasEnded());
+  EXPECT_EQ(competing.poses()[0].ended, LocalizationStatus::kNotSupported);
+  EXPECT_EQ(competing.verdict(seed.camera_from_station, pass.options),
+            LocalizationStatus::kConverged);
+}
+
+TEST_F(CompetingPosesTest, CompetitorWithSimilarEvidence_IsAmbiguous) {
+  (void)converge(0.0, 0.0);
+  (void)competing.takeShifts(std::span(shifts).first(1), pass.context());
+  EXPECT_EQ(converge(0.02, 2.0), Next::kReturn);
+  EXPECT_FALSE(leads);
+  EXPECT_EQ(competing.verdict(seed.camera_from_station, pass.options),
+            LocalizationStatus::kAmbiguous);
+}
+
+TEST_F(CompetingPosesTest, CompetitorWithMoreEvidence_BecomesTheBestPose) {
+  (void)converge(0.0, 0.0);
+  (void)competing.takeShifts(std::span(shifts).first(1), pass.context());
+  EXPECT_EQ(converge(0.02, -50.0), Next::kCompare);
+  EXPECT_TRUE(leads);
+  EXPECT_EQ(competing.takeShifts({}, pass.context()), Next::kConclude);
+  EXPECT_EQ(competing.poses()[0].margin_nats, 50.0);
+  EXPECT_EQ(competing.poses()[0].camera_from_station, seed.camera_from_station);
+  EXPECT_EQ(competing.verdict(movedBy(seed.camera_from_station, 0.02), pass.options),
+            LocalizationStatus::kConverged);
+}
+
+TEST_F(CompetingPosesTest, Competitor_StartsInABoxThatDoesNotReachTheBestPose) {
+  (void)converge(0.0, 0.0);
+  (void)competing.takeShifts(std::span(shifts).first(1), pass.context());
+  const PassPlan plan = competing.competitor(1, pass.context()).plan(pass.context());
+  EXPECT_NEAR(plan.uncertainty.translation_m.x(), 0.25 * 0.02, 1e-12);
+  EXPECT_EQ(plan.level, pass.context().levels.fine);
+}
+
+TEST_F(CompetingPosesTest, DisplacementOutOfReach_IsLeftOut) {
+  (void)converge(0.0, 0.0);
+  shifts[0].displacement_in_camera_m.x() = 0.061;  // of twice 0.03 m
+  EXPECT_EQ(competing.takeShifts(std::span(shifts).first(1), pass.context()), Next::kConclude);
+  EXPECT_TRUE(competing.poses().empty());
+}
+
+using TrialNext = CandidateTrials::Next;
+
+class CandidateTrialsTest : public testing::Test {
+ protected:
+  /// Candidates 1 mm apart, each with a little less evidence than the one before.
+  void offer(int count, double behind_nats, double error_px) {
+    for (int i = 0; i < count; ++i) {
+      PoseCandidate made;
+      made.camera_from_station = movedBy(seed.camera_from_station, 0.001 * (i + 1));
+      made.evidence.edges_nats = 0.8 - behind_nats * i;
+      made.error_px = error_px;
+      candidates.push_back(made);
+    }
+    trials = CandidateTrials(candidates, seed);
+  }
+  PassKind kindOf(const Attempt& attempt) const { return attempt.plan(pass.context()).kind; }
+
+  ScriptedPass pass;
+  const Seed seed = seedInFront();
+  std::vector<PoseCandidate> candidates;
+  CandidateTrials trials;
+};
+
+TEST_F(CandidateTrialsTest, ResolvedCandidate_IsRefinedAtOnce) {
+  offer(1, 0.0, 1.0);
+  const Attempt attempt = trials.next(0, pass.context());
+  EXPECT_EQ(kindOf(attempt), PassKind::kRefine);
+  EXPECT_EQ(attempt.camera_from_station(), candidates[0].camera_from_station);
+}
+
+TEST_F(CandidateTrialsTest, CoarselyResolvedCandidate_IsMatchedInANarrowerBox) {
+  offer(1, 0.0, 20.0);
+  const Attempt attempt = trials.next(0, pass.context());
+  EXPECT_EQ(kindOf(attempt), PassKind::kMatch);
+  const SeedUncertainty box =
+      uncertaintyAbout(candidates[0].camera_from_station, seed, pass.context().scene);
+  for (int i = 0; i < 3; ++i) EXPECT_LE(box.rotation_rad[i], seed.uncertainty.rotation_rad[i]);
+}
+
+TEST_F(CandidateTrialsTest, NoCandidates_StartFromTheSeed) {
+  offer(0, 0.0, 0.0);
+  EXPECT_EQ(trials.next(0, pass.context()).camera_from_station(), seed.camera_from_station);
+  EXPECT_EQ(trials.takeFailure(0, pass.context()), TrialNext::kConclude);
+}
+
+TEST_F(CandidateTrialsTest, SurePose_EndsTheRun) {
+  offer(3, 0.01, 1.0);
+  const Attempt attempt = trials.next(0, pass.context());
+  EXPECT_EQ(trials.takePose(attempt, Pose(), 0.99, pass.context()), TrialNext::kConclude);
+}
+
+TEST_F(CandidateTrialsTest, UnsurePose_IsComparedAndTheMostProbableReturns) {
+  offer(2, 0.01, 1.0);
+  Attempt attempt = trials.next(0, pass.context());
+  EXPECT_EQ(trials.takePose(attempt, Pose(), 0.8, pass.context()), TrialNext::kTry);
+  attempt = trials.next(1, pass.context());
+  EXPECT_EQ(attempt.camera_from_station(), candidates[1].camera_from_station);
+  EXPECT_EQ(trials.takePose(attempt, Pose(), 0.7, pass.context()), TrialNext::kReturn);
+  const Attempt back = trials.best(2, pass.options);
+  EXPECT_EQ(back.index(), 2);
+  EXPECT_EQ(trials.takePose(back, Pose(), 0.8, pass.context()), TrialNext::kConclude);
+}
+
+TEST_F(CandidateTrialsTest, CandidateOfMuchLessEvidence_IsNotCompared) {
+  offer(2, 0.5, 1.0);
+  const Attempt attempt = trials.next(0, pass.context());
+  EXPECT_EQ(trials.takePose(attempt, Pose(), 0.8, pass.context()), TrialNext::kConclude);
+}
+
+TEST_F(CandidateTrialsTest, Failures_GoThroughCandidatesThenTheSeed) {
+  offer(5, 0.01, 1.0);
+  const int most = pass.options.loop.max_attempts;
+  for (int i = 0; i < most; ++i) {
+    const Attempt attempt = trials.next(i, pass.context());
+    const Pose& expected = i + 1 < most
+                               ? candidates[static_cast<std::size_t>(i)].camera_from_station
+                               : seed.camera_from_station;
+    EXPECT_EQ(attempt.camera_from_station(), expected) << i;
+    EXPECT_EQ(trials.takeFailure(i, pass.context()),
+              i + 1 < most ? TrialNext::kTry : TrialNext::kConclude);
+  }
+}
+
+class AttemptTest : public testing::Test {
+ protected:
+  Ruling takeMatch(const Pose& pose, int inliers) {
+    const Agreement agreement = pass.match(attempt.plan(pass.context()), pose, inliers);
+    return attempt.take(pass.outcome, agreement, pass.context(), pass.records);
+  }
+  Ruling takeRefinement(const Pose& pose) {
+    pass.refine(attempt.plan(pass.context()), pose);
+    return attempt.take(pass.outcome, {}, pass.context(), pass.records);
+  }
+
+  ScriptedPass pass;
+  const Seed seed = seedInFront();
+  const Pose found = movedBy(seed.camera_from_station, 0.01);
+  Attempt attempt{0, seed};
+};
+
+TEST_F(AttemptTest, ConvincingFirstHypothesis_EndsTheIteration) {
+  const Ruling ruling = takeMatch(found, 80);  // of 90 matches
+  EXPECT_EQ(ruling.next, Ruling::Next::kPass);
+  EXPECT_TRUE(ruling.iteration_complete);
+  EXPECT_EQ(pass.records[0].hypothesis_count, 1);
+  EXPECT_NEAR(pass.records[0].correction_translation_m, 0.01, 1e-12);
+  EXPECT_EQ(attempt.camera_from_station(), found);
+}
+
+TEST_F(AttemptTest, UnconvincingHypotheses_KeepTheOneWithMostInliers) {
+  const int inliers[] = {10, 30, 20};
+  Ruling ruling;
+  int tried = 0;
+  for (; !ruling.iteration_complete; ++tried) {
+    ASSERT_LT(tried, 3);
+    ruling = takeMatch(movedBy(found, 0.001 * tried), inliers[tried]);
+  }
+  EXPECT_EQ(tried, rolledHypotheses(pass.options, seed.uncertainty));
+  const Iteration& shown = pass.records[static_cast<std::size_t>(ruling.record)];
+  EXPECT_EQ(shown.chosen_hypothesis, 1);
+  EXPECT_EQ(shown.hypothesis_count, tried);
+  EXPECT_EQ(shown.hypotheses[2].inliers, 20);
+  EXPECT_EQ(attempt.camera_from_station(), movedBy(found, 0.001));
+}
+
+TEST_F(AttemptTest, HypothesisAfterABetterOne_FillsTheOtherRecord) {
+  (void)takeMatch(found, 30);
+  EXPECT_EQ(attempt.plan(pass.context()).record, 1);
+  (void)takeMatch(found, 10);  // worse: its record is free again
+  EXPECT_EQ(attempt.plan(pass.context()).record, 1);
+}
+
+TEST_F(AttemptTest, LaterIterations_ShrinkWindowsAndThreshold) {
+  const PassPlan first = attempt.plan(pass.context());
+  (void)takeMatch(found, 80);
+  const PassPlan second = attempt.plan(pass.context());
+  EXPECT_EQ(second.level, first.level - 1);
+  EXPECT_EQ(second.threshold_px, 0.5 * first.threshold_px);
+  EXPECT_EQ(second.uncertainty.rotation_rad, 0.5 * first.uncertainty.rotation_rad);
+  EXPECT_EQ(second.camera_from_station, found);
+}
+
+TEST_F(AttemptTest, SmallCorrectionsInARow_Converge) {
+  (void)takeMatch(found, 80);
+  (void)takeMatch(found, 80);
+  EXPECT_EQ(attempt.plan(pass.context()).kind, PassKind::kRefine);
+  Ruling ruling = takeRefinement(movedBy(found, 0.002));  // 12 px: not small
+  int refinements = 1;
+  for (; ruling.next == Ruling::Next::kPass; ++refinements) {
+    ASSERT_LT(refinements, 10);
+    ruling = takeRefinement(movedBy(found, 0.002));
+  }
+  EXPECT_TRUE(ruling.found());
+  EXPECT_EQ(refinements, 1 + pass.options.loop.converged_iterations);
+  EXPECT_EQ(attempt.covariance(), Matrix6d(Matrix6d::Identity() * 1e-10));
+}
+
+TEST_F(AttemptTest, CorrectionsThatStayLarge_EndAtTheIterationLimit) {
+  Ruling ruling = takeMatch(found, 80);
+  int iterations = 1;
+  for (; ruling.next == Ruling::Next::kPass; ++iterations) {
+    const Pose next = movedBy(found, iterations % 2 == 0 ? 0.0 : 0.005);
+    ruling = iterations == 1 ? takeMatch(next, 80) : takeRefinement(next);
+  }
+  EXPECT_TRUE(ruling.failed());
+  EXPECT_EQ(ruling.status, LocalizationStatus::kIterationLimit);
+  EXPECT_EQ(iterations, pass.options.loop.max_iterations);
+}
+
+TEST_F(AttemptTest, RefinementBeyondTheUncertainty_Fails) {
+  (void)takeMatch(found, 80);
+  (void)takeMatch(found, 80);
+  const Ruling ruling = takeRefinement(movedBy(seed.camera_from_station, 0.046));  // of 0.045
+  EXPECT_TRUE(ruling.failed());
+  EXPECT_EQ(ruling.status, LocalizationStatus::kLeftUncertainty);
+}
+
+TEST_F(AttemptTest, MatchedPoseBeyondTheUncertainty_IsPulledBack) {
+  (void)takeMatch(movedBy(seed.camera_from_station, 0.05), 80);
+  EXPECT_NEAR(attempt.camera_from_station().translation_m.x(), 0.03, 1e-12);
+}
+
+TEST_F(AttemptTest, FailedHypotheses_FailWithTheReasonOfTheKeptOne) {
+  Ruling ruling;
+  while (ruling.next == Ruling::Next::kPass) {
+    const Agreement none = pass.fail(attempt.plan(pass.context()), Stage::kTemplates,
+                                     LocalizationStatus::kTooFewTemplates);
+    ruling = attempt.take(pass.outcome, none, pass.context(), pass.records);
+  }
+  EXPECT_EQ(ruling.status, LocalizationStatus::kTooFewTemplates);
+  EXPECT_EQ(ruling.stage, Stage::kTemplates);
+}
+
+TEST_F(AttemptTest, Restart_BeginsAtTheSeedWithLargerTemplates) {
+  (void)takeMatch(found, 80);
+  attempt.restart();
+  const PassPlan plan = attempt.plan(pass.context());
+  EXPECT_EQ(plan.attempt, 1);
+  EXPECT_EQ(plan.camera_from_station, seed.camera_from_station);
+  EXPECT_EQ(plan.template_factor, 2.0);
+  EXPECT_EQ(plan.level, pass.context().levels.coarse);
+}
+
+}  // namespace
+}  // namespace boresight
