@@ -25,13 +25,10 @@ struct CounterRow {
   std::uint64_t* words = nullptr;  ///< plane 0 first
   int stride = 0;                  ///< words from one plane to the next
   int plane_count = 0;             ///< planes in use
-  // Inlined always, so that no copy of them is left behind by files compiled for wide registers.
   /// First word of plane k.
-  [[gnu::always_inline]] std::uint64_t* plane(int k) { return words + std::ptrdiff_t{stride} * k; }
+  std::uint64_t* plane(int k) { return words + std::ptrdiff_t{stride} * k; }
   /// First word of plane k.
-  [[gnu::always_inline]] const std::uint64_t* plane(int k) const {
-    return words + std::ptrdiff_t{stride} * k;
-  }
+  const std::uint64_t* plane(int k) const { return words + std::ptrdiff_t{stride} * k; }
 };
 
 /// Rows of counters, and of pixels to be counted, have this many words of slack.
@@ -84,7 +81,7 @@ struct BitKernels {
   void (*planesToPrefixSums)(const CounterRow& counters, int words, std::uint16_t* lanes,
                              std::uint32_t* totals);
 };
-/// 64-bit words for Kernels::kPortable, else the 128-bit registers that come with more.
+/// 64-bit words for Kernels::kPortable, 128-bit registers for Kernels::kSse2.
 const BitKernels& bitKernels(Kernels set);
 
 /// The lanes of one word of planes 0 ... 15.

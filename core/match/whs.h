@@ -9,7 +9,6 @@
 #include "core/base/kernels.h"
 #include "core/base/status.h"
 #include "core/match/bit_counters.h"
-#include "core/match/column_search.h"
 #include "core/match/edge_pixels.h"
 #include "core/match/mask_counts.h"
 #include "core/match/peak_table.h"
@@ -76,14 +75,10 @@ class WhsSearch {
   int max_side_px_ = 0, max_window_px_ = 0;
 
   const BitKernels* bit_kernels_ = nullptr;
-  ColumnSearch columns_;
-  bool by_columns_ = false;
-
   EdgePixels edges_;
   MaskCounts covered_;
   PeakTable peaks_;
   TestBand band_;
-  CounterRow phase_;               ///< S+ of the edge pixels of one bit position within a byte
   CounterRow hits_;                ///< S+ of a row of offsets
   bool edges_are_listed_ = false;  ///< all at once; else some rows at a time
 

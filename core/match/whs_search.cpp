@@ -59,7 +59,6 @@ Status WhsSearch::create(int max_side_px, int max_window_px, Kernels kernels, Ar
   covered_.create(words, *bit_kernels_, arena);
   peaks_.create(max_window_px, arena);
   band_.create(max_side_px, words, arena);
-  columns_.create(max_side_px, columnKernels(kernels), arena);
   hits_.stride = words + kWordPadding;
   hits_.words =
       arena.allocate<std::uint64_t>(kMaxPlanes * static_cast<std::size_t>(hits_.stride)).data();
@@ -83,11 +82,10 @@ Status WhsSearch::begin(const TemplateView& view, const BitImage& test_edges,
   view_ = view;
   test_edges_ = &test_edges;
   window_ = window;
-  by_columns_ = columns_.begin(view, test_edges, window);
-  norms_ = by_columns_ ? columns_.norms() : whsNorms(view);
+  norms_ = whsNorms(view);
   peaks_.begin(window, norms_, predicted_x, predicted_y, std::min(exclusion_px, kMaxExclusion_px));
   tile_x_ = 0;
-  if (!by_columns_) beginTile();
+  beginTile();
   done_ = false;
   return Status::kOk;
 }
@@ -108,12 +106,7 @@ void WhsSearch::beginTile() {
 bool WhsSearch::step() {
   std::int64_t work = 0;
   while (!done_ && work < kStepWork) {
-    if (by_columns_) {
-      work += columns_.workOfBand();
-      done_ = columns_.searchBand(peaks_);
-    } else {
-      work += stepRow();
-    }
+    work += stepRow();
     if (done_) peak_ = peaks_.finish();
   }
   return done_;

@@ -16,8 +16,6 @@ done
 
 # Memory and strings that compilers call by themselves, and the two roundings-free functions.
 allowed='memcpy|memmove|memset|memcmp|bcmp|strlen|sqrt|floor'
-# Which of the processor's vector units may be used is found out at run time.
-allowed+='|__cpu_model|__cpu_indicator_init|__cpu_features2'
 # Arithmetic that the processor does not have: 64-bit integers, their conversion, counting of bits.
 allowed+='|__(u?divdi3|u?moddi3|u?divmoddi4|muldi3|ashldi3|ashrdi3|lshrdi3|cmpdi2|ucmpdi2)'
 allowed+='|__(float(un)?di[sd]f|fix(uns)?[sd]fdi|(clz|ctz|popcount|ffs|bswap)[sd]i2)'

@@ -63,8 +63,7 @@ std::ptrdiff_t stageNumber(const std::string& folder) {
 /// Files for one kind of processor, which other machines do not compile, may use its instructions.
 bool isForOneProcessor(const Include& include) {
   const std::string stem = include.file.stem().string();
-  const bool named = stem.ends_with("_x86") || stem.ends_with("_avx512");
-  return named && include.file.extension() == ".cpp" &&
+  return stem.ends_with("_x86") && include.file.extension() == ".cpp" &&
          (include.header == "immintrin.h" || include.header == "cpuid.h");
 }
 

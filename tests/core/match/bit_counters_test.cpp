@@ -4,8 +4,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <iostream>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,26 +11,15 @@
 #include "core/match/bit_rows.h"
 #include "tests/core/match/match_support.h"
 
-namespace boresight {
+namespace boresight::test {
 namespace {
 
-using test::Dice;
-
 /// The tests below run for every set of kernels that is there.
-class BitCounters : public testing::TestWithParam<int> {
+class BitCounters : public testing::TestWithParam<Kernels> {
  protected:
-  void SetUp() override {
-    if (kernelsAvailable(set_)) return;
-    std::cout << "not available here: " << kernelsName(set_) << "\n";
-    GTEST_SKIP() << kernelsName(set_) << " is not available here";
-  }
-  const Kernels set_ = static_cast<Kernels>(GetParam());
-  const BitKernels& kernels_ = bitKernels(set_);
+  const BitKernels& kernels_ = bitKernels(GetParam());
 };
-INSTANTIATE_TEST_SUITE_P(Sets, BitCounters, testing::Range(0, kKernelSets),
-                         [](const testing::TestParamInfo<int>& set) {
-                           return std::string(kernelsName(static_cast<Kernels>(set.param)));
-                         });
+INSTANTIATE_TEST_SUITE_P(Sets, BitCounters, testing::ValuesIn(availableKernels()), nameOfKernels);
 
 constexpr int kWords = 7;
 constexpr int kZeros = 4096;  ///< byte offset of zeros
@@ -192,7 +179,7 @@ TEST_P(BitCounters, AddUpWhatLiesToTheLeft) {
 
 TEST(PixelsAt, ReadsAnyColumn) {
   Dice dice;
-  const test::OwnedBits bits = test::noise(200, 3, 0.5, dice);
+  const OwnedBits bits = noise(200, 3, 0.5, dice);
   for (int x = 0; x < 260; ++x) {
     const std::uint64_t pixels = pixelsAt(bits.image, x, 1);
     for (int k = 0; k < 64; ++k) {
@@ -211,4 +198,4 @@ TEST(ByteOrdered, PutsPixelsInAscendingBytes) {
 }
 
 }  // namespace
-}  // namespace boresight
+}  // namespace boresight::test

@@ -79,6 +79,19 @@ struct OwnedSearch {
   Status status = Status::kOk;
 };
 
+/// Every set of kernels that this build has.
+inline std::vector<Kernels> availableKernels() {
+  std::vector<Kernels> available;
+  for (int k = 0; k < kKernelSets; ++k) {
+    if (kernelsAvailable(static_cast<Kernels>(k))) available.push_back(static_cast<Kernels>(k));
+  }
+  return available;
+}
+
+inline std::string nameOfKernels(const testing::TestParamInfo<Kernels>& set) {
+  return kernelsName(set.param);
+}
+
 }  // namespace boresight::test
 
 namespace boresight {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -14,7 +12,7 @@
 #include "core/match/whs.h"
 #include "tests/core/match/match_support.h"
 
-namespace boresight {
+namespace boresight::test {
 
 inline std::int64_t squaredDistance(int x, int y, int from_x, int from_y) {
   const std::int64_t dx = std::int64_t{x} - from_x;
@@ -66,18 +64,17 @@ inline WhsNorms whsNormsReference(const TemplateView& view) {
   return norms;
 }
 
-/// What WhsSearch must find, by trying every offset twice.
-inline WhsPeak whsPeakReference(const TemplateView& view, const BitImage& test_edges,
-                                const SearchWindow& window, int predicted_x, int predicted_y,
-                                int exclusion_px) {
-  const WhsNorms norms = whsNormsReference(view);
+/// What WhsSearch must find, by trying every offset twice; `counts_at` gives the counts at (x, y).
+template <class CountsAt>
+WhsPeak peakByTrying(const CountsAt& counts_at, const WhsNorms& norms, const SearchWindow& window,
+                     int predicted_x, int predicted_y, int exclusion_px) {
   // False where `skips` leaves no offset.
   const auto largest = [&](const auto& skips, int& best_x, int& best_y, WhsCounts& best_counts) {
     std::int64_t best = -1, best_distance = 0;
     for (int y = window.y_min; y <= window.y_max; ++y) {
       for (int x = window.x_min; x <= window.x_max; ++x) {
         if (skips(x, y)) continue;
-        const WhsCounts counts = whsCountsReference(view, test_edges, x, y);
+        const WhsCounts counts = counts_at(x, y);
         const std::int64_t value = whsComparable(counts, norms);
         const std::int64_t distance = squaredDistance(x, y, predicted_x, predicted_y);
         if (value < best || (value == best && distance >= best_distance)) continue;
@@ -98,9 +95,13 @@ inline WhsPeak whsPeakReference(const TemplateView& view, const BitImage& test_e
   return peak;
 }
 
-}  // namespace boresight
-
-namespace boresight::test {
+/// The same pixel by pixel.
+inline WhsPeak whsPeakReference(const TemplateView& view, const BitImage& test_edges,
+                                const SearchWindow& window, int predicted_x, int predicted_y,
+                                int exclusion_px) {
+  return peakByTrying([&](int x, int y) { return whsCountsReference(view, test_edges, x, y); },
+                      whsNormsReference(view), window, predicted_x, predicted_y, exclusion_px);
+}
 
 enum class MaskKind {
   kFull,
@@ -238,36 +239,13 @@ inline WhsPeak peakOfMap(const Problem& problem) {
   const SearchWindow& window = problem.window;
   std::vector<WhsCounts> map(static_cast<std::size_t>(window.width() * window.height()));
   whsScoreMap(problem.view, problem.test.image, window, map);
-  const WhsNorms norms = whsNorms(problem.view);
-  struct Place {
-    int x, y;
-    WhsCounts counts;
-    std::tuple<std::int64_t, std::int64_t, int, int> order;
-  };
-  std::vector<Place> places;
-  for (int y = 0; y < window.height(); ++y) {
-    for (int x = 0; x < window.width(); ++x) {
-      const WhsCounts counts = map[static_cast<std::size_t>(y * window.width() + x)];
-      const std::int64_t dx = window.x_min + x - problem.predicted_x;
-      const std::int64_t dy = window.y_min + y - problem.predicted_y;
-      places.push_back({x, y, counts, {-whsComparable(counts, norms), dx * dx + dy * dy, y, x}});
-    }
-  }
-  const auto less = [](const Place& a, const Place& b) { return a.order < b.order; };
-  const Place best = *std::min_element(places.begin(), places.end(), less);
-  WhsPeak peak{window.x_min + best.x, window.y_min + best.y, best.counts, 0, 0, {}, false};
-  const int e = problem.exclusion_px;
-  std::erase_if(places, [&](const Place& place) {
-    const int x = place.x / 8 * 8, y = place.y / 8 * 8;
-    return x + 7 >= best.x - e && x <= best.x + e && y + 7 >= best.y - e && y <= best.y + e;
-  });
-  if (places.empty()) return peak;
-  const Place second = *std::min_element(places.begin(), places.end(), less);
-  peak.second_x = window.x_min + second.x;
-  peak.second_y = window.y_min + second.y;
-  peak.second_counts = second.counts;
-  peak.has_second = true;
-  return peak;
+  return peakByTrying(
+      [&](int x, int y) {
+        return map[static_cast<std::size_t>((y - window.y_min) * window.width() + x -
+                                            window.x_min)];
+      },
+      whsNorms(problem.view), window, problem.predicted_x, problem.predicted_y,
+      problem.exclusion_px);
 }
 
 }  // namespace boresight::test

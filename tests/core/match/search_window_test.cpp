@@ -16,10 +16,8 @@
 #include "core/geometry/pose.h"
 #include "tests/core/match/match_support.h"
 
-namespace boresight {
+namespace boresight::test {
 namespace {
-
-using test::Dice;
 
 Camera prepared(Camera camera) {
   EXPECT_EQ(prepareCamera(camera), Status::kOk);
@@ -360,4 +358,4 @@ TEST(SearchWindow, IsEmptyForNonsense) {
 }
 
 }  // namespace
-}  // namespace boresight
+}  // namespace boresight::test

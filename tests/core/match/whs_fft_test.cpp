@@ -9,14 +9,8 @@
 #include "core/match/whs.h"
 #include "tests/core/match/search_problem.h"
 
-namespace boresight {
+namespace boresight::test {
 namespace {
-
-using test::Dice;
-using test::MaskKind;
-using test::OwnedSearch;
-using test::randomProblem;
-using test::run;
 
 constexpr int kMaskKinds = static_cast<int>(MaskKind::kCount);
 
@@ -29,7 +23,7 @@ TEST(WhsByFft, GivesTheSameIntegersAsTheCore) {
     const SearchWindow& window = problem->window;
     std::vector<WhsCounts> map(static_cast<std::size_t>(window.width() * window.height()));
     whsScoreMap(problem->view, problem->test.image, window, map);
-    ASSERT_EQ(map, test::whsMapByFft(problem->view, problem->test.image, window))
+    ASSERT_EQ(map, whsMapByFft(problem->view, problem->test.image, window))
         << "trial " << trial << " side " << side;
   }
 }
@@ -37,21 +31,14 @@ TEST(WhsByFft, GivesTheSameIntegersAsTheCore) {
 TEST(WhsByFft, HasItsLargestValueWhereEverySearchEnds) {
   Dice dice;
   std::vector<OwnedSearch> searches;
-  searches.reserve(kKernelSets);
-  for (int k = 0; k < kKernelSets; ++k) {
-    const Kernels kernels = static_cast<Kernels>(k);
-    if (kernelsAvailable(kernels)) {
-      searches.emplace_back(256, 300, kernels);
-    } else {
-      std::cout << "not available here: " << kernelsName(kernels) << "\n";
-    }
-  }
+  searches.reserve(kKernelSets);  // a search points into its own memory
+  for (const Kernels kernels : availableKernels()) searches.emplace_back(256, 300, kernels);
   for (int trial = 0; trial < 24; ++trial) {
     const int side = 2 * dice.between(4, 80);
     const auto problem =
         randomProblem(side, static_cast<MaskKind>(trial % kMaskKinds), 200, 150, dice);
     const SearchWindow& window = problem->window;
-    const std::vector<WhsCounts> map = test::whsMapByFft(problem->view, problem->test.image, window);
+    const std::vector<WhsCounts> map = whsMapByFft(problem->view, problem->test.image, window);
     const WhsNorms norms = whsNormsReference(problem->view);
     std::int64_t largest = 0;
     for (const WhsCounts& counts : map) largest = std::max(largest, whsComparable(counts, norms));
@@ -66,4 +53,4 @@ TEST(WhsByFft, HasItsLargestValueWhereEverySearchEnds) {
 }
 
 }  // namespace
-}  // namespace boresight
+}  // namespace boresight::test

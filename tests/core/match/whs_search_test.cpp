@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iostream>
 #include <limits>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,21 +13,8 @@
 #include "core/base/kernels.h"
 #include "tests/core/match/search_problem.h"
 
-namespace boresight {
+namespace boresight::test {
 namespace {
-
-using test::beginOn;
-using test::Dice;
-using test::makeMask;
-using test::MaskKind;
-using test::noise;
-using test::OwnedBits;
-using test::OwnedSearch;
-using test::peakOfMap;
-using test::Problem;
-using test::randomProblem;
-using test::reference;
-using test::run;
 
 TEST(WhsSearch, BreaksTiesByDistanceThenRasterOrder) {
   Dice dice;
@@ -260,14 +245,9 @@ TEST(WhsSearch, ListsTemplatesWithMorePixelsThanFitSomeRowsAtATime) {
 
 constexpr int kMaskKinds = static_cast<int>(MaskKind::kCount);
 
-class WhsKernels : public testing::TestWithParam<int> {
+class WhsKernels : public testing::TestWithParam<Kernels> {
  protected:
-  void SetUp() override {
-    if (kernelsAvailable(kernels_)) return;
-    std::cout << "not available here: " << kernelsName(kernels_) << "\n";
-    GTEST_SKIP() << kernelsName(kernels_) << " is not available here";
-  }
-  const Kernels kernels_ = static_cast<Kernels>(GetParam());
+  const Kernels kernels_ = GetParam();
 };
 
 TEST_P(WhsKernels, EqualTheDefinitionForRandomInput) {
@@ -390,10 +370,7 @@ TEST_P(WhsKernels, SearchesInTurnAsAFreshOneWould) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sets, WhsKernels, testing::Range(0, kKernelSets),
-                         [](const testing::TestParamInfo<int>& set) {
-                           return std::string(kernelsName(static_cast<Kernels>(set.param)));
-                         });
+INSTANTIATE_TEST_SUITE_P(Sets, WhsKernels, testing::ValuesIn(availableKernels()), nameOfKernels);
 
 }  // namespace
-}  // namespace boresight
+}  // namespace boresight::test

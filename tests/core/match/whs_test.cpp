@@ -11,12 +11,8 @@
 
 #include "tests/core/match/search_problem.h"
 
-namespace boresight {
+namespace boresight::test {
 namespace {
-
-using test::Dice;
-using test::noise;
-using test::OwnedBits;
 
 TEST(WhsCountsAt, EqualsTheDefinition) {
   Dice dice;
@@ -207,4 +203,4 @@ TEST(SubpixelPeak, StaysAtTheBorderAndWhereNothingCurves) {
 }
 
 }  // namespace
-}  // namespace boresight
+}  // namespace boresight::test
