@@ -34,8 +34,6 @@ class ByteWriter {
   ///@}
 
   std::size_t written() const { return written_; }  ///< also what did not fit
-  /// The block was too small.
-  bool overflowed() const { return written_ > block_.size(); }
 
  private:
   void put(std::uint64_t value, int count) {

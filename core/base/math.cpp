@@ -166,12 +166,6 @@ double arcSine(double x) {
   return arcTangent2(x, std::sqrt((1.0 - x) * (1.0 + x)));
 }
 
-double arcCosine(double x) {
-  if (x >= 1.0) return 0.0;
-  if (x <= -1.0) return kPi;
-  return arcTangent2(std::sqrt((1.0 - x) * (1.0 + x)), x);
-}
-
 double exponential(double x) {
   if (x != x) return x;
   if (x > 709.8) return std::numeric_limits<double>::infinity();

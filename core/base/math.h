@@ -22,8 +22,7 @@ double tangent(double x_rad);
 double arcTangent(double x);
 /// Angle of (x, y) in (-pi, pi]; 0 for (0, 0).
 double arcTangent2(double y, double x);
-double arcSine(double x);    ///< x clamped to [-1, 1]
-double arcCosine(double x);  ///< x clamped to [-1, 1]
+double arcSine(double x);  ///< x clamped to [-1, 1]
 /// exp and natural logarithm, for tests' noise and statistics; log(x <= 0) gives -1e308.
 double exponential(double x);
 double naturalLogarithm(double x);

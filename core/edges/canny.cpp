@@ -7,7 +7,6 @@
 #include <cstring>
 
 #include "core/edges/border.h"
-#include "core/edges/edge_map.h"
 
 namespace boresight {
 namespace {
@@ -99,26 +98,6 @@ void suppressRow(const GradientRows& gradient, int y, int width, const CannyLimi
     candidates[first_x >> 6] = kept;
     strong[first_x >> 6] = kept != 0 ? kept & exceeding(rows.at + first_x, limits.high) : 0;
   }
-}
-
-Status canny(const ImageView& image, double low, double high, Arena& arena, std::uint8_t* edges,
-             std::ptrdiff_t edges_stride) {
-  EdgeOptions options;
-  options.equalization = Equalization::kOff;
-  options.gaussian_sigma_px = 0.0;
-  options.thresholds = CannyThresholds::kAbsolute;
-  options.low_threshold = low;
-  options.high_threshold = high;
-  const std::size_t mark = arena.mark();
-  EdgeMap map;
-  const Status status = detectEdges(image, nullptr, options, arena, map);
-  if (status == Status::kOk && !arena.countsOnly()) {
-    for (int y = 0; y < image.height; ++y)
-      for (int x = 0; x < image.width; ++x)
-        edges[edges_stride * y + x] = map.level[0].get(x, y) ? 255 : 0;
-  }
-  arena.rewind(mark);
-  return status;
 }
 
 }  // namespace boresight

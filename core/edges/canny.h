@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
-#include "core/base/arena.h"
-#include "core/base/image.h"
-#include "core/base/status.h"
 #include "core/edges/gradient.h"
 
 namespace boresight {
@@ -28,11 +24,5 @@ CannyLimits cannyLimits(double low, double high);
 /// integer test against tan 22.5 and 67.5 deg, and of equal neighbours the first wins, as there.
 void suppressRow(const GradientRows& gradient, int y, int width, const CannyLimits& limits,
                  std::uint64_t* candidates, std::uint64_t* strong);
-
-/// Canny's edges (255, elsewhere 0) of an image that is smoothed already, into `edges` (rows
-/// `edges_stride` bytes apart); equals cv::Canny(image, edges, low, high, 3, true).
-/// Status as of `detectEdges`. Scratch from `arena`, rewound.
-Status canny(const ImageView& image, double low, double high, Arena& arena, std::uint8_t* edges,
-             std::ptrdiff_t edges_stride);
 
 }  // namespace boresight

@@ -4,12 +4,13 @@
 #include <algorithm>
 
 #include "core/edges/bit_rows.h"
-#include "core/edges/edge_input.h"
 
 namespace boresight {
+namespace {
 
-Status checkEdgeInput(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
-                      bool sizes_only) {
+/// `sizes_only` (a counting arena) leaves the pixels out: there may be none yet.
+Status checkInput(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
+                  bool sizes_only) {
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   if (image.width <= 0 || image.height <= 0 || image.width > kMaxImageSide ||
       image.height > kMaxImageSide)
@@ -22,12 +23,14 @@ Status checkEdgeInput(const ImageView& image, const BitImage* ignore, const Edge
   return image.data == nullptr || overlap ? Status::kInvalidImage : Status::kOk;
 }
 
+}  // namespace
+
 Status EdgeDetector::begin(const ImageView& image, const BitImage* ignore,
                            const EdgeOptions& options, Arena& kept, Arena& scratch, int finest_kept,
                            EdgeMap& output) {
   *this = EdgeDetector();
   output = EdgeMap();
-  if (const Status status = checkEdgeInput(image, ignore, options, kept.countsOnly());
+  if (const Status status = checkInput(image, ignore, options, kept.countsOnly());
       status != Status::kOk)
     return status;
   options_ = options;

@@ -18,6 +18,12 @@
 
 namespace boresight {
 
+/// Longest side of an image; with it every count and every offset of this stage fits 32 bits.
+inline constexpr int kMaxImageSide = 16384;
+
+/// Pixels in one bounded slice of the stage.
+inline constexpr std::int32_t kEdgeSlice = 1 << 19;
+
 inline constexpr int kPyramidLevels = 4;  ///< full, half, quarter, eighth resolution
 
 /// The test image: Canny's edges at full resolution and, per further level, the OR over 2x2 pixels
@@ -49,7 +55,8 @@ class EdgeDetector {
   /// `image` and `ignore` (may be nullptr; set bits are ignored; same size) must outlive the steps.
   /// Output and scratch are taken from `arena`, which must not be used by others until the map is
   /// complete; with a counting arena nothing else happens (the image needs no pixels then).
-  /// kInvalidOption, kInvalidImage (see `checkEdgeInput`) or kArenaTooSmall leave the arena as it
+  /// kInvalidOption for an option out of range; kInvalidImage for an empty or too large image,
+  /// overlapping rows, or an ignore mask of another size; kArenaTooSmall. All leave the arena as it
   /// was.
   Status begin(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
                Arena& arena, EdgeMap& output) {

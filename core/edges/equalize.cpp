@@ -5,7 +5,6 @@
 #include <bit>
 
 #include "core/edges/border.h"
-#include "core/edges/edge_input.h"
 
 namespace boresight {
 namespace {
@@ -271,24 +270,6 @@ void Equalizer::rowByTiles(int y, std::uint8_t* __restrict out) const {
     interpolate(corners, right_weight_.data() + first_x, vertical.weight_after, block);
     std::copy(block, block + count, out + first_x);
   }
-}
-
-Status equalizeImage(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
-                     Arena& arena, std::uint8_t* out, std::ptrdiff_t out_stride) {
-  if (const Status status = checkEdgeInput(image, ignore, options, arena.countsOnly());
-      status != Status::kOk)
-    return status;
-  const std::size_t mark = arena.mark();
-  Equalizer equalizer;
-  equalizer.begin(image, ignore, options, arena);
-  const bool enough = !arena.exhausted();
-  if (enough && !arena.countsOnly()) {
-    while (!equalizer.step(kEdgeSlice)) {
-    }
-    for (int y = 0; y < image.height; ++y) equalizer.row(y, out + out_stride * y);
-  }
-  arena.rewind(mark);
-  return enough ? Status::kOk : Status::kArenaTooSmall;
 }
 
 }  // namespace boresight

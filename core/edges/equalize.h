@@ -8,7 +8,6 @@
 
 #include "core/base/arena.h"
 #include "core/base/image.h"
-#include "core/base/status.h"
 #include "core/edges/edge_options.h"
 
 namespace boresight {
@@ -74,10 +73,5 @@ class Equalizer {
   std::span<std::int32_t> right_table_;
   std::span<float> right_weight_;
 };
-
-/// The whole image, equalized as `options` say, into `out` (rows `out_stride` bytes apart): what
-/// the core sees. Scratch from `arena`, rewound.
-Status equalizeImage(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
-                     Arena& arena, std::uint8_t* out, std::ptrdiff_t out_stride);
 
 }  // namespace boresight

@@ -5,7 +5,6 @@
 
 #include "core/base/math.h"
 #include "core/edges/border.h"
-#include "core/edges/edge_input.h"
 
 namespace boresight {
 namespace {
@@ -169,32 +168,6 @@ void SmoothedRows::mirrorSides() {
     high[width_ - 1 + k] = high[right];
     low[width_ - 1 + k] = low[right];
   }
-}
-
-Status gaussianBlur(const ImageView& image, double sigma_px, Arena& arena, std::uint8_t* out,
-                    std::ptrdiff_t out_stride) {
-  EdgeOptions options;
-  options.equalization = Equalization::kOff;
-  options.gaussian_sigma_px = sigma_px;
-  if (const Status status = checkEdgeInput(image, nullptr, options, arena.countsOnly());
-      status != Status::kOk)
-    return status;
-  const std::size_t mark = arena.mark();
-  Equalizer source;
-  source.begin(image, nullptr, options, arena);
-  SmoothedRows smoothed;
-  smoothed.begin(image.width, image.height, sigma_px, arena);
-  const std::span<std::uint8_t> line =
-      arena.allocate<std::uint8_t>(static_cast<std::size_t>(roundUpToBlock(image.width)));
-  const bool enough = !arena.exhausted();
-  if (enough && !arena.countsOnly()) {
-    for (int y = 0; y < image.height; ++y) {
-      smoothed.row(y, source, line.data());
-      std::copy(line.data(), line.data() + image.width, out + out_stride * y);
-    }
-  }
-  arena.rewind(mark);
-  return enough ? Status::kOk : Status::kArenaTooSmall;
 }
 
 }  // namespace boresight

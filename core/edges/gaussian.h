@@ -7,8 +7,6 @@
 #include <span>
 
 #include "core/base/arena.h"
-#include "core/base/image.h"
-#include "core/base/status.h"
 #include "core/edges/equalize.h"
 
 namespace boresight {
@@ -53,10 +51,5 @@ class SmoothedRows {
   std::span<std::uint16_t> high_;  ///< upper bytes of the column sums, with a margin on both sides
   std::span<std::uint16_t> low_;   ///< lower bytes
 };
-
-/// The whole image, smoothed, into `out` (rows `out_stride` bytes apart). kInvalidOption for a
-/// sigma outside [0, 8], kInvalidImage as in `checkEdgeInput`. Scratch from `arena`, rewound.
-Status gaussianBlur(const ImageView& image, double sigma_px, Arena& arena, std::uint8_t* out,
-                    std::ptrdiff_t out_stride);
 
 }  // namespace boresight

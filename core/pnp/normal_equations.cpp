@@ -195,6 +195,24 @@ NormalEquations inFirst(const NormalEquations& equations, const Pose& camera_fro
   return brought;
 }
 
+void addRow(const Vector6d& row, double weight, double residual, NormalEquations& sum) {
+  for (int a = 0; a < 6; ++a) {
+    const double weighted = weight * row[a];
+    sum.gradient[a] += weighted * residual;
+    for (int b = 0; b <= a; ++b) sum.information(a, b) += weighted * row[b];
+  }
+  sum.squares += weight * residual * residual;
+  ++sum.projected;
+}
+
+Vector6d lineRow(const Eigen::Vector3d& point_in_camera_m, const Eigen::Vector2d& normal,
+                 const Eigen::Matrix<double, 2, 3>& jacobian) {
+  const Eigen::Vector3d slope = (normal.transpose() * jacobian).transpose();
+  Vector6d row;
+  row << point_in_camera_m.cross(slope), slope;
+  return row;
+}
+
 void addTo(NormalEquations& sum, const NormalEquations& equations) {
   sum.information += equations.information;
   sum.gradient += equations.gradient;

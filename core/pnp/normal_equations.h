@@ -46,6 +46,13 @@ Matrix6d adjointOf(const Pose& a_from_b);
 /// Equations in the perturbation of `camera`'s pose as equations in that of `first`'s:
 /// A' H A and A' g with A = adjointOf(camera_from_first). Sums and counts stay.
 NormalEquations inFirst(const NormalEquations& equations, const Pose& camera_from_first);
+/// Adds a measurement of one dimension: `row` is the derivative of its prediction with respect to
+/// xi, `residual` is measured minus predicted.
+void addRow(const Vector6d& row, double weight, double residual, NormalEquations& sum);
+/// Row of a place on a line of the image: d (normal . pixel) / d xi for p -> p + r x p + t, with
+/// the Jacobian of the camera at p (px/m).
+Vector6d lineRow(const Eigen::Vector3d& point_in_camera_m, const Eigen::Vector2d& normal,
+                 const Eigen::Matrix<double, 2, 3>& jacobian);
 /// Adds H, g, sums and counts.
 void addTo(NormalEquations& sum, const NormalEquations& equations);
 

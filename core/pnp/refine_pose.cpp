@@ -71,19 +71,7 @@ void iterate(const Problem& problem, int max_iterations, Pose& pose, NormalEquat
   }
 }
 
-PnpView onlyView(const Camera& camera, std::span<const Correspondence> correspondences) {
-  return {&camera, Pose(), static_cast<std::int32_t>(correspondences.size())};
-}
-
 }  // namespace
-
-Status refinePose(std::span<const Correspondence> correspondences,
-                  std::span<const std::uint8_t> use, const Camera& camera, const PosePrior* prior,
-                  int max_iterations, Pose& camera_from_station) {
-  const PnpView view = onlyView(camera, correspondences);
-  return refinePose(correspondences, use, std::span(&view, 1), prior, max_iterations,
-                    camera_from_station);
-}
 
 Status refinePose(std::span<const Correspondence> correspondences,
                   std::span<const std::uint8_t> use, std::span<const PnpView> views,
@@ -100,13 +88,6 @@ Status refinePose(std::span<const Correspondence> correspondences,
   if (!solve(equations, 0.0, unused)) return Status::kDegenerate;
   first_from_station = pose;
   return Status::kOk;
-}
-
-Status poseCovariance(std::span<const Correspondence> correspondences,
-                      std::span<const std::uint8_t> use, const Camera& camera,
-                      const Pose& camera_from_station, Matrix6d& covariance) {
-  const PnpView view = onlyView(camera, correspondences);
-  return poseCovariance(correspondences, use, std::span(&view, 1), camera_from_station, covariance);
 }
 
 Status poseCovariance(std::span<const Correspondence> correspondences,

@@ -32,26 +32,6 @@ double quadraticForm(const Matrix6d& lower, const Vector6d& x) {
   return sum;
 }
 
-/// d(normal . pixel) / d xi for p -> p + r x p + t
-Vector6d rowOf(const EdgeSample& sample, const Eigen::Vector3d& point_in_camera_m,
-               const Eigen::Matrix<double, 2, 3>& jacobian) {
-  const Eigen::Vector3d slope = (sample.normal.transpose() * jacobian).transpose();
-  Vector6d row;
-  row << point_in_camera_m.cross(slope), slope;
-  return row;
-}
-
-void addRow(const EdgeSample& sample, double weight, const Vector6d& row,
-            NormalEquations& equations) {
-  for (int a = 0; a < 6; ++a) {
-    const double weighted = weight * row[a];
-    equations.gradient[a] += weighted * sample.residual_px;
-    for (int b = 0; b <= a; ++b) equations.information(a, b) += weighted * row[b];
-  }
-  equations.squares += weight * sample.residual_px * sample.residual_px;
-  ++equations.projected;
-}
-
 }  // namespace
 
 Status EdgeRefinement::create(const RefinementOptions& options, Arena& arena) {
@@ -252,9 +232,9 @@ EdgeEquations EdgeRefinement::weightedEquations(double& weights) {
     if (std::abs(sample.residual_px) >= cut_px) continue;
     const double ratio = sample.residual_px / cut_px;
     sample.weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
-    const Vector6d row = rowOf(sample, point_in_camera_m, jacobian);
+    const Vector6d row = lineRow(point_in_camera_m, sample.normal, jacobian);
     const double weight = shareOf(sample) * sample.weight;
-    addRow(sample, weight, row, equations.step);
+    addRow(row, weight, sample.residual_px, equations.step);
     noteGroups(sample, pixel, row, ratio, equations.errors.curvature);
     weights += weight;
     if (sample.weight > 0.5) ++result.used_count;

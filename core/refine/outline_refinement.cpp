@@ -68,7 +68,6 @@ bool OutlineRefinement::refine(const DirectedEdges& edges, const MeshView& mesh,
     const int radius = static_cast<int>(radius_px + 0.5);
     NormalEquations equations;
     double weights = 0.0;
-    int found = 0;
     const Eigen::Matrix3d rotation = pose.matrix();
     for (int i = 0; i < count_; ++i) {
       const Sample& sample = samples_[static_cast<std::size_t>(i)];
@@ -81,17 +80,10 @@ bool OutlineRefinement::refine(const DirectedEdges& edges, const MeshView& mesh,
       if (std::abs(offset_px) >= cut_px) continue;
       const double ratio = offset_px / cut_px;
       const double weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
-      const Eigen::Vector3d slope = (sample.normal.transpose() * jacobian).transpose();
-      Vector6d row;
-      row << point.cross(slope), slope;
-      for (int a = 0; a < 6; ++a) {
-        equations.gradient[a] += weight * row[a] * offset_px;
-        for (int b = 0; b <= a; ++b) equations.information(a, b) += weight * row[a] * row[b];
-      }
+      addRow(lineRow(point, sample.normal, jacobian), weight, offset_px, equations);
       weights += weight;
-      ++found;
     }
-    if (found < kLeastFound) return false;
+    if (equations.projected < kLeastFound) return false;
     const double scale = std::min(1.0, kIndependent / weights);
     equations.information *= scale;
     equations.gradient *= scale;

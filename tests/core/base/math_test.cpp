@@ -166,20 +166,16 @@ TEST(ArcTangent2, KnowsTheAxesAndTheDiagonals) {
   EXPECT_TRUE(std::isnan(arcTangent2(1.0, kNan)));
 }
 
-TEST(ArcSine, AndArcCosineAreAccurateAndClamped) {
+TEST(ArcSine, IsAccurateAndClamped) {
   std::vector<double> arguments = argumentsBetween(-1.0, 1.0);
   for (double x = 1.0, step = 0.1; step > 1e-17; step *= 0.7) {
     arguments.push_back(x - step);
     arguments.push_back(step - x);
   }
   EXPECT_LT(worstError(arguments, arcSine, [](long double x) { return std::asin(x); }), kAllowed);
-  EXPECT_LT(worstError(arguments, arcCosine, [](long double x) { return std::acos(x); }), kAllowed);
   EXPECT_EQ(arcSine(1.5), kPi / 2.0);
   EXPECT_EQ(arcSine(-kInfinity), -kPi / 2.0);
-  EXPECT_EQ(arcCosine(1.0000001), 0.0);
-  EXPECT_EQ(arcCosine(-7.0), kPi);
   EXPECT_TRUE(std::isnan(arcSine(kNan)));
-  EXPECT_TRUE(std::isnan(arcCosine(kNan)));
 }
 
 TEST(Exponential, IsAccurateFromUnderflowToOverflow) {

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "core/edges/bit_rows.h"
-#include "core/edges/edge_input.h"
 #include "tests/core/edges/test_images.h"
 
 namespace boresight {

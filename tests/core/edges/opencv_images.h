@@ -3,7 +3,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/base/image.h"
+#include "core/edges/border.h"
+#include "core/edges/gaussian.h"
 #include "tests/core/edges/test_images.h"
 
 namespace boresight {
@@ -16,6 +17,35 @@ inline cv::Mat asMat(TestImage& image) {
 inline ImageView asView(const cv::Mat& image) {
   return {image.ptr<std::uint8_t>(), image.cols, image.rows,
           static_cast<std::ptrdiff_t>(image.step[0])};
+}
+
+/// The whole image as the core's own stage leaves it: equalized as `options` say, then smoothed.
+inline cv::Mat byCore(const ImageView& image, const BitImage* ignore, const EdgeOptions& options) {
+  TestArena arena;
+  Equalizer equalizer;
+  equalizer.begin(image, ignore, options, *arena);
+  while (!equalizer.step(1 << 19)) {
+  }
+  SmoothedRows smoothed;
+  smoothed.begin(image.width, image.height, options.gaussian_sigma_px, *arena);
+  cv::Mat out(image.height, roundUpToBlock(image.width), CV_8UC1);
+  for (int y = 0; y < image.height; ++y) smoothed.row(y, equalizer, out.ptr(y));
+  return out.colRange(0, image.width).clone();
+}
+
+inline cv::Mat equalizedByCore(const ImageView& image, const BitImage* ignore,
+                               Equalization equalization) {
+  EdgeOptions options;
+  options.equalization = equalization;
+  options.gaussian_sigma_px = 0.0;
+  return byCore(image, ignore, options);
+}
+
+inline cv::Mat smoothedByCore(const ImageView& image, double sigma_px) {
+  EdgeOptions options;
+  options.equalization = Equalization::kOff;
+  options.gaussian_sigma_px = sigma_px;
+  return byCore(image, nullptr, options);
 }
 
 /// 255 where set.

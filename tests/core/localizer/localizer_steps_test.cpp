@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
-#include "core/edges/edge_input.h"
+#include "core/edges/edge_map.h"
 #include "core/localizer/localizer.h"
 #include "tests/core/localizer/scene.h"
 

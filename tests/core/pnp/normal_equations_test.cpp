@@ -10,12 +10,8 @@
 #include "core/pnp/refine_pose.h"
 #include "tests/core/pnp/pnp_scene.h"
 
-namespace boresight {
+namespace boresight::test {
 namespace {
-
-using test::makeScene;
-using test::PnpScene;
-using test::randomFor;
 
 Matrix6d symmetric(const Matrix6d& lower) {
   Matrix6d whole = lower;
@@ -29,7 +25,7 @@ class ReprojectionEquations : public ::testing::TestWithParam<CameraModel> {};
 
 TEST_P(ReprojectionEquations, AreThoseOfFiniteDifferences) {
   Random random = randomFor("ReprojectionEquations.AreThoseOfFiniteDifferences");
-  const Camera camera = test::randomCamera(random, GetParam());
+  const Camera camera = randomCamera(random, GetParam());
   PnpScene scene = makeScene(random, {.points = 20, .noise_px = 3.0}, camera);
   for (Correspondence& item : scene.correspondences) item.sigma_px = random.uniform(0.5, 2.0);
   const Pose pose = scene.hypothesis.camera_from_station;
@@ -54,7 +50,7 @@ TEST_P(ReprojectionEquations, AreThoseOfFiniteDifferences) {
   const NormalEquations equations = reprojectionEquations(scene.correspondences, {}, camera, pose);
   EXPECT_LT((symmetric(equations.information) - information).norm(), 1e-6 * information.norm());
   EXPECT_LT((equations.gradient - gradient).norm(), 1e-6 * gradient.norm());
-  const double cost = test::reprojectionCost(scene.correspondences, {}, camera, pose);
+  const double cost = reprojectionCost(scene.correspondences, {}, camera, pose);
   EXPECT_NEAR(equations.squares, cost, 1e-9 * cost);
   EXPECT_EQ(equations.projected, 20);
   EXPECT_EQ(equations.missing, 0);
@@ -82,8 +78,8 @@ TEST(AddPrior, IsTheGradientOfTheOffsetsSquares) {
   Random random = randomFor("AddPrior.IsTheGradientOfTheOffsetsSquares");
   for (int trial = 0; trial < 100; ++trial) {
     PosePrior prior;
-    prior.camera_from_station = test::randomCameraFromStation(random, 0.5);
-    prior.sigma.pivot_in_camera_m = test::randomVector(random, 0.5);
+    prior.camera_from_station = randomCameraFromStation(random, 0.5);
+    prior.sigma.pivot_in_camera_m = randomVector(random, 0.5);
     prior.sigma.translation_m = {0.01, 0.02, 0.04};
     prior.sigma.rotation_rad = {0.05, 0.1, 0.2};
     const auto squares = [&prior](const Pose& pose) {
@@ -93,7 +89,7 @@ TEST(AddPrior, IsTheGradientOfTheOffsetsSquares) {
              offset.tail<3>().cwiseQuotient(prior.sigma.translation_m).squaredNorm();
     };
     const Pose pose =
-        displacedAboutPivot(prior.camera_from_station, test::randomOffset(random, prior.sigma),
+        displacedAboutPivot(prior.camera_from_station, randomOffset(random, prior.sigma),
                             prior.sigma.pivot_in_camera_m);
     NormalEquations equations;
     addPrior(prior, pose, equations);
@@ -199,7 +195,7 @@ TEST(PoseCovariance, DividesByTheDegreesOfFreedom) {
       reprojectionEquations(scene.correspondences, {}, scene.camera, pose).information;
   const Matrix6d information = lower.selfadjointView<Eigen::Lower>();
   const double variance =
-      test::reprojectionCost(scene.correspondences, {}, scene.camera, pose) / (2 * 5 - 6);
+      reprojectionCost(scene.correspondences, {}, scene.camera, pose) / (2 * 5 - 6);
   EXPECT_LT((information * covariance / variance - Matrix6d::Identity()).norm(), 1e-6);
 }
 
@@ -235,7 +231,7 @@ TEST(PoseCovariance, OfThreePointsExists) {
   EXPECT_EQ(poseCovariance(scene.correspondences, {}, scene.camera, scene.camera_from_station,
                            covariance),
             Status::kOk);
-  EXPECT_TRUE(test::isFiniteMatrix(covariance));
+  EXPECT_TRUE(isFiniteMatrix(covariance));
 }
 
 TEST(PoseCovariance, OfUndeterminedPosesIsDegenerate) {
@@ -259,4 +255,4 @@ TEST(PoseCovariance, OfUndeterminedPosesIsDegenerate) {
 }
 
 }  // namespace
-}  // namespace boresight
+}  // namespace boresight::test

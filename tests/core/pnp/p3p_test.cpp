@@ -10,11 +10,8 @@
 
 #include "tests/support/random_pose.h"
 
-namespace boresight {
+namespace boresight::test {
 namespace {
-
-using test::randomFor;
-using test::randomPose;
 
 struct Triplet {
   Pose camera_from_station;
@@ -242,4 +239,4 @@ TEST(SolveP3p, NeverGivesANonFinitePose) {
 }
 
 }  // namespace
-}  // namespace boresight
+}  // namespace boresight::test

@@ -6,14 +6,8 @@
 
 #include "tests/core/pnp/pnp_scene.h"
 
-namespace boresight {
+namespace boresight::test {
 namespace {
-
-using test::makeScene;
-using test::PnpScene;
-using test::poseNear;
-using test::randomFor;
-using test::Solver;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -22,7 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 void expectSound(const PnpSolution& solution, Status status) {
   EXPECT_TRUE(solution.camera_from_station.isFinite());
   EXPECT_NEAR(solution.camera_from_station.rotation.norm(), 1.0, 1e-6);
-  EXPECT_TRUE(test::isFiniteMatrix(solution.covariance));
+  EXPECT_TRUE(isFiniteMatrix(solution.covariance));
   EXPECT_TRUE(isFinite(solution.rms_px));
   int inliers = 0;
   for (std::size_t i = 0; i < solution.inlier.size(); ++i) {
@@ -73,7 +67,7 @@ TEST_P(PnpRansacBadInput, CollinearPointsAreDegenerate) {
   Random random = randomFor("PnpRansacBadInput.CollinearPointsAreDegenerate");
   for (int trial = 0; trial < 20; ++trial) {
     PnpScene scene = makeScene(random, {.points = 30});
-    const Eigen::Vector3d direction = test::randomDirection(random);
+    const Eigen::Vector3d direction = randomDirection(random);
     for (Correspondence& item : scene.correspondences) {
       item.point_in_station_m = random.uniform(-0.1, 0.1) * direction;
       ASSERT_TRUE(
@@ -190,7 +184,7 @@ TEST_P(PnpRansacBadInput, BadCamerasAreInvalid) {
   PnpScene scene = makeScene(random, {.points = 20});
   scene.camera.fx = kNan;
   EXPECT_EQ(solveSoundly(scene, 2.0, options()), Status::kInvalidCamera);
-  scene.camera = test::armCamera();
+  scene.camera = armCamera();
   scene.camera.valid_radius = 0.0;  // never prepared
   EXPECT_EQ(solveSoundly(scene, 2.0, options()), Status::kInvalidCamera);
 }
@@ -237,4 +231,4 @@ TEST(PnpRansac, SurvivesArbitraryNumbers) {
 }
 
 }  // namespace
-}  // namespace boresight
+}  // namespace boresight::test

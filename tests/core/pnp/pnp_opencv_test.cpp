@@ -7,15 +7,8 @@
 #include "tests/core/geometry/example_cameras.h"
 #include "tests/core/pnp/pnp_scene.h"
 
-namespace boresight {
+namespace boresight::test {
 namespace {
-
-using test::makeScene;
-using test::PnpScene;
-using test::PnpSceneOptions;
-using test::poseNear;
-using test::randomFor;
-using test::Solver;
 
 cv::Mat cameraMatrix(const Camera& camera) {
   return (cv::Mat_<double>(3, 3) << camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0,
@@ -65,15 +58,15 @@ Pose solveByOpenCv(const Matched& matched, const Camera& camera, cv::SolvePnPMet
   return poseFromOpenCv(rotation_vector, translation);
 }
 
-std::vector<test::NamedCamera> openCvCameras() {
-  std::vector<test::NamedCamera> cameras;
-  for (const test::NamedCamera& named : test::exampleCameras()) {
+std::vector<NamedCamera> openCvCameras() {
+  std::vector<NamedCamera> cameras;
+  for (const NamedCamera& named : exampleCameras()) {
     if (named.camera.model != CameraModel::kKannalaBrandt) cameras.push_back(named);
   }
   return cameras;
 }
 
-class PnpAgainstOpenCv : public ::testing::TestWithParam<test::NamedCamera> {};
+class PnpAgainstOpenCv : public ::testing::TestWithParam<NamedCamera> {};
 
 INSTANTIATE_TEST_SUITE_P(Cameras, PnpAgainstOpenCv, ::testing::ValuesIn(openCvCameras()),
                          [](const auto& tested) { return tested.param.name; });
@@ -110,16 +103,16 @@ TEST_P(PnpAgainstOpenCv, AgreesWithSqpnpOnExactData) {
 
 TEST(SolveP3pAgainstOpenCv, FindsTheSameSolutions) {
   Random random = randomFor("SolveP3pAgainstOpenCv.FindsTheSameSolutions");
-  const Camera camera = test::makePinhole(1000, 1000, 500.0);
+  const Camera camera = makePinhole(1000, 1000, 500.0);
   int theirs_found = 0;
   int theirs_total = 0;
   for (int trial = 0; trial < 1000; ++trial) {
-    const Pose truth = test::randomCameraFromStation(random, 2.0);
+    const Pose truth = randomCameraFromStation(random, 2.0);
     std::array<Eigen::Vector3d, 3> bearing, point;
     std::vector<cv::Point3d> points;
     std::vector<cv::Point2d> pixels;
     for (std::size_t i = 0; i < 3; ++i) {
-      point[i] = test::randomVector(random, 1.0);
+      point[i] = randomVector(random, 1.0);
       Eigen::Vector2d pixel;
       ASSERT_TRUE(project(camera, truth * point[i], pixel));
       ASSERT_TRUE(unproject(camera, pixel, bearing[i]));
@@ -155,4 +148,4 @@ TEST(SolveP3pAgainstOpenCv, FindsTheSameSolutions) {
 }
 
 }  // namespace
-}  // namespace boresight
+}  // namespace boresight::test

@@ -12,15 +12,8 @@
 #include "tests/core/localizer/heap_count.h"
 #include "tests/core/pnp/pnp_scene.h"
 
-namespace boresight {
+namespace boresight::test {
 namespace {
-
-using test::makeScene;
-using test::PnpScene;
-using test::PnpSceneOptions;
-using test::poseNear;
-using test::randomFor;
-using test::Solver;
 
 /// Checks that what is reported belongs to the pose that is reported, from the definitions.
 void expectSelfConsistent(const PnpScene& scene, double threshold_px, const PnpSolution& solution) {
@@ -130,7 +123,7 @@ TEST_P(PnpRansacSamplers, SolvePlanesAndNearPlanes) {
 
 TEST_P(PnpRansacSamplers, WorkWithEveryCameraModel) {
   Random random = randomFor("PnpRansacSamplers.WorkWithEveryCameraModel");
-  for (const test::NamedCamera& named : test::exampleCameras()) {
+  for (const NamedCamera& named : exampleCameras()) {
     PnpSceneOptions options{.points = 60, .outlier_share = 0.4};
     options.distance_m = 0.3;  // out to where the lenses bend
     const PnpScene scene = makeScene(random, options, named.camera);
@@ -151,9 +144,9 @@ TEST_P(PnpRansacSamplers, ReturnTheLeastSquaresOverTheirInliers) {
     Solver solver(80);
     ASSERT_EQ(solver.solve(scene, 3.0, optionsOf(GetParam())), Status::kOk);
     const auto cost = [&](const Pose& at) {
-      return test::reprojectionCost(scene.correspondences, solver.inlier, scene.camera, at);
+      return reprojectionCost(scene.correspondences, solver.inlier, scene.camera, at);
     };
-    EXPECT_LT(test::newtonStepLeft(cost, solver.solution.camera_from_station), 1e-7);
+    EXPECT_LT(newtonStepLeft(cost, solver.solution.camera_from_station), 1e-7);
     expectSelfConsistent(scene, 3.0, solver.solution);
   }
 }
@@ -206,7 +199,7 @@ TEST(PnpRansac, TrustsPreciseMatchesMore) {
     // that the search does not stop before it draws a sample of the other half.
     const Pose wrong =
         displacedAboutPivot(scene.camera_from_station,
-                            test::randomOffset(random, scene.hypothesis.sigma), {0.0, 0.0, 0.0});
+                            randomOffset(random, scene.hypothesis.sigma), {0.0, 0.0, 0.0});
     for (std::size_t i = 0; i < 46; ++i) {
       Correspondence& item = scene.correspondences[i];
       ASSERT_TRUE(project(scene.camera, wrong * item.point_in_station_m, item.pixel));
@@ -242,7 +235,7 @@ TEST(PnpRansac, WorksFarAwayWithAPivotAtTheStation) {
     PnpScene scene = makeScene(random, options);
     scene.hypothesis.sigma.pivot_in_camera_m = scene.camera_from_station.translation_m;
     scene.hypothesis.camera_from_station = displacedAboutPivot(
-        scene.camera_from_station, test::randomOffset(random, scene.hypothesis.sigma),
+        scene.camera_from_station, randomOffset(random, scene.hypothesis.sigma),
         scene.hypothesis.sigma.pivot_in_camera_m);
     Solver solver(80);
     ASSERT_EQ(solver.solve(scene, 4.0, PnpOptions()), Status::kOk) << "trial " << trial;
@@ -313,9 +306,9 @@ TEST(PnpRansac, NothingIsAllocated) {
   Random random = randomFor("PnpRansac.NothingIsAllocated");
   const PnpScene scene = makeScene(random, {.points = 90, .outlier_share = 0.5, .noise_px = 1.0});
   Solver solver(90);
-  const int before = test::heapAllocations();
+  const int before = heapAllocations();
   const Status status = solver.solve(scene, 8.0, PnpOptions());
-  EXPECT_EQ(test::heapAllocations(), before);
+  EXPECT_EQ(heapAllocations(), before);
   EXPECT_EQ(status, Status::kOk);
 }
 
@@ -336,7 +329,7 @@ INSTANTIATE_TEST_SUITE_P(Samplers, PnpSamplersWithAMovingPupil,
 
 /// Points all over the image of a camera whose pupil moves by 4 mm, a third of them wrong.
 TEST_P(PnpSamplersWithAMovingPupil, FindsTheTruthDespiteOutliers) {
-  const Camera camera = test::planetaryCamera("HazardDeepPupil");
+  const Camera camera = planetaryCamera("HazardDeepPupil");
   ASSERT_TRUE(pupilMoves(camera));
   Random random = randomFor("PnpWithAMovingPupil");
   PnpSceneOptions scene_options;
@@ -363,7 +356,7 @@ TEST_P(PnpSamplersWithAMovingPupil, FindsTheTruthDespiteOutliers) {
 
 /// A minimal sample is exact where the hypothesis knows how far off its points are.
 TEST(PnpWithAMovingPupil, OneMinimalSampleIsExact) {
-  const Camera camera = test::planetaryCamera("HazardDeepPupil");
+  const Camera camera = planetaryCamera("HazardDeepPupil");
   Random random = randomFor("OneMinimalSampleIsExact");
   PnpSceneOptions scene_options;
   scene_options.points = 60;
@@ -383,4 +376,4 @@ TEST(PnpWithAMovingPupil, OneMinimalSampleIsExact) {
 }
 
 }  // namespace
-}  // namespace boresight
+}  // namespace boresight::test

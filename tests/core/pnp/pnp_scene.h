@@ -120,6 +120,26 @@ struct Solver {
   std::vector<double> residual_px;
 };
 
+inline PnpView onlyView(const Camera& camera, std::span<const Correspondence> correspondences) {
+  return {&camera, Pose(), static_cast<std::int32_t>(correspondences.size())};
+}
+
+/// The functions of the core for a single view.
+inline Status refinePose(std::span<const Correspondence> correspondences,
+                         std::span<const std::uint8_t> use, const Camera& camera,
+                         const PosePrior* prior, int max_iterations, Pose& camera_from_station) {
+  const PnpView view = onlyView(camera, correspondences);
+  return boresight::refinePose(correspondences, use, std::span(&view, 1), prior, max_iterations,
+                               camera_from_station);
+}
+inline Status poseCovariance(std::span<const Correspondence> correspondences,
+                             std::span<const std::uint8_t> use, const Camera& camera,
+                             const Pose& camera_from_station, Matrix6d& covariance) {
+  const PnpView view = onlyView(camera, correspondences);
+  return boresight::poseCovariance(correspondences, use, std::span(&view, 1), camera_from_station,
+                                   covariance);
+}
+
 /// One sum of the least squares of a pose, written straight from its definition.
 inline double reprojectionCost(const std::vector<Correspondence>& correspondences,
                                const std::vector<std::uint8_t>& use, const Camera& camera,

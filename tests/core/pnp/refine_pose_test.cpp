@@ -6,15 +6,10 @@
 #include "tests/core/geometry/example_cameras.h"
 #include "tests/core/pnp/pnp_scene.h"
 
-namespace boresight {
+namespace boresight::test {
 namespace {
 
-using test::makeScene;
-using test::PnpScene;
-using test::poseNear;
-using test::randomFor;
-
-class RefinePoseCameras : public ::testing::TestWithParam<test::NamedCamera> {};
+class RefinePoseCameras : public ::testing::TestWithParam<NamedCamera> {};
 
 TEST_P(RefinePoseCameras, RecoversExactDataFromTheHypothesis) {
   Random random = randomFor("RefinePoseCameras." + GetParam().name);
@@ -33,13 +28,13 @@ TEST_P(RefinePoseCameras, EndsWhereTheSquaresAreLeast) {
     Pose pose = scene.hypothesis.camera_from_station;
     ASSERT_EQ(refinePose(scene.correspondences, {}, scene.camera, nullptr, 50, pose), Status::kOk);
     const auto cost = [&scene](const Pose& at) {
-      return test::reprojectionCost(scene.correspondences, {}, scene.camera, at);
+      return reprojectionCost(scene.correspondences, {}, scene.camera, at);
     };
-    EXPECT_LT(test::newtonStepLeft(cost, pose), 1e-8);
+    EXPECT_LT(newtonStepLeft(cost, pose), 1e-8);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, RefinePoseCameras, ::testing::ValuesIn(test::exampleCameras()),
+INSTANTIATE_TEST_SUITE_P(Every, RefinePoseCameras, ::testing::ValuesIn(exampleCameras()),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(RefinePose, WeighsByInverseVariance) {
@@ -96,8 +91,8 @@ TEST(RefinePose, NeverRaisesTheSquares) {
     const Status status = refinePose(scene.correspondences, {}, scene.camera, nullptr, 3, pose);
     ASSERT_TRUE(pose.isFinite());
     if (status != Status::kOk) continue;
-    const double before = test::reprojectionCost(scene.correspondences, {}, scene.camera, start);
-    ASSERT_LE(test::reprojectionCost(scene.correspondences, {}, scene.camera, pose),
+    const double before = reprojectionCost(scene.correspondences, {}, scene.camera, start);
+    ASSERT_LE(reprojectionCost(scene.correspondences, {}, scene.camera, pose),
               before * (1.0 + 1e-12));
   }
 }
@@ -106,7 +101,7 @@ TEST(RefinePose, CollinearPointsAreDegenerate) {
   Random random = randomFor("RefinePose.CollinearPointsAreDegenerate");
   for (int trial = 0; trial < 50; ++trial) {
     PnpScene scene = makeScene(random, {.points = 30});
-    const Eigen::Vector3d direction = test::randomDirection(random);
+    const Eigen::Vector3d direction = randomDirection(random);
     for (Correspondence& item : scene.correspondences) {
       item.point_in_station_m = random.uniform(-0.1, 0.1) * direction;
       ASSERT_TRUE(
@@ -168,7 +163,7 @@ double priorCost(const PosePrior& prior, const Pose& pose) {
 
 PosePrior randomPrior(Random& random, const PnpScene& scene) {
   PosePrior prior = scene.hypothesis;
-  prior.sigma.pivot_in_camera_m = test::randomVector(random, 0.3);
+  prior.sigma.pivot_in_camera_m = randomVector(random, 0.3);
   for (int i = 0; i < 3; ++i) {
     prior.sigma.translation_m[i] = random.uniform(0.001, 0.05);
     prior.sigma.rotation_rad[i] = random.uniform(0.005, 0.1);
@@ -196,10 +191,10 @@ TEST(RefinePosePrior, BalancesWithTheReprojections) {
       Pose pose = prior.camera_from_station;
       ASSERT_EQ(refinePose(scene.correspondences, {}, scene.camera, &prior, 50, pose), Status::kOk);
       const auto cost = [&](const Pose& at) {
-        return test::reprojectionCost(scene.correspondences, {}, scene.camera, at) +
+        return reprojectionCost(scene.correspondences, {}, scene.camera, at) +
                priorCost(prior, at);
       };
-      EXPECT_LT(test::newtonStepLeft(cost, pose), 2e-6) << points << " points";
+      EXPECT_LT(newtonStepLeft(cost, pose), 2e-6) << points << " points";
       EXPECT_GT(priorCost(prior, pose), 1e-4) << "the reprojections must have pulled";
     }
   }
@@ -239,4 +234,4 @@ TEST(RefinePosePrior, DeterminesCollinearPoints) {
 }
 
 }  // namespace
-}  // namespace boresight
+}  // namespace boresight::test
