@@ -12,7 +12,7 @@
 #include "sessions/evaluation/bop_scene.h"
 #include "sessions/evaluation/reseed.h"
 #include "sessions/io/errors.h"
-#include "sessions/io/image_container.h"
+#include "sessions/io/image_decoder.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/text/units.h"
 
@@ -293,12 +293,12 @@ void Reader::readScene(int scene_id, const fs::path& folder) {
     const auto image = images.find(image_id);
     if (image == images.end()) throw InputError(folder, "", "has no image " + bopNumber(image_id));
     if (!size)
-      size = checkImageContainer(image->second, readFileBytes(image->second, kMaxImageFileBytes));
+      size = readImageHeader(image->second, readFileBytes(image->second, kMaxImageFileBytes));
     std::map<int, int> repetitions;
     for (Instance instance : wanted) {
       BopObject sized = *instance.object;
-      sized.image.camera.width = static_cast<int>(size->width);
-      sized.image.camera.height = static_cast<int>(size->height);
+      sized.image.camera.width = size->width;
+      sized.image.camera.height = size->height;
       instance.object = &sized;
       addCase(scene_id, instance, ++repetitions[sized.object_id], image->second);
     }

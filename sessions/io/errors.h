@@ -26,7 +26,7 @@ class FileError : public std::runtime_error {
 };
 
 /// Bad input: "FILE: FIELD: REASON", or "FILE: REASON" when the file as a whole is wrong, e.g.
-/// "seed.json: camera_from_station[1][3]: not a finite number".
+/// "camera.json: fx: -3100 is outside 0.001 .. 1e+07".
 class InputError : public FileError {
  public:
   InputError(const std::filesystem::path& file, const std::string& field,

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "sessions/io/atomic_file.h"
-#include "sessions/io/decoder_messages.h"
 #include "sessions/io/errors.h"
-#include "sessions/io/image_container.h"
+#include "sessions/io/image_decoder.h"
 #include "sessions/io/labels/image_label.h"
 #include "sessions/io/labels/label_samples.h"
 
@@ -21,106 +19,52 @@ std::string sizeText(std::int64_t width, std::int64_t height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-void checkSize(const std::filesystem::path& file, const ImageHeader& header) {
-  const auto in_range = [](std::int64_t side) { return side >= 1 && side <= kMaxImageSide_px; };
-  if (!in_range(header.width) || !in_range(header.height) ||
-      header.width * header.height > kMaxImagePixels)
-    throw InputError(file, "image size",
-                     sizeText(header.width, header.height) + " is outside the limits (sides 1 .. " +
-                         std::to_string(kMaxImageSide_px) + " px, at most " +
-                         std::to_string(kMaxImagePixels) + " px in all)");
-}
-
-/// OpenCV's decoder turns a TIFF by the orientation that it states, whatever it is asked for.
-cv::Mat decodeAsStored(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes,
-                       const ImageHeader& header) {
-  const int flags = cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION;
-  if (header.container == ImageContainer::kTiff && header.orientation != 1)
-    return cv::imdecode(uprightTiff(file, bytes), flags);
-  return cv::imdecode(bytes, flags);
-}
-
-/// An image file before it becomes 8 bit.
-struct DecodedImage {
-  std::optional<LabelSamples> labelled;  ///< of an image with a label; stands behind `pixels`
-  ImageHeader header;                    ///< of other images
-  cv::Mat pixels;                        ///< 8 or 16 bits; with a label 16
-  std::string messages;                  ///< of the decoder
+/// The samples of an image file before they become 8 bits.
+struct FileSamples {
+  std::optional<LabelSamples> labelled;  ///< of an image with a label; holds what `pixels` shows
+  ImageContainer container = ImageContainer::kPng;  ///< of other images
+  cv::Mat pixels;                                   ///< 16 bits a channel
+  int sample_bits = 8;                              ///< of the file: 8 or 16
+  std::vector<std::string> notes;
   std::string sha256;
-
-  int sampleBits() const {
-    return labelled ? labelled->sample_bits : pixels.depth() == CV_16U ? 16 : 8;
-  }
 };
 
-/// Decodes a PNG, JPEG or TIFF within the limits.
-DecodedImage decode(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes) {
-  DecodedImage decoded;
-  decoded.header = checkImageContainer(file, bytes);
-  decoded.sha256 = sha256Text(bytes);
-  const ImageHeader& header = decoded.header;
-  checkSize(file, header);
-  cv::Mat& image = decoded.pixels;
-  try {
-    const DecoderMessages kept(decoded.messages);
-    image = decodeAsStored(file, bytes, header);
-  } catch (const cv::Exception& error) {
-    throw InputError(file, "the image cannot be decoded: " + error.err);
-  }
-  if (image.empty())
-    throw InputError(file, std::string("the ") + imageContainerName(header.container) +
-                               " image cannot be decoded (damaged, or of an unsupported kind)");
-  if (image.cols != header.width || image.rows != header.height)
-    throw InputError(file, "the decoded image has another size than its header says");
-  if (image.depth() != CV_8U && image.depth() != CV_16U) throw InputError(file, kOtherSamples);
-  return decoded;
-}
-
-/// The same, or the samples of an image with a label in the file or beside it.
-DecodedImage decode(const std::filesystem::path& file) {
+FileSamples decode(const std::filesystem::path& file) {
   std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxImageFileBytes);
-  DecodedImage decoded;
-  if (labelFormatOf(bytes))
+  FileSamples decoded;
+  if (labelFormatOf(bytes)) {
     decoded.labelled = readLabelSamples(readLabelFiles(file, std::move(bytes)));
-  else if (const auto label_file = labelFileOf(file))
+  } else if (const auto label_file = labelFileOf(file)) {
     decoded.labelled = readLabelSamples(readLabelFiles(*label_file));
-  else
-    return decode(file, bytes);
+  } else {
+    DecodedImage image = decodeImage(file, bytes);
+    decoded.container = image.header.container;
+    decoded.sample_bits = image.pixels.depth() == CV_16U ? 16 : 8;
+    image.pixels.convertTo(decoded.pixels, CV_16U);
+    decoded.notes = std::move(image.notes);
+    decoded.sha256 = sha256Text(bytes);
+    return decoded;
+  }
   LabelSamples& labelled = *decoded.labelled;
   decoded.pixels = cv::Mat(labelled.height, labelled.width, CV_16U, labelled.values.data());
+  decoded.sample_bits = labelled.sample_bits;
   decoded.sha256 = labelled.sha256;
   return decoded;
 }
 
-/// What a person should know of an image file: what is in it and not used, what is damaged.
-std::vector<std::string> notesOf(const ImageHeader& header, const std::string& messages) {
-  std::vector<std::string> notes;
-  if (header.orientation != 1)
-    notes.push_back("EXIF orientation " + std::to_string(header.orientation) +
-                    " is not applied: pixels are used as they are stored");
-  if (header.has_further_images)
-    notes.push_back("the file holds further images (pages): only the first is read");
-  // A decoder of JPEG fills what is damaged; those of the others refuse it.
-  if (header.container == ImageContainer::kJpeg && !messages.empty())
-    notes.push_back("the image may be damaged: " + oneLine(messages));
-  return notes;
-}
-
-template <class Sample>
-std::uint32_t grayValue(const Sample* pixel, int channels) {
+std::uint32_t grayValue(const std::uint16_t* pixel, int channels) {
   if (channels < 3) return pixel[0];
   // OpenCV's integer luma; its order is blue, green, red.
   return (3735u * pixel[0] + 19235u * pixel[1] + 9798u * pixel[2] + 16384u) >> 15;
 }
 
-template <class Sample>
 void convert(const std::filesystem::path& file, const cv::Mat& image,
              const std::vector<std::uint8_t>& table, GrayImage& gray) {
   const std::uint32_t largest = (1u << gray.bit_depth) - 1u;
   const int channels = image.channels();
   std::uint8_t* out = gray.pixels.data();
   for (int y = 0; y < image.rows; ++y) {
-    const auto* pixel = image.ptr<Sample>(y);
+    const auto* pixel = image.ptr<std::uint16_t>(y);
     for (int x = 0; x < image.cols; ++x, pixel += channels) {
       const std::uint32_t v = grayValue(pixel, channels);
       if (v > largest)
@@ -135,14 +79,13 @@ void convert(const std::filesystem::path& file, const cv::Mat& image,
 
 /// The colour of an image that has any, in OpenCV's order. Samples beyond the table are not there:
 /// convert() refuses a gray value of more bits, and the largest colour is taken for others.
-template <class Sample>
 std::vector<std::uint8_t> colorOf(const cv::Mat& image, const std::vector<std::uint8_t>& table) {
   const int channels = image.channels();
   std::vector<std::uint8_t> color;
   if (channels < ColorView::kChannels) return color;
   color.reserve(image.total() * ColorView::kChannels);
   for (int y = 0; y < image.rows; ++y) {
-    const auto* pixel = image.ptr<Sample>(y);
+    const auto* pixel = image.ptr<std::uint16_t>(y);
     for (int x = 0; x < image.cols; ++x, pixel += channels)
       for (int c = 0; c < ColorView::kChannels; ++c)
         color.push_back(table[std::min<std::size_t>(pixel[c], table.size() - 1)]);
@@ -258,12 +201,12 @@ std::vector<std::uint8_t> tableOfLevels(const GrayLevels& levels, int n) {
 }
 
 ImageSamples readSamples(const std::filesystem::path& file) {
-  const DecodedImage decoded = decode(file);
+  const FileSamples decoded = decode(file);
   const cv::Mat& image = decoded.pixels;
   ImageSamples samples;
   samples.width = image.cols;
   samples.height = image.rows;
-  samples.sample_bits = decoded.sampleBits();
+  samples.sample_bits = decoded.sample_bits;
   samples.file_sha256 = decoded.sha256;
   if (decoded.labelled) {
     samples.offset = decoded.labelled->offset;
@@ -274,9 +217,7 @@ ImageSamples readSamples(const std::filesystem::path& file) {
   for (int y = 0; y < image.rows; ++y)
     for (int x = 0; x < image.cols; ++x)
       samples.values.push_back(static_cast<std::uint16_t>(
-          image.depth() == CV_16U
-              ? grayValue(image.ptr<std::uint16_t>(y) + x * channels, channels)
-              : grayValue(image.ptr<std::uint8_t>(y) + x * channels, channels)));
+          grayValue(image.ptr<std::uint16_t>(y) + x * channels, channels)));
   return samples;
 }
 
@@ -285,34 +226,29 @@ GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& o
     throw InputError(file, "bit_depth", std::to_string(*options.bit_depth) + " is outside 1 .. 16");
   if (options.levels && !options.table.empty())
     throw InputError(file, "levels", "given beside a table: one of the two");
-  const DecodedImage decoded = decode(file);
+  const FileSamples decoded = decode(file);
   const cv::Mat& image = decoded.pixels;
   GrayImage gray;
   gray.file = file;
   gray.width = image.cols;
   gray.height = image.rows;
   gray.file_sha256 = decoded.sha256;
-  gray.sample_bits = decoded.sampleBits();
+  gray.sample_bits = decoded.sample_bits;
   gray.bit_depth = options.bit_depth.value_or(gray.sample_bits);
   gray.bit_depth_stated = options.bit_depth.has_value();
   if (decoded.labelled) {
     takeLabel(*decoded.labelled, options, gray);
     if (!decoded.labelled->rule.empty()) gray.rule = decoded.labelled->rule + "; ";
   } else {
-    gray.container = imageContainerName(decoded.header.container);
+    gray.container = imageContainerName(decoded.container);
     gray.channels = image.channels();
-    gray.notes = notesOf(decoded.header, decoded.messages);
+    gray.notes = decoded.notes;
   }
   requireDepth(file, gray);
   gray.pixels.resize(image.total());
   const std::vector<std::uint8_t> table = sampleTable(file, gray.bit_depth, options);
-  if (image.depth() == CV_16U) {
-    convert<std::uint16_t>(file, image, table, gray);
-    gray.color = colorOf<std::uint16_t>(image, table);
-  } else {
-    convert<std::uint8_t>(file, image, table, gray);
-    gray.color = colorOf<std::uint8_t>(image, table);
-  }
+  convert(file, image, table, gray);
+  gray.color = colorOf(image, table);
   gray.rule += ruleText(gray, options);
   gray.pixels_sha256 = sha256Text(gray.pixels);
   return gray;
@@ -339,20 +275,15 @@ IgnoreMask readIgnoreMask(const std::filesystem::path& file, int width, int heig
   if (const auto format = labelFormatOf(bytes))
     throw InputError(file,
                      std::string("a mask must be PNG or TIFF, not ") + labelFormatName(*format));
-  const ImageHeader header = checkImageContainer(file, bytes);
+  const ImageHeader header = readImageHeader(file, bytes);
   if (header.container == ImageContainer::kJpeg)
     throw InputError(file, "a mask must be lossless: PNG or TIFF, not JPEG");
   if (header.width != width || header.height != height)
     throw InputError(file, "mask size",
                      "is " + sizeText(header.width, header.height) + ", but the image is " +
                          sizeText(width, height));
-  const DecodedImage decoded = decode(file, bytes);
-  cv::Mat image = decoded.pixels;
-  if (image.depth() == CV_16U) {
-    cv::Mat nonzero;
-    cv::compare(image.reshape(1), 0, nonzero, cv::CMP_NE);
-    image = nonzero.reshape(image.channels());
-  }
+  cv::Mat image;
+  decodeImage(file, bytes).pixels.convertTo(image, CV_16U);
 
   IgnoreMask mask;
   mask.file = file;
@@ -360,14 +291,14 @@ IgnoreMask readIgnoreMask(const std::filesystem::path& file, int width, int heig
   mask.height = height;
   const int words_per_row = BitImage::wordsPerRow(width);
   mask.words.assign(static_cast<std::size_t>(words_per_row) * static_cast<std::size_t>(height), 0);
-  mask.file_sha256 = decoded.sha256;
+  mask.file_sha256 = sha256Text(bytes);
   const int channels = image.channels();
   const int judged = channels == 2 || channels == 4 ? channels - 1 : channels;
   for (int y = 0; y < height; ++y) {
-    const std::uint8_t* pixel = image.ptr<std::uint8_t>(y);
+    const auto* pixel = image.ptr<std::uint16_t>(y);
     std::uint64_t* row = mask.words.data() + static_cast<std::ptrdiff_t>(words_per_row) * y;
     for (int x = 0; x < width; ++x, pixel += channels) {
-      if (std::all_of(pixel, pixel + judged, [](std::uint8_t v) { return v == 0; })) continue;
+      if (std::all_of(pixel, pixel + judged, [](std::uint16_t v) { return v == 0; })) continue;
       row[x >> 6] |= std::uint64_t{1} << (x & 63);
       ++mask.ignored_count;
     }

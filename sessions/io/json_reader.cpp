@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -12,37 +13,40 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr const char* kUnknownKey = "is not known to this version of the format";
+/// nlohmann's message, which states line and column, without its error number.
+std::string explanation(const nlohmann::json::exception& error) {
+  constexpr std::size_t kMost = 200;
+  const std::string message = error.what();
+  if (message.find("unexpected end of input") != std::string::npos)
+    return "the file ends in the middle; it was cut short, or not written to its end";
+  const std::size_t end_of_number = message.find("] ");
+  const std::string text =
+      end_of_number == std::string::npos ? message : message.substr(end_of_number + 2);
+  return text.size() > kMost ? text.substr(0, kMost) + "..." : text;
+}
 
-/// Characters inserted, deleted, replaced, or exchanged with their neighbour between two words
-/// (optimal string alignment distance).
-std::size_t typingErrors(std::string_view a, std::string_view b) {
-  std::vector<std::vector<std::size_t>> errors(a.size() + 1,
-                                               std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) {
-    for (std::size_t j = 0; j <= b.size(); ++j) {
-      errors[i][j] = std::max(i, j);
-      if (i == 0 || j == 0) continue;
-      errors[i][j] = std::min({errors[i - 1][j] + 1, errors[i][j - 1] + 1,
-                               errors[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        errors[i][j] = std::min(errors[i][j], errors[i - 2][j - 2] + 1);
-    }
+/// nlohmann keeps the last of several members of one name, and follows any depth.
+nlohmann::json parse(const std::filesystem::path& file, std::string_view text) {
+  if (text.size() > kMaxJsonBytes)
+    throw InputError(
+        file, "larger than the limit of " + std::to_string(kMaxJsonBytes / kMegabyte) + " MB");
+  std::vector<std::set<std::string>> names;  // of the open objects
+  using Event = nlohmann::json::parse_event_t;
+  const auto check = [&](int depth, Event event, const nlohmann::json& parsed) {
+    const bool opens = event == Event::object_start || event == Event::array_start;
+    if (opens && depth >= static_cast<int>(kMaxJsonDepth))
+      throw InputError(file, "nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
+    if (event == Event::object_start) names.emplace_back();
+    if (event == Event::object_end) names.pop_back();
+    if (event == Event::key && !names.back().insert(parsed.get<std::string>()).second)
+      throw InputError(file, parsed.get<std::string>(), "given twice");
+    return true;
+  };
+  try {
+    return nlohmann::json::parse(text, check);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(file, "not JSON: " + explanation(error));
   }
-  return errors.back().back();
-}
-
-bool isMisspelt(std::string_view word, std::string_view wanted) {
-  return word != wanted &&
-         typingErrors(word, wanted) <= std::min<std::size_t>(2, wanted.size() / 3);
-}
-
-bool isCutShort(std::string_view word, std::string_view wanted) {
-  return word.size() > 2 && wanted.starts_with(word);
-}
-
-std::string unknownText(std::string_view meant) {
-  return std::string(kUnknownKey) + "; did you mean \"" + std::string(meant) + "\"?";
 }
 
 }  // namespace
@@ -62,10 +66,11 @@ std::string JsonUse::refusal(const nlohmann::json& object, const std::string& ke
   const std::vector<const std::string*>& names = found->second.names;
   const auto is = [&key](const std::string* name) { return *name == key; };
   if (std::any_of(names.begin(), names.end(), is)) return "";
-  const auto meant = std::find_if(names.begin(), names.end(), [&](const std::string* name) {
-    return !object.contains(*name) && (isMisspelt(key, *name) || isCutShort(key, *name));
-  });
-  return meant == names.end() ? kUnknownKey : unknownText(**meant);
+  std::string others;
+  for (const std::string* name : names)
+    if (!object.contains(*name)) others += (others.empty() ? "" : ", ") + *name;
+  return "is not known to this version of the format" +
+         (others.empty() ? "" : ", which also has: " + others);
 }
 
 std::string numberText(double value) {
@@ -126,10 +131,8 @@ void JsonReader::requireObject() const {
 
 JsonReader JsonReader::at(std::string_view key) const {
   const std::optional<JsonReader> found = find(key);
-  if (found) return *found;
-  for (const auto& [name, value] : value_->items())
-    if (use_ != nullptr && isMisspelt(name, key)) failMember(name, unknownText(key));
-  failMember(key, "missing");
+  if (!found) failMember(key, "missing");
+  return *found;
 }
 
 std::optional<JsonReader> JsonReader::find(std::string_view key) const {
@@ -255,5 +258,17 @@ std::filesystem::path JsonReader::path(FileUse use) const {
   noteInput(whole, use);
   return whole;
 }
+
+JsonDocument::JsonDocument(const std::filesystem::path& file, std::string_view text)
+    : file_(file), value_(std::make_unique<nlohmann::json>(parse(file, text))) {}
+
+JsonDocument::JsonDocument(const std::filesystem::path& file)
+    : JsonDocument(file, asText(readFileBytes(file, kMaxJsonBytes))) {}
+
+JsonDocument::JsonDocument(JsonDocument&&) noexcept = default;
+JsonDocument& JsonDocument::operator=(JsonDocument&&) noexcept = default;
+JsonDocument::~JsonDocument() = default;
+
+JsonReader JsonDocument::root() const { return {file_, *value_, ""}; }
 
 }  // namespace boresight::sessions

@@ -2,7 +2,6 @@
 #include "sessions/io/mesh_container.h"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -50,13 +49,6 @@ int plyTypeSize(std::string_view type) {
   return 0;
 }
 
-std::optional<std::uint64_t> wholeNumber(std::string_view word) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
-}
-
 void readPlyLine(const std::filesystem::path& file, const std::string& line, PlyHeader& header) {
   std::istringstream words(line);
   std::string keyword;
@@ -74,7 +66,7 @@ void readPlyLine(const std::filesystem::path& file, const std::string& line, Ply
     PlyElement element;
     std::string count;
     words >> element.name >> count;
-    const auto whole = wholeNumber(count);
+    const auto whole = numberIn<std::uint64_t>(count);
     if (!whole)
       throw InputError(file, "header",
                        "bad line '" + line + "': '" + count + "' is not a whole number");
@@ -121,82 +113,53 @@ PlyHeader readPlyHeader(const std::filesystem::path& file, Bytes bytes) {
 /// Walks one binary element; returns the offset after it.
 std::uint64_t walkPlyElement(const std::filesystem::path& file, Bytes bytes,
                              const PlyElement& element, bool big_endian, std::uint64_t offset) {
-  std::uint64_t fixed_size = 0;
-  bool has_list = false;
-  for (const PlyProperty& property : element.properties) {
-    fixed_size += static_cast<std::uint64_t>(property.value_size);
-    has_list = has_list || property.count_size != 0;
-  }
-  if (!has_list) {
-    if (fixed_size != 0 && element.count > bytes.size() / fixed_size) truncatedPly(file);
-    if (!holds(bytes, offset, element.count * fixed_size)) truncatedPly(file);
-    return offset + element.count * fixed_size;
-  }
-  for (std::uint64_t i = 0; i < element.count; ++i) {
+  const auto step = [&](std::uint64_t values, int size) {
+    if (values > bytes.size() || !holds(bytes, offset, values * static_cast<std::uint64_t>(size)))
+      truncatedPly(file);
+    offset += values * static_cast<std::uint64_t>(size);
+  };
+  if (element.properties.empty()) return offset;
+  for (std::uint64_t i = 0; i < element.count; ++i)
     for (const PlyProperty& property : element.properties) {
       std::uint64_t values = 1;
-      if (property.count_size != 0) {
-        if (!holds(bytes, offset, static_cast<std::uint64_t>(property.count_size)))
-          truncatedPly(file);
-        values = readUnsigned(bytes, offset, property.count_size, big_endian);
-        offset += static_cast<std::uint64_t>(property.count_size);
+      if (const int size = property.count_size; size != 0) {
+        step(1, size);
+        values = readUnsigned(bytes, offset - static_cast<std::uint64_t>(size), size, big_endian);
       }
-      if (values > bytes.size()) truncatedPly(file);
-      const std::uint64_t size = values * static_cast<std::uint64_t>(property.value_size);
-      if (!holds(bytes, offset, size)) truncatedPly(file);
-      offset += size;
+      step(values, property.value_size);
     }
-  }
   return offset;
 }
 
-/// Words of a text body, one after the other.
-class WordReader {
- public:
-  explicit WordReader(std::string_view text) : text_(text) {}
-
-  /// False at the end.
-  bool skip(std::uint64_t words) {
-    for (std::uint64_t i = 0; i < words; ++i)
-      if (next().empty()) return false;
-    return true;
-  }
-
-  std::size_t position() const { return at_; }
-
-  std::string_view next() {
-    while (at_ < text_.size() && isBlank(text_[at_])) ++at_;
-    const std::size_t start = at_;
-    while (at_ < text_.size() && !isBlank(text_[at_])) ++at_;
-    return text_.substr(start, at_ - start);
-  }
-
- private:
-  static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-
-  std::string_view text_;
-  std::size_t at_ = 0;
-};
+/// Takes the next word from the text; empty at its end.
+std::string_view takeWord(std::string_view& text) {
+  constexpr const char* kBlanks = " \t\r\n";
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
+  text.remove_prefix(word.size());
+  return word;
+}
 
 /// Returns the offset after the last element.
 std::uint64_t walkPlyText(const std::filesystem::path& file, const PlyHeader& header,
                           std::string_view body) {
-  WordReader words(body);
+  std::string_view rest = body;
   for (const PlyElement& element : header.elements)
     for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i)
       for (const PlyProperty& property : element.properties) {
         std::uint64_t values = 1;
         if (property.count_size != 0) {
-          const std::string_view count = words.next();
+          const std::string_view count = takeWord(rest);
           if (count.empty()) truncatedPly(file);
-          values = wholeNumber(count).value_or(body.size() + 1);
+          values = numberIn<std::uint64_t>(count).value_or(body.size() + 1);
           if (values > body.size())
             throw InputError(file, element.name + " " + std::to_string(i),
                              "'" + std::string(count) + "' is not the length of a list");
         }
-        if (!words.skip(values)) truncatedPly(file);
+        for (; values > 0; --values)
+          if (takeWord(rest).empty()) truncatedPly(file);
       }
-  return header.body + words.position();
+  return header.body + (body.size() - rest.size());
 }
 
 /// A count that is too small would leave out what is behind.

@@ -2,8 +2,8 @@
 #include "sessions/io/labels/label_camera.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <map>
 
 #include <nlohmann/json.hpp>
 
@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kMostComponents = 9;
+constexpr std::size_t kMostComponents = 9;
 const std::string kNone = "the label's camera model is NONE";
 
 /// What a component of the model is called in groups, and its element in PDS4.
@@ -40,46 +40,63 @@ char letterOf(const std::string& text) {
   return '\0';
 }
 
-/// The values of a group's components by letter.
+/// The components of a model by letter.
 struct Components {
-  std::array<const json*, 128> values{};
-  std::array<std::string, 128> units{};
-  std::string remark;
-
-  const json* value(char letter) const { return values[static_cast<unsigned char>(letter)]; }
+  std::map<char, std::vector<double>> numbers;
+  std::map<char, std::string> units;  ///< upper case; "" where none is stated
+  std::string remark;                 ///< one sentence where the components contradict each other
 };
 
-Components componentsOf(const json& group) {
+Components groupComponents(const json& group) {
   Components components;
   const auto letters = labelTexts(labelMember(&group, "MODEL_COMPONENT_ID"));
   const auto names = labelTexts(labelMember(&group, "MODEL_COMPONENT_NAME"));
   const auto units =
       labelTexts(labelMember(&group, {"MODEL_COMPONENT_UNIT", "MODEL_COMPONENT__UNIT"}));
-  for (int i = 0; i < kMostComponents; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const std::string key = "MODEL_COMPONENT_" + std::to_string(i + 1);
+  for (std::size_t at = 0; at < kMostComponents; ++at) {
+    const std::string number = std::to_string(at + 1);
+    const std::string key = "MODEL_COMPONENT_" + number;
     const json* value = labelMember(&group, key);
     if (value == nullptr) continue;
     const char by_letter = at < letters.size() ? letterOf(letters[at]) : '\0';
     const char by_name = at < names.size() ? letterOf(names[at]) : '\0';
     if (by_letter != '\0' && by_name != '\0' && by_letter != by_name) {
-      components.remark = "the label's camera model calls component " + std::to_string(i + 1) +
-                          " both " + letters[at] + " and " + names[at];
+      components.remark = "the label's camera model calls component " + number + " both " +
+                          letters[at] + " and " + names[at];
       return components;
     }
     const char letter = by_letter != '\0' ? by_letter : by_name;
     if (letter == '\0') continue;
-    const auto place = static_cast<unsigned char>(letter);
-    if (components.values[place] != nullptr) {
+    if (!components.numbers.emplace(letter, labelNumbers(value)).second) {
       components.remark =
           "the label's camera model has the component " + std::string(1, letter) + " twice";
       return components;
     }
-    components.values[place] = value;
     std::string unit = labelUnit(value);
     if (unit.empty()) unit = upperCase(labelText(labelMember(&group, key + "__UNIT")).value_or(""));
     if (unit.empty() && at < units.size()) unit = upperCase(units[at]);
-    components.units[place] = unit;
+    components.units[letter] = unit;
+  }
+  return components;
+}
+
+/// Of PDS4: an element a component, with a child for each coordinate, or a plain number.
+Components elementComponents(const json& model) {
+  constexpr const char* kNames[][3] = {{"x_position", "y_position", "z_position"},
+                                       {"x_unit", "y_unit", "z_unit"},
+                                       {"x_pixel", "y_pixel", "z_pixel"},
+                                       {"c0", "c1", "c2"},
+                                       {"x", "y", "z"}};
+  Components components;
+  for (const Component& one : kComponents) {
+    const json* element = labelMember(&model, one.element);
+    json coordinates = json::array();
+    for (const auto& names : kNames)
+      for (const char* name : names)
+        if (const json* value = labelMember(element, name)) coordinates.push_back(*value);
+    const json* values = coordinates.empty() ? element : &coordinates;
+    components.numbers[one.letter] = labelNumbers(values);
+    components.units[one.letter] = labelUnit(values);
   }
   return components;
 }
@@ -91,17 +108,16 @@ bool isOneOf(const std::string& text, std::initializer_list<const char*> words) 
 
 /// Metres for the centre and the pupil, pixels for H and V, nothing else.
 std::string unitRemark(const Components& components) {
-  for (const Component& one : kComponents) {
-    const std::string& unit = components.units[static_cast<unsigned char>(one.letter)];
+  for (const auto& [letter, unit] : components.units) {
     if (unit.empty()) continue;
-    const bool length = one.letter == 'C' || one.letter == 'E';
-    const bool picture = one.letter == 'H' || one.letter == 'V';
+    const bool length = letter == 'C' || letter == 'E';
+    const bool picture = letter == 'H' || letter == 'V';
     const bool known = (length && isOneOf(unit, {"M", "METER", "METERS", "METRE", "METRES"})) ||
                        (picture && isOneOf(unit, {"PIXEL", "PIXELS", "PX"})) ||
                        isOneOf(unit, {"N/A", "NONE", "UNITLESS", "DIMENSIONLESS"});
     if (!known && (length || picture))
       return "the unit '" + unit + "' of the label's camera model (component " +
-             std::string(1, one.letter) + ") is not known";
+             std::string(1, letter) + ") is not known";
   }
   return "";
 }
@@ -112,32 +128,33 @@ std::optional<CameraModel> modelOf(const std::string& type) {
   return std::nullopt;
 }
 
-/// Every vector of the model through `vector(letter)`, type and parameter through `number(letter)`.
-/// False with a remark when one is missing.
-template <class Vector, class Number>
-bool fillModel(const Vector& vector, const Number& number, CahvModel& cahv, std::string& remark) {
+/// Sets the model of the components, or the remark why there is none.
+void setModel(CameraModel model, const Components& components, StatedCamera& stated) {
+  stated.remark = components.remark.empty() ? unitRemark(components) : components.remark;
+  const auto numbers = [&components](char letter) {
+    const auto found = components.numbers.find(letter);
+    return found == components.numbers.end() ? std::vector<double>() : found->second;
+  };
+  CahvModel cahv;
+  cahv.model = model;
   forVectors(cahv, [&](const char* key, Eigen::Vector3d& target) {
-    const std::optional<Eigen::Vector3d> found = vector(key[0]);
-    if (found)
-      target = *found;
-    else if (remark.empty())
-      remark = std::string("the label's camera model has no usable component ") + key;
+    const std::vector<double> found = numbers(key[0]);
+    if (found.size() == 3)
+      target = {found[0], found[1], found[2]};
+    else if (stated.remark.empty())
+      stated.remark = std::string("the label's camera model has no usable component ") + key;
   });
-  if (!remark.empty() || cahv.model != CameraModel::kCahvore) return remark.empty();
-  const std::optional<double> type = number('T');
-  if (!type || !(*type == 1.0 || *type == 2.0 || *type == 3.0)) {
-    remark = "the label's CAHVORE model does not say its type (1, 2 or 3)";
-    return false;
+  if (stated.remark.empty() && model == CameraModel::kCahvore) {
+    const std::vector<double> type = numbers('T'), parameter = numbers('P');
+    if (type.empty() || !(type[0] == 1.0 || type[0] == 2.0 || type[0] == 3.0))
+      stated.remark = "the label's CAHVORE model does not say its type (1, 2 or 3)";
+    else if (type[0] == 3.0 && parameter.empty())
+      stated.remark = "the label's CAHVORE model of type 3 has no parameter";
+    else
+      cahv.type = static_cast<int>(type[0]);
+    if (cahv.type == 3 && !parameter.empty()) cahv.parameter = parameter[0];
   }
-  cahv.type = static_cast<int>(*type);
-  if (cahv.type != 3) return true;
-  const std::optional<double> parameter = number('P');
-  if (!parameter) {
-    remark = "the label's CAHVORE model of type 3 has no parameter";
-    return false;
-  }
-  cahv.parameter = *parameter;
-  return true;
+  if (stated.remark.empty()) stated.cahv = cahv;
 }
 
 std::vector<LabelItem> itemsOf(const json& group) {
@@ -169,18 +186,7 @@ StatedCamera groupCamera(const json& group) {
                                          "', is not one of CAHV, CAHVOR and CAHVORE";
     return stated;
   }
-  const Components components = componentsOf(group);
-  stated.remark = components.remark.empty() ? unitRemark(components) : components.remark;
-  if (!stated.remark.empty()) return stated;
-  CahvModel cahv;
-  cahv.model = *model;
-  if (fillModel([&](char letter) { return labelVector(components.value(letter)); },
-                [&](char letter) {
-                  const auto numbers = labelNumbers(components.value(letter));
-                  return numbers.empty() ? std::nullopt : std::optional(numbers.front());
-                },
-                cahv, stated.remark))
-    stated.cahv = cahv;
+  setModel(*model, groupComponents(group), stated);
   return stated;
 }
 
@@ -194,56 +200,6 @@ std::vector<StatedCamera> groupCameras(LabelFormat format, const json& label) {
 }
 
 // PDS4: the classes of the geometry dictionary.
-
-const char* elementOf(char letter) {
-  for (const Component& one : kComponents)
-    if (one.letter == letter) return one.element;
-  return "";
-}
-
-/// Three members called PREFIXx.., by the first set of names that is whole.
-std::optional<Eigen::Vector3d> elementVector(const json* element) {
-  constexpr const char* kNames[][3] = {{"x_position", "y_position", "z_position"},
-                                       {"x_unit", "y_unit", "z_unit"},
-                                       {"x_pixel", "y_pixel", "z_pixel"},
-                                       {"c0", "c1", "c2"},
-                                       {"x", "y", "z"}};
-  for (const auto& names : kNames) {
-    Eigen::Vector3d vector;
-    bool whole = true;
-    for (int i = 0; i < 3 && whole; ++i) {
-      const auto number = labelNumber(labelMember(element, names[i]));
-      whole = number.has_value();
-      if (whole) vector[i] = *number;
-    }
-    if (whole) return vector;
-  }
-  return std::nullopt;
-}
-
-/// Metres for the centre, pixels for H and V, where a unit is stated.
-std::string elementUnitRemark(const json& model) {
-  const auto other = [&model](const char* element, std::initializer_list<const char*> names,
-                              std::initializer_list<const char*> known) {
-    for (const char* name : names) {
-      const std::string unit = labelUnit(labelPath(&model, {element, name}));
-      if (!unit.empty() && !isOneOf(unit, known)) return unit;
-    }
-    return std::string();
-  };
-  const std::string centre =
-      other("Vector_Center", {"x_position", "y_position", "z_position"}, {"M"});
-  if (!centre.empty())
-    return "the centre of the label's camera model is in " + centre + ", not in m";
-  for (const char* element : {"Vector_Horizontal", "Vector_Vertical"}) {
-    const std::string unit =
-        other(element, {"x_pixel", "y_pixel", "z_pixel"}, {"PIXEL", "PIXELS", "PX"});
-    if (!unit.empty())
-      return std::string("the element ") + element + " of the label's camera model is in " + unit +
-             ", not in pixels";
-  }
-  return "";
-}
 
 /// The element of the model, of the type that is stated where one is.
 const json* modelElement(const json& parameters, CameraModel& model) {
@@ -270,8 +226,8 @@ StatedCamera elementCamera(const json& parameters) {
   if (const json* space =
           labelPath(&parameters, {"Coordinate_Space_Reference", "Coordinate_Space_Indexed"}))
     stated.frame = indexedFrame(*space, stated.frame_flag);
-  CahvModel cahv;
-  const json* element = modelElement(parameters, cahv.model);
+  CameraModel model = CameraModel::kCahv;
+  const json* element = modelElement(parameters, model);
   if (element == nullptr) {
     const auto type = labelText(labelMember(&parameters, "model_type"));
     stated.remark = type == "NONE"
@@ -280,12 +236,7 @@ StatedCamera elementCamera(const json& parameters) {
                               " is not one of CAHV, CAHVOR and CAHVORE";
     return stated;
   }
-  stated.remark = elementUnitRemark(*element);
-  if (!stated.remark.empty()) return stated;
-  if (fillModel([&](char c) { return elementVector(labelMember(element, elementOf(c))); },
-                [&](char c) { return labelNumber(labelMember(element, elementOf(c))); }, cahv,
-                stated.remark))
-    stated.cahv = cahv;
+  setModel(model, elementComponents(*element), stated);
   return stated;
 }
 

@@ -2,8 +2,6 @@
 #include "sessions/io/labels/label_files.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 
 #include "core/base/digest.h"
 #include "sessions/io/camera_file.h"
@@ -20,28 +18,32 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxLabelBytes = 4 * kMegabyte;
 constexpr std::size_t kBeginning = 4096;
-constexpr std::int64_t kMostVicarLabel = 10 * 1024 * 1024;
 
 /// Without the mark of UTF-8.
 std::string_view withoutMark(std::string_view text) {
   return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
 }
 
-/// Blanks and comments may stand before a PDS3 label.
-std::string_view skipComments(std::string_view text) {
-  text = skipBlanks(text);
-  while (text.starts_with("/*")) {
-    const auto end = text.find("*/", 2);
-    if (end == std::string_view::npos) return {};
-    text = skipBlanks(text.substr(end + 2));
+/// The text after KEY = at its first place from `from` on.
+std::optional<std::string_view> textAfter(std::string_view label, std::string_view key,
+                                          std::size_t from = 0) {
+  for (auto at = label.find(key, from); at != std::string_view::npos;
+       at = label.find(key, at + 1)) {
+    const std::string_view rest = skipBlanks(label.substr(at + key.size()));
+    if ((at == 0 || isBlank(label[at - 1])) && rest.starts_with('='))
+      return skipBlanks(rest.substr(1));
   }
-  return text;
+  return std::nullopt;
+}
+
+std::string_view firstWord(std::string_view text) {
+  return text.substr(0, text.find_first_of(std::string_view(" \t\r\n\0", 5)));
 }
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
-/// 1.5D-03 as 1.5E-03, outside of texts: the exponents of FORTRAN, which GDAL leaves out.
-void editExponents(std::string_view label, char quote, std::vector<LabelEdit>& edits) {
+/// Writes FORTRAN's exponents, 1.5D-03, as 1.5E-03: GDAL takes that for 1.5. Texts are kept.
+void rewriteExponents(LabelFiles& files, std::string_view label, char quote) {
   bool in_text = false;
   bool in_number = false;
   const auto digitAt = [label](std::size_t i) { return i < label.size() && isDigit(label[i]); };
@@ -49,8 +51,10 @@ void editExponents(std::string_view label, char quote, std::vector<LabelEdit>& e
     const char c = label[i];
     if (c == quote) in_text = !in_text;
     const bool sign = i + 1 < label.size() && (label[i + 1] == '-' || label[i + 1] == '+');
-    const bool ends = digitAt(sign ? i + 2 : i + 1);
-    if (in_number && !in_text && ends && (c == 'D' || c == 'd')) edits.push_back({i, "E"});
+    if (in_number && !in_text && (c == 'D' || c == 'd') && digitAt(sign ? i + 2 : i + 1)) {
+      if (files.rewritten.empty()) files.rewritten = files.parts.front().bytes;
+      files.rewritten[i] = 'E';
+    }
     // A number begins after a blank, '=', '(' or ','; letters end it.
     const bool before =
         i == 0 || std::string_view(" \t\r\n=(,+-").find(label[i - 1]) != std::string_view::npos;
@@ -58,43 +62,78 @@ void editExponents(std::string_view label, char quote, std::vector<LabelEdit>& e
   }
 }
 
-void rewrite(LabelFiles& files, const std::vector<LabelEdit>& edits) {
-  if (edits.empty()) return;
-  files.rewritten = files.parts.front().bytes;
-  for (const LabelEdit& edit : edits)
-    std::copy(edit.text.begin(), edit.text.end(),
-              files.rewritten.begin() + static_cast<std::ptrdiff_t>(edit.at));
+/// GDAL reads only the beginning of numbers that are no plain integers, and allocates tables for
+/// sizes before it checks them.
+void requireSize(const LabelFiles& files, std::string_view label, const char* key,
+                 std::int64_t least, std::int64_t most) {
+  for (auto text = textAfter(label, key); text;) {
+    const std::string_view word = firstWord(*text);
+    const auto value = numberIn<std::int64_t>(word);
+    const bool number = !word.empty() && (isDigit(word.front()) || word.front() == '-');
+    if (number && (!value || *value < least || *value > most))
+      throw InputError(files.file, key,
+                       oneLine(word.substr(0, 80)) + " is no whole number from " +
+                           std::to_string(least) + " to " + std::to_string(most));
+    // The sizes of a VICAR image come first; tasks may have items of the same names.
+    if (files.format == LabelFormat::kVicar) return;
+    text = textAfter(label, key, static_cast<std::size_t>(text->data() - label.data()));
+  }
 }
 
-/// A blank ORG is the default, BSQ, for which GDAL takes a missing one alone.
-void editBlankOrganization(std::string_view label, std::vector<LabelEdit>& edits) {
-  constexpr std::string_view kBegin = " ORG='";
-  const auto at = label.find(kBegin);
-  if (at == std::string_view::npos) return;
-  const auto end = label.find_first_not_of(' ', at + kBegin.size());
-  if (end != std::string_view::npos && label[end] == '\'')
-    edits.push_back({at, std::string(end + 1 - at, ' ')});
-}
+constexpr std::int64_t kMostBytesOfSample = 8;
+constexpr std::int64_t kMostPrefix = kMaxImageSide_px * kMostBytesOfSample;
 
 void readVicarLabel(LabelFiles& files) {
-  const std::string_view text = asText(files.parts.front().bytes);
-  const auto stated = vicarInteger(text.substr(0, 64), "LBLSIZE").value_or(0);
-  const auto label = text.substr(0, static_cast<std::size_t>(std::max<std::int64_t>(stated, 0)));
-  std::vector<LabelEdit> edits;
-  editExponents(label, '\'', edits);
-  editBlankOrganization(label, edits);
-  rewrite(files, edits);
+  constexpr std::int64_t kMostLabel = 10 * 1024 * 1024;
+  const auto& bytes = files.parts.front().bytes;
+  const std::string_view text = asText(bytes);
+  const std::int64_t size = statedInteger(text.substr(0, 64), "LBLSIZE").value_or(0);
+  if (size < 16 || size > kMostLabel || size > static_cast<std::int64_t>(bytes.size()))
+    throw InputError(
+        files.file, "LBLSIZE",
+        "is not the length of a label in this file of " + std::to_string(bytes.size()) + " bytes");
+  const std::string_view label = text.substr(0, static_cast<std::size_t>(size));
+  requireSize(files, label, "NL", 1, kMaxImageSide_px);
+  requireSize(files, label, "NS", 1, kMaxImageSide_px);
+  requireSize(files, label, "NB", 1, kMostLabelBands);
+  requireSize(files, label, "NBB", 0, kMostPrefix);
+  requireSize(files, label, "NLB", 0, kMaxImageSide_px);
+  requireSize(files, label, "RECSIZE", 1, kMostPrefix + kMaxImageSide_px * kMostBytesOfSample);
+  rewriteExponents(files, label, '\'');
 }
 
-/// The name of the pixels' file; empty: they are in the label's own.
+/// Up to the line END.
+std::string_view pds3Label(std::string_view text) {
+  text = text.substr(0, kMaxLabelBytes);
+  for (auto at = text.find("\nEND"); at != std::string_view::npos; at = text.find("\nEND", at + 1))
+    if (at + 4 == text.size() || isBlank(text[at + 4])) return text.substr(0, at);
+  return {};
+}
+
+/// The file that the pointer ^IMAGE names in quotes; empty: the label's own. GDAL gets no other
+/// file, and LabelRaster compares what GDAL makes of the pointer.
+std::string pds3PixelsFile(std::string_view label) {
+  std::string_view value = textAfter(label, "^IMAGE").value_or("");
+  if (value.starts_with('(')) value = skipBlanks(value.substr(1));
+  if (!value.starts_with('"') && !value.starts_with('\'')) return "";
+  return std::string(value.substr(1, value.find(value.front(), 1) - 1));
+}
+
 std::string readPds3Label(LabelFiles& files) {
-  const std::string_view text = asText(files.parts.front().bytes);
-  files.pointer = readPds3Pointer(files.file, text.substr(0, kMaxLabelBytes));
-  files.remark = files.pointer.remark;
-  std::vector<LabelEdit> edits = std::move(files.pointer.edits);
-  editExponents(text.substr(0, files.pointer.label_size), '"', edits);
-  rewrite(files, edits);
-  return files.pointer.file;
+  const std::string_view label = pds3Label(asText(files.parts.front().bytes));
+  if (label.empty())
+    throw InputError(files.file, "the PDS3 label has no line END within the file's first 4 MB");
+  if (!textAfter(label, "^IMAGE"))
+    throw InputError(files.file,
+                     "the label has no pointer ^IMAGE to the pixels of an object IMAGE");
+  if (upperCase(label).find("PIXEL_INTERLEAVED") != std::string::npos)  // crashes GDAL 3.6
+    throw InputError(files.file, "BAND_STORAGE_TYPE",
+                     "bands stored as PIXEL_INTERLEAVED are not read");
+  for (const char* key : {"LINES", "LINE_SAMPLES", "SAMPLE_BITS", "BANDS", "LINE_PREFIX_BYTES",
+                          "LINE_SUFFIX_BYTES", "RECORD_BYTES"})
+    requireSize(files, label, key, 0, 999'999'999);
+  rewriteExponents(files, label, '"');
+  return pds3PixelsFile(label);
 }
 
 std::string readPds4Label(LabelFiles& files) {
@@ -104,7 +143,7 @@ std::string readPds4Label(LabelFiles& files) {
   XmlLabel label = readXmlLabel(files.file, asText(bytes));
   files.elements = std::move(label.tree);
   files.remark = std::move(label.remark);
-  files.rewritten.assign(label.array_label.begin(), label.array_label.end());
+  files.rewritten.assign(label.text.begin(), label.text.end());
   return label.file_name;
 }
 
@@ -157,7 +196,7 @@ bool names(const fs::path& label_file, const fs::path& file) {
   const std::string wanted = lowerCase(file.filename().string());
   try {
     if (format == LabelFormat::kPds3)
-      return lowerCase(readPds3Pointer(label_file, asText(bytes)).file) == wanted;
+      return lowerCase(pds3PixelsFile(pds3Label(asText(bytes)))) == wanted;
     if (format == LabelFormat::kPds4)
       return lowerCase(readXmlLabel(label_file, asText(bytes)).file_name) == wanted;
   } catch (const InputError&) {
@@ -192,61 +231,22 @@ std::optional<LabelFormat> labelFormatOf(std::span<const std::uint8_t> bytes) {
   std::string_view text = asText(bytes);
   if (text.starts_with("LBLSIZE=")) return LabelFormat::kVicar;
   text = withoutMark(text).substr(0, kMaxLabelBytes);
-  const std::string_view begin = skipComments(text);
+  const std::string_view begin = skipBlanks(text);
   for (const std::string_view key : {"PDS_VERSION_ID", "ODL_VERSION_ID", "CCSD3ZF"})
     if (begin.starts_with(key)) return LabelFormat::kPds3;
   if (begin.starts_with('<') && isXmlLabel(text)) return LabelFormat::kPds4;
   return std::nullopt;
 }
 
-std::optional<std::string_view> vicarWord(std::string_view label, std::string_view key) {
-  const std::string wanted = std::string(key) + "=";
-  for (auto at = label.find(wanted); at != std::string_view::npos;
-       at = label.find(wanted, at + 1)) {
-    if (at > 0 && !isBlank(label[at - 1])) continue;
-    const std::string_view rest = label.substr(at + wanted.size());
-    return rest.substr(0, rest.find_first_of(std::string_view(" \t\r\n\0", 5)));
-  }
-  return std::nullopt;
-}
-
-std::optional<std::int64_t> vicarInteger(std::string_view label, std::string_view key) {
-  return numberIn<std::int64_t>(vicarWord(label, key).value_or(""));
-}
-
-void requireVicarSizes(const LabelFiles& files) {
-  const auto bytes = files.labelBytes();
-  const auto size =
-      vicarInteger(asText(bytes.first(std::min<std::size_t>(bytes.size(), 64))), "LBLSIZE");
-  if (!size || *size < 16 || *size > kMostVicarLabel ||
-      *size > static_cast<std::int64_t>(bytes.size()))
-    throw InputError(
-        files.file, "LBLSIZE",
-        "is not the length of a label in this file of " + std::to_string(bytes.size()) + " bytes");
-  const std::string_view label = asText(bytes.first(static_cast<std::size_t>(*size)));
-  const auto require = [&](const char* key, std::int64_t least, std::int64_t most) {
-    const auto word = vicarWord(label, key);
-    const auto value = vicarInteger(label, key);
-    if (word && (!value || *value < least || *value > most))
-      throw InputError(files.file, key,
-                       std::string(*word) + " is no whole number from " + std::to_string(least) +
-                           " to " + std::to_string(most));
-  };
-  constexpr std::int64_t kMostPrefix = kMaxImageSide_px * 8;
-  constexpr std::int64_t kMostBytesOfSample = 8;
-  require("NL", 1, kMaxImageSide_px);
-  require("NS", 1, kMaxImageSide_px);
-  require("NB", 1, kMostLabelBands);
-  require("NBB", 0, kMostPrefix);
-  require("NLB", 0, kMaxImageSide_px);
-  require("RECSIZE", 1, kMostPrefix + kMaxImageSide_px * kMostBytesOfSample);
+std::optional<std::int64_t> statedInteger(std::string_view label, std::string_view key) {
+  return numberIn<std::int64_t>(firstWord(textAfter(label, key).value_or("")));
 }
 
 std::optional<fs::path> labelFileOf(const fs::path& file) {
   auto begin = beginningOf(file, kBeginning);
-  // Comments may stand before a label's first word.
-  const std::string_view text = skipBlanks(withoutMark(asText(begin)));
-  if (text.starts_with('<') || text.starts_with("/*")) begin = beginningOf(file, kMaxLabelBytes);
+  // Long comments may precede the first element.
+  if (skipBlanks(withoutMark(asText(begin))).starts_with('<'))
+    begin = beginningOf(file, kMaxLabelBytes);
   if (labelFormatOf(begin)) return file;
   if (isOtherPicture(begin)) return std::nullopt;
   for (const char* ending : {".lbl", ".LBL", ".xml", ".XML"}) {

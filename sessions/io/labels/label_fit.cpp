@@ -6,6 +6,7 @@
 #include "core/base/math.h"
 #include "sessions/io/labels/label_camera.h"
 #include "sessions/io/labels/label_values.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {
@@ -42,11 +43,11 @@ struct Side {
 };
 
 std::string place(const Side& x, const Side& y) {
-  return "(" + fixedNumber(x.principal_px, 1) + ", " + fixedNumber(y.principal_px, 1) + ")";
+  return "(" + fixedText(x.principal_px, 1) + ", " + fixedText(y.principal_px, 1) + ")";
 }
 
 std::string sizeText(const Side& x, const Side& y) {
-  return fixedNumber(x.size_px, 0) + " x " + fixedNumber(y.size_px, 0);
+  return fixedText(x.size_px, 0) + " x " + fixedText(y.size_px, 0);
 }
 
 std::string uncutMisfit(const Side& x, const Side& y, bool stated) {
@@ -62,7 +63,7 @@ std::string uncutMisfit(const Side& x, const Side& y, bool stated) {
 }
 
 std::string firstText(const Side& x, const Side& y) {
-  return "sample " + fixedNumber(x.first, 0) + ", line " + fixedNumber(y.first, 0);
+  return "sample " + fixedText(x.first, 0) + ", line " + fixedText(y.first, 0);
 }
 
 /// Of a part of the detector the principal point may lie outside. Read as the model of the part it
@@ -72,10 +73,10 @@ std::string partMisfit(const Side& x, const Side& y, bool of_subframe) {
   if (!x.fitsDetector() || !y.fitsDetector()) {
     const bool known = x.detector > 0.0 && y.detector > 0.0;
     return "the label's camera model does not fit the sub-frame at " + firstText(x, y) +
-           ": its principal point would be at (" + fixedNumber(x.onDetector(), 1) + ", " +
-           fixedNumber(y.onDetector(), 1) + ") of the detector, which has " +
-           (known ? "up to " : "at least ") + fixedNumber(known ? x.detector : x.end(), 0) + " x " +
-           fixedNumber(known ? y.detector : y.end(), 0) + " samples" + kAdvice;
+           ": its principal point would be at (" + fixedText(x.onDetector(), 1) + ", " +
+           fixedText(y.onDetector(), 1) + ") of the detector, which has " +
+           (known ? "up to " : "at least ") + fixedText(known ? x.detector : x.end(), 0) + " x " +
+           fixedText(known ? y.detector : y.end(), 0) + " samples" + kAdvice;
   }
   const bool beyond_as_whole = x.principal_px < -0.5 || y.principal_px < -0.5;
   if (of_subframe || beyond_as_whole) return "";
@@ -90,23 +91,23 @@ std::string focalMisfit(const Side& x, const Side& y, double fx, double fy, bool
     return !(focal_px >= kShortestFocal * longest && focal_px <= kLongestFocal_px);
   };
   if (absurd(fx) || absurd(fy))
-    return "the label's camera model is no camera's: focal lengths of " + fixedNumber(fx, 3) +
-           " and " + fixedNumber(fy, 3) + " px for an image of " + sizeText(x, y) + " px";
+    return "the label's camera model is no camera's: focal lengths of " + fixedText(fx, 3) +
+           " and " + fixedText(fy, 3) + " px for an image of " + sizeText(x, y) + " px";
   const double ratio = fx * x.step / (fy * y.step);
   if (stated && (ratio > kMostUnequal || ratio < 1.0 / kMostUnequal))
-    return "the label's camera model does not fit the down-sampling by " + fixedNumber(x.step, 2) +
-           " x " + fixedNumber(y.step, 2) + ": focal lengths of " + fixedNumber(fx, 1) + " and " +
-           fixedNumber(fy, 1) + " px" + kAdvice;
+    return "the label's camera model does not fit the down-sampling by " + fixedText(x.step, 2) +
+           " x " + fixedText(y.step, 2) + ": focal lengths of " + fixedText(fx, 1) + " and " +
+           fixedText(fy, 1) + " px" + kAdvice;
   return "";
 }
 
 std::string vectorsMisfit(const CahvModel& cahv) {
   if (!(std::abs(cahv.a.norm() - 1.0) <= 1e-3))
     return "the label's camera model is no camera's: its axis A has the length " +
-           fixedNumber(cahv.a.norm(), 4) + " instead of 1";
+           fixedText(cahv.a.norm(), 4) + " instead of 1";
   if (!(cahv.c_m.norm() <= kFarthestCentre_m))
     return "the label's camera model is no camera's: its centre is over " +
-           fixedNumber(kFarthestCentre_m, 0) + " m from the origin of its frame";
+           fixedText(kFarthestCentre_m, 0) + " m from the origin of its frame";
   return "";
 }
 
@@ -117,8 +118,8 @@ std::string axesMisfit(const Camera& camera) {
            "them points the other way); give a camera file that fits";
   if (!(std::abs(camera.cahv.skew_px) <= kMostSkew * std::abs(camera.fy)))
     return "the label's camera model is no camera's: H and V are " +
-           fixedNumber(std::atan2(std::abs(camera.cahv.skew_px), std::abs(camera.fy)) / kDegree_rad,
-                       1) +
+           fixedText(std::atan2(std::abs(camera.cahv.skew_px), std::abs(camera.fy)) / kDegree_rad,
+                     1) +
            " deg off square";
   return "";
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -59,24 +60,46 @@ std::optional<Steps> statedSteps(const std::string& storage, const RasterLayout&
   return std::nullopt;
 }
 
-/// Bytes before the first record or byte that the pointer names.
-std::int64_t statedOffset(const LabelFiles& files, const json& label, const json* image) {
-  const Pds3Pointer& pointer = files.pointer;
-  if (pointer.in_bytes || pointer.number == 1) return pointer.number - 1;
-  std::int64_t record = integerOf(image, "RECORD_BYTES");
-  if (record == 0)
-    record = integerOf(pointer.nested ? labelMember(&label, "FILE") : &label, "RECORD_BYTES");
-  if (record < 1 || record > std::int64_t{1} << 30 || pointer.number > std::int64_t{1} << 30)
+/// Bytes before the first record or byte that ^IMAGE names.
+std::int64_t statedOffset(const LabelFiles& files, const json& label) {
+  const json* pointer = labelMember(&label, "^IMAGE");
+  const json first = 1;
+  const bool names_file = pointer != nullptr && (pointer->is_string() || pointer->is_array());
+  if (names_file) pointer = pointer->is_array() && pointer->size() > 1 ? &(*pointer)[1] : &first;
+  const std::int64_t number = labelInteger(pointer).value_or(0);
+  if (number < 1 || names_file != (files.parts.size() > 1))
+    throw InputError(files.file, "^IMAGE",
+                     "is neither a record, a byte nor a file's name in quotes");
+  if (number == 1 || labelUnit(pointer) == "BYTES") return number - 1;
+  const std::int64_t record = integerOf(&label, "RECORD_BYTES");
+  if (record < 1 || number > std::int64_t{1} << 30)
     throw InputError(files.file, "^IMAGE",
                      "counts records, but the label states no length of them (RECORD_BYTES)");
-  return (pointer.number - 1) * record;
+  return (number - 1) * record;
+}
+
+/// GDAL knows the number of a sample's bits, but not the type: 32 bits are floating-point numbers.
+void requireStatedType(const LabelFiles& files, const json* image, const RasterLayout& layout) {
+  const std::string stated = wordOf(image, "SAMPLE_TYPE");
+  const int bits = bitsOf(layout.type);
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(files.file, "SAMPLE_TYPE",
+                     "samples of the type " + stated + " and " + std::to_string(bits) +
+                         " bits are not read" + why);
+  };
+  if (contains(stated, "VAX") || contains(stated, "COMPLEX")) refuse("");
+  const bool integer = contains(stated, "INTEGER") || stated == "MSB" || stated == "LSB";
+  if (!stated.empty() && integer == isFloating(layout.type)) refuse("");
+  const auto little = isLittleEndian(stated);
+  if (bits > 8 && little && *little != layout.little_endian)
+    refuse(": the order of their bytes is ambiguous");
 }
 
 /// The label's items at the end of a VICAR file, which begin at this byte, are there to the last.
 void requireEndLabel(const LabelFiles& files, std::int64_t at) {
   const std::string_view text = asText(files.labelBytes());
   const std::string_view end = text.substr(std::min(static_cast<std::size_t>(at), text.size()));
-  const auto size = vicarInteger(end.substr(0, 64), "LBLSIZE");
+  const auto size = statedInteger(end.substr(0, 64), "LBLSIZE");
   if (!size || *size < 1 || static_cast<std::uint64_t>(*size) > end.size())
     throw InputError(files.file, "EOL",
                      "the part of the label at the file's end is not there in full");
@@ -97,34 +120,21 @@ int bitsOf(SampleType type) {
   return kBits[static_cast<int>(type)];
 }
 
-SampleType statedSampleType(const LabelFiles& files, const json& label,
-                            const RasterLayout& layout) {
-  const std::string stated = wordOf(labelMember(&label, "IMAGE"), "SAMPLE_TYPE");
-  const auto refuse = [&](const std::string& what) {
-    throw InputError(files.file, "SAMPLE_TYPE", "samples of the type " + stated + what);
-  };
-  if (contains(stated, "VAX") || contains(stated, "COMPLEX")) refuse(" are not read");
-  const bool floating = isFloating(layout.type);
-  const bool integer = contains(stated, "INTEGER") || stated == "MSB" || stated == "LSB";
-  const int bits = bitsOf(layout.type);
-  if (!stated.empty() && integer == floating && (!integer || bits == 64))
-    refuse(" and " + std::to_string(bits) + " bits are not read");
-  const auto little = isLittleEndian(stated);
-  if (bits > 8 && little && *little != layout.little_endian)
-    refuse(" and " + std::to_string(bits) +
-           " bits are not read: the order of their bytes is "
-           "ambiguous");
-  if (!integer || !floating) return layout.type;
-  return contains(stated, "UNSIGNED") ? SampleType::kUint32 : SampleType::kInt32;
-}
-
 void requireStatedLayout(const LabelFiles& files, const json& label, const RasterLayout& layout) {
   const json* image = labelMember(&label, "IMAGE");
+  requireStatedType(files, image, layout);
+  for (const auto& [key, used] : {std::pair{"LINES", layout.height},
+                                  {"LINE_SAMPLES", layout.width},
+                                  {"SAMPLE_BITS", bitsOf(layout.type)}})
+    if (integerOf(image, key) != used)
+      throw InputError(files.file, key,
+                       "the label's object IMAGE states " + std::to_string(integerOf(image, key)) +
+                           ", but it would be read as " + std::to_string(used));
   if (integerOf(image, "LINE_SUFFIX_BYTES") != 0)
     throw InputError(files.file, "LINE_SUFFIX_BYTES",
                      "bytes behind every line of the image are not read");
   const std::int64_t prefix = integerOf(image, "LINE_PREFIX_BYTES");
-  const std::int64_t offset = statedOffset(files, label, image) + prefix;
+  const std::int64_t offset = statedOffset(files, label) + prefix;
   const std::string storage = wordOf(image, "BAND_STORAGE_TYPE");
   const auto steps = statedSteps(storage, layout, prefix);
   const bool same_steps = steps && steps->pixel == layout.pixel_step &&
@@ -143,9 +153,9 @@ void requireStatedLayout(const LabelFiles& files, const json& label, const Raste
 
 void requireStatedRecords(const LabelFiles& files, const json& label, const RasterLayout& layout) {
   const std::string_view text = asText(files.labelBytes());
-  const std::int64_t label_size = vicarInteger(text, "LBLSIZE").value_or(0);
+  const std::int64_t label_size = statedInteger(text, "LBLSIZE").value_or(0);
   const auto stated = [own = text.substr(0, static_cast<std::size_t>(label_size))](
-                          const char* key) { return vicarInteger(own, key).value_or(0); };
+                          const char* key) { return statedInteger(own, key).value_or(0); };
   const std::string order = wordOf(&label, "ORG");
   const bool by_pixel = order == "BIP";
   // A record is then one pixel, and each would have a prefix: nobody reads that right.

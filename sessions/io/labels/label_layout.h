@@ -29,13 +29,9 @@ struct RasterLayout {
   SampleType type = SampleType::kUint8;
 };
 
-/// The type of a PDS3 image's samples, of which GDAL knows the size alone: it takes all of 32 bits
-/// for floating-point numbers. InputError: types that nobody reads right.
-SampleType statedSampleType(const LabelFiles& files, const nlohmann::json& label,
-                            const RasterLayout& layout);
-
-/// InputError where samples would be taken from other places than the label states: PDS3 with bytes
-/// behind every line, or bands stored in an order of its own.
+/// InputError where GDAL would read other samples of a PDS3 image than `label` (GDAL's tree, IMAGE
+/// at its top) states: another type, byte order, size, order of bands, or offset. GDAL does not
+/// know all of them, and takes the first statement of a key, the tree the last.
 void requireStatedLayout(const LabelFiles& files, const nlohmann::json& label,
                          const RasterLayout& layout);
 

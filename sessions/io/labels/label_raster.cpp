@@ -2,99 +2,18 @@
 #include "sessions/io/labels/label_raster.h"
 
 #include <algorithm>
-#include <atomic>
-#include <bit>
-#include <mutex>
 
-#include <cpl_vsi.h>
-#include <gdal_frmts.h>
-#include <gdal_priv.h>
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/io/image_file.h"
-#include "sessions/io/labels/gdal_quiet.h"
+#include "sessions/io/gdal_memory.h"
+#include "sessions/io/image_decoder.h"
 #include "sessions/io/labels/label_layout.h"
-#include "sessions/io/labels/label_xml.h"
+#include "sessions/io/labels/label_values.h"
 
 namespace boresight::sessions {
 namespace {
-
-/// Three formats and no more, at the first image with a label.
-void registerDrivers() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    GDALRegister_VICAR();
-    GDALRegister_PDS();
-    GDALRegister_PDS4();
-  });
-}
-
-/// The parts as files of GDAL's memory, in a folder of their own.
-class MemoryFolder {
- public:
-  explicit MemoryFolder(const LabelFiles& files) {
-    static std::atomic<std::uint64_t> next{0};
-    folder_ = "/vsimem/boresight-label-" + std::to_string(++next);
-    label_ = path(files.parts.front().name);
-    add(label_, files.labelBytes());
-    if (files.parts.size() > 1) {
-      pixels_ = path(pixelsName(files));
-      add(pixels_, files.parts.back().bytes);
-    }
-  }
-  MemoryFolder(const MemoryFolder&) = delete;
-  MemoryFolder& operator=(const MemoryFolder&) = delete;
-  ~MemoryFolder() {
-    for (const std::string& name : names_) VSIUnlink(name.c_str());
-    VSIUnlink(folder_.c_str());
-  }
-  const std::string& label() const { return label_; }
-  /// Whether this is the file of the pixels, where it is not the label's own.
-  bool isPixels(const std::string& name) const { return !pixels_.empty() && name == pixels_; }
-  /// GDAL's words without its names of our files.
-  std::string plain(std::string text) const {
-    for (auto at = text.find(folder_ + "/"); at != std::string::npos; at = text.find(folder_ + "/"))
-      text.erase(at, folder_.size() + 1);
-    return oneLine(text);
-  }
-
- private:
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
-  /// As GDAL looks for it: of PDS3 names blanks become underscores.
-  static std::string pixelsName(const LabelFiles& files) {
-    if (files.format == LabelFormat::kPds4) return kXmlPixelsName;
-    std::string name = files.parts.back().name;
-    std::replace(name.begin(), name.end(), ' ', '_');
-    return name;
-  }
-  void add(const std::string& name, std::span<const std::uint8_t> bytes) {
-    VSILFILE* file =
-        VSIFileFromMemBuffer(name.c_str(), const_cast<GByte*>(bytes.data()), bytes.size(), FALSE);
-    if (file == nullptr) return;
-    names_.push_back(name);
-    VSIFCloseL(file);
-  }
-
-  std::string folder_;
-  std::string label_;
-  std::string pixels_;
-  std::vector<std::string> names_;
-};
-
-struct CloseDataset {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
-
-Dataset openWith(const char* driver, const std::string& name) {
-  const char* allowed[] = {driver, nullptr};
-  const char* siblings[] = {nullptr};
-  return Dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, allowed,
-                                   nullptr, siblings));
-}
 
 const char* driverName(LabelFormat format) {
   return format == LabelFormat::kVicar ? "VICAR" : format == LabelFormat::kPds3 ? "PDS" : "PDS4";
@@ -150,56 +69,63 @@ SampleType sampleTypeOf(const std::filesystem::path& file, GDALRasterBand& band)
   }
 }
 
-void requireSide(const std::filesystem::path& file, const char* what, std::int64_t size,
-                 std::int64_t most) {
-  if (size < 1 || size > most)
-    throw InputError(file, "image size",
-                     "the label says " + std::to_string(size) + " " + what + ", outside of 1 .. " +
-                         std::to_string(most));
-}
-
 }  // namespace
 
 struct LabelRaster::Opened {
-  explicit Opened(const LabelFiles& files)
-      : file(files.file), folder(files), remark(files.remark) {}
-  ~Opened() {
-    const GdalQuiet quiet;
-    dataset.reset();
+  explicit Opened(const LabelFiles& files) : file(files.file), remark(files.remark) {
+    label_path = memory.add(files.parts.front().name, files.labelBytes());
+    if (files.parts.size() < 2) return;
+    std::string name = files.parts.back().name;
+    // So GDAL looks for the files of PDS3 labels.
+    if (files.format == LabelFormat::kPds3) std::replace(name.begin(), name.end(), ' ', '_');
+    pixels_path = memory.add(name, files.parts.back().bytes);
   }
 
   std::filesystem::path file;
-  MemoryFolder folder;
+  GdalMemory memory;
+  std::string label_path;
+  std::string pixels_path;  ///< empty: the pixels are in the label's own file
   std::string remark;
-  Dataset dataset;
+  GdalDataset dataset;
   nlohmann::json label;
   nlohmann::json vicar_label;
   SampleType type = SampleType::kUint8;
-  bool integers_as_floats = false;
 
   void open(const LabelFiles& files) {
     const GdalQuiet quiet;
-    dataset = openWith(driverName(files.format), folder.label());
+    // By this name GDAL opens a PDS4 label whatever it begins with; it has one array.
+    dataset = files.format == LabelFormat::kPds4 ? openGdal("PDS4", "PDS4:" + label_path + ":1:1")
+                                                 : openGdal(driverName(files.format), label_path);
     if (!dataset)
       throw InputError(file,
                        std::string("the ") + labelFormatName(files.format) +
                            " label describes no image that can be read" +
-                           (quiet.message().empty() ? "" : ": " + folder.plain(quiet.message())));
-    checkSizes();
+                           (quiet.failure().empty() ? "" : ": " + memory.plain(quiet.failure())));
+    requireImageSize(file, dataset->GetRasterXSize(), dataset->GetRasterYSize());
+    if (const int bands = dataset->GetRasterCount(); bands < 1 || bands > kMostLabelBands)
+      throw InputError(
+          file, "bands",
+          std::to_string(bands) + " is outside 1 .. " + std::to_string(kMostLabelBands));
     type = sampleTypeOf(file, *dataset->GetRasterBand(1));
     label = files.elements ? *files.elements : labelTree(file, files.format, *dataset);
+    if (files.format == LabelFormat::kPds3) takeImageToTheTop();
     checkLayout(files);
   }
 
-  void checkSizes() const {
-    requireSide(file, "samples in a line", dataset->GetRasterXSize(), kMaxImageSide_px);
-    requireSide(file, "lines", dataset->GetRasterYSize(), kMaxImageSide_px);
-    requireSide(file, "bands", dataset->GetRasterCount(), kMostLabelBands);
-    const std::int64_t pixels = std::int64_t{dataset->GetRasterXSize()} * dataset->GetRasterYSize();
-    if (pixels > kMaxImagePixels)
-      throw InputError(file, "image size",
-                       std::to_string(pixels) + " pixels are more than the limit of " +
-                           std::to_string(kMaxImagePixels));
+  /// IMAGE and what belongs to it may be in an object FILE.
+  void takeImageToTheTop() {
+    if (!label.contains("IMAGE"))
+      for (const auto& [name, group] : labelGroups(LabelFormat::kPds3, label)) {
+        if (name != "FILE" || !group->contains("IMAGE")) continue;
+        const nlohmann::json found = *group;
+        label.update(found);
+        break;
+      }
+    int images = 0;
+    for (const auto& [name, group] : labelGroups(LabelFormat::kPds3, label))
+      if (name == "IMAGE") ++images;
+    if (images > 1)
+      remark = "the label has " + std::to_string(images) + " objects IMAGE; the first is read";
   }
 
   void checkLayout(const LabelFiles& files) {
@@ -209,14 +135,7 @@ struct LabelRaster::Opened {
       if (files.format == LabelFormat::kVicar) return;  // compressed: reading finds what is wrong
       throw InputError(file, "the label's pixels are not stored plainly");
     }
-    if (files.format == LabelFormat::kPds3) {
-      if (files.pointer.nested) label["IMAGE"] = label["FILE"]["IMAGE"];
-      const RasterLayout layout = layoutOf(raw);
-      requireStatedLayout(files, label, layout);
-      const SampleType stated = statedSampleType(files, label, layout);
-      integers_as_floats = isFloating(type) && !isFloating(stated);
-      type = stated;
-    }
+    if (files.format == LabelFormat::kPds3) requireStatedLayout(files, label, layoutOf(raw));
     requirePixels(files, raw);
   }
 
@@ -236,8 +155,7 @@ struct LabelRaster::Opened {
 
   /// Readers fill what is missing at the end of a file with zeros and go on: found here.
   void requirePixels(const LabelFiles& files, const GDALDataset::RawBinaryLayout& raw) const {
-    const bool apart = files.parts.size() > 1;
-    if (apart != folder.isPixels(raw.osRawFilename))
+    if ((pixels_path.empty() ? label_path : pixels_path) != raw.osRawFilename)
       throw InputError(file, "the label's pixels cannot be found where it says that they are");
     const std::uint64_t size = files.parts.back().bytes.size();
     const auto last = [](std::int64_t count, std::int64_t step) {
@@ -260,7 +178,7 @@ struct LabelRaster::Opened {
         asText(bytes).find("LBLSIZE=") == std::string_view::npos)
       return;
     const GdalQuiet quiet(true);
-    const Dataset header = openWith("VICAR", folder.label());
+    const GdalDataset header = openGdal("VICAR", label_path);
     if (!header) return;
     try {
       vicar_label = labelTree(file, LabelFormat::kVicar, *header);
@@ -271,8 +189,6 @@ struct LabelRaster::Opened {
 };
 
 LabelRaster::LabelRaster(const LabelFiles& files) {
-  registerDrivers();
-  if (files.format == LabelFormat::kVicar) requireVicarSizes(files);
   opened_ = std::make_unique<Opened>(files);
   opened_->open(files);
   opened_->readVicarHeader(files);
@@ -291,29 +207,14 @@ const std::string& LabelRaster::remark() const { return opened_->remark; }
 void LabelRaster::readRow(int band, int row, std::vector<double>& samples) const {
   samples.resize(static_cast<std::size_t>(width()));
   const GdalQuiet quiet;
-  const auto read = [&](void* target, GDALDataType type) {
-    return opened_->dataset->GetRasterBand(band + 1)->RasterIO(GF_Read, 0, row, width(), 1, target,
-                                                               width(), 1, type, 0, 0, nullptr);
-  };
-  CPLErr error = CE_None;
-  if (opened_->integers_as_floats) {
-    std::vector<float> bits(samples.size());  // as GDAL has them: nothing is converted
-    error = read(bits.data(), GDT_Float32);
-    const bool is_signed = opened_->type == SampleType::kInt32;
-    std::transform(bits.begin(), bits.end(), samples.begin(), [is_signed](const float& one) {
-      const auto whole = std::bit_cast<std::uint32_t>(one);
-      return is_signed ? static_cast<double>(static_cast<std::int32_t>(whole))
-                       : static_cast<double>(whole);
-    });
-  } else {
-    error = read(samples.data(), GDT_Float64);
-  }
+  const CPLErr error = opened_->dataset->GetRasterBand(band + 1)->RasterIO(
+      GF_Read, 0, row, width(), 1, samples.data(), width(), 1, GDT_Float64, 0, 0, nullptr);
   if (opened_->type == SampleType::kInt8)  // of either sign, as GDAL has them
     for (double& one : samples) one = one > 127.0 ? one - 256.0 : one;
   if (error != CE_None)
     throw InputError(opened_->file,
                      "line " + std::to_string(row) +
-                         " of the image cannot be read: " + opened_->folder.plain(quiet.message()));
+                         " of the image cannot be read: " + opened_->memory.plain(quiet.failure()));
 }
 
 }  // namespace boresight::sessions

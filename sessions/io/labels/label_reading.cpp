@@ -286,11 +286,6 @@ void readCamera(const Source& source, const json& vicar_label, ImageLabel& label
 
 }  // namespace
 
-LabelPicture pictureOf(const LabelRaster& raster) {
-  return {raster.width(),        raster.height(),           raster.bands(),
-          bitsOf(raster.type()), isFloating(raster.type()), raster.remark()};
-}
-
 LabelReading readLabelTree(LabelFormat format, const json& tree, const json& vicar_label,
                            const LabelPicture& picture) {
   const Source source{format, tree};
@@ -317,14 +312,10 @@ LabelReading readLabelTree(LabelFormat format, const json& tree, const json& vic
   return reading;
 }
 
-LabelReading readLabel(const LabelFiles& files, const LabelRaster& raster) {
-  LabelReading reading =
-      readLabelTree(files.format, raster.label(), raster.vicarLabel(), pictureOf(raster));
-  const std::string repeated = repeatedInCameraModel(files);
-  if (repeated.empty()) return reading;
-  reading.label.camera.reset();
-  reading.label.camera_remark = repeated + ": which one holds is not known; give a camera file";
-  return reading;
+LabelReading readLabel(LabelFormat format, const LabelRaster& raster) {
+  return readLabelTree(format, raster.label(), raster.vicarLabel(),
+                       {raster.width(), raster.height(), raster.bands(), bitsOf(raster.type()),
+                        isFloating(raster.type()), raster.remark()});
 }
 
 bool hasImageLabel(const std::filesystem::path& file) { return labelFileOf(file).has_value(); }
@@ -332,7 +323,7 @@ bool hasImageLabel(const std::filesystem::path& file) { return labelFileOf(file)
 ImageLabel readImageLabel(const std::filesystem::path& file) {
   const LabelFiles files = readLabelFiles(labelFileOf(file).value_or(file));
   const LabelRaster raster(files);
-  return readLabel(files, raster).label;
+  return readLabel(files.format, raster).label;
 }
 
 CameraFile readLabelCamera(const std::filesystem::path& file) {

@@ -24,8 +24,6 @@ struct LabelPicture {
   std::string remark = {};  ///< of several images in the label, which one this is; else empty
 };
 
-LabelPicture pictureOf(const LabelRaster& raster);
-
 /// All that a label says which Boresight uses: for people, and for whoever reads the samples.
 struct LabelReading {
   ImageLabel label;
@@ -38,7 +36,7 @@ struct LabelReading {
 LabelReading readLabelTree(LabelFormat format, const nlohmann::json& label,
                            const nlohmann::json& vicar_label, const LabelPicture& picture);
 
-/// The same of an opened image, whose label's text is searched for what the tree cannot show.
-LabelReading readLabel(const LabelFiles& files, const LabelRaster& raster);
+/// The same for an opened image.
+LabelReading readLabel(LabelFormat format, const LabelRaster& raster);
 
 }  // namespace boresight::sessions

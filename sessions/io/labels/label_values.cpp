@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
@@ -193,12 +192,6 @@ std::string labelUnit(const json* value) {
   if (value->is_string())
     return upperCase(numberAndUnit(value->get_ref<const std::string&>()).second);
   return "";
-}
-
-std::string fixedNumber(double value, int decimals) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof(buffer), std::abs(value) < 1e12 ? "%.*f" : "%.*e", decimals, value);
-  return buffer;
 }
 
 std::string joined(const std::vector<std::string>& texts) {

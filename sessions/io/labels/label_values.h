@@ -54,7 +54,6 @@ std::string labelUnit(const nlohmann::json* value);
 
 /// Several texts as one, separated by ", ".
 std::string joined(const std::vector<std::string>& texts);
-std::string fixedNumber(double value, int decimals);
 
 /// Groups of a VICAR label (its properties) or a PDS3 label (groups and objects) by name; a name
 /// may come twice. Nothing for PDS4.

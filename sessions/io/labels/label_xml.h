@@ -10,23 +10,18 @@
 
 namespace boresight::sessions {
 
-/// Whether the text is XML whose first element is a Product_Observational, whatever its prefix and
-/// whatever comments stand before it.
+/// Whether the text is XML that names a Product_Observational.
 bool isXmlLabel(std::string_view text);
 
-/// A PDS4 label and the one array of it that is read.
+/// A PDS4 label reduced to the one array that is read: constants of other arrays do not apply.
 struct XmlLabel {
   /// Elements by their names without prefix, those with an attribute `unit` as {"value", "unit"},
-  /// repeated ones as arrays. Of the areas of files only that of the array, with it alone: what the
-  /// label says of other arrays cannot be taken for its own.
+  /// repeated ones as arrays.
   std::shared_ptr<const nlohmann::json> tree;
-  std::string file_name;  ///< of the array's area, without blanks around it
-  /// A label of that array alone, which names its file kXmlPixelsName.
-  std::string array_label;
-  std::string remark;  ///< of several arrays, which one is read; else empty
+  std::string file_name;  ///< of the array's file area
+  std::string text;       ///< XML of the file area alone, for GDAL
+  std::string remark;     ///< which of several arrays is read; else empty
 };
-
-inline constexpr const char* kXmlPixelsName = "pixels-of-label";
 
 /// The array is the first Array_2D_Image or Array_3D_Image, without one the first other array.
 /// InputError: XML that is damaged or nested too deep, no array, an array without a file.

@@ -82,8 +82,6 @@ TEST_F(ReadCamera, NamesWhatIsWrong) {
   EXPECT_EQ(error(model + kSize + R"("fx": -3100, "fy": 3100, "cx": 5, "cy": 5)"),
             "camera.json: fx: -3100 is outside 0.001 .. 1e+07");
   EXPECT_EQ(error(model + kSize + R"("fx": 3100, "cx": 5, "cy": 5)"), "camera.json: fy: missing");
-  EXPECT_EQ(error(model + kSize + R"("fx": 3100, "fy": NaN, "cx": 5, "cy": 5)"),
-            "camera.json: fy: not a finite number");
   EXPECT_EQ(error(model + kSize + kFocus + R"(, "dist": [0.1, 0, 0, 0])"),
             "camera.json: dist[0]: a pinhole camera has no distortion (use brown_conrady)");
   EXPECT_EQ(error(model + kSize + kFocus + R"(, "dist": [0, 0, 0, 0])"), "(nothing)");

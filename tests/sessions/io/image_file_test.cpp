@@ -7,17 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <iostream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "core/base/random.h"
-#include "sessions/io/decoder_messages.h"
 #include "sessions/io/errors.h"
 #include "tests/support/temporary_folder.h"
 
@@ -279,29 +275,21 @@ TEST_F(ReadImage, KeepsTheValuesOfTiffOrRefusesThem) {
   EXPECT_EQ(read(smallTiff({10, 20}, {{262, 0}})).pixels, (Bytes{245, 235})) << "0 is white";
   EXPECT_EQ(read(smallTiff({0xe8, 0x03, 0xff, 0xff}, {{258, 16}})).pixels, (Bytes{4, 255}));
   EXPECT_EQ(read(smallTiff({0x80}, {{258, 1}})).pixels, (Bytes{255, 0}));
+  EXPECT_EQ(read(smallTiff({0, 0, 0, 128}, {{258, 16}, {262, 0}})).pixels, (Bytes{255, 127}));
+  const Bytes colours = {10, 20, 30, 128, 40, 50, 60, 128};
+  const GrayImage straight = read(smallTiff(colours, {{262, 2}, {277, 4}, {338, 2}}));
+  EXPECT_EQ(straight.color, (Bytes{30, 20, 10, 60, 50, 40})) << "not multiplied by alpha";
+  const std::string other =
+      "image: samples are not unsigned integers of 8 or 16 bits: write the image as a TIFF or PNG "
+      "of 16 bits, its range spread over 0 .. 65535";
   const Bytes four = {1, 2, 3, 4};
-  const Bytes eight = {1, 2, 3, 4, 5, 6, 7, 8};
-  EXPECT_EQ(error(smallTiff(four, {{258, 16}, {262, 0}})),
-            "image: a TIFF of 16 bits in which 0 is white is not supported");
-  EXPECT_EQ(error(smallTiff(four, {{258, 12}})),
-            "image: samples are not unsigned integers of 8 or 16 bits: write the image as a TIFF "
-            "or PNG of 16 bits, its range spread over 0 .. 65535");
-  EXPECT_EQ(error(smallTiff(four, {{258, 16}, {339, 2}})),
-            "image: samples are not unsigned integers of 8 or 16 bits: write the image as a TIFF "
-            "or PNG of 16 bits, its range spread over 0 .. 65535");
-  EXPECT_EQ(error(smallTiff(eight, {{258, 32}, {339, 3}})),
-            "image: samples are not unsigned integers of 8 or 16 bits: write the image as a TIFF "
-            "or PNG of 16 bits, its range spread over 0 .. 65535");
-  EXPECT_EQ(error(smallTiff(eight, {{262, 5}, {277, 4}})),
-            "image: TIFF photometric interpretation 5 is not supported");
-  EXPECT_EQ(error(smallTiff(eight, {{262, 2}, {277, 4}, {338, 2}})),
-            "image: a TIFF with unassociated alpha is not supported: decoding it would change its "
-            "colours");
-  EXPECT_EQ(error(smallTiff(eight, {{262, 2}, {277, 3}, {284, 2}})),
-            "image: a TIFF with separate colour planes is not supported");
+  EXPECT_EQ(error(smallTiff(four, {{258, 12}})), other);
+  EXPECT_EQ(error(smallTiff(four, {{258, 16}, {339, 2}})), other);
+  EXPECT_EQ(error(smallTiff(colours, {{258, 32}, {339, 3}})), other);
+  EXPECT_THAT(error(smallTiff(colours, {{262, 5}, {277, 4}})),
+              HasSubstr("colours other than gray and RGB"));
 }
 
-/// OpenCV's decoder turns and mirrors a TIFF by its orientation.
 TEST_F(ReadImage, OrientationOfTiffIsReportedAndNotApplied) {
   const Bytes stored = {1, 2, 3, 4, 5, 6};
   Bytes wide;
@@ -348,25 +336,22 @@ TEST_F(ReadImage, OrientationOfJpegIsReportedAndNotApplied) {
   EXPECT_THAT(turned.notes,
               ElementsAre("EXIF orientation 6 is not applied: pixels are used as they are stored"));
   EXPECT_THAT(read(withExif(plain, exifBlock(1))).notes, IsEmpty());
-  Bytes damaged = exifBlock(6);
-  damaged[9] = 200;
-  EXPECT_THAT(read(withExif(plain, damaged)).notes, IsEmpty());
+  EXPECT_THAT(read(withExif(plain, {'M', 'M', 0, 42, 0, 0, 0, 99})).notes, IsEmpty());
 }
 
 TEST_F(ReadImage, FurtherPagesOfTiffAreReported) {
-  Bytes bytes = smallTiff({10, 20}, {});
-  bytes[bytes.size() - 4] = 8;
-  EXPECT_EQ(read(bytes).pixels, (Bytes{10, 20}));
-  EXPECT_THAT(read(bytes).notes,
+  const cv::Mat first = randomImage(CV_8UC1);
+  cv::imwritemulti((folder_ / "pages.tiff").string(), std::vector<cv::Mat>{first, first.t()});
+  const GrayImage image = readImage(folder_ / "pages.tiff");
+  EXPECT_TRUE(std::equal(image.pixels.begin(), image.pixels.end(), first.ptr()));
+  EXPECT_THAT(image.notes,
               ElementsAre("the file holds further images (pages): only the first is read"));
 }
 
 TEST_F(ReadImage, DecodersPrintNothing) {
   testing::internal::CaptureStderr();
-  EXPECT_EQ(error(smallTiff({1, 2, 3, 4, 5, 6, 7, 8}, {{277, 65535}})),
-            "image: 65535 channels are not supported");
-  EXPECT_EQ(error(smallTiff({1, 2, 3, 4}, {{259, 7}})),
-            "image: the TIFF image cannot be decoded (damaged, or of an unsupported kind)");
+  EXPECT_THAT(error(smallTiff({1, 2, 3, 4, 5, 6, 7, 8}, {{277, 65535}})), StartsWith("image: "));
+  EXPECT_THAT(error(smallTiff({1, 2, 3, 4}, {{259, 7}})), StartsWith("image: the TIFF image is "));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
@@ -379,31 +364,8 @@ TEST_F(ReadImage, DamagedJpegIsReported) {
   ASSERT_LT(scan - bytes.begin(), std::ssize(bytes) - 400);
   std::fill(scan + 200, scan + 300, std::uint8_t{0x7f});
   testing::internal::CaptureStderr();
-  EXPECT_THAT(read(bytes).notes, ElementsAre(HasSubstr("the image may be damaged: Corrupt JPEG")));
+  EXPECT_THAT(read(bytes).notes, ElementsAre(HasSubstr("the image may be damaged: ")));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
-}
-
-TEST(DecoderMessages, AreKeptInTheirThreadAndPrintedInOthers) {
-  std::string kept;
-  testing::internal::CaptureStderr();
-  {
-    const DecoderMessages messages(kept);
-    std::cerr << "kept " << 1 << ' ';
-    std::fprintf(stderr, "kept %d", 2);
-    std::thread([] {
-      std::cerr << "printed " << 1 << ' ';
-      std::fprintf(stderr, "printed %d ", 2);
-    }).join();
-  }
-  std::cerr << "printed 3 ";
-  std::fprintf(stderr, "printed %d", 4);
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "printed 1 printed 2 printed 3 printed 4");
-  EXPECT_EQ(kept, "kept 1 kept 2");
-  {
-    const DecoderMessages messages(kept);
-    std::cerr << std::string(5000, 'x');
-  }
-  EXPECT_EQ(kept.size(), 1000u);
 }
 
 /// Wherever a file is cut, it is refused: decoders alone would fill the rest with gray.
@@ -413,22 +375,39 @@ TEST_F(ReadImage, RefusesEveryTruncation) {
     for (const char* extension : {".png", ".jpg", ".tiff"}) {
       if (type == CV_16UC1 && std::string(extension) == ".jpg") continue;
       const Bytes bytes = encoded(source, extension);
-      for (std::size_t size = 1; size < bytes.size(); size += 1 + bytes.size() / 97) {
+      // A TIFF ends with the place of its next page, which may be cut.
+      const std::size_t last = bytes.size() - (extension[1] == 't' ? 5 : 1);
+      for (std::size_t size = 1; size <= last; size += 1 + bytes.size() / 97) {
         const std::string message =
             error(Bytes(bytes.begin(), bytes.begin() + std::ptrdiff_t(size)));
         ASSERT_THAT(message, AnyOf(HasSubstr("truncated"), HasSubstr("not a PNG, JPEG or TIFF")))
             << extension << " cut to " << size << " of " << bytes.size();
       }
-      const Bytes nearly(bytes.begin(), bytes.end() - 1);
+      const Bytes nearly(bytes.begin(), bytes.begin() + std::ptrdiff_t(last));
       EXPECT_THAT(error(nearly), HasSubstr("truncated")) << extension;
     }
   }
 }
 
+TEST_F(ReadImage, TruncationOfAJpegIsNotHiddenByTheEndOfItsThumbnail) {
+  Bytes bytes = withExif(encoded(randomImage(CV_8UC1), ".jpg"), {0xff, 0xda, 0xff, 0xd9});
+  EXPECT_EQ(error(bytes), "(nothing)");
+  bytes.resize(bytes.size() - 50);
+  EXPECT_EQ(error(bytes), "image: the JPEG image is truncated");
+}
+
+TEST_F(ReadImage, StripsOfTiffAreReadWholeAndMustBeThere) {
+  const Bytes tall(2 * 2600, 77);
+  EXPECT_EQ(read(smallTiff(tall, {{257, 2600}, {278, 2600}})).pixels, tall);
+  EXPECT_THAT(error(smallTiff({1, 2}, {{273, 0}, {279, 0}})),
+              HasSubstr("a strip or tile is missing"));
+  EXPECT_THAT(error(smallTiff({1, 2}, {{257, 99}, {278, 99}, {279, 198}})), HasSubstr("truncated"));
+}
+
 TEST_F(ReadImage, AcceptsBytesAfterTheEnd) {
   for (const char* extension : {".png", ".jpg"}) {
     Bytes bytes = encoded(randomImage(CV_8UC1), extension);
-    bytes.insert(bytes.end(), {1, 2, 3});
+    bytes.insert(bytes.end(), {1, 2, 0xff, 0xda, 3});
     EXPECT_EQ(error(bytes), "(nothing)");
   }
 }
@@ -440,9 +419,6 @@ TEST_F(ReadImage, FindsAFlippedBitInAPng) {
     changed[i] ^= 0x10;
     EXPECT_NE(error(changed), "(nothing)") << "byte " << i;
   }
-  Bytes changed = bytes;
-  changed[bytes.size() - 20] ^= 0x01;  // before the checksum of IDAT and the 12 bytes of IEND
-  EXPECT_EQ(error(changed), "image: the image is damaged: the checksum of PNG chunk IDAT is wrong");
 }
 
 TEST_F(ReadImage, ReadsProgressiveJpegAndSkipsFillBytes) {

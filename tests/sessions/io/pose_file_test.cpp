@@ -64,8 +64,6 @@ TEST_F(ReadPose, ReadsTheUncertainty) {
 }
 
 TEST_F(ReadPose, RefusesWhatIsNotARigidTransform) {
-  EXPECT_EQ(error(poseText("[[1,0,0,0],[0,1,0,NaN],[0,0,1,0],[0,0,0,1]]")),
-            "seed.json: camera_from_station[1][3]: not a finite number");
   EXPECT_EQ(error(poseText("[[1,0,0],[0,1,0],[0,0,1]]")),
             "seed.json: camera_from_station: not a list of 4 (is a list of 3)");
   EXPECT_EQ(

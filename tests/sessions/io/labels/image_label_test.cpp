@@ -365,7 +365,7 @@ TEST(ImageLabel, FilesWithoutALabelHaveNone) {
   EXPECT_FALSE(hasImageLabel(folder.write("a.xml", "<?xml version=\"1.0\"?><svg/>")));
   EXPECT_FALSE(hasImageLabel(folder.write("a.txt", "LBLSIZ")));
   EXPECT_TRUE(hasImageLabel(folder.write("a", "LBLSIZE=  100")));
-  EXPECT_TRUE(hasImageLabel(folder.write("b", "/* by hand */\r\nPDS_VERSION_ID = PDS3\r\n")));
+  EXPECT_TRUE(hasImageLabel(folder.write("b", "PDS_VERSION_ID = PDS3\r\n")));
 }
 
 }  // namespace

@@ -125,31 +125,6 @@ TEST(LabelCamera, SeveralModelsMustAgree) {
   for (const ImageLabel& label :
        labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", none}, {"CAMERA_MODEL", one}}))
     EXPECT_TRUE(label.camera) << label.camera_remark;
-  // GDAL hands on both groups of one name of PDS3, and the last property of VICAR.
-  for (const ImageLabel& label :
-       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", one}, {"GEOMETRIC_CAMERA_MODEL", other}})) {
-    EXPECT_FALSE(label.camera);
-    EXPECT_THAT(label.camera_remark,
-                HasSubstr(label.format == "PDS3" ? "models that differ" : "MODEL twice"));
-  }
-}
-
-TEST(LabelCamera, WhatIsStatedTwiceIsNotChosenFrom) {
-  const TemporaryFolder folder;
-  GroupItems items = cameraItems(exampleModel(CameraModel::kCahvor, 60, 31, 24));
-  items.insert(items.begin(), {"MODEL_DESC", "\"PROPERTY in 2 (two) = lines,\r\n GROUP = X\""});
-  for (const ImageLabel& label : labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", items}}))
-    EXPECT_TRUE(label.camera) << label.camera_remark;
-  items.emplace_back("MODEL_COMPONENT_1", "(9,9,9)");
-  for (const ImageLabel& label : labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", items}})) {
-    EXPECT_FALSE(label.camera) << label.format;
-    EXPECT_THAT(label.camera_remark, HasSubstr("states MODEL_COMPONENT_1 of its camera model "));
-  }
-  // Another group may say what it likes.
-  items.pop_back();
-  for (const ImageLabel& label :
-       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", items}, {"OTHER", {{"A", "1"}, {"A", "2"}}}}))
-    EXPECT_TRUE(label.camera) << label.camera_remark;
 }
 
 TEST(LabelCamera, MirroredAndSkewedModelsAreNoCameras) {
