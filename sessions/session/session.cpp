@@ -144,6 +144,8 @@ std::string inputsDigest(const SessionCase& one) {
   inputs.uncertainty = one.uncertainty;
   inputs.ignore = one.ignore;
   inputs.ignore_strokes = one.ignore_strokes;
+  // Where the files are makes no difference.
+  inputs.image.source.file = "/";
   for (MeshInput& part : inputs.parts) part.source.mesh = "/";
   if (inputs.ignore) inputs.ignore->file = "/";
   for (MaskStroke& stroke : inputs.ignore_strokes) stroke.name.clear();
