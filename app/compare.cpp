@@ -5,7 +5,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/record/compare_records.h"
-#include "sessions/record/record_of_run.h"
+#include "sessions/record/onboard_record.h"
 #include "sessions/run/trace_file.h"
 #include "sessions/session/case_run.h"
 

@@ -2,7 +2,6 @@
 
 #include "app/commands.h"
 #include "sessions/exchange/annotation_exchange.h"
-#include "sessions/exchange/pose_exchange.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/review/validated_pose_file.h"
 
@@ -49,13 +48,12 @@ sessions::ExportReport exportPoses(const sessions::Session& session,
   if (!arguments.bop_results.empty())
     return sessions::exportBopResults(session, arguments.bop_results, arguments.cases,
                                       arguments.scene);
-  const bool colmap = !arguments.colmap.empty();
-  const std::string& folder = colmap ? arguments.colmap : arguments.bop;
-  if (arguments.poses == "marks")
-    return (colmap ? sessions::exportColmap : sessions::exportBop)(session, folder, arguments.cases,
-                                                                   arguments.robust);
-  return (colmap ? sessions::writeColmapOf : sessions::writeBopOf)(
-      session, folder, sessions::posesToHandOver(session, arguments.cases));
+  const sessions::CasePoses poses =
+      arguments.poses == "marks"
+          ? sessions::annotatedPoses(session, arguments.cases, arguments.robust)
+          : sessions::posesToHandOver(session, arguments.cases);
+  return arguments.colmap.empty() ? sessions::exportBop(session, arguments.bop, poses)
+                                  : sessions::exportColmap(session, arguments.colmap, poses);
 }
 
 int exportFrom(const ExchangeArguments& arguments) {

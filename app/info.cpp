@@ -24,7 +24,7 @@
 #include "sessions/run/run_text.h"
 #include "sessions/run/trace_file.h"
 #include "sessions/session/input_check.h"
-#include "sessions/session/input_sheets.h"
+#include "sessions/session/input_sheet.h"
 #include "sessions/session/session_file.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
@@ -61,7 +61,7 @@ void flagAll(const std::vector<sessions::RedFlag>& flags) {
 
 void describeCamera(const sessions::CameraFile& file) {
   const sessions::CameraSheet sheet = sessions::cameraSheet(file.camera);
-  for (const std::string& text : sessions::cameraLines(sheet, file.camera)) line(text);
+  for (const std::string& text : sheet.lines) line(text);
   if (file.reference) {
     line("vectors in " + frameText(file.reference->frame) + ", the camera's centre at " +
          vectorText(file.reference->camera_from_reference.inverse().translation_m, 4) + " m");

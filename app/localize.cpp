@@ -13,7 +13,7 @@
 #include "sessions/run/run_text.h"
 #include "sessions/run/runner.h"
 #include "sessions/run/trace_file.h"
-#include "sessions/session/label_agreement.h"
+#include "sessions/session/input_sheet.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/text/text_table.h"
 

@@ -7,7 +7,7 @@
 #include "sessions/record/onboard_record.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/input_check.h"
-#include "sessions/session/label_agreement.h"
+#include "sessions/session/input_sheet.h"
 #include "sessions/session/session_maker.h"
 #include "sessions/session/session_of_results.h"
 

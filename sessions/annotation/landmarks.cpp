@@ -11,8 +11,7 @@
 #include "sessions/annotation/image_snap.h"
 #include "sessions/annotation/marks_on_image.h"
 #include "sessions/io/atomic_file.h"
-#include "sessions/io/json_reader.h"
-#include "sessions/io/json_writer.h"
+#include "sessions/io/json_fields.h"
 
 namespace boresight::sessions {
 namespace {
@@ -22,34 +21,6 @@ using nlohmann::ordered_json;
 constexpr const char* kLandmarksFormat = "boresight-landmarks";
 constexpr int kLandmarksVersion = 1;
 constexpr double kMaxCoordinate_m = 1e6;
-
-Landmark readLandmark(const JsonReader& json) {
-  Landmark landmark;
-  landmark.name = json.at("name").nonEmptyText();
-  landmark.point_in_station_m =
-      json.at("point_in_station_m").vector3(-kMaxCoordinate_m, kMaxCoordinate_m);
-  if (const auto comment = json.find("comment")) landmark.comment = comment->text();
-  return landmark;
-}
-
-std::vector<Landmark> readMembers(const JsonReader& root) {
-  std::vector<Landmark> landmarks;
-  std::set<std::string> names;
-  for (const JsonReader& json : root.at("landmarks").elements()) {
-    landmarks.push_back(readLandmark(json));
-    const std::string& name = landmarks.back().name;
-    if (!names.insert(name).second) json.failMember("name", "'" + name + "' is given twice");
-  }
-  return landmarks;
-}
-
-ordered_json landmarkJson(const Landmark& landmark) {
-  ordered_json json;
-  json["name"] = landmark.name;
-  json["point_in_station_m"] = toJson(landmark.point_in_station_m);
-  json["comment"] = landmark.comment;
-  return json;
-}
 
 bool isMarked(const Marks& marks, const std::string& name) {
   const auto named = [&name](const auto& pair) { return pair.id == name; };
@@ -70,15 +41,34 @@ constexpr double kMostRadius_px = 8.0;
 
 }  // namespace
 
+template <class Archive, ConstOr<Landmark> Self>
+void fields(Archive& archive, Self& landmark) {
+  constexpr auto kPlace = jsonCodec<Eigen::Vector3d>(
+      [](const JsonReader& json) { return json.vector3(-kMaxCoordinate_m, kMaxCoordinate_m); });
+  archive.field("name", landmark.name, kNonEmptyText);
+  archive.field("point_in_station_m", landmark.point_in_station_m, kPlace);
+  archive.defaulted("comment", landmark.comment, kAnyText);
+}
+
 std::vector<Landmark> readLandmarks(const std::filesystem::path& file) {
   const auto bytes = readFileBytes(file, kMaxJsonBytes, FileUse::kLandmarks);
+  const auto readMembers = [](const JsonReader& root) {
+    std::vector<Landmark> landmarks;
+    std::set<std::string> names;
+    for (const JsonReader& json : root.at("landmarks").elements()) {
+      landmarks.push_back(readFields<Landmark>(json));
+      const std::string& name = landmarks.back().name;
+      if (!names.insert(name).second) json.failMember("name", "'" + name + "' is given twice");
+    }
+    return landmarks;
+  };
   return JsonDocument(file, asText(bytes)).read(kLandmarksFormat, kLandmarksVersion, readMembers);
 }
 
 void writeLandmarks(const std::filesystem::path& file, const std::vector<Landmark>& landmarks) {
   ordered_json json = {{"format", kLandmarksFormat}, {"version", kLandmarksVersion}};
   json["landmarks"] = ordered_json::array();
-  for (const Landmark& landmark : landmarks) json["landmarks"].push_back(landmarkJson(landmark));
+  for (const Landmark& landmark : landmarks) json["landmarks"].push_back(fieldsJson(landmark));
   writeFileAtomically(file, prettyJson(json), FileUse::kLandmarks);
 }
 

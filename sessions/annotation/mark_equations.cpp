@@ -112,17 +112,6 @@ MarkResidual markResidual(const MarkedView& view, const MarkAddress& at,
   return lineResidual(view.camera, view.marks.lines[at.index], camera_from_station);
 }
 
-Matrix6d adjoint(const Pose& camera_from_rig) {
-  const Eigen::Matrix3d rotation = camera_from_rig.matrix();
-  Matrix6d made = Matrix6d::Zero();
-  made.topLeftCorner<3, 3>() = rotation;
-  made.bottomRightCorner<3, 3>() = rotation;
-  for (int i = 0; i < 3; ++i) {
-    made.block<3, 1>(3, i) = camera_from_rig.translation_m.cross(Eigen::Vector3d(rotation.col(i)));
-  }
-  return made;
-}
-
 NormalEquations markEquations(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
                               std::span<const double> weight, const Pose& rig_from_station) {
   NormalEquations sum;
@@ -137,7 +126,7 @@ NormalEquations markEquations(std::span<const MarkedView> views, std::span<const
     }
     const double sigma_px = markSigma_px(views, marks[i]);
     const double w = factor / (sigma_px * sigma_px);
-    const Eigen::Matrix<double, 2, 6> rows = mark.predicted_by_xi * adjoint(view.camera_from_rig);
+    const Eigen::Matrix<double, 2, 6> rows = mark.predicted_by_xi * adjointOf(view.camera_from_rig);
     sum.information += w * rows.transpose() * rows;
     sum.gradient += w * rows.transpose() * mark.residual_px;
     sum.squares += w * mark.residual_px.squaredNorm();

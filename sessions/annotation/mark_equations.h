@@ -25,10 +25,6 @@ struct MarkResidual {
 MarkResidual markResidual(const MarkedView& view, const MarkAddress& at,
                           const Pose& camera_from_station);
 
-/// A xi of the rig's frame as one of a camera's: Exp(A xi) camera_from_rig = camera_from_rig
-/// Exp(xi) to first order.
-Matrix6d adjoint(const Pose& camera_from_rig);
-
 /// Normal equations of all `marks` in xi of rig_from_station; `weight` (one per mark, or empty: all
 /// 1) multiplies 1 / sigma^2. A mark that does not project counts as missing.
 NormalEquations markEquations(std::span<const MarkedView> views, std::span<const MarkAddress> marks,

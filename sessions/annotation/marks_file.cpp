@@ -9,8 +9,7 @@
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/io/json_reader.h"
-#include "sessions/io/json_writer.h"
+#include "sessions/io/json_fields.h"
 #include "sessions/io/pose_file.h"
 
 namespace boresight::sessions {
@@ -23,73 +22,34 @@ constexpr int kMarksVersion = 1;
 constexpr double kMaxSigma_px = 1e4;
 constexpr double kMaxCoordinate_m = 1e6;
 
-Eigen::Vector3d readPlace(const JsonReader& json) {
-  return json.vector3(-kMaxCoordinate_m, kMaxCoordinate_m);
+constexpr auto kPlace = jsonCodec<Eigen::Vector3d>(
+    [](const JsonReader& json) { return json.vector3(-kMaxCoordinate_m, kMaxCoordinate_m); });
+constexpr auto kPixel =
+    jsonCodec<Eigen::Vector2d>([](const JsonReader& json) { return json.vector2(); });
+
+/// Both ends of a segment, which differ.
+template <class Segment, class End>
+constexpr auto endsOf(End end) {
+  return Codec{[end](const Segment& segment) {
+                 const auto& [start, stop] = segment;
+                 return ordered_json::array({end.write(start), end.write(stop)});
+               },
+               [end](const JsonReader& json) {
+                 const auto ends = json.elements(2);
+                 const Segment segment{end.read(ends[0]), end.read(ends[1])};
+                 const auto& [start, stop] = segment;
+                 if (start == stop) json.fail("both ends are the same place");
+                 return segment;
+               }};
 }
 
-/// What points and lines have in common.
-template <class Pair>
-void readCommon(const JsonReader& json, Pair& pair) {
-  pair.id = json.at("id").nonEmptyText();
-  if (const auto sigma = json.find("sigma_px")) pair.sigma_px = sigma->number(1e-6, kMaxSigma_px);
-  if (const auto enabled = json.find("enabled")) pair.enabled = enabled->boolean();
-  if (const auto locked = json.find("locked")) pair.locked = locked->boolean();
-  if (const auto comment = json.find("comment")) pair.comment = comment->text();
-}
-
-template <class Pair>
-void writeCommon(const Pair& pair, ordered_json& json) {
-  json["sigma_px"] = pair.sigma_px;
-  json["enabled"] = pair.enabled;
-  json["locked"] = pair.locked;
-  json["comment"] = pair.comment;
-}
-
-PointPair readPoint(const JsonReader& json) {
-  PointPair point;
-  readCommon(json, point);
-  if (const auto place = json.find("point_in_station_m"))
-    point.point_in_station_m = readPlace(*place);
-  if (const auto pixel = json.find("pixel")) point.pixel = pixel->vector2();
-  return point;
-}
-
-LinePair readLine(const JsonReader& json) {
-  LinePair line;
-  readCommon(json, line);
-  if (const auto edge = json.find("edge_in_station_m")) {
-    const auto ends = edge->elements(2);
-    line.edge = {readPlace(ends[0]), readPlace(ends[1])};
-    if (line.edge->start_in_station_m == line.edge->end_in_station_m)
-      edge->fail("both ends are the same point");
-  }
-  if (const auto seen = json.find("line_px")) {
-    const auto ends = seen->elements(2);
-    line.line = {ends[0].vector2(), ends[1].vector2()};
-    if (line.line->start == line.line->end) seen->fail("both ends are the same place");
-  }
-  return line;
-}
-
-ordered_json pointJson(const PointPair& point) {
-  ordered_json json;
-  json["id"] = point.id;
-  if (point.point_in_station_m) json["point_in_station_m"] = toJson(*point.point_in_station_m);
-  if (point.pixel) json["pixel"] = toJson(*point.pixel);
-  writeCommon(point, json);
-  return json;
-}
-
-ordered_json lineJson(const LinePair& line) {
-  ordered_json json;
-  json["id"] = line.id;
-  if (line.edge)
-    json["edge_in_station_m"] = ordered_json::array(
-        {toJson(line.edge->start_in_station_m), toJson(line.edge->end_in_station_m)});
-  if (line.line)
-    json["line_px"] = ordered_json::array({toJson(line.line->start), toJson(line.line->end)});
-  writeCommon(line, json);
-  return json;
+/// What points and lines have in common after their places.
+template <class Archive, class Pair>
+void commonFields(Archive& archive, Pair& pair) {
+  archive.defaulted("sigma_px", pair.sigma_px, numberIn(1e-6, kMaxSigma_px));
+  archive.defaulted("enabled", pair.enabled, kFlag);
+  archive.defaulted("locked", pair.locked, kFlag);
+  archive.defaulted("comment", pair.comment, kAnyText);
 }
 
 bool isTable(const std::filesystem::path& file) { return file.extension() == ".csv"; }
@@ -113,35 +73,41 @@ std::vector<MarkedView> readViews(const JsonReader& root) {
 
 }  // namespace
 
+template <class Archive, ConstOr<PointPair> Self>
+void fields(Archive& archive, Self& point) {
+  archive.field("id", point.id, kNonEmptyText);
+  archive.optional("point_in_station_m", point.point_in_station_m, kPlace);
+  archive.optional("pixel", point.pixel, kPixel);
+  commonFields(archive, point);
+}
+
+template <class Archive, ConstOr<LinePair> Self>
+void fields(Archive& archive, Self& line) {
+  archive.field("id", line.id, kNonEmptyText);
+  archive.optional("edge_in_station_m", line.edge, endsOf<ModelEdge>(kPlace));
+  archive.optional("line_px", line.line, endsOf<ImageLine>(kPixel));
+  commonFields(archive, line);
+}
+
+template <class Archive, ConstOr<Marks> Self>
+void fields(Archive& archive, Self& marks) {
+  archive.optionalList("points", marks.points);
+  archive.optionalList("lines", marks.lines);
+}
+
 Marks readMarks(const JsonReader& json) {
-  Marks marks;
+  const auto marks = readFields<Marks>(json);
   std::set<std::string> ids;
-  const auto requireNew = [&ids](const JsonReader& pair, const std::string& id) {
-    if (!ids.insert(id).second) pair.failMember("id", "'" + id + "' is given twice");
-  };
-  if (const auto points = json.find("points")) {
-    for (const JsonReader& point : points->elements()) {
-      marks.points.push_back(readPoint(point));
-      requireNew(point, marks.points.back().id);
-    }
-  }
-  if (const auto lines = json.find("lines")) {
-    for (const JsonReader& line : lines->elements()) {
-      marks.lines.push_back(readLine(line));
-      requireNew(line, marks.lines.back().id);
-    }
-  }
+  for (const char* list : {"points", "lines"})
+    if (const auto pairs = json.find(list))
+      for (const JsonReader& pair : pairs->elements()) {
+        const std::string id = pair.at("id").text();
+        if (!ids.insert(id).second) pair.failMember("id", "'" + id + "' is given twice");
+      }
   return marks;
 }
 
-ordered_json toJson(const Marks& marks) {
-  ordered_json json;
-  json["points"] = ordered_json::array();
-  for (const PointPair& point : marks.points) json["points"].push_back(pointJson(point));
-  json["lines"] = ordered_json::array();
-  for (const LinePair& line : marks.lines) json["lines"].push_back(lineJson(line));
-  return json;
-}
+ordered_json toJson(const Marks& marks) { return fieldsJson(marks); }
 
 Marks readMarks(const std::filesystem::path& file) {
   const auto bytes = readFileBytes(file, kMaxJsonBytes, FileUse::kMarks);

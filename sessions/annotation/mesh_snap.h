@@ -12,7 +12,7 @@
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
 #include "sessions/annotation/marks.h"
-#include "sessions/run/face_tree.h"
+#include "sessions/run/surface_point.h"
 
 namespace boresight::sessions {
 

@@ -33,52 +33,47 @@ ordered_json sigmas(const Matrix6d& covariance, int first) {
 
 ordered_json viewJson(const MarkedView& view, const Pose& camera_from_station,
                       const Matrix6d& covariance) {
-  ordered_json json;
-  json["name"] = view.name;
-  json["camera_from_rig"] = toJson(view.camera_from_rig);
-  json["camera_from_station"] = toJson(camera_from_station);
-  json["covariance"] = toJson(covariance);
-  json["sigma_mm"] = sigmas(covariance, 3);
-  json["sigma_mrad"] = sigmas(covariance, 0);
-  return json;
+  return {{"name", view.name},
+          {"camera_from_rig", toJson(view.camera_from_rig)},
+          {"camera_from_station", toJson(camera_from_station)},
+          {"covariance", toJson(covariance)},
+          {"sigma_mm", sigmas(covariance, 3)},
+          {"sigma_mrad", sigmas(covariance, 0)}};
 }
 
 ordered_json markJson(std::span<const MarkedView> views, const SolvedMark& mark,
                       const LeftOut* without) {
-  ordered_json json;
-  json["view"] = views[mark.address.view].name;
-  json["id"] = markId(views, mark.address);
-  json["kind"] = mark.address.kind == MarkKind::kPoint ? "point" : "line";
-  json["projected"] = mark.projected;
-  json["residual_px"] = toJson(mark.residual_px);
-  json["residual_mm"] = toJson(mark.residual_mm);
-  json["normalized"] = mark.normalized;
-  json["weight"] = mark.weight;
-  if (without == nullptr) return json;
-  json["without"]["determined"] = without->determined;
-  json["without"]["translation_mm"] = without->translation_mm;
-  json["without"]["rotation_mrad"] = without->rotation_mrad;
+  ordered_json json = {{"view", views[mark.address.view].name},
+                       {"id", markId(views, mark.address)},
+                       {"kind", mark.address.kind == MarkKind::kPoint ? "point" : "line"},
+                       {"projected", mark.projected},
+                       {"residual_px", toJson(mark.residual_px)},
+                       {"residual_mm", toJson(mark.residual_mm)},
+                       {"normalized", mark.normalized},
+                       {"weight", mark.weight}};
+  if (without != nullptr)
+    json["without"] = {{"determined", without->determined},
+                       {"translation_mm", without->translation_mm},
+                       {"rotation_mrad", without->rotation_mrad}};
   return json;
 }
 
 void addSolution(std::span<const MarkedView> views, const MarksSolution& solution,
                  std::span<const LeftOut> left_out, ordered_json& json) {
-  json["rms_px"] = solution.rms_px;
-  json["noise_factor"] = solution.noise_factor;
-  json["degrees_of_freedom"] = solution.degrees_of_freedom;
-  json["rig_from_station"] = toJson(solution.rig_from_station);
-  json["covariance"] = toJson(solution.covariance);
-  json["views"] = ordered_json::array();
+  json.update({{"rms_px", solution.rms_px},
+               {"noise_factor", solution.noise_factor},
+               {"degrees_of_freedom", solution.degrees_of_freedom},
+               {"rig_from_station", toJson(solution.rig_from_station)},
+               {"covariance", toJson(solution.covariance)}});
   for (std::size_t i = 0; i < views.size(); ++i)
     json["views"].push_back(
         viewJson(views[i], solution.camera_from_station[i], cameraCovariance(solution, views[i])));
-  json["marks"] = ordered_json::array();
   for (std::size_t i = 0; i < solution.marks.size(); ++i)
     json["marks"].push_back(
         markJson(views, solution.marks[i], i < left_out.size() ? &left_out[i] : nullptr));
-  if (!solution.twin) return;
-  json["twin"]["rig_from_station"] = toJson(solution.twin->rig_from_station);
-  json["twin"]["rms_px"] = solution.twin->rms_px;
+  if (solution.twin)
+    json["twin"] = {{"rig_from_station", toJson(solution.twin->rig_from_station)},
+                    {"rms_px", solution.twin->rms_px}};
 }
 
 TextTable markTable(std::span<const MarkedView> views, const MarksSolution& solution,
@@ -126,21 +121,19 @@ std::string posesText(std::span<const MarkedView> views, const MarksSolution& so
 void writeSolution(const std::filesystem::path& file, std::span<const MarkedView> views,
                    const MarksResult& result, std::span<const LeftOut> left_out,
                    std::span<const GeometryWarning> warnings, bool robust) {
-  ordered_json json = {{"format", "boresight-solution"}, {"version", 1}};
-  json["solved"] = result.solution.has_value();
-  json["robust"] = robust;
+  ordered_json json = {{"format", "boresight-solution"},
+                       {"version", 1},
+                       {"solved", result.solution.has_value()},
+                       {"robust", robust}};
   if (result.solution)
     addSolution(views, *result.solution, left_out, json);
   else
     json["reason"] = result.reason;
   json["warnings"] = ordered_json::array();
-  for (const GeometryWarning& warning : warnings) {
-    ordered_json one;
-    one["kind"] = kWeaknessNames[static_cast<int>(warning.weakness)];
-    one["prevents"] = warning.prevents;
-    one["text"] = warning.text;
-    json["warnings"].push_back(one);
-  }
+  for (const GeometryWarning& warning : warnings)
+    json["warnings"].push_back({{"kind", kWeaknessNames[static_cast<int>(warning.weakness)]},
+                                {"prevents", warning.prevents},
+                                {"text", warning.text}});
   writeJsonFile(file, json);
 }
 

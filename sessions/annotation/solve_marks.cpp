@@ -308,7 +308,7 @@ std::vector<LeftOut> leaveOneOut(std::span<const MarkedView> views, const MarksS
 }
 
 Matrix6d cameraCovariance(const MarksSolution& solution, const MarkedView& view) {
-  const Matrix6d camera_by_rig = adjoint(view.camera_from_rig);
+  const Matrix6d camera_by_rig = adjointOf(view.camera_from_rig);
   return camera_by_rig * solution.covariance * camera_by_rig.transpose();
 }
 

@@ -20,6 +20,7 @@
 #include "sessions/io/image_file.h"
 #include "sessions/io/undistort.h"
 #include "sessions/review/standing.h"
+#include "sessions/review/validated_pose_file.h"
 #include "sessions/session/case_marks.h"
 #include "sessions/session/image_names.h"
 
@@ -42,15 +43,21 @@ std::size_t placeOf(const Session& session, const std::string& case_id) {
   return place;
 }
 
-/// Poses to write; there must be one.
-CasePoses posesToExport(const Session& session, const std::vector<std::string>& case_ids,
-                        bool robust) {
-  CasePoses made = annotatedPoses(session, case_ids, robust);
-  if (made.poses.empty())
-    throw InputError("session", "annotations",
-                     made.notes.empty() ? "no case has marks to make a pose of"
-                                        : "no case has a pose to export: " + made.notes.front());
-  return made;
+HandedPoses requirePoses(const Session& session, const std::vector<std::string>& case_ids) {
+  HandedPoses handed = handedPoses(session, case_ids);
+  if (handed.poses.empty())
+    throw InputError("session", "cases",
+                     handed.notes.empty() ? "there is none" : handed.notes.front());
+  return handed;
+}
+
+void requireHonestName(const std::filesystem::path& file, const HandedPoses& handed) {
+  if (file.filename().string().find(kNotValidatedName) != std::string::npos) return;
+  for (const HandedPose& pose : handed.poses)
+    if (!pose.validated)
+      throw InputError(file, "case '" + pose.case_id + "' is " + pose.standing +
+                                 "; the format has no room to say so, so its name has to: put " +
+                                 kNotValidatedName + " into it, or name the validated cases alone");
 }
 
 ExportReport reportOf(const CasePoses& made) {
@@ -193,20 +200,42 @@ CasePoses annotatedPoses(const Session& session, const std::vector<std::string>&
     else
       made.notes.push_back("case '" + one->id + "' has no pose: " + solved.result.reason);
   }
+  if (made.poses.empty())
+    throw InputError("session", "annotations",
+                     made.notes.empty() ? "no case has marks to make a pose of"
+                                        : "no case has a pose to export: " + made.notes.front());
   return made;
 }
 
-ExportReport exportColmap(const Session& session, const fs::path& folder,
-                          const std::vector<std::string>& case_ids, bool robust) {
-  return writeColmapOf(session, folder, posesToExport(session, case_ids, robust));
+CasePoses posesToHandOver(const Session& session, const std::vector<std::string>& case_ids) {
+  const HandedPoses handed = requirePoses(session, case_ids);
+  CasePoses made;
+  made.notes = handed.notes;
+  for (const HandedPose& pose : handed.poses)
+    made.poses.push_back({pose.case_id, pose.camera_from_station});
+  return made;
 }
 
-ExportReport exportBop(const Session& session, const fs::path& folder,
-                       const std::vector<std::string>& case_ids, bool robust) {
-  return writeBopOf(session, folder, posesToExport(session, case_ids, robust));
+ExportReport exportBopResults(const Session& session, const std::filesystem::path& file,
+                              const std::vector<std::string>& case_ids, int scene_id) {
+  const HandedPoses handed = requirePoses(session, case_ids);
+  requireHonestName(file, handed);
+  const std::vector<int> numbers = imageNumbers(session);
+  const std::vector<int> stations = stationNumbers(session);
+  std::vector<BopResult> results;
+  ExportReport report;
+  report.notes = handed.notes;
+  for (const HandedPose& pose : handed.poses) {
+    const std::size_t place = placeOf(session, pose.case_id);
+    results.push_back({scene_id, numbers[place], stations[place], pose.score,
+                       pose.camera_from_station, pose.seconds});
+    report.case_ids.push_back(pose.case_id);
+  }
+  writeBopResults(file, results);
+  return report;
 }
 
-ExportReport writeColmapOf(const Session& session, const fs::path& folder, const CasePoses& poses) {
+ExportReport exportColmap(const Session& session, const fs::path& folder, const CasePoses& poses) {
   requireOneStation(session, poses);
   const std::vector<std::string> names = imageNames(session);
   std::vector<PosedImage> images;
@@ -226,7 +255,7 @@ ExportReport writeColmapOf(const Session& session, const fs::path& folder, const
   return report;
 }
 
-ExportReport writeBopOf(const Session& session, const fs::path& folder, const CasePoses& poses) {
+ExportReport exportBop(const Session& session, const fs::path& folder, const CasePoses& poses) {
   const std::vector<int> numbers = imageNumbers(session);
   const std::vector<int> stations = stationNumbers(session);
   writeFolderAtomically(folder, [&](const fs::path& to) {

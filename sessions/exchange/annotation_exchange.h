@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks and annotated poses of a session for other programs, and from them: the one code behind the
-// desktop program and `whs export` and `whs import`.
+// Marks and poses of a session for other programs, and from them: for the desktop program, `whs
+// export` and `whs import`.
 #pragma once
 
 #include <filesystem>
@@ -19,43 +19,47 @@ struct CasePose {
 
 struct CasePoses {
   std::vector<CasePose> poses;     ///< in the order of the session
-  std::vector<std::string> notes;  ///< cases without a pose that one might expect, and why
+  std::vector<std::string> notes;  ///< cases without a pose, and why
 };
 
 /// The poses that cases' marks give, solved as `solveCaseMarks` does, each together with its rig.
 /// Of these cases, or of all that have marks (or whose rig has). InputError for an id that does not
-/// exist.
+/// exist, and when there is no pose.
 CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids,
                          bool robust);
+/// The poses that cases are handed over with (handedPoses). InputError when there is none.
+CasePoses posesToHandOver(const Session& session, const std::vector<std::string>& case_ids);
 
-/// What came of an export, for people.
+/// What was exported.
 struct ExportReport {
-  std::vector<std::string> case_ids;  ///< that were written
-  std::vector<std::string> notes;     ///< as in CasePoses
+  std::vector<std::string> case_ids;
+  std::vector<std::string> notes;  ///< as in CasePoses
 };
 
-/// Writes a new folder with a COLMAP text model (colmap_text.h) of the cases' poses: whole or not
-/// at all. Images are numbered by their cases' places in the session, from 1, and named by their
-/// paths below the folder that holds all of the session's images. InputError when there is no pose,
-/// or the cases are of several stations: a model has one world. OutputError.
+/// Writes a new folder with a COLMAP text model (colmap_text.h) of the poses: whole or not at all.
+/// Images are numbered by their cases' places in the session, from 1, and named by their paths
+/// below the folder that holds all of the session's images. A comment in images.txt names who
+/// validated a pose, or says that it is not validated. InputError when the cases are of several
+/// stations: a model has one world. OutputError.
 ExportReport exportColmap(const Session& session, const std::filesystem::path& folder,
-                          const std::vector<std::string>& case_ids, bool robust);
+                          const CasePoses& poses);
 
-/// Writes a new folder with a BOP scene (bop_scene.h) of the cases' poses: scene_gt.json,
+/// Writes a new folder with a BOP scene (bop_scene.h) of the poses: scene_gt.json,
 /// scene_camera.json, and in gray/ the 8-bit images as cameras without distortion would have taken
 /// them. Images are numbered as their files are (000012.png is 12) when all images of the session
 /// are, each differently; else by their cases' places in the session, from 1. Objects are the
-/// session's stations in their order, from 1. InputError when there is no pose or an image cannot
-/// be read; OutputError.
+/// session's stations in their order, from 1. A `remark` in scene_gt.json names who validated a
+/// pose, or says that it is not validated. InputError when an image cannot be read; OutputError.
 ExportReport exportBop(const Session& session, const std::filesystem::path& folder,
-                       const std::vector<std::string>& case_ids, bool robust);
+                       const CasePoses& poses);
 
-/// The same two for poses that the caller chose. Every pose is written with who validated it, or
-/// that nobody has: as a comment in images.txt, as a `remark` in scene_gt.json.
-ExportReport writeColmapOf(const Session& session, const std::filesystem::path& folder,
-                           const CasePoses& poses);
-ExportReport writeBopOf(const Session& session, const std::filesystem::path& folder,
-                        const CasePoses& poses);
+/// Writes the poses that cases are handed over with as a BOP19 results file: images and objects are
+/// numbered as `exportBop` does, in this scene; the score is 1 for a validated pose or one from
+/// marks, else the edge support of its run. The format has no room for a remark: when a pose is not
+/// validated, the file's name must contain kNotValidatedName. InputError; OutputError.
+ExportReport exportBopResults(const Session& session, const std::filesystem::path& file,
+                              const std::vector<std::string>& case_ids, int scene_id);
+inline constexpr const char* kNotValidatedName = "NOT-VALIDATED";
 
 /// Writes a case's marks as points.json, or points.csv where the name ends so. InputError when the
 /// case does not exist or has none; OutputError.

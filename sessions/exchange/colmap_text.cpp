@@ -2,7 +2,6 @@
 #include "sessions/exchange/colmap_text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -49,13 +48,6 @@ const std::vector<ColmapModel>& colmapModels() {
        CameraModel::kKannalaBrandt,
        {0, 1, kNone, kNone, 2, 3, kNone, kNone}}};
   return models;
-}
-
-bool knownToColmap(const std::string& name) {
-  for (const char* other : {"FOV", "RAD_TAN_THIN_PRISM_FISHEYE", "SIMPLE_DIVISION", "DIVISION",
-                            "EUCM", "EQUIRECTANGULAR"})
-    if (name == other) return true;
-  return false;
 }
 
 constexpr const char* kWhatToDo =
@@ -117,11 +109,10 @@ class Line {
 
   double number(const char* what) {
     const std::string text = word(what);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    const auto value = numberIn<double>(text);
+    if (!value || !std::isfinite(*value))
       fail(std::string(what) + ": '" + text + "' is not a number");
-    return value;
+    return *value;
   }
 
   int integer(const char* what, int minimum, int maximum) {
@@ -170,9 +161,7 @@ Camera readCameraLine(Line& line) {
   const ColmapModel* model = nullptr;
   for (const ColmapModel& one : colmapModels())
     if (name == one.name) model = &one;
-  if (model == nullptr && knownToColmap(name))
-    line.fail("no camera here can be a " + name + kWhatToDo);
-  if (model == nullptr) line.fail("the camera model " + name + " is not known");
+  if (model == nullptr) line.fail("no camera here can be a " + name + kWhatToDo);
   Camera camera;
   camera.model = model->model;
   camera.width = line.integer("the width", 1, kMaxImageSide_px);

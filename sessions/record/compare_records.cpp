@@ -5,32 +5,24 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <map>
 #include <sstream>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include <Eigen/Cholesky>
 
 #include "core/localizer/workspace.h"
+#include "sessions/text/plain_text.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {
 
-using Difference = std::optional<FirstDifference>;
-
 /// A share of fewer than these says little.
 constexpr int kLeastCounted = 10;
-
-Difference differs(RunPart part, const std::string& text) {
-  return FirstDifference{part, -1, -1, text};
-}
-
-/// In one iteration, and in one of its templates where `item` is not -1.
-Difference differs(RunPart part, const RecordedIteration& iteration, const std::string& text,
-                   int item = -1) {
-  const std::string place = "in iteration " + std::to_string(iteration.index + 1);
-  return FirstDifference{part, iteration.index, item, text + " " + place};
-}
 
 template <class Value>
 std::string versus(const Value& one, const Value& other) {
@@ -40,192 +32,187 @@ std::string versus(const Value& one, const Value& other) {
   return text.str();
 }
 
-bool isSame(const SeedUncertainty& a, const SeedUncertainty& b) {
-  return a.translation_m == b.translation_m && a.rotation_rad == b.rotation_rad &&
-         a.pivot_in_camera_m == b.pivot_in_camera_m;
-}
+/// Keeps the first difference of all that it is asked to compare.
+class Walk {
+ public:
+  const std::optional<FirstDifference>& first() const { return first_; }
 
-bool isSame(const EdgeSupport& a, const EdgeSupport& b) {
-  const auto counts = [](const EdgeSupport& support) {
-    return std::array{support.rendered,           support.covered, support.displaced,
-                      support.displaced_covered,  support.seen,    support.explained,
-                      support.displaced_explained};
-  };
-  return counts(a) == counts(b);
-}
+  /// What follows belongs to this iteration (an index); -1: to none.
+  void enter(int iteration) { iteration_ = iteration; }
 
-Difference pixelsDifference(const OnboardRecord& one, const OnboardRecord& other) {
-  if (!one.inputs || !other.inputs) return {};
-  const RecordedInputs& a = *one.inputs;
-  const RecordedInputs& b = *other.inputs;
-  if (a.width != b.width || a.height != b.height || a.sha256.pixels != b.sha256.pixels)
-    return differs(RunPart::kPixels, "the runs saw different pixels");
-  return {};
-}
-
-/// Of everything but the pixels.
-Difference inputsDifference(const OnboardRecord& one, const OnboardRecord& other) {
-  if (!one.inputs || !other.inputs) return {};
-  const RecordedInputs& a = *one.inputs;
-  const RecordedInputs& b = *other.inputs;
-  if (a.sha256.ignore != b.sha256.ignore)
-    return differs(RunPart::kMask, "the runs ignored different pixels");
-  if (a.sha256.scene != b.sha256.scene)
-    return differs(RunPart::kScene, "the runs had different meshes");
-  if (a.sha256.camera != b.sha256.camera)
-    return differs(RunPart::kCamera, "the runs had different cameras");
-  if (!(a.camera_from_station_seed == b.camera_from_station_seed &&
-        isSame(a.uncertainty, b.uncertainty)))
-    return differs(RunPart::kSeed, "the runs started from different seeds");
-  return {};
-}
-
-/// The first option that differs by name or value.
-Difference optionsDifference(const OnboardRecord& one, const OnboardRecord& other) {
-  if (one.options.empty() || other.options.empty()) return {};
-  const RecordedOptions& a = one.options.front();
-  const RecordedOptions& b = other.options.front();
-  std::map<std::string, RecordedOption> theirs;
-  for (const RecordedOption& option : b.options) theirs.emplace(option.name, option);
-  for (const RecordedOption& option : a.options) {
-    const auto found = theirs.find(option.name);
-    if (found == theirs.end())
-      return differs(RunPart::kOptions, "only one run has the option " + option.name);
-    if (!(found->second == option))
-      return differs(RunPart::kOptions, "the option " + option.name + " is " +
-                                            versus(option.value(), found->second.value()));
-    theirs.erase(found);
+  void differ(RunPart part, std::string text, int template_index = -1) {
+    if (first_) return;
+    if (iteration_ >= 0) text += ", in iteration " + std::to_string(iteration_ + 1);
+    first_ = FirstDifference{part, iteration_, template_index, std::move(text)};
   }
-  if (!theirs.empty())
-    return differs(RunPart::kOptions, "only one run has the option " + theirs.begin()->first);
-  const std::size_t both = std::min(one.options.size(), other.options.size());
-  for (std::size_t i = 1; i < both; ++i)
-    if (!(one.options[i] == other.options[i]))
-      return FirstDifference{RunPart::kOptions, one.options[i].first_iteration, -1,
-                             "options were changed differently on the way"};
-  return {};
+
+  template <class Value>
+  void compare(RunPart part, const std::string& what, const Value& one, const Value& other) {
+    if (one == other) return;
+    std::string values;
+    if constexpr (std::is_arithmetic_v<Value>) values = ": " + versus(one, other);
+    differ(part, what + " differ" + values);
+  }
+
+ private:
+  std::optional<FirstDifference> first_;
+  int iteration_ = -1;
+};
+
+void walkPixels(const OnboardRecord& one, const OnboardRecord& other, Walk& walk) {
+  if (!one.inputs || !other.inputs) return;
+  const auto pixels = [](const RecordedInputs& inputs) {
+    return std::tuple(inputs.width, inputs.height, inputs.sha256.pixels);
+  };
+  walk.compare(RunPart::kPixels, "the pixels", pixels(*one.inputs), pixels(*other.inputs));
 }
 
-Difference edgesDifference(const OnboardRecord& one, const OnboardRecord& other) {
-  if (!one.edges || !other.edges) return {};
+void walkOptions(const RecordedOptions& one, const RecordedOptions& other, Walk& walk) {
+  std::map<std::string, std::array<const RecordedOption*, 2>> by_name;
+  for (const RecordedOption& option : one.options) by_name[option.name][0] = &option;
+  for (const RecordedOption& option : other.options) by_name[option.name][1] = &option;
+  for (const auto& [name, values] : by_name) {
+    const auto& [a, b] = values;
+    if (a == nullptr || b == nullptr)
+      walk.differ(RunPart::kOptions, "only one run has the option " + name);
+    else if (!(*a == *b))
+      walk.differ(RunPart::kOptions,
+                  "the option " + name + " is " + versus(a->value(), b->value()));
+  }
+}
+
+/// All inputs and options but the pixels.
+void walkInputs(const OnboardRecord& one, const OnboardRecord& other, Walk& walk) {
+  if (one.inputs && other.inputs) {
+    const RecordedInputs& a = *one.inputs;
+    const RecordedInputs& b = *other.inputs;
+    const auto uncertainty = [](const RecordedInputs& inputs) {
+      Eigen::Matrix<double, 9, 1> all;
+      all << inputs.uncertainty.translation_m, inputs.uncertainty.rotation_rad,
+          inputs.uncertainty.pivot_in_camera_m;
+      return all;
+    };
+    walk.compare(RunPart::kMask, "the ignore masks", a.sha256.ignore, b.sha256.ignore);
+    walk.compare(RunPart::kScene, "the meshes", a.sha256.scene, b.sha256.scene);
+    walk.compare(RunPart::kCamera, "the cameras", a.sha256.camera, b.sha256.camera);
+    walk.compare(RunPart::kSeed, "the seeds", a.camera_from_station_seed,
+                 b.camera_from_station_seed);
+    walk.compare(RunPart::kSeed, "the uncertainties of the seeds", uncertainty(a), uncertainty(b));
+  }
+  if (one.options.empty() || other.options.empty()) return;
+  walkOptions(one.options.front(), other.options.front(), walk);
+  const std::size_t both = std::min(one.options.size(), other.options.size());
+  for (std::size_t i = 1; i < both; ++i) {
+    walk.enter(one.options[i].first_iteration);
+    walk.compare(RunPart::kOptions, "options that change during the run", one.options[i],
+                 other.options[i]);
+  }
+  walk.enter(-1);
+}
+
+void walkEdges(const OnboardRecord& one, const OnboardRecord& other, Walk& walk) {
+  if (!one.edges || !other.edges) return;
   const RecordedEdges& a = *one.edges;
   const RecordedEdges& b = *other.edges;
-  if (a.low_threshold != b.low_threshold || a.high_threshold != b.high_threshold)
-    return differs(RunPart::kEdges, "the upper thresholds of the image's edges are " +
-                                        versus(a.high_threshold, b.high_threshold));
-  if (a.edge_count != b.edge_count)
-    return differs(RunPart::kEdges,
-                   "the image's edge pixels are " + versus(a.edge_count, b.edge_count));
-  if (a.sha256 != b.sha256)
-    return differs(RunPart::kEdges, "the image's edges lie at different pixels");
-  return {};
+  walk.compare(RunPart::kEdges, "the lower edge thresholds", a.low_threshold, b.low_threshold);
+  walk.compare(RunPart::kEdges, "the upper edge thresholds", a.high_threshold, b.high_threshold);
+  walk.compare(RunPart::kEdges, "the image's edge pixels", a.edge_count, b.edge_count);
+  walk.compare(RunPart::kEdges, "the places of the image's edges", a.sha256, b.sha256);
 }
 
-Difference renderDifference(const RecordedIteration& a, const RecordedIteration& b) {
-  if (!(a.camera_from_station_before == b.camera_from_station_before))
-    return differs(RunPart::kPose, a, "the poses before it differ");
-  if (a.level != b.level || a.kind != b.kind)
-    return differs(RunPart::kRender, a, "the kinds or levels differ");
-  if (a.edge_pixels != b.edge_pixels)
-    return differs(RunPart::kRender, a,
-                   "the rendered edge pixels are " + versus(a.edge_pixels, b.edge_pixels));
-  if (a.render_sha256 && b.render_sha256 && *a.render_sha256 != *b.render_sha256)
-    return differs(RunPart::kRender, a, "the renders differ");
-  return {};
-}
-
-/// The first of both runs' templates that `same` does not hold for, or -1.
-template <class Same>
-int firstTemplate(const RecordedIteration& a, const RecordedIteration& b, Same&& same) {
-  const std::size_t count = std::min(a.templates->size(), b.templates->size());
-  for (std::size_t i = 0; i < count; ++i)
-    if (!same((*a.templates)[i], (*b.templates)[i])) return static_cast<int>(i);
-  return -1;
-}
-
-Difference templatesDifference(const RecordedIteration& a, const RecordedIteration& b) {
+void walkTemplates(const RecordedIteration& one, const RecordedIteration& other, Walk& walk) {
+  walk.compare(RunPart::kTemplates, "the numbers of templates", one.trace.template_count,
+               other.trace.template_count);
+  if (!one.templates || !other.templates) return;
+  const auto each = [&](RunPart part, auto&& value, auto&& text) {
+    const std::size_t count = std::min(one.templates->size(), other.templates->size());
+    for (std::size_t i = 0; i < count; ++i) {
+      const RecordedTemplate& a = (*one.templates)[i];
+      const RecordedTemplate& b = (*other.templates)[i];
+      if (value(a) == value(b)) continue;
+      walk.differ(part, "template " + std::to_string(i + 1) + text(a, b), static_cast<int>(i));
+    }
+  };
   using Item = RecordedTemplate;
-  if (a.templates_count != b.templates_count)
-    return differs(RunPart::kTemplates, a,
-                   "the templates are " + versus(a.templates_count, b.templates_count));
-  if (!a.templates || !b.templates) return {};
-  const auto name = [](int item) { return "template " + std::to_string(item + 1); };
-  const int moved =
-      firstTemplate(a, b, [](const Item& s, const Item& t) { return s.x == t.x && s.y == t.y; });
-  if (moved >= 0)
-    return differs(RunPart::kTemplates, a, name(moved) + " was taken at different places", moved);
-  const int found = firstTemplate(a, b, [](const Item& s, const Item& t) {
-    return s.searched == t.searched && s.at_border == t.at_border && s.found_x == t.found_x &&
-           s.found_y == t.found_y && s.score == t.score && s.second_score == t.second_score;
-  });
-  if (found >= 0) {
-    const auto place = static_cast<std::size_t>(found);
-    return differs(RunPart::kMatches, a,
-                   name(found) + " was found differently, with scores " +
-                       versus((*a.templates)[place].score, (*b.templates)[place].score) + ",",
-                   found);
-  }
-  const int inlier =
-      firstTemplate(a, b, [](const Item& s, const Item& t) { return s.inlier == t.inlier; });
-  if (inlier >= 0)
-    return differs(RunPart::kInliers, a, name(inlier) + " is an inlier in one run only,", inlier);
-  return {};
+  each(
+      RunPart::kTemplates, [](const Item& item) { return std::pair(item.x, item.y); },
+      [](const Item&, const Item&) { return " was taken at different places"; });
+  each(
+      RunPart::kMatches,
+      [](const Item& item) {
+        return std::tuple(item.searched, item.at_border, item.found_x, item.found_y, item.score,
+                          item.second_score);
+      },
+      [](const Item& a, const Item& b) {
+        return " was found differently, with scores " + versus(a.score, b.score);
+      });
+  each(
+      RunPart::kInliers, [](const Item& item) { return item.inlier; },
+      [](const Item&, const Item&) { return " is an inlier in one run only"; });
 }
 
-Difference solutionDifference(const RecordedIteration& a, const RecordedIteration& b) {
-  if (a.searched != b.searched || a.correspondences != b.correspondences)
-    return differs(RunPart::kMatches, a,
-                   "the matches are " + versus(a.correspondences, b.correspondences));
-  if (a.inliers != b.inliers || a.refinement_used != b.refinement_used)
-    return differs(RunPart::kInliers, a,
-                   "the inliers are " + versus(a.inliers, b.inliers) + ", the edge places used " +
-                       versus(a.refinement_used, b.refinement_used) + ",");
-  if (!(a.camera_from_station == b.camera_from_station) || a.status != b.status ||
-      a.reached != b.reached)
-    return differs(RunPart::kPose, a, "the poses or their states differ after it,");
-  if (a.support && b.support && !isSame(*a.support, *b.support))
-    return differs(RunPart::kSupport, a, "the edge support differs");
-  return {};
+void walkIteration(const RecordedIteration& one, const RecordedIteration& other, Walk& walk) {
+  const IterationTrace& a = one.trace;
+  const IterationTrace& b = other.trace;
+  walk.enter(a.index);
+  walk.compare(RunPart::kPose, "the poses before", a.camera_from_station_before,
+               b.camera_from_station_before);
+  walk.compare(RunPart::kRender, "the kinds", a.kind, b.kind);
+  walk.compare(RunPart::kRender, "the levels", a.level, b.level);
+  walk.compare(RunPart::kRender, "the rendered edge pixels", a.edge_pixel_count,
+               b.edge_pixel_count);
+  if (one.render_sha256 && other.render_sha256)
+    walk.compare(RunPart::kRender, "the renders", *one.render_sha256, *other.render_sha256);
+  walkTemplates(one, other, walk);
+  walk.compare(RunPart::kMatches, "the searched templates", a.searched_count, b.searched_count);
+  walk.compare(RunPart::kMatches, "the matches", a.correspondence_count, b.correspondence_count);
+  walk.compare(RunPart::kInliers, "the inliers", a.pnp.inlier_count, b.pnp.inlier_count);
+  walk.compare(RunPart::kInliers, "the edge places used", a.refinement.used_count,
+               b.refinement.used_count);
+  walk.compare(RunPart::kPose, "the poses after", a.camera_from_station, b.camera_from_station);
+  walk.compare(RunPart::kPose, "the states after", std::pair(a.status, a.reached),
+               std::pair(b.status, b.reached));
+  if (!one.support || !other.support) return;
+  const auto counts = [](const EdgeSupport& support) {
+    const auto& [rendered, covered, displaced, displaced_covered, seen, explained,
+                 displaced_explained] = support;
+    return std::array{rendered, covered,   displaced,          displaced_covered,
+                      seen,     explained, displaced_explained};
+  };
+  walk.compare(RunPart::kSupport, "the edge supports", counts(*one.support),
+               counts(*other.support));
 }
 
-Difference iterationDifference(const RecordedIteration& a, const RecordedIteration& b) {
-  if (Difference found = renderDifference(a, b)) return found;
-  if (Difference found = templatesDifference(a, b)) return found;
-  return solutionDifference(a, b);
-}
-
-Difference endDifference(const OnboardRecord& one, const OnboardRecord& other) {
-  const bool both = one.end && other.end;
-  if (both && one.iterations.size() != other.iterations.size() && one.whole() && other.whole())
-    return differs(
-        RunPart::kEnd,
-        "the runs have " + versus(one.iterations.size(), other.iterations.size()) + " iterations");
-  if (!both) return {};
+void walkEnd(const OnboardRecord& one, const OnboardRecord& other, Walk& walk) {
+  walk.enter(-1);
+  if (!one.end || !other.end) return;
   const RecordedEnd& a = *one.end;
   const RecordedEnd& b = *other.end;
+  if (one.whole() && other.whole())
+    walk.compare(RunPart::kEnd, "the numbers of iterations", one.iterations.size(),
+                 other.iterations.size());
   if (a.status != b.status || a.fault != b.fault)
-    return differs(RunPart::kEnd,
-                   std::string("the runs ended as ") +
-                       versus(localizationStatusText(a.status), localizationStatusText(b.status)));
-  if (!(a.camera_from_station == b.camera_from_station) || a.covariance != b.covariance)
-    return differs(RunPart::kEnd, "the final poses or covariances differ");
+    walk.differ(RunPart::kEnd, "the runs ended as " + versus(localizationStatusText(a.status),
+                                                             localizationStatusText(b.status)));
+  walk.compare(RunPart::kEnd, "the final poses", a.camera_from_station, b.camera_from_station);
+  walk.compare(RunPart::kEnd, "the final covariances", a.covariance, b.covariance);
   if (a.digest != b.digest)
-    return differs(RunPart::kDigest,
-                   "the digests differ although the records do not: something that records leave "
-                   "out differs");
-  return {};
+    walk.differ(RunPart::kDigest,
+                "the digests differ although the records do not: a value that records do not hold "
+                "differs");
 }
 
-Difference firstDifference(const OnboardRecord& one, const OnboardRecord& other) {
-  if (Difference found = pixelsDifference(one, other)) return found;
-  if (Difference found = inputsDifference(one, other)) return found;
-  if (Difference found = optionsDifference(one, other)) return found;
-  if (Difference found = edgesDifference(one, other)) return found;
+std::optional<FirstDifference> firstDifference(const OnboardRecord& one,
+                                               const OnboardRecord& other) {
+  Walk walk;
+  walkPixels(one, other, walk);
+  walkInputs(one, other, walk);
+  walkEdges(one, other, walk);
   const std::size_t both = std::min(one.iterations.size(), other.iterations.size());
   for (std::size_t i = 0; i < both; ++i)
-    if (Difference found = iterationDifference(one.iterations[i], other.iterations[i]))
-      return found;
-  return endDifference(one, other);
+    walkIteration(one.iterations[i], other.iterations[i], walk);
+  walkEnd(one, other, walk);
+  return walk.first();
 }
 
 void compareTemplates(const RecordedIteration& a, const RecordedIteration& b,
@@ -277,10 +264,11 @@ void compareIterations(const OnboardRecord& one, const OnboardRecord& other,
   const std::size_t both = std::min(one.iterations.size(), other.iterations.size());
   for (std::size_t i = 0; i < both; ++i) {
     IterationComparison comparison;
-    comparison.index = one.iterations[i].index;
+    const IterationTrace& trace = one.iterations[i].trace;
+    comparison.index = trace.index;
     compareTemplates(one.iterations[i], other.iterations[i], limits, comparison);
     const PosesApart poses =
-        apart(one.iterations[i].camera_from_station, other.iterations[i].camera_from_station);
+        apart(trace.camera_from_station, other.iterations[i].trace.camera_from_station);
     comparison.translation_mm = poses.translation_mm;
     comparison.rotation_mrad = poses.rotation_mrad;
     made.iterations.push_back(comparison);
@@ -325,13 +313,13 @@ void holdToLimits(const OnboardRecord& one, const OnboardRecord& other,
 /// Other pixels excuse other results, but not other options or another mesh.
 void holdToSameInputs(const OnboardRecord& one, const OnboardRecord& other,
                       RecordComparison& made) {
-  Difference found = inputsDifference(one, other);
-  if (!found) found = optionsDifference(one, other);
-  if (!found) return;
+  Walk walk;
+  walkInputs(one, other, walk);
+  if (!walk.first()) return;
   if (one.inputs && other.inputs &&
       (one.inputs->width != other.inputs->width || one.inputs->height != other.inputs->height))
     made.beyond.push_back("the images are of different sizes");
-  made.beyond.push_back(std::string("not the pixels alone differ: ") + found->text);
+  made.beyond.push_back("not the pixels alone differ: " + walk.first()->text);
 }
 
 /// A digest is over everything that a run was given and all that it came upon.
@@ -360,6 +348,45 @@ RecordComparison compareRecords(const OnboardRecord& one, const OnboardRecord& o
   if (made.first && made.first->part == RunPart::kPixels) holdToSameInputs(one, other, made);
   made.verdict = verdictOf(made, haveSameDigest(one, other));
   return made;
+}
+
+const char* runPartText(RunPart part) {
+  constexpr const char* kTexts[] = {"pixels",  "mask",     "scene",   "camera",    "seed",
+                                    "options", "edge map", "render",  "templates", "matches",
+                                    "inliers", "pose",     "support", "end",       "digest"};
+  return kTexts[static_cast<std::size_t>(part)];
+}
+
+std::string comparisonText(const RecordComparison& comparison) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(3);
+  if (comparison.verdict == RunVerdict::kEqual)
+    text << "equal to the bit\n";
+  else if (comparison.verdict == RunVerdict::kDifferent)
+    text << "different\n";
+  else
+    text << (comparison.first ? "not the same, but within the limits\n"
+                              : "equal to the bit as far as the records go\n");
+  if (comparison.first)
+    text << plainLine("first difference: " + std::string(runPartText(comparison.first->part)) +
+                      ": " + comparison.first->text);
+  for (const std::string& sentence : comparison.beyond)
+    text << plainLine("beyond limits: " + sentence);
+  for (const std::string& sentence : comparison.missing) text << plainLine("missing: " + sentence);
+  if (comparison.verdict == RunVerdict::kEqual) return text.str();
+  TextTable table(
+      {"iteration", "templates", "found alike", "inliers either", "both", "apart mm", "mrad"});
+  for (const IterationComparison& one : comparison.iterations)
+    table.add({std::to_string(one.index + 1), std::to_string(one.templates),
+               std::to_string(one.found_alike), std::to_string(one.inliers_either),
+               std::to_string(one.inliers_both), fixedText(one.translation_mm, 3),
+               fixedText(one.rotation_mrad, 3)});
+  text << table.text();
+  text << "final poses: " << comparison.translation_mm << " mm and " << comparison.rotation_mrad
+       << " mrad apart";
+  if (comparison.pose_sigmas) text << ", " << *comparison.pose_sigmas << " sigmas";
+  text << "\n";
+  return text.str();
 }
 
 }  // namespace boresight::sessions

@@ -7,201 +7,194 @@
 #include <utility>
 
 #include "core/base/crc32.h"
+#include "core/localizer/schedule.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
+#include "sessions/run/archive.h"
+#include "sessions/run/trace_fields.h"
 
 namespace boresight::sessions {
 namespace {
 
 constexpr std::size_t kMaxBytes = 64 * kMegabyte;
 
-Eigen::Vector3d readVector(ByteReader& reader) {
-  Eigen::Vector3d vector;
-  for (int i = 0; i < 3; ++i) vector[i] = reader.f64();
-  return vector;
-}
-
-Pose readPose(ByteReader& reader) {
-  Pose pose;
-  pose.rotation.w() = reader.f64();
-  pose.rotation.vec() = readVector(reader);
-  pose.translation_m = readVector(reader);
-  return pose;
-}
-
-std::string asText(std::span<const std::uint8_t> bytes) { return {bytes.begin(), bytes.end()}; }
-
 template <std::size_t count>
-void readBytes(ByteReader& reader, std::array<std::uint8_t, count>& bytes) {
-  const auto taken = reader.take(count);
-  std::copy(taken.begin(), taken.end(), bytes.begin());
+void bytes(ArchiveReader& archive, std::array<std::uint8_t, count>& values) {
+  for (std::uint8_t& value : values) archive.number(value);
 }
 
-/// A choice of `last` + 1; the block is refused when it is none.
-template <class Enum>
-Enum readChoice(ByteReader& reader, Enum last) {
-  const std::uint8_t value = reader.u8();
-  if (value > static_cast<std::uint8_t>(last)) (void)reader.take(SIZE_MAX);  // fails
-  return static_cast<Enum>(std::min(value, static_cast<std::uint8_t>(last)));
-}
-
-RecordedInputs readInputs(ByteReader& reader) {
-  RecordedInputs inputs;
+void fields(ArchiveReader& archive, RecordedInputs& inputs) {
   for (RecordInputs::Hash* hash :
        {&inputs.sha256.pixels, &inputs.sha256.ignore, &inputs.sha256.scene, &inputs.sha256.camera})
-    readBytes(reader, *hash);
-  inputs.width = reader.i32();
-  inputs.height = reader.i32();
-  inputs.camera_from_station_seed = readPose(reader);
-  inputs.uncertainty.translation_m = readVector(reader);
-  inputs.uncertainty.rotation_rad = readVector(reader);
-  inputs.uncertainty.pivot_in_camera_m = readVector(reader);
-  return inputs;
+    bytes(archive, *hash);
+  numbers(archive, inputs.width, inputs.height);
+  fields(archive, inputs.camera_from_station_seed);
+  fields(archive, inputs.uncertainty);
 }
 
-RecordedOptions readOptions(ByteReader& reader) {
-  RecordedOptions made;
-  made.first_iteration = reader.i32();
-  for (std::uint32_t left = reader.u32(); left > 0 && !reader.failed(); --left) {
-    RecordedOption option;
-    option.name = asText(reader.take(reader.u8()));
-    option.kind = readChoice(reader, OptionKind::kChoice);
-    option.bits = reader.u64();
-    made.options.push_back(option);
-  }
-  return made;
+void fields(ArchiveReader& archive, RecordedOptions& recorded) {
+  archive.number(recorded.first_iteration);
+  archive.list(recorded.options, [&archive](RecordedOption& option) {
+    std::uint8_t length = 0;
+    archive.number(length);
+    option.name.resize(length);
+    for (char& letter : option.name) archive.number(letter);
+    archive.choice(option.kind, OptionKind::kChoice);
+    archive.number(option.bits);
+  });
 }
 
-RecordedEdges readEdges(ByteReader& reader) {
-  RecordedEdges edges;
-  readBytes(reader, edges.sha256);
-  edges.low_threshold = reader.f64();
-  edges.high_threshold = reader.f64();
-  edges.edge_count = reader.i32();
-  return edges;
+void fields(ArchiveReader& archive, RecordedEdges& edges) {
+  bytes(archive, edges.sha256);
+  numbers(archive, edges.low_threshold, edges.high_threshold, edges.edge_count);
 }
 
-RecordedIteration readIteration(ByteReader& reader) {
-  RecordedIteration made;
-  made.index = reader.i32();
-  made.attempt = reader.i32();
-  made.kind = readChoice(reader, IterationKind::kRefine);
-  made.level = reader.u8();
-  if (made.level >= kPyramidLevels) (void)reader.take(SIZE_MAX);  // fails
-  made.reached = readChoice(reader, Stage::kFinished);
-  made.status = readChoice(reader, kLastLocalizationStatus);
-  made.threshold_px = reader.f64();
-  made.camera_from_station_before = readPose(reader);
-  made.camera_from_station = readPose(reader);
-  for (std::int32_t* count :
-       {&made.edge_pixels, &made.template_side_px, &made.templates_count, &made.searched,
-        &made.correspondences, &made.inliers, &made.samples, &made.refinement_samples,
-        &made.refinement_found, &made.refinement_used})
-    *count = reader.i32();
-  made.rms_px = reader.f64();
-  made.hypotheses = reader.i32();
-  made.chosen_hypothesis = reader.i32();
-  made.roll_rad = reader.f64();
-  made.correction_translation_m = reader.f64();
-  made.correction_rotation_rad = reader.f64();
-  made.correction_image_px = reader.f64();
-  readBytes(reader, made.render_sha256.emplace());
-  return made;
+/// Of `count` hypotheses a record has the chosen one; the rolls of the others follow.
+void fillHypotheses(std::int32_t count, double chosen_roll_rad, IterationTrace& trace) {
+  const std::int32_t chosen_index = std::exchange(trace.chosen_hypothesis, 0);
+  if (count > kMaxHypotheses || chosen_index < 0 || chosen_index >= count) return;
+  trace.chosen_hypothesis = chosen_index;
+  trace.hypotheses.resize(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i)
+    trace.hypotheses[static_cast<std::size_t>(i)].roll_rad = rollOf(i);
+  HypothesisSummary& chosen = trace.hypotheses[static_cast<std::size_t>(chosen_index)];
+  chosen.roll_rad = chosen_roll_rad;
+  chosen.templates = trace.template_count;
+  chosen.matches = trace.correspondence_count;
+  chosen.inliers = trace.pnp.inlier_count;
+  chosen.camera_from_station = trace.camera_from_station;
+  chosen.solved = trace.pnp.inlier_count > 0;
 }
 
-RecordedTemplate readTemplate(ByteReader& reader) {
-  RecordedTemplate made;
-  made.x = reader.u16();
-  made.y = reader.u16();
-  const std::uint8_t flags = reader.u8();
-  made.searched = (flags & TemplateFlags::kSearched) != 0;
-  made.at_border = (flags & TemplateFlags::kAtBorder) != 0;
-  made.inlier = (flags & TemplateFlags::kInlier) != 0;
-  made.found_x = reader.f32();
-  made.found_y = reader.f32();
-  made.score = reader.f32();
-  const float second = reader.f32();
-  if ((flags & TemplateFlags::kHasSecond) != 0) made.second_score = second;
-  return made;
+void fields(ArchiveReader& archive, RecordedIteration& recorded) {
+  IterationTrace& trace = recorded.trace;
+  PnpTrace& pnp = trace.pnp;
+  RefinementTrace& refinement = trace.refinement;
+  std::uint8_t level = 0;
+  std::int32_t hypotheses = 0;
+  double rms_px = 0.0;
+  double roll_rad = 0.0;
+  numbers(archive, trace.index, trace.attempt);
+  archive.choice(trace.kind, IterationKind::kRefine);
+  archive.number(level);
+  archive.require(level < kPyramidLevels, "a level that does not exist");
+  archive.choice(trace.reached, Stage::kFinished);
+  archive.choice(trace.status, kLastLocalizationStatus);
+  archive.number(trace.threshold_px);
+  fields(archive, trace.camera_from_station_before);
+  fields(archive, trace.camera_from_station);
+  numbers(archive, trace.edge_pixel_count, trace.template_side_px, trace.template_count,
+          trace.searched_count, trace.correspondence_count, pnp.inlier_count, pnp.samples,
+          refinement.sample_count, refinement.found_count, refinement.used_count, rms_px,
+          hypotheses, trace.chosen_hypothesis, roll_rad, trace.correction_translation_m,
+          trace.correction_rotation_rad, trace.correction_image_px);
+  bytes(archive, recorded.render_sha256.emplace());
+  trace.level = level;
+  const bool refines = trace.kind == IterationKind::kRefine;
+  (refines ? refinement.rms_px : pnp.rms_px) = rms_px;
+  (refines ? refinement.camera_from_station : pnp.camera_from_station) = trace.camera_from_station;
+  fillHypotheses(hypotheses, roll_rad, trace);
 }
 
-/// Of the iteration just before; an iteration that has found no room has no templates either.
-bool readTemplates(ByteReader& reader, OnboardRecord& record) {
-  const std::int32_t index = reader.i32();
-  std::vector<RecordedTemplate> made;
-  for (std::uint32_t left = reader.u32(); left > 0 && !reader.failed(); --left)
-    made.push_back(readTemplate(reader));
-  if (reader.failed() || reader.left() > 0) return false;
-  if (!record.iterations.empty() && record.iterations.back().index == index)
-    record.iterations.back().templates = std::move(made);
-  return true;
+void fields(ArchiveReader& archive, RecordedTemplate& item) {
+  std::uint16_t x = 0;
+  std::uint16_t y = 0;
+  std::uint8_t flags = 0;
+  float second_score = 0.0F;
+  numbers(archive, x, y, flags, item.found_x, item.found_y, item.score, second_score);
+  item.x = x;
+  item.y = y;
+  item.searched = (flags & TemplateFlags::kSearched) != 0;
+  item.at_border = (flags & TemplateFlags::kAtBorder) != 0;
+  item.inlier = (flags & TemplateFlags::kInlier) != 0;
+  if ((flags & TemplateFlags::kHasSecond) != 0) item.second_score = second_score;
 }
 
-/// It may change how its iteration ended.
-bool readSupport(ByteReader& reader, OnboardRecord& record) {
-  const std::int32_t index = reader.i32();
-  const auto status = readChoice(reader, kLastLocalizationStatus);
+struct TemplatesBlock {
+  std::int32_t iteration = 0;
+  std::vector<RecordedTemplate> templates;
+};
+void fields(ArchiveReader& archive, TemplatesBlock& block) {
+  archive.number(block.iteration);
+  archive.list(block.templates, [&archive](RecordedTemplate& item) { fields(archive, item); });
+}
+
+struct SupportBlock {
+  std::int32_t iteration = 0;
+  LocalizationStatus status = LocalizationStatus::kRunning;
   EdgeSupport support;
-  for (std::int32_t* count :
-       {&support.rendered, &support.covered, &support.displaced, &support.displaced_covered,
-        &support.seen, &support.explained, &support.displaced_explained})
-    *count = reader.i32();
-  if (reader.failed() || reader.left() > 0) return false;
-  if (record.iterations.empty() || record.iterations.back().index != index) return true;
-  record.iterations.back().status = status;
-  record.iterations.back().support = support;
-  return true;
+};
+void fields(ArchiveReader& archive, SupportBlock& block) {
+  archive.number(block.iteration);
+  archive.choice(block.status, kLastLocalizationStatus);
+  fields(archive, block.support);
 }
 
-RecordedEnd readEnd(ByteReader& reader) {
-  RecordedEnd end;
-  end.status = readChoice(reader, kLastLocalizationStatus);
-  end.fault = readChoice(reader, kLastStatus);
-  end.iterations = reader.i32();
-  end.attempts = reader.i32();
-  end.camera_from_station = readPose(reader);
-  for (int row = 0; row < 6; ++row)
-    for (int column = 0; column <= row; ++column)
-      end.covariance(row, column) = end.covariance(column, row) = reader.f64();
+void fields(ArchiveReader& archive, RecordedEnd& end) {
   std::array<std::uint8_t, 32> digest{};
-  readBytes(reader, digest);
+  std::uint32_t blocks = 0;  // which the number of its own block says, too
+  archive.choice(end.status, kLastLocalizationStatus);
+  archive.choice(end.fault, kLastStatus);
+  numbers(archive, end.iterations, end.attempts);
+  fields(archive, end.camera_from_station);
+  for (int row = 0; row < 6; ++row)
+    for (int column = 0; column <= row; ++column) {
+      archive.number(end.covariance(row, column));
+      end.covariance(column, row) = end.covariance(row, column);
+    }
+  bytes(archive, digest);
+  archive.number(blocks);
   end.digest = hexText(digest).data();
-  (void)reader.u32();  // blocks before it, which its own number says too
-  return end;
 }
 
-/// False when the content is not what its type says; then nothing of it is taken.
-bool readBlock(RecordBlock type, std::span<const std::uint8_t> content, OnboardRecord& record) {
-  ByteReader reader(content);
-  // The value is read before it is asked whether there was all of it.
-  const auto keep = [&reader](auto&& value, auto&& where) {
-    if (reader.failed() || reader.left() > 0) return false;
-    where(std::forward<decltype(value)>(value));
-    return true;
-  };
-  const auto append = [](auto& list) {
-    return [&list](auto&& value) { list.push_back(std::forward<decltype(value)>(value)); };
-  };
-  const auto assign = [](auto& field) {
-    return [&field](auto&& value) { field = std::forward<decltype(value)>(value); };
-  };
+template <class Value>
+Value contentOf(std::span<const std::uint8_t> content) {
+  ArchiveReader archive("", content);
+  Value value;
+  fields(archive, value);
+  archive.require(archive.atEnd(), "longer than its content");
+  return value;
+}
+
+/// The iteration just before; nullptr for one that has found no room.
+RecordedIteration* lastIteration(OnboardRecord& record, std::int32_t index) {
+  if (record.iterations.empty() || record.iterations.back().trace.index != index) return nullptr;
+  return &record.iterations.back();
+}
+
+/// InputError when the content is not what its type says; then nothing of it is taken.
+void readBlock(RecordBlock type, std::span<const std::uint8_t> content, OnboardRecord& record) {
   switch (type) {
     case RecordBlock::kInputs:
-      return keep(readInputs(reader), assign(record.inputs));
+      record.inputs = contentOf<RecordedInputs>(content);
+      return;
     case RecordBlock::kOptions:
-      return keep(readOptions(reader), append(record.options));
+      record.options.push_back(contentOf<RecordedOptions>(content));
+      return;
     case RecordBlock::kEdges:
-      return keep(readEdges(reader), assign(record.edges));
+      record.edges = contentOf<RecordedEdges>(content);
+      return;
     case RecordBlock::kIteration:
-      return keep(readIteration(reader), append(record.iterations));
-    case RecordBlock::kTemplates:
-      return readTemplates(reader, record);
-    case RecordBlock::kSupport:
-      return readSupport(reader, record);
+      record.iterations.push_back(contentOf<RecordedIteration>(content));
+      return;
+    case RecordBlock::kTemplates: {
+      const auto block = contentOf<TemplatesBlock>(content);
+      if (auto* last = lastIteration(record, block.iteration)) last->templates = block.templates;
+      return;
+    }
+    case RecordBlock::kSupport: {
+      const auto block = contentOf<SupportBlock>(content);
+      auto* last = lastIteration(record, block.iteration);
+      if (last == nullptr) return;
+      last->trace.status = block.status;
+      last->support = block.support;
+      return;
+    }
     case RecordBlock::kEnd:
-      return keep(readEnd(reader), assign(record.end));
+      record.end = contentOf<RecordedEnd>(content);
+      return;
   }
-  return false;
+  throw InputError("", "a block of a type that does not exist");
 }
 
 /// The blocks one after the other, up to the first that is cut off or damaged.
@@ -239,8 +232,11 @@ class BlockReader {
     if (number > next_)
       miss("blocks " + std::to_string(next_) + " to " + std::to_string(number - 1) +
            " found no room on board");
-    if (!readBlock(type, rest.subspan(kBlockHeadBytes, length), record_))
+    try {
+      readBlock(type, rest.subspan(kBlockHeadBytes, length), record_);
+    } catch (const InputError&) {
       return damaged("not one that this program knows");
+    }
     next_ = number + 1;
     at_ += checked + 4;
     return true;
@@ -280,8 +276,8 @@ void noteWhatIsMissing(OnboardRecord& record) {
         " of " + std::to_string(record.end->iterations) + " iterations");
   }
   for (const RecordedIteration& one : record.iterations)
-    if (one.templates_count > 0 && !one.templates)
-      record.missing.push_back("the templates of iteration " + std::to_string(one.index + 1));
+    if (one.trace.template_count > 0 && !one.templates)
+      record.missing.push_back("the templates of iteration " + std::to_string(one.trace.index + 1));
 }
 
 }  // namespace

@@ -10,10 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "core/localizer/localizer.h"
 #include "core/localizer/problem_bytes.h"
 #include "core/record/record_hashes.h"
 #include "core/record/record_writer.h"
+#include "sessions/run/run_plan.h"
+#include "sessions/run/trace.h"
 
 namespace boresight::sessions {
 
@@ -50,6 +51,8 @@ struct RecordedTemplate {
   float found_x = 0.0F, found_y = 0.0F;  ///< px at the level
   float score = 0.0F;                    ///< WHS in [0, 2]
   std::optional<float> second_score;
+
+  bool operator==(const RecordedTemplate&) const = default;
 };
 
 /// The image's edges, by what tells them apart.
@@ -60,34 +63,10 @@ struct RecordedEdges {
   std::int32_t edge_count = 0;  ///< of the full image
 };
 
-/// Figures of stages that the iteration did not reach are 0.
 struct RecordedIteration {
-  std::int32_t index = 0;
-  std::int32_t attempt = 0;
-  IterationKind kind = IterationKind::kMatch;
-  int level = 0;
-  Stage reached = Stage::kRender;
-  LocalizationStatus status = LocalizationStatus::kRunning;
-  double threshold_px = 0.0;
-  Pose camera_from_station_before;
-  Pose camera_from_station;  ///< after; as before when no pose came out
-  std::int32_t edge_pixels = 0;
-  std::int32_t template_side_px = 0;
-  std::int32_t templates_count = 0;
-  std::int32_t searched = 0;
-  std::int32_t correspondences = 0;
-  std::int32_t inliers = 0;
-  std::int32_t samples = 0;
-  std::int32_t refinement_samples = 0;
-  std::int32_t refinement_found = 0;
-  std::int32_t refinement_used = 0;
-  double rms_px = 0.0;
-  std::int32_t hypotheses = 0;
-  std::int32_t chosen_hypothesis = 0;
-  double roll_rad = 0.0;
-  double correction_translation_m = 0.0;
-  double correction_rotation_rad = 0.0;
-  double correction_image_px = 0.0;
+  /// The figures of the iteration. Read from a record its lists are empty, and of hypotheses that
+  /// were not chosen only the roll is known.
+  IterationTrace trace;
   std::optional<RecordHash> render_sha256;                 ///< zeros: it failed; nothing: not known
   std::optional<std::vector<RecordedTemplate>> templates;  ///< nothing: none, or not in the record
   std::optional<EdgeSupport> support;  ///< of an iteration whose pose was judged by it
@@ -110,7 +89,7 @@ struct OnboardRecord {
   std::optional<RecordedEdges> edges;
   std::vector<RecordedIteration> iterations;
   std::optional<RecordedEnd> end;
-  std::vector<std::string> missing;  ///< what is not there and why, for people; empty: it is whole
+  std::vector<std::string> missing;  ///< sentences; empty: the record is whole
 
   bool whole() const { return missing.empty(); }
 };
@@ -120,5 +99,21 @@ struct OnboardRecord {
 OnboardRecord parseRecord(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 /// The same of a file; InputError.
 OnboardRecord readRecord(const std::filesystem::path& file);
+
+/// The onboard record that the flight side would have written for a run that was traced here, field
+/// for field. `given` is the input of the run: nullptr when only the trace is left, and then the
+/// hashes of the inputs are missing. `missing` also names edges, renders and templates that a
+/// summary does not have, and the end of a run that was halted.
+OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* given);
+
+/// The options of an onboard run as this program understands them.
+struct RecordedPlan {
+  RunPlan plan;
+  /// Differences from the onboard options, sentences: options that this program does not know or
+  /// whose value it refuses, and options that the record lacks. All of these have their default.
+  std::vector<std::string> remarks;
+  bool has_options = false;  ///< false: the record has none, and all have their default
+};
+RecordedPlan planOf(const OnboardRecord& record);
 
 }  // namespace boresight::sessions

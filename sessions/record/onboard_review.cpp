@@ -7,7 +7,7 @@
 #include "core/base/math.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/record/record_of_run.h"
+#include "sessions/record/onboard_record.h"
 #include "sessions/record/replay_record.h"
 #include "sessions/text/text_table.h"
 #include "sessions/text/units.h"

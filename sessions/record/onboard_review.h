@@ -12,7 +12,6 @@
 #include "core/localizer/problem.h"
 #include "sessions/record/compare_records.h"
 #include "sessions/record/onboard_record.h"
-#include "sessions/record/record_of_run.h"
 #include "sessions/run/trace.h"
 
 namespace boresight::sessions {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/record/record_of_run.h"
+#include "sessions/record/onboard_record.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "core/record/record_hashes.h"
-#include "sessions/run/record_inputs.h"
+#include "sessions/run/problem.h"
 
 namespace boresight::sessions {
 namespace {
@@ -84,42 +84,8 @@ std::optional<std::vector<RecordedTemplate>> templatesOf(const IterationTrace& r
   return made;
 }
 
-void takeCounts(const IterationTrace& run, RecordedIteration& made) {
-  made.edge_pixels = run.edge_pixel_count;
-  made.template_side_px = run.template_side_px;
-  made.templates_count = run.template_count;
-  made.searched = run.searched_count;
-  made.correspondences = run.correspondence_count;
-  made.inliers = run.pnp.inlier_count;
-  made.samples = run.pnp.samples;
-  made.refinement_samples = run.refinement.sample_count;
-  made.refinement_found = run.refinement.found_count;
-  made.refinement_used = run.refinement.used_count;
-  made.rms_px = run.rms_px();
-  made.hypotheses = static_cast<std::int32_t>(run.hypotheses.size());
-  if (run.hypotheses.empty()) return;
-  made.chosen_hypothesis = run.chosen_hypothesis;
-  made.roll_rad = run.hypotheses[static_cast<std::size_t>(run.chosen_hypothesis)].roll_rad;
-}
-
 RecordedIteration iterationOf(const IterationTrace& run) {
-  RecordedIteration made;
-  made.index = run.index;
-  made.attempt = run.attempt;
-  made.kind = run.kind;
-  made.level = run.level;
-  made.reached = run.reached;
-  made.status = run.status;
-  made.threshold_px = run.threshold_px;
-  made.camera_from_station_before = run.camera_from_station_before;
-  made.camera_from_station = run.camera_from_station;
-  takeCounts(run, made);
-  made.correction_translation_m = run.correction_translation_m;
-  made.correction_rotation_rad = run.correction_rotation_rad;
-  made.correction_image_px = run.correction_image_px;
-  made.render_sha256 = renderHashOf(run);
-  made.templates = templatesOf(run);
-  return made;
+  return {run, renderHashOf(run), templatesOf(run), std::nullopt};
 }
 
 /// A trace has the support of the pose that was judged last.
@@ -128,11 +94,12 @@ void takeSupport(const EdgeSupport& support, LocalizationStatus status, OnboardR
   for (auto one = record.iterations.rbegin(); one != record.iterations.rend(); ++one) {
     const bool converged =
         one == record.iterations.rbegin() && status == LocalizationStatus::kConverged;
-    const bool refused = one->status == LocalizationStatus::kNotSupported ||
-                         one->status == LocalizationStatus::kBlurred;
+    const bool refused = one->trace.status == LocalizationStatus::kNotSupported ||
+                         one->trace.status == LocalizationStatus::kBlurred;
     if (!converged && !refused) continue;
     if (taken)
-      record.missing.push_back("the edge support of iteration " + std::to_string(one->index + 1));
+      record.missing.push_back("the edge support of iteration " +
+                               std::to_string(one->trace.index + 1));
     else
       one->support = support;
     taken = true;
@@ -156,9 +123,10 @@ void noteWhatTheRunLacks(OnboardRecord& record) {
     record.missing.push_back("the hashes of the inputs, which only the digest covers");
   if (!record.edges) record.missing.push_back("the edges of the image");
   for (const RecordedIteration& one : record.iterations) {
-    const std::string of = " of iteration " + std::to_string(one.index + 1);
+    const std::string of = " of iteration " + std::to_string(one.trace.index + 1);
     if (!one.render_sha256) record.missing.push_back("the render" + of);
-    if (one.templates_count > 0 && !one.templates) record.missing.push_back("the templates" + of);
+    if (one.trace.template_count > 0 && !one.templates)
+      record.missing.push_back("the templates" + of);
   }
   if (!record.end) record.missing.push_back("how the run ended: it was halted");
 }

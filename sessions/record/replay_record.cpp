@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/record/replay_record.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "core/localizer/candidate_trials.h"
@@ -12,16 +14,60 @@
 #include "core/match/search_window.h"
 #include "core/pnp/correspondence.h"
 #include "core/record/record_hashes.h"
-#include "sessions/record/record_of_run.h"
-#include "sessions/record/replay_scene.h"
-#include "sessions/run/edge_detection.h"
-#include "sessions/run/record_inputs.h"
+#include "core/templates/template_selection.h"
+#include "sessions/record/onboard_record.h"
+#include "sessions/run/iteration_trace.h"
+#include "sessions/run/match_details.h"
+#include "sessions/run/scene_render.h"
 #include "sessions/text/units.h"
 
 namespace boresight::sessions {
 namespace {
 
-std::string inIteration(const RecordedIteration& one) {
+/// Renders the scene level by level as a run would, and chooses templates in what it shows.
+class ReplayScene {
+ public:
+  /// What `ground` points to must outlive the object.
+  explicit ReplayScene(const LocalizationProblem& ground) : ground_(ground) {}
+
+  /// False when the scene cannot be rendered from there.
+  bool render(const Pose& camera_from_station, int level, RenderTrace& output) {
+    if (level < 0 || level >= kPyramidLevels || !isUsable(camera_from_station)) return false;
+    auto found = levels_.find(level);
+    if (found == levels_.end()) {
+      SceneRenderer created;
+      const Camera camera = cameraAtLevel(ground_.camera, level);
+      if (created.create(camera, ground_.mesh) != Status::kOk) return false;
+      found = levels_.emplace(level, std::move(created)).first;
+    }
+    return found->second.render(camera_from_station, output) == Status::kOk;
+  }
+
+  /// Templates that the core chooses in a render of that level; none when it cannot.
+  std::vector<Template> choose(const RenderTrace& render, int level, int side_px,
+                               const TemplateOptions& options) const {
+    const int width = render.edges.width;
+    const int height = render.edges.height;
+    if (side_px < 2 || side_px > std::min(width, height)) return {};
+    Arena counter;
+    TemplateSelector selector;
+    if (selector.create(width, height, options, counter) != Status::kOk) return {};
+    (void)createTemplateSet(options, counter);
+    const std::size_t bytes = counter.highWater();
+    const auto memory = std::make_unique_for_overwrite<std::byte[]>(bytes);
+    Arena arena({memory.get(), bytes});
+    if (selector.create(width, height, options, arena) != Status::kOk) return {};
+    TemplateSet chosen = createTemplateSet(options, arena);
+    (void)selector.select(render.view(), side_px, ground_.ignore, level, chosen);
+    return {chosen.templates.begin(), chosen.templates.begin() + chosen.count};
+  }
+
+ private:
+  const LocalizationProblem& ground_;
+  std::map<int, SceneRenderer> levels_;
+};
+
+std::string inIteration(const IterationTrace& one) {
   return " in iteration " + std::to_string(one.index + 1);
 }
 
@@ -90,14 +136,11 @@ class Replayer {
   void noteInputs();
   void detect();
   void finish();
-  void startAttempt(const RecordedIteration& one);
-  void startFromCandidate(const RecordedIteration& one);
+  void startAttempt(const IterationTrace& one);
+  void startFromCandidate(const IterationTrace& one);
   IterationTrace iterationOf(const RecordedIteration& one);
-  IterationTrace headOf(const RecordedIteration& one) const;
-  void fillRefinement(const RecordedIteration& one, IterationTrace& made);
-  Pose renderedPose(const RecordedIteration& one);
+  Pose renderedPose(const IterationTrace& one);
   void renderAgain(const RecordedIteration& one, IterationTrace& made);
-  void fillHypotheses(const RecordedIteration& one, IterationTrace& made) const;
   void fillTemplates(const RecordedIteration& one, IterationTrace& made);
   Match matchOf(const RecordedTemplate& recorded, const Template& item,
                 const IterationTrace& made) const;
@@ -176,7 +219,7 @@ void Replayer::detect() {
   run_.edges = std::move(edges);
 }
 
-void Replayer::startAttempt(const RecordedIteration& one) {
+void Replayer::startAttempt(const IterationTrace& one) {
   if (one.attempt == attempt_) return;
   const bool follows = !run_.iterations.empty() && run_.iterations.back()->index == one.index - 1;
   attempt_ = one.attempt;
@@ -190,7 +233,7 @@ void Replayer::startAttempt(const RecordedIteration& one) {
 
 /// Attempts of a run that searched start from a candidate: in a box of its own when its templates
 /// are matched, with a refinement otherwise.
-void Replayer::startFromCandidate(const RecordedIteration& one) {
+void Replayer::startFromCandidate(const IterationTrace& one) {
   attempt_seed_ = seedOf(given_);
   if (!optionsAt(one.index).search.enabled || !attempt_begin_) return;
   const Pose& before = one.camera_from_station_before;
@@ -201,11 +244,13 @@ void Replayer::startFromCandidate(const RecordedIteration& one) {
 }
 
 /// Of a match the pose before it, rolled; of a refinement perhaps that of the last render.
-Pose Replayer::renderedPose(const RecordedIteration& one) {
+Pose Replayer::renderedPose(const IterationTrace& one) {
   const Pose& before = one.camera_from_station_before;
   if (one.kind == IterationKind::kMatch) {
     refined_render_.reset();
-    return one.chosen_hypothesis == 0 ? before : rolledAboutScene(before, one.roll_rad, bounds_);
+    const auto chosen = static_cast<std::size_t>(one.chosen_hypothesis);
+    return chosen == 0 ? before
+                       : rolledAboutScene(before, one.hypotheses[chosen].roll_rad, bounds_);
   }
   const double again_px = optionsAt(one.index).loop.render_again_px;
   const bool reuse = refined_render_ && displacementBetween_px(*refined_render_, before, bounds_,
@@ -215,33 +260,15 @@ Pose Replayer::renderedPose(const RecordedIteration& one) {
 }
 
 void Replayer::renderAgain(const RecordedIteration& one, IterationTrace& made) {
-  const bool failed = one.reached == Stage::kRender && one.status == LocalizationStatus::kFault;
-  if (!same_size_ || failed || !isUsable(one.camera_from_station_before)) return;
-  const bool rendered = scene_.render(renderedPose(one), one.level, made.render);
+  const bool failed = made.reached == Stage::kRender && made.status == LocalizationStatus::kFault;
+  if (!same_size_ || failed || !isUsable(made.camera_from_station_before)) return;
+  const bool rendered = scene_.render(renderedPose(made), made.level, made.render);
   const bool same =
       rendered && (!one.render_sha256 || renderHash(made.render.view()) == *one.render_sha256);
   if (same || std::exchange(noted_render_, true)) return;
   remark((rendered ? "The station is not rendered here as it was on board"
                    : "The station cannot be rendered here") +
-         inIteration(one) + ", perhaps in others: points of templates may be missing or others.");
-}
-
-/// Of the hypotheses a record has the chosen one; of the others their rolls follow.
-void Replayer::fillHypotheses(const RecordedIteration& one, IterationTrace& made) const {
-  if (one.hypotheses < 1 || one.hypotheses > kMaxHypotheses || one.chosen_hypothesis < 0 ||
-      one.chosen_hypothesis >= one.hypotheses)
-    return;
-  made.hypotheses.resize(static_cast<std::size_t>(one.hypotheses));
-  for (int i = 0; i < one.hypotheses; ++i)
-    made.hypotheses[static_cast<std::size_t>(i)].roll_rad = rollOf(i);
-  made.chosen_hypothesis = one.chosen_hypothesis;
-  HypothesisSummary& chosen = made.hypotheses[static_cast<std::size_t>(one.chosen_hypothesis)];
-  chosen.roll_rad = one.roll_rad;
-  chosen.templates = one.templates_count;
-  chosen.matches = one.correspondences;
-  chosen.inliers = one.inliers;
-  chosen.camera_from_station = one.camera_from_station;
-  chosen.solved = one.inliers > 0;
+         inIteration(made) + ", perhaps in others: points of templates may be missing or others.");
 }
 
 Match Replayer::matchOf(const RecordedTemplate& recorded, const Template& item,
@@ -268,15 +295,15 @@ Match Replayer::matchOf(const RecordedTemplate& recorded, const Template& item,
 
 void Replayer::fillTemplates(const RecordedIteration& one, IterationTrace& made) {
   if (!one.templates || !same_size_) return;
-  const std::vector<Template> chosen =
-      scene_.choose(made.render, one.level, one.template_side_px, optionsAt(one.index).templates);
+  const std::vector<Template> chosen = scene_.choose(made.render, made.level, made.template_side_px,
+                                                     optionsAt(made.index).templates);
   int unknown = 0;
   double sum = 0.0;
   for (const RecordedTemplate& recorded : *one.templates) {
     made.templates.push_back(templateAt(recorded, made.render, chosen));
     const Template& item = made.templates.back();
     if (!item.point_in_station_m.allFinite()) ++unknown;
-    if (one.reached < Stage::kMatch) continue;
+    if (made.reached < Stage::kMatch) continue;
     made.matches.push_back(matchOf(recorded, item, made));
     RecordedScore score{static_cast<double>(recorded.score), std::nullopt};
     if (recorded.second_score) score.second_score = static_cast<double>(*recorded.second_score);
@@ -285,96 +312,59 @@ void Replayer::fillTemplates(const RecordedIteration& one, IterationTrace& made)
     made.best_score = std::max(made.best_score, score.score);
     sum += score.score;
   }
-  if (one.searched > 0) made.mean_score = sum / one.searched;
+  if (made.searched_count > 0) made.mean_score = sum / made.searched_count;
   if (unknown > 0)
     remark(std::to_string(unknown) + " of " + std::to_string(one.templates->size()) +
-           " templates lie on no rendered edge here" + inIteration(one) +
+           " templates lie on no rendered edge here" + inIteration(made) +
            ": their points are not known.");
 }
 
 /// Pairs of points and places, in the order of the templates; residuals are the recorded pose's.
 void Replayer::fillPairs(const RecordedIteration& one, IterationTrace& made) const {
-  const double scale = static_cast<double>(1 << std::clamp(one.level, 0, 15));
-  const bool solved = one.reached >= Stage::kPose && one.status != LocalizationStatus::kPnpFailed;
+  const double scale = static_cast<double>(1 << made.level);
+  const bool solved = made.reached >= Stage::kPose && made.status != LocalizationStatus::kPnpFailed;
   for (std::size_t i = 0; i < made.matches.size(); ++i) {
     const Template& item = made.templates[i];
     const Match& match = made.matches[i];
     if (!match.searched || !item.point_in_station_m.allFinite()) continue;
     Correspondence pair;
     pair.point_in_station_m = item.point_in_station_m;
-    pair.pixel = {(match.x + 0.5) * scale - 0.5, (match.y + 0.5) * scale - 0.5};
+    pair.pixel = fullImagePixel(match.x, match.y, made.level);
     pair.sigma_px = kMatchSigma_px * scale;
     made.correspondences.push_back(pair);
     made.template_of.push_back(static_cast<std::int32_t>(i));
     if (!solved) continue;
     Eigen::Vector2d projected;
     const bool seen =
-        project(run_.camera, one.camera_from_station * pair.point_in_station_m, projected);
+        project(run_.camera, made.camera_from_station * pair.point_in_station_m, projected);
     made.pnp.inlier.push_back((*one.templates)[i].inlier ? 1 : 0);
     made.pnp.residual_px.push_back(seen ? (projected - pair.pixel).norm() : kUnknown);
   }
 }
 
-IterationTrace Replayer::headOf(const RecordedIteration& one) const {
-  IterationTrace made;
-  made.index = one.index;
-  made.attempt = one.attempt;
-  made.kind = one.kind;
-  made.level = one.level;
-  made.reached = one.reached;
-  made.status = one.status;
-  made.threshold_px = one.threshold_px;
-  made.camera_from_station_before = one.camera_from_station_before;
-  made.camera_from_station = one.camera_from_station;
+IterationTrace Replayer::iterationOf(const RecordedIteration& one) {
+  IterationTrace made = one.trace;
+  startAttempt(made);
   if (attempt_begin_)
     made.uncertainty =
-        uncertaintyAt(attempt_seed_, optionsAt(one.index).loop,
-                      std::max(0, one.index - *attempt_begin_), one.camera_from_station_before);
-  made.edge_pixel_count = one.edge_pixels;
-  made.template_count = one.templates_count;
-  made.template_side_px = one.template_side_px;
-  made.searched_count = one.searched;
-  made.correspondence_count = one.correspondences;
-  made.correction_translation_m = one.correction_translation_m;
-  made.correction_rotation_rad = one.correction_rotation_rad;
-  made.correction_image_px = one.correction_image_px;
-  return made;
-}
-
-void Replayer::fillRefinement(const RecordedIteration& one, IterationTrace& made) {
-  made.refinement.camera_from_station = one.camera_from_station;
-  made.refinement.sample_count = one.refinement_samples;
-  made.refinement.found_count = one.refinement_found;
-  made.refinement.used_count = one.refinement_used;
-  made.refinement.rms_px = one.rms_px;
-  if (!std::exchange(noted_refinement_, true))
+        uncertaintyAt(attempt_seed_, optionsAt(made.index).loop,
+                      std::max(0, made.index - *attempt_begin_), made.camera_from_station_before);
+  renderAgain(one, made);
+  if (made.kind == IterationKind::kMatch) {
+    fillTemplates(one, made);
+    fillPairs(one, made);
+  } else if (!std::exchange(noted_refinement_, true)) {
     remark(
         "A record does not have the edge places of refinements: run it again on the ground to "
         "see them.");
-}
-
-IterationTrace Replayer::iterationOf(const RecordedIteration& one) {
-  startAttempt(one);
-  IterationTrace made = headOf(one);
-  renderAgain(one, made);
-  if (one.kind == IterationKind::kRefine) {
-    fillRefinement(one, made);
-    return made;
   }
-  made.pnp.camera_from_station = one.camera_from_station;
-  made.pnp.inlier_count = one.inliers;
-  made.pnp.samples = one.samples;
-  made.pnp.rms_px = one.rms_px;
-  fillHypotheses(one, made);
-  fillTemplates(one, made);
-  fillPairs(one, made);
   return made;
 }
 
 void Replayer::finish() {
   for (const RecordedIteration& one : record_.iterations) {
     if (one.support) run_.support = *one.support;
-    run_.attempts = std::max(run_.attempts, one.attempt + 1);
+    run_.attempts = std::max(run_.attempts, one.trace.attempt + 1);
   }
   if (!record_.end) return;
   const RecordedEnd& end = *record_.end;

@@ -10,8 +10,8 @@
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/run/run_text.h"
-#include "sessions/session/case_json.h"
 #include "sessions/session/named_poses.h"
+#include "sessions/session/session_file.h"
 
 namespace boresight::sessions {
 namespace {

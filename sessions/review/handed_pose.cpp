@@ -108,7 +108,7 @@ Session withPlans(Session session) {
   for (RunRecord& run : session.runs) {
     const SessionCase& one = *session.findCase(run.case_id);
     if (!run.rerun && run.options_sha256 != optionsDigest(caseOptions(session, one, "session")))
-      run.rerun = rerunRecord("", loadRun(run).plan());
+      run.rerun = RerunRecord{loadRun(run).plan(), ""};
   }
   return session;
 }

@@ -71,7 +71,7 @@ EndEffectorPose endEffectorPose(const Pose& camera_from_station_seed,
                                                        made.station_from_end_effector;
   // camera_from_station -> Exp(xi) camera_from_station turns station_from_end_effector into
   // camera_from_station^-1 Exp(-xi) camera_from_end_effector, which is it times Exp(-Ad xi).
-  const Matrix6d turn = adjoint(camera_from_end_effector.inverse());
+  const Matrix6d turn = adjointOf(camera_from_end_effector.inverse());
   made.covariance = turn * covariance * turn.transpose();
   return made;
 }

@@ -8,7 +8,7 @@
 #include "sessions/annotation/mark_equations.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/record/record_of_run.h"
+#include "sessions/record/onboard_record.h"
 #include "sessions/review/pose_uncertainty.h"
 #include "sessions/session/case_marks.h"
 #include "sessions/session/check_limits.h"
@@ -55,7 +55,7 @@ std::optional<OtherPose> seenByOther(const Session& session, const LoadedCase& l
   const Pose one_from_other = one.rig->camera_from_rig * other.rig->camera_from_rig.inverse();
   const PoseCovariance own =
       poseCovariance(other, loaded.scene.view(), seen.camera_from_station, seen.covariance);
-  const auto turned = [turn = adjoint(one_from_other)](const Matrix6d& covariance) {
+  const auto turned = [turn = adjointOf(one_from_other)](const Matrix6d& covariance) {
     return Matrix6d(turn * covariance * turn.transpose());
   };
   return OtherPose{other.id,

@@ -10,7 +10,7 @@
 
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/option_value.h"
-#include "sessions/record/record_of_run.h"
+#include "sessions/record/onboard_record.h"
 #include "sessions/review/checks.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"

@@ -11,9 +11,9 @@
 
 #include "sessions/annotation/marks_file.h"
 #include "sessions/io/file_bytes.h"
+#include "sessions/io/json_fields.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/session/decision.h"
-#include "sessions/session/json_fields.h"
 #include "sessions/session/rig_links.h"
 #include "sessions/text/utc_time.h"
 

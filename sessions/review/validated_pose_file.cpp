@@ -15,7 +15,6 @@
 #include "sessions/io/json_writer.h"
 #include "sessions/review/pose_uncertainty.h"
 #include "sessions/review/standing.h"
-#include "sessions/session/case_json.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/decision.h"
 #include "sessions/session/input_sigmas.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/run/alternatives.h"
-#include "sessions/text/units.h"
 
 #include <algorithm>
 #include <limits>
@@ -10,7 +9,6 @@ namespace {
 
 void compare(const Pose& chosen, Alternative& made) {
   made.camera_from_station_chosen = chosen;
-  made.apart_m = made.apart_rad = kUnknown;
   if (!made.has_pose) return;
   made.apart_m = (made.camera_from_station.translation_m - chosen.translation_m).norm();
   made.apart_rad = made.camera_from_station.rotation.angularDistance(chosen.rotation);
@@ -19,7 +17,6 @@ void compare(const Pose& chosen, Alternative& made) {
 Alternative ofHypothesis(const IterationTrace& iteration, std::size_t index) {
   const HypothesisSummary& from = iteration.hypotheses[index];
   Alternative made;
-  made.kind = AlternativeKind::kRolled;
   made.number = static_cast<std::int32_t>(index) + 1;
   made.chosen = static_cast<std::int32_t>(index) == iteration.chosen_hypothesis;
   // A render that was only rolled has no pose of its own.
@@ -28,8 +25,6 @@ Alternative ofHypothesis(const IterationTrace& iteration, std::size_t index) {
   made.roll_rad = from.roll_rad;
   made.matches = from.matches;
   made.inliers = from.inliers;
-  made.evidence_nats = kUnknown;
-  made.similarity = made.margin_nats = kUnknown;
   made.ended = from.solved ? LocalizationStatus::kRunning : LocalizationStatus::kPnpFailed;
   return made;
 }
@@ -41,9 +36,8 @@ Alternative ofRival(const Rival& from, std::size_t index) {
   made.number = static_cast<std::int32_t>(index) + 1;
   made.has_pose = true;
   made.camera_from_station = converged ? from.camera_from_station : from.camera_from_station_before;
-  made.roll_rad = made.evidence_nats = kUnknown;
   made.similarity = from.similarity;
-  made.margin_nats = converged ? from.margin_nats : kUnknown;
+  if (converged) made.margin_nats = from.margin_nats;
   made.ended = from.ended;
   return made;
 }
@@ -57,7 +51,6 @@ Alternative ofCandidate(const PoseCandidate& from, std::size_t index) {
   made.camera_from_station = from.camera_from_station;
   made.roll_rad = from.found.roll_rad;
   made.evidence_nats = from.rank_nats();
-  made.similarity = made.margin_nats = kUnknown;
   return made;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/geometry/pose.h"
 #include "sessions/run/trace.h"
+#include "sessions/text/units.h"
 
 namespace boresight::sessions {
 
@@ -27,14 +28,14 @@ struct Alternative {
   Pose camera_from_station;
   /// What the run went on with in that iteration; of a rival, the run's result.
   Pose camera_from_station_chosen;
-  double apart_m = 0.0;  ///< between the two, of the station's origin
-  double apart_rad = 0.0;
-  double roll_rad = 0.0;
+  double apart_m = kUnknown;  ///< between the two, of the station's origin
+  double apart_rad = kUnknown;
+  double roll_rad = kUnknown;
   std::int32_t matches = 0;
   std::int32_t inliers = 0;
-  double evidence_nats = 0.0;  ///< of a candidate's contours, PoseCandidate::rank_nats()
-  double similarity = 0.0;     ///< of a rival's edges to the result's, [0, 1]
-  double margin_nats = 0.0;    ///< evidence of the result beyond a converged rival's
+  double evidence_nats = kUnknown;  ///< of a candidate's contours, PoseCandidate::rank_nats()
+  double similarity = kUnknown;     ///< of a rival's edges to the result's, [0, 1]
+  double margin_nats = kUnknown;    ///< evidence of the result beyond a converged rival's
   LocalizationStatus ended = LocalizationStatus::kRunning;  ///< kRunning: a rival not tried
 };
 

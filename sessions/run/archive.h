@@ -35,7 +35,7 @@ class ArchiveWriter {
   /// An enumeration whose last value is `last`.
   template <class E>
   void choice(const E& value, E /*last*/) {
-    number(static_cast<std::int32_t>(value));
+    number(static_cast<std::uint8_t>(value));
   }
   void text(const std::string& value) {
     number(static_cast<std::uint32_t>(value.size()));
@@ -60,8 +60,9 @@ class ArchiveWriter {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// Reads what ArchiveWriter wrote; throws InputError where bytes are missing or impossible. A list
-/// grows with the bytes that are there, so that a wrong count cannot ask for memory.
+/// Reads what ArchiveWriter wrote, and blocks of onboard records; InputError where bytes are
+/// missing or impossible. A list grows with the bytes that are there, so that a wrong count cannot
+/// ask for memory.
 class ArchiveReader {
  public:
   ArchiveReader(std::filesystem::path file, std::span<const std::uint8_t> bytes)
@@ -81,9 +82,9 @@ class ArchiveReader {
   }
   template <class E>
   void choice(E& value, E last) {
-    std::int32_t index = 0;
+    std::uint8_t index = 0;
     number(index);
-    require(index >= 0 && index <= static_cast<std::int32_t>(last), "a choice that does not exist");
+    require(index <= static_cast<std::uint8_t>(last), "a choice that does not exist");
     value = static_cast<E>(index);
   }
   void text(std::string& value) {

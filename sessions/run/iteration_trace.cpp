@@ -2,6 +2,7 @@
 #include "sessions/run/iteration_trace.h"
 
 #include <algorithm>
+#include <memory>
 
 namespace boresight::sessions {
 namespace {
@@ -102,6 +103,24 @@ EdgeMapTrace recordEdgeMap(const EdgeMap& edges, RecordLevel level) {
   trace.high_threshold = edges.high_threshold;
   trace.edge_count = edges.edge_count;
   return trace;
+}
+
+Status detectEdges(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
+                   EdgeMapTrace& output) {
+  EdgeMap edges;
+  EdgeDetector detector;
+  Arena counter;
+  Status status = detector.begin(image, ignore, options, counter, edges);
+  if (status != Status::kOk) return status;
+  const std::size_t bytes = counter.highWater();
+  const auto memory = std::make_unique_for_overwrite<std::byte[]>(bytes);
+  Arena arena({memory.get(), bytes});
+  status = detector.begin(image, ignore, options, arena, edges);
+  if (status != Status::kOk) return status;
+  while (!detector.step()) {
+  }
+  output = recordEdgeMap(edges);
+  return Status::kOk;
 }
 
 bool hasPose(const Iteration& iteration, Stage reached) {

@@ -2,6 +2,7 @@
 // Copies of the core's records of a run.
 #pragma once
 
+#include "core/edges/edge_map.h"
 #include "sessions/run/trace.h"
 
 namespace boresight::sessions {
@@ -16,5 +17,11 @@ bool hasPose(const Iteration& iteration, Stage reached);
 RenderTrace recordRender(const EdgeRender& render);
 /// With kSummary: thresholds and count alone.
 EdgeMapTrace recordEdgeMap(const EdgeMap& edges, RecordLevel level = RecordLevel::kFull);
+
+/// The test edges of an image as a run with these options has them, in memory of its own. `ignore`
+/// (the image's size) may be nullptr. The core's statuses are returned as they are. Throws
+/// std::bad_alloc.
+Status detectEdges(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
+                   EdgeMapTrace& output);
 
 }  // namespace boresight::sessions

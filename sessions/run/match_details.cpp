@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/run/match_details.h"
-#include "sessions/text/units.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 
 namespace boresight::sessions {
 namespace {
@@ -16,9 +14,6 @@ MatchDetails describeTemplate(const Template& item, std::int32_t index, int leve
   made.distinctness = static_cast<double>(item.distinctness);
   made.point_in_station_m = item.point_in_station_m;
   made.predicted_px = fullImagePixel(item.center_x, item.center_y, level);
-  made.found_px = Eigen::Vector2d::Constant(kUnknown);
-  made.score = made.edge_share = made.empty_share = kUnknown;
-  made.second_score = made.margin = made.residual_px = kUnknown;
   return made;
 }
 

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "sessions/run/trace.h"
+#include "sessions/text/units.h"
 
 namespace boresight::sessions {
 
@@ -22,17 +23,17 @@ struct MatchDetails {
   double distinctness = 0.0;  ///< as in Template
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
   Eigen::Vector2d predicted_px = Eigen::Vector2d::Zero();
-  Eigen::Vector2d found_px = Eigen::Vector2d::Zero();  ///< sub-pixel
+  Eigen::Vector2d found_px = Eigen::Vector2d::Constant(kUnknown);  ///< sub-pixel
   bool searched = false;
-  bool at_border = false;     ///< the peak lies on the window's border
-  double score = 0.0;         ///< S = edge_share + empty_share, in [0, 2]
-  double edge_share = 0.0;    ///< S+ / c+
-  double empty_share = 0.0;   ///< S- / c-
-  double second_score = 0.0;  ///< of the second peak; NaN where there is none
-  double margin = 0.0;        ///< (best - second) / best, of the integers that are compared
-  bool solved = false;        ///< a pose was looked for with this match
+  bool at_border = false;          ///< the peak lies on the window's border
+  double score = kUnknown;         ///< S = edge_share + empty_share, in [0, 2]
+  double edge_share = kUnknown;    ///< S+ / c+
+  double empty_share = kUnknown;   ///< S- / c-
+  double second_score = kUnknown;  ///< of the second peak; NaN where there is none
+  double margin = kUnknown;        ///< (best - second) / best, of the integers that are compared
+  bool solved = false;             ///< a pose was looked for with this match
   bool inlier = false;
-  double residual_px = 0.0;  ///< distance from the solved pose's projection
+  double residual_px = kUnknown;  ///< distance from the solved pose's projection
 
   Eigen::Vector2d moved_px() const { return found_px - predicted_px; }
   bool hasLowMargin() const { return margin < kLowMargin; }

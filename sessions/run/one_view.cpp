@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "sessions/run/iteration_trace.h"
-#include "sessions/run/outside_matching.h"
-#include "sessions/run/record_inputs.h"
+#include "sessions/run/matching_method.h"
+#include "sessions/run/problem.h"
 #include "sessions/run/stepped_run.h"
 #include "sessions/version.h"
 
@@ -97,14 +97,8 @@ class OneView final : public SteppedRun {
     traces.front().candidates.assign(candidates.begin(), candidates.end());
   }
 
-  void noteSupport(const StageSeconds& seconds) override {
-    const Iteration* iteration = localizer_->workspace().iteration;
-    auto& iterations = traces.front().iterations;
-    if (iteration == nullptr || iterations.empty()) return;
-    IterationTrace judged = *iterations.back();
-    judged.status = iteration->status;
-    judged.seconds += seconds;
-    iterations.back() = std::make_shared<const IterationTrace>(std::move(judged));
+  LocalizationStatus statusOf(std::size_t) const override {
+    return localizer_->workspace().iteration->status;
   }
 
   void finish() override {

@@ -53,27 +53,6 @@ AgreementMaps agreementOf(const RenderTrace& render, const BitMap& test_edges) {
   return maps;
 }
 
-Eigen::Vector2d toFullImage(const Eigen::Vector2d& pixel_at_level, int level) {
-  const double factor = static_cast<double>(1 << level);
-  return (pixel_at_level.array() + 0.5) * factor - 0.5;
-}
-
-std::vector<MatchVector> matchVectors(const IterationTrace& iteration) {
-  std::vector<MatchVector> vectors;
-  std::vector<bool> inlier(iteration.matches.size(), false);
-  for (std::size_t i = 0; i < iteration.template_of.size() && i < iteration.pnp.inlier.size(); ++i)
-    inlier[static_cast<std::size_t>(iteration.template_of[i])] = iteration.pnp.inlier[i] != 0;
-  for (std::size_t i = 0; i < iteration.matches.size() && i < iteration.templates.size(); ++i) {
-    const Match& match = iteration.matches[i];
-    if (!match.searched) continue;
-    const Template& from = iteration.templates[i];
-    vectors.push_back({static_cast<int>(i),
-                       toFullImage(Eigen::Vector2d(from.center_x, from.center_y), iteration.level),
-                       toFullImage(Eigen::Vector2d(match.x, match.y), iteration.level), inlier[i]});
-  }
-  return vectors;
-}
-
 std::vector<ResidualVector> residualVectors(const IterationTrace& iteration, const Camera& camera) {
   std::vector<ResidualVector> vectors;
   const Pose& camera_from_station = iteration.camera_from_station;

@@ -22,18 +22,6 @@ struct AgreementMaps {
 /// Maps of different sizes give empty ones.
 AgreementMaps agreementOf(const RenderTrace& render, const BitMap& test_edges);
 
-/// Pixels of a level in pixels of the full image: (p + 0.5) * 2^level - 0.5.
-Eigen::Vector2d toFullImage(const Eigen::Vector2d& pixel_at_level, int level);
-
-/// How a template moved.
-struct MatchVector {
-  int template_index = -1;
-  Eigen::Vector2d predicted = Eigen::Vector2d::Zero();
-  Eigen::Vector2d found = Eigen::Vector2d::Zero();
-  bool inlier = false;
-};
-std::vector<MatchVector> matchVectors(const IterationTrace& iteration);
-
 /// What the pose after an iteration leaves: where the 3D point projects and where it was found.
 struct ResidualVector {
   int template_index = -1;  ///< -1: a place on an edge, of a refinement

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/localizer/problem.h"
+#include "core/record/record_writer.h"
 #include "sessions/io/image_file.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/io/scene_mesh.h"
@@ -17,6 +18,10 @@ namespace boresight::sessions {
 LocalizationProblem problemOf(const GrayImage& image, const BitImage* ignore, const Camera& camera,
                               const MeshView& mesh, const Pose& camera_from_station_seed,
                               const DeclaredUncertainty& uncertainty);
+
+/// The hashes by which an onboard record knows the inputs of a run (core/record/FORMAT.md);
+/// `problem` without the colour that the run does not use (withoutUnusedColor).
+RecordInputs recordInputs(const LocalizationProblem& problem);
 
 /// Why a run from this seed makes no sense, or "": the matched parts lie behind the camera, or
 /// nothing of them is inside the image. Whether what is seen suffices is for the run to find out.

@@ -267,9 +267,8 @@ std::string aloneText(const LocalizationTrace& trace) {
 std::string viewText(const LocalizationTrace& trace) {
   const ViewOutcome& own = trace.views[trace.own_view];
   const std::string with = sentence(togetherText(trace.views, own.case_id)) + " ";
-  const std::string good = localizationStatusText(LocalizationStatus::kConverged);
   const bool others = std::any_of(trace.views.begin(), trace.views.end(),
-                                  [&](const ViewOutcome& one) { return one.status == good; });
+                                  [](const ViewOutcome& view) { return view.tookPart(); });
   if (!trace.finished || trace.converged() || !others) return with + aloneText(trace);
   return with + "This view was left out: " + leftOutText(own.status) +
          ". The pose of the others is its last iteration's.";

@@ -110,6 +110,17 @@ void Runner::note(const StepReport& report, double seconds) {
   if (report.finished) stepped_->finish();
 }
 
+void SteppedRun::noteSupport(const StageSeconds& seconds) {
+  for (std::size_t v = 0; v < traces.size(); ++v) {
+    auto& iterations = traces[v].iterations;
+    if (iterations.empty()) continue;
+    IterationTrace judged = *iterations.back();
+    judged.status = statusOf(v);
+    judged.seconds += seconds;
+    iterations.back() = std::make_shared<const IterationTrace>(std::move(judged));
+  }
+}
+
 void refuse(LocalizationTrace& trace, Status fault) {
   trace.status = LocalizationStatus::kFault;
   trace.fault = fault;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace boresight::sessions {
 namespace {
@@ -31,13 +30,6 @@ std::size_t binOf(double residual_px, double radius_px, std::size_t bins) {
   return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(bins - 1)));
 }
 
-double medianOf(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 SampleStatistics sampleStatistics(const IterationTrace& iteration, int bins) {
@@ -46,17 +38,14 @@ SampleStatistics sampleStatistics(const IterationTrace& iteration, int bins) {
   const auto bin_count = static_cast<std::size_t>(std::max(1, bins));
   made.found_in_bin.assign(bin_count, 0);
   made.used_in_bin.assign(bin_count, 0);
-  std::vector<double> residuals;
   for (const EdgeSample& sample : iteration.refinement.samples) {
     count(sample, made.all);
     count(sample, ofKind(sample, made));
     if (!isFound(sample)) continue;
-    residuals.push_back(sample.residual_px);
     const std::size_t bin = binOf(sample.residual_px, made.radius_px, bin_count);
     ++made.found_in_bin[bin];
     if (isUsed(sample)) ++made.used_in_bin[bin];
   }
-  made.median_px = medianOf(std::move(residuals));
   return made;
 }
 

@@ -28,7 +28,6 @@ struct SampleStatistics {
   double radius_px = 0.0;  ///< the histogram covers residuals within -radius ... radius
   std::vector<std::int32_t> found_in_bin;  ///< residuals along the edges' normals, found places
   std::vector<std::int32_t> used_in_bin;   ///< of those, the used ones
-  double median_px = 0.0;                  ///< residual of the found places; NaN without any
 };
 
 /// Of an iteration that refines and was recorded in full; `bins` is odd, so that one is centred

@@ -73,15 +73,20 @@ RenderTrace SceneRenderer::record() const {
   return equipment_ ? recordRender(equipment_->render) : RenderTrace();
 }
 
+Status SceneRenderer::render(const Pose& camera_from_station, RenderTrace& output,
+                             const SurfaceRender& surfaces) {
+  Status status = begin(camera_from_station, surfaces);
+  bool done = false;
+  while (status == Status::kOk && !done) status = step(done);
+  if (status == Status::kOk) output = record();
+  return status;
+}
+
 Status renderScene(const Camera& camera, const MeshView& mesh, const Pose& camera_from_station,
                    RenderTrace& output, const SurfaceRender& surfaces) {
   SceneRenderer renderer;
-  Status status = renderer.create(camera, mesh);
-  if (status == Status::kOk) status = renderer.begin(camera_from_station, surfaces);
-  bool done = false;
-  while (status == Status::kOk && !done) status = renderer.step(done);
-  if (status == Status::kOk) output = renderer.record();
-  return status;
+  const Status status = renderer.create(camera, mesh);
+  return status == Status::kOk ? renderer.render(camera_from_station, output, surfaces) : status;
 }
 
 }  // namespace boresight::sessions

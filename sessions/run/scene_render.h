@@ -8,10 +8,9 @@
 
 namespace boresight::sessions {
 
-/// Renders one scene with one camera from pose after pose; what does not depend on the pose is made
-/// once. It has memory of its own, and its capacity for edge pixels follows the image. Like the
-/// core's stages it does one slice per step, so that whoever has something newer to draw can give
-/// up in between.
+/// Renders one scene with one camera from many poses; what does not depend on the pose is computed
+/// once. It owns its memory, and its capacity for edge pixels follows the image. Like the core's
+/// stages it does one slice per step, so that a caller with a newer pose can stop in between.
 class SceneRenderer {
  public:
   SceneRenderer();
@@ -27,6 +26,9 @@ class SceneRenderer {
   Status step(bool& done);
   /// A copy of the render, after `done`.
   RenderTrace record() const;
+  /// All steps of a render at once.
+  Status render(const Pose& camera_from_station, RenderTrace& output,
+                const SurfaceRender& surfaces = {});
 
  private:
   struct Equipment;

@@ -38,7 +38,7 @@ class SeveralViews final : public SteppedRun {
   int workers() const override { return workers_; }
   void noteEdges() override;
   void noteIteration(const StepReport& report, const StageSeconds& seconds) override;
-  void noteSupport(const StageSeconds& seconds) override;
+  LocalizationStatus statusOf(std::size_t view) const override;
   void finish() override;
 
  private:
@@ -47,7 +47,6 @@ class SeveralViews final : public SteppedRun {
   void describeViews();
   IterationTrace traceOf(std::size_t view, Stage reached) const;
   IterationTrace leftOut(std::size_t view) const;
-  LocalizationStatus statusOf(std::size_t view) const;
   void finish(std::size_t view);
 
   ViewsProblem problem_;
@@ -178,18 +177,6 @@ IterationTrace SeveralViews::leftOut(std::size_t view) const {
 LocalizationStatus SeveralViews::statusOf(std::size_t view) const {
   const LocalizationStatus own = localizer_->result().views[view].status;
   return isLeftOut(own) ? own : localizer_->iterationOf(0)->status;
-}
-
-/// Edge support is looked at after the last iteration was complete, and may change how it ended.
-void SeveralViews::noteSupport(const StageSeconds& seconds) {
-  for (std::size_t v = 0; v < traces.size(); ++v) {
-    auto& iterations = traces[v].iterations;
-    if (iterations.empty()) return;
-    IterationTrace judged = *iterations.back();
-    judged.status = statusOf(v);
-    judged.seconds += seconds;
-    iterations.back() = std::make_shared<const IterationTrace>(std::move(judged));
-  }
 }
 
 void SeveralViews::finish() {

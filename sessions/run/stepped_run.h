@@ -27,8 +27,10 @@ class SteppedRun {
   virtual void noteSearch() {}
   /// A stage or an iteration is complete: copies it with its `seconds` so far.
   virtual void noteIteration(const StepReport& report, const StageSeconds& seconds) = 0;
+  /// How the last iteration ended for a view.
+  virtual LocalizationStatus statusOf(std::size_t view) const = 0;
   /// Edge support was measured after the last iteration, and may have changed its status.
-  virtual void noteSupport(const StageSeconds& seconds) = 0;
+  void noteSupport(const StageSeconds& seconds);
   /// The run has ended.
   virtual void finish() = 0;
 

@@ -1,16 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
+// What of a mesh a ray meets.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
 
 namespace boresight::sessions {
+
+/// Where a ray meets a face.
+struct RayHit {
+  double distance = 0.0;  ///< in lengths of the ray's direction
+  std::int32_t face = -1;
+};
+
+/// The faces of a mesh in a tree of boxes (bounding volume hierarchy, split at the median of the
+/// widest axis), so that a ray is tested against few of them: microseconds for a hundred thousand.
+class FaceTree {
+ public:
+  /// `mesh` must outlive it, and be valid.
+  explicit FaceTree(const MeshView& mesh);
+
+  /// The first face along a ray, seen from either side, nearer than `farthest` (in lengths of
+  /// `direction`); nothing when it misses all.
+  std::optional<RayHit> firstHit(const Eigen::Vector3d& origin_m, const Eigen::Vector3d& direction,
+                                 double farthest = std::numeric_limits<double>::infinity()) const;
+
+  const Eigen::AlignedBox3d& bounds_m() const { return bounds_m_; }
+
+ private:
+  /// Faces first ... first + count of the order; a node that is no leaf has its two halves at
+  /// `child` and the place after it.
+  struct Node {
+    Eigen::AlignedBox3d box_m;
+    std::int32_t first = 0;
+    std::int32_t count = 0;
+    std::int32_t child = -1;
+  };
+
+  void fit(Node& node) const;
+  void split(std::size_t node, const std::vector<Eigen::Vector3d>& middle_m);
+
+  MeshView mesh_;
+  Eigen::AlignedBox3d bounds_m_;
+  std::vector<std::int32_t> order_;
+  std::vector<Node> nodes_;
+};
 
 /// What of the scene is seen at a pixel.
 struct SurfacePoint {

@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/run/trace.h"
 
+#include <algorithm>
+
 namespace boresight::sessions {
+namespace {
+
+bool isStatus(const std::string& text, LocalizationStatus status) {
+  return text == localizationStatusText(status);
+}
+
+}  // namespace
 
 BitImage BitMap::view() const {
   BitImage image;
@@ -64,6 +73,36 @@ std::int32_t IterationTrace::support() const {
 
 double IterationTrace::rms_px() const {
   return kind == IterationKind::kRefine ? refinement.rms_px : pnp.rms_px;
+}
+
+bool ViewOutcome::tookPart() const { return isStatus(status, LocalizationStatus::kConverged); }
+
+std::string leftOutText(const std::string& status) {
+  if (isStatus(status, LocalizationStatus::kTooFewEdges))
+    return "too few of its edges are rendered or found";
+  if (isStatus(status, LocalizationStatus::kTooFewTemplates)) return "too few templates";
+  if (isStatus(status, LocalizationStatus::kTooFewMatches))
+    return "too few of its templates meet edges of the image";
+  if (isStatus(status, LocalizationStatus::kPnpFailed))
+    return "too few of its matches or edges agree with the pose of the others";
+  if (isStatus(status, LocalizationStatus::kNotSupported))
+    return "its edge support is below the limit";
+  return status;
+}
+
+std::string togetherText(const std::vector<ViewOutcome>& views, const std::string& own_case) {
+  const bool converged = std::any_of(views.begin(), views.end(),
+                                     [](const ViewOutcome& view) { return view.tookPart(); });
+  std::vector<std::string> names;
+  for (const ViewOutcome& one : views) {
+    if (one.case_id == own_case) continue;
+    const bool out = converged && !one.tookPart();
+    names.push_back(one.case_id + (out ? " (left out: " + leftOutText(one.status) + ")" : ""));
+  }
+  std::string text = "together with ";
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
 }
 
 }  // namespace boresight::sessions

@@ -11,7 +11,6 @@
 
 #include "core/localizer/localizer.h"
 #include "sessions/run/run_plan.h"
-#include "sessions/run/view_outcome.h"
 
 namespace boresight::sessions {
 
@@ -95,6 +94,23 @@ struct RecordedScore {
   double score = 0.0;  ///< WHS in [0, 2]
   std::optional<double> second_score;
 };
+
+/// How one of several views that were solved as one ended.
+struct ViewOutcome {
+  std::string case_id;
+  /// As localizationStatusText says; "converged" when it took part in the pose.
+  std::string status;
+
+  bool tookPart() const;
+  bool operator==(const ViewOutcome&) const = default;
+};
+
+/// Why a view has no part in the pose of all, for the middle of a sentence.
+std::string leftOutText(const std::string& status);
+
+/// "together with bc-2 and bc-3 (left out: ...)": the views of a run but this one. Statuses are
+/// left away where the run did not converge, or has not ended.
+std::string togetherText(const std::vector<ViewOutcome>& views, const std::string& own_case);
 
 /// How much of an iteration is copied.
 enum class RecordLevel {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fields of every record in the order in which a trace file holds them. `Self` is a record, or
-// a const record when writing; the archive is an ArchiveWriter or an ArchiveReader. The core's
-// records are taken apart by structured bindings: a member that is added there does not compile
-// here until it has its place in the file.
+// The fields of every record in the order in which a trace file holds them; some blocks of onboard
+// records have the same order. `Self` is a record, or a const record when writing; the archive is
+// an ArchiveWriter or an ArchiveReader. Structured bindings take the core's records apart, so that
+// a new member there does not compile here until it has its place in the file.
 #pragma once
 
 #include <concepts>
@@ -28,7 +28,8 @@ void vectorFields(Archive& archive, Vector& vector) {
 
 template <class Archive, Is<Pose> Self>
 void fields(Archive& archive, Self& pose) {
-  vectorFields(archive, pose.rotation.coeffs());
+  auto& rotation = pose.rotation;
+  numbers(archive, rotation.w(), rotation.x(), rotation.y(), rotation.z());
   vectorFields(archive, pose.translation_m);
 }
 
@@ -56,7 +57,6 @@ void fields(Archive& archive, Self& camera) {
   archive.choice(model, kLastCameraModel);
   numbers(archive, width, height, fx, fy, cx, cy);
   for (auto& coefficient : distortion) archive.number(coefficient);
-  // A camera of another model says nothing of it: files from before are read as they are.
   if (isCahvFamily(model)) fields(archive, cahv);
   archive.number(valid_radius);
 }

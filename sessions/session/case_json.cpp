@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/session/case_json.h"
+#include "sessions/session/session_file.h"
 
 #include <algorithm>
 
 #include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
+#include "sessions/io/json_fields.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/io/mesh_container.h"
-#include "sessions/session/json_fields.h"
 
 namespace boresight::sessions {
 
@@ -18,26 +18,19 @@ namespace {
 constexpr double kMaxCoordinate_px = 1e6;
 constexpr auto kSide_px = integerIn(1, kMaxImageSide_px);
 constexpr auto kStroke = choiceOf<StrokeKind>("brush", "polygon", "saturation");
-constexpr auto kFrame = Codec{[](const FrameName& frame) { return toJson(frame); }, &readFrameName};
-constexpr auto kCamera = Codec{[](const CameraFile& camera) { return toJson(camera); },
-                               [](const JsonReader& json) { return readCameraFile(json); }};
-constexpr auto kUncertainty =
-    Codec{[](const DeclaredUncertainty& known) { return toJson(known); }, &readUncertainty};
-constexpr auto kRequirement =
-    Codec{[](const Requirement& required) { return toJson(required); }, &readRequirement};
-constexpr auto kCovariance =
-    Codec{[](const Matrix6d& covariance) { return toJson(covariance); }, &readCovariance};
+constexpr auto kFrame = jsonCodec<FrameName>(&readFrameName);
+constexpr auto kCamera =
+    jsonCodec<CameraFile>([](const JsonReader& json) { return readCameraFile(json); });
+constexpr auto kUncertainty = jsonCodec<DeclaredUncertainty>(&readUncertainty);
+constexpr auto kRequirement = jsonCodec<Requirement>(&readRequirement);
+constexpr auto kCovariance = jsonCodec<Matrix6d>(&readCovariance);
 
-constexpr auto kPixel =
-    Codec{[](const Eigen::Vector2d& pixel) {
-            return ordered_json::array({pixel.x(), pixel.y()});
-          },
-          [](const JsonReader& json) {
-            Eigen::Vector2d pixel = json.vector2();
-            if (pixel.cwiseAbs().maxCoeff() > kMaxCoordinate_px)
-              json.fail("is more than " + numberText(kMaxCoordinate_px) + " px away");
-            return pixel;
-          }};
+constexpr auto kPixel = jsonCodec<Eigen::Vector2d>([](const JsonReader& json) {
+  Eigen::Vector2d pixel = json.vector2();
+  if (pixel.cwiseAbs().maxCoeff() > kMaxCoordinate_px)
+    json.fail("is more than " + numberText(kMaxCoordinate_px) + " px away");
+  return pixel;
+});
 
 constexpr auto kLabelItem = Codec{[](const LabelItem& item) {
                                     return ordered_json::array({item.name, item.value});

@@ -9,6 +9,7 @@
 
 #include "sessions/io/camera_field.h"
 #include "sessions/io/errors.h"
+#include "sessions/io/json_fields.h"
 #include "sessions/run/problem.h"
 #include "sessions/run/runner.h"
 #include "sessions/run/trace_file.h"
@@ -50,12 +51,6 @@ InputPlaces placesOf(const LoadedCase& loaded) {
           {image, "camera"},
           {loaded.source.parts.front().source.mesh, ""},
           {image, "seed"}};
-}
-
-const SessionCase& requireCase(const Session& session, const std::string& case_id) {
-  const SessionCase* one = session.findCase(case_id);
-  if (one == nullptr) throw InputError("session", "cases", "there is no case '" + case_id + "'");
-  return *one;
 }
 
 }  // namespace
@@ -106,11 +101,11 @@ LocalizationTrace runCase(const LoadedCase& loaded, const RunPlan& plan, RecordL
 
 LocalizationTrace runCase(const Session& session, const std::string& case_id, RecordLevel level,
                           const std::stop_token& stop) {
-  return runCase(session, *loadCase(requireCase(session, case_id)), level, stop);
+  return runCase(session, *loadCase(knownCase(session, case_id)), level, stop);
 }
 
 RunPlan planOf(const RunRecord& run, const Session& session, const fs::path& file) {
-  const SessionCase& one = requireCase(session, run.case_id);
+  const SessionCase& one = knownCase(session, run.case_id);
   const std::string place = "run " + run.digest;
   if (run.inputs_sha256 != inputsDigest(one))
     throw InputError(file, place, "the inputs of case " + run.case_id + " are no longer its own");
@@ -118,7 +113,7 @@ RunPlan planOf(const RunRecord& run, const Session& session, const fs::path& fil
     throw InputError(file, place,
                      "it was made " + togetherText(run.together->views, run.case_id) +
                          ", and one of these views is no longer there as it was");
-  if (run.rerun) return planOf(*run.rerun, file);
+  if (run.rerun) return *run.rerun;
   const LocalizerOptions options = caseOptions(session, one, file);
   if (run.options_sha256 != optionsDigest(options))
     throw InputError(file, place, "the session's options are no longer its own");
@@ -130,7 +125,7 @@ RunRecord storeRun(const Session& session, const std::string& case_id,
                    const std::string& from) {
   if (trace.status == LocalizationStatus::kRunning)
     throw std::logic_error("a run that was stopped cannot be stored");
-  const SessionCase& one = requireCase(session, case_id);
+  const SessionCase& one = knownCase(session, case_id);
   RunRecord run;
   run.case_id = case_id;
   run.digest = trace.digest;
@@ -141,7 +136,7 @@ RunRecord storeRun(const Session& session, const std::string& case_id,
   run.inputs_sha256 = inputsDigest(one);
   run.options_sha256 = optionsDigest(trace.lastOptions());
   const bool own_options = !sameOptions(trace.options, caseOptions(session, one, session_file));
-  if (own_options || !trace.changes.empty()) run.rerun = rerunRecord(from, trace.plan());
+  if (own_options || !trace.changes.empty()) run.rerun = RerunRecord{trace.plan(), from};
   if (!isSha256Text(run.digest))
     throw OutputError(session_file, "case " + case_id + ": the run ended before it had a digest (" +
                                         statusText(trace.fault) + ")");

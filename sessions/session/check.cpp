@@ -17,11 +17,6 @@ std::string numberText(double value, const std::string& unit) {
   return unit.empty() ? std::string(text) : text + (" " + unit);
 }
 
-bool hasState(std::span<const Check> checks, CheckState state) {
-  return std::any_of(checks.begin(), checks.end(),
-                     [state](const Check& check) { return check.state == state; });
-}
-
 std::string joined(bool passed, const std::string& found, const std::string& remedy) {
   return passed || remedy.empty() ? found : found + " " + remedy;
 }
@@ -78,7 +73,7 @@ std::string figureText(const Check& check) {
 }
 
 bool allPassed(std::span<const Check> checks) {
-  return hasState(checks, CheckState::kPassed) && !hasState(checks, CheckState::kFailed);
+  return countOf(checks, CheckState::kPassed) > 0 && countOf(checks, CheckState::kFailed) == 0;
 }
 
 Check measuredCheck(const CheckName& name, const std::string& unit, double figure, double limit,

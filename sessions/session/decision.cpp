@@ -4,10 +4,10 @@
 #include <stdexcept>
 
 #include "sessions/io/config_file.h"
+#include "sessions/io/json_fields.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/session/check_limits.h"
-#include "sessions/session/json_fields.h"
 
 namespace boresight::sessions {
 namespace {
@@ -18,8 +18,8 @@ constexpr auto kVerdict = choiceOf<Verdict>("validated", "rejected", "reopened")
 constexpr auto kState = choiceOf<CheckState>("passed", "failed", "not_applicable");
 constexpr auto kSource = choiceOf<PoseSource>("run", "annotation");
 constexpr auto kSide = choiceOf<LimitSide>("at_most", "at_least");
-constexpr auto kMatrix = Codec{[](const Matrix6d& matrix) { return toJson(matrix); },
-                               [](const JsonReader& json) { return json.matrix<6>(); }};
+constexpr auto kMatrix =
+    jsonCodec<Matrix6d>([](const JsonReader& json) { return json.matrix<6>(); });
 
 std::map<std::string, std::string> readGrounds(const JsonReader& json) {
   std::map<std::string, std::string> grounds;

@@ -32,7 +32,7 @@ bool samePart(const MeshInput& a, const MeshInput& b) {
          a.source.station_from_mesh == b.source.station_from_mesh;
 }
 
-bool sameStation(const SessionCase& a, const SessionCase& b) {
+bool sameParts(const SessionCase& a, const SessionCase& b) {
   return std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(), samePart);
 }
 
@@ -67,7 +67,7 @@ std::vector<int> stationNumbers(const Session& session) {
   for (const auto& one : session.cases) {
     const auto same =
         std::find_if(stations.begin(), stations.end(),
-                     [&one](const SessionCase* other) { return sameStation(*one, *other); });
+                     [&one](const SessionCase* other) { return sameParts(*one, *other); });
     numbers.push_back(static_cast<int>(same - stations.begin()) + 1);
     if (same == stations.end()) stations.push_back(&*one);
   }

@@ -21,25 +21,30 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxInputBytes = 4096 * kMegabyte;
 constexpr std::size_t kMaxSearched = 100000;
 
+/// Calls `visit(place, file, sha256)` for each file that a case depends on.
+template <class Case, class Visit>
+void forEachFile(Case& one, Visit&& visit) {
+  visit("image", one.image.source.file, one.image.source.sha256);
+  for (std::size_t i = 0; i < one.parts.size(); ++i)
+    visit("parts[" + std::to_string(i) + "]", one.parts[i].source.mesh, one.parts[i].sha256);
+  if (one.ignore) visit("ignore", one.ignore->file, one.ignore->sha256);
+  if (one.onboard_record)
+    visit("onboard_record", one.onboard_record->file, one.onboard_record->sha256);
+}
+
 /// One file that a case depends on.
 struct Dependency {
   std::string what;
   fs::path file;
   std::string sha256;
-  const PartSource* part = nullptr;   ///< of a mesh
   const ImageInput* image = nullptr;  ///< of an image
 };
 
 std::vector<Dependency> dependenciesOf(const SessionCase& one) {
   std::vector<Dependency> all;
-  all.push_back({"image", one.image.source.file, one.image.source.sha256, nullptr, &one.image});
-  for (std::size_t i = 0; i < one.parts.size(); ++i)
-    all.push_back({"parts[" + std::to_string(i) + "]", one.parts[i].source.mesh,
-                   one.parts[i].sha256, &one.parts[i].source, nullptr});
-  if (one.ignore) all.push_back({"ignore", one.ignore->file, one.ignore->sha256, nullptr, nullptr});
-  if (one.onboard_record)
-    all.push_back(
-        {"onboard_record", one.onboard_record->file, one.onboard_record->sha256, nullptr, nullptr});
+  forEachFile(one, [&](const std::string& what, const fs::path& file, const std::string& sha256) {
+    all.push_back({what, file, sha256, all.empty() ? &one.image : nullptr});
+  });
   return all;
 }
 
@@ -48,10 +53,6 @@ std::string namesOf(const Dependency& dependency) {
   const std::string other =
       dependency.image != nullptr ? otherFileText(dependency.file) : std::string();
   return dependency.file.string() + (other.empty() ? "" : ", or " + other + ",");
-}
-
-std::string sha256Of(const Dependency& dependency) {
-  return dependency.part != nullptr ? meshSha256(*dependency.part) : inputSha256(dependency.file);
 }
 
 /// Hashes each file once, whatever number of cases share it.
@@ -106,7 +107,7 @@ class Checker {
     std::error_code error;
     state.missing = !fs::exists(dependency.file, error);
     try {
-      state.sha256 = sha256Of(dependency);
+      state.sha256 = inputSha256(dependency.file);
     } catch (const InputError& unreadable) {
       state.error = unreadable.reason();
     }
@@ -117,19 +118,11 @@ class Checker {
   std::vector<Finding> findings_;
 };
 
-bool hasSha256(const Dependency& dependency, const fs::path& file) {
+bool hasSha256(const fs::path& file, const std::string& sha256) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return false;
-  Dependency moved = dependency;
-  moved.file = file;
-  PartSource part;
-  if (dependency.part != nullptr) {
-    part = *dependency.part;
-    part.mesh = file;
-    moved.part = &part;
-  }
   try {
-    return sha256Of(moved) == dependency.sha256;
+    return inputSha256(file) == sha256;
   } catch (const InputError&) {
     return false;
   }
@@ -146,11 +139,11 @@ class Search {
     for (auto step = steps.rbegin(); step != steps.rend() && step->has_filename(); ++step) {
       if (*step == "/") break;
       end = end.empty() ? *step : *step / end;
-      if (hasSha256(dependency, folder_ / end)) return folder_ / end;
+      if (hasSha256(folder_ / end, dependency.sha256)) return folder_ / end;
     }
     const auto [first, last] = files().equal_range(dependency.file.filename());
     for (auto place = first; place != last; ++place)
-      if (hasSha256(dependency, place->second)) return place->second;
+      if (hasSha256(place->second, dependency.sha256)) return place->second;
     return std::nullopt;
   }
 
@@ -185,11 +178,10 @@ GrayImage readOrName(const ImageInput& image, const ImageReadOptions& eight_bit)
 }  // namespace
 
 std::string inputSha256(const fs::path& file) {
+  if (knownMeshFormat(file)) return readMeshFiles(file).sha256;
   if (const auto label = labelFileOf(file)) return readLabelFiles(*label).sha256;
   return sha256Text(readFileBytes(file, kMaxInputBytes));
 }
-
-std::string meshSha256(const PartSource& part) { return readMeshFiles(part.mesh).sha256; }
 
 std::vector<Finding> checkInputs(const Session& session) {
   Checker checker;
@@ -229,10 +221,10 @@ Session relinked(const Session& session, const std::vector<Relink>& relinks) {
   Session next = session;
   for (auto& one : next.cases) {
     SessionCase changed = *one;
-    bool moved = move(changed.image.source.file);
-    for (MeshInput& part : changed.parts) moved |= move(part.source.mesh);
-    if (changed.ignore) moved |= move(changed.ignore->file);
-    if (changed.onboard_record) moved |= move(changed.onboard_record->file);
+    bool moved = false;
+    forEachFile(changed, [&](const std::string&, fs::path& file, const std::string&) {
+      moved |= move(file);
+    });
     if (moved) one = std::move(changed);
   }
   for (RunRecord& run : next.runs) move(run.file);
@@ -246,7 +238,7 @@ Session acceptingInputs(const Session& session, const std::string& case_id) {
     one.image.pixels_sha256 = image.pixels_sha256;
     one.image.width = image.width;
     one.image.height = image.height;
-    for (MeshInput& part : one.parts) part.sha256 = meshSha256(part.source);
+    for (MeshInput& part : one.parts) part.sha256 = inputSha256(part.source.mesh);
     for (auto* input : {&one.ignore, &one.onboard_record})
       if (*input) (*input)->sha256 = inputSha256((*input)->file);
   });

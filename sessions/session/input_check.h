@@ -27,11 +27,9 @@ struct Finding {
 /// reported and nothing is changed; a run of a case refuses changed inputs by itself.
 std::vector<Finding> checkInputs(const Session& session);
 
-/// SHA-256 of a file as sessions know it: of its bytes, for glTF with the buffers beside it, for an
-/// image with a label of both where they are two files.
-/// InputError.
+/// SHA-256 of a file as sessions know it: of its bytes; of a glTF mesh with its buffers, of an
+/// image with its label where the label is another file. InputError.
 std::string inputSha256(const std::filesystem::path& file);
-std::string meshSha256(const PartSource& part);
 
 /// A file that was moved, and where it is now.
 struct Relink {

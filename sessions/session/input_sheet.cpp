@@ -9,16 +9,19 @@
 #include "sessions/io/camera_file.h"
 #include "sessions/io/labels/image_label.h"
 #include "sessions/run/problem.h"
+#include "sessions/session/input_check.h"
 #include "sessions/session/input_sigmas.h"
-#include "sessions/session/label_agreement.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/text/text_table.h"
+#include "sessions/text/units.h"
 
 namespace boresight::sessions {
 namespace {
 
 /// A station smaller than this in the image cannot be matched.
 constexpr double kSmallestStation_px = 24.0;
+/// The number of stations that `InputSheets` keeps: meshes are large.
+constexpr std::size_t kMostStations = 8;
 
 std::string sizeText(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
@@ -96,28 +99,21 @@ void flagSeed(const SheetSources& sources, InputSheet& sheet) {
     sheet.flags.push_back({"camera_in_station",
                            "the seed puts the camera inside the station: is the mesh's unit "
                            "right, and the seed camera_from_station?"});
-  const double size_px = bounds.diagonal() / sheet.seed_distance_m * one.camera.fx;
+  const double size_px = bounds.diagonal() / (seed * bounds.centre()).norm() * one.camera.fx;
   if (size_px < kSmallestStation_px)
     sheet.flags.push_back({"station_small", "the station would be only " + fixedText(size_px, 1) +
                                                 " px large in the image at the seed: is the mesh's "
                                                 "unit right?"});
 }
 
-void measure(const SheetSources& sources, InputSheet& sheet) {
-  const Camera& camera = sources.one.camera;
-  const BoundingBox& bounds = sources.bounds;
-  const Eigen::Vector3d centre_in_camera_m = sources.one.camera_from_station_seed * bounds.centre();
-  sheet.station_extent_mm = (bounds.maximum_m - bounds.minimum_m) * 1e3;
-  sheet.station_diagonal_mm = bounds.diagonal() * 1e3;
-  sheet.seed_distance_m = centre_in_camera_m.norm();
-  sheet.view_width_mm = 1e3 * sheet.seed_distance_m * camera.width / camera.fx;
-  const double view_height_mm = 1e3 * sheet.seed_distance_m * camera.height / camera.fy;
-  sheet.station_share = sheet.station_diagonal_mm / std::hypot(sheet.view_width_mm, view_height_mm);
-}
-
 void describe(const SheetSources& sources, InputSheet& sheet) {
   const SessionCase& one = sources.one;
   const GrayImage& image = sources.image;
+  const CameraSheet camera = cameraSheet(one.camera);
+  const BoundingBox& bounds = sources.bounds;
+  const Eigen::Vector3d extent_mm = kMillimetres * (bounds.maximum_m - bounds.minimum_m);
+  const double seed_distance_m = (one.camera_from_station_seed * bounds.centre()).norm();
+  const double view_width_mm = kMillimetres * seed_distance_m * one.camera.width / one.camera.fx;
   const auto add = [&sheet](const char* label, const std::string& value) {
     sheet.lines.push_back({label, value});
   };
@@ -129,13 +125,14 @@ void describe(const SheetSources& sources, InputSheet& sheet) {
   if (image.label)
     for (const SheetLine& line : labelLines(*image.label)) sheet.lines.push_back(line);
   add("to 8 bit", image.rule);
-  add("gray", std::to_string(sheet.image.lowest_gray) + " .. " +
-                  std::to_string(sheet.image.highest_gray) + ", " +
-                  fixedText(100.0 * sheet.image.saturated_share, 2) + " % saturated");
-  add("camera", sheet.camera.model + ", " + sizeText(one.camera.width, one.camera.height) + " px");
+  add("gray", std::to_string(sources.image_sheet.lowest_gray) + " .. " +
+                  std::to_string(sources.image_sheet.highest_gray) + ", " +
+                  fixedText(100.0 * sources.image_sheet.saturated_share, 2) + " % saturated");
+  add("camera", std::string(cameraModelName(one.camera.model)) + ", " +
+                    sizeText(one.camera.width, one.camera.height) + " px");
   for (const FrameLine& line : frameLines(one)) add(line.label.c_str(), line.value);
-  add("field of view", fixedText(sheet.camera.field_of_view_x_deg, 2) + " x " +
-                           fixedText(sheet.camera.field_of_view_y_deg, 2) + " deg");
+  add("field of view", fixedText(camera.field_of_view_x_deg, 2) + " x " +
+                           fixedText(camera.field_of_view_y_deg, 2) + " deg");
   for (const MeshInfo& info : sources.scene.infos)
     add("mesh", info.file.filename().string() + ", " + info.format + " in " + info.unit + ", " +
                     fixedText(info.diagonal_m() * 1e3, 1) + " mm across");
@@ -144,11 +141,10 @@ void describe(const SheetSources& sources, InputSheet& sheet) {
   add("calibration, one sigma", calibrationText(sigmas) +
                                     ": of the focal length and of the "
                                     "principal point");
-  add("station", fixedText(sheet.station_extent_mm.x(), 1) + " x " +
-                     fixedText(sheet.station_extent_mm.y(), 1) + " x " +
-                     fixedText(sheet.station_extent_mm.z(), 1) + " mm; the view is " +
-                     fixedText(sheet.view_width_mm, 1) + " mm wide at its distance");
-  add("seed", fixedText(sheet.seed_distance_m, 4) + " m from the camera to the station's middle");
+  add("station", fixedText(extent_mm.x(), 1) + " x " + fixedText(extent_mm.y(), 1) + " x " +
+                     fixedText(extent_mm.z(), 1) + " mm; the view is " +
+                     fixedText(view_width_mm, 1) + " mm wide at its distance");
+  add("seed", fixedText(seed_distance_m, 4) + " m from the camera to the station's middle");
   if (sources.ignored_count)
     add("ignored", std::to_string(*sources.ignored_count) + " px, " +
                        fixedText(100.0 * static_cast<double>(*sources.ignored_count) /
@@ -173,29 +169,22 @@ std::string subframeText(const ImageLabel& label) {
 
 CameraSheet cameraSheet(const Camera& camera) {
   CameraSheet sheet;
-  sheet.model = cameraModelName(camera.model);
-  sheet.width = camera.width;
-  sheet.height = camera.height;
   const double right = camera.width - 1;
   const double bottom = camera.height - 1;
   sheet.field_of_view_x_deg = angleBetween_deg(camera, {0.0, camera.cy}, {right, camera.cy});
   sheet.field_of_view_y_deg = angleBetween_deg(camera, {camera.cx, 0.0}, {camera.cx, bottom});
-  sheet.field_of_view_diagonal_deg = angleBetween_deg(camera, {0.0, 0.0}, {right, bottom});
-  sheet.pixel_at_1_m_mm = 1000.0 / camera.fx;
+  const double diagonal_deg = angleBetween_deg(camera, {0.0, 0.0}, {right, bottom});
+  sheet.lines = {std::string(cameraModelName(camera.model)) + ", " +
+                     sizeText(camera.width, camera.height) + " px, fx " + fixedText(camera.fx, 3) +
+                     ", fy " + fixedText(camera.fy, 3) + ", cx " + fixedText(camera.cx, 3) +
+                     ", cy " + fixedText(camera.cy, 3),
+                 "field of view " + fixedText(sheet.field_of_view_x_deg, 2) + " x " +
+                     fixedText(sheet.field_of_view_y_deg, 2) + " deg, diagonal " +
+                     (std::isfinite(diagonal_deg) ? fixedText(diagonal_deg, 2) + " deg"
+                                                  : "not to be told, as a corner sees nothing") +
+                     "; 1 px is " + fixedText(1000.0 / camera.fx, 3) + " mm at 1 m"};
   flagCamera(camera, sheet);
   return sheet;
-}
-
-std::vector<std::string> cameraLines(const CameraSheet& sheet, const Camera& camera) {
-  return {sheet.model + ", " + sizeText(sheet.width, sheet.height) + " px, fx " +
-              fixedText(camera.fx, 3) + ", fy " + fixedText(camera.fy, 3) + ", cx " +
-              fixedText(camera.cx, 3) + ", cy " + fixedText(camera.cy, 3),
-          "field of view " + fixedText(sheet.field_of_view_x_deg, 2) + " x " +
-              fixedText(sheet.field_of_view_y_deg, 2) + " deg, diagonal " +
-              (std::isfinite(sheet.field_of_view_diagonal_deg)
-                   ? fixedText(sheet.field_of_view_diagonal_deg, 2) + " deg"
-                   : "not to be told, as a corner sees nothing") +
-              "; 1 px is " + fixedText(sheet.pixel_at_1_m_mm, 3) + " mm at 1 m"};
 }
 
 bool looksLikeMosaic(const ImageView& image) {
@@ -259,17 +248,14 @@ InputSheet inputSheet(const SheetSources& sources) {
   InputSheet sheet;
   const SessionCase& one = sources.one;
   const GrayImage& image = sources.image;
-  sheet.case_id = one.id;
-  sheet.camera = cameraSheet(one.camera);
-  sheet.image = sources.image_sheet;
-  measure(sources, sheet);
   describe(sources, sheet);
-  sheet.flags = sheet.image.flags;
+  sheet.flags = sources.image_sheet.flags;
   if (image.width != one.camera.width || image.height != one.camera.height)
     sheet.flags.push_back(
         {"camera_size", "the camera is of " + sizeText(one.camera.width, one.camera.height) +
                             " px, but the image has " + sizeText(image.width, image.height)});
-  sheet.flags.insert(sheet.flags.end(), sheet.camera.flags.begin(), sheet.camera.flags.end());
+  const std::vector<RedFlag> of_camera = cameraSheet(one.camera).flags;
+  sheet.flags.insert(sheet.flags.end(), of_camera.begin(), of_camera.end());
   flagMeshes(sources.scene, sheet);
   flagSeed(sources, sheet);
   if (image.label) flagLabel(one, *image.label, sheet.flags);
@@ -283,6 +269,50 @@ InputSheet inputSheet(const LoadedCase& loaded) {
   if (loaded.ignore) ignored_count = loaded.ignore->ignored_count;
   return inputSheet(
       {loaded.source, loaded.image, image_sheet, loaded.scene, bounds, ignored_count});
+}
+
+const InputSheets::Image& InputSheets::imageOf(const ImageInput& input) {
+  const auto [place, added] = images_.try_emplace(input.source.file);
+  Image& known = place->second;
+  if (added || !(known.input == input)) {
+    ++files_read_;
+    known = {input, {}, {}, nullptr};
+    try {
+      known.image = loadImage(input);
+      known.sheet = imageSheet(known.image);
+      known.image.pixels = {};
+    } catch (...) {
+      known.problem = std::current_exception();
+    }
+  }
+  if (known.problem) std::rethrow_exception(known.problem);
+  return known;
+}
+
+const InputSheets::Station& InputSheets::stationOf(const std::vector<MeshInput>& parts) {
+  const std::filesystem::path key = parts.empty() ? "" : parts.front().source.mesh;
+  if (stations_.size() >= kMostStations && !stations_.contains(key)) stations_.clear();
+  const auto [place, added] = stations_.try_emplace(key);
+  Station& known = place->second;
+  if (added || !(known.parts == parts)) {
+    ++files_read_;
+    known = {parts, {}, {}, nullptr};
+    try {
+      known.scene = readKnownScene(parts);
+      known.bounds = matchedBounds(known.scene.view());
+    } catch (...) {
+      known.problem = std::current_exception();
+    }
+  }
+  if (known.problem) std::rethrow_exception(known.problem);
+  return known;
+}
+
+InputSheet InputSheets::of(const SessionCase& one) {
+  if (one.ignore || !one.ignore_strokes.empty()) return inputSheet(*loadCase(one));
+  const Image& image = imageOf(one.image);
+  const Station& station = stationOf(one.parts);
+  return inputSheet({one, image.image, image.sheet, station.scene, station.bounds, std::nullopt});
 }
 
 bool isInside(const MeshView& mesh, const Eigen::Vector3d& point_in_station_m) {

@@ -4,6 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,17 +40,12 @@ struct SheetLine {
 };
 
 struct CameraSheet {
-  std::string model;
-  int width = 0, height = 0;
   double field_of_view_x_deg = 0.0;  ///< along the row of the principal point; not finite where a
   double field_of_view_y_deg = 0.0;  ///< pixel has no ray
-  double field_of_view_diagonal_deg = 0.0;
-  double pixel_at_1_m_mm = 0.0;
+  std::vector<std::string> lines;
   std::vector<RedFlag> flags;  ///< camera_off_centre, camera_aspect, camera_corners
 };
 CameraSheet cameraSheet(const Camera& camera);
-/// The camera on two lines.
-std::vector<std::string> cameraLines(const CameraSheet& sheet, const Camera& camera);
 
 struct ImageSheet {
   int lowest_gray = 0;
@@ -66,18 +64,10 @@ std::vector<SheetLine> labelLines(const ImageLabel& label);
 /// Bayer mosaic that was not turned into gray. A mosaic of a gray scene shows nothing of the kind.
 bool looksLikeMosaic(const ImageView& image);
 
-/// Everything about a case's inputs. Lengths of a station are those of its matched parts.
+/// A case's inputs. Lengths of a station are those of its matched parts.
 struct InputSheet {
-  std::string case_id;
-  CameraSheet camera;
-  ImageSheet image;
-  Eigen::Vector3d station_extent_mm = Eigen::Vector3d::Zero();
-  double station_diagonal_mm = 0.0;
-  double seed_distance_m = 0.0;  ///< from the camera to the centre of the station's box
-  double view_width_mm = 0.0;    ///< of the field of view at that distance
-  double station_share = 0.0;    ///< its diagonal of the view's diagonal: about 0.1 .. 2 is usual
-  std::vector<SheetLine> lines;  ///< all of it for people
-  std::vector<RedFlag> flags;    ///< of image, camera, meshes, and of how they fit each other
+  std::vector<SheetLine> lines;
+  std::vector<RedFlag> flags;  ///< of image, camera, meshes, and of how they fit each other
 };
 
 /// What a sheet is made from. Of the image all but its pixels, which are looked at once.
@@ -94,7 +84,46 @@ struct SheetSources {
 InputSheet inputSheet(const SheetSources& sources);
 InputSheet inputSheet(const LoadedCase& loaded);
 
+/// Sheets of the cases of a session. An image or a station that many of them share is read once.
+class InputSheets {
+ public:
+  /// As inputSheet(*loadCase(one)), and throws as that does.
+  InputSheet of(const SessionCase& one);
+  /// Images and stations that were read so far.
+  int filesRead() const { return files_read_; }
+
+ private:
+  struct Image {
+    ImageInput input;
+    GrayImage image;  ///< without its pixels
+    ImageSheet sheet;
+    std::exception_ptr problem;
+  };
+  struct Station {
+    std::vector<MeshInput> parts;
+    SceneMesh scene;
+    BoundingBox bounds;
+    std::exception_ptr problem;
+  };
+
+  const Image& imageOf(const ImageInput& input);
+  const Station& stationOf(const std::vector<MeshInput>& parts);
+
+  std::map<std::filesystem::path, Image> images_;
+  std::map<std::filesystem::path, Station> stations_;  ///< by the mesh of the first part
+  int files_read_ = 0;
+};
+
 /// Whether the point is inside the surface, by its winding number: holes do not matter much.
 bool isInside(const MeshView& mesh, const Eigen::Vector3d& point_in_station_m);
+
+/// Adds `camera_label` where the case's camera is another one than the label's or stands elsewhere
+/// in the same frame, and `transform_label` where a transform that was given places a frame of the
+/// label elsewhere than the label does; takes `camera_off_centre` away where the camera is that of
+/// the sub-frame which the label states. Nothing is changed by it: what people gave counts.
+void flagLabel(const SessionCase& one, const ImageLabel& label, std::vector<RedFlag>& flags);
+
+/// The same of the label of the case's image, as sentences; none where it has no label. InputError.
+std::vector<std::string> labelWarnings(const SessionCase& one);
 
 }  // namespace boresight::sessions

@@ -5,39 +5,33 @@
 #include <string>
 #include <vector>
 
+#include "sessions/session/session.h"
+
 namespace boresight::sessions {
 
-/// One edit of a session.
-struct JournalEntry {
-  std::string text;          ///< what was done, for people
-  std::string time;          ///< UTC
-  std::string after_sha256;  ///< of sessionText after the edit
-
-  bool operator==(const JournalEntry&) const = default;
+/// The edits since the session was saved.
+struct Journal {
+  std::string base_sha256;         ///< of the session file that the first edit changed
+  std::string time;                ///< UTC, of the last edit
+  std::vector<std::string> edits;  ///< descriptions, in their order
 };
 
-/// The edits since the session was saved, and the whole session after the last of them.
-struct Journal {
-  std::string base_sha256;  ///< of the session file that the first entry changed
-  std::vector<JournalEntry> entries;
-  std::string session_text;  ///< sessionText after the last entry
+/// Edits that were made but not saved when a program ended.
+struct Recovery : Journal {
+  Session session;  ///< with all edits
 };
 
 /// Writes a journal in place of any other, whole or not at all; on the disk when this returns.
-/// A line with the SHA-256 of all that follows, a line of JSON, the session as its file would be:
+/// `session_text` is the `sessionText` after the last edit:
 ///
-///     SHA256
-///     {"format": "boresight-journal", "version": 2, "base_sha256": "...", "edits": [...]}
-///     {"format": "boresight-session", ...
+///     {"format": "boresight-journal", "version": 1, "base_sha256": "...", "time": "...",
+///      "edits": ["...", ...], "session": {"format": "boresight-session", ...}}
 ///
 /// OutputError; then the former journal is as it was.
-void writeJournal(const std::filesystem::path& file, const Journal& journal);
+void writeJournal(const std::filesystem::path& file, const Journal& journal,
+                  const std::string& session_text);
 
-/// A journal, or `problem`: why the file is none.
-struct JournalContents : Journal {
-  std::string problem;
-};
-/// InputError when the file exists but cannot be read; a missing file is the caller's to notice.
-JournalContents readJournal(const std::filesystem::path& file);
+/// InputError for a missing file and one that is not a journal.
+Recovery readJournal(const std::filesystem::path& file);
 
 }  // namespace boresight::sessions

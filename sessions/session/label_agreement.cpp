@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/session/label_agreement.h"
+#include "sessions/session/input_sheet.h"
 
 #include <algorithm>
 
 #include "core/base/math.h"
+#include "sessions/io/labels/image_label.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {

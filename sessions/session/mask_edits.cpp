@@ -16,12 +16,6 @@ bool sameCamera(const SessionCase& a, const SessionCase& b) {
   return a.camera == b.camera && a.image.width == b.image.width && a.image.height == b.image.height;
 }
 
-std::string shortNumber(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 }  // namespace
 
 Session withStrokes(const Session& session, const std::string& case_id, MaskStrokes strokes) {
@@ -77,9 +71,11 @@ MaskStrokes namedStrokesOfCamera(const Session& session, const std::string& case
 
 std::string strokeText(const MaskStroke& stroke) {
   std::string text = stroke.erase ? "erase: " : "";
+  char width_px[32];
   switch (stroke.kind) {
     case StrokeKind::kBrush:
-      text += "brush, " + shortNumber(2.0 * stroke.radius_px) + " px wide";
+      std::snprintf(width_px, sizeof width_px, "%.3g", 2.0 * stroke.radius_px);
+      text += "brush, " + std::string(width_px) + " px wide";
       break;
     case StrokeKind::kPolygon:
       text += "polygon of " + std::to_string(stroke.points.size()) + " corners";

@@ -5,44 +5,16 @@
 
 #include "core/base/digest.h"
 #include "core/localizer/run_digest.h"
-#include "sessions/io/config_file.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {
-namespace {
-
-OptionList recorded(const LocalizerOptions& options) {
-  OptionList list = changedOptions(options, defaultProfile());
-  std::sort(list.begin(), list.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
-  return list;
-}
-
-LocalizerOptions optionsOf(const OptionList& list, const std::filesystem::path& file) {
-  Config config;
-  config.file = file;
-  config.options = list;
-  LocalizerOptions options = defaultProfile();
-  applyConfig(options, config);
-  return options;
-}
-
-}  // namespace
-
-RerunRecord rerunRecord(const std::string& from, const RunPlan& plan) {
-  RerunRecord record;
-  record.from = from;
-  record.options = recorded(plan.options);
-  for (const OptionChange& change : plan.changes)
-    record.changes.push_back({change.iteration, recorded(change.options)});
-  return record;
-}
-
-RunPlan planOf(const RerunRecord& record, const std::filesystem::path& file) {
-  RunPlan plan(optionsOf(record.options, file));
-  for (const RecordedChange& change : record.changes)
-    plan.changes.push_back({change.iteration, optionsOf(change.options, file)});
-  return plan;
+bool RerunRecord::operator==(const RerunRecord& other) const {
+  const auto same = [](const OptionChange& a, const OptionChange& b) {
+    return a.iteration == b.iteration && sameOptions(a.options, b.options);
+  };
+  return from == other.from && sameOptions(options, other.options) &&
+         std::equal(changes.begin(), changes.end(), other.changes.begin(), other.changes.end(),
+                    same);
 }
 
 std::vector<std::string> casesOf(const TogetherRecord& record) {

@@ -1,41 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "sessions/io/option_value.h"
 #include "sessions/run/run_plan.h"
-#include "sessions/run/view_outcome.h"
+#include "sessions/run/trace.h"
 
 namespace boresight::sessions {
 
-/// Options by what differs from the default profile, in the order of the alphabet.
-struct RecordedChange {
-  std::int32_t iteration = 0;  ///< the first one with them, from 0
-  OptionList options;
+/// The plan of a run that went on from an iteration of another run with other options, or had other
+/// options than the session from its start (those of an onboard record): enough to run it again,
+/// even without the other run.
+struct RerunRecord : RunPlan {
+  std::string from;  ///< digest of the run whose first iterations it has; empty: a halted run
 
-  bool operator==(const RecordedChange&) const = default;
+  bool operator==(const RerunRecord& other) const;
 };
-
-/// What a session notes of a run that went on from an iteration of another one with other options,
-/// or had other options than the session from its start (those of an onboard record): enough to run
-/// it again, even when the other one is gone.
-struct RerunRecord {
-  std::string
-      from;  ///< digest of the run whose first iterations it has; empty: one that was halted
-  OptionList options;
-  std::vector<RecordedChange> changes;  ///< none: the options held from start to end
-
-  bool operator==(const RerunRecord&) const = default;
-};
-
-RerunRecord rerunRecord(const std::string& from, const RunPlan& plan);
-/// InputError (`file` names the session) for options that do not exist or cannot have their values.
-RunPlan planOf(const RerunRecord& record, const std::filesystem::path& file);
 
 struct Session;
 

@@ -2,67 +2,16 @@
 #include "sessions/session/session.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <chrono>
-#include <cstdio>
-#include <ctime>
-#include <span>
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/digest.h"
-#include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
+#include "sessions/io/json_fields.h"
+#include "sessions/session/session_file.h"
 
 namespace boresight::sessions {
 namespace {
-
-/// Feeds a canonical serialization: every value with its name, so that neighbours cannot be
-/// confused.
-class InputsDigest {
- public:
-  void text(const char* name, const std::string& value) {
-    writer_.tag(name);
-    writer_.u64(value.size());
-    writer_.bytes({reinterpret_cast<const std::uint8_t*>(value.data()), value.size()});
-  }
-  void number(const char* name, double value) {
-    writer_.tag(name);
-    writer_.f64(value);
-  }
-  template <class Vector>
-  void vector(const char* name, const Vector& values) {
-    writer_.tag(name);
-    for (Eigen::Index i = 0; i < values.size(); ++i) writer_.f64(values[i]);
-  }
-  void pose(const char* name, const Pose& pose) {
-    vector(name, pose.rotation.coeffs());
-    vector(name, pose.translation_m);
-  }
-  std::string digest() const { return hexText(writer_.digest()).data(); }
-
- private:
-  DigestWriter writer_;
-};
-
-void add(InputsDigest& digest, const MeshInput& part) {
-  digest.text("part", part.sha256);
-  digest.text("mesh_unit", part.source.mesh_unit);
-  digest.pose("station_from_mesh", part.source.station_from_mesh);
-  digest.number("normal_threshold_rad", part.source.part.normal_threshold_rad);
-  digest.number("depth_threshold_m", part.source.part.depth_threshold_m);
-  digest.number("match", part.source.part.match ? 1.0 : 0.0);
-}
-
-void add(InputsDigest& digest, const MaskStroke& stroke) {
-  digest.number("stroke", static_cast<double>(stroke.kind));
-  digest.number("erase", stroke.erase ? 1.0 : 0.0);
-  digest.number("radius_px", stroke.radius_px);
-  digest.number("level", stroke.level);
-  digest.number("points", static_cast<double>(stroke.points.size()));
-  for (const Eigen::Vector2d& point : stroke.points) digest.vector("point", point);
-}
 
 template <class Value>
 bool sameOf(const std::string& id, const std::map<std::string, Value>& a,
@@ -187,17 +136,20 @@ LocalizerOptions caseOptions(const Session& session, const SessionCase& one,
 }
 
 std::string inputsDigest(const SessionCase& one) {
-  InputsDigest digest;
-  digest.text("pixels", one.image.pixels_sha256);
-  digest.text("camera", toJson(one.camera).dump());
-  for (const MeshInput& part : one.parts) add(digest, part);
-  digest.pose("seed", one.camera_from_station_seed);
-  digest.vector("translation_m", one.uncertainty.translation_m);
-  digest.vector("rotation_deg", one.uncertainty.rotation_deg);
-  digest.number("pivot", static_cast<double>(one.uncertainty.pivot));
-  digest.text("ignore", one.ignore ? one.ignore->sha256 : "");
-  for (const MaskStroke& stroke : one.ignore_strokes) add(digest, stroke);
-  return digest.digest();
+  SessionCase inputs;
+  inputs.image.pixels_sha256 = one.image.pixels_sha256;
+  inputs.camera = one.camera;
+  inputs.parts = one.parts;
+  inputs.camera_from_station_seed = one.camera_from_station_seed;
+  inputs.uncertainty = one.uncertainty;
+  inputs.ignore = one.ignore;
+  inputs.ignore_strokes = one.ignore_strokes;
+  // Where the files are makes no difference.
+  inputs.image.source.file = "/";
+  for (MeshInput& part : inputs.parts) part.source.mesh = "/";
+  if (inputs.ignore) inputs.ignore->file = "/";
+  for (MaskStroke& stroke : inputs.ignore_strokes) stroke.name.clear();
+  return sha256Text(toJson(inputs, PathWriter("/")).dump());
 }
 
 Staleness stalenessOf(const RunRecord& run, const Session& session,
@@ -208,20 +160,6 @@ Staleness stalenessOf(const RunRecord& run, const Session& session,
       run.together && run.together->inputs_sha256 != viewsDigest(session, casesOf(*run.together));
   return {others_changed || run.inputs_sha256 != inputsDigest(*one),
           run.options_sha256 != optionsDigest(caseOptions(session, *one, file))};
-}
-
-bool isUtcText(const std::string& text) {
-  constexpr std::string_view kForm = "dddd-dd-ddTdd:dd:ddZ";
-  return text.size() == kForm.size() &&
-         std::equal(text.begin(), text.end(), kForm.begin(), [](char c, char form) {
-           return form == 'd' ? std::isdigit(static_cast<unsigned char>(c)) != 0 : c == form;
-         });
-}
-
-bool isSha256Text(const std::string& text) {
-  return text.size() == 64 && std::all_of(text.begin(), text.end(), [](char c) {
-           return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
-         });
 }
 
 std::vector<std::string> changedCases(const Session& before, const Session& after) {

@@ -180,11 +180,6 @@ struct Staleness {
 Staleness stalenessOf(const RunRecord& run, const Session& session,
                       const std::filesystem::path& file);
 
-/// Whether `text` has that form.
-bool isUtcText(const std::string& text);
-/// Whether `text` is a SHA-256 in lower-case hexadecimal digits.
-bool isSha256Text(const std::string& text);
-
 /// Ids of the later session's cases of which a person has changed something since the earlier one
 /// (the case itself, its marks or passes, decisions on it); new ones too, in their order. Runs and
 /// the view do not count.

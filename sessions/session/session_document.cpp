@@ -121,30 +121,20 @@ void SessionDocument::readJournalBeside() {
   std::error_code error;
   if (!fs::exists(file, error)) return;
   if (lock_ && !lock_->held()) return;  // it is in use: its edits are not left over
-  const JournalContents contents = readJournal(file);
-  if (!contents.problem.empty()) return setJournalAside(contents.problem);
-  // Where the saved file stands in the journal: a program may end between saving and dropping it.
-  std::size_t first = contents.entries.size() + 1;
-  if (contents.base_sha256 == file_sha256_) first = 0;
-  for (std::size_t i = 0; i < contents.entries.size(); ++i)
-    if (contents.entries[i].after_sha256 == file_sha256_) first = i + 1;
-  if (first > contents.entries.size())
-    return setJournalAside("it belongs to another state of the file");
-  if (first < contents.entries.size()) return noteRecovery(contents, first);
-  if (!readOnly()) fs::remove(file, error);
-}
-
-void SessionDocument::noteRecovery(const Journal& journal, std::size_t first) {
-  Recovery recovery;
   try {
-    recovery.session = readSession(JsonDocument(file_, journal.session_text).root());
-  } catch (const FileError& error) {
-    return setJournalAside(std::string("its session cannot be read: ") + error.what());
+    Recovery left = readJournal(file);
+    // A program may end between saving the edits and removing the journal.
+    if (sha256Text(sessionText(left.session, file_)) == file_sha256_) {
+      if (!readOnly()) fs::remove(file, error);
+    } else if (left.base_sha256 == file_sha256_) {
+      recovery_ = std::move(left);
+    } else {
+      setJournalAside("it belongs to another state of the file");
+    }
+  } catch (const InputError& wrong) {
+    setJournalAside("it is damaged, or of another version than this program's (" + wrong.reason() +
+                    ")");
   }
-  for (std::size_t i = first; i < journal.entries.size(); ++i)
-    recovery.edits.push_back(journal.entries[i].text);
-  recovery.time = journal.entries.back().time;
-  recovery_ = std::move(recovery);
 }
 
 void SessionDocument::setJournalAside(const std::string& why) {
@@ -170,10 +160,9 @@ void SessionDocument::requireEditable() const {
 void SessionDocument::acceptRecovery() {
   if (!recovery_) return;
   if (readOnly()) throw OutputError(file_, read_only_reason_);
-  Journal journal{file_sha256_, {}, sessionText(recovery_->session, file_)};
-  journal.entries.push_back({"Recover " + countText(recovery_->edits.size(), "edit"),
-                             recovery_->time, sha256Text(journal.session_text)});
-  writeJournal(journalFileOf(file_), journal);
+  Journal journal = *recovery_;
+  journal.edits = {"Recover " + countText(recovery_->edits.size(), "edit")};
+  writeJournal(journalFileOf(file_), journal, sessionText(recovery_->session, file_));
   journal_ = std::move(journal);
   session_ = std::move(recovery_->session);
   recovery_.reset();
@@ -190,11 +179,12 @@ void SessionDocument::apply(const Session& next, const std::string& text) {
   requireEditable();
   const Session wanted = ordered(next);
   if (wanted == session_) return;
+  const std::string session_text = sessionText(wanted, file_);
+  requireReadable(wanted, file_, session_text);
   Journal journal = journal_.value_or(Journal{file_sha256_, {}, {}});
-  journal.session_text = sessionText(wanted, file_);
-  requireReadable(wanted, file_, journal.session_text);
-  journal.entries.push_back({text, utcNowText(), sha256Text(journal.session_text)});
-  writeJournal(journalFileOf(file_), journal);
+  journal.time = utcNowText();
+  journal.edits.push_back(text);
+  writeJournal(journalFileOf(file_), journal, session_text);
   journal_ = std::move(journal);
   session_ = wanted;
 }

@@ -10,18 +10,10 @@
 
 #include "sessions/io/file_lock.h"
 #include "sessions/session/journal.h"
-#include "sessions/session/session.h"
 
 namespace boresight::sessions {
 
 enum class Access { kEdit, kReadOnly };
-
-/// Edits that were made but not saved when a program ended.
-struct Recovery {
-  Session session;                 ///< with all of them
-  std::vector<std::string> edits;  ///< what they were, in their order
-  std::string time;                ///< UTC, of the last one
-};
 
 /// An open session: its value, its file, and the journal and lock beside it. An edit is on the disk
 /// before `apply` returns; what is shown is what `session()` says. Not for several threads at once.
@@ -70,7 +62,6 @@ class SessionDocument {
   void takeLock();
   void readSaved();
   void readJournalBeside();
-  void noteRecovery(const Journal& journal, std::size_t first);
   void setJournalAside(const std::string& why);
   void requireEditable() const;
 
@@ -97,8 +88,7 @@ struct SessionCommand {
 Session keepingRuns(const Session& target, const Session& now);
 
 /// The undo stack of a document, of any length. Every step goes through SessionDocument::apply and
-/// so into the journal before it shows; a step that throws has not happened. A Qt undo command
-/// needs no more than `keepingRuns` and `apply`.
+/// so into the journal before it is shown; a step that throws has not happened.
 class SessionHistory {
  public:
   /// The document must outlive the history.

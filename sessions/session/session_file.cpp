@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/session_file.h"
 
+#include <algorithm>
+
 #include "sessions/annotation/marks_file.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
+#include "sessions/io/json_fields.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
-#include "sessions/session/case_json.h"
 #include "sessions/session/decision.h"
-#include "sessions/session/json_fields.h"
 #include "sessions/version.h"
 
 namespace boresight::sessions {
@@ -26,18 +27,20 @@ fs::path beside(const fs::path& session_file, const char* extension) {
   return name;
 }
 
-AnnotationPass readPass(const JsonReader& json) {
-  return {json.at("by").nonEmptyText(), readTime(json.at("time")), readMarks(json)};
-}
-
-constexpr auto kPasses = listOf(Codec{[](const AnnotationPass& pass) {
-                                        ordered_json json = {{"by", pass.by}, {"time", pass.time}};
-                                        json.update(toJson(pass.marks));
-                                        return json;
-                                      },
-                                      &readPass});
-constexpr auto kOptions =
-    Codec{[](const OptionList& options) { return toJson(options); }, &readOptions};
+/// Options by their difference from the default profile.
+constexpr auto kRunOptions = Codec{[](const LocalizerOptions& options) {
+                                     OptionList list = changedOptions(options, defaultProfile());
+                                     std::sort(list.begin(), list.end());
+                                     return toJson(list);
+                                   },
+                                   [](const JsonReader& json) {
+                                     Config config;
+                                     config.file = json.file();
+                                     config.options = readOptions(json);
+                                     LocalizerOptions options = defaultProfile();
+                                     applyConfig(options, config);
+                                     return options;
+                                   }};
 
 /// InputError unless the session has this case.
 void requireCase(const Session& session, const std::string& id, const JsonReader& at) {
@@ -54,7 +57,9 @@ void readMarksOf(const JsonReader& json, Session& session) {
   if (!passes) return;
   for (const auto& [id, list] : passes->members()) {
     requireCase(session, id, list);
-    AnnotationPasses all = kPasses.read(list);
+    AnnotationPasses all;
+    for (const JsonReader& pass : list.elements())
+      all.push_back({pass.at("by").nonEmptyText(), readTime(pass.at("time")), readMarks(pass)});
     if (all.empty()) list.fail("there is none: leave the case out");
     session.passes.insert_or_assign(id, std::move(all));
   }
@@ -62,19 +67,19 @@ void readMarksOf(const JsonReader& json, Session& session) {
 
 }  // namespace
 
-template <class Archive, ConstOr<RecordedChange> Self>
+template <class Archive, ConstOr<OptionChange> Self>
 void fields(Archive& archive, Self& change) {
   archive.field("iteration", change.iteration, integerIn(1, 1000000));
-  archive.field("options", change.options, kOptions);
+  archive.field("options", change.options, kRunOptions);
 }
 
 template <class Archive, ConstOr<RerunRecord> Self>
 void fields(Archive& archive, Self& record) {
   archive.optional("from", record.from, kSha256);
-  archive.field("options", record.options, kOptions);
+  archive.field("options", record.options, kRunOptions);
   archive.list("changes", record.changes);
   if constexpr (Archive::kReads) {
-    const std::string problem = planProblem(planOf(record, archive.json().file()));
+    const std::string problem = planProblem(record);
     if (!problem.empty()) archive.json().failMember("changes", problem);
   }
 }
@@ -206,7 +211,12 @@ ordered_json toJson(const Session& session, const fs::path& file) {
   json["annotations"] = ordered_json::object();
   for (const auto& [id, annotation] : session.annotations)
     json["annotations"][id] = toJson(*annotation);
-  for (const auto& [id, passes] : session.passes) json["passes"][id] = kPasses.write(*passes);
+  for (const auto& [id, passes] : session.passes)
+    for (const AnnotationPass& pass : *passes) {
+      ordered_json one = {{"by", pass.by}, {"time", pass.time}};
+      one.update(toJson(pass.marks));
+      json["passes"][id].push_back(one);
+    }
   if (session.review != ReviewSettings()) json["review"] = toJson(session.review);
   json["decisions"] = ordered_json::array();
   for (const Decision& decision : session.decisions) json["decisions"].push_back(toJson(decision));

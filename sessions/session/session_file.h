@@ -3,10 +3,13 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "sessions/io/frame_transform.h"
 #include "sessions/io/json_reader.h"
+#include "sessions/io/labels/image_label.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {
@@ -33,6 +36,19 @@ SavedSession readSessionFile(const std::filesystem::path& file);
 /// Writes atomically and returns the hash of what was written. OutputError; then the old file is
 /// as it was.
 std::string writeSessionFile(const std::filesystem::path& file, const Session& session);
+
+class PathWriter;
+
+nlohmann::ordered_json toJson(const SessionCase& one, const PathWriter& path);
+/// The reverse, without whether its id is given twice. InputError.
+SessionCase readSessionCase(const JsonReader& json);
+
+/// {"name", "index", "joined_by": {"target", "source", "target_from_source", "comment", "file",
+/// "sha256"}}: the file's name alone, since its numbers are here.
+nlohmann::ordered_json toJson(const StationFrame& frame);
+
+/// An array of [keyword, value].
+nlohmann::ordered_json toJson(const std::vector<LabelItem>& label);
 
 inline constexpr const char* kSessionFormat = "boresight-session";
 inline constexpr int kSessionVersion = 1;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <set>
 #include <span>
 #include <string>
@@ -48,91 +49,73 @@ zip_fileinfo fixedInfo() {
 }
 
 /// Writes a zip archive (with zip64 where it is needed) under a temporary name; `commit` proves it
-/// readable and gives it its own. Without a commit nothing stays behind. The same entries make the
-/// same bytes: no times are stored.
+/// readable and gives it its own. Without a commit no file remains. The same entries make the same
+/// bytes: no times are stored. OutputError.
 class ZipWriter {
  public:
-  /// OutputError when it cannot be written.
-  explicit ZipWriter(const std::filesystem::path& archive);
+  explicit ZipWriter(const fs::path& archive) : archive_(archive) {
+    requireWritable(archive_);
+    temporary_ = archive_.parent_path() / (".boresight-" + std::to_string(::getpid()) + ".zip.tmp");
+    zip_ = zipOpen64(temporary_.c_str(), APPEND_STATUS_CREATE);
+    if (zip_ == nullptr) throw OutputError(archive_, "the archive cannot be begun");
+  }
   ZipWriter(const ZipWriter&) = delete;
   ZipWriter& operator=(const ZipWriter&) = delete;
-  ~ZipWriter();
+  ~ZipWriter() {
+    if (zip_ != nullptr) zipClose(zip_, nullptr);
+    std::error_code error;
+    fs::remove(temporary_, error);
+  }
 
-  /// Adds a file; one of the same name as before is left out. OutputError.
-  void add(const std::string& name, std::span<const std::uint8_t> bytes);
-  void add(const std::string& name, std::string_view text);
+  /// Adds a file; a second one of the same name is left out.
+  void add(const std::string& name, std::span<const std::uint8_t> bytes) {
+    if (!names_.insert(name).second) return;
+    const zip_fileinfo info = fixedInfo();
+    bool good = zipOpenNewFileInZip4_64(zip_, name.c_str(), &info, nullptr, 0, nullptr, 0, nullptr,
+                                        Z_DEFLATED, Z_BEST_SPEED, 0, -MAX_WBITS, DEF_MEM_LEVEL,
+                                        Z_DEFAULT_STRATEGY, nullptr, 0, kMadeByUnix, kUtf8Names,
+                                        bytes.size() >= kZip64From ? 1 : 0) == ZIP_OK;
+    while (good && !bytes.empty()) {
+      const std::size_t count = std::min(bytes.size(), kChunkBytes);
+      good = zipWriteInFileInZip(zip_, bytes.data(), static_cast<unsigned>(count)) == ZIP_OK;
+      bytes = bytes.subspan(count);
+    }
+    if (!good || zipCloseFileInZip(zip_) != ZIP_OK)
+      throw OutputError(archive_, "the archive cannot be written (is the disk full?)");
+  }
 
-  /// OutputError; then the old file of that name is as it was.
-  void commit();
+  /// The old file of that name stays as it is when this throws.
+  void commit() {
+    if (zipClose(std::exchange(zip_, nullptr), nullptr) != ZIP_OK)
+      throw OutputError(archive_, "the archive cannot be completed (is the disk full?)");
+    if (readableFiles() != names_.size())
+      throw OutputError(archive_, "the archive cannot be read again (is the disk full?)");
+    moveIntoPlace(temporary_, archive_);
+  }
 
  private:
-  void requireReadable() const;
+  /// The library writes through a buffer and does not report when the end of it is lost.
+  std::size_t readableFiles() const {
+    const std::unique_ptr<void, decltype(&unzClose)> file(unzOpen64(temporary_.c_str()), &unzClose);
+    std::size_t count = 0;
+    std::vector<std::uint8_t> buffer(kChunkBytes);
+    for (int at = file ? unzGoToFirstFile(file.get()) : UNZ_END_OF_LIST_OF_FILE; at == UNZ_OK;
+         at = unzGoToNextFile(file.get())) {
+      if (unzOpenCurrentFile(file.get()) != UNZ_OK) return count;
+      int bytes = 1;
+      while (bytes > 0)
+        bytes = unzReadCurrentFile(file.get(), buffer.data(), static_cast<unsigned>(buffer.size()));
+      if (bytes < 0 || unzCloseCurrentFile(file.get()) != UNZ_OK) return count;
+      ++count;
+    }
+    return count;
+  }
 
-  std::filesystem::path archive_;
-  std::filesystem::path temporary_;
+  fs::path archive_;
+  fs::path temporary_;
   void* zip_ = nullptr;
   std::set<std::string> names_;
 };
-
-ZipWriter::ZipWriter(const fs::path& archive) : archive_(archive) {
-  requireWritable(archive_);
-  temporary_ = archive_.parent_path() / (".boresight-" + std::to_string(::getpid()) + ".zip.tmp");
-  zip_ = zipOpen64(temporary_.c_str(), APPEND_STATUS_CREATE);
-  if (zip_ == nullptr) throw OutputError(archive_, "the archive cannot be begun");
-}
-
-ZipWriter::~ZipWriter() {
-  if (zip_ != nullptr) zipClose(zip_, nullptr);
-  std::error_code error;
-  fs::remove(temporary_, error);
-}
-
-void ZipWriter::add(const std::string& name, std::span<const std::uint8_t> bytes) {
-  if (!names_.insert(name).second) return;
-  const zip_fileinfo info = fixedInfo();
-  bool good = zipOpenNewFileInZip4_64(zip_, name.c_str(), &info, nullptr, 0, nullptr, 0, nullptr,
-                                      Z_DEFLATED, Z_BEST_SPEED, 0, -MAX_WBITS, DEF_MEM_LEVEL,
-                                      Z_DEFAULT_STRATEGY, nullptr, 0, kMadeByUnix, kUtf8Names,
-                                      bytes.size() >= kZip64From ? 1 : 0) == ZIP_OK;
-  while (good && !bytes.empty()) {
-    const std::size_t count = std::min(bytes.size(), kChunkBytes);
-    good = zipWriteInFileInZip(zip_, bytes.data(), static_cast<unsigned>(count)) == ZIP_OK;
-    bytes = bytes.subspan(count);
-  }
-  good = good && zipCloseFileInZip(zip_) == ZIP_OK;
-  if (!good) throw OutputError(archive_, "the archive cannot be written (is the disk full?)");
-}
-
-void ZipWriter::add(const std::string& name, std::string_view text) {
-  add(name, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
-}
-
-/// The library writes through a buffer and does not tell when the end of it is lost.
-void ZipWriter::requireReadable() const {
-  unzFile file = unzOpen64(temporary_.c_str());
-  std::size_t count = 0;
-  bool good = file != nullptr;
-  std::vector<std::uint8_t> buffer(kChunkBytes);
-  for (int at = good ? unzGoToFirstFile(file) : UNZ_END_OF_LIST_OF_FILE; at == UNZ_OK && good;
-       at = unzGoToNextFile(file)) {
-    good = unzOpenCurrentFile(file) == UNZ_OK;
-    int bytes = 1;
-    while (good && bytes > 0)
-      bytes = unzReadCurrentFile(file, buffer.data(), static_cast<unsigned>(buffer.size()));
-    good = good && bytes == 0 && unzCloseCurrentFile(file) == UNZ_OK;
-    ++count;
-  }
-  if (file != nullptr) unzClose(file);
-  if (!good || count != names_.size())
-    throw OutputError(archive_, "the archive cannot be read again (is the disk full?)");
-}
-
-void ZipWriter::commit() {
-  if (zipClose(std::exchange(zip_, nullptr), nullptr) != ZIP_OK)
-    throw OutputError(archive_, "the archive cannot be completed (is the disk full?)");
-  requireReadable();
-  moveIntoPlace(temporary_, archive_);
-}
 
 constexpr std::size_t kMaxPackedBytes = 4096 * kMegabyte;
 constexpr std::size_t kHashDigits = 16;
@@ -354,7 +337,8 @@ void writePack(const SessionPack& pack, const fs::path& archive) {
       throw InputError(one.file, "it has changed while it was packed: pack again");
     zip.add(one.name, bytes);
   }
-  zip.add(pack.session_name, pack.session_text);
+  const auto* text = reinterpret_cast<const std::uint8_t*>(pack.session_text.data());
+  zip.add(pack.session_name, {text, pack.session_text.size()});
   zip.commit();
 }
 

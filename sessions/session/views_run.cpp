@@ -70,12 +70,9 @@ std::string whyAlone(const Session& session, const std::string& case_id) {
 }
 
 std::string viewsRefusal(const LocalizerOptions& options) {
-  const auto refused = [](const std::string& what) {
-    return "Several views are not solved together with " + what + ".";
-  };
-  if (options.ambiguity.enabled)
-    return refused("a search for rivals: switch ambiguity.enabled off");
-  return "";
+  return options.ambiguity.enabled ? "Several views are not solved together with a search for "
+                                     "rivals: switch ambiguity.enabled off."
+                                   : "";
 }
 
 ViewsProblem LoadedViews::problem() const {

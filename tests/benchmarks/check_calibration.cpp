@@ -26,6 +26,7 @@
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/evaluation/run_result.h"
 #include "sessions/io/errors.h"
+#include "sessions/io/json_fields.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/io/pose_file.h"
@@ -34,7 +35,6 @@
 #include "sessions/run/runner.h"
 #include "sessions/session/check_limits.h"
 #include "sessions/session/decision.h"
-#include "sessions/session/json_fields.h"
 #include "sessions/session/session_maker.h"
 #include "tests/benchmarks/check_cases.h"
 

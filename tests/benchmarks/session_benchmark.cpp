@@ -10,7 +10,7 @@
 #include <benchmark/benchmark.h>
 
 #include "sessions/review/queue.h"
-#include "sessions/session/input_sheets.h"
+#include "sessions/session/input_sheet.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/temporary_folder.h"

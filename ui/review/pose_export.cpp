@@ -5,7 +5,7 @@
 
 #include <QtWidgets>
 
-#include "sessions/exchange/pose_exchange.h"
+#include "sessions/exchange/annotation_exchange.h"
 #include "sessions/report/pose_report.h"
 #include "sessions/review/standing.h"
 #include "sessions/review/validated_pose_file.h"
@@ -135,7 +135,7 @@ void PoseExport::exportBopResults(const std::filesystem::path& file, int scene_i
 
 void PoseExport::exportColmap(const std::filesystem::path& folder) {
   exportAll(folder, [folder](const sessions::Session& session) {
-    return sessions::writeColmapOf(session, folder, sessions::posesToHandOver(session, {}));
+    return sessions::exportColmap(session, folder, sessions::posesToHandOver(session, {}));
   });
 }
 

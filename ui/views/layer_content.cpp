@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "sessions/run/match_details.h"
+
 namespace boresight::ui {
 namespace {
 
@@ -21,9 +23,9 @@ LayerBits layerBits(std::shared_ptr<const void> owner, const BitImage& bits, int
 
 QRectF windowArea(const SearchWindow& window, int level) {
   const Eigen::Vector2d first =
-      sessions::toFullImage(Eigen::Vector2d(window.x_min - 0.5, window.y_min - 0.5), level);
+      sessions::fullImagePixel(window.x_min - 0.5, window.y_min - 0.5, level);
   const Eigen::Vector2d last =
-      sessions::toFullImage(Eigen::Vector2d(window.x_max + 0.5, window.y_max + 0.5), level);
+      sessions::fullImagePixel(window.x_max + 0.5, window.y_max + 0.5, level);
   return {point(first), point(last)};
 }
 
@@ -90,12 +92,10 @@ std::vector<Mark> templateMarks(const sessions::IterationTrace& iteration, int s
     Mark mark;
     mark.shape = MarkShape::kRectangle;
     // A template of even side spans centre - side/2 ... centre + side/2 - 1.
-    mark.area = QRectF(point(sessions::toFullImage(
-                           Eigen::Vector2d(one.center_x - half - 0.5, one.center_y - half - 0.5),
-                           iteration.level)),
-                       point(sessions::toFullImage(
-                           Eigen::Vector2d(one.center_x + half - 0.5, one.center_y + half - 0.5),
-                           iteration.level)));
+    mark.area = QRectF(point(sessions::fullImagePixel(one.center_x - half - 0.5,
+                                                      one.center_y - half - 0.5, iteration.level)),
+                       point(sessions::fullImagePixel(one.center_x + half - 0.5,
+                                                      one.center_y + half - 0.5, iteration.level)));
     mark.item = static_cast<int>(i);
     if (mark.item == selected_template) mark.color = kSelected;
     marks.push_back(std::move(mark));
@@ -105,14 +105,15 @@ std::vector<Mark> templateMarks(const sessions::IterationTrace& iteration, int s
 
 std::vector<Mark> matchMarks(const sessions::IterationTrace& iteration, int selected_template) {
   std::vector<Mark> marks;
-  for (const sessions::MatchVector& vector : sessions::matchVectors(iteration)) {
+  for (const sessions::MatchDetails& match : sessions::matchDetails(iteration)) {
+    if (!match.searched) continue;
     Mark mark;
     mark.shape = MarkShape::kArrow;
-    mark.at = point(vector.predicted);
-    mark.to = point(vector.found);
-    mark.item = vector.template_index;
-    mark.dashed = !vector.inlier;
-    if (!vector.inlier) mark.color = kOutlier;
+    mark.at = point(match.predicted_px);
+    mark.to = point(match.found_px);
+    mark.item = match.index;
+    mark.dashed = !match.inlier;
+    if (!match.inlier) mark.color = kOutlier;
     if (mark.item == selected_template) {
       mark.color = kSelected;
       mark.label = QString::number(mark.item);

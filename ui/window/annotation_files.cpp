@@ -88,8 +88,10 @@ void AnnotationFiles::exportPoses(Exporter exporter, const QString& title, const
   parts_.annotation.finishMove();
   parts_.tasks.start(
       QStringLiteral("export poses"),
-      [exporter, folder, session = parts_.document.session(), robust = parts_.annotation.robust()](
-          const std::stop_token&) { return exporter(session, folder, {}, robust); },
+      [exporter, folder, session = parts_.document.session(),
+       robust = parts_.annotation.robust()](const std::stop_token&) {
+        return exporter(session, folder, sessions::annotatedPoses(session, {}, robust));
+      },
       [this, folder](const sessions::ExportReport& report) {
         Q_EMIT noted(exportNote(report, folder));
       });

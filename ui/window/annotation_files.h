@@ -33,7 +33,7 @@ class AnnotationFiles : public QObject {
  private:
   using Exporter = sessions::ExportReport (*)(const sessions::Session&,
                                               const std::filesystem::path&,
-                                              const std::vector<std::string>&, bool);
+                                              const sessions::CasePoses&);
   using Importer = sessions::ImportReport (*)(const sessions::Session&,
                                               const std::filesystem::path&, bool);
   /// points.json or a table (.csv): the marks of the shown case become these.

@@ -88,7 +88,7 @@ TEST(MarkEquations, TheAdjointMovesARigsPerturbationToItsCamera) {
     const Vector6d xi = 1e-7 * Vector6d::Ones() * random.normal();
     const Pose moved = camera_from_rig * perturbed(xi, rig_from_station);
     const Vector6d seen = perturbationBetween(camera_from_rig * rig_from_station, moved);
-    EXPECT_LT((seen - adjoint(camera_from_rig) * xi).norm(), 1e-12);
+    EXPECT_LT((seen - adjointOf(camera_from_rig) * xi).norm(), 1e-12);
   }
 }
 

@@ -9,7 +9,6 @@
 #include "sessions/annotation/marks_file.h"
 #include "sessions/evaluation/bop_scene.h"
 #include "sessions/exchange/colmap_text.h"
-#include "sessions/exchange/pose_exchange.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/undistort.h"
 #include "sessions/review/standing.h"
@@ -34,6 +33,9 @@ class AnnotationExchange : public testing::Test {
   Pose solved(const std::string& id) const {
     return *sessions::solveCaseMarks(session_, id, true, false).camera_from_station();
   }
+  static sessions::CasePoses marked(const Session& session, std::vector<std::string> ids = {}) {
+    return sessions::annotatedPoses(session, ids, false);
+  }
   std::string message(const std::function<void()>& call) const { return folder_.message(call); }
 
   TemporaryFolder folder_;
@@ -43,7 +45,7 @@ class AnnotationExchange : public testing::Test {
 };
 
 TEST_F(AnnotationExchange, ColmapComesBackBitByBit) {
-  const auto made = sessions::exportColmap(session_, folder_ / "model", {bc_}, false);
+  const auto made = sessions::exportColmap(session_, folder_ / "model", marked(session_, {bc_}));
   EXPECT_THAT(made.case_ids, ElementsAre(bc_));
   const auto images = sessions::readColmapText(folder_ / "model");
   ASSERT_EQ(images.size(), 1u);
@@ -59,7 +61,7 @@ TEST_F(AnnotationExchange, ColmapComesBackBitByBit) {
 }
 
 TEST_F(AnnotationExchange, BopComesBackWithUndistortedImages) {
-  const auto made = sessions::exportBop(session_, folder_ / "scene", {}, false);
+  const auto made = sessions::exportBop(session_, folder_ / "scene", marked(session_));
   EXPECT_EQ(made.case_ids.size(), 2u);
   const auto objects = sessions::readBopScene(folder_ / "scene");
   ASSERT_EQ(objects.size(), 2u);
@@ -112,7 +114,8 @@ TEST_F(AnnotationExchange, LandmarksAreAddedToThoseOfTheFile) {
 
 TEST_F(AnnotationExchange, SaysWhatCannotBeExported) {
   const auto colmap = [&](const Session& session, const std::vector<std::string>& ids) {
-    return message([&] { (void)sessions::exportColmap(session, folder_ / "m", ids, false); });
+    return message(
+        [&] { (void)sessions::exportColmap(session, folder_ / "m", marked(session, ids)); });
   };
   EXPECT_THAT(colmap(session_, {}), HasSubstr("are of different stations"));
   EXPECT_THAT(colmap(session_, {"x"}), HasSubstr("there is no case 'x'"));
@@ -124,19 +127,17 @@ TEST_F(AnnotationExchange, SaysWhatCannotBeExported) {
   sessions::SessionCase moved = *session_.findCase(os_);
   moved.image.source.file = folder_ / "gone.png";
   EXPECT_THAT(message([&] {
-                (void)sessions::exportBop(withCase(session_, moved), folder_ / "s", {}, false);
+                const Session session = withCase(session_, moved);
+                (void)sessions::exportBop(session, folder_ / "s", marked(session));
               }),
               HasSubstr("gone.png"));
   // No half-written folder.
   EXPECT_EQ(folder_.fileCount(), 0u);
   // One case without a pose does not keep the others from being written.
-  const auto made = sessions::exportBop(withAnnotation(session_, os_,
-                                                       [&] {
-                                                         auto few = *session_.annotations.at(os_);
-                                                         few.points.resize(2);
-                                                         return few;
-                                                       }()),
-                                        folder_ / "s", {}, false);
+  auto few = *session_.annotations.at(os_);
+  few.points.resize(2);
+  const Session session = withAnnotation(session_, os_, few);
+  const auto made = sessions::exportBop(session, folder_ / "s", marked(session));
   EXPECT_THAT(made.case_ids, ElementsAre(bc_));
   EXPECT_THAT(made.notes, ElementsAre(HasSubstr("case '" + os_ + "' has no pose: ")));
 }
@@ -210,12 +211,12 @@ TEST(PoseExchange, EveryFileSaysWhoValidatedAndWhatNobodyDid) {
   const Session session = halfValidated();
   const std::string os = caseOfStation(session, "os");
   const std::string bc = caseOfStation(session, "bc");
-  writeColmapOf(session, folder / "os", posesToHandOver(session, {os}));
-  writeColmapOf(session, folder / "bc", posesToHandOver(session, {bc}));
+  exportColmap(session, folder / "os", posesToHandOver(session, {os}));
+  exportColmap(session, folder / "bc", posesToHandOver(session, {bc}));
   EXPECT_THAT(textOf(folder / "os" / "images.txt"), HasSubstr("image.png: validated by Ada"));
   EXPECT_THAT(textOf(folder / "bc" / "images.txt"),
               HasSubstr("image.png: NOT VALIDATED: annotated"));
-  writeBopOf(session, folder / "bop", posesToHandOver(session, {}));
+  exportBop(session, folder / "bop", posesToHandOver(session, {}));
   const std::string truth = textOf(folder / "bop" / "scene_gt.json");
   EXPECT_THAT(truth, HasSubstr("\"remark\": \"validated by Ada\""));
   EXPECT_THAT(truth, HasSubstr("\"remark\": \"NOT VALIDATED: annotated\""));
@@ -250,7 +251,7 @@ TEST(PoseExchange, AnotherPoseOfAValidatedCaseIsNotTheValidatedOne) {
   const Session session = halfValidated();
   sessions::CasePoses poses = posesToHandOver(session, {caseOfStation(session, "os")});
   poses.poses[0].camera_from_station.translation_m.x() += 1e-9;
-  writeColmapOf(session, folder / "os", poses);
+  exportColmap(session, folder / "os", poses);
   EXPECT_THAT(textOf(folder / "os" / "images.txt"), HasSubstr("NOT VALIDATED: another pose"));
 }
 

@@ -120,7 +120,8 @@ TEST(ColmapText, NamesWhatIsWrong) {
             "thin-prism terms; undistort the images with COLMAP's image_undistorter and read its "
             "model");
   EXPECT_EQ(error("1 CATADIOPTRIC 10 10 9 9 5 5 1\n", "x"),
-            "cameras.txt: line 1: the camera model CATADIOPTRIC is not known");
+            "cameras.txt: line 1: no camera here can be a CATADIOPTRIC; undistort the images with "
+            "COLMAP's image_undistorter and read its model");
   EXPECT_EQ(error("1 PINHOLE 10 10 9 9 5\n", "x"), "cameras.txt: line 1: cy is missing");
   EXPECT_EQ(error("1 PINHOLE 10 10 9 9 5 5 5\n", "x"),
             "cameras.txt: line 1: has more than it should: '5'");

@@ -6,7 +6,6 @@
 
 #include <functional>
 
-#include "sessions/run/record_inputs.h"
 #include "sessions/run/runner.h"
 #include "tests/support/example_case.h"
 
@@ -75,7 +74,7 @@ TEST(CompareRecords, NamesTheFirstThingThatDiffers) {
       {RunPart::kEdges, [](auto& run) { run.edges->sha256[9] ^= 4; }},
       {RunPart::kEdges, [](auto& run) { run.edges->high_threshold += 1.0; }},
       {RunPart::kEdges, [](auto& run) { --run.edges->edge_count; }},
-      {RunPart::kRender, [](auto& run) { ++run.iterations[0].edge_pixels; }},
+      {RunPart::kRender, [](auto& run) { ++run.iterations[0].trace.edge_pixel_count; }},
       {RunPart::kRender, [](auto& run) { (*run.iterations[0].render_sha256)[0] ^= 1; }},
       {RunPart::kTemplates, [](auto& run) { ++(*run.iterations[0].templates)[7].x; }},
       {RunPart::kMatches, [](auto& run) { (*run.iterations[0].templates)[2].score += 1e-6F; }},
@@ -85,7 +84,7 @@ TEST(CompareRecords, NamesTheFirstThingThatDiffers) {
          one.inlier = !one.inlier;
        }},
       {RunPart::kPose,
-       [](auto& run) { run.iterations[0].camera_from_station.translation_m.x() += 1e-16; }},
+       [](auto& run) { run.iterations[0].trace.camera_from_station.translation_m.x() += 1e-16; }},
       {RunPart::kEnd, [](auto& run) { run.end->covariance(0, 0) *= 1.0 + 1e-15; }},
       {RunPart::kDigest,
        [](auto& run) { run.end->digest[0] = run.end->digest[0] == 'a' ? 'b' : 'a'; }},

@@ -7,8 +7,7 @@
 #include <algorithm>
 
 #include "sessions/io/errors.h"
-#include "sessions/run/runner.h"
-#include "tests/support/example_case.h"
+#include "tests/sessions/record/recorded_run.h"
 #include "tests/support/random_pose.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,67 +19,21 @@ using sessions::parseRecord;
 using testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 
-/// The example's run, once recorded on board and once traced on the ground.
-struct RecordedRun {
+/// The example's run, recorded and traced.
+struct ExampleRun {
   ExampleCase example{"os"};
-  LocalizerOptions options = defaultProfile();
+  LocalizationProblem problem = example.problem();
+  LocalizerOptions options = recordedOptions();
+  RecordedRun run;
   Bytes bytes;
-  sessions::LocalizationTrace trace;
 
-  explicit RecordedRun(std::size_t room = 65536) {
-    options.templates.feature_size_m = 0.018;
-    const LocalizationProblem problem = example.problem();
-    std::size_t size = 0;
-    EXPECT_EQ(requiredBytes(sizeOf(problem), options, size), Status::kOk);
-    std::vector<std::byte> memory(size);
-    Localizer localizer(problem, options, memory);
-    bytes.resize(room);
-    RecordWriter record(bytes);
-    RecordInputs inputs;
-    inputs.pixels.fill(7);
-    record.begin(inputs, problem, options);
-    StepReport report;
-    while (!report.finished) {
-      report = localizer.step();
-      record.note(localizer, report);
-    }
-    record.end(localizer);
-    bytes.resize(record.bytes().size());
-    trace = sessions::localize(problem, sessions::RunPlan(options), sessions::RecordLevel::kFull);
-  }
+  explicit ExampleRun(std::size_t room = 65536)
+      : run(recordRun(problem, options, room)), bytes(run.bytes) {}
 };
 
-const RecordedRun& recordedRun() {
-  static const RecordedRun run;
+const ExampleRun& exampleRun() {
+  static const ExampleRun run;
   return run;
-}
-
-void expectSame(const sessions::RecordedIteration& read, const sessions::IterationTrace& traced) {
-  EXPECT_EQ(read.index, traced.index);
-  EXPECT_EQ(read.attempt, traced.attempt);
-  EXPECT_EQ(read.kind, traced.kind);
-  EXPECT_EQ(read.level, traced.level);
-  EXPECT_EQ(read.reached, traced.reached);
-  EXPECT_EQ(read.status, traced.status);
-  EXPECT_EQ(read.threshold_px, traced.threshold_px);
-  EXPECT_EQ(read.camera_from_station_before, traced.camera_from_station_before);
-  EXPECT_EQ(read.camera_from_station, traced.camera_from_station);
-  EXPECT_EQ(read.edge_pixels, traced.edge_pixel_count);
-  EXPECT_EQ(read.templates_count, traced.template_count);
-  EXPECT_EQ(read.template_side_px, traced.template_side_px);
-  EXPECT_EQ(read.searched, traced.searched_count);
-  EXPECT_EQ(read.correspondences, traced.correspondence_count);
-  EXPECT_EQ(read.inliers, traced.pnp.inlier_count);
-  EXPECT_EQ(read.samples, traced.pnp.samples);
-  EXPECT_EQ(read.refinement_samples, traced.refinement.sample_count);
-  EXPECT_EQ(read.refinement_found, traced.refinement.found_count);
-  EXPECT_EQ(read.refinement_used, traced.refinement.used_count);
-  EXPECT_EQ(read.rms_px, traced.rms_px());
-  EXPECT_EQ(read.hypotheses, static_cast<int>(traced.hypotheses.size()));
-  EXPECT_EQ(read.chosen_hypothesis, traced.chosen_hypothesis);
-  EXPECT_EQ(read.correction_translation_m, traced.correction_translation_m);
-  EXPECT_EQ(read.correction_rotation_rad, traced.correction_rotation_rad);
-  EXPECT_EQ(read.correction_image_px, traced.correction_image_px);
 }
 
 void expectSameTemplates(const sessions::RecordedIteration& read,
@@ -110,32 +63,31 @@ void expectSameTemplates(const sessions::RecordedIteration& read,
               traced.pnp.inlier[c] != 0);
 }
 
+/// The other figures are compared in record_of_run_test.cpp, against the record of the trace.
 TEST(OnboardRecord, SaysWhatTheRunDid) {
-  const RecordedRun& run = recordedRun();
-  const OnboardRecord read = parseRecord("r.whsr", run.bytes);
+  const ExampleRun& example = exampleRun();
+  const sessions::LocalizationTrace& trace = example.run.trace;
+  const OnboardRecord& read = example.run.record;
   EXPECT_TRUE(read.whole()) << read.missing.front();
-  EXPECT_LT(run.bytes.size(), 65536u);
+  EXPECT_LT(example.bytes.size(), 65536u);
   ASSERT_TRUE(read.inputs && read.end);
-  EXPECT_EQ(read.inputs->sha256.pixels[31], 7);
-  EXPECT_EQ(read.inputs->width, run.example.camera.width);
-  EXPECT_EQ(read.inputs->camera_from_station_seed, run.trace.camera_from_station_seed);
-  EXPECT_EQ(read.inputs->uncertainty.rotation_rad, run.trace.uncertainty.rotation_rad);
-  ASSERT_EQ(read.iterations.size(), run.trace.iterations.size());
-  for (std::size_t i = 0; i < read.iterations.size(); ++i) {
-    expectSame(read.iterations[i], *run.trace.iterations[i]);
-    expectSameTemplates(read.iterations[i], *run.trace.iterations[i]);
-  }
+  EXPECT_EQ(read.inputs->width, example.example.camera.width);
+  EXPECT_EQ(read.inputs->camera_from_station_seed, trace.camera_from_station_seed);
+  EXPECT_EQ(read.inputs->uncertainty.rotation_rad, trace.uncertainty.rotation_rad);
+  ASSERT_EQ(read.iterations.size(), trace.iterations.size());
+  for (std::size_t i = 0; i < read.iterations.size(); ++i)
+    expectSameTemplates(read.iterations[i], *trace.iterations[i]);
   ASSERT_TRUE(read.iterations.back().support);
-  EXPECT_EQ(read.iterations.back().support->share(), run.trace.support.share());
-  EXPECT_EQ(read.end->status, run.trace.status);
-  EXPECT_EQ(read.end->digest, run.trace.digest);
-  EXPECT_EQ(read.end->camera_from_station, run.trace.camera_from_station);
-  EXPECT_EQ(read.end->covariance, run.trace.covariance);
-  EXPECT_EQ(read.end->attempts, run.trace.attempts);
+  EXPECT_EQ(read.iterations.back().support->share(), trace.support.share());
+  EXPECT_EQ(read.end->status, trace.status);
+  EXPECT_EQ(read.end->digest, trace.digest);
+  EXPECT_EQ(read.end->camera_from_station, trace.camera_from_station);
+  EXPECT_EQ(read.end->covariance, trace.covariance);
+  EXPECT_EQ(read.end->attempts, trace.attempts);
 }
 
 TEST(OnboardRecord, HasEveryOption) {
-  const RecordedRun& run = recordedRun();
+  const ExampleRun& run = exampleRun();
   const OnboardRecord read = parseRecord("r.whsr", run.bytes);
   ASSERT_EQ(read.options.size(), 1u);
   std::size_t i = 0;
@@ -152,8 +104,9 @@ TEST(OnboardRecord, HasEveryOption) {
 void expectBeginningOf(const OnboardRecord& part, const OnboardRecord& whole) {
   ASSERT_LE(part.iterations.size(), whole.iterations.size());
   for (std::size_t i = 0; i < part.iterations.size(); ++i) {
-    ASSERT_EQ(part.iterations[i].index, whole.iterations[i].index);
-    ASSERT_EQ(part.iterations[i].camera_from_station, whole.iterations[i].camera_from_station);
+    ASSERT_EQ(part.iterations[i].trace.index, whole.iterations[i].trace.index);
+    ASSERT_EQ(part.iterations[i].trace.camera_from_station,
+              whole.iterations[i].trace.camera_from_station);
     if (part.iterations[i].templates) {
       ASSERT_EQ(part.iterations[i].templates->size(), whole.iterations[i].templates->size());
     }
@@ -180,7 +133,7 @@ std::vector<std::size_t> blockEnds(const Bytes& bytes) {
 }
 
 TEST(OnboardRecord, CutOffAnywhereYieldsAllBefore) {
-  const RecordedRun& run = recordedRun();
+  const ExampleRun& run = exampleRun();
   const OnboardRecord whole = parseRecord("r.whsr", run.bytes);
   const std::vector<std::size_t> ends = blockEnds(run.bytes);
   ASSERT_EQ(ends.back(), run.bytes.size());
@@ -208,7 +161,7 @@ TEST(OnboardRecord, CutOffAnywhereYieldsAllBefore) {
 }
 
 TEST(OnboardRecord, FlippedBitsAreNeverTaken) {
-  const RecordedRun& run = recordedRun();
+  const ExampleRun& run = exampleRun();
   const OnboardRecord whole = parseRecord("r.whsr", run.bytes);
   const std::vector<std::size_t> ends = blockEnds(run.bytes);
   Random random = randomFor("OnboardRecord.Flips");
@@ -241,44 +194,31 @@ TEST(OnboardRecord, FlippedBitsAreNeverTaken) {
 }
 
 TEST(OnboardRecord, SaysWhatFoundNoRoom) {
-  const RecordedRun& whole = recordedRun();
-  const RecordedRun small(whole.bytes.size() / 2);
+  const ExampleRun& whole = exampleRun();
+  const ExampleRun small(whole.bytes.size() / 2);
   const OnboardRecord read = parseRecord("r.whsr", small.bytes);
   EXPECT_FALSE(read.whole());
   ASSERT_TRUE(read.end);
-  EXPECT_EQ(read.end->digest, whole.trace.digest);
+  EXPECT_EQ(read.end->digest, whole.run.trace.digest);
   EXPECT_THAT(read.missing, testing::Contains(HasSubstr("found no room on board")));
 }
 
 TEST(OnboardRecord, SaysWhichOptionsWereTakenUpOnTheWay) {
-  const RecordedRun& run = recordedRun();
-  const LocalizationProblem problem = run.example.problem();
-  sessions::RunPlan plan(run.options);
+  const ExampleRun& run = exampleRun();
   LocalizerOptions other = run.options;
   other.loop.render_again_px = 5.0;
-  plan.changes.push_back({2, other});
-  Bytes bytes(65536);
-  RecordWriter record(bytes);
-  sessions::RunSettings settings;
-  settings.onboard_record = &record;
-  const auto trace = sessions::localize(problem, plan, settings);
-  const OnboardRecord read = parseRecord("r.whsr", record.bytes());
+  const RecordedRun changed = recordRun(run.problem, {run.options, {{2, other}}});
+  const OnboardRecord& read = changed.record;
   EXPECT_TRUE(read.whole());
   ASSERT_EQ(read.options.size(), 2u);
   EXPECT_EQ(read.options[1].first_iteration, 2);
-  const auto& options = read.options[1].options;
-  const auto changed = std::find_if(options.begin(), options.end(), [](const auto& one) {
-    return one.name == "loop.render_again_px";
-  });
-  ASSERT_NE(changed, options.end());
-  EXPECT_EQ(changed->value(), 5.0);
-  EXPECT_EQ(read.end->digest, trace.digest);
-  EXPECT_EQ(read.iterations.size(), trace.iterations.size());
+  EXPECT_TRUE(sameOptions(planOf(read).plan.last(), other));
+  EXPECT_EQ(read.end->digest, changed.trace.digest);
 }
 
 TEST(OnboardRecord, RefusesOtherFiles) {
   const TemporaryFolder folder;
-  const RecordedRun& run = recordedRun();
+  const ExampleRun& run = exampleRun();
   const auto message = [&](const Bytes& bytes) {
     const auto file = folder.write("r.whsr", bytes);
     return folder.message([&] { (void)sessions::readRecord(file); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/record/record_of_run.h"
+#include "sessions/record/onboard_record.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,49 +16,46 @@ using sessions::RecordedIteration;
 using sessions::recordOf;
 using sessions::RunPlan;
 
-void expectEqual(const sessions::RecordedTemplate& a, const sessions::RecordedTemplate& b) {
-  EXPECT_EQ(a.x, b.x);
-  EXPECT_EQ(a.y, b.y);
-  EXPECT_EQ(a.searched, b.searched);
-  EXPECT_EQ(a.at_border, b.at_border);
-  EXPECT_EQ(a.inlier, b.inlier);
-  EXPECT_EQ(a.found_x, b.found_x);
-  EXPECT_EQ(a.found_y, b.found_y);
-  EXPECT_EQ(a.score, b.score);
-  EXPECT_EQ(a.second_score, b.second_score);
-}
-
-void expectEqual(const RecordedIteration& a, const RecordedIteration& b) {
+void expectEqual(const RecordedIteration& one, const RecordedIteration& other) {
+  const sessions::IterationTrace& a = one.trace;
+  const sessions::IterationTrace& b = other.trace;
   SCOPED_TRACE(a.index);
-  EXPECT_EQ(a.index, b.index);
-  EXPECT_EQ(a.attempt, b.attempt);
   EXPECT_EQ(a.kind, b.kind);
-  EXPECT_EQ(a.level, b.level);
   EXPECT_EQ(a.reached, b.reached);
   EXPECT_EQ(a.status, b.status);
-  EXPECT_EQ(a.threshold_px, b.threshold_px);
   EXPECT_EQ(a.camera_from_station_before, b.camera_from_station_before);
   EXPECT_EQ(a.camera_from_station, b.camera_from_station);
-  const auto counts = [](const RecordedIteration& one) {
-    return std::array{one.edge_pixels,     one.template_side_px,
-                      one.templates_count, one.searched,
-                      one.correspondences, one.inliers,
-                      one.samples,         one.refinement_found,
-                      one.refinement_used, one.refinement_samples,
-                      one.hypotheses,      one.chosen_hypothesis};
+  const auto counts = [](const sessions::IterationTrace& trace) {
+    return std::array{trace.index,
+                      trace.attempt,
+                      trace.level,
+                      trace.edge_pixel_count,
+                      trace.template_side_px,
+                      trace.template_count,
+                      trace.searched_count,
+                      trace.correspondence_count,
+                      trace.pnp.inlier_count,
+                      trace.pnp.samples,
+                      trace.refinement.found_count,
+                      trace.refinement.used_count,
+                      trace.refinement.sample_count,
+                      static_cast<std::int32_t>(trace.hypotheses.size()),
+                      trace.chosen_hypothesis};
   };
   EXPECT_EQ(counts(a), counts(b));
-  EXPECT_EQ(a.rms_px, b.rms_px);
-  EXPECT_EQ(a.roll_rad, b.roll_rad);
-  EXPECT_EQ(a.correction_translation_m, b.correction_translation_m);
-  EXPECT_EQ(a.correction_rotation_rad, b.correction_rotation_rad);
-  EXPECT_EQ(a.correction_image_px, b.correction_image_px);
-  EXPECT_EQ(a.render_sha256, b.render_sha256);
-  ASSERT_EQ(a.templates.has_value(), b.templates.has_value());
-  if (!a.templates) return;
-  ASSERT_EQ(a.templates->size(), b.templates->size());
-  for (std::size_t i = 0; i < a.templates->size(); ++i)
-    expectEqual((*a.templates)[i], (*b.templates)[i]);
+  const auto figures = [](const sessions::IterationTrace& trace) {
+    const bool rolled = !trace.hypotheses.empty();
+    return std::array{
+        trace.threshold_px,
+        trace.rms_px(),
+        rolled ? trace.hypotheses[static_cast<std::size_t>(trace.chosen_hypothesis)].roll_rad : 0.0,
+        trace.correction_translation_m,
+        trace.correction_rotation_rad,
+        trace.correction_image_px};
+  };
+  EXPECT_EQ(figures(a), figures(b));
+  EXPECT_EQ(one.render_sha256, other.render_sha256);
+  EXPECT_TRUE(one.templates == other.templates);
 }
 
 void expectEqual(const OnboardRecord& a, const OnboardRecord& b) {

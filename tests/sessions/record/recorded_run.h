@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "sessions/record/onboard_record.h"
-#include "sessions/record/record_of_run.h"
 #include "sessions/run/runner.h"
 #include "tests/support/example_case.h"
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sessions/record/record_of_run.h"
+#include "sessions/record/onboard_record.h"
 #include "sessions/run/match_details.h"
 #include "sessions/run/run_text.h"
 #include "tests/sessions/record/recorded_run.h"
@@ -218,11 +218,9 @@ TEST(ReplayRecord, SurvivesContentsThatMakeNoSense) {
     const auto number = [&random] {
       return static_cast<std::int32_t>(random.below(2'000'000'000));
     };
-    one.template_side_px = trial % 3 == 0 ? -number() : number();
-    one.index = trial % 5 == 0 ? -number() : number();
-    one.hypotheses = number();
-    one.chosen_hypothesis = -number();
-    one.camera_from_station_before.translation_m.z() = trial % 2 == 0 ? NAN : 1e300;
+    one.trace.template_side_px = trial % 3 == 0 ? -number() : number();
+    one.trace.index = trial % 5 == 0 ? -number() : number();
+    one.trace.camera_from_station_before.translation_m.z() = trial % 2 == 0 ? NAN : 1e300;
     for (auto& item : one.templates.value()) {
       item.x = static_cast<int>(random.below(65536));
       item.found_x = trial % 4 == 0 ? NAN : 1e30F;

@@ -114,15 +114,6 @@ TEST(Localize, AccountsForItsTime) {
   EXPECT_GT(runs().full.seconds.initialization, 0.0);
 }
 
-TEST(Localize, StopsWhenAsked) {
-  std::stop_source source;
-  source.request_stop();
-  const LocalizationTrace trace =
-      localize(runs().example.problem(), defaultProfile(), RecordLevel::kFull, source.get_token());
-  EXPECT_EQ(trace.status, LocalizationStatus::kRunning);
-  EXPECT_TRUE(trace.iterations.empty());
-}
-
 TEST(Localize, RecordsAFailedIterationUpToItsStage) {
   LocalizerOptions options = defaultProfile();
   options.search.enabled = false;

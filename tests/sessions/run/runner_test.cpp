@@ -92,15 +92,5 @@ TEST(Runner, ASnapshotStaysWhatItWas) {
   EXPECT_EQ(run.trace().iterations.at(0), first) << "shared, not copied";
 }
 
-TEST(Runner, AProblemThatCannotRunIsFinishedWithAFault) {
-  LocalizationProblem problem = example().problem();
-  problem.mesh.faces = {};
-  Runner run(problem, defaultProfile());
-  run.advance(StepUntil::kEnd);
-  EXPECT_TRUE(run.finished());
-  EXPECT_EQ(run.trace().status, LocalizationStatus::kFault);
-  EXPECT_EQ(run.trace().fault, Status::kInvalidMesh);
-}
-
 }  // namespace
 }  // namespace boresight::sessions

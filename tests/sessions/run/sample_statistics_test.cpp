@@ -40,7 +40,6 @@ TEST(SampleStatistics, CountByKindAndBin) {
   EXPECT_EQ(made.border.used, 1);
   EXPECT_EQ(made.found_in_bin, (std::vector<std::int32_t>{1, 0, 2, 0, 1}));
   EXPECT_EQ(made.used_in_bin, (std::vector<std::int32_t>{0, 0, 2, 0, 0}));
-  EXPECT_EQ(made.median_px, 0.1);
   EXPECT_DOUBLE_EQ(made.all.foundShare(), 0.8);
 }
 
@@ -61,7 +60,6 @@ TEST(SampleStatistics, AreEmptyWithoutSamples) {
   const SampleStatistics made = sampleStatistics(IterationTrace{}, 3);
   EXPECT_EQ(made.all.places, 0);
   EXPECT_EQ(made.all.foundShare(), 0.0);
-  EXPECT_TRUE(std::isnan(made.median_px));
 }
 
 }  // namespace

@@ -51,38 +51,27 @@ std::string sealed(std::string without_checksum) {
   return without_checksum + std::string(sum.begin(), sum.end());
 }
 
-TEST(TraceFile, GivesBackTheOptionsTakenUpOnTheWay) {
+TEST(TraceFile, GivesBackEveryFieldExactly) {
   const test::TemporaryFolder folder;
   LocalizationTrace trace = exampleTrace();
   LocalizerOptions other;
   other.pnp.seed = 77;
   trace.changes = {{2, LocalizerOptions()}, {5, other}};
+  trace.rivals.resize(2);
+  trace.rivals[1].camera_from_station.translation_m = {0.1, 0.2, 0.3};
+  trace.rivals[1].ended = LocalizationStatus::kAmbiguous;
+  trace.rivals[1].margin_nats = 3.5;
   saveTrace(folder / "run.trace", trace);
   const LocalizationTrace loaded = loadTrace(folder / "run.trace");
+  EXPECT_EQ(bytesOf(loaded), bytesOf(trace));
+  // Not through the fields that the comparison above rests on:
   ASSERT_EQ(loaded.changes.size(), 2u);
   EXPECT_EQ(loaded.changes[0].iteration, 2);
-  EXPECT_EQ(loaded.changes[1].iteration, 5);
-  EXPECT_TRUE(sameOptions(loaded.changes[0].options, LocalizerOptions()));
   EXPECT_TRUE(sameOptions(loaded.lastOptions(), other));
-}
-
-TEST(TraceFile, OlderVersion_IsRefused) {
-  const test::TemporaryFolder folder;
-  saveTrace(folder / "run.trace", exampleTrace());
-  std::string bytes = folder.read("run.trace");
-  bytes.resize(bytes.size() - kChecksumBytes);
-  bytes[11] = 6;
-  folder.write("old.trace", sealed(bytes));
-  EXPECT_THROW((void)loadTrace(folder / "old.trace"), InputError);
-}
-
-TEST(TraceFile, GivesBackEveryFieldExactly) {
-  const test::TemporaryFolder folder;
-  saveTrace(folder / "run.trace", exampleTrace());
-  const LocalizationTrace loaded = loadTrace(folder / "run.trace");
-  EXPECT_EQ(bytesOf(loaded), bytesOf(exampleTrace()));
-  // Not through the fields that the comparison above rests on:
-  const LocalizationTrace& trace = exampleTrace();
+  ASSERT_EQ(loaded.rivals.size(), 2u);
+  EXPECT_EQ(loaded.rivals[1].camera_from_station, trace.rivals[1].camera_from_station);
+  EXPECT_EQ(loaded.rivals[1].ended, LocalizationStatus::kAmbiguous);
+  EXPECT_EQ(loaded.rivals[1].margin_nats, 3.5);
   ASSERT_EQ(loaded.iterations.size(), trace.iterations.size());
   EXPECT_EQ(loaded.digest, trace.digest);
   EXPECT_EQ(loaded.status, trace.status);
@@ -99,26 +88,6 @@ TEST(TraceFile, GivesBackEveryFieldExactly) {
   EXPECT_EQ(first.pnp.residual_px, expected.pnp.residual_px);
   EXPECT_EQ(loaded.iterations.back()->refinement.samples.back().residual_px,
             trace.iterations.back()->refinement.samples.back().residual_px);
-}
-
-TEST(TraceFile, GivesBackRivals) {
-  const test::TemporaryFolder folder;
-  LocalizationTrace trace = exampleTrace();
-  trace.status = LocalizationStatus::kAmbiguous;
-  trace.rivals.resize(2);
-  trace.rivals[1].camera_from_station.translation_m = {0.1, 0.2, 0.3};
-  trace.rivals[1].similarity = 0.6;
-  trace.rivals[1].ended = LocalizationStatus::kAmbiguous;
-  trace.rivals[1].margin_nats = 3.5;
-  saveTrace(folder / "run.trace", trace);
-  const LocalizationTrace loaded = loadTrace(folder / "run.trace");
-  EXPECT_EQ(loaded.status, LocalizationStatus::kAmbiguous);
-  ASSERT_EQ(loaded.rivals.size(), 2u);
-  const Rival& rival = loaded.rivals[1];
-  EXPECT_EQ(rival.camera_from_station, trace.rivals[1].camera_from_station);
-  EXPECT_EQ(rival.similarity, 0.6);
-  EXPECT_EQ(rival.ended, LocalizationStatus::kAmbiguous);
-  EXPECT_EQ(rival.margin_nats, 3.5);
 }
 
 TEST(TraceFile, KeepsAnEmptyTrace) {
@@ -142,11 +111,13 @@ TEST(TraceFile, RefusesWhatIsNotATrace) {
 TEST(TraceFile, RefusesAnotherVersion) {
   const test::TemporaryFolder folder;
   saveTrace(folder / "run.trace", {});
-  std::string bytes = folder.read("run.trace");
-  ++bytes[11];
-  folder.write("later.trace", bytes);
-  EXPECT_THAT(folder.message([&] { loadTrace(folder / "later.trace"); }),
-              HasSubstr("later.trace: version: " + std::to_string(bytes[11])));
+  for (const int later : {-1, 1}) {
+    std::string bytes = folder.read("run.trace");
+    bytes[11] = static_cast<char>(bytes[11] + later);
+    folder.write("other.trace", bytes);
+    EXPECT_THAT(folder.message([&] { loadTrace(folder / "other.trace"); }),
+                HasSubstr("other.trace: version: " + std::to_string(bytes[11])));
+  }
 }
 
 TEST(TraceFile, NoticesFlippedBitsAndCuts) {
@@ -164,33 +135,6 @@ TEST(TraceFile, NoticesFlippedBitsAndCuts) {
     folder.write("bad.trace", std::string_view(whole).substr(0, cut));
     EXPECT_THROW(loadTrace(folder / "bad.trace"), InputError) << cut;
   }
-}
-
-TEST(TraceFile, SurvivesContentThatOnlyLooksRight) {
-  const test::TemporaryFolder folder;
-  saveTrace(folder / "run.trace", exampleTrace());
-  std::string whole = folder.read("run.trace");
-  whole.resize(whole.size() - kChecksumBytes);
-  const auto size = static_cast<std::uint32_t>(whole.size());
-  Random random = test::randomFor("SurvivesContentThatOnlyLooksRight");
-  int refused = 0;
-  for (int i = 0; i < 60; ++i) {
-    std::string altered = whole;
-    // Every other time near the beginning, where counts and choices are dense.
-    const std::uint32_t range = i % 2 == 0 ? 4000 : size - 21;
-    altered[kHeaderBytes + random.below(range)] = static_cast<char>(random.below(256));
-    if (i % 3 == 0) altered.resize(altered.size() - 1 - random.below(4000));
-    folder.write("bad.trace", sealed(altered));
-    try {
-      const LocalizationTrace loaded = loadTrace(folder / "bad.trace");
-      for (const auto& iteration : loaded.iterations)
-        for (const EdgePixel& pixel : iteration->render.pixels)
-          EXPECT_TRUE(iteration->render.edges.view().contains(pixel.x, pixel.y));
-    } catch (const InputError&) {
-      ++refused;
-    }
-  }
-  EXPECT_GE(refused, 20);
 }
 
 TEST(TraceFile, RefusesMoreBytesThanFields) {

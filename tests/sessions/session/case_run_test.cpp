@@ -349,7 +349,7 @@ TEST_F(PackedMembers, BuffersOfAMeshAreThoseThatItStatesAndLieBesideIt) {
     one.parts[0].source.mesh = folder_.write(
         "mesh/cube.gltf", mesh::gltf(cube, R"([{"mesh":0}])", R"("uri":")" + uri + R"(",)"));
     one.parts[0].source.mesh_unit = "";
-    one.parts[0].sha256 = sessions::meshSha256(one.parts[0].source);
+    one.parts[0].sha256 = sessions::inputSha256(one.parts[0].source.mesh);
     return withCase(session_, one);
   };
   folder_.write("mesh/cube.bin", buffer);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sessions/io/errors.h"
+#include "sessions/session/session_file.h"
 #include "tests/sessions/session/random_session.h"
 #include "tests/support/temporary_folder.h"
 
@@ -12,49 +13,45 @@ namespace boresight::test {
 namespace {
 
 using sessions::Journal;
-using sessions::JournalContents;
+using sessions::Recovery;
+using sessions::Session;
 using testing::HasSubstr;
 
-Journal sampleJournal() {
-  const std::string time = "2026-01-31T23:59:59Z";
-  return {std::string(64, '0'),
-          {{"Edit \"1\"\nsecond line", time, std::string(64, 'a')},
-           {"Edit 2", time, std::string(64, 'b')}},
-          "{\n  \"format\": \"boresight-session\"\n}\n"};
+const Journal kJournal = {
+    std::string(64, '0'), "2026-01-31T23:59:59Z", {"Edit \"1\"\nsecond line", "Edit 2"}};
+
+std::string write(const TemporaryFolder& folder, const Session& session) {
+  sessions::writeJournal(folder / "j", kJournal, sessions::sessionText(session, folder / "j"));
+  return folder.read("j");
 }
 
 TEST(Journal, ReadsBackWhatWasWritten) {
+  Random random = randomFor("Journal");
   const TemporaryFolder folder;
-  const Journal journal = sampleJournal();
-  sessions::writeJournal(folder / "j", {});
-  sessions::writeJournal(folder / "j", journal);
-  const JournalContents contents = sessions::readJournal(folder / "j");
-  EXPECT_EQ(contents.problem, "");
-  EXPECT_EQ(contents.base_sha256, journal.base_sha256);
-  EXPECT_EQ(contents.entries, journal.entries);
-  EXPECT_EQ(contents.session_text, journal.session_text);
+  for (int i = 0; i < 20; ++i) {
+    const Session session = randomSession(random);
+    write(folder, session);
+    const Recovery read = sessions::readJournal(folder / "j");
+    EXPECT_EQ(read.base_sha256, kJournal.base_sha256);
+    EXPECT_EQ(read.time, kJournal.time);
+    EXPECT_EQ(read.edits, kJournal.edits);
+    EXPECT_TRUE(read.session == session);
+  }
 }
 
-TEST(Journal, ACutOrChangedOneIsNotUsed) {
+TEST(Journal, ACutOneIsNotUsed) {
   const TemporaryFolder folder;
-  sessions::writeJournal(folder / "j", sampleJournal());
-  const std::string whole = folder.read("j");
-  for (std::size_t length = 0; length < whole.size(); ++length)
-    EXPECT_NE(sessions::readJournal(folder.write("cut", whole.substr(0, length))).problem, "");
-  Random random = randomFor("journal bytes");
-  for (int i = 0; i < 400; ++i) {
-    std::string bad = whole;
-    const std::size_t at = indexBelow(random, bad.size());
-    bad[at] = static_cast<char>(random.below(256));
-    const bool same = bad == whole;
-    EXPECT_EQ(sessions::readJournal(folder.write("bad", bad)).problem.empty(), same) << at;
+  const std::string whole = write(folder, {});
+  for (std::size_t length = 0; length + 1 < whole.size(); ++length) {
+    const auto cut = folder.write("cut", whole.substr(0, length));
+    EXPECT_THROW((void)sessions::readJournal(cut), sessions::InputError) << length;
   }
 }
 
 TEST(Journal, SaysWhyItCannotBeUsed) {
   const TemporaryFolder folder;
-  EXPECT_EQ(sessions::readJournal(folder.write("j", "")).problem, "the file is empty");
-  EXPECT_THAT(sessions::readJournal(folder.write("j", "{}\n")).problem, HasSubstr("is damaged"));
+  EXPECT_THAT(folder.message([&] { (void)sessions::readJournal(folder.write("j", "{}\n")); }),
+              HasSubstr("j: format: missing"));
   EXPECT_THAT(folder.message([&] { (void)sessions::readJournal(folder / "none"); }),
               HasSubstr("none: no such file"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/session/label_agreement.h"
+#include "sessions/session/input_sheet.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

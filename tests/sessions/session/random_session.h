@@ -192,7 +192,7 @@ inline sessions::RerunRecord randomRerun(Random& random) {
     options.loop.inlier_threshold_px = random.uniform(0.1, 200.0);
     if (i == 1 || coin(random)) plan.changes.push_back({i * 3, options});
   }
-  return sessions::rerunRecord(coin(random) ? randomSha256(random) : "", plan);
+  return {plan, coin(random) ? randomSha256(random) : ""};
 }
 
 inline sessions::Check randomCheck(Random& random) {

@@ -7,7 +7,6 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/errors.h"
 #include "tests/sessions/session/random_session.h"
 #include "tests/support/temporary_folder.h"
 
@@ -200,25 +199,6 @@ TEST(SessionFile, LandmarksAreNoInputOfARun) {
   Session session = withPasses(withCase({}, one), "a", randomPasses(random));
   EXPECT_TRUE(withoutCase(session, "a").passes.empty());
   EXPECT_TRUE(withPasses(session, "a", {}).passes.empty());
-}
-
-TEST(SessionFile, SurvivesAnyByteLostOrChanged) {
-  const TemporaryFolder folder;
-  const std::string good = goodSession().dump();
-  Random random = randomFor("bytes");
-  for (int i = 0; i < 300; ++i) {
-    std::string bad = good;
-    if (coin(random))
-      bad.resize(indexBelow(random, bad.size()));
-    else
-      bad[indexBelow(random, bad.size())] = static_cast<char>(random.below(256));
-    const auto file = folder.write("s.json", bad);
-    try {
-      (void)sessions::readSessionFile(file);  // a changed digit may well be a session
-    } catch (const sessions::InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("s.json: "));
-    }
-  }
 }
 
 TEST(SessionFile, RefusesToWriteWhatIsNotText) {

@@ -13,7 +13,7 @@
 #include <QtWidgets>
 
 #include "core/localizer/localizer_options.h"
-#include "sessions/run/edge_detection.h"
+#include "sessions/run/iteration_trace.h"
 #include "sessions/run/overlay.h"
 #include "sessions/run/scene_render.h"
 #include "sessions/run/score_map.h"

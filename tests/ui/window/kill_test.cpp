@@ -25,13 +25,13 @@ namespace {
 
 constexpr int kPatienceMs = 120'000;
 
-/// The states that the disk has, the latest last: the saved one and those of the journal's edits.
+/// The states that the disk has, the latest last: the saved one and that of the journal.
 std::vector<std::string> statesOnDisk(const std::filesystem::path& file) {
   std::vector<std::string> states = {sessions::sha256Text(sessions::readFileBytes(file, SIZE_MAX))};
   const std::filesystem::path journal = sessions::journalFileOf(file);
   if (!std::filesystem::exists(journal)) return states;
-  for (const sessions::JournalEntry& entry : sessions::readJournal(journal).entries)
-    states.push_back(entry.after_sha256);
+  const sessions::Recovery left = sessions::readJournal(journal);
+  states.push_back(sessions::sha256Text(sessions::sessionText(left.session, file)));
   return states;
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/session/json_fields.h"
+#include "sessions/io/json_fields.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "core/localizer/localizer.h"
 #include "sessions/io/json_writer.h"
-#include "sessions/session/session.h"
 
 namespace boresight::sessions {
 namespace {
@@ -23,6 +24,20 @@ std::string PathWriter::operator()(const fs::path& file) const {
   const fs::path whole = fs::absolute(file).lexically_normal();
   const fs::path relative = whole.lexically_relative(folder_.lexically_normal());
   return relative.empty() ? whole.string() : relative.string();
+}
+
+bool isUtcText(const std::string& text) {
+  constexpr std::string_view kForm = "dddd-dd-ddTdd:dd:ddZ";
+  return text.size() == kForm.size() &&
+         std::equal(text.begin(), text.end(), kForm.begin(), [](char c, char form) {
+           return form == 'd' ? std::isdigit(static_cast<unsigned char>(c)) != 0 : c == form;
+         });
+}
+
+bool isSha256Text(const std::string& text) {
+  return text.size() == 64 && std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+         });
 }
 
 std::string readSha256(const JsonReader& json) {

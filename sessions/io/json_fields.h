@@ -19,11 +19,15 @@
 #include "core/geometry/pose.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_reader.h"
+#include "sessions/io/json_writer.h"
 
 namespace boresight::sessions {
 
 template <class Self, class Record>
 concept ConstOr = std::same_as<std::remove_const_t<Self>, Record>;
+
+/// Whether `text` is a SHA-256 in lower-case hexadecimal digits.
+bool isSha256Text(const std::string& text);
 
 /// {rotation_wxyz, translation_m}: reads back as the same bits.
 nlohmann::ordered_json exactPoseJson(const Pose& pose);
@@ -83,6 +87,12 @@ constexpr auto choiceOf(Name... names) {
                }};
 }
 
+/// A value that `toJson` writes.
+template <class Value, class Read>
+constexpr auto jsonCodec(Read read) {
+  return Codec{[](const Value& value) { return toJson(value); }, read};
+}
+
 template <class Element>
 constexpr auto listOf(Element element) {
   return Codec{[=](const auto& values) {
@@ -96,6 +106,12 @@ constexpr auto listOf(Element element) {
                  return values;
                }};
 }
+
+class PathWriter;
+template <class T>
+nlohmann::ordered_json fieldsJson(const T& value, const PathWriter* paths = nullptr);
+template <class T>
+T readFields(const JsonReader& json);
 
 /// Paths are written relative to the folder of the session, where there is such a path.
 class PathWriter {
@@ -120,6 +136,11 @@ class FieldWriter {
   void field(const char* key, const T& value, const Form& codec) {
     json_[key] = codec.write(value);
   }
+  /// May be missing in a file; then the value stays as it is.
+  template <class T, class Form>
+  void defaulted(const char* key, const T& value, const Form& codec) {
+    field(key, value, codec);
+  }
   /// Left out where there is no value, or the one that the type has by default.
   template <class T, class Form>
   void optional(const char* key, const T& value, const Form& codec) {
@@ -138,16 +159,16 @@ class FieldWriter {
   /// Of a struct with `fields` of its own, as are the others below.
   template <class T>
   void object(const char* key, const T& value) {
-    json_[key] = jsonOf(value);
+    json_[key] = fieldsJson(value, paths_);
   }
   template <class T>
   void object(const char* key, const std::optional<T>& value) {
-    if (value) json_[key] = jsonOf(*value);
+    if (value) json_[key] = fieldsJson(*value, paths_);
   }
   template <class T>
   void list(const char* key, const std::vector<T>& values) {
     json_[key] = nlohmann::ordered_json::array();
-    for (const T& value : values) json_[key].push_back(jsonOf(value));
+    for (const T& value : values) json_[key].push_back(fieldsJson(value, paths_));
   }
   template <class T>
   void optionalList(const char* key, const std::vector<T>& values) {
@@ -156,13 +177,6 @@ class FieldWriter {
   void add(const nlohmann::ordered_json& members) { json_.update(members); }
 
  private:
-  template <class T>
-  nlohmann::ordered_json jsonOf(const T& value) const {
-    FieldWriter writer(paths_);
-    fields(writer, value);
-    return writer.take();
-  }
-
   const PathWriter* paths_;
   nlohmann::ordered_json json_ = nlohmann::ordered_json::object();
 };
@@ -181,6 +195,10 @@ class FieldReader {
   void optional(const char* key, T& value, const Form& codec) {
     if (const auto found = json_.find(key)) value = codec.read(*found);
   }
+  template <class T, class Form>
+  void defaulted(const char* key, T& value, const Form& codec) {
+    optional(key, value, codec);
+  }
   /// Absolute and without detours.
   void path(const char* key, std::filesystem::path& value, FileUse use = FileUse::kInput) {
     value = std::filesystem::absolute(json_.at(key).path(use)).lexically_normal();
@@ -190,15 +208,15 @@ class FieldReader {
   }
   template <class T>
   void object(const char* key, T& value) {
-    value = valueOf<T>(json_.at(key));
+    value = readFields<T>(json_.at(key));
   }
   template <class T>
   void object(const char* key, std::optional<T>& value) {
-    if (const auto found = json_.find(key)) value = valueOf<T>(*found);
+    if (const auto found = json_.find(key)) value = readFields<T>(*found);
   }
   template <class T>
   void list(const char* key, std::vector<T>& values) {
-    for (const JsonReader& one : json_.at(key).elements()) values.push_back(valueOf<T>(one));
+    for (const JsonReader& one : json_.at(key).elements()) values.push_back(readFields<T>(one));
   }
   template <class T>
   void optionalList(const char* key, std::vector<T>& values) {
@@ -206,19 +224,11 @@ class FieldReader {
   }
 
  private:
-  template <class T>
-  static T valueOf(const JsonReader& json) {
-    T value;
-    FieldReader reader(json);
-    fields(reader, value);
-    return value;
-  }
-
   JsonReader json_;
 };
 
 template <class T>
-nlohmann::ordered_json fieldsJson(const T& value, const PathWriter* paths = nullptr) {
+nlohmann::ordered_json fieldsJson(const T& value, const PathWriter* paths) {
   FieldWriter writer(paths);
   fields(writer, value);
   return writer.take();

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/run/face_tree.h"
+#include "sessions/run/surface_point.h"
 
 #include <gtest/gtest.h>
 
 #include "sessions/io/scene_mesh.h"
-#include "sessions/run/surface_point.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::sessions {
