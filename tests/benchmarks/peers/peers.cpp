@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// whs beside other programs, from the same seeds on the same images; peers.md says what came of it.
+// whs beside other programs, from the same seeds on the same images; results: resources/evidence/peers.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
