@@ -20,13 +20,11 @@ struct TakenPage {
   const char* source;  ///< below the source
   const char* name;    ///< in the manual
 };
-constexpr std::array<TakenPage, 16> kTaken = {{
+constexpr std::array<TakenPage, 19> kTaken = {{
     {"sessions/session/README.md", "session_files.md"},
     {"sessions/evaluation/README.md", "results_files.md"},
-    {"sessions/evaluation/measured.md", "measured.md"},
     {"sessions/tables/README.md", "tables.md"},
     {"sessions/review/README.md", "validated_pose.md"},
-    {"sessions/review/checks.md", "checks_measured.md"},
     {"sessions/annotation/README.md", "marks.md"},
     {"sessions/exchange/README.md", "exchange.md"},
     {"sessions/examples/README.md", "examples.md"},
@@ -35,7 +33,12 @@ constexpr std::array<TakenPage, 16> kTaken = {{
     {"sessions/io/cameras.md", "cameras.md"},
     {"sessions/io/planetary.md", "image_labels.md"},
     {"core/record/FORMAT.md", "onboard_record.md"},
-    {"core/beyond.md", "beyond.md"},
+    {"resources/evidence/README.md", "evidence.md"},
+    {"resources/evidence/accuracy.md", "accuracy.md"},
+    {"resources/evidence/peers.md", "peers.md"},
+    {"resources/evidence/robustness.md", "robustness.md"},
+    {"resources/evidence/speed_and_memory.md", "speed_and_memory.md"},
+    {"resources/evidence/trust.md", "trust.md"},
     {"resources/matchers/README.md", "matchers.md"},
 }};
 

@@ -13,7 +13,7 @@ inline double acceptanceScore(const ContourEvidence& evidence, const EdgeSupport
 }
 
 /// The probability that a pose that a search has found is right: logistic in the acceptance score,
-/// fitted to poses of right and of foreign meshes searched in the same images (core/beyond.md).
+/// fitted to poses of right and of foreign meshes searched in the same images (resources/evidence/trust.md).
 double poseProbability(const ContourEvidence& evidence, const EdgeSupport& support);
 
 }  // namespace boresight

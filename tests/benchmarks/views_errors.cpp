@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What several views bring: every rig of a dataset by each view alone, by all together, and with
 // one view black, half covered or over-exposed. Prints errors at the views' own cameras (figures of
-// core/beyond.md), after every rig anew.
+// resources/evidence/accuracy.md and robustness.md), after each rig.
 //
 //   views_errors DATASET [N]   views are spoiled in every Nth rig only; 0: in none
 #include <algorithm>

@@ -172,7 +172,7 @@ TEST(Manual, NamesNoOptionThatThereIsNot) {
   add(defaultProfile());
   add(sessions::MethodOptions());
   add(sessions::CheckLimits());
-  for (const char* name : {"failed_run.md", "limits.md", "checks.md", "algorithm.md", "beyond.md",
+  for (const char* name : {"failed_run.md", "limits.md", "checks.md", "algorithm.md", "robustness.md", "trust.md",
                            "formats.md", "evaluate.md", "window.md"})
     for (const std::string& word : matches(pages().at(name), R"(`([a-z]+\.[a-z_]+)(=[^`]*)?`)", 1))
       EXPECT_TRUE(known.contains(word) || !groups.contains(word.substr(0, word.find('.'))))
