@@ -63,9 +63,9 @@ LocalizerOptions defaultProfile() { return {}; }
 
 LocalizerOptions paperProfile() {
   LocalizerOptions options;
-  options.render.max_edge_pixels = 200000;  // of the whole resolution
+  options.render.max_edge_pixels = 150000;  // of the whole resolution
   options.templates.size_factor = 1.0;
-  options.pnp.sampler = PnpSampler::kP3p;
+  options.pnp.sampler = PnpSampler::kEpnp;
   options.loop.match_iterations = options.loop.max_iterations;
   options.loop.coarse_size_px = 16384;
   options.loop.halved_size_px = 16384;
@@ -76,7 +76,8 @@ LocalizerOptions paperProfile() {
   options.loop.enough_inliers = 2.0;
   options.loop.render_again_px = 0.0;
   options.loop.anchored = false;
-  options.loop.leave_factor = 1.1;
+  options.loop.leave_factor = 1.0;
+  options.loop.subpixel_matches = false;
   options.refinement.enabled = false;
   options.support.gate = false;
   options.search.enabled = false;

@@ -21,7 +21,7 @@ namespace boresight {
 enum class CorrectionPoint : std::int32_t { kCamera = 0, kStation = 1 };
 inline constexpr const char* kCorrectionPointNames[] = {"camera", "station"};
 
-/// The loop around the stages (Pham 2025, Sec. III and Algorithm 1).
+/// The loop around the stages (Pham 2025, Sec. III-A).
 struct LoopOptions {
   std::int32_t max_iterations = 10;
   std::int32_t max_attempts = 3;
@@ -185,7 +185,9 @@ bool sameOptions(const LocalizerOptions& one, const LocalizerOptions& other);
 /// nullptr: the test edges are made once, and the memory is laid out once.
 const char* firstFixedOption(const LocalizerOptions& before, const LocalizerOptions& after);
 
-/// As published: full resolution from the start, P3P samples, no refinement on edges, no gate.
+/// The loop of Pham 2025, Sec. III-A and III-B: full resolution from the start, whole-pixel peaks,
+/// EPnP with RANSAC, no search, no refinement on edges, no acceptance test. What the paper leaves
+/// open, and how it is read here: resources/evidence/paper.md.
 LocalizerOptions paperProfile();
 /// Recommended settings.
 LocalizerOptions defaultProfile();

@@ -20,7 +20,7 @@ struct SearchWindow {
 };
 
 /// Where a point of the hypothesis can appear when the pose moves within `uncertainty` (Pham 2025,
-/// Sec. III-C): a rectangle that contains the projection of
+/// Sec. III-A): a rectangle that contains the projection of
 /// Exp(r)(p - c) + c + t for every |r_i| <= rotation_rad[i], |t_i| <= translation_m[i].
 /// Conservative by construction (bounds of the rotation's Taylor terms), clipped to centres whose
 /// template of side `template_side_px` lies inside the image; empty when none does, or when the

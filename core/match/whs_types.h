@@ -7,7 +7,7 @@
 
 namespace boresight {
 
-/// S+ and S- of Pham 2025, Eqs. 1-3: template edge pixels that meet a test edge, and masked-in
+/// S+ and S- of Pham 2025, Eqs. 1-6: template edge pixels that meet a test edge, and masked-in
 /// template non-edge pixels that meet none.
 struct WhsCounts {
   std::int32_t edge_hits = 0;                         ///< S+

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/pnp/epnp.h"
 #include "core/pnp/p3p.h"
 #include "core/pnp/refine_pose.h"
 
@@ -18,8 +19,10 @@ constexpr int kLocalSteps = 5;
 constexpr int kRefineRounds = 20;
 constexpr int kProjectionsPerStep = 32768;  ///< about a millisecond
 constexpr int kMaxSamplesPerStep = 64;
-/// Of both samplers: a guided sample of three needs fewer draws than one of four.
+/// A guided sample of three needs fewer draws than one of four.
 constexpr int kSampleSize = 3;
+/// Four points may have several poses (EPnP's null space has four dimensions).
+constexpr int kEpnpSampleSize = 5;
 /// RANSAC ends at this probability of having drawn a sample without outliers.
 constexpr double kConfidence = 0.999;
 /// Refits on the inliers after each new best sample, at most.
@@ -147,9 +150,10 @@ Status PnpRansac::begin(std::span<const Correspondence> correspondences,
   const Status status = validate(threshold_px, hypothesis);
   if (status != Status::kOk) return finish(status);
   listUsable();
-  if (usable_count_ < options_.min_inliers) return finish(Status::kTooFewPoints);
+  if (usable_count_ < std::max(options_.min_inliers, sampleSize()))
+    return finish(Status::kTooFewPoints);
   prior_ = {hypothesis.camera_from_station, scaled(hypothesis.sigma, kPriorFactor)};
-  sampler_.begin(place_px_.first(static_cast<std::size_t>(usable_count_)), kSampleSize,
+  sampler_.begin(place_px_.first(static_cast<std::size_t>(usable_count_)), sampleSize(),
                  static_cast<std::uint64_t>(options.seed));
   phase_ = Phase::kSampling;
   status_ = Status::kOk;
@@ -227,26 +231,34 @@ const Correspondence& PnpRansac::usable(std::int32_t k) const {
   return correspondences_[static_cast<std::size_t>(usable_[static_cast<std::size_t>(k)])];
 }
 
-/// Whether the first three are of one view: what a minimal sample must be.
-bool PnpRansac::isOfOneView(const std::array<std::int32_t, 4>& sample) const {
-  const std::size_t view = viewOfUsable(sample[0]);
-  return viewOfUsable(sample[1]) == view && viewOfUsable(sample[2]) == view;
+int PnpRansac::sampleSize() const {
+  return options_.sampler == PnpSampler::kEpnp ? kEpnpSampleSize : kSampleSize;
+}
+
+/// Whether all points of a sample are of one view: P3P and EPnP solve for one camera.
+bool PnpRansac::isOfOneView(const SpreadSampler::Sample& sample) const {
+  const auto points = std::span(sample).first(static_cast<std::size_t>(sampleSize()));
+  return std::all_of(points.begin(), points.end(),
+                     [&](std::int32_t k) { return viewOfUsable(k) == viewOfUsable(sample[0]); });
 }
 
 void PnpRansac::takeSample() {
-  std::array<std::int32_t, 4> sample = sampler_.draw();
-  const bool minimal = options_.sampler == PnpSampler::kP3p;
+  SpreadSampler::Sample sample = sampler_.draw();
+  const bool minimal = options_.sampler != PnpSampler::kGuided;
   for (int i = 0; minimal && i < kMostRedraws && !isOfOneView(sample); ++i)
     sample = sampler_.draw();
   ++samples_;
-  if (options_.sampler == PnpSampler::kGuided) {
-    sampleGuided(sample);
-  } else {
-    sampleP3p(sample);
+  switch (options_.sampler) {
+    case PnpSampler::kP3p:
+      return sampleP3p(sample);
+    case PnpSampler::kGuided:
+      return sampleGuided(sample);
+    case PnpSampler::kEpnp:
+      return sampleEpnp(sample);
   }
 }
 
-void PnpRansac::sampleP3p(const std::array<std::int32_t, 4>& sample) {
+void PnpRansac::sampleP3p(const SpreadSampler::Sample& sample) {
   std::array<Eigen::Vector3d, 3> bearing;
   std::array<Eigen::Vector3d, 3> point;
   if (!isOfOneView(sample)) return;
@@ -265,7 +277,23 @@ void PnpRansac::sampleP3p(const std::array<std::int32_t, 4>& sample) {
   }
 }
 
-void PnpRansac::sampleGuided(const std::array<std::int32_t, 4>& sample) {
+void PnpRansac::sampleEpnp(const SpreadSampler::Sample& sample) {
+  std::array<Eigen::Vector3d, kEpnpSampleSize> bearing;
+  std::array<Eigen::Vector3d, kEpnpSampleSize> point;
+  if (!isOfOneView(sample)) return;
+  const std::size_t view = viewOfUsable(sample[0]);
+  const Pose camera_from_station = poseOfView(views_, view, hypothesis_.camera_from_station);
+  for (std::size_t i = 0; i < kEpnpSampleSize; ++i) {
+    const Correspondence& item = usable(sample[i]);
+    if (!bearingOf(*views_[view].camera, item, camera_from_station, bearing[i])) return;
+    point[i] = item.point_in_station_m;
+  }
+  Pose found;
+  if (!solveEpnp(bearing, point, found)) return;
+  consider(view == 0 ? found : views_[view].camera_from_first.inverse() * found);
+}
+
+void PnpRansac::sampleGuided(const SpreadSampler::Sample& sample) {
   std::array<Correspondence, 4> items;
   std::array<PnpView, kMaxPnpViews> views;
   constexpr std::size_t size = kSampleSize;
@@ -287,7 +315,7 @@ void PnpRansac::consider(const Pose& camera_from_station) {
   if (!score(camera_from_station, best_score_.cost, found)) return;
   best_ = camera_from_station;
   best_score_ = found;
-  optimizeLocally();
+  if (options_.sampler != PnpSampler::kEpnp) optimizeLocally();
 }
 
 void PnpRansac::optimizeLocally() {
@@ -310,7 +338,7 @@ bool PnpRansac::enoughSamples() const {
   if (samples_ >= options_.max_samples) return true;
   const double share =
       static_cast<double>(best_score_.inliers) / static_cast<double>(usable_count_);
-  const double all_missed = power(1.0 - power(share, kSampleSize), samples_);
+  const double all_missed = power(1.0 - power(share, sampleSize()), samples_);
   return all_missed <= 1.0 - kConfidence;
 }
 
@@ -318,6 +346,7 @@ bool PnpRansac::enoughSamples() const {
 bool PnpRansac::score(const Pose& camera_from_station, double limit, Score& result) const {
   const Transforms transforms(views_, camera_from_station);
   const double largest = threshold_px_ * threshold_px_;
+  const bool counts_inliers = options_.sampler == PnpSampler::kEpnp;
   double cost = 0.0;
   std::int32_t inliers = 0;
   for (std::int32_t k = 0; k < usable_count_; ++k) {
@@ -325,7 +354,7 @@ bool PnpRansac::score(const Pose& camera_from_station, double limit, Score& resu
     const double squared = transforms.squaredResidual(correspondences_, i);
     const bool inside = squared <= largest;  // false for a NaN
     inliers += inside ? 1 : 0;
-    cost += weight_[i] * (inside ? squared : largest);
+    cost += weight_[i] * (!inside ? largest : counts_inliers ? 0.0 : squared);
     if (!(cost < limit)) return false;
   }
   result = {cost, inliers};
@@ -356,7 +385,8 @@ Status PnpRansac::refine() {
   std::int32_t count = 0;
   bool changed = true;
   (void)selectInliers(pose, count);  // whatever was marked before
-  for (int round = 0; round < kRefineRounds && changed; ++round) {
+  const int rounds = options_.sampler == PnpSampler::kEpnp ? 1 : kRefineRounds;
+  for (int round = 0; round < rounds && changed; ++round) {
     if (count < options_.min_inliers) return Status::kNoConsensus;
     const Status status =
         refinePose(correspondences_, selected, views_, nullptr, kRefineSteps, pose);

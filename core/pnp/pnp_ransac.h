@@ -32,16 +32,18 @@ struct PnpSolution {
 /// RANSAC in bounded slices, then refinement over all inliers.
 ///
 /// - Samples: three points by P3P (every solution is scored; where the entrance pupil moves, the
-///   bearings are those of points as far off as the hypothesis has them), or a few refined from the
-///   hypothesis under its weak prior (the hypothesis itself is scored first).
+///   bearings are those of points as far off as the hypothesis has them), three refined from the
+///   hypothesis under its weak prior (the hypothesis itself is scored first), or five by EPnP.
 /// - Score: sum of min(residual^2, threshold^2) / sigma^2 over the usable correspondences (MSAC,
 ///   Torr and Zisserman 2000), the lowest wins, the earlier of equals.
 /// - Every new best is refitted to its inliers, without that prior, while this lowers the score
 ///   (LO-RANSAC, Chum, Matas and Kittler 2003).
 /// - Stops when a sample of inliers alone has been drawn with the wanted confidence, given the
 ///   best pose's share of inliers, or at max_samples.
-/// - Last, refit to the inliers and select them anew until they stay the same. Both halves lower
+/// - Last, refit to the inliers and select them again until they stay the same. Both halves lower
 ///   the score, so this ends; the result minimizes the squares over the inliers it reports.
+/// - With EPnP it is plain RANSAC (Fischler and Bolles 1981): most inliers win, no sample is
+///   refitted, and the result minimizes the squares over the best sample's inliers.
 ///
 /// Statuses (of `begin` or `step`): kInvalidOption (options, or a threshold that is not positive
 /// below 1e6), kInvalidCamera (not prepared), kInvalidPose (hypothesis),
@@ -80,12 +82,14 @@ class PnpRansac {
   Status validate(double threshold_px, const PosePrior& hypothesis) const;
   void listUsable();
   std::size_t viewOfUsable(std::int32_t k) const;
-  bool isOfOneView(const std::array<std::int32_t, 4>& sample) const;
+  int sampleSize() const;
+  bool isOfOneView(const SpreadSampler::Sample& sample) const;
   const Correspondence& usable(std::int32_t k) const;
   Status finish(Status status);
   void takeSample();
-  void sampleP3p(const std::array<std::int32_t, 4>& sample);
-  void sampleGuided(const std::array<std::int32_t, 4>& sample);
+  void sampleP3p(const SpreadSampler::Sample& sample);
+  void sampleEpnp(const SpreadSampler::Sample& sample);
+  void sampleGuided(const SpreadSampler::Sample& sample);
   void consider(const Pose& camera_from_station);
   void optimizeLocally();
   bool enoughSamples() const;

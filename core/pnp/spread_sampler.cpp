@@ -29,15 +29,15 @@ void SpreadSampler::begin(std::span<const Eigen::Vector2d> place_px, int size, s
   all_ = scatterOf(count, Eigen::Vector2d::Zero(), xx, xy, yy);
 }
 
-std::array<std::int32_t, 4> SpreadSampler::draw() {
-  std::array<std::int32_t, 4> sample = drawDistinct();
+SpreadSampler::Sample SpreadSampler::draw() {
+  Sample sample = drawDistinct();
   for (int i = 1; i < kMaxDraws && !isSpread(sample); ++i) sample = drawDistinct();
   return sample;
 }
 
-std::array<std::int32_t, 4> SpreadSampler::drawDistinct() {
-  std::array<std::int32_t, 4> sample{};
-  std::array<std::int32_t, 4> taken{};  // ascending
+SpreadSampler::Sample SpreadSampler::drawDistinct() {
+  Sample sample{};
+  Sample taken{};  // ascending
   const auto places = static_cast<std::uint32_t>(place_px_.size());
   for (int i = 0; i < size_; ++i) {
     const std::uint32_t left = places - static_cast<std::uint32_t>(i);
@@ -53,7 +53,7 @@ std::array<std::int32_t, 4> SpreadSampler::drawDistinct() {
   return sample;
 }
 
-bool SpreadSampler::isSpread(const std::array<std::int32_t, 4>& sample) const {
+bool SpreadSampler::isSpread(const Sample& sample) const {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double xx = 0.0, xy = 0.0, yy = 0.0;
   for (int i = 0; i < size_; ++i) {

@@ -11,18 +11,21 @@
 
 namespace boresight {
 
-/// Draws samples of three or four places without replacement, preferring well spread ones: a sample
+/// Draws samples of three to five places without replacement, preferring well spread ones: a sample
 /// that is nearly on a line or in one spot fixes a pose badly, whatever its matches are worth.
 class SpreadSampler {
  public:
-  /// `place_px`: where the candidates lie in the image; must outlive the draws. `size`: 3 or 4, not
-  /// above the number of places.
+  static constexpr std::size_t kMostPlaces = 5;  ///< of a sample
+  using Sample = std::array<std::int32_t, kMostPlaces>;
+
+  /// `place_px`: where the candidates lie in the image; must outlive the draws. `size`: 3 to
+  /// kMostPlaces, not above the number of places.
   void begin(std::span<const Eigen::Vector2d> place_px, int size, std::uint64_t seed);
 
   /// Indices of one sample (the first `size` entries), in the order drawn. Draws again, at most 16
   /// times, while the smaller or the larger semi-axis of the sample's scatter is below a fifth of
   /// that of all places; then takes what came last.
-  std::array<std::int32_t, 4> draw();
+  Sample draw();
 
  private:
   /// Variances along the two principal axes.
@@ -31,8 +34,8 @@ class SpreadSampler {
     double smaller_px2 = 0.0;
   };
 
-  std::array<std::int32_t, 4> drawDistinct();
-  bool isSpread(const std::array<std::int32_t, 4>& sample) const;
+  Sample drawDistinct();
+  bool isSpread(const Sample& sample) const;
   static Scatter scatterOf(double count, const Eigen::Vector2d& sum, double xx, double xy,
                            double yy);
 

@@ -35,7 +35,7 @@ enum EdgeKind : std::uint8_t {
   kEdgeBorder = 4,     ///< the other side is background
 };
 
-/// Salient edges of the scene from one pose (Pham 2025, Sec. III-A): the baseline edge map, its
+/// Salient edges of the scene from one pose (Pham 2025, Sec. III-B): the baseline edge map, its
 /// mask, and depth, normal and sub-pixel place at the edge pixels, in raster order.
 struct EdgeRender {
   BitImage edges;  ///< 1 at salient edges

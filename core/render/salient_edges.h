@@ -16,7 +16,7 @@
 
 namespace boresight {
 
-/// Finds the salient edges of rendered rows (Pham 2025, Sec. III-A), thin and unbiased: every pair
+/// Finds the salient edges of rendered rows (Pham 2025, Sec. III-B), thin and unbiased: every pair
 /// of neighbouring pixels whose surfaces differ gives the exact place between their centres where
 /// the nearer surface ends, and marks the pixel that is nearer to it.
 ///

@@ -18,19 +18,19 @@ inline cv::Mat matOf(const ImageView& image) {
           static_cast<std::size_t>(image.stride)};
 }
 
-/// SSD and NCC (Pham 2025, Sec. IV): every template's shaded intensities against the image's, at
+/// SSD and NCC (Pham 2025, Sec. V): every template's shaded intensities against the image's, at
 /// all offsets of its search window, by OpenCV's matchTemplate. Templates without any contrast are
 /// not found. Places are refined by a parabola per axis where loop.subpixel_matches asks for it.
 std::unique_ptr<MatchingMethod> makeSsd(const SsdOptions& options);
 std::unique_ptr<MatchingMethod> makeNcc(const NccOptions& options);
 
-/// ORB (Rublee 2011; Pham 2025, Sec. IV): features of the shaded render against those of the image
+/// ORB (Rublee 2011; Pham 2025, Sec. V): features of the shaded render against those of the image
 /// that lie in their search windows, by the distance of their descriptors.
 std::unique_ptr<MatchingMethod> makeOrb(const OrbOptions& options);
 
 /// What an external matcher is shown.
 enum class ExternalFrames {
-  kWhole,      ///< image and render as a whole (LoFTR-R of Pham 2025, Sec. IV)
+  kWhole,      ///< image and render as a whole (LoFTR-R of Pham 2025, Sec. V)
   kSubframes,  ///< from an attempt's second iteration on, in frames of the matcher's size (LoFTR-S)
 };
 

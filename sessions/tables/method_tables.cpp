@@ -16,8 +16,8 @@ namespace {
 constexpr const char* kPaperSource = "Pham et al., IEEE RA-L 2025, 10.1109/LRA.2025.3614045";
 /// To be said wherever its success stands beside ours.
 constexpr const char* kPaperCaution =
-    "Rows marked (paper): 2000 synthetic images a station. The requirement behind its success "
-    "column is not stated and is not ours: compare errors, not success.";
+    "Rows marked (paper): 2000 synthetic images a station. The paper requires 0.4 mm and 0.25 deg "
+    "(Sec. I), but its successful runs exceed both (Table I): compare errors, not success.";
 
 /// mean, standard deviation, maximum
 using PaperStatistics = std::array<double, 3>;

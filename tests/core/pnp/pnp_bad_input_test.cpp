@@ -45,9 +45,11 @@ class PnpRansacBadInput : public ::testing::TestWithParam<PnpSampler> {
 };
 
 INSTANTIATE_TEST_SUITE_P(EverySampler, PnpRansacBadInput,
-                         ::testing::Values(PnpSampler::kP3p, PnpSampler::kGuided),
+                         ::testing::Values(PnpSampler::kP3p, PnpSampler::kGuided,
+                                           PnpSampler::kEpnp),
                          [](const auto& tested) {
-                           return std::string(tested.param == PnpSampler::kP3p ? "P3p" : "Guided");
+                           const auto name = kPnpSamplerNames[static_cast<int>(tested.param)];
+                           return std::string(name);
                          });
 
 TEST_P(PnpRansacBadInput, FewPointsAreTooFew) {
@@ -158,8 +160,8 @@ TEST_P(PnpRansacBadInput, AHypothesisThatSeesNothingEndsWithAStatus) {
   PnpScene scene = makeScene(random, {.points = 20});
   scene.hypothesis.camera_from_station.translation_m.z() = -0.5;
   const Status status = solveSoundly(scene, 2.0, options());
-  if (GetParam() == PnpSampler::kP3p) {
-    EXPECT_EQ(status, Status::kOk) << "P3P does not need the hypothesis";
+  if (GetParam() != PnpSampler::kGuided) {
+    EXPECT_EQ(status, Status::kOk) << "P3P and EPnP do not need the hypothesis";
   } else {
     EXPECT_NE(status, Status::kOk);
   }
@@ -223,7 +225,7 @@ TEST(PnpRansac, SurvivesArbitraryNumbers) {
     }
     if (random.below(4) == 0) scene.hypothesis.camera_from_station.translation_m.z() = pick();
     PnpOptions options;
-    options.sampler = trial % 2 == 0 ? PnpSampler::kP3p : PnpSampler::kGuided;
+    options.sampler = static_cast<PnpSampler>(trial % 3);
     options.max_samples = 50;
     options.min_inliers = 4;
     (void)solveSoundly(scene, 5.0, options);  // any status, as long as the solution is sound

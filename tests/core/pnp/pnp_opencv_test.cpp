@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>
 
+#include "core/pnp/epnp.h"
 #include "tests/core/geometry/example_cameras.h"
 #include "tests/core/pnp/pnp_scene.h"
 
@@ -99,6 +100,33 @@ TEST_P(PnpAgainstOpenCv, AgreesWithItsIterativeSolver) {
 TEST_P(PnpAgainstOpenCv, AgreesWithSqpnpOnExactData) {
   expectPosesOfOpenCv("Sqpnp." + GetParam().name, GetParam().camera, {.points = 40}, 1.0,
                       cv::SOLVEPNP_SQPNP);
+}
+
+/// Errors of EPnP and of OpenCV's on the same noisy points, summed.
+TEST(SolveEpnpAgainstOpenCv, NoisyPoints_GiveNoLargerErrors) {
+  Random random = randomFor("SolveEpnpAgainstOpenCv.NoisyPoints");
+  const Camera camera = test::makePinhole(1000, 1000, 1000.0);
+  double ours_rad = 0.0;
+  double theirs_rad = 0.0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const PnpScene scene = makeScene(random, {.points = 6 + trial % 40, .noise_px = 0.3}, camera);
+    const Matched matched =
+        inliersOf(scene, std::vector<std::uint8_t>(scene.correspondences.size(), 1));
+    std::vector<Eigen::Vector3d> bearing, point;
+    for (const Correspondence& item : scene.correspondences) {
+      point.push_back(item.point_in_station_m);
+      ASSERT_TRUE(unproject(camera, item.pixel, bearing.emplace_back()));
+    }
+    Pose ours;
+    ASSERT_TRUE(solveEpnp(bearing, point, ours));
+    const Pose theirs = solveByOpenCv(matched, camera, cv::SOLVEPNP_EPNP);
+    const auto error_rad = [&](const Pose& pose) {
+      return std::min(0.2, rotationLog(pose.rotation * scene.camera_from_station.rotation.conjugate()).norm());
+    };
+    ours_rad += error_rad(ours);
+    theirs_rad += error_rad(theirs);
+  }
+  EXPECT_LT(ours_rad, 1.1 * theirs_rad);
 }
 
 TEST(SolveP3pAgainstOpenCv, FindsTheSameSolutions) {

@@ -262,7 +262,7 @@ TEST(PnpRansac, GivesTheSameBitsHoweverItIsRun) {
   Random random = randomFor("PnpRansac.GivesTheSameBitsHoweverItIsRun");
   const PnpScene scene = makeScene(random, {.points = 90, .outlier_share = 0.5, .noise_px = 1.0});
   const PnpScene other = makeScene(random, {.points = 50, .outlier_share = 0.6, .noise_px = 2.0});
-  for (const PnpSampler sampler : {PnpSampler::kP3p, PnpSampler::kGuided}) {
+  for (const PnpSampler sampler : {PnpSampler::kP3p, PnpSampler::kGuided, PnpSampler::kEpnp}) {
     PnpOptions options;
     options.sampler = sampler;
     Solver whole(90);
@@ -325,7 +325,8 @@ TEST(PnpRansac, TakesFromTheArenaWhatItCounts) {
 
 class PnpSamplersWithAMovingPupil : public ::testing::TestWithParam<PnpSampler> {};
 INSTANTIATE_TEST_SUITE_P(Samplers, PnpSamplersWithAMovingPupil,
-                         ::testing::Values(PnpSampler::kP3p, PnpSampler::kGuided));
+                         ::testing::Values(PnpSampler::kP3p, PnpSampler::kGuided,
+                                           PnpSampler::kEpnp));
 
 /// Points all over the image of a camera whose pupil moves by 4 mm, a third of them wrong.
 TEST_P(PnpSamplersWithAMovingPupil, FindsTheTruthDespiteOutliers) {

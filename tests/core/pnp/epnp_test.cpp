@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/pnp/epnp.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
+
+#include "core/base/symmetric_eigen.h"
+#include "tests/support/random_pose.h"
+
+namespace boresight {
+namespace {
+
+using test::randomFor;
+using test::randomVector;
+
+struct Seen {
+  Pose camera_from_station;
+  std::vector<Eigen::Vector3d> bearing;
+  std::vector<Eigen::Vector3d> point_in_station_m;
+};
+
+/// Points of a box of 0.12 m in x and y and `thickness_m` in z, some 0.4 m before the camera.
+Seen seenBox(Random& random, int count, double thickness_m) {
+  Seen seen;
+  seen.camera_from_station.rotation = rotationExp(randomVector(random, 1.0));
+  seen.camera_from_station.translation_m = {0.02, -0.03, random.uniform(0.3, 0.5)};
+  for (int i = 0; i < count; ++i) {
+    const double x = random.uniform(-0.06, 0.06);
+    const double y = random.uniform(-0.06, 0.06);
+    const Eigen::Vector3d point(x, y, 0.5 * thickness_m * random.uniform(-1.0, 1.0));
+    seen.point_in_station_m.push_back(point);
+    seen.bearing.push_back((seen.camera_from_station * point).normalized());
+  }
+  return seen;
+}
+
+double distance(const Pose& a, const Pose& b) {
+  return std::max(rotationLog(a.rotation * b.rotation.conjugate()).norm(),
+                  (a.translation_m - b.translation_m).norm());
+}
+
+TEST(SolveEpnp, FindsTheTruePoseOfExactPoints) {
+  Random random = randomFor("SolveEpnp.FindsTheTruePoseOfExactPoints");
+  for (const double thickness_m : {0.1, 0.004, 0.0}) {
+    for (int trial = 0; trial < 200; ++trial) {
+      SCOPED_TRACE(thickness_m);
+      const Seen seen = seenBox(random, 5 + trial % 30, thickness_m);
+      Pose found;
+      ASSERT_TRUE(solveEpnp(seen.bearing, seen.point_in_station_m, found));
+      EXPECT_LT(distance(found, seen.camera_from_station), 1e-5);
+    }
+  }
+}
+
+TEST(SolveEpnp, FourPointsOfAPlane_DetermineThePose) {
+  Random random = randomFor("SolveEpnp.FourPointsOfAPlane");
+  for (int trial = 0; trial < 200; ++trial) {
+    const Seen seen = seenBox(random, 4, 0.0);
+    Pose found;
+    ASSERT_TRUE(solveEpnp(seen.bearing, seen.point_in_station_m, found));
+    EXPECT_LT(distance(found, seen.camera_from_station), 1e-4);
+  }
+}
+
+TEST(SolveEpnp, LengthsOfBearings_DoNotMatter) {
+  Random random = randomFor("SolveEpnp.LengthsOfBearings");
+  Seen seen = seenBox(random, 8, 0.1);
+  for (Eigen::Vector3d& bearing : seen.bearing) bearing *= random.uniform(0.1, 10.0);
+  Pose found;
+  ASSERT_TRUE(solveEpnp(seen.bearing, seen.point_in_station_m, found));
+  EXPECT_LT(distance(found, seen.camera_from_station), 1e-6);
+}
+
+TEST(SolveEpnp, DegenerateInput_IsRefused) {
+  Random random = randomFor("SolveEpnp.DegenerateInput");
+  const Seen good = seenBox(random, 6, 0.1);
+  Pose found;
+  const auto solves = [&](const Seen& seen) {
+    return solveEpnp(seen.bearing, seen.point_in_station_m, found);
+  };
+  ASSERT_TRUE(solves(good));
+  Seen few = good;
+  few.bearing.resize(3);
+  few.point_in_station_m.resize(3);
+  EXPECT_FALSE(solves(few));
+  Seen uneven = good;
+  uneven.bearing.pop_back();
+  EXPECT_FALSE(solves(uneven));
+  Seen line = good;
+  for (std::size_t i = 0; i < line.point_in_station_m.size(); ++i) {
+    line.point_in_station_m[i] = Eigen::Vector3d(0.01, 0.02, 0.005) * static_cast<double>(i);
+    line.bearing[i] = line.camera_from_station * line.point_in_station_m[i];
+  }
+  EXPECT_FALSE(solves(line));
+  Seen one_place = good;
+  for (Eigen::Vector3d& point : one_place.point_in_station_m) point.setZero();
+  EXPECT_FALSE(solves(one_place));
+  Seen behind = good;
+  behind.bearing[2] = -behind.bearing[2];
+  EXPECT_FALSE(solves(behind));
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Seen broken = good;
+    broken.bearing[1].x() = bad;
+    EXPECT_FALSE(solves(broken));
+    broken = good;
+    broken.point_in_station_m[1].y() = bad;
+    EXPECT_FALSE(solves(broken));
+  }
+}
+
+TEST(SymmetricEigen, RandomMatrices_AgreeWithEigen) {
+  Random random = randomFor("SymmetricEigen.RandomMatrices");
+  constexpr int kSize = 12;
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+  for (int trial = 0; trial < 100; ++trial) {
+    Matrix root;
+    for (int i = 0; i < kSize * kSize; ++i) root.data()[i] = random.uniform(-1.0, 1.0);
+    if (trial % 3 == 0) root.leftCols<4>().setZero();  // singular
+    const Matrix matrix = root * root.transpose();
+    const SymmetricEigen<kSize> ours(matrix);
+    const Eigen::SelfAdjointEigenSolver<Matrix> theirs(matrix);
+    EXPECT_LT((ours.values - theirs.eigenvalues()).norm(), 1e-12 * matrix.norm());
+    EXPECT_LT((ours.vectors.transpose() * ours.vectors - Matrix::Identity()).norm(), 1e-12);
+    EXPECT_LT((matrix * ours.vectors - ours.vectors * ours.values.asDiagonal()).norm(),
+              1e-12 * matrix.norm());
+  }
+}
+
+}  // namespace
+}  // namespace boresight
