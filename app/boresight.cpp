@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <string>
 #include <string_view>
@@ -14,9 +13,9 @@
 #include <QCommandLineParser>
 #include <QTemporaryDir>
 
-#include "app/documents/manual_folder.h"
 #include "app/exit_codes.h"
 #include "app/plain_output.h"
+#include "app/written_pages.h"
 #include "ui/window/application.h"
 #include "ui/window/main_window.h"
 #include "ui/window/screenshot.h"
@@ -143,7 +142,6 @@ bool wantsNoDisplay(int count, char** values) {
 
 /// The manual's page of the command line.
 std::string argumentsPage() {
-  using documents::markdownText;
   std::string text = std::string("# boresight on the command line\n\n") + kDescription +
                      "\n\n| argument | meaning |\n|---|---|\n| `files` | " +
                      markdownText(kFilesHelp) + " |\n";
@@ -160,29 +158,14 @@ std::string keysPage() {
   std::string text =
       "# Every key\n\nF1 shows them in the program.\n\n| key | what it does |\n|---|---|\n";
   for (const ui::KeyRow& row : ui::keysOf(window))
-    text += "| " + documents::markdownText(row.keys.toStdString()) + " | " +
-            documents::markdownText(row.text.toStdString()) + " |\n";
+    text += "| " + markdownText(row.keys.toStdString()) + " | " +
+            markdownText(row.text.toStdString()) + " |\n";
   return text;
 }
 
 int usageError(const std::string& message) {
   std::cerr << "boresight: " << message << "; see boresight --help\n";
   return kUsage;
-}
-
-/// The pages of the manual that this program writes.
-int writePages(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  std::ofstream arguments(folder / "boresight.md");
-  std::ofstream keys(folder / "keys.md");
-  arguments << argumentsPage();
-  if (keys) keys << keysPage();  // made from a window: not where it cannot be written
-  arguments.close();
-  keys.close();
-  if (arguments && keys) return kDone;
-  std::cerr << "boresight: " << folder.string() << ": pages cannot be written there\n";
-  return kBadInput;
 }
 
 int runProgram(int argc, char** argv) {
@@ -194,7 +177,9 @@ int runProgram(int argc, char** argv) {
   std::string problem;
   if (!readArguments(application, arguments, problem)) return usageError(problem);
   if (arguments.self_test) return ui::runSelfTest(std::cout) == 0 ? kDone : kInternalFault;
-  if (!arguments.documents.empty()) return writePages(arguments.documents);
+  if (!arguments.documents.empty())
+    return writePages(arguments.documents,
+                      {{"boresight.md", argumentsPage()}, {"keys.md", keysPage()}});
   if (arguments.dark) ui::useDarkColors(application);
   ui::MainWindow window;
   if (!arguments.screenshot.out.empty()) {

@@ -88,8 +88,6 @@ class ResultsWriter {
   /// Notes that the sitting ended by itself.
   void end();
 
-  std::int64_t runs() const { return static_cast<std::int64_t>(known_.size()); }
-
  private:
   struct Insertions;
   void insert(const RunResult& run);

@@ -18,7 +18,6 @@
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/evaluation/results_file.h"
 #include "sessions/evaluation/run_result.h"
-#include "sessions/evaluation/summary.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/tables/results_set.h"
