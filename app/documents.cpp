@@ -1,35 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manual's pages of commands and options, for the build: hidden from the help.
 #include <memory>
-#include <set>
 
 #include "app/commands.h"
 #include "app/written_pages.h"
 
 namespace boresight::app {
 namespace {
-
-/// A row for every option and positional argument of a command and its groups, each once.
-std::string optionRows(const CLI::App& command, std::set<std::string>& listed) {
-  const CLI::Formatter formatter;
-  std::string text;
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = formatter.make_option_name(option, option->get_positional());
-    if (option->get_group().empty() || !listed.insert(name).second) continue;
-    text += "| `" + name + formatter.make_option_opts(option) + "` | " +
-            markdownText(option->get_description()) + " |\n";
-  }
-  for (const CLI::App* group : command.get_subcommands([](const CLI::App*) { return true; }))
-    if (group->get_name().empty()) text += optionRows(*group, listed);
-  return text;
-}
-
-std::string commandText(const CLI::App& command) {
-  std::set<std::string> listed;
-  const std::string help = command.get_description();
-  return markdownText(help) + (help.ends_with('.') ? "" : ".") +
-         "\n\n| option | meaning |\n|---|---|\n" + optionRows(command, listed);
-}
 
 /// Every command under a heading of its own, as `--help` tells of it.
 std::string commandsPage(const CLI::App& app) {

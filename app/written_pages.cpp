@@ -3,11 +3,30 @@
 
 #include <fstream>
 #include <iostream>
+#include <set>
 #include <string_view>
 
 #include "app/exit_codes.h"
 
 namespace boresight::app {
+namespace {
+
+/// A row for every option and positional argument of a command and its groups, each once.
+std::string optionRows(const CLI::App& command, std::set<std::string>& listed) {
+  const CLI::Formatter formatter;
+  std::string text;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = formatter.make_option_name(option, option->get_positional());
+    if (option->get_group().empty() || !listed.insert(name).second) continue;
+    text += "| `" + name + formatter.make_option_opts(option) + "` | " +
+            markdownText(option->get_description()) + " |\n";
+  }
+  for (const CLI::App* group : command.get_subcommands([](const CLI::App*) { return true; }))
+    if (group->get_name().empty()) text += optionRows(*group, listed);
+  return text;
+}
+
+}  // namespace
 
 std::string markdownText(const std::string& text) {
   constexpr std::string_view kMeant = "\\|<*`[_";
@@ -17,6 +36,13 @@ std::string markdownText(const std::string& text) {
     safe += c == '\n' ? ' ' : c;
   }
   return safe;
+}
+
+std::string commandText(const CLI::App& command) {
+  std::set<std::string> listed;
+  const std::string help = command.get_description();
+  return markdownText(help) + (help.ends_with('.') ? "" : ".") +
+         "\n\n| option | meaning |\n|---|---|\n" + optionRows(command, listed);
 }
 
 int writePages(const std::filesystem::path& folder,
