@@ -119,19 +119,6 @@ CLI::Option* addMeshUnit(CLI::App& command, std::string& unit, const std::string
       ->type_name("UNIT");
 }
 
-void MeshArguments::addTo(CLI::App& command) {
-  addFile(command, "--mesh", mesh, "Mesh of the station: PLY, OBJ, STL, glTF or GLB")->required();
-  addMeshUnit(command, unit,
-              "Unit of the mesh's coordinates: m, mm, cm, in, ... (required unless glTF)");
-}
-
-sessions::SceneMesh MeshArguments::read() const {
-  sessions::PartSource part;
-  part.mesh = mesh;
-  part.mesh_unit = unit;
-  return sessions::readScene({&part, 1});
-}
-
 CLI::Validator numberIn(double least, double most) {
   const std::string first = sessions::numberText(least), last = sessions::numberText(most);
   return {[=](std::string& text) {

@@ -58,18 +58,13 @@ CLI::Option* addFile(CLI::App& command, const std::string& name, Value& value,
 void note(const std::string& line);
 void print(const std::string& line);
 
-/// --mesh-unit: a unit of length that is known.
+/// Help of --mesh and of --mesh-unit.
+inline constexpr const char* kMeshHelp = "Mesh of the station: PLY, OBJ, STL, glTF or GLB";
+inline constexpr const char* kMeshUnitHelp =
+    "Unit of the mesh's coordinates: m, mm, cm, in, ... (required unless glTF)";
+
+/// --mesh-unit: a known unit of length.
 CLI::Option* addMeshUnit(CLI::App& command, std::string& unit, const std::string& help);
-
-/// --mesh and --mesh-unit.
-struct MeshArguments {
-  std::string mesh;
-  std::string unit;
-
-  void addTo(CLI::App& command);
-  /// One matched part in its own frame. InputError.
-  sessions::SceneMesh read() const;
-};
 
 /// What an option must be: a finite number of this range.
 CLI::Validator numberIn(double least, double most);

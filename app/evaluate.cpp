@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -18,8 +18,8 @@
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/batch_facts.h"
 #include "sessions/evaluation/results_file.h"
-#include "sessions/evaluation/summary.h"
 #include "sessions/io/atomic_file.h"
+#include "sessions/tables/method_tables.h"
 #include "sessions/text/plain_text.h"
 
 namespace boresight::app {
@@ -245,16 +245,15 @@ void writeLines(const std::string& file, const std::vector<sessions::RunResult>&
   sessions::writeFileAtomically(file, text);
 }
 
-/// The closing tables, one set for each method.
 void printSummary(const std::vector<sessions::RunResult>& results) {
-  std::map<std::string, std::vector<sessions::RunResult>> by_method;
-  for (const sessions::RunResult& result : results) by_method[result.method].push_back(result);
-  for (const auto& [method, runs] : by_method) {
-    if (by_method.size() > 1) print("method " + method);
-    std::cout << sessions::summaryTable(runs) << "\n"
-              << sessions::toleranceTable(runs) << "\n"
-              << sessions::failureList(runs, kListedFailures) << std::flush;
-  }
+  std::vector<sessions::Table> tables = {sessions::summaryTable(results)};
+  if (std::any_of(results.begin(), results.end(),
+                  [](const sessions::RunResult& run) { return run.success.has_value(); }))
+    tables.push_back(sessions::toleranceTable(results, false));
+  tables.push_back(sessions::timeTable(results, false));
+  for (const sessions::Table& table : tables)
+    std::cout << sessions::tableText(table, sessions::TableFormat::kText) << "\n";
+  std::cout << sessions::failureList(results, kListedFailures) << std::flush;
 }
 
 /// Before the work rather than after it.

@@ -384,9 +384,7 @@ void describeFolder(const path& folder, DatasetArguments arguments) {
 void describe(const path& file, const std::string& mesh_unit, const DatasetArguments& choice) {
   print(file.string());
   if (std::filesystem::is_directory(file)) return describeFolder(file, choice);
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = sessions::lowerCase(file.extension().string());
   const auto is = [&extension](std::initializer_list<const char*> names) {
     return std::find(names.begin(), names.end(), extension) != names.end();
   };

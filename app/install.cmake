@@ -54,27 +54,30 @@ if(BORESIGHT_BUILD_UI)
     DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps COMPONENT programs)
 endif()
 
-# The manual: what people wrote and what the programs write of themselves, in one folder. In the
-# build tree it lies where the program looks for an installed one.
+# The manual: pages of the source and pages that the programs write, in one folder. In the build tree
+# it lies where the program looks for an installed one.
 set(manual ${PROJECT_BINARY_DIR}/share/boresight/manual)
+set(written ${CMAKE_CURRENT_BINARY_DIR}/manual)
 file(GLOB manual_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/resources/manual/*.md
-  ${PROJECT_SOURCE_DIR}/resources/manual/pictures/*.png)
-file(GLOB taken_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/sessions/*/*.md
+  ${PROJECT_SOURCE_DIR}/resources/manual/pictures/*.png ${PROJECT_SOURCE_DIR}/sessions/*/*.md
   ${PROJECT_SOURCE_DIR}/core/*.md ${PROJECT_SOURCE_DIR}/core/record/*.md)
+set(pages ${written}/options.md ${written}/whs.md)
+set(no_leaks ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0)
+add_custom_command(OUTPUT ${written}/options.md ${written}/whs.md
+  COMMAND ${no_leaks} $<TARGET_FILE:whs> documents ${written}
+  DEPENDS whs VERBATIM
+  COMMENT "Writing pages of the manual")
 if(BORESIGHT_BUILD_UI)
-  set(written ${CMAKE_CURRENT_BINARY_DIR}/boresight_documents/manual)
+  list(APPEND pages ${written}/boresight.md ${written}/keys.md)
   add_custom_command(OUTPUT ${written}/boresight.md ${written}/keys.md
-    COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 $<TARGET_FILE:boresight>
-      --documents ${written}
+    COMMAND ${no_leaks} $<TARGET_FILE:boresight> --documents ${written}
     DEPENDS boresight VERBATIM
     COMMENT "Writing pages of the manual")
-  set(manual_writers ${written}/boresight.md ${written}/keys.md)
-  set(manual_pages --page ${written}/boresight.md --page ${written}/keys.md)
 endif()
 add_custom_command(OUTPUT ${manual}/index.md
-  COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 $<TARGET_FILE:whs> documents
-    ${manual} --manual-of ${PROJECT_SOURCE_DIR} ${manual_pages}
-  DEPENDS ${manual_sources} ${taken_sources} whs ${manual_writers} VERBATIM
+  COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} -DWRITTEN=${written} -DFOLDER=${manual}
+    -P ${CMAKE_CURRENT_SOURCE_DIR}/manual.cmake
+  DEPENDS ${manual_sources} ${pages} manual.cmake VERBATIM
   COMMENT "Putting the manual together")
 add_custom_target(manual ALL DEPENDS ${manual}/index.md)
 install(DIRECTORY ${manual} DESTINATION ${CMAKE_INSTALL_DATADIR}/boresight COMPONENT programs)

@@ -2,26 +2,24 @@
 #include <iostream>
 #include <optional>
 
-#include "app/commands.h"
-#include "app/problem_inputs.h"
+#include "app/case_arguments.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/image_file.h"
 #include "sessions/report/result_file.h"
+#include "sessions/review/review_subject.h"
 #include "sessions/run/overlay.h"
 #include "sessions/run/problem.h"
 #include "sessions/run/run_text.h"
 #include "sessions/run/runner.h"
 #include "sessions/run/trace_file.h"
-#include "sessions/session/input_sheet.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::app {
 namespace {
 
-struct LocalizeArguments : InputArguments {
-  std::string truth;
+struct LocalizeArguments : CaseArguments {
   MethodArguments method;
   int threads = 0;
   Kernels kernels = bestKernels();
@@ -30,103 +28,66 @@ struct LocalizeArguments : InputArguments {
   void addTo(CLI::App& command);
 };
 
-struct Inputs : ProblemInputs {
-  std::optional<sessions::PoseFile> truth;
-};
-
 void LocalizeArguments::addTo(CLI::App& command) {
-  InputArguments::addTo(command);
-  addFile(command, "--truth", truth,
-          "pose.json with the true pose: errors are printed, an overlay shows it");
+  CaseArguments::addTo(command);
+  addUncertaintyTo(command);
+  addTruthTo(command);
+  for (const char* name : {"--image", "--mesh", "--seed"}) command.get_option(name)->required();
   method.addTo(command, false);
   addThreads(command, threads);
   addKernels(command, kernels);
   addFile(command, "--out", out, "Writes the result as JSON");
-  addFile(command, "--trace", trace, "Writes everything in between (binary)");
+  addFile(command, "--trace", trace, "Writes all intermediate results (binary)");
   addFile(command, "--record", record,
           "Writes the onboard record of the run, run.whsr (core/record/FORMAT.md)");
   addFile(command, "--overlay", overlay,
           "Writes a PNG: seed red, result green, truth blue over the image");
 }
 
-/// In what the image's label contradicts what was given.
-std::vector<std::string> labelWarnings(const LocalizeArguments& arguments, const Inputs& inputs) {
-  sessions::SessionCase given;
-  given.image.source.file = arguments.image;
-  given.camera = inputs.camera;
-  given.camera_reference = inputs.frames.reference;
-  given.camera_from_station_seed = inputs.seed.camera_from_station;
-  given.station_frame = inputs.seed.station_frame;
-  if (inputs.truth) given.truth_frame = inputs.truth->station_frame;
-  return sessions::labelWarnings(given);
-}
-
-Inputs readInputs(const LocalizeArguments& arguments) {
-  Inputs inputs{readProblemInputs(arguments), std::nullopt};
-  if (!arguments.truth.empty())
-    inputs.truth = sessions::readPose(std::filesystem::path(arguments.truth), inputs.frames);
-  for (const std::string& warning : labelWarnings(arguments, inputs))
-    inputs.notes.push_back(warning);
-  return inputs;
-}
-
-sessions::RunProvenance provenance(const LocalizeArguments& arguments, const Inputs& inputs) {
+sessions::RunProvenance provenance(const LocalizeArguments& arguments, const ReadCase& input,
+                                   const LocalizerOptions& options) {
   sessions::RunProvenance made;
   made.method = arguments.method.methods.front();
   made.profile = arguments.options.profileName();
-  made.changed_options = sessions::changedOptions(inputs.options, profileOptions(made.profile));
+  made.changed_options = sessions::changedOptions(options, profileOptions(made.profile));
   for (auto& option : arguments.method.changedOptions(arguments.options.readMethodOptions()))
     made.changed_options.push_back(std::move(option));
-  made.uncertainty = inputs.uncertainty;
-  made.image = &inputs.image;
-  made.scene = &inputs.scene;
-  made.ignore = inputs.ignore_mask ? &*inputs.ignore_mask : nullptr;
+  made.loaded = input.loaded.get();
   made.camera_file = arguments.cameraFile();
-  if (inputs.image.label) made.image_label = inputs.image.label->identifiers;
-  made.station_frame = inputs.seed.station_frame;
-  made.camera_reference = inputs.frames.reference;
   made.seed_file = arguments.seed;
   made.truth_file = arguments.truth;
   made.config_file = arguments.options.config;
-  made.warnings = inputs.notes;
+  made.warnings = input.notes;
   return made;
 }
 
-void writeOverlay(const std::string& file, const Inputs& inputs,
+void writeOverlay(const std::string& file, const sessions::LoadedCase& loaded,
                   const sessions::LocalizationTrace& trace) {
+  const sessions::SessionCase& one = loaded.source;
   std::vector<sessions::OverlayLayer> layers = {
-      {"seed", inputs.seed.camera_from_station, sessions::kSeedColor}};
+      {"seed", one.camera_from_station_seed, sessions::kSeedColor}};
   if (trace.converged()) {
     layers.push_back({"result", trace.camera_from_station, sessions::kResultColor});
   } else if (!trace.iterations.empty()) {
     layers.push_back({std::string("last hypothesis, ") + localizationStatusText(trace.status),
                       trace.iterations.back()->camera_from_station, sessions::kResultColor});
   }
-  if (inputs.truth)
-    layers.push_back({"truth", inputs.truth->camera_from_station, sessions::kTruthColor, true});
+  if (one.camera_from_station_truth)
+    layers.push_back({"truth", *one.camera_from_station_truth, sessions::kTruthColor, true});
   sessions::writeColorPng(
-      file, sessions::drawOverlay(inputs.image.view(), inputs.camera, inputs.scene.view(), layers));
-}
-
-std::optional<sessions::PoseError> errorAgainstTruth(const Inputs& inputs, const Pose& estimate) {
-  if (!inputs.truth) return std::nullopt;
-  const Pose& truth = inputs.truth->camera_from_station;
-  sessions::PoseError error = sessions::poseError(truth, estimate, std::nullopt);
-  error.projection_px = sessions::projectionError(inputs.camera, truth, estimate,
-                                                  sessions::matchedVertices(inputs.scene.view()));
-  return error;
+      file, sessions::drawOverlay(loaded.image.view(), one.camera, loaded.scene.view(), layers));
 }
 
 /// The pose in the frames that have names.
-void printNamedPoses(const Inputs& inputs, const Pose& camera_from_station) {
-  for (const sessions::NamedPose& pose : sessions::namedPoses(
-           inputs.frames.reference, inputs.seed.station_frame, camera_from_station))
+void printNamedPoses(const sessions::SessionCase& one, const Pose& camera_from_station) {
+  for (const sessions::NamedPose& pose :
+       sessions::namedPoses(one.camera_reference, one.station_frame, camera_from_station))
     std::cout << "\n"
               << sessions::poseText(pose.reference_from_station, Matrix6d::Zero(),
                                     sessions::namedPoseTitle(pose));
 }
 
-void printResult(const sessions::LocalizationTrace& trace, const Inputs& inputs,
+void printResult(const sessions::LocalizationTrace& trace, const sessions::SessionCase& one,
                  const std::optional<sessions::PoseError>& error) {
   using sessions::fixedText;
   std::cout << sessions::iterationTable(trace) << "\n";
@@ -140,7 +101,7 @@ void printResult(const sessions::LocalizationTrace& trace, const Inputs& inputs,
               << sessions::poseText(trace.camera_from_station, trace.covariance)
               << "(by the picture alone: errors of the mesh's scale and of the calibration are not "
                  "in it)\n";
-    printNamedPoses(inputs, trace.camera_from_station);
+    printNamedPoses(one, trace.camera_from_station);
   } else {
     std::cout << "not converged: " << localizationStatusText(trace.status)
               << "; the best estimate remains the seed\n";
@@ -178,12 +139,14 @@ void writeRecord(const std::string& file, const RecordWriter& record) {
 int localizeImage(const LocalizeArguments& arguments) {
   if (!arguments.record.empty() && arguments.method.needsSetup())
     throw CLI::ValidationError("--record", "the onboard record is of runs with --method whs alone");
-  const Inputs inputs = readInputs(arguments);
+  const ReadCase input = readCase(arguments);
+  const sessions::LoadedCase& loaded = *input.loaded;
+  const LocalizerOptions options = arguments.optionsOf(loaded.source);
   for (const std::string& file :
        {arguments.out, arguments.trace, arguments.record, arguments.overlay})
     if (!file.empty()) sessions::requireWritable(file);
-  requireSensibleSeed(inputs, arguments.seed);
-  for (const std::string& line : inputs.notes) note(line);
+  requireRunnable(loaded, arguments.cameraFile(), arguments.seed);
+  for (const std::string& line : input.notes) note(line);
   sessions::RunSettings settings;
   settings.level =
       arguments.trace.empty() ? sessions::RecordLevel::kSummary : sessions::RecordLevel::kFull;
@@ -194,20 +157,20 @@ int localizeImage(const LocalizeArguments& arguments) {
   RecordWriter record(onboard);
   if (!arguments.record.empty()) settings.onboard_record = &record;
   sessions::Methods methods(arguments.method.setup(arguments.options));
-  const sessions::LocalizationTrace trace = methods.localize(
-      arguments.method.methods.front(), inputs.problem(), inputs.options, settings);
+  const sessions::LocalizationTrace trace =
+      methods.localize(arguments.method.methods.front(), loaded.problem(), options, settings);
   sessions::requireAccepted(trace, {{arguments.image, ""},
                                     {arguments.cameraFile(), ""},
-                                    {arguments.mesh.mesh, ""},
+                                    {arguments.mesh, ""},
                                     {arguments.seed, ""}});
-  const auto error = errorAgainstTruth(inputs, trace.camera_from_station);
-  printResult(trace, inputs, error);
+  const auto error = sessions::truthError(loaded, trace.camera_from_station);
+  printResult(trace, loaded.source, error);
   if (settings.memory_limit > 0) std::cout << "\n" << sessions::memoryTable(trace) << std::flush;
   if (!arguments.out.empty())
-    sessions::writeResult(arguments.out, trace, error, provenance(arguments, inputs));
+    sessions::writeResult(arguments.out, trace, error, provenance(arguments, input, options));
   if (!arguments.trace.empty()) sessions::saveTrace(arguments.trace, trace);
   if (!arguments.record.empty()) writeRecord(arguments.record, record);
-  if (!arguments.overlay.empty()) writeOverlay(arguments.overlay, inputs, trace);
+  if (!arguments.overlay.empty()) writeOverlay(arguments.overlay, loaded, trace);
   if (!trace.converged())
     note(std::string(localizationStatusText(trace.status)) + ": " + sessions::explanation(trace));
   return exitCodeOf(trace);

@@ -1,29 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <optional>
 
-#include "app/commands.h"
+#include "app/case_arguments.h"
 #include "sessions/io/camera_field.h"
 #include "sessions/io/errors.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/input_sheet.h"
-#include "sessions/session/session_maker.h"
 #include "sessions/session/session_of_results.h"
 
 namespace boresight::app {
 namespace {
 
-struct NewArguments {
+struct NewArguments : CaseArguments {
   DatasetArguments dataset;
   std::string results;
   std::vector<std::string> cases;
-  std::string image, camera, mesh, mesh_unit, seed, truth, ignore, id, record, out;
-  std::vector<std::string> transforms;
-  int bit_depth = 0;
-  double feature_size_m = 0.0;
+  std::string id, record, out;
   std::optional<double> mesh_scale_sigma;
-  OptionArguments options;
 
   void addTo(CLI::App& command);
 };
@@ -40,42 +35,21 @@ void NewArguments::addTo(CLI::App& command) {
       "Results of `whs evaluate`: its runs become cases, the most troubled first, with the seeds "
       "and the options that they had")
       ->excludes(from_dataset);
-  CLI::Option* from_image =
-      addFile(command, "--image", image, "One case: PNG, JPEG, TIFF, VICAR, PDS3 or PDS4");
-  from_image->excludes(from_dataset);
-  addFile(command, "--camera", camera, kOwnCameraHelp)->needs(from_image);
-  addFile(command, "--transform", transforms,
-          "transform.json between the frame that seed or truth name and that of the "
-          "camera model; may be repeated")
-      ->needs(from_image);
-  addFile(command, "--mesh", mesh, "Mesh of the station: PLY, OBJ, STL, glTF or GLB")
-      ->needs(from_image);
-  addMeshUnit(command, mesh_unit, "Unit of the mesh's coordinates: m, mm, cm, in, ...")
-      ->needs(from_image);
-  addFile(command, "--seed", seed, "pose.json: where the camera is believed to be")
-      ->needs(from_image);
-  addFile(command, "--truth", truth, "pose.json with the true pose")->needs(from_image);
-  addFile(command, "--ignore", ignore,
-          "Mask image of the same size: nonzero pixels are not trusted")
-      ->needs(from_image);
-  addFile(command, "--record", record, "Onboard record (run.whsr) of the session's one case");
-  command.add_option("--id", id, "Name of the case (else the image's)")->needs(from_image);
-  command.add_option("--bit-depth", bit_depth, "Bits that the image's samples use")
-      ->check(CLI::Range(1, 16))
-      ->needs(from_image)
-      ->type_name("N");
-  command.add_option("--feature-size", feature_size_m, "Size of the station's features, m")
-      ->check(numberIn(1e-6, 100.0))
-      ->needs(from_image)
-      ->type_name("M");
+  CaseArguments::addTo(command);
+  addTruthTo(command);
+  command.add_option("--id", id, "Name of the case (else the image's)");
   command
       .add_option("--mesh-scale-sigma", mesh_scale_sigma,
                   "One sigma of the mesh's scale, relative: 0.0002 where it is not stated")
       ->check(numberIn(0.0, sessions::kMaxScaleSigma))
-      ->needs(from_image)
       ->type_name("S");
+  CLI::Option* from_image = command.get_option("--image")->excludes(from_dataset);
+  for (const char* name :
+       {"--camera", "--transform", "--mesh", "--mesh-unit", "--seed", "--truth", "--ignore", "--id",
+        "--bit-depth", "--feature-size", "--mesh-scale-sigma"})
+    command.get_option(name)->needs(from_image);
+  addFile(command, "--record", record, "Onboard record (run.whsr) of the session's one case");
   dataset.addTo(command);
-  options.addTo(command);
   addFile(command, "--out", out, "The session file that is made, e.g. sol12.boresight.json")
       ->required();
 }
@@ -101,21 +75,10 @@ sessions::Session sessionOf(const NewArguments& arguments) {
        {std::pair("--image", &arguments.image), std::pair("--mesh", &arguments.mesh),
         std::pair("--seed", &arguments.seed)})
     if (value->empty()) throw CLI::ValidationError(name, "is needed where there is no --dataset");
-  sessions::CaseFiles files;
-  files.id = arguments.id;
-  files.image = arguments.image;
-  if (arguments.bit_depth > 0) files.eight_bit.bit_depth = arguments.bit_depth;
-  files.camera = arguments.camera;
-  files.transforms.assign(arguments.transforms.begin(), arguments.transforms.end());
-  files.parts.resize(1);
-  files.parts[0].mesh = arguments.mesh;
-  files.parts[0].mesh_unit = arguments.mesh_unit;
-  files.seed = arguments.seed;
-  if (!arguments.truth.empty()) files.truth = arguments.truth;
-  if (!arguments.ignore.empty()) files.ignore = arguments.ignore;
-  if (arguments.feature_size_m > 0.0) files.feature_size_m = arguments.feature_size_m;
-  files.mesh_scale_sigma = arguments.mesh_scale_sigma;
-  const sessions::MadeCase made = sessions::makeCase(files);
+  sessions::CaseFiles case_files = arguments.files();
+  case_files.id = arguments.id;
+  case_files.mesh_scale_sigma = arguments.mesh_scale_sigma;
+  const sessions::MadeCase made = sessions::makeCase(case_files);
   for (const std::string& text : made.notes) note(text);
   requireUsable(made.made);
   return withCase({}, made.made);

@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "app/commands.h"
-#include "app/documents/manual_folder.h"
+#include "app/written_pages.h"
 #include "sessions/baselines/methods.h"
 #include "sessions/session/check_limits.h"
 #include "sessions/text/text_table.h"
@@ -10,7 +10,6 @@
 namespace boresight::app {
 namespace {
 
-using documents::markdownText;
 using sessions::OptionDescription;
 using sessions::OptionKind;
 using Options = std::vector<OptionDescription>;

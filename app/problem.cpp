@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
 
-#include "app/commands.h"
-#include "app/problem_inputs.h"
+#include "app/case_arguments.h"
 #include "core/localizer/problem_bytes.h"
 #include "sessions/io/atomic_file.h"
-#include "sessions/io/dataset_file.h"
 #include "sessions/io/labels/image_label.h"
 
 namespace boresight::app {
 namespace {
 
-struct ProblemArguments : InputArguments {
+struct ProblemArguments : CaseArguments {
   std::string dataset, case_id;
   std::string out, image_out;
 
@@ -19,12 +17,12 @@ struct ProblemArguments : InputArguments {
 };
 
 void ProblemArguments::addTo(CLI::App& command) {
-  InputArguments::addTo(command);
+  CaseArguments::addTo(command);
+  addUncertaintyTo(command);
   addFile(command, "--dataset", dataset, "dataset.json with the case, instead of the files above");
   command.add_option("--case", case_id, "Which of its cases")->type_name("ID");
-  for (const char* name : {"--image", "--camera", "--mesh", "--seed"})
-    command.get_option(name)->required(false)->excludes("--dataset");
-  for (const char* name : {"--mesh-unit", "--ignore", "--uncertainty", "--pivot", "--bit-depth"})
+  for (const char* name : {"--image", "--camera", "--mesh", "--seed", "--mesh-unit", "--ignore",
+                           "--uncertainty", "--pivot", "--bit-depth"})
     command.get_option(name)->excludes("--dataset");
   command.get_option("--dataset")->needs("--case");
   command.get_option("--case")->needs("--dataset");
@@ -33,38 +31,18 @@ void ProblemArguments::addTo(CLI::App& command) {
       ->required();
 }
 
-/// What evaluate runs for this case from its own seed.
-ProblemInputs readCaseInputs(const ProblemArguments& arguments) {
+/// The case as evaluate runs it from its own seed.
+ReadCase readCaseOfDataset(const ProblemArguments& arguments) {
   const sessions::Dataset dataset = sessions::readDataset(arguments.dataset);
-  const sessions::Case* one = dataset.findCase(arguments.case_id);
-  if (one == nullptr)
-    throw sessions::InputError(dataset.file, "cases",
-                               "there is no case \"" + arguments.case_id + "\"");
-  if (!one->uncertainty)
-    throw sessions::InputError(dataset.file, "cases." + one->id + ".uncertainty",
-                               "neither the case nor its station states one");
-  const sessions::Station& station = dataset.stations.at(one->station);
-  ProblemInputs inputs;
-  inputs.options = arguments.options.read();
-  double& feature_size_m = inputs.options.templates.feature_size_m;
-  if (arguments.feature_size_m > 0.0) feature_size_m = arguments.feature_size_m;
-  if (feature_size_m == 0.0) feature_size_m = station.feature_size_m.value_or(0.0);
-  inputs.camera = dataset.cameras.at(one->camera);
-  inputs.image = sessions::readCaseImage(dataset, *one);
-  inputs.ignore_mask = sessions::readCaseMask(dataset, *one);
-  if (inputs.ignore_mask) inputs.ignore = inputs.ignore_mask->view();
-  inputs.scene = sessions::readStationScene(station);
-  inputs.seed.camera_from_station = one->seed_camera_from_station;
-  inputs.uncertainty = *one->uncertainty;
-  inputs.notes = dataset.notes;
-  return inputs;
+  const sessions::Session session = sessions::makeSession(dataset, {arguments.case_id});
+  return {sessions::loadCase(*session.cases.front()), dataset.notes};
 }
 
 void requireFilesNamed(const ProblemArguments& arguments) {
   if (arguments.image.empty()) throw CLI::RequiredError("--image (or --dataset and --case)");
   if (arguments.camera.empty() && !sessions::hasImageLabel(arguments.image))
     throw CLI::RequiredError("--camera");
-  if (arguments.mesh.mesh.empty()) throw CLI::RequiredError("--mesh");
+  if (arguments.mesh.empty()) throw CLI::RequiredError("--mesh");
   if (arguments.seed.empty()) throw CLI::RequiredError("--seed");
 }
 
@@ -78,20 +56,24 @@ std::string pgmOf(const sessions::GrayImage& image) {
 int writeProblem(const ProblemArguments& arguments) {
   const bool from_dataset = !arguments.dataset.empty();
   if (!from_dataset) requireFilesNamed(arguments);
-  const ProblemInputs inputs =
-      from_dataset ? readCaseInputs(arguments) : readProblemInputs(arguments);
+  const ReadCase input = from_dataset ? readCaseOfDataset(arguments) : readCase(arguments);
+  const sessions::LoadedCase& loaded = *input.loaded;
   for (const std::string& file : {arguments.out, arguments.image_out})
     sessions::requireWritable(file);
-  requireSensibleSeed(inputs, from_dataset ? arguments.dataset : arguments.seed);
-  for (const std::string& line : inputs.notes) note(line);
-  const LocalizationProblem problem = inputs.problem();
-  std::vector<std::uint8_t> bytes(encodeProblem(problem, inputs.options, {}));
-  encodeProblem(problem, inputs.options, bytes);
-  sessions::writeFileAtomically(arguments.image_out, pgmOf(inputs.image));
+  if (from_dataset)
+    requireRunnable(loaded, arguments.dataset, arguments.dataset);
+  else
+    requireRunnable(loaded, arguments.cameraFile(), arguments.seed);
+  for (const std::string& line : input.notes) note(line);
+  const LocalizationProblem problem = loaded.problem();
+  const LocalizerOptions options = arguments.optionsOf(loaded.source);
+  std::vector<std::uint8_t> bytes(encodeProblem(problem, options, {}));
+  encodeProblem(problem, options, bytes);
+  sessions::writeFileAtomically(arguments.image_out, pgmOf(loaded.image));
   sessions::writeFileAtomically(arguments.out, bytes);
   std::cout << bytes.size() << " bytes: " << problem.mesh.vertices_in_station_m.size()
-            << " vertices, " << problem.mesh.faces.size() << " faces, image " << inputs.image.width
-            << " x " << inputs.image.height << "\n";
+            << " vertices, " << problem.mesh.faces.size() << " faces, image " << loaded.image.width
+            << " x " << loaded.image.height << "\n";
   return kDone;
 }
 

@@ -13,8 +13,8 @@ namespace boresight::app {
 namespace {
 
 struct RenderArguments {
-  MeshArguments mesh;
   FrameArguments frames;
+  std::string mesh, mesh_unit;
   std::string camera;
   std::string pose;
   std::string out;
@@ -26,14 +26,17 @@ int render(const RenderArguments& arguments) {
   const Camera& camera = camera_file.camera;
   const sessions::PoseFile pose =
       sessions::readPose(std::filesystem::path(arguments.pose), arguments.frames.of(camera_file));
-  const sessions::SceneMesh scene = arguments.mesh.read();
+  sessions::PartSource part;
+  part.mesh = arguments.mesh;
+  part.mesh_unit = arguments.mesh_unit;
+  const sessions::SceneMesh scene = sessions::readScene({&part, 1});
   sessions::requireWritable(arguments.out);
   sessions::requireSensibleSeed(camera, scene, pose.camera_from_station, arguments.pose,
                                 "camera_from_station");
   sessions::RenderTrace made;
   const Status status = sessions::renderScene(camera, scene.view(), pose.camera_from_station, made);
   if (status != Status::kOk)
-    throw sessions::InputError(arguments.mesh.mesh,
+    throw sessions::InputError(arguments.mesh,
                                std::string("cannot be rendered: ") + statusText(status));
   std::vector<std::uint8_t> pixels(static_cast<std::size_t>(camera.width) *
                                    static_cast<std::size_t>(camera.height));
@@ -50,7 +53,8 @@ int render(const RenderArguments& arguments) {
 void addRender(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "render", "Draws the salient edges of a mesh seen from a pose", render);
-  arguments->mesh.addTo(*command);
+  addFile(*command, "--mesh", arguments->mesh, kMeshHelp)->required();
+  addMeshUnit(*command, arguments->mesh_unit, kMeshUnitHelp);
   arguments->frames.addTo(*command);
   addFile(*command, "--camera", arguments->camera, kCameraHelp)->required();
   addFile(*command, "--pose", arguments->pose, "pose.json")->required();

@@ -38,8 +38,8 @@ void TablesArguments::addTo(CLI::App& command) {
   addFile(command, "--against", against,
           "Compares RESULTS (before) with these (after), run by run, instead");
   command.add_flag("--all", all, "With --against: lists also what did not change");
-  command.add_option("--table", tables, "Only these: errors, success, times (all three)")
-      ->check(CLI::IsMember({"errors", "success", "times"}));
+  command.add_option("--table", tables, "Only these: errors, success, tolerance, times (all four)")
+      ->check(CLI::IsMember({"errors", "success", "tolerance", "times"}));
   command.add_option("--station", filter.stations, "Only runs of these stations")->type_name("S");
   command.add_option("--tag", filter.tags, "Only runs with one of these tags")->type_name("T");
   command.add_option("--method", filter.methods, "Only runs of these methods")->type_name("M");
@@ -121,6 +121,7 @@ std::string tablesText(const TablesArguments& arguments, const sessions::Results
   };
   add("errors", sessions::errorTable);
   add("success", sessions::successTable);
+  add("tolerance", sessions::toleranceTable);
   add("times", sessions::timeTable);
   if (tableFormat(arguments) == TableFormat::kText) text += "\n" + provenanceText(set);
   return text;

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <cstdio>
 #include <exception>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -16,37 +19,19 @@
 #include "sessions/io/errors.h"
 #include "sessions/run/problem.h"
 #include "sessions/run/runner.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {
 
-/// A value that the first who needs it loads; a failure is the same for everybody.
+/// A value that the first thread to ask for it loads; a failure is the same for all.
 template <class T>
-class Shared {
- public:
-  template <class Load>
-  std::shared_ptr<const T> get(Load&& load) {
-    const std::lock_guard lock(mutex_);
-    if (error_) std::rethrow_exception(error_);
-    if (value_) return value_;
-    try {
-      value_ = std::make_shared<const T>(load());
-    } catch (...) {
-      error_ = std::current_exception();
-      throw;
-    }
-    return value_;
-  }
-  void release() {
-    const std::lock_guard lock(mutex_);
-    value_.reset();
-  }
+using Shared = std::shared_future<T>;
 
- private:
-  std::mutex mutex_;
-  std::shared_ptr<const T> value_;
-  std::exception_ptr error_;
-};
+template <class Load>
+auto shared(Load&& load) {
+  return std::async(std::launch::deferred, std::forward<Load>(load)).share();
+}
 
 struct StationScene {
   SceneMesh scene;
@@ -63,19 +48,15 @@ struct CaseImage {
 struct CaseWork {
   const Case* input = nullptr;
   std::int64_t place = 0;
-  Shared<StationScene>* scene = nullptr;
+  Shared<StationScene> scene;
   const Station* mesh_station = nullptr;
   Shared<CaseImage> image;
   std::atomic<int> runs_left{0};
 };
 
-bool selects(const std::vector<std::string>& filter, const std::string& value) {
-  return filter.empty() || std::find(filter.begin(), filter.end(), value) != filter.end();
-}
-
-bool selectsTag(const std::vector<std::string>& filter, const Case& one) {
-  return filter.empty() || std::any_of(filter.begin(), filter.end(),
-                                       [&](const std::string& tag) { return one.hasTag(tag); });
+template <class Test>
+bool selects(const std::vector<std::string>& filter, Test&& meets) {
+  return filter.empty() || std::any_of(filter.begin(), filter.end(), meets);
 }
 
 void requireNames(const Dataset& dataset, const BatchOptions& options) {
@@ -145,7 +126,14 @@ Batch::Batch(const Dataset& dataset, const BatchOptions& options,
       work->place = planned.place;
       const std::string& mesh = options.mesh_of.empty() ? planned.input->station : options.mesh_of;
       work->mesh_station = &dataset.stations.at(mesh);
-      work->scene = &scenes_[mesh];
+      Shared<StationScene>& scene = scenes_[mesh];
+      if (!scene.valid())
+        scene = shared(
+            [this, station = work->mesh_station] { return loadScene(*station, options_.mirror); });
+      work->scene = scene;
+      work->image = shared([this, &one = *planned.input] {
+        return CaseImage{readCaseImage(dataset_, one), readCaseMask(dataset_, one)};
+      });
       cases_.push_back(std::move(work));
     }
     ++cases_.back()->runs_left;
@@ -177,7 +165,7 @@ void Batch::workUntilDone(const std::stop_token& stop) {
     if (index >= items_.size()) return;
     const Item& item = items_[index];
     const RunResult result = runItem(item, stop);
-    if (--item.work->runs_left == 0) item.work->image.release();
+    if (--item.work->runs_left == 0) item.work->image = {};
     if (!stop.stop_requested()) finish(result);
   }
 }
@@ -219,26 +207,25 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
   if (!one.uncertainty)
     throw InputError(dataset_.file, "cases." + one.id + ".uncertainty",
                      "neither the case nor its station states one");
-  const auto scene =
-      item.work->scene->get([&] { return loadScene(*item.work->mesh_station, options_.mirror); });
-  const auto image = item.work->image.get([&] {
-    return CaseImage{readCaseImage(dataset_, one), readCaseMask(dataset_, one)};
-  });
+  const Shared<StationScene> shared_scene = item.work->scene;
+  const Shared<CaseImage> shared_image = item.work->image;
+  const StationScene& scene = shared_scene.get();
+  const CaseImage& image = shared_image.get();
 
   Pose seed = one.seed_camera_from_station;
   if (item.reseed > 0) {
     const Vector6d offset =
         drawOffset(*one.uncertainty, options_.reseed_scale, one.id, item.reseed);
     seed = seedForOffset(*one.truth_camera_from_station, offset, one.uncertainty->pivot,
-                         matchedBounds(scene->scene.view()).centre());
+                         matchedBounds(scene.scene.view()).centre());
   }
-  const BitImage ignore = image->ignore ? image->ignore->view() : BitImage{};
+  const BitImage ignore = image.ignore ? image.ignore->view() : BitImage{};
   const LocalizationProblem problem =
-      problemOf(image->image, image->ignore ? &ignore : nullptr, dataset_.cameras.at(one.camera),
-                scene->scene.view(), seed, *one.uncertainty);
+      problemOf(image.image, image.ignore ? &ignore : nullptr, dataset_.cameras.at(one.camera),
+                scene.scene.view(), seed, *one.uncertainty);
   result.camera_from_station_seed = problem.camera_from_station_seed;
   result.camera_from_station = problem.camera_from_station_seed;
-  result.seed_error = errorOf(one, problem.camera, problem.camera_from_station_seed, *scene);
+  result.seed_error = errorOf(one, problem.camera, problem.camera_from_station_seed, scene);
 
   LocalizerOptions options = options_.localizer;
   if (options.templates.feature_size_m == 0.0 && item.work->mesh_station->feature_size_m)
@@ -257,7 +244,7 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
   } else {
     result.status = "bad_seed";
   }
-  result.error = errorOf(one, problem.camera, result.camera_from_station, *scene);
+  result.error = errorOf(one, problem.camera, result.camera_from_station, scene);
   judge(options_.wrongMesh(), result);
 }
 
@@ -279,8 +266,10 @@ std::vector<PlannedRun> planBatch(const Dataset& dataset, const BatchOptions& op
   std::int64_t selected = 0;
   for (std::size_t place = 0; place < dataset.cases.size(); ++place) {
     const Case& one = dataset.cases[place];
-    if (!selects(options.cases, one.id) || !selects(options.stations, one.station) ||
-        !selectsTag(options.tags, one) || one.station == options.mesh_of)
+    if (!selects(options.cases, [&](const auto& id) { return id == one.id; }) ||
+        !selects(options.stations, [&](const auto& station) { return station == one.station; }) ||
+        !selects(options.tags, [&](const auto& tag) { return one.hasTag(tag); }) ||
+        one.station == options.mesh_of)
       continue;
     if (selected++ % options.shards != options.shard - 1) continue;
     const int reseeds = one.truth_camera_from_station ? options.reseeds : 0;
@@ -311,6 +300,34 @@ std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& opti
     return std::pair(a.place, a.reseed) < std::pair(b.place, b.reseed);
   });
   return results;
+}
+
+std::string durationText(double seconds) {
+  if (!std::isfinite(seconds) || seconds < 0.0) return "?";
+  if (seconds < 59.5) return fixedText(seconds, 0) + " s";
+  const auto minutes = static_cast<long long>(std::llround(seconds / 60.0));
+  if (minutes < 60) return std::to_string(minutes) + " min";
+  char text[48];
+  if (minutes < 24 * 60) {
+    std::snprintf(text, sizeof text, "%lld h %02lld min", minutes / 60, minutes % 60);
+    return text;
+  }
+  const long long hours = std::llround(seconds / 3600.0);
+  std::snprintf(text, sizeof text, "%lld %s %lld h", hours / 24, hours < 48 ? "day" : "days",
+                hours % 24);
+  return text;
+}
+
+std::string batchProgressText(std::size_t done, std::size_t total, std::size_t completed,
+                              double seconds_since_began) {
+  std::string text = std::to_string(done) + " of " + std::to_string(total) + " runs, " +
+                     std::to_string(completed) + " completed";
+  if (done == 0 || !(seconds_since_began > 0.0)) return text;
+  const double seconds_each = seconds_since_began / static_cast<double>(done);
+  text += ", " + fixedText(3600.0 / seconds_each, 0) + " an hour";
+  if (done < total)
+    text += ", " + durationText(seconds_each * static_cast<double>(total - done)) + " left";
+  return text;
 }
 
 }  // namespace boresight::sessions

@@ -74,6 +74,14 @@ void runPlanned(const Dataset& dataset, const BatchOptions& options,
 std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& options,
                                 const BatchProgress& progress, const std::stop_token& stop = {});
 
+/// "12 s", "4 min", "2 h 05 min", "3 days 4 h"; "?" for what is not known.
+std::string durationText(double seconds);
+
+/// Progress of a batch: "12 of 40 runs, 11 completed, 720 an hour, 2 min left". Rate and time left
+/// are left out before the first run.
+std::string batchProgressText(std::size_t done, std::size_t total, std::size_t completed,
+                              double seconds_since_began);
+
 /// The scene mirrored about the middle of its matched parts, faces turned so that they still look
 /// outwards.
 SceneMesh mirrored(SceneMesh scene, MirrorAxis axis);

@@ -2,8 +2,6 @@
 #include "sessions/evaluation/bop_dataset.h"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -14,6 +12,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/image_decoder.h"
 #include "sessions/io/json_reader.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/text/units.h"
 
 namespace boresight::sessions {
@@ -22,10 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 std::optional<int> numberOf(const std::string& text) {
-  int number = -1;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
-  return number;
+  const auto number = numberIn<int>(text);
+  return number && *number >= 0 ? number : std::nullopt;
 }
 
 std::vector<fs::path> entries(const fs::path& folder) {
@@ -39,8 +36,7 @@ std::vector<fs::path> entries(const fs::path& folder) {
 }
 
 bool isImage(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lowerCase(file.extension().string());
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg" ||
          extension == ".tif" || extension == ".tiff";
 }

@@ -2,7 +2,6 @@
 #include "sessions/evaluation/bop_scene.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -14,6 +13,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/text/units.h"
 
 namespace boresight::sessions {
@@ -136,11 +136,9 @@ void writeBopScene(const std::filesystem::path& folder, std::span<const BopObjec
 }
 
 int bopImageId(const std::string& key, const JsonReader& entry) {
-  int id = -1;
-  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), id);
-  if (error != std::errc() || end != key.data() + key.size() || id < 0)
-    entry.fail("'" + key + "' is not a number from 0 on");
-  return id;
+  const auto id = numberIn<int>(key);
+  if (!id || *id < 0) entry.fail("'" + key + "' is not a number from 0 on");
+  return *id;
 }
 
 std::vector<BopObject> readBopScene(const std::filesystem::path& folder) {

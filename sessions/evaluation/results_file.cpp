@@ -104,11 +104,58 @@ void readRuns(SqlDatabase& database, const std::function<void(const RunResult&)>
   }
 }
 
+/// INSERT INTO table (names) VALUES (?1, ...).
+std::string insertSql(const std::string& table, const std::vector<std::string>& names) {
+  std::string places;
+  for (std::size_t i = 1; i <= names.size(); ++i)
+    places += (i > 1 ? ", ?" : "?") + std::to_string(i);
+  return "INSERT INTO " + table + " (" + joined(names) + ") VALUES (" + places + ")";
+}
+
 template <class Row>
 void insertRow(SqlDatabase& database, const std::string& name, const RowTable<Row>& table,
                const Row& row) {
   SqlStatement insertion(database, insertSql(name, table.names()));
   insertion.run(table.values(row));
+}
+
+/// Gives the batch run an id of this file.
+void addSitting(SqlDatabase& database, Sitting& sitting) {
+  insertRow(database, "sitting", sittingTable(), sitting);
+  sitting.id = database.lastId();
+}
+
+bool isEmptyDatabase(SqlDatabase& database) {
+  return integerOf(database.value("SELECT count(*) FROM sqlite_master")) == 0;
+}
+
+/// Throws what the database's access calls for, unless it is a results file of this version with
+/// the tables and indexes of one and nothing else.
+void requireResultsFile(SqlDatabase& database) {
+  if (integerOf(database.value("PRAGMA application_id")) != kResultsApplication) {
+    if (!database.columns("run").empty() && !database.columns("fact").empty())
+      database.fail("an older version made it, of another form: evaluate again into a new file");
+    database.fail("it is not a results file of whs evaluate");
+  }
+  const std::int64_t version = integerOf(database.value("PRAGMA user_version"));
+  if (version != kResultsVersion)
+    database.fail("it is a results file of version " + std::to_string(version) +
+                  ", this program reads version " + std::to_string(kResultsVersion));
+  requireOwnObjects(database);
+}
+
+ResultsFacts factsOf(SqlDatabase& database) {
+  requireResultsFile(database);
+  ResultsFacts facts;
+  facts.file = database.file();
+  SqlStatement statement(database, "SELECT name, value FROM fact");
+  std::map<std::string, std::string> named;
+  while (statement.step()) named[textOf(statement.cell(0))] = textOf(statement.cell(1));
+  facts.dataset = {named["dataset"], named["dataset_sha256"], std::atoll(named["cases"].c_str()),
+                   named["version"]};
+  facts.methods = readRows(database, methodTable(), " FROM method ORDER BY method");
+  facts.sittings = readSittings(database);
+  return facts;
 }
 
 std::string keyOf(const std::string& method, const std::string& case_id, std::int32_t reseed) {
@@ -143,17 +190,6 @@ std::string joined(const std::vector<std::string>& names, const std::string& pre
   return text;
 }
 
-std::string insertSql(const std::string& table, const std::vector<std::string>& names) {
-  std::string places;
-  for (std::size_t i = 1; i <= names.size(); ++i)
-    places += (i > 1 ? ", ?" : "?") + std::to_string(i);
-  return "INSERT INTO " + table + " (" + joined(names) + ") VALUES (" + places + ")";
-}
-
-bool isEmptyDatabase(SqlDatabase& database) {
-  return integerOf(database.value("SELECT count(*) FROM sqlite_master")) == 0;
-}
-
 void makeResultsTables(SqlDatabase& database, const DatasetFacts& dataset) {
   SqlTransaction transaction(database);
   database.execute("PRAGMA application_id = " + std::to_string(kResultsApplication));
@@ -174,38 +210,6 @@ void makeResultsTables(SqlDatabase& database, const DatasetFacts& dataset) {
 
 void addMethodFacts(SqlDatabase& database, const MethodFacts& method) {
   insertRow(database, "method", methodTable(), method);
-}
-
-void addSitting(SqlDatabase& database, Sitting& sitting) {
-  insertRow(database, "sitting", sittingTable(), sitting);
-  sitting.id = database.lastId();
-}
-
-void requireResultsFile(SqlDatabase& database) {
-  if (integerOf(database.value("PRAGMA application_id")) != kResultsApplication) {
-    if (!database.columns("run").empty() && !database.columns("fact").empty())
-      database.fail("an older version made it, of another form: evaluate again into a new file");
-    database.fail("it is not a results file of whs evaluate");
-  }
-  const std::int64_t version = integerOf(database.value("PRAGMA user_version"));
-  if (version != kResultsVersion)
-    database.fail("it is a results file of version " + std::to_string(version) +
-                  ", this program reads version " + std::to_string(kResultsVersion));
-  requireOwnObjects(database);
-}
-
-ResultsFacts factsOf(SqlDatabase& database) {
-  requireResultsFile(database);
-  ResultsFacts facts;
-  facts.file = database.file();
-  SqlStatement statement(database, "SELECT name, value FROM fact");
-  std::map<std::string, std::string> named;
-  while (statement.step()) named[textOf(statement.cell(0))] = textOf(statement.cell(1));
-  facts.dataset = {named["dataset"], named["dataset_sha256"], std::atoll(named["cases"].c_str()),
-                   named["version"]};
-  facts.methods = readRows(database, methodTable(), " FROM method ORDER BY method");
-  facts.sittings = readSittings(database);
-  return facts;
 }
 
 ResultsFacts readResultsFacts(const std::filesystem::path& file) {

@@ -47,20 +47,9 @@ struct Results {
 };
 Results readResults(const std::filesystem::path& file);
 
-/// Of an open file that is one: what it says.
-ResultsFacts factsOf(SqlDatabase& database);
-/// Throws what the database's access calls for, unless it is a results file of this version with
-/// the tables and indexes of one and nothing else.
-void requireResultsFile(SqlDatabase& database);
-/// Whether nothing was written into it yet.
-bool isEmptyDatabase(SqlDatabase& database);
 /// Makes the tables of a new file, in a transaction.
 void makeResultsTables(SqlDatabase& database, const DatasetFacts& dataset);
-/// Rows for a method and a sitting, which gets an id of this file.
 void addMethodFacts(SqlDatabase& database, const MethodFacts& method);
-void addSitting(SqlDatabase& database, Sitting& sitting);
-/// INSERT INTO table (names) VALUES (?1, ...).
-std::string insertSql(const std::string& table, const std::vector<std::string>& names);
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& names, const std::string& prefix = "");
 
@@ -87,8 +76,6 @@ class ResultsWriter {
   void add(const RunResult& run);
   /// Notes that the sitting ended by itself.
   void end();
-
-  std::int64_t runs() const { return static_cast<std::int64_t>(known_.size()); }
 
  private:
   struct Insertions;

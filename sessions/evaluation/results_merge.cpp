@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
-#include <algorithm>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -17,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file that is made beside the one that it becomes, and goes away unless it does.
+/// A temporary file next to the one that it becomes; removed unless it does.
 class Draft {
  public:
   explicit Draft(const fs::path& file) : file_(file) {
@@ -38,62 +36,51 @@ class Draft {
   fs::path file_;
 };
 
-/// Rows of one table that belong to a run, from one file into another.
-class RowCopy {
- public:
-  RowCopy(SqlDatabase& from, SqlDatabase& to, const std::string& table,
-          std::vector<std::string> columns)
-      : rows_(from, "SELECT ?2, " + joined(columns) + " FROM " + table + " WHERE run = ?1"),
-        insertion_(to, insertSql(table, withFirst("run", std::move(columns)))) {}
+/// The runs of the attached file `other` that are held already.
+constexpr const char* kCommon =
+    " FROM other.run o JOIN main.run h ON h.case_id = o.case_id AND h.reseed = o.reseed AND "
+    "h.method = o.method ";
 
-  void copy(std::int64_t id, std::int64_t new_id) {
-    const SqlValue ids[] = {id, new_id};
-    rows_.bind(ids);
-    while (rows_.step()) insertion_.run(rows_.row());
-  }
-
-  static std::vector<std::string> withFirst(const char* first, std::vector<std::string> names) {
-    names.insert(names.begin(), first);
-    return names;
-  }
-
- private:
-  SqlStatement rows_;
-  SqlStatement insertion_;
-};
-
-/// How a run ended, as far as two of the same must agree.
-const std::vector<std::string> kEnding = {"status", "success", "false_positive", "digest"};
+/// How far the poses of the same run are apart, number by number of their matrices.
+constexpr const char* kPosesApart =
+    "(SELECT max(abs(a.atom - b.atom)) FROM json_tree(o.camera_from_station) a JOIN "
+    "json_tree(h.camera_from_station) b ON a.fullkey = b.fullkey WHERE a.atom IS NOT NULL)";
 
 class Merge {
  public:
   Merge(const fs::path& draft, const ResultsFacts& first)
-      : first_(first.file), out_(draft, SqlAccess::kWrite) {
+      : first_(first.file), dataset_(first.dataset), out_(draft, SqlAccess::kWrite) {
     out_.execute("PRAGMA synchronous = OFF");  // it is synchronized before it gets its name
     out_.execute("PRAGMA journal_mode = MEMORY");
-    makeResultsTables(out_, first.dataset);
-    dataset_ = first.dataset;
+    makeResultsTables(out_, dataset_);
   }
 
   void take(const fs::path& file) {
-    SqlDatabase input(file, SqlAccess::kRead);
-    const ResultsFacts facts = factsOf(input);
+    const ResultsFacts facts = readResultsFacts(file);
+    const SqlValue name = file.string();
+    SqlStatement(out_, "ATTACH ?1 AS other").run({&name, 1});
     out_.execute("BEGIN");
-    takeFacts(facts);
-    takeSittings(facts);
-    takeRuns(input);
-    out_.execute("COMMIT");
+    takeMethods(facts);
+    refuseContradictions(file);
+    equal_ += integerOf(out_.value(std::string("SELECT count(*)") + kCommon +
+                                   "WHERE (o.status = 'input_error') = (h.status = "
+                                   "'input_error')"));
+    removeRefused();
+    takeSittings();
+    takeRuns();
+    out_.execute("COMMIT; DETACH other");
   }
-  const MergeCounts& counts() const { return counts_; }
+
+  MergeCounts counts() { return {integerOf(out_.value("SELECT count(*) FROM run")), equal_}; }
 
  private:
-  void takeFacts(const ResultsFacts& facts) {
+  void takeMethods(const ResultsFacts& facts) {
     if (const auto wrong = contradiction(dataset_, facts.dataset))
       refuse(facts.file, first_, *wrong);
     for (const MethodFacts& method : facts.methods) {
-      const auto found = methods_.find(method.method);
-      if (found == methods_.end()) {
-        methods_[method.method] = {method, facts.file};
+      const auto [found, is_new] =
+          methods_.try_emplace(method.method, KnownMethod{method, facts.file});
+      if (is_new) {
         addMethodFacts(out_, method);
       } else if (const auto wrong = contradiction(found->second.facts, method)) {
         refuse(facts.file, found->second.file, *wrong);
@@ -101,99 +88,65 @@ class Merge {
     }
   }
 
-  void takeSittings(const ResultsFacts& facts) {
-    sitting_of_.clear();
-    for (Sitting sitting : facts.sittings) {
-      const std::int64_t before = sitting.id;
-      const std::string key =
-          sitting.machine + '\n' + sitting.began + '\n' + sitting.command + '\n' + sitting.shard;
-      const auto known = sittings_.find(key);
-      if (known == sittings_.end()) {
-        addSitting(out_, sitting);
-        sittings_[key] = sitting.id;
-      }
-      sitting_of_[before] = sittings_[key];
-    }
+  void refuseContradictions(const fs::path& file) {
+    SqlStatement statement(
+        out_, std::string("SELECT o.case_id, o.reseed, o.method, h.status, o.status") + kCommon +
+                  "WHERE o.status <> 'input_error' AND h.status <> 'input_error' AND (o.status <> "
+                  "h.status OR o.success IS NOT h.success OR o.false_positive <> h.false_positive "
+                  "OR o.digest <> h.digest OR (o.digest = '' AND NOT " +
+                  kPosesApart + " < 1e-12)) LIMIT 1");
+    if (!statement.step()) return;
+    throw InputError(file, "run of " + textOf(statement.cell(0)),
+                     "seed " + std::to_string(integerOf(statement.cell(1))) + ", method " +
+                         textOf(statement.cell(2)) + " ended otherwise in another of the files (" +
+                         textOf(statement.cell(3)) + ", here " + textOf(statement.cell(4)) +
+                         "): only equal runs can be merged");
   }
 
-  void takeRuns(SqlDatabase& input) {
-    const std::vector<std::string> names = runTable().names();
-    SqlStatement runs(input, "SELECT id, sitting, " + joined(names) + " FROM run ORDER BY id");
-    SqlStatement held(out_, "SELECT id, " + joined(kEnding) +
-                                ", camera_from_station FROM run WHERE case_id = ?1 AND reseed = ?2 "
-                                "AND method = ?3");
-    SqlStatement insertion(out_, insertSql("run", RowCopy::withFirst("sitting", names)));
-    RowCopy copies[] = {{input, out_, "tag", {"tag"}},
-                        {input, out_, "iteration", stepTable().names()},
-                        {input, out_, "match", RowCopy::withFirst("step", matchTable().names())}};
-    while (runs.step()) {
-      std::vector<SqlValue> row = runs.row();
-      const std::int64_t id = integerOf(row.front());
-      row.erase(row.begin());
-      row.front() = sitting_of_[integerOf(row.front())];
-      const RunResult run =
-          runTable().read(input.file(), names, std::vector<SqlValue>(row.begin() + 1, row.end()));
-      if (!isNew(run, held, input)) continue;
-      insertion.run(row);
-      const std::int64_t new_id = out_.lastId();
-      for (RowCopy& copy : copies) copy.copy(id, new_id);
-      ++counts_.runs;
-    }
+  /// Runs whose input was refused, where the other file has the run done.
+  void removeRefused() {
+    const std::string ids = std::string("(SELECT h.id") + kCommon +
+                            "WHERE h.status = 'input_error' AND o.status <> 'input_error')";
+    for (const char* table : {"tag", "iteration", "match"})
+      out_.execute(std::string("DELETE FROM main.") + table + " WHERE run IN " + ids);
+    out_.execute("DELETE FROM main.run WHERE id IN " + ids);
   }
 
-  /// Whether a run is to be added; it is not when the same is held. Throws when they contradict.
-  bool isNew(const RunResult& run, SqlStatement& held, const SqlDatabase& input) {
-    const SqlValue key[] = {run.case_id, std::int64_t{run.reseed}, run.method};
-    held.bind(key);
-    if (!held.step()) return true;
-    const std::vector<SqlValue> before = held.row();
-    const std::string status = textOf(before[1]);
-    if (run.inputFailed()) {
-      counts_.equal += status == run.status ? 1 : 0;
-      return false;
-    }
-    if (status == "input_error") {
-      remove(integerOf(before[0]));
-      return true;
-    }
-    const std::vector<SqlValue> after = ending(run);
-    const bool same_pose = !run.digest.empty() || samePose(run, before.back(), input.file());
-    if (!same_pose || !std::equal(after.begin(), after.end(), before.begin() + 1))
-      throw InputError(input.file(), "run of " + run.case_id,
-                       "seed " + std::to_string(run.reseed) + ", method " + run.method +
-                           " ended otherwise in another of the files (" + status + ", here " +
-                           run.status + "): only equal runs can be merged");
-    ++counts_.equal;
-    return false;
+  /// A batch run that several files have is taken once.
+  void takeSittings() {
+    const std::string names = joined(sittingTable().names());
+    const std::string same =
+        "h.machine = o.machine AND h.began = o.began AND h.command = o.command AND h.shard = "
+        "o.shard";
+    out_.execute("INSERT INTO main.sitting (" + names + ") SELECT " + names +
+                 " FROM other.sitting o WHERE NOT EXISTS (SELECT 1 FROM main.sitting h WHERE " +
+                 same + ") ORDER BY id");
+    out_.execute(
+        "DROP TABLE IF EXISTS temp.sitting_of;"
+        "CREATE TEMP TABLE sitting_of AS SELECT o.id AS old, min(h.id) AS new FROM other.sitting "
+        "o JOIN main.sitting h ON " +
+        same + " GROUP BY o.id");
   }
 
-  static std::vector<SqlValue> ending(const RunResult& run) {
-    const std::vector<SqlValue> values = runTable().values(run);
-    const std::vector<std::string> names = runTable().names();
-    std::vector<SqlValue> made;
-    for (const std::string& name : kEnding)
-      made.push_back(values[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) -
-                                                     names.begin())]);
-    return made;
-  }
-
-  static bool samePose(const RunResult& run, const SqlValue& held, const fs::path& file) {
-    const RunResult other = runTable().read(file, {"camera_from_station"}, {held});
-    return (run.camera_from_station.rotation.coeffs() - other.camera_from_station.rotation.coeffs())
-                   .norm() < 1e-12 &&
-           (run.camera_from_station.translation_m - other.camera_from_station.translation_m)
-                   .norm() < 1e-12;
-  }
-
-  void remove(std::int64_t id) {
-    for (const char* sql :
-         {"DELETE FROM run WHERE id = ?1", "DELETE FROM tag WHERE run = ?1",
-          "DELETE FROM iteration WHERE run = ?1", "DELETE FROM match WHERE run = ?1"}) {
-      SqlStatement removal(out_, sql);
-      const SqlValue value = id;
-      removal.run({&value, 1});
-    }
-    --counts_.runs;
+  /// Those that are not held, each with an id of its own.
+  void takeRuns() {
+    out_.execute(
+        std::string("DROP TABLE IF EXISTS temp.added;"
+                    "CREATE TEMP TABLE added AS SELECT id AS old, (SELECT coalesce(max(id), 0) "
+                    "FROM main.run) + row_number() OVER (ORDER BY id) AS new FROM other.run WHERE "
+                    "id NOT IN (SELECT o.id") +
+        kCommon + ")");
+    const auto copy = [this](const std::string& table, const std::string& names) {
+      out_.execute("INSERT INTO main." + table + " (run, " + names + ") SELECT new, " + names +
+                   " FROM other." + table + " JOIN added ON old = run");
+    };
+    const std::string names = joined(runTable().names());
+    out_.execute("INSERT INTO main.run (id, sitting, " + names + ") SELECT a.new, s.new, " + names +
+                 " FROM other.run JOIN added a ON a.old = id JOIN sitting_of s ON s.old = sitting "
+                 "ORDER BY a.new");
+    copy("tag", "tag");
+    copy("iteration", joined(stepTable().names()));
+    copy("match", "step, " + joined(matchTable().names()));
   }
 
   [[noreturn]] static void refuse(const fs::path& file, const fs::path& held,
@@ -206,12 +159,10 @@ class Merge {
     fs::path file;
   };
   fs::path first_;
-  SqlDatabase out_;
   DatasetFacts dataset_;
+  SqlDatabase out_;
   std::map<std::string, KnownMethod> methods_;
-  std::map<std::string, std::int64_t> sittings_;
-  std::map<std::int64_t, std::int64_t> sitting_of_;  ///< of the file at hand
-  MergeCounts counts_;
+  std::int64_t equal_ = 0;
 };
 
 }  // namespace
@@ -224,14 +175,14 @@ MergeCounts mergeResults(const fs::path& out, const std::vector<fs::path>& input
   for (const fs::path& input : inputs)
     if (!fs::equivalent(input, out, error)) files.push_back(input);
   const Draft draft(out);
-  std::optional<MergeCounts> counts;
+  MergeCounts counts;
   {
     Merge merge(draft.file(), readResultsFacts(files.front()));
     for (const fs::path& file : files) merge.take(file);
     counts = merge.counts();
   }
   moveIntoPlace(draft.file(), out, FileUse::kResults);
-  return *counts;
+  return counts;
 }
 
 }  // namespace boresight::sessions

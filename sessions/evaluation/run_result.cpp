@@ -82,25 +82,17 @@ void judge(bool wrong_mesh, RunResult& result) {
 }
 
 nlohmann::ordered_json toJson(const PoseError& error) {
-  nlohmann::ordered_json json = {{"normal_mm", error.normal_mm},
-                                 {"lateral_mm", error.lateral_mm},
-                                 {"rotation_mrad", error.rotation_mrad},
-                                 {"in_plane_mrad", error.in_plane_mrad},
-                                 {"geodesic_mrad", error.geodesic_mrad}};
-  if (error.projection_px) json["projection_px"] = *error.projection_px;
-  if (error.mssd_mm) json["mssd_mm"] = *error.mssd_mm;
-  if (error.mspd_px) json["mspd_px"] = *error.mspd_px;
-  if (error.add_mm) json["add_mm"] = *error.add_mm;
-  if (error.adi_mm) json["adi_mm"] = *error.adi_mm;
+  nlohmann::ordered_json json;
+  for (const auto& [name, part] : kErrorParts) json[name] = error.*part;
+  for (const auto& [name, part] : kModelErrorParts)
+    if (error.*part) json[name] = *(error.*part);
   return json;
 }
 
 nlohmann::ordered_json toJson(const StageSeconds& seconds) {
-  return {{"initialization", seconds.initialization},
-          {"rendering", seconds.rendering},
-          {"matching", seconds.matching},
-          {"pose", seconds.pose},
-          {"refinement", seconds.refinement}};
+  nlohmann::ordered_json json;
+  for (const auto& [name, part] : kStages) json[name] = seconds.*part;
+  return json;
 }
 
 nlohmann::ordered_json toJson(const RunResult& result) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,6 +15,30 @@
 #include "sessions/run/trace.h"
 
 namespace boresight::sessions {
+
+/// A case with this tag is far.
+inline constexpr const char* kFarTag = "far";
+
+/// The parts of a time and of an error, by their names in files. The model's are unknown (nothing)
+/// where they were not asked for.
+inline constexpr std::pair<const char*, double StageSeconds::*> kStages[] = {
+    {"initialization", &StageSeconds::initialization},
+    {"rendering", &StageSeconds::rendering},
+    {"matching", &StageSeconds::matching},
+    {"pose", &StageSeconds::pose},
+    {"refinement", &StageSeconds::refinement}};
+inline constexpr std::pair<const char*, double PoseError::*> kErrorParts[] = {
+    {"normal_mm", &PoseError::normal_mm},
+    {"lateral_mm", &PoseError::lateral_mm},
+    {"rotation_mrad", &PoseError::rotation_mrad},
+    {"in_plane_mrad", &PoseError::in_plane_mrad},
+    {"geodesic_mrad", &PoseError::geodesic_mrad}};
+inline constexpr std::pair<const char*, std::optional<double> PoseError::*> kModelErrorParts[] = {
+    {"projection_px", &PoseError::projection_px},
+    {"mssd_mm", &PoseError::mssd_mm},
+    {"mspd_px", &PoseError::mspd_px},
+    {"add_mm", &PoseError::add_mm},
+    {"adi_mm", &PoseError::adi_mm}};
 
 /// What is kept of one iteration of a run.
 struct RunStep {

@@ -54,17 +54,10 @@ Column<Row> pose(const char* name, Pose Row::*field) {
           }};
 }
 
-using Seconds = std::pair<const char*, double StageSeconds::*>;
-constexpr Seconds kSeconds[] = {{"s_initialization", &StageSeconds::initialization},
-                                {"s_rendering", &StageSeconds::rendering},
-                                {"s_matching", &StageSeconds::matching},
-                                {"s_pose", &StageSeconds::pose},
-                                {"s_refinement", &StageSeconds::refinement}};
-
 template <class Row>
 void addSeconds(std::vector<Column<Row>>& columns) {
-  for (const auto& [name, part] : kSeconds)
-    columns.push_back({name, "REAL",
+  for (const auto& [name, part] : kStages)
+    columns.push_back({std::string("s_") + name, "REAL",
                        [part = part](const Row& row) { return SqlValue(row.seconds.*part); },
                        [part = part](Row& row, const SqlValue& value, const fs::path&) {
                          row.seconds.*part = realOf(value).value_or(0.0);
@@ -73,24 +66,10 @@ void addSeconds(std::vector<Column<Row>>& columns) {
       {"s_total", "REAL", [](const Row& row) { return SqlValue(row.seconds.total()); }});
 }
 
-using ErrorPart = std::pair<const char*, double PoseError::*>;
-constexpr ErrorPart kErrorParts[] = {{"normal_mm", &PoseError::normal_mm},
-                                     {"lateral_mm", &PoseError::lateral_mm},
-                                     {"rotation_mrad", &PoseError::rotation_mrad},
-                                     {"in_plane_mrad", &PoseError::in_plane_mrad},
-                                     {"geodesic_mrad", &PoseError::geodesic_mrad}};
-
 PoseError& made(std::optional<PoseError>& error) {
   if (!error) error.emplace();
   return *error;
 }
-
-using OptionalPart = std::pair<const char*, std::optional<double> PoseError::*>;
-constexpr OptionalPart kModelParts[] = {{"projection_px", &PoseError::projection_px},
-                                        {"mssd_mm", &PoseError::mssd_mm},
-                                        {"mspd_px", &PoseError::mspd_px},
-                                        {"add_mm", &PoseError::add_mm},
-                                        {"adi_mm", &PoseError::adi_mm}};
 
 /// An error has values in the columns of all of its own parts, or in none; those of the model,
 /// which only whole runs have, may be missing.
@@ -106,7 +85,7 @@ void addError(std::vector<Column<Row>>& columns, const std::string& prefix,
                          if (const auto real = realOf(value)) made(row.*field).*part = *real;
                        }});
   if (!with_model) return;
-  for (const auto& [name, part] : kModelParts)
+  for (const auto& [name, part] : kModelErrorParts)
     columns.push_back({prefix + name, "REAL",
                        [field, part = part](const Row& row) {
                          return row.*field ? sqlReal((*(row.*field)).*part) : SqlValue();

@@ -60,25 +60,26 @@ ordered_json imageJson(const GrayImage& image) {
 }
 
 ordered_json provenanceJson(const LocalizationTrace& trace, const RunProvenance& provenance) {
+  const SessionCase& one = provenance.loaded->source;
   ordered_json json = {{"version", trace.version},
                        {"digest", trace.digest},
                        {"profile", provenance.profile},
                        {"options", toJson(provenance.changed_options)},
-                       {"uncertainty", toJson(provenance.uncertainty)},
-                       {"image", imageJson(*provenance.image)},
+                       {"uncertainty", toJson(one.uncertainty)},
+                       {"image", imageJson(provenance.loaded->image)},
                        {"camera", fileJson(provenance.camera_file)}};
   ordered_json meshes = ordered_json::array();
-  for (const MeshInfo& info : provenance.scene->infos)
+  for (const MeshInfo& info : provenance.loaded->scene.infos)
     meshes.push_back(
         {{"file", info.file.string()}, {"sha256", info.file_sha256}, {"unit", info.unit}});
   json["meshes"] = meshes;
   json["seed"] = fileJson(provenance.seed_file);
-  if (!provenance.image_label.empty()) json["image_label"] = toJson(provenance.image_label);
-  if (provenance.station_frame) json["station_frame"] = toJson(*provenance.station_frame);
-  if (provenance.ignore != nullptr)
-    json["ignore"] = {{"file", provenance.ignore->file.string()},
-                      {"sha256", provenance.ignore->file_sha256},
-                      {"ignored_pixels", provenance.ignore->ignored_count}};
+  if (!one.image.label.empty()) json["image_label"] = toJson(one.image.label);
+  if (one.station_frame) json["station_frame"] = toJson(*one.station_frame);
+  if (const auto& ignore = provenance.loaded->ignore)
+    json["ignore"] = {{"file", ignore->file.string()},
+                      {"sha256", ignore->file_sha256},
+                      {"ignored_pixels", ignore->ignored_count}};
   if (!provenance.truth_file.empty()) json["truth"] = fileJson(provenance.truth_file);
   if (!provenance.config_file.empty()) json["config"] = fileJson(provenance.config_file);
   return json;
@@ -100,9 +101,9 @@ ordered_json resultJson(const LocalizationTrace& trace, const std::optional<Pose
   json["attempts"] = trace.attempts;
   json["camera_from_station"] = toJson(trace.camera_from_station);
   json["camera_from_station_seed"] = toJson(trace.camera_from_station_seed);
-  if (provenance.camera_reference)
-    json["frames"] = toJson(namedPoses(provenance.camera_reference, provenance.station_frame,
-                                       trace.camera_from_station));
+  if (const SessionCase& one = provenance.loaded->source; one.camera_reference)
+    json["frames"] =
+        toJson(namedPoses(one.camera_reference, one.station_frame, trace.camera_from_station));
   if (trace.converged()) json["covariance"] = toJson(trace.covariance);
   json["matches"] = result.matches;
   json["inliers"] = result.inliers;

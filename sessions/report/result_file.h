@@ -9,29 +9,20 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/io/image_file.h"
-#include "sessions/io/labels/image_label.h"
 #include "sessions/io/option_value.h"
-#include "sessions/io/pose_file.h"
-#include "sessions/io/scene_mesh.h"
 #include "sessions/run/trace.h"
+#include "sessions/session/case_run.h"
 
 namespace boresight::sessions {
 
-/// What a result was made from. Empty file names are inputs that were not given.
+/// Where a result comes from. Empty file names are inputs that were not given.
 struct RunProvenance {
   std::string method = "whs";
   std::string profile;
   OptionList changed_options;  ///< what differs from the profile
-  DeclaredUncertainty uncertainty;
-  const GrayImage* image = nullptr;
-  const SceneMesh* scene = nullptr;
-  const IgnoreMask* ignore = nullptr;
+  const LoadedCase* loaded = nullptr;
   std::filesystem::path camera_file, seed_file, truth_file, config_file;
-  std::vector<std::string> warnings;                         ///< that were printed before the run
-  std::vector<LabelItem> image_label = {};                   ///< of an image that has a label
-  std::optional<StationFrame> station_frame = std::nullopt;  ///< of a seed in a named frame
-  std::optional<CameraReference> camera_reference = std::nullopt;  ///< of a camera of vectors
+  std::vector<std::string> warnings;  ///< printed before the run
 };
 
 /// result.json (`boresight-result`, version 1): status, pose, covariance, the pose in the

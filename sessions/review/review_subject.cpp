@@ -95,6 +95,16 @@ std::optional<RecordComparison> againstOnboard(const LoadedCase& loaded,
 
 }  // namespace
 
+std::optional<PoseError> truthError(const LoadedCase& loaded, const Pose& camera_from_station) {
+  const SessionCase& one = loaded.source;
+  if (!one.camera_from_station_truth) return std::nullopt;
+  const Pose& truth = *one.camera_from_station_truth;
+  PoseError error = poseError(truth, camera_from_station, one.camera_from_end_effector);
+  error.projection_px =
+      projectionError(one.camera, truth, camera_from_station, matchedVertices(loaded.scene.view()));
+  return error;
+}
+
 ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const LoadedCase> loaded,
                             PoseSource source, const std::string& digest,
                             const RunReader& read_run) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/geometry/pose.h"
+#include "sessions/evaluation/pose_error.h"
 #include "sessions/record/compare_records.h"
 #include "sessions/run/trace.h"
 #include "sessions/session/case_run.h"
@@ -36,6 +37,9 @@ struct ReviewSubject {
   std::optional<RecordComparison>
       onboard;  ///< the case's onboard record with the run, if it has one
 };
+
+/// How far a pose is from the truth of its case; nothing where that is not known.
+std::optional<PoseError> truthError(const LoadedCase& loaded, const Pose& camera_from_station);
 
 /// Where a recorded run comes from: its trace, or a second run of the same inputs.
 using RunReader = std::function<LocalizationTrace(const RunRecord&)>;

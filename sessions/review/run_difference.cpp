@@ -47,14 +47,10 @@ ReadRun readRun(const Session& session, const std::string& digest,
 }
 
 void takeError(const ReviewSubject& subject, RunSide& side) {
+  if (!side.converged) return;
+  side.error = truthError(*subject.loaded, subject.camera_from_station);
+  if (!side.error) return;
   const SessionCase& one = subject.loaded->source;
-  if (!one.camera_from_station_truth || !side.converged) return;
-  side.error = poseError(*one.camera_from_station_truth, subject.camera_from_station,
-                         one.camera_from_end_effector);
-  if (subject.requirement.projection_px)
-    side.error->projection_px =
-        projectionError(one.camera, *one.camera_from_station_truth, subject.camera_from_station,
-                        matchedVertices(subject.loaded->scene.view()));
   const Matrix6d truth_covariance = one.truth_covariance.value_or(Matrix6d::Zero());
   if (sigmaExcessText(truth_covariance, one.camera_from_end_effector, subject.requirement).empty())
     side.error_share = requirementShare(*side.error, subject.requirement);

@@ -15,6 +15,7 @@
 #include "sessions/io/json_writer.h"
 #include "sessions/session/decision.h"
 #include "sessions/session/rig_links.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/text/utc_time.h"
 
 namespace boresight::sessions {
@@ -117,24 +118,15 @@ std::string listText(const std::vector<std::string>& names) {
   return text;
 }
 
-std::string trimmed(const std::string& text) {
-  const auto blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
-  const auto begin = std::find_if_not(text.begin(), text.end(), blank);
-  const auto end = std::find_if_not(text.rbegin(), std::make_reverse_iterator(begin), blank).base();
-  return {begin, end};
-}
-
-/// A name without what people write differently from day to day.
+/// A name without case and blanks.
 std::string comparableName(const std::string& name) {
-  std::string plain;
-  for (const char c : name)
-    if (std::isspace(static_cast<unsigned char>(c)) == 0)
-      plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  std::string plain = lowerCase(name);
+  std::erase_if(plain, [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; });
   return plain;
 }
 
 Signature requireSigned(const Signature& who, const char* what) {
-  const Signature plain{trimmed(who.by), trimmed(who.comment)};
+  const Signature plain{std::string(trimmed(who.by)), std::string(trimmed(who.comment))};
   if (plain.by.empty()) throw DecisionError(std::string("give a name: who ") + what + "?");
   if (plain.comment.empty())
     throw DecisionError(std::string("give a comment: on what grounds does ") + plain.by + " " +
@@ -155,7 +147,8 @@ std::vector<JudgedCheck> judgedChecks(const std::vector<Check>& checks,
   for (const Check& check : checks) {
     const auto found = overrides.find(check.id);
     const bool failed = check.state == CheckState::kFailed;
-    judged.push_back({check, failed && found != overrides.end() ? trimmed(found->second) : ""});
+    const bool answered = failed && found != overrides.end();
+    judged.push_back({check, std::string(answered ? trimmed(found->second) : "")});
   }
   return judged;
 }

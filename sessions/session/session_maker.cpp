@@ -108,8 +108,9 @@ MadeCase makeCase(const CaseFiles& files) {
   const PoseFile seed = readPose(files.seed, frames);
   made.camera_from_station_seed = seed.camera_from_station;
   made.station_frame = seed.station_frame;
-  made.uncertainty =
-      files.uncertainty ? *files.uncertainty : seed.uncertainty.value_or(DeclaredUncertainty());
+  const DeclaredUncertainty stated = seed.uncertainty.value_or(DeclaredUncertainty());
+  made.uncertainty = files.uncertainty.value_or(stated);
+  made.uncertainty.pivot = files.pivot.value_or(stated.pivot);
   if (!files.uncertainty && !seed.uncertainty)
     result.notes.push_back("the seed states no uncertainty; taking 0.03 m and 5 deg");
   const std::string projected = projectionNote(seed.rotation_deviation);

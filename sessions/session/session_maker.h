@@ -22,7 +22,8 @@ struct CaseFiles {
   std::vector<std::filesystem::path> transforms;
   std::vector<PartSource> parts;
   std::filesystem::path seed;
-  std::optional<DeclaredUncertainty> uncertainty;  ///< instead of the seed file's
+  std::optional<DeclaredUncertainty> uncertainty;  ///< instead of the seed file's, but its pivot
+  std::optional<UncertaintyPivot> pivot;           ///< instead of the seed file's
   std::optional<std::filesystem::path> truth;
   std::optional<std::filesystem::path> ignore;
   std::optional<double> feature_size_m;

@@ -8,6 +8,8 @@
 #include <tuple>
 
 #include "sessions/tables/results_set.h"
+#include "sessions/text/plain_text.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {
@@ -43,13 +45,14 @@ struct PaperTimes {
   double total_min;
 };
 
-/// Real images.
+/// Real images; percent by kSuccessMethods.
+constexpr std::array<const char*, 6> kSuccessMethods = {"orb",     "ssd",     "ncc",
+                                                        "loftr-r", "loftr-s", "whs"};
 struct PaperSuccess {
   const char* set;
   int runs;
-  const char* method;
-  double completed_percent;
-  double success_percent;
+  std::array<double, 6> completed_percent;
+  std::array<double, 6> success_percent;
 };
 
 constexpr PaperErrors kErrors[] = {
@@ -100,30 +103,10 @@ constexpr PaperTimes kTimes[] = {
 };
 
 constexpr PaperSuccess kSuccess[] = {
-    {"testbed OS", 20, "orb", 0, 0},
-    {"testbed OS", 20, "ssd", 100, 45},
-    {"testbed OS", 20, "ncc", 100, 45},
-    {"testbed OS", 20, "loftr-r", 70, 5},
-    {"testbed OS", 20, "loftr-s", 10, 0},
-    {"testbed OS", 20, "whs", 100, 100},
-    {"testbed BC", 20, "orb", 0, 0},
-    {"testbed BC", 20, "ssd", 40, 0},
-    {"testbed BC", 20, "ncc", 65, 0},
-    {"testbed BC", 20, "loftr-r", 100, 95},
-    {"testbed BC", 20, "loftr-s", 100, 95},
-    {"testbed BC", 20, "whs", 100, 100},
-    {"Mars BC near 0.49 m", 3, "orb", 0, 0},
-    {"Mars BC near 0.49 m", 3, "ssd", 0, 0},
-    {"Mars BC near 0.49 m", 3, "ncc", 33.3, 0},
-    {"Mars BC near 0.49 m", 3, "loftr-r", 100, 100},
-    {"Mars BC near 0.49 m", 3, "loftr-s", 66.7, 0},
-    {"Mars BC near 0.49 m", 3, "whs", 100, 100},
-    {"Mars BC far 1.23 m", 3, "orb", 0, 0},
-    {"Mars BC far 1.23 m", 3, "ssd", 0, 0},
-    {"Mars BC far 1.23 m", 3, "ncc", 0, 0},
-    {"Mars BC far 1.23 m", 3, "loftr-r", 100, 0},
-    {"Mars BC far 1.23 m", 3, "loftr-s", 33.3, 0},
-    {"Mars BC far 1.23 m", 3, "whs", 100, 0},
+    {"testbed OS", 20, {0, 100, 100, 70, 10, 100}, {0, 45, 45, 5, 0, 100}},
+    {"testbed BC", 20, {0, 40, 65, 100, 100, 100}, {0, 0, 0, 95, 95, 100}},
+    {"Mars BC near 0.49 m", 3, {0, 0, 33.3, 100, 66.7, 100}, {0, 0, 0, 100, 0, 100}},
+    {"Mars BC far 1.23 m", 3, {0, 0, 0, 100, 33.3, 100}, {0, 0, 0, 0, 0, 0}},
 };
 
 constexpr const char* kSeed = "seed";
@@ -135,9 +118,9 @@ std::optional<double> percent(std::int64_t part, std::int64_t whole) {
   return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// Percent of completed runs within what the requirement says of one figure, over those where it
-/// says something of it.
-std::optional<double> percentWithin(const Members& members, const JudgedFigure& figure) {
+/// Percent of completed runs within the requirement of one figure, of runs whose requirement names
+/// it.
+std::optional<double> percentWithinFigure(const Members& members, const JudgedFigure& figure) {
   std::int64_t asked = 0;
   std::int64_t met = 0;
   for (const RunResult* run : members) {
@@ -151,12 +134,33 @@ std::optional<double> percentWithin(const Members& members, const JudgedFigure& 
   return percent(met, asked);
 }
 
+Statistics errorStatistics(const Members& members, const ErrorColumn& column) {
+  std::vector<double> values;
+  for (const RunResult* run : members)
+    if (const auto value = run->completed && run->error ? column.of(*run->error) : std::nullopt)
+      values.push_back(*value);
+  return statistics(values);
+}
+
 MethodFigures figuresOf(const Members& members) {
-  MethodFigures figures{summaryOf(members), {}, {}, {}, {}};
-  figures.completed_percent = percent(figures.completed, figures.runs);
-  figures.success_percent = percent(figures.successful, figures.judged);
+  MethodFigures figures;
+  std::int64_t completed = 0;
+  std::int64_t judged = 0;
+  std::int64_t successful = 0;
+  for (const RunResult* run : members) {
+    ++figures.runs;
+    completed += run->completed ? 1 : 0;
+    judged += run->success.has_value() ? 1 : 0;
+    successful += run->success.value_or(false) ? 1 : 0;
+    figures.false_positives += run->false_positive ? 1 : 0;
+    figures.gross_false_positives += run->gross_false_positive ? 1 : 0;
+  }
+  figures.completed_percent = percent(completed, figures.runs);
+  figures.success_percent = percent(successful, judged);
   for (std::size_t i = 0; i < kJudgedFigures.size(); ++i)
-    figures.within_percent[i] = percentWithin(members, kJudgedFigures[i]);
+    figures.within_percent[i] = percentWithinFigure(members, kJudgedFigures[i]);
+  for (std::size_t i = 0; i < kErrorColumns.size(); ++i)
+    figures.error[i] = errorStatistics(members, kErrorColumns[i]);
   return figures;
 }
 
@@ -177,7 +181,7 @@ std::vector<RunResult> seedsOf(std::span<const RunResult> runs) {
     seed.error = run.seed_error;
     seed.requirement = run.requirement;
     judge(false, seed);
-    seed.false_positive = false;  // nobody claims that a seed is right
+    seed.false_positive = seed.gross_false_positive = false;  // a seed claims nothing
     seeds.push_back(std::move(seed));
   }
   return seeds;
@@ -196,6 +200,26 @@ Parts statisticsCell(const PaperStatistics& figures, bool any) {
 
 std::string rangeText(bool far) { return far ? "far" : "near"; }
 
+struct GroupKey {
+  std::string station;
+  bool far = false;
+  std::string method;
+
+  bool operator<(const GroupKey& other) const {
+    if (std::tie(station, far) != std::tie(other.station, other.far))
+      return std::tie(station, far) < std::tie(other.station, other.far);
+    return methodBefore(method, other.method);
+  }
+};
+
+/// By station, near before far, and method. Runs whose input was refused are left out.
+std::map<GroupKey, Members> membersByGroup(std::span<const RunResult> runs) {
+  std::map<GroupKey, Members> groups;
+  for (const RunResult& run : runs)
+    if (!run.inputFailed()) groups[{run.station, run.hasTag(kFarTag), run.method}].push_back(&run);
+  return groups;
+}
+
 std::string paperName(const std::string& method) { return method + " (paper)"; }
 
 std::vector<std::vector<TableCell>> paperErrorRows(const std::string& station) {
@@ -204,8 +228,9 @@ std::vector<std::vector<TableCell>> paperErrorRows(const std::string& station) {
     if (row.station != station) continue;
     const bool any = row.completed_percent > 0.0;
     rows.push_back({row.station, "near", paperName(row.method), "2000", row.completed_percent,
-                    row.success_percent, std::nullopt, statisticsCell(row.normal_mm, any),
-                    statisticsCell(row.lateral_mm, any), statisticsCell(row.rotation_mrad, any)});
+                    row.success_percent, std::nullopt, std::nullopt,
+                    statisticsCell(row.normal_mm, any), statisticsCell(row.lateral_mm, any),
+                    statisticsCell(row.rotation_mrad, any), kNoParts});
   }
   return rows;
 }
@@ -219,24 +244,36 @@ std::optional<double> median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
+const std::array<ErrorColumn, 4> kErrorColumns = {{
+    {"normal mm", 3, [](const PoseError& e) { return std::optional(e.normal_mm); }},
+    {"lateral mm", 3, [](const PoseError& e) { return std::optional(e.lateral_mm); }},
+    {"rotation mrad", 3, [](const PoseError& e) { return std::optional(e.rotation_mrad); }},
+    {"projection px", 2, [](const PoseError& e) { return e.projection_px; }},
+}};
+
 std::vector<MethodFigures> methodFigures(std::span<const RunResult> runs) {
   const std::vector<RunResult> seeds = seedsOf(runs);
-  const auto before = [](const auto& a, const auto& b) {
-    if (std::tie(std::get<0>(a), std::get<1>(a)) != std::tie(std::get<0>(b), std::get<1>(b)))
-      return std::tie(std::get<0>(a), std::get<1>(a)) < std::tie(std::get<0>(b), std::get<1>(b));
-    return methodBefore(std::get<2>(a), std::get<2>(b));
-  };
-  std::map<std::tuple<std::string, bool, std::string>, Members, decltype(before)> groups(before);
-  for (const std::span<const RunResult> all : {std::span<const RunResult>(seeds), runs})
-    for (const RunResult& run : all)
-      if (!run.inputFailed())
-        groups[{run.station, run.hasTag(kFarTag), run.method}].push_back(&run);
+  std::map<GroupKey, Members> groups = membersByGroup(runs);
+  groups.merge(membersByGroup(seeds));
   std::vector<MethodFigures> rows;
   for (const auto& [key, members] : groups) {
     rows.push_back(figuresOf(members));
-    std::tie(rows.back().station, rows.back().far, rows.back().method) = key;
+    rows.back().station = key.station;
+    rows.back().far = key.far;
+    rows.back().method = key.method;
   }
   return rows;
+}
+
+std::optional<double> percentWithin(std::span<const RunResult* const> runs, double factor) {
+  std::int64_t judged = 0;
+  std::int64_t within = 0;
+  for (const RunResult* run : runs) {
+    if (!run->success || !run->error || !run->requirement) continue;
+    ++judged;
+    within += run->completed && meetsRequirement(*run->error, *run->requirement, factor) ? 1 : 0;
+  }
+  return percent(within, judged);
 }
 
 std::vector<MethodTimes> methodTimes(std::span<const RunResult> runs) {
@@ -253,9 +290,7 @@ std::vector<MethodTimes> methodTimes(std::span<const RunResult> runs) {
       times.mean += run->seconds;
       totals.push_back(run->seconds.total());
     }
-    for (double StageSeconds::*part :
-         {&StageSeconds::initialization, &StageSeconds::rendering, &StageSeconds::matching,
-          &StageSeconds::pose, &StageSeconds::refinement})
+    for (const auto& [name, part] : kStages)
       times.mean.*part /= static_cast<double>(members.size());
     times.median_total = median(totals).value_or(0.0);
     times.maximum_total = *std::max_element(totals.begin(), totals.end());
@@ -265,7 +300,6 @@ std::vector<MethodTimes> methodTimes(std::span<const RunResult> runs) {
 }
 
 Table errorTable(std::span<const RunResult> runs, bool with_paper) {
-  const std::vector<std::string> parts = {"mean", "std", "max"};
   Table table{"errors",
               "Errors per station and method, over completed runs",
               {{"station"},
@@ -275,25 +309,31 @@ Table errorTable(std::span<const RunResult> runs, bool with_paper) {
                {"completed %", {}, 1},
                {"success %", {}, 1},
                {"false positives"},
-               {"normal mm", parts, 3},
-               {"lateral mm", parts, 3},
-               {"rotation mrad", parts, 3}},
+               {"gross"}},
               {},
               {"Errors are those of the end effector, or of the camera where a case has none.",
                "The maximum of the normal error is that of its absolute value."}};
+  for (const ErrorColumn& column : kErrorColumns)
+    table.columns.push_back({column.name, {"mean", "std", "max"}, column.decimals});
   std::string station;
   for (const MethodFigures& row : methodFigures(runs)) {
     if (with_paper && row.station != station)
       for (auto& paper_row : paperErrorRows(row.station))
         table.rows.push_back(std::move(paper_row));
     station = row.station;
-    table.rows.push_back(
-        {row.station, rangeText(row.far), row.method, row.runs, row.completed_percent,
-         row.success_percent,
-         row.method == kSeed ? TableCell(std::nullopt) : TableCell(row.false_positives),
-         statisticsCell(row.normal_mm), statisticsCell(row.lateral_mm),
-         statisticsCell(row.rotation_mrad)});
+    const bool judged = row.method != kSeed && row.success_percent;
+    table.rows.push_back({row.station, rangeText(row.far), row.method, row.runs,
+                          row.completed_percent, row.success_percent,
+                          judged ? TableCell(row.false_positives) : TableCell(std::nullopt),
+                          judged ? TableCell(row.gross_false_positives) : TableCell(std::nullopt)});
+    for (const Statistics& figures : row.error)
+      table.rows.back().emplace_back(statisticsCell(figures));
   }
+  const auto refused = std::count_if(runs.begin(), runs.end(),
+                                     [](const RunResult& run) { return run.inputFailed(); });
+  if (refused > 0)
+    table.notes.push_back(std::to_string(refused) +
+                          " runs could not start: their input was refused.");
   if (with_paper) {
     table.notes.emplace_back(kPaperCaution);
     table.notes.push_back(std::string("Source: ") + kPaperSource + ".");
@@ -301,57 +341,78 @@ Table errorTable(std::span<const RunResult> runs, bool with_paper) {
   return table;
 }
 
+Table summaryTable(std::span<const RunResult> runs) {
+  Table table = errorTable(runs, false);
+  std::vector<RunResult> all(runs.begin(), runs.end());
+  for (RunResult& run : all) {
+    run.station = "all";
+    run.tags.clear();
+  }
+  Table sums = errorTable(all, false);
+  for (auto& row : sums.rows) row[1] = "";  // near and far together
+  if (table.rows.size() > sums.rows.size())
+    table.rows.insert(table.rows.end(), sums.rows.begin(), sums.rows.end());
+  return table;
+}
+
 Table successTable(std::span<const RunResult> runs, bool with_paper) {
-  Table table{"success",
-              "Completed and successful runs, percent",
-              {{"station"},
-               {"range"},
-               {"method"},
-               {"runs"},
-               {"completed %", {}, 1},
-               {"success %", {}, 1},
-               {"within normal %", {}, 1},
-               {"within lateral %", {}, 1},
-               {"within rotation %", {}, 1},
-               {"within projection %", {}, 1}},
-              {},
-              {"Within: completed and within what the requirement says of that error alone."}};
+  Table table{
+      "success",
+      "Completed and successful runs, percent",
+      {{"station"}, {"range"}, {"method"}, {"runs"}, {"completed %", {}, 1}, {"success %", {}, 1}},
+      {},
+      {"Within: completed and within what the requirement says of that error alone."}};
+  for (const char* name : {"normal", "lateral", "rotation", "projection"})
+    table.columns.push_back({std::string("within ") + name + " %", {}, 1});
   for (const MethodFigures& row : methodFigures(runs)) {
     if (row.method == kSeed) continue;
     table.rows.push_back({row.station, rangeText(row.far), row.method, row.runs,
-                          row.completed_percent, row.success_percent, row.within_percent[0],
-                          row.within_percent[1], row.within_percent[2], row.within_percent[3]});
+                          row.completed_percent, row.success_percent});
+    for (const auto& within : row.within_percent) table.rows.back().emplace_back(within);
   }
   if (!with_paper) return table;
   for (const PaperSuccess& row : kSuccess)
-    table.rows.push_back({row.set, "", paperName(row.method), std::int64_t{row.runs},
-                          row.completed_percent, row.success_percent, std::nullopt, std::nullopt,
-                          std::nullopt, std::nullopt});
+    for (std::size_t i = 0; i < kSuccessMethods.size(); ++i)
+      table.rows.push_back({row.set, "", paperName(kSuccessMethods[i]), std::int64_t{row.runs},
+                            row.completed_percent[i], row.success_percent[i], std::nullopt,
+                            std::nullopt, std::nullopt, std::nullopt});
   table.notes.push_back(std::string("Rows marked (paper) are of other images, cameras and "
                                     "requirements: they cannot be compared with ours. Source: ") +
                         kPaperSource + ".");
   return table;
 }
 
+Table toleranceTable(std::span<const RunResult> runs, bool) {
+  constexpr std::array<double, 6> kFactors = {0.1, 0.25, 0.5, 1.0, 2.0, 3.0};
+  Table table{"tolerance",
+              "Success, percent, against multiples of the requirement",
+              {{"station"}, {"range"}, {"method"}},
+              {},
+              {}};
+  for (const double factor : kFactors)
+    table.columns.push_back({fixedText(factor, 2) + " x", {}, 1});
+  for (const auto& [key, members] : membersByGroup(runs)) {
+    table.rows.push_back({key.station, rangeText(key.far), key.method});
+    for (const double factor : kFactors)
+      table.rows.back().emplace_back(percentWithin(members, factor));
+  }
+  return table;
+}
+
 Table timeTable(std::span<const RunResult> runs, bool with_paper) {
   Table table{"times",
               "Time per run and step, seconds",
-              {{"method"},
-               {"runs"},
-               {"initialization", {}, 3},
-               {"rendering", {}, 3},
-               {"matching", {}, 3},
-               {"pose", {}, 3},
-               {"refinement", {}, 3},
-               {"total", {}, 3},
-               {"median", {}, 3},
-               {"maximum", {}, 3}},
+              {{"method"}, {"runs"}},
               {},
               {"Means of wall time; median and maximum are of a run's total."}};
-  for (const MethodTimes& row : methodTimes(runs))
-    table.rows.push_back({row.method, row.runs, row.mean.initialization, row.mean.rendering,
-                          row.mean.matching, row.mean.pose, row.mean.refinement, row.mean.total(),
-                          row.median_total, row.maximum_total});
+  for (const auto& [name, part] : kStages) table.columns.push_back({name, {}, 3});
+  for (const char* name : {"total", "median", "maximum"}) table.columns.push_back({name, {}, 3});
+  for (const MethodTimes& row : methodTimes(runs)) {
+    table.rows.push_back({row.method, row.runs});
+    for (const auto& [name, part] : kStages) table.rows.back().emplace_back(row.mean.*part);
+    for (const double seconds : {row.mean.total(), row.median_total, row.maximum_total})
+      table.rows.back().emplace_back(seconds);
+  }
   if (!with_paper) return table;
   for (const PaperTimes& row : kTimes)
     table.rows.push_back({paperName(row.method), "2", 60.0 * row.initialization_min,
@@ -362,6 +423,28 @@ Table timeTable(std::span<const RunResult> runs, bool with_paper) {
                   "case added up. Source: ") +
       kPaperSource + ".");
   return table;
+}
+
+std::string failureList(std::span<const RunResult> results, std::size_t limit) {
+  std::string text;
+  std::size_t count = 0;
+  for (const RunResult& result : results) {
+    if (result.inputFailed() || result.success.value_or(true)) continue;
+    if (++count > limit) continue;
+    std::string line = "  " + result.case_id +
+                       (result.reseed > 0 ? " reseed " + std::to_string(result.reseed) : "") +
+                       ": " + result.status;
+    if (result.completed && result.error)
+      line += ", normal " + fixedText(result.error->normal_mm, 3) + " mm, lateral " +
+              fixedText(result.error->lateral_mm, 3) + " mm, rotation " +
+              fixedText(result.error->rotation_mrad, 2) + " mrad";
+    if (result.completed && result.error && result.error->projection_px)
+      line += ", " + fixedText(*result.error->projection_px, 1) + " px";
+    if (!result.message.empty()) line += ": " + result.message;
+    text += plainLine(line);
+  }
+  if (count > limit) text += "  and " + std::to_string(count - limit) + " more\n";
+  return count > 0 ? "not successful:\n" + text : "";
 }
 
 }  // namespace boresight::sessions

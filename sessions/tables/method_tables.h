@@ -3,31 +3,49 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "sessions/evaluation/run_result.h"
-#include "sessions/evaluation/summary.h"
 #include "sessions/tables/table.h"
 
 namespace boresight::sessions {
 
-/// What a method made of a station's cases, near or far. Runs whose input was refused count in
-/// nothing.
-struct MethodFigures : GroupSummary {
+/// Figures of one method on the near or the far cases of a station. Runs whose input was refused
+/// are not counted.
+struct MethodFigures {
+  std::string station;
+  bool far = false;
   std::string method;  ///< "seed": the errors that the runs began with
+  std::int64_t runs = 0;
+  std::int64_t false_positives = 0;
+  std::int64_t gross_false_positives = 0;
   std::optional<double> completed_percent;
   std::optional<double> success_percent;  ///< of runs with truth and requirement
-  /// Percent of the runs whose requirement names it that completed within it, by kJudgedFigures:
-  /// normal, lateral, rotation, projection.
+  /// By kJudgedFigures (normal, lateral, rotation, projection): percent of completed runs within
+  /// the requirement, of runs whose requirement names the figure.
   std::array<std::optional<double>, 4> within_percent;
+  std::array<Statistics, 4> error;  ///< over completed runs, by kErrorColumns
 };
+
+/// Normal mm, lateral mm, rotation mrad, projection px.
+struct ErrorColumn {
+  const char* name;
+  int decimals;
+  std::optional<double> (*of)(const PoseError&);
+};
+extern const std::array<ErrorColumn, 4> kErrorColumns;
 
 /// One for each station, near before far, and method; a station's seeds come first (of all its
 /// runs, each seed once).
 std::vector<MethodFigures> methodFigures(std::span<const RunResult> runs);
+
+/// Percent of judged runs that completed within `factor` times the requirement; nothing when none
+/// was judged.
+std::optional<double> percentWithin(std::span<const RunResult* const> runs, double factor);
 
 /// Seconds of wall time, over all runs of a method that were carried out.
 struct MethodTimes {
@@ -40,10 +58,18 @@ struct MethodTimes {
 std::vector<MethodTimes> methodTimes(std::span<const RunResult> runs);
 
 /// "errors": mean / std / max per station and method; "success": completed, success, and within the
-/// requirement axis by axis; "times": mean seconds per step. With the paper's rows where asked for.
+/// requirement axis by axis; "tolerance": success against multiples of the requirement; "times":
+/// mean seconds per step. With the paper's rows where asked for and known.
 Table errorTable(std::span<const RunResult> runs, bool with_paper);
 Table successTable(std::span<const RunResult> runs, bool with_paper);
+Table toleranceTable(std::span<const RunResult> runs, bool with_paper);
 Table timeTable(std::span<const RunResult> runs, bool with_paper);
+
+/// The error table of the runs, with a row per method over all stations where there are several.
+Table summaryTable(std::span<const RunResult> runs);
+
+/// One line for each run that was judged and not successful, at most `limit` of them.
+std::string failureList(std::span<const RunResult> results, std::size_t limit);
 
 /// The middle of the values (the mean of two); nothing of none.
 std::optional<double> median(std::vector<double> values);

@@ -9,7 +9,6 @@
 #include <set>
 #include <utility>
 
-#include "sessions/evaluation/summary.h"
 #include "sessions/report/pdf_canvas.h"
 #include "sessions/tables/method_tables.h"
 #include "sessions/tables/results_set.h"
@@ -80,41 +79,36 @@ class Styles {
   std::map<std::string, PdfSeries> styles_;
 };
 
-/// A page of panels, a row for each group, with one list of methods at the foot.
-class Sheet {
- public:
-  Sheet(const std::string& title, CanvasFormat format, std::size_t rows, int columns,
-        std::vector<PdfSeries> names)
-      : columns_(columns),
-        names_(std::move(names)),
-        canvas_(title, format, PdfCanvas::kWidth,
-                2.0 * kFigureMargin + kFigureTitleHeight +
-                    static_cast<double>(rows) * kPanelHeight +
-                    11.0 * static_cast<double>(names_.size()) + 6.0) {
-    canvas_.text(kFigureMargin, kFigureMargin, PdfCanvas::kWidth - 2.0 * kFigureMargin, title,
-                 {10.0, true, false, kInk, 1});
-    foot_ = kFigureMargin + kFigureTitleHeight + static_cast<double>(rows) * kPanelHeight;
+/// Panels side by side, row by row, with one list of methods at the foot.
+std::vector<std::uint8_t> drawPanels(const std::string& title, CanvasFormat format, int columns,
+                                     const std::vector<PdfPlot>& plots, const Styles& styles) {
+  const std::vector<PdfSeries> names = styles.list();
+  const std::size_t rows =
+      (plots.size() + static_cast<std::size_t>(columns) - 1) / static_cast<std::size_t>(columns);
+  const double top = kFigureMargin + kFigureTitleHeight;
+  const double foot = top + static_cast<double>(rows) * kPanelHeight;
+  PdfCanvas canvas(title, format, PdfCanvas::kWidth,
+                   foot + kFigureMargin + 11.0 * static_cast<double>(names.size()) + 6.0);
+  canvas.text(kFigureMargin, kFigureMargin, PdfCanvas::kWidth - 2.0 * kFigureMargin, title,
+              {10.0, true, false, kInk, 1});
+  const double width = (PdfCanvas::kWidth - 2.0 * kFigureMargin) / columns;
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    const int row = static_cast<int>(i) / columns;
+    const int column = static_cast<int>(i) % columns;
+    drawPlot(
+        canvas,
+        {kFigureMargin + column * width, top + row * kPanelHeight, width - 8.0, kPanelHeight - 6.0},
+        plots[i]);
   }
-  void draw(std::size_t row, int column, PdfPlot plot) {
-    const double width = (PdfCanvas::kWidth - 2.0 * kFigureMargin) / columns_;
-    plot.with_names = false;
-    drawPlot(canvas_,
-             {kFigureMargin + column * width,
-              kFigureMargin + kFigureTitleHeight + static_cast<double>(row) * kPanelHeight,
-              width - 8.0, kPanelHeight - 6.0},
-             plot);
-  }
-  std::vector<std::uint8_t> finish() {
-    drawSeriesNames(canvas_, kFigureMargin + 34.0, foot_, 300.0, names_);
-    return canvas_.finish();
-  }
+  drawSeriesNames(canvas, kFigureMargin + 34.0, foot, 300.0, names);
+  return canvas.finish();
+}
 
- private:
-  int columns_;
-  std::vector<PdfSeries> names_;
-  PdfCanvas canvas_;
-  double foot_ = 0.0;
-};
+PdfPlot emptyPlot(const Group& group, const std::string& x_label, const std::string& y_label) {
+  PdfPlot plot{group.title, x_label, y_label, {}};
+  plot.with_names = false;
+  return plot;
+}
 
 /// The one value of the requirement that all runs share; nothing when they differ.
 template <class Limit>
@@ -156,7 +150,7 @@ PdfSeries staircase(PdfSeries style, const CurvePoints& points, double from, dou
 PdfPlot errorPlot(const Group& group, const ErrorAxis& axis, const Styles& styles) {
   constexpr double kLow = 1e-3;
   constexpr double kHigh = 1e3;
-  PdfPlot plot{group.title, axis.label, "% of runs at or below", {}};
+  PdfPlot plot = emptyPlot(group, axis.label, "% of runs at or below");
   plot.log_x = true;
   plot.x_range = {kLow, kHigh};
   plot.y_range = {0.0, 104.0};
@@ -173,59 +167,33 @@ PdfPlot errorPlot(const Group& group, const ErrorAxis& axis, const Styles& style
   return plot;
 }
 
-std::vector<std::uint8_t> errorFigure(const std::vector<Group>& groups, const Styles& styles,
-                                      CanvasFormat format) {
-  Sheet sheet("Distribution of errors: percent of all runs that completed with at most this error",
-              format, groups.size(), 3, styles.list());
-  for (std::size_t row = 0; row < groups.size(); ++row)
-    for (int column = 0; column < 3; ++column)
-      sheet.draw(row, column, errorPlot(groups[row], kAxes[column], styles));
-  return sheet.finish();
+PdfPlot tolerancePlot(const Group& group, const Styles& styles) {
+  static const std::vector<double> kFactors = geometricSteps(0.05, 20.0, kToleranceSteps);
+  PdfPlot plot = emptyPlot(group, "multiple of the requirement", "% of runs within");
+  plot.log_x = true;
+  plot.x_range = {kFactors.front(), kFactors.back()};
+  plot.y_range = {0.0, 104.0};
+  plot.guides.push_back({1.0, "requirement"});
+  for (const auto& [method, members] : group.methods) {
+    plot.series.push_back(styles.of(method));
+    plot.series.back().marks = false;
+    plot.series.back().points = successAgainstTolerance(members, kFactors);
+  }
+  return plot;
 }
 
-std::vector<std::uint8_t> toleranceFigure(const std::vector<Group>& groups, const Styles& styles,
-                                          CanvasFormat format) {
-  const std::vector<double> factors = geometricSteps(0.05, 20.0, kToleranceSteps);
-  const std::size_t rows = (groups.size() + 1) / 2;
-  Sheet sheet("Success against tolerance", format, rows, 2, styles.list());
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    PdfPlot plot{groups[i].title, "multiple of the requirement", "% of runs within", {}};
-    plot.log_x = true;
-    plot.x_range = {factors.front(), factors.back()};
-    plot.y_range = {0.0, 104.0};
-    plot.guides.push_back({1.0, "requirement"});
-    for (const auto& [method, members] : groups[i].methods) {
-      PdfSeries series = styles.of(method);
-      series.marks = false;
-      series.points = successAgainstTolerance(members, factors);
-      plot.series.push_back(std::move(series));
-    }
-    sheet.draw(i / 2, static_cast<int>(i % 2), std::move(plot));
+PdfPlot seedPlot(const Group& group, SeedMeasure measure, const Styles& styles) {
+  PdfPlot plot =
+      emptyPlot(group,
+                measure == SeedMeasure::kDistance_mm ? "seed off, mm (normal and lateral)"
+                                                     : "seed off, mrad (whole angle)",
+                "% successful");
+  plot.y_range = {0.0, 104.0};
+  for (const auto& [method, members] : group.methods) {
+    plot.series.push_back(styles.of(method));
+    plot.series.back().points = successAgainstSeed(members, measure, kSeedBins);
   }
-  return sheet.finish();
-}
-
-std::vector<std::uint8_t> seedFigure(const std::vector<Group>& groups, const Styles& styles,
-                                     CanvasFormat format) {
-  Sheet sheet("Success against the seed's error (each mark: an eighth of the runs)", format,
-              groups.size(), 2, styles.list());
-  for (std::size_t row = 0; row < groups.size(); ++row) {
-    for (const SeedMeasure measure : {SeedMeasure::kDistance_mm, SeedMeasure::kAngle_mrad}) {
-      const bool distance = measure == SeedMeasure::kDistance_mm;
-      PdfPlot plot{groups[row].title,
-                   distance ? "seed off, mm (normal and lateral)" : "seed off, mrad (whole angle)",
-                   "% successful",
-                   {}};
-      plot.y_range = {0.0, 104.0};
-      for (const auto& [method, members] : groups[row].methods) {
-        PdfSeries series = styles.of(method);
-        series.points = successAgainstSeed(members, measure, kSeedBins);
-        plot.series.push_back(std::move(series));
-      }
-      sheet.draw(row, distance ? 0 : 1, std::move(plot));
-    }
-  }
-  return sheet.finish();
+  return plot;
 }
 
 /// Every run faintly small, and where the middle of both lies.
@@ -278,21 +246,6 @@ void takeSharedAxes(const std::vector<Group>& groups, PdfPlot& plot) {
   plot.y_range = decades(errors);
 }
 
-std::vector<std::uint8_t> timeFigure(const std::vector<Group>& groups, const Styles& styles,
-                                     CanvasFormat format) {
-  const std::size_t rows = (groups.size() + 1) / 2;
-  Sheet sheet("Time against accuracy: each completed run, and the medians", format, rows, 2,
-              styles.list());
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    PdfPlot plot{groups[i].title, "seconds per run", "lateral error, mm", {}};
-    takeSharedAxes(groups, plot);
-    for (const auto& [method, members] : groups[i].methods)
-      addTimes(members, styles.of(method), plot);
-    sheet.draw(i / 2, static_cast<int>(i % 2), std::move(plot));
-  }
-  return sheet.finish();
-}
-
 }  // namespace
 
 CurvePoints shareBelow(std::vector<double> values, std::size_t of) {
@@ -312,16 +265,8 @@ CurvePoints shareBelow(std::vector<double> values, std::size_t of) {
 CurvePoints successAgainstTolerance(std::span<const RunResult* const> runs,
                                     std::span<const double> factors) {
   CurvePoints points;
-  for (const double factor : factors) {
-    int judged = 0;
-    int within = 0;
-    for (const RunResult* run : runs) {
-      if (!run->success || !run->error || !run->requirement) continue;
-      ++judged;
-      within += run->completed && meetsRequirement(*run->error, *run->requirement, factor) ? 1 : 0;
-    }
-    if (judged > 0) points.push_back({factor, 100.0 * within / judged});
-  }
+  for (const double factor : factors)
+    if (const auto percent = percentWithin(runs, factor)) points.push_back({factor, *percent});
   return points;
 }
 
@@ -373,10 +318,30 @@ std::vector<double> geometricSteps(double low, double high, int count) {
 std::vector<Figure> resultFigures(std::span<const RunResult> runs, CanvasFormat format) {
   const std::vector<Group> groups = groupsOf(runs);
   const Styles styles(runs);
-  return {{kErrorFigure, errorFigure(groups, styles, format)},
-          {kToleranceFigure, toleranceFigure(groups, styles, format)},
-          {kSeedFigure, seedFigure(groups, styles, format)},
-          {kTimeFigure, timeFigure(groups, styles, format)}};
+  std::vector<PdfPlot> errors, tolerances, seeds, times;
+  for (const Group& group : groups) {
+    for (const ErrorAxis& axis : kAxes) errors.push_back(errorPlot(group, axis, styles));
+    tolerances.push_back(tolerancePlot(group, styles));
+    for (const SeedMeasure measure : {SeedMeasure::kDistance_mm, SeedMeasure::kAngle_mrad})
+      seeds.push_back(seedPlot(group, measure, styles));
+    times.push_back(emptyPlot(group, "seconds per run", "lateral error, mm"));
+    takeSharedAxes(groups, times.back());
+    for (const auto& [method, members] : group.methods)
+      addTimes(members, styles.of(method), times.back());
+  }
+  const auto figure = [&](const char* name, const char* title, int columns,
+                          const std::vector<PdfPlot>& plots) {
+    return Figure{name, drawPanels(title, format, columns, plots, styles)};
+  };
+  return {
+      figure(kErrorFigure,
+             "Distribution of errors: percent of all runs that completed with at most this "
+             "error",
+             3, errors),
+      figure(kToleranceFigure, "Success against tolerance", 2, tolerances),
+      figure(kSeedFigure, "Success against the seed's error (each mark: an eighth of the runs)", 2,
+             seeds),
+      figure(kTimeFigure, "Time against accuracy: each completed run, and the medians", 2, times)};
 }
 
 const char* extensionOf(CanvasFormat format) {

@@ -109,9 +109,8 @@ TEST_F(WhsBop, BecomesASession) {
 TEST_F(WhsBop, RefusesWhatItCannotMean) {
   const std::string out = folder_ / "r.sqlite";
   const std::string file = kRendered / "dataset.json";
-  const ProgramRun choice =
-      runWhs({"evaluate", "--dataset", file, "--scene", "3", "--out", out}, 2);
-  EXPECT_THAT(choice.err, HasSubstr("choose of a BOP folder"));
+  EXPECT_THAT(runWhs({"evaluate", "--dataset", file, "--scene", "3", "--out", out}, 2).err,
+              HasSubstr("choose of a BOP folder"));
   const ProgramRun csv =
       runWhs({"evaluate", "--dataset", file, "--bop-csv", folder_ / "r.csv", "--out", out}, 3);
   EXPECT_THAT(csv.err, HasSubstr("is not of a BOP dataset"));

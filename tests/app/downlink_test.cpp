@@ -144,9 +144,8 @@ TEST_F(Downlink, GoesToColmapWithTheErrorOfItsCamera) {
   runWhs(newArguments(true), 0);
   runWhs({"run", session_}, 0);
   const std::string colmap = folder_ / "colmap";
-  const ProgramRun run =
-      runWhs({"export", session_, "--poses", "handed-over", "--colmap", colmap}, 0);
-  EXPECT_THAT(run.err, HasSubstr("its cahvor camera is written as brown_conrady, worst error "));
+  EXPECT_THAT(runWhs({"export", session_, "--poses", "handed-over", "--colmap", colmap}, 0).err,
+              HasSubstr("its cahvor camera is written as brown_conrady, worst error "));
   EXPECT_THAT(folder_.read("colmap/images.txt"), HasSubstr("worst error "));
   EXPECT_THAT(folder_.read("colmap/cameras.txt"), HasSubstr("OPENCV"));
 }
@@ -258,9 +257,8 @@ TEST_F(Downlink, PosesAreToldInTheFramesThatTheyAreIn) {
 TEST_F(Downlink, WithoutACameraModelOneIsAskedFor) {
   const auto bare =
       folder_.write("bare.vic", vicarImage(16, 12, std::vector<std::uint16_t>(192), ""));
-  const ProgramRun run =
-      runWhs(localizeArguments({{"--image", bare.string()}, {"--camera", ""}}), 3);
-  EXPECT_THAT(run.err, HasSubstr("give a camera.json or a .cahvor file with --camera"));
+  EXPECT_THAT(runWhs(localizeArguments({{"--image", bare.string()}, {"--camera", ""}}), 3).err,
+              HasSubstr("give a camera.json or a .cahvor file with --camera"));
 }
 
 TEST_F(Downlink, OfADataSetIsEvaluated) {
@@ -282,8 +280,8 @@ TEST_F(Downlink, OfADataSetIsEvaluated) {
 }
 
 TEST_F(Downlink, WithoutALabelACameraIsAskedFor) {
-  const ProgramRun run = runWhs(localizeArguments({{"--camera", ""}}), 3);
-  EXPECT_THAT(run.err, HasSubstr("the image has no label that could tell it"));
+  EXPECT_THAT(runWhs(localizeArguments({{"--camera", ""}}), 3).err,
+              HasSubstr("the image has no label that could tell it"));
 }
 
 TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
@@ -297,9 +295,8 @@ TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
       again.camera, again.reference->camera_from_reference * (roverFromCamera() * point_m), found));
   EXPECT_LT((expected - found).norm(), 1e-6);
   const std::string fitted = folder_ / "brown.json";
-  const ProgramRun run =
-      runWhs({"camera", image_.string(), "--as", "brown_conrady", "--out", fitted}, 0);
-  EXPECT_THAT(run.out, HasSubstr("worst error "));
+  EXPECT_THAT(runWhs({"camera", image_.string(), "--as", "brown_conrady", "--out", fitted}, 0).out,
+              HasSubstr("worst error "));
   ASSERT_TRUE(project(sessions::readCamera(std::filesystem::path(fitted)), point_m, found));
   EXPECT_LT((expected - found).norm(),
             json::parse(folder_.read("brown.json"))["fitted_from"]["worst_error_px"]);
@@ -307,8 +304,8 @@ TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
   with_covariance.covariance = 1e-8 * Eigen::MatrixXd::Identity(18, 18);
   const std::string other_ending = folder_ / "left.cahvore";
   sessions::writeCahvorFile(other_ending, with_covariance);
-  const ProgramRun lost = runWhs({"camera", other_ending, "--out", folder_ / "left.json"}, 0);
-  EXPECT_THAT(lost.err, HasSubstr("the covariance of left.cahvore stays behind"));
+  EXPECT_THAT(runWhs({"camera", other_ending, "--out", folder_ / "left.json"}, 0).err,
+              HasSubstr("the covariance of left.cahvore stays behind"));
   EXPECT_THAT(runWhs({"camera", text, "--out", other_ending}).err,
               HasSubstr("the vectors are those of a cahvor model"));
   runWhs({"camera", image_.string()}, 2);
@@ -390,18 +387,17 @@ TEST(WhsCompare, DoesNotTakeARunOfOtherInputsForTheCases) {
   runs.edit([](sessions::SessionCase& one, const Runs&) {
     one.camera_from_station_seed.translation_m.x() += 1e-4;
   });
-  const ProgramRun stale = runWhs({"compare", runs.record, runs.session, "--case", kCase}, 3);
-  EXPECT_THAT(stale.err, HasSubstr("no longer its own"));
-  const ProgramRun anew =
-      runWhs({"compare", runs.record, runs.session, "--case", kCase, "--rerun"}, 6);
-  EXPECT_THAT(anew.out, HasSubstr("first difference: seed"));
+  EXPECT_THAT(runWhs({"compare", runs.record, runs.session, "--case", kCase}, 3).err,
+              HasSubstr("no longer its own"));
+  EXPECT_THAT(runWhs({"compare", runs.record, runs.session, "--case", kCase, "--rerun"}, 6).out,
+              HasSubstr("first difference: seed"));
 }
 
 TEST(WhsCompare, RunsTheCaseByTheRecordsOptions) {
   const Runs runs;
   runWhs(localizeArguments({{"--record", runs.record}, {"--set", "pnp.seed=7"}}), 0);
-  const ProgramRun last = runWhs({"compare", runs.record, runs.session, "--case", kCase}, 6);
-  EXPECT_THAT(last.out, HasSubstr("first difference: options"));
+  EXPECT_THAT(runWhs({"compare", runs.record, runs.session, "--case", kCase}, 6).out,
+              HasSubstr("first difference: options"));
   runWhs({"compare", runs.record, runs.session, "--case", kCase, "--rerun"}, 0);
 }
 

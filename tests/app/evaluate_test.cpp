@@ -123,8 +123,8 @@ TEST_F(WhsEvaluate, GoesOnAfterItWasKilledWithoutRedoingOrLosingARun) {
     held = after;
   }
   ASSERT_GE(held, 1);
-  const ProgramRun last = runWhs(arguments, 0);
-  EXPECT_THAT(last.err, HasSubstr("going on, " + std::to_string(held) + " of 12 runs are there"));
+  EXPECT_THAT(runWhs(arguments, 0).err,
+              HasSubstr("going on, " + std::to_string(held) + " of 12 runs are there"));
   const sessions::Results results = sessions::readResults(folder_ / "r.sqlite");
   ASSERT_EQ(results.runs.size(), 12u);
   std::int64_t done = 0;
@@ -152,8 +152,8 @@ TEST_F(WhsEvaluate, RefusesToGoOnWithOtherOptions) {
   EXPECT_EQ(other.errorLines(), 1) << other.err;
   EXPECT_THAT(other.err, HasSubstr("loop.max_iterations 1, not 2; name another file"));
   EXPECT_EQ(folder_.read("r.sqlite"), before);
-  const ProgramRun again = runWhs(evaluateArguments(dataset_, quick), 0);
-  EXPECT_THAT(again.err, HasSubstr("2 of 2 runs are there already"));
+  EXPECT_THAT(runWhs(evaluateArguments(dataset_, quick), 0).err,
+              HasSubstr("2 of 2 runs are there already"));
 }
 
 TEST_F(WhsEvaluate, MergesShardsToWhatOneRunGives) {
@@ -203,12 +203,13 @@ class WhsTables : public testing::Test {
 
 TEST_F(WhsTables, MakesTablesAndFigures) {
   evaluate("r.sqlite", "10");
-  const ProgramRun text = runWhs({"tables", file("r.sqlite"), "--paper", "--figures",
-                                  file("figures"), "--figure-format", "pdf", "png", "svg"},
-                                 0);
-  EXPECT_THAT(text.out, AllOf(HasSubstr("Errors per station and method"), HasSubstr("seed"),
-                              HasSubstr("whs (paper)"), HasSubstr("Time per run and step"),
-                              HasSubstr("profile default")));
+  EXPECT_THAT(
+      runWhs({"tables", file("r.sqlite"), "--paper", "--figures", file("figures"),
+              "--figure-format", "pdf", "png", "svg"},
+             0)
+          .out,
+      AllOf(HasSubstr("Errors per station and method"), HasSubstr("seed"), HasSubstr("whs (paper)"),
+            HasSubstr("Time per run and step"), HasSubstr("profile default")));
   std::size_t figures = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "figures"))
     figures += std::filesystem::file_size(entry.path()) > 2000 ? 1 : 0;
@@ -237,9 +238,9 @@ TEST_F(WhsTables, ComparesTwoResultsRunByRun) {
 
 TEST_F(WhsTables, AreOfRunsThatASessionRepeatsAndItsQueueLists) {
   evaluate("r.sqlite", "1");
-  const ProgramRun made =
-      runWhs({"new", "--results", file("r.sqlite"), "--out", file("q.boresight.json")}, 0);
-  EXPECT_THAT(made.out, HasSubstr("2 cases"));
+  EXPECT_THAT(
+      runWhs({"new", "--results", file("r.sqlite"), "--out", file("q.boresight.json")}, 0).out,
+      HasSubstr("2 cases"));
   EXPECT_THAT(folder_.read("q.boresight.json"), HasSubstr("loop.max_iterations"));
   EXPECT_THAT(runWhs({"queue", file("q.boresight.json")}).out,
               HasSubstr("not run here; in the results: iteration_limit"));

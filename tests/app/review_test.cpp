@@ -42,55 +42,34 @@ TEST_F(ReviewCommands, APoseIsCheckedValidatedHandedOverAndVerified) {
   EXPECT_EQ(decided.exit_code, 0) << decided.err;
   EXPECT_THAT(decided.out, HasSubstr("validated by Ada"));
   const std::string file = exportPose();
-  const ProgramRun good = runWhs({"verify", file}, 0);
-  EXPECT_THAT(good.out, AllOf(HasSubstr("the run gives the same digest again"),
-                              HasSubstr("not proved  who: Ada"),
-                              HasSubstr("not proved  convergence test: its 8 further seeds"),
-                              HasSubstr("stated: validated by Ada")));
+  EXPECT_THAT(
+      runWhs({"verify", file}, 0).out,
+      AllOf(HasSubstr("the run gives the same digest again"), HasSubstr("not proved  who: Ada"),
+            HasSubstr("not proved  convergence test: its 8 further seeds"),
+            HasSubstr("stated: validated by Ada")));
   EXPECT_THAT(runWhs({"verify", file, "--full"}).out, Not(HasSubstr("convergence test")));
   runWhs({"verify", file, "--full", "--no-run"}, 2);
 
   std::string text = folder_.read("pose.json");
   text.replace(text.find("\"comment\": \"right\""), 18, "\"comment\": \"wrong\"");
   folder_.write("tampered.json", text);
-  const ProgramRun bad = runWhs({"verify", folder_ / "tampered.json", "--no-run"}, 6);
-  EXPECT_THAT(bad.out, HasSubstr("WRONG       signature"));
+  EXPECT_THAT(runWhs({"verify", folder_ / "tampered.json", "--no-run"}, 6).out,
+              HasSubstr("WRONG       signature"));
 }
 
+/// The other differences that are found: ValidatedPose.ASessionEditedByHandIsNotSigned and others.
 TEST_F(ReviewCommands, APoseThatIsNotAsMeasuredIsNeitherSignedNorReported) {
   EXPECT_EQ(decide({"--validate", "--by", "Ada", "--comment", "right"}).exit_code, 0);
-  const std::string good = folder_.read("s.boresight.json");
-  const std::string pose = folder_ / "pose.json";
-  const std::string pdf = folder_ / "pose.pdf";
-  const auto refused = [&](const std::string& sentence) {
-    for (const Arguments& to :
-         {Arguments{"export", "--pose", pose}, Arguments{"report", "--out", pdf}}) {
-      const ProgramRun run = runWhs({to[0], session_, "--case", kCase, to[1], to[2]});
-      EXPECT_EQ(run.exit_code, 3) << to[0] << run.out;
-      EXPECT_EQ(run.errorLines(), 1) << run.err;
-      EXPECT_THAT(run.err, HasSubstr(sentence));
-    }
-  };
-  nlohmann::json session = nlohmann::json::parse(good);
+  nlohmann::json session = nlohmann::json::parse(folder_.read("s.boresight.json"));
   session["decisions"][0]["pose"]["camera_from_station"]["translation_m"][2] = 0.5;
   folder_.write("s.boresight.json", session.dump());
-  refused("another pose comes out");
-
-  session = nlohmann::json::parse(good);
-  for (auto& check : session["decisions"][0]["checks"])
-    if (check["id"] == "inlier_ratio") check["figure"] = 99.0;
-  folder_.write("s.boresight.json", session.dump());
-  refused(
-      "check 'Inliers among the matches' is stated as passed, 99 % (at least 40 %) and measured");
-
-  folder_.write("s.boresight.json", good);
-  const std::string trace = session["runs"][0]["file"];
-  std::string bytes = folder_.read(trace);
-  bytes[bytes.size() / 2] ^= 1;
-  folder_.write(trace, bytes);
-  refused("the file was altered or damaged");
-  EXPECT_FALSE(std::filesystem::exists(pose));
-  EXPECT_FALSE(std::filesystem::exists(pdf));
+  for (const Arguments& to : {Arguments{"export", "--pose", folder_ / "pose.json"},
+                              Arguments{"report", "--out", folder_ / "pose.pdf"}}) {
+    const ProgramRun run = runWhs({to[0], session_, "--case", kCase, to[1], to[2]}, 3);
+    EXPECT_EQ(run.errorLines(), 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("another pose comes out"));
+    EXPECT_FALSE(std::filesystem::exists(to[2]));
+  }
 }
 
 TEST_F(ReviewCommands, WhatMayNotBeDecidedIsRefusedAndChangesNothing) {

@@ -60,8 +60,8 @@ TEST(WhsRun, TheImagesOfARigTogetherAreOneRunThatIsRepeated) {
   sessions::Session alone = session;
   alone = sessions::withoutRigLink(alone, session.cases[0]->id);
   sessions::writeSessionFile(file, alone);
-  const ProgramRun refused = runWhs({"run", file, "--views", "--case", session.cases[0]->id}, 3);
-  EXPECT_THAT(refused.err, HasSubstr("of no rig"));
+  EXPECT_THAT(runWhs({"run", file, "--views", "--case", session.cases[0]->id}, 3).err,
+              HasSubstr("of no rig"));
 }
 
 TEST(WhsNew, RefusesWhatIsIncompleteOrThere) {
@@ -172,8 +172,7 @@ TEST(WhsRun, RefusesWhatItMustNotTouch) {
     next.view.case_id = next.cases[0]->id;
     document.apply(next, "Look at it");
   }
-  const ProgramRun unsaved = runWhs({"run", file}, 3);
-  EXPECT_THAT(unsaved.err, HasSubstr("1 edits were never saved"));
+  EXPECT_THAT(runWhs({"run", file}, 3).err, HasSubstr("1 edits were never saved"));
   EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("1 edits are in its journal"));
   runWhs({"pack", file, "--out", folder / "p.zip"}, 3);
   EXPECT_FALSE(std::filesystem::exists(folder / "p.zip"));
@@ -188,8 +187,8 @@ TEST(WhsPack, MakesAnArchiveAndRefusesChangedInputs) {
   runWhs({"pack", file, "--out", folder / "s.zip"}, 0);
   EXPECT_EQ(folder.read("s.zip").substr(0, 2), "PK");
   folder.write("stations/os/model.ply", folder.read("stations/bc/model.ply"));
-  const ProgramRun changed = runWhs({"pack", file, "--out", folder / "t.zip"}, 3);
-  EXPECT_THAT(changed.err, HasSubstr("stations/os/model.ply: it is not the file"));
+  EXPECT_THAT(runWhs({"pack", file, "--out", folder / "t.zip"}, 3).err,
+              HasSubstr("stations/os/model.ply: it is not the file"));
   EXPECT_FALSE(std::filesystem::exists(folder / "t.zip"));
   const ProgramRun run = runWhs({"run", file, "--case", idOfOs()}, 3);
   EXPECT_THAT(run.err, HasSubstr("its bytes are not those that the session was made with"));
@@ -227,17 +226,17 @@ TEST(WhsPack, TakesLandmarksAlongWhereTheyAre) {
   EXPECT_EQ(packed.errorLines(), 0);
   EXPECT_THAT(folder.read("s.zip"), HasSubstr("/named points.json"));
   std::filesystem::remove(*one.landmarks);
-  const ProgramRun without = runWhs({"pack", file, "--out", folder / "t.zip"}, 0);
-  EXPECT_THAT(without.err, HasSubstr("the landmarks of case " + one.id + " are missing"));
+  EXPECT_THAT(runWhs({"pack", file, "--out", folder / "t.zip"}, 0).err,
+              HasSubstr("the landmarks of case " + one.id + " are missing"));
   EXPECT_THAT(folder.read("t.zip"), Not(HasSubstr("/named points.json")));
 }
 
 TEST(WhsPack, ListsWhatItTakesAlongAndRefusesAnyOtherFile) {
   const TemporaryFolder folder;
   const std::string file = newSession(folder);
-  const ProgramRun packed = runWhs({"pack", file, "--out", folder / "s.zip"}, 0);
-  EXPECT_THAT(packed.out, AllOf(HasSubstr("/image.png from " + exampleFolder().string()),
-                                HasSubstr("/model.ply from ")));
+  EXPECT_THAT(runWhs({"pack", file, "--out", folder / "s.zip"}, 0).out,
+              AllOf(HasSubstr("/image.png from " + exampleFolder().string()),
+                    HasSubstr("/model.ply from ")));
   const std::string whole = folder.read("s.boresight.json");
   const auto refusal = [&](const std::function<void(nlohmann::json&)>& edit) {
     nlohmann::json session = nlohmann::json::parse(whole);
@@ -287,8 +286,7 @@ TEST_F(WhsExchange, TakesPosesOutAndInAgain) {
     EXPECT_EQ(out.out, bc_ + "\n");
     // Another folder of this name is not touched.
     runWhs({"export", file_, form, folder, "--case", bc_}, 3);
-    const ProgramRun kept = runWhs({"import", file_, form, folder}, 3);
-    EXPECT_THAT(kept.err, HasSubstr("another truth already"));
+    EXPECT_THAT(runWhs({"import", file_, form, folder}, 3).err, HasSubstr("another truth already"));
     const ProgramRun in = runWhs({"import", file_, form, folder, "--replace"}, 0);
     EXPECT_EQ(in.out, bc_ + "\n");
     const auto error = perturbationBetween(*saved().findCase(bc_)->camera_from_station_truth,
@@ -322,9 +320,8 @@ TEST_F(WhsExchange, RefusesWhatIsIncompleteOrWrong) {
   EXPECT_EQ(missing.errorLines(), 1);
   folder_.write("points.json", std::string_view(R"({"format": "boresight-points", "version": 1,
       "points": [{"id": "far", "pixel": [99373, 2]}]})"));
-  const ProgramRun outside =
-      runWhs({"import", file_, "--points", points, "--case", bc_, "--replace"}, 3);
-  EXPECT_THAT(outside.err, HasSubstr("far"));
+  EXPECT_THAT(runWhs({"import", file_, "--points", points, "--case", bc_, "--replace"}, 3).err,
+              HasSubstr("far"));
   {
     const auto open = sessions::SessionDocument::open(file_);
     folder_.write("points.json", std::string_view(R"({"format": "boresight-points", "version": 1,

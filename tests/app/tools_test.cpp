@@ -86,11 +86,11 @@ TEST(WhsSolve, FindsThePoseDespiteAMistakenPoint) {
   sessions::Marks marks = trueMarks(10);
   *marks.points[3].pixel += Eigen::Vector2d(120.0, -80.0);
   sessions::writeMarks(folder / "points.json", marks);
-  const ProgramRun run =
-      runWhs({"solve", "--points", folder / "points.json", "--camera", kExample / "camera.json",
-              "--robust", "--out", folder / "pose.json"},
-             0);
-  EXPECT_THAT(run.out, AllOf(HasSubstr("10 marks"), HasSubstr("120.000"), HasSubstr(" !")));
+  EXPECT_THAT(runWhs({"solve", "--points", folder / "points.json", "--camera",
+                      kExample / "camera.json", "--robust", "--out", folder / "pose.json"},
+                     0)
+                  .out,
+              AllOf(HasSubstr("10 marks"), HasSubstr("120.000"), HasSubstr(" !")));
   const Vector6d error =
       perturbationBetween(ExampleCase("os").truth.camera_from_station,
                           sessions::readPose(folder / "pose.json").camera_from_station);
@@ -102,11 +102,12 @@ TEST(WhsSolve, SaysWhereItsSigmasAreAndKeepsTheCovarianceWithThePose) {
   sessions::Marks marks = trueMarks(10);
   *marks.points[3].pixel += Eigen::Vector2d(1.0, -1.0);
   sessions::writeMarks(folder / "points.json", marks);
-  const ProgramRun run = runWhs({"solve", "--points", folder / "points.json", "--camera",
-                                 kExample / "camera.json", "--out", folder / "pose.json"},
-                                0);
-  EXPECT_THAT(run.out, AllOf(HasSubstr("1 sigma at the camera"),
-                             HasSubstr("without: how far the middle of the marked places moves")));
+  EXPECT_THAT(runWhs({"solve", "--points", folder / "points.json", "--camera",
+                      kExample / "camera.json", "--out", folder / "pose.json"},
+                     0)
+                  .out,
+              AllOf(HasSubstr("1 sigma at the camera"),
+                    HasSubstr("without: how far the middle of the marked places moves")));
   const auto covariance = sessions::readPose(folder / "pose.json").covariance;
   ASSERT_TRUE(covariance);
   EXPECT_GT(covariance->diagonal().minCoeff(), 0.0);
@@ -120,8 +121,7 @@ TEST(WhsSolve, LeavesOutDisabledPointsAndAsksForFour) {
   sessions::writeMarks(folder / "points.json", marks);
   Arguments arguments = {"solve", "--points", folder / "points.json", "--camera",
                          kExample / "camera.json"};
-  const ProgramRun run = runWhs(arguments, 4);
-  EXPECT_THAT(run.err, HasSubstr("one image needs 4"));
+  EXPECT_THAT(runWhs(arguments, 4).err, HasSubstr("one image needs 4"));
   // Three do where there is a first guess.
   arguments.insert(arguments.end(), {"--seed", kExample / "seed.json"});
   runWhs(arguments, 0);
@@ -146,9 +146,8 @@ TEST(WhsSolve, SolvesTwoCamerasOfARigAsOne) {
       [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]})";
   folder.write("rig.json", R"({"format": "boresight-rig", "version": 1, "views": [{"name": "a", )" +
                                view + R"(, {"name": "b", )" + view + "]}");
-  const ProgramRun run =
-      runWhs({"solve", "--rig", folder / "rig.json", "--out", folder / "pose.json"}, 0);
-  EXPECT_THAT(run.out, HasSubstr("12 marks"));
+  EXPECT_THAT(runWhs({"solve", "--rig", folder / "rig.json", "--out", folder / "pose.json"}, 0).out,
+              HasSubstr("12 marks"));
   runWhs({"solve"}, 2);
   runWhs({"solve", "--points", folder / "points.json"}, 2);
 }
@@ -215,14 +214,14 @@ TEST(WhsSolve, SaysWhyACaseHasNoPose) {
 }
 
 TEST(WhsInfo, DescribesEveryKindOfFile) {
-  const ProgramRun run =
+  EXPECT_THAT(
       runWhs({"info", kExample / "image.png", kExample / "camera.json", kExample / "model.ply",
               kExample / "seed.json", exampleFolder() / "dataset.json"},
-             0);
-  EXPECT_THAT(run.out,
-              AllOf(HasSubstr("PNG, 1024 x 1024 px"), HasSubstr("brown_conrady"),
-                    HasSubstr("field of view"), HasSubstr("faces"), HasSubstr("does not state"),
-                    HasSubstr("uncertainty"), HasSubstr("2 cases, 2 stations")));
+             0)
+          .out,
+      AllOf(HasSubstr("PNG, 1024 x 1024 px"), HasSubstr("brown_conrady"),
+            HasSubstr("field of view"), HasSubstr("faces"), HasSubstr("does not state"),
+            HasSubstr("uncertainty"), HasSubstr("2 cases, 2 stations")));
 }
 
 TEST(WhsInfo, DescribesRigsAndLandmarks) {
@@ -237,9 +236,9 @@ TEST(WhsInfo, DescribesRigsAndLandmarks) {
   const auto landmarks =
       folder.write("landmarks.json", R"({"format": "boresight-landmarks", "version": 1,
       "landmarks": [{"name": "screw", "point_in_station_m": [0, 0, 0], "comment": ""}]})");
-  const ProgramRun run = runWhs({"info", rig, landmarks}, 0);
-  EXPECT_THAT(run.out, AllOf(HasSubstr("view left: camera of 1024 x 1024 px, 1 point, 0 lines"),
-                             HasSubstr("\ncamera_from_rig\n"), HasSubstr("  1 landmark\n")));
+  EXPECT_THAT(runWhs({"info", rig, landmarks}, 0).out,
+              AllOf(HasSubstr("view left: camera of 1024 x 1024 px, 1 point, 0 lines"),
+                    HasSubstr("\ncamera_from_rig\n"), HasSubstr("  1 landmark\n")));
 }
 
 /// A tree of nodes so deep that an importer's recursion ended the program.
@@ -268,9 +267,9 @@ TEST(WhsInfo, TellsOfWhatIsInAnImageAndNotUsed) {
     tiff +=
         {tag, '\1', '\4', '\0', '\1', '\0', '\0', '\0', static_cast<char>(value), '\0', '\0', '\0'};
   tiff += std::string("\x0a\0\0\0", 4);
-  const ProgramRun run = runWhs({"info", folder.write("turned.tif", tiff)}, 0);
-  EXPECT_THAT(run.out, AllOf(HasSubstr("EXIF orientation 6 is not applied"),
-                             HasSubstr("the file holds further images (pages)")));
+  EXPECT_THAT(runWhs({"info", folder.write("turned.tif", tiff)}, 0).out,
+              AllOf(HasSubstr("EXIF orientation 6 is not applied"),
+                    HasSubstr("the file holds further images (pages)")));
 }
 
 /// Whose other end nobody opens: reading would wait for ever.
@@ -343,11 +342,6 @@ TEST(WhsBench, WritesWhatItMeasured) {
   EXPECT_EQ(json["localizations"][4]["width"], 640);
   EXPECT_EQ(json["localizations"][4]["height"], 480);
   EXPECT_EQ(json["localizations"][4]["runs"], 2);
-  ASSERT_EQ(json["matching"].size(), 4u);
-  for (const auto& one : json["matching"]) {
-    EXPECT_GT(one["whs_ms"]["portable"], 0.0);
-    EXPECT_GT(one["ncc_ms"], 0.0);
-  }
 }
 
 TEST(WhsBench, GivesTheDigestOfTheRunItTimes) {
@@ -363,8 +357,7 @@ TEST(WhsBench, GivesTheDigestOfTheRunItTimes) {
 }
 
 TEST(WhsBench, RefusesCasesThatAreNotThere) {
-  const ProgramRun run = runWhs({"bench", "--quick", "--case", "nowhere"}, 3);
-  EXPECT_THAT(run.err, HasSubstr("nowhere"));
+  EXPECT_THAT(runWhs({"bench", "--quick", "--case", "nowhere"}, 3).err, HasSubstr("nowhere"));
 }
 
 }  // namespace

@@ -10,16 +10,56 @@
 #include <exception>
 #include <iostream>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "sessions/evaluation/rig_views.h"
+#include "sessions/evaluation/pose_error.h"
+#include "sessions/run/runner.h"
+#include "sessions/session/session_maker.h"
+#include "sessions/session/views_run.h"
 
 namespace boresight::test {
 namespace {
 
-using sessions::RigRun;
-using sessions::RigViews;
+using sessions::LoadedCase;
+
+/// The views of one rig; copies of a case may be spoiled.
+using Rig = std::vector<std::shared_ptr<LoadedCase>>;
+
+struct RigRun {
+  ViewsResult result;
+  double seconds = 0.0;
+};
+
+std::shared_ptr<LoadedCase> copyOf(const LoadedCase& one) {
+  auto copy = std::make_shared<LoadedCase>();
+  copy->source = one.source;
+  copy->image = one.image;
+  copy->scene = one.scene;
+  copy->ignore = one.ignore;
+  if (copy->ignore) copy->ignore_bits = copy->ignore->view();
+  return copy;
+}
+
+RigRun localizeViews(const Rig& rig) {
+  sessions::LoadedViews loaded;
+  for (const auto& one : rig) {
+    View view;
+    view.image = one->image.view();
+    view.ignore = one->ignore ? &one->ignore_bits : nullptr;
+    view.camera = one->source.camera;
+    view.camera_from_rig = one->source.rig->camera_from_rig;
+    loaded.views.push_back(view);
+    loaded.cases.push_back(one);
+  }
+  LocalizerOptions options = defaultProfile();
+  options.templates.feature_size_m = rig.front()->source.feature_size_m.value_or(0.0);
+  sessions::Runner run(loaded.problem(), options, loaded.ids(),
+                       {.level = sessions::RecordLevel::kSummary});
+  run.advance(sessions::StepUntil::kEnd);
+  return {run.joint().result, run.trace().seconds.total()};
+}
 
 struct Row {
   int runs = 0, converged = 0, beyond = 0, spoiled_took_part = 0;
@@ -27,30 +67,23 @@ struct Row {
   double seconds = 0.0;
 };
 
-void noteRun(const RigViews& rig, const RigRun& run, Row& row) {
+void noteRun(const Rig& rig, const RigRun& run, Row& row) {
   ++row.runs;
   row.seconds += run.seconds;
   if (run.result.status != LocalizationStatus::kConverged) return;
   ++row.converged;
   bool within = true;
-  for (std::size_t v = 0; v < run.views; ++v) {
-    const sessions::PoseError error = sessions::viewError(rig, run, v).value();
+  for (std::size_t v = 0; v < rig.size(); ++v) {
+    const sessions::SessionCase& one = rig[v]->source;
+    const sessions::PoseError error =
+        sessions::poseError(one.camera_from_station_truth.value(),
+                            run.result.views[v].camera_from_station, one.camera_from_end_effector);
     row.normal_mm.push_back(error.normal_mm);
     row.lateral_mm.push_back(error.lateral_mm);
     row.rotation_mrad.push_back(error.rotation_mrad);
-    within = within && (!rig.cases[v]->requirement ||
-                        sessions::meetsRequirement(error, *rig.cases[v]->requirement));
+    within = within && (!one.requirement || sessions::meetsRequirement(error, *one.requirement));
   }
   if (!within) ++row.beyond;
-}
-
-RigViews alone(const RigViews& rig, std::size_t view) {
-  RigViews one = rig;
-  one.cases = {rig.cases[view]};
-  one.cameras = {rig.cameras[view]};
-  one.images = {rig.images[view]};
-  one.masks = {rig.masks[view]};
-  return one;
 }
 
 enum class Spoil { kBlack, kHalf, kSaturated };
@@ -66,26 +99,21 @@ void spoil(sessions::GrayImage& image, Spoil how) {
   }
 }
 
-void runWhole(const RigViews& rig, std::map<std::string, Row>& rows) {
-  const LocalizerOptions options = defaultProfile();
-  for (std::size_t v = 0; v < rig.cases.size(); ++v) {
-    const RigViews one = alone(rig, v);
-    noteRun(one, sessions::localizeViews(one, options), rows["0 each view alone"]);
-  }
-  noteRun(rig, sessions::localizeViews(rig, options), rows["1 together"]);
+void runWhole(const Rig& rig, std::map<std::string, Row>& rows) {
+  for (const auto& view : rig) noteRun({view}, localizeViews({view}), rows["0 each view alone"]);
+  noteRun(rig, localizeViews(rig), rows["1 together"]);
 }
 
-void runSpoiled(const RigViews& rig, std::map<std::string, Row>& rows) {
-  const LocalizerOptions options = defaultProfile();
+void runSpoiled(const Rig& rig, std::map<std::string, Row>& rows) {
   const char* const names[] = {"black", "half covered", "over-exposed"};
   for (int how = 0; how < 3; ++how) {
-    for (std::size_t v = 0; v < rig.cases.size(); ++v) {
-      RigViews spoiled = rig;
-      spoil(spoiled.images[v], static_cast<Spoil>(how));
+    for (std::size_t v = 0; v < rig.size(); ++v) {
+      Rig spoiled = rig;
+      spoiled[v] = copyOf(*rig[v]);
+      spoil(spoiled[v]->image, static_cast<Spoil>(how));
       const std::string text = std::to_string(2 + how) + " " + names[how];
-      const RigViews one = alone(spoiled, v);
-      noteRun(one, sessions::localizeViews(one, options), rows[text + ", alone"]);
-      const RigRun run = sessions::localizeViews(spoiled, options);
+      noteRun({spoiled[v]}, localizeViews({spoiled[v]}), rows[text + ", alone"]);
+      const RigRun run = localizeViews(spoiled);
       Row& row = rows[text + (v == 0 ? ", first of the pair" : ", second of the pair")];
       noteRun(spoiled, run, row);
       row.spoiled_took_part += run.result.views[v].tookPart() ? 1 : 0;
@@ -114,10 +142,15 @@ void print(const std::map<std::string, Row>& rows) {
 
 int run(const std::string& file, int every) {
   const sessions::Dataset dataset = sessions::readDataset(file);
+  std::map<std::string, std::vector<std::string>> cases;
+  for (const sessions::Case& one : dataset.cases)
+    if (one.rig) cases[one.rig->id].push_back(one.id);
   std::map<std::string, Row> rows;
   int index = 0;
-  for (const std::string& id : sessions::rigIds(dataset)) {
-    const RigViews rig = sessions::readRigViews(dataset, id);
+  for (const auto& [id, case_ids] : cases) {
+    Rig rig;
+    for (const auto& one : sessions::makeSession(dataset, case_ids).cases)
+      rig.push_back(copyOf(*sessions::loadCase(*one)));
     runWhole(rig, rows);
     if (every > 0 && index++ % every == 0) runSpoiled(rig, rows);
     std::cout << "up to " << id << "\n\n";

@@ -36,7 +36,7 @@ const std::vector<std::vector<std::string>> kFloors = {
     {"ui/annotation", "ui/review"},
     {"ui/scene"},
     {"ui/window"},
-    {"app/documents", "app/flight"},
+    {"app/flight"},
     {"app"},
 };
 

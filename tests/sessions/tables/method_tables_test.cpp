@@ -11,7 +11,9 @@ namespace boresight::sessions {
 namespace {
 
 using test::madeRun;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 /// By hand: NCC completes 3 of 4, of which one is beyond the lateral, one beyond the rotation.
 std::vector<RunResult> sample() {
@@ -28,7 +30,7 @@ TEST(MethodFigures, AreThoseOfTheRuns) {
   EXPECT_EQ(rows[0].runs, 4) << "each seed once, though two methods began from the first";
   EXPECT_DOUBLE_EQ(*rows[0].completed_percent, 100.0);
   EXPECT_DOUBLE_EQ(*rows[0].success_percent, 0.0);
-  EXPECT_DOUBLE_EQ(rows[0].lateral_mm.mean, 4.0);
+  EXPECT_DOUBLE_EQ(rows[0].error[1].mean, 4.0);
   EXPECT_EQ(rows[0].false_positives, 0);
 
   const MethodFigures& ncc = rows[1];
@@ -37,12 +39,15 @@ TEST(MethodFigures, AreThoseOfTheRuns) {
   EXPECT_DOUBLE_EQ(*ncc.completed_percent, 75.0);
   EXPECT_DOUBLE_EQ(*ncc.success_percent, 25.0);
   EXPECT_EQ(ncc.false_positives, 2);
-  EXPECT_EQ(ncc.normal_mm.count, 3);
-  EXPECT_NEAR(ncc.normal_mm.mean, 0.0, 1e-12);
-  EXPECT_NEAR(ncc.normal_mm.deviation, std::sqrt((0.01 + 0.09 + 0.04) / 3.0), 1e-12);
-  EXPECT_NEAR(ncc.normal_mm.maximum, 0.3, 1e-12);
-  EXPECT_NEAR(ncc.lateral_mm.mean, 0.4, 1e-12);
-  EXPECT_NEAR(ncc.rotation_mrad.maximum, 5.0, 1e-12);
+  EXPECT_EQ(ncc.gross_false_positives, 0);
+  const Statistics& normal_mm = ncc.error[0];
+  EXPECT_EQ(normal_mm.count, 3);
+  EXPECT_NEAR(normal_mm.mean, 0.0, 1e-12);
+  EXPECT_NEAR(normal_mm.deviation, std::sqrt((0.01 + 0.09 + 0.04) / 3.0), 1e-12);
+  EXPECT_NEAR(normal_mm.maximum, 0.3, 1e-12);
+  EXPECT_NEAR(ncc.error[1].mean, 0.4, 1e-12);
+  EXPECT_NEAR(ncc.error[2].maximum, 5.0, 1e-12);
+  EXPECT_EQ(ncc.error[3].count, 0) << "no run has a projection error";
   EXPECT_DOUBLE_EQ(*ncc.within_percent[0], 75.0);
   EXPECT_DOUBLE_EQ(*ncc.within_percent[1], 50.0);
   EXPECT_DOUBLE_EQ(*ncc.within_percent[2], 50.0);
@@ -94,10 +99,63 @@ TEST(ErrorTable, ShowsThePapersRowsWithACautionWhenAsked) {
   EXPECT_EQ(with.find("0.167 / 0.075"), std::string::npos) << "no OS among ours, none of theirs";
 }
 
+std::string textOf(const Table& table) { return tableText(table, TableFormat::kText); }
+
+TEST(SummaryTable, AddsUpTheStationsOfAMethod) {
+  std::vector<RunResult> runs = {madeRun("bc-1", "whs", true, 0.1, 0.1, 0.5),
+                                 madeRun("os-1", "whs", true, 0.3, 0.1, 0.5),
+                                 madeRun("os-2", "whs", false, 9.0, 0.1, 0.5)};
+  runs[1].tags = {"far"};
+  const std::string table = textOf(summaryTable(runs));
+  EXPECT_THAT(table.substr(table.rfind("\nall")),
+              AllOf(HasSubstr("66.7"), HasSubstr("0.200 / 0.100 / 0.300")));
+  EXPECT_THAT(textOf(summaryTable(std::span(runs).first(1))), Not(HasSubstr("\nall")));
+}
+
+TEST(SummaryTable, CountsGrossFalsePositivesAndRefusedInputs) {
+  std::vector<RunResult> runs = {madeRun("bc-1", "whs", true, 0.5, 0.1, 0.5),
+                                 madeRun("bc-2", "whs", true, -1.5, 0.1, 0.5),
+                                 madeRun("bc-3", "whs", false, 0.0, 0.0, 0.0)};
+  runs[2].status = "input_error";
+  const MethodFigures figures = methodFigures(runs).back();
+  EXPECT_EQ(figures.runs, 2);
+  EXPECT_EQ(figures.false_positives, 2);
+  EXPECT_EQ(figures.gross_false_positives, 1);
+  EXPECT_THAT(textOf(summaryTable(runs)), HasSubstr("1 runs could not start"));
+}
+
+TEST(SummaryTable, WithoutTruth_LeavesSuccessAndErrorsOpen) {
+  RunResult blind = madeRun("bc-1", "whs", true, 0.0, 0.0, 0.0);
+  blind.error.reset();
+  blind.seed_error.reset();
+  blind.success.reset();
+  const std::string table = textOf(summaryTable({&blind, 1}));
+  EXPECT_THAT(table, AllOf(HasSubstr("100.0"), Not(HasSubstr("0.000"))));
+}
+
+TEST(ToleranceTable, GrowsWithTheTolerance) {
+  const std::vector<RunResult> runs = {
+      madeRun("bc-1", "whs", true, 0.03, 0.0, 0.0), madeRun("bc-2", "whs", true, 0.3, 0.0, 0.0),
+      madeRun("bc-3", "whs", true, 0.7, 0.0, 0.0), madeRun("bc-4", "whs", false, 0.0, 0.0, 0.0)};
+  // 0.4 mm times 0.1, 0.25, 0.5, 1, 2, 3
+  EXPECT_THAT(tableText(toleranceTable(runs, false), TableFormat::kCsv),
+              HasSubstr("bc,near,whs,25,25,25,50,75,75"));
+}
+
+TEST(FailureList, NamesRunsThatWereNotSuccessful) {
+  std::vector<RunResult> runs = {madeRun("bc-7", "whs", true, 0.1, 0.0, 0.0),
+                                 madeRun("os-7", "whs", false, 0.0, 0.0, 0.0)};
+  runs[1].reseed = 4;
+  runs[1].message = "no pose agrees";
+  EXPECT_THAT(failureList(runs, 10), AllOf(HasSubstr("os-7 reseed 4: pnp_failed: no pose agrees"),
+                                           Not(HasSubstr("bc-7"))));
+  EXPECT_THAT(failureList(runs, 0), HasSubstr("1 more"));
+}
+
 TEST(Tables, HaveAsManyCellsAsColumns) {
   for (const bool paper : {false, true})
-    for (const Table& table :
-         {errorTable(sample(), paper), successTable(sample(), paper), timeTable(sample(), paper)})
+    for (const Table& table : {errorTable(sample(), paper), successTable(sample(), paper),
+                               toleranceTable(sample(), paper), timeTable(sample(), paper)})
       for (const auto& row : table.rows) {
         ASSERT_EQ(row.size(), table.columns.size()) << table.name;
         for (std::size_t i = 0; i < row.size(); ++i) {

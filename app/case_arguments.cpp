@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/case_arguments.h"
+
+#include "sessions/io/camera_field.h"
+#include "sessions/run/problem.h"
+#include "sessions/session/input_sheet.h"
+
+namespace boresight::app {
+
+void CaseArguments::addTo(CLI::App& command) {
+  addFile(command, "--image", image, "PNG, JPEG, TIFF, VICAR, PDS3 or PDS4");
+  addFile(command, "--camera", camera, kOwnCameraHelp);
+  addFile(command, "--mesh", mesh, kMeshHelp);
+  addMeshUnit(command, mesh_unit, kMeshUnitHelp);
+  addFile(command, "--seed", seed, "pose.json with the approximate pose of the camera");
+  frames.addTo(command);
+  options.addTo(command);
+  command
+      .add_option("--feature-size", feature_size_m,
+                  "Size of the station's features (sleeves, screws), m; 0: from the mesh's size")
+      ->check(numberIn(0.0, 100.0))
+      ->type_name("M");
+  addFile(command, "--ignore", ignore,
+          "Mask image of the same size: nonzero pixels are not trusted");
+  command
+      .add_option("--bit-depth", bit_depth,
+                  "Bits that the image's samples use, e.g. 12 in a 16-bit file")
+      ->check(CLI::Range(1, 16))
+      ->type_name("N");
+}
+
+void CaseArguments::addUncertaintyTo(CLI::App& command) {
+  addUncertainty(command, uncertainty,
+                 "How far the seed may be off along and about x, y, z of the camera: three "
+                 "lengths in m, three angles in deg (instead of those in the seed's file)");
+  command
+      .add_option("--pivot", pivot,
+                  "Centre of the seed's rotation uncertainty: camera (an arm camera) or station")
+      ->check(CLI::IsMember({"camera", "station"}));
+}
+
+CLI::Option* CaseArguments::addTruthTo(CLI::App& command) {
+  return addFile(command, "--truth", truth, "pose.json with the true pose");
+}
+
+sessions::CaseFiles CaseArguments::files() const {
+  sessions::CaseFiles files;
+  files.image = image;
+  if (bit_depth > 0) files.eight_bit.bit_depth = bit_depth;
+  files.camera = camera;
+  files.transforms.assign(frames.files.begin(), frames.files.end());
+  files.parts.resize(1);
+  files.parts[0].mesh = mesh;
+  files.parts[0].mesh_unit = mesh_unit;
+  files.seed = seed;
+  if (!truth.empty()) files.truth = truth;
+  if (!ignore.empty()) files.ignore = ignore;
+  if (feature_size_m > 0.0) files.feature_size_m = feature_size_m;
+  if (!uncertainty.empty()) setUncertainty(uncertainty, files.uncertainty.emplace());
+  if (!pivot.empty())
+    files.pivot = pivot == "station" ? sessions::UncertaintyPivot::kStation
+                                     : sessions::UncertaintyPivot::kCamera;
+  return files;
+}
+
+LocalizerOptions CaseArguments::optionsOf(const sessions::SessionCase& one) const {
+  LocalizerOptions made = options.read();
+  double& size_m = made.templates.feature_size_m;
+  if (feature_size_m > 0.0) size_m = feature_size_m;
+  if (size_m == 0.0) size_m = one.feature_size_m.value_or(0.0);
+  return made;
+}
+
+ReadCase readCase(const CaseArguments& arguments) {
+  (void)arguments.options.read();  // options that do not exist are refused before files are read
+  sessions::MadeCase made = sessions::makeCase(arguments.files());
+  ReadCase read{sessions::loadCase(made.made), std::move(made.notes)};
+  for (std::string& warning : sessions::labelWarnings(read.loaded->source))
+    read.notes.push_back(std::move(warning));
+  return read;
+}
+
+void requireRunnable(const sessions::LoadedCase& loaded, const std::string& camera_file,
+                     const std::string& seed_file) {
+  const sessions::SessionCase& one = loaded.source;
+  sessions::requireSameSize(loaded.image, one.camera);
+  sessions::requireField(camera_file, "distortion", one.camera);
+  sessions::requireSensibleSeed(one.camera, loaded.scene, one.camera_from_station_seed, seed_file,
+                                "camera_from_station");
+}
+
+}  // namespace boresight::app

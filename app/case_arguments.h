@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The arguments and files of one case: shared by localize, problem and new.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "sessions/session/session_maker.h"
+
+namespace boresight::app {
+
+/// --image, --camera, --mesh, --seed and the options of a run.
+struct CaseArguments {
+  std::string image, camera, mesh, mesh_unit, seed, truth, ignore;
+  FrameArguments frames;
+  OptionArguments options;
+  double feature_size_m = 0.0;
+  int bit_depth = 0;
+  std::vector<double> uncertainty;
+  std::string pivot;
+
+  /// Adds all options but --uncertainty, --pivot and --truth. None is required.
+  void addTo(CLI::App& command);
+  void addUncertaintyTo(CLI::App& command);
+  CLI::Option* addTruthTo(CLI::App& command);
+  /// The image itself where its label has the camera model.
+  const std::string& cameraFile() const { return camera.empty() ? image : camera; }
+  /// CLI::ValidationError.
+  sessions::CaseFiles files() const;
+  /// The options of a run: --feature-size, else --set or --config, else the case's feature size.
+  LocalizerOptions optionsOf(const sessions::SessionCase& one) const;
+};
+
+/// A case that is ready to run, and notes for the operator.
+struct ReadCase {
+  std::shared_ptr<const sessions::LoadedCase> loaded;
+  std::vector<std::string> notes;
+};
+
+/// InputError, CLI::ValidationError.
+ReadCase readCase(const CaseArguments& arguments);
+
+/// InputError, naming one of these files or the mesh, when image and camera differ in size, when
+/// the distortion folds back within the image, or when the seed does not see the station.
+void requireRunnable(const sessions::LoadedCase& loaded, const std::string& camera_file,
+                     const std::string& seed_file);
+
+}  // namespace boresight::app

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// whs views: one pose from the cases of a rig.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "core/pnp/normal_equations.h"
+#include "sessions/io/json_reader.h"
+#include "sessions/io/json_writer.h"
+#include "sessions/io/pose_file.h"
+#include "tests/app/run_whs.h"
+
+namespace boresight::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class WhsViews : public testing::Test {
+ protected:
+  /// A dataset of the example's first case, once per camera of the rig "pair".
+  std::string datasetOf(const std::vector<Pose>& cameras_from_rig) const {
+    const std::filesystem::path folder = exampleFolder();
+    json dataset = json::parse(std::ifstream(folder / "dataset.json"));
+    for (json& station : dataset["stations"])
+      station["mesh"] = (folder / station["mesh"].get<std::string>()).string();
+    json one = dataset["cases"][0];
+    one["image"] = (folder / one["image"].get<std::string>()).string();
+    dataset["cases"] = json::array();
+    for (const Pose& camera_from_rig : cameras_from_rig) {
+      one["id"] = "view-" + std::to_string(dataset["cases"].size());
+      one["rig"]["id"] = "pair";
+      one["rig"]["camera_from_rig"] = json::parse(sessions::toJson(camera_from_rig).dump());
+      dataset["cases"].push_back(one);
+    }
+    return folder_.write("dataset.json", dataset.dump()).string();
+  }
+
+  json solved(const std::vector<Pose>& cameras_from_rig) const {
+    runWhs({"views", "--dataset", datasetOf(cameras_from_rig), "--out", folder_ / "out.json"}, 0);
+    return json::parse(folder_.read("out.json"))["rigs"].at(0);
+  }
+
+  static Pose poseOf(const json& matrix) {
+    const sessions::JsonDocument document("out.json", matrix.dump());
+    return sessions::readTransform(document.root());
+  }
+  static Matrix6d covarianceOf(const json& rows) {
+    Matrix6d made;
+    for (int i = 0; i < 36; ++i)
+      made(i / 6, i % 6) = rows[static_cast<std::size_t>(i / 6)][static_cast<std::size_t>(i % 6)];
+    return made;
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(WhsViews, ThePoseIsTheRigsWhereverItsFrameLies) {
+  const Pose camera_from_rig{rotationExp({0.3, -0.5, 1.1}), {0.2, -0.1, 0.4}};
+  const json one = solved({Pose()});
+  const json other = solved({camera_from_rig});
+  EXPECT_EQ(one["status"], "converged");
+  EXPECT_EQ(other["status"], "converged");
+  const Pose camera_from_station = camera_from_rig * poseOf(other["rig_from_station"]);
+  const Pose of_view = poseOf(other["views"][0]["camera_from_station"]);
+  EXPECT_LT(perturbationBetween(of_view, camera_from_station).norm(), 1e-12);
+  const Matrix6d covariance = covarianceOf(one["covariance"]);
+  const Matrix6d turn = adjointOf(camera_from_rig);
+  const Matrix6d back = turn * covarianceOf(other["covariance"]) * turn.transpose();
+  // The detour changes the seed's last bits, which moves any run's pose by up to two sigma: other
+  // edge places are looked at. Covariances are sums over these places, known to a third.
+  const Vector6d difference =
+      perturbationBetween(poseOf(one["rig_from_station"]), camera_from_station);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_LT(std::abs(difference[i]), 3.0 * std::sqrt(covariance(i, i)));
+    EXPECT_NEAR(back(i, i) / covariance(i, i), 1.0, 0.5);
+  }
+}
+
+TEST_F(WhsViews, ResultsNameEveryView) {
+  const json rig = solved({Pose(), Pose()});
+  EXPECT_EQ(rig["rig"], "pair");
+  EXPECT_EQ(rig["digest"].get<std::string>().size(), 64u);
+  ASSERT_EQ(rig["views"].size(), 2u);
+  EXPECT_EQ(rig["views"][1]["case"], "view-1");
+  EXPECT_EQ(rig["views"][1]["status"], "converged");
+  EXPECT_LT(rig["views"][1]["error"]["lateral_mm"], 0.4);
+}
+
+TEST_F(WhsViews, WhatIsNoRigIsRefused) {
+  const auto refusal = [this](const std::string& dataset) {
+    return runWhs({"views", "--dataset", dataset, "--rig", "pair"}, 3).err;
+  };
+  EXPECT_THAT(refusal((exampleFolder() / "dataset.json").string()), HasSubstr("no case names it"));
+  EXPECT_THAT(refusal(datasetOf(std::vector<Pose>(9))), HasSubstr("at most 8"));
+  json two = json::parse(std::ifstream(datasetOf({Pose(), Pose()})));
+  two["cases"][1]["station"] = "os";
+  EXPECT_THAT(refusal(folder_.write("two.json", two.dump()).string()),
+              HasSubstr("another station"));
+  for (const char* station : {"bc", "os"}) two["stations"][station].erase("uncertainty");
+  EXPECT_THAT(refusal(folder_.write("none.json", two.dump()).string()), HasSubstr("uncertainty"));
+}
+
+}  // namespace
+}  // namespace boresight::test
