@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// Times WHS with each set of kernels, WHS by Fourier transform (Pham 2025, Eqs. 7-9) and OpenCV's
+// normalized cross-correlation on the same template and window, with one thread. The scene is drawn:
+// an object of lines and circles, displaced, with gaps, among clutter (7 % edge pixels).
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/base/kernels.h"
+#include "core/match/whs.h"
+#include "tests/core/match/whs_fft.h"
+
+namespace {
+
+using boresight::Arena;
+using boresight::BitImage;
+using boresight::Kernels;
+
+constexpr int kImage_px = 1024;
+
+struct Bits {
+  explicit Bits(const cv::Mat& pixels)
+      : words(static_cast<std::size_t>(BitImage::wordsPerRow(pixels.cols) * pixels.rows)) {
+    image.words = words;
+    image.width = pixels.cols;
+    image.height = pixels.rows;
+    image.words_per_row = BitImage::wordsPerRow(pixels.cols);
+    for (int y = 0; y < pixels.rows; ++y) {
+      for (int x = 0; x < pixels.cols; ++x) {
+        if (pixels.at<std::uint8_t>(y, x) != 0) image.set(x, y);
+      }
+    }
+  }
+  std::vector<std::uint64_t> words;
+  BitImage image;
+};
+
+void drawCurves(cv::Mat& canvas, int count, cv::RNG& random) {
+  for (int k = 0; k < count; ++k) {
+    const cv::Point from(random.uniform(0, kImage_px), random.uniform(0, kImage_px));
+    if (k % 3 == 0) {
+      cv::circle(canvas, from, random.uniform(15, 120), 255);
+    } else {
+      const double angle = random.uniform(0.0, CV_PI);
+      const int length = random.uniform(60, 300);
+      cv::line(
+          canvas, from,
+          from + cv::Point(cvRound(length * std::cos(angle)), cvRound(length * std::sin(angle))),
+          255);
+    }
+  }
+}
+
+struct Scene {
+  cv::Mat object, test;
+
+  Scene() : object(kImage_px, kImage_px, CV_8U, cv::Scalar(0)) {
+    cv::RNG random(7);
+    drawCurves(object, 75, random);
+    test = cv::Mat(object.size(), CV_8U, cv::Scalar(0));
+    object(cv::Rect(0, 0, kImage_px - 23, kImage_px - 17))
+        .copyTo(test(cv::Rect(23, 17, kImage_px - 23, kImage_px - 17)));
+    cv::Mat gaps(object.size(), CV_8U);
+    random.fill(gaps, cv::RNG::UNIFORM, 0, 100);
+    test.setTo(0, gaps < 25);
+    drawCurves(test, 300, random);
+    random.fill(gaps, cv::RNG::UNIFORM, 0, 1000);
+    test.setTo(255, gaps < 8);
+  }
+};
+
+/// A template of `side` px in the middle and a window of `extent` x `extent` offsets around it.
+struct Case {
+  int side, extent;
+  bool half_mask;
+  cv::Mat template_pixels, region;
+  Bits object, mask, test;
+  boresight::TemplateView view;
+  boresight::SearchWindow window;
+  std::vector<std::byte> memory;
+  boresight::WhsSearch search;
+
+  Case(int side_px, int extent_px, bool half, const Scene& scene,
+       Kernels kernels = Kernels::kPortable)
+      : side(side_px),
+        extent(extent_px),
+        half_mask(half),
+        object(scene.object),
+        mask(makeMask(half)),
+        test(scene.test) {
+    const int center = kImage_px / 2 - 20;
+    const int corner = kImage_px / 2 - extent / 2;
+    view = {&object.image, &mask.image, center, center, side};
+    window = {corner, corner, corner + extent - 1, corner + extent - 1};
+    template_pixels =
+        scene.object(cv::Rect(center - side / 2, center - side / 2, side, side)).clone();
+    region = scene
+                 .test(cv::Rect(corner - side / 2, corner - side / 2, extent + side - 1,
+                                extent + side - 1))
+                 .clone();
+    use(kernels);
+  }
+
+  void use(Kernels kernels) {
+    Arena count;
+    (void)search.create(512, 1400, kernels, count);
+    memory.assign(count.highWater(), std::byte{0});
+    Arena arena{memory};
+    if (search.create(512, 1400, kernels, arena) != boresight::Status::kOk) std::abort();
+  }
+
+  static cv::Mat makeMask(bool half) {
+    cv::Mat mask(kImage_px, kImage_px, CV_8U, cv::Scalar(255));
+    if (half) {
+      const int c = kImage_px / 2 - 20;
+      const std::vector<cv::Point> outside{
+          {0, 0}, {c + 150, 0}, {c - 250, kImage_px}, {0, kImage_px}};
+      cv::fillConvexPoly(mask, outside, 0);
+    }
+    return mask;
+  }
+
+  void whs() {
+    if (search.begin(view, test.image, window, view.center_x, view.center_y, 8) !=
+        boresight::Status::kOk) {
+      std::abort();
+    }
+    while (!search.step()) {
+    }
+    benchmark::DoNotOptimize(search.peak());
+  }
+  void ncc() {
+    cv::Mat scores;
+    cv::matchTemplate(region, template_pixels, scores, cv::TM_CCOEFF_NORMED);
+    cv::Point best;
+    cv::minMaxLoc(scores, nullptr, nullptr, nullptr, &best);
+    benchmark::DoNotOptimize(best);
+  }
+  void fft() {
+    const boresight::test::FftProblem problem(view, test.image, window);
+    const boresight::WhsNorms norms = boresight::whsNorms(view);
+    cv::Mat1d scores;
+    cv::addWeighted(problem.edgeHits(), 1.0 / std::max(norms.edges, 1), problem.emptyHits(),
+                    1.0 / std::max(norms.empties, 1), 0.0, scores);
+    cv::Point best;
+    cv::minMaxLoc(scores, nullptr, nullptr, nullptr, &best);
+    benchmark::DoNotOptimize(best);
+  }
+};
+
+const Scene& scene() {
+  static const Scene the_scene;
+  return the_scene;
+}
+
+enum class Method { kWhs, kNcc, kFft };
+
+void runOnce(Case& the_case, Method method) {
+  switch (method) {
+    case Method::kWhs:
+      return the_case.whs();
+    case Method::kNcc:
+      return the_case.ncc();
+    case Method::kFft:
+      return the_case.fft();
+  }
+}
+
+void runCase(benchmark::State& state, Method method, Kernels kernels) {
+  if (!boresight::kernelsAvailable(kernels)) {
+    state.SkipWithError("not available here");
+    return;
+  }
+  Case the_case(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)),
+                state.range(2) != 0, scene(), kernels);
+  for (auto _ : state) runOnce(the_case, method);
+  const double offsets = static_cast<double>(the_case.extent) * the_case.extent;
+  state.counters["ns_per_offset"] = benchmark::Counter(
+      offsets * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  the_case.whs();
+  state.counters["edges_per_row"] =
+      the_case.search.norms().edges / static_cast<double>(the_case.side);
+}
+
+const std::vector<std::vector<std::int64_t>> kCases{
+    {32, 64, 128, 256}, {64, 150, 300, 600}, {0, 1}};
+
+void registerBenchmarks() {
+  const auto add = [](const std::string& name, Method method, Kernels kernels) {
+    benchmark::RegisterBenchmark(
+        name.c_str(),
+        [method, kernels](benchmark::State& state) { runCase(state, method, kernels); })
+        ->ArgNames({"side", "window", "half_mask"})
+        ->ArgsProduct(kCases);
+  };
+  for (int k = 0; k < boresight::kKernelSets; ++k) {
+    const Kernels kernels = static_cast<Kernels>(k);
+    add(std::string("Whs/") + boresight::kernelsName(kernels), Method::kWhs, kernels);
+  }
+  add("OpenCvNcc", Method::kNcc, Kernels::kPortable);
+  add("WhsByFft", Method::kFft, Kernels::kPortable);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  benchmark::Initialize(&argc, argv);
+  registerBenchmarks();
+  std::printf("edge pixels of the test image: %.1f %%\n",
+              100.0 * cv::countNonZero(scene().test) / (1.0 * kImage_px * kImage_px));
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
