@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <span>
+#include <string_view>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -284,6 +288,104 @@ void readCamera(const Source& source, const json& vicar_label, ImageLabel& label
     label.flags.push_back("the label does not name the frame of its camera model");
 }
 
+/// KEY = VALUE in a label's text; keys within quotes and comments do not count.
+class Statements {
+ public:
+  explicit Statements(std::string_view text) : text_(text) {}
+
+  bool next() {
+    while (!text_.empty()) {
+      if (text_.starts_with("/*")) {
+        skipBehind("*/");
+      } else if (text_.front() == '"' || text_.front() == '\'') {
+        (void)quoted();
+      } else if (key = word(); key.empty()) {
+        text_.remove_prefix(1);
+      } else if (skipBlanks(); text_.starts_with('=')) {
+        text_.remove_prefix(1);
+        skipBlanks();
+        value = text_.starts_with('\'') ? quoted() : word();
+        return true;
+      }
+    }
+    return false;
+  }
+
+  std::string_view key;
+  std::string_view value;  ///< a word, or the text between ' and '; else empty
+
+ private:
+  void skipBlanks() {
+    text_.remove_prefix(std::min(text_.find_first_not_of(" \t\r\n"), text_.size()));
+  }
+  void skipBehind(std::string_view end) {
+    const std::size_t at = text_.find(end, 1);
+    text_.remove_prefix(at == std::string_view::npos ? text_.size() : at + end.size());
+  }
+  std::string_view quoted() {
+    const std::string_view before = text_;
+    skipBehind(text_.substr(0, 1));
+    return before.substr(1, before.size() - text_.size() - (before.size() > 1 ? 2 : 1));
+  }
+  std::string_view word() {
+    const auto isPart = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+    };
+    const auto end = std::find_if_not(text_.begin(), text_.end(), isPart);
+    const std::string_view taken = text_.substr(0, static_cast<std::size_t>(end - text_.begin()));
+    text_.remove_prefix(taken.size());
+    return taken;
+  }
+
+  std::string_view text_;
+};
+
+bool isCameraGroup(std::string_view name) {
+  return name == "GEOMETRIC_CAMERA_MODEL" || name == "GEOMETRIC_CAMERA_MODEL_PARMS" ||
+         name == "CAMERA_MODEL";
+}
+
+/// The first key that a camera model of the text states twice, or its VICAR property that is there
+/// twice. GDAL hands on the last one alone.
+std::string statedTwice(std::string_view text, std::set<std::string>& properties) {
+  Statements statements(text);
+  std::set<std::string> keys;
+  bool in_model = false;
+  while (statements.next()) {
+    std::string key(statements.key);
+    for (char& c : key) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    const bool begins = key == "GROUP" || key == "OBJECT" || key == "PROPERTY";
+    if (begins) keys.clear();
+    if (begins || key == "END_GROUP" || key == "END_OBJECT" || key == "TASK") {
+      in_model = begins && isCameraGroup(statements.value);
+      if (in_model && key == "PROPERTY" && !properties.emplace(statements.value).second)
+        return std::string(statements.value);
+    } else if (in_model && !keys.insert(key).second) {
+      return key;
+    }
+  }
+  return "";
+}
+
+std::string statedTwice(const LabelFiles& files) {
+  const std::span<const std::uint8_t> bytes = files.labelBytes();
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  std::set<std::string> properties;
+  if (files.format == LabelFormat::kPds3)
+    return statedTwice(text.substr(0, text.find('\0')), properties);
+  if (files.format != LabelFormat::kVicar) return "";
+  // Properties are in the label at the file's beginning and in that at its end; pixels between
+  // them.
+  std::string twice;
+  std::size_t at = text.find("PROPERTY='");
+  while (at != std::string_view::npos && twice.empty()) {
+    const std::size_t end = std::min(text.find('\0', at), text.size());
+    twice = statedTwice(text.substr(at, end - at), properties);
+    at = text.find("PROPERTY='", end);
+  }
+  return twice;
+}
+
 }  // namespace
 
 LabelReading readLabelTree(LabelFormat format, const json& tree, const json& vicar_label,
@@ -312,10 +414,17 @@ LabelReading readLabelTree(LabelFormat format, const json& tree, const json& vic
   return reading;
 }
 
-LabelReading readLabel(LabelFormat format, const LabelRaster& raster) {
-  return readLabelTree(format, raster.label(), raster.vicarLabel(),
-                       {raster.width(), raster.height(), raster.bands(), bitsOf(raster.type()),
-                        isFloating(raster.type()), raster.remark()});
+LabelReading readLabel(const LabelFiles& files, const LabelRaster& raster) {
+  LabelReading reading =
+      readLabelTree(files.format, raster.label(), raster.vicarLabel(),
+                    {raster.width(), raster.height(), raster.bands(), bitsOf(raster.type()),
+                     isFloating(raster.type()), raster.remark()});
+  const std::string twice = statedTwice(files);
+  if (twice.empty()) return reading;
+  reading.label.camera.reset();
+  reading.label.camera_remark =
+      "the label states " + twice + " of its camera model twice; give a camera file instead";
+  return reading;
 }
 
 bool hasImageLabel(const std::filesystem::path& file) { return labelFileOf(file).has_value(); }
@@ -323,7 +432,7 @@ bool hasImageLabel(const std::filesystem::path& file) { return labelFileOf(file)
 ImageLabel readImageLabel(const std::filesystem::path& file) {
   const LabelFiles files = readLabelFiles(labelFileOf(file).value_or(file));
   const LabelRaster raster(files);
-  return readLabel(files.format, raster).label;
+  return readLabel(files, raster).label;
 }
 
 CameraFile readLabelCamera(const std::filesystem::path& file) {

@@ -37,6 +37,6 @@ LabelReading readLabelTree(LabelFormat format, const nlohmann::json& label,
                            const nlohmann::json& vicar_label, const LabelPicture& picture);
 
 /// The same for an opened image.
-LabelReading readLabel(LabelFormat format, const LabelRaster& raster);
+LabelReading readLabel(const LabelFiles& files, const LabelRaster& raster);
 
 }  // namespace boresight::sessions

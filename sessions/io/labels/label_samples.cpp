@@ -281,7 +281,7 @@ void addInvalidValues(const json* stated, bool floating, int sample_bits,
 
 LabelSamples readLabelSamples(const LabelFiles& files) {
   const LabelRaster raster(files);
-  const LabelReading reading = readLabel(files.format, raster);
+  const LabelReading reading = readLabel(files, raster);
   requirePicture(files, raster, reading);
   const Validity valid(reading.invalid, raster.type());
   Range range = rangeOf(raster, valid);

@@ -127,6 +127,24 @@ TEST(LabelCamera, SeveralModelsMustAgree) {
     EXPECT_TRUE(label.camera) << label.camera_remark;
 }
 
+TEST(LabelCamera, KeyStatedTwice_LeavesTheCameraOut) {
+  const TemporaryFolder folder;
+  GroupItems items = cameraItems(exampleModel(CameraModel::kCahvor, 60, 31, 24));
+  items.insert(items.begin(), {"MODEL_DESC", "\"PROPERTY in 2 (two) = lines,\r\n GROUP = X\""});
+  for (const ImageLabel& label : labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", items}}))
+    EXPECT_TRUE(label.camera) << label.camera_remark;
+  GroupItems twice = items;
+  twice.emplace_back("MODEL_COMPONENT_1", "(9,9,9)");
+  for (const ImageLabel& label : labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", twice}})) {
+    EXPECT_FALSE(label.camera) << label.format;
+    EXPECT_THAT(label.camera_remark, HasSubstr("states MODEL_COMPONENT_1 of its camera model "));
+  }
+  // Other groups may repeat a key.
+  for (const ImageLabel& label :
+       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", items}, {"OTHER", {{"A", "1"}, {"A", "2"}}}}))
+    EXPECT_TRUE(label.camera) << label.camera_remark;
+}
+
 TEST(LabelCamera, MirroredAndSkewedModelsAreNoCameras) {
   const auto misfit = [](const CahvModel& cahv) {
     return cameraMisfit(cahv, 64, 48, std::nullopt, {});
