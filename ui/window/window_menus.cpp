@@ -93,6 +93,7 @@ void WindowMenus::connectFile() {
 void WindowMenus::connectEdit() {
   on(ui_->undo, this, &WindowMenus::undo);
   on(ui_->redo, this, &WindowMenus::redo);
+  ui_->redo->setShortcut(QKeySequence::Redo);  // desktops differ
   connect(&parts_.document, &Document::changed, this, [this] {
     // An undo is no longer the last change.
     if (window_.statusBar()->currentMessage() == shown_change_) window_.statusBar()->clearMessage();
