@@ -103,7 +103,8 @@ RunScrubber::RunScrubber(ViewState& view, QWidget* parent)
     buttons[i]->setAccessibleName(actions_[i]->text());
     connect(actions_[i], &QAction::triggered, this, [this, i] { go(static_cast<Step>(i)); });
   }
-  ui_->place->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("8.88 (88 of 88)")));
+  ui_->shownIteration->setMinimumWidth(
+      fontMetrics().horizontalAdvance(QStringLiteral("8.88 (88 of 88)")));
   stages_ = new QButtonGroup(this);
   for (QToolButton* each : {ui_->stage1, ui_->stage2, ui_->stage3, ui_->stage4})
     stages_->addButton(each, stages_->buttons().size());
@@ -117,7 +118,7 @@ RunScrubber::RunScrubber(ViewState& view, QWidget* parent)
 
 RunScrubber::~RunScrubber() = default;
 
-void RunScrubber::setPlace(const QString& text) { ui_->place->setText(text); }
+void RunScrubber::setPlace(const QString& text) { ui_->shownIteration->setText(text); }
 
 void RunScrubber::go(Step step) {
   const RunCursor& cursor = view_.cursor();
