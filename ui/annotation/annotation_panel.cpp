@@ -5,6 +5,8 @@
 
 #include <QtWidgets>
 
+#include "ui_annotation_panel.h"
+
 #include "sessions/annotation/marks.h"
 #include "sessions/session/rig_links.h"
 #include "ui/models/number_text.h"
@@ -99,21 +101,23 @@ void RigMenu::askForPose(const std::string& other_id) {
 
 AnnotationPanel::AnnotationPanel(Document& document, AnnotationController& controller,
                                  ViewState& state, QWidget* parent)
-    : QWidget(parent), controller_(controller), state_(state) {
+    : QWidget(parent),
+      controller_(controller),
+      state_(state),
+      files_menu_(new QMenu(this)),
+      landmarks_menu_(new LandmarksMenu(controller, this)),
+      ui_(std::make_unique<Ui::AnnotationPanel>()) {
   filter_.setSourceModel(&model_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(4, 4, 4, 4);
+  ui_->setupUi(this);
+  ui_->splitter->setSizes({500, 400});
   auto* rig = new RigMenu(document, state, controller, this);
   connect(rig, &RigMenu::openRequested, this, &AnnotationPanel::openCaseRequested);
-  buildTools(*column, rig);
-  splitter_ = new QSplitter(Qt::Horizontal, this);
-  splitter_->addWidget(buildTable());
-  splitter_->addWidget(buildSummary());
-  splitter_->setStretchFactor(0, 1);
-  splitter_->setStretchFactor(1, 1);
-  splitter_->setChildrenCollapsible(false);
-  splitter_->setSizes({500, 400});
-  column->addWidget(splitter_, 1);
+  ui_->markFiles->setMenu(files_menu_);
+  ui_->landmarks->setMenu(landmarks_menu_);
+  ui_->passes->setMenu(new QMenu(this));
+  ui_->rig->setMenu(rig);
+  buildTable();
+  connectTools();
   connect(&controller_, &AnnotationController::modeChanged, this, &AnnotationPanel::showMode);
   connect(&controller_, &AnnotationController::marksChanged, this, &AnnotationPanel::showMarks);
   connect(&controller_, &AnnotationController::selectionChanged, this,
@@ -123,174 +127,66 @@ AnnotationPanel::AnnotationPanel(Document& document, AnnotationController& contr
   state_.onChange(
       ViewChange::kCase | ViewChange::kSnapshot | ViewChange::kCursor | ViewChange::kNudgedPose,
       this, &AnnotationPanel::showSolution);
-  connect(&model_, &MarksModel::pointEdited, &controller_, &AnnotationController::replacePoint);
-  connect(&model_, &MarksModel::lineEdited, &controller_, &AnnotationController::replaceLine);
   showMode();
   showMarks();
   showSolution();
 }
 
-QToolButton* AnnotationPanel::toolButton(const char* name, const QString& text,
-                                         const QString& tip) {
-  auto* button = named(new QToolButton(this), name, tip);
-  button->setText(text);
-  return button;
-}
+AnnotationPanel::~AnnotationPanel() = default;
 
-QToolButton* AnnotationPanel::modeButton(const char* name, const QString& text, const QString& tip,
-                                         PlaceMode mode) {
-  QToolButton* button = toolButton(name, text, tip);
-  button->setCheckable(true);
-  connect(button, &QToolButton::clicked, this, [this, mode](bool on) {
-    controller_.setMode(on ? mode : PlaceMode::kOff);
-    showMode();
-  });
-  return button;
-}
-
-QToolButton* AnnotationPanel::menuButton(const char* name, const QString& text, const QString& tip,
-                                         QMenu* menu) {
-  QToolButton* button = toolButton(name, text, tip);
-  button->setPopupMode(QToolButton::InstantPopup);
-  button->setMenu(menu);
-  return button;
-}
+QTableView& AnnotationPanel::table() { return *ui_->marks; }
 
 void AnnotationPanel::addBeside(QWidget* widget) {
-  splitter_->addWidget(widget);
-  splitter_->setStretchFactor(splitter_->count() - 1, 1);
-  splitter_->setCollapsible(splitter_->count() - 1, false);
+  ui_->splitter->addWidget(widget);
+  ui_->splitter->setCollapsible(ui_->splitter->count() - 1, false);
+  for (int i = 0; i < ui_->splitter->count(); ++i) ui_->splitter->setStretchFactor(i, 1);
 }
 
-void AnnotationPanel::buildTools(QBoxLayout& layout, RigMenu* rig) {
-  auto* row = new QHBoxLayout;
-  row->setSpacing(3);
-  points_ = modeButton("placePoints", tr("Points"),
-                       tr("Click a place on the image and the same place on the station, in either "
-                          "order (F2). Ctrl and a click on the rendered edges also marks the "
-                          "station."),
-                       PlaceMode::kPoint);
-  lines_ = modeButton("placeLines", tr("Lines"),
-                      tr("Click two places along an edge in the image, and the edge of the station "
-                         "(F3)"),
-                      PlaceMode::kLine);
-  sigma_ = named(new QDoubleSpinBox(this), "newSigma");
-  sigma_->setRange(0.01, 100.0);
-  sigma_->setDecimals(2);
-  sigma_->setSingleStep(0.1);
-  sigma_->setValue(controller_.sigma_px());
-  sigma_->setPrefix(QStringLiteral("\u00b1 "));
-  sigma_->setSuffix(tr(" px"));
-  sigma_->setMinimumWidth(
-      sigma_->fontMetrics().horizontalAdvance(QStringLiteral("\u00b1 00.00 px")) + 30);
-  sigma_->setToolTip(tr("Standard deviation that new marks are given, pixels per axis"));
-  robust_ = named(new QCheckBox(tr("Robust"), this), "robust",
-                  tr("Marks far from where the pose puts them count little or nothing"));
-  together_ = named(new QCheckBox(tr("Whole rig"), this), "together",
-                    tr("Solve with the other cameras of this case's rig, as one"));
-  together_->setChecked(controller_.together());
-  QToolButton* files =
-      menuButton("markFiles", tr("Files"), tr("Marks and poses from and to files"), fileMenu());
-  auto* landmarks_menu = new LandmarksMenu(controller_, this);
-  connect(landmarks_menu, &LandmarksMenu::openRequested, this,
-          &AnnotationPanel::openLandmarksRequested);
-  connect(landmarks_menu, &LandmarksMenu::saveRequested, this,
-          &AnnotationPanel::saveLandmarksRequested);
-  QToolButton* landmarks =
-      menuButton("landmarks", tr("Landmarks"),
-                 tr("Named points of the station, used over all its images"), landmarks_menu);
-  passes_ = menuButton("passes", tr("Passes"),
-                       tr("What several people marked without seeing each other's marks"),
-                       new QMenu(this));
-  QToolButton* rigs = menuButton(
-      "rig", tr("Rig"), tr("Which images are of rigidly linked cameras, solved as one"), rig);
-  connect(passes_->menu(), &QMenu::aboutToShow, this, &AnnotationPanel::showPasses);
-  for (QWidget* each : std::initializer_list<QWidget*>{points_, lines_, sigma_, robust_, together_,
-                                                       files, landmarks, passes_, rigs})
-    row->addWidget(each);
-  row->addStretch(1);
-  show_ = named(new QComboBox(this), "showMarks");
-  show_->setAccessibleName(tr("Which marks are listed"));
-  show_->addItems(MarksModel::showNames());
-  // On a narrow window the row gives way here.
-  show_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  show_->setMinimumContentsLength(3);
-  count_ = new QLabel(this);
-  count_->setMinimumWidth(1);
-  row->addWidget(count_);
-  row->addWidget(show_);
-  layout.addLayout(row);
-  connect(sigma_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), &controller_,
-          &AnnotationController::setSigma);
-  connect(robust_, &QCheckBox::toggled, &controller_, &AnnotationController::setRobust);
-  connect(together_, &QCheckBox::toggled, &controller_, &AnnotationController::setTogether);
-}
-
-QMenu* AnnotationPanel::fileMenu() {
-  auto* menu = new QMenu(this);
-  menu->addAction(tr("Import marks ..."), this, &AnnotationPanel::importRequested);
-  menu->addAction(tr("Export marks ..."), this, &AnnotationPanel::exportRequested);
-  menu->addSeparator();
-  menu->addAction(tr("Export all poses for COLMAP ..."), this,
-                  &AnnotationPanel::exportColmapRequested);
-  menu->addAction(tr("Export all poses as a BOP scene ..."), this,
-                  &AnnotationPanel::exportBopRequested);
-  menu->addAction(tr("Import truths from COLMAP ..."), this,
-                  &AnnotationPanel::importColmapRequested);
-  menu->addAction(tr("Import truths from a BOP scene ..."), this,
-                  &AnnotationPanel::importBopRequested);
-  return menu;
-}
-
-QWidget* AnnotationPanel::buildTable() {
-  table_ = newTable("marks", tr("Marks"), filter_, this);
-  table_->installEventFilter(this);
-  table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
-  table_->setSortingEnabled(true);
-  table_->sortByColumn(-1, Qt::AscendingOrder);
-  connect(show_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
-    filter_.setCondition([this, show = static_cast<MarksModel::Show>(index)](int row) {
-      return model_.isShown(row, show);
+void AnnotationPanel::connectTools() {
+  ui_->newSigma->setValue(controller_.sigma_px());
+  ui_->newSigma->setMinimumWidth(
+      ui_->newSigma->fontMetrics().horizontalAdvance(QStringLiteral("\u00b1 00.00 px")) + 30);
+  ui_->together->setChecked(controller_.together());
+  for (const auto& [button, mode] :
+       {std::pair(ui_->placePoints, PlaceMode::kPoint), {ui_->placeLines, PlaceMode::kLine}})
+    connect(button, &QToolButton::clicked, this, [this, chosen = mode](bool on) {
+      controller_.setMode(on ? chosen : PlaceMode::kOff);
+      showMode();
     });
-    showMarks();
-  });
-  connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
-          &AnnotationPanel::chooseRow);
-  return table_;
-}
-
-QWidget* AnnotationPanel::buildSummary() {
-  auto* part = new QWidget(this);
-  auto* column = new QVBoxLayout(part);
-  column->setContentsMargins(0, 0, 0, 0);
-  headline_ = named(new QLabel(part), "headline");
-  headline_->setWordWrap(true);
-  meter_ = named(new QLabel(part), "geometryMeter");
-  meter_->setWordWrap(true);
-  summary_ = named(new QTextBrowser(part), "solution");
-  summary_->setAccessibleName(tr("What the solved pose is worth"));
-  use_as_truth_ = named(new QPushButton(tr("Use as truth"), part), "annotationAsTruth",
-                        tr("This pose becomes the case's true pose, which results are compared "
-                           "with"));
-  use_as_seed_ = named(new QPushButton(tr("Use as seed"), part), "annotationAsSeed",
-                       tr("Runs of the case start from this pose"));
-  auto* row = new QHBoxLayout;
-  row->addWidget(headline_, 1);
-  row->addWidget(use_as_truth_);
-  row->addWidget(use_as_seed_);
-  column->addLayout(row);
-  column->addWidget(meter_);
-  column->addWidget(summary_, 1);
-  connect(use_as_truth_, &QPushButton::clicked, &controller_, &AnnotationController::useAsTruth);
-  connect(use_as_seed_, &QPushButton::clicked, this, [this] {
+  connect(ui_->passes->menu(), &QMenu::aboutToShow, this, &AnnotationPanel::showPasses);
+  connect(ui_->newSigma, QOverload<double>::of(&QDoubleSpinBox::valueChanged), &controller_,
+          &AnnotationController::setSigma);
+  connect(ui_->robust, &QCheckBox::toggled, &controller_, &AnnotationController::setRobust);
+  connect(ui_->together, &QCheckBox::toggled, &controller_, &AnnotationController::setTogether);
+  connect(ui_->annotationAsTruth, &QPushButton::clicked, &controller_,
+          &AnnotationController::useAsTruth);
+  connect(ui_->annotationAsSeed, &QPushButton::clicked, this, [this] {
     if (const auto pose = controller_.solvedPose()) Q_EMIT useAsSeedRequested(*pose);
   });
-  return part;
+}
+
+void AnnotationPanel::buildTable() {
+  setUpTable(*ui_->marks, filter_);
+  ui_->marks->installEventFilter(this);
+  ui_->marks->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
+  ui_->marks->sortByColumn(-1, Qt::AscendingOrder);
+  ui_->showMarks->addItems(MarksModel::showNames());
+  connect(ui_->showMarks, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+          [this](int index) {
+            filter_.setCondition([this, show = static_cast<MarksModel::Show>(index)](int row) {
+              return model_.isShown(row, show);
+            });
+            showMarks();
+          });
+  connect(ui_->marks->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          &AnnotationPanel::chooseRow);
+  connect(&model_, &MarksModel::pointEdited, &controller_, &AnnotationController::replacePoint);
+  connect(&model_, &MarksModel::lineEdited, &controller_, &AnnotationController::replaceLine);
 }
 
 void AnnotationPanel::showMode() {
-  points_->setChecked(controller_.mode() == PlaceMode::kPoint);
-  lines_->setChecked(controller_.mode() == PlaceMode::kLine);
+  ui_->placePoints->setChecked(controller_.mode() == PlaceMode::kPoint);
+  ui_->placeLines->setChecked(controller_.mode() == PlaceMode::kLine);
 }
 
 void AnnotationPanel::showMarks() {
@@ -298,8 +194,8 @@ void AnnotationPanel::showMarks() {
   showing_ = true;
   model_.setMarks(controller_.marks());
   showing_ = false;
-  if (model_.rowCount() != before) table_->resizeColumnsToContents();
-  count_->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
+  if (model_.rowCount() != before) ui_->marks->resizeColumnsToContents();
+  ui_->count->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
   showSelection();
 }
 
@@ -307,10 +203,10 @@ void AnnotationPanel::showSelection() {
   const int row = model_.rowOf(controller_.selected());
   const QModelIndex shown = filter_.mapFromSource(model_.index(row, 0));
   showing_ = true;
-  const int column = std::max(table_->currentIndex().column(), 0);
+  const int column = std::max(ui_->marks->currentIndex().column(), 0);
   const QModelIndex current = shown.isValid() ? shown.siblingAtColumn(column) : shown;
-  if (current != table_->currentIndex()) table_->setCurrentIndex(current);
-  if (shown.isValid()) table_->scrollTo(current);
+  if (current != ui_->marks->currentIndex()) ui_->marks->setCurrentIndex(current);
+  if (shown.isValid()) ui_->marks->scrollTo(current);
   showing_ = false;
 }
 
@@ -335,21 +231,21 @@ std::vector<ComparedPose> AnnotationPanel::otherPoses() const {
 void AnnotationPanel::showSolution() {
   const AnnotationAnswer& answer = controller_.answer();
   model_.setSolution(answer.solution, controller_.stale());
-  headline_->setText(solutionHeadline(answer, controller_.stale()));
-  meter_->setText(geometryMeterText(answer));
-  summary_->setEnabled(!controller_.stale());  // dimmed until it is true again
-  const int place = summary_->verticalScrollBar()->value();
-  summary_->setHtml(solutionHtml(answer, otherPoses()));
-  summary_->verticalScrollBar()->setValue(place);
+  ui_->headline->setText(solutionHeadline(answer, controller_.stale()));
+  ui_->geometryMeter->setText(geometryMeterText(answer));
+  ui_->solution->setEnabled(!controller_.stale());  // dimmed until it is true again
+  const int place = ui_->solution->verticalScrollBar()->value();
+  ui_->solution->setHtml(solutionHtml(answer, otherPoses()));
+  ui_->solution->verticalScrollBar()->setValue(place);
   const bool solved = controller_.solvedPose().has_value();
-  use_as_truth_->setEnabled(solved && !controller_.stale());
-  use_as_seed_->setEnabled(solved && !controller_.stale());
+  ui_->annotationAsTruth->setEnabled(solved && !controller_.stale());
+  ui_->annotationAsSeed->setEnabled(solved && !controller_.stale());
   const ViewState::CasePtr& one = state_.currentCase();
-  together_->setVisible(one && one->source.rig);
+  ui_->together->setVisible(one && one->source.rig);
 }
 
 void AnnotationPanel::showPasses() {
-  QMenu& menu = *passes_->menu();
+  QMenu& menu = *ui_->passes->menu();
   menu.clear();
   QAction* aside = menu.addAction(tr("Put these marks aside, begin a blind pass ..."), this,
                                   &AnnotationPanel::askForName);
@@ -374,7 +270,7 @@ void AnnotationPanel::askForName() {
 /// Letters typed at the table look for a row; they do not switch layers. Enter goes on to the
 /// chosen mark in the image.
 bool AnnotationPanel::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == table_ && event->type() == QEvent::KeyPress) {
+  if (watched == ui_->marks && event->type() == QEvent::KeyPress) {
     const int key = static_cast<QKeyEvent*>(event)->key();
     if ((key == Qt::Key_Return || key == Qt::Key_Enter) && !controller_.selected().empty()) {
       controller_.setMode(controller_.selectedLine() ? PlaceMode::kLine : PlaceMode::kPoint);
@@ -382,7 +278,7 @@ bool AnnotationPanel::eventFilter(QObject* watched, QEvent* event) {
       return true;
     }
   }
-  if (watched == table_ && event->type() == QEvent::ShortcutOverride) {
+  if (watched == ui_->marks && event->type() == QEvent::ShortcutOverride) {
     const auto& key = *static_cast<QKeyEvent*>(event);
     const bool plain = (key.modifiers() & ~Qt::ShiftModifier) == Qt::NoModifier;
     if (plain && !key.text().isEmpty() && key.text().front().isLetterOrNumber()) event->accept();

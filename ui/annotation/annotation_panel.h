@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <memory>
+
 #include <QMenu>
 #include <QString>
 #include <QWidget>
@@ -11,18 +13,13 @@
 #include "ui/annotation/solution_html.h"
 #include "ui/models/marks_model.h"
 
-class QBoxLayout;
-class QCheckBox;
-class QComboBox;
-class QDoubleSpinBox;
-class QLabel;
-class QPushButton;
-class QSplitter;
 class QTableView;
-class QTextBrowser;
-class QToolButton;
 
 namespace boresight::ui {
+
+namespace Ui {
+class AnnotationPanel;
+}
 
 class Document;
 
@@ -73,8 +70,12 @@ class AnnotationPanel : public QWidget {
  public:
   AnnotationPanel(Document& document, AnnotationController& controller, ViewState& state,
                   QWidget* parent = nullptr);
+  ~AnnotationPanel() override;
 
-  QTableView& table() { return *table_; }
+  QTableView& table();
+  /// The menu of marks and poses from and to files; to be filled.
+  QMenu& filesMenu() { return *files_menu_; }
+  LandmarksMenu& landmarksMenu() { return *landmarks_menu_; }
   /// Something beside the summary that shows itself when it has something to show.
   void addBeside(QWidget* widget);
   /// Asks whose marks these are, and puts them aside.
@@ -83,14 +84,6 @@ class AnnotationPanel : public QWidget {
  Q_SIGNALS:
   void openCaseRequested(const QString& case_id);
   void useAsSeedRequested(const boresight::Pose& camera_from_station);
-  void importRequested();
-  void exportRequested();
-  void exportColmapRequested();
-  void exportBopRequested();
-  void importColmapRequested();
-  void importBopRequested();
-  void openLandmarksRequested();
-  void saveLandmarksRequested();
   /// Keys go to the image from now on.
   void imageRequested();
 
@@ -99,14 +92,8 @@ class AnnotationPanel : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  void buildTools(QBoxLayout& layout, RigMenu* rig);
-  QToolButton* toolButton(const char* name, const QString& text, const QString& tip);
-  QToolButton* menuButton(const char* name, const QString& text, const QString& tip, QMenu* menu);
-  QWidget* buildTable();
-  QWidget* buildSummary();
-  QToolButton* modeButton(const char* name, const QString& text, const QString& tip,
-                          PlaceMode mode);
-  QMenu* fileMenu();
+  void buildTable();
+  void connectTools();
   void showMode();
   void showMarks();
   void showSelection();
@@ -119,22 +106,10 @@ class AnnotationPanel : public QWidget {
   ViewState& state_;
   MarksModel model_;
   RowsFilter filter_;
+  QMenu* files_menu_;
+  LandmarksMenu* landmarks_menu_;
   bool showing_ = false;
-  QSplitter* splitter_ = nullptr;
-  QToolButton* points_ = nullptr;
-  QToolButton* lines_ = nullptr;
-  QDoubleSpinBox* sigma_ = nullptr;
-  QCheckBox* robust_ = nullptr;
-  QCheckBox* together_ = nullptr;
-  QToolButton* passes_ = nullptr;
-  QComboBox* show_ = nullptr;
-  QLabel* count_ = nullptr;
-  QTableView* table_ = nullptr;
-  QLabel* headline_ = nullptr;
-  QLabel* meter_ = nullptr;
-  QTextBrowser* summary_ = nullptr;
-  QPushButton* use_as_truth_ = nullptr;
-  QPushButton* use_as_seed_ = nullptr;
+  const std::unique_ptr<Ui::AnnotationPanel> ui_;
 };
 
 }  // namespace boresight::ui

@@ -43,7 +43,6 @@ ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& contro
       loupe_(new Loupe(image.view())),
       edges_(new PoseRenderer(this)) {
   image_.view().setOverlay([this](QPainter& painter) { paint(painter); });
-  connect(tool_, &MarkTool::told, this, &ImageAnnotation::told);
   connect(tool_, &MarkTool::aimChanged, this, &ImageAnnotation::lookThroughLoupe);
   connect(&image_.display(), &DisplayImage::pictureChanged, this, &ImageAnnotation::showSamples);
   connect(&image_.display(), &DisplayImage::levelsChanged, this, &ImageAnnotation::showSamples);

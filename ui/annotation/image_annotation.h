@@ -34,10 +34,6 @@ class ImageAnnotation : public QObject {
   double magnification() const { return magnification_; }
   void setMagnification(double magnification);
 
- Q_SIGNALS:
-  /// One sentence for people.
-  void told(const QString& sentence);
-
  private:
   using Band = std::vector<sessions::BandPiece>;
 

@@ -35,7 +35,7 @@ class Signs {
   void addPoint(const sessions::PointPair& point, int item) {
     if (point.pixel) {
       Mark mark = sign(shapeOf(point), *point.pixel, item);
-      mark.label = labelOf(point, !point.point_in_station_m);
+      mark.label = markLabel(point.id, stateOf(point));
       finish(std::move(mark), point);
     } else if (point.point_in_station_m) {
       const auto place = sessions::predictPlace(look_.camera, look_.camera_from_station,
@@ -51,7 +51,7 @@ class Signs {
   void addLine(const sessions::LinePair& line, int item) {
     if (line.line) {
       Mark mark = segment(line.line->start, line.line->end, item);
-      mark.label = labelOf(line, !line.edge);
+      mark.label = markLabel(line.id, stateOf(line));
       mark.dashed = !line.edge;
       finish(std::move(mark), line);
       for (const Eigen::Vector2d& end : {line.line->start, line.line->end}) {
@@ -99,36 +99,14 @@ class Signs {
   }
 
   template <class Pair>
-  QString labelOf(const Pair& pair, bool half_made) const {
-    const QString id = QString::fromStdString(pair.id);
-    if (half_made) return contentText("%1 ?").arg(id);
-    if (!pair.enabled) return contentText("%1 (off)").arg(id);
-    if (standsOut(pair))
-      return contentText("%1 ! %2 sigma").arg(id).arg(look_.outliers.at(pair.id), 0, 'f', 1);
-    return id;
+  MarkState stateOf(const Pair& pair) const {
+    const double outlier = standsOut(pair) ? look_.outliers.at(pair.id) : 0.0;
+    return {pair.complete(), pair.enabled, pair.id == look_.selected, outlier};
   }
 
   template <class Pair>
   void finish(Mark mark, const Pair& pair) {
-    if (!pair.enabled) mark.color = kDisabledMark;
-    if (standsOut(pair)) {
-      mark.color = kOutlierMark;
-      Mark round = mark;
-      round.shape = MarkShape::kTriangle;
-      round.size_px = 2.0 * kSize;
-      round.label.clear();
-      signs_.push_back(std::move(round));
-    }
-    if (pair.id == look_.selected) {
-      mark.width = 2.4;
-      if (!standsOut(pair)) mark.color = kChosenMark;
-      Mark ring = mark;
-      ring.shape = MarkShape::kCircle;
-      ring.size_px = kChosenSize;
-      ring.label.clear();
-      signs_.push_back(std::move(ring));
-    }
-    signs_.push_back(std::move(mark));
+    for (Mark& each : withState(std::move(mark), stateOf(pair))) signs_.push_back(std::move(each));
   }
 
   const MarkLook& look_;
@@ -136,6 +114,39 @@ class Signs {
 };
 
 }  // namespace
+
+QString markLabel(const std::string& id, const MarkState& state) {
+  const QString name = QString::fromStdString(id);
+  if (!state.complete) return contentText("%1 ?").arg(name);
+  if (!state.enabled) return contentText("%1 (off)").arg(name);
+  if (state.outlier > 0.0)
+    return contentText("%1 ! %2 sigma").arg(name).arg(state.outlier, 0, 'f', 1);
+  return name;
+}
+
+QColor markColor(const MarkState& state) {
+  if (state.outlier > 0.0) return kOutlierMark;
+  if (state.chosen) return kChosenMark;
+  return state.enabled ? QColor() : kDisabledMark;
+}
+
+std::vector<Mark> withState(Mark sign, const MarkState& state) {
+  std::vector<Mark> signs;
+  sign.color = markColor(state);
+  const auto add_round = [&](MarkShape shape, double size_px) {
+    Mark& round = signs.emplace_back(sign);
+    round.shape = shape;
+    round.size_px = size_px;
+    round.label.clear();
+  };
+  if (state.outlier > 0.0) add_round(MarkShape::kTriangle, 2.0 * kSize);
+  if (state.chosen) {
+    sign.width = 2.4;
+    add_round(MarkShape::kCircle, kChosenSize);
+  }
+  signs.push_back(std::move(sign));
+  return signs;
+}
 
 std::vector<Mark> markSigns(const sessions::Marks& marks, const MarkLook& look) {
   Signs signs(look);

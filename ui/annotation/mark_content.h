@@ -28,6 +28,20 @@ struct MarkLook {
   Pose camera_from_station;  ///< predicts what has no place in the image yet
 };
 
+/// State of a mark as its sign shows it.
+struct MarkState {
+  bool complete = true;
+  bool enabled = true;
+  bool chosen = false;
+  double outlier = 0.0;  ///< residual in sigmas where it stands out, else 0
+};
+/// "p1", "p1 ?" (incomplete), "p1 (off)", "p1 ! 4.2 sigma".
+QString markLabel(const std::string& id, const MarkState& state);
+/// Colour of a mark's sign; invalid: the layer's own.
+QColor markColor(const MarkState& state);
+/// The sign of a mark, with a triangle round an outlier and a ring round the chosen mark.
+std::vector<Mark> withState(Mark sign, const MarkState& state);
+
 /// One sign for each mark, its item being the index of the point, or the number of points plus the
 /// index of the line. A complete pair is a target, a locked one a square, one without its station
 /// side a circle with "?", one without its place in the image a dashed diamond where the pose

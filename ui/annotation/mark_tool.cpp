@@ -278,18 +278,18 @@ void MarkTool::place() {
   } else if (aim_.side == AimSide::kStation) {
     controller_.placeOnStation(*aim_.point_in_station_m);
   } else if ((modifiers_ & Qt::ControlModifier) != 0) {
-    Q_EMIT told(marksLines()
-                    ? tr("There is no edge of the station within reach of the pointer; point at "
-                         "one of the drawn edges with Ctrl held.")
-                    : tr("There is no station under the pointer in the shown pose; point at its "
-                         "drawn edges with Ctrl held, or pick the place in the scene."));
+    Q_EMIT controller_.told(
+        marksLines() ? tr("There is no edge of the station within reach of the pointer; point at "
+                          "one of the drawn edges with Ctrl held.")
+                     : tr("There is no station under the pointer in the shown pose; point at its "
+                          "drawn edges with Ctrl held, or pick the place in the scene."));
   }
   updateAim();
 }
 
 void MarkTool::placeImage() {
   if (!sessions::isInImage(state_.currentCase()->source.camera, aim_.pixel)) {
-    Q_EMIT told(tr("That place is outside of the image."));
+    Q_EMIT controller_.told(tr("That place is outside of the image."));
     return;
   }
   if (!marksLines()) {
@@ -298,7 +298,8 @@ void MarkTool::placeImage() {
     if (!lacksImageSide()) controller_.select({});  // the line that is begun is another mark
     line_start_ = aim_.pixel;
   } else if ((aim_.pixel - *line_start_).norm() * view_.transform().scale() < kShortestLine) {
-    Q_EMIT told(tr("The two places of a line must lie apart; click farther along the edge."));
+    Q_EMIT controller_.told(
+        tr("The two places of a line must lie apart; click farther along the edge."));
   } else {
     controller_.placeLineInImage({*std::exchange(line_start_, std::nullopt), aim_.pixel});
   }

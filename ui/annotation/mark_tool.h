@@ -50,8 +50,6 @@ class MarkTool : public QObject {
  Q_SIGNALS:
   void aimChanged();  ///< or the focus
   void snapsChanged();
-  /// One sentence for people.
-  void told(const QString& sentence);
 
  private:
   struct Drag {

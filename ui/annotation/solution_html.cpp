@@ -9,7 +9,9 @@
 
 #include "core/base/math.h"
 #include "sessions/evaluation/pose_error.h"
+#include "ui/models/html_table.h"
 #include "ui/models/number_text.h"
+#include "ui/panels/pose_comparison.h"
 
 namespace boresight::ui {
 namespace {
@@ -19,28 +21,6 @@ using sessions::MarksSolution;
 constexpr double kMradPerDegree = 1e3 * kDegree_rad;
 
 QString solutionText(const char* text) { return QCoreApplication::translate("SolutionHtml", text); }
-
-QString cell(const QString& text, bool number = false) {
-  return QStringLiteral("<td%1>%2&nbsp;&nbsp;</td>")
-      .arg(number ? QStringLiteral(" align='right'") : QString(), text);
-}
-
-QString rowOf(const QStringList& cells) {
-  return QStringLiteral("<tr>%1</tr>").arg(cells.join(QString()));
-}
-
-QString table(const QString& title, const QStringList& rows) {
-  if (rows.isEmpty()) return {};
-  return QStringLiteral("<p><b>%1</b></p><table cellspacing='0' cellpadding='1'>%2</table>")
-      .arg(title, rows.join(QString()));
-}
-
-QString judged(double value, const std::optional<double>& limit, const QString& unit) {
-  if (!limit) return {};
-  const QString text = QStringLiteral("%1 %2").arg(QString::number(*limit, 'g', 4), unit);
-  return std::abs(value) <= *limit ? solutionText("within %1").arg(text)
-                                   : solutionText("<b>beyond %1</b>").arg(text);
-}
 
 /// In the order of `GeometryWeakness`.
 constexpr std::array<const char*, 7> kWeaknesses = {"too few marks",
@@ -74,40 +54,19 @@ QString sigmaHtml(const AnnotationAnswer& answer) {
                          ? sessions::poseSigma(*answer.covariance, marks.camera_from_end_effector)
                          : std::nullopt;
   if (!sigma) return {};
-  const sessions::Requirement& required = marks.requirement;
-  std::optional<double> rotation_mrad;
-  if (required.rotation_deg) rotation_mrad = *required.rotation_deg * kMradPerDegree;
-  const QString mm = solutionText("mm");
-  const QString mrad = solutionText("mrad");
-  const auto line = [](const QString& name, double value, const QString& unit,
-                       const QString& verdict) {
-    return rowOf(
-        {cell(name), cell(QString::number(value, 'f', 4), true), cell(unit), cell(verdict)});
-  };
-  const auto axes = [](const QString& name, const Eigen::Vector3d& values, const QString& unit) {
-    return QStringLiteral("<tr>%1<td colspan='3'>%2, %3, %4 %5</td></tr>")
-        .arg(cell(name), QString::number(values.x(), 'f', 4), QString::number(values.y(), 'f', 4),
-             QString::number(values.z(), 'f', 4), unit);
-  };
-  const bool at_effector = marks.camera_from_end_effector.has_value();
   const QString title = solutionText(
                             "One sigma at the %1, by the marks alone (noise %2 times what their "
                             "sigmas say)")
                             .arg(placeText(marks))
                             .arg(QString::number(solution.noise_factor, 'f', 2));
-  QStringList rows = {line(solutionText("normal"), sigma->normal_mm, mm,
-                           judged(sigma->normal_mm, required.normal_mm, mm)),
-                      line(solutionText("lateral"), sigma->lateral_mm, mm,
-                           judged(sigma->lateral_mm, required.lateral_mm, mm)),
-                      line(solutionText("rotation"), sigma->out_of_plane_mrad, mrad,
-                           judged(sigma->out_of_plane_mrad, rotation_mrad, mrad)),
-                      axes(solutionText("along x, y, z"), sigma->translation_mm, mm)};
-  // Without an end effector the row above is the camera's own already.
-  const auto at_camera =
-      at_effector ? sessions::poseSigma(*answer.covariance, std::nullopt) : std::nullopt;
-  if (at_camera) rows << axes(solutionText("at the camera"), at_camera->translation_mm, mm);
-  rows << axes(solutionText("about x, y, z"), sigma->rotation_mrad, mrad);
-  return table(title, rows);
+  QVector<QStringList> rows = sigmaRows(*sigma, marks.requirement);
+  // Without an end effector these are the camera's own already.
+  const auto at_camera = marks.camera_from_end_effector
+                             ? sessions::poseSigma(*answer.covariance, std::nullopt)
+                             : std::nullopt;
+  if (at_camera)
+    rows << axesRow(solutionText("at the camera"), at_camera->translation_mm, solutionText("mm"));
+  return titledTable(title, rows);
 }
 
 QStringList poseCells(const Pose& pose) {
@@ -127,20 +86,18 @@ QString twinHtml(const sessions::CaseMarksSolution& solved) {
   const QStringList names = {solutionText("x, mm"),       solutionText("y, mm"),
                              solutionText("z, mm"),       solutionText("turn x, deg"),
                              solutionText("turn y, deg"), solutionText("turn z, deg")};
-  QStringList rows = {rowOf({cell(QString()), cell(solutionText("this pose"), true),
-                             cell(solutionText("the other pose"), true)})};
-  for (int i = 0; i < names.size(); ++i)
-    rows << rowOf({cell(names[i]), cell(ours[i], true), cell(other[i], true)});
-  rows << rowOf({cell(solutionText("rms, px")),
-                 cell(QString::number(solution.rms_px, 'f', 3), true),
-                 cell(QString::number(solution.twin->rms_px, 'f', 3), true)});
-  return table(solutionText("Two poses explain marks in a plane"), rows);
+  QVector<QStringList> rows = {
+      {QString(), solutionText("this pose"), solutionText("the other pose")}};
+  for (int i = 0; i < names.size(); ++i) rows.append({names[i], ours[i], other[i]});
+  rows.append({solutionText("rms, px"), QString::number(solution.rms_px, 'f', 3),
+               QString::number(solution.twin->rms_px, 'f', 3)});
+  return titledTable(solutionText("Two poses explain marks in a plane"), rows);
 }
 
 QString viewsHtml(const sessions::CaseMarksSolution& solved) {
   const auto& views = solved.marks.views;
   if (views.size() < 2) return {};
-  QStringList rows;
+  QVector<QStringList> rows;
   for (std::size_t i = 0; i < views.size(); ++i) {
     double squares_px2 = 0.0;
     int count = 0;
@@ -150,27 +107,25 @@ QString viewsHtml(const sessions::CaseMarksSolution& solved) {
       ++count;
     }
     const double rms_px = count > 0 ? std::sqrt(squares_px2 / (2.0 * count)) : 0.0;
-    rows << rowOf({cell(fromText(views[i].name).toHtmlEscaped()),
-                   cell(solutionText("%1 marks").arg(count)),
-                   cell(solutionText("%1 px rms").arg(QString::number(rms_px, 'f', 3)), true)});
+    rows.append({fromText(views[i].name).toHtmlEscaped(), solutionText("%1 marks").arg(count),
+                 solutionText("%1 px rms").arg(QString::number(rms_px, 'f', 3))});
   }
-  return table(solutionText("Cameras solved together"), rows);
+  return titledTable(solutionText("Cameras solved together"), rows);
 }
 
-QString differenceRow(const QString& name, const Pose& other, const Pose& annotated,
-                      const sessions::CaseMarks& marks, const QString& more) {
+QStringList differenceRow(const QString& name, const Pose& other, const Pose& annotated,
+                          const sessions::CaseMarks& marks, const QString& more) {
   const sessions::PoseError error =
       sessions::poseError(other, annotated, marks.camera_from_end_effector);
-  return rowOf({cell(name.toHtmlEscaped()), cell(QString::number(error.normal_mm, 'f', 3), true),
-                cell(QString::number(error.lateral_mm, 'f', 3), true),
-                cell(QString::number(error.geodesic_mrad / kMradPerDegree, 'f', 4), true),
-                cell(more)});
+  return {name.toHtmlEscaped(), QString::number(error.normal_mm, 'f', 3),
+          QString::number(error.lateral_mm, 'f', 3),
+          QString::number(error.geodesic_mrad / kMradPerDegree, 'f', 4), more};
 }
 
 QString comparedHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others,
                      const Pose& annotated) {
   const sessions::CaseMarks& marks = answer.solution->marks;
-  QStringList rows;
+  QVector<QStringList> rows;
   for (const ComparedPose& other : others)
     rows << differenceRow(other.name, other.camera_from_station, annotated, marks, {});
   for (const PassAnswer& pass : answer.passes) {
@@ -184,14 +139,13 @@ QString comparedHtml(const AnnotationAnswer& answer, const std::vector<ComparedP
     if (pass.camera_from_station)
       rows << differenceRow(name, *pass.camera_from_station, annotated, marks, repeated);
     else
-      rows << rowOf({cell(name.toHtmlEscaped()), cell(solutionText("no pose")), cell({}), cell({}),
-                     cell(repeated)});
+      rows.append({name.toHtmlEscaped(), solutionText("no pose"), QString(), QString(), repeated});
   }
   if (rows.isEmpty()) return {};
-  rows.prepend(rowOf({cell(QString()), cell(solutionText("normal, mm"), true),
-                      cell(solutionText("lateral, mm"), true),
-                      cell(solutionText("angle, deg"), true), cell(QString())}));
-  return table(solutionText("The annotated pose is from, at the %1").arg(placeText(marks)), rows);
+  rows.prepend({QString(), solutionText("normal, mm"), solutionText("lateral, mm"),
+                solutionText("angle, deg"), QString()});
+  return titledTable(solutionText("The annotated pose is from, at the %1").arg(placeText(marks)),
+                     rows);
 }
 
 }  // namespace

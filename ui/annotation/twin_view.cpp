@@ -7,8 +7,9 @@
 
 #include <QtWidgets>
 
+#include "ui_twin_view.h"
+
 #include "sessions/annotation/edge_band.h"
-#include "ui/panels/widgets.h"
 #include "ui/views/layer.h"
 
 namespace boresight::ui {
@@ -81,28 +82,16 @@ QImage draw(const Drawing& drawing, std::size_t which) {
 
 TwinView::TwinView(AnnotationController& controller, ViewState& state, StationSnapper& snapper,
                    QWidget* parent)
-    : QWidget(parent), controller_(controller), state_(state), snapper_(snapper) {
+    : QWidget(parent),
+      controller_(controller),
+      state_(state),
+      snapper_(snapper),
+      ui_(std::make_unique<Ui::TwinView>()) {
+  ui_->setupUi(this);
   setObjectName(QStringLiteral("twinView"));
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  auto* pictures = new QHBoxLayout;
-  auto* captions = new QHBoxLayout;
-  halves_ = {half("twinOurs"), half("twinOther")};
-  for (const Half& each : halves_) {
-    pictures->addWidget(each.picture, 1);
-    captions->addWidget(each.caption, 1);
-  }
-  auto* look =
-      named(new QPushButton(tr("Look at the other"), this), "lookAtTwin",
-            tr("Nudge the shown pose to the other one: all views show it, and it can become "
-               "the seed"));
-  auto* foot = new QHBoxLayout;
-  foot->addStretch(1);
-  foot->addWidget(look);
-  column->addLayout(pictures, 1);
-  column->addLayout(captions);
-  column->addLayout(foot);
-  connect(look, &QPushButton::clicked, this, [this] {
+  for (QLabel* picture : {ui_->twinOurs, ui_->twinOther})
+    picture->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);
+  connect(ui_->lookAtTwin, &QPushButton::clicked, this, [this] {
     if (const auto pose = other()) Q_EMIT otherRequested(*pose);
   });
   connect(&controller_, &AnnotationController::solutionChanged, this, &TwinView::showSolution);
@@ -110,16 +99,7 @@ TwinView::TwinView(AnnotationController& controller, ViewState& state, StationSn
   showSolution();
 }
 
-TwinView::Half TwinView::half(const char* name) {
-  Half made;
-  made.picture = named(new QLabel(this), name);
-  made.picture->setMinimumSize(130, 96);
-  made.picture->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);
-  made.picture->setAlignment(Qt::AlignCenter);
-  made.caption = new QLabel(this);
-  made.caption->setAlignment(Qt::AlignCenter);
-  return made;
-}
+TwinView::~TwinView() = default;
 
 std::optional<Pose> TwinView::other() const {
   const auto& solution = controller_.solution();
@@ -132,8 +112,8 @@ void TwinView::showSolution() {
   setVisible(pose && twin);
   if (!pose || !twin) return;
   const sessions::MarksSolution& solution = *controller_.solution()->result.solution;
-  halves_[0].caption->setText(tr("this: %1 px rms").arg(QString::number(solution.rms_px, 'f', 3)));
-  halves_[1].caption->setText(
+  ui_->oursCaption->setText(tr("this: %1 px rms").arg(QString::number(solution.rms_px, 'f', 3)));
+  ui_->otherCaption->setText(
       tr("other: %1 px rms").arg(QString::number(solution.twin->rms_px, 'f', 3)));
   if (!snapper_.mesh() || !state_.currentCase()) return;
   const sessions::MarkedView& view = controller_.solution()->marks.views.front();
@@ -145,19 +125,20 @@ void TwinView::showSolution() {
         return std::array<QImage, 2>{draw(drawing, 0), draw(drawing, 1)};
       },
       [this](const std::array<QImage, 2>& drawn) {
-        for (std::size_t i : {0u, 1u}) halves_[i].drawn = drawn[i];
+        drawn_ = drawn;
         showPictures();
       });
 }
 
 void TwinView::showPictures() {
-  for (const Half& each : halves_) {
-    if (each.drawn.isNull()) continue;
+  const std::array<QLabel*, 2> labels = {ui_->twinOurs, ui_->twinOther};
+  for (std::size_t i : {0u, 1u}) {
+    if (drawn_[i].isNull()) continue;
     const double ratio = devicePixelRatioF();
-    QPixmap scaled = QPixmap::fromImage(each.drawn.scaled(
-        each.picture->size() * ratio, Qt::KeepAspectRatio, Qt::SmoothTransformation));
+    QPixmap scaled = QPixmap::fromImage(
+        drawn_[i].scaled(labels[i]->size() * ratio, Qt::KeepAspectRatio, Qt::SmoothTransformation));
     scaled.setDevicePixelRatio(ratio);
-    each.picture->setPixmap(scaled);
+    labels[i]->setPixmap(scaled);
   }
 }
 

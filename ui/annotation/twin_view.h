@@ -3,15 +3,19 @@
 
 #include <array>
 
+#include <memory>
+
 #include <QImage>
 #include <QWidget>
 
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/station_snapper.h"
 
-class QLabel;
-
 namespace boresight::ui {
+
+namespace Ui {
+class TwinView;
+}
 
 /// Both poses that marks in a plane may mean, side by side: the image round the marks with the
 /// model's edges as each pose has them. Hidden while there is one pose only.
@@ -21,6 +25,7 @@ class TwinView : public QWidget {
  public:
   TwinView(AnnotationController& controller, ViewState& state, StationSnapper& snapper,
            QWidget* parent = nullptr);
+  ~TwinView() override;
 
  Q_SIGNALS:
   /// The other pose is to be looked at in all views.
@@ -30,13 +35,6 @@ class TwinView : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
-  struct Half {
-    QLabel* picture = nullptr;
-    QLabel* caption = nullptr;
-    QImage drawn;
-  };
-
-  Half half(const char* name);
   void showSolution();
   void showPictures();
   std::optional<Pose> other() const;
@@ -44,8 +42,9 @@ class TwinView : public QWidget {
   AnnotationController& controller_;
   ViewState& state_;
   StationSnapper& snapper_;
-  std::array<Half, 2> halves_;  ///< the solved pose's and the other's
+  std::array<QImage, 2> drawn_;  ///< the solved pose's picture and the other's
   TaskRunner runner_;
+  const std::unique_ptr<Ui::TwinView> ui_;
 };
 
 }  // namespace boresight::ui

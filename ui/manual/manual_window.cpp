@@ -2,9 +2,10 @@
 #include "ui/manual/manual_window.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <QtWidgets>
+
+#include "ui_manual_window.h"
 
 namespace boresight::ui {
 namespace {
@@ -21,22 +22,14 @@ QString headingAnchor(const QString& heading) {
   return anchor;
 }
 
-bool holds(const QString& text, const QStringList& words) {
-  return std::all_of(words.begin(), words.end(), [&text](const QString& word) {
-    return text.contains(word, Qt::CaseInsensitive);
-  });
-}
-
-/// Shows the manual's pages with pictures as wide as the window at most; "search:WORDS" is the page
-/// of what a search found.
+/// Shows the manual's pages with pictures as wide as the window at most.
 class Browser : public QTextBrowser {
  public:
-  Browser(const QString& folder, QWidget* parent) : QTextBrowser(parent), folder_(folder) {
+  explicit Browser(QWidget* parent) : QTextBrowser(parent) {
     setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);  // pages are loaded again by width
   }
 
   QVariant loadResource(int type, const QUrl& name) override {
-    if (name.scheme() == QLatin1String("search")) return searchManual(folder_, name.path());
     const QVariant loaded = QTextBrowser::loadResource(type, name);
     if (type != QTextDocument::ImageResource) return loaded;
     QImage picture = QImage::fromData(loaded.toByteArray());
@@ -57,9 +50,6 @@ class Browser : public QTextBrowser {
     reload();
     verticalScrollBar()->setValue(place);
   }
-
- private:
-  QString folder_;
 };
 
 }  // namespace
@@ -79,93 +69,58 @@ QString manualText(const QString& file) {
   return QString::fromUtf8(opened.readAll());
 }
 
-std::vector<ManualPage> manualPages(const QString& folder) {
+QStringList manualPages(const QString& folder) {
   const QString index = manualText(folder + QStringLiteral("/index.md"));
   if (index.isEmpty()) return {};
-  std::vector<ManualPage> pages = {{ManualWindow::tr("Contents"), QStringLiteral("index.md")}};
+  QStringList pages = {QStringLiteral("index.md")};
   static const QRegularExpression kEntry(
-      QStringLiteral("^[-*] \\[([^\\]]+)\\]\\(([A-Za-z0-9_]+\\.md)\\)"),
+      QStringLiteral("^[-*] \\[[^\\]]+\\]\\(([A-Za-z0-9_]+\\.md)\\)"),
       QRegularExpression::MultilineOption);
-  for (auto found = kEntry.globalMatch(index); found.hasNext();) {
-    const QRegularExpressionMatch match = found.next();
-    pages.push_back({match.captured(1), match.captured(2)});
-  }
+  for (auto found = kEntry.globalMatch(index); found.hasNext();) pages << found.next().captured(1);
   return pages;
-}
-
-QString searchManual(const QString& folder, const QString& query) {
-  const QStringList words = query.simplified().split(QLatin1Char(' '), Qt::SkipEmptyParts);
-  std::vector<std::pair<int, ManualPage>> hits;
-  for (const ManualPage& page : manualPages(folder)) {
-    const QString text = manualText(folder + QLatin1Char('/') + page.file);
-    if (words.isEmpty() || !holds(text, words)) continue;
-    int count = 0;
-    for (const QString& word : words)
-      count += static_cast<int>(text.count(word, Qt::CaseInsensitive));
-    hits.emplace_back(count, page);
-  }
-  std::stable_sort(hits.begin(), hits.end(), [&words](const auto& a, const auto& b) {
-    return std::pair(holds(a.second.title, words), a.first) >
-           std::pair(holds(b.second.title, words), b.first);
-  });
-  QString text = ManualWindow::tr("# Pages with \"%1\"\n\n").arg(words.join(QLatin1Char(' ')));
-  if (hits.empty()) text += ManualWindow::tr("No page has all of these words.");
-  for (const auto& [count, page] : hits)
-    text += QStringLiteral("- [%1](%2) (%3)\n")
-                .arg(page.title, QUrl::fromLocalFile(folder + QLatin1Char('/') + page.file)
-                                     .toString(QUrl::FullyEncoded))
-                .arg(count);
-  return text;
 }
 
 ManualWindow::ManualWindow(const QString& folder, QWidget* parent)
     : QMainWindow(parent, Qt::Window),
       folder_(folder),
-      browser_(new Browser(folder, this)),
-      find_(new QLineEdit) {
+      browser_(new Browser(this)),
+      find_(new QLineEdit),
+      ui_(std::make_unique<Ui::ManualWindow>()) {
+  ui_->setupUi(this);
   setObjectName(QStringLiteral("manualWindow"));
-  setWindowTitle(tr("Manual - Boresight"));
   setCentralWidget(browser_);
   browser_->setOpenLinks(false);
   browser_->document()->setDocumentMargin(kPageMargin_px);
   find_->setObjectName(QStringLiteral("manualFind"));
-  find_->setPlaceholderText(tr("Find on this page; Ctrl+Shift+F: in all pages"));
+  find_->setPlaceholderText(tr("Find in the manual"));
   find_->setClearButtonEnabled(true);
-  QToolBar* bar = addToolBar(tr("Pages"));
-  bar->setMovable(false);
-  const auto action = [this](const QString& text, const QKeySequence& keys, auto&& act) {
-    auto* made = new QAction(text, this);
-    made->setShortcut(keys);
-    connect(made, &QAction::triggered, this, act);
-    return made;
+  ui_->bar->insertWidget(ui_->next, find_);
+  const auto on = [this](QAction* action, auto&& act) {
+    connect(action, &QAction::triggered, this, act);
   };
-  QAction* back = action(tr("Back"), QKeySequence::Back, [this] { browser_->backward(); });
-  QAction* forward = action(tr("Forward"), QKeySequence::Forward, [this] { browser_->forward(); });
-  bar->addActions({back, forward,
-                   action(tr("Contents"), QKeySequence(QStringLiteral("Alt+Home")),
-                          [this] { goTo(QStringLiteral("index.md")); })});
-  bar->addWidget(find_);
-  bar->addActions({action(tr("Next"), QKeySequence::FindNext, [this] { find(false); }),
-                   action(tr("Previous"), QKeySequence::FindPrevious, [this] { find(true); }),
-                   action(tr("Search all pages"), QKeySequence(QStringLiteral("Ctrl+Shift+F")),
-                          [this] { searchAllPages(); })});
-  addActions({action(tr("Find"), QKeySequence::Find,
-                     [this] {
-                       find_->setFocus();
-                       find_->selectAll();
-                     }),
-              action(tr("Close"), QKeySequence(Qt::Key_Escape), [this] { close(); })});
-  connect(browser_, &QTextBrowser::backwardAvailable, back, &QAction::setEnabled);
-  connect(browser_, &QTextBrowser::forwardAvailable, forward, &QAction::setEnabled);
+  on(ui_->back, [this] { browser_->backward(); });
+  on(ui_->forward, [this] { browser_->forward(); });
+  on(ui_->contents, [this] { goTo(QStringLiteral("index.md")); });
+  on(ui_->next, [this] { find(false); });
+  on(ui_->previous, [this] { find(true); });
+  on(ui_->findField, [this] {
+    find_->setFocus();
+    find_->selectAll();
+  });
+  on(ui_->closeWindow, [this] { close(); });
+  connect(browser_, &QTextBrowser::backwardAvailable, ui_->back, &QAction::setEnabled);
+  connect(browser_, &QTextBrowser::forwardAvailable, ui_->forward, &QAction::setEnabled);
   connect(browser_, &QTextBrowser::anchorClicked, this, &ManualWindow::follow);
   connect(browser_, &QTextBrowser::sourceChanged, this, &ManualWindow::dress);
   connect(find_, &QLineEdit::returnPressed, this, [this] { find(false); });
   resize(1000, 800);
   if (folder_.isEmpty())
     browser_->setPlainText(
-        tr("The manual is not there: share/boresight/manual lies neither beside the program nor in "
+        tr("The manual is not there: share/boresight/manual is neither next to the program nor in "
            "its build tree. Install the program again, or build the target 'manual'."));
 }
+
+ManualWindow::~ManualWindow() = default;
 
 void ManualWindow::showPage(const QString& page) {
   show();  // headings have their place only in a window that has its size
@@ -223,20 +178,18 @@ void ManualWindow::find(bool backward) {
   const QTextDocument::FindFlags flags =
       backward ? QTextDocument::FindBackward : QTextDocument::FindFlags();
   if (words.isEmpty() || browser_->find(words, flags)) return;
-  // On from the other end, once.
-  const QTextCursor before = browser_->textCursor();
-  browser_->moveCursor(backward ? QTextCursor::End : QTextCursor::Start);
-  if (browser_->find(words, flags)) return;
-  browser_->setTextCursor(before);
-  searchAllPages();
-}
-
-void ManualWindow::searchAllPages() {
-  if (folder_.isEmpty() || find_->text().trimmed().isEmpty()) return;
-  QUrl address;
-  address.setScheme(QStringLiteral("search"));
-  address.setPath(find_->text());
-  browser_->setSource(address, QTextDocument::MarkdownResource);
+  const QStringList pages = manualPages(folder_);
+  const int count = static_cast<int>(pages.size());
+  const int here = std::max(0, static_cast<int>(pages.indexOf(browser_->source().fileName())));
+  for (int i = 1; i <= count; ++i) {  // this page again at last
+    const QString& page = pages[(here + (backward ? count - i : i)) % count];
+    if (!manualText(folder_ + QLatin1Char('/') + page).contains(words, Qt::CaseInsensitive))
+      continue;
+    goTo(page);
+    browser_->moveCursor(backward ? QTextCursor::End : QTextCursor::Start);
+    if (browser_->find(words, flags)) return;
+  }
+  statusBar()->showMessage(tr("Not in the manual: %1").arg(words));
 }
 
 ManualHelp::ManualHelp(QMainWindow& window) : QObject(&window), window_(window) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include <QMainWindow>
 
@@ -12,34 +11,29 @@ class QUrl;
 
 namespace boresight::ui {
 
-/// A page as the manual's index lists it.
-struct ManualPage {
-  QString title;
-  QString file;  ///< name in the manual's folder: "annotate.md"
-};
+namespace Ui {
+class ManualWindow;
+}
 
 /// The manual's folder: share/boresight/manual beside an installed program or in the build tree of
 /// one that was not installed. "" when there is none.
 QString manualFolder();
 
-/// The pages in the order of index.md, the index itself first; empty when it cannot be read.
-std::vector<ManualPage> manualPages(const QString& folder);
-
+/// Files of the pages in the order of index.md, the index itself first; empty when it cannot be
+/// read.
+QStringList manualPages(const QString& folder);
 /// Text of a file in UTF-8; "" when it cannot be read.
 QString manualText(const QString& file);
 
-/// A page in Markdown that links the pages which hold all words of `query`, whatever their case:
-/// first those whose title does, then those that hold them most often.
-QString searchManual(const QString& folder, const QString& query);
-
-/// The manual in a window of its own: its pages, and a field that finds words on the page or in all
-/// pages. Without a manual one sentence says so.
+/// The manual in a window of its own: its pages, and a field that finds words on this and, after
+/// the last place, on the next page that has them. Without a manual one sentence says so.
 class ManualWindow : public QMainWindow {
   Q_OBJECT
 
  public:
   /// `folder`: of the manual, "" where there is none.
   explicit ManualWindow(const QString& folder, QWidget* parent = nullptr);
+  ~ManualWindow() override;
 
   /// Shows a page, "annotate.md" or "window.md#queue", and comes to the front.
   void showPage(const QString& page);
@@ -50,11 +44,11 @@ class ManualWindow : public QMainWindow {
   void follow(const QUrl& address);
   void dress(const QUrl& address);
   void find(bool backward);
-  void searchAllPages();
 
   QString folder_;
   QTextBrowser* browser_;
   QLineEdit* find_;
+  const std::unique_ptr<Ui::ManualWindow> ui_;
 };
 
 /// Opens the manual at what an operator works at: the section of the panel that has the focus.

@@ -10,6 +10,12 @@
 namespace boresight::ui {
 namespace {
 
+/// In the order of `CaseState`.
+constexpr const char* kStateTexts[kCaseStateCount] = {
+    QT_TR_NOOP("○ new"),     QT_TR_NOOP("… running"),   QT_TR_NOOP("✓ converged"),
+    QT_TR_NOOP("✗ failed"),  QT_TR_NOOP("✎ annotated"), QT_TR_NOOP("★ validated"),
+    QT_TR_NOOP("⊘ rejected")};
+
 QString tooltipOf(const CaseRow& row) {
   QString text = row.id;
   if (!row.station.isEmpty()) text += CasesModel::tr(", station %1").arg(row.station);
@@ -87,23 +93,7 @@ int CasesModel::rowOf(const QString& id) const {
 }
 
 QString CasesModel::stateText(CaseState state) {
-  switch (state) {
-    case CaseState::kNew:
-      return tr("○ new");
-    case CaseState::kRunning:
-      return tr("… running");
-    case CaseState::kConverged:
-      return tr("✓ converged");
-    case CaseState::kFailed:
-      return tr("✗ failed");
-    case CaseState::kAnnotated:
-      return tr("✎ annotated");
-    case CaseState::kValidated:
-      return tr("★ validated");
-    case CaseState::kRejected:
-      return tr("⊘ rejected");
-  }
-  return {};
+  return tr(kStateTexts[static_cast<std::size_t>(state)]);
 }
 
 QVariant CasesModel::look(const CaseRow& row, int column, int role) const {

@@ -30,21 +30,21 @@ MarkRow commonRow(const Pair& pair) {
   return row;
 }
 
-using Row = const MarkRow&;
+using MarkRef = const MarkRow&;
 using Solved = const sessions::SolvedMark&;
 
 auto solved(double (*value)(Solved)) {
-  return [value](Row mark) {
+  return [value](MarkRef mark) {
     return mark.solved && mark.solved->projected ? value(*mark.solved) : kNone;
   };
 }
 auto leftOut(double sessions::LeftOut::*value) {
-  return [value](Row mark) {
+  return [value](MarkRef mark) {
     return mark.left_out && mark.left_out->determined ? (*mark.left_out).*value : kNone;
   };
 }
 auto coordinate(int axis) {
-  return [axis](Row mark) {
+  return [axis](MarkRef mark) {
     return mark.point_in_station_m ? kMillimetres * (*mark.point_in_station_m)[axis] : kNone;
   };
 }
@@ -53,17 +53,17 @@ std::vector<TableColumn<MarkRow>> markColumns() {
   constexpr auto tr = [](const char* text) { return MarksModel::tr(text); };
   return {
       {tr("On"), tr("Whether the mark takes part in solving. One that is off is kept."), -1,
-       [](Row) { return QString(); }, [](Row mark) { return mark.enabled ? 0 : 1; }},
+       [](MarkRef) { return QString(); }, [](MarkRef mark) { return mark.enabled ? 0 : 1; }},
       {tr("Mark"), tr("Its name; landmarks keep theirs over images. Double click renames."), -1,
-       [](Row mark) { return fromText(mark.id); }},
+       [](MarkRef mark) { return fromText(mark.id); }},
       {tr("u, px"),
        tr("Where it was seen, pixels to the right of the centre of the top-left pixel; of a line "
           "its first place."),
-       2, [](Row mark) { return mark.pixel ? mark.pixel->x() : kNone; }},
+       2, [](MarkRef mark) { return mark.pixel ? mark.pixel->x() : kNone; }},
       {tr("v, px"),
        tr("Where it was seen, pixels below the centre of the top-left pixel; of a line its first "
           "place."),
-       2, [](Row mark) { return mark.pixel ? mark.pixel->y() : kNone; }},
+       2, [](MarkRef mark) { return mark.pixel ? mark.pixel->y() : kNone; }},
       {tr("dx, px"),
        tr("Seen minus predicted, to the right; of a line the distance of its first end across the "
           "edge."),
@@ -95,11 +95,11 @@ std::vector<TableColumn<MarkRow>> markColumns() {
       {tr("Sigma, px"),
        tr("Standard deviation of the place in the image per axis; of a line, of either end across "
           "the edge."),
-       2, [](Row mark) { return mark.sigma_px; }},
+       2, [](MarkRef mark) { return mark.sigma_px; }},
       {tr("Lock"), tr("A locked mark cannot be moved or removed by accident."), -1,
-       [](Row) { return QString(); }, [](Row mark) { return mark.locked ? 0 : 1; }},
+       [](MarkRef) { return QString(); }, [](MarkRef mark) { return mark.locked ? 0 : 1; }},
       {tr("Comment"), tr("Anything worth knowing of the mark. Double click edits."), -1,
-       [](Row mark) { return fromText(mark.comment); }},
+       [](MarkRef mark) { return fromText(mark.comment); }},
   };
 }
 
@@ -162,6 +162,20 @@ QString editText(int column, const std::string& id, bool on) {
       return MarksModel::tr("Move %1").arg(name);
   }
 }
+
+/// What the list can be narrowed to, in the order of `Show`.
+struct MarkChoice {
+  const char* name;
+  bool (*holds)(MarkRef mark);
+};
+constexpr MarkChoice kMarkChoices[] = {
+    {QT_TR_NOOP("All"), [](MarkRef) { return true; }},
+    {QT_TR_NOOP("In use"), [](MarkRef mark) { return mark.enabled && mark.complete; }},
+    {QT_TR_NOOP("Off"), [](MarkRef mark) { return !mark.enabled; }},
+    {QT_TR_NOOP("Half made"), [](MarkRef mark) { return !mark.complete; }},
+    {QT_TR_NOOP("Standing out"), [](MarkRef mark) { return mark.standsOut(); }},
+    {QT_TR_NOOP("Lines"), [](MarkRef mark) { return mark.line != nullptr; }},
+};
 
 }  // namespace
 
@@ -247,26 +261,13 @@ QVariant MarksModel::look(const MarkRow& row, int column, int role) const {
 }
 
 QStringList MarksModel::showNames() {
-  return {tr("All"), tr("In use"), tr("Off"), tr("Half made"), tr("Standing out"), tr("Lines")};
+  QStringList names;
+  for (const MarkChoice& each : kMarkChoices) names << tr(each.name);
+  return names;
 }
 
 bool MarksModel::isShown(int row, Show show) const {
-  const MarkRow& mark = at(row);
-  switch (show) {
-    case Show::kAll:
-      return true;
-    case Show::kUsed:
-      return mark.enabled && mark.complete;
-    case Show::kOff:
-      return !mark.enabled;
-    case Show::kHalfMade:
-      return !mark.complete;
-    case Show::kStandOut:
-      return mark.standsOut();
-    case Show::kLines:
-      return mark.line != nullptr;
-  }
-  return true;
+  return kMarkChoices[static_cast<std::size_t>(show)].holds(at(row));
 }
 
 Qt::ItemFlags MarksModel::flags(const QModelIndex& index) const {

@@ -6,6 +6,7 @@
 #include "sessions/run/run_text.h"
 #include "ui/models/cases_model.h"
 #include "ui/models/number_text.h"
+#include "ui/panels/widgets.h"
 #include "ui/plots/plot_colors.h"
 
 namespace boresight::ui {
@@ -13,6 +14,8 @@ namespace boresight::ui {
 using sessions::CaseStanding;
 
 namespace {
+
+constexpr int kMostShown = 2;  // warnings
 
 /// A tick beside "NOT VALIDATED" would be read as a yes: what converged, but nobody vouches for, is
 /// an open circle here.
@@ -25,44 +28,54 @@ QString signOf(const sessions::Standing& standing) {
 
 }  // namespace
 
-Banner::Banner(const QString& name, QWidget* parent) : QFrame(parent) {
+Banner::Banner(QWidget* parent)
+    : QFrame(parent),
+      sign_(new QLabel(this)),
+      text_(named(new QLabel(this), "bannerText")),
+      action_(named(new QToolButton(this), "bannerAction")) {
   setFrameShape(QFrame::StyledPanel);
   setAutoFillBackground(true);
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(8, 3, 8, 3);
-  sign_ = new QLabel(this);
   QFont large = font();
   large.setPointSizeF(1.4 * large.pointSizeF());
   large.setBold(true);
   sign_->setFont(large);
-  row->addWidget(sign_);
-  text_ = new QLabel(this);
-  text_->setObjectName(name);
   text_->setWordWrap(true);
   text_->setTextFormat(Qt::PlainText);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  action_->hide();
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(8, 3, 8, 3);
+  row->addWidget(sign_);
   row->addWidget(text_, 1);
+  row->addWidget(action_);
+  connect(action_, &QToolButton::clicked, this, &Banner::actionRequested);
+}
+
+void Banner::setAction(const QString& text, const QString& tip) {
+  action_->setText(text);
+  action_->setToolTip(tip);
+  action_->show();
 }
 
 QString Banner::text() const { return text_->text(); }
 
 void Banner::showRun(const sessions::LocalizationTrace* run) {
   if (run == nullptr) {
-    show(QStringLiteral("○"), tr("Nothing has run yet."), Tone::kPlain);
+    setMessage(QStringLiteral("○"), tr("Nothing has run yet."), Tone::kPlain);
     return;
   }
   const QString text = fromText(sessions::standingText(*run));
   if (run->converged())
-    show(QStringLiteral("✓"), text, Tone::kGood);
+    setMessage(QStringLiteral("✓"), text, Tone::kGood);
   else if (run->finished)
-    show(QStringLiteral("✗"), text, Tone::kBad);
+    setMessage(QStringLiteral("✗"), text, Tone::kBad);
   else
-    show(QStringLiteral("…"), text, Tone::kPlain);
+    setMessage(QStringLiteral("…"), text, Tone::kPlain);
 }
 
 void Banner::showStanding(const sessions::Standing* standing) {
   if (standing == nullptr) {
-    show({}, tr("No case is shown."), Tone::kPlain);
+    setMessage({}, tr("No case is shown."), Tone::kPlain);
     return;
   }
   // The decision that no longer holds stands out: somebody counted on it.
@@ -70,13 +83,13 @@ void Banner::showStanding(const sessions::Standing* standing) {
                    standing->state == CaseStanding::kRejected || !standing->dropped.empty();
   QString text = fromText(sessions::standingText(*standing));
   if (!text.isEmpty()) text[0] = text[0].toUpper();
-  show(signOf(*standing), text,
-       standing->state == CaseStanding::kValidated ? Tone::kGood
-       : bad                                       ? Tone::kBad
-                                                   : Tone::kPlain);
+  setMessage(signOf(*standing), text,
+             standing->state == CaseStanding::kValidated ? Tone::kGood
+             : bad                                       ? Tone::kBad
+                                                         : Tone::kPlain);
 }
 
-void Banner::show(const QString& sign, const QString& text, Tone tone) {
+void Banner::setMessage(const QString& sign, const QString& text, Tone tone) {
   sign_->setText(sign);
   sign_->setVisible(!sign.isEmpty());
   text_->setText(text);
@@ -85,18 +98,30 @@ void Banner::show(const QString& sign, const QString& text, Tone tone) {
   applyPalette();
 }
 
+void Banner::showWarnings(const QStringList& sentences) {
+  const int more = static_cast<int>(sentences.size()) - kMostShown;
+  QStringList shown = sentences.mid(0, kMostShown);
+  if (more > 0) shown.append(tr("and %1 more").arg(more));
+  setMessage(QStringLiteral("⚠"), shown.join(QLatin1Char('\n')), Tone::kBad);
+  text_->setToolTip(sentences.join(QLatin1Char('\n')));
+  setVisible(!sentences.isEmpty());
+}
+
 void Banner::applyPalette() {
-  const QPalette& base = parentWidget() ? parentWidget()->palette() : palette();
+  tinting_ = true;
+  const QPalette base = QApplication::palette();
   const PlotColors colors = plotColors(base);
-  const QPalette look = tone_ == Tone::kGood  ? tinted(base, colors.first)
-                        : tone_ == Tone::kBad ? tinted(base, colors.second)
-                                              : base;
-  if (palette().color(QPalette::Window) != look.color(QPalette::Window)) setPalette(look);
+  setPalette(tone_ == Tone::kGood  ? tinted(base, colors.first)
+             : tone_ == Tone::kBad ? tinted(base, colors.second)
+                                   : base);
+  tinting_ = false;
 }
 
 void Banner::changeEvent(QEvent* event) {
   QFrame::changeEvent(event);
-  if (event->type() == QEvent::ParentChange && text_ != nullptr) applyPalette();
+  const bool look =
+      event->type() == QEvent::ApplicationPaletteChange || event->type() == QEvent::StyleChange;
+  if (look && !tinting_ && action_ != nullptr) applyPalette();
 }
 
 }  // namespace boresight::ui

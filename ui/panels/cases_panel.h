@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include <QStringList>
 #include <QWidget>
 
 #include "ui/models/cases_model.h"
 
-class QComboBox;
-class QLabel;
-class QLineEdit;
-class QPushButton;
-class QTableView;
-
 namespace boresight::ui {
+
+namespace Ui {
+class CasesPanel;
+}
 
 class EmptyHint;
 
@@ -22,6 +22,7 @@ class CasesPanel : public QWidget {
 
  public:
   explicit CasesPanel(QWidget* parent = nullptr);
+  ~CasesPanel() override;
 
   void setRows(std::vector<CaseRow> rows);
   /// The case that is open; shows it without asking for it.
@@ -50,19 +51,12 @@ class CasesPanel : public QWidget {
 
   CasesModel model_;
   RowsFilter filter_;
-  QString text_shown_;  ///< what the filter looks for
-  std::optional<CaseState> state_shown_;
-  QLineEdit* text_ = nullptr;
-  QComboBox* state_ = nullptr;
-  QTableView* table_ = nullptr;
   EmptyHint* hint_ = nullptr;
-  QLabel* count_ = nullptr;
-  QPushButton* run_ = nullptr;
-  QPushButton* run_all_ = nullptr;
   QString current_;
   int whole_case_ = 0;  ///< width in which the longest name would be shown whole, 0 before any
   bool runnable_ = true;
   bool showing_ = false;  ///< the table follows the window, not a person
+  const std::unique_ptr<Ui::CasesPanel> ui_;
 };
 
 }  // namespace boresight::ui

@@ -1,39 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
+#include <memory>
+#include <string>
 
-#include <QStyledItemDelegate>
 #include <QWidget>
 
-#include "ui/models/options_model.h"
+#include "core/localizer/localizer_options.h"
+#include "sessions/io/option_value.h"
 #include "ui/state/view_state.h"
-
-class QCheckBox;
-class QComboBox;
-class QFrame;
-class QLabel;
-class QLineEdit;
-class QPushButton;
-class QTreeView;
-class QVBoxLayout;
 
 namespace boresight::ui {
 
-/// Editors for options: a list for choices, a spin box for integers, a line for numbers. They take
-/// what is typed as it is; the model refuses what is out of range and says so.
-class OptionDelegate : public QStyledItemDelegate {
-  Q_OBJECT
-
- public:
-  using QStyledItemDelegate::QStyledItemDelegate;
-
-  QWidget* createEditor(QWidget* parent, const QStyleOptionViewItem& option,
-                        const QModelIndex& index) const override;
-  void setEditorData(QWidget* editor, const QModelIndex& index) const override;
-  void setModelData(QWidget* editor, QAbstractItemModel* model,
-                    const QModelIndex& index) const override;
-};
+namespace Ui {
+class ConfigurationPanel;
+}
 
 /// Every parameter of the next run. Says so when the run that is shown was made with other ones.
 class ConfigurationPanel : public QWidget {
@@ -41,12 +22,13 @@ class ConfigurationPanel : public QWidget {
 
  public:
   explicit ConfigurationPanel(ViewState& view, QWidget* parent = nullptr);
+  ~ConfigurationPanel() override;
 
-  /// From the document; emits nothing.
+  /// From the document; emits nothing. An unknown profile is replaced by the default one.
   void setOptions(const QString& profile, const LocalizerOptions& options);
   /// What a case is run with where the options leave the feature size at 0.
   void setCaseFeatureSize(double feature_size_m);
-  OptionsModel& model() { return model_; }
+  const LocalizerOptions& options() const { return options_; }
 
   /// Options in which the shown run differs from these, as "name (was value)".
   QStringList differences() const;
@@ -57,29 +39,15 @@ class ConfigurationPanel : public QWidget {
   void runAgainRequested();
 
  private:
-  QVBoxLayout* buildTop();
-  QFrame* buildStale();
-  void buildTree();
-  void fitTree();
-  void showOptions();
-  void showChosen();
-  void showMessage(const QString& message);
+  void change(const std::string& name, const std::string& value);
+  void setProfile(const QString& profile);
   void showStale();
-  void resetRow(const QModelIndex& index);
-  QModelIndex chosenSource() const;
 
   ViewState& view_;
-  OptionsModel model_;
-  OptionsFilter filter_;
+  const std::unique_ptr<Ui::ConfigurationPanel> ui_;
+  QString profile_;
+  LocalizerOptions options_;
   double case_feature_size_m_ = 0.0;
-  QComboBox* profile_ = nullptr;
-  QLineEdit* words_ = nullptr;
-  QCheckBox* changed_only_ = nullptr;
-  QPushButton* reset_all_ = nullptr;
-  QFrame* stale_ = nullptr;
-  QLabel* stale_text_ = nullptr;
-  QTreeView* tree_ = nullptr;
-  QLabel* help_ = nullptr;
 };
 
 }  // namespace boresight::ui

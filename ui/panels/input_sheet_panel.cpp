@@ -3,6 +3,9 @@
 
 #include <QtWidgets>
 
+#include "ui_input_sheet_panel.h"
+#include "ui_input_sigmas_dialog.h"
+
 #include "sessions/session/input_sigmas.h"
 #include "ui/models/number_text.h"
 #include "ui/panels/widgets.h"
@@ -15,137 +18,97 @@ constexpr double kPercent = 100.0;
 }  // namespace
 
 InputSigmasDialog::InputSigmasDialog(const sessions::SessionCase& one, QWidget* parent)
-    : QDialog(parent) {
-  setWindowTitle(tr("How well mesh and camera are known"));
+    : QDialog(parent), ui_(std::make_unique<Ui::InputSigmasDialog>()) {
+  ui_->setupUi(this);
   const sessions::InputSigmas sigmas(one);
-  auto* column = new QVBoxLayout(this);
-  mesh_ = group(tr("Stated for the mesh, one sigma"), QStringLiteral("meshStated"),
-                sigmas.mesh_scale_stated);
-  mesh_scale_percent_ =
-      box(mesh_, tr("Scale"), QStringLiteral("meshScale"), kPercent * sigmas.mesh_scale,
-          kPercent * sessions::kMaxScaleSigma, tr(" %"));
-  camera_ = group(tr("Stated for the camera, one sigma"), QStringLiteral("cameraStated"),
-                  sigmas.calibration_stated);
-  focal_percent_ = box(camera_, tr("Focal length"), QStringLiteral("focal"),
-                       kPercent * sigmas.calibration.focal_relative,
-                       kPercent * sessions::kMaxFocalSigma, tr(" %"));
-  principal_point_px_ =
-      box(camera_, tr("Principal point"), QStringLiteral("principalPoint"),
-          sigmas.calibration.principal_point_px, sessions::kMaxPrincipalPointSigma_px, tr(" px"));
-  column->addWidget(mesh_);
-  column->addWidget(camera_);
-  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
-  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
-  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-  column->addWidget(buttons);
+  const auto show = [](QDoubleSpinBox* box, double value, double maximum) {
+    box->setMaximum(maximum);
+    box->setValue(value);
+  };
+  ui_->meshStated->setChecked(sigmas.mesh_scale_stated);
+  ui_->cameraStated->setChecked(sigmas.calibration_stated);
+  show(ui_->meshScale, kPercent * sigmas.mesh_scale, kPercent * sessions::kMaxScaleSigma);
+  show(ui_->focal, kPercent * sigmas.calibration.focal_relative,
+       kPercent * sessions::kMaxFocalSigma);
+  show(ui_->principalPoint, sigmas.calibration.principal_point_px,
+       sessions::kMaxPrincipalPointSigma_px);
+  connect(ui_->buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(ui_->buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
 }
 
-QGroupBox* InputSigmasDialog::group(const QString& title, const QString& name, bool stated) {
-  auto* made = new QGroupBox(title, this);
-  made->setObjectName(name);
-  made->setCheckable(true);
-  made->setChecked(stated);
-  made->setToolTip(tr("Off: the values shown are assumed"));
-  new QFormLayout(made);
-  return made;
-}
-
-QDoubleSpinBox* InputSigmasDialog::box(QGroupBox* group, const QString& label, const QString& name,
-                                       double value, double maximum, const QString& unit) {
-  auto* made = new QDoubleSpinBox(group);
-  made->setObjectName(name);
-  made->setDecimals(4);
-  made->setRange(0.0, maximum);
-  made->setSingleStep(0.01);
-  made->setValue(value);
-  made->setSuffix(unit);
-  static_cast<QFormLayout*>(group->layout())->addRow(label, made);
-  return made;
-}
+InputSigmasDialog::~InputSigmasDialog() = default;
 
 std::optional<double> InputSigmasDialog::meshScaleSigma() const {
-  if (!mesh_->isChecked()) return std::nullopt;
-  return mesh_scale_percent_->value() / kPercent;
+  if (!ui_->meshStated->isChecked()) return std::nullopt;
+  return ui_->meshScale->value() / kPercent;
 }
 
 std::optional<sessions::CalibrationSigma> InputSigmasDialog::calibrationSigma() const {
-  if (!camera_->isChecked()) return std::nullopt;
-  return sessions::CalibrationSigma{focal_percent_->value() / kPercent,
-                                    principal_point_px_->value()};
+  if (!ui_->cameraStated->isChecked()) return std::nullopt;
+  return sessions::CalibrationSigma{ui_->focal->value() / kPercent, ui_->principalPoint->value()};
 }
 
-InputSheetPanel::InputSheetPanel(QWidget* parent) : QWidget(parent) {
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(4, 4, 4, 4);
-  flags_ = named(new QLabel(this), "flags");
-  flags_->setWordWrap(true);
-  flags_->setTextFormat(Qt::PlainText);
-  flags_->setMargin(6);
-  flags_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  column->addWidget(flags_);
-  table_ = named(new QTableWidget(0, 2, this), "sheet");
-  table_->setAccessibleName(tr("Inputs"));
-  styleTable(*table_);
-  table_->setWordWrap(true);
-  table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
-  table_->setHorizontalHeaderLabels({tr("Input"), tr("Value")});
-  table_->horizontalHeader()->setStretchLastSection(true);
-  column->addWidget(table_, 1);
-  auto* copy = new QAction(tr("Copy"), table_);
+InputSheetPanel::InputSheetPanel(QWidget* parent)
+    : QWidget(parent), ui_(std::make_unique<Ui::InputSheetPanel>()) {
+  ui_->setupUi(this);
+  styleTable(*ui_->sheet);
+  ui_->sheet->setWordWrap(true);
+  ui_->sheet->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  ui_->sheet->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  ui_->sheet->horizontalHeader()->setStretchLastSection(true);
+  auto* copy = new QAction(tr("Copy"), ui_->sheet);
   copy->setShortcut(QKeySequence::Copy);
   copy->setShortcutContext(Qt::WidgetShortcut);
-  table_->addAction(copy);
-  table_->setContextMenuPolicy(Qt::ActionsContextMenu);
+  ui_->sheet->addAction(copy);
+  ui_->sheet->setContextMenuPolicy(Qt::ActionsContextMenu);
   connect(copy, &QAction::triggered, this, &InputSheetPanel::copyChosen);
-  sigmas_ =
-      named(new QPushButton(tr("How well mesh and camera are known ..."), this), "inputSigmas");
-  connect(sigmas_, &QPushButton::clicked, this, &InputSheetPanel::sigmasRequested);
-  column->addWidget(sigmas_);
+  connect(ui_->inputSigmas, &QPushButton::clicked, this, &InputSheetPanel::sigmasRequested);
   setSheet(std::nullopt);
 }
+
+InputSheetPanel::~InputSheetPanel() = default;
 
 void InputSheetPanel::showFlags(const std::vector<sessions::RedFlag>& flags) {
   QStringList sentences;
   for (const sessions::RedFlag& flag : flags)
     sentences.append(QStringLiteral("⚠ ") + fromText(flag.text));
-  flags_->setText(flags.empty() ? tr("✓ Nothing looks wrong with the inputs.")
-                                : sentences.join(QLatin1Char('\n')));
+  ui_->flags->setText(flags.empty() ? tr("✓ Nothing looks wrong with the inputs.")
+                                    : sentences.join(QLatin1Char('\n')));
   QFont font = this->font();
   font.setBold(!flags.empty());
-  flags_->setFont(font);
+  ui_->flags->setFont(font);
 }
 
 void InputSheetPanel::setSheet(const std::optional<sessions::InputSheet>& sheet) {
-  sigmas_->setEnabled(sheet.has_value());
+  ui_->inputSigmas->setEnabled(sheet.has_value());
   if (!sheet) {
-    flags_->setText(tr("No case is open."));
-    table_->setRowCount(0);
+    ui_->flags->setText(tr("No case is open."));
+    ui_->sheet->setRowCount(0);
     return;
   }
   showFlags(sheet->flags);
-  table_->setRowCount(static_cast<int>(sheet->lines.size()));
-  for (int row = 0; row < table_->rowCount(); ++row) {
+  ui_->sheet->setRowCount(static_cast<int>(sheet->lines.size()));
+  for (int row = 0; row < ui_->sheet->rowCount(); ++row) {
     const sessions::SheetLine& line = sheet->lines[static_cast<std::size_t>(row)];
-    table_->setItem(row, 0, new QTableWidgetItem(fromText(line.label)));
+    ui_->sheet->setItem(row, 0, new QTableWidgetItem(fromText(line.label)));
     auto* value = new QTableWidgetItem(fromText(line.value));
     value->setToolTip(fromText(line.value));  // it may be longer than the panel is wide
-    table_->setItem(row, 1, value);
+    ui_->sheet->setItem(row, 1, value);
   }
-  table_->resizeColumnToContents(0);
+  ui_->sheet->resizeColumnToContents(0);
 }
 
 QString InputSheetPanel::text() const {
-  QString text = flags_->text() + QLatin1Char('\n');
-  for (int row = 0; row < table_->rowCount(); ++row)
-    text += table_->item(row, 0)->text() + QStringLiteral(": ") + table_->item(row, 1)->text() +
-            QLatin1Char('\n');
+  QString text = ui_->flags->text() + QLatin1Char('\n');
+  for (int row = 0; row < ui_->sheet->rowCount(); ++row)
+    text += ui_->sheet->item(row, 0)->text() + QStringLiteral(": ") +
+            ui_->sheet->item(row, 1)->text() + QLatin1Char('\n');
   return text;
 }
 
 void InputSheetPanel::copyChosen() const {
   QString text;
-  const QModelIndexList rows = table_->selectionModel()->selectedRows();
+  const QModelIndexList rows = ui_->sheet->selectionModel()->selectedRows();
   for (const QModelIndex& row : rows)
     text += row.data().toString() + QLatin1Char('\t') + row.siblingAtColumn(1).data().toString() +
             QLatin1Char('\n');

@@ -3,19 +3,20 @@
 
 #include <optional>
 
+#include <memory>
+
 #include <QDialog>
 #include <QWidget>
 
 #include "sessions/session/input_sheet.h"
 #include "sessions/session/session.h"
 
-class QDoubleSpinBox;
-class QGroupBox;
-class QLabel;
-class QPushButton;
-class QTableWidget;
-
 namespace boresight::ui {
+
+namespace Ui {
+class InputSigmasDialog;
+class InputSheetPanel;
+}  // namespace Ui
 
 /// Asks how well the mesh's scale and the camera's calibration are known, which one image cannot
 /// tell. What is not stated is assumed, and the boxes show with which values.
@@ -24,20 +25,13 @@ class InputSigmasDialog : public QDialog {
 
  public:
   InputSigmasDialog(const sessions::SessionCase& one, QWidget* parent);
+  ~InputSigmasDialog() override;
 
   std::optional<double> meshScaleSigma() const;
   std::optional<sessions::CalibrationSigma> calibrationSigma() const;
 
  private:
-  QGroupBox* group(const QString& title, const QString& name, bool stated);
-  QDoubleSpinBox* box(QGroupBox* group, const QString& label, const QString& name, double value,
-                      double maximum, const QString& unit);
-
-  QGroupBox* mesh_ = nullptr;
-  QDoubleSpinBox* mesh_scale_percent_ = nullptr;
-  QGroupBox* camera_ = nullptr;
-  QDoubleSpinBox* focal_percent_ = nullptr;
-  QDoubleSpinBox* principal_point_px_ = nullptr;
+  const std::unique_ptr<Ui::InputSigmasDialog> ui_;
 };
 
 /// What the inputs of the case are, in figures with units; what is probably wrong comes first, in
@@ -47,6 +41,7 @@ class InputSheetPanel : public QWidget {
 
  public:
   explicit InputSheetPanel(QWidget* parent = nullptr);
+  ~InputSheetPanel() override;
 
   /// Nothing: no case is open.
   void setSheet(const std::optional<sessions::InputSheet>& sheet);
@@ -61,9 +56,7 @@ class InputSheetPanel : public QWidget {
   void showFlags(const std::vector<sessions::RedFlag>& flags);
   void copyChosen() const;
 
-  QLabel* flags_ = nullptr;
-  QTableWidget* table_ = nullptr;
-  QPushButton* sigmas_ = nullptr;
+  const std::unique_ptr<Ui::InputSheetPanel> ui_;
 };
 
 }  // namespace boresight::ui

@@ -5,59 +5,48 @@
 
 #include <QtWidgets>
 
-#include "ui/panels/banner.h"
+#include "ui_iterations_panel.h"
+
 #include "ui/panels/widgets.h"
 #include "ui/plots/double_plot.h"
 
 namespace boresight::ui {
 
-IterationsPanel::IterationsPanel(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(4, 4, 4, 4);
-  banner_ = new Banner(QStringLiteral("standing"), this);
-  column->addWidget(banner_);
+IterationsPanel::IterationsPanel(ViewState& view, QWidget* parent)
+    : QWidget(parent), view_(view), ui_(std::make_unique<Ui::IterationsPanel>()) {
+  ui_->setupUi(this);
   scrubber_ = new RunScrubber(view_, this);
-  column->addWidget(scrubber_);
-  auto* splitter = new QSplitter(Qt::Horizontal, this);
+  ui_->column->insertWidget(1, scrubber_);
   buildTable();
-  splitter->addWidget(table_);
-  plots_ = buildPlots();
-  splitter->addWidget(plots_);
-  splitter->setStretchFactor(0, 1);
-  splitter->setStretchFactor(1, 1);
-  splitter->setChildrenCollapsible(false);
-  column->addWidget(splitter, 1);
-
+  buildPlots();
   view_.onChange(ViewChange::kSnapshot, this, &IterationsPanel::showSnapshot);
   view_.onChange(ViewChange::kCursor, this, &IterationsPanel::showCursor);
   showSnapshot();
   showCursor();
 }
 
+IterationsPanel::~IterationsPanel() = default;
+
 void IterationsPanel::buildTable() {
-  table_ = newTable("iterations", tr("Iterations"), model_, this);
-  connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+  setUpTable(*ui_->iterations, model_);
+  connect(ui_->iterations->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &IterationsPanel::chooseRow);
-  auto* hint = new EmptyHint(*table_, IterationsModel::rowOf(0));
+  auto* hint = new EmptyHint(*ui_->iterations, IterationsModel::rowOf(0));
   hint->setText(
       tr("Run the case to its end (F5), an iteration (F6) or a stage (F7) at a time: each "
          "iteration becomes a row here, and every view shows the chosen one."));
 }
 
-QWidget* IterationsPanel::buildPlots() {
-  auto* plots = new QWidget(this);
-  auto* row = new QHBoxLayout(plots);
-  row->setContentsMargins(0, 0, 0, 0);
+void IterationsPanel::buildPlots() {
   corrections_ = new DoublePlot({tr("moved, mm"), true}, {tr("turned, deg"), true});
   fit_ = new DoublePlot({tr("inliers"), true}, {tr("rms, px"), false});
   for (DoublePlot* plot : {corrections_, fit_}) {
     plot->setNames([this](int iteration) { return model_.iterationName(iteration); });
-    row->addWidget(plot);
+    ui_->plotRow->addWidget(plot);
     connect(plot, &DoublePlot::chosen, this, [this](int iteration) {
       view_.setCursor({iteration, Stage::kFinished});
     });
   }
-  return plots;
 }
 
 QVector<QPointF> IterationsPanel::pointsOf(IterationsModel::Column column) const {
@@ -80,9 +69,9 @@ void IterationsPanel::showSnapshot() {
   showing_ = true;
   model_.setSnapshot(view_.snapshot());
   showing_ = false;
-  banner_->showRun(view_.snapshot().get());
-  table_->resizeColumnsToContents();
-  plots_->setVisible(model_.rowCount() > IterationsModel::rowOf(0));
+  ui_->standing->showRun(view_.snapshot().get());
+  ui_->iterations->resizeColumnsToContents();
+  ui_->plots->setVisible(model_.rowCount() > IterationsModel::rowOf(0));
   fillPlots();
 }
 
@@ -90,8 +79,8 @@ void IterationsPanel::showCursor() {
   const int iteration = view_.cursor().iteration;
   showing_ = true;
   const QModelIndex row = model_.index(IterationsModel::rowOf(iteration), 0);
-  table_->setCurrentIndex(row);
-  if (row.isValid()) table_->scrollTo(row);
+  ui_->iterations->setCurrentIndex(row);
+  if (row.isValid()) ui_->iterations->scrollTo(row);
   showing_ = false;
   corrections_->setMarked(iteration);
   fit_->setMarked(iteration);
@@ -104,12 +93,6 @@ void IterationsPanel::showCursor() {
 void IterationsPanel::chooseRow(const QModelIndex& current) {
   if (showing_ || !current.isValid()) return;
   view_.setCursor({IterationsModel::iterationOf(current.row()), Stage::kFinished});
-}
-
-void IterationsPanel::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange && banner_ != nullptr)
-    banner_->showRun(view_.snapshot().get());
 }
 
 }  // namespace boresight::ui

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include <QPointF>
 #include <QVector>
 #include <QWidget>
@@ -9,12 +11,13 @@
 #include "ui/panels/run_scrubber.h"
 #include "ui/state/view_state.h"
 
-class QTableView;
-
 namespace boresight::ui {
 
+namespace Ui {
+class IterationsPanel;
+}
+
 class DoublePlot;
-class Banner;
 
 /// The run as it went: where it stands, a scrubber, a table, plots. All of them show the cursor and
 /// move it.
@@ -23,16 +26,14 @@ class IterationsPanel : public QWidget {
 
  public:
   explicit IterationsPanel(ViewState& view, QWidget* parent = nullptr);
+  ~IterationsPanel() override;
 
   const IterationsModel& model() const { return model_; }
   RunScrubber& scrubber() const { return *scrubber_; }
 
- protected:
-  void changeEvent(QEvent* event) override;
-
  private:
   void buildTable();
-  QWidget* buildPlots();
+  void buildPlots();
   QVector<QPointF> pointsOf(IterationsModel::Column column) const;
   void fillPlots();
   void showSnapshot();
@@ -41,13 +42,11 @@ class IterationsPanel : public QWidget {
 
   ViewState& view_;
   IterationsModel model_;
-  Banner* banner_ = nullptr;
   RunScrubber* scrubber_ = nullptr;
-  QTableView* table_ = nullptr;
-  QWidget* plots_ = nullptr;
   DoublePlot* corrections_ = nullptr;
   DoublePlot* fit_ = nullptr;
   bool showing_ = false;  ///< the table follows the cursor, not a person
+  const std::unique_ptr<Ui::IterationsPanel> ui_;
 };
 
 }  // namespace boresight::ui

@@ -3,19 +3,18 @@
 
 #include <optional>
 
+#include <memory>
+
 #include <QWidget>
 
 #include "sessions/session/session.h"
 #include "ui/views/display_image.h"
 
-class QBoxLayout;
-class QCheckBox;
-class QComboBox;
-class QLabel;
-class QPushButton;
-class QSpinBox;
-
 namespace boresight::ui {
+
+namespace Ui {
+class LevelsPanel;
+}
 
 /// Gray levels: how the image is shown, which changes no run, and apart from it how the file's
 /// samples become the 8 bits that the core is given, which is an edit of the document.
@@ -24,6 +23,7 @@ class LevelsPanel : public QWidget {
 
  public:
   explicit LevelsPanel(DisplayImage& display, QWidget* parent = nullptr);
+  ~LevelsPanel() override;
 
   /// nullptr: no conversion can be edited. `image` is the case's as it was read: its rule and depth
   /// are those that hold now, which a label may have stated.
@@ -36,8 +36,8 @@ class LevelsPanel : public QWidget {
                            bool whole_camera);
 
  private:
-  void buildDisplay(QBoxLayout& layout);
-  void buildConversion(QBoxLayout& layout);
+  void connectDisplay();
+  void connectConversion();
   void showLevels();
   void showConversion();
   void updateConversion();
@@ -50,19 +50,7 @@ class LevelsPanel : public QWidget {
   bool bits_of_label_ = false;  ///< nobody stated them but the image's label
   int cases_of_camera_ = 0;
   int shown_bits_ = 0;  ///< of the samples that the conversion was shown for
-  QCheckBox* core_ = nullptr;
-  QSpinBox* black_ = nullptr;
-  QSpinBox* white_ = nullptr;
-  QPushButton* automatic_ = nullptr;
-  QPushButton* full_ = nullptr;
-  QLabel* rule_ = nullptr;
-  QComboBox* kind_ = nullptr;
-  QSpinBox* bit_depth_ = nullptr;
-  QSpinBox* core_black_ = nullptr;
-  QSpinBox* core_white_ = nullptr;
-  QPushButton* from_display_ = nullptr;
-  QCheckBox* whole_camera_ = nullptr;
-  QPushButton* apply_ = nullptr;
+  const std::unique_ptr<Ui::LevelsPanel> ui_;
 };
 
 }  // namespace boresight::ui

@@ -5,20 +5,18 @@
 #include <string>
 #include <vector>
 
+#include <memory>
+
 #include <QWidget>
 
 #include "sessions/session/session.h"
 #include "ui/views/mask_editor.h"
 
-class QBoxLayout;
-class QDoubleSpinBox;
-class QLabel;
-class QListWidget;
-class QPushButton;
-class QSpinBox;
-class QToolButton;
-
 namespace boresight::ui {
+
+namespace Ui {
+class MaskPanel;
+}
 
 /// The ignore mask of the case: tools to draw on the image, pixels above a level, and the strokes
 /// made so far, which can be named, copied to the camera's other cases, and taken away. It only
@@ -28,6 +26,7 @@ class MaskPanel : public QWidget {
 
  public:
   explicit MaskPanel(MaskEditor& editor, QWidget* parent = nullptr);
+  ~MaskPanel() override;
 
   /// nullptr: nothing can be edited. `named` are strokes that other cases of the camera offer.
   void setCase(const sessions::SessionCase* one, const sessions::MaskStrokes& named,
@@ -46,9 +45,6 @@ class MaskPanel : public QWidget {
   void copyRequested(int stroke);
 
  private:
-  void buildTools(QBoxLayout& layout);
-  void buildSaturation(QBoxLayout& layout);
-  void buildStrokes(QBoxLayout& layout);
   void showTool();
   void showStrokes();
   void updateButtons();
@@ -60,19 +56,7 @@ class MaskPanel : public QWidget {
   std::optional<sessions::SessionCase> case_;
   sessions::MaskStrokes named_;
   int cases_of_camera_ = 0;
-  QToolButton* brush_ = nullptr;
-  QToolButton* polygon_ = nullptr;
-  QToolButton* erase_ = nullptr;
-  QDoubleSpinBox* size_ = nullptr;
-  QSpinBox* level_ = nullptr;
-  QPushButton* saturated_ = nullptr;
-  QListWidget* strokes_ = nullptr;
-  QPushButton* name_ = nullptr;
-  QPushButton* copy_ = nullptr;
-  QPushButton* take_ = nullptr;
-  QPushButton* remove_ = nullptr;
-  QPushButton* clear_ = nullptr;
-  QLabel* summary_ = nullptr;
+  const std::unique_ptr<Ui::MaskPanel> ui_;
 };
 
 }  // namespace boresight::ui

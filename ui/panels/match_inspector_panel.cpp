@@ -3,63 +3,48 @@
 
 #include <QtWidgets>
 
-#include "ui/panels/match_view.h"
-#include "ui/panels/refinement_view.h"
+#include "sessions/run/sample_statistics.h"
+#include "ui/models/number_text.h"
 #include "ui/panels/widgets.h"
+#include "ui/plots/histogram_plot.h"
+
+#include "ui_match_inspector_panel.h"
 
 namespace boresight::ui {
 
+namespace {
+
+constexpr int kBins = 41;
+
+/// Places and their share of all.
+QString placesText(int count, double share) {
+  return MatchInspectorPanel::tr("%1 (%2 %)").arg(count).arg(numberText(100.0 * share, 0));
+}
+
+QVector<int> asVector(const std::vector<std::int32_t>& counts) {
+  return QVector<int>(counts.begin(), counts.end());
+}
+
+}  // namespace
+
 MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
-    : QWidget(parent), view_(view) {
+    : QWidget(parent), view_(view), ui_(std::make_unique<Ui::MatchInspectorPanel>()) {
   filter_.setSourceModel(&model_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(4, 4, 4, 4);
-  pages_ = new QStackedWidget(this);
-  hint_ = new QLabel(this);
-  hint_->setAlignment(Qt::AlignCenter);
-  hint_->setWordWrap(true);
-  refinement_ = new RefinementView(this);
-  pages_->addWidget(hint_);
-  pages_->addWidget(buildMatches());
-  pages_->addWidget(refinement_);
-  column->addWidget(pages_);
-  view_.onChange(ViewChange::kSnapshot | ViewChange::kCursor, this,
-                 &MatchInspectorPanel::showIteration);
-  view_.onChange(ViewChange::kTemplate, this, &MatchInspectorPanel::showTemplate);
-  showIteration();
-}
-
-QWidget* MatchInspectorPanel::buildMatches() {
-  auto* splitter = new QSplitter(Qt::Horizontal, this);
-  splitter->addWidget(buildTable());
-  match_ = new MatchView(this);
-  splitter->addWidget(match_);
-  splitter->setStretchFactor(0, 1);
-  splitter->setStretchFactor(1, 3);
-  splitter->setChildrenCollapsible(false);
-  splitter->setSizes({360, 1000});
-  return splitter;
-}
-
-QWidget* MatchInspectorPanel::buildTable() {
-  auto* part = new QWidget(this);
-  auto* column = new QVBoxLayout(part);
-  column->setContentsMargins(0, 0, 0, 0);
-  auto* row = new QHBoxLayout;
-  show_ = new QComboBox(part);
-  show_->setAccessibleName(tr("Which templates are listed"));
-  show_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  show_->setMinimumContentsLength(8);
-  show_->addItems(TemplatesModel::showNames());
-  count_ = named(new QLabel(part), "count");
-  row->addWidget(show_);
-  row->addWidget(count_, 1);
-  column->addLayout(row);
-  table_ = newTable("templates", tr("Templates"), filter_, part);
-  table_->setSortingEnabled(true);
-  table_->sortByColumn(TemplatesModel::kNumber, Qt::AscendingOrder);
-  column->addWidget(table_, 1);
-  connect(show_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
+  ui_->setupUi(this);
+  ui_->splitter->setStretchFactor(0, 1);
+  ui_->splitter->setStretchFactor(1, 3);
+  ui_->splitter->setSizes({360, 1000});
+  setUpTable(*ui_->templates, filter_);
+  ui_->templates->sortByColumn(TemplatesModel::kNumber, Qt::AscendingOrder);
+  ui_->show->addItems(TemplatesModel::showNames());
+  styleTable(*ui_->edges);
+  histogram_ = new HistogramPlot(tr("residual along the edge's normal, px"), tr("found"),
+                                 tr("used"), ui_->refinement);
+  histogram_->setToolTip(
+      tr("Distance of the image's edges from the rendered ones after this refinement, in pixels of "
+         "the full image. A good pose has a narrow peak at 0."));
+  ui_->refinementRow->addWidget(histogram_, 1);
+  connect(ui_->show, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
     showing_ = true;
     filter_.setCondition([this, show = static_cast<TemplatesModel::Show>(index)](int source_row) {
       return model_.isShown(source_row, show);
@@ -68,13 +53,18 @@ QWidget* MatchInspectorPanel::buildTable() {
     showCount();
     showTemplate();
   });
-  connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+  connect(ui_->templates->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &MatchInspectorPanel::chooseRow);
-  return part;
+  view_.onChange(ViewChange::kSnapshot | ViewChange::kCursor, this,
+                 &MatchInspectorPanel::showIteration);
+  view_.onChange(ViewChange::kTemplate, this, &MatchInspectorPanel::showTemplate);
+  showIteration();
 }
 
+MatchInspectorPanel::~MatchInspectorPanel() = default;
+
 void MatchInspectorPanel::showCount() {
-  count_->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
+  ui_->count->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
 }
 
 void MatchInspectorPanel::showIteration() {
@@ -87,37 +77,57 @@ void MatchInspectorPanel::showIteration() {
     showing_ = true;
     model_.setIteration(iteration_.get());
     showing_ = false;
-    table_->resizeColumnsToContents();
+    ui_->templates->resizeColumnsToContents();
     showCount();
   }
   const bool refines = iteration_ && iteration_->kind == IterationKind::kRefine;
   if (refines && iteration_->reached >= Stage::kRefine) {
-    refinement_->setIteration(*iteration_);
-    pages_->setCurrentWidget(refinement_);
+    showRefinement();
+    ui_->pages->setCurrentWidget(ui_->refinement);
   } else if (model_.rowCount() > 0) {
-    pages_->setCurrentIndex(1);
+    ui_->pages->setCurrentWidget(ui_->matches);
   } else {
-    hint_->setText(!run          ? tr("Nothing has run yet.")
-                   : !iteration_ ? tr("The seed has no matches; choose an iteration.")
-                                 : tr("This iteration has no templates yet."));
-    pages_->setCurrentWidget(hint_);
+    ui_->hint->setText(!run          ? tr("Nothing has run yet.")
+                       : !iteration_ ? tr("The seed has no matches; choose an iteration.")
+                                     : tr("This iteration has no templates yet."));
+    ui_->pages->setCurrentWidget(ui_->nothing);
   }
   showTemplate();
+}
+
+/// Shares by kind of edge, and distances of the image's edges.
+void MatchInspectorPanel::showRefinement() {
+  const auto statistics = sessions::sampleStatistics(*iteration_, kBins);
+  const std::pair<QString, const sessions::SampleCounts&> rows[] = {
+      {tr("all"), statistics.all},
+      {tr("outline"), statistics.border},
+      {tr("occluding"), statistics.occluding},
+      {tr("creases"), statistics.creases}};
+  QTableWidget& table = *ui_->edges;
+  table.setRowCount(0);
+  for (const auto& [name, counts] : rows)
+    addRow(table,
+           {name, QString::number(counts.places), placesText(counts.found, counts.foundShare()),
+            placesText(counts.used, counts.usedShare())});
+  table.resizeColumnsToContents();
+  table.setFixedWidth(table.horizontalHeader()->length() + 2 * table.frameWidth());
+  histogram_->setCounts(statistics.radius_px, asVector(statistics.found_in_bin),
+                        asVector(statistics.used_in_bin));
 }
 
 void MatchInspectorPanel::showTemplate() {
   const int selected = view_.selectedTemplate();
   showing_ = true;
   const QModelIndex row = filter_.mapFromSource(model_.index(selected, 0));
-  table_->setCurrentIndex(row);
-  if (row.isValid()) table_->scrollTo(row);
+  ui_->templates->setCurrentIndex(row);
+  if (row.isValid()) ui_->templates->scrollTo(row);
   showing_ = false;
   const auto* run = view_.snapshot().get();
   if (selected < 0 || selected >= model_.rowCount() || !run || !run->edges) {
-    match_->showNote(tr("Choose a template in the table or in the image."));
+    ui_->match->showNote(tr("Choose a template in the table or in the image."));
     return;
   }
-  match_->showMatch({run->edges, iteration_, selected});
+  ui_->match->showMatch(run->edges, iteration_, selected);
 }
 
 void MatchInspectorPanel::chooseRow(const QModelIndex& current) {

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include <QWidget>
 
 #include "sessions/run/match_details.h"
-#include "ui/panels/score_mapper.h"
-
-class QHBoxLayout;
-class QLabel;
+#include "sessions/run/score_map.h"
+#include "sessions/run/trace.h"
+#include "ui/run/task_runner.h"
 
 namespace boresight::ui {
 
-class PixelPicture;
-class ScoreMapView;
+namespace Ui {
+class MatchView;
+}
 
 /// The story of one match: its template, what was found, where they agree, the scores around, and
 /// the figures.
@@ -21,31 +23,24 @@ class MatchView : public QWidget {
 
  public:
   explicit MatchView(QWidget* parent = nullptr);
+  ~MatchView() override;
 
-  /// template_index of the request chooses; the iteration must hold it.
-  void showMatch(const ScoreMapper::Request& request);
+  /// The iteration must hold the template. Its score map is computed off the UI's thread.
+  void showMatch(std::shared_ptr<const sessions::EdgeMapTrace> edges,
+                 std::shared_ptr<const sessions::IterationTrace> iteration, int template_index);
   /// Whether the score map is still to come.
-  bool isComputing() const { return computing_; }
+  bool isComputing() const { return runner_.isBusy(); }
   /// A sentence instead.
   void showNote(const QString& note);
 
  private:
-  QLabel* addFigures(QHBoxLayout& row, const QString& name);
   void showPictures(const sessions::EdgeMapTrace& edges, const sessions::IterationTrace& iteration,
                     std::size_t index, const Match* match);
   void showFigures(const sessions::IterationTrace& iteration,
                    const sessions::MatchDetails& details);
-  void showMap(const ScoreMapper::MapPtr& map);
 
-  ScoreMapper mapper_;
-  bool computing_ = false;
-  ScoreMapper::Request shown_;
-  PixelPicture* template_ = nullptr;
-  PixelPicture* found_ = nullptr;
-  PixelPicture* agreement_ = nullptr;
-  ScoreMapView* map_ = nullptr;
-  QLabel* places_ = nullptr;
-  QLabel* scores_ = nullptr;
+  const std::unique_ptr<Ui::MatchView> ui_;
+  TaskRunner runner_;  ///< the newest template counts
 };
 
 }  // namespace boresight::ui

@@ -3,17 +3,19 @@
 
 #include <array>
 
+#include <memory>
+
 #include <QWidget>
 
 #include "ui/panels/nudge_controller.h"
 
-class QComboBox;
 class QDoubleSpinBox;
-class QGridLayout;
-class QLabel;
-class QPushButton;
 
 namespace boresight::ui {
+
+namespace Ui {
+class NudgeBox;
+}
 
 /// The controls of a nudge: six values, the axes and the pivot they are meant in, the size of a
 /// step, and a field that takes the keys while it has the focus.
@@ -22,6 +24,7 @@ class NudgeBox : public QWidget {
 
  public:
   NudgeBox(NudgeController& controller, ViewState& state, QWidget* parent = nullptr);
+  ~NudgeBox() override;
 
  Q_SIGNALS:
   void useAsSeedRequested(const boresight::Pose& camera_from_station);
@@ -30,24 +33,15 @@ class NudgeBox : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  void addValues(QGridLayout& grid);
-  void addFrame(QGridLayout& grid);
-  void addSteps(QGridLayout& grid);
-  QWidget* buildButtons();
+  void connectValues();
+  void connectSettings();
   void takeStep();
   void showOffset();
 
   NudgeController& controller_;
   ViewState& state_;
   std::array<QDoubleSpinBox*, 6> values_{};  ///< rotation in deg, then translation in mm
-  QComboBox* axes_ = nullptr;
-  QComboBox* pivot_ = nullptr;
-  QDoubleSpinBox* translation_step_ = nullptr;
-  QDoubleSpinBox* rotation_step_ = nullptr;
-  QLabel* pad_ = nullptr;
-  QPushButton* use_ = nullptr;
-  QPushButton* back_ = nullptr;
-  QPushButton* drop_ = nullptr;
+  const std::unique_ptr<Ui::NudgeBox> ui_;
 };
 
 }  // namespace boresight::ui

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include <QDialog>
 
 #include "sessions/io/pose_text.h"
 
-class QComboBox;
-class QFormLayout;
-class QLabel;
-class QPlainTextEdit;
 class QPushButton;
 
 namespace boresight::ui {
+
+namespace Ui {
+class PastePoseDialog;
+}
 
 /// Takes a pose as text and asks what the text does not say: direction, order, unit. What will be
 /// taken, or why nothing can be, is shown while it is typed.
@@ -20,24 +22,18 @@ class PastePoseDialog : public QDialog {
 
  public:
   explicit PastePoseDialog(const QString& text, QWidget* parent = nullptr);
+  ~PastePoseDialog() override;
 
   const sessions::ParsedPose& parsed() const { return parsed_; }
 
  private:
-  QComboBox* addChoice(const QString& label, const char* name, const QStringList& choices,
-                       QFormLayout& form);
   void guess();
   void parse();
   sessions::PoseReading reading() const;
 
-  QPlainTextEdit* text_ = nullptr;
-  QComboBox* direction_ = nullptr;
-  QComboBox* matrix_order_ = nullptr;
-  QComboBox* quaternion_order_ = nullptr;
-  QComboBox* unit_ = nullptr;
-  QLabel* verdict_ = nullptr;
   QPushButton* take_ = nullptr;
   sessions::ParsedPose parsed_;
+  const std::unique_ptr<Ui::PastePoseDialog> ui_;
 };
 
 }  // namespace boresight::ui

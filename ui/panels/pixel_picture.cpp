@@ -2,11 +2,9 @@
 #include "ui/panels/pixel_picture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 
-#include <QPainter>
+#include <QtWidgets>
 
 namespace boresight::ui {
 namespace {
@@ -57,37 +55,6 @@ QImage agreementPicture(const BitImage& edges, const BitImage& mask, const Patch
 
 namespace {
 
-struct Color {
-  double red, green, blue;
-};
-
-/// Nine of viridis' 256 colours, evenly spaced; straight lines in between.
-constexpr std::array<Color, 9> kStops = {{{68, 1, 84},
-                                          {71, 44, 122},
-                                          {59, 81, 139},
-                                          {44, 113, 142},
-                                          {33, 144, 141},
-                                          {39, 173, 129},
-                                          {92, 200, 99},
-                                          {170, 220, 50},
-                                          {253, 231, 37}}};
-
-}  // namespace
-
-QRgb heatColor(double value) {
-  const double place = std::clamp(value, 0.0, 1.0) * static_cast<double>(kStops.size() - 1);
-  const auto below = std::min(static_cast<std::size_t>(place), kStops.size() - 2);
-  const double share = place - static_cast<double>(below);
-  const Color& a = kStops[below];
-  const Color& b = kStops[below + 1];
-  const auto mixed = [share](double from, double to) {
-    return static_cast<int>(std::lround(from + share * (to - from)));
-  };
-  return qRgb(mixed(a.red, b.red), mixed(a.green, b.green), mixed(a.blue, b.blue));
-}
-
-namespace {
-
 /// From here on squares of unequal size would be seen as such; below, size counts for more.
 constexpr double kWholeScale = 3.0;
 
@@ -108,69 +75,50 @@ QRectF pixelPlace(const QSize& picture, const QRectF& room, double device_pixel_
   return place;
 }
 
-PixelPicture::PixelPicture(const QString& title, QWidget* parent) : QWidget(parent), title_(title) {
-  setAccessibleName(title);
+QString colorText(QRgb color, const QString& meaning) {
+  return QStringLiteral("<span style='background:%1; color:%2'>■</span>&nbsp;%3 ")
+      .arg(QColor(patch_colors::kGround).name(), QColor(color).name(), meaning);
 }
 
-void PixelPicture::setPicture(const QImage& picture) {
-  picture_ = picture;
-  update();
-}
-
-void PixelPicture::setNote(const QString& note) {
-  note_ = note;
-  legend_.clear();
-  update();
-}
-
-void PixelPicture::setLegend(const QVector<QPair<QRgb, QString>>& legend) {
-  legend_ = legend;
-  update();
-}
-
-int PixelPicture::layOutLegend(QPainter* painter, int top) const {
-  const int line = fontMetrics().height();
-  const int sample = line / 2;
-  int x = 0;
-  int lines = legend_.isEmpty() ? 0 : 1;
-  for (const auto& [color, text] : legend_) {
-    const int wide = sample + 4 + fontMetrics().horizontalAdvance(text);
-    if (x > 0 && x + wide > width()) {
-      x = 0;
-      ++lines;
-    }
-    if (painter) {
-      const int y = top + (lines - 1) * line;
-      const QRect box(x, y + (line - sample) / 2, sample, sample);
-      painter->fillRect(box, QColor(color));
-      painter->drawRect(box);
-      painter->drawText(QRect(x + sample + 4, y, wide, line), Qt::AlignLeft | Qt::AlignVCenter,
-                        text);
-    }
-    x += wide + 8;
+PixelPicture::PixelPicture(QWidget* parent)
+    : QWidget(parent), title_(new QLabel(this)), note_(new QLabel(this)) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(title_);
+  column->addStretch(1);
+  column->addWidget(note_);
+  for (QLabel* label : {title_, note_}) {
+    label->setAlignment(Qt::AlignCenter);
+    label->setWordWrap(true);
   }
-  return lines;
+}
+
+void PixelPicture::setTitle(const QString& title) {
+  setAccessibleName(title);
+  title_->setText(title);
+}
+
+void PixelPicture::setPicture(const QImage& picture, const QString& note) {
+  picture_ = picture;
+  note_->setText(note);
+  static_cast<QVBoxLayout*>(layout())->setStretch(1, picture.isNull() ? 0 : 1);
+  update();
+}
+
+QString PixelPicture::note() const { return note_->text(); }
+
+QRectF PixelPicture::place() const {
+  layout()->activate();  // the note may have changed its height
+  const double top = title_->geometry().bottom() + 3.0;
+  const QRectF room(0.0, top, width() - marginRight(), note_->geometry().top() - 2.0 - top);
+  return pixelPlace(picture_.size(), room, devicePixelRatioF());
 }
 
 void PixelPicture::paintEvent(QPaintEvent* /*event*/) {
+  if (picture_.isNull()) return;
   QPainter painter(this);
-  const int line = fontMetrics().height();
-  painter.setPen(palette().color(QPalette::WindowText));
-  painter.drawText(QRect(0, 0, width(), line), Qt::AlignCenter,
-                   fontMetrics().elidedText(title_, Qt::ElideRight, width()));
-  if (picture_.isNull()) {
-    painter.drawText(rect().adjusted(4, line, -4, 0), Qt::AlignCenter | Qt::TextWordWrap, note_);
-    return;
-  }
-  const int below = std::max(1, layOutLegend(nullptr, 0)) * line;
-  if (legend_.isEmpty()) {
-    painter.drawText(QRect(0, height() - line, width(), line), Qt::AlignCenter,
-                     fontMetrics().elidedText(note_, Qt::ElideRight, width()));
-  } else {
-    layOutLegend(&painter, height() - below);
-  }
-  const QRectF room(0, line + 2, width(), height() - line - below - 4);
-  painter.drawImage(pixelPlace(picture_.size(), room, devicePixelRatioF()), picture_);
+  painter.drawImage(place(), picture_);
+  paintOver(painter);
 }
 
 }  // namespace boresight::ui

@@ -4,12 +4,12 @@
 
 #include <QColor>
 #include <QImage>
-#include <QPair>
 #include <QRectF>
-#include <QVector>
 #include <QWidget>
 
 #include "core/base/image.h"
+
+class QLabel;
 
 namespace boresight::ui {
 
@@ -38,43 +38,40 @@ QImage seenPicture(const BitImage& test_edges, const PatchPlace& place);
 QImage agreementPicture(const BitImage& edges, const BitImage& mask, const PatchPlace& rendered,
                         const BitImage& test_edges, const PatchPlace& found);
 
-/// A colour of viridis (Smith and van der Walt 2015) for a value in [0, 1]: equal steps look equal,
-/// also to people who confuse red and green, and in gray.
-QRgb heatColor(double value);
-
 /// Where a small picture is drawn inside `room`: centred, as large as fits; from three device
 /// pixels a pixel on every one is a square of the same whole number of them.
 QRectF pixelPlace(const QSize& picture, const QRectF& room, double device_pixel_ratio);
+
+/// A sample of a colour with its meaning, as HTML for a note.
+QString colorText(QRgb color, const QString& meaning);
 
 /// A small picture with its pixels enlarged and crisp, under a title and over a note.
 class PixelPicture : public QWidget {
   Q_OBJECT
 
  public:
-  explicit PixelPicture(const QString& title, QWidget* parent = nullptr);
+  explicit PixelPicture(QWidget* parent = nullptr);
 
-  /// A null picture shows the note alone.
-  void setPicture(const QImage& picture);
-  /// What its colours mean, or why there is none.
-  void setNote(const QString& note);
-  /// Samples of colours with what they mean, instead of a note under the picture.
-  void setLegend(const QVector<QPair<QRgb, QString>>& legend);
+  void setTitle(const QString& title);
+  /// A null picture shows the note alone. The note explains the colours or why there is no picture.
+  void setPicture(const QImage& picture, const QString& note);
   const QImage& picture() const { return picture_; }
+  QString note() const;
 
   QSize sizeHint() const override { return {170, 200}; }
   QSize minimumSizeHint() const override { return {110, 130}; }
 
  protected:
+  /// Where the picture is drawn.
+  QRectF place() const;
+  /// Room that a scale takes at the right of the picture.
+  virtual double marginRight() const { return 0.0; }
+  virtual void paintOver(QPainter& /*painter*/) const {}
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  /// Its entries, in as many lines as the width asks for; returns how many. A null painter only
-  /// counts.
-  int layOutLegend(QPainter* painter, int top) const;
-
-  QString title_;
-  QString note_;
-  QVector<QPair<QRgb, QString>> legend_;
+  QLabel* title_;
+  QLabel* note_;
   QImage picture_;
 };
 

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <optional>
 
+#include <memory>
+
+#include <QStringList>
+#include <QVector>
 #include <QWidget>
 
+#include "sessions/evaluation/pose_error.h"
 #include "sessions/io/dataset_file.h"
-#include "ui/state/view_state.h"
-
-class QComboBox;
-class QGroupBox;
-class QLabel;
+#include "ui/panels/pose_table_model.h"
 
 namespace boresight::ui {
+
+namespace Ui {
+class PoseComparison;
+}
 
 /// What poses are judged by.
 struct PoseJudgement {
@@ -26,6 +30,13 @@ struct PoseJudgement {
 /// where there is none.
 std::optional<Matrix6d> shownCovariance(const ViewState& state);
 
+/// Rows of an HTML table: one sigma of a pose along and across the axis, and of its turn, each
+/// against the requirement where there is one; then along and about each axis.
+QVector<QStringList> sigmaRows(const sessions::PoseSigma& sigma,
+                               const std::optional<sessions::Requirement>& requirement);
+/// A row of three values with their unit.
+QStringList axesRow(const QString& name, const Eigen::Vector3d& values, const QString& unit);
+
 /// How sure the shown pose is, and how far any two poses are apart, each figure against the
 /// requirement where it names one.
 class PoseComparison : public QWidget {
@@ -33,26 +44,20 @@ class PoseComparison : public QWidget {
 
  public:
   explicit PoseComparison(QWidget* parent = nullptr);
+  ~PoseComparison() override;
 
-  void setPoses(const std::array<std::optional<Pose>, kPoseRoles>& poses);
+  void setPoses(const Poses& poses);
   void setCovariance(const std::optional<Matrix6d>& covariance);
   void setJudgement(const PoseJudgement& judgement);
 
  private:
-  QComboBox* roleBox(PoseRole role, const char* name);
   void showSigma();
   void showDifference();
-  QString truthRows(bool compared) const;
 
-  QGroupBox* sure_ = nullptr;
-  QGroupBox* apart_ = nullptr;
-  QLabel* sigma_ = nullptr;
-  QComboBox* from_ = nullptr;
-  QComboBox* to_ = nullptr;
-  QLabel* difference_ = nullptr;
-  std::array<std::optional<Pose>, kPoseRoles> poses_;
+  Poses poses_;
   std::optional<Matrix6d> covariance_;
   PoseJudgement judgement_;
+  const std::unique_ptr<Ui::PoseComparison> ui_;
 };
 
 }  // namespace boresight::ui

@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include <memory>
+
 #include <QWidget>
 
 #include "sessions/io/pose_text.h"
@@ -10,12 +12,13 @@
 #include "ui/panels/pose_comparison.h"
 #include "ui/panels/pose_table_model.h"
 
-class QComboBox;
-class QLabel;
 class QMenu;
-class QTableView;
 
 namespace boresight::ui {
+
+namespace Ui {
+class PosePanel;
+}
 
 class NudgeBox;
 
@@ -44,8 +47,8 @@ class PosePanel : public QWidget {
   void useAsSeedRequested(const boresight::Pose& camera_from_station);
 
  private:
-  QWidget* buildTable();
-  QWidget* buildCopyBar();
+  void buildTable();
+  void connectAll();
   void addCopyActions(QMenu& menu, PoseRole role);
   void showMenu(const QPoint& at);
   void refresh();
@@ -55,12 +58,7 @@ class PosePanel : public QWidget {
   ViewState& state_;
   NudgeController controller_;
   PoseTableModel model_;
-  QWidget* page_ = nullptr;
-  QTableView* table_ = nullptr;
-  QLabel* matrix_ = nullptr;
-  QLabel* named_ = nullptr;  ///< the same pose in frames with names
-  QComboBox* copied_ = nullptr;
-  PoseComparison* comparison_ = nullptr;
+  const std::unique_ptr<Ui::PosePanel> ui_;
 };
 
 }  // namespace boresight::ui

@@ -4,15 +4,23 @@
 #include <array>
 #include <optional>
 
-#include <QAbstractTableModel>
-
+#include "ui/models/rows_model.h"
 #include "ui/state/view_state.h"
 
 namespace boresight::ui {
 
-/// The poses side by side, one column per role, in every form that people read: translation,
-/// rotation vector, quaternion, matrix. Values, no state of its own.
-class PoseTableModel : public QAbstractTableModel {
+using Poses = std::array<std::optional<Pose>, kPoseRoles>;  ///< by role
+
+/// One figure of each pose.
+struct PoseFigure {
+  QString name;
+  QString help;
+  std::array<QString, kPoseRoles> values;  ///< by role
+};
+
+/// The poses side by side: the name of each figure, then one column per role. Translation, rotation
+/// vector and quaternion.
+class PoseTableModel : public RowsModel<PoseFigure> {
   Q_OBJECT
 
  public:
@@ -27,31 +35,25 @@ class PoseTableModel : public QAbstractTableModel {
     kQuaternionX,
     kQuaternionY,
     kQuaternionZ,
-    kMatrixRow1,
-    kMatrixRow2,
-    kMatrixRow3,
-    kMatrixRow4,
     kRowCount,
   };
 
-  using QAbstractTableModel::QAbstractTableModel;
+  explicit PoseTableModel(QObject* parent = nullptr);
 
-  void setPoses(const std::array<std::optional<Pose>, kPoseRoles>& poses);
+  void setPoses(const Poses& poses);
   const std::optional<Pose>& pose(PoseRole role) const {
     return poses_[static_cast<std::size_t>(role)];
   }
+  static int columnOf(PoseRole role) { return 1 + static_cast<int>(role); }
 
-  int rowCount(const QModelIndex& parent = {}) const override;
-  int columnCount(const QModelIndex& parent = {}) const override;
-  QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
-  QVariant headerData(int section, Qt::Orientation orientation,
-                      int role = Qt::DisplayRole) const override;
+ protected:
+  QVariant look(const PoseFigure& row, int column, int role) const override;
 
  private:
-  std::array<std::optional<Pose>, kPoseRoles> poses_;
+  Poses poses_;
 };
 
-/// "seed", "current", "nudged", "truth", "annotated", for people.
+/// "seed", "current", "nudged", "truth", "annotated".
 QString poseRoleName(PoseRole role);
 
 }  // namespace boresight::ui

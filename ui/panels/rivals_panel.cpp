@@ -12,7 +12,9 @@ using sessions::AlternativeKind;
 RivalsPanel::RivalsPanel(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(4, 4, 4, 4);
-  table_ = newTable("rivals", tr("Rivals, candidates and rolled hypotheses"), model_, this);
+  table_ = named(new QTableView(this), "rivals");
+  table_->setAccessibleName(tr("Rivals, candidates and rolled hypotheses"));
+  setUpTable(*table_, model_);
   column->addWidget(table_);
   auto* hint = new EmptyHint(*table_);
   hint->setText(

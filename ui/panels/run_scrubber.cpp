@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/run_scrubber.h"
-#include "ui/panels/widgets.h"
 
 #include <cstddef>
 
 #include <QtWidgets>
+
+#include "ui_run_scrubber.h"
 
 namespace boresight::ui {
 namespace {
@@ -64,8 +65,6 @@ RunCursor previousStage(const sessions::LocalizationTrace& run, const RunCursor&
 
 namespace {
 
-constexpr int kMostStages = 4;
-
 struct StageText {
   Stage stage;
   const char* name;
@@ -92,68 +91,34 @@ const StageText& textOf(Stage stage) {
 
 }  // namespace
 
-RunScrubber::RunScrubber(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
-  addStep(Step::kFirst, QStringLiteral("|◀"), tr("Seed"),
-          tr("Go to the seed, before the first iteration."));
-  addStep(Step::kPrevious, QStringLiteral("◀"), tr("Previous iteration"),
-          tr("Go to the iteration before."));
-  slider_ = named(new QSlider(Qt::Horizontal, this), "iterations");
-  slider_->setAccessibleName(tr("Iteration"));
-  slider_->setToolTip(tr("The iteration that every view shows; leftmost: the seed."));
-  slider_->setTickPosition(QSlider::TicksBelow);
-  slider_->setTickInterval(1);
-  slider_->setPageStep(1);
-  row->addWidget(slider_, 1);
-  addStep(Step::kNext, QStringLiteral("▶"), tr("Next iteration"), tr("Go to the iteration after."));
-  addStep(Step::kLast, QStringLiteral("▶|"), tr("Last iteration"),
-          tr("Go to the last iteration and follow the run."));
-  place_ = new QLabel(this);
-  place_->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("8.88 (88 of 88)")));
-  row->addWidget(place_);
-  addStep(Step::kPreviousStage, QStringLiteral("◁"), tr("Previous stage"),
-          tr("Go one stage back, across iterations."));
-  addStageButtons();
-  addStep(Step::kNextStage, QStringLiteral("▷"), tr("Next stage"),
-          tr("Go one stage on, across iterations."));
-
-  connect(slider_, &QSlider::valueChanged, this, [this](int value) {
+RunScrubber::RunScrubber(ViewState& view, QWidget* parent)
+    : QWidget(parent), view_(view), ui_(std::make_unique<Ui::RunScrubber>()) {
+  ui_->setupUi(this);
+  actions_ = {ui_->goFirst, ui_->goPrevious,      ui_->goNext,
+              ui_->goLast,  ui_->goPreviousStage, ui_->goNextStage};
+  const std::array buttons = {ui_->first, ui_->previous,      ui_->next,
+                              ui_->last,  ui_->previousStage, ui_->nextStage};
+  for (std::size_t i = 0; i < buttons.size(); ++i) {
+    buttons[i]->setDefaultAction(actions_[i]);
+    buttons[i]->setAccessibleName(actions_[i]->text());
+    connect(actions_[i], &QAction::triggered, this, [this, i] { go(static_cast<Step>(i)); });
+  }
+  ui_->shownIteration->setMinimumWidth(
+      fontMetrics().horizontalAdvance(QStringLiteral("8.88 (88 of 88)")));
+  stages_ = new QButtonGroup(this);
+  for (QToolButton* each : {ui_->stage1, ui_->stage2, ui_->stage3, ui_->stage4})
+    stages_->addButton(each, stages_->buttons().size());
+  connect(stages_, &QButtonGroup::idClicked, this, &RunScrubber::chooseStage);
+  connect(ui_->iterations, &QSlider::valueChanged, this, [this](int value) {
     view_.setCursor({value, Stage::kFinished});
   });
   view_.onChange(ViewChange::kSnapshot | ViewChange::kCursor, this, &RunScrubber::showCursor);
   showCursor();
 }
 
-void RunScrubber::addStep(Step step, const QString& sign, const QString& name,
-                          const QString& help) {
-  auto* action = new QAction(name, this);
-  action->setIconText(sign);
-  action->setToolTip(help);
-  connect(action, &QAction::triggered, this, [this, step] { go(step); });
-  actions_[static_cast<std::size_t>(step)] = action;
-  auto* button = new QToolButton(this);
-  button->setDefaultAction(action);
-  button->setToolButtonStyle(Qt::ToolButtonTextOnly);
-  button->setAutoRaise(true);
-  button->setAccessibleName(name);
-  button->setFocusPolicy(Qt::TabFocus);
-  layout()->addWidget(button);
-}
+RunScrubber::~RunScrubber() = default;
 
-void RunScrubber::addStageButtons() {
-  stages_ = new QButtonGroup(this);
-  for (int i = 0; i < kMostStages; ++i) {
-    auto* button = new QToolButton(this);
-    button->setCheckable(true);
-    button->setFocusPolicy(Qt::TabFocus);
-    stages_->addButton(button, i);
-    layout()->addWidget(button);
-  }
-  connect(stages_, &QButtonGroup::idClicked, this, &RunScrubber::chooseStage);
-}
-
-void RunScrubber::setPlace(const QString& text) { place_->setText(text); }
+void RunScrubber::setPlace(const QString& text) { ui_->shownIteration->setText(text); }
 
 void RunScrubber::go(Step step) {
   const RunCursor& cursor = view_.cursor();
@@ -167,7 +132,7 @@ void RunScrubber::go(Step step) {
   const int target = step == Step::kFirst      ? -1
                      : step == Step::kPrevious ? cursor.iteration - 1
                      : step == Step::kNext     ? cursor.iteration + 1
-                                               : slider_->maximum();
+                                               : ui_->iterations->maximum();
   view_.setCursor({target, Stage::kFinished});
 }
 
@@ -183,10 +148,10 @@ void RunScrubber::chooseStage(int index) {
 void RunScrubber::showCursor() {
   const int last =
       view_.snapshot() ? static_cast<int>(view_.snapshot()->iterations.size()) - 1 : -1;
-  const QSignalBlocker blocked(slider_);
-  slider_->setRange(-1, last);
-  slider_->setValue(view_.cursor().iteration);
-  slider_->setEnabled(last >= 0);
+  const QSignalBlocker blocked(ui_->iterations);
+  ui_->iterations->setRange(-1, last);
+  ui_->iterations->setValue(view_.cursor().iteration);
+  ui_->iterations->setEnabled(last >= 0);
   const bool at_start = view_.cursor().iteration < 0;
   const bool at_end = view_.cursor().iteration >= last;
   action(Step::kFirst)->setEnabled(!at_start);
@@ -202,7 +167,7 @@ void RunScrubber::showStages() {
   const int chosen = shown ? shownStage(stages, view_.cursor().stage) : -1;
   // An exclusive group cannot have none checked.
   stages_->setExclusive(false);
-  for (int i = 0; i < kMostStages; ++i) {
+  for (int i = 0; i < stages_->buttons().size(); ++i) {
     auto* button = qobject_cast<QToolButton*>(stages_->button(i));
     const bool exists = i < static_cast<int>(stages.size());
     button->setVisible(exists);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include <QWidget>
@@ -13,12 +14,12 @@
 
 class QAction;
 class QButtonGroup;
-class QHBoxLayout;
-class QLabel;
-class QSlider;
-class QToolButton;
 
 namespace boresight::ui {
+
+namespace Ui {
+class RunScrubber;
+}
 
 /// The stages of an iteration that can be looked at, as far as it came.
 std::vector<Stage> stagesOf(const sessions::IterationTrace& iteration);
@@ -41,14 +42,13 @@ class RunScrubber : public QWidget {
   static constexpr int kStepCount = 6;
 
   explicit RunScrubber(ViewState& view, QWidget* parent = nullptr);
+  ~RunScrubber() override;
 
   QAction* action(Step step) const { return actions_[static_cast<std::size_t>(step)]; }
   /// The name of the iteration under the cursor, for the label.
   void setPlace(const QString& text);
 
  private:
-  void addStep(Step step, const QString& sign, const QString& name, const QString& help);
-  void addStageButtons();
   void go(Step step);
   void chooseStage(int index);
   void showCursor();
@@ -56,10 +56,8 @@ class RunScrubber : public QWidget {
 
   ViewState& view_;
   std::array<QAction*, kStepCount> actions_{};
-  QSlider* slider_ = nullptr;
-  QLabel* place_ = nullptr;
   QButtonGroup* stages_ = nullptr;
-  QHBoxLayout* stage_row_ = nullptr;
+  const std::unique_ptr<Ui::RunScrubber> ui_;
 };
 
 }  // namespace boresight::ui

@@ -3,18 +3,15 @@
 
 #include <memory>
 
-#include <QImage>
-#include <QRectF>
-#include <QWidget>
-
 #include "core/match/whs_types.h"
 #include "sessions/run/score_map.h"
+#include "ui/panels/pixel_picture.h"
 
 namespace boresight::ui {
 
 /// The score map of one template as a heat map with a scale; the predicted place (cross), the peak
-/// (circle) and the second peak (square) are marked. Under the cursor: offset and score.
-class ScoreMapView : public QWidget {
+/// (circle) and the second peak (square) are marked. The tool tip shows offset and score.
+class ScoreMapView : public PixelPicture {
   Q_OBJECT
 
  public:
@@ -31,33 +28,26 @@ class ScoreMapView : public QWidget {
   /// Shows a sentence instead of a map.
   void setNote(const QString& note);
   const MapPtr& map() const { return map_; }
-  const QImage& picture() const { return picture_; }
-  const QString& note() const { return note_; }
 
   /// Where a place of the window is on the widget (its pixel's centre).
   QPointF toWidget(double x, double y) const;
-  /// What a place of the widget shows, for people; empty beside the map.
+  /// Offset and score at a place of the widget; empty outside the map.
   QString textAt(const QPointF& widget) const;
 
   QSize sizeHint() const override { return {280, 260}; }
   QSize minimumSizeHint() const override { return {180, 170}; }
 
  protected:
-  void paintEvent(QPaintEvent* event) override;
+  double marginRight() const override;
+  void paintOver(QPainter& painter) const override;
   bool event(QEvent* event) override;
 
  private:
-  QRectF mapPlace() const;
-  void paintScale(QPainter& painter, const QRectF& beside) const;
-  void paintMarks(QPainter& painter) const;
-  /// In as many lines as the width asks for; returns how many. A null painter only counts.
-  int layOutLegend(QPainter* painter) const;
-  QString outsideText() const;
+  void paintScale(QPainter& painter) const;
+  QString legend() const;
 
   MapPtr map_;
   Marks marks_;
-  QImage picture_;
-  QString note_;
 };
 
 }  // namespace boresight::ui

@@ -19,20 +19,19 @@ void styleTable(QTableView& table) {
   table.horizontalHeader()->setHighlightSections(false);
 }
 
-QTableView* newTable(const char* name, const QString& title, QAbstractItemModel& model,
-                     QWidget* parent) {
-  auto* table = named(new QTableView(parent), name);
-  table->setAccessibleName(title);
-  table->setModel(&model);
-  styleTable(*table);
-  return table;
+void setUpTable(QTableView& table, QAbstractItemModel& model) {
+  table.setModel(&model);
+  styleTable(table);
 }
 
-QAction* addAction(QMenu& menu, const QString& text, const QKeySequence& keys, const QString& tip) {
-  QAction* action = menu.addAction(text);
-  action->setShortcut(keys);
-  setTip(*action, tip);
-  return action;
+void addRow(QTableWidget& table, const QStringList& texts) {
+  const int row = table.rowCount();
+  table.setRowCount(row + 1);
+  for (int column = 0; column < texts.size(); ++column) {
+    auto* item = new QTableWidgetItem(texts[column]);
+    item->setTextAlignment((column > 0 ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+    table.setItem(row, column, item);
+  }
 }
 
 void setTip(QAction& action, const QString& tip) {

@@ -7,18 +7,19 @@
 
 class QAbstractItemModel;
 class QAbstractItemView;
-class QMenu;
 class QTableView;
+class QTableWidget;
 
 namespace boresight::ui {
 
 /// How all tables look: whole rows, one at a time, no row numbers, compact, columns as wide as what
 /// they hold.
 void styleTable(QTableView& table);
-/// A table of a model that looks so; `name` for tests and style sheets, `title` for readers of the
-/// screen.
-QTableView* newTable(const char* name, const QString& title, QAbstractItemModel& model,
-                     QWidget* parent);
+/// The same for a table of a model, which it is given.
+void setUpTable(QTableView& table, QAbstractItemModel& model);
+
+/// Appends a row of texts: the first to the left, the others, figures, to the right.
+void addRow(QTableWidget& table, const QStringList& texts);
 
 /// The widget, with a name for tests and a tool tip.
 template <class Widget>
@@ -31,17 +32,8 @@ Widget* named(Widget* widget, const char* name, const QString& tip = {}) {
 /// "Ctrl+R".
 inline QKeySequence keys(const char* text) { return QKeySequence(QLatin1String(text)); }
 
-/// An action of a menu; its tool tip names the keys, if there are any.
-QAction* addAction(QMenu& menu, const QString& text, const QKeySequence& keys, const QString& tip);
+/// A tip that names the keys of the action, if there are any.
 void setTip(QAction& action, const QString& tip);
-template <class Receiver, class Function>
-QAction* addAction(QMenu& menu, const QString& text, const QKeySequence& keys, const QString& tip,
-                   Receiver* receiver, Function function) {
-  QAction* action = addAction(menu, text, keys, tip);
-  QObject::connect(action, &QAction::triggered, receiver, function);
-  return action;
-}
-
 /// Says in an empty list why it is empty and what to do about it. Lies over the view and takes no
 /// clicks.
 class EmptyHint : public QLabel {

@@ -18,6 +18,10 @@ struct PlotColors {
   QColor cursor;
 };
 
+/// A colour of viridis (Smith and van der Walt 2015) for a value in [0, 1]; beyond, that of the
+/// end. Equal steps look equal, also to colour-blind readers and in gray.
+QColor heatColor(double value);
+
 bool isDark(const QPalette& palette);
 PlotColors plotColors(const QPalette& palette);
 

@@ -5,8 +5,9 @@
 
 #include <QtWidgets>
 
+#include "ui_decision_form.h"
+
 #include "ui/models/number_text.h"
-#include "ui/panels/widgets.h"
 
 namespace boresight::ui {
 
@@ -65,60 +66,28 @@ QString decisionHtml(const Decision& decision) {
 }  // namespace
 
 DecisionForm::DecisionForm(ReviewController& controller, QWidget* parent)
-    : QWidget(parent), controller_(controller) {
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  auto* fields = new QHBoxLayout;
-  buildFields(*fields);
-  column->addLayout(fields);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(3);
-  row->addWidget(button(Act::kValidate, "validate", tr("Validate"),
-                        tr("Vouch for this pose, with your name, a comment and the checks")));
-  row->addWidget(button(Act::kApprove, "approve", tr("Approve"),
-                        tr("The second person's yes to a validation")));
-  row->addWidget(button(Act::kReject, "reject", tr("Reject"),
-                        tr("Refuse the case's result, with your name and the reason")));
-  row->addWidget(button(Act::kTakeBack, "takeBack", tr("Take back"),
-                        tr("Take the last decision back; it stays in the history")));
-  column->addLayout(row);
-  reading_ = named(new QTextBrowser(this), "reading");
-  reading_->setAccessibleName(tr("What stands in the way, the chosen check, former decisions"));
-  reading_->setMinimumHeight(2 * fontMetrics().lineSpacing());
-  column->addWidget(reading_, 1);
+    : QWidget(parent), controller_(controller), ui_(std::make_unique<Ui::DecisionForm>()) {
+  ui_->setupUi(this);
+  buttons_ = {{Act::kValidate, ui_->validate},
+              {Act::kApprove, ui_->approve},
+              {Act::kReject, ui_->reject},
+              {Act::kTakeBack, ui_->takeBack}};
+  for (const auto& [act, button] : buttons_) {
+    tips_[act] = button->toolTip();
+    button->setMinimumWidth(fontMetrics().horizontalAdvance(button->text()) + 16);
+    connect(button, &QPushButton::clicked, this, [this, chosen = act] { decide(chosen); });
+  }
+  ui_->decisionName->setText(QSettings().value(QLatin1String(kNameKey)).toString());
+  for (QLineEdit* each : {ui_->decisionName, ui_->decisionComment})
+    connect(each, &QLineEdit::textChanged, this, &DecisionForm::showWhatIsPossible);
+  ui_->reading->setMinimumHeight(2 * fontMetrics().lineSpacing());
   connect(&controller_, &ReviewController::checksChanged, this, &DecisionForm::showWhatIsPossible);
   connect(&controller_, &ReviewController::standingChanged, this,
           &DecisionForm::showWhatIsPossible);
   showWhatIsPossible();
 }
 
-void DecisionForm::buildFields(QHBoxLayout& row) {
-  row.setSpacing(3);
-  name_ = named(new QLineEdit(QSettings().value(QLatin1String(kNameKey)).toString(), this),
-                "decisionName");
-  name_->setPlaceholderText(tr("Who decides"));
-  name_->setToolTip(tr("Your name; it goes with the decision into every file"));
-  comment_ = named(new QLineEdit(this), "decisionComment");
-  comment_->setPlaceholderText(tr("On what grounds"));
-  comment_->setToolTip(tr("On what grounds; it goes with the decision into every file"));
-  name_->setAccessibleName(tr("Who decides"));
-  comment_->setAccessibleName(tr("On what grounds"));
-  row.addWidget(name_, 2);
-  row.addWidget(comment_, 3);
-  for (QLineEdit* each : {name_, comment_})
-    connect(each, &QLineEdit::textChanged, this, &DecisionForm::showWhatIsPossible);
-}
-
-QPushButton* DecisionForm::button(Act act, const char* name, const QString& text,
-                                  const QString& tip) {
-  auto* made = named(new QPushButton(text, this), name);
-  made->setMinimumWidth(fontMetrics().horizontalAdvance(text) + 16);
-  buttons_[act] = made;
-  tips_[act] = tip;
-  connect(made, &QPushButton::clicked, this, [this, act] { decide(act); });
-  return made;
-}
+DecisionForm::~DecisionForm() = default;
 
 void DecisionForm::setNote(const QString& html) {
   note_ = html;
@@ -126,13 +95,14 @@ void DecisionForm::setNote(const QString& html) {
 }
 
 sessions::Signature DecisionForm::signature() const {
-  return {name_->text().trimmed().toStdString(), comment_->text().trimmed().toStdString()};
+  return {ui_->decisionName->text().trimmed().toStdString(),
+          ui_->decisionComment->text().trimmed().toStdString()};
 }
 
 void DecisionForm::decide(Act act) {
   if (!controller_.decide(act, signature())) return;
-  QSettings().setValue(QLatin1String(kNameKey), name_->text().trimmed());
-  comment_->clear();  // the next decision has grounds of its own
+  QSettings().setValue(QLatin1String(kNameKey), ui_->decisionName->text().trimmed());
+  ui_->decisionComment->clear();  // the next decision has grounds of its own
 }
 
 /// What a person most likely wants to do, whose obstacle is told without being asked.
@@ -168,7 +138,7 @@ void DecisionForm::showReading() {
   for (const Decision* decision : controller_.history()) parts << decisionHtml(*decision);
   if (controller_.history().empty()) parts << tr("<i>Nobody has decided on this case yet.</i>");
   const QString html = parts.join(QStringLiteral("<hr>"));
-  if (std::exchange(read_, html) != html) reading_->setHtml(html);
+  if (std::exchange(read_, html) != html) ui_->reading->setHtml(html);
 }
 
 }  // namespace boresight::ui

@@ -3,16 +3,19 @@
 
 #include <map>
 
+#include <memory>
+
 #include <QWidget>
 
 #include "ui/review/review_controller.h"
 
-class QHBoxLayout;
-class QLineEdit;
 class QPushButton;
-class QTextBrowser;
 
 namespace boresight::ui {
+
+namespace Ui {
+class DecisionForm;
+}
 
 /// Who decides what about the shown case, on what grounds, and what was decided before. What cannot
 /// be done now is disabled, and said why in place.
@@ -24,6 +27,7 @@ class DecisionForm : public QWidget {
   static constexpr const char* kNameKey = "review/name";
 
   explicit DecisionForm(ReviewController& controller, QWidget* parent = nullptr);
+  ~DecisionForm() override;
 
   /// What stands in the way of the next step, as it is shown.
   const QString& obstacle() const { return obstacle_; }
@@ -33,8 +37,6 @@ class DecisionForm : public QWidget {
  private:
   using Act = ReviewController::Act;
 
-  void buildFields(QHBoxLayout& row);
-  QPushButton* button(Act act, const char* name, const QString& text, const QString& tip);
   sessions::Signature signature() const;
   void decide(Act act);
   void showWhatIsPossible();
@@ -42,14 +44,12 @@ class DecisionForm : public QWidget {
   Act nextStep() const;
 
   ReviewController& controller_;
-  QLineEdit* name_ = nullptr;
-  QLineEdit* comment_ = nullptr;
   std::map<Act, QPushButton*> buttons_;
   std::map<Act, QString> tips_;
   QString obstacle_;
   QString note_;
   QString read_;
-  QTextBrowser* reading_ = nullptr;
+  const std::unique_ptr<Ui::DecisionForm> ui_;
 };
 
 }  // namespace boresight::ui

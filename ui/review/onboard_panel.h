@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include <QString>
 #include <QWidget>
 
 #include "ui/review/onboard_controller.h"
 
-class QFrame;
-class QLabel;
-class QPushButton;
-class QTableWidget;
-
 namespace boresight::ui {
+
+namespace Ui {
+class OnboardPanel;
+}
 
 class RunController;
 
@@ -26,14 +27,9 @@ class OnboardPanel : public QWidget {
  public:
   OnboardPanel(OnboardController& onboard, ViewState& state, RunController& run,
                QWidget* parent = nullptr);
-
- protected:
-  void changeEvent(QEvent* event) override;
+  ~OnboardPanel() override;
 
  private:
-  QWidget* buildButtons();
-  QWidget* buildRecord();
-  QWidget* buildComparison();
   void update();
   void updateButtons();
   void showRecord();
@@ -43,19 +39,7 @@ class OnboardPanel : public QWidget {
   OnboardController& onboard_;
   ViewState& state_;
   RunController& run_;
-  QFrame* banner_ = nullptr;
-  QLabel* shown_ = nullptr;
-  QPushButton* show_onboard_ = nullptr;
-  QPushButton* show_ground_ = nullptr;
-  QPushButton* rerun_ = nullptr;
-  QPushButton* load_ = nullptr;
-  QPushButton* remove_ = nullptr;
-  QLabel* sheet_ = nullptr;
-  QLabel* remarks_ = nullptr;
-  QLabel* verdict_ = nullptr;
-  QLabel* first_ = nullptr;
-  QTableWidget* table_ = nullptr;
-  QLabel* limits_ = nullptr;
+  const std::unique_ptr<Ui::OnboardPanel> ui_;
 };
 
 }  // namespace boresight::ui

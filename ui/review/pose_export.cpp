@@ -158,26 +158,29 @@ void PoseExport::askForColmap() {
   if (!folder.isEmpty()) exportColmap(folder.toStdString());
 }
 
+/// A file for the shown case's pose; empty without a case or an answer.
+std::filesystem::path PoseExport::askForFile(const QString& title, const QString& name,
+                                             const QString& filter) {
+  if (caseId().empty()) return {};
+  QString file = QFileDialog::getSaveFileName(&window_, title.arg(fromText(caseId()), standing()),
+                                              inSessionFolder(name), filter);
+  if (!file.isEmpty() && QFileInfo(file).suffix().isEmpty())
+    file += QLatin1Char('.') + QFileInfo(name).suffix();
+  return file.toStdString();
+}
+
 void PoseExport::askForPose() {
-  if (caseId().empty()) return;
-  QString file = QFileDialog::getSaveFileName(
-      &window_, tr("Pose of %1 (%2)").arg(fromText(caseId()), standing()),
-      inSessionFolder(poseFileName()), tr("Pose (*.json)"));
-  if (file.isEmpty()) return;
-  if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".json");
-  exportPose(file.toStdString());
+  const auto file = askForFile(tr("Pose of %1 (%2)"), poseFileName(), tr("Pose (*.json)"));
+  if (!file.empty()) exportPose(file);
 }
 
 void PoseExport::askForReport() {
-  if (caseId().empty()) return;
-  const QString name = isValidated(caseId()) ? QStringLiteral("pose_report.pdf")
-                                             : QStringLiteral("pose_report_NOT_VALIDATED.pdf");
-  QString file = QFileDialog::getSaveFileName(
-      &window_, tr("Report of %1 (%2)").arg(fromText(caseId()), standing()), inSessionFolder(name),
-      tr("PDF (*.pdf)"));
-  if (file.isEmpty()) return;
-  if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".pdf");
-  exportReport(file.toStdString());
+  const auto file =
+      askForFile(tr("Report of %1 (%2)"),
+                 isValidated(caseId()) ? QStringLiteral("pose_report.pdf")
+                                       : QStringLiteral("pose_report_NOT_VALIDATED.pdf"),
+                 tr("PDF (*.pdf)"));
+  if (!file.empty()) exportReport(file);
 }
 
 }  // namespace boresight::ui

@@ -69,6 +69,8 @@ class PoseExport : public QObject {
   void exportAll(const std::filesystem::path& path, Write write);
   /// "NOT VALIDATED: converged", for titles.
   QString standing() const;
+  std::filesystem::path askForFile(const QString& title, const QString& name,
+                                   const QString& filter);
   QString inSessionFolder(const QString& name) const;
 
   QWidget& window_;

@@ -8,6 +8,7 @@
 #include <QPixmap>
 
 #include "ui/models/cases_model.h"
+#include "ui/models/html_table.h"
 
 namespace boresight::ui {
 
@@ -75,13 +76,13 @@ std::vector<TableColumn<DifferenceEntry>> differenceColumns() {
 }
 
 QString tableHtml(const RunDifference& made) {
-  QString html = DifferencesModel::tr("<table><tr><th></th><th>before</th><th>now</th></tr>");
+  QVector<QStringList> rows = {
+      {QString(), DifferencesModel::tr("before"), DifferencesModel::tr("now")}};
   for (const sessions::DifferenceLine& line : sessions::differenceLines(made))
-    html += QStringLiteral("<tr><td>%1&nbsp;</td><td>%2&nbsp;</td><td>%3</td></tr>")
-                .arg(fromText(line.label).toHtmlEscaped(), fromText(line.before).toHtmlEscaped(),
-                     fromText(line.after).toHtmlEscaped());
-  return html + QStringLiteral("</table><p>%1</p>")
-                    .arg(fromText(sessions::changeText(made)).toHtmlEscaped());
+    rows.append({fromText(line.label).toHtmlEscaped(), fromText(line.before).toHtmlEscaped(),
+                 fromText(line.after).toHtmlEscaped()});
+  return htmlTable(rows) +
+         QStringLiteral("<p>%1</p>").arg(fromText(sessions::changeText(made)).toHtmlEscaped());
 }
 
 }  // namespace

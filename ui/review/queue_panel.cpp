@@ -6,6 +6,8 @@
 
 #include <QtWidgets>
 
+#include "ui_queue_panel.h"
+
 #include "ui/models/number_text.h"
 #include "ui/panels/widgets.h"
 #include "ui/review/decision_form.h"
@@ -23,125 +25,74 @@ constexpr int kDifferencesTab = 1;
 QueuePanel::QueuePanel(Document& document, QWidget* parent)
     : QWidget(parent),
       controller_(document, kQueueThumbnail_px * devicePixelRatioF()),
-      filter_(model_) {
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(4, 4, 4, 4);
-  column->setSpacing(4);
-  buildTop();
+      filter_(model_),
+      ui_(std::make_unique<Ui::QueuePanel>()) {
+  ui_->setupUi(this);
+  ui_->queueTabs->addTab(tr("By trouble"));
+  ui_->queueTabs->addTab(tr("Last two runs"));
+  ui_->queueTabs->setTabToolTip(kTroubleTab, tr("All cases, the most troubled first"));
+  ui_->queueTabs->setTabToolTip(
+      kDifferencesTab, tr("Each case's last run against the one before it (D in the list)"));
   buildTables();
   buildForm();
+  connect(ui_->queueTabs, &QTabBar::currentChanged, this, &QueuePanel::lookAt);
+  connect(ui_->queueFilter, &QLineEdit::textChanged, this, [this](const QString& text) {
+    filter_.setText(text);
+    differences_filter_.setFilterFixedString(text.trimmed());
+  });
+  connect(ui_->queueHalt, &QPushButton::clicked, this,
+          [this] { controller_.setHalted(!controller_.isHalted()); });
   connect(&controller_, &QueueController::changed, this, &QueuePanel::showEntries);
   showEntries();
 }
 
-void QueuePanel::buildTop() {
-  auto* row = new QHBoxLayout;
-  tabs_ = named(new QTabBar(this), "queueTabs");
-  tabs_->setDrawBase(false);
-  tabs_->addTab(tr("By trouble"));
-  tabs_->addTab(tr("Last two runs"));
-  tabs_->setTabToolTip(kTroubleTab, tr("All cases, the most troubled first"));
-  tabs_->setTabToolTip(kDifferencesTab,
-                       tr("Each case's last run against the one before it (D in the list)"));
-  text_ = named(new QLineEdit(this), "queueFilter");
-  text_->setPlaceholderText(tr("Find a case, a state, a check"));
-  text_->setClearButtonEnabled(true);
-  progress_ = named(new QLabel(this), "queueProgress");
-  halt_ = named(new QPushButton(this), "queueHalt",
-                tr("Cases are checked in the background, one at a time"));
-  row->addWidget(tabs_);
-  row->addWidget(text_, 1);
-  row->addWidget(progress_);
-  row->addWidget(halt_);
-  static_cast<QVBoxLayout*>(layout())->addLayout(row);
-  connect(tabs_, &QTabBar::currentChanged, this, &QueuePanel::lookAt);
-  connect(text_, &QLineEdit::textChanged, this, [this](const QString& text) {
-    filter_.setText(text);
-    differences_filter_.setFilterFixedString(text.trimmed());
-  });
-  connect(halt_, &QPushButton::clicked, this,
-          [this] { controller_.setHalted(!controller_.isHalted()); });
-}
+QueuePanel::~QueuePanel() = default;
 
 void QueuePanel::buildTables() {
-  lists_ = new QStackedWidget(this);
-  queue_table_ = newTable("queue", tr("Queue"), filter_, lists_);
-  queue_table_->setIconSize(kQueueThumbnail_px);
-  queue_table_->verticalHeader()->setDefaultSectionSize(
+  setUpTable(*ui_->queue, filter_);
+  ui_->queue->verticalHeader()->setDefaultSectionSize(
       std::max(kQueueThumbnail_px.height(), 3 * fontMetrics().lineSpacing()) + 4);
-  queue_table_->setWordWrap(true);
-  queue_table_->setSortingEnabled(true);
-  queue_table_->sortByColumn(QueueModel::kTrouble, Qt::AscendingOrder);
-  queue_hint_ = new EmptyHint(*queue_table_);
+  ui_->queue->setWordWrap(true);
+  ui_->queue->sortByColumn(QueueModel::kTrouble, Qt::AscendingOrder);
+  queue_hint_ = new EmptyHint(*ui_->queue);
   differences_filter_.setSourceModel(&differences_);
   differences_filter_.setSortRole(kSortRole);
   differences_filter_.setFilterKeyColumn(-1);
   differences_filter_.setFilterCaseSensitivity(Qt::CaseInsensitive);
-  differences_table_ = newTable("differences", tr("Differences"), differences_filter_, lists_);
-  differences_table_->setSortingEnabled(true);
-  differences_table_->sortByColumn(DifferencesModel::kChange, Qt::AscendingOrder);
-  differences_hint_ = new EmptyHint(*differences_table_);
-  for (QTableView* each : {queue_table_, differences_table_}) {
-    each->horizontalHeader()->setStretchLastSection(each == differences_table_);
+  setUpTable(*ui_->differences, differences_filter_);
+  ui_->differences->sortByColumn(DifferencesModel::kChange, Qt::AscendingOrder);
+  differences_hint_ = new EmptyHint(*ui_->differences);
+  for (QTableView* each : {ui_->queue, ui_->differences}) {
+    each->horizontalHeader()->setStretchLastSection(each == ui_->differences);
     each->installEventFilter(this);
     connect(each, &QTableView::doubleClicked, this, &QueuePanel::openChosen);
-    lists_->addWidget(each);
   }
-  queue_table_->horizontalHeader()->setSectionResizeMode(QueueModel::kTrouble,
-                                                         QHeaderView::Stretch);
-  static_cast<QVBoxLayout*>(layout())->addWidget(lists_, 1);
+  ui_->queue->horizontalHeader()->setSectionResizeMode(QueueModel::kTrouble, QHeaderView::Stretch);
 }
 
 void QueuePanel::buildForm() {
-  auto* row = new QHBoxLayout;
-  const auto field = [this, row](const char* name, const QString& placeholder, const QString& tip) {
-    auto* made = named(new QLineEdit(this), name, tip);
-    made->setPlaceholderText(placeholder);
-    made->installEventFilter(this);
-    connect(made, &QLineEdit::returnPressed, this, &QueuePanel::signedNow);
-    row->addWidget(made, made->objectName() == QLatin1String("queueName") ? 1 : 3);
-    return made;
-  };
-  name_ = field("queueName", tr("Who decides"),
-                tr("Your name; it goes with the decision into every file"));
-  comment_ = field("queueComment", tr("On what grounds"),
-                   tr("On what grounds; it goes with the decision into every file"));
-  const auto button = [this, row](const char* name, const QString& text, const QString& tip,
-                                  void (QueuePanel::*act)()) {
-    auto* made = named(new QPushButton(text, this), name, tip);
-    connect(made, &QPushButton::clicked, this, act);
-    row->addWidget(made);
-  };
-  button("queueOpen", tr("Open"),
-         tr("Show the case at the iteration that failed, or at the last one (Enter in the list)"),
-         &QueuePanel::openChosen);
-  button("queueAccept", tr("Accept"),
-         tr("Validate the case's pose, when all checks passed (A in the list)"),
-         &QueuePanel::accept);
-  button("queueReject", tr("Reject"), tr("Refuse the case's result (R in the list)"),
-         &QueuePanel::reject);
-  auto* column = static_cast<QVBoxLayout*>(layout());
-  column->addLayout(row);
-  message_ = named(new QLabel(this), "queueMessage");
-  message_->setTextFormat(Qt::PlainText);
-  message_->setWordWrap(true);
-  message_->hide();
-  column->addWidget(message_);
+  for (QLineEdit* field : {ui_->queueName, ui_->queueComment}) {
+    field->installEventFilter(this);
+    connect(field, &QLineEdit::returnPressed, this, &QueuePanel::signedNow);
+  }
+  connect(ui_->queueOpen, &QPushButton::clicked, this, &QueuePanel::openChosen);
+  connect(ui_->queueAccept, &QPushButton::clicked, this, &QueuePanel::accept);
+  connect(ui_->queueReject, &QPushButton::clicked, this, &QueuePanel::reject);
 }
 
 QTableView* QueuePanel::table() const {
-  return tabs_->currentIndex() == kDifferencesTab ? differences_table_ : queue_table_;
+  return ui_->queueTabs->currentIndex() == kDifferencesTab ? ui_->differences : ui_->queue;
 }
 
 QString QueuePanel::chosenCase() const {
   return table()->currentIndex().siblingAtColumn(0).data().toString();
 }
 
-QString QueuePanel::message() const { return message_->text(); }
+QString QueuePanel::message() const { return ui_->queueMessage->text(); }
 
 void QueuePanel::tell(const QString& text) {
-  message_->setText(text);
-  message_->setVisible(!text.isEmpty());
+  ui_->queueMessage->setText(text);
+  ui_->queueMessage->setVisible(!text.isEmpty());
 }
 
 void QueuePanel::focusList() {
@@ -150,13 +101,13 @@ void QueuePanel::focusList() {
 }
 
 void QueuePanel::showDifferences(bool shown) {
-  tabs_->setCurrentIndex(shown ? kDifferencesTab : kTroubleTab);
+  ui_->queueTabs->setCurrentIndex(shown ? kDifferencesTab : kTroubleTab);
   focusList();
 }
 
 void QueuePanel::lookAt() {
-  lists_->setCurrentWidget(table());
-  const bool differences = table() == differences_table_;
+  ui_->lists->setCurrentWidget(table());
+  const bool differences = table() == ui_->differences;
   controller_.setLookedAt(!in_sight_    ? QueueController::List::kNone
                           : differences ? QueueController::List::kDifferences
                                         : QueueController::List::kTrouble);
@@ -165,8 +116,8 @@ void QueuePanel::lookAt() {
 
 void QueuePanel::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
-  if (name_->text().isEmpty())
-    name_->setText(QSettings().value(QLatin1String(DecisionForm::kNameKey)).toString());
+  if (ui_->queueName->text().isEmpty())
+    ui_->queueName->setText(QSettings().value(QLatin1String(DecisionForm::kNameKey)).toString());
 }
 
 void QueuePanel::setInSight(bool in_sight) {
@@ -179,11 +130,11 @@ void QueuePanel::showEntries() {
   model_.setEntries(controller_.queue());
   differences_.setEntries(controller_.differences());
   queue_hint_->setText(model_.rowCount() > 0
-                           ? tr("No case is called so, is in this state, or has this trouble.")
+                           ? tr("No matching cases.")
                            : tr("No case yet: open a session (Ctrl+O) and run it (Ctrl+F5)."));
   differences_hint_->setText(
       differences_.rowCount() > 0
-          ? tr("No case is called so or changed so.")
+          ? tr("No matching cases.")
           : tr("No case has two runs yet: change an option and run again (Ctrl+F5)."));
   if (chosenCase() != chosen) choose(chosen);
   if (!table()->currentIndex().isValid()) step(0);
@@ -197,25 +148,25 @@ void QueuePanel::fitColumns() {
   fitted_ = controller_.doneCount() > 0;
   // Headers would keep room for the sign of the order in every column.
   const auto fit = [this](int column, const QString& widest) {
-    queue_table_->setColumnWidth(column, fontMetrics().horizontalAdvance(widest) + 14);
+    ui_->queue->setColumnWidth(column, fontMetrics().horizontalAdvance(widest) + 14);
   };
   fit(QueueModel::kStanding, QStringLiteral("✓ converged"));
   fit(QueueModel::kMargin, QStringLiteral("Margin,"));
   fit(QueueModel::kFromSeed, QStringLiteral("000.0 mrad"));
   fit(QueueModel::kInliers, QStringLiteral("Inliers"));
-  queue_table_->setColumnWidth(
+  ui_->queue->setColumnWidth(
       QueueModel::kCase,
       kQueueThumbnail_px.width() + 16 + kUsualQueueName * fontMetrics().averageCharWidth());
-  differences_table_->resizeColumnsToContents();
+  ui_->differences->resizeColumnsToContents();
 }
 
 void QueuePanel::showProgress() {
   const int done = controller_.doneCount();
   const int all = controller_.count();
-  progress_->setText(done < all ? tr("%1 of %2 checked").arg(done).arg(all)
-                                : tr("%1 checked").arg(all));
-  halt_->setText(controller_.isHalted() ? tr("Go on") : tr("Stop"));
-  halt_->setEnabled(done < all);
+  ui_->queueProgress->setText(done < all ? tr("%1 of %2 checked").arg(done).arg(all)
+                                         : tr("%1 checked").arg(all));
+  ui_->queueHalt->setText(controller_.isHalted() ? tr("Go on") : tr("Stop"));
+  ui_->queueHalt->setEnabled(done < all);
 }
 
 void QueuePanel::openChosen() {
@@ -251,7 +202,7 @@ void QueuePanel::choose(const QString& id) {
 /// The undecided case that is listed next after the chosen one, from the top again at the end.
 QString QueuePanel::nextOpen() const {
   const int count = filter_.rowCount();
-  const int here = queue_table_->currentIndex().row();
+  const int here = ui_->queue->currentIndex().row();
   for (int i = 1; i < count; ++i) {
     const QModelIndex one = filter_.index((here + i) % count, 0);
     const sessions::QueueRow& row = model_.at(filter_.mapToSource(one).row()).row;
@@ -263,15 +214,15 @@ QString QueuePanel::nextOpen() const {
 
 /// True when name or comment is missing; the question stands where the answer goes.
 bool QueuePanel::asksForSignature(Act act, const QString& id) {
-  QLineEdit* missing = name_->text().trimmed().isEmpty()      ? name_
-                       : comment_->text().trimmed().isEmpty() ? comment_
-                                                              : nullptr;
+  QLineEdit* missing = ui_->queueName->text().trimmed().isEmpty()      ? ui_->queueName
+                       : ui_->queueComment->text().trimmed().isEmpty() ? ui_->queueComment
+                                                                       : nullptr;
   if (!missing) return false;
   pending_ = act;
   pending_case_ = id;
   missing->setFocus();
   const bool accepts = act == Act::kAccept;
-  const QString question = missing == name_
+  const QString question = missing == ui_->queueName
                                ? (accepts ? tr("Who accepts %1?") : tr("Who rejects %1?"))
                            : accepts ? tr("On what grounds is %1 accepted?")
                                      : tr("On what grounds is %1 rejected?");
@@ -280,7 +231,7 @@ bool QueuePanel::asksForSignature(Act act, const QString& id) {
 }
 
 void QueuePanel::decide(Act act) {
-  if (table() != queue_table_) showDifferences(false);
+  if (table() != ui_->queue) showDifferences(false);
   const QString id = chosenCase();
   const QString reason = controller_.obstacle(act, id);
   if (!reason.isEmpty()) {
@@ -290,16 +241,16 @@ void QueuePanel::decide(Act act) {
   }
   if (asksForSignature(act, id)) return;
   const QString following = nextOpen();
-  const QString name = name_->text().trimmed();
-  const QString failure =
-      controller_.decide(act, id, {name.toStdString(), comment_->text().trimmed().toStdString()});
+  const QString name = ui_->queueName->text().trimmed();
+  const QString failure = controller_.decide(
+      act, id, {name.toStdString(), ui_->queueComment->text().trimmed().toStdString()});
   dropQuestion();
   if (!failure.isEmpty()) {
     tell(failure);
     return;
   }
   QSettings().setValue(QLatin1String(DecisionForm::kNameKey), name);
-  comment_->clear();  // the next decision has grounds of its own
+  ui_->queueComment->clear();  // the next decision has grounds of its own
   choose(following.isEmpty() ? id : following);
   tell((act == Act::kAccept ? tr("%1 is validated.") : tr("%1 is rejected.")).arg(id) +
        (following.isEmpty() ? tr(" Every case that was listed is decided or has to be run.")
@@ -328,7 +279,7 @@ void QueuePanel::dropQuestion() {
   focusList();
 }
 
-void QueuePanel::switchList() { showDifferences(table() == queue_table_); }
+void QueuePanel::switchList() { showDifferences(table() == ui_->queue); }
 
 /// In the lists these letters are the queue's, elsewhere in the window the image's.
 bool QueuePanel::eventFilter(QObject* watched, QEvent* event) {
@@ -336,7 +287,7 @@ bool QueuePanel::eventFilter(QObject* watched, QEvent* event) {
   if (!pressed && event->type() != QEvent::ShortcutOverride) return false;
   auto* key = static_cast<QKeyEvent*>(event);
   if ((key->modifiers() & ~Qt::KeypadModifier) != Qt::NoModifier) return false;
-  if (watched == name_ || watched == comment_) {
+  if (watched == ui_->queueName || watched == ui_->queueComment) {
     if (!pressed || key->key() != Qt::Key_Escape) return false;
     dropQuestion();
     return true;

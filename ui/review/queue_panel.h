@@ -3,20 +3,21 @@
 
 #include <optional>
 
+#include <memory>
+
 #include <QSortFilterProxyModel>
 #include <QWidget>
 
 #include "ui/review/queue_controller.h"
 #include "ui/review/queue_model.h"
 
-class QLabel;
-class QLineEdit;
-class QPushButton;
-class QStackedWidget;
-class QTabBar;
 class QTableView;
 
 namespace boresight::ui {
+
+namespace Ui {
+class QueuePanel;
+}
 
 class EmptyHint;
 
@@ -27,6 +28,7 @@ class QueuePanel : public QWidget {
 
  public:
   explicit QueuePanel(Document& document, QWidget* parent = nullptr);
+  ~QueuePanel() override;
 
   QueueController& controller() { return controller_; }
   /// Whether somebody can see it: behind another panel's tab nobody does, though Qt calls it
@@ -58,7 +60,6 @@ class QueuePanel : public QWidget {
  private:
   using Act = QueueController::Act;
 
-  void buildTop();
   void buildTables();
   void buildForm();
   QTableView* table() const;
@@ -81,22 +82,13 @@ class QueuePanel : public QWidget {
   QueueFilter filter_;
   DifferencesModel differences_;
   QSortFilterProxyModel differences_filter_;
-  QLineEdit* text_ = nullptr;
-  QTabBar* tabs_ = nullptr;
-  QLabel* progress_ = nullptr;
-  QPushButton* halt_ = nullptr;
-  QStackedWidget* lists_ = nullptr;
-  QTableView* queue_table_ = nullptr;
-  QTableView* differences_table_ = nullptr;
   EmptyHint* queue_hint_ = nullptr;
   EmptyHint* differences_hint_ = nullptr;
-  QLineEdit* name_ = nullptr;
-  QLineEdit* comment_ = nullptr;
-  QLabel* message_ = nullptr;
   std::optional<Act> pending_;  ///< waits for name and comment
   QString pending_case_;
   bool in_sight_ = false;
   bool fitted_ = false;
+  const std::unique_ptr<Ui::QueuePanel> ui_;
 };
 
 }  // namespace boresight::ui

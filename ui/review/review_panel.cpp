@@ -6,8 +6,9 @@
 
 #include <QtWidgets>
 
+#include "ui_review_panel.h"
+
 #include "ui/models/number_text.h"
-#include "ui/panels/banner.h"
 #include "ui/panels/widgets.h"
 #include "ui/review/decision_form.h"
 #include "ui/review/limits_dialog.h"
@@ -127,20 +128,19 @@ QVariant ChecksModel::headerData(int section, Qt::Orientation orientation, int r
 }
 
 ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
-    : QWidget(parent), controller_(document, state) {
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(4, 4, 4, 4);
-  column->setSpacing(4);
-  column->addLayout(buildTop());
-  auto* splitter = new QSplitter(Qt::Horizontal, this);
-  decision_ = new DecisionForm(controller_, splitter);
+    : QWidget(parent), controller_(document, state), ui_(std::make_unique<Ui::ReviewPanel>()) {
+  ui_->setupUi(this);
+  decision_ = new DecisionForm(controller_);
+  ui_->splitter->addWidget(decision_);
+  ui_->splitter->setStretchFactor(0, 1);
+  ui_->splitter->setSizes({640, 280});
+  ui_->basinSeeds->setValue(sessions::kBasinSeeds);
   buildTable();
-  splitter->addWidget(table_);
-  splitter->addWidget(decision_);
-  splitter->setStretchFactor(0, 1);
-  splitter->setChildrenCollapsible(false);
-  splitter->setSizes({640, 280});
-  column->addWidget(splitter, 1);
+  connect(ui_->judged, QOverload<int>::of(&QComboBox::activated), this, [this] {
+    controller_.setSource(static_cast<PoseSource>(ui_->judged->currentData().toInt()));
+  });
+  connect(ui_->openLimits, &QPushButton::clicked, this, &ReviewPanel::openLimits);
+  connect(ui_->basin, &QPushButton::clicked, this, &ReviewPanel::askForBasin);
   connect(&controller_, &ReviewController::standingChanged, this, &ReviewPanel::showStanding);
   connect(&controller_, &ReviewController::checksChanged, this, &ReviewPanel::showChecks);
   connect(&controller_, &ReviewController::basinChanged, this, &ReviewPanel::showBasin);
@@ -149,44 +149,23 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
   showChecks();
 }
 
-QHBoxLayout* ReviewPanel::buildTop() {
-  auto* row = new QHBoxLayout;
-  row->setSpacing(4);
-  banner_ = new Banner(QStringLiteral("caseStanding"), this);
-  source_ = named(new QComboBox(this), "judged");
-  source_->setAccessibleName(tr("What is judged"));
-  source_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-  limits_ = named(new QPushButton(this), "openLimits");
-  seeds_ = named(new QSpinBox(this), "basinSeeds");
-  seeds_->setRange(1, 1000);
-  seeds_->setValue(sessions::kBasinSeeds);
-  seeds_->setToolTip(tr("How many further seeds the basin test runs from"));
-  basin_ = named(new QPushButton(this), "basin");
-  row->addWidget(banner_, 1);
-  row->addWidget(source_);
-  row->addWidget(limits_);
-  row->addWidget(seeds_);
-  row->addWidget(basin_);
-  connect(source_, QOverload<int>::of(&QComboBox::activated), this, [this] {
-    controller_.setSource(static_cast<PoseSource>(source_->currentData().toInt()));
-  });
-  connect(limits_, &QPushButton::clicked, this, &ReviewPanel::openLimits);
-  connect(basin_, &QPushButton::clicked, this, &ReviewPanel::askForBasin);
-  return row;
-}
+ReviewPanel::~ReviewPanel() = default;
+
+QTableView& ReviewPanel::table() { return *ui_->checks; }
 
 void ReviewPanel::buildTable() {
-  table_ = newTable("checks", tr("Checks"), model_, this);
-  table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::SelectedClicked |
-                          QAbstractItemView::EditKeyPressed);
-  table_->setMinimumHeight(4 * table_->verticalHeader()->defaultSectionSize());
-  QHeaderView& header = *table_->horizontalHeader();
+  setUpTable(*ui_->checks, model_);
+  ui_->checks->setEditTriggers(QAbstractItemView::DoubleClicked |
+                               QAbstractItemView::SelectedClicked |
+                               QAbstractItemView::EditKeyPressed);
+  ui_->checks->setMinimumHeight(4 * ui_->checks->verticalHeader()->defaultSectionSize());
+  QHeaderView& header = *ui_->checks->horizontalHeader();
   header.setSectionResizeMode(QHeaderView::ResizeToContents);
   header.setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   for (const int column : {ChecksModel::kCheck, ChecksModel::kReason})
     header.setSectionResizeMode(column, QHeaderView::Stretch);
-  hint_ = new EmptyHint(*table_);
-  connect(table_->selectionModel(), &QItemSelectionModel::currentChanged, this,
+  hint_ = new EmptyHint(*ui_->checks);
+  connect(ui_->checks->selectionModel(), &QItemSelectionModel::currentChanged, this,
           &ReviewPanel::showChosen);
   connect(&model_, &QAbstractItemModel::modelReset, this, &ReviewPanel::showChosen);
 }
@@ -203,31 +182,33 @@ void ReviewPanel::hideEvent(QHideEvent* event) {
 
 void ReviewPanel::showStanding() {
   const sessions::Standing standing = controller_.standing();
-  banner_->showStanding(controller_.caseId().empty() ? nullptr : &standing);
+  ui_->caseStanding->showStanding(controller_.caseId().empty() ? nullptr : &standing);
   const sessions::ReviewSettings& settings = controller_.settings();
-  limits_->setText(settings.limits.empty() ? tr("Limits...") : tr("Limits (edited)..."));
+  ui_->openLimits->setText(settings.limits.empty() ? tr("Limits...") : tr("Limits (edited)..."));
   const sessions::CheckPreset* preset = sessions::findCheckPreset(settings.preset);
-  limits_->setToolTip(tr("What the checks are held against, and whether a second person approves. "
-                         "Now: %1%2. %3")
-                          .arg(fromText(settings.preset),
-                               settings.limits.empty() ? QString() : tr(", edited"),
-                               preset ? fromText(preset->help) : QString()));
+  ui_->openLimits->setToolTip(
+      tr("What the checks are held against, and whether a second person approves. "
+         "Now: %1%2. %3")
+          .arg(fromText(settings.preset), settings.limits.empty() ? QString() : tr(", edited"),
+               preset ? fromText(preset->help) : QString()));
   showSources();
 }
 
 void ReviewPanel::showSources() {
-  const QSignalBlocker blocked(source_);
-  source_->clear();
+  const QSignalBlocker blocked(ui_->judged);
+  ui_->judged->clear();
   if (controller_.hasRun())
-    source_->addItem(tr("Run %1").arg(fromText(controller_.runDigest()).left(kShownDigits)),
-                     static_cast<int>(PoseSource::kRun));
+    ui_->judged->addItem(tr("Run %1").arg(fromText(controller_.runDigest()).left(kShownDigits)),
+                         static_cast<int>(PoseSource::kRun));
   if (controller_.hasMarks())
-    source_->addItem(tr("Annotation"), static_cast<int>(PoseSource::kAnnotation));
-  if (source_->count() == 0) source_->addItem(tr("No pose"));
-  source_->setCurrentIndex(std::max(0, source_->findData(static_cast<int>(controller_.source()))));
-  source_->setEnabled(source_->count() > 1);
-  source_->setToolTip(tr("Which pose is judged: that of the last run (%1), or that of the marks")
-                          .arg(fromText(controller_.runDigest())));
+    ui_->judged->addItem(tr("Annotation"), static_cast<int>(PoseSource::kAnnotation));
+  if (ui_->judged->count() == 0) ui_->judged->addItem(tr("No pose"));
+  ui_->judged->setCurrentIndex(
+      std::max(0, ui_->judged->findData(static_cast<int>(controller_.source()))));
+  ui_->judged->setEnabled(ui_->judged->count() > 1);
+  ui_->judged->setToolTip(
+      tr("Which pose is judged: that of the last run (%1), or that of the marks")
+          .arg(fromText(controller_.runDigest())));
 }
 
 void ReviewPanel::showChecks() {
@@ -238,15 +219,15 @@ void ReviewPanel::showChecks() {
   hint_->setText(controller_.problem().isEmpty() ? tr("The pose is being checked ...")
                                                  : controller_.problem());
   model_.setRows(std::move(rows), controller_.isCurrent());
-  if (!had_rows && model_.rowCount() > 0) table_->setCurrentIndex(model_.index(0, 0));
+  if (!had_rows && model_.rowCount() > 0) ui_->checks->setCurrentIndex(model_.index(0, 0));
   // Failed ones come first; without any there is nothing to give a reason for.
-  table_->setColumnHidden(ChecksModel::kReason, model_.rowCount() > 0 && !model_.isFailed(0));
+  ui_->checks->setColumnHidden(ChecksModel::kReason, model_.rowCount() > 0 && !model_.isFailed(0));
   showChosen();
   showBasin();
 }
 
 void ReviewPanel::showChosen() {
-  const QModelIndex index = table_->currentIndex();
+  const QModelIndex index = ui_->checks->currentIndex();
   QString html;
   if (!controller_.isCurrent() && model_.rowCount() > 0) {
     html = controller_.problem().isEmpty()
@@ -265,11 +246,11 @@ void ReviewPanel::showChosen() {
 void ReviewPanel::showBasin() {
   const bool running = controller_.isBasinRunning();
   const sessions::BasinResult& so_far = controller_.basinSoFar();
-  seeds_->setEnabled(!running);
-  basin_->setText(running ? tr("Stop (%1/%2)").arg(so_far.seeds).arg(seeds_->value())
-                          : tr("Basin test"));
-  basin_->setEnabled(running || controller_.isCurrent());
-  basin_->setToolTip(
+  ui_->basinSeeds->setEnabled(!running);
+  ui_->basin->setText(running ? tr("Stop (%1/%2)").arg(so_far.seeds).arg(ui_->basinSeeds->value())
+                              : tr("Basin test"));
+  ui_->basin->setEnabled(running || controller_.isCurrent());
+  ui_->basin->setToolTip(
       running ? tr("%1 of %2 seeds led back to the pose so far. What has been run counts.")
                     .arg(so_far.returned)
                     .arg(so_far.seeds)
@@ -281,7 +262,7 @@ void ReviewPanel::askForBasin() {
   if (controller_.isBasinRunning())
     controller_.stopBasin();
   else
-    controller_.startBasin(seeds_->value());
+    controller_.startBasin(ui_->basinSeeds->value());
 }
 
 void ReviewPanel::openLimits() {

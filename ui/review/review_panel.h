@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include <QWidget>
 
 #include "ui/models/rows_model.h"
 #include "ui/review/review_controller.h"
 
-class QComboBox;
-class QHBoxLayout;
-class QPushButton;
-class QSpinBox;
 class QTableView;
-class QToolButton;
 
 namespace boresight::ui {
+
+namespace Ui {
+class ReviewPanel;
+}
 
 /// A check as the table shows it.
 struct CheckRow {
@@ -58,7 +59,6 @@ class ChecksModel : public RowsModel<CheckRow> {
 
 class DecisionForm;
 class EmptyHint;
-class Banner;
 
 /// The reviewer's desk: where the case stands, the checks of its pose with their figures and
 /// limits, and the decision.
@@ -67,16 +67,16 @@ class ReviewPanel : public QWidget {
 
  public:
   ReviewPanel(Document& document, ViewState& state, QWidget* parent = nullptr);
+  ~ReviewPanel() override;
 
   ReviewController& controller() { return controller_; }
-  QTableView& table() { return *table_; }
+  QTableView& table();
 
  protected:
   void showEvent(QShowEvent* event) override;
   void hideEvent(QHideEvent* event) override;
 
  private:
-  QHBoxLayout* buildTop();
   void buildTable();
   void showStanding();
   void showSources();
@@ -88,14 +88,9 @@ class ReviewPanel : public QWidget {
 
   ReviewController controller_;
   ChecksModel model_;
-  Banner* banner_ = nullptr;
-  QComboBox* source_ = nullptr;
-  QPushButton* limits_ = nullptr;
-  QTableView* table_ = nullptr;
   EmptyHint* hint_ = nullptr;
-  QSpinBox* seeds_ = nullptr;
-  QPushButton* basin_ = nullptr;
   DecisionForm* decision_ = nullptr;
+  const std::unique_ptr<Ui::ReviewPanel> ui_;
 };
 
 }  // namespace boresight::ui

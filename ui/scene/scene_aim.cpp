@@ -2,87 +2,40 @@
 #include "ui/scene/scene_aim.h"
 
 #include <algorithm>
-#include <compare>
 #include <vector>
 
 #include <QCoreApplication>
 
 #include "sessions/annotation/image_snap.h"
+#include "sessions/run/surface_point.h"
 
 namespace boresight::ui {
 namespace {
 
-struct Candidate {
-  double away_px = 0.0;
-  std::int32_t index = -1;
-
-  auto operator<=>(const Candidate&) const = default;
-};
-
 /// Whether a face stands between the eye and the point, by more than a thousandth of the scene
 /// (points on the surface must not hide themselves).
-bool hidden(const SceneContent& content, const Viewpoint& view, const Eigen::Vector3d& at_m) {
-  const Eigen::Vector3d eye_m = view.eyeInStation_m();
-  const Eigen::Vector3d ray = at_m - eye_m;
-  const double tolerance = 1e-3 * content.bounds.diagonal() / std::max(ray.norm(), 1e-12);
-  const auto hit = hitSurface(content.mesh(), eye_m, ray);
-  return hit && hit->depth_m < 1.0 - tolerance;
-}
-
-void offer(std::vector<Candidate>& candidates, std::size_t index, const std::optional<QPointF>& at,
-           const QPointF& pixel, double within_px) {
-  if (!at) return;
-  const double away_px = distance_px(*at, pixel);
-  if (away_px <= within_px) candidates.push_back({away_px, static_cast<std::int32_t>(index)});
-}
-
-/// The first candidate that is not hidden, from the nearest on.
-template <class Place>
-std::int32_t firstVisible(std::vector<Candidate>& candidates, const SceneContent& content,
-                          const Viewpoint& view, const Place& place) {
-  std::sort(candidates.begin(), candidates.end());
-  for (const Candidate& candidate : candidates)
-    if (!hidden(content, view, place(candidate.index))) return candidate.index;
-  return -1;
+bool isHidden(const SceneContent& content, const Viewpoint& view, const Eigen::Vector3d& at_m,
+              const QPointF& pixel) {
+  const auto surface = sessions::surfacePointAt(view.camera, content.mesh(), view.view_from_station,
+                                                {pixel.x(), pixel.y()});
+  const double depth_m = (view.view_from_station * at_m).z();
+  return surface && surface->depth_m < depth_m - 1e-3 * content.bounds.diagonal();
 }
 
 }  // namespace
 
 int pickTemplate(const SceneContent& content, const Viewpoint& view, const QPointF& pixel) {
-  std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < content.points.size(); ++i) {
-    if (content.points[i].template_index < 0) continue;
-    offer(candidates, i, view.toCanvas(content.points[i].at_m), pixel, kTemplatePick_px);
+  int picked = -1;
+  double nearest_px = kTemplatePick_px;
+  for (const ScenePoint& point : content.points) {
+    if (point.template_index < 0) continue;
+    const auto at = view.toCanvas(point.at_m);
+    if (!at || distance_px(*at, pixel) > nearest_px || isHidden(content, view, point.at_m, *at))
+      continue;
+    nearest_px = distance_px(*at, pixel);
+    picked = point.template_index;
   }
-  const auto place = [&](std::int32_t i) {
-    return content.points[static_cast<std::size_t>(i)].at_m;
-  };
-  const std::int32_t picked = firstVisible(candidates, content, view, place);
-  return picked < 0 ? -1 : content.points[static_cast<std::size_t>(picked)].template_index;
-}
-
-std::optional<MeshPick> pickMesh(const SceneContent& content, const Viewpoint& view,
-                                 const QPointF& pixel) {
-  const MeshView mesh = content.mesh();
-  std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < mesh.vertices_in_station_m.size(); ++i)
-    offer(candidates, i, view.toCanvas(mesh.vertices_in_station_m[i].cast<double>()), pixel,
-          kVertexSnap_px);
-  // Far away a mesh may have thousands of vertices within reach: the nearest few will do.
-  constexpr std::size_t kMostTried = 32;
-  if (candidates.size() > kMostTried) {
-    std::nth_element(candidates.begin(), candidates.begin() + kMostTried, candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.away_px < b.away_px; });
-    candidates.resize(kMostTried);
-  }
-  const auto place = [&](std::int32_t i) -> Eigen::Vector3d {
-    return mesh.vertices_in_station_m[static_cast<std::size_t>(i)].cast<double>();
-  };
-  const std::int32_t vertex = firstVisible(candidates, content, view, place);
-  if (vertex >= 0) return MeshPick{place(vertex), vertex};
-  const auto hit = hitSurface(mesh, view.eyeInStation_m(), view.rayInStation(pixel));
-  if (!hit) return std::nullopt;
-  return MeshPick{hit->at_m, -1};
+  return picked;
 }
 
 namespace {

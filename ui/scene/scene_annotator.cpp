@@ -10,6 +10,7 @@
 
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/loupe.h"
+#include "ui/annotation/mark_aim.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/views/overlay_painters.h"
 #include "ui/views/view_transform.h"
@@ -66,20 +67,12 @@ void SceneLoupe::setMagnification(double magnification) {
   if (next == magnification_) return;
   magnification_ = next;
   if (isVisible()) order();
-  Q_EMIT changed();
-}
-
-void SceneLoupe::setSwitchedOn(bool on) {
-  if (on == on_) return;
-  on_ = on;
-  if (shot_.content) lookAt(shot_, pixel_);
-  Q_EMIT changed();
 }
 
 void SceneLoupe::lookAt(const SceneShot& shot, const std::optional<QPointF>& pixel) {
   shot_ = shot;
   pixel_ = pixel;
-  const bool shown = on_ && pixel_ && shot_.content && !shot_.content->empty();
+  const bool shown = pixel_ && shot_.content && !shot_.content->empty();
   if (shown) {
     putLoupeAside(*this, {0.42, 120.0, 280.0}, pixel_->toPoint(), left_);
     order();
@@ -229,6 +222,10 @@ bool SceneAnnotator::pressKey(const QKeyEvent& event) {
   return true;
 }
 
+std::optional<SceneAim> SceneAnnotator::aimAt(const QPointF& pixel) const {
+  return snapper_.mesh() ? sceneAim(*snapper_.mesh(), {}, shot_.view, pixel, {}) : std::nullopt;
+}
+
 void SceneAnnotator::updateAim() {
   aim_.reset();
   const bool aims = places() && pointer_ && snapper_.mesh() && shot_.content;
@@ -263,13 +260,13 @@ bool SceneAnnotator::completesPoint() const {
 
 void SceneAnnotator::placeAim() {
   if (!snapper_.mesh()) {
-    Q_EMIT told(
+    Q_EMIT annotation_.told(
         tr("The station's corners and edges are still being looked for; click again in a "
            "moment."));
   } else if (!aim_) {
-    Q_EMIT told(annotation_.mode() == PlaceMode::kLine
-                    ? tr("No edge is near; click on an edge of the station.")
-                    : tr("Nothing is there; click on the station itself."));
+    Q_EMIT annotation_.told(annotation_.mode() == PlaceMode::kLine
+                                ? tr("No edge is near; click on an edge of the station.")
+                                : tr("Nothing is there; click on the station itself."));
   } else if (annotation_.mode() == PlaceMode::kLine) {
     annotation_.placeEdgeOnStation(*aim_->edge);
   } else if (aim_->landmark && !completesPoint()) {
@@ -319,7 +316,7 @@ void SceneAnnotator::paint(QPainter& painter, const QRectF& area) const {
   marks.paintAim(*aim_, *pointer_);
   QString text = aim_->text;
   if (aim_->found > 1) text = tr("%1 (Tab: %2 more)").arg(text).arg(aim_->found - 1);
-  paintSceneNote(painter, area, *pointer_, text);
+  paintNote(painter, area, QRectF(), *pointer_, text);
 }
 
 }  // namespace boresight::ui

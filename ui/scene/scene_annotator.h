@@ -55,17 +55,12 @@ class SceneLoupe : public QWidget {
 
   double magnification() const { return magnification_; }
   void setMagnification(double magnification);
-  bool isSwitchedOn() const { return on_; }
-  void setSwitchedOn(bool on);
 
   /// Puts a pixel of the canvas under the cross; nothing: the loupe hides.
   void lookAt(const SceneShot& shot, const std::optional<QPointF>& pixel);
   const std::optional<QPointF>& place() const { return pixel_; }
   /// Nothing of the newest place is still being drawn.
   bool ready() const { return !runner_.isBusy(); }
-
- Q_SIGNALS:
-  void changed();  ///< its magnification, or whether it is on
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -76,7 +71,6 @@ class SceneLoupe : public QWidget {
   Over over_;
   SceneShot shot_;
   double magnification_ = 8.0;
-  bool on_ = true;
   bool left_ = false;  ///< in the left corner
   std::optional<QPointF> pixel_;
   QImage picture_;
@@ -100,6 +94,9 @@ class SceneAnnotator : public QObject {
   void setShot(const SceneShot& shot);
   /// True when the click was for a mark. `at`: the canvas' coordinates.
   bool click(const QPointF& at, Qt::KeyboardModifiers modifiers);
+  /// What a click at a pixel of the canvas would snap to; nothing beside the station and until its
+  /// corners and edges are found.
+  std::optional<SceneAim> aimAt(const QPointF& pixel) const;
   /// Where a click would go; nothing where it would do nothing.
   const std::optional<SceneAim>& aim() const { return aim_; }
   const std::vector<SceneMark>& marks() const { return marks_; }
@@ -114,8 +111,6 @@ class SceneAnnotator : public QObject {
 
  Q_SIGNALS:
   void changed();  ///< what it paints
-  /// One sentence for people.
-  void told(const QString& sentence);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

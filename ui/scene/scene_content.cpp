@@ -193,22 +193,6 @@ SceneContent sceneContent(const ViewState& state) {
   return content;
 }
 
-QColor residualColor(double share) {
-  constexpr std::array<std::array<double, 3>, 6> kColors = {{{0.267, 0.005, 0.329},
-                                                             {0.254, 0.265, 0.530},
-                                                             {0.164, 0.471, 0.558},
-                                                             {0.135, 0.659, 0.518},
-                                                             {0.478, 0.821, 0.318},
-                                                             {0.993, 0.906, 0.144}}};
-  const double place = std::clamp(share, 0.0, 1.0) * (kColors.size() - 1);
-  const std::size_t low = std::min(static_cast<std::size_t>(place), kColors.size() - 2);
-  const double rest = place - static_cast<double>(low);
-  std::array<double, 3> mixed{};
-  for (std::size_t i = 0; i < 3; ++i)
-    mixed[i] = (1.0 - rest) * kColors[low][i] + rest * kColors[low + 1][i];
-  return QColor::fromRgbF(mixed[0], mixed[1], mixed[2]);
-}
-
 QColor axisColor(int axis) {
   static const std::array<QColor, 3> colors = {QColor(235, 90, 80), QColor(110, 200, 90),
                                                QColor(90, 150, 245)};
@@ -246,32 +230,6 @@ std::vector<std::array<std::int32_t, 2>> sharpEdges(const MeshView& mesh) {
     if (!smooth) edges.push_back(sides[first].ends);
   }
   return edges;
-}
-
-std::optional<SurfaceHit> hitSurface(const MeshView& mesh, const Eigen::Vector3d& eye_m,
-                                     const Eigen::Vector3d& ray) {
-  std::optional<SurfaceHit> nearest;
-  const auto at = [&mesh](std::int32_t vertex) -> Eigen::Vector3d {
-    return mesh.vertices_in_station_m[static_cast<std::size_t>(vertex)].cast<double>();
-  };
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {  // Moeller and Trumbore 1997, both sides
-    const auto& vertex = mesh.faces[i].vertex;
-    const Eigen::Vector3d a = at(vertex[0]);
-    const Eigen::Vector3d ab = at(vertex[1]) - a;
-    const Eigen::Vector3d ac = at(vertex[2]) - a;
-    const Eigen::Vector3d p = ray.cross(ac);
-    const double determinant = ab.dot(p);
-    if (determinant == 0.0) continue;
-    const Eigen::Vector3d from_a = eye_m - a;
-    const double u = from_a.dot(p) / determinant;
-    const Eigen::Vector3d q = from_a.cross(ab);
-    const double v = ray.dot(q) / determinant;
-    const double depth = ac.dot(q) / determinant;
-    if (!(u >= 0.0 && v >= 0.0 && u + v <= 1.0 && depth > 0.0)) continue;
-    if (nearest && nearest->depth_m <= depth) continue;
-    nearest = SurfaceHit{eye_m + depth * ray, static_cast<std::int32_t>(i), depth};
-  }
-  return nearest;
 }
 
 }  // namespace boresight::ui

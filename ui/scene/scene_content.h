@@ -97,26 +97,11 @@ struct SceneContent {
 /// What the state's cursor points at.
 SceneContent sceneContent(const ViewState& state);
 
-/// Colour of a residual as a share of the limit, from dark blue over green to yellow: lightness
-/// grows all the way, so it reads without colour vision too (after "viridis", Smith and van der
-/// Walt 2015). Beyond 1 it stays yellow.
-QColor residualColor(double share);
-
 /// Colours of the station's x, y and z axis, which also carry their letters.
 QColor axisColor(int axis);
 
 /// Edges of the mesh worth drawing, as pairs of vertices: where two faces meet at more than 30 deg,
 /// where a face ends, or where more than two meet.
 std::vector<std::array<std::int32_t, 2>> sharpEdges(const MeshView& mesh);
-
-/// A place on the mesh under a pixel.
-struct SurfaceHit {
-  Eigen::Vector3d at_m = Eigen::Vector3d::Zero();
-  std::int32_t face = -1;
-  double depth_m = 0.0;  ///< along the ray in units of its length
-};
-/// Nearest face along a ray from an eye; nothing when it misses.
-std::optional<SurfaceHit> hitSurface(const MeshView& mesh, const Eigen::Vector3d& eye_m,
-                                     const Eigen::Vector3d& ray);
 
 }  // namespace boresight::ui

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <functional>
-#include <vector>
 
 #include <QPointF>
 #include <QSizeF>
@@ -11,13 +11,8 @@
 #include "ui/scene/scene_content.h"
 #include "ui/scene/viewpoint.h"
 
-class QAction;
-class QBoxLayout;
-class QComboBox;
 class QKeyEvent;
-class QMenu;
 class QMouseEvent;
-class QSlider;
 
 namespace boresight::ui {
 
@@ -65,6 +60,22 @@ class SceneNavigation {
   bool framed_ = true;  ///< nobody has turned or moved since the whole scene was shown
 };
 
+/// A fixed direction with its key and its name, to be translated in the context "SceneView".
+struct StandardKey {
+  int key;
+  StandardView view;
+  const char* name;
+};
+inline constexpr std::array<StandardKey, 7> kStandardKeys = {{
+    {Qt::Key_1, StandardView::kTop, QT_TRANSLATE_NOOP("SceneView", "Top (along -z)")},
+    {Qt::Key_2, StandardView::kFront, QT_TRANSLATE_NOOP("SceneView", "Front (along +y)")},
+    {Qt::Key_3, StandardView::kRight, QT_TRANSLATE_NOOP("SceneView", "Right (along -x)")},
+    {Qt::Key_4, StandardView::kBack, QT_TRANSLATE_NOOP("SceneView", "Back (along -y)")},
+    {Qt::Key_5, StandardView::kLeft, QT_TRANSLATE_NOOP("SceneView", "Left (along +x)")},
+    {Qt::Key_6, StandardView::kBottom, QT_TRANSLATE_NOOP("SceneView", "Bottom (along +z)")},
+    {Qt::Key_7, StandardView::kOblique, QT_TRANSLATE_NOOP("SceneView", "Oblique")},
+}};
+
 /// The mouse and the keys on the scene's canvas, as what they ask for. Places are in the canvas'
 /// coordinates, its top-left corner (0, 0).
 class SceneInput : public QObject {
@@ -99,44 +110,6 @@ class SceneInput : public QObject {
   QPointF last_;
   bool pressed_ = false;
   bool dragging_ = false;
-};
-
-/// The scene's buttons: what is shown, from where, and how opaque the mesh is. It only tells what
-/// was asked for.
-class SceneBar : public QWidget {
-  Q_OBJECT
-
- public:
-  explicit SceneBar(const SceneShown& shown, QWidget* parent = nullptr);
-
-  /// What they show, without telling anybody.
-  void setShown(const SceneShown& shown);
-  void setThroughCamera(bool through);
-  void setThroughRole(PoseRole role);
-  void setMeshOpacity(double opacity);
-
- Q_SIGNALS:
-  void resetAsked();
-  void lookFromAsked(StandardView view);
-  void throughCameraAsked(bool through);
-  void throughRoleAsked(PoseRole role);
-  void shownAsked(const SceneShown& shown);
-  void meshOpacityAsked(double opacity);
-
- private:
-  QMenu& addMenu(const QString& text, const QString& tip);
-  void addReset();
-  void addViews();
-  void addShow();
-  void addOpacity(QMenu& menu);
-  void addThroughCamera();
-
-  SceneShown shown_;
-  QBoxLayout* row_;
-  std::vector<QAction*> show_;
-  QAction* through_ = nullptr;
-  QComboBox* through_role_ = nullptr;
-  QSlider* opacity_ = nullptr;
 };
 
 }  // namespace boresight::ui

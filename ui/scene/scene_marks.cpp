@@ -10,39 +10,28 @@
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/mark_aim.h"
 #include "ui/annotation/mark_content.h"
-#include "ui/views/layer.h"
+#include "ui/views/overlay_painters.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr double kHalf = 7.5;  ///< of a sign
-constexpr double kChosenHalf = 13.0;
+constexpr double kHalf = 7.5;     ///< of a sign
 constexpr double kHidden = 0.35;  ///< opacity
 const QColor kSignRim(0, 0, 0, 190);
 const QColor kAim(120, 220, 255);
 
-QString markText(const char* text) { return QCoreApplication::translate("SceneMarks", text); }
-
 QColor colorOf(const SceneMark& mark) {
-  if (!mark.enabled) return kDisabledMark;
-  if (mark.outlier > 0.0) return kOutlierMark;
-  if (mark.chosen) return kChosenMark;
-  return layerInfo(LayerId::kPoints).style.color;
+  const QColor color = markColor(mark.state);
+  return color.isValid() ? color : layerInfo(LayerId::kPoints).style.color;
 }
 
-QString nameOf(const SceneMark& mark) {
-  const QString id = QString::fromStdString(mark.id);
-  if (mark.proposed) return markText("%1 ?").arg(id);
-  if (!mark.enabled) return markText("%1 (off)").arg(id);
-  if (!mark.complete)
-    return (mark.chosen ? markText("%1: not in the image yet") : markText("%1 ?")).arg(id);
-  if (mark.outlier > 0.0) return markText("%1 ! %2 sigma").arg(id).arg(mark.outlier, 0, 'f', 1);
-  return id;
-}
-
-QPolygonF triangle(const QPointF& at, double half) {
-  return {{at + QPointF(0.0, -1.2 * half), at + QPointF(1.1 * half, 0.75 * half),
-           at + QPointF(-1.1 * half, 0.75 * half)}};
+/// As on the image: a target is complete, a square locked, a diamond waits for its place in the
+/// image, a disabled mark is struck through; a dashed circle is proposed.
+MarkShape shapeOf(const SceneMark& mark) {
+  if (mark.proposed) return MarkShape::kCircle;
+  if (!mark.state.enabled) return MarkShape::kStruck;
+  if (!mark.state.complete) return MarkShape::kDiamond;
+  return mark.locked ? MarkShape::kSquare : MarkShape::kTarget;
 }
 
 }  // namespace
@@ -66,49 +55,31 @@ void SceneMarkPainter::paintMarks(const std::vector<SceneMark>& marks) const {
   painter_.setRenderHint(QPainter::Antialiasing, true);
   for (const SceneMark& mark : marks) {
     if (mark.edge)
-      paintEdge(*mark.edge, colorOf(mark), mark.chosen ? 4.5 : 3.0,
-                !mark.complete || !mark.enabled);
+      paintEdge(*mark.edge, colorOf(mark), mark.state.chosen ? 4.5 : 3.0,
+                !mark.state.complete || !mark.state.enabled);
     paintPoint(mark);
   }
   painter_.restore();
 }
 
 void SceneMarkPainter::paintPoint(const SceneMark& mark) const {
-  const auto at = place(mark.at_m);
+  const auto at = view_.toCanvas(mark.at_m);
   if (!at) return;
-  const double opacity = seen(mark.at_m) ? 1.0 : kHidden;
-  painter_.setOpacity(opacity);
-  painter_.setBrush(Qt::NoBrush);
-  const double width_px = mark.chosen ? 2.4 : 1.6;
-  for (const QPen& pen : {QPen(kSignRim, width_px + 2.0), QPen(colorOf(mark), width_px)}) {
-    painter_.setPen(pen);
-    if (!mark.edge) paintSign(mark, *at);
-    if (mark.chosen && !mark.edge) painter_.drawEllipse(*at, kChosenHalf, kChosenHalf);
-    if (mark.outlier > 0.0) painter_.drawPolygon(triangle(*at, 2.0 * kHalf));
+  const bool is_seen = seen(mark.at_m);
+  Mark sign;
+  sign.shape = shapeOf(mark);
+  sign.at = *at;
+  sign.size_px = 2.0 * kHalf;
+  sign.cased = true;
+  sign.dashed = mark.proposed;
+  if (is_seen || mark.state.chosen) sign.label = markLabel(mark.id, mark.state);
+  painter_.setOpacity(is_seen ? 1.0 : kHidden);
+  for (Mark& each : withState(std::move(sign), mark.state)) {
+    // An edge is drawn itself: it needs its name alone.
+    if (mark.edge && each.shape != MarkShape::kTriangle) each.size_px = 0.0;
+    paintMark(painter_, ViewTransform(), each, colorOf(mark));
   }
-  if (opacity == 1.0 || mark.chosen) paintName(mark, *at);
   painter_.setOpacity(1.0);
-}
-
-/// As on the image: a target is complete, a square locked, a diamond waits for its place in the
-/// image, what is off is struck through; a dotted circle is proposed.
-void SceneMarkPainter::paintSign(const SceneMark& mark, const QPointF& at) const {
-  if (mark.proposed) {
-    QPen pen = painter_.pen();
-    pen.setStyle(Qt::DotLine);
-    painter_.setPen(pen);
-    painter_.drawEllipse(at, kHalf, kHalf);
-  } else if (!mark.enabled) {
-    painter_.drawEllipse(at, kHalf, kHalf);
-    painter_.drawLine(at + QPointF(-kHalf, kHalf), at + QPointF(kHalf, -kHalf));
-  } else if (!mark.complete) {
-    painter_.drawPolygon(diamond(at, kHalf));
-  } else if (mark.locked) {
-    painter_.drawRect(QRectF(at - QPointF(kHalf, kHalf), at + QPointF(kHalf, kHalf)));
-  } else {
-    painter_.drawEllipse(at, 0.7 * kHalf, 0.7 * kHalf);
-    paintTicks(painter_, at, 0.35 * kHalf, 1.3 * kHalf);
-  }
 }
 
 /// In pieces, those that a face hides faintly.
@@ -131,13 +102,6 @@ void SceneMarkPainter::paintEdge(const sessions::ModelEdge& edge, const QColor& 
       painter_.drawLine(*from, *to);
     }
   painter_.setOpacity(1.0);
-}
-
-void SceneMarkPainter::paintName(const SceneMark& mark, const QPointF& at) const {
-  QFont font = painter_.font();
-  font.setBold(mark.chosen);
-  paintOutlined(painter_, at + QPointF(kHalf + 6.0, -kHalf), font, nameOf(mark), colorOf(mark),
-                kSignRim);
 }
 
 void SceneMarkPainter::paintCircle(const sessions::MeshCircle& circle) const {
@@ -184,24 +148,6 @@ void paintOutlined(QPainter& painter, const QPointF& at, const QFont& font, cons
   painter.setBrush(Qt::NoBrush);
 }
 
-void paintSceneNote(QPainter& painter, const QRectF& area, const QPointF& beside,
-                    const QString& text) {
-  constexpr double kBeside = 16.0;
-  const QFontMetricsF metrics(painter.font());
-  QRectF box(beside + QPointF(kBeside, kBeside),
-             QSizeF(metrics.horizontalAdvance(text) + 12.0, metrics.height() + 4.0));
-  if (box.right() > area.right()) box.moveRight(std::max(beside.x() - kBeside, box.width()));
-  if (box.bottom() > area.bottom()) box.moveBottom(beside.y() - kBeside);
-  painter.save();
-  painter.setRenderHint(QPainter::Antialiasing, true);
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(QColor(0, 0, 0, 200));
-  painter.drawRoundedRect(box, 3.0, 3.0);
-  painter.setPen(QColor(255, 255, 255));
-  painter.drawText(box, Qt::AlignCenter, text);
-  painter.restore();
-}
-
 namespace {
 
 constexpr double kPick_px = 10.0;
@@ -211,12 +157,12 @@ SceneMark markOf(const Pair& pair, const AnnotationController& annotation,
                  const std::map<std::string, double>& outlying) {
   SceneMark mark;
   mark.id = pair.id;
-  mark.complete = pair.complete();
-  mark.enabled = pair.enabled;
   mark.locked = pair.locked;
-  mark.chosen = pair.id == annotation.selected();
+  mark.state.complete = pair.complete();
+  mark.state.enabled = pair.enabled;
+  mark.state.chosen = pair.id == annotation.selected();
   const auto outlier = outlying.find(pair.id);
-  if (pair.used() && outlier != outlying.end()) mark.outlier = outlier->second;
+  if (pair.used() && outlier != outlying.end()) mark.state.outlier = outlier->second;
   return mark;
 }
 
@@ -242,6 +188,7 @@ std::vector<SceneMark> sceneMarks(const AnnotationController& annotation) {
     mark.id = proposal.landmark.name;
     mark.at_m = proposal.landmark.point_in_station_m;
     mark.proposed = true;
+    mark.state.complete = false;
     marks.push_back(mark);
   }
   std::map<std::string, double> outlying;
@@ -258,7 +205,7 @@ std::vector<SceneMark> sceneMarks(const AnnotationController& annotation) {
     marks.back().at_m = 0.5 * (line.edge->start_in_station_m + line.edge->end_in_station_m);
   }
   std::stable_partition(marks.begin(), marks.end(),
-                        [](const SceneMark& mark) { return !mark.chosen; });
+                        [](const SceneMark& mark) { return !mark.state.chosen; });
   return marks;
 }
 

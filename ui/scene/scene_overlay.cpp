@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "ui/annotation/mark_aim.h"
+#include "ui/plots/plot_colors.h"
 
 namespace boresight::ui {
 namespace {
@@ -75,11 +76,11 @@ void paintSign(QPainter& painter, const Entry& entry, const QRectF& box) {
     }
     case Entry::kInlier:
       painter.setPen(QPen(Qt::black, 0.8));
-      painter.setBrush(residualColor(0.6));
+      painter.setBrush(heatColor(0.6));
       painter.drawEllipse(centre, 4.5, 4.5);
       return;
     case Entry::kOutlier:
-      painter.setPen(QPen(residualColor(1.0), 2.2));
+      painter.setPen(QPen(heatColor(1.0), 2.2));
       painter.drawLine(centre - QPointF(5, 5), centre + QPointF(5, 5));
       painter.drawLine(centre - QPointF(5, -5), centre + QPointF(5, -5));
       return;
@@ -106,7 +107,7 @@ void paintBar(QPainter& painter, const QRectF& area, double limit_px, const QCol
   painter.drawText(QRectF(area.left(), area.top(), area.width(), line), Qt::AlignCenter,
                    overlayText("residual, px"));
   QLinearGradient gradient(bar.topLeft(), bar.topRight());
-  for (int i = 0; i <= 10; ++i) gradient.setColorAt(0.1 * i, residualColor(0.1 * i));
+  for (int i = 0; i <= 10; ++i) gradient.setColorAt(0.1 * i, heatColor(0.1 * i));
   painter.setBrush(gradient);
   painter.drawRect(bar);
   painter.setBrush(Qt::NoBrush);

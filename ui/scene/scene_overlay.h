@@ -11,6 +11,7 @@
 #include <QWidget>
 
 #include "sessions/annotation/mesh_snap.h"
+#include "ui/annotation/mark_content.h"
 #include "ui/scene/scene_aim.h"
 #include "ui/scene/scene_canvas.h"
 
@@ -25,11 +26,8 @@ struct SceneMark {
   std::string id;
   Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  ///< of an edge its middle
   std::optional<sessions::ModelEdge> edge;
-  bool complete = false;  ///< its place in the image is there too
-  bool enabled = true;
+  MarkState state;
   bool locked = false;
-  bool chosen = false;
-  double outlier = 0.0;   ///< its residual in sigmas where it stands out, else 0
   bool proposed = false;  ///< a named point that nobody has marked in this image
 };
 
@@ -50,10 +48,8 @@ class SceneMarkPainter {
   bool seen(const Eigen::Vector3d& at_m) const;
   std::optional<QPointF> place(const Eigen::Vector3d& at_m) const;
   void paintPoint(const SceneMark& mark) const;
-  void paintSign(const SceneMark& mark, const QPointF& at) const;
   void paintEdge(const sessions::ModelEdge& edge, const QColor& color, double width_px,
                  bool dashed) const;
-  void paintName(const SceneMark& mark, const QPointF& at) const;
   void paintCircle(const sessions::MeshCircle& circle) const;
 
   QPainter& painter_;
@@ -64,10 +60,6 @@ class SceneMarkPainter {
 /// Text with a rim, so that it is legible over everything.
 void paintOutlined(QPainter& painter, const QPointF& at, const QFont& font, const QString& text,
                    const QColor& color, const QColor& rim);
-
-/// A line of text on a dark ground beside a place, kept inside the area.
-void paintSceneNote(QPainter& painter, const QRectF& area, const QPointF& beside,
-                    const QString& text);
 
 /// Id of the mark under a pixel of the canvas that no face hides, the nearest; empty without one.
 /// Proposals are no marks.

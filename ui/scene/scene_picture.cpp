@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sessions/run/scene_render.h"
+#include "ui/plots/plot_colors.h"
 
 namespace boresight::ui {
 namespace {
@@ -86,7 +87,7 @@ class DotStamps {
     } else {
       painter.setPen(QPen(Qt::black, 0.8 * ratio_));
     }
-    painter.setBrush(inlier ? residualColor(share) : QColor(150, 150, 150));
+    painter.setBrush(inlier ? heatColor(share) : QColor(150, 150, 150));
     painter.drawEllipse(QPointF(0.5 * side, 0.5 * side), radius, radius);
     return stamp;
   }
@@ -144,7 +145,7 @@ struct Brush {
     const double radius_px = content.point_radius_px;
     const double share = point.residual_px / content.residual_limit_px;
     if (point.kind == ScenePointKind::kOutlier) {
-      const QColor color = residualColor(share);
+      const QColor color = heatColor(share);
       const double r = 1.2 * radius_px;
       for (const auto& [pen_color, width] : {std::pair(QColor(Qt::black), 4.0), {color, 2.2}}) {
         painter.setPen(QPen(pen_color, width));

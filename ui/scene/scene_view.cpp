@@ -2,18 +2,37 @@
 #include "ui/scene/scene_view.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include <QtWidgets>
 
+#include "ui_scene_view.h"
+
 #include "sessions/io/undistort.h"
+#include "sessions/run/surface_point.h"
 #include "ui/annotation/annotation_controller.h"
-#include "ui/panels/widgets.h"
 #include "ui/scene/scene_annotator.h"
 #include "ui/scene/scene_input.h"
 #include "ui/scene/scene_overlay.h"
 
 namespace boresight::ui {
 namespace {
+
+struct ShowEntry {
+  bool SceneShown::*member;
+  const char* name;
+};
+constexpr std::array<ShowEntry, 6> kShowEntries = {{
+    {&SceneShown::mesh, QT_TRANSLATE_NOOP("SceneView", "Mesh")},
+    {&SceneShown::mesh_edges, QT_TRANSLATE_NOOP("SceneView", "Edges of the mesh")},
+    {&SceneShown::frusta, QT_TRANSLATE_NOOP("SceneView", "Cameras")},
+    {&SceneShown::trail, QT_TRANSLATE_NOOP("SceneView", "Trail of the iterations")},
+    {&SceneShown::points, QT_TRANSLATE_NOOP("SceneView", "Template points")},
+    {&SceneShown::axes, QT_TRANSLATE_NOOP("SceneView", "Axes of the station")},
+}};
+
+QString nameOf(const char* name) { return QCoreApplication::translate("SceneView", name); }
 
 QImage grayOf(const boresight::ImageView& image) {
   QImage gray(image.width, image.height, QImage::Format_Grayscale8);
@@ -27,7 +46,8 @@ SceneView::SceneView(ViewState& state, QWidget* parent, SceneBackend backend)
     : QWidget(parent),
       state_(state),
       backend_(backend),
-      content_(std::make_shared<const SceneContent>()) {
+      content_(std::make_shared<const SceneContent>()),
+      ui_(std::make_unique<Ui::SceneView>()) {
   build();
   updateLook();
   state_.onChange(ViewChange::kCase | ViewChange::kSnapshot | ViewChange::kCursor |
@@ -36,12 +56,11 @@ SceneView::SceneView(ViewState& state, QWidget* parent, SceneBackend backend)
   refreshSoon();
 }
 
+SceneView::~SceneView() = default;
+
 void SceneView::build() {
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  ui_->setupUi(this);
   buildBar();
-  layout->addWidget(bar_);
   canvas_ = backend_ == SceneBackend::kVtk ? makeVtkCanvas(this) : makePictureCanvas(this);
   QWidget* drawn = canvas_->widget();
   drawn->setObjectName(QStringLiteral("sceneCanvas"));
@@ -49,25 +68,55 @@ void SceneView::build() {
   drawn->setFocusPolicy(Qt::StrongFocus);
   drawn->setMouseTracking(false);
   drawn->setMinimumSize(160, 120);
-  layout->addWidget(drawn, 1);
+  ui_->column->insertWidget(1, drawn, 1);
   overlay_ = new SceneOverlay(drawn);
   connectInput(*new SceneInput(*drawn));
-  readout_ = named(new QLabel(this), "sceneReadout");
-  readout_->setContentsMargins(6, 2, 6, 2);
-  readout_->setWordWrap(true);
-  readout_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  readout_->setText(tr("Click a template or a point of the mesh."));
-  layout->addWidget(readout_);
 }
 
 void SceneView::buildBar() {
-  bar_ = new SceneBar(look_.shown, this);
-  connect(bar_, &SceneBar::resetAsked, this, &SceneView::resetView);
-  connect(bar_, &SceneBar::lookFromAsked, this, &SceneView::lookFrom);
-  connect(bar_, &SceneBar::throughCameraAsked, this, &SceneView::setThroughCamera);
-  connect(bar_, &SceneBar::throughRoleAsked, this, &SceneView::setThroughRole);
-  connect(bar_, &SceneBar::shownAsked, this, &SceneView::setShown);
-  connect(bar_, &SceneBar::meshOpacityAsked, this, &SceneView::setMeshOpacity);
+  auto* views = new QMenu(ui_->views);
+  for (const StandardKey& key : kStandardKeys)
+    views->addAction(nameOf(key.name) + QLatin1Char('\t') + QKeySequence(key.key).toString(), this,
+                     [this, key] { lookFrom(key.view); });
+  ui_->views->setMenu(views);
+  ui_->show->setMenu(showMenu());
+  for (const auto& [name, role] : {std::pair(tr("shown pose"), PoseRole::kEstimate),
+                                   {tr("seed"), PoseRole::kSeed},
+                                   {tr("truth"), PoseRole::kTruth},
+                                   {tr("annotated"), PoseRole::kAnnotated}})
+    ui_->throughRole->addItem(name, static_cast<int>(role));
+  connect(ui_->reset, &QToolButton::clicked, this, &SceneView::resetView);
+  connect(ui_->throughCamera, &QToolButton::toggled, this, &SceneView::setThroughCamera);
+  connect(ui_->throughRole, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] {
+    setThroughRole(static_cast<PoseRole>(ui_->throughRole->currentData().toInt()));
+  });
+}
+
+/// What of the scene is drawn, and the opacity of the mesh.
+QMenu* SceneView::showMenu() {
+  auto* menu = new QMenu(ui_->show);
+  for (const ShowEntry& entry : kShowEntries) {
+    QAction* action = menu->addAction(nameOf(entry.name));
+    action->setCheckable(true);
+    action->setChecked(look_.shown.*entry.member);
+    connect(action, &QAction::toggled, this, [this, entry](bool on) {
+      look_.shown.*entry.member = on;
+      updateLook();
+    });
+    show_.push_back(action);
+  }
+  menu->addSeparator();
+  opacity_ = new QSlider(Qt::Horizontal);
+  opacity_->setRange(0, 100);
+  opacity_->setToolTip(tr("Opacity of the mesh, in percent"));
+  opacity_->setAccessibleName(tr("Opacity of the mesh"));
+  connect(opacity_, &QSlider::valueChanged, this,
+          [this](int percent) { setMeshOpacity(0.01 * percent); });
+  auto* action = new QWidgetAction(menu);
+  action->setDefaultWidget(opacity_);
+  menu->addSection(tr("Opacity of the mesh"));
+  menu->addAction(action);
+  return menu;
 }
 
 void SceneView::connectInput(const SceneInput& input) {
@@ -101,14 +150,13 @@ void SceneView::setAnnotation(AnnotationController& annotation, StationSnapper& 
   connect(annotator_, &SceneAnnotator::changed, this, [this] {
     overlay_->update();
     updateNote();
-    if (annotator_->places()) readout_->setText(annotator_->place());
+    if (annotator_->places()) ui_->sceneReadout->setText(annotator_->place());
   });
   connect(&annotation, &AnnotationController::modeChanged, this, [this] {
     navigation_.setStationAlone(annotator_->places(), *content_);
-    readout_->setText(tr("Click a template, a mark or a point of the mesh."));
+    ui_->sceneReadout->setText(tr("Click a template, a mark or a point of the mesh."));
     updateView();
   });
-  connect(annotator_, &SceneAnnotator::told, this, &SceneView::told);
   refreshSoon();
 }
 
@@ -162,21 +210,21 @@ void SceneView::lookFrom(StandardView view) {
 void SceneView::setThroughCamera(bool through) {
   if (through == throughCamera()) return;
   navigation_.setThroughCamera(through);
-  bar_->setThroughCamera(through);
+  ui_->throughCamera->setChecked(through);
   if (through) orderBackdrop();
   updateLook();
 }
 
 void SceneView::setThroughRole(PoseRole role) {
+  if (role == role_) return;
   role_ = role;
-  bar_->setThroughRole(role);
+  ui_->throughRole->setCurrentIndex(ui_->throughRole->findData(static_cast<int>(role)));
   updateView();
 }
 
 void SceneView::setShown(const SceneShown& shown) {
-  look_.shown = shown;
-  bar_->setShown(shown);
-  updateLook();
+  for (std::size_t i = 0; i < show_.size(); ++i)
+    show_[i]->setChecked(shown.*kShowEntries[i].member);
 }
 
 void SceneView::setMeshOpacity(double opacity) {
@@ -189,7 +237,8 @@ void SceneView::updateLook() {
   const bool dark = palette().color(QPalette::Window).lightnessF() < 0.5;
   look_.background = dark ? QColor(38, 40, 44) : QColor(226, 229, 233);
   look_.mesh_lines = throughCamera() ? QColor(255, 215, 70) : QColor(24, 26, 30);
-  bar_->setMeshOpacity(look_.mesh_opacity);
+  const QSignalBlocker blocked(opacity_);
+  opacity_->setValue(static_cast<int>(std::lround(100.0 * look_.mesh_opacity)));
   canvas_->setContent(content_, look_);
   overlay_->setContent(content_, look_);
   updateView();
@@ -277,19 +326,22 @@ void SceneView::pickInScene(const QPointF& pixel) {
   const Viewpoint view = viewpoint();
   const int picked = look_.shown.points ? pickTemplate(*content_, view, pixel) : -1;
   if (picked >= 0) {
-    readout_->setText(tr("Template %1").arg(picked));
+    ui_->sceneReadout->setText(tr("Template %1").arg(picked));
     state_.selectTemplate(picked);
     return;
   }
-  const std::optional<MeshPick> place = pickMesh(*content_, view, pixel);
-  overlay_->setMark(place ? std::optional(place->at_m) : std::nullopt);
-  if (!place) {
-    readout_->setText(tr("Nothing there: click a template or a point of the mesh."));
-    return;
+  std::optional<SceneAim> aim = annotator_ ? annotator_->aimAt(pixel) : std::nullopt;
+  if (!aim) {
+    const auto surface = sessions::surfacePointAt(view.camera, content_->mesh(),
+                                                  view.view_from_station, {pixel.x(), pixel.y()});
+    if (surface) {
+      aim.emplace().point_in_station_m = surface->in_station_m;
+      aim->text = tr("surface");
+    }
   }
-  const QString where = place->vertex >= 0 ? tr("vertex %1").arg(place->vertex) : tr("on a face");
-  readout_->setText(stationPlaceText(place->at_m, where));
-  Q_EMIT meshPointPicked(place->at_m, place->vertex);
+  overlay_->setMark(aim ? std::optional(aim->point_in_station_m) : std::nullopt);
+  ui_->sceneReadout->setText(aim ? stationPlaceText(aim->point_in_station_m, aim->text)
+                                 : tr("Nothing there: click a template or a point of the mesh."));
 }
 
 }  // namespace boresight::ui

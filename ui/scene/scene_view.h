@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <QPoint>
 #include <QWidget>
@@ -13,9 +14,15 @@
 #include "ui/scene/scene_input.h"
 #include "ui/state/view_state.h"
 
-class QLabel;
+class QAction;
+class QMenu;
+class QSlider;
 
 namespace boresight::ui {
+
+namespace Ui {
+class SceneView;
+}
 
 class AnnotationController;
 class SceneAnnotator;
@@ -32,6 +39,7 @@ class SceneView : public QWidget {
  public:
   explicit SceneView(ViewState& state, QWidget* parent = nullptr,
                      SceneBackend backend = sceneBackend());
+  ~SceneView() override;
 
   /// Lets somebody annotate in it; both must outlive it.
   void setAnnotation(AnnotationController& annotation, StationSnapper& snapper);
@@ -62,12 +70,6 @@ class SceneView : public QWidget {
   /// The view state as it is now, without waiting for the event loop.
   void refresh();
 
- Q_SIGNALS:
-  /// A click on the mesh: the place in the station frame, and its vertex when it snapped to one.
-  void meshPointPicked(const Eigen::Vector3d& point_in_station_m, int vertex);
-  /// One sentence for people.
-  void told(const QString& sentence);
-
  protected:
   void showEvent(QShowEvent* event) override;
   void changeEvent(QEvent* event) override;
@@ -75,6 +77,7 @@ class SceneView : public QWidget {
  private:
   void build();
   void buildBar();
+  QMenu* showMenu();
   void connectInput(const SceneInput& input);
   void refreshSoon();
   void updateLook();
@@ -88,10 +91,10 @@ class SceneView : public QWidget {
   ViewState& state_;
   SceneBackend backend_;
   std::unique_ptr<SceneCanvas> canvas_;
-  SceneBar* bar_ = nullptr;
   SceneOverlay* overlay_ = nullptr;
+  std::vector<QAction*> show_;  ///< in the order of `kShowEntries`
+  QSlider* opacity_ = nullptr;
   SceneAnnotator* annotator_ = nullptr;
-  QLabel* readout_ = nullptr;
 
   std::shared_ptr<const SceneContent> content_;
   SceneLook look_;
@@ -103,6 +106,7 @@ class SceneView : public QWidget {
   double free_opacity_ = 1.0;
   double through_opacity_ = 0.35;
   bool refresh_pending_ = false;
+  const std::unique_ptr<Ui::SceneView> ui_;
 };
 
 }  // namespace boresight::ui

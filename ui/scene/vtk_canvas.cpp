@@ -16,6 +16,7 @@
 #include <QtWidgets>
 #include <algorithm>
 
+#include "ui/plots/plot_colors.h"
 #include "ui/scene/scene_canvas.h"
 #include "ui/scene/vtk_shapes.h"
 
@@ -121,7 +122,7 @@ class VtkCanvas final : public SceneCanvas {
     constexpr int kColors = 256;
     table_->SetNumberOfTableValues(kColors);
     for (int i = 0; i < kColors; ++i) {
-      const QColor color = residualColor(static_cast<double>(i) / (kColors - 1));
+      const QColor color = heatColor(static_cast<double>(i) / (kColors - 1));
       table_->SetTableValue(i, color.redF(), color.greenF(), color.blueF());
     }
     outliers_.mapper->SetSourceData(crossShape());

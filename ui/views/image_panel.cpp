@@ -6,12 +6,13 @@
 
 #include <QtWidgets>
 
+#include "ui_image_panel.h"
+
 #include "sessions/run/scene_render.h"
 #include "sessions/run/surface_point.h"
 #include "ui/models/alternatives_model.h"
 #include "ui/run/task_runner.h"
 #include "ui/views/display_image.h"
-#include "ui/views/image_view.h"
 #include "ui/views/layer_content.h"
 
 namespace boresight::ui {
@@ -41,44 +42,25 @@ void fadeOthers(ImageView& view, bool fade) {
   }
 }
 
-QToolButton* barButton(const QString& text, const QString& tip, bool checkable) {
-  auto* button = new QToolButton;
-  button->setText(text);
-  button->setToolTip(tip);
-  button->setCheckable(checkable);
-  button->setAutoRaise(true);
-  return button;
-}
-
 }  // namespace
 
 ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
     : QWidget(parent),
       state_(state),
       tasks_(tasks),
-      view_(new ImageView),
-      display_(new DisplayImage(state, tasks, this)) {
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
-  auto* bar = new QHBoxLayout;
-  bar->setContentsMargins(4, 2, 4, 2);
-  buildBar(*bar);
-  layout->addLayout(bar);
-  layout->addWidget(view_, 1);
+      display_(new DisplayImage(state, tasks, this)),
+      ui_(std::make_unique<Ui::ImagePanel>()) {
+  ui_->setupUi(this);
   setHint({});
-  view_->setObjectName(QStringLiteral("imageView"));
-
-  blink_timer_.setInterval(kBlinkMs);
-  connect(&blink_timer_, &QTimer::timeout, this,
-          [this] { view_->setLayersHidden(!view_->layersHidden()); });
-  connect(view_, &ImageView::cursorMoved, this, &ImagePanel::showPlace);
-  connect(view_, &ImageView::cursorLeft, this, [this] { Q_EMIT placeText(QString()); });
-  connect(view_, &ImageView::transformChanged, this, [this] {
-    const double percent = 100.0 * view_->transform().scale() * view_->devicePixelRatioF();
-    zoom_label_->setText(tr("%1 %").arg(percent, 0, 'f', percent < 10.0 ? 1 : 0));
+  connectBar();
+  connect(ui_->imageView, &ImageView::cursorMoved, this, &ImagePanel::showPlace);
+  connect(ui_->imageView, &ImageView::cursorLeft, this, [this] { Q_EMIT placeText(QString()); });
+  connect(ui_->imageView, &ImageView::transformChanged, this, [this] {
+    const double percent =
+        100.0 * ui_->imageView->transform().scale() * ui_->imageView->devicePixelRatioF();
+    ui_->zoom->setText(tr("%1 %").arg(percent, 0, 'f', percent < 10.0 ? 1 : 0));
   });
-  connect(view_, &ImageView::itemClicked, this, [this](LayerId layer, int item) {
+  connect(ui_->imageView, &ImageView::itemClicked, this, [this](LayerId layer, int item) {
     if (layer != LayerId::kPoints) state_.selectTemplate(item);
   });
   state_.onChange(ViewChange::kCase, this, &ImagePanel::showCase);
@@ -87,8 +69,12 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
   state_.onChange(ViewChange::kAlternative, this, &ImagePanel::showAlternative);
 }
 
+ImagePanel::~ImagePanel() = default;
+
+ImageView& ImagePanel::view() { return *ui_->imageView; }
+
 void ImagePanel::setHint(const QString& hint) {
-  view_->setHint(
+  ui_->imageView->setHint(
       !hint.isEmpty()
           ? hint
           : tr("Drop an image, a mesh, a camera (unless the image's label has one) and a seed "
@@ -96,39 +82,18 @@ void ImagePanel::setHint(const QString& hint) {
                "session"));
 }
 
-void ImagePanel::buildBar(QBoxLayout& layout) {
-  QToolButton* fit = barButton(tr("Fit"), tr("Show the whole image (0, or a double click)"), false);
-  QToolButton* one = barButton(tr("1:1"), tr("One image pixel on one screen pixel (1)"), false);
-  core_button_ = barButton(tr("Core's view"),
-                           tr("Show the 8-bit image as the core sees it, instead of a stretched "
-                              "one (C). A stretch is for the eye: it never changes a run."),
-                           true);
-  blink_button_ = barButton(tr("Blink"), tr("Show the layers every other half second (B)"), true);
-  swipe_button_ =
-      barButton(tr("Swipe"), tr("Show the layers only left of a line (V); drag the slider"), true);
-  swipe_slider_ = new QSlider(Qt::Horizontal);
-  swipe_slider_->setRange(0, 1000);
-  swipe_slider_->setValue(500);
-  swipe_slider_->setMaximumWidth(160);
-  swipe_slider_->setEnabled(false);
-  swipe_slider_->setToolTip(tr("Where the layers end"));
-  zoom_label_ = new QLabel;
-  zoom_label_->setToolTip(tr("Screen pixels per image pixel"));
-  for (QWidget* widget :
-       {static_cast<QWidget*>(fit), static_cast<QWidget*>(one), static_cast<QWidget*>(core_button_),
-        static_cast<QWidget*>(blink_button_), static_cast<QWidget*>(swipe_button_),
-        static_cast<QWidget*>(swipe_slider_)})
-    layout.addWidget(widget);
-  layout.addStretch(1);
-  layout.addWidget(zoom_label_);
-  connect(fit, &QToolButton::clicked, view_, &ImageView::fit);
-  connect(one, &QToolButton::clicked, view_, &ImageView::showOneToOne);
-  connect(core_button_, &QToolButton::toggled, display_, &DisplayImage::setShowsCore);
+void ImagePanel::connectBar() {
+  connect(ui_->fit, &QToolButton::clicked, ui_->imageView, &ImageView::fit);
+  connect(ui_->oneToOne, &QToolButton::clicked, ui_->imageView, &ImageView::showOneToOne);
+  connect(ui_->coreView, &QToolButton::toggled, display_, &DisplayImage::setShowsCore);
   connect(display_, &DisplayImage::levelsChanged, this,
-          [this] { core_button_->setChecked(display_->showsCore()); });
+          [this] { ui_->coreView->setChecked(display_->showsCore()); });
   connect(display_, &DisplayImage::pictureChanged, this, &ImagePanel::showImage);
-  connect(blink_button_, &QToolButton::toggled, this, [this](bool on) {
-    view_->setLayersHidden(false);
+  blink_timer_.setInterval(kBlinkMs);
+  connect(&blink_timer_, &QTimer::timeout, this,
+          [this] { ui_->imageView->setLayersHidden(!ui_->imageView->layersHidden()); });
+  connect(ui_->blink, &QToolButton::toggled, this, [this](bool on) {
+    ui_->imageView->setLayersHidden(false);
     if (on) {
       blink_timer_.start();
     } else {
@@ -136,37 +101,38 @@ void ImagePanel::buildBar(QBoxLayout& layout) {
     }
   });
   const auto swipe = [this] {
-    const bool on = swipe_button_->isChecked();
-    swipe_slider_->setEnabled(on);
-    view_->setSwipe(on ? std::optional<double>(swipe_slider_->value() / 1000.0) : std::nullopt);
+    const bool on = ui_->swipe->isChecked();
+    const double place = ui_->swipePlace->value() / 1000.0;
+    ui_->swipePlace->setEnabled(on);
+    ui_->imageView->setSwipe(on ? std::optional<double>(place) : std::nullopt);
   };
-  connect(swipe_button_, &QToolButton::toggled, this, swipe);
-  connect(swipe_slider_, &QSlider::valueChanged, this, swipe);
+  connect(ui_->swipe, &QToolButton::toggled, this, swipe);
+  connect(ui_->swipePlace, &QSlider::valueChanged, this, swipe);
 }
 
-void ImagePanel::toggleBlink() { blink_button_->toggle(); }
-void ImagePanel::toggleSwipe() { swipe_button_->toggle(); }
-void ImagePanel::toggleCoreView() { core_button_->toggle(); }
+void ImagePanel::toggleBlink() { ui_->blink->toggle(); }
+void ImagePanel::toggleSwipe() { ui_->swipe->toggle(); }
+void ImagePanel::toggleCoreView() { ui_->coreView->toggle(); }
 
-const LayerStyle& ImagePanel::style(LayerId id) const { return view_->layer(id).style; }
+const LayerStyle& ImagePanel::style(LayerId id) const { return ui_->imageView->layer(id).style; }
 
 void ImagePanel::setStyle(LayerId id, const LayerStyle& style) {
-  if (style == view_->layer(id).style) return;
-  view_->setStyle(id, style);
+  if (style == ui_->imageView->layer(id).style) return;
+  ui_->imageView->setStyle(id, style);
   askForRenders();
   Q_EMIT stylesChanged();
 }
 
 void ImagePanel::setBits(LayerId id, std::vector<LayerBits> bits) {
-  Layer layer = view_->layer(id);
+  Layer layer = ui_->imageView->layer(id);
   layer.bits = std::move(bits);
-  view_->setLayer(std::move(layer));
+  ui_->imageView->setLayer(std::move(layer));
 }
 
 void ImagePanel::setMarks(LayerId id, std::vector<Mark> marks) {
-  Layer layer = view_->layer(id);
+  Layer layer = ui_->imageView->layer(id);
   layer.marks = std::move(marks);
-  view_->setLayer(std::move(layer));
+  ui_->imageView->setLayer(std::move(layer));
 }
 
 void ImagePanel::setNudgedRender(RenderPtr render, int level) {
@@ -212,21 +178,21 @@ void ImagePanel::showAlternative() {
              {LayerId::kSeedEdges, tr("Seed")},
              {LayerId::kTruthEdges, tr("Truth")}};
   }
-  view_->setLegend(std::move(names));
+  ui_->imageView->setLegend(std::move(names));
   showTemplates();
-  fadeOthers(*view_, state_.alternative().has_value());
+  fadeOthers(*ui_->imageView, state_.alternative().has_value());
   askForRenders();
 }
 
 void ImagePanel::showImage() {
-  view_->setImage(display_->picture());
-  if (!display_->picture().isNull()) view_->setValues(display_->corePicture());
+  ui_->imageView->setImage(display_->picture());
+  if (!display_->picture().isNull()) ui_->imageView->setValues(display_->corePicture());
 }
 
 void ImagePanel::showIteration() {
   const std::shared_ptr<const sessions::IterationTrace> iteration = shownIteration(state_);
   setBits(LayerId::kIterationEdges, iterationBits(iteration, false));
-  fadeOthers(*view_, state_.alternative().has_value());
+  fadeOthers(*ui_->imageView, state_.alternative().has_value());
   setBits(LayerId::kMask, iterationBits(iteration, true));
   const bool has_edges = state_.snapshot() && state_.snapshot()->edges;
   setBits(LayerId::kTestEdges,
@@ -289,7 +255,7 @@ void ImagePanel::askForRender(LayerId id, const char* key, const Pose& camera_fr
         const ViewState::CasePtr& now = state_.currentCase();
         if (now && asked_[static_cast<std::size_t>(id)] && one->source.id == now->source.id)
           setBits(id, bitsOf(render, false));
-        fadeOthers(*view_, state_.alternative().has_value());
+        fadeOthers(*ui_->imageView, state_.alternative().has_value());
       });
 }
 

@@ -11,12 +11,11 @@
 #include "ui/state/view_state.h"
 #include "ui/views/layer.h"
 
-class QBoxLayout;
-class QLabel;
-class QSlider;
-class QToolButton;
-
 namespace boresight::ui {
+
+namespace Ui {
+class ImagePanel;
+}
 
 class DisplayImage;
 class ImageView;
@@ -30,8 +29,9 @@ class ImagePanel : public QWidget {
 
  public:
   ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent = nullptr);
+  ~ImagePanel() override;
 
-  ImageView& view() { return *view_; }
+  ImageView& view();
   DisplayImage& display() { return *display_; }
   void setStyle(LayerId id, const LayerStyle& style);
   const LayerStyle& style(LayerId id) const;
@@ -54,7 +54,7 @@ class ImagePanel : public QWidget {
   void placeText(const QString& text);
 
  private:
-  void buildBar(QBoxLayout& layout);
+  void connectBar();
   void showCase();
   void showIteration();
   void showTemplates();
@@ -68,17 +68,12 @@ class ImagePanel : public QWidget {
 
   ViewState& state_;
   TaskRunner& tasks_;
-  ImageView* view_ = nullptr;
   DisplayImage* display_ = nullptr;
-  QToolButton* core_button_ = nullptr;
-  QToolButton* blink_button_ = nullptr;
-  QToolButton* swipe_button_ = nullptr;
-  QSlider* swipe_slider_ = nullptr;
-  QLabel* zoom_label_ = nullptr;
   QTimer blink_timer_;
   ViewState::CasePtr shown_case_;
   std::array<bool, kLayerCount> asked_{};  ///< renders of this case that were asked for
   std::shared_ptr<const sessions::IterationTrace> agreement_of_;
+  const std::unique_ptr<Ui::ImagePanel> ui_;
 };
 
 }  // namespace boresight::ui

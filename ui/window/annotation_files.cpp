@@ -26,25 +26,29 @@ QString marksFilter() {
 
 AnnotationFiles::AnnotationFiles(QWidget& window, const WindowParts& parts, AnnotationPanel& panel)
     : QObject(&window), window_(window), parts_(parts) {
-  connect(&panel, &AnnotationPanel::importRequested, this, &AnnotationFiles::importMarks);
-  connect(&panel, &AnnotationPanel::exportRequested, this, &AnnotationFiles::exportMarks);
-  connect(&panel, &AnnotationPanel::exportColmapRequested, this, [this] {
+  QMenu& menu = panel.filesMenu();
+  menu.addAction(tr("Import marks ..."), this, &AnnotationFiles::importMarks);
+  menu.addAction(tr("Export marks ..."), this, &AnnotationFiles::exportMarks);
+  menu.addSeparator();
+  menu.addAction(tr("Export all poses for COLMAP ..."), this, [this] {
     exportPoses(&sessions::exportColmap, tr("New folder for a COLMAP text model"),
                 QStringLiteral("colmap"));
   });
-  connect(&panel, &AnnotationPanel::exportBopRequested, this, [this] {
+  menu.addAction(tr("Export all poses as a BOP scene ..."), this, [this] {
     exportPoses(&sessions::exportBop, tr("New folder for a BOP scene"), QStringLiteral("000001"));
   });
-  connect(&panel, &AnnotationPanel::importColmapRequested, this, [this] {
+  menu.addAction(tr("Import truths from COLMAP ..."), this, [this] {
     importPoses(&sessions::importColmap,
                 tr("Folder of a COLMAP text model (cameras.txt, images.txt)"));
   });
-  connect(&panel, &AnnotationPanel::importBopRequested, this, [this] {
+  menu.addAction(tr("Import truths from a BOP scene ..."), this, [this] {
     importPoses(&sessions::importBop,
                 tr("Folder of a BOP scene (scene_gt.json, scene_camera.json)"));
   });
-  connect(&panel, &AnnotationPanel::openLandmarksRequested, this, &AnnotationFiles::openLandmarks);
-  connect(&panel, &AnnotationPanel::saveLandmarksRequested, this, &AnnotationFiles::saveLandmarks);
+  connect(&panel.landmarksMenu(), &LandmarksMenu::openRequested, this,
+          &AnnotationFiles::openLandmarks);
+  connect(&panel.landmarksMenu(), &LandmarksMenu::saveRequested, this,
+          &AnnotationFiles::saveLandmarks);
 }
 
 template <class Action>

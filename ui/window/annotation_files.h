@@ -24,6 +24,10 @@ class AnnotationFiles : public QObject {
  public:
   AnnotationFiles(QWidget& window, const WindowParts& parts, AnnotationPanel& panel);
 
+  /// points.json or a table (.csv): the marks of the shown case are replaced by these.
+  void importMarks();
+  void exportMarks();
+
  Q_SIGNALS:
   /// Something could not be done; one sentence.
   void failed(const QString& message);
@@ -36,9 +40,6 @@ class AnnotationFiles : public QObject {
                                               const sessions::CasePoses&);
   using Importer = sessions::ImportReport (*)(const sessions::Session&,
                                               const std::filesystem::path&, bool);
-  /// points.json or a table (.csv): the marks of the shown case become these.
-  void importMarks();
-  void exportMarks();
   /// Annotated poses of all cases that have any, in a new folder; done when `noted` says so.
   void exportPoses(Exporter exporter, const QString& title, const QString& name);
   /// Poses of the folder become the truths of the cases that it names.

@@ -8,17 +8,17 @@
 #include <QMessageBox>
 
 #include "ui/models/number_text.h"
-#include "ui/panels/warning_bar.h"
+#include "ui/panels/banner.h"
 #include "ui/state/document.h"
 
 namespace boresight::ui {
 
 using sessions::FindingKind;
 
-InputFindings::InputFindings(const WindowParts& parts, WarningBar& bar, QWidget& window)
+InputFindings::InputFindings(const WindowParts& parts, Banner& bar, QWidget& window)
     : QObject(&window), parts_(parts), bar_(bar), window_(window) {
   connect(&parts_.document, &Document::opened, this, &InputFindings::check);
-  connect(&bar_, &WarningBar::actionRequested, this, &InputFindings::mend);
+  connect(&bar_, &Banner::actionRequested, this, &InputFindings::mend);
   connect(&tasks_, &TaskRunner::failed, this, &InputFindings::failed);
 }
 
@@ -40,7 +40,7 @@ void InputFindings::check() {
 void InputFindings::show() {
   QStringList sentences;
   for (const sessions::Finding& finding : findings_) sentences << fromText(finding.text);
-  bar_.setSentences(sentences);
+  bar_.showWarnings(sentences);
   Q_EMIT changed();
 }
 
@@ -53,9 +53,9 @@ QString InputFindings::adviceFor(const QString& case_id) const {
     missing |= finding.kind == FindingKind::kMissing;
   }
   if (lines.isEmpty()) return {};
-  lines << (missing ? tr("Put the file back where it was, or have \"Mend ...\" above look for it "
+  lines << (missing ? tr("Put the file back where it was, or have \"Fix ...\" above look for it "
                          "below the session's folder.")
-                    : tr("Put the former file back, or have \"Mend ...\" above take it as it is "
+                    : tr("Put the former file back, or have \"Fix ...\" above take it as it is "
                          "now."));
   return lines.join(QStringLiteral("\n\n"));
 }

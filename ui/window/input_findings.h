@@ -13,7 +13,7 @@ class QWidget;
 
 namespace boresight::ui {
 
-class WarningBar;
+class Banner;
 
 /// Compares the files of a session with what the session knows of them as soon as it is opened,
 /// says which are missing or changed, and mends it when asked: looks for moved files below the
@@ -23,7 +23,7 @@ class InputFindings : public QObject {
   Q_OBJECT
 
  public:
-  InputFindings(const WindowParts& parts, WarningBar& bar, QWidget& window);
+  InputFindings(const WindowParts& parts, Banner& bar, QWidget& window);
 
   const std::vector<sessions::Finding>& findings() const { return findings_; }
   bool isBusy() const { return tasks_.isBusy(); }
@@ -46,7 +46,7 @@ class InputFindings : public QObject {
   void acceptChanged();
 
   WindowParts parts_;
-  WarningBar& bar_;
+  Banner& bar_;
   QWidget& window_;
   TaskRunner tasks_;
   std::vector<sessions::Finding> findings_;

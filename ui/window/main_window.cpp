@@ -79,13 +79,15 @@ void MainWindow::connectAll() {
   auto* annotation_files = new AnnotationFiles(*this, parts_, docks_->annotation());
   connect(annotation_files, &AnnotationFiles::failed, this, &MainWindow::showMessage);
   connect(annotation_files, &AnnotationFiles::noted, this, note);
+  connect(findChild<QAction*>(QStringLiteral("importMarks")), &QAction::triggered, annotation_files,
+          &AnnotationFiles::importMarks);
+  connect(findChild<QAction*>(QStringLiteral("exportMarks")), &QAction::triggered, annotation_files,
+          &AnnotationFiles::exportMarks);
   connect(&onboard_, &OnboardController::rerunRequested, &cases_, &CaseController::runPlan);
   connect(&onboard_, &OnboardController::failed, this, &MainWindow::showMessage);
   connect(&onboard_, &OnboardController::told, this, note);
   connect(&annotation_, &AnnotationController::told, this, note);
-  connect(&docks_->scene(), &SceneView::told, this, note);
   connect(&docks_->snapper(), &StationSnapper::failed, this, &MainWindow::showMessage);
-  connect(&docks_->imageAnnotation(), &ImageAnnotation::told, this, note);
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::changed, this, &MainWindow::showHint);

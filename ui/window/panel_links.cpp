@@ -11,12 +11,11 @@
 #include "sessions/session/input_sigmas.h"
 #include "ui/annotation/annotation_panel.h"
 #include "ui/models/number_text.h"
+#include "ui/panels/banner.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/input_sheet_panel.h"
 #include "ui/panels/pose_panel.h"
-#include "ui/panels/warning_bar.h"
-#include "ui/panels/widgets.h"
 #include "ui/review/queue_panel.h"
 #include "ui/run/pose_renderer.h"
 #include "ui/run/run_controller.h"
@@ -64,34 +63,6 @@ void QueueLinks::goThere() {
       {exists && place.iteration >= 0 ? place.iteration : count - 1, Stage::kFinished});
 }
 
-/// Keys that hold in the queue's list alone stand beside the text: elsewhere they are the image's.
-void QueueLinks::addActions(QMenu& menu, const WindowDocks& docks) {
-  QueuePanel& panel = docks.queue();
-  addAction(menu, tr("Show the &queue"), keys("Shift+F9"), tr("All cases, the most troubled first"),
-            &panel, [&docks] {
-              docks.raise(QStringLiteral("queue"));
-              docks.queue().focusList();
-            });
-  menu.addSeparator();
-  const auto add = [&menu, &panel](const QString& text, const QString& tip, auto act) {
-    addAction(menu, text, {}, tip, &panel, act);
-  };
-  add(tr("&Open at the failed iteration\tEnter"),
-      tr("Show the chosen case of the queue at the iteration that failed, or at the last one"),
-      &QueuePanel::openChosen);
-  add(tr("&Accept\tA"), tr("Validate the chosen case of the queue, when all checks passed"),
-      &QueuePanel::accept);
-  add(tr("&Reject\tR"), tr("Refuse the result of the chosen case of the queue"),
-      &QueuePanel::reject);
-  add(tr("&Next\tJ"), tr("The next case of the queue"), &QueuePanel::next);
-  add(tr("&Previous\tK"), tr("The case of the queue before"), &QueuePanel::previous);
-  add(tr("&Differences between the last two runs\tD"),
-      tr("Each case's last run against the one before it"), [&docks] {
-        docks.raise(QStringLiteral("queue"));
-        docks.queue().showDifferences(true);
-      });
-}
-
 PanelLinks::PanelLinks(const WindowParts& parts, const WindowDocks& docks, QObject* parent)
     : QObject(parent),
       parts_(parts),
@@ -103,7 +74,7 @@ PanelLinks::PanelLinks(const WindowParts& parts, const WindowDocks& docks, QObje
   linkPoses();
   parts_.state.onChange(ViewChange::kCase, this, &PanelLinks::showInputs);
   connect(&docks_.inputs(), &InputSheetPanel::sigmasRequested, this, &PanelLinks::askForSigmas);
-  connect(&docks_.warnings(), &WarningBar::actionRequested, this,
+  connect(&docks_.warnings(), &Banner::actionRequested, this,
           [this] { docks_.raise(QStringLiteral("inputs")); });
 }
 
@@ -183,7 +154,7 @@ void PanelLinks::showConfiguration() {
 void PanelLinks::showInputs() {
   const ViewState::CasePtr one = parts_.state.currentCase();
   docks_.inputs().setSheet(std::nullopt);
-  docks_.warnings().setSentences({});
+  docks_.warnings().showWarnings({});
   showConfiguration();
   if (!one) return;
   parts_.tasks.start(
@@ -193,7 +164,7 @@ void PanelLinks::showInputs() {
         if (one != parts_.state.currentCase()) return;
         QStringList flags;
         for (const sessions::RedFlag& flag : sheet.flags) flags << fromText(flag.text);
-        docks_.warnings().setSentences(flags);
+        docks_.warnings().showWarnings(flags);
         docks_.inputs().setSheet(std::move(sheet));
       });
 }

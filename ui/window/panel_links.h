@@ -9,22 +9,16 @@
 #include "sessions/session/session.h"
 #include "ui/window/window_parts.h"
 
-class QMenu;
-
 namespace boresight::ui {
 
 class WindowDocks;
 
-/// Shows the case and the iteration that the queue asks for, and puts what the queue can do into a
-/// menu.
+/// Shows the case and the iteration that the queue asks for.
 class QueueLinks : public QObject {
   Q_OBJECT
 
  public:
   QueueLinks(const WindowParts& parts, const WindowDocks& docks, QObject* parent);
-
-  /// `docks` must outlive the menu.
-  static void addActions(QMenu& menu, const WindowDocks& docks);
 
  private:
   struct Place {

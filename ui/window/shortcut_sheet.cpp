@@ -5,16 +5,13 @@
 
 #include <QtWidgets>
 
-#include "ui/views/layer.h"
+#include "ui/models/html_table.h"
+
+#include "ui_shortcut_sheet.h"
 
 namespace boresight::ui {
-namespace {
 
-QString plainText(const QAction& action) {
-  QString text = action.text();
-  text.remove(QLatin1Char('&'));
-  return text;
-}
+namespace {
 
 /// Actions of the menus, in their order.
 void collect(const QList<QAction*>& actions, QList<KeyRow>& rows) {
@@ -22,7 +19,8 @@ void collect(const QList<QAction*>& actions, QList<KeyRow>& rows) {
     if (action->menu()) {
       collect(action->menu()->actions(), rows);
     } else if (!action->shortcut().isEmpty()) {
-      rows.push_back({action->shortcut().toString(QKeySequence::NativeText), plainText(*action)});
+      rows.push_back({action->shortcut().toString(QKeySequence::NativeText),
+                      action->text().remove(QLatin1Char('&'))});
     }
   }
 }
@@ -72,11 +70,13 @@ constexpr std::array<Fixed, 32> kFixed = {{
     {QT_TR_NOOP("Configuration: Del"), QT_TR_NOOP("Take the option back to its default")},
 }};
 
-QList<KeyRow> fixedRows() {
-  QList<KeyRow> rows;
-  for (const Fixed& each : kFixed)
-    rows.push_back({ShortcutSheet::tr(each.keys), ShortcutSheet::tr(each.text)});
-  return rows;
+/// Some of the keys, as HTML.
+QString keysHtml(const QList<KeyRow>& keys) {
+  QVector<QStringList> rows;
+  for (const KeyRow& each : keys)
+    rows.append(
+        {QStringLiteral("<b>%1</b>").arg(each.keys.toHtmlEscaped()), each.text.toHtmlEscaped()});
+  return htmlTable(rows);
 }
 
 }  // namespace
@@ -84,39 +84,29 @@ QList<KeyRow> fixedRows() {
 QList<KeyRow> keysOf(const QWidget& window) {
   QList<KeyRow> rows;
   if (auto* bar = window.findChild<QMenuBar*>()) collect(bar->actions(), rows);
-  return rows + fixedRows();
+  for (const Fixed& each : kFixed)
+    rows.push_back({ShortcutSheet::tr(each.keys), ShortcutSheet::tr(each.text)});
+  return rows;
 }
 
-ShortcutSheet::ShortcutSheet(QWidget& window) : QDialog(&window) {
-  setWindowTitle(tr("Keys"));
-  const QList<KeyRow> rows = keysOf(window);
-  auto* sheet = new QWidget;
-  auto* grid = new QGridLayout(sheet);
-  grid->setHorizontalSpacing(16);
-  const int half = (static_cast<int>(rows.size()) + 1) / 2;
-  for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
-    auto* key = new QLabel(QStringLiteral("<b>%1</b>").arg(rows[i].keys.toHtmlEscaped()));
-    const int column = i < half ? 0 : 2;
-    grid->addWidget(key, i % half, column);
-    grid->addWidget(new QLabel(rows[i].text), i % half, column + 1);
-  }
-  auto* scroll = new QScrollArea;
-  scroll->setWidget(sheet);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
-  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-  QPushButton* manual = buttons->addButton(tr("&Manual"), QDialogButtonBox::HelpRole);
+ShortcutSheet::ShortcutSheet(QWidget& window)
+    : QDialog(&window), ui_(std::make_unique<Ui::ShortcutSheet>()) {
+  ui_->setupUi(this);
+  const QList<KeyRow> keys = keysOf(window);
+  const int half = (keys.size() + 1) / 2;
+  ui_->firstKeys->setText(keysHtml(keys.mid(0, half)));
+  ui_->furtherKeys->setText(keysHtml(keys.mid(half)));
+  connect(ui_->buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  QPushButton* manual = ui_->buttons->addButton(tr("&Manual"), QDialogButtonBox::HelpRole);
   manual->setShortcut(Qt::Key_F1);
   manual->setToolTip(tr("What the program does, task by task (F1)"));
   connect(manual, &QPushButton::clicked, this, [this] {
     accept();
     Q_EMIT manualRequested();
   });
-  auto* layout = new QVBoxLayout(this);
-  layout->addWidget(scroll);
-  layout->addWidget(buttons);
   resize(900, 620);
 }
+
+ShortcutSheet::~ShortcutSheet() = default;
 
 }  // namespace boresight::ui

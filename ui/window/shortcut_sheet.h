@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include <QDialog>
 #include <QList>
 #include <QString>
@@ -17,16 +19,24 @@ struct KeyRow {
 /// scene and tables.
 QList<KeyRow> keysOf(const QWidget& window);
 
-/// Every key of the window, taken from its actions, so that the sheet cannot be out of date.
+namespace Ui {
+class ShortcutSheet;
+}
+
+/// Every key of the window, in two columns.
 class ShortcutSheet : public QDialog {
   Q_OBJECT
 
  public:
   explicit ShortcutSheet(QWidget& window);
+  ~ShortcutSheet() override;
 
  Q_SIGNALS:
-  /// Somebody wants to read more than keys.
+  /// The operator asks for the manual.
   void manualRequested();
+
+ private:
+  const std::unique_ptr<Ui::ShortcutSheet> ui_;
 };
 
 }  // namespace boresight::ui

@@ -7,6 +7,7 @@
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/annotation/twin_view.h"
+#include "ui/panels/banner.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/input_sheet_panel.h"
@@ -16,7 +17,6 @@
 #include "ui/panels/match_inspector_panel.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/rivals_panel.h"
-#include "ui/panels/warning_bar.h"
 #include "ui/review/onboard_panel.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
@@ -55,12 +55,8 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       scene_(new SceneView(parts.state)),
       image_annotation_(
           new ImageAnnotation(*image_, parts.annotation, parts.state, *snapper_, image_)),
-      warnings_(
-          new WarningBar(windowText("Inputs"), windowText("Show all that is known of the inputs"))),
-      findings_(
-          new WarningBar(windowText("Mend ..."),
-                         windowText("Look for missing files below the session's folder, or take "
-                                    "changed ones as they are"))) {
+      warnings_(new Banner),
+      findings_(new Banner) {
   window_.setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowNestedDocks |
                          QMainWindow::AllowTabbedDocks);
   // Tables of poses and options are long, the one of iterations is wide.
@@ -92,6 +88,11 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
 }
 
 void WindowDocks::buildCentre() {
+  warnings_->setAction(windowText("Inputs"), windowText("Show all that is known of the inputs"));
+  findings_->setAction(windowText("Fix ..."),
+                       windowText("Look for missing files below the session's folder, or take "
+                                  "changed ones as they are"));
+  for (Banner* each : {warnings_, findings_}) each->showWarnings({});
   auto* centre = new QWidget;
   auto* column = new QVBoxLayout(centre);
   column->setContentsMargins(0, 0, 0, 0);

@@ -13,6 +13,7 @@ class QMainWindow;
 namespace boresight::ui {
 
 class AnnotationPanel;
+class Banner;
 class CasesPanel;
 class ConfigurationPanel;
 class ImageAnnotation;
@@ -26,7 +27,6 @@ class QueuePanel;
 class ReviewPanel;
 class SceneView;
 class StationSnapper;
-class WarningBar;
 
 /// The panels of the window and the docks that they lie in, as they are when the program starts for
 /// the first time. Each dock has an object name by which its place is remembered and by which
@@ -51,9 +51,9 @@ class WindowDocks {
   SceneView& scene() const { return *scene_; }
   ImageAnnotation& imageAnnotation() const { return *image_annotation_; }
   /// Above the image: what looks wrong with the case's inputs.
-  WarningBar& warnings() const { return *warnings_; }
+  Banner& warnings() const { return *warnings_; }
   /// The same for files that are missing or have changed.
-  WarningBar& findings() const { return *findings_; }
+  Banner& findings() const { return *findings_; }
   /// Brings a dock to the front.
   void raise(const QString& name) const;
   /// Every dock where it was when the program started for the first time.
@@ -85,8 +85,8 @@ class WindowDocks {
   StationSnapper* snapper_;
   SceneView* scene_;
   ImageAnnotation* image_annotation_;
-  WarningBar* warnings_;
-  WarningBar* findings_;
+  Banner* warnings_;
+  Banner* findings_;
 };
 
 }  // namespace boresight::ui

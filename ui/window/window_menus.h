@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include <QList>
 #include <QObject>
 
@@ -9,11 +11,13 @@
 #include "ui/window/window_parts.h"
 
 class QAction;
-class QKeySequence;
 class QMainWindow;
-class QMenu;
 
 namespace boresight::ui {
+
+namespace Ui {
+class WindowMenus;
+}
 
 class SessionFiles;
 class WindowDocks;
@@ -27,22 +31,24 @@ class WindowMenus : public QObject {
   WindowMenus(QMainWindow& window, const WindowParts& parts, const WindowDocks& docks,
               SessionFiles& files);
 
+  ~WindowMenus() override;
+
   /// Enables what can be done now.
   void update();
 
  private:
-  void buildFileMenu();
-  void buildEditMenu();
-  void buildMaskMenu(QMenu& menu);
-  void buildAnnotateMenu();
-  void addMode(QMenu& menu, const QString& text, const QKeySequence& keys, const QString& tip,
-               PlaceMode mode);
-  void buildRunMenu();
-  void buildOnboardMenu(QMenu& menu);
-  void buildGoMenu();
-  void buildViewMenu();
-  void buildLayersMenu(QMenu& menu);
-  void buildHelpMenu();
+  void connectFile();
+  void connectEdit();
+  void connectAnnotate();
+  void connectMode(QAction* action, PlaceMode mode);
+  void connectImageAnnotation();
+  void connectRun();
+  void connectOnboard();
+  void fillGoMenu();
+  void connectView();
+  void connectQueue();
+  void fillLayersMenu();
+  void connectHelp();
   /// Of an edit of another case than the shown one: that case is shown, and said to be.
   void undo();
   void redo();
@@ -55,23 +61,9 @@ class WindowMenus : public QObject {
   WindowParts parts_;
   const WindowDocks& docks_;
   SessionFiles& files_;
-  QAction* save_ = nullptr;
-  QAction* save_as_ = nullptr;
-  QAction* undo_ = nullptr;
-  QAction* redo_ = nullptr;
-  QAction* run_to_end_ = nullptr;
-  QAction* step_stage_ = nullptr;
-  QAction* step_iteration_ = nullptr;
-  QAction* stop_ = nullptr;
-  QAction* reset_ = nullptr;
-  QAction* rerun_ = nullptr;
-  QAction* run_together_ = nullptr;
-  QAction* run_all_ = nullptr;
-  QAction* load_record_ = nullptr;
-  QAction* show_other_run_ = nullptr;
-  QAction* rerun_record_ = nullptr;
-  QAction* first_difference_ = nullptr;
-  QMenu* recent_menu_ = nullptr;
+  const std::unique_ptr<Ui::WindowMenus> ui_;
+  QList<QAction*> annotation_edits_;
+  QString together_tip_;  ///< of "Run with the other views"
   QString shown_change_;  ///< what the status bar says of the last undo or redo
   QList<QAction*> mask_actions_;
   QList<QAction*> annotation_actions_;

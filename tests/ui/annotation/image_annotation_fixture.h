@@ -24,8 +24,6 @@ class ImageAnnotationTest : public AnnotationTest, protected ImagePointer {
     ASSERT_TRUE(QTest::qWaitForWindowExposed(&panel_));
     AnnotationTest::SetUp();
     ready();
-    QObject::connect(&annotation_, &ImageAnnotation::told,
-                     [this](const QString& told) { told_ = told; });
     QObject::connect(&controller_, &AnnotationController::told,
                      [this](const QString& told) { told_ = told; });
   }

@@ -175,7 +175,7 @@ INSTANTIATE_TEST_SUITE_P(Views, SceneAnnotatingFrom,
 
 TEST_F(SceneAnnotatingTest, WithoutAnEdgeALineIsRefusedWithAReason) {
   controller_.setMode(PlaceMode::kLine);
-  QSignalSpy told(&view_, &SceneView::told);
+  QSignalSpy told(&controller_, &AnnotationController::told);
   click(pixelOf({-0.05, -0.03, 0.0}));
   EXPECT_TRUE(controller_.marks().lines.empty());
   ASSERT_EQ(told.count(), 1);

@@ -9,8 +9,8 @@
 #include "ui/models/cases_model.h"
 #include "ui/models/iterations_model.h"
 #include "ui/models/marks_model.h"
+#include "ui/models/options_model.h"
 #include "ui/models/templates_model.h"
-#include "ui/review/limits_dialog.h"
 #include "ui/review/queue_model.h"
 #include "ui/review/review_panel.h"
 
@@ -24,7 +24,7 @@ TEST(RowsModels, EveryColumnSaysWhatItMeans) {
   models.push_back(std::make_unique<ChecksModel>());
   models.push_back(std::make_unique<DifferencesModel>());
   models.push_back(std::make_unique<IterationsModel>());
-  models.push_back(std::make_unique<LimitsModel>());
+  models.push_back(std::make_unique<OptionsModel>());
   models.push_back(std::make_unique<MarksModel>());
   models.push_back(std::make_unique<QueueModel>());
   models.push_back(std::make_unique<TemplatesModel>());

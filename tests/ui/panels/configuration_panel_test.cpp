@@ -6,6 +6,8 @@
 #include <QtWidgets>
 
 #include "tests/support/example_run.h"
+#include "ui/panels/banner.h"
+#include "ui/panels/options_table.h"
 
 namespace boresight::ui {
 namespace {
@@ -15,8 +17,8 @@ class ConfigurationPanelTest : public testing::Test {
   ConfigurationPanelTest() {
     panel_.resize(900, 700);
     panel_.show();
-    tree_ = panel_.findChild<QTreeView*>(QStringLiteral("options"));
-    stale_ = panel_.findChild<QFrame*>(QStringLiteral("stale"));
+    table_ = panel_.findChild<OptionsTable*>(QStringLiteral("options"));
+    stale_ = panel_.findChild<Banner*>(QStringLiteral("stale"));
     QObject::connect(&panel_, &ConfigurationPanel::optionsEdited, &panel_,
                      [this](const QString& profile, const LocalizerOptions& options) {
                        ++edits_;
@@ -30,17 +32,17 @@ class ConfigurationPanelTest : public testing::Test {
     auto* line = panel_.findChild<QLineEdit*>();
     line->clear();
     QTest::keyClicks(line, words);
-    const QAbstractItemModel& model = *tree_->model();
-    EXPECT_EQ(model.rowCount(model.index(0, 0)), 1) << words.toStdString();
-    return model.index(0, column, model.index(0, 0));
+    const QAbstractItemModel& model = *table_->model();
+    EXPECT_EQ(model.rowCount(), 1) << words.toStdString();
+    return model.index(0, column);
   }
   /// Opens the editor as a person does, with F2.
   template <class Editor>
   Editor* edit(const QString& words) {
-    tree_->setCurrentIndex(find(words));
-    tree_->setFocus();
-    QTest::keyClick(tree_, Qt::Key_F2);
-    return tree_->viewport()->findChild<Editor*>();
+    table_->setCurrentIndex(find(words));
+    table_->setFocus();
+    QTest::keyClick(table_, Qt::Key_F2);
+    return table_->viewport()->findChild<Editor*>();
   }
   /// The editor commits when the event loop comes round.
   static void enter(QWidget* editor) {
@@ -51,8 +53,8 @@ class ConfigurationPanelTest : public testing::Test {
 
   ViewState view_;
   ConfigurationPanel panel_{view_};
-  QTreeView* tree_ = nullptr;
-  QFrame* stale_ = nullptr;
+  OptionsTable* table_ = nullptr;
+  Banner* stale_ = nullptr;
   int edits_ = 0;
   QString profile_;
   LocalizerOptions options_;
@@ -77,7 +79,7 @@ TEST_F(ConfigurationPanelTest, AValueOutOfRangeIsRefusedWithItsRange) {
   enter(box);
   EXPECT_EQ(edits_, 0);
   EXPECT_TRUE(help().contains(QStringLiteral("99 is outside 1 .. 50"))) << help().toStdString();
-  EXPECT_EQ(panel_.model().options().loop.max_iterations, LoopOptions().max_iterations);
+  EXPECT_EQ(panel_.options().loop.max_iterations, LoopOptions().max_iterations);
 }
 
 TEST_F(ConfigurationPanelTest, ANumberIsTypedInFull) {
@@ -99,11 +101,32 @@ TEST_F(ConfigurationPanelTest, AChoiceIsChosenFromAList) {
 }
 
 TEST_F(ConfigurationPanelTest, SpaceTogglesASwitch) {
-  tree_->setCurrentIndex(find(QStringLiteral("refinement.enabled")));
-  tree_->setFocus();
-  QTest::keyClick(tree_, Qt::Key_Space);
+  table_->setCurrentIndex(find(QStringLiteral("refinement.enabled")));
+  table_->setFocus();
+  QTest::keyClick(table_, Qt::Key_Space);
   EXPECT_FALSE(options_.refinement.enabled);
   EXPECT_EQ(edits_, 1);
+}
+
+TEST_F(ConfigurationPanelTest, FindsOptionsByTheirWordsAndByChange) {
+  find(QStringLiteral("RANSAC threshold first"));
+  auto* words = panel_.findChild<QLineEdit*>();
+  words->clear();
+  EXPECT_EQ(table_->model()->rowCount(), table_->options().rowCount());
+  auto* changed_only = panel_.findChild<QCheckBox*>();
+  changed_only->setChecked(true);
+  EXPECT_EQ(table_->model()->rowCount(), 0);
+  LocalizerOptions options;
+  options.loop.max_iterations = 7;
+  panel_.setOptions(QStringLiteral("default"), options);
+  EXPECT_EQ(table_->model()->rowCount(), 1);
+}
+
+TEST_F(ConfigurationPanelTest, ComparesWithTheChosenProfile) {
+  panel_.setOptions(QStringLiteral("paper"), defaultProfile());
+  EXPECT_EQ(table_->options().changedCount(),
+            static_cast<int>(sessions::changedOptions(defaultProfile(), paperProfile()).size()));
+  EXPECT_GT(table_->options().changedCount(), 0);
 }
 
 TEST_F(ConfigurationPanelTest, AClickResetsARow) {
@@ -112,9 +135,9 @@ TEST_F(ConfigurationPanelTest, AClickResetsARow) {
   panel_.setOptions(QStringLiteral("default"), options);
   EXPECT_EQ(edits_, 0) << "the document is no person";
   const QModelIndex reset = find(QStringLiteral("loop.max_iterations"), OptionsModel::kReset);
-  tree_->scrollTo(reset);
-  QTest::mouseClick(tree_->viewport(), Qt::LeftButton, Qt::NoModifier,
-                    tree_->visualRect(reset).center());
+  table_->scrollTo(reset);
+  QTest::mouseClick(table_->viewport(), Qt::LeftButton, Qt::NoModifier,
+                    table_->visualRect(reset).center());
   EXPECT_EQ(edits_, 1);
   EXPECT_EQ(options_.loop.max_iterations, LoopOptions().max_iterations);
 }
@@ -138,7 +161,7 @@ TEST_F(ConfigurationPanelTest, SaysThatTheShownRunIsStale) {
   EXPECT_TRUE(stale_->isVisible());
   EXPECT_EQ(panel_.differences(), QStringList{QStringLiteral("loop.max_iterations (was 10)")});
   QSignalSpy asked(&panel_, &ConfigurationPanel::runAgainRequested);
-  QTest::mouseClick(panel_.findChild<QPushButton*>(QStringLiteral("runAgain")), Qt::LeftButton);
+  QTest::mouseClick(panel_.findChild<QToolButton*>(QStringLiteral("bannerAction")), Qt::LeftButton);
   EXPECT_EQ(asked.count(), 1);
   panel_.setOptions(QStringLiteral("default"), defaultProfile());
   EXPECT_FALSE(stale_->isVisible());

@@ -3,7 +3,7 @@
 #include <QtTest>
 #include <QtWidgets>
 
-#include "ui/panels/warning_bar.h"
+#include "ui/panels/banner.h"
 #include "ui/panels/widgets.h"
 
 namespace boresight::ui {
@@ -44,25 +44,26 @@ TEST(EmptyHint, MayLeaveARowThatIsAlwaysThere) {
   EXPECT_FALSE(hint->isVisible());
 }
 
-TEST(WarningBar, HidesWhenThereIsNothingToSay) {
+TEST(Banner, HidesWithoutWarnings) {
   QWidget window;
-  WarningBar bar(QStringLiteral("Inputs"), QStringLiteral("Show them"), &window);
+  Banner banner(&window);
   window.show();
-  EXPECT_FALSE(bar.isVisible());
-  bar.setSentences({QStringLiteral("the mesh is 1000 times too big")});
-  EXPECT_TRUE(bar.isVisible());
-  EXPECT_TRUE(bar.text().startsWith(QStringLiteral("⚠"))) << "a sign besides the colour";
-  bar.setSentences({});
-  EXPECT_FALSE(bar.isVisible());
+  banner.showWarnings({QStringLiteral("the mesh is 1000 times too big")});
+  EXPECT_TRUE(banner.isVisible());
+  banner.showWarnings({});
+  EXPECT_FALSE(banner.isVisible());
 }
 
-TEST(WarningBar, CountsWhatItDoesNotShow) {
-  WarningBar bar(QStringLiteral("Inputs"), QStringLiteral("Show them"));
-  bar.setSentences(
+TEST(Banner, CountsTheWarningsThatItDoesNotShow) {
+  Banner banner;
+  banner.setAction(QStringLiteral("Inputs"), QStringLiteral("Show them"));
+  banner.showWarnings(
       {QStringLiteral("a"), QStringLiteral("b"), QStringLiteral("c"), QStringLiteral("d")});
-  EXPECT_EQ(bar.text(), QStringLiteral("⚠ a\n⚠ b\nand 2 more"));
-  QSignalSpy asked(&bar, &WarningBar::actionRequested);
-  QTest::mouseClick(bar.findChild<QToolButton*>(), Qt::LeftButton);
+  EXPECT_EQ(banner.text(), QStringLiteral("a\nb\nand 2 more"));
+  EXPECT_EQ(banner.findChild<QLabel*>()->text(), QString::fromUtf8("⚠"))
+      << "a sign besides the colour";
+  QSignalSpy asked(&banner, &Banner::actionRequested);
+  QTest::mouseClick(banner.findChild<QToolButton*>(), Qt::LeftButton);
   EXPECT_EQ(asked.count(), 1);
 }
 

@@ -6,6 +6,7 @@
 #include <QtWidgets>
 
 #include "tests/support/example_run.h"
+#include "ui/panels/banner.h"
 #include "ui/plots/double_plot.h"
 
 namespace boresight::ui {
@@ -39,7 +40,7 @@ TEST_F(IterationsPanelTest, FollowsTheRunToItsEnd) {
   EXPECT_EQ(view_.cursor().iteration, last_);
   EXPECT_EQ(child<QTableView>("iterations")->currentIndex().row(), last_ + 1);
   EXPECT_EQ(child<QSlider>("iterations")->value(), last_);
-  EXPECT_TRUE(child<QLabel>("standing")->text().startsWith(QStringLiteral("Converged in")));
+  EXPECT_TRUE(child<Banner>("standing")->text().startsWith(QStringLiteral("Converged in")));
 }
 
 TEST_F(IterationsPanelTest, AClickOnARowMovesTheCursor) {
@@ -108,7 +109,7 @@ TEST_F(IterationsPanelTest, ShowsNothingOfACaseThatHasNotRun) {
   view_.setCase(nullptr);
   EXPECT_EQ(panel_.model().rowCount(), 0);
   EXPECT_FALSE(child<QSlider>("iterations")->isEnabled());
-  EXPECT_EQ(child<QLabel>("standing")->text(), QStringLiteral("Nothing has run yet."));
+  EXPECT_EQ(child<Banner>("standing")->text(), QStringLiteral("Nothing has run yet."));
   for (int i = 0; i < RunScrubber::kStepCount; ++i)
     EXPECT_FALSE(panel_.scrubber().action(static_cast<RunScrubber::Step>(i))->isEnabled());
 }
@@ -118,7 +119,7 @@ TEST_F(IterationsPanelTest, SaysWhyARunFailed) {
   failed->status = LocalizationStatus::kIterationLimit;
   view_.setSnapshot(failed);
   EXPECT_TRUE(
-      child<QLabel>("standing")->text().startsWith(QStringLiteral("Did not converge. After")));
+      child<Banner>("standing")->text().startsWith(QStringLiteral("Did not converge. After")));
 }
 
 }  // namespace

@@ -51,7 +51,8 @@ TEST_F(MatchInspectorPanelTest, AClickChoosesATemplate) {
                   ->text()
                   .contains(QStringLiteral("Template 4")));
   for (PixelPicture* picture : panel_.findChildren<PixelPicture*>())
-    EXPECT_EQ(picture->picture().width(), view_.iteration()->template_side_px);
+    if (picture != map_)  // it comes later, in its own size
+      EXPECT_EQ(picture->picture().width(), view_.iteration()->template_side_px);
 }
 
 TEST_F(MatchInspectorPanelTest, AChoiceElsewhereShowsHere) {
@@ -74,8 +75,6 @@ TEST_F(MatchInspectorPanelTest, TheScoreMapComesAndIsTheLatestChosen) {
   EXPECT_EQ(map_->map()->counts, expected->counts);
   view_.selectTemplate(-1);
   EXPECT_EQ(map_->map(), nullptr);
-  view_.selectTemplate(5);  // known by now
-  EXPECT_NE(map_->map(), nullptr);
 }
 
 TEST_F(MatchInspectorPanelTest, ThePeakIsTheBrightestPlaceOfTheMap) {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "ui/plots/plot_colors.h"
+
 namespace boresight::ui {
 namespace {
 
@@ -64,7 +66,7 @@ TEST(PixelPlace, EnlargesByWholeDevicePixelsWhereItCan) {
 TEST(HeatColors, GetLighterAllTheWay) {
   double before = -1.0;
   for (int i = 0; i <= 100; ++i) {
-    const QRgb color = heatColor(0.01 * i);
+    const QRgb color = heatColor(0.01 * i).rgb();
     const double light = 0.2126 * qRed(color) + 0.7152 * qGreen(color) + 0.0722 * qBlue(color);
     EXPECT_GT(light, before) << i;
     before = light;

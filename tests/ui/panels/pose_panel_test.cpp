@@ -38,7 +38,7 @@ class PosePanelTest : public ::testing::Test {
     return *found;
   }
   QString cell(PoseTableModel::Row row, PoseRole role) const {
-    return panel_.model().index(row, static_cast<int>(role)).data().toString();
+    return panel_.model().index(row, PoseTableModel::columnOf(role)).data().toString();
   }
   QWidget& pad() {
     auto& found = find<QLabel>("nudgePad");
@@ -75,8 +75,10 @@ TEST_F(PosePanelTest, ShowsEveryPoseInEveryForm) {
   const Eigen::Vector3d deg = rotationLog(truth.rotation) / kDegree_rad;
   EXPECT_NEAR(cell(PoseTableModel::kRotationX, PoseRole::kTruth).toDouble(), deg.x(), 1e-5);
   EXPECT_GE(cell(PoseTableModel::kQuaternionW, PoseRole::kTruth).toDouble(), 0.0);
-  const QStringList row = cell(PoseTableModel::kMatrixRow2, PoseRole::kTruth)
-                              .split(QLatin1Char(' '), Qt::SkipEmptyParts);
+  find<QComboBox>("copiedRole").setCurrentIndex(static_cast<int>(PoseRole::kTruth));
+  const QStringList rows = find<QLabel>("matrix").text().split(QLatin1Char('\n'));
+  ASSERT_EQ(rows.size(), 4);
+  const QStringList row = rows[1].split(QLatin1Char(' '), Qt::SkipEmptyParts);
   ASSERT_EQ(row.size(), 4);
   EXPECT_NEAR(row[1].toDouble(), truth.matrix()(1, 1), 1e-6);
   EXPECT_NEAR(row[3].toDouble(), truth.translation_m.y(), 1e-7);
@@ -94,10 +96,10 @@ TEST_F(PosePanelTest, KeepsTheModelsRules) {
   PoseTableModel model;
   const QAbstractItemModelTester tester(&model,
                                         QAbstractItemModelTester::FailureReportingMode::Fatal);
-  std::array<std::optional<Pose>, kPoseRoles> poses;
+  Poses poses;
   poses[2] = Pose();
   model.setPoses(poses);
-  EXPECT_EQ(model.index(PoseTableModel::kX, 2).data().toString(), QStringLiteral("0.0000"));
+  EXPECT_EQ(model.index(PoseTableModel::kX, 3).data().toString(), QStringLiteral("0.0000"));
 }
 
 TEST_F(PosePanelTest, CopiesWhatCanBeReadBack) {

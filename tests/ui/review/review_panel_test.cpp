@@ -11,6 +11,7 @@
 #include "tests/ui/review/review_fixture.h"
 #include "ui/models/cases_model.h"
 #include "ui/models/number_text.h"
+#include "ui/models/options_model.h"
 #include "ui/panels/banner.h"
 #include "ui/review/decision_form.h"
 #include "ui/review/limits_dialog.h"
@@ -242,17 +243,17 @@ TEST_F(ReviewPanelTest, LimitsAreEditedInTheirDialogAndSurviveSaving) {
   auto* table = dialog->findChild<QTableView*>(QStringLiteral("limits"));
   int row = 0;
   while (!table->model()
-              ->index(row, LimitsModel::kName)
+              ->index(row, OptionsModel::kName)
               .data()
               .toString()
               .contains(QStringLiteral("inlier_count")))
     ASSERT_LT(++row, table->model()->rowCount());
-  test::ReviewHands::typeInto(*table, row, LimitsModel::kValue, QStringLiteral("-5"));
+  test::ReviewHands::typeInto(*table, row, OptionsModel::kValue, QStringLiteral("-5"));
   EXPECT_TRUE(dialog->findChild<QLabel*>(QStringLiteral("limitHelp"))
                   ->text()
                   .contains(QStringLiteral("Not changed")));
   EXPECT_TRUE(document_.session().review.limits.empty());
-  test::ReviewHands::typeInto(*table, row, LimitsModel::kValue, QStringLiteral("9000"));
+  test::ReviewHands::typeInto(*table, row, OptionsModel::kValue, QStringLiteral("9000"));
   ASSERT_EQ(document_.session().review.limits.size(), 1u);
   EXPECT_FALSE(controller().isCurrent()) << "stale at once";
   ASSERT_TRUE(checked());

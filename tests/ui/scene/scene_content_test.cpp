@@ -90,17 +90,6 @@ TEST(Dashed, CoversTheShareThatTheDashesSay) {
   EXPECT_EQ(counts.size(), static_cast<std::size_t>(kPoseRoles)) << "two roles look alike";
 }
 
-TEST(ResidualColor, GrowsLighterAllTheWay) {
-  double last = -1.0;
-  for (double share = 0.0; share <= 1.0; share += 0.05) {
-    const QColor color = residualColor(share);
-    const double luma = 0.2126 * color.redF() + 0.7152 * color.greenF() + 0.0722 * color.blueF();
-    EXPECT_GT(luma, last);
-    last = luma;
-  }
-  EXPECT_EQ(residualColor(7.0), residualColor(1.0));
-}
-
 TEST(SharpEdges, OfACubeAreItsTwelve) {
   std::vector<Eigen::Vector3f> vertices;
   for (int i = 0; i < 8; ++i)
@@ -119,34 +108,6 @@ TEST(SharpEdges, OfACubeAreItsTwelve) {
         (vertices[static_cast<std::size_t>(edge[0])] - vertices[static_cast<std::size_t>(edge[1])])
             .norm(),
         1.0F);
-}
-
-TEST(HitSurface, AgreesWithTheCoresDepth) {
-  const auto& one = test::sceneCase();
-  const Pose& pose = *one->source.camera_from_station_truth;
-  const auto pixels =
-      static_cast<std::size_t>(one->source.camera.width * one->source.camera.height);
-  std::vector<float> depth_m(pixels);
-  SurfaceRender wanted;
-  wanted.depth_m = depth_m;
-  sessions::RenderTrace render;
-  ASSERT_EQ(sessions::renderScene(one->source.camera, one->scene.view(), pose, render, wanted),
-            Status::kOk);
-  const Pose station_from_camera = pose.inverse();
-  int compared = 0;
-  for (int y = 20; y < one->source.camera.height; y += 97)
-    for (int x = 20; x < one->source.camera.width; x += 97) {
-      Eigen::Vector3d ray;
-      ASSERT_TRUE(unproject(one->source.camera, Eigen::Vector2d(x, y), ray));
-      const auto hit = hitSurface(one->scene.view(), station_from_camera.translation_m,
-                                  station_from_camera.rotation * ray);
-      const float expected_m = depth_m[static_cast<std::size_t>(y * one->source.camera.width + x)];
-      ASSERT_EQ(hit.has_value(), expected_m > 0.0F) << x << ' ' << y;
-      if (!hit) continue;
-      EXPECT_NEAR(hit->depth_m, static_cast<double>(expected_m), 1e-6);
-      ++compared;
-    }
-  EXPECT_GT(compared, 20);
 }
 
 }  // namespace

@@ -66,41 +66,5 @@ TEST(PickTemplate, LeavesOutPlacesThatAreNoTemplates) {
   EXPECT_EQ(pickTemplate(stack.content, stack.view, stack.at({0.0, 0.0, 0.0})), -1);
 }
 
-TEST(PickMesh, SnapsToAVertexThatIsSeen) {
-  const Stack stack;
-  const auto pick =
-      pickMesh(stack.content, stack.view, stack.at({0.05, 0.05, 0.0}) + QPointF(3, 2));
-  ASSERT_TRUE(pick);
-  EXPECT_EQ(pick->vertex, 2);
-  EXPECT_LT((pick->at_m - Eigen::Vector3d(0.05, 0.05, 0.0)).norm(), 1e-6);
-}
-
-TEST(PickMesh, TakesTheFaceWhereNoVertexIsNear) {
-  const Stack stack;
-  const auto pick = pickMesh(stack.content, stack.view, stack.at({0.01, -0.02, 0.0}));
-  ASSERT_TRUE(pick);
-  EXPECT_EQ(pick->vertex, -1);
-  EXPECT_LT((pick->at_m - Eigen::Vector3d(0.01, -0.02, 0.0)).norm(), 1e-9);
-}
-
-TEST(PickMesh, SaysWhenNothingIsThere) {
-  const Stack stack;
-  EXPECT_FALSE(pickMesh(stack.content, stack.view, {5.0, 5.0}));
-}
-
-TEST(PickMesh, DoesNotSnapToAVertexBehindAFace) {
-  Stack stack;
-  stack.view.view_from_station.translation_m = {0.05, 0.05, 0.16};  // over the near square's corner
-  auto moved = std::make_shared<sessions::LoadedCase>();
-  moved->scene = stack.content.one->scene;
-  moved->scene.vertices_in_station_m[6] = {0.02F, 0.02F, 0.1F};  // a far vertex, covered
-  stack.content.one = moved;
-  const QPointF pixel = stack.at({0.02, 0.02, 0.1});
-  const auto pick = pickMesh(stack.content, stack.view, pixel);
-  ASSERT_TRUE(pick);
-  EXPECT_EQ(pick->vertex, -1);
-  EXPECT_NEAR(pick->at_m.z(), 0.0, 1e-9);
-}
-
 }  // namespace
 }  // namespace boresight::ui

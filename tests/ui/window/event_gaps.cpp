@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long the window keeps people waiting: event_gaps [DATASET CASE] opens a case, runs it to the
+// How long the window keeps people waiting: event_gaps DATASET CASE opens a case, runs it to the
 // end, walks through its iterations, runs it again and stops it at once. It prints the longest
-// times that the event loop was kept by one event, and how soon a stop was answered. Without
-// arguments: a 2048 x 2048 case of BORESIGHT_DATA, else the shipped example enlarged to that.
+// times that the event loop was kept by one event, and how soon a stop was answered.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <vector>
 
 #include <QtWidgets>
 
-#include "sessions/io/camera_file.h"
-#include "sessions/io/image_file.h"
 #include "sessions/session/session_maker.h"
 #include "ui/window/main_window.h"
 
@@ -83,52 +79,6 @@ class EventClock : public QApplication {
   EventGap inner_;
   std::vector<EventGap> gaps_;
 };
-
-/// Each pixel of the shipped example becomes four.
-sessions::Session enlargedExample(const fs::path& folder) {
-  const fs::path station = fs::path(BORESIGHT_EXAMPLES) / "stations" / "bc";
-  const sessions::GrayImage image = sessions::readImage(station / "image.png");
-  const int width = 2 * image.width;
-  const int height = 2 * image.height;
-  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width) *
-                                   static_cast<std::size_t>(height));
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-             static_cast<std::size_t>(x)] = image.view().at(x / 2, y / 2);
-  Camera camera = sessions::readCamera(station / "camera.json");
-  camera.width = width;
-  camera.height = height;
-  camera.fx *= 2.0;
-  camera.fy *= 2.0;
-  camera.cx = 2.0 * camera.cx + 0.5;
-  camera.cy = 2.0 * camera.cy + 0.5;
-  sessions::CaseFiles files;
-  files.image = folder / "image.png";
-  files.camera = folder / "camera.json";
-  files.seed = station / "seed.json";
-  files.parts.emplace_back();
-  files.parts.back().mesh = station / "model.ply";
-  files.parts.back().mesh_unit = "m";
-  sessions::writePng(files.image, pixels, width, height, 1);
-  sessions::writeCamera(files.camera, camera);
-  return sessions::withCase({}, sessions::makeCase(files).made);
-}
-
-/// The first case whose image is large enough.
-sessions::Session largeCase(const fs::path& dataset) {
-  sessions::Session all = sessions::makeSession(dataset);
-  for (const auto& one : all.cases)
-    if (one->image.width >= 2048 && one->image.height >= 2048) return sessions::withCase({}, *one);
-  return all;
-}
-
-sessions::Session sessionToRun(int argc, char** argv, const fs::path& folder) {
-  if (argc == 3) return sessions::makeSession(argv[1], {argv[2]});
-  const char* data = std::getenv("BORESIGHT_DATA");
-  if (data != nullptr && *data != '\0') return largeCase(fs::path(data) / "synthetic/dataset.json");
-  return enlargedExample(folder);
-}
 
 void waitFor(const std::function<bool()>& holds) {
   while (!holds()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
@@ -213,6 +163,10 @@ class Walk {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fprintf(stderr, "event_gaps DATASET CASE\n");
+    return 2;
+  }
   if (!qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
   EventClock clock(argc, argv);
   QStandardPaths::setTestModeEnabled(true);
@@ -225,7 +179,7 @@ int main(int argc, char** argv) {
   window.resize(1920, 1200);
   window.show();
   Walk walk(clock, window);
-  walk.open(folder / "gaps.boresight.json", sessionToRun(argc, argv, folder));
+  walk.open(folder / "gaps.boresight.json", sessions::makeSession(argv[1], {argv[2]}));
   walk.run();
   for (const QDockWidget* dock : window.findChildren<QDockWidget*>())
     walk.runInFrontOf(dock->objectName());

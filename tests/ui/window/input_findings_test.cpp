@@ -5,7 +5,7 @@
 
 #include "sessions/session/input_check.h"
 #include "tests/ui/window_test.h"
-#include "ui/panels/warning_bar.h"
+#include "ui/panels/banner.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 
@@ -81,7 +81,7 @@ TEST_F(InputFindingsTest, TheMiddleSaysWhichFileIsMissingAndWhatToDo) {
   reopen();
   const QString hint = window_.image().view().hint();
   EXPECT_TRUE(hint.contains(QString::fromStdString(image().string()))) << hint.toStdString();
-  EXPECT_TRUE(test::has(hint, "Mend"));
+  EXPECT_TRUE(test::has(hint, "Fix"));
   EXPECT_FALSE(hint.contains(QStringLiteral("Drop")));
 }
 
@@ -115,8 +115,8 @@ TEST_F(InputFindingsTest, AChangedFileIsTakenAsItIsWhenSomebodySaysSo) {
       QTest::mouseClick(box->button(QMessageBox::Yes), Qt::LeftButton);
   });
   yes.start(10);
-  for (auto* button : window_.findChildren<QToolButton*>(QStringLiteral("warningAction")))
-    if (button->isVisible() && button->text().startsWith(QStringLiteral("Mend")))
+  for (auto* button : window_.findChildren<QToolButton*>(QStringLiteral("bannerAction")))
+    if (button->isVisible() && button->text().startsWith(QStringLiteral("Fix")))
       QTest::mouseClick(button, Qt::LeftButton);
   settle();
   ASSERT_TRUE(wait([&] { return window_.state().currentCase() != nullptr; }));

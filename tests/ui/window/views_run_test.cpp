@@ -5,6 +5,7 @@
 #include "sessions/session/views_run.h"
 #include "tests/support/turned_view.h"
 #include "tests/ui/window_test.h"
+#include "ui/panels/banner.h"
 
 namespace boresight::ui {
 namespace {
@@ -18,7 +19,7 @@ class ViewsRunWindowTest : public test::WindowTest {
     return nullptr;
   }
   const sessions::Session& session() { return window_.document().session(); }
-  QString banner() { return find<QLabel>("standing").text(); }
+  QString banner() { return find<Banner>("standing").text(); }
 };
 
 TEST_F(ViewsRunWindowTest, EveryViewGetsARunThatIsTheSameHeadless) {
