@@ -7,8 +7,8 @@
 
 namespace boresight {
 
-enum class PnpSampler : std::int32_t { kP3p = 0, kGuided = 1, kEpnp = 2 };
-inline constexpr const char* kPnpSamplerNames[] = {"p3p", "guided", "epnp"};
+enum class PnpSampler : std::int32_t { kGuided = 0, kEpnp = 1 };
+inline constexpr const char* kPnpSamplerNames[] = {"guided", "epnp"};
 
 /// Of RANSAC and the refits.
 struct PnpOptions {
@@ -19,9 +19,9 @@ struct PnpOptions {
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
-    visit(OptionInfo{"pnp.sampler", "", 0, 2,
-                     "How RANSAC solves a sample: three points by P3P, three points refined from "
-                     "the hypothesis under a weak prior, or five points by EPnP.",
+    visit(OptionInfo{"pnp.sampler", "", 0, 1,
+                     "How RANSAC solves a sample: three points refined from the hypothesis under a "
+                     "weak prior, or five points by EPnP.",
                      kPnpSamplerNames},
           self.sampler);
     visit(OptionInfo{"pnp.max_samples", "", 1, 100000, "Largest number of RANSAC samples."},

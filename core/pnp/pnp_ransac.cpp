@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/pnp/epnp.h"
-#include "core/pnp/p3p.h"
 #include "core/pnp/refine_pose.h"
 
 namespace boresight {
@@ -235,7 +234,7 @@ int PnpRansac::sampleSize() const {
   return options_.sampler == PnpSampler::kEpnp ? kEpnpSampleSize : kSampleSize;
 }
 
-/// Whether all points of a sample are of one view: P3P and EPnP solve for one camera.
+/// Whether all points of a sample are of one view: EPnP solves for one camera.
 bool PnpRansac::isOfOneView(const SpreadSampler::Sample& sample) const {
   const auto points = std::span(sample).first(static_cast<std::size_t>(sampleSize()));
   return std::all_of(points.begin(), points.end(),
@@ -249,31 +248,10 @@ void PnpRansac::takeSample() {
     sample = sampler_.draw();
   ++samples_;
   switch (options_.sampler) {
-    case PnpSampler::kP3p:
-      return sampleP3p(sample);
     case PnpSampler::kGuided:
       return sampleGuided(sample);
     case PnpSampler::kEpnp:
       return sampleEpnp(sample);
-  }
-}
-
-void PnpRansac::sampleP3p(const SpreadSampler::Sample& sample) {
-  std::array<Eigen::Vector3d, 3> bearing;
-  std::array<Eigen::Vector3d, 3> point;
-  if (!isOfOneView(sample)) return;
-  const std::size_t view = viewOfUsable(sample[0]);
-  const Pose camera_from_station = poseOfView(views_, view, hypothesis_.camera_from_station);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Correspondence& item = usable(sample[i]);
-    if (!bearingOf(*views_[view].camera, item, camera_from_station, bearing[i])) return;
-    point[i] = item.point_in_station_m;
-  }
-  std::array<Pose, 4> pose;
-  const int count = solveP3p(bearing, point, pose);
-  for (int i = 0; i < count; ++i) {
-    const Pose& found = pose[static_cast<std::size_t>(i)];
-    consider(view == 0 ? found : views_[view].camera_from_first.inverse() * found);
   }
 }
 

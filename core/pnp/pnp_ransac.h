@@ -31,9 +31,9 @@ struct PnpSolution {
 
 /// RANSAC in bounded slices, then refinement over all inliers.
 ///
-/// - Samples: three points by P3P (every solution is scored; where the entrance pupil moves, the
-///   bearings are those of points as far off as the hypothesis has them), three refined from the
-///   hypothesis under its weak prior (the hypothesis itself is scored first), or five by EPnP.
+/// - Samples: three points refined from the hypothesis under its weak prior (the hypothesis itself
+///   is scored first), or five by EPnP (where the entrance pupil moves, the bearings are those of
+///   points as far off as the hypothesis has them).
 /// - Score: sum of min(residual^2, threshold^2) / sigma^2 over the usable correspondences (MSAC,
 ///   Torr and Zisserman 2000), the lowest wins, the earlier of equals.
 /// - Every new best is refitted to its inliers, without that prior, while this lowers the score
@@ -87,7 +87,6 @@ class PnpRansac {
   const Correspondence& usable(std::int32_t k) const;
   Status finish(Status status);
   void takeSample();
-  void sampleP3p(const SpreadSampler::Sample& sample);
   void sampleEpnp(const SpreadSampler::Sample& sample);
   void sampleGuided(const SpreadSampler::Sample& sample);
   void consider(const Pose& camera_from_station);

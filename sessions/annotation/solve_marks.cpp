@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/pnp/pnp_ransac.h"
+#include <opencv2/calib3d.hpp>
+
+#include "core/pnp/correspondence.h"
 #include "sessions/annotation/geometry_meter.h"
 #include "sessions/annotation/mark_equations.h"
 
@@ -23,6 +25,7 @@ constexpr double kTwinAngle_rad = 0.02;  ///< nearer than this it is the same po
 constexpr std::size_t kFewestPoints = 4;
 constexpr double kFirstThreshold_px = 8.0;
 constexpr int kMostSamples = 5000;
+constexpr double kConfidence = 0.999;  ///< of having drawn a sample without outliers
 
 std::vector<Correspondence> correspondencesOf(const MarkedView& view) {
   std::vector<Correspondence> made;
@@ -31,31 +34,41 @@ std::vector<Correspondence> correspondencesOf(const MarkedView& view) {
   return made;
 }
 
-/// Camera from station.
+/// Camera from station, by OpenCV's P3P and RANSAC in the plane z = 1. Bearings are those of the
+/// camera's centre: exact enough for a start, also where the pupil moves.
 std::optional<Pose> consensus(const MarkedView& view, double threshold_px) {
-  const std::vector<Correspondence> points = correspondencesOf(view);
-  const int count = static_cast<int>(points.size());
-  Arena counter;
-  PnpRansac counted;
-  if (counted.create(count, counter) != Status::kOk) return {};
-  std::vector<std::byte> memory(counter.highWater() + Arena::kAlignment);
-  Arena arena(memory);
-  PnpRansac ransac;
-  if (ransac.create(count, arena) != Status::kOk) return {};
-  std::vector<std::uint8_t> inlier(points.size());
-  std::vector<double> residual_px(points.size());
-  PnpSolution solution;
-  solution.inlier = inlier;
-  solution.residual_px = residual_px;
-  PnpOptions options;
-  options.sampler = PnpSampler::kP3p;
-  options.min_inliers = static_cast<std::int32_t>(kFewestPoints);
-  options.max_samples = kMostSamples;
-  Status status = ransac.begin(points, view.camera, {}, threshold_px, options, solution);
-  bool done = false;
-  while (status == Status::kOk && !done) status = ransac.step(done);
-  if (status != Status::kOk) return {};
-  return solution.camera_from_station;
+  std::vector<cv::Point3d> points;
+  std::vector<cv::Point2d> places;
+  for (const Correspondence& item : correspondencesOf(view)) {
+    Ray ray;
+    if (!isUsable(item) || !unprojectRay(view.camera, item.pixel, ray)) continue;
+    const Eigen::Vector3d& point = item.point_in_station_m;
+    points.emplace_back(point.x(), point.y(), point.z());
+    places.emplace_back(ray.direction.x() / ray.direction.z(),
+                        ray.direction.y() / ray.direction.z());
+  }
+  if (points.size() < kFewestPoints) return {};
+  cv::Mat rotation;
+  cv::Mat translation;
+  std::vector<int> inliers;
+  try {
+    if (!cv::solvePnPRansac(points, places, cv::Mat::eye(3, 3, CV_64F), cv::noArray(), rotation,
+                            translation, false, kMostSamples,
+                            static_cast<float>(threshold_px / view.camera.fx), kConfidence, inliers,
+                            cv::SOLVEPNP_AP3P))
+      return {};
+  } catch (const cv::Exception&) {
+    return {};  // points on a line, or in one place
+  }
+  if (inliers.size() < kFewestPoints) return {};
+  Pose pose;
+  const auto vector = [](const cv::Mat& m) {
+    return Eigen::Vector3d(m.at<double>(0), m.at<double>(1), m.at<double>(2));
+  };
+  pose.rotation = rotationExp(vector(rotation));
+  pose.translation_m = vector(translation);
+  if (!pose.isFinite()) return {};
+  return pose;
 }
 
 /// Where least squares over marks may begin: the pose that agrees with most points of the view that

@@ -73,7 +73,7 @@ struct MarksResult {
 };
 
 /// The pose of the rig that explains all marks that are on, best in the sense of least squares over
-/// sigma (or robust ones), with the whole camera models. It starts from P3P on random points where
+/// sigma (or robust ones), with the whole camera models. It starts from P3P with RANSAC where
 /// a view has four, and from the guess. Deterministic: the same marks give the same digits.
 /// Robust: iteratively reweighted least squares with Tukey's biweight, c = 4.685 (Huber and
 /// Ronchetti 2009), its scale the median of the residuals' norms.

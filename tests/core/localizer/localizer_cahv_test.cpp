@@ -94,7 +94,7 @@ TEST_P(LocalizerOnPlanetaryCameras, ConvergesToTheTruth) {
   Picture picture;
   Case scene = caseOf(GetParam(), picture, 1);
   picture = takePictureByRays(scene.solid, scene.camera, scene.truth);
-  for (const PnpSampler sampler : {PnpSampler::kGuided, PnpSampler::kP3p}) {
+  for (const PnpSampler sampler : {PnpSampler::kGuided, PnpSampler::kEpnp}) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       SCOPED_TRACE(seed);
       scene = caseOf(GetParam(), picture, seed);

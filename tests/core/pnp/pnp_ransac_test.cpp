@@ -164,8 +164,7 @@ TEST_P(PnpRansacSamplers, StopSoonerWithMoreInliers) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, PnpRansacSamplers,
-                         ::testing::Values(Variant{PnpSampler::kP3p, "P3p"},
-                                           Variant{PnpSampler::kGuided, "Guided"}),
+                         ::testing::Values(Variant{PnpSampler::kGuided, "Guided"}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 void expectToWithstandSeventyPercent(const std::string& name, const PnpOptions& options) {
@@ -197,9 +196,8 @@ TEST(PnpRansac, TrustsPreciseMatchesMore) {
     PnpScene scene = makeScene(random, {.points = 90});
     // The larger half agrees on another pose, but is declared imprecise. It is hardly larger, so
     // that the search does not stop before it draws a sample of the other half.
-    const Pose wrong =
-        displacedAboutPivot(scene.camera_from_station,
-                            randomOffset(random, scene.hypothesis.sigma), {0.0, 0.0, 0.0});
+    const Pose wrong = displacedAboutPivot(
+        scene.camera_from_station, randomOffset(random, scene.hypothesis.sigma), {0.0, 0.0, 0.0});
     for (std::size_t i = 0; i < 46; ++i) {
       Correspondence& item = scene.correspondences[i];
       ASSERT_TRUE(project(scene.camera, wrong * item.point_in_station_m, item.pixel));
@@ -234,9 +232,9 @@ TEST(PnpRansac, WorksFarAwayWithAPivotAtTheStation) {
     options.distance_m = 1.2;
     PnpScene scene = makeScene(random, options);
     scene.hypothesis.sigma.pivot_in_camera_m = scene.camera_from_station.translation_m;
-    scene.hypothesis.camera_from_station = displacedAboutPivot(
-        scene.camera_from_station, randomOffset(random, scene.hypothesis.sigma),
-        scene.hypothesis.sigma.pivot_in_camera_m);
+    scene.hypothesis.camera_from_station =
+        displacedAboutPivot(scene.camera_from_station, randomOffset(random, scene.hypothesis.sigma),
+                            scene.hypothesis.sigma.pivot_in_camera_m);
     Solver solver(80);
     ASSERT_EQ(solver.solve(scene, 4.0, PnpOptions()), Status::kOk) << "trial " << trial;
     EXPECT_LT(normalizedSquaredError(scene, solver.solution), 50.0);
@@ -262,7 +260,7 @@ TEST(PnpRansac, GivesTheSameBitsHoweverItIsRun) {
   Random random = randomFor("PnpRansac.GivesTheSameBitsHoweverItIsRun");
   const PnpScene scene = makeScene(random, {.points = 90, .outlier_share = 0.5, .noise_px = 1.0});
   const PnpScene other = makeScene(random, {.points = 50, .outlier_share = 0.6, .noise_px = 2.0});
-  for (const PnpSampler sampler : {PnpSampler::kP3p, PnpSampler::kGuided, PnpSampler::kEpnp}) {
+  for (const PnpSampler sampler : {PnpSampler::kGuided, PnpSampler::kEpnp}) {
     PnpOptions options;
     options.sampler = sampler;
     Solver whole(90);
@@ -325,8 +323,7 @@ TEST(PnpRansac, TakesFromTheArenaWhatItCounts) {
 
 class PnpSamplersWithAMovingPupil : public ::testing::TestWithParam<PnpSampler> {};
 INSTANTIATE_TEST_SUITE_P(Samplers, PnpSamplersWithAMovingPupil,
-                         ::testing::Values(PnpSampler::kP3p, PnpSampler::kGuided,
-                                           PnpSampler::kEpnp));
+                         ::testing::Values(PnpSampler::kGuided, PnpSampler::kEpnp));
 
 /// Points all over the image of a camera whose pupil moves by 4 mm, a third of them wrong.
 TEST_P(PnpSamplersWithAMovingPupil, FindsTheTruthDespiteOutliers) {
@@ -364,7 +361,7 @@ TEST(PnpWithAMovingPupil, OneMinimalSampleIsExact) {
   scene_options.half_width_m = 0.3;
   scene_options.half_depth_m = 0.05;
   PnpOptions options;
-  options.sampler = PnpSampler::kP3p;
+  options.sampler = PnpSampler::kEpnp;
   options.max_samples = 1;
   options.min_inliers = 60;
   for (int run = 0; run < 20; ++run) {

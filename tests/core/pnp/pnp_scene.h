@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "core/pnp/correspondence.h"
-#include "core/pnp/p3p.h"
 #include "core/pnp/pnp_options.h"
 #include "core/pnp/pnp_ransac.h"
 #include "core/pnp/refine_pose.h"

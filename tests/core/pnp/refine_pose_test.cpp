@@ -191,8 +191,7 @@ TEST(RefinePosePrior, BalancesWithTheReprojections) {
       Pose pose = prior.camera_from_station;
       ASSERT_EQ(refinePose(scene.correspondences, {}, scene.camera, &prior, 50, pose), Status::kOk);
       const auto cost = [&](const Pose& at) {
-        return reprojectionCost(scene.correspondences, {}, scene.camera, at) +
-               priorCost(prior, at);
+        return reprojectionCost(scene.correspondences, {}, scene.camera, at) + priorCost(prior, at);
       };
       EXPECT_LT(newtonStepLeft(cost, pose), 2e-6) << points << " points";
       EXPECT_GT(priorCost(prior, pose), 1e-4) << "the reprojections must have pulled";

