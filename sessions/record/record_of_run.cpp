@@ -129,7 +129,8 @@ void takeSupport(const EdgeSupport& support, LocalizationStatus status, OnboardR
     const bool converged =
         one == record.iterations.rbegin() && status == LocalizationStatus::kConverged;
     const bool refused = one->status == LocalizationStatus::kNotSupported ||
-                         one->status == LocalizationStatus::kBlurred;
+                         one->status == LocalizationStatus::kBlurred ||
+                         one->status == LocalizationStatus::kCameraMismatch;
     if (!converged && !refused) continue;
     if (taken)
       record.missing.push_back("the edge support of iteration " + std::to_string(one->index + 1));
