@@ -94,11 +94,15 @@ SurfaceAxes surfaceAxesOf(const MeshView& mesh) {
   if (!(area > 0.0)) return made;
   made.middle_m /= area;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  // The second moment of a triangle about a point is area / 12 times this.
   forMatched([&](const Corners& corners, double weight) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& corner : corners) {
       const Eigen::Vector3d from = corner - made.middle_m;
       spread += weight / area * from * from.transpose();
+      sum += from;
     }
+    spread += weight / area * sum * sum.transpose();
   });
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     rotateToDiagonal(0, 1, spread, made.axes);
