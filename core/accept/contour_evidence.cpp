@@ -16,7 +16,6 @@ using Shares = std::array<double, kIntervals>;
 constexpr std::array<int, kIntervals - 1> kUpTo = {12, 23, 36};
 constexpr Shares kAtRightPoses = {0.50, 0.33, 0.17, 0.0};
 constexpr double kTrusted = 0.6;  ///< share of a right pose's edges that the image shows
-constexpr double kWindow = 0.2;   ///< of the object's size: what lies around a place
 constexpr int kSamples = 12;      ///< of the window, along each side
 
 std::size_t intervalOf(int distance) {
@@ -49,17 +48,17 @@ Shares sharesAround(const EvidencePlace& place, const DirectedEdges& edges,
   return shares;
 }
 
-double natsOf(const EvidencePlace& place, const DirectedEdges& edges,
-              std::span<const std::uint8_t> distance, double window_px) {
+double meanOf(double sum, std::int32_t count) { return count > 0 ? sum / count : 0.0; }
+
+}  // namespace
+
+double evidenceOfPlace_nats(const EvidencePlace& place, const DirectedEdges& edges,
+                            std::span<const std::uint8_t> distance, double window_px) {
   const Shares around = sharesAround(place, edges, distance, window_px);
   const std::size_t k =
       intervalOf(distance[static_cast<std::size_t>(place.y * edges.width + place.x)]);
   return naturalLogarithm((kTrusted * kAtRightPoses[k] + (1.0 - kTrusted) * around[k]) / around[k]);
 }
-
-double meanOf(double sum, std::int32_t count) { return count > 0 ? sum / count : 0.0; }
-
-}  // namespace
 
 double ContourEvidence::weakest_nats() const {
   double least = strongest_nats();
@@ -89,7 +88,7 @@ ContourEvidence ContourEvidenceMeter::measure(const DirectedEdges& edges, double
       if (place.direction != direction || place.x < 0 || place.y < 0 || place.x >= edges.width ||
           place.y >= edges.height || edges.at(place.x, place.y) == DirectedEdges::kUnseen)
         continue;
-      const double nats = natsOf(place, edges, distance_, kWindow * size_px);
+      const double nats = evidenceOfPlace_nats(place, edges, distance_, kEvidenceWindow * size_px);
       const auto quadrant = static_cast<std::size_t>((place.x * count > sum_x ? 1 : 0) +
                                                      (place.y * count > sum_y ? 2 : 0));
       evidence.edges_nats += nats;

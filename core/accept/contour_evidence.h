@@ -39,6 +39,12 @@ struct ContourEvidence {
   double strongest_nats() const { return outline_nats > edges_nats ? outline_nats : edges_nats; }
 };
 
+/// The window around a place in which the image's shares are counted, of the object's size.
+inline constexpr double kEvidenceWindow = 0.2;
+/// The evidence of one place, nats, given the distances to edges of its direction.
+double evidenceOfPlace_nats(const EvidencePlace& place, const DirectedEdges& edges,
+                            std::span<const std::uint8_t> distance, double window_px);
+
 /// Measures the evidence for a pose in small images.
 class ContourEvidenceMeter {
  public:

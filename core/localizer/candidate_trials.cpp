@@ -62,8 +62,7 @@ bool CandidateTrials::nextIsWorthwhile(int attempt, const RunContext& run) const
 }
 
 Attempt CandidateTrials::next(int attempt, const RunContext& run) {
-  const bool has_pose = best_probability_ >= 0.0;
-  if (!has_pose && triesSeed(attempt, run)) {
+  if (!hasPose() && triesSeed(attempt, run)) {
     seed_tried_ = true;
     return Attempt(attempt, seed_);
   }
@@ -92,8 +91,7 @@ CandidateTrials::Next CandidateTrials::takePose(const Attempt& attempt,
 
 CandidateTrials::Next CandidateTrials::takeFailure(int attempt, const RunContext& run) {
   if (returns_) return Next::kConclude;
-  if (best_probability_ >= 0.0)
-    return nextIsWorthwhile(attempt + 1, run) ? Next::kTry : Next::kReturn;
+  if (hasPose()) return nextIsWorthwhile(attempt + 1, run) ? Next::kTry : Next::kReturn;
   return hasNext(attempt + 1, run) ? Next::kTry : Next::kConclude;
 }
 

@@ -35,6 +35,8 @@ class CandidateTrials {
   /// An attempt has converged on a supported pose.
   Next takePose(const Attempt& attempt, const Pose& camera_from_station_before, double probability,
                 const RunContext& run);
+  /// Whether an attempt has converged on a supported pose.
+  bool hasPose() const { return best_probability_ >= 0.0; }
   /// An attempt has failed, or its pose is not supported.
   Next takeFailure(int attempt, const RunContext& run);
   /// The attempt that repeats the last iteration of the best pose.

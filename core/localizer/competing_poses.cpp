@@ -133,4 +133,29 @@ LocalizationStatus CompetingPoses::verdict(const Pose& camera_from_station,
   return ambiguous ? LocalizationStatus::kAmbiguous : LocalizationStatus::kConverged;
 }
 
+std::span<const Rival> CompetingPoses::takeTwins(std::span<const Twin> twins) {
+  count_ = 0;
+  for (const Twin& twin : twins) {
+    if (count_ == static_cast<int>(poses_.size())) break;
+    Rival& pose = poses_[static_cast<std::size_t>(count_++)];
+    pose = Rival();
+    pose.camera_from_station_before = twin.camera_from_station;
+    pose.camera_from_station = twin.camera_from_station;
+    pose.similarity = twin.similarity;
+    pose.ended = LocalizationStatus::kConverged;
+    pose.margin_nats = twin.margin_nats;
+  }
+  return poses();
+}
+
+LocalizationStatus CompetingPoses::verdictOnTwins(const LocalizerOptions& options) const {
+  const auto twins = poses();
+  const bool ambiguous = std::any_of(twins.begin(), twins.end(), [&](const Rival& twin) {
+    return twin.margin_nats < (isInSeedsBox(twin.camera_from_station, options)
+                                   ? kTwinMargin_nats
+                                   : kOutsideMargin_nats);
+  });
+  return ambiguous ? LocalizationStatus::kAmbiguous : LocalizationStatus::kConverged;
+}
+
 }  // namespace boresight

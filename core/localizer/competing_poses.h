@@ -8,6 +8,7 @@
 #include "core/localizer/attempt.h"
 #include "core/localizer/pass_plan.h"
 #include "core/localizer/workspace.h"
+#include "core/search/twin_test.h"
 
 namespace boresight {
 
@@ -15,7 +16,7 @@ namespace boresight {
 /// model repeats. An attempt is made from each of them, within a box that does not reach the next;
 /// of two supported poses the one with more evidence is the best pose. The last iteration of the
 /// best pose is repeated at the end, so that the run ends with its record. Off unless
-/// options.ambiguity.enabled.
+/// options.ambiguity.enabled. Otherwise a run that searches is judged by the twins of its pose.
 class CompetingPoses {
  public:
   /// What follows a pass of this policy.
@@ -33,6 +34,12 @@ class CompetingPoses {
   /// Evidence by which the best pose must exceed a competing one, else the run is ambiguous: odds
   /// of 20000 to 1, since neighbouring edges share their errors.
   static constexpr double kMinMargin_nats = 10.0;
+
+  /// Evidence by which the final pose must exceed a twin within the seed's uncertainty.
+  static constexpr double kTwinMargin_nats = 3.0;
+  /// The same of a twin outside, which the seed excludes: with a right mesh none is better by
+  /// 0.3 nats, with a mirrored one the half turn is better by 2 to 37.
+  static constexpr double kOutsideMargin_nats = -2.0;
 
   CompetingPoses() = default;
   /// `poses` holds kMaxRivals entries and must outlive this; `seed` is the run's.
@@ -60,6 +67,11 @@ class CompetingPoses {
   Attempt competitor(int index, const RunContext& run) const;
   /// The attempt that repeats the last iteration of the best pose.
   Attempt best(int index, const LocalizerOptions& options) const;
+
+  /// Notes the twins of the final pose.
+  std::span<const Rival> takeTwins(std::span<const Twin> twins);
+  /// kConverged, or kAmbiguous when a twin has about as much evidence.
+  LocalizationStatus verdictOnTwins(const LocalizerOptions& options) const;
 
   /// The poses compared so far, with their evidence.
   std::span<const Rival> poses() const { return poses_.first(static_cast<std::size_t>(count_)); }

@@ -33,6 +33,10 @@ PassPlan Localizer::plan() const {
       return plan;
     case Phase::kCompare:  // where else does the edge pattern of the model repeat?
       return competing_.comparison();
+    case Phase::kTwins:  // does another pose show about the same edges?
+      plan.kind = PassKind::kTwins;
+      plan.camera_from_station = attempt_.camera_from_station();
+      return plan;
     case Phase::kEdges:
     case Phase::kEnded:
       break;
@@ -51,6 +55,7 @@ StepReport Localizer::decide(const StepReport& slice) {
   }
   if (phase_ == Phase::kCompare)
     return follow(competing_.takeShifts(pass_.selfShifts(), pass_.context()), slice);
+  if (phase_ == Phase::kTwins) return judgeTwins(slice);
   const Ruling ruling = rule(outcome);
   pass_.show(ruling);
   StepReport report = StepReport::of(ruling.stage, true);
@@ -68,7 +73,12 @@ StepReport Localizer::decide(const StepReport& slice) {
     if (next != CandidateTrials::Next::kConclude)
       return follow(next, LocalizationStatus::kConverged, report);
   }
-  if (!pass_.options().ambiguity.enabled) return finish(LocalizationStatus::kConverged, report);
+  if (!pass_.options().ambiguity.enabled) {
+    if (!searches() || !pass_.options().support.gate)
+      return finish(LocalizationStatus::kConverged, report);
+    phase_ = Phase::kTwins;
+    return report;
+  }
   if (competing_.hasEnded())
     return finish(competing_.verdict(attempt_.camera_from_station(), pass_.options()), report);
   const double margin_nats = competing_.hasStarted() ? pass_.bestMargin_nats() : 0.0;
@@ -92,16 +102,26 @@ Ruling Localizer::rule(const PassOutcome& outcome) {
     const bool supported = searches() ? isProbable(outcome.probability, options)
                                       : isSupported(outcome.support, options);
     const bool blurred = options.gate && !workspace().edge_width.isSharp();
-    // Widths are those of the image's edges only where the pose is about right.
-    const LocalizationStatus refusal = left        ? LocalizationStatus::kLeftUncertainty
-                                       : supported ? LocalizationStatus::kBlurred
-                                                   : LocalizationStatus::kNotSupported;
-    return {supported && !left && !blurred ? Ruling::Next::kPose : Ruling::Next::kFailed, refusal,
-            Stage::kSupport, false, attempt_.record()};
+    const bool mismatched = options.gate && workspace().focal.disagrees();
+    // Widths and focal length are those of the image only where the pose is about right.
+    const LocalizationStatus refusal = left         ? LocalizationStatus::kLeftUncertainty
+                                       : !supported ? LocalizationStatus::kNotSupported
+                                       : blurred    ? LocalizationStatus::kBlurred
+                                                    : LocalizationStatus::kCameraMismatch;
+    const bool accepted = supported && !left && !blurred && !mismatched;
+    return {accepted ? Ruling::Next::kPose : Ruling::Next::kFailed, refusal, Stage::kSupport, false,
+            attempt_.record()};
   }
   const Iteration& record = *workspace().iteration;
   return attempt_.take(outcome, {record.pnp.inlier_count, record.correspondence_count},
                        pass_.context(), pass_.memory().records);
+}
+
+StepReport Localizer::judgeTwins(StepReport report) {
+  const std::span<const Rival> rivals = competing_.takeTwins(pass_.twins());
+  pass_.workspace().rivals = rivals;
+  digestRivals(rivals, pass_.digest());
+  return finish(competing_.verdictOnTwins(pass_.options()), report);
 }
 
 /// After a failure: the next competing pose, another attempt, or the end.
@@ -109,6 +129,9 @@ StepReport Localizer::retry(const Ruling& ruling, StepReport report) {
   if (ruling.status == LocalizationStatus::kFault) return finish(ruling.status, report);
   if (competing_.isTrying()) return follow(competing_.takeFailure(ruling.status), report);
   if (competing_.hasStarted()) return finish(ruling.status, report);
+  // Other candidates are seen by the same camera.
+  if (ruling.status == LocalizationStatus::kCameraMismatch && !trials_.hasPose())
+    return finish(ruling.status, report);
   if (searches())
     return follow(trials_.takeFailure(attempt_.index(), pass_.context()), ruling.status, report);
   if (attempt_.index() + 1 >= pass_.options().loop.max_attempts)

@@ -25,7 +25,7 @@ namespace boresight {
 ///
 /// The pass runs the stages; the policies decide which pass comes next: the iterations of an
 /// attempt, the candidates of the search that attempts start from, and competing poses after
-/// convergence.
+/// convergence. At the end the final pose is compared with those of near-symmetries of the mesh.
 ///
 /// A caller with threads may share out the independent tasks of a stage:
 ///
@@ -101,12 +101,21 @@ class Localizer {
 
  private:
   /// Which policy plans the next pass.
-  enum class Phase : std::uint8_t { kEdges = 0, kSearch, kIterate, kAccept, kCompare, kEnded };
+  enum class Phase : std::uint8_t {
+    kEdges = 0,
+    kSearch,
+    kIterate,
+    kAccept,
+    kCompare,
+    kTwins,
+    kEnded
+  };
 
   Status begin(const LocalizationProblem& problem, const LocalizerOptions& options);
   PassPlan plan() const;
   StepReport decide(const StepReport& slice);
   Ruling rule(const PassOutcome& outcome);
+  StepReport judgeTwins(StepReport report);
   StepReport retry(const Ruling& ruling, StepReport report);
   StepReport follow(CandidateTrials::Next next, LocalizationStatus status, StepReport report);
   StepReport follow(CompetingPoses::Next next, StepReport report);

@@ -64,6 +64,7 @@ void Pass::begin(const PassPlan& plan) {
   running_ = true;
   stage_begun_ = false;
   task_begun_ = false;
+  evidence_complete_ = false;
   solver_waits_ = false;
   failed_ = LocalizationStatus::kRunning;
   memory_.tasks.open(0);
@@ -85,6 +86,7 @@ void Pass::begin(const PassPlan& plan) {
       stage_ = Stage::kSupport;
       break;
     case PassKind::kSupport:
+    case PassKind::kTwins:
       stage_ = Stage::kSupport;
       break;
   }

@@ -37,8 +37,8 @@ struct JointPose {
 
 /// Runs the stages of one pass, one bounded slice per step: edges, or search, or render ->
 /// templates
-/// -> match -> pose, or render -> refine, or support. It fills the plan's record and the digest. It
-/// knows neither why it runs nor what comes next.
+/// -> match -> pose, or render -> refine, or support, or twins. It fills the plan's record and the
+/// digest. It knows neither why it runs nor what comes next.
 ///
 /// A caller with threads may share out the tasks of a stage between two steps; tasks that are left
 /// are done by step(). The results have the same bits with any number of workers.
@@ -100,6 +100,7 @@ class Pass {
   /// Evidence for the best pose beyond that of the record's pose, nats.
   double bestMargin_nats() const;
   std::span<const SelfShift> selfShifts() const { return memory_.similarity.shifts(); }
+  std::span<const Twin> twins() const { return memory_.twins.twins(); }
   ///@}
 
   /// Shows the record of a ruling, and counts it when it is complete.
@@ -156,6 +157,9 @@ class Pass {
   StepReport stepOutsideRound();
   StepReport stepSupport();
   StepReport stepSelfSimilarity();
+  StepReport stepTwins();
+  void beginSupport();
+  void noteEvidence();
   Status beginPose();
   Status beginRefinement();
   Status continueRender(bool& complete);
@@ -181,7 +185,8 @@ class Pass {
   bool running_ = false;
   Stage stage_ = Stage::kEdges;
   bool stage_begun_ = false;
-  bool task_begun_ = false;  ///< by step(), which then also ends it
+  bool task_begun_ = false;         ///< by step(), which then also ends it
+  bool evidence_complete_ = false;  ///< of a support pass
 
   bool match_outside_ = false;
   bool matches_supplied_ = false;

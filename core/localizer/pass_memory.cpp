@@ -157,14 +157,18 @@ void PassMemory::Layout::layOutRenders() {
     const std::size_t end = kept.mark();
     kept.rewind(start);
     (void)to.search.create(kept);
-    kept.rewind(std::max(end, kept.mark()));
+    const std::size_t search_end = kept.mark();
+    kept.rewind(start);
+    (void)to.twins.create(kept);
+    kept.rewind(std::max({end, search_end, kept.mark()}));
   }
   if (options.ambiguity.enabled) {
     to.best_render = createRender(levels.fine);
     const Camera camera = cameraAtLevel(problem.camera, levels.fine);
     to.similarity.create(camera.width, camera.height, kept);
-    to.competing = kept.allocate<Rival>(std::size_t{CompetingPoses::kMaxRivals});
   }
+  if (options.ambiguity.enabled || options.search.enabled)
+    to.competing = kept.allocate<Rival>(std::size_t{CompetingPoses::kMaxRivals});
 }
 
 /// One after the other in the same memory; the edges last, as that stage is the first to run.
@@ -194,7 +198,10 @@ Status PassMemory::Layout::layOutStages() {
   // Behind the samples, which may be looked at until the next render.
   if (options.search.enabled && status == Status::kOk) {
     status = to.evidence.create(scratch);
-    if (scratch.countsOnly()) bytesOf(Stage::kSupport) = scratch.highWater();
+    if (status == Status::kOk) status = to.focal.create(options.refinement.max_samples, scratch);
+    // The test of twins renders, when the samples are no longer needed.
+    if (scratch.countsOnly())
+      bytesOf(Stage::kSupport) = std::max(scratch.highWater(), bytesOf(Stage::kRender));
   }
   [[maybe_unused]] std::size_t of_samples_and_evidence = 0;  // counted above
   shareScratch(of_samples_and_evidence);

@@ -17,9 +17,11 @@
 #include "core/match/whs.h"
 #include "core/pnp/pnp_ransac.h"
 #include "core/refine/edge_refinement.h"
+#include "core/refine/focal_fit.h"
 #include "core/render/edge_render.h"
 #include "core/search/pose_evidence.h"
 #include "core/search/pose_search.h"
+#include "core/search/twin_test.h"
 #include "core/templates/template_selection.h"
 
 namespace boresight {
@@ -42,9 +44,9 @@ struct MemoryUse {
 
 /// The memory of a localization, laid out once in one block: first what lives throughout (mesh
 /// adjacency, ray grids, edge maps from the finest matched level on, renders, records), then one
-/// piece that the stages use in turn. The search before the first iteration works in the memory of
-/// the renders. Edge maps finer than the finest matched level last until the
-/// first render; the samples of a refinement last until the next render.
+/// piece that the stages use in turn. The search before the first iteration and the test of twins
+/// after the last one work in the memory of the renders. Edge maps finer than the finest matched
+/// level last until the first render; the samples of a refinement last until the next render.
 ///
 /// The stages keep pointers into this object: it must not move.
 class PassMemory {
@@ -78,6 +80,8 @@ class PassMemory {
   PnpRansac ransac;                          ///< of poses from matches
   EdgeRefinement refinement;                 ///< of poses on edges
   PoseEvidence evidence;                     ///< of the final pose, with search.enabled
+  FocalFitter focal;                         ///< of the final pose, with search.enabled
+  TwinTest twins;                            ///< of the final pose, with search.enabled
   SelfSimilarity similarity;                 ///< with ambiguity.enabled
   TaskList tasks;                            ///< of the stage under way
   std::array<RayGrid, kPyramidLevels> rays;  ///< of the levels that are rendered
@@ -85,7 +89,8 @@ class PassMemory {
   std::array<EdgeRender, 2> coarse_render;   ///< of the first iteration, one per record
   EdgeRender fine_render;  ///< of later iterations, in the same memory unless the level is the same
   EdgeRender best_render;  ///< of the best pose, with ambiguity.enabled
-  std::span<Rival> competing;  ///< for the policy: poses that compete with the converged one
+  /// For the policies: poses that compete with the converged one.
+  std::span<Rival> competing;
 
  private:
   struct Layout;

@@ -25,6 +25,7 @@ enum class PassKind : std::uint8_t {
   kRefine,          ///< renders, refines the pose on the edges of the image
   kSupport,         ///< measures the edge support of the pose of the record
   kSelfSimilarity,  ///< finds displacements of the best pose whose renders look alike
+  kTwins,           ///< compares the final pose with those of near-symmetries of the mesh
 };
 
 /// What a pass works on.

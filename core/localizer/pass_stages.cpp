@@ -28,7 +28,9 @@ StepReport Pass::step() {
     case Stage::kRefine:
       return solve_outside_ ? stepOutsideRound() : stepRefine();
     case Stage::kSupport:
-      return plan_.kind == PassKind::kSupport ? stepSupport() : stepSelfSimilarity();
+      return plan_.kind == PassKind::kSupport ? stepSupport()
+             : plan_.kind == PassKind::kTwins ? stepTwins()
+                                              : stepSelfSimilarity();
     case Stage::kFinished:
       break;
   }
@@ -260,29 +262,58 @@ StepReport Pass::stepRefine() {
   return end(Stage::kRefine);
 }
 
-/// Edge support and edge width at once; evidence, after a search, in slices.
+/// Edge support and edge width at once; after a search evidence and focal length, in slices.
 StepReport Pass::stepSupport() {
   if (!stage_begun_) {
-    const Iteration& now = record();
-    workspace_.support = measureEdgeSupport(now.render, now.level, workspace_.edges, problem_.image,
-                                            problem_.ignore);
-    workspace_.evidence = {};
-    workspace_.probability = 0.0;
-    workspace_.edge_width =
-        measureEdgeWidth(now.render, now.level, problem_.image, problem_.ignore);
-    outcome_.support = workspace_.support;
-    digest_.tag("support");
-    digestSupport(workspace_.support, digest_);
-    digestEdgeWidth(workspace_.edge_width, digest_);
-    stage_begun_ = true;
-    if (!searches() || !memory_.evidence.begin(searched_, now.render)) return end(Stage::kSupport);
+    beginSupport();
+    if (!searches() || !memory_.evidence.begin(searched_, record().render))
+      return end(Stage::kSupport);
   }
-  if (!memory_.evidence.step()) return StepReport::of(Stage::kSupport, false);
+  const StepReport slice = StepReport::of(Stage::kSupport, false);
+  if (!evidence_complete_) {
+    evidence_complete_ = memory_.evidence.step();
+    if (!evidence_complete_) return slice;
+    noteEvidence();
+    if (record().kind != IterationKind::kRefine) return end(Stage::kSupport);
+    memory_.focal.begin(problem_.camera, record().refinement);
+    return slice;
+  }
+  if (!memory_.focal.step()) return slice;
+  workspace_.focal = memory_.focal.fit();
+  digestFocal(workspace_.focal, digest_);
+  return end(Stage::kSupport);
+}
+
+void Pass::beginSupport() {
+  const Iteration& now = record();
+  workspace_.support =
+      measureEdgeSupport(now.render, now.level, workspace_.edges, problem_.image, problem_.ignore);
+  workspace_.evidence = {};
+  workspace_.probability = 0.0;
+  workspace_.edge_width = measureEdgeWidth(now.render, now.level, problem_.image, problem_.ignore);
+  workspace_.focal = {};
+  outcome_.support = workspace_.support;
+  digest_.tag("support");
+  digestSupport(workspace_.support, digest_);
+  digestEdgeWidth(workspace_.edge_width, digest_);
+  stage_begun_ = true;
+}
+
+void Pass::noteEvidence() {
   outcome_.evidence = workspace_.evidence = memory_.evidence.evidence();
   outcome_.probability = workspace_.probability =
       poseProbability(workspace_.evidence, workspace_.support);
   digestEvidence(workspace_.evidence, digest_);
-  return end(Stage::kSupport);
+}
+
+/// Works in the memory of the renders and of the samples: those of the iteration are gone.
+StepReport Pass::stepTwins() {
+  TwinTest& twins = memory_.twins;
+  const bool works =
+      stage_begun_ || twins.begin(searched_, plan_.camera_from_station, memory_.renderer);
+  stage_begun_ = true;
+  if (!works || twins.step()) (void)end(Stage::kSupport);
+  return StepReport::of(Stage::kSupport, false);
 }
 
 StepReport Pass::stepSelfSimilarity() {

@@ -227,6 +227,13 @@ void digestEdgeWidth(const EdgeWidth& width, DigestWriter& writer) {
   for (const std::int32_t places : width.places) writer.i32(places);
 }
 
+void digestFocal(const FocalFit& focal, DigestWriter& writer) {
+  writer.tag("focal length");
+  writer.f64(focal.change);
+  writer.f64(focal.sigma);
+  writer.u8(focal.determined ? 1 : 0);
+}
+
 void digestRivals(std::span<const Rival> rivals, DigestWriter& writer) {
   writer.tag("rivals");
   writer.i32(static_cast<std::int32_t>(rivals.size()));

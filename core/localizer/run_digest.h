@@ -22,6 +22,7 @@ void digestMatches(const MatchSet& matches, DigestWriter& writer);
 void digestPnp(const PnpSolution& solution, DigestWriter& writer);
 void digestSupport(const EdgeSupport& support, DigestWriter& writer);
 void digestCandidates(std::span<const PoseCandidate> candidates, DigestWriter& writer);
+void digestFocal(const FocalFit& focal, DigestWriter& writer);
 void digestEdgeWidth(const EdgeWidth& width, DigestWriter& writer);
 void digestEvidence(const ContourEvidence& evidence, DigestWriter& writer);
 void digestRivals(std::span<const Rival> rivals, DigestWriter& writer);

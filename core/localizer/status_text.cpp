@@ -30,6 +30,8 @@ const char* localizationStatusText(LocalizationStatus status) {
       return "ambiguous";
     case LocalizationStatus::kBlurred:
       return "blurred";
+    case LocalizationStatus::kCameraMismatch:
+      return "camera_mismatch";
   }
   return "unknown";
 }

@@ -13,6 +13,7 @@
 #include "core/pnp/correspondence.h"
 #include "core/pnp/pnp_ransac.h"
 #include "core/refine/edge_refinement.h"
+#include "core/refine/focal_fit.h"
 #include "core/render/edge_render.h"
 #include "core/search/pose_search.h"
 #include "core/templates/template_selection.h"
@@ -59,11 +60,12 @@ enum class LocalizationStatus : std::uint8_t {
   kPnpFailed,
   kNotSupported,
   kIterationLimit,
-  kFault,      ///< a capacity or the arena did not suffice; `Workspace::fault` says which
-  kAmbiguous,  ///< another pose explains the image nearly as well: `Workspace::rivals`
-  kBlurred,    ///< the image's edges are too wide for a pose: `Workspace::edge_width`
+  kFault,           ///< a capacity or the arena did not suffice; `Workspace::fault` says which
+  kAmbiguous,       ///< another pose explains the image nearly as well: `Workspace::rivals`
+  kBlurred,         ///< the image's edges are too wide for a pose: `Workspace::edge_width`
+  kCameraMismatch,  ///< the image's edges ask for another focal length: `Workspace::focal`
 };
-inline constexpr LocalizationStatus kLastLocalizationStatus = LocalizationStatus::kBlurred;
+inline constexpr LocalizationStatus kLastLocalizationStatus = LocalizationStatus::kCameraMismatch;
 const char* localizationStatusText(LocalizationStatus status);
 
 enum class IterationKind : std::uint8_t { kMatch = 0, kRefine = 1 };
@@ -131,6 +133,7 @@ struct Workspace {
   ContourEvidence evidence;                   ///< of it, too
   double probability = 0.0;  ///< that it is right, by both; 0 where none was searched
   EdgeWidth edge_width;      ///< where that pose has its edges; empty where none was searched
+  FocalFit focal;            ///< beside that pose; not determined where none was searched
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< how the run stands
   Status fault = Status::kOk;                                ///< what did not suffice, with kFault
   Pose camera_from_station;  ///< best estimate; the seed unless converged

@@ -16,13 +16,6 @@ constexpr double kSettled_px = 0.003;  ///< a step below this moves nothing that
 
 /// Neighbouring places share their errors: together they count for less than as many measurements.
 constexpr double kSharedNoise = 4.0;
-/// Weight of edges beyond which the image is brighter than on the nearer surface, next to 1 of the
-/// others: a lit ground or face beyond a shaded one, whose edges lie 0.1 to 0.3 px inside.
-constexpr double kRisingWeight = 0.4;
-
-/// Weight of an edge by its side, multiplied with the robust weight.
-double shareOf(const EdgeSample& sample) { return sample.gradient > 0.0 ? kRisingWeight : 1.0; }
-
 /// The lower triangle of a symmetric matrix is filled.
 double quadraticForm(const Matrix6d& lower, const Vector6d& x) {
   double sum = 0.0;

@@ -39,15 +39,21 @@ int ErrorGroups::sectorOf(const Eigen::Vector2d& direction) {
   return 4 * quarter + within;
 }
 
-void ErrorGroups::add(const GroupedError& error, double residual_px, const Vector6d& slope) {
+std::array<int, 3> ErrorGroups::groupsOf(const GroupedError& error) {
   const auto cell = [](double place) {
     return std::clamp(static_cast<int>(place * kCells), 0, kCells - 1);
   };
   const int sector = sectorOf(error.normal);
-  const int groups[] = {cell(error.place.x()) * kCells + cell(error.place.y()),
-                        kByPlace + (sector / 2) * 2 + (error.brighter ? 1 : 0),
-                        kByPlace + kBySide + sector * kKinds + (error.kind & (kKinds - 1))};
-  for (const int group : groups) scores_[static_cast<std::size_t>(group)] += residual_px * slope;
+  return {cell(error.place.x()) * kCells + cell(error.place.y()),
+          (sector / 2) * 2 + (error.brighter ? 1 : 0),
+          sector * kKinds + (error.kind & (kKinds - 1))};
+}
+
+void ErrorGroups::add(const GroupedError& error, double residual_px, const Vector6d& slope) {
+  constexpr std::array<int, 3> kFirst = {0, kByPlace, kByPlace + kBySide};
+  const std::array<int, 3> groups = groupsOf(error);
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    scores_[static_cast<std::size_t>(kFirst[i] + groups[i])] += residual_px * slope;
   const std::array<double, 3> offsets = {1.0, error.normal.x(), error.normal.y()};
   for (std::size_t i = 0; i < offsets.size(); ++i) common_[i] += offsets[i] * slope;
 }

@@ -59,15 +59,18 @@ class ErrorGroups {
   /// 0 ... 15, of 22.5 degrees each, beginning at +x, towards +y.
   static int sectorOf(const Eigen::Vector2d& direction);
 
- private:
-  static constexpr double kCommonOffset_px = 0.05;  ///< one sigma
-  static constexpr int kCells = 8;                  ///< along each side
-  static constexpr int kSectors = 16;
-  static constexpr int kKinds = 8;
-  static constexpr int kByPlace = kCells * kCells;
-  static constexpr int kBySide = kSectors;  ///< half of the sectors, twice
-  static constexpr int kByKind = kSectors * kKinds;
+  static constexpr double kCommonOffset_px = 0.05;   ///< of all edges alike, one sigma
+  static constexpr int kCells = 8;                   ///< along each side
+  static constexpr int kSectors = 16;                ///< of directions
+  static constexpr int kKinds = 8;                   ///< of edges
+  static constexpr int kByPlace = kCells * kCells;   ///< groups by place
+  static constexpr int kBySide = kSectors;           ///< groups by side: half of the sectors, twice
+  static constexpr int kByKind = kSectors * kKinds;  ///< groups by kind
 
+  /// The groups of an error by place, by side and by kind, each from 0.
+  static std::array<int, 3> groupsOf(const GroupedError& error);
+
+ private:
   [[nodiscard]] bool addSquares(int first, int count, Matrix6d& squares) const;
 
   std::span<Vector6d> scores_;      ///< by place, by side, by kind

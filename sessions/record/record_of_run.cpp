@@ -95,7 +95,8 @@ void takeSupport(const EdgeSupport& support, LocalizationStatus status, OnboardR
     const bool converged =
         one == record.iterations.rbegin() && status == LocalizationStatus::kConverged;
     const bool refused = one->trace.status == LocalizationStatus::kNotSupported ||
-                         one->trace.status == LocalizationStatus::kBlurred;
+                         one->trace.status == LocalizationStatus::kBlurred ||
+                         one->trace.status == LocalizationStatus::kCameraMismatch;
     if (!converged && !refused) continue;
     if (taken)
       record.missing.push_back("the edge support of iteration " +

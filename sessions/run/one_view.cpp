@@ -111,6 +111,7 @@ class OneView final : public SteppedRun {
     trace.evidence = workspace.evidence;
     trace.probability = workspace.probability;
     trace.edge_width = workspace.edge_width;
+    trace.focal = workspace.focal;
     if (trace.candidates.empty()) noteSearch();
     trace.attempts = workspace.attempts;
     trace.rivals.assign(workspace.rivals.begin(), workspace.rivals.end());

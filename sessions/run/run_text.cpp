@@ -153,12 +153,24 @@ std::string ambiguousText(const LocalizationTrace& trace) {
   const Pose& ahead = trace.iterations.back()->camera_from_station;
   const Pose& behind = rival->camera_from_station;
   const Eigen::Quaterniond turn = (behind.rotation * ahead.rotation.conjugate()).normalized();
-  return format(
-      "a pose %.1f mm away, turned by %.2f deg, explains the image nearly as well: %.1f nats less "
-      "evidence, needed %.1f; the station looks alike from both: show more of what tells its "
-      "features apart, or give a closer seed",
-      toMillimetres((behind.translation_m - ahead.translation_m).norm()),
-      toDegrees(rotationLog(turn).norm()), rival->margin_nats, CompetingPoses::kMinMargin_nats);
+  const std::string place =
+      format("a pose %.1f mm away, turned by %.2f deg, explains the image ",
+             toMillimetres((behind.translation_m - ahead.translation_m).norm()),
+             toDegrees(rotationLog(turn).norm()));
+  const std::string remedy =
+      "the station looks alike from both: show more of what tells its features apart, or give a "
+      "closer seed";
+  const double margin_nats = rival->margin_nats;
+  if (trace.lastOptions().ambiguity.enabled)
+    return place +
+           format("nearly as well: %.1f nats less evidence, needed %.1f; ", margin_nats,
+                  CompetingPoses::kMinMargin_nats) +
+           remedy;
+  const std::string evidence = margin_nats < 0.0
+                                   ? format("better, by %.1f nats of evidence; ", -margin_nats)
+                                   : format("nearly as well: %.1f nats less evidence, needed %.1f; ",
+                                            margin_nats, CompetingPoses::kTwinMargin_nats);
+  return place + evidence + remedy + "; a mirrored mesh looks alike, too: check the mesh";
 }
 
 /// The widest edges, measured along their normals.
@@ -172,6 +184,14 @@ std::string blurredText(const LocalizationTrace& trace) {
       "the image is blurred: its edges on the object are %.1f px wide %s, at most %.0f px are "
       "accepted; use a sharper image (motion or focus)",
       trace.edge_width.widest_px(), kAcross[widest], EdgeWidth::kWidest_px);
+}
+
+std::string cameraMismatchText(const LocalizationTrace& trace) {
+  const double percent = 100.0 * trace.focal.change;
+  return format(
+      "the edges ask for a focal length that is %.1f %% %s than the camera's (one sigma %.2f %%); "
+      "check the calibration and the mesh's proportions",
+      std::abs(percent), percent < 0.0 ? "shorter" : "longer", 100.0 * trace.focal.sigma);
 }
 
 std::string iterationLimitText(const LocalizationTrace& trace, const IterationTrace& last) {
@@ -339,6 +359,8 @@ std::string explanation(const LocalizationTrace& trace) {
       return ambiguousText(trace);
     case LocalizationStatus::kBlurred:
       return blurredText(trace);
+    case LocalizationStatus::kCameraMismatch:
+      return cameraMismatchText(trace);
     case LocalizationStatus::kIterationLimit:
       return iterationLimitText(trace, last);
     case LocalizationStatus::kTooFewEdges:

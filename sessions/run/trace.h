@@ -184,6 +184,7 @@ struct LocalizationTrace {
   ContourEvidence evidence;  ///< of the same pose, of runs that search
   double probability = 0.0;  ///< that it is right, of runs that search
   EdgeWidth edge_width;      ///< where the same pose has its edges, of runs that search
+  FocalFit focal;            ///< beside the same pose, of runs that search
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< kRunning: it was stopped
   Status fault = Status::kOk;
   Pose camera_from_station;  ///< best estimate; the seed unless converged

@@ -201,6 +201,14 @@ void fields(Archive& archive, Self& width) {
   for (auto& places : width.places) archive.number(places);
 }
 
+template <class Archive, Is<FocalFit> Self>
+void fields(Archive& archive, Self& focal) {
+  auto& [change, sigma, determined] = focal;
+  archive.number(change);
+  archive.number(sigma);
+  archive.number(determined);
+}
+
 template <class Archive, Is<PoseCandidate> Self>
 void fields(Archive& archive, Self& candidate) {
   auto& [found, camera_from_station, evidence, error_px] = candidate;
@@ -341,6 +349,7 @@ void fields(Archive& archive, Self& trace) {
   fields(archive, trace.evidence);
   archive.number(trace.probability);
   fields(archive, trace.edge_width);
+  fields(archive, trace.focal);
   archive.choice(trace.status, kLastLocalizationStatus);
   archive.choice(trace.fault, kLastStatus);
   fields(archive, trace.camera_from_station);

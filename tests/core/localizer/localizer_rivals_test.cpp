@@ -265,6 +265,17 @@ TEST(LocalizerSearch, PoseFromAMovedImage_IsRefusedAsBlurred) {
   EXPECT_STREQ(localizationStatusText(endOf(scene, defaultProfile())), "blurred");
 }
 
+TEST(LocalizerSearch, FocalLengthStated5PercentTooLong_IsRefusedAsACameraMismatch) {
+  Case scene = stationCase(3);
+  scene.camera.fx *= 1.05;
+  scene.camera.fy *= 1.05;
+  ASSERT_EQ(prepareCamera(scene.camera), Status::kOk);
+  OwnedRun run(scene.problem(), defaultProfile());
+  run.finish();
+  EXPECT_STREQ(localizationStatusText(run.localizer.workspace().status), "camera_mismatch");
+  EXPECT_LT(run.localizer.workspace().focal.change, -0.02);
+}
+
 TEST(LocalizerSearch, WrongMeshBeforeASharpImage_IsNotCalledBlurred) {
   Case scene = stationCase(3);
   scene.solid = Solid();

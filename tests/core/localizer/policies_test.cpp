@@ -187,6 +187,28 @@ TEST_F(CompetingPosesTest, DisplacementOutOfReach_IsLeftOut) {
   EXPECT_TRUE(competing.poses().empty());
 }
 
+TEST_F(CompetingPosesTest, TwinWithinTheUncertainty_IsAmbiguousUnlessThePoseHasMoreEvidence) {
+  Twin twin;
+  twin.camera_from_station = movedBy(seed.camera_from_station, 0.02);
+  for (const double margin_nats : {-10.0, 2.0, 4.0}) {
+    twin.margin_nats = margin_nats;
+    ASSERT_EQ(competing.takeTwins(std::span(&twin, 1)).size(), 1u);
+    EXPECT_EQ(competing.verdictOnTwins(pass.options),
+              margin_nats < 3.0 ? LocalizationStatus::kAmbiguous : LocalizationStatus::kConverged);
+  }
+}
+
+TEST_F(CompetingPosesTest, TwinOutsideTheUncertainty_IsAmbiguousOnlyWhereItIsBetter) {
+  Twin twin;
+  twin.camera_from_station = movedBy(seed.camera_from_station, 0.2);
+  twin.margin_nats = -1.0;
+  (void)competing.takeTwins(std::span(&twin, 1));
+  EXPECT_EQ(competing.verdictOnTwins(pass.options), LocalizationStatus::kConverged);
+  twin.margin_nats = -3.0;
+  EXPECT_EQ(competing.takeTwins(std::span(&twin, 1))[0].margin_nats, -3.0);
+  EXPECT_EQ(competing.verdictOnTwins(pass.options), LocalizationStatus::kAmbiguous);
+}
+
 using TrialNext = CandidateTrials::Next;
 
 class CandidateTrialsTest : public testing::Test {

@@ -110,7 +110,16 @@ TEST(Explanation, SaysHowFarTheRivalOfAnAmbiguousRunIs) {
   trace.rivals[2].ended = LocalizationStatus::kNotSupported;
   trace.rivals[2].margin_nats = 0.0;
   EXPECT_THAT(explanation(trace), HasSubstr("a pose 40.0 mm away, turned by 0.00 deg"));
-  EXPECT_THAT(explanation(trace), HasSubstr("2.5 nats less evidence, needed 10.0"));
+  EXPECT_THAT(explanation(trace), HasSubstr("2.5 nats less evidence, needed 3.0"));
+  trace.rivals[1].margin_nats = -7.5;
+  EXPECT_THAT(explanation(trace), HasSubstr("better, by 7.5 nats of evidence"));
+}
+
+TEST(Explanation, SaysWhichFocalLengthTheEdgesAskFor) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kCameraMismatch);
+  trace.focal = {-0.0185, 0.0012, true};
+  EXPECT_THAT(explanation(trace), AllOf(HasSubstr("1.9 % shorter than the camera's"),
+                                        HasSubstr("one sigma 0.12 %")));
 }
 
 TEST(Explanation, BlamesAnImageWithoutEdges) {

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/search/twin_test.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/edges/direction_distance.h"
+#include "core/search/pose_evidence.h"
+
+namespace boresight {
+namespace {
+
+/// The object's size, and the search radius of each render.
+struct Scale {
+  double span_px = 0.0;
+  int passes = 0;
+  std::array<double, 3> radius_px{};
+};
+constexpr std::array<Scale, 3> kScales = {{
+    {88.0, 3, {6.0, 4.0, 3.0}},
+    {158.0, 2, {5.0, 3.0, 0.0}},
+    {kEvidenceSpan_px, 2, {4.0, 3.0, 0.0}},
+}};
+constexpr int kLastScale = static_cast<int>(kScales.size()) - 1;
+constexpr double kMargin = 0.1;  ///< around the object, of its size
+
+/// Poses with less evidence than the pose found by this are not refined; not refined further.
+constexpr double kBehind_nats = 0.6;
+constexpr double kBehindRefined_nats = 0.25;
+/// A place is the other pose's, too, when that has one within this, kDistanceUnit_px.
+constexpr int kSamePlace = 30;
+/// Renders of which each has this share of its places alone differ visibly.
+constexpr double kVisible = 0.1;
+constexpr double kAlong = 8.0;  ///< edge pixels that go together
+
+/// What a refinement may move a twin by, as shares of the object's size.
+constexpr double kLateral = 0.1;
+constexpr double kDepth = 0.2;
+constexpr double kRotation_rad = 0.3;
+
+constexpr int kSweeps = 12;  ///< of Jacobi's rotations: convergence is quadratic
+
+Eigen::Matrix3d halfTurn(const Eigen::Vector3d& axis) {
+  return 2.0 * axis * axis.transpose() - Eigen::Matrix3d::Identity();
+}
+
+/// The pose turned about a point of its frame.
+Pose turnedAbout(const Eigen::Vector3d& point_m, const Eigen::Matrix3d& turn, const Pose& pose) {
+  Pose turned;
+  turned.rotation = Eigen::Quaterniond(Eigen::Matrix3d(turn * pose.matrix())).normalized();
+  turned.translation_m = point_m + turn * (pose.translation_m - point_m);
+  return turned;
+}
+
+/// Makes the element (p, q) of a symmetric matrix 0 (Jacobi 1846).
+void rotateToDiagonal(int p, int q, Eigen::Matrix3d& matrix, Eigen::Matrix3d& axes) {
+  if (matrix(p, q) == 0.0) return;
+  const double theta = (matrix(q, q) - matrix(p, p)) / (2.0 * matrix(p, q));
+  const double sign = theta < 0.0 ? -1.0 : 1.0;
+  const double tangent = sign / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
+  const double cosine = 1.0 / std::sqrt(tangent * tangent + 1.0);
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn(p, p) = turn(q, q) = cosine;
+  turn(p, q) = tangent * cosine;
+  turn(q, p) = -tangent * cosine;
+  matrix = (turn.transpose() * matrix * turn).eval();
+  matrix(p, q) = matrix(q, p) = 0.0;
+  axes = (axes * turn).eval();
+}
+
+}  // namespace
+
+SurfaceAxes surfaceAxesOf(const MeshView& mesh) {
+  const auto vertexOf = [&](const Face& face, std::size_t corner) {
+    const auto index = static_cast<std::size_t>(face.vertex[corner]);
+    return Eigen::Vector3d(mesh.vertices_in_station_m[index].cast<double>());
+  };
+  const auto forMatched = [&](auto&& take) {
+    for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+      if (!mesh.parts[mesh.part_of_face[i]].match) continue;
+      const Face& face = mesh.faces[i];
+      const std::array<Eigen::Vector3d, 3> corners = {vertexOf(face, 0), vertexOf(face, 1),
+                                                      vertexOf(face, 2)};
+      take(corners, (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm());
+    }
+  };
+  using Corners = std::array<Eigen::Vector3d, 3>;
+  SurfaceAxes made;
+  double area = 0.0;
+  forMatched([&](const Corners& corners, double weight) {
+    made.middle_m += weight / 3.0 * (corners[0] + corners[1] + corners[2]);
+    area += weight;
+  });
+  if (!(area > 0.0)) return made;
+  made.middle_m /= area;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  // The second moment of a triangle about a point is area / 12 times this.
+  forMatched([&](const Corners& corners, double weight) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& corner : corners) {
+      const Eigen::Vector3d from = corner - made.middle_m;
+      spread += weight / area * from * from.transpose();
+      sum += from;
+    }
+    spread += weight / area * sum * sum.transpose();
+  });
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    rotateToDiagonal(0, 1, spread, made.axes);
+    rotateToDiagonal(0, 2, spread, made.axes);
+    rotateToDiagonal(1, 2, spread, made.axes);
+  }
+  std::array<int, 3> order = {0, 1, 2};
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return spread(a, a) < spread(b, b) || (spread(a, a) == spread(b, b) && a < b);
+  });
+  const Eigen::Matrix3d axes = made.axes;
+  for (int i = 0; i < 3; ++i) made.axes.col(i) = axes.col(order[static_cast<std::size_t>(i)]);
+  return made;
+}
+
+Status TwinTest::create(Arena& arena) {
+  constexpr auto kPixels = static_cast<std::size_t>(kLongestView_px) * kLongestView_px;
+  view_edges_.create(kLongestView_px, arena);
+  render_ = createEdgeRender(kLongestView_px, kLongestView_px, kMaxEdgePixels, arena);
+  own_.direction = arena.allocate<std::uint8_t>(kPixels);
+  other_.direction = arena.allocate<std::uint8_t>(kPixels);
+  // A render is measured before places are compared.
+  const std::size_t start = arena.mark();
+  if (refinement_.create(arena) != Status::kOk) return Status::kArenaTooSmall;
+  meter_.create(kPixels, arena);
+  const std::size_t end = arena.mark();
+  arena.rewind(start);
+  distance_ = arena.allocate<std::uint8_t>(kPixels);
+  apart_ = arena.allocate<std::uint8_t>(kPixels);
+  arena.rewind(std::max(end, arena.mark()));
+  return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
+}
+
+bool TwinTest::begin(const SearchProblem& problem, const Pose& camera_from_station,
+                     EdgeRenderer& renderer) {
+  problem_ = problem;
+  renderer_ = &renderer;
+  found_ = camera_from_station;
+  count_ = promising_count_ = twin_ = 0;
+  scale_ = 0;
+  beginView(kScales[0].span_px, Purpose::kFound);
+  return phase_ != Phase::kDone;
+}
+
+bool TwinTest::step() {
+  switch (phase_) {
+    case Phase::kView:
+      if (view_edges_.step()) {
+        const bool finds = purpose_ == Purpose::kFound || purpose_ == Purpose::kFoundAgain;
+        if (!finds) now_ = view_edges_.inView(promising_[static_cast<std::size_t>(twin_)]);
+        beginRender(finds ? view_edges_.inView(found_) : now_, purpose_);
+      }
+      break;
+    case Phase::kRender:
+      stepRender();
+      break;
+    case Phase::kCompare:
+      compareDirection();
+      break;
+    case Phase::kDone:
+      break;
+  }
+  return phase_ == Phase::kDone;
+}
+
+/// Faces the pose found at a scale.
+void TwinTest::beginView(double span_px, Purpose purpose) {
+  ViewSize size;
+  size.span_px = span_px;
+  size.margin_px = kMargin * span_px;
+  size.most_px = kLongestView_px;
+  purpose_ = purpose;
+  phase_ = view_edges_.begin(problem_, found_, size) ? Phase::kView : Phase::kDone;
+}
+
+void TwinTest::beginRender(const Pose& view_from_station, Purpose purpose) {
+  now_ = view_from_station;
+  purpose_ = purpose;
+  rendering_ = false;
+  phase_ = Phase::kRender;
+}
+
+void TwinTest::stepRender() {
+  bool complete = false;
+  const Status status = rendering_ ? renderer_->stepWhole(complete)
+                                   : renderer_->begin(view_edges_.rays(), now_, render_);
+  rendering_ = status == Status::kOk && !complete;
+  if (rendering_) return;
+  if (status == Status::kOk)
+    takeRender();
+  else if (purpose_ == Purpose::kFound)
+    phase_ = Phase::kDone;
+  else if (scale_ == 0)
+    nextHypothesis();
+  else
+    nextTwin();
+}
+
+void TwinTest::takeRender() {
+  switch (purpose_) {
+    case Purpose::kFound: {
+      found_rank_nats_ = rankOfRender();
+      const SurfaceAxes surface = surfaceAxesOf(problem_.mesh);
+      const Eigen::Vector3d middle_m = now_ * surface.middle_m;
+      const Eigen::Matrix3d axes = now_.matrix() * surface.axes;
+      for (int i = 0; i < 3; ++i)
+        poses_[static_cast<std::size_t>(i)] = turnedAbout(middle_m, halfTurn(axes.col(i)), now_);
+      const Eigen::Matrix3d about_sight = halfTurn(middle_m.normalized());
+      const Eigen::Vector3d normal = about_sight * axes.col(0);
+      poses_[3] = turnedAbout(middle_m, halfTurn(normal) * about_sight, now_);
+      hypothesis_ = -1;
+      nextHypothesis();
+      break;
+    }
+    case Purpose::kScreen: {
+      const double least = found_rank_nats_ - (refined_ ? kBehindRefined_nats : kBehind_nats);
+      if (rankOfRender() < least) return nextHypothesis();
+      if (refined_) {
+        promising_[static_cast<std::size_t>(promising_count_++)] = view_edges_.inCamera(now_);
+        return nextHypothesis();
+      }
+      pass_ = 0;
+      refine();
+      break;
+    }
+    case Purpose::kRefine:
+      refine();
+      break;
+    case Purpose::kTwin:
+      markRender(other_);
+      beginRender(view_edges_.inView(found_), Purpose::kFoundAgain);
+      break;
+    case Purpose::kFoundAgain:
+      markRender(own_);
+      own_alone_ = other_alone_ = {};
+      direction_ = 0;
+      phase_ = Phase::kCompare;
+      break;
+  }
+}
+
+/// Moves the hypothesis towards the image's edges, from its render.
+void TwinTest::refine() {
+  const Scale& scale = kScales[static_cast<std::size_t>(scale_)];
+  Pose moved = now_;
+  const bool met = refinement_.refine(view_edges_.edges(), problem_.mesh, render_, priorOf(now_),
+                                      scale.radius_px[static_cast<std::size_t>(pass_)], moved);
+  if (!met) return scale_ == 0 ? nextHypothesis() : nextTwin();
+  now_ = moved;
+  if (++pass_ < scale.passes) return beginRender(now_, Purpose::kRefine);
+  if (scale_ == 0) {
+    refined_ = true;
+    return beginRender(now_, Purpose::kScreen);
+  }
+  promising_[static_cast<std::size_t>(twin_)] = view_edges_.inCamera(now_);
+  if (scale_ == kLastScale) return beginRender(now_, Purpose::kTwin);
+  pass_ = 0;
+  ++scale_;
+  beginView(kScales[static_cast<std::size_t>(scale_)].span_px, Purpose::kRefine);
+}
+
+void TwinTest::nextHypothesis() {
+  if (++hypothesis_ < kMostTwins) {
+    refined_ = false;
+    return beginRender(poses_[static_cast<std::size_t>(hypothesis_)], Purpose::kScreen);
+  }
+  twin_ = -1;
+  nextTwin();
+}
+
+void TwinTest::nextTwin() {
+  phase_ = Phase::kDone;
+  if (++twin_ >= promising_count_) return;
+  scale_ = 1;
+  pass_ = 0;
+  beginView(kScales[1].span_px, Purpose::kRefine);
+}
+
+double TwinTest::rankOfRender() {
+  meter_.clear();
+  addPlaces(render_, meter_);
+  const ContourEvidence evidence = meter_.measure(view_edges_.edges(), view_edges_.view().span_px);
+  return evidence.strongest_nats() + 0.5 * evidence.weakest_nats();
+}
+
+void TwinTest::markRender(DirectedEdges& marks) const {
+  marks.width = render_.edges.width;
+  marks.height = render_.edges.height;
+  const auto pixels = static_cast<std::ptrdiff_t>(marks.width) * marks.height;
+  std::fill(marks.direction.begin(), marks.direction.begin() + pixels, DirectedEdges::kNone);
+  for (std::int32_t i = 0; i < render_.pixel_count; ++i) {
+    const EdgePixel& pixel = render_.pixels[static_cast<std::size_t>(i)];
+    marks.direction[static_cast<std::size_t>(pixel.y * marks.width + pixel.x)] =
+        static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y));
+  }
+}
+
+/// Places of the direction at hand that are not the other pose's.
+void TwinTest::addAlone(const DirectedEdges& places, const DirectedEdges& others, Alone& alone) {
+  const DirectedEdges& image = view_edges_.edges();
+  distanceToDirection(others, direction_, apart_);
+  const double window_px = kEvidenceWindow * view_edges_.view().span_px;
+  for (int y = 0; y < places.height; ++y) {
+    for (int x = 0; x < places.width; ++x) {
+      if (places.at(x, y) != direction_ || image.at(x, y) == DirectedEdges::kUnseen) continue;
+      ++alone.all;
+      if (apart_[static_cast<std::size_t>(y * places.width + x)] <= kSamePlace) continue;
+      ++alone.places;
+      const EvidencePlace place{static_cast<std::int16_t>(x), static_cast<std::int16_t>(y),
+                                static_cast<std::uint8_t>(direction_)};
+      alone.nats += evidenceOfPlace_nats(place, image, distance_, window_px);
+    }
+  }
+}
+
+void TwinTest::compareDirection() {
+  distanceToDirection(view_edges_.edges(), direction_, distance_);
+  addAlone(own_, other_, own_alone_);
+  addAlone(other_, own_, other_alone_);
+  if (++direction_ == kEdgeDirections) conclude();
+}
+
+void TwinTest::conclude() {
+  const double least = std::min(own_alone_.share(), other_alone_.share());
+  if (least >= kVisible) {
+    Twin& twin = twins_[static_cast<std::size_t>(count_++)];
+    twin.camera_from_station = promising_[static_cast<std::size_t>(twin_)];
+    twin.similarity = 1.0 - 0.5 * (own_alone_.share() + other_alone_.share());
+    twin.margin_nats = (own_alone_.nats - other_alone_.nats) / kAlong;
+  }
+  nextTwin();
+}
+
+PosePrior TwinTest::priorOf(const Pose& view_from_station) const {
+  const double size_m = problem_.scene.diagonal();
+  PosePrior prior;
+  prior.camera_from_station = view_from_station;
+  prior.sigma.translation_m = size_m * Eigen::Vector3d(kLateral, kLateral, kDepth);
+  prior.sigma.rotation_rad.setConstant(kRotation_rad);
+  prior.sigma.pivot_in_camera_m = view_from_station * problem_.scene.centre();
+  return prior;
+}
+
+}  // namespace boresight

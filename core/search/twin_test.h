@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/accept/contour_evidence.h"
+#include "core/base/arena.h"
+#include "core/refine/outline_refinement.h"
+#include "core/render/edge_render.h"
+#include "core/search/view_edges.h"
+
+namespace boresight {
+
+/// A pose of a near-symmetry of the mesh, refined on the image, next to the pose that was found.
+struct Twin {
+  Pose camera_from_station;  ///< refined
+  double similarity = 0.0;   ///< share of the rendered edges that both poses have in common
+  /// Evidence of the pose found beyond the twin's: of the edges that one of both alone predicts.
+  double margin_nats = 0.0;
+};
+
+/// Looks for poses that show about the same edges as the pose found: half turns about the principal
+/// axes of the matched surface, and the tilt of its flattest side reversed about the line of sight
+/// (the second pose of a plane: Oberkampf et al. 1996). Those that the image supports about as well
+/// at a small scale are refined on its edges, and compared with the pose found where the renders
+/// differ. A twin whose render is the same within some pixels of a small view is none: the mesh is
+/// symmetric as far as the image can tell.
+class TwinTest {
+ public:
+  static constexpr int kMostTwins = 4;          ///< poses looked at
+  static constexpr int kLongestView_px = 312;   ///< of views
+  static constexpr int kMaxEdgePixels = 12000;  ///< of renders
+
+  /// Takes the memory from `arena`. kArenaTooSmall.
+  Status create(Arena& arena);
+  /// What the problem points to and the renderer (for images of kLongestView_px) must outlive the
+  /// steps. False when the scene is not in sight.
+  [[nodiscard]] bool begin(const SearchProblem& problem, const Pose& camera_from_station,
+                           EdgeRenderer& renderer);
+  /// One bounded slice; true when twins() is complete.
+  [[nodiscard]] bool step();
+
+  /// Those whose renders differ visibly.
+  std::span<const Twin> twins() const {
+    return std::span(twins_).first(static_cast<std::size_t>(count_));
+  }
+
+ private:
+  enum class Phase : std::uint8_t { kView = 0, kRender, kCompare, kDone };
+  /// What is made of a render once it is complete.
+  enum class Purpose : std::uint8_t { kFound = 0, kScreen, kRefine, kTwin, kFoundAgain };
+
+  void beginView(double span_px, Purpose purpose);
+  void beginRender(const Pose& view_from_station, Purpose purpose);
+  void stepRender();
+  void takeRender();
+  void nextHypothesis();
+  void nextTwin();
+  void refine();
+  double rankOfRender();
+  void markRender(DirectedEdges& marks) const;
+  void compareDirection();
+  void conclude();
+  PosePrior priorOf(const Pose& view_from_station) const;
+
+  SearchProblem problem_;
+  EdgeRenderer* renderer_ = nullptr;
+  Pose found_;  ///< camera_from_station
+  ViewEdges view_edges_;
+  EdgeRender render_;
+  OutlineRefinement refinement_;
+  ContourEvidenceMeter meter_;
+  DirectedEdges own_, other_;         ///< rendered places of the pose found and of the twin
+  std::span<std::uint8_t> distance_;  ///< to the image's edges
+  std::span<std::uint8_t> apart_;     ///< to the other pose's places
+
+  Phase phase_ = Phase::kDone;
+  Purpose purpose_ = Purpose::kFound;
+  bool rendering_ = false;
+  int scale_ = 0;
+  int pass_ = 0;       ///< of the scale
+  int direction_ = 0;  ///< compared next
+  double found_rank_nats_ = 0.0;
+  std::array<Pose, kMostTwins> poses_;  ///< in the view
+  int hypothesis_ = 0;
+  bool refined_ = false;  ///< the hypothesis, at the first scale
+  Pose now_;              ///< view_from_station of the hypothesis at hand
+  std::array<Pose, kMostTwins> promising_;
+  int promising_count_ = 0;
+  int twin_ = 0;
+
+  /// Of the comparison: places that one pose alone predicts, all places, and their evidence.
+  struct Alone {
+    std::int32_t places = 0, all = 0;
+    double nats = 0.0;
+    double share() const { return all > 0 ? static_cast<double>(places) / all : 0.0; }
+  };
+  Alone own_alone_, other_alone_;
+  void addAlone(const DirectedEdges& places, const DirectedEdges& others, Alone& alone);
+
+  std::array<Twin, kMostTwins> twins_;
+  int count_ = 0;
+};
+
+/// Principal axes of the matched parts' surface, as columns, the one of least extent first, and the
+/// middle of that surface; station frame.
+struct SurfaceAxes {
+  Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();  ///< of the surface
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< unit length
+};
+SurfaceAxes surfaceAxesOf(const MeshView& mesh);
+
+}  // namespace boresight

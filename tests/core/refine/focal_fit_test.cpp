@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/refine/focal_fit.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/core/localizer/scene.h"
+
+namespace boresight::test {
+namespace {
+
+/// The pose refined on the case's edges, and the focal length beside it.
+FocalFit fitAfterRefining(const Case& scene) {
+  const RefinementOptions options;
+  std::vector<std::byte> memory(std::size_t{4} << 20);
+  Arena arena(memory);
+  EdgeRefinement refinement;
+  RefinementResult result;
+  FocalFitter fitter;
+  EXPECT_EQ(refinement.create(options, arena), Status::kOk);
+  EXPECT_EQ(fitter.create(options.max_samples, arena), Status::kOk);
+  result.samples = arena.allocate<EdgeSample>(static_cast<std::size_t>(options.max_samples));
+  result.camera_from_station = scene.truth;
+  for (const double radius_px : {6.0, 3.0, 3.0}) {
+    const Rendering rendering = renderEdges(scene.solid, scene.camera, result.camera_from_station);
+    EXPECT_EQ(refinement.begin(scene.picture->view(), nullptr, scene.camera, scene.solid.view(),
+                               rendering.edges, radius_px, nullptr, nullptr, result),
+              Status::kOk);
+    Status status = Status::kOk;
+    for (bool done = false; !done && status == Status::kOk;) status = refinement.step(done);
+    EXPECT_EQ(status, Status::kOk);
+  }
+  fitter.begin(scene.camera, result);
+  int steps = 1;
+  while (!fitter.step() && steps < 100) ++steps;
+  EXPECT_LE(steps, FocalFitter::kRounds);
+  return fitter.fit();
+}
+
+/// The case with a camera whose focal length is stated wrong by this factor.
+Case withFocalFactor(Case scene, double factor) {
+  scene.camera.fx *= factor;
+  scene.camera.fy *= factor;
+  EXPECT_EQ(prepareCamera(scene.camera), Status::kOk);
+  return scene;
+}
+
+TEST(FocalFit, RightCamera_IsConfirmed) {
+  for (const bool distorted : {false, true}) {
+    const FocalFit fit = fitAfterRefining(stationCase(1, distorted));
+    ASSERT_TRUE(fit.determined);
+    EXPECT_LT(fit.magnitude(), FocalFit::kSigmas * fit.sigma);
+    EXPECT_FALSE(fit.disagrees());
+  }
+}
+
+TEST(FocalFit, FocalLengthStatedWrong_IsMeasuredAndDisagrees) {
+  for (const double factor : {0.96, 1.04}) {
+    const FocalFit fit = fitAfterRefining(withFocalFactor(stationCase(1), factor));
+    ASSERT_TRUE(fit.determined);
+    EXPECT_NEAR(fit.change, 1.0 / factor - 1.0, 0.02) << fit.sigma;
+    EXPECT_TRUE(fit.disagrees()) << fit.change << " " << fit.sigma;
+  }
+}
+
+TEST(FocalFit, PlateSeenFromTheFront_LeavesTheFocalLengthOpen) {
+  Case scene = stationCase(1);
+  scene.solid = Solid();
+  scene.solid.addBox(0.0, 0.0, 0.06, 0.05, 0.3, 0.0, 0.001, 0.6);
+  scene.truth.rotation = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+  scene.truth.translation_m = Eigen::Vector3d(0.0, 0.0, 0.45);
+  const Picture picture = takePicture(scene.solid, scene.camera, scene.truth);
+  scene.picture = &picture;
+  const FocalFit fit = fitAfterRefining(withFocalFactor(scene, 1.04));
+  EXPECT_FALSE(fit.disagrees()) << fit.change << " " << fit.sigma;
+}
+
+TEST(FocalFit, Disagrees_OnlyBeyondEveryLimit) {
+  FocalFit fit;
+  fit.change = -0.02;
+  fit.sigma = 0.002;
+  EXPECT_FALSE(fit.disagrees());
+  fit.determined = true;
+  EXPECT_TRUE(fit.disagrees());
+  fit.sigma = 0.006;  // 3.3 sigma
+  EXPECT_FALSE(fit.disagrees());
+  fit.change = 0.2;
+  fit.sigma = 0.02;  // the image determines it too weakly
+  EXPECT_FALSE(fit.disagrees());
+  fit.change = 0.003;  // right cameras have as much
+  fit.sigma = 0.0001;
+  EXPECT_FALSE(fit.disagrees());
+}
+
+}  // namespace
+}  // namespace boresight::test
