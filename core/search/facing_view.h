@@ -42,9 +42,10 @@ inline int channelsOf(const SearchProblem& problem) {
   return problem.color.data != nullptr ? ColorView::kChannels : 1;
 }
 
-/// Fills rows `first` ... `end - 1` of a channel of the view's image: the mean of the real image
-/// over what each pixel covers. Pixels outside the real image, and ignored ones, are not known.
+/// Fills rows `first` ... `end - 1` of the view's image, all its channels: the mean of the real
+/// image over what each pixel covers. Pixels outside the real image, and ignored ones, are not
+/// known.
 void fillViewRows(const SearchProblem& problem, const FacingView& view, int first, int end,
-                  int channel, SmallImage& output);
+                  SmallImage& output);
 
 }  // namespace boresight

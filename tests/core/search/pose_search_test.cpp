@@ -216,8 +216,9 @@ struct ViewImage {
   ViewImage(const SearchProblem& problem, const FacingView& view, int channel = 0)
       : block(1 << 20) {
     Arena arena(block);
-    image = SmallImage::create(300 * 300, arena);
-    fillViewRows(problem, view, 0, view.camera.height, channel, image);
+    SmallImage all = SmallImage::create(300 * 300, arena, ColorView::kChannels);
+    fillViewRows(problem, view, 0, view.camera.height, all);
+    image = all.channel(channel);
   }
   std::vector<std::byte> block;
   SmallImage image;
