@@ -154,10 +154,10 @@ bool faceScene(const SearchProblem& problem, const Pose& camera_from_station, co
   const TangentBox image = boxOfImage(problem.camera, view.view_from_camera);
   seen.least = seen.least.cwiseMax(image.least);
   seen.most = seen.most.cwiseMin(image.most);
-  const double span = (seen.most - seen.least).maxCoeff();
   if (!((seen.most - seen.least).minCoeff() > 0.0)) return false;
-  const Eigen::Vector2d half =
-      seen.most.cwiseMax(-seen.least) + Eigen::Vector2d(size.slide_x, size.slide_y);
+  const double span = std::max((seen.most - seen.least).maxCoeff(), 2.0 * size.least_half);
+  const Eigen::Vector2d half = seen.most.cwiseMax(-seen.least).cwiseMax(size.least_half) +
+                               Eigen::Vector2d(size.slide_x, size.slide_y);
   const double real_focal_px = std::abs(problem.camera.fx);
   const double focal_px = std::min({size.span_px / span, real_focal_px,
                                     (0.5 * size.most_px - size.margin_px - 2.0) / half.maxCoeff()});
