@@ -35,6 +35,11 @@ Camera placeholderCamera(const ProblemSize& size) {
   return camera;
 }
 
+/// Of the images that the search looks at.
+int channelsOf(const LocalizerOptions& options) {
+  return options.search.color ? ColorView::kChannels : 1;
+}
+
 /// An empty mesh of the right size, for counting.
 MeshView placeholderMesh(const ProblemSize& size) {
   MeshView mesh;
@@ -156,7 +161,7 @@ void PassMemory::Layout::layOutRenders() {
   if (options.search.enabled) {
     const std::size_t end = kept.mark();
     kept.rewind(start);
-    (void)to.search.create(kept);
+    (void)to.search.create(channelsOf(options), kept);
     kept.rewind(std::max(end, kept.mark()));
   }
   if (options.ambiguity.enabled) {
@@ -193,7 +198,7 @@ Status PassMemory::Layout::layOutStages() {
   if (scratch.countsOnly()) bytesOf(Stage::kRefine) = scratch.highWater();
   // Behind the samples, which may be looked at until the next render.
   if (options.search.enabled && status == Status::kOk) {
-    status = to.evidence.create(scratch);
+    status = to.evidence.create(channelsOf(options), scratch);
     if (scratch.countsOnly()) bytesOf(Stage::kSupport) = scratch.highWater();
   }
   [[maybe_unused]] std::size_t of_samples_and_evidence = 0;  // counted above

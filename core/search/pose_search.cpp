@@ -51,9 +51,9 @@ constexpr double kAsGood_nats = 0.15;
 
 }  // namespace
 
-Status PoseSearch::create(Arena& arena) {
+Status PoseSearch::create(int channels, Arena& arena) {
   constexpr auto kPixels = static_cast<std::size_t>(kLongestView_px) * kLongestView_px;
-  view_edges_.create(kLongestView_px, arena);
+  view_edges_.create(kLongestView_px, channels, arena);
   render_ = createEdgeRender(kLongestView_px, kLongestView_px, kMaxEdgePixels, arena);
   // The search is over when the refinement begins.
   const std::size_t start = arena.mark();

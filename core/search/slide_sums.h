@@ -18,7 +18,7 @@ namespace boresight {
 class SlideSums {
  public:
   static constexpr int kMaxPlaces = 64;     ///< of an outline
-  static constexpr int kMaxView_px = 199;   ///< sides of the maps
+  static constexpr int kMaxView_px = 183;   ///< sides of the maps
   static constexpr double kStep_px = 0.4;   ///< of the distances
   static constexpr int kFarthestStep = 15;  ///< largest distance, in such steps
 

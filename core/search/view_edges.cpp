@@ -10,10 +10,10 @@ constexpr int kSliceRows = 32;
 
 }  // namespace
 
-void ViewEdges::create(int longest_px, Arena& arena) {
+void ViewEdges::create(int longest_px, int channels, Arena& arena) {
   longest_px_ = longest_px;
   const auto pixels = static_cast<std::size_t>(longest_px) * static_cast<std::size_t>(longest_px);
-  image_ = SmallImage::create(pixels, arena, ColorView::kChannels);
+  image_ = SmallImage::create(pixels, arena, channels);
   edges_.direction = arena.allocate<std::uint8_t>(pixels);
   detector_.create(pixels, arena);
 }

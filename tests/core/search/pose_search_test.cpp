@@ -34,7 +34,7 @@ class SearchRun {
     EXPECT_EQ(renderer_.create(from.mesh, adjacency_, PoseSearch::kLongestView_px,
                                PoseSearch::kLongestView_px, RenderOptions(), arena_),
               Status::kOk);
-    EXPECT_EQ(search_.create(arena_), Status::kOk);
+    EXPECT_EQ(search_.create(ColorView::kChannels, arena_), Status::kOk);
   }
   std::span<const PoseCandidate> run() {
     int steps = 0;
@@ -145,7 +145,7 @@ TEST(PoseEvidence, OfARenderOfTheRealCamera_IsThatOfTheTruth) {
     std::vector<std::byte> block(4 << 20);
     Arena arena(block);
     PoseEvidence evidence;
-    EXPECT_EQ(evidence.create(arena), Status::kOk);
+    EXPECT_EQ(evidence.create(ColorView::kChannels, arena), Status::kOk);
     EXPECT_TRUE(evidence.begin(run.problem(), render.edges));
     while (!evidence.step()) {
     }
