@@ -49,6 +49,20 @@ Eigen::Vector3d reachOf(const SearchProblem& problem) {
                                                   away(squared.x() + squared.y()) * arm_m.z());
 }
 
+/// The nearest rotation inside the seed's box: a sample of the grid beyond it stands for those
+/// inside. The object stays where it is.
+Pose pulledIntoBox(const SearchProblem& problem, const Pose& camera_from_station) {
+  const Eigen::Quaterniond& seed = problem.camera_from_station_seed.rotation;
+  const Eigen::Vector3d box_rad = problem.uncertainty.rotation_rad;
+  const Eigen::Vector3d rotation_rad = rotationLog(camera_from_station.rotation * seed.conjugate());
+  Pose pulled;
+  pulled.rotation = rotationExp(rotation_rad.cwiseMax(-box_rad).cwiseMin(box_rad)) * seed;
+  pulled.rotation.normalize();
+  pulled.translation_m = camera_from_station * problem.scene.centre() -
+                         pulled.rotation.toRotationMatrix() * problem.scene.centre();
+  return pulled;
+}
+
 }  // namespace
 
 bool ObjectSearch::begin(const SearchProblem& problem, ViewEdges& view_edges,
@@ -258,7 +272,9 @@ void ObjectSearch::takePeaks(int turn, double depth_ratio) {
       candidate.slide_x_px = column - slide_x_px_;
       candidate.slide_y_px = row - slide_y_px_;
       candidate.camera_from_station = poseOf(candidate);
-      if (isWithinSeed(candidate.camera_from_station)) grid_found_.insert(candidate);
+      if (!isWithinSeed(candidate.camera_from_station)) continue;
+      candidate.camera_from_station = pulledIntoBox(*problem_, candidate.camera_from_station);
+      grid_found_.insert(candidate);
     }
   }
 }
