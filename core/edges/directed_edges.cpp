@@ -68,10 +68,16 @@ int directionsApart(int one, int other) {
   return std::min(apart, kEdgeDirections - apart);
 }
 
-SmallImage SmallImage::create(std::size_t pixels, Arena& arena) {
+SmallImage SmallImage::create(std::size_t pixels, Arena& arena, int channels) {
   SmallImage image;
-  image.value = arena.allocate<std::uint8_t>(pixels);
+  image.value = arena.allocate<std::uint8_t>(static_cast<std::size_t>(channels) * pixels);
   image.seen = arena.allocate<std::uint8_t>(pixels);
+  return image;
+}
+
+SmallImage SmallImage::channel(int index) const {
+  SmallImage image = *this;
+  image.value = value.subspan(static_cast<std::size_t>(index) * seen.size(), seen.size());
   return image;
 }
 

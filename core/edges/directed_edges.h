@@ -15,15 +15,17 @@ int edgeDirectionOf(std::int32_t x, std::int32_t y);
 /// Steps between two directions, 0 ... 4.
 int directionsApart(int one, int other);
 
-/// A channel of a small image, and which of its pixels are known.
+/// A small image of one or several channels, and which of its pixels are known.
 struct SmallImage {
-  std::span<std::uint8_t> value;  ///< row by row; capacity, the first width * height are valid
-  std::span<std::uint8_t> seen;   ///< the same; 1: known
+  std::span<std::uint8_t> value;  ///< capacity; of each channel the first width * height are valid
+  std::span<std::uint8_t> seen;   ///< row by row, capacity; 1: known
   int width = 0;                  ///< px
   int height = 0;                 ///< px
 
   /// Takes an image of up to `pixels` from `arena`.
-  static SmallImage create(std::size_t pixels, Arena& arena);
+  static SmallImage create(std::size_t pixels, Arena& arena, int channels = 1);
+  /// One channel as an image, row by row.
+  SmallImage channel(int index) const;
 };
 
 /// An image's edges with the direction of their normals.

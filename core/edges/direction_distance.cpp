@@ -20,6 +20,41 @@ std::array<std::uint8_t, 256> costsFor(int direction) {
   return cost;
 }
 
+using Value = std::uint8_t;
+constexpr int kPadding = 8;  ///< px beside a row, farther than the distances reach
+using PaddedRow = std::array<Value, DirectedEdgeDetector::kMaxWidth + 2 * kPadding>;
+static_assert(kPadding * kStraight > kFarthest && kFarthest + 4 * kStraight < 256);
+
+Value least(Value one, int other) {
+  const auto sum = static_cast<Value>(other);
+  return sum < one ? sum : one;
+}
+
+/// From each pixel of a row to the others, both ways: within 1, 3 and 7 px. Loops without
+/// dependence on their own results, which the compiler vectorizes.
+void spreadAlong(Value* row, int width) {
+  PaddedRow padded_one;
+  PaddedRow padded_other;
+  padded_one.fill(kFarthest);
+  padded_other.fill(kFarthest);
+  Value* one = padded_one.data() + kPadding;
+  Value* other = padded_other.data() + kPadding;
+  std::copy_n(row, width, one);
+  for (int x = 0; x < width; ++x)
+    other[x] = least(least(one[x], one[x - 1] + kStraight), one[x + 1] + kStraight);
+  for (int x = 0; x < width; ++x)
+    one[x] = least(least(other[x], other[x - 2] + 2 * kStraight), other[x + 2] + 2 * kStraight);
+  for (int x = 0; x < width; ++x)
+    row[x] = least(least(one[x], one[x - 4] + 4 * kStraight), one[x + 4] + 4 * kStraight);
+}
+
+/// From the pixels of a row to those of the next one.
+void spreadAcross(const Value* from, Value* row, int width) {
+  for (int x = 0; x < width; ++x) row[x] = least(row[x], from[x] + kStraight);
+  for (int x = 1; x < width; ++x) row[x] = least(row[x], from[x - 1] + kDiagonal);
+  for (int x = 0; x + 1 < width; ++x) row[x] = least(row[x], from[x + 1] + kDiagonal);
+}
+
 }  // namespace
 
 void distanceToDirection(const DirectedEdges& edges, int direction,
@@ -29,28 +64,15 @@ void distanceToDirection(const DirectedEdges& edges, int direction,
   const int height = edges.height;
   const auto count = static_cast<std::size_t>(width * height);
   for (std::size_t i = 0; i < count; ++i) distance[i] = cost[edges.direction[i]];
-  const auto lower = [](std::uint8_t& value, int other) {
-    if (other < value) value = static_cast<std::uint8_t>(other);
-  };
   for (int y = 0; y < height; ++y) {
-    std::uint8_t* row = distance.data() + y * width;
-    if (y > 0) {
-      const std::uint8_t* above = row - width;
-      for (int x = 0; x < width; ++x) lower(row[x], above[x] + kStraight);
-      for (int x = 1; x < width; ++x) lower(row[x], above[x - 1] + kDiagonal);
-      for (int x = 0; x + 1 < width; ++x) lower(row[x], above[x + 1] + kDiagonal);
-    }
-    for (int x = 1; x < width; ++x) lower(row[x], row[x - 1] + kStraight);
+    Value* row = distance.data() + y * width;
+    if (y > 0) spreadAcross(row - width, row, width);
+    spreadAlong(row, width);
   }
-  for (int y = height - 1; y >= 0; --y) {
-    std::uint8_t* row = distance.data() + y * width;
-    if (y + 1 < height) {
-      const std::uint8_t* below = row + width;
-      for (int x = 0; x < width; ++x) lower(row[x], below[x] + kStraight);
-      for (int x = 1; x < width; ++x) lower(row[x], below[x - 1] + kDiagonal);
-      for (int x = 0; x + 1 < width; ++x) lower(row[x], below[x + 1] + kDiagonal);
-    }
-    for (int x = width - 2; x >= 0; --x) lower(row[x], row[x + 1] + kStraight);
+  for (int y = height - 2; y >= 0; --y) {
+    Value* row = distance.data() + y * width;
+    spreadAcross(row + width, row, width);
+    spreadAlong(row, width);
   }
   std::uint64_t sum = 0;
   std::uint64_t known = 0;

@@ -35,6 +35,11 @@ Camera placeholderCamera(const ProblemSize& size) {
   return camera;
 }
 
+/// Of the images that the search looks at.
+int channelsOf(const LocalizerOptions& options) {
+  return options.search.color ? ColorView::kChannels : 1;
+}
+
 /// An empty mesh of the right size, for counting.
 MeshView placeholderMesh(const ProblemSize& size) {
   MeshView mesh;
@@ -156,10 +161,10 @@ void PassMemory::Layout::layOutRenders() {
   if (options.search.enabled) {
     const std::size_t end = kept.mark();
     kept.rewind(start);
-    (void)to.search.create(kept);
+    (void)to.search.create(channelsOf(options), kept);
     const std::size_t search_end = kept.mark();
     kept.rewind(start);
-    (void)to.twins.create(kept);
+    (void)to.twins.create(channelsOf(options), kept);
     kept.rewind(std::max({end, search_end, kept.mark()}));
   }
   if (options.ambiguity.enabled) {
@@ -197,7 +202,7 @@ Status PassMemory::Layout::layOutStages() {
   if (scratch.countsOnly()) bytesOf(Stage::kRefine) = scratch.highWater();
   // Behind the samples, which may be looked at until the next render.
   if (options.search.enabled && status == Status::kOk) {
-    status = to.evidence.create(scratch);
+    status = to.evidence.create(channelsOf(options), scratch);
     if (status == Status::kOk) status = to.focal.create(options.refinement.max_samples, scratch);
     // The test of twins renders, when the samples are no longer needed.
     if (scratch.countsOnly())

@@ -2,6 +2,7 @@
 #include "core/search/facing_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -59,39 +60,78 @@ TangentBox boxOfImage(const Camera& camera, const Pose& view_from_camera) {
   return box;
 }
 
-/// A channel of an image.
-struct Channel {
+/// The channels of an image, interleaved.
+struct Channels {
   const std::uint8_t* data = nullptr;
   std::ptrdiff_t stride = 0;
-  std::ptrdiff_t step = 1;  ///< bytes from a pixel to the next one
 
-  const std::uint8_t* at(int x, int y) const { return data + stride * y + step * x; }
+  template <int kCount>
+  const std::uint8_t* at(int x, int y) const {
+    return data + stride * y + std::ptrdiff_t{kCount} * x;
+  }
 };
 
-Channel channelOf(const SearchProblem& problem, int channel) {
-  const ColorView& color = problem.color;
-  if (color.data == nullptr) return {problem.image.data, problem.image.stride, 1};
-  return {color.data + channel, color.stride, ColorView::kChannels};
-}
+template <int kCount>
+using Sums = std::array<std::int64_t, static_cast<std::size_t>(kCount)>;
 
-/// Sum over block x block pixels from a place on, bilinear, in units of 2^-16.
-std::int64_t blockSum(const Channel& image, double x_px, double y_px, int block) {
+/// Sums over block x block pixels from a place on, bilinear, in units of 2^-16.
+template <int kCount>
+Sums<kCount> blockSums(const Channels& image, double x_px, double y_px, int block) {
   const int x = static_cast<int>(x_px);
   const int y = static_cast<int>(y_px);
-  const auto right = static_cast<std::int64_t>((x_px - x) * (1 << kWeightBits));
-  const auto down = static_cast<std::int64_t>((y_px - y) * (1 << kWeightBits));
-  const std::int64_t left = (1 << kWeightBits) - right;
-  const std::int64_t up = (1 << kWeightBits) - down;
-  std::int64_t sum = 0;
+  const auto right = static_cast<std::int32_t>((x_px - x) * (1 << kWeightBits));
+  const auto down = static_cast<std::int32_t>((y_px - y) * (1 << kWeightBits));
+  const std::int32_t left = (1 << kWeightBits) - right;
+  const std::int32_t up = (1 << kWeightBits) - down;
+  Sums<kCount> sums{};
   for (int row = 0; row <= block; ++row) {
-    const std::uint8_t* pixel = image.at(x, y + row);
-    std::int32_t inner = 0;
-    for (int i = 1; i < block; ++i) inner += pixel[i * image.step];
-    const std::int64_t along =
-        left * pixel[0] + (std::int64_t{inner} << kWeightBits) + right * pixel[block * image.step];
-    sum += along * (row == 0 ? up : row == block ? down : (1 << kWeightBits));
+    const std::uint8_t* pixel = image.at<kCount>(x, y + row);
+    std::array<std::int32_t, static_cast<std::size_t>(kCount)> inner{};
+    for (int i = 1; i < block; ++i)
+      for (int k = 0; k < kCount; ++k) inner[static_cast<std::size_t>(k)] += pixel[i * kCount + k];
+    const std::int32_t weight = row == 0 ? up : row == block ? down : (1 << kWeightBits);
+    for (int k = 0; k < kCount; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const std::int64_t along = left * pixel[k] + (std::int64_t{inner[at]} << kWeightBits) +
+                                 right * pixel[block * kCount + k];
+      sums[at] += along * weight;
+    }
   }
-  return sum;
+  return sums;
+}
+
+template <int kCount>
+void fillRows(const SearchProblem& problem, const Channels& image, const FacingView& view,
+              int first, int end, SmallImage& output) {
+  const Eigen::Matrix3d camera_from_view = view.view_from_camera.matrix().transpose();
+  const int block = std::max(1, static_cast<int>(1.0 / view.pixels_per_px + 0.5));
+  const double half = 0.5 * (block - 1);
+  const std::size_t channel = output.seen.size();
+  for (int y = first; y < end; ++y) {
+    for (int x = 0; x < output.width; ++x) {
+      const auto at = static_cast<std::size_t>(y * output.width + x);
+      for (int k = 0; k < kCount; ++k) output.value[static_cast<std::size_t>(k) * channel + at] = 0;
+      output.seen[at] = 0;
+      const Eigen::Vector3d ray =
+          camera_from_view * Eigen::Vector3d((x - view.camera.cx) / view.camera.fx,
+                                             (y - view.camera.cy) / view.camera.fy, 1.0);
+      Eigen::Vector2d pixel;
+      if (!projectDirection(problem.camera, ray, pixel)) continue;
+      const double left = pixel.x() - half;
+      const double top = pixel.y() - half;
+      if (!(left >= 0.0 && top >= 0.0 && left + block < problem.image.width &&
+            top + block < problem.image.height))
+        continue;
+      const Sums<kCount> sums = blockSums<kCount>(image, left, top, block);
+      for (int k = 0; k < kCount; ++k)
+        output.value[static_cast<std::size_t>(k) * channel + at] = static_cast<std::uint8_t>(
+            (sums[static_cast<std::size_t>(k)] >> (2 * kWeightBits)) / (block * block));
+      const bool ignored =
+          problem.ignore != nullptr &&
+          problem.ignore->get(static_cast<int>(pixel.x() + 0.5), static_cast<int>(pixel.y() + 0.5));
+      output.seen[at] = ignored ? 0 : 1;
+    }
+  }
 }
 
 }  // namespace
@@ -114,10 +154,10 @@ bool faceScene(const SearchProblem& problem, const Pose& camera_from_station, co
   const TangentBox image = boxOfImage(problem.camera, view.view_from_camera);
   seen.least = seen.least.cwiseMax(image.least);
   seen.most = seen.most.cwiseMin(image.most);
-  const double span = (seen.most - seen.least).maxCoeff();
   if (!((seen.most - seen.least).minCoeff() > 0.0)) return false;
-  const Eigen::Vector2d half =
-      seen.most.cwiseMax(-seen.least) + Eigen::Vector2d(size.slide_x, size.slide_y);
+  const double span = std::max((seen.most - seen.least).maxCoeff(), 2.0 * size.least_half);
+  const Eigen::Vector2d half = seen.most.cwiseMax(-seen.least).cwiseMax(size.least_half) +
+                               Eigen::Vector2d(size.slide_x, size.slide_y);
   const double real_focal_px = std::abs(problem.camera.fx);
   const double focal_px = std::min({size.span_px / span, real_focal_px,
                                     (0.5 * size.most_px - size.margin_px - 2.0) / half.maxCoeff()});
@@ -137,36 +177,14 @@ bool faceScene(const SearchProblem& problem, const Pose& camera_from_station, co
 }
 
 void fillViewRows(const SearchProblem& problem, const FacingView& view, int first, int end,
-                  int channel, SmallImage& output) {
-  const ImageView& image = problem.image;
-  const Channel values = channelOf(problem, channel);
+                  SmallImage& output) {
   output.width = view.camera.width;
   output.height = view.camera.height;
-  const Eigen::Matrix3d camera_from_view = view.view_from_camera.matrix().transpose();
-  const int block = std::max(1, static_cast<int>(1.0 / view.pixels_per_px + 0.5));
-  const double half = 0.5 * (block - 1);
-  for (int y = first; y < end; ++y) {
-    for (int x = 0; x < output.width; ++x) {
-      const auto at = static_cast<std::size_t>(y * output.width + x);
-      output.value[at] = 0;
-      output.seen[at] = 0;
-      const Eigen::Vector3d ray =
-          camera_from_view * Eigen::Vector3d((x - view.camera.cx) / view.camera.fx,
-                                             (y - view.camera.cy) / view.camera.fy, 1.0);
-      Eigen::Vector2d pixel;
-      if (!projectDirection(problem.camera, ray, pixel)) continue;
-      const double left = pixel.x() - half;
-      const double top = pixel.y() - half;
-      if (!(left >= 0.0 && top >= 0.0 && left + block < image.width && top + block < image.height))
-        continue;
-      output.value[at] = static_cast<std::uint8_t>(
-          (blockSum(values, left, top, block) >> (2 * kWeightBits)) / (block * block));
-      const bool ignored =
-          problem.ignore != nullptr &&
-          problem.ignore->get(static_cast<int>(pixel.x() + 0.5), static_cast<int>(pixel.y() + 0.5));
-      output.seen[at] = ignored ? 0 : 1;
-    }
-  }
+  if (problem.color.data != nullptr)
+    fillRows<ColorView::kChannels>(problem, {problem.color.data, problem.color.stride}, view, first,
+                                   end, output);
+  else
+    fillRows<1>(problem, {problem.image.data, problem.image.stride}, view, first, end, output);
 }
 
 }  // namespace boresight

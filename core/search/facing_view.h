@@ -24,10 +24,11 @@ struct FacingView {
 /// How large a view is asked for.
 struct ViewSize {
   double span_px = 0.0;  ///< longer side of the visible object; less where the real image has less
-  double margin_px = 0.0;  ///< around the object
-  double slide_x = 0.0;    ///< how far the object may move, as tangents
-  double slide_y = 0.0;    ///< the same, downwards
-  int most_px = 0;         ///< longest side of the image
+  double margin_px = 0.0;   ///< around the object
+  double slide_x = 0.0;     ///< how far the object may move, as tangents
+  double slide_y = 0.0;     ///< the same, downwards
+  double least_half = 0.0;  ///< half of the object's longer side is taken as this at least, tangent
+  int most_px = 0;          ///< longest side of the image
 };
 
 /// The shortest rotation that brings the ray through a point to the z axis.
@@ -42,9 +43,10 @@ inline int channelsOf(const SearchProblem& problem) {
   return problem.color.data != nullptr ? ColorView::kChannels : 1;
 }
 
-/// Fills rows `first` ... `end - 1` of a channel of the view's image: the mean of the real image
-/// over what each pixel covers. Pixels outside the real image, and ignored ones, are not known.
+/// Fills rows `first` ... `end - 1` of the view's image, all its channels: the mean of the real
+/// image over what each pixel covers. Pixels outside the real image, and ignored ones, are not
+/// known.
 void fillViewRows(const SearchProblem& problem, const FacingView& view, int first, int end,
-                  int channel, SmallImage& output);
+                  SmallImage& output);
 
 }  // namespace boresight

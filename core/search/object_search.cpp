@@ -2,6 +2,7 @@
 #include "core/search/object_search.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/base/math.h"
@@ -9,26 +10,24 @@
 namespace boresight {
 namespace {
 
-constexpr double kSpan_px = 88.0;                ///< of the object in the search's image
-constexpr double kTilt_rad = 8.0 * kDegree_rad;  ///< spacings of the grid, at most
-constexpr double kRoll_rad = 6.0 * kDegree_rad;
-constexpr double kDepth = 0.05;
-constexpr int kMostPlaces = 61;
+constexpr double kMargin = 0.1;  ///< around the object, of its size
+constexpr double kDepth = 0.1;   ///< spacing of depths, at most, as a share of the depth
+constexpr int kMostDepths = 15;
+constexpr double kMostDepth = 0.6;
+constexpr double kFarthestSlide = 1.5;  ///< 56 deg off the view's axis
 /// Tolerance on the seed's uncertainty, before a candidate is refined.
 constexpr double kBeyond = 1.15;
-constexpr double kApart = 0.03;  ///< of the size: nearer candidates are the same
-constexpr double kMostDepth = 0.6;
+/// Nearer candidates are the same: share of the size, on the grid and after the descent.
+constexpr double kApartOnGrid = 0.06;
+constexpr double kApart = 0.03;
+/// Candidates on the grid that are behind the best by more are left out.
+constexpr double kBehind_px = 0.7;
 
 /// Cells that a range to either side is divided into: odd, so that the seed is in the middle of
 /// one.
 int placesFor(double range, double spacing) {
   const int half = static_cast<int>(-std::floor(0.5 - std::min(range / spacing, 1e3)));
-  return std::clamp(2 * half + 1, 1, kMostPlaces);
-}
-
-/// Middle of a cell.
-double placeOf(int index, int count, double range) {
-  return range * ((2.0 * index + 1.0) / count - 1.0);
+  return std::clamp(2 * half + 1, 1, kMostDepths);
 }
 
 int nearest(double value) { return static_cast<int>(std::floor(value + 0.5)); }
@@ -50,13 +49,21 @@ Eigen::Vector3d reachOf(const SearchProblem& problem) {
                                                   away(squared.x() + squared.y()) * arm_m.z());
 }
 
-}  // namespace
-
-void ObjectSearch::create(Arena& arena) {
-  constexpr auto kPixels = static_cast<std::size_t>(kMaxSide_px) * kMaxSide_px;
-  for (auto& map : maps_) map = arena.allocate<std::uint8_t>(kPixels);
-  sums_ = arena.allocate<std::uint16_t>(kPixels);
+/// The nearest rotation inside the seed's box: a sample of the grid beyond it stands for those
+/// inside. The object stays where it is.
+Pose pulledIntoBox(const SearchProblem& problem, const Pose& camera_from_station) {
+  const Eigen::Quaterniond& seed = problem.camera_from_station_seed.rotation;
+  const Eigen::Vector3d box_rad = problem.uncertainty.rotation_rad;
+  const Eigen::Vector3d rotation_rad = rotationLog(camera_from_station.rotation * seed.conjugate());
+  Pose pulled;
+  pulled.rotation = rotationExp(rotation_rad.cwiseMax(-box_rad).cwiseMin(box_rad)) * seed;
+  pulled.rotation.normalize();
+  pulled.translation_m = camera_from_station * problem.scene.centre() -
+                         pulled.rotation.toRotationMatrix() * problem.scene.centre();
+  return pulled;
 }
+
+}  // namespace
 
 bool ObjectSearch::begin(const SearchProblem& problem, ViewEdges& view_edges,
                          EdgeRenderer& renderer, EdgeRender& render) {
@@ -67,218 +74,207 @@ bool ObjectSearch::begin(const SearchProblem& problem, ViewEdges& view_edges,
   phase_ = Phase::kDone;
   found_ = CandidateList();
   poses_ = 0;
-  const Eigen::Vector3d middle_m = problem.camera_from_station_seed * problem.scene.centre();
-  if (!(middle_m.z() > 0.0)) return false;
-  depth_m_ = std::sqrt(middle_m.squaredNorm());
-  const Eigen::Matrix3d turn = viewTowards(middle_m).matrix().cwiseAbs();
-  const Eigen::Vector3d reach_m = turn * reachOf(problem);
-  constexpr double kFarthestSlide = 1.5;  // 56 deg off the view's axis
   ViewSize size;
-  size.span_px = kSpan_px;
-  size.margin_px = 0.1 * kSpan_px;
-  size.slide_x = std::min(reach_m.x() / depth_m_, kFarthestSlide);
-  size.slide_y = std::min(reach_m.y() / depth_m_, kFarthestSlide);
-  size.most_px = kMaxSide_px;
-  if (!view_edges.begin(problem, problem.camera_from_station_seed, size)) return false;
-  const double focal_px = view_edges.view().camera.fx;
-  grid_ = SearchGrid();
-  grid_.slide_x_px = std::min(static_cast<int>(size.slide_x * focal_px) + 1,
-                              view_edges.view().camera.width / 2 - 1);
-  grid_.slide_y_px = std::min(static_cast<int>(size.slide_y * focal_px) + 1,
-                              view_edges.view().camera.height / 2 - 1);
-  layOutGrid(reach_m, turn * problem.uncertainty.rotation_rad);
-  found_ = CandidateList(0.5 * view_edges.view().span_px, kApart * view_edges.view().span_px);
-  tilt_ = 0;
+  if (!layOut(size) || !view_edges.begin(problem, problem.camera_from_station_seed, size))
+    return false;
+  const FacingView& view = view_edges.view();
+  const double focal_px = view.camera.fx;
+  slide_x_px_ = std::min(static_cast<int>(size.slide_x * focal_px) + 1, view.camera.width / 2 - 1);
+  slide_y_px_ = std::min(static_cast<int>(size.slide_y * focal_px) + 1, view.camera.height / 2 - 1);
+  sums_.begin(view.camera.width, view.camera.height, slide_x_px_, slide_y_px_);
+  const Eigen::Vector3d axis = view.view_from_camera.inverse().rotation * Eigen::Vector3d::UnitZ();
+  grid_found_ = CandidateList(0.5 * view.span_px, kApartOnGrid * view.span_px, axis);
+  found_ = CandidateList(0.5 * view.span_px, kApart * view.span_px, axis);
+  next_ = 0;
+  descends_ = false;
   rendering_ = false;
   phase_ = Phase::kView;
   return true;
 }
 
-void ObjectSearch::layOutGrid(const Eigen::Vector3d& reach_m, const Eigen::Vector3d& reach_rad) {
+/// Ranges of the grid, and the view that holds them.
+bool ObjectSearch::layOut(ViewSize& size) {
+  const SearchProblem& problem = *problem_;
+  const Eigen::Vector3d middle_m = problem.camera_from_station_seed * problem.scene.centre();
+  if (!(middle_m.z() > 0.0)) return false;
+  depth_m_ = std::sqrt(middle_m.squaredNorm());
+  const Pose view_from_camera = viewTowards(middle_m);
+  const Eigen::Matrix3d turn = view_from_camera.matrix().cwiseAbs();
+  const Eigen::Vector3d reach_m = turn * reachOf(problem);
+  const Eigen::Vector3d box_rad =
+      problem.uncertainty.rotation_rad.cwiseMin(Eigen::Vector3d::Constant(kPi));
   // What is seen from aside is seen tilted.
-  grid_.tilt_x_rad = std::min(reach_rad.x() + arcTangent(reach_m.y() / depth_m_), kPi);
-  grid_.tilt_y_rad = std::min(reach_rad.y() + arcTangent(reach_m.x() / depth_m_), kPi);
-  grid_.roll_rad = std::min(reach_rad.z(), kPi);
-  grid_.depth = std::min(reach_m.z() / depth_m_, kMostDepth);
-  grid_.tilts_x = placesFor(grid_.tilt_x_rad, kTilt_rad);
-  grid_.tilts_y = placesFor(grid_.tilt_y_rad, kTilt_rad);
-  grid_.rolls = placesFor(grid_.roll_rad, kRoll_rad);
-  grid_.depths = placesFor(grid_.depth, kDepth);
+  rotations_ =
+      RotationGrid({box_rad,
+                    view_from_camera.rotation,
+                    {arcTangent(reach_m.y() / depth_m_), arcTangent(reach_m.x() / depth_m_)}});
+  depth_range_ = std::min(reach_m.z() / depth_m_, kMostDepth);
+  depths_ = placesFor(depth_range_, kDepth);
+  size.span_px = kSpan_px;
+  size.margin_px = kMargin * kSpan_px;
+  size.slide_x = std::min(reach_m.x() / depth_m_, kFarthestSlide);
+  size.slide_y = std::min(reach_m.y() / depth_m_, kFarthestSlide);
+  size.most_px = SlideSums::kMaxView_px;
+  // Half of the largest side that a tilt brings into view.
+  const double tilt_rad = std::min((turn * box_rad).head<2>().maxCoeff(), 0.5 * kPi);
+  const Eigen::Vector3d extent_m = problem.scene.maximum_m - problem.scene.minimum_m;
+  size.least_half = sine(tilt_rad) * 0.5 * extent_m.maxCoeff() / depth_m_;
+  return true;
 }
 
 bool ObjectSearch::step() {
   switch (phase_) {
     case Phase::kView:
-      if (!view_edges_->step()) return false;
-      phase_ = Phase::kMaps;
-      next_ = 0;
+      if (view_edges_->step()) phase_ = Phase::kMaps;
       return false;
     case Phase::kMaps:
-      makeMap(next_);
-      if (++next_ == kEdgeDirections) phase_ = Phase::kRender;
-      return false;
+      sums_.takeMap(view_edges_->edges(), next_);
+      return ++next_ == kEdgeDirections ? nextDirection() : false;
     case Phase::kRender:
       return stepRender();
-    case Phase::kScore: {
-      const RollDepth change = rollDepthOf(next_);
-      sumDistances(change);
-      takePeaks(change);
-      return ++next_ == grid_.rolls * grid_.depths ? nextTilt() : false;
-    }
+    case Phase::kScore:
+      scoreTurn(next_);
+      while (++next_ < RotationGrid::kTurns)
+        if ((rotations_.turns() >> next_ & 1U) != 0) return false;
+      return nextDirection();
+    case Phase::kDescend:
+      descend();
+      return nextDescent();
     case Phase::kDone:
       break;
   }
   return true;
 }
 
-void ObjectSearch::makeMap(int direction) {
-  const auto index = static_cast<std::size_t>(direction);
-  const DirectedEdges& edges = view_edges_->edges();
-  distanceToDirection(edges, direction, maps_[index]);
-  const auto count = static_cast<std::size_t>(edges.width * edges.height);
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < count; ++i) sum += maps_[index][i];
-  mean_[index] = static_cast<std::uint8_t>(sum / std::max<std::size_t>(count, 1));
+bool ObjectSearch::nextDirection() {
+  phase_ = Phase::kRender;
+  if (rotations_.next()) return false;
+  descends_ = true;
+  next_ = -1;
+  return nextDescent();
 }
 
-/// A tilt that cannot be rendered is passed over.
+bool ObjectSearch::nextDescent() {
+  const std::span<const SearchCandidate> candidates = grid_found_.candidates();
+  const bool continues = ++next_ < static_cast<int>(candidates.size()) &&
+                         candidates[static_cast<std::size_t>(next_)].distance_px <
+                             candidates.front().distance_px + kBehind_px;
+  phase_ = continues ? Phase::kRender : Phase::kDone;
+  return !continues;
+}
+
+void ObjectSearch::descend() {
+  SearchCandidate candidate = grid_found_.candidates()[static_cast<std::size_t>(next_)];
+  Pose view_from_station = view_edges_->inView(candidate.camera_from_station);
+  candidate.distance_px = compass_.descend(sums_, problem_->scene.centre(), view_from_station);
+  candidate.camera_from_station = view_edges_->inCamera(view_from_station);
+  found_.insert(candidate);
+}
+
+/// A pose that cannot be rendered is passed over.
 bool ObjectSearch::stepRender() {
   bool complete = false;
   Status status = Status::kOk;
   if (!rendering_)
-    status = renderer_->begin(view_edges_->rays(), tiltedPose(), *render_);
+    status = renderer_->begin(view_edges_->rays(), renderedPose(), *render_);
   else
     status = renderer_->stepWhole(complete);
   rendering_ = status == Status::kOk && !complete;
   if (rendering_) return false;
+  if (descends_) {
+    phase_ = Phase::kDescend;
+    return status == Status::kOk && compass_.takePlaces(problem_->mesh, *render_) ? false
+                                                                                  : nextDescent();
+  }
   point_count_ = 0;
   if (status == Status::kOk) takePoints();
-  if (point_count_ == 0) return nextTilt();
+  if (point_count_ == 0) return nextDirection();
   phase_ = Phase::kScore;
-  next_ = 0;
+  next_ = std::countr_zero(rotations_.turns());
   return false;
 }
 
-bool ObjectSearch::nextTilt() {
-  phase_ = ++tilt_ < grid_.tilts_x * grid_.tilts_y ? Phase::kRender : Phase::kDone;
-  return phase_ == Phase::kDone;
+/// Middle of a cell.
+double ObjectSearch::depthRatio(int depth) const {
+  return 1.0 + depth_range_ * ((2.0 * depth + 1.0) / depths_ - 1.0);
 }
 
-ObjectSearch::RollDepth ObjectSearch::rollDepthOf(int index) const {
-  return {placeOf(index / grid_.depths, grid_.rolls, grid_.roll_rad),
-          1.0 + placeOf(index % grid_.depths, grid_.depths, grid_.depth)};
-}
-
-double ObjectSearch::tiltX_rad() const {
-  return placeOf(tilt_ / grid_.tilts_y, grid_.tilts_x, grid_.tilt_x_rad);
-}
-
-double ObjectSearch::tiltY_rad() const {
-  return placeOf(tilt_ % grid_.tilts_y, grid_.tilts_y, grid_.tilt_y_rad);
-}
-
-/// The seed turned about the scene's middle, in the view.
-Pose ObjectSearch::tiltedPose() const {
+/// A candidate, or the seed turned about the scene's middle, in the view.
+Pose ObjectSearch::renderedPose() const {
+  if (descends_)
+    return view_edges_->inView(
+        grid_found_.candidates()[static_cast<std::size_t>(next_)].camera_from_station);
   Pose view_from_station;
-  view_from_station.rotation = rotationExp({tiltX_rad(), tiltY_rad(), 0.0}) *
+  view_from_station.rotation = rotationExp(rotations_.tilt_rad()) *
                                view_edges_->inView(problem_->camera_from_station_seed).rotation;
   view_from_station.translation_m =
       Eigen::Vector3d(0.0, 0.0, depth_m_) - view_from_station.matrix() * problem_->scene.centre();
   return view_from_station;
 }
 
-/// Outline places spread evenly over the render; where there is hardly any outline, all edges.
 void ObjectSearch::takePoints() {
-  const auto isOutline = [](const EdgePixel& pixel) {
-    return (pixel.kind & (kEdgeBorder | kEdgeOccluding)) != 0;
-  };
-  const auto pixels = render_->pixels.first(static_cast<std::size_t>(render_->pixel_count));
-  std::int64_t available = 0;
-  for (const EdgePixel& pixel : pixels) available += isOutline(pixel) ? 1 : 0;
-  const bool all = available < kMaxPoints / 2;
-  if (all) available = render_->pixel_count;
-  const std::int64_t wanted = std::min<std::int64_t>(kMaxPoints, available);
-  const int middle_x = view_edges_->view().camera.width / 2;
-  const int middle_y = view_edges_->view().camera.height / 2;
-  std::int64_t place = 0;
-  for (const EdgePixel& pixel : pixels) {
-    if (!all && !isOutline(pixel)) continue;
-    const bool taken = place * wanted / available != (place + 1) * wanted / available;
-    ++place;
-    if (!taken) continue;
+  const Camera& camera = view_edges_->view().camera;
+  takeEvenly(*render_, [&](const EdgePixel& pixel) {
+    const double normal_x = pixel.normal_x / 127.0;
+    const double normal_y = pixel.normal_y / 127.0;
     points_[static_cast<std::size_t>(point_count_++)] = {
-        static_cast<std::int16_t>(pixel.x - middle_x),
-        static_cast<std::int16_t>(pixel.y - middle_y), pixel.normal_x, pixel.normal_y};
-  }
+        pixel.x + 0.01 * pixel.offset * normal_x - camera.cx,
+        pixel.y + 0.01 * pixel.offset * normal_y - camera.cy, normal_x, normal_y};
+  });
 }
 
-void ObjectSearch::sumDistances(const RollDepth& change) {
-  const double c = cosine(change.roll_rad);
-  const double s = sine(change.roll_rad);
-  std::fill_n(sums_.begin(), static_cast<std::size_t>(columns() * rows()), std::uint16_t{0});
-  for (int i = 0; i < point_count_; ++i) {
-    const Point& point = points_[static_cast<std::size_t>(i)];
-    const int direction =
-        edgeDirectionOf(nearest(16.0 * (c * point.normal_x - s * point.normal_y)),
-                        nearest(16.0 * (s * point.normal_x + c * point.normal_y)));
-    addPlace(direction, nearest((c * point.x - s * point.y) / change.depth_ratio),
-             nearest((s * point.x + c * point.y) / change.depth_ratio));
-  }
-  poses_ += columns() * rows();
-}
-
-/// Adds the distances of one place for all slides; outside the image the mean of the map counts.
-void ObjectSearch::addPlace(int direction, int x, int y) {
-  const DirectedEdges& edges = view_edges_->edges();
-  const auto index = static_cast<std::size_t>(direction);
-  const std::uint8_t mean = mean_[index];
-  const int left = edges.width / 2 + x - grid_.slide_x_px;
-  const int top = edges.height / 2 + y - grid_.slide_y_px;
-  const int first = std::clamp(-left, 0, columns());
-  const int end = std::clamp(edges.width - left, first, columns());
-  for (int row = 0; row < rows(); ++row) {
-    std::uint16_t* sum = sums_.data() + row * columns();
-    const auto addMean = [&](int from, int to) {
-      for (int k = from; k < to; ++k) sum[k] = static_cast<std::uint16_t>(sum[k] + mean);
-    };
-    const int y_px = top + row;
-    if (y_px < 0 || y_px >= edges.height) {
-      addMean(0, columns());
-      continue;
+/// The outline turned, at all depths and slides.
+void ObjectSearch::scoreTurn(int turn) {
+  const double c = cosine(turn * RotationGrid::kSpacing_rad);
+  const double s = sine(turn * RotationGrid::kSpacing_rad);
+  std::array<SlideSums::Place, SlideSums::kMaxPlaces> places;
+  const auto used = std::span(places).first(static_cast<std::size_t>(point_count_));
+  for (int depth = 0; depth < depths_; ++depth) {
+    const double ratio = depthRatio(depth);
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      const Point& point = points_[i];
+      used[i] = {static_cast<std::int16_t>(nearest((c * point.x_px - s * point.y_px) / ratio)),
+                 static_cast<std::int16_t>(nearest((s * point.x_px + c * point.y_px) / ratio)),
+                 static_cast<std::uint8_t>(
+                     edgeDirectionOf(nearest(1024.0 * (c * point.normal_x - s * point.normal_y)),
+                                     nearest(1024.0 * (s * point.normal_x + c * point.normal_y))))};
     }
-    const std::uint8_t* row_of_map = maps_[index].data() + y_px * edges.width;
-    addMean(0, first);
-    for (int k = first; k < end; ++k)
-      sum[k] = static_cast<std::uint16_t>(sum[k] + row_of_map[left + k]);
-    addMean(end, columns());
+    sums_.add(used);
+    poses_ += std::int64_t{sums_.columns()} * sums_.rows();
+    takePeaks(turn, ratio);
   }
 }
 
 /// Whether no neighbouring slide is better.
-bool ObjectSearch::isPeak(int x, int y) const {
-  const std::uint16_t* sum = sums_.data() + y * columns() + x;
-  for (int dy = y > 0 ? -1 : 0; dy <= (y + 1 < rows() ? 1 : 0); ++dy)
-    for (int dx = x > 0 ? -1 : 0; dx <= (x + 1 < columns() ? 1 : 0); ++dx)
-      if (sum[dy * columns() + dx] < *sum) return false;
+bool ObjectSearch::isPeak(int column, int row) const {
+  const std::uint16_t sum = sums_.sum(column, row);
+  for (int y = std::max(row - 1, 0); y <= std::min(row + 1, sums_.rows() - 1); ++y)
+    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, sums_.columns() - 1); ++x)
+      if (sums_.sum(x, y) < sum) return false;
   return true;
 }
 
-void ObjectSearch::takePeaks(const RollDepth& change) {
-  const double unit_px = kDistanceUnit_px / point_count_;
-  for (int y = 0; y < rows(); ++y) {
-    for (int x = 0; x < columns(); ++x) {
-      const double distance_px = unit_px * sums_[static_cast<std::size_t>(y * columns() + x)];
-      if (!found_.accepts(distance_px) || !isPeak(x, y)) continue;
+void ObjectSearch::takePeaks(int turn, double depth_ratio) {
+  const double unit_px = SlideSums::kStep_px / point_count_;
+  if (!grid_found_.accepts(unit_px * sums_.least())) return;
+  const Eigen::Vector3d tilt_rad = rotations_.tilt_rad();
+  for (int row = 0; row < sums_.rows(); ++row) {
+    for (int column = 0; column < sums_.columns(); ++column) {
+      const double distance_px = unit_px * sums_.sum(column, row);
+      if (!grid_found_.accepts(distance_px) || !isPeak(column, row)) continue;
       SearchCandidate candidate;
       candidate.distance_px = distance_px;
-      candidate.tilt_x_rad = tiltX_rad();
-      candidate.tilt_y_rad = tiltY_rad();
-      candidate.roll_rad = change.roll_rad;
-      candidate.depth_ratio = change.depth_ratio;
-      candidate.slide_x_px = x - grid_.slide_x_px;
-      candidate.slide_y_px = y - grid_.slide_y_px;
+      candidate.tilt_x_rad = tilt_rad.x();
+      candidate.tilt_y_rad = tilt_rad.y();
+      candidate.roll_rad = turn * RotationGrid::kSpacing_rad;
+      if (candidate.roll_rad > kPi) candidate.roll_rad -= 2.0 * kPi;
+      candidate.depth_ratio = depth_ratio;
+      candidate.slide_x_px = column - slide_x_px_;
+      candidate.slide_y_px = row - slide_y_px_;
       candidate.camera_from_station = poseOf(candidate);
-      if (isWithinSeed(candidate.camera_from_station)) found_.insert(candidate);
+      if (!isWithinSeed(candidate.camera_from_station)) continue;
+      candidate.camera_from_station = pulledIntoBox(*problem_, candidate.camera_from_station);
+      grid_found_.insert(candidate);
     }
   }
 }
@@ -300,17 +296,12 @@ bool ObjectSearch::isWithinSeed(const Pose& camera_from_station) const {
   const SeedUncertainty& seed = problem_->uncertainty;
   const Vector6d offset = offsetAboutPivot(problem_->camera_from_station_seed, camera_from_station,
                                            seed.pivot_in_camera_m);
-  // Beside a large turn a tilt is a longer rotation vector than alone.
-  const double half_rad = 0.5 * std::sqrt(offset.head<3>().squaredNorm());
-  const double longer = half_rad > 0.1 ? half_rad / sine(std::min(half_rad, 0.5 * kPi)) : 1.0;
   // Half a step of the grid more.
   const double step_m = depth_m_ * (1.5 / view_edges_->view().camera.fx + 0.5 * kDepth);
-  for (int i = 0; i < 3; ++i) {
-    if (std::abs(offset[i]) > longer * kBeyond * seed.rotation_rad[i] + 0.5 * kTilt_rad)
-      return false;
-    if (std::abs(offset[i + 3]) > kBeyond * seed.translation_m[i] + step_m) return false;
-  }
-  return true;
+  for (int i = 3; i < 6; ++i)
+    if (std::abs(offset[i]) > kBeyond * seed.translation_m[i - 3] + step_m) return false;
+  return isNearBox(offset.head<3>(), kBeyond * seed.rotation_rad,
+                   Eigen::Vector3d::Constant(0.5 * RotationGrid::kSpacing_rad));
 }
 
 }  // namespace boresight

@@ -47,8 +47,8 @@ void addPlaces(const EdgeRender& render, ContourEvidenceMeter& meter) {
   }
 }
 
-Status PoseEvidence::create(Arena& arena) {
-  view_edges_.create(kLongestView_px, arena);
+Status PoseEvidence::create(int channels, Arena& arena) {
+  view_edges_.create(kLongestView_px, channels, arena);
   meter_.create(static_cast<std::size_t>(kLongestView_px) * kLongestView_px, arena);
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }

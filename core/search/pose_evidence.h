@@ -19,8 +19,8 @@ void addPlaces(const EdgeRender& render, ContourEvidenceMeter& meter);
 /// Measures the evidence for a pose that was rendered for the real camera, in bounded slices.
 class PoseEvidence {
  public:
-  /// Takes the memory from `arena`. kArenaTooSmall.
-  Status create(Arena& arena);
+  /// Takes the memory from `arena`, for images of up to so many channels. kArenaTooSmall.
+  Status create(int channels, Arena& arena);
   /// The problem and the render must outlive the steps. False when the scene is not in sight.
   [[nodiscard]] bool begin(const SearchProblem& problem, const EdgeRender& render);
   /// One slice; true when evidence() is complete.

@@ -17,28 +17,43 @@ struct Level {
   std::array<double, 3> radius_px{};
 };
 /// Scales grow by 1.8: what one leaves is within the next one's radius.
-constexpr std::array<Level, 3> kLevels = {{
+constexpr std::array<Level, 4> kLevels = {{
+    {ObjectSearch::kSpan_px, 1, {4.0, 0.0, 0.0}},
     {88.0, 3, {6.0, 4.0, 3.0}},
     {158.0, 2, {5.0, 3.0, 0.0}},
     {285.0, 2, {4.0, 3.0, 0.0}},
 }};
 constexpr int kMeasuring = static_cast<int>(kLevels.size());
+
+/// Poses that are refined at some levels, each to the end, and compared by their evidence.
+struct Round {
+  int first_level = 0;
+  int last_level = 0;
+  int most = 0;              ///< poses
+  int least = 0;             ///< poses, however little evidence they have
+  double behind_nats = 0.0;  ///< others with less evidence than the best by more are left out
+};
+constexpr std::array<Round, 3> kRounds = {{
+    {0, 0, CandidateList::kCapacity, CandidateList::kCapacity, 0.0},
+    {1, 1, 8, 5, 0.3},
+    {2, kMeasuring, PoseSearch::kMaxCandidates, 1, 0.35},
+}};
+constexpr int kLastRound = static_cast<int>(kRounds.size()) - 1;
 constexpr double kMargin = 0.1;  ///< around the object, of its size
-/// Poses that differ by less in the search's view, after they were refined there, are the same.
+/// Poses that differ by less in the view in which they were refined are the same.
 constexpr double kSame_px = 1.2;
-/// Candidates behind the best by more than this are not refined further.
-constexpr double kBehind_nats = 0.35;
 /// Error that the last scale leaves, px of its view.
 constexpr double kRemaining_px = 1.5;
-/// A candidate of so much evidence needs no other beside it.
+/// A candidate of so much evidence needs no other beside it, unless the next has about as much.
 constexpr double kConvincing_nats = 0.75;
 constexpr double kConvincingWeakest_nats = 0.45;
+constexpr double kAsGood_nats = 0.15;
 
 }  // namespace
 
-Status PoseSearch::create(Arena& arena) {
+Status PoseSearch::create(int channels, Arena& arena) {
   constexpr auto kPixels = static_cast<std::size_t>(kLongestView_px) * kLongestView_px;
-  view_edges_.create(kLongestView_px, arena);
+  view_edges_.create(kLongestView_px, channels, arena);
   render_ = createEdgeRender(kLongestView_px, kLongestView_px, kMaxEdgePixels, arena);
   // The search is over when the refinement begins.
   const std::size_t start = arena.mark();
@@ -54,8 +69,7 @@ Status PoseSearch::create(Arena& arena) {
 bool PoseSearch::begin(const SearchProblem& problem, EdgeRenderer& renderer) {
   problem_ = problem;
   renderer_ = &renderer;
-  count_ = tried_count_ = 0;
-  next_ = 0;
+  waiting_count_ = kept_count_ = 0;
   rendering_ = false;
   phase_ = Phase::kSearch;
   if (search_.begin(problem_, view_edges_, renderer, render_)) return true;
@@ -66,7 +80,9 @@ bool PoseSearch::begin(const SearchProblem& problem, EdgeRenderer& renderer) {
 bool PoseSearch::step() {
   switch (phase_) {
     case Phase::kSearch:
-      return search_.step() ? !beginTrial() : false;
+      if (!search_.step()) return false;
+      takeFound();
+      return !beginNext();
     case Phase::kView:
       if (!view_edges_.step()) return false;
       view_from_station_ = view_edges_.inView(now_.camera_from_station);
@@ -85,41 +101,78 @@ bool PoseSearch::step() {
   return true;
 }
 
-/// The next pose of the search, in the search's view. False when there is none left.
-bool PoseSearch::beginTrial() {
-  const std::span<const SearchCandidate> found = search_.candidates();
-  if (next_ >= std::min<int>(static_cast<int>(found.size()), kMostTried)) {
-    next_ = 0;
-    return beginCandidate();
+/// The poses of the search, for the first round.
+void PoseSearch::takeFound() {
+  waiting_count_ = 0;
+  for (const SearchCandidate& found : search_.candidates()) {
+    PoseCandidate& candidate = waiting_[static_cast<std::size_t>(waiting_count_++)];
+    candidate = {};
+    candidate.found = found;
+    candidate.camera_from_station = found.camera_from_station;
   }
-  now_ = {};
-  now_.found = found[static_cast<std::size_t>(next_++)];
-  view_from_station_ = view_edges_.inView(now_.found.camera_from_station);
-  level_ = 0;
-  pass_ = 0;
-  phase_ = Phase::kRender;
+  kept_count_ = 0;
+  round_ = next_ = 0;
+}
+
+/// The next of those waiting; false when there is none left, and all rounds are over.
+bool PoseSearch::beginNext() {
+  do {
+    const Round& round = kRounds[static_cast<std::size_t>(round_)];
+    while (next_ < std::min(waiting_count_, round.most)) {
+      now_ = waiting_[static_cast<std::size_t>(next_++)];
+      if (next_ > round.least && now_.rank_nats() < waiting_[0].rank_nats() - round.behind_nats)
+        break;
+      level_ = round.first_level;
+      if (beginLevel()) return true;
+    }
+  } while (beginRound());
+  phase_ = Phase::kDone;
+  return false;
+}
+
+bool PoseSearch::beginRound() {
+  if (round_ == kLastRound) return false;
+  ++round_;
+  next_ = 0;
+  waiting_ = kept_;
+  waiting_count_ = kept_count_;
+  kept_count_ = 0;
   return true;
 }
 
-bool PoseSearch::endTrial() {
-  now_.camera_from_station = view_edges_.inCamera(view_from_station_);
-  now_.error_px = kRemaining_px / view_edges_.view().pixels_per_px;
-  // The last render is from close by.
-  measureRender();
+/// The pose at the end of its round, by its evidence. Of poses that are the same the one with more
+/// evidence is kept.
+bool PoseSearch::keep() {
+  const bool is_last = round_ == kLastRound;
   int kept = 0;
-  for (int i = 0; i < tried_count_; ++i) {
-    const PoseCandidate& other = tried_[static_cast<std::size_t>(i)];
-    const bool same = isSame(other.camera_from_station, now_.camera_from_station);
-    if (same && other.rank_nats() >= now_.rank_nats()) return beginTrial();
-    if (!same) tried_[static_cast<std::size_t>(kept++)] = other;
+  for (int i = 0; i < kept_count_; ++i) {
+    const PoseCandidate& other = kept_[static_cast<std::size_t>(i)];
+    const bool same = !is_last && isSame(other.camera_from_station, now_.camera_from_station);
+    if (same && other.rank_nats() >= now_.rank_nats()) return !beginNext();
+    if (!same) kept_[static_cast<std::size_t>(kept++)] = other;
   }
   int place = kept;
-  for (; place > 0 && tried_[static_cast<std::size_t>(place - 1)].rank_nats() < now_.rank_nats();
+  for (; place > 0 && kept_[static_cast<std::size_t>(place - 1)].rank_nats() < now_.rank_nats();
        --place)
-    tried_[static_cast<std::size_t>(place)] = tried_[static_cast<std::size_t>(place - 1)];
-  tried_[static_cast<std::size_t>(place)] = now_;
-  tried_count_ = kept + 1;
-  return beginTrial();
+    kept_[static_cast<std::size_t>(place)] = kept_[static_cast<std::size_t>(place - 1)];
+  kept_[static_cast<std::size_t>(place)] = now_;
+  kept_count_ = kept + 1;
+  if (!is_last || !isConvincing(kept_[0]) || nextIsAsGood()) return !beginNext();
+  phase_ = Phase::kDone;
+  return true;
+}
+
+/// Whether the next of those waiting has about as much evidence as the best one.
+bool PoseSearch::nextIsAsGood() const {
+  return next_ < waiting_count_ && waiting_[static_cast<std::size_t>(next_)].rank_nats() >
+                                       waiting_[0].rank_nats() - kAsGood_nats;
+}
+
+bool PoseSearch::isKept(const Pose& camera_from_station) const {
+  for (int i = 0; i < kept_count_; ++i)
+    if (isSame(kept_[static_cast<std::size_t>(i)].camera_from_station, camera_from_station))
+      return true;
+  return false;
 }
 
 /// Whether two poses show the corners of the scene's box at about the same places.
@@ -139,26 +192,20 @@ bool PoseSearch::isSame(const Pose& one, const Pose& other) const {
   return true;
 }
 
-/// The next of those tried. False when there is none left.
-bool PoseSearch::beginCandidate() {
-  while (next_ < std::min(tried_count_, kMaxCandidates)) {
-    now_ = tried_[static_cast<std::size_t>(next_++)];
-    if (now_.rank_nats() < tried_[0].rank_nats() - kBehind_nats) break;
-    level_ = 1;
-    if (beginLevel()) return true;
-  }
-  phase_ = Phase::kDone;
-  return false;
-}
-
 bool PoseSearch::beginLevel() {
+  pass_ = 0;
+  rendering_ = false;
+  if (level_ == 0) {
+    view_from_station_ = view_edges_.inView(now_.camera_from_station);
+    phase_ = Phase::kRender;
+    return true;
+  }
   ViewSize size = evidenceViewSize();
   if (level_ < kMeasuring) {
     size.span_px = kLevels[static_cast<std::size_t>(level_)].span_px;
     size.margin_px = kMargin * size.span_px;
     size.most_px = kLongestView_px;
   }
-  pass_ = 0;
   phase_ = Phase::kView;
   return view_edges_.begin(problem_, now_.camera_from_station, size);
 }
@@ -172,7 +219,7 @@ bool PoseSearch::stepRender() {
     status = renderer_->stepWhole(complete);
   rendering_ = status == Status::kOk && !complete;
   if (rendering_) return false;
-  if (status != Status::kOk) return level_ == 0 ? !beginTrial() : !beginCandidate();
+  if (status != Status::kOk) return !beginNext();
   phase_ = level_ == kMeasuring ? Phase::kMeasure : Phase::kRefine;
   return false;
 }
@@ -198,31 +245,21 @@ bool PoseSearch::refine() {
   const bool moved = refinement_.refine(view_edges_.edges(), problem_.mesh, render_, prior(),
                                         radius_px, view_from_station_);
   phase_ = Phase::kRender;
-  if (moved && ++pass_ < level.passes) return false;
-  if (level_ == 0) return !endTrial();
   now_.camera_from_station = view_edges_.inCamera(view_from_station_);
-  if (moved) now_.error_px = kRemaining_px / view_edges_.view().pixels_per_px;
+  if (moved || level_ <= 1) now_.error_px = kRemaining_px / view_edges_.view().pixels_per_px;
+  if (round_ < kLastRound && isKept(now_.camera_from_station)) return !beginNext();
+  if (moved && ++pass_ < level.passes) return false;
+  // The last render is from close by.
+  if (level_ == kRounds[static_cast<std::size_t>(round_)].last_level) return measure();
   ++level_;
-  return beginLevel() ? false : !beginCandidate();
-}
-
-void PoseSearch::measureRender() {
-  meter_.clear();
-  addPlaces(render_, meter_);
-  now_.evidence = meter_.measure(view_edges_.edges(), view_edges_.view().span_px);
+  return beginLevel() ? false : !beginNext();
 }
 
 bool PoseSearch::measure() {
-  measureRender();
-  int place = count_++;
-  for (;
-       place > 0 && candidates_[static_cast<std::size_t>(place - 1)].rank_nats() < now_.rank_nats();
-       --place)
-    candidates_[static_cast<std::size_t>(place)] = candidates_[static_cast<std::size_t>(place - 1)];
-  candidates_[static_cast<std::size_t>(place)] = now_;
-  if (!isConvincing(candidates_[0])) return !beginCandidate();
-  phase_ = Phase::kDone;
-  return true;
+  meter_.clear();
+  addPlaces(render_, meter_);
+  now_.evidence = meter_.measure(view_edges_.edges(), view_edges_.view().span_px);
+  return keep();
 }
 
 bool PoseSearch::isConvincing(const PoseCandidate& candidate) const {

@@ -26,17 +26,17 @@ struct PoseCandidate {
 };
 
 /// Finds where the whole object may be: searches the seed's uncertainty (ObjectSearch), refines the
-/// best poses on directed edges at the same scale (OutlineRefinement), those with most evidence
-/// also at finer scales, and measures the evidence there.
+/// poses found on directed edges (OutlineRefinement), first at the search's scale, and measures
+/// their evidence. From round to round fewer poses, those with most evidence, are refined at finer
+/// scales.
 class PoseSearch {
  public:
-  static constexpr int kMostTried = 8;          ///< poses that are refined at the search's scale
-  static constexpr int kMaxCandidates = 4;      ///< that are refined at finer scales
+  static constexpr int kMaxCandidates = 4;      ///< that are refined at the finest scale
   static constexpr int kLongestView_px = 352;   ///< of views
   static constexpr int kMaxEdgePixels = 20000;  ///< of renders
 
-  /// Takes the memory from `arena`.
-  Status create(Arena& arena);
+  /// Takes the memory from `arena`, for images of up to so many channels.
+  Status create(int channels, Arena& arena);
   /// What the problem points to and the renderer (for images of kLongestView_px) must
   /// outlive the steps. False when the scene is not in sight of the seed.
   [[nodiscard]] bool begin(const SearchProblem& problem, EdgeRenderer& renderer);
@@ -45,7 +45,8 @@ class PoseSearch {
 
   /// The most evidence first.
   std::span<const PoseCandidate> candidates() const {
-    return std::span(candidates_).first(static_cast<std::size_t>(count_));
+    if (phase_ != Phase::kDone) return {};
+    return std::span(kept_).first(static_cast<std::size_t>(kept_count_));
   }
   /// What was searched.
   const ObjectSearch& search() const { return search_; }
@@ -53,16 +54,18 @@ class PoseSearch {
  private:
   enum class Phase : std::uint8_t { kSearch = 0, kView, kRender, kRefine, kMeasure, kDone };
 
-  bool beginTrial();
-  bool endTrial();
-  bool beginCandidate();
+  void takeFound();
+  bool beginNext();
+  bool beginRound();
+  bool keep();
   bool beginLevel();
   bool stepRender();
   bool refine();
-  void measureRender();
   bool measure();
+  bool nextIsAsGood() const;
   bool isConvincing(const PoseCandidate& candidate) const;
   bool isSame(const Pose& one, const Pose& other) const;
+  bool isKept(const Pose& camera_from_station) const;
   PosePrior prior() const;
 
   SearchProblem problem_;
@@ -72,13 +75,14 @@ class PoseSearch {
   ObjectSearch search_;
   OutlineRefinement refinement_;
   ContourEvidenceMeter meter_;
-  std::array<PoseCandidate, kMostTried> tried_;  ///< the most evidence first
-  int tried_count_ = 0;
-  std::array<PoseCandidate, kMaxCandidates> candidates_;
-  int count_ = 0;
+  /// Of the round before, and of this one; the most evidence first.
+  std::array<PoseCandidate, CandidateList::kCapacity> waiting_, kept_;
+  int waiting_count_ = 0;
+  int kept_count_ = 0;
 
   Phase phase_ = Phase::kDone;
-  int next_ = 0;   ///< of the search's poses, then of those tried
+  int round_ = 0;
+  int next_ = 0;   ///< of those waiting
   int level_ = 0;  ///< of the refinement: 0 the search's; the last one measures
   int pass_ = 0;   ///< of the level
   bool rendering_ = false;

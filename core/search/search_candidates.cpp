@@ -2,25 +2,23 @@
 #include "core/search/search_candidates.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include "core/base/math.h"
 
 namespace boresight {
 
 /// How far the outline's places are apart, roughly.
 bool CandidateList::same(const SearchCandidate& one, const SearchCandidate& other) const {
-  double roll = std::abs(one.roll_rad - other.roll_rad);
-  roll = std::min(roll, 2.0 * kPi - roll);
+  const Eigen::Quaterniond between =
+      one.camera_from_station.rotation * other.camera_from_station.rotation.conjugate();
+  // Of a rotation by twice this length; beyond a right angle it is merely large.
+  const double roll = 2.0 * between.vec().dot(axis_);
+  const double turn2 = 4.0 * between.vec().squaredNorm();
   // A tilt moves the outline by less than a turn does.
-  const double tilt = 0.5 * (std::abs(one.tilt_x_rad - other.tilt_x_rad) +
-                             std::abs(one.tilt_y_rad - other.tilt_y_rad));
+  const double tilt2 = 0.25 * std::max(turn2 - roll * roll, 0.0);
   const double slide_x = one.slide_x_px - other.slide_x_px;
   const double slide_y = one.slide_y_px - other.slide_y_px;
-  const double turned = radius_px_ * (roll + tilt);
+  const double turned2 = radius_px_ * radius_px_ * (roll * roll + tilt2);
   const double scaled = radius_px_ * (one.depth_ratio - other.depth_ratio) / one.depth_ratio;
-  return slide_x * slide_x + slide_y * slide_y + turned * turned + scaled * scaled <
-         apart_px_ * apart_px_;
+  return slide_x * slide_x + slide_y * slide_y + turned2 + scaled * scaled < apart_px_ * apart_px_;
 }
 
 void CandidateList::insert(const SearchCandidate& candidate) {

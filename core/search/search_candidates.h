@@ -13,9 +13,9 @@ namespace boresight {
 struct SearchCandidate {
   Pose camera_from_station;  ///< the pose
   double distance_px = 0.0;  ///< mean directed distance of its outline, px of the search's image
-  double tilt_x_rad = 0.0;   ///< about the view's x axis
-  double tilt_y_rad = 0.0;   ///< about the view's y axis
-  double roll_rad = 0.0;     ///< about the view's axis
+  double tilt_x_rad = 0.0;   ///< rotation vector of the tilt: about the view's x axis
+  double tilt_y_rad = 0.0;   ///< the same about its y axis
+  double roll_rad = 0.0;     ///< turn after the tilt, about the view's axis
   double depth_ratio = 1.0;  ///< of the depth, over the seed's
   double slide_x_px = 0.0;   ///< in the search's image
   double slide_y_px = 0.0;   ///< in the search's image
@@ -24,11 +24,13 @@ struct SearchCandidate {
 /// The best candidates so far that are apart from each other, the best first.
 class CandidateList {
  public:
-  static constexpr int kCapacity = 20;  ///< candidates that are kept
+  static constexpr int kCapacity = 32;  ///< candidates that are kept
 
   CandidateList() = default;
   /// `radius_px`: half the object's size; `apart_px`: nearer ones are the same; px of the search.
-  CandidateList(double radius_px, double apart_px) : radius_px_(radius_px), apart_px_(apart_px) {}
+  /// `axis`: the view's axis in the camera's frame.
+  CandidateList(double radius_px, double apart_px, const Eigen::Vector3d& axis)
+      : radius_px_(radius_px), apart_px_(apart_px), axis_(axis) {}
 
   /// Whether a candidate of that distance would be kept if it is apart from the others.
   bool accepts(double distance_px) const {
@@ -46,6 +48,7 @@ class CandidateList {
 
   double radius_px_ = 1.0;
   double apart_px_ = 1.0;
+  Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();
   std::array<SearchCandidate, kCapacity> candidates_;
   int count_ = 0;
 };

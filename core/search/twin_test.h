@@ -33,8 +33,8 @@ class TwinTest {
   static constexpr int kLongestView_px = 312;   ///< of views
   static constexpr int kMaxEdgePixels = 12000;  ///< of renders
 
-  /// Takes the memory from `arena`. kArenaTooSmall.
-  Status create(Arena& arena);
+  /// Takes the memory from `arena`, for images of up to so many channels. kArenaTooSmall.
+  Status create(int channels, Arena& arena);
   /// What the problem points to and the renderer (for images of kLongestView_px) must outlive the
   /// steps. False when the scene is not in sight.
   [[nodiscard]] bool begin(const SearchProblem& problem, const Pose& camera_from_station,

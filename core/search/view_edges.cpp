@@ -10,10 +10,10 @@ constexpr int kSliceRows = 32;
 
 }  // namespace
 
-void ViewEdges::create(int longest_px, Arena& arena) {
+void ViewEdges::create(int longest_px, int channels, Arena& arena) {
   longest_px_ = longest_px;
   const auto pixels = static_cast<std::size_t>(longest_px) * static_cast<std::size_t>(longest_px);
-  image_ = SmallImage::create(pixels, arena);
+  image_ = SmallImage::create(pixels, arena, channels);
   edges_.direction = arena.allocate<std::uint8_t>(pixels);
   detector_.create(pixels, arena);
 }
@@ -31,13 +31,12 @@ bool ViewEdges::begin(const SearchProblem& problem, const Pose& camera_from_stat
 bool ViewEdges::step() {
   const int end = std::min(row_ + kSliceRows, view_.camera.height);
   if (row_ < end) {
-    fillViewRows(*problem_, view_, row_, end, channel_, image_);
+    fillViewRows(*problem_, view_, row_, end, image_);
     row_ = end;
     return false;
   }
   if (channel_ == 0) detector_.begin(image_.width, image_.height, edges_);
-  detector_.addChannel(image_, edges_);
-  row_ = 0;
+  detector_.addChannel(image_.channel(channel_), edges_);
   if (++channel_ < channelsOf(*problem_)) return false;
   detector_.finish(image_, edges_);
   return true;

@@ -34,7 +34,7 @@ class SearchRun {
     EXPECT_EQ(renderer_.create(from.mesh, adjacency_, PoseSearch::kLongestView_px,
                                PoseSearch::kLongestView_px, RenderOptions(), arena_),
               Status::kOk);
-    EXPECT_EQ(search_.create(arena_), Status::kOk);
+    EXPECT_EQ(search_.create(ColorView::kChannels, arena_), Status::kOk);
   }
   std::span<const PoseCandidate> run() {
     int steps = 0;
@@ -86,6 +86,26 @@ TEST(PoseSearch, LargerUncertainty_IsTheSameSearchWithMorePoses) {
   EXPECT_LT(wide.error_px(candidates[0].camera_from_station), 2.0);
 }
 
+/// Turned by almost half a turn about an axis across the view: rotation vectors near pi.
+TEST(PoseSearch, SeedTurnedByAHalfTurnAndSoStated_FindsTheTruth) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double turn_deg : {165.0, 178.0, -172.0}) {
+      SCOPED_TRACE(axis);
+      test::Case scene = test::stationCase(4);
+      Vector6d turned = Vector6d::Zero();
+      turned[axis] = turn_deg * kDegree_rad;
+      const Eigen::Vector3d middle_m = scene.seed * matchedBounds(scene.problem().mesh).centre();
+      scene.seed = displacedAboutPivot(scene.seed, turned, middle_m);
+      // A small rotation before a half turn is up to half pi times as much in its rotation vector.
+      scene.uncertainty.rotation_rad *= 0.5 * kPi;
+      scene.uncertainty.rotation_rad[axis] = kPi;
+      SearchRun run(scene);
+      const auto candidates = run.run();
+      ASSERT_FALSE(candidates.empty());
+      EXPECT_LT(run.error_px(candidates[0].camera_from_station), 2.0);
+    }
+}
+
 TEST(PoseSearch, CandidatesOfTheSearch_LieWithinTheUncertaintyAndAGridStep) {
   const test::Case scene = test::stationCase(3);
   SearchRun run(scene);
@@ -125,7 +145,7 @@ TEST(PoseEvidence, OfARenderOfTheRealCamera_IsThatOfTheTruth) {
     std::vector<std::byte> block(4 << 20);
     Arena arena(block);
     PoseEvidence evidence;
-    EXPECT_EQ(evidence.create(arena), Status::kOk);
+    EXPECT_EQ(evidence.create(ColorView::kChannels, arena), Status::kOk);
     EXPECT_TRUE(evidence.begin(run.problem(), render.edges));
     while (!evidence.step()) {
     }
@@ -145,7 +165,7 @@ SearchCandidate at(double x_px, double distance_px) {
 }
 
 TEST(CandidateList, NearCandidates_AreOneTheBetter) {
-  CandidateList list(40.0, 3.0);
+  CandidateList list(40.0, 3.0, Eigen::Vector3d::UnitZ());
   list.insert(at(0.0, 2.0));
   list.insert(at(2.0, 1.0));
   ASSERT_EQ(list.candidates().size(), 1u);
@@ -157,11 +177,11 @@ TEST(CandidateList, NearCandidates_AreOneTheBetter) {
 }
 
 TEST(CandidateList, TurnsByAFullTurnLess_AreNear) {
-  CandidateList list(40.0, 3.0);
+  CandidateList list(40.0, 3.0, Eigen::Vector3d::UnitZ());
   SearchCandidate one = at(0.0, 1.0);
-  one.roll_rad = kPi;
+  one.camera_from_station.rotation = rotationExp({0.0, 0.0, kPi});
   SearchCandidate other = at(0.0, 2.0);
-  other.roll_rad = -kPi;
+  other.camera_from_station.rotation = rotationExp({0.0, 0.0, -kPi});
   list.insert(one);
   list.insert(other);
   EXPECT_EQ(list.candidates().size(), 1u);
@@ -169,7 +189,7 @@ TEST(CandidateList, TurnsByAFullTurnLess_AreNear) {
 
 TEST(CandidateList, RandomCandidates_AreKeptInOrderAndApart) {
   Random random(7);
-  CandidateList list(40.0, 3.0);
+  CandidateList list(40.0, 3.0, Eigen::Vector3d::UnitZ());
   double least = 1e9;
   for (int i = 0; i < 500; ++i) {
     const SearchCandidate made = at(random.uniform(-200.0, 200.0), random.uniform(0.0, 5.0));
@@ -216,8 +236,9 @@ struct ViewImage {
   ViewImage(const SearchProblem& problem, const FacingView& view, int channel = 0)
       : block(1 << 20) {
     Arena arena(block);
-    image = SmallImage::create(300 * 300, arena);
-    fillViewRows(problem, view, 0, view.camera.height, channel, image);
+    SmallImage all = SmallImage::create(300 * 300, arena, ColorView::kChannels);
+    fillViewRows(problem, view, 0, view.camera.height, all);
+    image = all.channel(channel);
   }
   std::vector<std::byte> block;
   SmallImage image;

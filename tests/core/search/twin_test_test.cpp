@@ -56,7 +56,7 @@ std::vector<Twin> twinsOf(const Case& scene) {
   EXPECT_EQ(renderer.create(from.mesh, adjacency, TwinTest::kLongestView_px,
                             TwinTest::kLongestView_px, RenderOptions(), arena),
             Status::kOk);
-  EXPECT_EQ(test.create(arena), Status::kOk);
+  EXPECT_EQ(test.create(ColorView::kChannels, arena), Status::kOk);
   int steps = 0;
   if (test.begin(problem, scene.truth, renderer))
     while (!test.step() && steps < 100000) ++steps;

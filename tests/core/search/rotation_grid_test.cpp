@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/search/rotation_grid.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.h"
+#include "core/geometry/pose.h"
+
+namespace boresight {
+namespace {
+
+std::vector<Eigen::Quaterniond> samplesOf(const RotationGrid::Range& range) {
+  std::vector<Eigen::Quaterniond> samples;
+  RotationGrid grid(range);
+  while (grid.next())
+    for (int k = 0; k < RotationGrid::kTurns; ++k)
+      if ((grid.turns() >> k & 1U) != 0)
+        samples.push_back(rotationExp({0.0, 0.0, k * RotationGrid::kSpacing_rad}) *
+                          rotationExp(grid.tilt_rad()));
+  return samples;
+}
+
+double angleBetween(const Eigen::Quaterniond& one, const Eigen::Quaterniond& other) {
+  return 2.0 * std::acos(std::min(1.0, std::abs(one.dot(other))));
+}
+
+Eigen::Vector3d inBox(const Eigen::Vector3d& half, Random& random) {
+  return {random.uniform(-1.0, 1.0) * half.x(), random.uniform(-1.0, 1.0) * half.y(),
+          random.uniform(-1.0, 1.0) * half.z()};
+}
+
+RotationGrid::Range rangeOf(const Eigen::Vector3d& box_deg, Random& random) {
+  RotationGrid::Range range;
+  range.box_rad = box_deg * kDegree_rad;
+  range.view_from_camera = rotationExp(inBox({0.3, 0.3, 0.0}, random));
+  range.aside_rad = {random.uniform(0.0, 0.1), random.uniform(0.0, 0.1)};
+  return range;
+}
+
+const Eigen::Vector3d kBoxes_deg[] = {{2, 2, 2},     {8, 8, 8},      {10, 3, 30},  {13, 180, 13},
+                                      {180, 13, 13}, {13, 13, 180},  {45, 45, 45}, {90, 10, 90},
+                                      {180, 180, 8}, {180, 180, 180}};
+
+TEST(RotationGrid, RotationsOfTheBox_HaveASampleWithinTheSpacing) {
+  Random random(1);
+  for (const Eigen::Vector3d& box_deg : kBoxes_deg) {
+    SCOPED_TRACE(box_deg.transpose());
+    const RotationGrid::Range range = rangeOf(box_deg, random);
+    const std::vector<Eigen::Quaterniond> samples = samplesOf(range);
+    for (int i = 0; i < 400; ++i) {
+      const Eigen::Quaterniond turned = rotationExp(inBox(range.box_rad, random));
+      const Eigen::Quaterniond aside =
+          rotationExp(inBox({range.aside_rad.x(), range.aside_rad.y(), 0.0}, random));
+      const Eigen::Quaterniond in_view =
+          aside * (range.view_from_camera * turned * range.view_from_camera.conjugate());
+      double nearest = 10.0;
+      for (const Eigen::Quaterniond& sample : samples)
+        nearest = std::min(nearest, angleBetween(sample, in_view));
+      EXPECT_LT(nearest, RotationGrid::kSpacing_rad);
+    }
+  }
+}
+
+TEST(RotationGrid, Samples_AreApart) {
+  Random random(2);
+  const std::vector<Eigen::Quaterniond> samples = samplesOf(rangeOf({180, 180, 180}, random));
+  EXPECT_EQ(samples.size(), 188u * RotationGrid::kTurns);
+  double nearest = 10.0;
+  for (std::size_t i = 0; i < samples.size(); i += 7)
+    for (std::size_t j = 0; j < samples.size(); ++j)
+      if (i != j) nearest = std::min(nearest, angleBetween(samples[i], samples[j]));
+  EXPECT_GT(nearest, 0.85 * RotationGrid::kSpacing_rad);
+}
+
+TEST(RotationGrid, SmallBoxes_HaveFewSamples) {
+  RotationGrid::Range range;
+  EXPECT_EQ(samplesOf(range).size(), 1u);
+  range.box_rad = Eigen::Vector3d::Constant(8.0 * kDegree_rad);
+  EXPECT_LE(samplesOf(range).size(), 50u);
+  range.box_rad = {8.0 * kDegree_rad, kPi, 8.0 * kDegree_rad};
+  EXPECT_LE(samplesOf(range).size(), 400u);
+}
+
+/// Every rotation that a small turn brings into the box is near the box; the turns are tried.
+TEST(RotationGrid, RotationsThatASmallTurnBringsIntoTheBox_AreNear) {
+  Random random(3);
+  const Eigen::Vector3d slack_rad(0.02, 0.01, 0.03);
+  for (const Eigen::Vector3d& box_deg : kBoxes_deg) {
+    const Eigen::Vector3d box_rad = box_deg * kDegree_rad;
+    for (int i = 0; i < 500; ++i) {
+      const Eigen::Quaterniond turned =
+          rotationExp(inBox(slack_rad, random)) * rotationExp(inBox(box_rad, random));
+      // To first order: a tenth more.
+      EXPECT_TRUE(isNearBox(rotationLog(turned), box_rad, 1.1 * slack_rad)) << box_deg.transpose();
+    }
+  }
+}
+
+TEST(RotationGrid, RotationsFarFromTheBox_AreNotNear) {
+  const Eigen::Vector3d box_rad(0.1, 0.2, 0.3);
+  EXPECT_TRUE(isNearBox(box_rad, box_rad, Eigen::Vector3d::Zero()));
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Vector3d beyond = Eigen::Vector3d::Zero();
+    beyond[axis] = box_rad[axis] + 0.05;
+    EXPECT_FALSE(isNearBox(beyond, box_rad, Eigen::Vector3d::Constant(0.04)));
+    EXPECT_TRUE(isNearBox(beyond, box_rad, Eigen::Vector3d::Constant(0.06)));
+  }
+}
+
+}  // namespace
+}  // namespace boresight
