@@ -37,8 +37,8 @@ class CompetingPoses {
 
   /// Evidence by which the final pose must exceed a twin within the seed's uncertainty.
   static constexpr double kTwinMargin_nats = 3.0;
-  /// The same of a twin outside, which the seed excludes: with a right mesh none is better by
-  /// 0.3 nats, with a mirrored one the half turn is better by 2 to 37.
+  /// The same of a twin outside, which the seed excludes: with a right mesh none is better,
+  /// with a mirrored one the half turn is, by 12 to 45 nats.
   static constexpr double kOutsideMargin_nats = -2.0;
 
   CompetingPoses() = default;

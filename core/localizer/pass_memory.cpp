@@ -202,7 +202,10 @@ Status PassMemory::Layout::layOutStages() {
   if (scratch.countsOnly()) bytesOf(Stage::kRefine) = scratch.highWater();
   // Behind the samples, which may be looked at until the next render.
   if (options.search.enabled && status == Status::kOk) {
+    const std::size_t start = scratch.mark();
     status = to.evidence.create(channelsOf(options), scratch);
+    // The focal length is measured when the evidence is complete.
+    scratch.rewind(start);
     if (status == Status::kOk) status = to.focal.create(options.refinement.max_samples, scratch);
     // The test of twins renders, when the samples are no longer needed.
     if (scratch.countsOnly())

@@ -114,9 +114,10 @@ struct Iteration {
   LocalizationStatus status = LocalizationStatus::kRunning;
 };
 
-/// Another pose under which the model's edges look like those of the converged one.
+/// Another pose under which the model's edges look like those of the converged one: displaced, or a
+/// twin by a near-symmetry.
 struct Rival {
-  Pose camera_from_station_before;  ///< as self-similarity predicts it
+  Pose camera_from_station_before;  ///< as self-similarity predicts it; of a twin, refined
   Pose camera_from_station;         ///< what the image made of it, when it converged
   double similarity = 0.0;          ///< SelfShift's
   /// kRunning: not tried; kConverged: a supported pose; otherwise why it is none.
@@ -127,7 +128,9 @@ struct Rival {
 /// What a caller can look at between two steps.
 struct Workspace {
   EdgeMap edges;  ///< levels finer than any render are gone when the first iteration has begun
-  const Iteration* iteration = nullptr;  ///< the latest; stages not yet reached hold old values
+  /// The latest; stages not yet reached hold old values. Its render and its samples are gone when
+  /// twins were looked for.
+  const Iteration* iteration = nullptr;
   std::span<const PoseCandidate> candidates;  ///< of the search, the most evidence first
   EdgeSupport support;                        ///< of the final pose
   ContourEvidence evidence;                   ///< of it, too
@@ -139,9 +142,10 @@ struct Workspace {
   Pose camera_from_station;  ///< best estimate; the seed unless converged
   /// Of camera_from_station, over (rotation rad, translation m), left perturbation.
   Matrix6d covariance = Matrix6d::Zero();
-  std::int32_t iterations = 0;    ///< of all attempts, those that failed included
-  std::int32_t attempts = 1;      ///< begun so far
-  std::span<const Rival> rivals;  ///< with ambiguity.enabled, once a pose has converged
+  std::int32_t iterations = 0;  ///< of all attempts, those that failed included
+  std::int32_t attempts = 1;    ///< begun so far
+  /// Once a pose has converged: twins of it, or with ambiguity.enabled repeated features.
+  std::span<const Rival> rivals;
 };
 
 }  // namespace boresight

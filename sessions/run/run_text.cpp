@@ -166,10 +166,10 @@ std::string ambiguousText(const LocalizationTrace& trace) {
            format("nearly as well: %.1f nats less evidence, needed %.1f; ", margin_nats,
                   CompetingPoses::kMinMargin_nats) +
            remedy;
-  const std::string evidence = margin_nats < 0.0
-                                   ? format("better, by %.1f nats of evidence; ", -margin_nats)
-                                   : format("nearly as well: %.1f nats less evidence, needed %.1f; ",
-                                            margin_nats, CompetingPoses::kTwinMargin_nats);
+  const std::string evidence =
+      margin_nats < 0.0 ? format("better, by %.1f nats of evidence; ", -margin_nats)
+                        : format("nearly as well: %.1f nats less evidence, needed %.1f; ",
+                                 margin_nats, CompetingPoses::kTwinMargin_nats);
   return place + evidence + remedy + "; a mirrored mesh looks alike, too: check the mesh";
 }
 

@@ -117,9 +117,9 @@ TEST(Explanation, SaysHowFarTheRivalOfAnAmbiguousRunIs) {
 
 TEST(Explanation, SaysWhichFocalLengthTheEdgesAskFor) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kCameraMismatch);
-  trace.focal = {-0.0185, 0.0012, true};
-  EXPECT_THAT(explanation(trace), AllOf(HasSubstr("1.9 % shorter than the camera's"),
-                                        HasSubstr("one sigma 0.12 %")));
+  trace.focal = {-0.0187, 0.0012, true};
+  EXPECT_THAT(explanation(trace),
+              AllOf(HasSubstr("1.9 % shorter than the camera's"), HasSubstr("one sigma 0.12 %")));
 }
 
 TEST(Explanation, BlamesAnImageWithoutEdges) {
