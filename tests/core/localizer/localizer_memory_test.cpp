@@ -165,10 +165,8 @@ TEST(LocalizerMemory, FitsTheFlightBudget) {
   for (const CameraModel model :
        {CameraModel::kPinhole, CameraModel::kBrownConrady, CameraModel::kKannalaBrandt}) {
     size.model = model;
-    LocalizerOptions options = defaultProfile();
-    options.search.color = false;  // as in flight
     std::size_t bytes = 0;
-    ASSERT_EQ(requiredBytes(size, options, bytes), Status::kOk);
+    ASSERT_EQ(requiredBytes(size, defaultProfile(), bytes), Status::kOk);
     EXPECT_LE(bytes + inputBytes(size), 10'000'000u);
   }
 }
