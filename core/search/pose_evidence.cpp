@@ -48,8 +48,12 @@ void addPlaces(const EdgeRender& render, ContourEvidenceMeter& meter) {
 }
 
 Status PoseEvidence::create(int channels, Arena& arena) {
-  view_edges_.create(kLongestView_px, channels, arena);
+  // The edges are complete when places are added.
+  const std::size_t after_edges = view_edges_.create(kLongestView_px, channels, arena);
+  const std::size_t end_of_view = arena.mark();
+  arena.rewind(after_edges);
   meter_.create(static_cast<std::size_t>(kLongestView_px) * kLongestView_px, arena);
+  arena.rewind(std::max(end_of_view, arena.mark()));
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 

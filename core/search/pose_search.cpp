@@ -53,7 +53,10 @@ constexpr double kAsGood_nats = 0.15;
 
 Status PoseSearch::create(int channels, Arena& arena) {
   constexpr auto kPixels = static_cast<std::size_t>(kLongestView_px) * kLongestView_px;
-  view_edges_.create(kLongestView_px, channels, arena);
+  // The edges are complete when something is rendered.
+  const std::size_t after_edges = view_edges_.create(kLongestView_px, channels, arena);
+  const std::size_t end_of_view = arena.mark();
+  arena.rewind(after_edges);
   render_ = createEdgeRender(kLongestView_px, kLongestView_px, kMaxEdgePixels, arena);
   // The search is over when the refinement begins.
   const std::size_t start = arena.mark();
@@ -62,7 +65,7 @@ Status PoseSearch::create(int channels, Arena& arena) {
   arena.rewind(start);
   if (refinement_.create(arena) != Status::kOk) return Status::kArenaTooSmall;
   meter_.create(kPixels, arena);
-  arena.rewind(std::max(end, arena.mark()));
+  arena.rewind(std::max({end_of_view, end, arena.mark()}));
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 

@@ -10,12 +10,14 @@ constexpr int kSliceRows = 32;
 
 }  // namespace
 
-void ViewEdges::create(int longest_px, int channels, Arena& arena) {
+std::size_t ViewEdges::create(int longest_px, int channels, Arena& arena) {
   longest_px_ = longest_px;
   const auto pixels = static_cast<std::size_t>(longest_px) * static_cast<std::size_t>(longest_px);
-  image_ = SmallImage::create(pixels, arena, channels);
   edges_.direction = arena.allocate<std::uint8_t>(pixels);
+  const std::size_t mark = arena.mark();
+  image_ = SmallImage::create(pixels, arena, channels);
   detector_.create(pixels, arena);
+  return mark;
 }
 
 bool ViewEdges::begin(const SearchProblem& problem, const Pose& camera_from_station,

@@ -12,8 +12,8 @@ namespace boresight {
 class ViewEdges {
  public:
   /// Takes memory from `arena` for images of up to `longest_px` along each side, and of up to so
-  /// many channels.
-  void create(int longest_px, int channels, Arena& arena);
+  /// many channels. Returns the mark from which on it is used only until the edges are complete.
+  [[nodiscard]] std::size_t create(int longest_px, int channels, Arena& arena);
   /// Turns the view to the scene at a pose; `problem` must outlive the steps. False: see faceScene.
   [[nodiscard]] bool begin(const SearchProblem& problem, const Pose& camera_from_station,
                            ViewSize size);
