@@ -72,7 +72,7 @@ std::string verdictText(Astray astray) {
     case Astray::kCameNear:
       return "It was near the truth, and did not end there or was refused there.";
     case Astray::kNotBegun:
-    case Astray::kUnknown:
+    case Astray::kNoTruth:
     case Astray::kBeyondNeed:
       break;
   }
@@ -242,9 +242,9 @@ const RunStep* nearestStep(const RunResult& run) {
 
 Astray whereAstray(const RunResult& run) {
   if (run.inputFailed() || run.status == "bad_seed") return Astray::kNotBegun;
-  if (run.completed) return run.success ? Astray::kBeyondNeed : Astray::kUnknown;
+  if (run.completed) return run.success ? Astray::kBeyondNeed : Astray::kNoTruth;
   const RunStep* least = nearestStep(run);
-  if (least == nullptr) return Astray::kUnknown;
+  if (least == nullptr) return Astray::kNoTruth;
   const double left = partLeft(*least->error, *run.seed_error);
   if (left < kNear) return Astray::kCameNear;
   return left < 1.0 ? Astray::kPartOfWay : Astray::kLedAway;

@@ -69,7 +69,7 @@ const char* extensionOf(CanvasFormat format);
 /// Where a run that did not succeed went astray, as far as its iterations' errors show it.
 enum class Astray {
   kNotBegun,   ///< its input was refused, or there is nothing to see from its seed
-  kUnknown,    ///< without truth
+  kNoTruth,    ///< without truth
   kLedAway,    ///< no iteration was nearer to the truth than the seed
   kPartOfWay,  ///< some iteration was nearer, none near
   kCameNear,   ///< an iteration left less than a tenth of the seed's error, but it did not complete

@@ -46,7 +46,7 @@ TEST(Failures, AreToldApartByTheNearestIteration) {
   EXPECT_EQ(whereAstray(runThatLeaves({2.0, 1.5})), Astray::kLedAway);
   EXPECT_EQ(whereAstray(runThatLeaves({0.8, 0.3, 3.0})), Astray::kPartOfWay);
   EXPECT_EQ(whereAstray(runThatLeaves({0.8, 0.09, 3.0})), Astray::kCameNear);
-  EXPECT_EQ(whereAstray(runThatLeaves({})), Astray::kUnknown);
+  EXPECT_EQ(whereAstray(runThatLeaves({})), Astray::kNoTruth);
   EXPECT_EQ(whereAstray(madeRun("bc-1", "whs", true, 0.5, 0.0, 0.0)), Astray::kBeyondNeed);
   RunResult refused = runThatLeaves({0.5});
   refused.status = "input_error";
