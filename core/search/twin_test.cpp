@@ -120,7 +120,7 @@ SurfaceAxes surfaceAxesOf(const MeshView& mesh) {
 
 Status TwinTest::create(int channels, Arena& arena) {
   constexpr auto kPixels = static_cast<std::size_t>(kLongestView_px) * kLongestView_px;
-  view_edges_.create(kLongestView_px, channels, arena);
+  (void)view_edges_.create(kLongestView_px, channels, arena);  // nothing shares its memory
   render_ = createEdgeRender(kLongestView_px, kLongestView_px, kMaxEdgePixels, arena);
   own_.direction = arena.allocate<std::uint8_t>(kPixels);
   other_.direction = arena.allocate<std::uint8_t>(kPixels);
