@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times WHS with each set of kernels, WHS by Fourier transform (Pham 2025, Eqs. 7-9) and OpenCV's
-// normalized cross-correlation on the same template and window, with one thread. The scene is drawn:
+// Times WHS with each set of kernels and OpenCV's normalized cross-correlation on the same template
+// and window, with one thread. The scene is drawn:
 // an object of lines and circles, displaced, with gaps, among clutter (7 % edge pixels).
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,6 @@
 
 #include "core/base/kernels.h"
 #include "core/match/whs.h"
-#include "tests/core/match/whs_fft.h"
 
 namespace {
 
@@ -145,16 +144,6 @@ struct Case {
     cv::minMaxLoc(scores, nullptr, nullptr, nullptr, &best);
     benchmark::DoNotOptimize(best);
   }
-  void fft() {
-    const boresight::test::FftProblem problem(view, test.image, window);
-    const boresight::WhsNorms norms = boresight::whsNorms(view);
-    cv::Mat1d scores;
-    cv::addWeighted(problem.edgeHits(), 1.0 / std::max(norms.edges, 1), problem.emptyHits(),
-                    1.0 / std::max(norms.empties, 1), 0.0, scores);
-    cv::Point best;
-    cv::minMaxLoc(scores, nullptr, nullptr, nullptr, &best);
-    benchmark::DoNotOptimize(best);
-  }
 };
 
 const Scene& scene() {
@@ -162,7 +151,7 @@ const Scene& scene() {
   return the_scene;
 }
 
-enum class Method { kWhs, kNcc, kFft };
+enum class Method { kWhs, kNcc };
 
 void runOnce(Case& the_case, Method method) {
   switch (method) {
@@ -170,8 +159,6 @@ void runOnce(Case& the_case, Method method) {
       return the_case.whs();
     case Method::kNcc:
       return the_case.ncc();
-    case Method::kFft:
-      return the_case.fft();
   }
 }
 
@@ -207,7 +194,6 @@ void registerBenchmarks() {
     add(std::string("Whs/") + boresight::kernelsName(kernels), Method::kWhs, kernels);
   }
   add("OpenCvNcc", Method::kNcc, Kernels::kPortable);
-  add("WhsByFft", Method::kFft, Kernels::kPortable);
 }
 
 }  // namespace

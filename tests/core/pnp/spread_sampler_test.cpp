@@ -35,7 +35,7 @@ TEST(SpreadSampler, DrawsDistinctIndicesWithEqualFrequency) {
     std::vector<int> drawn(kPlaces, 0);
     constexpr int kDraws = 12000;
     for (int i = 0; i < kDraws; ++i) {
-      const std::array<std::int32_t, 4> sample = sampler.draw();
+      const SpreadSampler::Sample sample = sampler.draw();
       const std::set<std::int32_t> distinct(sample.begin(), sample.begin() + size);
       ASSERT_EQ(distinct.size(), static_cast<std::size_t>(size));
       ASSERT_GE(*distinct.begin(), 0);
@@ -55,7 +55,7 @@ TEST(SpreadSampler, AvoidsLinesAndSpots) {
   SpreadSampler sampler;
   sampler.begin(places, 4, 9);
   for (int draw = 0; draw < 5000; ++draw) {
-    const std::array<std::int32_t, 4> sample = sampler.draw();
+    const SpreadSampler::Sample sample = sampler.draw();
     const auto among = [&sample](int first, int last) {
       return std::count_if(sample.begin(), sample.end(),
                            [=](std::int32_t i) { return i >= first && i < last; });
@@ -72,7 +72,7 @@ TEST(SpreadSampler, StillDrawsWhenNothingIsSpread) {
   for (const auto& places : {same, line}) {
     SpreadSampler sampler;
     sampler.begin(places, 4, 1);
-    const std::array<std::int32_t, 4> sample = sampler.draw();
+    const SpreadSampler::Sample sample = sampler.draw();
     EXPECT_EQ(std::set<std::int32_t>(sample.begin(), sample.end()).size(), 4u);
   }
 }
