@@ -50,9 +50,10 @@ TEST_F(MatchInspectorPanelTest, AClickChoosesATemplate) {
   EXPECT_TRUE(panel_.findChild<QLabel*>(QStringLiteral("places"))
                   ->text()
                   .contains(QStringLiteral("Template 4")));
-  for (PixelPicture* picture : panel_.findChildren<PixelPicture*>())
-    if (picture != map_)  // it comes later, in its own size
-      EXPECT_EQ(picture->picture().width(), view_.iteration()->template_side_px);
+  for (PixelPicture* picture : panel_.findChildren<PixelPicture*>()) {
+    if (picture == map_) continue;  // it comes later, in its own size
+    EXPECT_EQ(picture->picture().width(), view_.iteration()->template_side_px);
+  }
 }
 
 TEST_F(MatchInspectorPanelTest, AChoiceElsewhereShowsHere) {
