@@ -10,8 +10,8 @@ namespace boresight {
 /// Eigenvectors of a symmetric matrix as columns, in ascending order of their eigenvalues.
 template <int kSize>
 struct SymmetricEigen {
-  Eigen::Matrix<double, kSize, 1> values;
-  Eigen::Matrix<double, kSize, kSize> vectors;
+  Eigen::Matrix<double, kSize, 1> values;       ///< ascending
+  Eigen::Matrix<double, kSize, kSize> vectors;  ///< columns, orthonormal
 
   /// Cyclic Jacobi rotations (Golub and Van Loan, "Matrix Computations", Sec. 8.5), at most 20
   /// sweeps; the same bits on every machine.

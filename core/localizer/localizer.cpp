@@ -121,6 +121,7 @@ StepReport Localizer::judgeTwins(StepReport report) {
   const std::span<const Rival> rivals = competing_.takeTwins(pass_.twins());
   pass_.workspace().rivals = rivals;
   digestRivals(rivals, pass_.digest());
+  report.stage_complete = true;
   return finish(competing_.verdictOnTwins(pass_.options()), report);
 }
 

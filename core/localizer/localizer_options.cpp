@@ -66,6 +66,7 @@ LocalizerOptions paperProfile() {
   options.render.max_edge_pixels = 150000;  // of the whole resolution
   options.templates.size_factor = 1.0;
   options.pnp.sampler = PnpSampler::kEpnp;
+  options.pnp.max_samples = 5000;  // a sample of five is seldom free of outliers
   options.loop.match_iterations = options.loop.max_iterations;
   options.loop.coarse_size_px = 16384;
   options.loop.halved_size_px = 16384;

@@ -2,7 +2,6 @@
 #include "core/pnp/epnp.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/base/math.h"
@@ -261,7 +260,7 @@ class Epnp {
   std::span<const Eigen::Vector3d> points_;
   const Spread& spread_;
   Eigen::Matrix<double, kUnknowns, kControls> null_space_;
-  std::array<double, kPairs> squared_m2_{};
+  Eigen::Matrix<double, kPairs, 1> squared_m2_;  ///< between control points, by pair
 };
 
 }  // namespace

@@ -15,8 +15,8 @@ namespace boresight {
 /// that is nearly on a line or in one spot fixes a pose badly, whatever its matches are worth.
 class SpreadSampler {
  public:
-  static constexpr std::size_t kMostPlaces = 5;  ///< of a sample
-  using Sample = std::array<std::int32_t, kMostPlaces>;
+  static constexpr std::size_t kMostPlaces = 5;          ///< of a sample
+  using Sample = std::array<std::int32_t, kMostPlaces>;  ///< indices of places
 
   /// `place_px`: where the candidates lie in the image; must outlive the draws. `size`: 3 to
   /// kMostPlaces, not above the number of places.

@@ -52,15 +52,25 @@ std::optional<Pose> consensus(const MarkedView& view, double threshold_px) {
   cv::Mat translation;
   std::vector<int> inliers;
   try {
-    if (!cv::solvePnPRansac(points, places, cv::Mat::eye(3, 3, CV_64F), cv::noArray(), rotation,
-                            translation, false, kMostSamples,
-                            static_cast<float>(threshold_px / view.camera.fx), kConfidence, inliers,
-                            cv::SOLVEPNP_AP3P))
+    const cv::Mat plane = cv::Mat::eye(3, 3, CV_64F);
+    if (!cv::solvePnPRansac(points, places, plane, cv::noArray(), rotation, translation, false,
+                            kMostSamples, static_cast<float>(threshold_px / view.camera.fx),
+                            kConfidence, inliers, cv::SOLVEPNP_AP3P) ||
+        inliers.size() < kFewestPoints)
+      return {};
+    // RANSAC ends with EPnP, which is poor for points in a plane.
+    std::vector<cv::Point3d> agreed;
+    std::vector<cv::Point2d> seen;
+    for (const int i : inliers) {
+      agreed.push_back(points[static_cast<std::size_t>(i)]);
+      seen.push_back(places[static_cast<std::size_t>(i)]);
+    }
+    if (!cv::solvePnP(agreed, seen, plane, cv::noArray(), rotation, translation, false,
+                      cv::SOLVEPNP_SQPNP))
       return {};
   } catch (const cv::Exception&) {
     return {};  // points on a line, or in one place
   }
-  if (inliers.size() < kFewestPoints) return {};
   Pose pose;
   const auto vector = [](const cv::Mat& m) {
     return Eigen::Vector3d(m.at<double>(0), m.at<double>(1), m.at<double>(2));

@@ -30,7 +30,8 @@ bool mayFollow(Stage before, Stage now) {
     case Stage::kPose:
     case Stage::kRefine:
       return now == Stage::kRender || now == Stage::kSupport;
-    case Stage::kSupport:
+    case Stage::kSupport:  // of the pose, then of competing poses
+      return now == Stage::kSupport || now == Stage::kFinished;
     case Stage::kFinished:
       return now == Stage::kFinished;
   }

@@ -48,7 +48,7 @@ TEST(Landmarks, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(message(R"([{"name": "a"}])"), HasSubstr("point_in_station_m: missing"));
   EXPECT_THAT(message(R"([{"name": "a", "point_in_station_m": [0, 0, 1e9]}])"),
               HasSubstr("point_in_station_m[2]"));
-  EXPECT_THAT(message(R"([{"names": "a"}])"), HasSubstr("names: is not known"));
+  EXPECT_THAT(message(R"([{"names": "a"}])"), HasSubstr("landmarks[0].name: missing"));
 }
 
 TEST(Landmarks, TakeTheStationsSideOfPairs) {

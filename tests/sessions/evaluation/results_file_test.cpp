@@ -98,7 +98,7 @@ TEST_F(ResultsFile, HoldsStepsAndWhatBecameOfTemplates) {
   EXPECT_EQ(query(file_,
                   "SELECT step, template, found_x_px, found_y_px, second_score FROM match "
                   "ORDER BY template"),
-            "0|0|0.0|0.0|0.0|0|1|3.5|4.0|NULL|");
+            "0|0|NULL|NULL|NULL|0|1|3.5|4.0|NULL|");
 }
 
 TEST_F(ResultsFile, ReadsBackWhatWasWritten) {
