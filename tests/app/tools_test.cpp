@@ -263,10 +263,12 @@ TEST(WhsInfo, TellsOfWhatIsInAnImageAndNotUsed) {
   const std::pair<char, int> tags[] = {{'\0', 1},   {'\1', 1},   {'\2', 8},   {'\3', 1},
                                        {'\6', 1},   {'\x11', 8}, {'\x12', 6}, {'\x15', 1},
                                        {'\x16', 1}, {'\x17', 1}};
+  std::string entries;
   for (const auto& [tag, value] : tags)
-    tiff +=
+    entries +=
         {tag, '\1', '\4', '\0', '\1', '\0', '\0', '\0', static_cast<char>(value), '\0', '\0', '\0'};
-  tiff += std::string("\x0a\0\0\0", 4);
+  // The second directory is a copy of the first, behind it.
+  tiff += entries + std::string("\x88\0\0\0\x0a\0", 6) + entries + std::string(4, '\0');
   EXPECT_THAT(runWhs({"info", folder.write("turned.tif", tiff)}, 0).out,
               AllOf(HasSubstr("EXIF orientation 6 is not applied"),
                     HasSubstr("the file holds further images (pages)")));
