@@ -24,7 +24,8 @@ class SlideSums {
 
   /// A place of an outline, px from the middle of the view.
   struct Place {
-    std::int16_t x = 0, y = 0;   ///< px
+    std::int16_t x = 0;          ///< px
+    std::int16_t y = 0;          ///< px
     std::uint8_t direction = 0;  ///< edgeDirectionOf() its normal
   };
 

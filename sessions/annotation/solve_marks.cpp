@@ -34,9 +34,10 @@ std::vector<Correspondence> correspondencesOf(const MarkedView& view) {
   return made;
 }
 
-/// Camera from station, by OpenCV's P3P and RANSAC in the plane z = 1. Bearings are those of the
-/// camera's centre: exact enough for a start, also where the pupil moves.
-std::optional<Pose> consensus(const MarkedView& view, double threshold_px) {
+/// What OpenCV's solvers say where most points of a view agree (P3P with RANSAC, then SQPnP, and
+/// IPPE for points in a plane, which may have two poses), camera from station. Bearings are those
+/// of the camera's centre in the plane z = 1: exact enough for a start, also where the pupil moves.
+std::vector<Pose> consensus(const MarkedView& view, double threshold_px) {
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> places;
   for (const Correspondence& item : correspondencesOf(view)) {
@@ -47,43 +48,47 @@ std::optional<Pose> consensus(const MarkedView& view, double threshold_px) {
     places.emplace_back(ray.direction.x() / ray.direction.z(),
                         ray.direction.y() / ray.direction.z());
   }
-  if (points.size() < kFewestPoints) return {};
-  cv::Mat rotation;
-  cv::Mat translation;
-  std::vector<int> inliers;
+  const cv::Mat plane = cv::Mat::eye(3, 3, CV_64F);
+  std::vector<cv::Mat> rotations;
+  std::vector<cv::Mat> translations;
+  std::vector<cv::Point3d> agreed;
+  std::vector<cv::Point2d> seen;
+  std::vector<Pose> poses;
+  const auto vector = [](const cv::Mat& m) {
+    return Eigen::Vector3d(m.at<double>(0), m.at<double>(1), m.at<double>(2));
+  };
+  const auto add = [&](cv::SolvePnPMethod method) {
+    cv::solvePnPGeneric(agreed, seen, plane, cv::noArray(), rotations, translations, false, method);
+    for (std::size_t i = 0; i < rotations.size(); ++i) {
+      const Pose pose{rotationExp(vector(rotations[i])), vector(translations[i])};
+      if (pose.isFinite()) poses.push_back(pose);
+    }
+  };
   try {
-    const cv::Mat plane = cv::Mat::eye(3, 3, CV_64F);
-    if (!cv::solvePnPRansac(points, places, plane, cv::noArray(), rotation, translation, false,
+    cv::Mat rotation;
+    cv::Mat translation;
+    std::vector<int> inliers;
+    if (points.size() < kFewestPoints ||
+        !cv::solvePnPRansac(points, places, plane, cv::noArray(), rotation, translation, false,
                             kMostSamples, static_cast<float>(threshold_px / view.camera.fx),
                             kConfidence, inliers, cv::SOLVEPNP_AP3P) ||
         inliers.size() < kFewestPoints)
       return {};
-    // RANSAC ends with EPnP, which is poor for points in a plane.
-    std::vector<cv::Point3d> agreed;
-    std::vector<cv::Point2d> seen;
     for (const int i : inliers) {
       agreed.push_back(points[static_cast<std::size_t>(i)]);
       seen.push_back(places[static_cast<std::size_t>(i)]);
     }
-    if (!cv::solvePnP(agreed, seen, plane, cv::noArray(), rotation, translation, false,
-                      cv::SOLVEPNP_SQPNP))
-      return {};
+    add(cv::SOLVEPNP_SQPNP);
+    add(cv::SOLVEPNP_IPPE);
   } catch (const cv::Exception&) {
-    return {};  // points on a line, or in one place
+    return poses;  // not in a plane; or on a line, or in one place
   }
-  Pose pose;
-  const auto vector = [](const cv::Mat& m) {
-    return Eigen::Vector3d(m.at<double>(0), m.at<double>(1), m.at<double>(2));
-  };
-  pose.rotation = rotationExp(vector(rotation));
-  pose.translation_m = vector(translation);
-  if (!pose.isFinite()) return {};
-  return pose;
+  return poses;
 }
 
-/// Where least squares over marks may begin: the pose that agrees with most points of the view that
-/// has the most of them (P3P, RANSAC). Nothing where no view has four, or none agree.
-std::optional<Pose> firstPose(std::span<const MarkedView> views) {
+/// Where least squares over marks may begin: poses that agree with most points of the view that has
+/// the most of them. None where no view has four, or none agree.
+std::vector<Pose> firstPoses(std::span<const MarkedView> views) {
   const MarkedView* most = nullptr;
   std::size_t most_points = kFewestPoints - 1;
   for (const MarkedView& view : views) {
@@ -95,8 +100,9 @@ std::optional<Pose> firstPose(std::span<const MarkedView> views) {
   if (most == nullptr) return {};
   // Careful marks first; then any pose at all, for marks that are far out.
   for (const double threshold_px : {kFirstThreshold_px, 10.0 * kFirstThreshold_px, 1e4}) {
-    const std::optional<Pose> camera_from_station = consensus(*most, threshold_px);
-    if (camera_from_station) return most->camera_from_rig.inverse() * *camera_from_station;
+    std::vector<Pose> poses = consensus(*most, threshold_px);
+    for (Pose& pose : poses) pose = most->camera_from_rig.inverse() * pose;
+    if (!poses.empty()) return poses;
   }
   return {};
 }
@@ -195,7 +201,7 @@ std::optional<Fit> bestFit(std::span<const MarkedView> views, std::span<const Ma
     const std::optional<Fit> fit = fitFrom(views, marks, *start, options.robust);
     if (fit && (!best || cost(*fit) < cost(*best))) best = fit;
   };
-  consider(firstPose(views));
+  for (const Pose& pose : firstPoses(views)) consider(pose);
   consider(options.rig_from_station_guess);
   if (best) consider(mirroredPose(views, best->rig_from_station));
   return best;
