@@ -53,6 +53,7 @@ void add(InputsDigest& digest, const MeshInput& part) {
   digest.number("normal_threshold_rad", part.source.part.normal_threshold_rad);
   digest.number("depth_threshold_m", part.source.part.depth_threshold_m);
   digest.number("match", part.source.part.match ? 1.0 : 0.0);
+  if (part.source.albedo) digest.number("albedo", *part.source.albedo);
 }
 
 void add(InputsDigest& digest, const MaskStroke& stroke) {
