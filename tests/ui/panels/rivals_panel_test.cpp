@@ -73,8 +73,10 @@ TEST_F(RivalsPanelTest, GoingElsewhereTakesItAway) {
   EXPECT_TRUE(view_.alternative());
   view_.setSnapshot(test::exampleRun());
   EXPECT_FALSE(view_.alternative());
+  // Competing poses of the result, and candidates of the search.
+  const auto run = test::exampleRun();
   EXPECT_EQ(panel_.model().rowCount(),
-            static_cast<int>(test::exampleRun()->candidates.size()));
+            static_cast<int>(run->rivals.size() + run->candidates.size()));
 }
 
 }  // namespace
