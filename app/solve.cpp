@@ -127,7 +127,7 @@ void addSources(CLI::App& command, SolveArguments& arguments) {
 void addSolve(CLI::App& app, int& exit_code) {
   const auto [command, arguments] =
       addCommand(app, exit_code, "solve",
-                 "Finds the pose from points and lines that somebody marked in the image", solve);
+                 "Finds the pose from points and lines annotated in the image", solve);
   addSources(*command, *arguments);
   command->add_flag("--robust", arguments->robust, "Marks far from their projection count less");
   addFile(*command, "--out", arguments->out, "Writes the pose as pose.json");

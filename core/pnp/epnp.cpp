@@ -104,6 +104,7 @@ class Epnp {
   static constexpr int kProducts = kMostGuessed * (kMostGuessed + 1) / 2;
   using Factors = Eigen::Matrix<double, kControls, 1>;
   using Shares = Eigen::Matrix<double, kControls, 1>;
+  using Squares = Eigen::Matrix<double, kUnknowns, kUnknowns>;
   struct Pair {
     int first = 0, second = 0;
   };
@@ -127,20 +128,29 @@ class Epnp {
     return shares;
   }
 
+  /// Adds the square of the row: component `axis` of the point less `slope` times its depth, 0
+  /// where the point is seen. Element by element: Eigen allocates in products of this size.
+  static void addRow(const Shares& shares, int axis, double slope, Squares& sum) {
+    Eigen::Matrix<double, kUnknowns, 1> row;
+    row.setZero();
+    for (int j = 0; j < kControls; ++j) {
+      row[3 * j + axis] = shares[j];
+      row[3 * j + 2] = -slope * shares[j];
+    }
+    for (int i = 0; i < kUnknowns; ++i)
+      for (int k = 0; k < kUnknowns; ++k) sum(i, k) += row[i] * row[k];
+  }
+
   /// x z_i - z x_i = 0 and y z_i - z y_i = 0 of every point, summed as M'M.
   void findNullSpace() {
-    Eigen::Matrix<double, kUnknowns, kUnknowns> sum;
+    Squares sum;
     sum.setZero();
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Shares shares = sharesOf(points_[i]);
       const double u = bearing_[i].x() / bearing_[i].z();
       const double v = bearing_[i].y() / bearing_[i].z();
-      Eigen::Matrix<double, 2, kUnknowns> rows;
-      for (int j = 0; j < kControls; ++j) {
-        rows.template block<1, 3>(0, 3 * j) << shares[j], 0.0, -u * shares[j];
-        rows.template block<1, 3>(1, 3 * j) << 0.0, shares[j], -v * shares[j];
-      }
-      sum += rows.transpose() * rows;
+      addRow(shares, 0, u, sum);
+      addRow(shares, 1, v, sum);
     }
     const SymmetricEigen<kUnknowns> eigen(sum);
     null_space_ = eigen.vectors.template leftCols<kControls>();

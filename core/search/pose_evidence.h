@@ -19,7 +19,7 @@ void addPlaces(const EdgeRender& render, ContourEvidenceMeter& meter);
 /// Measures the evidence for a pose that was rendered for the real camera, in bounded slices.
 class PoseEvidence {
  public:
-  /// Takes the memory from `arena`, for images of up to so many channels. kArenaTooSmall.
+  /// Takes the memory from `arena`, for images of up to `channels` channels. kArenaTooSmall.
   Status create(int channels, Arena& arena);
   /// The problem and the render must outlive the steps. False when the scene is not in sight.
   [[nodiscard]] bool begin(const SearchProblem& problem, const EdgeRender& render);

@@ -35,7 +35,7 @@ class PoseSearch {
   static constexpr int kLongestView_px = 352;   ///< of views
   static constexpr int kMaxEdgePixels = 20000;  ///< of renders
 
-  /// Takes the memory from `arena`, for images of up to so many channels.
+  /// Takes the memory from `arena`, for images of up to `channels` channels.
   Status create(int channels, Arena& arena);
   /// What the problem points to and the renderer (for images of kLongestView_px) must
   /// outlive the steps. False when the scene is not in sight of the seed.

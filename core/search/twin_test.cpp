@@ -122,8 +122,8 @@ Status TwinTest::create(int channels, Arena& arena) {
   constexpr auto kPixels = static_cast<std::size_t>(kLongestView_px) * kLongestView_px;
   (void)view_edges_.create(kLongestView_px, channels, arena);  // nothing shares its memory
   render_ = createEdgeRender(kLongestView_px, kLongestView_px, kMaxEdgePixels, arena);
-  own_.direction = arena.allocate<std::uint8_t>(kPixels);
-  other_.direction = arena.allocate<std::uint8_t>(kPixels);
+  own_.marks.direction = arena.allocate<std::uint8_t>(kPixels);
+  other_.marks.direction = arena.allocate<std::uint8_t>(kPixels);
   // A render is measured before places are compared.
   const std::size_t start = arena.mark();
   if (refinement_.create(arena) != Status::kOk) return Status::kArenaTooSmall;
@@ -141,7 +141,7 @@ bool TwinTest::begin(const SearchProblem& problem, const Pose& camera_from_stati
   problem_ = problem;
   renderer_ = &renderer;
   found_ = camera_from_station;
-  count_ = promising_count_ = twin_ = 0;
+  count_ = promising_.count = twin_ = 0;
   scale_ = 0;
   beginView(kScales[0].span_px, Purpose::kFound);
   return phase_ != Phase::kDone;
@@ -152,7 +152,7 @@ bool TwinTest::step() {
     case Phase::kView:
       if (view_edges_.step()) {
         const bool finds = purpose_ == Purpose::kFound || purpose_ == Purpose::kFoundAgain;
-        if (!finds) now_ = view_edges_.inView(promising_[static_cast<std::size_t>(twin_)]);
+        if (!finds) now_ = view_edges_.inView(promising_.poses[static_cast<std::size_t>(twin_)]);
         beginRender(finds ? view_edges_.inView(found_) : now_, purpose_);
       }
       break;
@@ -221,7 +221,7 @@ void TwinTest::takeRender() {
       const double least = found_rank_nats_ - (refined_ ? kBehindRefined_nats : kBehind_nats);
       if (rankOfRender() < least) return nextHypothesis();
       if (refined_) {
-        promising_[static_cast<std::size_t>(promising_count_++)] = view_edges_.inCamera(now_);
+        promising_.poses[static_cast<std::size_t>(promising_.count++)] = view_edges_.inCamera(now_);
         return nextHypothesis();
       }
       pass_ = 0;
@@ -232,12 +232,13 @@ void TwinTest::takeRender() {
       refine();
       break;
     case Purpose::kTwin:
-      markRender(other_);
+      markRender(other_.marks);
       beginRender(view_edges_.inView(found_), Purpose::kFoundAgain);
       break;
     case Purpose::kFoundAgain:
-      markRender(own_);
-      own_alone_ = other_alone_ = {};
+      markRender(own_.marks);
+      own_.all = own_.alone = other_.all = other_.alone = 0;
+      own_.nats = other_.nats = 0.0;
       direction_ = 0;
       phase_ = Phase::kCompare;
       break;
@@ -257,7 +258,7 @@ void TwinTest::refine() {
     refined_ = true;
     return beginRender(now_, Purpose::kScreen);
   }
-  promising_[static_cast<std::size_t>(twin_)] = view_edges_.inCamera(now_);
+  promising_.poses[static_cast<std::size_t>(twin_)] = view_edges_.inCamera(now_);
   if (scale_ == kLastScale) return beginRender(now_, Purpose::kTwin);
   pass_ = 0;
   ++scale_;
@@ -275,7 +276,7 @@ void TwinTest::nextHypothesis() {
 
 void TwinTest::nextTwin() {
   phase_ = Phase::kDone;
-  if (++twin_ >= promising_count_) return;
+  if (++twin_ >= promising_.count) return;
   scale_ = 1;
   pass_ = 0;
   beginView(kScales[1].span_px, Purpose::kRefine);
@@ -301,37 +302,38 @@ void TwinTest::markRender(DirectedEdges& marks) const {
 }
 
 /// Places of the direction at hand that are not the other pose's.
-void TwinTest::addAlone(const DirectedEdges& places, const DirectedEdges& others, Alone& alone) {
+void TwinTest::addAlone(const DirectedEdges& others, Prediction& prediction) {
+  const DirectedEdges& places = prediction.marks;
   const DirectedEdges& image = view_edges_.edges();
   distanceToDirection(others, direction_, apart_);
   const double window_px = kEvidenceWindow * view_edges_.view().span_px;
   for (int y = 0; y < places.height; ++y) {
     for (int x = 0; x < places.width; ++x) {
       if (places.at(x, y) != direction_ || image.at(x, y) == DirectedEdges::kUnseen) continue;
-      ++alone.all;
+      ++prediction.all;
       if (apart_[static_cast<std::size_t>(y * places.width + x)] <= kSamePlace) continue;
-      ++alone.places;
+      ++prediction.alone;
       const EvidencePlace place{static_cast<std::int16_t>(x), static_cast<std::int16_t>(y),
                                 static_cast<std::uint8_t>(direction_)};
-      alone.nats += evidenceOfPlace_nats(place, image, distance_, window_px);
+      prediction.nats += evidenceOfPlace_nats(place, image, distance_, window_px);
     }
   }
 }
 
 void TwinTest::compareDirection() {
   distanceToDirection(view_edges_.edges(), direction_, distance_);
-  addAlone(own_, other_, own_alone_);
-  addAlone(other_, own_, other_alone_);
+  addAlone(other_.marks, own_);
+  addAlone(own_.marks, other_);
   if (++direction_ == kEdgeDirections) conclude();
 }
 
 void TwinTest::conclude() {
-  const double least = std::min(own_alone_.share(), other_alone_.share());
+  const double least = std::min(own_.share(), other_.share());
   if (least >= kVisible) {
     Twin& twin = twins_[static_cast<std::size_t>(count_++)];
-    twin.camera_from_station = promising_[static_cast<std::size_t>(twin_)];
-    twin.similarity = 1.0 - 0.5 * (own_alone_.share() + other_alone_.share());
-    twin.margin_nats = (own_alone_.nats - other_alone_.nats) / kAlong;
+    twin.camera_from_station = promising_.poses[static_cast<std::size_t>(twin_)];
+    twin.similarity = 1.0 - 0.5 * (own_.share() + other_.share());
+    twin.margin_nats = (own_.nats - other_.nats) / kAlong;
   }
   nextTwin();
 }

@@ -33,7 +33,7 @@ class TwinTest {
   static constexpr int kLongestView_px = 312;   ///< of views
   static constexpr int kMaxEdgePixels = 12000;  ///< of renders
 
-  /// Takes the memory from `arena`, for images of up to so many channels. kArenaTooSmall.
+  /// Takes the memory from `arena`, for images of up to `channels` channels. kArenaTooSmall.
   Status create(int channels, Arena& arena);
   /// What the problem points to and the renderer (for images of kLongestView_px) must outlive the
   /// steps. False when the scene is not in sight.
@@ -52,6 +52,20 @@ class TwinTest {
   /// What is made of a render once it is complete.
   enum class Purpose : std::uint8_t { kFound = 0, kScreen, kRefine, kTwin, kFoundAgain };
 
+  /// The places that a pose predicts, and what the image says of those that it alone predicts.
+  struct Prediction {
+    DirectedEdges marks;     ///< places of the render, by direction
+    std::int32_t all = 0;    ///< places that the image shows
+    std::int32_t alone = 0;  ///< of these, not predicted by the other pose
+    double nats = 0.0;       ///< evidence of the places predicted alone
+    double share() const { return all > 0 ? static_cast<double>(alone) / all : 0.0; }
+  };
+
+  struct PoseList {
+    std::array<Pose, kMostTwins> poses;
+    int count = 0;
+  };
+
   void beginView(double span_px, Purpose purpose);
   void beginRender(const Pose& view_from_station, Purpose purpose);
   void stepRender();
@@ -61,6 +75,7 @@ class TwinTest {
   void refine();
   double rankOfRender();
   void markRender(DirectedEdges& marks) const;
+  void addAlone(const DirectedEdges& others, Prediction& prediction);
   void compareDirection();
   void conclude();
   PosePrior priorOf(const Pose& view_from_station) const;
@@ -72,7 +87,7 @@ class TwinTest {
   EdgeRender render_;
   OutlineRefinement refinement_;
   ContourEvidenceMeter meter_;
-  DirectedEdges own_, other_;         ///< rendered places of the pose found and of the twin
+  Prediction own_, other_;            ///< of the pose found, of its near-symmetry
   std::span<std::uint8_t> distance_;  ///< to the image's edges
   std::span<std::uint8_t> apart_;     ///< to the other pose's places
 
@@ -87,18 +102,8 @@ class TwinTest {
   int hypothesis_ = 0;
   bool refined_ = false;  ///< the hypothesis, at the first scale
   Pose now_;              ///< view_from_station of the hypothesis at hand
-  std::array<Pose, kMostTwins> promising_;
-  int promising_count_ = 0;
+  PoseList promising_;
   int twin_ = 0;
-
-  /// Of the comparison: places that one pose alone predicts, all places, and their evidence.
-  struct Alone {
-    std::int32_t places = 0, all = 0;
-    double nats = 0.0;
-    double share() const { return all > 0 ? static_cast<double>(places) / all : 0.0; }
-  };
-  Alone own_alone_, other_alone_;
-  void addAlone(const DirectedEdges& places, const DirectedEdges& others, Alone& alone);
 
   std::array<Twin, kMostTwins> twins_;
   int count_ = 0;

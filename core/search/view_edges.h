@@ -11,8 +11,9 @@ namespace boresight {
 /// The directed edges of the image of a view, made in bounded slices.
 class ViewEdges {
  public:
-  /// Takes memory from `arena` for images of up to `longest_px` along each side, and of up to so
-  /// many channels. Returns the mark from which on it is used only until the edges are complete.
+  /// Takes memory from `arena` for images of up to `longest_px` along each side, and of up to
+  /// `channels` channels. Returns the mark from which on it is used only until the edges are
+  /// complete.
   [[nodiscard]] std::size_t create(int longest_px, int channels, Arena& arena);
   /// Turns the view to the scene at a pose; `problem` must outlive the steps. False: see faceScene.
   [[nodiscard]] bool begin(const SearchProblem& problem, const Pose& camera_from_station,

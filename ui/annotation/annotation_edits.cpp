@@ -271,7 +271,7 @@ void AnnotationController::useAsTruth() {
   const sessions::SessionCase* one = document_.session().findCase(case_id_);
   if (!one || !solved) return;
   if (stale_) {
-    Q_EMIT told(tr("The pose is being solved anew; try again in a moment."));
+    Q_EMIT told(tr("The pose is being solved again; try again in a moment."));
     return;
   }
   const bool replaces = one->camera_from_station_truth.has_value();

@@ -303,11 +303,15 @@ TEST(PnpRansac, TheSeedChoosesTheSamples) {
 TEST(PnpRansac, NothingIsAllocated) {
   Random random = randomFor("PnpRansac.NothingIsAllocated");
   const PnpScene scene = makeScene(random, {.points = 90, .outlier_share = 0.5, .noise_px = 1.0});
-  Solver solver(90);
-  const int before = heapAllocations();
-  const Status status = solver.solve(scene, 8.0, PnpOptions());
-  EXPECT_EQ(heapAllocations(), before);
-  EXPECT_EQ(status, Status::kOk);
+  for (const PnpSampler sampler : {PnpSampler::kGuided, PnpSampler::kEpnp}) {
+    PnpOptions options;
+    options.sampler = sampler;
+    Solver solver(90);
+    const int before = heapAllocations();
+    const Status status = solver.solve(scene, 8.0, options);
+    EXPECT_EQ(heapAllocations(), before);
+    EXPECT_EQ(status, Status::kOk);
+  }
 }
 
 TEST(PnpRansac, TakesFromTheArenaWhatItCounts) {

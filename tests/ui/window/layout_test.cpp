@@ -76,7 +76,7 @@ TEST_F(LayoutTest, ArrangedAnewEveryPanelIsBack) {
   QApplication::processEvents();
   window.dock(QStringLiteral("scene"))->hide();
   window.dock(QStringLiteral("pose"))->setFloating(true);
-  QAction* arrange = menuAction(window, QStringLiteral("Arrange the panels anew"));
+  QAction* arrange = menuAction(window, QStringLiteral("Arrange the panels again"));
   ASSERT_NE(arrange, nullptr);
   arrange->trigger();
   QApplication::processEvents();

@@ -2,15 +2,18 @@
 // A person at work, for the test that kills them: scripted_edits SESSION SEED opens the session in
 // the whole window, takes what an earlier one left, and then edits, undoes, runs and saves without
 // end. After each action, when it is in the journal and drawn, it prints the SHA-256 of the session
-// that the window shows.
+// that the window shows, and the number of edits in the journal.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 
 #include <QtWidgets>
 
 #include "core/base/random.h"
 #include "sessions/io/file_bytes.h"
+#include "sessions/session/journal.h"
+#include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
 #include "ui/window/main_window.h"
 
@@ -52,7 +55,10 @@ class Operator {
     window_.repaint();
     const std::string text =
         sessions::sessionText(window_.document().session(), window_.document().file());
-    std::puts(sessions::sha256Text(text).c_str());
+    const std::filesystem::path journal = sessions::journalFileOf(window_.document().file());
+    const std::size_t edits =
+        std::filesystem::exists(journal) ? sessions::readJournal(journal).edits.size() : 0;
+    std::printf("%s %zu\n", sessions::sha256Text(text).c_str(), edits);
     std::fflush(stdout);
   }
 
