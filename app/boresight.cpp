@@ -28,7 +28,7 @@ namespace {
 constexpr const char* kDescription =
     "Localization of a station in one image: load, run, step, see, review, export.";
 
-constexpr int kMostRows = 100000;  ///< of iterations and rivals
+constexpr int kMostRows = 100000;  ///< of iterations and hypotheses
 
 /// The command line of the desktop program.
 struct Arguments {
@@ -63,7 +63,8 @@ void Arguments::addTo(CLI::App& app) {
                  "Iteration that the picture shows, from 0; -1: the seed")
       ->check(CLI::Range(-1, kMostRows))
       ->type_name("N");
-  app.add_option("--rival", screenshot.rival, "Row under Rivals that the picture shows, from 1")
+  app.add_option("--hypothesis", screenshot.hypothesis,
+                 "Row under Hypotheses that the picture shows, from 1")
       ->check(CLI::Range(1, kMostRows))
       ->type_name("N");
   app.add_option("--mark", mark, "Mark that is edited in the picture, as when placing it")

@@ -15,10 +15,13 @@ struct SupportOptions {
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
-    visit(OptionInfo{"support.gate", "", 0, 1,
-                     "A converged pose must be supported by the image's edges, which must be sharp and "
-                     "confirm the focal length; and no near-symmetry of the mesh may fit as well."},
-          self.gate);
+    visit(
+        OptionInfo{
+            "support.gate", "", 0, 1,
+            "A converged pose must be supported by the image's edges, which must be sharp and "
+            "confirm the focal length; and no other pose that shows about the same edges may fit "
+            "as well."},
+        self.gate);
     visit(OptionInfo{"support.min_probability", "", 0.0, 1.0,
                      "Probability of being right that a converged pose must have, by the evidence "
                      "of its contours and its edge support."},

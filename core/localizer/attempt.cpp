@@ -165,18 +165,6 @@ Ruling Attempt::goOn(const RunContext& run) {
   return {Ruling::Next::kPass, LocalizationStatus::kRunning, Stage::kSupport, false, shown};
 }
 
-Attempt Attempt::competing(int index, const Seed& seed, const LocalizerOptions& options) const {
-  Attempt trial = *this;
-  trial.index_ = index;
-  trial.iteration_ = options.loop.match_iterations > 1 ? 1 : 0;
-  trial.small_corrections_ = 0;
-  trial.camera_from_station_ = seed.camera_from_station;
-  const double shrunk = shrinkAt(options.loop.uncertainty_shrink, options.loop, trial.iteration_);
-  trial.seed_ = {seed.camera_from_station, scaled(seed.uncertainty, 1.0 / shrunk)};
-  trial.startIteration();
-  return trial;
-}
-
 Attempt Attempt::beforeLastIteration(int index, const Pose& camera_from_station_before,
                                      const LocalizerOptions& options) const {
   Attempt again = *this;

@@ -36,9 +36,6 @@ class Attempt {
   /// iteration limit.
   Ruling goOn(const RunContext& run);
 
-  /// The attempt that starts from a pose competing with this one's, within `seed`'s uncertainty
-  /// after the shrinking so far.
-  Attempt competing(int index, const Seed& seed, const LocalizerOptions& options) const;
   /// The attempt before its last iteration, which started from this pose.
   Attempt beforeLastIteration(int index, const Pose& camera_from_station_before,
                               const LocalizerOptions& options) const;

@@ -9,7 +9,6 @@
 #include "core/base/kernels.h"
 #include "core/localizer/attempt.h"
 #include "core/localizer/candidate_trials.h"
-#include "core/localizer/competing_poses.h"
 #include "core/localizer/localizer_options.h"
 #include "core/localizer/pass.h"
 #include "core/localizer/problem.h"
@@ -24,8 +23,8 @@ namespace boresight {
 /// (PassMemory).
 ///
 /// The pass runs the stages; the policies decide which pass comes next: the iterations of an
-/// attempt, the candidates of the search that attempts start from, and competing poses after
-/// convergence. At the end the final pose is compared with those of near-symmetries of the mesh.
+/// attempt, and the candidates of the search that attempts start from. At the end the final pose is
+/// compared with others that show about the same edges.
 ///
 /// A caller with threads may share out the independent tasks of a stage:
 ///
@@ -101,24 +100,18 @@ class Localizer {
 
  private:
   /// Which policy plans the next pass.
-  enum class Phase : std::uint8_t {
-    kEdges = 0,
-    kSearch,
-    kIterate,
-    kAccept,
-    kCompare,
-    kTwins,
-    kEnded
-  };
+  enum class Phase : std::uint8_t { kEdges = 0, kSearch, kIterate, kAccept, kCompare, kEnded };
 
   Status begin(const LocalizationProblem& problem, const LocalizerOptions& options);
   PassPlan plan() const;
-  StepReport decide(const StepReport& slice);
-  Ruling rule(const PassOutcome& outcome);
-  StepReport judgeTwins(StepReport report);
-  StepReport retry(const Ruling& ruling, StepReport report);
-  StepReport follow(CandidateTrials::Next next, LocalizationStatus status, StepReport report);
-  StepReport follow(CompetingPoses::Next next, StepReport report);
+  StepReport decide(StepReport report);
+  StepReport iterated(const Ruling& ruling);
+  StepReport accepted(LocalizationStatus status, const StepReport& report);
+  StepReport fail(const Ruling& ruling);
+  StepReport follow(CandidateTrials::Next next, LocalizationStatus status,
+                    const StepReport& report);
+  StepReport show(const Ruling& ruling);
+  Agreement agreement() const;
   StepReport finish(LocalizationStatus status, StepReport report);
   void iterate(const Attempt& attempt);
   void startTrials();
@@ -132,7 +125,6 @@ class Localizer {
   Phase phase_ = Phase::kEdges;
   Attempt attempt_;
   CandidateTrials trials_;
-  CompetingPoses competing_;
 };
 
 }  // namespace boresight

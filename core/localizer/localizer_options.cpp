@@ -15,7 +15,6 @@ bool holdsForWholeRun(std::string_view name) {
                                          "refinement.max_samples", "loop.coarse_size_px",
                                          "loop.halved_size_px",    "loop.max_rolled_hypotheses"};
   return name.starts_with("edges.") || name.starts_with("render.") || name.starts_with("search.") ||
-         name.starts_with("ambiguity.") ||
          std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
@@ -33,11 +32,6 @@ void visitDifferences(const LocalizerOptions& before, const LocalizerOptions& af
 }
 
 }  // namespace
-
-bool LocalizerOptions::isDigestedOnlyIfChanged(const OptionInfo& info) {
-  const std::string_view name = info.name;
-  return name.starts_with("ambiguity.") || name == "support.min_probability";
-}
 
 bool sameOptions(const LocalizerOptions& one, const LocalizerOptions& other) {
   bool same = true;

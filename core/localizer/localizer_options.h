@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/accept/ambiguity_options.h"
 #include "core/accept/edge_support.h"
 #include "core/base/options.h"
 #include "core/edges/edge_map.h"
@@ -128,7 +127,6 @@ struct LocalizerOptions {
   RefinementOptions refinement;  ///< the last step, on the image's edges
   SupportOptions support;        ///< what a pose must show
   SearchOptions search;          ///< before the first iteration
-  AmbiguityOptions ambiguity;    ///< other poses that look alike
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -140,11 +138,7 @@ struct LocalizerOptions {
     RefinementOptions::visitFields(self.refinement, visit);
     SupportOptions::visitFields(self.support, visit);
     SearchOptions::visitFields(self.search, visit);
-    AmbiguityOptions::visitFields(self.ambiguity, visit);
   }
-
-  /// Whether digests include the option only where it differs from its default.
-  static bool isDigestedOnlyIfChanged(const OptionInfo& info);
 };
 
 /// Values of all options in the order of the visitor.
@@ -161,20 +155,6 @@ struct OptionValues {
     });
   }
 };
-
-/// Visits the options that a digest includes: all original ones, and newer ones that differ from
-/// their defaults. So runs that do not use a newer option keep their digests.
-template <class Visitor>
-void visitDigested(const LocalizerOptions& options, Visitor&& visit) {
-  const OptionValues defaults{LocalizerOptions()};
-  std::size_t at = 0;
-  LocalizerOptions::visitFields(options, [&](const OptionInfo& info, const auto& field) {
-    const bool is_default =
-        at < OptionValues::kMost && defaults.value[at] == static_cast<double>(field);
-    if (!is_default || !LocalizerOptions::isDigestedOnlyIfChanged(info)) visit(info, field);
-    ++at;
-  });
-}
 
 /// The problem without the colour of its image where the run does not look at it.
 LocalizationProblem withoutUnusedColor(LocalizationProblem problem,

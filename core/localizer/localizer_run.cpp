@@ -30,7 +30,6 @@ Status Localizer::begin(const LocalizationProblem& problem, const LocalizerOptio
   if (status != Status::kOk) return status;
   attempt_ = Attempt(0, seedOf(pass_.problem()));
   trials_ = CandidateTrials();
-  competing_ = CompetingPoses(pass_.memory().competing, seedOf(pass_.problem()));
   return status;
 }
 
@@ -73,6 +72,20 @@ void Localizer::iterate(const Attempt& attempt) {
   attempt_ = attempt;
   phase_ = Phase::kIterate;
   pass_.workspace().attempts = attempt_.index() + 1;
+}
+
+/// Shows the record of a ruling, and reports its stage.
+StepReport Localizer::show(const Ruling& ruling) {
+  pass_.show(ruling);
+  StepReport report = StepReport::of(ruling.stage, true);
+  report.iteration_complete = ruling.iteration_complete;
+  return report;
+}
+
+/// How many matches of the iteration agree with its pose.
+Agreement Localizer::agreement() const {
+  const Iteration& iteration = *workspace().iteration;
+  return {iteration.pnp.inlier_count, iteration.correspondence_count};
 }
 
 StepReport Localizer::finish(LocalizationStatus status, StepReport report) {

@@ -81,12 +81,8 @@ void Pass::begin(const PassPlan& plan) {
       prepareRecord();
       stage_ = Stage::kRender;
       break;
-    case PassKind::kSelfSimilarity:
-      beginSelfSimilarity();
-      stage_ = Stage::kSupport;
-      break;
     case PassKind::kSupport:
-    case PassKind::kTwins:
+    case PassKind::kCompare:
       stage_ = Stage::kSupport;
       break;
   }
@@ -131,19 +127,6 @@ bool Pass::keepsRender(const Iteration& now) const {
   return plan_.keep_render_px > 0.0 &&
          displacementBetween_px(now.render.camera_from_station, plan_.camera_from_station, scene_,
                                 problem_.camera) < plan_.keep_render_px;
-}
-
-void Pass::beginSelfSimilarity() {
-  const EdgeRender& render = memory_.best_render;
-  const double depth_m = (render.camera_from_station * scene_.centre()).z();
-  const auto inPixels = [&](double reach_m, double focal_px, int most) {
-    const double px = depth_m > 0.0 ? reach_m * focal_px / depth_m : 0.0;
-    return static_cast<int>(std::clamp(px, 0.0, static_cast<double>(most)));
-  };
-  const Camera& camera = render.camera;
-  memory_.similarity.begin(render, inPixels(plan_.reach_x_m, camera.fx, camera.width),
-                           inPixels(plan_.reach_y_m, std::abs(camera.fy), camera.height),
-                           SelfSimilarity::kLeastSimilarity);
 }
 
 int Pass::tasks() const { return running_ && !task_begun_ ? memory_.tasks.count() : 0; }
@@ -213,18 +196,6 @@ void Pass::show(const Ruling& ruling) {
   if (ruling.failed()) shown.status = ruling.status;
   if ((ruling.iteration_complete || ruling.failed()) && shown.index == workspace_.iterations)
     ++workspace_.iterations;
-}
-
-void Pass::restoreBestRender() {
-  copyRender(memory_.best_render, memory_.fine_render);
-  memory_.records[0].render = memory_.fine_render;
-}
-
-double Pass::bestMargin_nats() const {
-  const Iteration& now = record();
-  return comparePredictions(memory_.best_render, now.render, now.level, problem_.image,
-                            problem_.ignore)
-      .nats();
 }
 
 void Pass::changeOptions(const LocalizerOptions& options) {

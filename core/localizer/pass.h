@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <span>
 
-#include "core/accept/paired_support.h"
 #include "core/base/digest.h"
 #include "core/localizer/localizer_options.h"
 #include "core/localizer/pass_memory.h"
@@ -37,8 +36,8 @@ struct JointPose {
 
 /// Runs the stages of one pass, one bounded slice per step: edges, or search, or render ->
 /// templates
-/// -> match -> pose, or render -> refine, or support, or twins. It fills the plan's record and the
-/// digest. It knows neither why it runs nor what comes next.
+/// -> match -> pose, or render -> refine, or support, or compare. It fills the plan's record and
+/// the digest. It knows neither why it runs nor what comes next.
 ///
 /// A caller with threads may share out the tasks of a stage between two steps; tasks that are left
 /// are done by step(). The results have the same bits with any number of workers.
@@ -93,16 +92,6 @@ class Pass {
   /// Ends a round after the refinement was moved; `ends`: it was the last one.
   void endRound(Status status, bool ends);
 
-  /// The best pose so far, for comparison with competing ones.
-  ///@{
-  void keepBestRender() { copyRender(record().render, memory_.best_render); }
-  void restoreBestRender();
-  /// Evidence for the best pose beyond that of the record's pose, nats.
-  double bestMargin_nats() const;
-  std::span<const SelfShift> selfShifts() const { return memory_.similarity.shifts(); }
-  std::span<const Twin> twins() const { return memory_.twins.twins(); }
-  ///@}
-
   /// Shows the record of a ruling, and counts it when it is complete.
   void show(const Ruling& ruling);
   /// Takes other options from the next pass on; see firstFixedOption.
@@ -143,7 +132,6 @@ class Pass {
  private:
   void dropFinerEdges();
   void prepareRecord();
-  void beginSelfSimilarity();
   EdgeRender& renderMemory();
   bool keepsRender(const Iteration& now) const;
 
@@ -156,8 +144,7 @@ class Pass {
   StepReport stepRefine();
   StepReport stepOutsideRound();
   StepReport stepSupport();
-  StepReport stepSelfSimilarity();
-  StepReport stepTwins();
+  StepReport stepCompare();
   void beginSupport();
   void noteEvidence();
   Status beginPose();

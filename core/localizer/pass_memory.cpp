@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "core/edges/edge_map.h"
-#include "core/localizer/competing_poses.h"
 #include "core/localizer/schedule.h"
 
 namespace boresight {
@@ -164,16 +163,9 @@ void PassMemory::Layout::layOutRenders() {
     (void)to.search.create(channelsOf(options), kept);
     const std::size_t search_end = kept.mark();
     kept.rewind(start);
-    (void)to.twins.create(channelsOf(options), kept);
+    (void)to.competing.create(channelsOf(options), kept);
     kept.rewind(std::max({end, search_end, kept.mark()}));
   }
-  if (options.ambiguity.enabled) {
-    to.best_render = createRender(levels.fine);
-    const Camera camera = cameraAtLevel(problem.camera, levels.fine);
-    to.similarity.create(camera.width, camera.height, kept);
-  }
-  if (options.ambiguity.enabled || options.search.enabled)
-    to.competing = kept.allocate<Rival>(std::size_t{CompetingPoses::kMaxRivals});
 }
 
 /// One after the other in the same memory; the edges last, as that stage is the first to run.
@@ -207,7 +199,7 @@ Status PassMemory::Layout::layOutStages() {
     // The focal length is measured when the evidence is complete.
     scratch.rewind(start);
     if (status == Status::kOk) status = to.focal.create(options.refinement.max_samples, scratch);
-    // The test of twins renders, when the samples are no longer needed.
+    // The test of competing poses renders, when the samples are no longer needed.
     if (scratch.countsOnly())
       bytesOf(Stage::kSupport) = std::max(scratch.highWater(), bytesOf(Stage::kRender));
   }

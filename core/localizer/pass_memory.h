@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <span>
 
-#include "core/accept/self_similarity.h"
 #include "core/base/arena.h"
 #include "core/base/kernels.h"
 #include "core/localizer/localizer_options.h"
@@ -19,9 +18,9 @@
 #include "core/refine/edge_refinement.h"
 #include "core/refine/focal_fit.h"
 #include "core/render/edge_render.h"
+#include "core/search/competing_poses.h"
 #include "core/search/pose_evidence.h"
 #include "core/search/pose_search.h"
-#include "core/search/twin_test.h"
 #include "core/templates/template_selection.h"
 
 namespace boresight {
@@ -44,9 +43,10 @@ struct MemoryUse {
 
 /// The memory of a localization, laid out once in one block: first what lives throughout (mesh
 /// adjacency, ray grids, edge maps from the finest matched level on, renders, records), then one
-/// piece that the stages use in turn. The search before the first iteration and the test of twins
-/// after the last one work in the memory of the renders. Edge maps finer than the finest matched
-/// level last until the first render; the samples of a refinement last until the next render.
+/// piece that the stages use in turn. The search before the first iteration and that of
+/// competing poses after the last one work in the memory of the renders. Edge maps finer than the
+/// finest matched level last until the first render; the samples of a refinement last until the
+/// next render.
 ///
 /// The stages keep pointers into this object: it must not move.
 class PassMemory {
@@ -81,16 +81,12 @@ class PassMemory {
   EdgeRefinement refinement;                 ///< of poses on edges
   PoseEvidence evidence;                     ///< of the final pose, with search.enabled
   FocalFitter focal;                         ///< of the final pose, with search.enabled
-  TwinTest twins;                            ///< of the final pose, with search.enabled
-  SelfSimilarity similarity;                 ///< with ambiguity.enabled
+  CompetingPoseTest competing;               ///< of the final pose, with search.enabled
   TaskList tasks;                            ///< of the stage under way
   std::array<RayGrid, kPyramidLevels> rays;  ///< of the levels that are rendered
   std::array<Iteration, 2> records;          ///< the current hypothesis and the best one so far
   std::array<EdgeRender, 2> coarse_render;   ///< of the first iteration, one per record
   EdgeRender fine_render;  ///< of later iterations, in the same memory unless the level is the same
-  EdgeRender best_render;  ///< of the best pose, with ambiguity.enabled
-  /// For the policies: poses that compete with the converged one.
-  std::span<Rival> competing;
 
  private:
   struct Layout;

@@ -19,13 +19,12 @@
 namespace boresight {
 
 enum class PassKind : std::uint8_t {
-  kEdges = 0,       ///< detects the edges of the image; once per run
-  kSearch,          ///< searches the whole object over the seed's uncertainty
-  kMatch,           ///< renders, selects templates, matches them, solves for the pose
-  kRefine,          ///< renders, refines the pose on the edges of the image
-  kSupport,         ///< measures the edge support of the pose of the record
-  kSelfSimilarity,  ///< finds displacements of the best pose whose renders look alike
-  kTwins,           ///< compares the final pose with those of near-symmetries of the mesh
+  kEdges = 0,  ///< detects the edges of the image; once per run
+  kSearch,     ///< searches the whole object over the seed's uncertainty
+  kMatch,      ///< renders, selects templates, matches them, solves for the pose
+  kRefine,     ///< renders, refines the pose on the edges of the image
+  kSupport,    ///< measures how the image supports the pose of the record
+  kCompare,    ///< compares the final pose with others that show about the same edges
 };
 
 /// What a pass works on.
@@ -41,10 +40,9 @@ struct PassPlan {
   double template_factor = 1.0;  ///< on the size of the templates
   /// A refinement keeps the last render when the hypothesis moved less since; px.
   double keep_render_px = 0.0;
-  bool anchored = false;                    ///< whether the two below constrain a refinement
-  PosePrior anchor;                         ///< the seed with its uncertainty as a Gaussian
-  PoseEstimate matched;                     ///< from the latest templates
-  double reach_x_m = 0.0, reach_y_m = 0.0;  ///< of self-similarity, along the camera's axes
+  bool anchored = false;  ///< whether the two below constrain a refinement
+  PosePrior anchor;       ///< the seed with its uncertainty as a Gaussian
+  PoseEstimate matched;   ///< from the latest templates
 };
 
 /// How a pass ended. Its record (Iteration) holds the results; `status` there is kRunning when

@@ -28,9 +28,7 @@ StepReport Pass::step() {
     case Stage::kRefine:
       return solve_outside_ ? stepOutsideRound() : stepRefine();
     case Stage::kSupport:
-      return plan_.kind == PassKind::kSupport ? stepSupport()
-             : plan_.kind == PassKind::kTwins ? stepTwins()
-                                              : stepSelfSimilarity();
+      return plan_.kind == PassKind::kSupport ? stepSupport() : stepCompare();
     case Stage::kFinished:
       break;
   }
@@ -307,18 +305,15 @@ void Pass::noteEvidence() {
 }
 
 /// Works in the memory of the renders and of the samples: those of the iteration are gone.
-StepReport Pass::stepTwins() {
-  TwinTest& twins = memory_.twins;
+StepReport Pass::stepCompare() {
+  CompetingPoseTest& competing = memory_.competing;
   const bool works =
-      stage_begun_ || twins.begin(searched_, plan_.camera_from_station, memory_.renderer);
+      stage_begun_ || competing.begin(searched_, plan_.camera_from_station, memory_.renderer);
   stage_begun_ = true;
-  if (!works || twins.step()) (void)end(Stage::kSupport);
-  return StepReport::of(Stage::kSupport, false);
-}
-
-StepReport Pass::stepSelfSimilarity() {
-  if (memory_.similarity.step()) (void)end(Stage::kSupport);
-  return StepReport::of(Stage::kSupport, false);
+  if (works && !competing.step()) return StepReport::of(Stage::kSupport, false);
+  workspace_.competing_poses = works ? competing.poses() : std::span<const CompetingPose>();
+  digestCompetingPoses(workspace_.competing_poses, digest_);
+  return end(Stage::kSupport);
 }
 
 }  // namespace boresight

@@ -45,7 +45,7 @@ void digestMatrix(const Matrix6d& matrix, DigestWriter& writer) {
 
 void digestOptions(const LocalizerOptions& options, DigestWriter& writer) {
   writer.tag("options");
-  visitDigested(options, [&writer](const OptionInfo& info, const auto& field) {
+  LocalizerOptions::visitFields(options, [&writer](const OptionInfo& info, const auto& field) {
     // Whether colour is looked at is seen from the problem's digest: a gray image has the same run.
     if (std::string_view(info.name) == "search.color") return;
     writer.tag(info.name);
@@ -234,15 +234,13 @@ void digestFocal(const FocalFit& focal, DigestWriter& writer) {
   writer.u8(focal.determined ? 1 : 0);
 }
 
-void digestRivals(std::span<const Rival> rivals, DigestWriter& writer) {
-  writer.tag("rivals");
-  writer.i32(static_cast<std::int32_t>(rivals.size()));
-  for (const Rival& rival : rivals) {
-    digestPose(rival.camera_from_station_before, writer);
-    digestPose(rival.camera_from_station, writer);
-    writer.f64(rival.similarity);
-    writer.tag(localizationStatusText(rival.ended));
-    writer.f64(rival.margin_nats);
+void digestCompetingPoses(std::span<const CompetingPose> poses, DigestWriter& writer) {
+  writer.tag("competing poses");
+  writer.i32(static_cast<std::int32_t>(poses.size()));
+  for (const CompetingPose& pose : poses) {
+    digestPose(pose.camera_from_station, writer);
+    writer.f64(pose.similarity);
+    writer.f64(pose.margin_nats);
   }
 }
 

@@ -25,7 +25,7 @@ void digestCandidates(std::span<const PoseCandidate> candidates, DigestWriter& w
 void digestFocal(const FocalFit& focal, DigestWriter& writer);
 void digestEdgeWidth(const EdgeWidth& width, DigestWriter& writer);
 void digestEvidence(const ContourEvidence& evidence, DigestWriter& writer);
-void digestRivals(std::span<const Rival> rivals, DigestWriter& writer);
+void digestCompetingPoses(std::span<const CompetingPose> poses, DigestWriter& writer);
 void digestRefinement(const RefinementResult& refinement, DigestWriter& writer);
 
 }  // namespace boresight

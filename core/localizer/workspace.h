@@ -15,6 +15,7 @@
 #include "core/refine/edge_refinement.h"
 #include "core/refine/focal_fit.h"
 #include "core/render/edge_render.h"
+#include "core/search/competing_poses.h"
 #include "core/search/pose_search.h"
 #include "core/templates/template_selection.h"
 
@@ -60,9 +61,9 @@ enum class LocalizationStatus : std::uint8_t {
   kPnpFailed,
   kNotSupported,
   kIterationLimit,
-  kFault,           ///< a capacity or the arena did not suffice; `Workspace::fault` says which
-  kAmbiguous,       ///< another pose explains the image nearly as well: `Workspace::rivals`
-  kBlurred,         ///< the image's edges are too wide for a pose: `Workspace::edge_width`
+  kFault,      ///< a capacity or the arena did not suffice; `Workspace::fault` says which
+  kAmbiguous,  ///< another pose explains the image nearly as well: `Workspace::competing_poses`
+  kBlurred,    ///< the image's edges are too wide for a pose: `Workspace::edge_width`
   kCameraMismatch,  ///< the image's edges ask for another focal length: `Workspace::focal`
 };
 inline constexpr LocalizationStatus kLastLocalizationStatus = LocalizationStatus::kCameraMismatch;
@@ -114,22 +115,11 @@ struct Iteration {
   LocalizationStatus status = LocalizationStatus::kRunning;
 };
 
-/// Another pose under which the model's edges look like those of the converged one: displaced, or a
-/// twin by a near-symmetry.
-struct Rival {
-  Pose camera_from_station_before;  ///< as self-similarity predicts it; of a twin, refined
-  Pose camera_from_station;         ///< what the image made of it, when it converged
-  double similarity = 0.0;          ///< SelfShift's
-  /// kRunning: not tried; kConverged: a supported pose; otherwise why it is none.
-  LocalizationStatus ended = LocalizationStatus::kRunning;
-  double margin_nats = 0.0;  ///< evidence of the best pose beyond a converged one's
-};
-
 /// What a caller can look at between two steps.
 struct Workspace {
   EdgeMap edges;  ///< levels finer than any render are gone when the first iteration has begun
   /// The latest; stages not yet reached hold old values. Its render and its samples are gone when
-  /// twins were looked for.
+  /// competing poses were looked for.
   const Iteration* iteration = nullptr;
   std::span<const PoseCandidate> candidates;  ///< of the search, the most evidence first
   EdgeSupport support;                        ///< of the final pose
@@ -144,8 +134,8 @@ struct Workspace {
   Matrix6d covariance = Matrix6d::Zero();
   std::int32_t iterations = 0;  ///< of all attempts, those that failed included
   std::int32_t attempts = 1;    ///< begun so far
-  /// Once a pose has converged: twins of it, or with ambiguity.enabled repeated features.
-  std::span<const Rival> rivals;
+  /// Other poses that show about the same edges as the final pose.
+  std::span<const CompetingPose> competing_poses;
 };
 
 }  // namespace boresight

@@ -245,15 +245,6 @@ void ObjectSearch::scoreTurn(int turn) {
   }
 }
 
-/// Whether no neighbouring slide is better.
-bool ObjectSearch::isPeak(int column, int row) const {
-  const std::uint16_t sum = sums_.sum(column, row);
-  for (int y = std::max(row - 1, 0); y <= std::min(row + 1, sums_.rows() - 1); ++y)
-    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, sums_.columns() - 1); ++x)
-      if (sums_.sum(x, y) < sum) return false;
-  return true;
-}
-
 void ObjectSearch::takePeaks(int turn, double depth_ratio) {
   const double unit_px = SlideSums::kStep_px / point_count_;
   if (!grid_found_.accepts(unit_px * sums_.least())) return;
@@ -261,7 +252,7 @@ void ObjectSearch::takePeaks(int turn, double depth_ratio) {
   for (int row = 0; row < sums_.rows(); ++row) {
     for (int column = 0; column < sums_.columns(); ++column) {
       const double distance_px = unit_px * sums_.sum(column, row);
-      if (!grid_found_.accepts(distance_px) || !isPeak(column, row)) continue;
+      if (!grid_found_.accepts(distance_px) || !sums_.isPeak(column, row)) continue;
       SearchCandidate candidate;
       candidate.distance_px = distance_px;
       candidate.tilt_x_rad = tilt_rad.x();

@@ -59,7 +59,6 @@ class ObjectSearch {
   void takePoints();
   void scoreTurn(int turn);
   void takePeaks(int turn, double depth_ratio);
-  bool isPeak(int column, int row) const;
   Pose poseOf(const SearchCandidate& candidate) const;
   bool isWithinSeed(const Pose& camera_from_station) const;
 

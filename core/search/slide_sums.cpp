@@ -103,6 +103,14 @@ void SlideSums::add(std::span<const Place> places) {
   }
 }
 
+bool SlideSums::isPeak(int column, int row) const {
+  const std::uint16_t middle = sum(column, row);
+  for (int y = std::max(row - 1, 0); y <= std::min(row + 1, rows_ - 1); ++y)
+    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, columns_ - 1); ++x)
+      if (sum(x, y) < middle) return false;
+  return true;
+}
+
 std::uint16_t SlideSums::least() const {
   std::uint16_t least = 0xffff;
   for (int row = 0; row < rows_; ++row) {

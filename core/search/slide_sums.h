@@ -46,6 +46,8 @@ class SlideSums {
   int rows() const { return rows_; }        ///< slides along y
   /// Sum of the distances, kStep_px, when the outline is slid by (column - slide_x, row - slide_y).
   std::uint16_t sum(int column, int row) const { return rowOf(row)[column]; }
+  /// Whether no neighbouring slide has a smaller sum.
+  bool isPeak(int column, int row) const;
   /// The least of all slides.
   std::uint16_t least() const;
 

@@ -38,8 +38,7 @@ LocalizerOptions withoutSearch(LocalizerOptions options) {
 
 Status ViewsLocalizer::validate(const ViewsProblem& problem, const LocalizerOptions& options) {
   if (problem.views.empty() || problem.views.size() > kMaxViews) return Status::kCapacityExceeded;
-  if (firstInvalidOption(options) != nullptr || options.ambiguity.enabled)
-    return Status::kInvalidOption;
+  if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   if (!isUsable(problem.rig_from_station_seed)) return Status::kInvalidPose;
   for (const View& view : problem.views)
     if (!isUsable(view.camera_from_rig)) return Status::kInvalidPose;

@@ -33,8 +33,8 @@ namespace boresight {
 /// support, or whose image is blurred, is dropped for the attempt, and the run refines without it.
 /// The result is the pose for which all remaining views have support.
 ///
-/// Not offered: competing poses (kInvalidOption), matches from outside. There is no search: views
-/// start from their common seed.
+/// Not offered: matches from outside, a search and competing poses. Views start from their common
+/// seed.
 class ViewsLocalizer {
  public:
   /// Bytes of arena, in a block aligned to Arena::kAlignment: the sum of each view's, and some ten

@@ -57,7 +57,7 @@ nlohmann::ordered_json toJson(const OptionList& options) {
 
 std::string optionsDigest(const LocalizerOptions& options) {
   DigestWriter writer;
-  visitDigested(options, [&writer](const OptionInfo& info, const auto& field) {
+  LocalizerOptions::visitFields(options, [&writer](const OptionInfo& info, const auto& field) {
     writer.tag(info.name);
     writer.f64(static_cast<double>(field));
   });

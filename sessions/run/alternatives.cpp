@@ -7,51 +7,49 @@
 namespace boresight::sessions {
 namespace {
 
-void compare(const Pose& chosen, Alternative& made) {
-  made.camera_from_station_chosen = chosen;
-  if (!made.has_pose) return;
-  made.apart_m = (made.camera_from_station.translation_m - chosen.translation_m).norm();
-  made.apart_rad = made.camera_from_station.rotation.angularDistance(chosen.rotation);
+void compare(const Pose& chosen, Alternative& alternative) {
+  alternative.camera_from_station_chosen = chosen;
+  if (!alternative.has_pose) return;
+  alternative.apart_m =
+      (alternative.camera_from_station.translation_m - chosen.translation_m).norm();
+  alternative.apart_rad = alternative.camera_from_station.rotation.angularDistance(chosen.rotation);
 }
 
 Alternative ofHypothesis(const IterationTrace& iteration, std::size_t index) {
   const HypothesisSummary& from = iteration.hypotheses[index];
-  Alternative made;
-  made.number = static_cast<std::int32_t>(index) + 1;
-  made.chosen = static_cast<std::int32_t>(index) == iteration.chosen_hypothesis;
+  Alternative alternative;
+  alternative.number = static_cast<std::int32_t>(index) + 1;
+  alternative.chosen = static_cast<std::int32_t>(index) == iteration.chosen_hypothesis;
   // A render that was only rolled has no pose of its own.
-  made.has_pose = from.solved;
-  made.camera_from_station = from.camera_from_station;
-  made.roll_rad = from.roll_rad;
-  made.matches = from.matches;
-  made.inliers = from.inliers;
-  made.ended = from.solved ? LocalizationStatus::kRunning : LocalizationStatus::kPnpFailed;
-  return made;
+  alternative.has_pose = from.solved;
+  alternative.camera_from_station = from.camera_from_station;
+  alternative.roll_rad = from.roll_rad;
+  alternative.matches = from.matches;
+  alternative.inliers = from.inliers;
+  return alternative;
 }
 
-Alternative ofRival(const Rival& from, std::size_t index) {
-  const bool converged = from.ended == LocalizationStatus::kConverged;
-  Alternative made;
-  made.kind = AlternativeKind::kRival;
-  made.number = static_cast<std::int32_t>(index) + 1;
-  made.has_pose = true;
-  made.camera_from_station = converged ? from.camera_from_station : from.camera_from_station_before;
-  made.similarity = from.similarity;
-  if (converged) made.margin_nats = from.margin_nats;
-  made.ended = from.ended;
-  return made;
+Alternative ofCompeting(const CompetingPose& from, std::size_t index) {
+  Alternative alternative;
+  alternative.kind = AlternativeKind::kCompeting;
+  alternative.number = static_cast<std::int32_t>(index) + 1;
+  alternative.has_pose = true;
+  alternative.camera_from_station = from.camera_from_station;
+  alternative.similarity = from.similarity;
+  alternative.margin_nats = from.margin_nats;
+  return alternative;
 }
 
 /// The pose of a candidate as the search refined it.
 Alternative ofCandidate(const PoseCandidate& from, std::size_t index) {
-  Alternative made;
-  made.kind = AlternativeKind::kCandidate;
-  made.number = static_cast<std::int32_t>(index) + 1;
-  made.has_pose = true;
-  made.camera_from_station = from.camera_from_station;
-  made.roll_rad = from.found.roll_rad;
-  made.evidence_nats = from.rank_nats();
-  return made;
+  Alternative alternative;
+  alternative.kind = AlternativeKind::kCandidate;
+  alternative.number = static_cast<std::int32_t>(index) + 1;
+  alternative.has_pose = true;
+  alternative.camera_from_station = from.camera_from_station;
+  alternative.roll_rad = from.found.roll_rad;
+  alternative.evidence_nats = from.rank_nats();
+  return alternative;
 }
 
 /// The candidate nearest to the run's result, which may come from a later one than the first; of a
@@ -70,9 +68,9 @@ std::size_t chosenCandidate(const LocalizationTrace& run) {
   return nearest;
 }
 
-/// The pose that rivals are rivals of. A run that ends as ambiguous has its seed for a result, but
-/// its last iteration is the one that led.
-Pose leadOf(const LocalizationTrace& run) {
+/// The pose that others compete with. A run that ends as ambiguous has its seed for a result, but
+/// its last iteration has the best pose.
+Pose bestPoseOf(const LocalizationTrace& run) {
   if (run.converged() || run.iterations.empty()) return run.camera_from_station;
   return run.iterations.back()->camera_from_station;
 }
@@ -82,13 +80,13 @@ void addHypotheses(const LocalizationTrace& run, std::size_t index, std::vector<
   if (iteration.hypotheses.size() < 2) return;
   const auto chosen = static_cast<std::size_t>(iteration.chosen_hypothesis);
   for (std::size_t i = 0; i < iteration.hypotheses.size(); ++i) {
-    Alternative made = ofHypothesis(iteration, i);
-    made.iteration = static_cast<std::int32_t>(index);
+    Alternative alternative = ofHypothesis(iteration, i);
+    alternative.iteration = static_cast<std::int32_t>(index);
     const bool known = chosen < iteration.hypotheses.size();
     compare(
         known ? iteration.hypotheses[chosen].camera_from_station : iteration.camera_from_station,
-        made);
-    all.push_back(made);
+        alternative);
+    all.push_back(alternative);
   }
 }
 
@@ -96,10 +94,10 @@ void addHypotheses(const LocalizationTrace& run, std::size_t index, std::vector<
 
 std::vector<Alternative> alternativesOf(const LocalizationTrace& run) {
   std::vector<Alternative> all;
-  const Pose lead = leadOf(run);
-  for (std::size_t i = 0; i < run.rivals.size(); ++i) {
-    all.push_back(ofRival(run.rivals[i], i));
-    compare(lead, all.back());
+  const Pose best = bestPoseOf(run);
+  for (std::size_t i = 0; i < run.competing_poses.size(); ++i) {
+    all.push_back(ofCompeting(run.competing_poses[i], i));
+    compare(best, all.back());
   }
   const std::size_t chosen = chosenCandidate(run);
   for (std::size_t i = 0; i < run.candidates.size(); ++i) {
@@ -109,21 +107,6 @@ std::vector<Alternative> alternativesOf(const LocalizationTrace& run) {
   }
   for (std::size_t i = 0; i < run.iterations.size(); ++i) addHypotheses(run, i, all);
   return all;
-}
-
-int rivalOfIteration(const LocalizationTrace& run, const std::vector<Alternative>& alternatives,
-                     int iteration) {
-  if (iteration < 0 || iteration >= static_cast<int>(run.iterations.size())) return -1;
-  const auto at = [&run](int index) -> const IterationTrace& {
-    return *run.iterations[static_cast<std::size_t>(index)];
-  };
-  int first = iteration;
-  while (first > 0 && at(first - 1).attempt == at(iteration).attempt) --first;
-  // The attempt of a rival begins exactly where self-similarity predicts it.
-  for (std::size_t i = 0; i < alternatives.size() && i < run.rivals.size(); ++i)
-    if (at(first).camera_from_station_before == run.rivals[i].camera_from_station_before)
-      return static_cast<int>(i);
-  return -1;
 }
 
 }  // namespace boresight::sessions

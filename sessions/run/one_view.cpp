@@ -114,7 +114,8 @@ class OneView final : public SteppedRun {
     trace.focal = workspace.focal;
     if (trace.candidates.empty()) noteSearch();
     trace.attempts = workspace.attempts;
-    trace.rivals.assign(workspace.rivals.begin(), workspace.rivals.end());
+    trace.competing_poses.assign(workspace.competing_poses.begin(),
+                                 workspace.competing_poses.end());
     trace.status = workspace.status;
     trace.fault = workspace.fault;
     trace.camera_from_station = workspace.camera_from_station;

@@ -8,7 +8,7 @@
 #include <cstdio>
 
 #include "core/base/math.h"
-#include "core/localizer/competing_poses.h"
+#include "core/localizer/acceptance.h"
 #include "core/refine/edge_refinement.h"
 #include "core/render/band_painter.h"
 #include "core/templates/template_selection.h"
@@ -136,41 +136,30 @@ std::string notSupportedText(const LocalizationTrace& trace) {
       100.0 * support.chanceExplanation());
 }
 
-/// The rival that came nearest to the best pose, or nullptr.
-const Rival* closestRival(const std::vector<Rival>& rivals) {
-  const Rival* closest = nullptr;
-  for (const Rival& rival : rivals) {
-    if (rival.ended != LocalizationStatus::kConverged) continue;
-    if (closest == nullptr || rival.margin_nats < closest->margin_nats) closest = &rival;
-  }
-  return closest;
+/// The competing pose with the most evidence, or nullptr.
+const CompetingPose* closestCompetitor(const LocalizationTrace& trace) {
+  const auto closest =
+      std::min_element(trace.competing_poses.begin(), trace.competing_poses.end(),
+                       [](const auto& a, const auto& b) { return a.margin_nats < b.margin_nats; });
+  return closest == trace.competing_poses.end() ? nullptr : &*closest;
 }
 
 std::string ambiguousText(const LocalizationTrace& trace) {
-  const Rival* rival = closestRival(trace.rivals);
-  if (rival == nullptr || trace.iterations.empty())
+  const CompetingPose* other = closestCompetitor(trace);
+  if (other == nullptr || trace.iterations.empty())
     return "another pose explains the image as well";
-  const Pose& ahead = trace.iterations.back()->camera_from_station;
-  const Pose& behind = rival->camera_from_station;
-  const Eigen::Quaterniond turn = (behind.rotation * ahead.rotation.conjugate()).normalized();
-  const std::string place =
-      format("a pose %.1f mm away, turned by %.2f deg, explains the image ",
-             toMillimetres((behind.translation_m - ahead.translation_m).norm()),
-             toDegrees(rotationLog(turn).norm()));
-  const std::string remedy =
-      "the station looks alike from both: show more of what tells its features apart, or give a "
-      "closer seed";
-  const double margin_nats = rival->margin_nats;
-  if (trace.lastOptions().ambiguity.enabled)
-    return place +
-           format("nearly as well: %.1f nats less evidence, needed %.1f; ", margin_nats,
-                  CompetingPoses::kMinMargin_nats) +
-           remedy;
-  const std::string evidence =
-      margin_nats < 0.0 ? format("better, by %.1f nats of evidence; ", -margin_nats)
-                        : format("nearly as well: %.1f nats less evidence, needed %.1f; ",
-                                 margin_nats, CompetingPoses::kTwinMargin_nats);
-  return place + evidence + remedy + "; a mirrored mesh looks alike, too: check the mesh";
+  const Pose& best = trace.iterations.back()->camera_from_station;
+  const Pose& competing = other->camera_from_station;
+  const Eigen::Quaterniond turn = (competing.rotation * best.rotation.conjugate()).normalized();
+  return format("a pose %.1f mm away, turned by %.2f deg, explains the image ",
+                toMillimetres((competing.translation_m - best.translation_m).norm()),
+                toDegrees(rotationLog(turn).norm())) +
+         (other->margin_nats < 0.0
+              ? format("better, by %.1f nats of evidence; ", -other->margin_nats)
+              : format("nearly as well: %.1f nats less evidence, needed %.1f; ", other->margin_nats,
+                       kLeastMargin_nats)) +
+         "the station looks alike from both: show more of what tells its features apart, or give a "
+         "closer seed; a mirrored mesh looks alike, too: check the mesh";
 }
 
 /// The widest edges, measured along their normals.
@@ -250,9 +239,9 @@ std::string convergedText(const LocalizationTrace& trace) {
   if (trace.edge_width.widestDirection() >= 0)
     text += format(" The image's edges are %.1f px wide, at most %.0f px are accepted.",
                    trace.edge_width.widest_px(), EdgeWidth::kWidest_px);
-  if (const Rival* rival = closestRival(trace.rivals))
+  if (const CompetingPose* other = closestCompetitor(trace))
     text += format(" The best of the poses that look alike has %.0f nats less evidence.",
-                   rival->margin_nats);
+                   other->margin_nats);
   return text + format(
                     " 1 sigma by the picture alone, at the camera, along its x, y, z: %.3f, %.3f, "
                     "%.3f mm; about them: %.3f, %.3f, %.3f mrad.",

@@ -178,8 +178,8 @@ struct LocalizationTrace {
   /// Of all attempts, in order; the last one may be under way (`IterationTrace::reached`).
   std::vector<std::shared_ptr<const IterationTrace>> iterations;
   std::int32_t attempts = 1;
-  std::vector<PoseCandidate> candidates;  ///< of the search, the most evidence first
-  std::vector<Rival> rivals;              ///< of the pose that converged
+  std::vector<PoseCandidate> candidates;       ///< of the search, the most evidence first
+  std::vector<CompetingPose> competing_poses;  ///< of the pose that converged
   EdgeSupport support;
   ContourEvidence evidence;  ///< of the same pose, of runs that search
   double probability = 0.0;  ///< that it is right, of runs that search

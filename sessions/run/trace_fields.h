@@ -232,14 +232,11 @@ void fields(Archive& archive, Self& support) {
           displaced_explained);
 }
 
-template <class Archive, Is<Rival> Self>
-void fields(Archive& archive, Self& rival) {
-  auto& [camera_from_station_before, camera_from_station, similarity, ended, margin_nats] = rival;
-  fields(archive, camera_from_station_before);
+template <class Archive, Is<CompetingPose> Self>
+void fields(Archive& archive, Self& pose) {
+  auto& [camera_from_station, similarity, margin_nats] = pose;
   fields(archive, camera_from_station);
-  archive.number(similarity);
-  archive.choice(ended, kLastLocalizationStatus);
-  archive.number(margin_nats);
+  numbers(archive, similarity, margin_nats);
 }
 
 template <class Archive, Is<IterationTrace> Self>
@@ -344,7 +341,7 @@ void fields(Archive& archive, Self& trace) {
   archive.list(trace.iterations, [&](auto& iteration) { sharedFields(archive, iteration); });
   archive.number(trace.attempts);
   archive.list(trace.candidates, [&](auto& candidate) { fields(archive, candidate); });
-  archive.list(trace.rivals, [&](auto& rival) { fields(archive, rival); });
+  archive.list(trace.competing_poses, [&](auto& pose) { fields(archive, pose); });
   fields(archive, trace.support);
   fields(archive, trace.evidence);
   archive.number(trace.probability);

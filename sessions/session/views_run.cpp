@@ -41,8 +41,6 @@ View viewOf(const LoadedCase& loaded) {
 std::vector<LocalizationTrace> runLoaded(const LoadedViews& loaded, const LocalizerOptions& options,
                                          const std::stop_token& stop) {
   const std::string place = "case " + loaded.cases.front()->source.id;
-  const std::string refusal = viewsRefusal(options);
-  if (!refusal.empty()) throw InputError(place, "options", refusal);
   Runner run(loaded.problem(), options, loaded.ids());
   run.advance(StepUntil::kEnd, stop);
   const LocalizationTrace& first = run.trace();
@@ -67,12 +65,6 @@ std::string whyAlone(const Session& session, const std::string& case_id) {
     if (!sameStation(*one, *session.findCase(id)))
       return "Case " + id + " of the same rig has another station.";
   return "";
-}
-
-std::string viewsRefusal(const LocalizerOptions& options) {
-  return options.ambiguity.enabled ? "Several views are not solved together with a search for "
-                                     "rivals: switch ambiguity.enabled off."
-                                   : "";
 }
 
 ViewsProblem LoadedViews::problem() const {

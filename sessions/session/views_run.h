@@ -19,9 +19,6 @@ namespace boresight::sessions {
 /// they can.
 std::string whyAlone(const Session& session, const std::string& case_id);
 
-/// Which of these options several views do not have, as a sentence; empty when they have all.
-std::string viewsRefusal(const LocalizerOptions& options);
-
 /// Views of one rig, read, to be run as one; immutable. The first one leads: seed and uncertainty
 /// are its case's.
 struct LoadedViews {

@@ -6,7 +6,7 @@
 #include <QFont>
 
 #include "core/base/math.h"
-#include "core/localizer/competing_poses.h"
+#include "core/localizer/acceptance.h"
 #include "sessions/text/units.h"
 #include "ui/models/number_text.h"
 
@@ -26,11 +26,7 @@ QString signedText(double value, int decimals) {
 
 QString endedText(const Alternative& one) {
   if (one.chosen) return tr("chosen");
-  if (one.kind != AlternativeKind::kRival)
-    return one.ended == LocalizationStatus::kRunning ? tr("passed over") : tr("no pose");
-  if (one.ended == LocalizationStatus::kRunning) return tr("not tried");
-  return QString::fromLatin1(localizationStatusText(one.ended))
-      .replace(QLatin1Char('_'), QLatin1Char(' '));
+  return one.has_pose ? tr("not chosen") : tr("no pose");
 }
 
 std::vector<TableColumn<Alternative>> alternativeColumns() {
@@ -40,30 +36,27 @@ std::vector<TableColumn<Alternative>> alternativeColumns() {
   };
   return {
       {tr("Pose"),
-       tr("A rival: a pose under which the model's edges look like those of the result. A "
-          "candidate: a pose that the search found. A rolled hypothesis: the render turned about "
+       tr("A competing pose: it shows about the same edges as the result. A candidate: a pose that "
+          "the search found. A rolled hypothesis: the render turned about "
           "the view."),
        -1, alternativeTitle},
       {tr("Iteration"),
-       tr("The iteration that weighed it, counted from 1 over all attempts; rivals are weighed "
-          "against the result."),
+       tr("The iteration that weighed it, counted from 1 over all attempts; competing poses "
+          "are compared with the result."),
        -1,
        [](Row one) {
          if (one.kind == AlternativeKind::kCandidate) return tr("search");
          return one.iteration < 0 ? tr("result") : QString::number(one.iteration + 1);
        }},
-      {tr("Ended"),
-       tr("What became of it; a rival that converged is a pose that the image supports."), -1,
-       endedText},
+      {tr("Ended"), tr("Whether the run went on with it."), -1, endedText},
       {tr("Behind, nats"),
-       tr("Evidence of the result beyond that of a rival that converged, in nats; below %1 "
-          "the run is ambiguous, below zero the rival is the better one.")
-           .arg(CompetingPoses::kMinMargin_nats),
+       tr("Evidence of the result beyond that of a competing pose, in nats; below %1 the run is "
+          "ambiguous, below zero the competing pose is the better one.")
+           .arg(kLeastMargin_nats),
        0, [](Row one) { return one.margin_nats; }},
       {tr("Similarity"),
-       tr("How much the model's edges look like themselves where the rival puts them; 1: the "
-          "same."),
-       2, [](Row one) { return one.similarity; }},
+       tr("Share of the rendered edges that a competing pose has in common with the result."), 2,
+       [](Row one) { return one.similarity; }},
       {tr("Evidence, nats"),
        tr("How strongly the image's edges support a candidate: mean over its edges and half of "
           "the weakest quadrant, in nats."),
@@ -83,14 +76,14 @@ std::vector<TableColumn<Alternative>> alternativeColumns() {
 }  // namespace
 
 QString alternativeTitle(const Alternative& one) {
-  if (one.kind == AlternativeKind::kRival) return tr("Rival %1").arg(one.number);
+  if (one.kind == AlternativeKind::kCompeting) return tr("Competing pose %1").arg(one.number);
   if (one.kind == AlternativeKind::kCandidate) return tr("Candidate %1").arg(one.number);
   return tr("Rolled by %1 deg").arg(signedText(one.roll_rad / kDegree_rad, 1));
 }
 
 QString chosenTitle(const Alternative& one) {
   switch (one.kind) {
-    case AlternativeKind::kRival:
+    case AlternativeKind::kCompeting:
       return tr("Result of the run");
     case AlternativeKind::kCandidate:
       return tr("Chosen candidate");

@@ -6,13 +6,13 @@
 
 namespace boresight::ui {
 
-/// "Rival 2", "Candidate 1", "Rolled by +5.0 deg".
+/// "Competing pose 2", "Candidate 1", "Rolled by +5.0 deg".
 QString alternativeTitle(const sessions::Alternative& one);
 /// What it was weighed against: "Result of the run", "Chosen candidate", "Chosen roll".
 QString chosenTitle(const sessions::Alternative& one);
 
-/// The poses that a run weighed against those that it went on with, one row each: rivals first,
-/// then candidates, then rolled hypotheses by iteration.
+/// The poses that a run weighed against those that it went on with, one row each: competing
+/// poses first, then candidates, then rolled hypotheses by iteration.
 class AlternativesModel : public RowsModel<sessions::Alternative> {
   Q_OBJECT
 

@@ -19,7 +19,7 @@ namespace boresight::ui {
 namespace {
 
 constexpr int kBlinkMs = 500;
-constexpr int kFaded = 50;  // opacity of 255 of what stands back behind a rival
+constexpr int kFaded = 50;  // opacity of 255 of what is drawn behind a hypothesis
 using RenderPtr = std::shared_ptr<const sessions::RenderTrace>;
 using MapsPtr = std::shared_ptr<const sessions::AgreementMaps>;
 
@@ -154,7 +154,7 @@ void ImagePanel::showCase() {
   if (!same_scene) {
     agreement_of_.reset();
     for (const LayerId id : {LayerId::kTruthEdges, LayerId::kAgreement, LayerId::kNudgedEdges,
-                             LayerId::kChosenEdges, LayerId::kRivalEdges})
+                             LayerId::kChosenEdges, LayerId::kHypothesisEdges})
       forget(id);
   }
   setBits(LayerId::kIgnoreMask, ignoreBits(now));
@@ -166,13 +166,13 @@ void ImagePanel::forget(LayerId id) {
   setBits(id, {});
 }
 
-/// A rival beside the pose that the run went on with.
+/// A hypothesis and the pose that the run went on with.
 void ImagePanel::showAlternative() {
   forget(LayerId::kChosenEdges);
-  forget(LayerId::kRivalEdges);
+  forget(LayerId::kHypothesisEdges);
   std::vector<LegendLine> names;
   if (const auto& other = state_.alternative()) {
-    names = {{LayerId::kRivalEdges, alternativeTitle(*other)},
+    names = {{LayerId::kHypothesisEdges, alternativeTitle(*other)},
              {LayerId::kChosenEdges, chosenTitle(*other)},
              {LayerId::kIterationEdges, tr("As the shown iteration rendered it")},
              {LayerId::kSeedEdges, tr("Seed")},
@@ -218,7 +218,7 @@ void ImagePanel::showTemplates() {
   const bool matched = iteration && stage >= Stage::kMatch;
   setMarks(LayerId::kTemplates, placed ? templateMarks(*iteration, selected) : std::vector<Mark>());
   setMarks(LayerId::kWindows, matched ? windowMarks(*iteration, selected) : std::vector<Mark>());
-  // Arrows of the pose that was chosen say nothing of a rival.
+  // Arrows of the pose that was chosen do not hold for another hypothesis.
   const bool arrows = matched && !state_.alternative();
   setMarks(LayerId::kMatches, arrows ? matchMarks(*iteration, selected) : std::vector<Mark>());
 }
@@ -231,7 +231,7 @@ void ImagePanel::askForRenders() {
     askForRender(LayerId::kTruthEdges, "truth edges", *one->source.camera_from_station_truth);
   if (const auto& other = state_.alternative()) {
     if (other->has_pose)
-      askForRender(LayerId::kRivalEdges, "rival's edges", other->camera_from_station);
+      askForRender(LayerId::kHypothesisEdges, "hypothesis' edges", other->camera_from_station);
     if (!other->chosen)
       askForRender(LayerId::kChosenEdges, "chosen pose's edges", other->camera_from_station_chosen);
   }

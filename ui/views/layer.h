@@ -28,7 +28,7 @@ enum class LayerId : std::uint8_t {
   kAnnotationBand,
   kAnnotationEdges,
   kChosenEdges,
-  kRivalEdges,
+  kHypothesisEdges,
   kWindows,
   kTemplates,
   kMatches,

@@ -264,9 +264,7 @@ QString CaseController::whyAlone() const {
 void CaseController::runTogether() {
   start([&] {
     requireLoaded();
-    const std::string refusal = sessions::viewsRefusal(options());
-    if (!whyAlone().isEmpty() || !refusal.empty())
-      throw std::runtime_error(whyAlone().isEmpty() ? refusal : whyAlone().toStdString());
+    if (!whyAlone().isEmpty()) throw std::runtime_error(whyAlone().toStdString());
     prepareRun({.plan = options(),
                 .others = sessions::otherViews(document_.session(), case_id_.toStdString())});
   });

@@ -8,8 +8,8 @@
 
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
+#include "ui/panels/hypotheses_panel.h"
 #include "ui/panels/match_view.h"
-#include "ui/panels/rivals_panel.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/views/image_panel.h"
@@ -120,11 +120,11 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
     cursor.iteration = order.iteration;
     window.state().setCursor(cursor);
   }
-  auto* rivals = window.findChild<RivalsPanel*>();
-  if (order.rival > rivals->model().rowCount())
-    return QObject::tr("the shown run has %1 rivals, candidates and rolled hypotheses")
-        .arg(rivals->model().rowCount());
-  if (order.rival > 0) rivals->choose(order.rival - 1);
+  auto* hypotheses = window.findChild<HypothesesPanel*>();
+  if (order.hypothesis > hypotheses->model().rowCount())
+    return QObject::tr("the shown run has %1 competing poses, candidates and rolled hypotheses")
+        .arg(hypotheses->model().rowCount());
+  if (order.hypothesis > 0) hypotheses->choose(order.hypothesis - 1);
   const auto* iteration = window.state().iteration();
   if (iteration && !iteration->templates.empty() && window.state().selectedTemplate() < 0)
     window.state().selectTemplate(0);

@@ -17,7 +17,7 @@ struct ScreenshotOrder {
   QSize size = QSize(1600, 1000);
   QString mark;  ///< id of a mark that somebody works on, in the middle of the image; "": none
   int iteration = -2;  ///< index to show; -1: the seed; -2: the last
-  int rival = 0;       ///< row under Rivals to show, from 1; 0: none
+  int hypothesis = 0;  ///< row under Hypotheses to show, from 1; 0: none
 };
 
 /// Shows a session and what was not saved of it, without writing anything beside it: it goes on in

@@ -10,13 +10,13 @@
 #include "ui/panels/banner.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
+#include "ui/panels/hypotheses_panel.h"
 #include "ui/panels/input_sheet_panel.h"
 #include "ui/panels/iterations_panel.h"
 #include "ui/panels/levels_panel.h"
 #include "ui/panels/mask_panel.h"
 #include "ui/panels/match_inspector_panel.h"
 #include "ui/panels/pose_panel.h"
-#include "ui/panels/rivals_panel.h"
 #include "ui/review/onboard_panel.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
@@ -75,7 +75,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   add(QStringLiteral("configuration"), windowText("Configuration"), configuration_);
   add(QStringLiteral("scene"), windowText("Scene"), scene_);
   add(QStringLiteral("iterations"), windowText("Iterations"), new IterationsPanel(parts.state));
-  add(QStringLiteral("rivals"), windowText("Rivals"), new RivalsPanel(parts.state));
+  add(QStringLiteral("hypotheses"), windowText("Hypotheses"), new HypothesesPanel(parts.state));
   add(QStringLiteral("inspector"), windowText("Match inspector"),
       new MatchInspectorPanel(parts.state));
   add(QStringLiteral("annotation"), windowText("Annotation"), annotation_);
@@ -133,7 +133,7 @@ void WindowDocks::place() const {
     window_.tabifyDockWidget(layers, dock(QLatin1String(name)));
   window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
   for (const char* name :
-       {"rivals", "inspector", "annotation", "review", "queue", "onboard", "inputs"})
+       {"hypotheses", "inspector", "annotation", "review", "queue", "onboard", "inputs"})
     window_.tabifyDockWidget(iterations, dock(QLatin1String(name)));
   for (QDockWidget* each : docks_) each->show();
   layers->raise();

@@ -80,7 +80,6 @@ LocalizerOptions changeable(const LocalizerOptions& base, LocalizerOptions wante
   wanted.loop.halved_size_px = base.loop.halved_size_px;
   wanted.loop.max_rolled_hypotheses = base.loop.max_rolled_hypotheses;
   wanted.search = base.search;
-  wanted.ambiguity = base.ambiguity;
   return wanted;
 }
 
@@ -184,7 +183,7 @@ TEST(LocalizerChange, RefusesWhatHoldsForAWholeRun) {
         EXPECT_FALSE(localizer.changeOptions(options)) << "out of range";
       });
   EXPECT_EQ(course.digest, plain.digest) << "what is refused leaves no trace";
-  EXPECT_EQ(refused, 16);
+  EXPECT_EQ(refused, 15);
   EXPECT_EQ(accepted, 26);
 }
 

@@ -253,9 +253,9 @@ TEST(ViewsLocalizer, RunsAgainToTheSameDigest) {
 
 TEST(ViewsLocalizer, RefusesWhatItDoesNotOffer) {
   const Case scene = stationCase(1);
-  LocalizerOptions rivals = defaultProfile();
-  rivals.ambiguity.enabled = true;
-  ViewsRun two(scene, {viewOf(scene), secondView(scene)}, rivals);
+  LocalizerOptions invalid = defaultProfile();
+  invalid.templates.count = -1;
+  ViewsRun two(scene, {viewOf(scene), secondView(scene)}, invalid);
   EXPECT_EQ(two.localizer->status(), Status::kInvalidOption);
   EXPECT_EQ(two.finish().status, LocalizationStatus::kFault);
   EXPECT_EQ(ViewsRun(scene, {}, defaultProfile()).localizer->status(), Status::kCapacityExceeded);
@@ -336,8 +336,7 @@ TEST(PnpRansacOfViews, EverySamplerFindsThePoseDespiteWrongMatchesInEither) {
   const Camera camera = pinholeCamera();
   const Pose truth = truthPose();
   const Pose second_from_first{rotationExp({0.0, -0.2, 0.1}), {0.1, 0.0, 0.02}};
-  for (const PnpSampler sampler :
-       {PnpSampler::kGuided, PnpSampler::kEpnp}) {
+  for (const PnpSampler sampler : {PnpSampler::kGuided, PnpSampler::kEpnp}) {
     Seen seen = seenFrom(camera, second_from_first, truth, random);
     for (std::size_t i = 0; i < seen.correspondences.size(); i += 4)
       seen.correspondences[i].pixel += Eigen::Vector2d(40.0, -25.0 - static_cast<double>(i));

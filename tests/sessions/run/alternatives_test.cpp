@@ -41,16 +41,6 @@ LocalizationTrace runWith(Random& random) {
   return run;
 }
 
-Rival rivalAt(const Pose& before, const Pose& after, LocalizationStatus ended) {
-  Rival rival;
-  rival.camera_from_station_before = before;
-  rival.camera_from_station = after;
-  rival.similarity = 0.4;
-  rival.ended = ended;
-  rival.margin_nats = 25.0;
-  return rival;
-}
-
 TEST(Alternatives, AreTheHypothesesOfIterationsThatHadSeveral) {
   Random random = test::randomFor("Alternatives 1");
   const LocalizationTrace run = runWith(random);
@@ -80,54 +70,30 @@ TEST(Alternatives, TellHowFarTheyAreApart) {
   Pose moved = run.camera_from_station;
   moved.rotation = rotationExp({0.0, 0.0, 0.25}) * moved.rotation;
   moved.translation_m += Eigen::Vector3d(0.003, 0.0, 0.004);
-  run.rivals = {rivalAt(test::randomPose(random), moved, LocalizationStatus::kConverged)};
-  const Alternative rival = alternativesOf(run).front();
-  EXPECT_NEAR(rival.apart_m, 0.005, 1e-12);
-  EXPECT_NEAR(rival.apart_rad, 0.25, 1e-9);
-  EXPECT_EQ(rival.camera_from_station_chosen, run.camera_from_station);
+  run.competing_poses = {{moved, 0.4, 25.0}};
+  const Alternative competing = alternativesOf(run).front();
+  EXPECT_NEAR(competing.apart_m, 0.005, 1e-12);
+  EXPECT_NEAR(competing.apart_rad, 0.25, 1e-9);
+  EXPECT_EQ(competing.camera_from_station_chosen, run.camera_from_station);
+  EXPECT_EQ(competing.margin_nats, 25.0);
 }
 
-TEST(Alternatives, ARivalIsWhereTheImagePutsItOrWhereItWasExpected) {
+/// A run that ends as ambiguous has its seed for a result.
+TEST(Alternatives, OfAnAmbiguousRun_AreComparedWithItsLastIteration) {
   Random random = test::randomFor("Alternatives 3");
   LocalizationTrace run = runWith(random);
-  const Pose before = test::randomPose(random);
-  const Pose after = test::randomPose(random);
-  run.rivals = {rivalAt(before, after, LocalizationStatus::kConverged),
-                rivalAt(before, after, LocalizationStatus::kNotSupported),
-                rivalAt(before, after, LocalizationStatus::kRunning)};
-  // A run that ends as ambiguous has its seed for a result.
+  const Pose elsewhere = test::randomPose(random);
+  run.competing_poses = {{elsewhere, 0.9, 1.0}, {elsewhere, 0.9, 2.0}};
   run.status = LocalizationStatus::kAmbiguous;
   run.camera_from_station = test::randomPose(random);
   const std::vector<Alternative> all = alternativesOf(run);
-  ASSERT_EQ(all.size(), 8u);
-  EXPECT_EQ(all[0].camera_from_station, after);
-  EXPECT_EQ(all[0].margin_nats, 25.0);
-  EXPECT_EQ(all[1].camera_from_station, before);
-  EXPECT_TRUE(std::isnan(all[1].margin_nats)) << "nothing was weighed";
-  EXPECT_EQ(all[2].ended, LocalizationStatus::kRunning);
-  for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(all[static_cast<std::size_t>(i)].number, i + 1);
-    EXPECT_EQ(all[static_cast<std::size_t>(i)].camera_from_station_chosen,
-              run.iterations.back()->camera_from_station);
-  }
-}
-
-TEST(Alternatives, AnIterationOfARivalsAttemptIsFound) {
-  Random random = test::randomFor("Alternatives 4");
-  LocalizationTrace run = runWith(random);
-  const Pose before = test::randomPose(random);
-  run.rivals = {rivalAt(test::randomPose(random), Pose(), LocalizationStatus::kPnpFailed),
-                rivalAt(before, Pose(), LocalizationStatus::kConverged)};
+  ASSERT_EQ(all.size(), 7u);
   for (int i = 0; i < 2; ++i) {
-    IterationTrace one;
-    one.index = 4 + i;
-    one.attempt = 1;
-    one.camera_from_station_before = i == 0 ? before : test::randomPose(random);
-    run.iterations.push_back(std::make_shared<const IterationTrace>(one));
+    const Alternative& competing = all[static_cast<std::size_t>(i)];
+    EXPECT_EQ(competing.number, i + 1);
+    EXPECT_EQ(competing.camera_from_station, elsewhere);
+    EXPECT_EQ(competing.camera_from_station_chosen, run.iterations.back()->camera_from_station);
   }
-  const std::vector<Alternative> all = alternativesOf(run);
-  for (int i = -1; i < 7; ++i)
-    EXPECT_EQ(rivalOfIteration(run, all, i), i == 4 || i == 5 ? 1 : -1) << i;
 }
 
 /// Those of the search; competing poses of the result come before them.

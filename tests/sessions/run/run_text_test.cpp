@@ -96,22 +96,17 @@ TEST(Explanation, GivesTheShareOfSupportedEdges) {
                     HasSubstr("20.0 % of the edges seen")));
 }
 
-TEST(Explanation, SaysHowFarTheRivalOfAnAmbiguousRunIs) {
+TEST(Explanation, SaysHowFarTheClosestCompetingPoseIs) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kAmbiguous);
-  trace.rivals.resize(3);
-  for (Rival& rival : trace.rivals) {
-    rival.camera_from_station = trace.iterations.back()->camera_from_station;
-    rival.camera_from_station.translation_m.x() += 0.02;
-    rival.ended = LocalizationStatus::kConverged;
-    rival.margin_nats = 5.5;
-  }
-  trace.rivals[1].camera_from_station.translation_m.x() += 0.02;
-  trace.rivals[1].margin_nats = 2.5;
-  trace.rivals[2].ended = LocalizationStatus::kNotSupported;
-  trace.rivals[2].margin_nats = 0.0;
+  CompetingPose near{trace.iterations.back()->camera_from_station, 0.8, 5.5};
+  near.camera_from_station.translation_m.x() += 0.02;
+  CompetingPose far = near;
+  far.camera_from_station.translation_m.x() += 0.02;
+  far.margin_nats = 2.5;
+  trace.competing_poses = {near, far};
   EXPECT_THAT(explanation(trace), HasSubstr("a pose 40.0 mm away, turned by 0.00 deg"));
   EXPECT_THAT(explanation(trace), HasSubstr("2.5 nats less evidence, needed 3.0"));
-  trace.rivals[1].margin_nats = -7.5;
+  trace.competing_poses[1].margin_nats = -7.5;
   EXPECT_THAT(explanation(trace), HasSubstr("better, by 7.5 nats of evidence"));
 }
 

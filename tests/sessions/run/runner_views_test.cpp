@@ -184,7 +184,7 @@ TEST_F(RunnerViewsTest, ThreadsChangeNoBit) {
 }
 
 TEST_F(RunnerViewsTest, WhatCannotRunSaysSo) {
-  options_.ambiguity.enabled = true;
+  options_.templates.count = -1;
   for (const LocalizationTrace& one : watched()) {
     EXPECT_TRUE(one.finished);
     EXPECT_EQ(one.status, LocalizationStatus::kFault);

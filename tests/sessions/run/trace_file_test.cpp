@@ -57,10 +57,10 @@ TEST(TraceFile, GivesBackEveryFieldExactly) {
   LocalizerOptions other;
   other.pnp.seed = 77;
   trace.changes = {{2, LocalizerOptions()}, {5, other}};
-  trace.rivals.resize(2);
-  trace.rivals[1].camera_from_station.translation_m = {0.1, 0.2, 0.3};
-  trace.rivals[1].ended = LocalizationStatus::kAmbiguous;
-  trace.rivals[1].margin_nats = 3.5;
+  trace.competing_poses.resize(2);
+  trace.competing_poses[1].camera_from_station.translation_m = {0.1, 0.2, 0.3};
+  trace.competing_poses[1].similarity = 0.5;
+  trace.competing_poses[1].margin_nats = 3.5;
   saveTrace(folder / "run.trace", trace);
   const LocalizationTrace loaded = loadTrace(folder / "run.trace");
   EXPECT_EQ(bytesOf(loaded), bytesOf(trace));
@@ -68,10 +68,11 @@ TEST(TraceFile, GivesBackEveryFieldExactly) {
   ASSERT_EQ(loaded.changes.size(), 2u);
   EXPECT_EQ(loaded.changes[0].iteration, 2);
   EXPECT_TRUE(sameOptions(loaded.lastOptions(), other));
-  ASSERT_EQ(loaded.rivals.size(), 2u);
-  EXPECT_EQ(loaded.rivals[1].camera_from_station, trace.rivals[1].camera_from_station);
-  EXPECT_EQ(loaded.rivals[1].ended, LocalizationStatus::kAmbiguous);
-  EXPECT_EQ(loaded.rivals[1].margin_nats, 3.5);
+  ASSERT_EQ(loaded.competing_poses.size(), 2u);
+  EXPECT_EQ(loaded.competing_poses[1].camera_from_station,
+            trace.competing_poses[1].camera_from_station);
+  EXPECT_EQ(loaded.competing_poses[1].similarity, 0.5);
+  EXPECT_EQ(loaded.competing_poses[1].margin_nats, 3.5);
   ASSERT_EQ(loaded.iterations.size(), trace.iterations.size());
   EXPECT_EQ(loaded.digest, trace.digest);
   EXPECT_EQ(loaded.status, trace.status);

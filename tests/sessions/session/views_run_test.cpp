@@ -170,20 +170,6 @@ TEST_F(ViewsRunTest, OldFilesHaveNoneOfIt) {
               HasSubstr("views: names less than two"));
 }
 
-TEST_F(ViewsRunTest, RefusesBeforeAnythingRuns) {
-  LocalizerOptions options;
-  EXPECT_THAT(sessions::viewsRefusal(options), IsEmpty());
-  const auto refusal = [this](auto&& change) {
-    LocalizerOptions changed = sessionOptions(session_, file());
-    change(changed);
-    const Session asked = withOptions(session_, "default", changed);
-    return folder_.message([&] { (void)sessions::runViews(asked, first()); });
-  };
-  EXPECT_THAT(refusal([](auto& o) { o.ambiguity.enabled = true; }),
-              HasSubstr("a search for rivals"));
-  EXPECT_EQ(folder_.fileCount(), 1u) << "the second image alone";
-}
-
 TEST_F(ViewsRunTest, SaysWhyACaseStandsAlone) {
   EXPECT_THAT(sessions::whyAlone(session_, first()), IsEmpty());
   EXPECT_THAT(sessions::whyAlone(withoutRigLink(session_, second()), first()),

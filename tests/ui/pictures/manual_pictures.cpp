@@ -19,7 +19,7 @@
 #include "sessions/run/score_map.h"
 #include "sessions/session/case_run.h"
 #include "ui/manual/manual_window.h"
-#include "ui/panels/rivals_panel.h"
+#include "ui/panels/hypotheses_panel.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/views/image_panel.h"
@@ -263,8 +263,8 @@ void drawFailedRun(const Places& places) {
 void drawStatedRun(const Places& places) {
   Stage stage(places.sessions / "stated.boresight.json");
   stage.run();
-  stage.front("rivals");
-  stage.window().findChild<RivalsPanel*>()->choose(0);
+  stage.front("hypotheses");
+  stage.window().findChild<HypothesesPanel*>()->choose(0);
   stage.rest();
   stage.window().image().view().fit();
   places.save(stage.window(), "stated_run");

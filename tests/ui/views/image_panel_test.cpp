@@ -10,8 +10,8 @@
 #include <QtWidgets>
 
 #include "sessions/run/scene_render.h"
+#include "tests/support/hypotheses_run.h"
 #include "tests/support/loaded_example.h"
-#include "tests/support/rival_run.h"
 #include "ui/run/task_runner.h"
 #include "ui/views/image_view.h"
 
@@ -101,20 +101,20 @@ TEST_F(ImagePanelTest, BesideTheStationOnlyThePixelIsTold) {
   EXPECT_TRUE(text_.isEmpty());
 }
 
-/// A rival and the pose that it is a rival of, each where the core renders it.
-TEST_F(ImagePanelTest, ARivalIsDrawnBesideTheChosenPose) {
-  const auto run = test::runWithRivals();
+/// A competing pose and the result, each where the core renders it.
+TEST_F(ImagePanelTest, AHypothesisIsDrawnWithTheChosenPose) {
+  const auto run = test::runWithHypotheses();
   state_.setSnapshot(run);
-  const sessions::Alternative rival = sessions::alternativesOf(*run).front();
+  const sessions::Alternative competing = sessions::alternativesOf(*run).front();
   const auto bitsOfLayer = [this](LayerId id) -> const std::vector<LayerBits>& {
     return panel_.view().layer(id).bits;
   };
-  EXPECT_TRUE(bitsOfLayer(LayerId::kRivalEdges).empty());
+  EXPECT_TRUE(bitsOfLayer(LayerId::kHypothesisEdges).empty());
   EXPECT_TRUE(panel_.view().legend().empty());
-  state_.setAlternative(rival);
+  state_.setAlternative(competing);
   ASSERT_TRUE(QTest::qWaitFor(
       [&] {
-        return !bitsOfLayer(LayerId::kRivalEdges).empty() &&
+        return !bitsOfLayer(LayerId::kHypothesisEdges).empty() &&
                !bitsOfLayer(LayerId::kChosenEdges).empty();
       },
       kPatienceMs));
@@ -127,18 +127,18 @@ TEST_F(ImagePanelTest, ARivalIsDrawnBesideTheChosenPose) {
     return std::equal(words.begin(), words.end(), expected.edges.words.begin(),
                       expected.edges.words.end());
   };
-  EXPECT_TRUE(isRenderOf(LayerId::kRivalEdges, rival.camera_from_station));
+  EXPECT_TRUE(isRenderOf(LayerId::kHypothesisEdges, competing.camera_from_station));
   EXPECT_TRUE(isRenderOf(LayerId::kChosenEdges, run->camera_from_station));
   EXPECT_EQ(panel_.view().legend().front(),
-            (LegendLine{LayerId::kRivalEdges, QStringLiteral("Rival 1")}));
+            (LegendLine{LayerId::kHypothesisEdges, QStringLiteral("Competing pose 1")}));
   state_.setAlternative(std::nullopt);
-  EXPECT_TRUE(bitsOfLayer(LayerId::kRivalEdges).empty());
+  EXPECT_TRUE(bitsOfLayer(LayerId::kHypothesisEdges).empty());
   EXPECT_TRUE(bitsOfLayer(LayerId::kChosenEdges).empty());
   EXPECT_TRUE(panel_.view().legend().empty());
 }
 
 TEST_F(ImagePanelTest, TheLegendNamesWhatShows) {
-  const auto run = test::runWithRivals();
+  const auto run = test::runWithHypotheses();
   state_.setSnapshot(run);
   const auto corner = [this] {
     const QImage shown = panel_.view().grab().toImage();
@@ -150,10 +150,12 @@ TEST_F(ImagePanelTest, TheLegendNamesWhatShows) {
   const QImage before = corner();
   state_.setAlternative(sessions::alternativesOf(*run).front());
   ASSERT_TRUE(QTest::qWaitFor(
-      [&] { return !panel_.view().layer(LayerId::kRivalEdges).bits.empty() && !tasks_.isBusy(); },
+      [&] {
+        return !panel_.view().layer(LayerId::kHypothesisEdges).bits.empty() && !tasks_.isBusy();
+      },
       kPatienceMs));
   EXPECT_NE(corner(), before);
-  for (const LayerId id : {LayerId::kRivalEdges, LayerId::kChosenEdges})
+  for (const LayerId id : {LayerId::kHypothesisEdges, LayerId::kChosenEdges})
     panel_.setStyle(id, {false, hidden.color, 1.0});
   EXPECT_EQ(corner(), before) << "what is hidden is not named";
 }

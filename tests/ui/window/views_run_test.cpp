@@ -81,18 +81,6 @@ TEST_F(ViewsRunWindowTest, WithoutOthersItSaysWhy) {
   EXPECT_FALSE(together()->toolTip().contains(QStringLiteral("of no rig")));
 }
 
-TEST_F(ViewsRunWindowTest, RefusesOptionsBeforeAnythingRuns) {
-  open(test::sessionOfTwoViews(folder_.path()));
-  LocalizerOptions options = window_.cases().options();
-  options.templates.feature_size_m = 0.0;
-  options.ambiguity.enabled = true;
-  window_.cases().setOptions(QStringLiteral("default"), options);
-  together()->trigger();
-  EXPECT_TRUE(test::has(window_.lastMessage(), "ambiguity.enabled"));
-  EXPECT_NE(window_.run().state(), RunState::kWorking);
-  EXPECT_TRUE(session().runs.empty());
-}
-
 TEST_F(ViewsRunWindowTest, AStopHaltsItAndItGoesOn) {
   open(test::sessionOfTwoViews(folder_.path()));
   together()->trigger();

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/search/twin_test.h"
+#include "core/search/competing_poses.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/edges/direction_distance.h"
+#include "core/search/compass_search.h"
 #include "core/search/pose_evidence.h"
 
 namespace boresight {
@@ -33,7 +34,17 @@ constexpr int kSamePlace = 30;
 constexpr double kVisible = 0.1;
 constexpr double kAlong = 8.0;  ///< edge pixels that go together
 
-/// What a refinement may move a twin by, as shares of the object's size.
+/// Slides shorter than this, of the view's pixels, are refined to the pose found.
+constexpr int kShortestSlide_px = 4;
+/// Poses of which the object's middle is farther from that of the pose found, as a share of the
+/// object's size, are slid.
+constexpr double kSlid = 0.05;
+/// Slides at which the outline is farther from the render's edges, in the mean, are left out.
+constexpr double kAlike_px = 2.0;
+/// Slides of a view, px to either side.
+constexpr int kLongestSlide_px = 36;
+
+/// What a refinement may move a pose by, as shares of the object's size.
 constexpr double kLateral = 0.1;
 constexpr double kDepth = 0.2;
 constexpr double kRotation_rad = 0.3;
@@ -118,7 +129,7 @@ SurfaceAxes surfaceAxesOf(const MeshView& mesh) {
   return made;
 }
 
-Status TwinTest::create(int channels, Arena& arena) {
+Status CompetingPoseTest::create(int channels, Arena& arena) {
   constexpr auto kPixels = static_cast<std::size_t>(kLongestView_px) * kLongestView_px;
   (void)view_edges_.create(kLongestView_px, channels, arena);  // nothing shares its memory
   render_ = createEdgeRender(kLongestView_px, kLongestView_px, kMaxEdgePixels, arena);
@@ -128,7 +139,10 @@ Status TwinTest::create(int channels, Arena& arena) {
   const std::size_t start = arena.mark();
   if (refinement_.create(arena) != Status::kOk) return Status::kArenaTooSmall;
   meter_.create(kPixels, arena);
-  const std::size_t end = arena.mark();
+  const std::size_t measured = arena.mark();
+  arena.rewind(start);
+  sums_.create(arena);  // used before
+  const std::size_t end = std::max(measured, arena.mark());
   arena.rewind(start);
   distance_ = arena.allocate<std::uint8_t>(kPixels);
   apart_ = arena.allocate<std::uint8_t>(kPixels);
@@ -136,25 +150,29 @@ Status TwinTest::create(int channels, Arena& arena) {
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 
-bool TwinTest::begin(const SearchProblem& problem, const Pose& camera_from_station,
-                     EdgeRenderer& renderer) {
+bool CompetingPoseTest::begin(const SearchProblem& problem, const Pose& camera_from_station,
+                              EdgeRenderer& renderer) {
   problem_ = problem;
   renderer_ = &renderer;
   found_ = camera_from_station;
-  count_ = promising_.count = twin_ = 0;
+  count_ = promising_.count = competitor_ = 0;
   scale_ = 0;
   beginView(kScales[0].span_px, Purpose::kFound);
   return phase_ != Phase::kDone;
 }
 
-bool TwinTest::step() {
+bool CompetingPoseTest::step() {
   switch (phase_) {
     case Phase::kView:
       if (view_edges_.step()) {
         const bool finds = purpose_ == Purpose::kFound || purpose_ == Purpose::kFoundAgain;
-        if (!finds) now_ = view_edges_.inView(promising_.poses[static_cast<std::size_t>(twin_)]);
+        if (!finds)
+          now_ = view_edges_.inView(promising_.poses[static_cast<std::size_t>(competitor_)]);
         beginRender(finds ? view_edges_.inView(found_) : now_, purpose_);
       }
+      break;
+    case Phase::kMaps:
+      stepMaps();
       break;
     case Phase::kRender:
       stepRender();
@@ -169,23 +187,24 @@ bool TwinTest::step() {
 }
 
 /// Faces the pose found at a scale.
-void TwinTest::beginView(double span_px, Purpose purpose) {
+void CompetingPoseTest::beginView(double span_px, Purpose purpose) {
   ViewSize size;
   size.span_px = span_px;
-  size.margin_px = kMargin * span_px;
-  size.most_px = kLongestView_px;
+  const bool slides = purpose == Purpose::kFound;
+  size.margin_px = kMargin * span_px + (slides ? kLongestSlide_px : 0);
+  size.most_px = slides ? SlideSums::kMaxView_px : kLongestView_px;
   purpose_ = purpose;
   phase_ = view_edges_.begin(problem_, found_, size) ? Phase::kView : Phase::kDone;
 }
 
-void TwinTest::beginRender(const Pose& view_from_station, Purpose purpose) {
+void CompetingPoseTest::beginRender(const Pose& view_from_station, Purpose purpose) {
   now_ = view_from_station;
   purpose_ = purpose;
   rendering_ = false;
   phase_ = Phase::kRender;
 }
 
-void TwinTest::stepRender() {
+void CompetingPoseTest::stepRender() {
   bool complete = false;
   const Status status = rendering_ ? renderer_->stepWhole(complete)
                                    : renderer_->begin(view_edges_.rays(), now_, render_);
@@ -198,30 +217,19 @@ void TwinTest::stepRender() {
   else if (scale_ == 0)
     nextHypothesis();
   else
-    nextTwin();
+    nextPromising();
 }
 
-void TwinTest::takeRender() {
+void CompetingPoseTest::takeRender() {
   switch (purpose_) {
-    case Purpose::kFound: {
-      found_rank_nats_ = rankOfRender();
-      const SurfaceAxes surface = surfaceAxesOf(problem_.mesh);
-      const Eigen::Vector3d middle_m = now_ * surface.middle_m;
-      const Eigen::Matrix3d axes = now_.matrix() * surface.axes;
-      for (int i = 0; i < 3; ++i)
-        poses_[static_cast<std::size_t>(i)] = turnedAbout(middle_m, halfTurn(axes.col(i)), now_);
-      const Eigen::Matrix3d about_sight = halfTurn(middle_m.normalized());
-      const Eigen::Vector3d normal = about_sight * axes.col(0);
-      poses_[3] = turnedAbout(middle_m, halfTurn(normal) * about_sight, now_);
-      hypothesis_ = -1;
-      nextHypothesis();
+    case Purpose::kFound:
+      takeFound();
       break;
-    }
     case Purpose::kScreen: {
       const double least = found_rank_nats_ - (refined_ ? kBehindRefined_nats : kBehind_nats);
       if (rankOfRender() < least) return nextHypothesis();
       if (refined_) {
-        promising_.poses[static_cast<std::size_t>(promising_.count++)] = view_edges_.inCamera(now_);
+        promising_.add(view_edges_.inCamera(now_));
         return nextHypothesis();
       }
       pass_ = 0;
@@ -231,7 +239,7 @@ void TwinTest::takeRender() {
     case Purpose::kRefine:
       refine();
       break;
-    case Purpose::kTwin:
+    case Purpose::kCompeting:
       markRender(other_.marks);
       beginRender(view_edges_.inView(found_), Purpose::kFoundAgain);
       break;
@@ -245,51 +253,125 @@ void TwinTest::takeRender() {
   }
 }
 
+/// Lists the turned hypotheses; the maps for the slid ones follow.
+void CompetingPoseTest::takeFound() {
+  found_rank_nats_ = rankOfRender();
+  markRender(own_.marks);
+  const SurfaceAxes surface = surfaceAxesOf(problem_.mesh);
+  const Eigen::Vector3d middle_m = now_ * surface.middle_m;
+  const Eigen::Matrix3d axes = now_.matrix() * surface.axes;
+  poses_.count = 0;
+  for (int i = 0; i < 3; ++i) poses_.add(turnedAbout(middle_m, halfTurn(axes.col(i)), now_));
+  const Eigen::Matrix3d about_sight = halfTurn(middle_m.normalized());
+  const Eigen::Vector3d normal = about_sight * axes.col(0);
+  poses_.add(turnedAbout(middle_m, halfTurn(normal) * about_sight, now_));
+  const Camera& camera = view_edges_.view().camera;
+  sums_.begin(camera.width, camera.height, kLongestSlide_px, kLongestSlide_px);
+  direction_ = 0;
+  phase_ = Phase::kMaps;
+}
+
+void CompetingPoseTest::stepMaps() {
+  sums_.takeMap(own_.marks, direction_);
+  if (++direction_ < kEdgeDirections) return;
+  takeSlides();
+  hypothesis_ = -1;
+  nextHypothesis();
+}
+
+/// Slides the outline of the pose found over its own render, and takes the slides at which they are
+/// most alike, apart from each other.
+void CompetingPoseTest::takeSlides() {
+  const Camera& camera = view_edges_.view().camera;
+  std::array<SlideSums::Place, SlideSums::kMaxPlaces> places;
+  std::size_t count = 0;
+  takeEvenly(render_, [&](const EdgePixel& pixel) {
+    places[count++] = {static_cast<std::int16_t>(pixel.x - camera.width / 2),
+                       static_cast<std::int16_t>(pixel.y - camera.height / 2),
+                       static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y))};
+  });
+  sums_.add(std::span(places).first(count));
+  const int middle_x = sums_.columns() / 2;
+  const int middle_y = sums_.rows() / 2;
+  const double most = kAlike_px / SlideSums::kStep_px * static_cast<double>(count);
+  std::array<Eigen::Vector2i, kMostSlides + 1> taken = {Eigen::Vector2i(middle_x, middle_y)};
+  const double depth_m = (now_ * problem_.scene.centre()).z();
+  for (int slides = 1; slides <= kMostSlides; ++slides) {
+    Eigen::Vector2i& best = taken[static_cast<std::size_t>(slides)];
+    if (!bestSlide(std::span(taken).first(static_cast<std::size_t>(slides)), most, best)) break;
+    Pose slid = now_;
+    slid.translation_m.x() += (best.x() - middle_x) * depth_m / camera.fx;
+    slid.translation_m.y() += (best.y() - middle_y) * depth_m / camera.fy;
+    poses_.add(slid);
+  }
+}
+
+/// The peak with the least sum that is apart from those taken; false where none is within `most`.
+bool CompetingPoseTest::bestSlide(std::span<const Eigen::Vector2i> taken, double most,
+                                  Eigen::Vector2i& best) const {
+  double least = most;
+  bool found = false;
+  for (int row = 0; row < sums_.rows(); ++row) {
+    for (int column = 0; column < sums_.columns(); ++column) {
+      if (sums_.sum(column, row) > least || !sums_.isPeak(column, row)) continue;
+      const Eigen::Vector2i slide(column, row);
+      const bool is_apart = std::all_of(taken.begin(), taken.end(), [&](const auto& other) {
+        return (slide - other).squaredNorm() >= kShortestSlide_px * kShortestSlide_px;
+      });
+      if (!is_apart || (found && sums_.sum(column, row) >= least)) continue;
+      best = slide;
+      least = sums_.sum(column, row);
+      found = true;
+    }
+  }
+  return found;
+}
+
 /// Moves the hypothesis towards the image's edges, from its render.
-void TwinTest::refine() {
+void CompetingPoseTest::refine() {
   const Scale& scale = kScales[static_cast<std::size_t>(scale_)];
   Pose moved = now_;
   const bool met = refinement_.refine(view_edges_.edges(), problem_.mesh, render_, priorOf(now_),
                                       scale.radius_px[static_cast<std::size_t>(pass_)], moved);
-  if (!met) return scale_ == 0 ? nextHypothesis() : nextTwin();
+  if (!met) return scale_ == 0 ? nextHypothesis() : nextPromising();
   now_ = moved;
   if (++pass_ < scale.passes) return beginRender(now_, Purpose::kRefine);
   if (scale_ == 0) {
     refined_ = true;
     return beginRender(now_, Purpose::kScreen);
   }
-  promising_.poses[static_cast<std::size_t>(twin_)] = view_edges_.inCamera(now_);
-  if (scale_ == kLastScale) return beginRender(now_, Purpose::kTwin);
+  promising_.poses[static_cast<std::size_t>(competitor_)] = view_edges_.inCamera(now_);
+  if (scale_ == kLastScale) return beginRender(now_, Purpose::kCompeting);
   pass_ = 0;
   ++scale_;
   beginView(kScales[static_cast<std::size_t>(scale_)].span_px, Purpose::kRefine);
 }
 
-void TwinTest::nextHypothesis() {
-  if (++hypothesis_ < kMostTwins) {
+void CompetingPoseTest::nextHypothesis() {
+  if (++hypothesis_ < poses_.count) {
     refined_ = false;
-    return beginRender(poses_[static_cast<std::size_t>(hypothesis_)], Purpose::kScreen);
+    return beginRender(poses_.poses[static_cast<std::size_t>(hypothesis_)], Purpose::kScreen);
   }
-  twin_ = -1;
-  nextTwin();
+  competitor_ = -1;
+  nextPromising();
 }
 
-void TwinTest::nextTwin() {
+void CompetingPoseTest::nextPromising() {
   phase_ = Phase::kDone;
-  if (++twin_ >= promising_.count) return;
+  if (++competitor_ >= promising_.count) return;
   scale_ = 1;
   pass_ = 0;
   beginView(kScales[1].span_px, Purpose::kRefine);
 }
 
-double TwinTest::rankOfRender() {
+double CompetingPoseTest::rankOfRender() {
   meter_.clear();
   addPlaces(render_, meter_);
   const ContourEvidence evidence = meter_.measure(view_edges_.edges(), view_edges_.view().span_px);
   return evidence.strongest_nats() + 0.5 * evidence.weakest_nats();
 }
 
-void TwinTest::markRender(DirectedEdges& marks) const {
+void CompetingPoseTest::markRender(DirectedEdges& marks) const {
   marks.width = render_.edges.width;
   marks.height = render_.edges.height;
   const auto pixels = static_cast<std::ptrdiff_t>(marks.width) * marks.height;
@@ -302,7 +384,7 @@ void TwinTest::markRender(DirectedEdges& marks) const {
 }
 
 /// Places of the direction at hand that are not the other pose's.
-void TwinTest::addAlone(const DirectedEdges& others, Prediction& prediction) {
+void CompetingPoseTest::addAlone(const DirectedEdges& others, Prediction& prediction) {
   const DirectedEdges& places = prediction.marks;
   const DirectedEdges& image = view_edges_.edges();
   distanceToDirection(others, direction_, apart_);
@@ -320,25 +402,35 @@ void TwinTest::addAlone(const DirectedEdges& others, Prediction& prediction) {
   }
 }
 
-void TwinTest::compareDirection() {
+void CompetingPoseTest::compareDirection() {
   distanceToDirection(view_edges_.edges(), direction_, distance_);
   addAlone(other_.marks, own_);
   addAlone(own_.marks, other_);
   if (++direction_ == kEdgeDirections) conclude();
 }
 
-void TwinTest::conclude() {
+void CompetingPoseTest::conclude() {
   const double least = std::min(own_.share(), other_.share());
-  if (least >= kVisible) {
-    Twin& twin = twins_[static_cast<std::size_t>(count_++)];
-    twin.camera_from_station = promising_.poses[static_cast<std::size_t>(twin_)];
-    twin.similarity = 1.0 - 0.5 * (own_.share() + other_.share());
-    twin.margin_nats = (own_.nats - other_.nats) / kAlong;
+  // A pose that is slid competes even when it shows the same: the ends are out of sight.
+  if (least >= kVisible || slid_px() >= kSlid * view_edges_.view().span_px) {
+    CompetingPose& pose = competing_[static_cast<std::size_t>(count_++)];
+    pose.camera_from_station = promising_.poses[static_cast<std::size_t>(competitor_)];
+    pose.similarity = 1.0 - 0.5 * (own_.share() + other_.share());
+    pose.margin_nats = (own_.nats - other_.nats) / kAlong;
   }
-  nextTwin();
+  nextPromising();
 }
 
-PosePrior TwinTest::priorOf(const Pose& view_from_station) const {
+/// How far the object's middle is from that of the pose found, px of the view.
+double CompetingPoseTest::slid_px() const {
+  const Pose& camera_from_station = promising_.poses[static_cast<std::size_t>(competitor_)];
+  const Eigen::Vector3d found_m = view_edges_.inView(found_) * problem_.scene.centre();
+  const Eigen::Vector3d other_m = view_edges_.inView(camera_from_station) * problem_.scene.centre();
+  return view_edges_.view().camera.fx *
+         (found_m.head<2>() / found_m.z() - other_m.head<2>() / other_m.z()).norm();
+}
+
+PosePrior CompetingPoseTest::priorOf(const Pose& view_from_station) const {
   const double size_m = problem_.scene.diagonal();
   PosePrior prior;
   prior.camera_from_station = view_from_station;

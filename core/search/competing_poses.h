@@ -9,27 +9,31 @@
 #include "core/base/arena.h"
 #include "core/refine/outline_refinement.h"
 #include "core/render/edge_render.h"
+#include "core/search/slide_sums.h"
 #include "core/search/view_edges.h"
 
 namespace boresight {
 
-/// A pose of a near-symmetry of the mesh, refined on the image, next to the pose that was found.
-struct Twin {
+/// A pose other than the one found that shows about the same edges, refined on the image.
+struct CompetingPose {
   Pose camera_from_station;  ///< refined
   double similarity = 0.0;   ///< share of the rendered edges that both poses have in common
-  /// Evidence of the pose found beyond the twin's: of the edges that one of both alone predicts.
+  /// Evidence of the pose found beyond this one's: of the edges that one of both alone predicts.
   double margin_nats = 0.0;
 };
 
 /// Looks for poses that show about the same edges as the pose found: half turns about the principal
-/// axes of the matched surface, and the tilt of its flattest side reversed about the line of sight
-/// (the second pose of a plane: Oberkampf et al. 1996). Those that the image supports about as well
-/// at a small scale are refined on its edges, and compared with the pose found where the renders
-/// differ. A twin whose render is the same within some pixels of a small view is none: the mesh is
-/// symmetric as far as the image can tell.
-class TwinTest {
+/// axes of the matched surface, the tilt of its flattest side reversed about the line of sight (the
+/// second pose of a plane: Oberkampf et al. 1996), and slides at which the outline lies near edges
+/// of its own render again (repeated features, long handles). Those that the image supports about
+/// as well at a small scale are refined on its edges, and compared with the pose found where the
+/// renders differ. A pose whose render is the same within some pixels of a small view does not
+/// compete: the mesh is symmetric as far as the image can tell.
+class CompetingPoseTest {
  public:
-  static constexpr int kMostTwins = 4;          ///< poses looked at
+  static constexpr int kTurned = 4;      ///< poses looked at, turned
+  static constexpr int kMostSlides = 4;  ///< poses looked at, slid
+  static constexpr int kMostPoses = kTurned + kMostSlides;
   static constexpr int kLongestView_px = 312;   ///< of views
   static constexpr int kMaxEdgePixels = 12000;  ///< of renders
 
@@ -39,18 +43,18 @@ class TwinTest {
   /// steps. False when the scene is not in sight.
   [[nodiscard]] bool begin(const SearchProblem& problem, const Pose& camera_from_station,
                            EdgeRenderer& renderer);
-  /// One bounded slice; true when twins() is complete.
+  /// One bounded slice; true when poses() is complete.
   [[nodiscard]] bool step();
 
   /// Those whose renders differ visibly.
-  std::span<const Twin> twins() const {
-    return std::span(twins_).first(static_cast<std::size_t>(count_));
+  std::span<const CompetingPose> poses() const {
+    return std::span(competing_).first(static_cast<std::size_t>(count_));
   }
 
  private:
-  enum class Phase : std::uint8_t { kView = 0, kRender, kCompare, kDone };
+  enum class Phase : std::uint8_t { kView = 0, kMaps, kRender, kCompare, kDone };
   /// What is made of a render once it is complete.
-  enum class Purpose : std::uint8_t { kFound = 0, kScreen, kRefine, kTwin, kFoundAgain };
+  enum class Purpose : std::uint8_t { kFound = 0, kScreen, kRefine, kCompeting, kFoundAgain };
 
   /// The places that a pose predicts, and what the image says of those that it alone predicts.
   struct Prediction {
@@ -62,22 +66,28 @@ class TwinTest {
   };
 
   struct PoseList {
-    std::array<Pose, kMostTwins> poses;
+    std::array<Pose, kMostPoses> poses;
     int count = 0;
+    void add(const Pose& pose) { poses[static_cast<std::size_t>(count++)] = pose; }
   };
 
   void beginView(double span_px, Purpose purpose);
   void beginRender(const Pose& view_from_station, Purpose purpose);
   void stepRender();
   void takeRender();
+  void takeFound();
+  void stepMaps();
+  void takeSlides();
+  bool bestSlide(std::span<const Eigen::Vector2i> taken, double most, Eigen::Vector2i& best) const;
   void nextHypothesis();
-  void nextTwin();
+  void nextPromising();
   void refine();
   double rankOfRender();
   void markRender(DirectedEdges& marks) const;
   void addAlone(const DirectedEdges& others, Prediction& prediction);
   void compareDirection();
   void conclude();
+  double slid_px() const;
   PosePrior priorOf(const Pose& view_from_station) const;
 
   SearchProblem problem_;
@@ -87,7 +97,8 @@ class TwinTest {
   EdgeRender render_;
   OutlineRefinement refinement_;
   ContourEvidenceMeter meter_;
-  Prediction own_, other_;            ///< of the pose found, of its near-symmetry
+  SlideSums sums_;
+  Prediction own_, other_;            ///< of the pose found, of the competing one
   std::span<std::uint8_t> distance_;  ///< to the image's edges
   std::span<std::uint8_t> apart_;     ///< to the other pose's places
 
@@ -98,14 +109,14 @@ class TwinTest {
   int pass_ = 0;       ///< of the scale
   int direction_ = 0;  ///< compared next
   double found_rank_nats_ = 0.0;
-  std::array<Pose, kMostTwins> poses_;  ///< in the view
+  PoseList poses_;  ///< hypotheses, in the view
   int hypothesis_ = 0;
   bool refined_ = false;  ///< the hypothesis, at the first scale
   Pose now_;              ///< view_from_station of the hypothesis at hand
   PoseList promising_;
-  int twin_ = 0;
+  int competitor_ = 0;  ///< of the promising ones
 
-  std::array<Twin, kMostTwins> twins_;
+  std::array<CompetingPose, kMostPoses> competing_;
   int count_ = 0;
 };
 

@@ -10,14 +10,14 @@ class QTableView;
 
 namespace boresight::ui {
 
-/// What else a run weighed: rivals of its result, candidates, rolled hypotheses. The chosen one is
-/// drawn on the image beside the pose that the run went on with; one that belongs to an iteration
-/// takes the cursor there, and the cursor on an iteration of a rival chooses that rival.
-class RivalsPanel : public QWidget {
+/// What else a run compared: poses that compete with its result, candidates, rolled hypotheses. The
+/// chosen one is drawn on the image with the pose that the run went on with; one that belongs to an
+/// iteration takes the cursor there.
+class HypothesesPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit RivalsPanel(ViewState& view, QWidget* parent = nullptr);
+  explicit HypothesesPanel(ViewState& view, QWidget* parent = nullptr);
 
   const AlternativesModel& model() const { return model_; }
   /// -1: none.
@@ -32,7 +32,7 @@ class RivalsPanel : public QWidget {
   ViewState& view_;
   AlternativesModel model_;
   QTableView* table_ = nullptr;
-  bool showing_ = false;  ///< the table follows the view state, not a person
+  bool showing_ = false;  ///< the table follows the view state, not the operator
 };
 
 }  // namespace boresight::ui

@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole runs on features that repeat: no pose one pitch off is taken for the truth.
+// Whole runs that begin with a search, also on features that repeat: no pose one pitch off is taken
+// for the truth.
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/base/math.h"
-#include "core/localizer/competing_poses.h"
+#include "core/localizer/acceptance.h"
 #include "core/localizer/localizer.h"
 #include "core/localizer/pose_change.h"
-#include "core/localizer/run_digest.h"
 #include "tests/core/localizer/rail_scene.h"
 #include "tests/core/localizer/scene.h"
 
 namespace boresight::test {
 namespace {
 
-LocalizerOptions weighing() {
-  LocalizerOptions options = defaultProfile();
-  options.ambiguity.enabled = true;
-  return options;
-}
-
 bool isRight(const Case& scene, const Pose& estimate) {
   const PitchError error = pitchError(scene, estimate);
   return std::abs(error.pitches) < 0.1 && error.rest_m < 0.0008;
 }
 
-TEST(LocalizerRivals, SeeEndsThatTellWhichPitchItIs) {
+LocalizationStatus endOf(const Case& scene, const LocalizerOptions& options) {
+  OwnedRun run(scene.problem(), options);
+  run.finish();
+  return run.localizer.workspace().status;
+}
+
+TEST(LocalizerSearch, RailWhoseEndsAreSeen_IsFoundAtItsPitch) {
   int wrong_without = 0;
   for (const double off_pitches : {-1.5, -1.0, -0.5, 0.0, 0.75, 1.25}) {
     for (const std::uint64_t seed : {1u, 2u}) {
@@ -39,25 +39,25 @@ TEST(LocalizerRivals, SeeEndsThatTellWhichPitchItIs) {
       if (before.status == LocalizationStatus::kConverged &&
           !isRight(scene, before.camera_from_station))
         ++wrong_without;
-      OwnedRun run(scene.problem(), weighing());
+      OwnedRun run(scene.problem(), defaultProfile());
       EXPECT_GT(run.finish(), 0);
       const Workspace& workspace = run.localizer.workspace();
       EXPECT_STREQ(localizationStatusText(workspace.status), "converged");
       EXPECT_TRUE(isRight(scene, workspace.camera_from_station));
-      EXPECT_GE(workspace.rivals.size(), 1u);
+      EXPECT_GE(workspace.competing_poses.size(), 0u);
     }
   }
   EXPECT_GE(wrong_without, 3);  // else these seeds show nothing
 }
 
 /// Whatever pitch they lock on, they say so, and nothing is returned but the seed.
-TEST(LocalizerRivals, SayThatItStaysAmbiguous) {
+TEST(LocalizerSearch, RailWithoutVisibleEnds_IsAmbiguous) {
   int ambiguous = 0;
   for (const Ends ends : {Ends::kHidden, Ends::kOutside}) {
     for (const double off_pitches : {0.0, 0.5, -0.75}) {
       SCOPED_TRACE(off_pitches);
       const Case scene = railCase(ends, off_pitches, 1.7, 3);
-      OwnedRun run(scene.problem(), weighing());
+      OwnedRun run(scene.problem(), defaultProfile());
       EXPECT_GT(run.finish(), 0);
       const Workspace& workspace = run.localizer.workspace();
       // What is left to see of the hidden ends may do.
@@ -69,11 +69,10 @@ TEST(LocalizerRivals, SayThatItStaysAmbiguous) {
       EXPECT_EQ(workspace.camera_from_station, scene.seed);
       const Pose best = workspace.iteration->camera_from_station;
       double nearest_pitches = 1e9;
-      for (const Rival& rival : workspace.rivals) {
-        if (rival.ended != LocalizationStatus::kConverged) continue;
-        if (rival.margin_nats >= CompetingPoses::kMinMargin_nats) continue;
+      for (const CompetingPose& pose : workspace.competing_poses) {
+        if (pose.margin_nats >= kLeastMargin_nats) continue;
         const double apart =
-            pitchError(scene, rival.camera_from_station).pitches - pitchError(scene, best).pitches;
+            pitchError(scene, pose.camera_from_station).pitches - pitchError(scene, best).pitches;
         nearest_pitches = std::min(nearest_pitches, std::abs(apart));
       }
       EXPECT_NEAR(nearest_pitches, 1.0, 0.1);
@@ -82,100 +81,26 @@ TEST(LocalizerRivals, SayThatItStaysAmbiguous) {
   EXPECT_GE(ambiguous, 4);
 }
 
-/// The true place lies outside what was declared: nothing inside is taken for it.
-TEST(LocalizerRivals, RefuseWhenTheBestPoseIsOutsideTheSeedsUncertainty) {
+/// The true place lies outside what was stated: nothing inside is taken for it.
+TEST(LocalizerSearch, RailWhoseTruthIsOutsideTheUncertainty_IsRefused) {
   const Case scene = railCase(Ends::kSeen, 1.0, 0.6, 2);
-  LocalizerOptions options = weighing();
-  options.search.enabled = false;
-  options.loop.leave_factor = 1.1;
   OwnedRun without(scene.problem(), withoutSearch());
   without.finish();
   ASSERT_EQ(without.localizer.workspace().status, LocalizationStatus::kConverged);
   ASSERT_FALSE(isRight(scene, without.localizer.workspace().camera_from_station));
-  OwnedRun run(scene.problem(), options);
-  run.finish();
-  EXPECT_STREQ(localizationStatusText(run.localizer.workspace().status), "left_uncertainty");
+  EXPECT_STRNE(localizationStatusText(endOf(scene, defaultProfile())), "converged");
 }
 
 /// What the seed rules out is no ambiguity.
-TEST(LocalizerRivals, TakeTheSeedsWordWhereTheImageHasNone) {
+TEST(LocalizerSearch, RailWhoseSeedExcludesOtherPitches_IsNotAmbiguous) {
   const Case scene = railCase(Ends::kOutside, 0.0, 0.6, 2);
-  OwnedRun run(scene.problem(), weighing());
+  OwnedRun run(scene.problem(), defaultProfile());
   run.finish();
   const Workspace& workspace = run.localizer.workspace();
   EXPECT_STREQ(localizationStatusText(workspace.status), "converged");
   EXPECT_TRUE(isRight(scene, workspace.camera_from_station));
-  EXPECT_GE(workspace.rivals.size(), 1u);
+  EXPECT_GE(workspace.competing_poses.size(), 0u);
 }
-
-/// The lead's last iteration is done again: the run ends with the bits that it had.
-TEST(LocalizerRivals, LeaveAPoseThatWasRightAsItIs) {
-  for (const Case& scene : {railCase(Ends::kSeen, 0.0, 1.7, 1), stationCase(1), occludedCase(2)}) {
-    OwnedRun without(scene.problem(), defaultProfile());
-    without.finish();
-    OwnedRun run(scene.problem(), weighing());
-    run.finish();
-    const Workspace& before = without.localizer.workspace();
-    const Workspace& after = run.localizer.workspace();
-    ASSERT_EQ(before.status, LocalizationStatus::kConverged);
-    EXPECT_EQ(after.status, LocalizationStatus::kConverged);
-    EXPECT_EQ(after.camera_from_station, before.camera_from_station);
-    EXPECT_EQ(after.covariance, before.covariance);
-    EXPECT_EQ(after.support.covered, before.support.covered);
-    EXPECT_EQ(after.iteration->camera_from_station, before.camera_from_station);
-    EXPECT_EQ(after.iteration->refinement.rms_px, before.iteration->refinement.rms_px);
-    if (after.rivals.empty()) {
-      EXPECT_EQ(after.iterations, before.iterations);
-    } else {
-      EXPECT_GT(after.attempts, before.attempts);
-    }
-  }
-}
-
-TEST(LocalizerRivals, HoldWithoutRefinementToo) {
-  LocalizerOptions options = paperProfile();
-  options.support.gate = true;
-  options.ambiguity.enabled = true;
-  const Case scene = railCase(Ends::kSeen, 1.0, 1.7, 4);
-  OwnedRun run(scene.problem(), options);
-  EXPECT_GT(run.finish(), 0);
-  const Workspace& workspace = run.localizer.workspace();
-  if (workspace.status == LocalizationStatus::kConverged) {
-    EXPECT_LT(std::abs(pitchError(scene, workspace.camera_from_station).pitches), 0.2);
-  }
-}
-
-TEST(LocalizerRivals, GiveTheSameBitsWithAnyKernelsAndWorkers) {
-  const Case scene = railCase(Ends::kHidden, 0.5, 1.7, 4);
-  const LocalizerOptions options = weighing();
-  const LocalizationProblem problem = scene.problem();
-  OwnedRun plain(problem, options);
-  plain.finish();
-  for (const int workers : {1, 3})
-    EXPECT_EQ(sharedDigest(problem, options, workers), plain.localizer.digest()) << workers;
-}
-
-/// Whatever is left of them, loops and memory are bounded.
-TEST(LocalizerRivals, EndWithAsManyRivalsAsAllowed) {
-  const Case scene = railCase(Ends::kOutside, 0.5, 3.0, 5);
-  OwnedRun run(scene.problem(), weighing());
-  EXPECT_GT(run.finish(), 0);
-  EXPECT_GE(run.localizer.workspace().rivals.size(), 1u);
-  EXPECT_LE(run.localizer.workspace().rivals.size(), std::size_t{CompetingPoses::kMaxRivals});
-  EXPECT_LE(run.localizer.highWaterBytes(), run.memory.size());
-}
-
-TEST(LocalizerRivals, AreHeardOfInDigests) {
-  LocalizerOptions options = defaultProfile();
-  DigestWriter plain;
-  digestOptions(options, plain);
-  options.ambiguity.enabled = true;
-  DigestWriter changed;
-  digestOptions(options, changed);
-  EXPECT_NE(changed.digest(), plain.digest());
-}
-
-// Whole runs that begin with a search.
 
 /// The seed turned about the view through the station's middle, as its uncertainty says.
 Case turnedCase(std::uint64_t seed, double turn_rad) {
@@ -194,12 +119,6 @@ void expectTruth(const Case& scene, const Workspace& workspace) {
   const PoseError error = poseError(scene.solid, scene.truth, workspace.camera_from_station);
   EXPECT_LT(error.centre_m, 0.00012);  // measured: 0.105 mm, a fifth of a pixel
   EXPECT_LT(error.angle_rad, 0.06 * kDegree_rad);
-}
-
-LocalizationStatus endOf(const Case& scene, const LocalizerOptions& options) {
-  OwnedRun run(scene.problem(), options);
-  run.finish();
-  return run.localizer.workspace().status;
 }
 
 TEST(LocalizerSearch, TurnedSeed_IsFoundWhenTheUncertaintySaysSo) {

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/search/twin_test.h"
+#include "core/search/competing_poses.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/base/math.h"
-#include "tests/core/localizer/scene.h"
+#include "tests/core/localizer/rail_scene.h"
 
 namespace boresight::test {
 namespace {
 
-/// A plate with two equal boxes; `mark` adds a cylinder beside one of them, which a half turn about
-/// z brings beside the other.
+/// A plate with two equal boxes; `mark` adds a cylinder next to one of them, which a half turn
+/// about z brings next to the other.
 Solid plateWithTwoBoxes(bool mark) {
   Solid solid;
   solid.addBox(0.0, 0.0, 0.08, 0.05, 0.0, 0.0, 0.01, 0.5);
@@ -37,7 +39,7 @@ struct Shown {
   Shown& operator=(const Shown&) = delete;
 };
 
-std::vector<Twin> twinsOf(const Case& scene) {
+std::vector<CompetingPose> competingOf(const Case& scene) {
   const LocalizationProblem from = scene.problem();
   const SearchProblem problem{from.image,
                               from.color,
@@ -51,40 +53,52 @@ std::vector<Twin> twinsOf(const Case& scene) {
   Arena arena(block);
   MeshAdjacency adjacency;
   EdgeRenderer renderer;
-  TwinTest test;
+  CompetingPoseTest test;
   EXPECT_EQ(buildAdjacency(from.mesh, arena, adjacency), Status::kOk);
-  EXPECT_EQ(renderer.create(from.mesh, adjacency, TwinTest::kLongestView_px,
-                            TwinTest::kLongestView_px, RenderOptions(), arena),
+  EXPECT_EQ(renderer.create(from.mesh, adjacency, CompetingPoseTest::kLongestView_px,
+                            CompetingPoseTest::kLongestView_px, RenderOptions(), arena),
             Status::kOk);
   EXPECT_EQ(test.create(ColorView::kChannels, arena), Status::kOk);
   int steps = 0;
   if (test.begin(problem, scene.truth, renderer))
     while (!test.step() && steps < 100000) ++steps;
   EXPECT_LT(steps, 100000);
-  return {test.twins().begin(), test.twins().end()};
+  return {test.poses().begin(), test.poses().end()};
 }
 
-TEST(TwinTest, MeshThatAHalfTurnLeavesAsItIs_HasNoTwin) {
+TEST(CompetingPoses, MeshThatAHalfTurnLeavesAsItIs_HasNone) {
   const Shown shown(plateWithTwoBoxes(false), plateWithTwoBoxes(false));
-  EXPECT_TRUE(twinsOf(shown.scene).empty());
+  EXPECT_TRUE(competingOf(shown.scene).empty());
 }
 
-TEST(TwinTest, MarkThatTheImageShows_LeavesNoTwinOfAsMuchEvidence) {
+TEST(CompetingPoses, MarkThatTheImageShows_LeavesNoneOfAsMuchEvidence) {
   const Shown shown(plateWithTwoBoxes(true), plateWithTwoBoxes(true));
-  for (const Twin& twin : twinsOf(shown.scene)) EXPECT_GT(twin.margin_nats, 5.0);
+  for (const CompetingPose& pose : competingOf(shown.scene)) EXPECT_GT(pose.margin_nats, 5.0);
 }
 
-TEST(TwinTest, PoseTurnedByHalfATurn_HasTheTruthForATwinOfMoreEvidence) {
+TEST(CompetingPoses, PoseTurnedByHalfATurn_CompetesWithTheTruthWhichHasMoreEvidence) {
   Shown shown(plateWithTwoBoxes(true), plateWithTwoBoxes(true));
   const Pose truth = shown.scene.truth;
   shown.scene.truth.rotation = truth.rotation * rotationExp({0.0, 0.0, kPi});
-  const std::vector<Twin> twins = twinsOf(shown.scene);
-  ASSERT_FALSE(twins.empty());
-  EXPECT_LT(twins[0].margin_nats, -5.0);
-  EXPECT_LT(twins[0].similarity, 0.95);
+  const std::vector<CompetingPose> competing = competingOf(shown.scene);
+  ASSERT_FALSE(competing.empty());
+  EXPECT_LT(competing[0].margin_nats, -5.0);
+  EXPECT_LT(competing[0].similarity, 0.95);
   EXPECT_LT(meanDisplacement_px(shown.scene.solid, shown.scene.camera, truth,
-                                twins[0].camera_from_station),
+                                competing[0].camera_from_station),
             2.0);
+}
+
+TEST(CompetingPoses, RailWithoutVisibleEnds_CompetesWithItselfOnePitchOn) {
+  const Case scene = railCase(Ends::kOutside, 0.0, 1.7, 3);
+  const std::vector<CompetingPose> competing = competingOf(scene);
+  ASSERT_FALSE(competing.empty());
+  double nearest_pitches = 1e9;
+  for (const CompetingPose& pose : competing) {
+    const double pitches = std::abs(pitchError(scene, pose.camera_from_station).pitches);
+    nearest_pitches = std::min(nearest_pitches, std::abs(pitches - 1.0));
+  }
+  EXPECT_LT(nearest_pitches, 0.1);
 }
 
 TEST(SurfaceAxes, OfABox_AreItsOwnTheShortestFirst) {

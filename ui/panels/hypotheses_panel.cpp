@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/panels/rivals_panel.h"
+#include "ui/panels/hypotheses_panel.h"
 
 #include <QtWidgets>
 
@@ -9,18 +9,17 @@ namespace boresight::ui {
 
 using sessions::AlternativeKind;
 
-RivalsPanel::RivalsPanel(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
+HypothesesPanel::HypothesesPanel(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(4, 4, 4, 4);
-  table_ = named(new QTableView(this), "rivals");
-  table_->setAccessibleName(tr("Rivals, candidates and rolled hypotheses"));
+  table_ = named(new QTableView(this), "hypotheses");
+  table_->setAccessibleName(tr("Competing poses, candidates and rolled hypotheses"));
   setUpTable(*table_, model_);
   column->addWidget(table_);
   auto* hint = new EmptyHint(*table_);
   hint->setText(
-      tr("Poses that a run weighs beside the one it goes on with: rivals of its result "
-         "(ambiguity.enabled), candidates of the search, rolled hypotheses. The chosen row is "
-         "drawn on the image."));
+      tr("Other poses that a run compares: those that compete with its result, candidates of the "
+         "search, rolled hypotheses. The chosen row is drawn on the image."));
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& current) {
             if (!showing_) choose(current.isValid() ? current.row() : -1);
@@ -29,13 +28,13 @@ RivalsPanel::RivalsPanel(ViewState& view, QWidget* parent) : QWidget(parent), vi
   connect(table_, &QTableView::clicked, this, [this](const QModelIndex& row) {
     if (!view_.alternative()) choose(row.row());
   });
-  view_.onChange(ViewChange::kSnapshot, this, &RivalsPanel::showSnapshot);
-  view_.onChange(ViewChange::kCursor, this, &RivalsPanel::showCursor);
-  view_.onChange(ViewChange::kAlternative, this, &RivalsPanel::showAlternative);
+  view_.onChange(ViewChange::kSnapshot, this, &HypothesesPanel::showSnapshot);
+  view_.onChange(ViewChange::kCursor, this, &HypothesesPanel::showCursor);
+  view_.onChange(ViewChange::kAlternative, this, &HypothesesPanel::showAlternative);
   showSnapshot();
 }
 
-void RivalsPanel::choose(int row) {
+void HypothesesPanel::choose(int row) {
   if (row < 0 || row >= model_.rowCount()) {
     view_.setAlternative(std::nullopt);
     return;
@@ -44,40 +43,31 @@ void RivalsPanel::choose(int row) {
   const QScopedValueRollback<bool> from_here(showing_, true);
   const auto& run = *view_.snapshot();
   const int last = static_cast<int>(run.iterations.size()) - 1;
-  const int cursor = view_.cursor().iteration;
-  const bool of_rival = chosen.kind == AlternativeKind::kRival &&
-                        sessions::rivalOfIteration(run, model_.rows(), cursor) == chosen.number - 1;
-  if (!of_rival)
-    view_.setCursor({chosen.iteration < 0 ? last : chosen.iteration, Stage::kFinished});
+  view_.setCursor({chosen.iteration < 0 ? last : chosen.iteration, Stage::kFinished});
   view_.setAlternative(chosen);
   select(row);
 }
 
-void RivalsPanel::showSnapshot() {
+void HypothesesPanel::showSnapshot() {
   const QScopedValueRollback<bool> follows(showing_, true);
   model_.setAlternatives(view_.snapshot() ? sessions::alternativesOf(*view_.snapshot())
                                           : std::vector<sessions::Alternative>());
   table_->resizeColumnsToContents();
 }
 
-void RivalsPanel::showCursor() {
+void HypothesesPanel::showCursor() {
   if (showing_ || !view_.snapshot()) return;
   const int iteration = view_.cursor().iteration;
-  const int rival = sessions::rivalOfIteration(*view_.snapshot(), model_.rows(), iteration);
-  if (rival >= 0) {
-    choose(rival);
-    return;
-  }
   view_.setAlternative(std::nullopt);
   const int first = model_.firstRowOf(iteration);
   if (first >= 0) table_->scrollTo(model_.index(first, 0), QAbstractItemView::PositionAtTop);
 }
 
-void RivalsPanel::showAlternative() {
+void HypothesesPanel::showAlternative() {
   if (!view_.alternative()) select(-1);
 }
 
-void RivalsPanel::select(int row) {
+void HypothesesPanel::select(int row) {
   const QScopedValueRollback<bool> follows(showing_, true);
   if (row < 0) {
     table_->setCurrentIndex({});

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/localizer/acceptance.h"
+
+#include <algorithm>
+
+#include "core/localizer/pose_change.h"
+
+namespace boresight {
+
+LocalizationStatus judgeSupport(const Workspace& measured, const Seed& seed,
+                                const Pose& camera_from_station, const LocalizerOptions& options,
+                                bool searches) {
+  const SupportOptions& support = options.support;
+  if (searches && leftUncertainty(seed, camera_from_station, options.loop.leave_factor))
+    return LocalizationStatus::kLeftUncertainty;
+  if (!(searches ? isProbable(measured.probability, support)
+                 : isSupported(measured.support, support)))
+    return LocalizationStatus::kNotSupported;
+  if (support.gate && !measured.edge_width.isSharp()) return LocalizationStatus::kBlurred;
+  if (support.gate && measured.focal.disagrees()) return LocalizationStatus::kCameraMismatch;
+  return LocalizationStatus::kConverged;
+}
+
+LocalizationStatus judgeCompetingPoses(std::span<const CompetingPose> poses, const Seed& seed,
+                                       const LocalizerOptions& options) {
+  const bool ambiguous = std::any_of(poses.begin(), poses.end(), [&](const CompetingPose& pose) {
+    const bool outside = leftUncertainty(seed, pose.camera_from_station, options.loop.leave_factor);
+    return pose.margin_nats < (outside ? kLeastMarginOutside_nats : kLeastMargin_nats);
+  });
+  return ambiguous ? LocalizationStatus::kAmbiguous : LocalizationStatus::kConverged;
+}
+
+}  // namespace boresight
