@@ -4,10 +4,11 @@
 # Computes every case in the folder CASES (see cases.cpp) in another way than it was, and says which
 # digest or exit status differs. COLUMN is one of
 #   release                      the flight driver of the build folder BUILD
-#   debug native clang powerpc   a flight driver of its own, built in BUILD/same_bits: without
-#                                optimization, for this very processor, by another compiler, for a
+#   debug native clang powerpc   a flight driver of its own, built in BUILD/same_bits: hardly
+#                                optimized, for this very processor, by another compiler, for a
 #                                32-bit big-endian processor that is emulated
 #   whs ARGUMENT...              whs of BUILD itself with further arguments
+# With BORESIGHT_ALL set, debug is not optimized at all and powerpc computes every case, not four.
 # Exit status 77: a compiler or the emulator is not installed, and nothing was compared.
 set -euo pipefail
 cases="$2" build="$3"
@@ -37,9 +38,13 @@ buildDriver() {
 
 mkdir -p "$build/same_bits"
 driver=true
+left_out=""
 case "$1" in
   release) command_line=("$build/app/flight/flight_driver") ;;
-  debug) buildDriver debug -DCMAKE_BUILD_TYPE=Debug ;;
+  debug)
+    buildDriver debug -DCMAKE_BUILD_TYPE=Debug \
+      "-DCMAKE_CXX_FLAGS=$([ -n "${BORESIGHT_ALL:-}" ] || echo -Og)"
+    ;;
   native) buildDriver native -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=-march=native ;;
   clang)
     requireProgram clang++ clang
@@ -52,6 +57,7 @@ case "$1" in
     buildDriver powerpc -DCMAKE_BUILD_TYPE=Release \
       -DCMAKE_TOOLCHAIN_FILE="$source_dir/cmake/powerpc-750.cmake"
     command_line=(qemu-ppc -cpu 750 "${command_line[@]}")
+    [ -n "${BORESIGHT_ALL:-}" ] || left_out=" bc_pinhole os_not_converged os_rational "
     ;;
   whs)
     driver=false
@@ -95,8 +101,9 @@ compareCase() {
 different=0 compared=0
 for folder in "$cases"/*/; do
   [ -f "$folder/digest" ] || continue
+  [[ "$left_out" != *" $(basename "$folder") "* ]] || continue
   compareCase "${folder%/}" || different=$((different + 1))
   compared=$((compared + 1))
 done
 echo "$1: $compared cases, $different different"
-[ "$compared" -ge 6 ] && [ "$different" -eq 0 ]
+[ "$compared" -ge 4 ] && [ "$different" -eq 0 ]
