@@ -2,7 +2,10 @@
 // Which view works when, refinement, support and the end.
 #include "core/views/views_localizer.h"
 
+#include <algorithm>
+
 #include "core/base/digest.h"
+#include "core/localizer/acceptance.h"
 #include "core/localizer/run_digest.h"
 
 namespace boresight {
@@ -26,12 +29,6 @@ SeedUncertainty turnedInto(const Pose& camera_from_first, const SeedUncertainty&
   turned.translation_m = sizes * in_first.translation_m;
   turned.pivot_in_camera_m = camera_from_first * in_first.pivot_in_camera_m;
   return turned;
-}
-
-/// Several views start from their common seed.
-LocalizerOptions withoutSearch(LocalizerOptions options) {
-  options.search.enabled = false;
-  return options;
 }
 
 }  // namespace
@@ -77,8 +74,7 @@ Status ViewsLocalizer::requiredBytes(const ViewsProblem& problem, const Localize
     one.camera = view.camera;
     one.mesh = problem.mesh;
     std::size_t own = 0;
-    const Status sized =
-        boresight::requiredBytes(sizeOf(one), withoutSearch(options), workers, own, kernels);
+    const Status sized = boresight::requiredBytes(sizeOf(one), options, workers, own, kernels);
     if (sized != Status::kOk) return sized;
     bytes += (own + Arena::kAlignment - 1) / Arena::kAlignment * Arena::kAlignment;
   }
@@ -93,13 +89,16 @@ LocalizationProblem ViewsLocalizer::problemOf(std::size_t index) const {
   made.camera = view.camera;
   made.mesh = problem_.mesh;
   made.camera_from_station_seed = inCamera(view.camera_from_rig, problem_.rig_from_station_seed);
-  made.uncertainty = problem_.uncertainty;  // the other views' depends on the hypothesis
+  made.uncertainty = problem_.uncertainty;
+  if (index > 0)
+    made.uncertainty = turnedInto(
+        view.camera_from_rig * problem_.views[0].camera_from_rig.inverse(), problem_.uncertainty);
   return made;
 }
 
 ViewsLocalizer::ViewsLocalizer(const ViewsProblem& problem, const LocalizerOptions& options,
                                std::span<std::byte> memory, int workers, Kernels kernels)
-    : problem_(problem), options_(withoutSearch(options)) {
+    : problem_(problem), options_(options) {
   std::size_t needed = 0;
   status_ = requiredBytes(problem, options, workers, kernels, needed);
   if (status_ == Status::kOk && memory.size() < needed) status_ = Status::kArenaTooSmall;
@@ -118,7 +117,6 @@ ViewsLocalizer::ViewsLocalizer(const ViewsProblem& problem, const LocalizerOptio
         views_[v].pass.create(own, options_, arena.allocate<std::byte>(bytes), workers, kernels);
     views_[v].pass.solveOutside();
   }
-  if (status_ == Status::kOk) attempt_ = Attempt(0, seedOf(first().problem()));
 }
 
 bool ViewsLocalizer::takesPart(std::size_t index) const {
@@ -152,6 +150,8 @@ StepReport ViewsLocalizer::step() {
   report.finished = true;
   if (finished_) return report;
   if (status_ != Status::kOk) return finishFault(0);
+  for (std::size_t v = 0; v < views_.size(); ++v)
+    if (!views_[v].is_prepared) return prepareView(v);
   for (std::size_t v = 0; v < views_.size(); ++v) {
     if (v > 0 && !takesPart(v)) continue;
     if (stepView(v, report)) return report;
@@ -170,11 +170,11 @@ StepReport ViewsLocalizer::step() {
 /// the pose of all.
 std::optional<std::size_t> ViewsLocalizer::workingView() const {
   if (finished_ || status_ != Status::kOk) return std::nullopt;
+  if (!views_.back().is_prepared) return std::nullopt;  // edges and searches have no tasks
   for (std::size_t v = 0; v < views_.size(); ++v) {
     if (v > 0 && !takesPart(v)) continue;
     const Linked& view = views_[v];
-    const bool begins = view.has_edges ? !view.has_begun : !view.pass.running();
-    if (begins) return std::nullopt;
+    if (!view.has_begun) return std::nullopt;
     if (view.pass.running() && view.pass.needs() == PassNeed::kNothing) return v;
   }
   return std::nullopt;
@@ -190,13 +190,56 @@ void ViewsLocalizer::runTask(int task, int worker) {
   if (working) views_[*working].pass.runTask(task, worker);
 }
 
+/// The edges of a view, and its search; attempts start when the last view is ready.
+StepReport ViewsLocalizer::prepareView(std::size_t index) {
+  Linked& view = views_[index];
+  if (!view.pass.running()) {
+    PassPlan plan;
+    if (view.has_edges) plan.kind = PassKind::kSearch;
+    view.pass.begin(plan);
+  }
+  const StepReport report = view.pass.step();
+  if (view.pass.running()) return report;
+  if (view.pass.outcome().fault != Status::kOk) return finishFault(index);
+  view.is_prepared = view.has_edges || !view.pass.searches();
+  view.has_edges = true;
+  if (views_.back().is_prepared) startAttempts();
+  return report;
+}
+
+/// Starts from the candidates of all views, those with the most evidence first.
+void ViewsLocalizer::startAttempts() {
+  const Seed seed = seedOf(first().problem());
+  std::size_t count = 0;
+  for (const Linked& view : views_) {
+    for (PoseCandidate candidate : view.pass.workspace().candidates) {
+      candidate.camera_from_station =
+          view.camera_from_first.inverse() * candidate.camera_from_station;
+      std::size_t place = count++;
+      for (; place > 0 && candidates_[place - 1].rank_nats() < candidate.rank_nats(); --place)
+        candidates_[place] = candidates_[place - 1];
+      candidates_[place] = candidate;
+    }
+  }
+  trials_ = CandidateTrials(std::span(candidates_).first(count), seed);
+  start(first().searches() ? trials_.next(0, first().context()) : Attempt(0, seed));
+}
+
+/// Goes on with the first iteration of an attempt, in all views.
+void ViewsLocalizer::start(const Attempt& attempt) {
+  attempt_ = attempt;
+  accepts_ = false;
+  first().workspace().attempts = attempt_.index() + 1;
+  latest_ = Shares();
+  for (Linked& view : views_) view.refines = true;
+  startPlan();
+}
+
 /// False when the view waits for the others.
 bool ViewsLocalizer::stepView(std::size_t index, StepReport& report) {
   Linked& view = views_[index];
   Pass& pass = view.pass;
-  if (!view.has_edges && !pass.running()) {
-    pass.begin(PassPlan());
-  } else if (view.has_edges && !view.has_begun) {
+  if (!view.has_begun) {
     pass.workspace().iterations = first().workspace().iterations;
     pass.workspace().attempts = attempt_.index() + 1;
     pass.begin(planOf(index));
@@ -204,13 +247,7 @@ bool ViewsLocalizer::stepView(std::size_t index, StepReport& report) {
   }
   if (!pass.running() || pass.needs() != PassNeed::kNothing) return false;
   report = pass.step();
-  if (pass.running()) return true;
-  if (pass.outcome().fault != Status::kOk) {
-    report = finishFault(index);
-  } else if (!view.has_edges) {
-    view.has_edges = true;
-    if (index == 0) startPlan();
-  }
+  if (!pass.running() && pass.outcome().fault != Status::kOk) report = finishFault(index);
   return true;
 }
 
@@ -237,21 +274,51 @@ StepReport ViewsLocalizer::decide(const Ruling& ruling) {
   first().show(ruling);
   StepReport report = StepReport::of(ruling.stage, true);
   report.iteration_complete = ruling.iteration_complete;
-  const bool more = attempt_.index() + 1 < options_.loop.max_attempts;
-  if (ruling.failed() && !more) {
-    report = finish(ruling.status, report);
+  if (ruling.failed()) {
+    report = retry(ruling.status, report);
   } else if (ruling.found() && accepts_) {
-    report = finish(LocalizationStatus::kConverged, report);
+    report = takePose(report);
   } else {
     accepts_ = ruling.found();
-    if (ruling.failed()) attempt_.restart();
-    first().workspace().attempts = attempt_.index() + 1;
     startPlan();
   }
   result_.iterations = first().workspace().iterations;
   result_.attempts = first().workspace().attempts;
   if (report.iteration_complete) noteViews();
   if (report.finished) finishResult();
+  return report;
+}
+
+/// After a failure: the next candidate, another attempt, or the end.
+StepReport ViewsLocalizer::retry(LocalizationStatus status, const StepReport& report) {
+  const RunContext run = first().context();
+  if (first().searches()) return follow(trials_.takeFailure(attempt_.index(), run), status, report);
+  if (attempt_.index() + 1 >= options_.loop.max_attempts) return finish(status, report);
+  attempt_.restart();
+  first().workspace().attempts = attempt_.index() + 1;
+  accepts_ = false;
+  startPlan();
+  return report;
+}
+
+/// A pose that views support: as sure as the view that supports it best.
+StepReport ViewsLocalizer::takePose(const StepReport& report) {
+  const LocalizationStatus status = LocalizationStatus::kConverged;
+  if (!first().searches()) return finish(status, report);
+  double probability = 0.0;
+  for (const ViewReport& view : result_.views)
+    probability = std::max(probability, view.probability);
+  return follow(trials_.takePose(attempt_, leading().camera_from_station_before, probability,
+                                 first().context()),
+                status, report);
+}
+
+StepReport ViewsLocalizer::follow(CandidateTrials::Next next, LocalizationStatus status,
+                                  const StepReport& report) {
+  const int index = attempt_.index() + 1;
+  if (next == CandidateTrials::Next::kConclude) return finish(status, report);
+  start(next == CandidateTrials::Next::kTry ? trials_.next(index, first().context())
+                                            : trials_.best(index, options_));
   return report;
 }
 
@@ -324,17 +391,19 @@ StepReport ViewsLocalizer::stepSupport() {
   LocalizationStatus refusal = LocalizationStatus::kNotSupported;
   for (std::size_t v = 0; v < views_.size(); ++v) {
     if (!views_[v].refines) continue;
-    const Workspace& seen = view(static_cast<int>(v)).workspace();
+    const Pass& pass = views_[v].pass;
+    const Workspace& seen = pass.workspace();
+    const LocalizationStatus judged = judgeSupport(
+        seen, seedOf(pass.problem()), views_[v].camera_from_first * attempt_.camera_from_station(),
+        options_, pass.searches());
+    const bool good = judged == LocalizationStatus::kConverged;
     result_.views[v].support = seen.support;
-    const bool sharp = !options_.support.gate || seen.edge_width.isSharp();
-    const bool explained = isSupported(seen.support, options_.support);
-    const bool good = sharp && explained;
+    result_.views[v].probability = good ? seen.probability : 0.0;
     (good ? supported : refused) += 1;
     if (good) continue;
     views_[v].refines = false;
     views_[v].dropped_in_attempt = leading().attempt;
-    refusal = explained ? LocalizationStatus::kBlurred : LocalizationStatus::kNotSupported;
-    latest_[v].status = refusal;
+    latest_[v].status = refusal = judged;
   }
   noteViews();
   if (supported > 0 && refused > 0) return decide(attempt_.goOn(first().context()));

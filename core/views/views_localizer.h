@@ -9,6 +9,7 @@
 
 #include "core/base/arena.h"
 #include "core/localizer/attempt.h"
+#include "core/localizer/candidate_trials.h"
 #include "core/localizer/pass.h"
 #include "core/pnp/correspondence.h"
 #include "core/pnp/pnp_ransac.h"
@@ -26,15 +27,15 @@ namespace boresight {
 ///
 /// The attempt runs in the first view's frame and counts the matches of all views; each view rolls
 /// its render by the same angle about its own ray. So one view alone gives the bits of the plain
-/// Localizer.
+/// Localizer without a search.
 ///
 /// A view without enough matches, or whose matches disagree with the others', is left out (until
 /// the next matching iteration; from refinements, until the next attempt). A view without edge
 /// support, or whose image is blurred, is dropped for the attempt, and the run refines without it.
 /// The result is the pose for which all remaining views have support.
 ///
-/// Not offered: matches from outside, a search and competing poses. Views start from their common
-/// seed.
+/// A run that searches does so in every view; attempts start from the candidates of all views.
+/// Not offered: matches from outside, competing poses.
 class ViewsLocalizer {
  public:
   /// Bytes of arena, in a block aligned to Arena::kAlignment: the sum of each view's, and some ten
@@ -81,7 +82,8 @@ class ViewsLocalizer {
     int dropped_in_attempt = -1;
     bool refines = false;
     bool has_edges = false;
-    bool has_begun = false;  ///< the pass of the attempt's current plan
+    bool is_prepared = false;  ///< it has edges, and was searched
+    bool has_begun = false;    ///< the pass of the attempt's current plan
   };
   /// What a view contributes to a hypothesis.
   struct Share {
@@ -102,7 +104,14 @@ class ViewsLocalizer {
   bool takesPart(std::size_t view) const;
   std::optional<std::size_t> workingView() const;
   PassPlan planOf(std::size_t view) const;
+  StepReport prepareView(std::size_t view);
+  void startAttempts();
+  void start(const Attempt& attempt);
   bool stepView(std::size_t view, StepReport& report);
+  StepReport retry(LocalizationStatus status, const StepReport& report);
+  StepReport takePose(const StepReport& report);
+  StepReport follow(CandidateTrials::Next next, LocalizationStatus status,
+                    const StepReport& report);
   StepReport decide(const Ruling& ruling);
   StepReport finish(LocalizationStatus status, StepReport report);
   StepReport finishFault(std::size_t view);
@@ -132,9 +141,11 @@ class ViewsLocalizer {
   std::span<Linked> views_;  ///< those of the problem
   bool finished_ = false;
   Attempt attempt_;
-  PassPlan plan_;           ///< of the first view
-  bool accepts_ = false;    ///< the attempt has converged: support is measured
-  bool has_edges_ = false;  ///< of the first view: attempts have begun
+  PassPlan plan_;         ///< of the first view
+  bool accepts_ = false;  ///< the attempt has converged: support is measured
+  /// Of all views, in the first one's frame; the most evidence first.
+  std::array<PoseCandidate, kMaxViews * PoseSearch::kMaxCandidates> candidates_;
+  CandidateTrials trials_;
 
   PnpRansac ransac_;
   bool pose_begun_ = false;

@@ -47,7 +47,8 @@ struct ViewReport {
   std::int32_t edges_used = 0;       ///< of the latest refinement
   double edges_rms_px = 0.0;         ///< weighted residual, of the latest refinement
   EdgeSupport support;               ///< of the final pose; empty when it was not asked for
-  Pose camera_from_station;          ///< of this view
+  double probability = 0.0;  ///< that the pose is right, by this view; 0 where none was searched
+  Pose camera_from_station;  ///< of this view
 
   /// Whether the view had a say in the pose.
   bool tookPart() const { return status == LocalizationStatus::kConverged; }

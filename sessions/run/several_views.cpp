@@ -196,7 +196,13 @@ void SeveralViews::finish(std::size_t view) {
   if (result.status == LocalizationStatus::kFault) return;
   const Pass& of_view = localizer_->view(static_cast<int>(view));
   one.status = report.status;
+  const Workspace& seen = of_view.workspace();
+  one.candidates.assign(seen.candidates.begin(), seen.candidates.end());
   one.support = report.support;
+  one.evidence = seen.evidence;
+  one.probability = report.probability;
+  one.edge_width = seen.edge_width;
+  one.focal = seen.focal;
   one.arena_bytes = of_view.memory().highWaterBytes();
   for (std::size_t v = 0; v < one.views.size(); ++v)
     one.views[v].status = localizationStatusText(result.views[v].status);

@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/pnp/correspondence.h"
 #include "core/pnp/pnp_options.h"
@@ -128,8 +129,8 @@ TEST(ViewsLocalizer, ANoisySecondView_DoesNotMakeTheCovarianceLarger) {
     gray = static_cast<std::uint8_t>(std::clamp(gray + noise(random), 0.0, 255.0));
   View second = viewOf(scene);
   second.image = noisy.view();
-  ViewsRun alone(scene, {viewOf(scene)}, defaultProfile());
-  ViewsRun both(scene, {viewOf(scene), second}, defaultProfile());
+  ViewsRun alone(scene, {viewOf(scene)}, withoutSearch());
+  ViewsRun both(scene, {viewOf(scene), second}, withoutSearch());
   const ViewsResult& one = alone.finish();
   const ViewsResult& two = both.finish();
   ASSERT_EQ(two.status, LocalizationStatus::kConverged);
@@ -140,7 +141,7 @@ TEST(ViewsLocalizer, ANoisySecondView_DoesNotMakeTheCovarianceLarger) {
 TEST(ViewsLocalizer, TwoCamerasConvergeOnTheTruthAndBothTakePart) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
     const Case scene = stationCase(seed);
-    ViewsRun run(scene, {viewOf(scene), secondView(scene)}, defaultProfile());
+    ViewsRun run(scene, {viewOf(scene), secondView(scene)}, withoutSearch());
     const ViewsResult& result = run.finish();
     ASSERT_EQ(result.status, LocalizationStatus::kConverged);
     EXPECT_TRUE(result.views[0].tookPart());
@@ -158,8 +159,8 @@ TEST(ViewsLocalizer, ABlackOrWhiteSecondViewLeavesTheBitsOfTheFirstAlone) {
     const Picture blank = flatPicture(512, 512, static_cast<std::uint8_t>(gray));
     View second = secondView(scene);
     second.image = blank.view();
-    ViewsRun alone(scene, {viewOf(scene)}, defaultProfile());
-    ViewsRun run(scene, {viewOf(scene), second}, defaultProfile());
+    ViewsRun alone(scene, {viewOf(scene)}, withoutSearch());
+    ViewsRun run(scene, {viewOf(scene), second}, withoutSearch());
     const ViewsResult& expected = alone.finish();
     const ViewsResult& result = run.finish();
     ASSERT_EQ(result.status, LocalizationStatus::kConverged);
@@ -172,7 +173,7 @@ TEST(ViewsLocalizer, ABlackOrWhiteSecondViewLeavesTheBitsOfTheFirstAlone) {
 
 /// Two views converge on the truth without this one.
 void expectLeftOut(std::size_t left_out, const Case& scene, const std::vector<View>& views) {
-  ViewsRun run(scene, views, defaultProfile());
+  ViewsRun run(scene, views, withoutSearch());
   const ViewsResult& result = run.finish();
   ASSERT_EQ(result.status, LocalizationStatus::kConverged);
   for (std::size_t v = 0; v < 2; ++v) EXPECT_EQ(result.views[v].tookPart(), v != left_out) << v;
@@ -200,7 +201,7 @@ TEST(ViewsLocalizer, AViewOfSomethingElseIsLeftOut) {
 TEST(ViewsLocalizer, AViewHalfCoveredIsDroppedAtTheGateAndTheOtherConverges) {
   const Case scene = stationCase(3);
   const View whole = secondView(scene);
-  LocalizerOptions options = defaultProfile();
+  LocalizerOptions options = withoutSearch();
   options.support.min_support = 0.6;
   int dropped = 0;
   for (int covered = 200; covered <= 320; covered += 40) {
@@ -229,6 +230,40 @@ TEST(ViewsLocalizer, AViewHalfCoveredIsDroppedAtTheGateAndTheOtherConverges) {
               std::abs(result.covariance.trace() - of_both));
   }
   EXPECT_GT(dropped, 0);
+}
+
+/// The seed turned about the first camera's axis, as its uncertainty says.
+Case turnedCase(double turn_deg) {
+  Case scene = stationCase(3);
+  const Eigen::Quaterniond turn = rotationExp({0.0, 0.0, turn_deg * kDegree_rad});
+  scene.seed.rotation = (turn * scene.truth.rotation).normalized();
+  scene.seed.translation_m = turn * scene.truth.translation_m;
+  scene.uncertainty.pivot_in_camera_m.setZero();
+  scene.uncertainty.rotation_rad.z() = kPi;
+  return scene;
+}
+
+TEST(ViewsLocalizer, TurnedSeed_IsFoundByTheSearchOfAllViews) {
+  const Case scene = turnedCase(130.0);
+  ViewsRun run(scene, {viewOf(scene), secondView(scene)}, defaultProfile());
+  const ViewsResult& result = run.finish();
+  ASSERT_EQ(result.status, LocalizationStatus::kConverged);
+  EXPECT_TRUE(result.views[0].tookPart());
+  EXPECT_TRUE(result.views[1].tookPart());
+  EXPECT_GT(result.views[1].probability, 0.9);
+  EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).centre_m, 0.0002);
+}
+
+TEST(ViewsLocalizer, TurnedSeedBeforeABlackFirstView_IsFoundInTheSecond) {
+  const Case scene = turnedCase(-100.0);
+  const Picture blank = flatPicture(512, 512, 0);
+  View first = viewOf(scene);
+  first.image = blank.view();
+  ViewsRun run(scene, {first, secondView(scene)}, defaultProfile());
+  const ViewsResult& result = run.finish();
+  ASSERT_EQ(result.status, LocalizationStatus::kConverged);
+  EXPECT_FALSE(result.views[0].tookPart());
+  EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).centre_m, 0.0006);
 }
 
 TEST(ViewsLocalizer, AllBlackFails) {
