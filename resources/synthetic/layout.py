@@ -6,7 +6,8 @@ import os
 
 import plan
 
-BOP_OBJECTS = {"bc": 1, "os": 2, "tube": 3, "vial": 4, "vial_opaque": 5}
+BOP_OBJECTS = {"bc": 1, "os": 2, "tube": 3, "vial": 4, "vial_opaque": 5, "mug": 6,
+               "bowl": 7, "can": 8, "bottle": 9, "carton": 10}
 BOP_DEPTH_MM = 0.05
 
 
@@ -52,9 +53,10 @@ def parts_of(root, station):
 
 def _station(root, name):
     values = plan.STATIONS[name]
-    return {"parts": parts_of(root, name), "feature_size_m": values["feature_size_m"],
+    made = {"parts": parts_of(root, name), "feature_size_m": values["feature_size_m"],
             "uncertainty": values["declared"],
             "camera_from_end_effector": plan.camera_from_end_effector(name)}
+    return made | {k: values[k] for k in ("symmetries",) if k in values}
 
 
 def _case(record):

@@ -49,13 +49,21 @@ STATIONS = {
                             "rotation_deg": [2.0, 2.0, 5.5], "pivot": "camera"}},
     "tube": {"standoff_m": (0.380, 0.440), "feature_size_m": 0.020, "end_effector_m": 0.37,
              "centre_m": [0.0, 0.00112, 0.00054], "tilt_deg": (2.0, 28.0), "roll_deg": (0.0, 180.0),
-             "declared": OBJECT_DECLARED},
+             "declared": OBJECT_DECLARED, "requirement": {"projection_px": 2.0}},
     "vial": {"standoff_m": (0.300, 0.360), "feature_size_m": 0.015, "end_effector_m": 0.37,
              "centre_m": [0.0, 0.0, 0.0], "tilt_deg": (5.0, 40.0), "roll_deg": (0.0, 180.0),
-             "declared": OBJECT_DECLARED, "requirement": {"projection_px": 5.0}},
+             "declared": OBJECT_DECLARED, "requirement": {"projection_px": 2.0}},
 }
 STATIONS["vial_opaque"] = dict(STATIONS["vial"], drawn_as="vial")  # same draws, other material
-LYING = ("tube", "vial", "vial_opaque")  # on the ground
+HOUSEHOLD = {"mug": [0.01373, 0.0, 0.0], "bowl": [0.0, 0.0, -0.00695], "can": [0.0, 0.0, 0.0],
+             "bottle": [0.0, 0.0, 0.0], "carton": [0.0, 0.0, 0.0]}  # centre_m
+for _name, _centre_m in HOUSEHOLD.items():
+    STATIONS[_name] = {"standoff_m": (0.55, 0.80), "feature_size_m": 0.025, "end_effector_m": 0.5,
+                       "centre_m": _centre_m, "tilt_deg": (25.0, 65.0), "roll_deg": (0.0, 15.0),
+                       "declared": OBJECT_DECLARED, "requirement": {"projection_px": 2.0}}
+# Every turn about this axis through the origin looks the same, but for the print.
+STATIONS["bowl"]["symmetries"] = {"continuous": [{"axis": [0, 0, 1], "point_m": [0, 0, 0]}]}
+LYING = ("tube", "vial", "vial_opaque", *HOUSEHOLD)  # on the ground
 IN_PLANE_deg = 5.0  # "a 10 deg uncertainty window from kinematics" (Sec. V-A), both stations
 IN_PLANE_DECLARED = {"translation_m": [0.020] * 3, "rotation_deg": [12.5, 5.5, 40.0],
                      "pivot": "station"}  # of the tube's hard_in_plane
@@ -145,6 +153,8 @@ def _look(draw, station, far, target_m):
     middle, spread = limits["roll_deg"]
     turned = draw.uniform(-spread, spread) if station in LYING else draw.gauss(0.0, spread)
     roll = math.radians(middle + turned)
+    if station in HOUSEHOLD:  # what stands is upright in the picture
+        roll -= azimuth + 0.5 * math.pi
     down = _unit(_cross(forward, [math.cos(roll), -math.sin(roll), 0.0]))
     right = _cross(down, forward)
     rotation = [right, down, forward]

@@ -7,11 +7,13 @@ import math
 import os
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import zlib
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -50,6 +52,33 @@ def statistics(values):
     mean = sum(values) / len(values)
     spread = math.sqrt(sum((v - mean) ** 2 for v in values) / len(values))
     return mean, spread, max(abs(v) for v in values)
+
+
+def vertices_of(path):
+    """Of a binary PLY of the generator, metres."""
+    data = path.read_bytes()
+    head, body = data.split(b"end_header\n", 1)
+    count = int(head.split(b"element vertex ")[1].split()[0])
+    return [struct.unpack_from("<3f", body, 12 * i) for i in range(count)]
+
+
+def gray_png(path):
+    """Pixels, row by row, of an 8-bit PNG of the generator (differences to the left neighbour)."""
+    data, at, body, width = path.read_bytes(), 8, b"", 0
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"IHDR":
+            width = struct.unpack(">I", data[at + 8:at + 12])[0]
+        elif kind == b"IDAT":
+            body += data[at + 8:at + 8 + length]
+        at += 12 + length
+    pixels, rows = [], zlib.decompress(body)
+    for start in range(0, len(rows), width + 1):
+        value = 0
+        for step in rows[start + 1:start + 1 + width]:
+            value = (value + step) & 255
+            pixels.append(value)
+    return pixels
 
 
 class Plan(unittest.TestCase):
@@ -245,6 +274,19 @@ class Pictures(unittest.TestCase):
     def test_3_moved_projection_is_found_out(self):
         self.assertNotEqual(self.measure("--shift-px", "0.2", "0").returncode, 0)
 
+    def test_6_meshes_have_the_stated_centre_and_an_albedo_for_each_part(self):
+        """`centre_m` is the pivot of the declared boxes: the middle of the matched parts."""
+        for station, values in plan.STATIONS.items():
+            parts = layout.parts_of(self.set, station)
+            self.assertTrue(parts)
+            points = []
+            for part in parts:
+                self.assertTrue(0.0 < part["albedo"] < 1.0)
+                points += vertices_of(self.set / part["mesh"])
+            for axis, stated in enumerate(values["centre_m"]):
+                values_m = [p[axis] for p in points]
+                self.assertAlmostEqual(0.5 * (min(values_m) + max(values_m)), stated, delta=1e-5)
+
     def test_4_bop_says_how_much_of_the_station_is_seen(self):
         for scene in ("000001", "000002"):
             folder = self.set / "bop" / "test" / scene
@@ -263,6 +305,20 @@ class Pictures(unittest.TestCase):
         result = subprocess.run(self.command("--far"), capture_output=True, text=True)
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("holds a set made with", result.stderr)
+
+    def test_7_glass_and_its_opaque_twin_differ_in_the_object_and_its_shadow_alone(self):
+        root = self.root / "twins"
+        subprocess.run([sys.executable, str(GENERATOR / "generate.py"), "--out", str(root), "--cases",
+                        "1", "--seed", "3", "--pairs", "0", "--size", "384", "--stations",
+                        "vial,vial_opaque"], check=True)
+        glass, opaque = (gray_png(root / s / "images/000000.png") for s in ("vial", "vial_opaque"))
+        mask = gray_png(root / "bop/test/000005/mask/000000_000000.png")
+        apart = [[], []]
+        for a, b, inside in zip(glass, opaque, mask):
+            apart[inside > 0].append(abs(a - b))
+        self.assertGreater(len(apart[1]), 2000)
+        self.assertGreater(sum(apart[1]) / len(apart[1]), 10.0)
+        self.assertLess(sum(d > 12 for d in apart[0]) / len(apart[0]), 0.1)
 
 
 if __name__ == "__main__":

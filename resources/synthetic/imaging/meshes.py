@@ -6,7 +6,8 @@ import os
 
 import numpy as np
 
-OBJECTS = {"bc": 1, "os": 2, "tube": 3, "vial": 4, "vial_opaque": 5}  # BOP's numbers of the stations, and of their scenes
+OBJECTS = {"bc": 1, "os": 2, "tube": 3, "vial": 4, "vial_opaque": 5, "mug": 6,
+           "bowl": 7, "can": 8, "bottle": 9, "carton": 10}  # BOP's numbers of the stations, and of their scenes
 
 HEAD = ("ply\nformat {} 1.0\ncomment {}\nelement vertex {}\n{}element face {}\n"
         "property list uchar int vertex_indices\nend_header\n")

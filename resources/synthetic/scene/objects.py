@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Objects that lie on the ground, in millimetres: x along the object, z up when it lies flat, the
-origin in the middle of its bounding box."""
+"""Objects that lie or stand on the ground, in millimetres, z up. The sample tube and the vial lie
+along x. The origin is in or near the middle of the bounding box (plan.STATIONS: `centre_m`)."""
 
 import math
 
@@ -53,6 +53,95 @@ def flask(builder, _, material):
     solid = loft([*FLASK_OUTSIDE, *FLASK_INSIDE], count)
     builder.add(material, solid.placed(ALONG_X, [0.0] * 3))
     return []
+
+
+def mug(builder, _):
+    """A mug with a handle; `fine` has a printed band."""
+    wall = [(0.0, -45.0), (36.0, -45.0), (40.0, -41.0), (40.0, 45.0), (36.5, 45.0), (36.5, -38.0),
+            (0.0, -38.0)]
+    builder.add("ceramic", builder.lathe(wall))
+    turns = np.linspace(-0.5 * math.pi, 0.5 * math.pi, 41 if builder.fine else 17)
+    path = np.column_stack([38.0 + 24.0 * np.cos(turns), np.zeros(len(turns)), 26.0 * np.sin(turns)])
+    builder.add("ceramic", shapes.sweep(path, 5.5, 40 if builder.fine else 20))
+    if builder.fine:
+        for low, high in ((-20.0, -14.0), (4.0, 24.0)):
+            builder.add("black", _printed_arc(40.06, 0.8, 5.4, low, high))
+    return []
+
+
+def bowl(builder, _):
+    """A round bowl: every turn about z looks the same."""
+    turns = np.linspace(0.0, 1.32, 30 if builder.fine else 14)
+    outside = [(28.0 + 50.0 * math.sin(t), -28.0 + 60.0 * (1.0 - math.cos(t))) for t in turns]
+    inside = [(r - 3.5, z + 3.0) for r, z in outside[::-1]]
+    inside[0] = (inside[0][0], outside[-1][1])
+    builder.add("ceramic", builder.lathe([(0.0, -31.0), (25.0, -31.0), *outside, *inside,
+                                          (0.0, -25.0)]))
+    return []
+
+
+def can(builder, random):
+    """A food can with a rim, a pull tab, and a printed paper sleeve (`fine`)."""
+    body = [(0.0, -52.0), (33.0, -52.0), (34.5, -50.5), (34.5, -48.0), (33.0, -47.0), (33.0, 47.0),
+            (34.5, 48.0), (34.5, 52.0), (32.5, 52.0), (32.5, 48.5), (0.0, 48.5)]
+    builder.add("steel", builder.lathe(body))
+    builder.add("steel", shapes.box(24.0, 12.0, 48.0, 50.8, 14.0, 0.0))
+    if builder.fine:
+        builder.add("label", _printed_arc(33.05, -3.1, 3.1, -44.0, 44.0))
+        for _ in range(9):
+            start, low = random.uniform(-3.0, 2.2), random.uniform(-42.0, 30.0)
+            builder.add("black", _printed_arc(33.1, start, start + random.uniform(0.2, 0.8), low,
+                                              low + random.uniform(2.0, 12.0)))
+    return []
+
+
+def bottle(builder, random):
+    """A detergent bottle of oval section with a cap; `fine` has a printed label."""
+    rings = [(44.0, 24.0, 3.0, -100.0), (46.0, 26.0, 3.0, -97.0), (46.0, 26.0, 3.0, 40.0),
+             (30.0, 22.0, 2.4, 68.0), (13.0, 13.0, 2.0, 76.0), (13.0, 13.0, 2.0, 80.0)]
+    builder.add("paint", loft(rings, 240 if builder.fine else 72))
+    builder.add("black", builder.lathe([(16.0, 79.0), (16.0, 100.0), (0.0, 100.0)]))
+    if builder.fine:
+        for side in (-1, 1):
+            panel = shapes.box(56.0, 2.0, -80.0, 20.0, 0.0, side * 25.2)
+            builder.add("label", panel)
+            for _ in range(6):
+                low, x = random.uniform(-76.0, 8.0), random.uniform(-16.0, 16.0)
+                builder.add("black", shapes.box(random.uniform(6.0, 22.0), 2.1, low,
+                                                low + random.uniform(2.0, 9.0), x, side * 25.2))
+    return []
+
+
+def carton(builder, random):
+    """A carton with print on all visible faces (`fine`)."""
+    size = np.array([110.0, 60.0, 160.0])
+    builder.add("paint", shapes.box(size[0], size[1], -0.5 * size[2], 0.5 * size[2]))
+    if not builder.fine:
+        return []
+    for side in range(5):
+        for _ in range(7):
+            _print_on_carton(builder, random, side, size)
+    return []
+
+
+def _print_on_carton(builder, random, side, size):
+    """A rectangle of ink, 0.05 mm proud: sides 0 to 3 around, 4 on top."""
+    material = random.choice(("black", "dark", "foil"))
+    width, height = (random.uniform(6.0, 34.0) for _ in range(2))
+    if side == 4:
+        x, y = (random.uniform(-0.5, 0.5) * (s - 40.0) for s in size[:2])
+        builder.add(material, shapes.box(width, min(height, 14.0), 79.9, 80.05, x, y))
+        return
+    across, depth = (size[0], size[1]) if side % 2 == 0 else (size[1], size[0])
+    x, z = random.uniform(-0.5, 0.5) * (across - 36.0), random.uniform(-60.0, 45.0)
+    ink = shapes.box(min(width, across - 36.0), 0.2, z, z + height, x, 0.5 * depth - 0.05)
+    builder.add(material, ink.moved(turn_rad=0.5 * math.pi * side))
+
+
+def _printed_arc(radius, start, stop, low, high):
+    """A sheet around a cylinder, between two angles and two heights."""
+    outline = shapes.arc(radius - 0.2, radius, start, stop, max(8, int(40 * (stop - start))))
+    return shapes.prism(outline, low, high)
 
 
 def _on_side(builder, material, solid, turn):

@@ -61,7 +61,9 @@ def build(station, fine, random, target_sleeve=None):
     builder = Builder(fine)
     kinds = {"bc": _carousel, "os": lambda b, r: _canister(b, r, target_sleeve),
              "tube": objects.tube, "vial": lambda b, r: objects.flask(b, r, "glass"),
-             "vial_opaque": lambda b, r: objects.flask(b, r, "ceramic")}
+             "vial_opaque": lambda b, r: objects.flask(b, r, "ceramic"),
+             "mug": objects.mug, "bowl": objects.bowl, "can": objects.can,
+             "bottle": objects.bottle, "carton": objects.carton}
     filled = kinds[station](builder, random)
     return builder.solids, filled
 
