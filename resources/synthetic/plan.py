@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the cases: what stands where, who looks at it from where, and what the arm believes.
+"""Draws the cases: scenes, true poses and seeds.
 
 A case depends on the seed, its station and its number alone, so that a larger set begins with the
 smaller one. Poses are 4x4 lists, metres, camera as OpenCV has it (x right, y down, z forward).
@@ -26,10 +26,9 @@ CAMERAS = {
 LENSES = (("pinhole", 0.5), ("barrel", 0.3), ("cushion", 0.2))
 BASELINE_m, TOE_IN_deg = 0.10, 11.0
 
-# Largest input errors at the end effector (Table I of the paper, rows "Input"), and the declared
-# boxes that contain them about the centre of the station's bounding box (`centre_m`). The end
-# effector is on the camera's axis.
-# `far`: the same errors about the camera, which is nowhere near the station.
+# `error`: the largest input errors at the end effector (Table I of the paper, rows "Input"). The end
+# effector is on the camera's axis. `declared`: a box that contains every truth, about the centre of
+# the station's bounding box (`centre_m`). `declared_far`: the same errors drawn at the camera.
 # Objects: errors about their centre, uniform in balls, declared as the balls' radii.
 OBJECT_DECLARED = {"translation_m": [0.030] * 3, "rotation_deg": [10.0] * 3, "pivot": "station"}
 STATIONS = {
@@ -274,6 +273,8 @@ def declared_uncertainty(station, tags):
 def _sun(draw, station, hard):
     """Where the sun stands over the plate or the ground, and its name."""
     if station in LYING:
+        if hard == "hard_shadowed":
+            return "sun_low", draw.uniform(5.0, 9.0)
         kind = draw.choices(("sun_low", "sun_mid", "sun_high"), (40, 45, 15))[0]
         low, high = {"sun_low": (10, 25), "sun_mid": (25, 55), "sun_high": (55, 80)}[kind]
         return kind, draw.uniform(low, high)
