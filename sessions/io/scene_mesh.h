@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ struct PartSource {
   std::string mesh_unit;  ///< "" where the format carries its unit
   Pose station_from_mesh;
   ScenePart part;
+  std::optional<double> albedo;  ///< mean reflectance, 0 .. 1; nothing: 1
 
   bool operator==(const PartSource&) const = default;
 };
