@@ -174,7 +174,7 @@ def develop(passes, plan):
 
 def gain_for(radiance, index, plan):
     """The exposure a camera would choose: the station's bright parts near two thirds, or, for what
-    lies on the ground, the ground near two fifths, so that twins of other materials share it."""
+    lies on the ground, the ground near two fifths, so that an opaque copy gets the same."""
     if plan["lying"]:
         seen = radiance[index <= 0.5]
         return plan["exposure"] * 0.40 / max(1e-6, float(np.percentile(seen, 60)))

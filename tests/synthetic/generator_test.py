@@ -160,7 +160,7 @@ class Plan(unittest.TestCase):
             nearest = min(math.dist(a, b) for b in places if b != a)
             self.assertAlmostEqual(nearest, 33.0, places=9)
 
-    def test_transparent_object_and_its_opaque_twin_are_drawn_alike(self):
+    def test_transparent_object_and_its_opaque_copy_are_drawn_alike(self):
         glass, opaque = (plan.shots(5, s, 30) for s in ("vial", "vial_opaque"))
         for a, b in zip(glass, opaque):
             for key in a.keys() - {"shot", "station", "tags", "frames"}:
@@ -306,8 +306,8 @@ class Pictures(unittest.TestCase):
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("holds a set made with", result.stderr)
 
-    def test_7_glass_and_its_opaque_twin_differ_in_the_object_and_its_shadow_alone(self):
-        root = self.root / "twins"
+    def test_7_glass_and_its_opaque_copy_differ_in_the_object_and_its_shadow_alone(self):
+        root = self.root / "copies"
         subprocess.run([sys.executable, str(GENERATOR / "generate.py"), "--out", str(root), "--cases",
                         "1", "--seed", "3", "--pairs", "0", "--size", "384", "--stations",
                         "vial,vial_opaque"], check=True)
