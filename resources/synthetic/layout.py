@@ -6,8 +6,6 @@ import os
 
 import plan
 
-BOP_OBJECTS = {"bc": 1, "os": 2, "tube": 3, "vial": 4, "vial_opaque": 5, "mug": 6,
-               "bowl": 7, "can": 8, "bottle": 9, "carton": 10}
 BOP_DEPTH_MM = 0.05
 
 
@@ -83,7 +81,7 @@ def write_bop(root, known):
     replace_json(root / "camera.json", {"depth_scale": BOP_DEPTH_MM, **{
         k: camera[k] for k in ("width", "height", "fx", "fy", "cx", "cy")}})
     targets = []
-    for station, scene in BOP_OBJECTS.items():
+    for station, scene in plan.BOP_OBJECTS.items():
         cameras, truth, info = {}, {}, {}
         for record in (r for r in known if r["plan"]["station"] == station):
             key = str(record["frame"]["number"])

@@ -62,6 +62,7 @@ for _name, _centre_m in HOUSEHOLD.items():
                        "declared": OBJECT_DECLARED, "requirement": {"projection_px": 2.0}}
 # Every turn about this axis through the origin looks the same, but for the print.
 STATIONS["bowl"]["symmetries"] = {"continuous": [{"axis": [0, 0, 1], "point_m": [0, 0, 0]}]}
+BOP_OBJECTS = {name: i + 1 for i, name in enumerate(STATIONS)}  # numbers of objects and scenes
 LYING = ("tube", "vial", "vial_opaque", *HOUSEHOLD)  # on the ground
 IN_PLANE_deg = 5.0  # "a 10 deg uncertainty window from kinematics" (Sec. V-A), both stations
 IN_PLANE_DECLARED = {"translation_m": [0.020] * 3, "rotation_deg": [12.5, 5.5, 40.0],

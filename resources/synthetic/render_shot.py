@@ -23,6 +23,7 @@ import bpy
 import numpy as np
 
 from imaging import cameras, meshes, pixels
+from plan import BOP_OBJECTS
 from scene import assembly, materials, stations
 
 SAMPLES = 3
@@ -241,7 +242,7 @@ def commit(record, temporary, root):
     """Pictures first, the record last: what has a record is whole."""
     frame, station = record["frame"], record["plan"]["station"]
     name = f"{frame['number']:06d}"
-    bop = root / "bop" / "test" / f"{meshes.OBJECTS[station]:06d}"
+    bop = root / "bop" / "test" / f"{BOP_OBJECTS[station]:06d}"
     places = {"image": root / station / "images" / f"{name}.png",
               "gray": bop / "gray" / f"{name}.png", "depth": bop / "depth" / f"{name}.png",
               "mask": bop / "mask" / f"{name}_000000.png",
@@ -279,7 +280,7 @@ def make_shot(plan_path, root):
 
 
 def make_meshes(root):
-    for station in meshes.OBJECTS:
+    for station in BOP_OBJECTS:
         solids, _ = stations.build(station, False, random.Random(0))
         meshes.write(station, solids, {name: materials.albedo(name) for name in solids}, root)
 

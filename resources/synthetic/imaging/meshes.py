@@ -6,8 +6,7 @@ import os
 
 import numpy as np
 
-OBJECTS = {"bc": 1, "os": 2, "tube": 3, "vial": 4, "vial_opaque": 5, "mug": 6,
-           "bowl": 7, "can": 8, "bottle": 9, "carton": 10}  # BOP's numbers of the stations, and of their scenes
+from plan import BOP_OBJECTS
 
 HEAD = ("ply\nformat {} 1.0\ncomment {}\nelement vertex {}\n{}element face {}\n"
         "property list uchar int vertex_indices\nend_header\n")
@@ -85,8 +84,8 @@ def _write_bop(station, vertices, triangles, root):
     lines = [HEAD.format("ascii", "millimetres", len(vertices), fields, len(triangles))]
     lines += [" ".join(f"{v:.6g}" for v in row) + "\n" for row in both]
     lines += [f"3 {a} {b} {c}\n" for a, b, c in triangles]
-    _replace(root / "bop" / "models" / f"obj_{OBJECTS[station]:06d}.ply", "".join(lines).encode())
-    _note_model(root / "bop" / "models" / "models_info.json", OBJECTS[station], vertices)
+    _replace(root / "bop" / "models" / f"obj_{BOP_OBJECTS[station]:06d}.ply", "".join(lines).encode())
+    _note_model(root / "bop" / "models" / "models_info.json", BOP_OBJECTS[station], vertices)
 
 
 def _note_model(path, number, vertices):
