@@ -189,6 +189,10 @@ LocalizerOptions profileOptions(const std::string& name) {
   return options;
 }
 
+sessions::MethodOptions methodProfile(const std::string& name) {
+  return name == "paper" ? sessions::publishedMethods() : sessions::MethodOptions();
+}
+
 void OptionArguments::addTo(CLI::App& command) {
   command
       .add_option(
@@ -211,7 +215,7 @@ LocalizerOptions OptionArguments::read() const {
 }
 
 sessions::MethodOptions OptionArguments::readMethodOptions() const {
-  sessions::MethodOptions options;
+  sessions::MethodOptions options = methodProfile(profileName());
   applyTo(options, config, assignments, true);
   return options;
 }

@@ -167,6 +167,8 @@ const sessions::RunRecord& recordedRun(const sessions::SessionDocument& document
 std::string optionsPage();
 
 LocalizerOptions profileOptions(const std::string& name);
+/// The same for the methods beside WHS: `paper` as published, else the tuned ones.
+sessions::MethodOptions methodProfile(const std::string& name);
 
 /// "12.3 mm" for people.
 std::string millimetresText(double length_m);

@@ -153,6 +153,7 @@ int localizeImage(const LocalizeArguments& arguments) {
   settings.memory_limit = arguments.options.memoryLimit();
   settings.threads = arguments.threads;
   settings.kernels = arguments.kernels;
+  settings.albedo_of_part = loaded.scene.albedo_of_part;
   std::vector<std::uint8_t> onboard(arguments.record.empty() ? 0 : kRecordRoomBytes);
   RecordWriter record(onboard);
   if (!arguments.record.empty()) settings.onboard_record = &record;

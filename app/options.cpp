@@ -79,7 +79,7 @@ void printList(const std::vector<OptionDescription>& options) {
 int printOptions(const std::string& profile) {
   printList(sessions::listOptions(profileOptions(profile)));
   std::cout << "\nOf the methods beside whs (" << sessions::methodNames() << "):\n";
-  printList(sessions::listOptions(sessions::MethodOptions()));
+  printList(sessions::listOptions(methodProfile(profile)));
   return kDone;
 }
 
@@ -99,7 +99,9 @@ std::string optionsPage() {
   text +=
       "\n## Options of the methods beside WHS\n\nFor `--method`; see "
       "[Methods beside WHS](methods.md).\n";
-  text += tables({{"default", sessions::listOptions(sessions::MethodOptions())}}, "###");
+  text += tables({{"default", sessions::listOptions(methodProfile("default"))},
+                  {"paper", sessions::listOptions(methodProfile("paper"))}},
+                 "###");
   text +=
       "\n## Limits of the checks\n\nBy what poses are judged: *Limits* under *Review*, or `whs "
       "check "

@@ -25,6 +25,7 @@ STEP_px = 6.0  # between samples along an edge
 REACH_px = 3.0  # how far along the normal an edge of the picture is looked for
 MIN_CONTRAST = 14.0  # grey values across an edge of the picture
 DEPTH_SCALE = 0.25  # of the depth picture that says what is hidden
+UNJUDGED = {"hard", "transparent"}  # tags: hidden or blurred edges, edges seen through glass
 MAX_MEDIAN_px, MAX_SHIFT_px = 0.35, 0.05
 
 
@@ -37,6 +38,16 @@ def read_mesh(path):
     vertices = np.frombuffer(data, "<f4", 3 * vertex_count, start).reshape(-1, 3)
     faces = np.frombuffer(data[start + 12 * vertex_count:], [("n", "u1"), ("v", "<i4", 3)])
     return vertices.astype(np.float64), faces["v"].astype(np.int64)
+
+
+def read_station(root, station):
+    """All parts of a station as one mesh."""
+    vertices, triangles = [], []
+    for part in station["parts"]:
+        points, faces = read_mesh(root / part["mesh"])
+        triangles.append(faces + sum(len(v) for v in vertices))
+        vertices.append(points)
+    return np.vstack(vertices), np.vstack(triangles)
 
 
 def edges_of(vertices, triangles):
@@ -178,10 +189,10 @@ def main(arguments):
     root = Path(arguments[0])
     wanted = [a for a in arguments[1:] if a != "--case"]
     data = json.loads((root / "dataset.json").read_text())
-    meshes = {k: read_mesh(root / s["mesh"]) for k, s in data["stations"].items()}
+    meshes = {k: read_station(root, s) for k, s in data["stations"].items()}
     every, shifts = [], []
     for case in data["cases"]:
-        if (wanted and case["id"] not in wanted) or "hard" in case["tags"]:
+        if (wanted and case["id"] not in wanted) or UNJUDGED & set(case["tags"]):
             continue
         camera = data["cameras"][case["camera"]]
         offset, normal, count = measure(case, meshes[case["station"]], camera,

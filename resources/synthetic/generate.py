@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Renders a data set of the two stations with Blender: true poses exact, seeds as an arm has them.
+"""Renders data sets with Blender: true poses exact, seeds as an arm or a hand has them.
 
     python3 resources/synthetic/generate.py --out DIR --cases 60 --seed 1 --jobs 2
 
@@ -25,7 +25,7 @@ sys.path.insert(0, str(HERE))
 import layout
 import plan
 
-FORMAT = {"format": "boresight-synthetic", "version": 1}
+FORMAT = {"format": "boresight-synthetic", "version": 2}
 
 
 def arguments():
@@ -35,7 +35,7 @@ def arguments():
     add("--cases", required=True, type=int, metavar="N", help="cases for each station")
     add("--seed", type=int, default=1, metavar="S", help="of everything that is drawn")
     add("--jobs", type=int, default=1, metavar="J", help="pictures made at once")
-    add("--stations", default="bc,os", help="bc, os, or both (default)")
+    add("--stations", default="bc,os", help=f"of {', '.join(plan.STATIONS)} (default bc,os)")
     add("--pairs", type=float, default=0.25, metavar="SHARE",
         help="share of shots taken by both cameras at once (default 0.25)")
     for name, text in (("far", "far standoff, 1.05 to 1.30 m"), ("hard", "hard cases")):
@@ -49,7 +49,7 @@ def arguments():
     if options.cases < 1 or options.jobs < 1 or options.size < 64:
         parser.error("--cases and --jobs must be at least 1, --size at least 64")
     if not set(options.stations) <= set(plan.STATIONS):
-        parser.error("--stations knows bc and os")
+        parser.error("--stations knows " + ", ".join(plan.STATIONS))
     return options
 
 
@@ -58,7 +58,10 @@ def claim(options):
     drawn = {k: getattr(options, k) for k in ("seed", "pairs", "far", "hard", "size")}
     file = options.out / "generator.json"
     if file.exists():
-        known = {k: v for k, v in json.loads(file.read_text()).items() if k not in FORMAT}
+        known = json.loads(file.read_text())
+        if {k: known.pop(k, None) for k in FORMAT} != FORMAT:
+            raise SystemExit(f"{file}: another version of the generator made this set; give another "
+                             "folder")
         if known != drawn:
             raise SystemExit(f"{file}: the folder holds a set made with {known}; give the same "
                              "options or another folder")
@@ -88,7 +91,7 @@ def environment(blender):
 
 
 def make_meshes(options):
-    if all((options.out / s / "model.ply").exists() for s in plan.STATIONS):
+    if all((options.out / s / "parts.json").exists() for s in plan.STATIONS):
         return
     log = options.out / "unfinished" / "meshes.log"
     if start(options, log, "meshes", str(options.out)).wait() != 0:

@@ -6,7 +6,6 @@ import os
 
 import plan
 
-BOP_OBJECTS = {"bc": 1, "os": 2}
 BOP_DEPTH_MM = 0.05
 
 
@@ -27,29 +26,35 @@ def write(root):
     """Both indices; how many cases they hold."""
     known = records(root)
     if known:
-        replace_json(root / "dataset.json", dataset(known))
+        replace_json(root / "dataset.json", dataset(root, known))
         write_bop(root / "bop", known)
     return len(known)
 
 
-def dataset(known):
+def dataset(root, known):
     stations = sorted({r["plan"]["station"] for r in known})
     cameras = {r["frame"]["camera"]: r["frame"]["camera_parameters"] for r in known}
     return {"format": "boresight-dataset", "version": 1,
             "requirement": {"normal_mm": 0.4, "lateral_mm": 0.4, "rotation_deg": 0.25},
-            "stations": {name: _station(name) for name in stations},
+            "stations": {name: _station(root, name) for name in stations},
             "cameras": dict(sorted(cameras.items())),
             "cases": [_case(r) for r in known]}
 
 
-def _station(name):
+def parts_of(root, station):
+    """Parts of a station's coarse mesh, one for each material, with its reflectance (written by
+    `render_shot.py meshes`)."""
+    parts = json.loads((root / station / "parts.json").read_text())
+    return [{"mesh": f"{station}/{p['material']}.ply", "mesh_unit": "m", "albedo": p["albedo"]}
+            for p in parts]
+
+
+def _station(root, name):
     values = plan.STATIONS[name]
-    tool = plan.pose_of(plan.rotation_about([0.0] * 3), [0.0, 0.0, values["end_effector_m"]])
-    return {"mesh": f"{name}/model.ply", "mesh_unit": "m",
-            "feature_size_m": values["feature_size_m"],
-            "uncertainty": {"translation_m": values["declared_m"],
-                            "rotation_deg": values["declared_deg"], "pivot": "camera"},
-            "camera_from_end_effector": tool}
+    made = {"parts": parts_of(root, name), "feature_size_m": values["feature_size_m"],
+            "uncertainty": values["declared"],
+            "camera_from_end_effector": plan.camera_from_end_effector(name)}
+    return made | {k: values[k] for k in ("symmetries",) if k in values}
 
 
 def _case(record):
@@ -58,8 +63,14 @@ def _case(record):
             "image": f"{station}/images/{frame['number']:06d}.png", "camera": frame["camera"],
             "seed": {"camera_from_station": frame["seed"]},
             "truth": {"camera_from_station": frame["camera_from_station"]}, "tags": frame["tags"]}
-    if "rig" in frame:
-        made["rig"] = frame["rig"]
+    for field in ("rig", "camera_from_end_effector"):
+        if field in frame:
+            made[field] = frame[field]
+    uncertainty = plan.declared_uncertainty(station, frame["tags"])
+    if uncertainty is not plan.STATIONS[station]["declared"]:
+        made["uncertainty"] = uncertainty
+    if "requirement" in plan.STATIONS[station]:
+        made["requirement"] = plan.STATIONS[station]["requirement"]
     return made
 
 
@@ -70,7 +81,7 @@ def write_bop(root, known):
     replace_json(root / "camera.json", {"depth_scale": BOP_DEPTH_MM, **{
         k: camera[k] for k in ("width", "height", "fx", "fy", "cx", "cy")}})
     targets = []
-    for station, scene in BOP_OBJECTS.items():
+    for station, scene in plan.BOP_OBJECTS.items():
         cameras, truth, info = {}, {}, {}
         for record in (r for r in known if r["plan"]["station"] == station):
             key = str(record["frame"]["number"])

@@ -23,9 +23,11 @@ import bpy
 import numpy as np
 
 from imaging import cameras, meshes, pixels
-from scene import assembly, stations
+from plan import BOP_OBJECTS
+from scene import assembly, materials, stations
 
 SAMPLES = 3
+GLASS_SAMPLES, GLASS_BOUNCES, GLASS_CLAMP = 64, 16, 0.7
 PASSES = {"Combined_sun": "sun", "Combined_sky": "sky", "Normal": "normal", "Depth": "depth",
           "Denoising Albedo": "albedo", "IndexOB": "index"}
 BOP_DEPTH_MM = 0.05  # one step of a BOP depth picture
@@ -36,17 +38,24 @@ def set_up_cycles(seed):
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
     cycles = scene.cycles
-    cycles.device, cycles.samples, cycles.seed = "CPU", SAMPLES, seed % (2 ** 31)
+    cycles.device, cycles.seed = "CPU", seed % (2 ** 31)
     cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_auto_tile = False
-    cycles.max_bounces, cycles.diffuse_bounces, cycles.glossy_bounces = 2, 1, 1
+    set_up_cycles_samples()
+    cycles.diffuse_bounces = 1
     cycles.caustics_reflective = cycles.caustics_refractive = False
-    cycles.sample_clamp_indirect, cycles.filter_width = 4.0, 1.5
+    cycles.filter_width = 1.5
     scene.world.cycles.sampling_method = "NONE"  # an even sky is best met by the bounces
     layer = bpy.context.view_layer
     layer.use_pass_normal = layer.use_pass_z = layer.use_pass_object_index = True
     layer.cycles.denoising_store_passes = True
     for group in ("sun", "sky"):
         layer.lightgroups.add(name=group)
+
+
+def set_up_cycles_samples():
+    cycles = bpy.context.scene.cycles
+    cycles.samples, cycles.max_bounces, cycles.glossy_bounces = SAMPLES, 2, 1
+    cycles.sample_clamp_indirect = 4.0
 
 
 def set_up_output(folder):
@@ -99,6 +108,40 @@ def render_station_alone(frame, folder):
     return passes["index"]
 
 
+def refine_glass(frame, folder, radiance, index):
+    """Renders the transparent object with many samples and bounces, unfiltered (the filter's guides
+    know its surface only, not what is seen through it), in place of its part of the picture."""
+    rows, columns = np.flatnonzero((index > 0.5).any(1)), np.flatnonzero((index > 0.5).any(0))
+    if not len(rows):
+        return
+    side, margin = frame.side_px, 4
+    top, bottom = max(0, rows[0] - margin), min(side, rows[-1] + 1 + margin)
+    left, right = max(0, columns[0] - margin), min(side, columns[-1] + 1 + margin)
+    scene = bpy.context.scene
+    area, cycles = scene.render, scene.cycles
+    area.use_border, area.use_crop_to_border = True, False
+    area.border_min_x, area.border_max_x = left / side, right / side
+    area.border_min_y, area.border_max_y = 1.0 - bottom / side, 1.0 - top / side
+    cycles.samples, cycles.max_bounces = GLASS_SAMPLES, GLASS_BOUNCES
+    cycles.transmission_bounces = cycles.transparent_max_bounces = GLASS_BOUNCES
+    cycles.glossy_bounces, cycles.sample_clamp_indirect = 4, GLASS_CLAMP
+    passes = render(frame, folder)
+    area.use_border = False
+    set_up_cycles_samples()
+    near = index > 0.5
+    for _ in range(margin - 1):
+        near = grown(near)
+    near[:top], near[bottom:], near[:, :left], near[:, right:] = False, False, False, False
+    radiance[near] = (passes["sun"] + passes["sky"])[near]
+
+
+def grown(mask):
+    """The mask and its neighbours."""
+    padded = np.pad(mask, 1)
+    return (padded[1:-1, 1:-1] | padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2]
+            | padded[1:-1, 2:])
+
+
 def load(path, name):
     image = bpy.data.images.load(str(path))
     image.colorspace_settings.name = "Non-Color"
@@ -130,10 +173,13 @@ def develop(passes, plan):
     return (sun + sky) * albedo * clear + plan["sky_radiance"] * (1.0 - clear)
 
 
-def gain_for(radiance, index, exposure):
-    """The exposure a camera would choose for the station: its bright parts near two thirds."""
-    station = radiance[index > 0.5]
-    return exposure * 0.66 / max(1e-6, float(np.percentile(station, 88)))
+def gain_for(radiance, index, plan):
+    """The exposure a camera would choose: the station's bright parts near two thirds, or, for what
+    lies on the ground, the ground near two fifths, so that an opaque copy gets the same."""
+    if plan["lying"]:
+        seen = radiance[index <= 0.5]
+        return plan["exposure"] * 0.40 / max(1e-6, float(np.percentile(seen, 60)))
+    return plan["exposure"] * 0.66 / max(1e-6, float(np.percentile(radiance[index > 0.5], 88)))
 
 
 def nearest(image, x, y):
@@ -178,7 +224,9 @@ def make_case(plan, frame_plan, frame, temporary, root):
     alone = render_station_alone(frame, temporary)
     rendered = time.monotonic()
     radiance = develop(passes, plan)
-    gain = gain_for(radiance, passes["index"], plan["exposure"])
+    if "transparent" in plan["tags"]:
+        refine_glass(frame, temporary, radiance, passes["index"])
+    gain = gain_for(radiance, passes["index"], plan)
     generator = np.random.default_rng([plan["scene_seed"], frame_plan["number"]])
     at = frame.render_coordinates(*cameras.rays(frame.camera))
     image = pixels.expose(pixels.sample(radiance, *at), gain, plan["sensor"], generator)
@@ -194,7 +242,7 @@ def commit(record, temporary, root):
     """Pictures first, the record last: what has a record is whole."""
     frame, station = record["frame"], record["plan"]["station"]
     name = f"{frame['number']:06d}"
-    bop = root / "bop" / "test" / f"{meshes.OBJECTS[station]:06d}"
+    bop = root / "bop" / "test" / f"{BOP_OBJECTS[station]:06d}"
     places = {"image": root / station / "images" / f"{name}.png",
               "gray": bop / "gray" / f"{name}.png", "depth": bop / "depth" / f"{name}.png",
               "mask": bop / "mask" / f"{name}_000000.png",
@@ -232,9 +280,9 @@ def make_shot(plan_path, root):
 
 
 def make_meshes(root):
-    for station in meshes.OBJECTS:
+    for station in BOP_OBJECTS:
         solids, _ = stations.build(station, False, random.Random(0))
-        meshes.write(station, solids, root)
+        meshes.write(station, solids, {name: materials.albedo(name) for name in solids}, root)
 
 
 if __name__ == "__main__":

@@ -49,7 +49,9 @@ struct NccOptions {
 /// Oriented FAST and rotated BRIEF (OpenCV ORB) on image and render.
 struct OrbOptions {
   std::int32_t features = 400;
+  std::int32_t image_features = 4000;
   std::int32_t levels = 8;
+  std::int32_t fast_threshold = 10;
   double ratio = 1.0;
   bool equalized = true;
 
@@ -57,7 +59,13 @@ struct OrbOptions {
   static void visitFields(Self& self, Visitor&& visit) {
     visit(OptionInfo{"orb.features", "", 10, 1024, "Features of the render, at most."},
           self.features);
+    visit(OptionInfo{"orb.image_features", "", 10, 100000,
+                     "Features of the image in all search windows, at most."},
+          self.image_features);
     visit(OptionInfo{"orb.levels", "", 1, 16, "Levels of ORB's own pyramid."}, self.levels);
+    visit(OptionInfo{"orb.fast_threshold", "", 1, 255,
+                     "Least contrast of a corner, gray values. OpenCV's own is 20."},
+          self.fast_threshold);
     visit(OptionInfo{"orb.ratio", "", 0.1, 1.0,
                      "The best distance must be below this share of the second best; 1: need not."},
           self.ratio);
@@ -101,5 +109,20 @@ struct MethodOptions {
     ExternalOptions::visitFields(self.external, visit);
   }
 };
+
+/// The methods as published (Pham 2025, Sec. V-A), for profile `paper`: ORB with up to 400 features
+/// and 8 levels, all else as OpenCV has it; whole templates, gray values as they are.
+inline MethodOptions publishedMethods() {
+  MethodOptions options;
+  options.ssd = {.masked = false, .equalized = false};
+  options.ncc = {.kind = NccKind::kCcoeff, .masked = false, .equalized = false};
+  options.orb = {.features = 400,
+                 .image_features = 400,
+                 .levels = 8,
+                 .fast_threshold = 20,
+                 .ratio = 1.0,
+                 .equalized = false};
+  return options;
+}
 
 }  // namespace boresight::sessions

@@ -160,9 +160,7 @@ class CorrelationMethod final : public MatchingMethod {
 };
 
 constexpr int kPatch_px = 31;         ///< of ORB's descriptors, at their level
-constexpr int kImageFeatures = 4000;  ///< in all search windows; ten for each of the render
 constexpr float kScaleFactor = 1.2F;  ///< between levels, as the authors of ORB have it
-constexpr int kFastThreshold = 10;    ///< gray values; half of OpenCV's, for faint images
 constexpr int kDescriptorBits = 256;
 constexpr int kFurthest = kDescriptorBits + 1;
 
@@ -225,7 +223,7 @@ class OrbMethod final : public MatchingMethod {
 
   Features detect(const cv::Mat& image, const cv::Mat& mask, int most) const {
     const auto orb = cv::ORB::create(most, kScaleFactor, options_.levels, kPatch_px / 2 + 1, 0, 2,
-                                     cv::ORB::HARRIS_SCORE, kPatch_px, kFastThreshold);
+                                     cv::ORB::HARRIS_SCORE, kPatch_px, options_.fast_threshold);
     Features features;
     orb->detectAndCompute(image, mask, features.points, features.descriptors);
     // It may give a few more than it was asked for.
@@ -263,7 +261,7 @@ class OrbMethod final : public MatchingMethod {
     for (int y = 0; query.ignore != nullptr && y < mask.rows; ++y)
       for (int x = 0; x < mask.cols; ++x)
         if (query.ignored(x, y)) mask.at<std::uint8_t>(y, x) = 0;
-    return detect(image, mask, kImageFeatures);
+    return detect(image, mask, options_.image_features);
   }
 
   static void compare(const Features& rendered, const Features& seen, Candidate& one) {

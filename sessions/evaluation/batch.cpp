@@ -237,6 +237,7 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
     settings.memory_limit = options_.memory_limit;
     settings.threads = threadsOf(options_.threads, options_.memory_limit, options_.jobs);
     settings.kernels = options_.kernels;
+    settings.albedo_of_part = scene.scene.albedo_of_part;
     const LocalizationTrace trace =
         methods_.localize(options_.method, problem, options, settings, stop);
     noteTrace(trace, result);

@@ -71,6 +71,7 @@ PartSource readPart(const JsonReader& json, Dataset& dataset) {
   if (const auto threshold = json.find("depth_threshold_m"))
     source.part.depth_threshold_m = threshold->number(1e-6, 1000.0);
   if (const auto match = json.find("match")) source.part.match = match->boolean();
+  if (const auto albedo = json.find("albedo")) source.albedo = albedo->number(0.0, 1.0);
   return source;
 }
 

@@ -25,7 +25,7 @@ void requireBelow(const std::filesystem::path& file, std::size_t count, std::int
 }  // namespace
 
 void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& station_from_mesh,
-             const ScenePart& part) {
+             const ScenePart& part, double albedo) {
   const std::filesystem::path& file = mesh.info.file;
   const std::size_t first = scene.vertices_in_station_m.size();
   requireBelow(file, first + mesh.vertices_m.size(), kMaxMeshVertices, "vertices");
@@ -46,6 +46,7 @@ void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& station_from_mesh,
   scene.part_of_face.resize(scene.faces.size(), static_cast<std::uint16_t>(scene.parts.size()));
   scene.parts.push_back(part);
   scene.infos.push_back(mesh.info);
+  scene.albedo_of_part.push_back(albedo);
 }
 
 SceneMesh readScene(std::span<const PartSource> parts, const PartCheck& check) {
@@ -53,7 +54,8 @@ SceneMesh readScene(std::span<const PartSource> parts, const PartCheck& check) {
   for (const PartSource& source : parts) {
     const MeshFiles files = readMeshFiles(source.mesh);
     if (check) check(scene.parts.size(), files.sha256);
-    addPart(scene, readMesh(files, source.mesh_unit), source.station_from_mesh, source.part);
+    addPart(scene, readMesh(files, source.mesh_unit), source.station_from_mesh, source.part,
+            source.albedo.value_or(1.0));
   }
   const bool any_matched = std::any_of(parts.begin(), parts.end(),
                                        [](const PartSource& source) { return source.part.match; });

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ struct PartSource {
   std::string mesh_unit;  ///< "" where the format carries its unit
   Pose station_from_mesh;
   ScenePart part;
+  std::optional<double> albedo;  ///< mean reflectance, 0 .. 1; 1 where not stated
 
   bool operator==(const PartSource&) const = default;
 };
@@ -33,14 +35,15 @@ struct SceneMesh {
   std::vector<Face> faces;
   std::vector<std::uint16_t> part_of_face;
   std::vector<ScenePart> parts;
-  std::vector<MeshInfo> infos;  ///< one per part
+  std::vector<MeshInfo> infos;         ///< one per part
+  std::vector<double> albedo_of_part;  ///< 0 .. 1
 
   MeshView view() const { return {vertices_in_station_m, faces, part_of_face, parts}; }
 };
 
 /// Appends a mesh as a new part. InputError beyond the limits of one mesh in all, or 65535 parts.
 void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& station_from_mesh,
-             const ScenePart& part);
+             const ScenePart& part, double albedo = 1.0);
 
 /// Throws to refuse a part, of whose files this is the SHA-256.
 using PartCheck = std::function<void(std::size_t part, const std::string& sha256)>;

@@ -62,6 +62,7 @@ bool MatchQuery::ignored(int x, int y) const {
 }
 
 OutsideMatching::OutsideMatching(Localizer& localizer, MatchingMethod& method,
+                                 std::span<const double> albedo_of_part,
                                  const std::stop_token& stop)
     : localizer_(localizer), method_(method) {
   const ImageView& image = localizer.problem().image;
@@ -72,6 +73,13 @@ OutsideMatching::OutsideMatching(Localizer& localizer, MatchingMethod& method,
   SurfaceRender surfaces;
   surfaces.intensity = intensity_;
   surfaces.depth_m = depth_m_;
+  const auto brightest = std::max_element(albedo_of_part.begin(), albedo_of_part.end());
+  if (brightest != albedo_of_part.end() &&
+      *std::min_element(albedo_of_part.begin(), albedo_of_part.end()) < *brightest) {
+    for (const double albedo : albedo_of_part) relative_albedo_.push_back(albedo / *brightest);
+    face_.resize(pixels);
+    surfaces.face = face_;
+  }
   localizer_.matchOutside(surfaces);
   method_.begin(stop);
 }
@@ -87,10 +95,23 @@ const OutsideMatching::Picture& OutsideMatching::imageAt(int level) {
   return picture;
 }
 
+void OutsideMatching::shadeByAlbedo(std::size_t pixels) {
+  const std::span<const std::uint16_t> part_of_face = localizer_.problem().mesh.part_of_face;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    if (face_[i] < 0) continue;
+    const double albedo = relative_albedo_[part_of_face[static_cast<std::size_t>(face_[i])]];
+    // At least 1: 0 is the background.
+    intensity_[i] =
+        static_cast<std::uint8_t>(std::max(1.0, std::floor(albedo * intensity_[i] + 0.5)));
+  }
+}
+
 void OutsideMatching::serve() {
   if (!localizer_.awaitsMatches()) return;
   const Iteration& iteration = *localizer_.workspace().iteration;
   const Camera& camera = iteration.render.camera;
+  if (!face_.empty())
+    shadeByAlbedo(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
   const MatchQuery query{iteration,
                          localizer_.options(),
                          imageAt(iteration.level).view(),

@@ -18,8 +18,9 @@ namespace boresight::sessions {
 struct MatchQuery {
   const Iteration& iteration;  ///< render (edges, mask, camera), templates, hypothesis, uncertainty
   const LocalizerOptions& options;
-  ImageView image;                   ///< the test image, as read, pooled to the level by means
-  ImageView intensity;               ///< shaded render, lit from the camera; 0 where nothing is
+  ImageView image;  ///< the test image, as read, pooled to the level by means
+  /// Shaded render, lit from the camera, each part by its albedo; 0 where nothing is.
+  ImageView intensity;
   std::span<const float> depth;      ///< z in m, row by row; 0 where nothing is
   const BitImage* ignore = nullptr;  ///< of the full resolution; may be nullptr
 
@@ -61,8 +62,10 @@ class MatchingMethod {
 /// step.
 class OutsideMatching {
  public:
-  /// Before the localizer's first step; both must outlive the object. MethodError, std::bad_alloc.
-  OutsideMatching(Localizer& localizer, MatchingMethod& method, const std::stop_token& stop);
+  /// Before the localizer's first step; both must outlive the object. `albedo_of_part`: of the
+  /// problem's mesh, or empty. MethodError, std::bad_alloc.
+  OutsideMatching(Localizer& localizer, MatchingMethod& method,
+                  std::span<const double> albedo_of_part, const std::stop_token& stop);
 
   OutsideMatching(const OutsideMatching&) = delete;
   OutsideMatching& operator=(const OutsideMatching&) = delete;
@@ -77,11 +80,14 @@ class OutsideMatching {
     ImageView view() const { return {gray.data(), width, height, width}; }
   };
   const Picture& imageAt(int level);
+  void shadeByAlbedo(std::size_t pixels);
 
   Localizer& localizer_;
   MatchingMethod& method_;
   std::vector<std::uint8_t> intensity_;
   std::vector<float> depth_m_;
+  std::vector<double> relative_albedo_;  ///< of each part, the brightest is 1; empty: all alike
+  std::vector<std::int32_t> face_;       ///< empty with relative_albedo_
   std::array<Picture, kPyramidLevels> images_;
   std::vector<SuppliedMatch> found_;
 };

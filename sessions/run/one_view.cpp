@@ -61,7 +61,7 @@ class OneView final : public SteppedRun {
 
   StepReport step(const std::stop_token& stop) override {
     if (settings_.method != nullptr && !outside_)
-      outside_.emplace(*localizer_, *settings_.method, stop);
+      outside_.emplace(*localizer_, *settings_.method, settings_.albedo_of_part, stop);
     RecordWriter* onboard = settings_.onboard_record;
     if (changes_.takeUp(*localizer_, traces.front().complete()) && onboard != nullptr)
       onboard->changeOptions(localizer_->options(), localizer_->workspace().iterations);

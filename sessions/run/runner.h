@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -33,6 +34,8 @@ struct RunSettings {
   RecordWriter* onboard_record = nullptr;
   /// Matches in place of WHS, if given; then the result is the method's.
   MatchingMethod* method = nullptr;
+  /// Reflectance of each part in the render that `method` gets; empty: all alike.
+  std::span<const double> albedo_of_part = {};
 };
 
 /// What several views gave together.

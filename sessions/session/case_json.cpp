@@ -120,6 +120,7 @@ void fields(Archive& archive, Self& part) {
   archive.field("normal_threshold_rad", thresholds.normal_threshold_rad, numberIn(1e-3, 3.15));
   archive.field("depth_threshold_m", thresholds.depth_threshold_m, numberIn(1e-6, 1000.0));
   archive.field("match", thresholds.match, kFlag);
+  archive.optional("albedo", part.source.albedo, numberIn(0.0, 1.0));
   if constexpr (Archive::kReads) requireMesh(archive.json(), part.source);
 }
 

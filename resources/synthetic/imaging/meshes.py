@@ -6,7 +6,10 @@ import os
 
 import numpy as np
 
-OBJECTS = {"bc": 1, "os": 2}  # BOP's numbers of the stations, and of their scenes
+from plan import BOP_OBJECTS
+
+HEAD = ("ply\nformat {} 1.0\ncomment {}\nelement vertex {}\n{}element face {}\n"
+        "property list uchar int vertex_indices\nend_header\n")
 
 
 def joined(solids):
@@ -50,24 +53,39 @@ def _replace(path, data):
     os.replace(draft, path)
 
 
-def write(station, solids, root):
-    """STATION/model.ply, and bop/models/obj_*.ply with its entry of models_info.json."""
+def write(station, solids, albedos, root):
+    """STATION/MATERIAL.ply of every material with parts.json, STATION/model.ply (all of them), and
+    bop/models/obj_*.ply with its entry of models_info.json."""
+    for name, solid in solids.items():
+        _write_binary(root / station / f"{name}.ply", *joined({name: solid}))
     vertices, triangles = joined(solids)
-    head = ("ply\nformat {} 1.0\ncomment {}\nelement vertex {}\n{}element face {}\n"
-            "property list uchar int vertex_indices\nend_header\n")
-    places = "".join(f"property float {a}\n" for a in "xyz")
+    _write_binary(root / station / "model.ply", vertices, triangles)
+    _write_bop(station, vertices, triangles, root)
+    parts = [{"material": name, "albedo": albedos[name]} for name in sorted(solids)]
+    _replace(root / station / "parts.json", (json.dumps(parts, indent=1) + "\n").encode())
+
+
+def _write_binary(path, vertices, triangles):
+    """A PLY file in metres."""
     faces = np.zeros(len(triangles), dtype=[("n", "u1"), ("v", "<i4", 3)])
     faces["n"], faces["v"] = 3, triangles
-    text = head.format("binary_little_endian", "metres", len(vertices), places, len(triangles))
-    _replace(root / station / "model.ply", text.encode() + (vertices * 1e-3).astype("<f4").tobytes()
-             + faces.tobytes())
+    text = HEAD.format("binary_little_endian", "metres", len(vertices), _fields("xyz"),
+                       len(triangles))
+    _replace(path, text.encode() + (vertices * 1e-3).astype("<f4").tobytes() + faces.tobytes())
+
+
+def _fields(names):
+    return "".join(f"property float {a}\n" for a in names)
+
+
+def _write_bop(station, vertices, triangles, root):
     both = np.hstack([vertices, vertex_normals(vertices, triangles)])
-    places += "".join(f"property float {a}\n" for a in ("nx", "ny", "nz"))
-    lines = [head.format("ascii", "millimetres", len(vertices), places, len(triangles))]
+    fields = _fields(["x", "y", "z", "nx", "ny", "nz"])
+    lines = [HEAD.format("ascii", "millimetres", len(vertices), fields, len(triangles))]
     lines += [" ".join(f"{v:.6g}" for v in row) + "\n" for row in both]
     lines += [f"3 {a} {b} {c}\n" for a, b, c in triangles]
-    _replace(root / "bop" / "models" / f"obj_{OBJECTS[station]:06d}.ply", "".join(lines).encode())
-    _note_model(root / "bop" / "models" / "models_info.json", OBJECTS[station], vertices)
+    _replace(root / "bop" / "models" / f"obj_{BOP_OBJECTS[station]:06d}.ply", "".join(lines).encode())
+    _note_model(root / "bop" / "models" / "models_info.json", BOP_OBJECTS[station], vertices)
 
 
 def _note_model(path, number, vertices):

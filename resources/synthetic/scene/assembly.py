@@ -46,18 +46,40 @@ def build(plan, frames):
                                             float(generator.uniform(0.0, 40.0)))
         return surfaces[name]
 
-    solids, filled = stations.build(plan["station"], True, random.Random(plan["scene_seed"]))
+    solids, filled = stations.build(plan["station"], True, random.Random(plan["scene_seed"]),
+                                    plan["target_sleeve"])
     for name, solid in solids.items():
         add_object("station_" + name, solid, surface(name), STATION_INDEX)
-    for name, solid in surroundings.deck(plan["station"], generator).items():
+    around = _around_lying if plan["lying"] else _around_mounted
+    for name, (solid, material) in around(plan, solids, generator).items():
         if len(solid.triangles):
-            add_object("deck_" + name, solid, surface(name))
-    depth = plan["ground_depth_mm"]
-    add_object("ground", surroundings.ground(up, depth, generator), surface("ground"))
-    add_object("rocks", surroundings.rocks(up, depth, plan["rocks"], generator), surface("rock"))
+            add_object(name, solid, surface(material))
     _add_outside(plan, frames, generator, surface)
     _add_light(plan)
     return filled
+
+
+def _around_mounted(plan, _, generator):
+    """The vehicle's deck, and the ground far below: name -> (solid, material)."""
+    up, depth = np.array(plan["up"]), plan["ground_depth_mm"]
+    made = {"deck_" + name: (solid, name)
+            for name, solid in surroundings.deck(plan["station"], generator).items()}
+    made["ground"] = surroundings.ground(up, depth, generator), "ground"
+    made["rocks"] = surroundings.rocks(up, depth, plan["rocks"], generator), "rock"
+    return made
+
+
+def _around_lying(plan, solids, generator):
+    """The ground on which an object lies, 0.6 mm deep in it: name -> (solid, material)."""
+    up = np.array(plan["up"])
+    points = np.vstack([s.vertices for s in solids.values()])
+    depth = float(-(points @ up).min()) - 0.6
+    clear = float(np.linalg.norm(points, axis=1).max()) + 6.0
+    made = {"litter_" + name: (solid, name)
+            for name, solid in surroundings.litter(up, depth, clear, generator).items()}
+    made["ground"] = surroundings.near_ground(up, depth, generator), "ground"
+    made["rocks"] = surroundings.pebbles(up, depth, clear, plan["rocks"], generator), "rock"
+    return made
 
 
 def _add_outside(plan, frames, generator, surface):
@@ -72,7 +94,7 @@ def _add_outside(plan, frames, generator, surface):
         add_object("casters", casters, surface("bracket"))
     if "hard_occluded" in plan["tags"]:
         place = frames[0].place / MILLIMETRE
-        add_object("occluder", surroundings.occluder(place, generator), surface("paint"))
+        add_object("occluder", surroundings.occluder(place, plan["occluder_reach_mm"], generator), surface("paint"))
 
 
 def _add_light(plan):

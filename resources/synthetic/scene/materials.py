@@ -19,10 +19,18 @@ SURFACES = {
     "cable": (0.05, 0.00, 0.55, 0.4),
     "paint": (0.62, 0.00, 0.55, 0.8),
     "foil": (0.40, 0.80, 0.35, 0.3),
+    "ceramic": (0.42, 0.00, 0.45, 0.3),
     "rock": (0.20, 0.00, 0.95, 0.6),
     "ground": (0.26, 0.00, 1.00, 0.0),
 }
 DUST_REFLECTANCE = 0.30
+GLASS_INDEX = 1.47  # borosilicate
+GLASS_ALBEDO = 0.05  # of its outer face: what it reflects, as a coarse render has no refraction
+
+
+def albedo(name):
+    """Mean reflectance of a clean surface."""
+    return GLASS_ALBEDO if name == "glass" else SURFACES[name][0]
 
 
 class _Nodes:
@@ -61,9 +69,12 @@ class _Nodes:
 
 def make(name, dust, up, seed):
     """A material of the table above; `dust` 0 .. 1 lies on what faces `up` (a direction)."""
-    reflectance, metallic, roughness, holds = SURFACES[name]
     material = bpy.data.materials.new(name)
     nodes = _Nodes(material)
+    if name == "glass":
+        _glass(nodes)
+        return material
+    reflectance, metallic, roughness, holds = SURFACES[name]
     place = nodes.make("ShaderNodeNewGeometry")
     position, normal = place.outputs["Position"], place.outputs["True Normal"]
     if name in ("ground", "rock"):
@@ -87,6 +98,24 @@ def make(name, dust, up, seed):
                       nodes.math("MULTIPLY", dusty, share))
     _set(nodes, grey, nodes.math("MULTIPLY", nodes.math("SUBTRACT", 1.0, share), metallic), roughness)
     return material
+
+
+def _glass(nodes):
+    """Refracts what the camera sees. Light on its way to what lies behind passes straight, less at
+    grazing angles: a glass's shadow without its caustics, which so few samples cannot find."""
+    glass = nodes.make("ShaderNodeBsdfGlass", {"Roughness": 0.0, "IOR": GLASS_INDEX})
+    rim = nodes.make("ShaderNodeLayerWeight", {"Blend": 0.35}).outputs["Facing"]
+    passed = nodes.math("SUBTRACT", 0.95, nodes.math("MULTIPLY", nodes.math("POWER", rim, 3.0), 0.6))
+    tint = nodes.make("ShaderNodeCombineRGB", {0: passed, 1: passed, 2: passed}).outputs[0]
+    straight = nodes.make("ShaderNodeBsdfTransparent", {"Color": tint})
+    path = nodes.make("ShaderNodeLightPath")
+    sharp = nodes.math("MAXIMUM", path.outputs["Is Camera Ray"], path.outputs["Is Singular Ray"])
+    onward = nodes.math("MAXIMUM", path.outputs["Is Shadow Ray"],
+                        nodes.math("SUBTRACT", 1.0, sharp))
+    mixed = nodes.make("ShaderNodeMixShader", {0: onward, 1: glass.outputs[0],
+                                               2: straight.outputs[0]})
+    nodes.tree.links.new(mixed.outputs[0],
+                         nodes.tree.nodes["Material Output"].inputs["Surface"])
 
 
 def _scratched(nodes, position, grey, seed):

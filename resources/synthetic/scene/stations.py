@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The two stations, in millimetres: x and y in the plane of the plate, z towards the camera.
+"""The stations, in millimetres: x and y in the plane of the plate, z towards the camera.
 
 `coarse` is the mesh that a localizer gets. `fine` is what is rendered: the same parts with rounder
 circles, edges broken by 0.04 mm, screws, labels, sleeves filled with tubes, and wear.
@@ -9,7 +9,8 @@ import math
 
 import numpy as np
 
-from . import shapes
+from . import objects, shapes
+from .lattice import OS_PITCH_MM, canister_lattice, canister_sleeves
 from .shapes import Solid
 
 COARSE_SAGITTA_MM = 0.03
@@ -23,9 +24,6 @@ BC_SLEEVES = [(-12, 100, 24, 20, 9), (66, 78, 20.5, 17, 12), (104, 12, 17, 14, 8
 BC_HOLES = [(-26, 56, 3.8), (20, 58, 3.8), (60, -14, 4.2)]
 BC_BOLTS = [(30, 122), (112, 62), (124, -40), (40, -127), (-40, -122), (-118, -56), (-128, 28),
             (-112, 66), (121, 38)]
-OS_PITCH_MM = 33.0
-OS_KEYED = {(0, 0)}
-OS_BARE = {(3, -3), (-1, -2), (-2, 3)}  # where other things stand
 
 
 class Builder:
@@ -57,10 +55,16 @@ class Builder:
                 (inner, rim - b), (inner, floor), (0.0, floor)]
 
 
-def build(station, fine, random):
-    """The solids of a station by material, and which sleeves are filled (fine only)."""
+def build(station, fine, random, target_sleeve=None):
+    """The solids of a station by material, and which sleeves are filled (fine only): never the
+    target, which a tube is to be put into."""
     builder = Builder(fine)
-    filled = {"bc": _carousel, "os": _canister}[station](builder, random)
+    kinds = {"bc": _carousel, "os": lambda b, r: _canister(b, r, target_sleeve),
+             "tube": objects.tube, "vial": lambda b, r: objects.flask(b, r, "glass"),
+             "vial_opaque": lambda b, r: objects.flask(b, r, "ceramic"),
+             "mug": objects.mug, "bowl": objects.bowl, "can": objects.can,
+             "bottle": objects.bottle, "carton": objects.carton}
+    filled = kinds[station](builder, random)
     return builder.solids, filled
 
 
@@ -134,21 +138,8 @@ def _carousel_details(builder, random):
     return filled
 
 
-def _canister_lattice():
-    """Lattice indices and places of the sleeves of the canister."""
-    made = {}
-    for i in range(-4, 5):
-        for j in range(-4, 5):
-            x = OS_PITCH_MM * (i + 0.5 * j)
-            y = OS_PITCH_MM * math.sqrt(0.75) * j
-            if math.hypot(x, y) < 104:
-                made[(i, j)] = (x, y)
-    return made
-
-
-def _canister(builder, random):
-    lattice = _canister_lattice()
-    sleeves = {k: p for k, p in lattice.items() if k not in OS_KEYED | OS_BARE}
+def _canister(builder, random, target):
+    lattice, sleeves = canister_lattice(), canister_sleeves()
     holes = [builder.round(12.5, x, y) for x, y in sleeves.values()]
     builder.add("dark", shapes.prism(builder.round(121), -18, -14, holes))
     for x, y in sleeves.values():
@@ -158,7 +149,7 @@ def _canister(builder, random):
     builder.add("steel", builder.lathe([(13, -15), (13, -6), (8.5, -6), (8.5, -11), (0, -11)]))
     builder.add("steel", shapes.box(5, 12, -15, -3, 0, 13))
     _canister_marks(builder, lattice)
-    return _canister_details(builder, sleeves, random) if builder.fine else []
+    return _canister_details(builder, sleeves, random, target) if builder.fine else []
 
 
 def _webs(builder, sleeves):
@@ -200,14 +191,16 @@ def _canister_marks(builder, lattice):
     builder.add("mark", shapes.prism(corner, -15, -6))
 
 
-def _canister_details(builder, sleeves, random):
+def _canister_details(builder, sleeves, random, target):
     for i in range(18):
         angle = math.radians(20 * i + 7)
         _screw(builder, 135 * math.cos(angle), 135 * math.sin(angle), -26, 2.2, random)
     for x, y in list(sleeves.values())[::2]:
         angle = random.uniform(0, 2 * math.pi)
         _screw(builder, x + 18.5 * math.cos(angle), y + 18.5 * math.sin(angle), -14, 1.2, random)
+    keys = list(sleeves)
     filled = [i for i in range(len(sleeves)) if random.random() < 0.45]
+    filled = [i for i in filled if list(keys[i]) != target]
     places = list(sleeves.values())
     for i in filled:
         _tube(builder, *places[i], 10.7, random.uniform(-3.5, -0.6), random)

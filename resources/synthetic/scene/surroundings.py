@@ -41,10 +41,74 @@ def ground(up, depth, generator):
     height = sum(amplitude * _smooth_noise(x.shape, cells, generator)
                  for amplitude, cells in ((90, 7), (34, 26), (9, 80), (4, 170)))
     vertices = np.column_stack([x.ravel(), y.ravel(), height.ravel() - depth])
+    return Solid(vertices, _grid(count)).placed(frame_with_z(up), [0, 0, 0])
+
+
+class _Relief:
+    """Value noise in the plane, of period 64 cells, for metric coordinates."""
+
+    def __init__(self, generator):
+        self.lattice = generator.uniform(-1.0, 1.0, (64, 64))
+
+    def at(self, x, y, wavelength):
+        x, y = x / wavelength, y / wavelength
+        i, j = np.floor(x).astype(int), np.floor(y).astype(int)
+        fx, fy = x - i, y - j
+        fx, fy = fx * fx * (3 - 2 * fx), fy * fy * (3 - 2 * fy)
+        i, j, i1, j1 = i % 64, j % 64, (i + 1) % 64, (j + 1) % 64
+        low = self.lattice[i, j] * (1 - fx) + self.lattice[i1, j] * fx
+        return low * (1 - fy) + (self.lattice[i, j1] * (1 - fx) + self.lattice[i1, j1] * fx) * fy
+
+
+def near_ground(up, depth, generator):
+    """Soil that an object lies on: a plain 80 m wide, 2 mm fine where it is looked at, and level
+    under the object."""
+    count, half, bend = 440, 40000.0, 8.0
+    along = np.sinh(np.linspace(-bend, bend, count)) / math.sinh(bend) * half
+    x, y = np.meshgrid(along, along)
+    near = np.clip(np.hypot(x, y) / 400.0, 0.0, 1.0) ** 2
+    height = sum(amplitude * _Relief(generator).at(x, y, wavelength) for amplitude, wavelength in
+                 ((0.25, 7.0), (0.6, 26.0)))
+    height = height + near * sum(amplitude * _Relief(generator).at(x, y, wavelength)
+                                 for amplitude, wavelength in ((9, 130.0), (30, 700.0), (120, 5000.0)))
+    vertices = np.column_stack([x.ravel(), y.ravel(), height.ravel() - depth])
+    return Solid(vertices, _grid(count)).placed(frame_with_z(up), [0, 0, 0])
+
+
+def _grid(count):
+    """Triangles of a square grid of `count` vertices a side."""
     corner = (np.arange(count - 1)[:, None] * count + np.arange(count - 1)).ravel()
-    triangles = np.vstack([np.column_stack([corner, corner + 1, corner + count + 1]),
-                           np.column_stack([corner, corner + count + 1, corner + count])])
-    return Solid(vertices, triangles).placed(frame_with_z(up), [0, 0, 0])
+    return np.vstack([np.column_stack([corner, corner + 1, corner + count + 1]),
+                      np.column_stack([corner, corner + count + 1, corner + count])])
+
+
+def pebbles(up, depth, clear, count, generator):
+    """Small stones around an object, none within `clear` of its middle."""
+    turn = frame_with_z(up)
+    made = Solid()
+    for i in range(count):
+        distance = clear + (260.0 if i < count // 2 else 1500.0) * generator.uniform()
+        angle = generator.uniform(0.0, 2 * math.pi)
+        radius = min(1.5 + 24.0 * generator.uniform() ** 5, 0.45 * (distance - clear) + 1.5)
+        place = [distance * math.cos(angle), distance * math.sin(angle), 0.25 * radius - depth]
+        made.add(rock(radius, generator).placed(turn, turn @ place))
+    return made
+
+
+def litter(up, depth, clear, generator):
+    """A cable and a box on the ground near an object: solids by material."""
+    turn, angle = frame_with_z(up), generator.uniform(0, 2 * math.pi)
+    offset = clear + generator.uniform(12, 90)
+    path = np.column_stack([np.linspace(-500, 500, 9), offset + generator.normal(0, 9, 9).cumsum(),
+                            np.full(9, 4.0 - depth)])
+    path[:, 1] = np.maximum(path[:, 1], clear + 8.0)
+    cable = shapes.sweep(shapes.spline(path, 14), generator.uniform(2.5, 5.0))
+    distance, side = clear + generator.uniform(90, 170), angle + generator.uniform(2.0, 4.3)
+    box = shapes.box(generator.uniform(50, 90), generator.uniform(50, 110), -20 - depth,
+                     generator.uniform(25, 70) - depth, 0.0, 0.0, generator.uniform(0, 3.1))
+    box = box.moved(distance * math.cos(side), distance * math.sin(side))
+    return {"cable": cable.moved(turn_rad=angle - 0.5 * math.pi).placed(turn, [0, 0, 0]),
+            "bracket": box.placed(turn, [0, 0, 0])}
 
 
 def rock(radius, generator):
@@ -152,10 +216,11 @@ def _dense(solid):
     return np.vstack([corners[:, 0] * a + corners[:, 1] * b + corners[:, 2] * c for a, b, c in weights])
 
 
-def occluder(camera_place, generator):
-    """For hard cases: a tool of the arm between camera and station, over its edge."""
+def occluder(camera_place, reach, generator):
+    """For hard cases: a tool of the arm between camera and station, over a point `reach` from its
+    middle."""
     angle = generator.uniform(0, 2 * math.pi)
-    middle = np.array([62 * math.cos(angle), 62 * math.sin(angle), 0.0])
+    middle = np.array([reach * math.cos(angle), reach * math.sin(angle), 0.0])
     high = 0.35 * np.asarray(camera_place) + 0.65 * middle
     far = middle + np.array([330 * math.cos(angle), 330 * math.sin(angle), 60.0])
     made = shapes.sweep(shapes.spline([high, 0.5 * (high + far) + [0, 0, 25], far], 20),

@@ -104,6 +104,19 @@ TEST_F(ReadDataset, ReadsStationsInBothForms) {
   EXPECT_EQ(dataset.cameras.at("left").width, 8);
 }
 
+TEST_F(ReadDataset, KeepsTheAlbedoOfEveryPartThatStatesOne) {
+  json content = sampleDataset();
+  content["stations"]["bc"]["albedo"] = 0.42;
+  content["stations"]["os"]["parts"][1]["albedo"] = 0;
+  const Dataset dataset = read(content);
+  EXPECT_EQ(dataset.stations.at("bc").parts[0].albedo, 0.42);
+  EXPECT_FALSE(dataset.stations.at("os").parts[0].albedo.has_value());
+  EXPECT_EQ(dataset.stations.at("os").parts[1].albedo, 0.0);
+  for (const double outside : {-0.01, 1.01})
+    EXPECT_THAT(error([&](json& d) { d["stations"]["os"]["parts"][0]["albedo"] = outside; }),
+                HasSubstr("stations.os.parts[0].albedo"));
+}
+
 TEST_F(ReadDataset, GivesACaseWhatItsStationAndTheDatasetSay) {
   const Dataset dataset = readSample();
   ASSERT_EQ(dataset.cases.size(), 2u);

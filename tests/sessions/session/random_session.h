@@ -109,6 +109,7 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
     part.source.part.normal_threshold_rad = random.uniform(0.1, 1.0);
     part.source.part.depth_threshold_m = random.uniform(0.001, 0.1);
     part.source.part.match = i == 1 || coin(random);
+    if (coin(random)) part.source.albedo = random.uniform(0.0, 1.0);
     part.sha256 = randomSha256(random);
     one.parts.push_back(part);
   }

@@ -145,6 +145,7 @@ TEST(SessionMaker, DigestsTellInputsApartThatMatter) {
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.station_from_mesh.translation_m.x() = 1; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.part.normal_threshold_rad *= 2; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.part.match = false; }));
+  EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.albedo = 0.42; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts.push_back(c.parts[0]); }));
   EXPECT_TRUE(changed([](auto& c) { c.camera.fx += 1e-9; }));
   EXPECT_TRUE(changed([](auto& c) { c.camera_from_station_seed.translation_m.z() += 1e-9; }));
