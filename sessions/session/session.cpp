@@ -78,7 +78,7 @@ Session withoutCase(const Session& session, const std::string& case_id) {
   Session next = session;
   next.cases.eraseIf([&](const auto& one) { return one->id == case_id; });
   next.annotations.erase(case_id);
-  next.passes.erase(case_id);
+  next.rounds.erase(case_id);
   next.decisions.eraseIf([&](const Decision& one) { return one.case_id == case_id; });
   next.runs.eraseIf([&](const RunRecord& run) { return run.case_id == case_id; });
   if (next.view.case_id == case_id) next.view = {};
@@ -94,12 +94,12 @@ Session withAnnotation(const Session& session, const std::string& case_id, Annot
   return next;
 }
 
-Session withPasses(const Session& session, const std::string& case_id, AnnotationPasses passes) {
+Session withRounds(const Session& session, const std::string& case_id, AnnotationRounds rounds) {
   Session next = session;
-  if (passes.empty())
-    next.passes.erase(case_id);
+  if (rounds.empty())
+    next.rounds.erase(case_id);
   else
-    next.passes.insert_or_assign(case_id, std::move(passes));
+    next.rounds.insert_or_assign(case_id, std::move(rounds));
   return next;
 }
 
@@ -168,7 +168,7 @@ std::vector<std::string> changedCases(const Session& before, const Session& afte
     const SessionCase* former = before.findCase(one->id);
     const bool same =
         former && *former == *one && sameOf(one->id, before.annotations, after.annotations) &&
-        sameOf(one->id, before.passes, after.passes) && sameDecision(one->id, before, after);
+        sameOf(one->id, before.rounds, after.rounds) && sameDecision(one->id, before, after);
     if (!same) changed.push_back(one->id);
   }
   return changed;

@@ -202,19 +202,19 @@ TEST(CheckPose, AnotherCamerasPoseIsTakenThroughTheRig) {
   ExampleReview review = example("bc");
   // The same image again, said to be taken by a camera 10 cm beside and turned by 0.1 rad: the pose
   // that it finds disagrees by as much.
-  SessionCase twin = *review.session.findCase(review.case_id);
-  twin.id = "twin";
-  review.session = withCase(review.session, twin);
+  SessionCase second = *review.session.findCase(review.case_id);
+  second.id = "second";
+  review.session = withCase(review.session, second);
   RunRecord run = *review.session.lastRunOf(review.case_id);
-  run.case_id = "twin";
+  run.case_id = "second";
   review.session.runs.push_back(run);
   SessionCase one = *review.session.findCase(review.case_id);
   Pose camera_from_rig;
   camera_from_rig.rotation = rotationExp({0.1, 0.0, 0.0});
   camera_from_rig.translation_m = {0.1, 0.0, 0.0};
   one.rig = Rig{"rig", camera_from_rig};
-  twin.rig = Rig{"rig", camera_from_rig};
-  review.session = withCase(withCase(review.session, one), twin);
+  second.rig = Rig{"rig", camera_from_rig};
+  review.session = withCase(withCase(review.session, one), second);
   const auto agrees = reviewSubject(review.session, review.subject.loaded, PoseSource::kRun);
   EXPECT_TRUE(agrees.other_cameras.empty()) << "the loaded case is in no rig yet";
   const auto loaded = reloadCase(*review.subject.loaded, one);
@@ -225,8 +225,8 @@ TEST(CheckPose, AnotherCamerasPoseIsTakenThroughTheRig) {
             1e-9);
   EXPECT_LT((same.other_cameras[0].covariance.total() - same.covariance.total()).norm(),
             1e-6 * same.covariance.total().norm());
-  twin.rig->camera_from_rig.translation_m.x() += 0.002;
-  review.session = withCase(review.session, twin);
+  second.rig->camera_from_rig.translation_m.x() += 0.002;
+  review.session = withCase(review.session, second);
   const auto apart = reviewSubject(review.session, loaded, PoseSource::kRun);
   EXPECT_EQ(findCheck(checkPose(apart, presetLimits()), "agreement_camera").state,
             CheckState::kFailed);

@@ -15,7 +15,7 @@
 #include "sessions/io/json_writer.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/pose_uncertainty.h"
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "sessions/run/trace_file.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/check_limits.h"
@@ -165,7 +165,7 @@ TEST_F(ValidatedPose, HoldsWhatAReviewerAsksForAndVerifies) {
   const fs::path file = writeValidated();
   const ordered_json json = read(file);
   EXPECT_EQ(json["state"], "validated");
-  EXPECT_EQ(json["standing"], "validated by Ada");
+  EXPECT_EQ(json["review_status"], "validated by Ada");
   EXPECT_THAT(json["checks"].dump(), HasSubstr("\"override_reason\":\"the shadow of the arm\""));
   EXPECT_EQ(json["sha256"]["image_pixels"], session_.findCase(id_)->image.pixels_sha256);
   EXPECT_EQ(json["run"]["digest"], subject_.run->digest);
@@ -178,7 +178,7 @@ TEST_F(ValidatedPose, HoldsWhatAReviewerAsksForAndVerifies) {
   EXPECT_TRUE(json["end_effector"].contains("end_effector_seed_from_end_effector_estimated"));
 
   const VerifyReport report = verified(file);
-  EXPECT_EQ(report.standing, "validated by Ada");
+  EXPECT_EQ(report.review_status, "validated by Ada");
 }
 
 Matrix6d matrixOf(const ordered_json& json) {
@@ -215,9 +215,9 @@ TEST_F(ValidatedPose, WhatNobodyValidatedSaysSoAndStillVerifies) {
   run();
   const fs::path file = write();
   EXPECT_EQ(read(file)["state"], "NOT VALIDATED");
-  EXPECT_EQ(read(file)["standing"], "NOT VALIDATED: converged");
+  EXPECT_EQ(read(file)["review_status"], "NOT VALIDATED: converged");
   const VerifyReport report = verified(file);
-  EXPECT_EQ(report.standing, "NOT VALIDATED: converged");
+  EXPECT_EQ(report.review_status, "NOT VALIDATED: converged");
 }
 
 TEST_F(ValidatedPose, OfMarksIsSolvedAgain) {
@@ -352,7 +352,7 @@ TEST_F(ValidatedPose, ASmallerCovarianceIsFoundWhenItIsMeasuredAgain) {
   pose.covariance = decision.pose->covariance;
   pose.run_digest = decision.digest;
   pose.validated = true;
-  pose.standing = "validated by Ada";
+  pose.review_status = "validated by Ada";
   pose.checks = decision.checks;
   resign(json = validatedPoseJson(edited, pose, subject_.run, file), file);
   EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true)),
@@ -362,7 +362,7 @@ TEST_F(ValidatedPose, ASmallerCovarianceIsFoundWhenItIsMeasuredAgain) {
 TEST_F(ValidatedPose, WhoWhenAndWhyAreListedAsNotProved) {
   const fs::path file = writeValidated();
   ordered_json json = read(file);
-  json["standing"] = "validated by Flight Director";
+  json["review_status"] = "validated by Flight Director";
   for (ordered_json* decision : {&json["decision"], &json["session"]["decisions"][0]}) {
     (*decision)["by"] = "Flight Director";
     (*decision)["time"] = "2020-01-01T00:00:00Z";
