@@ -9,7 +9,7 @@
 
 #include "core/pnp/correspondence.h"
 #include "sessions/annotation/geometry_meter.h"
-#include "sessions/annotation/mark_equations.h"
+#include "sessions/annotation/marks_on_image.h"
 
 namespace boresight::sessions {
 namespace {
