@@ -145,11 +145,11 @@ std::string rerunText(const sessions::RunRecord& run) {
          (run.rerun->from.empty() ? "" : ", going on from run " + run.rerun->from);
 }
 
-/// Of a session's cases: what several of them have is read or looked for once.
+/// Of a session's cases: the files that a case shares with the one before are not read again.
 struct CaseSources {
   const sessions::Session& session;
   const path& file;
-  sessions::InputSheets sheets = {};
+  std::shared_ptr<const sessions::LoadedCase> before = {};
   std::multimap<std::string, const sessions::RunRecord*> runs = {};  ///< by case, in their order
 };
 
@@ -157,7 +157,8 @@ void describeCase(const sessions::SessionCase& one, CaseSources& sources) {
   const auto& session = sources.session;
   line("case " + one.id + (one.station.empty() ? "" : ", station " + one.station));
   try {
-    const sessions::InputSheet sheet = sources.sheets.of(one);
+    sources.before = sources.before ? reloadCase(*sources.before, one) : sessions::loadCase(one);
+    const sessions::InputSheet sheet = sessions::inputSheet(*sources.before);
     for (const sessions::SheetLine& entry : sheet.lines)
       line("  " + entry.label + ": " + entry.value);
     flagAll(sheet.flags);
