@@ -45,14 +45,6 @@ void takeMargin(QueueRow& row) {
   }
 }
 
-void takeChecks(std::vector<Check> checks, QueueRow& row) {
-  row.checks = std::move(checks);
-  for (const Check& check : row.checks) {
-    row.passed += check.state == CheckState::kPassed ? 1 : 0;
-    row.failed += check.state == CheckState::kFailed ? 1 : 0;
-  }
-}
-
 void takeRun(const ReviewSubject& subject, QueueRow& row) {
   const LocalizationTrace& run = *subject.run;
   row.iterations = static_cast<int>(run.iterations.size());
@@ -77,7 +69,9 @@ void checkRun(const Session& session, std::shared_ptr<const LoadedCase> loaded, 
   const ReviewSubject subject = reviewSubject(session, std::move(loaded), PoseSource::kRun);
   takeRun(subject, row);
   const CheckLimits limits = checkLimits(session.review.preset, session.review.limits);
-  takeChecks(checkPose(subject, limits), row);
+  row.checks = checkPose(subject, limits);
+  row.passed = countOf(row.checks, CheckState::kPassed);
+  row.failed = countOf(row.checks, CheckState::kFailed);
   if (subject.run->converged()) takeMargin(row);  // else the seed stands in for the pose
   row.subject = withoutData(subject);
   row.trouble = subject.run->converged() ? validationConcern(session, subject)

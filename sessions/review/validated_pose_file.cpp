@@ -110,9 +110,9 @@ ordered_json linkJson(const std::string& name, const Pose& pose, const std::stri
 /// Which run it was, and which other views had a say in it.
 std::string runText(const HandedPose& pose, const Session& session) {
   std::string text = "run " + pose.run_digest;
-  for (const RunRecord& run : session.runs)
-    if (run.case_id == pose.case_id && run.digest == pose.run_digest && run.together)
-      text += ", " + togetherText(run.together->views, run.case_id);
+  const RunRecord* run = findRun(session, pose.case_id, pose.run_digest);
+  if (run != nullptr && run->together)
+    text += ", " + togetherText(run->together->views, run->case_id);
   return text;
 }
 
