@@ -222,7 +222,7 @@ double drawInputs(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report
                           "is (0, 0)",
                           cameraModelName(one.camera.model), one.camera.fx, one.camera.fy,
                           one.camera.cx, one.camera.cy));
-  for (const FrameLine& line : frameLines(one)) row(line.label, line.value);
+  for (const LabelItem& line : frameLines(one)) row(line.name, line.value);
   for (const LabelItem& item : one.image.label)
     if (item.name == "PRODUCT_ID" || item.name == "START_TIME") row(item.name, item.value);
   for (const MeshInput& part : one.parts)

@@ -140,6 +140,10 @@ struct Session {
   bool operator==(const Session&) const = default;
 };
 
+/// The last run of a case that has this digest, or any when that is empty; nullptr when there is
+/// none.
+const RunRecord* findRun(const Session& session, const std::string& case_id,
+                         const std::string& digest);
 /// The case of this id. InputError when there is none.
 const SessionCase& knownCase(const Session& session, const std::string& case_id);
 /// The same session with a case changed; unchanged when there is no such case.
